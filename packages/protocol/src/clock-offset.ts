@@ -1,0 +1,55 @@
+import type { ClockAnswer } from './control.ts';
+
+/**
+ * The operator's estimate of the robot's clock, from probe and answer (NTP's on-wire calculation, RFC 5905 §8, with the
+ * robot's turnaround taken as 0). Of the last probes the one with the shortest round trip is believed: queueing only
+ * ever adds.
+ */
+export class ClockOffset {
+  readonly #window: { rttMs: number; offsetMs: number }[] = [];
+  readonly #size: number;
+
+  /** @param size how many probes to choose from */
+  constructor(size = 16) {
+    this.#size = size;
+  }
+
+  /** @param receivedMs the operator's clock when the answer came */
+  add(answer: ClockAnswer, receivedMs: number): void {
+    const rttMs = receivedMs - answer.sentMs;
+    if (rttMs < 0) return;
+    this.#window.push({ rttMs, offsetMs: answer.robotMs - (answer.sentMs + rttMs / 2) });
+    if (this.#window.length > this.#size) this.#window.shift();
+  }
+
+  /** Robot clock minus operator clock, ms; `null` before the first answer. */
+  get offsetMs(): number | null {
+    return this.#best()?.offsetMs ?? null;
+  }
+
+  /** Shortest round trip among the last probes, ms. */
+  get minRttMs(): number | null {
+    return this.#best()?.rttMs ?? null;
+  }
+
+  /** Round trip of the latest probe, ms. */
+  get lastRttMs(): number | null {
+    return this.#window.at(-1)?.rttMs ?? null;
+  }
+
+  #best(): { rttMs: number; offsetMs: number } | undefined {
+    let best = this.#window[0];
+    for (const sample of this.#window) if (best === undefined || sample.rttMs < best.rttMs) best = sample;
+    return best;
+  }
+}
+
+/**
+ * How long ago, in ms, a wrapping u32 microsecond stamp of the robot was, given the robot's clock now.
+ *
+ * @param robotNowMs the robot's monotonic clock, ms, as estimated by the reader; may run slightly behind the stamp
+ */
+export function ageOfStampMs(stampUs: number, robotNowMs: number): number {
+  const nowUs = Math.floor((robotNowMs * 1000) % 0x1_0000_0000) | 0;
+  return ((nowUs - stampUs) | 0) / 1000;
+}

@@ -1,0 +1,110 @@
+/**
+ * The `control` channel, opened by the operator, unordered and never retransmitted: what is late is worthless.
+ * Operator → robot: commands, clock probes and receiver reports. Robot → operator: clock answers.
+ */
+import * as z from 'zod';
+import { type Twist, twistSchema } from './geometry.ts';
+import { handleSchema, uint32Schema } from './identifiers.ts';
+import type { JsonCodec } from './json.ts';
+
+/** A velocity wish. It is fresh for the robot's watchdog time only; none means stop. */
+export interface Command {
+  type: 'command';
+  /** Counts up by one for each command of this connection, wraps at 2³². */
+  sequence: number;
+  /** The operator's monotonic clock at the input event, ms. */
+  timeMs: number;
+  /** The lease under which it is given (session.ts). */
+  lease: string;
+  /** True while the dead-man grip is held; without it only a zero twist is accepted. */
+  deadMan: boolean;
+  /** linear.x in m/s and angular.z in rad/s of base_link; every other component 0. */
+  twist: Twist;
+  /** Asks for a latency-test frame: the next captured cloud comes all green and is announced under this number. */
+  latencyTest?: number | undefined;
+}
+
+/** Asks for the robot's clock. */
+export interface ClockProbe {
+  type: 'clockProbe';
+  id: number;
+  /** The operator's monotonic clock at sending, ms. */
+  sentMs: number;
+}
+
+export interface ClockAnswer {
+  type: 'clockAnswer';
+  id: number;
+  sentMs: number;
+  /** The robot's monotonic clock when the probe came, ms. */
+  robotMs: number;
+}
+
+/** What the operator's page has received since the session began; sums, so that a lost report costs nothing. */
+export interface ReceiverReport {
+  type: 'receiverReport';
+  sequence: number;
+  packetsReceived: number;
+  /** Gaps in the RTP sequence that were not filled. */
+  packetsLost: number;
+  bytesReceived: number;
+}
+
+export type OperatorControlMessage = Command | ClockProbe | ReceiverReport;
+
+const timeMsSchema = z.number().min(0).max(Number.MAX_SAFE_INTEGER);
+const countSchema = z.int().min(0);
+
+export const commandSchema: z.ZodType<Command> = z.strictObject({
+  type: z.literal('command'),
+  sequence: uint32Schema,
+  timeMs: timeMsSchema,
+  lease: handleSchema,
+  deadMan: z.boolean(),
+  twist: twistSchema,
+  latencyTest: uint32Schema.optional(),
+});
+
+const clockProbeSchema = z.strictObject({
+  type: z.literal('clockProbe'),
+  id: uint32Schema,
+  sentMs: timeMsSchema,
+});
+
+const receiverReportSchema = z.strictObject({
+  type: z.literal('receiverReport'),
+  sequence: uint32Schema,
+  packetsReceived: countSchema,
+  packetsLost: countSchema,
+  bytesReceived: countSchema,
+});
+
+export const operatorControlCodec: JsonCodec<OperatorControlMessage> = {
+  what: 'operator control message',
+  schema: z.union([commandSchema, clockProbeSchema, receiverReportSchema]),
+  maxBytes: 1024,
+};
+
+export const clockAnswerCodec: JsonCodec<ClockAnswer> = {
+  what: 'clock answer',
+  schema: z.strictObject({
+    type: z.literal('clockAnswer'),
+    id: uint32Schema,
+    sentMs: timeMsSchema,
+    robotMs: timeMsSchema,
+  }),
+  maxBytes: 256,
+};
+
+/** Why the robot did not act on a command. */
+export const commandRejections = [
+  'malformed', // not a command message
+  'out-of-range', // beyond the robot's limits, or an axis it does not have
+  'stale', // sent too long ago
+  'repeated', // a sequence number at or before the last accepted one
+  'not-lease-holder', // another operator drives, or nobody has asked to
+  'dead-man-released', // motion asked for without the grip
+  'estop-latched', // the emergency stop must be released first
+  'rate-limited', // more commands a second than the robot reads
+] as const;
+export type CommandRejection = (typeof commandRejections)[number];

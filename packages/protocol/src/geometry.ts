@@ -1,0 +1,46 @@
+import * as z from 'zod';
+
+// Named and laid out as ROS geometry_msgs; SI units; axes as in REP-103
+// (body and world: x forward, y left, z up; camera optical frame: z forward, x right, y down).
+
+export const vector3Schema = z.strictObject({ x: z.number(), y: z.number(), z: z.number() });
+export interface Vector3 {
+  x: number;
+  y: number;
+  z: number;
+}
+
+/** Accepts what is within 1 % of unit length; a pose with any other quaternion means nothing. */
+export const quaternionSchema = z
+  .strictObject({ x: z.number(), y: z.number(), z: z.number(), w: z.number() })
+  .refine((q) => Math.abs(Math.hypot(q.x, q.y, q.z, q.w) - 1) < 0.01, 'not a unit quaternion');
+export interface Quaternion {
+  x: number;
+  y: number;
+  z: number;
+  w: number;
+}
+
+/** Position in metres and orientation, geometry_msgs/Pose. */
+export const poseSchema = z.strictObject({ position: vector3Schema, orientation: quaternionSchema });
+export interface Pose {
+  position: Vector3;
+  orientation: Quaternion;
+}
+
+/** Linear velocity in m/s and angular velocity in rad/s, geometry_msgs/Twist. */
+export const twistSchema = z.strictObject({ linear: vector3Schema, angular: vector3Schema });
+export interface Twist {
+  linear: Vector3;
+  angular: Vector3;
+}
+
+export function zeroTwist(): Twist {
+  return { linear: { x: 0, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0 } };
+}
+
+/** True where no component asks for motion. */
+export function isZeroTwist(twist: Twist): boolean {
+  const { linear, angular } = twist;
+  return [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z].every((c) => c === 0);
+}

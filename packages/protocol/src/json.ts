@@ -1,0 +1,64 @@
+import type * as z from 'zod';
+import { ProtocolError } from './errors.ts';
+
+const utf8 = new TextDecoder('utf-8', { fatal: true });
+const utf8Encoder = new TextEncoder();
+
+/** Bytes or text as a socket or a data channel hands them over. */
+export type MessageData = string | ArrayBuffer | Uint8Array;
+
+export interface JsonCodec<T> {
+  /** What the message is, for error texts. */
+  readonly what: string;
+  readonly schema: z.ZodType<T>;
+  /** Longest accepted message in bytes (UTF-16 units for text, which is never more bytes than ×3). */
+  readonly maxBytes: number;
+}
+
+/**
+ * Decodes one JSON message.
+ *
+ * @throws {ProtocolError} for anything that is not exactly such a message
+ */
+export function decodeJson<T>(codec: JsonCodec<T>, data: MessageData): T {
+  const size = typeof data === 'string' ? data.length : data.byteLength;
+  if (size > codec.maxBytes) {
+    throw new ProtocolError('too-large', codec.what, '', `${size} bytes, at most ${codec.maxBytes} allowed`);
+  }
+  const parsed = codec.schema.safeParse(parseJson(codec.what, toText(codec.what, data)));
+  if (parsed.success) return parsed.data;
+  const issue = parsed.error.issues[0];
+  throw new ProtocolError(
+    'invalid',
+    codec.what,
+    issue === undefined ? '' : issue.path.map(String).join('.'),
+    issue === undefined ? 'not valid' : issue.message,
+  );
+}
+
+/** Encodes a message as JSON text. The type says what it holds; nothing is checked again. */
+export function encodeJson<T>(_codec: JsonCodec<T>, message: T): string {
+  return JSON.stringify(message);
+}
+
+/** Encodes a message as UTF-8 JSON bytes, as the reference system sends its control messages. */
+export function encodeJsonBytes<T>(codec: JsonCodec<T>, message: T): Uint8Array {
+  return utf8Encoder.encode(encodeJson(codec, message));
+}
+
+function toText(what: string, data: MessageData): string {
+  if (typeof data === 'string') return data;
+  try {
+    return utf8.decode(data);
+  } catch {
+    throw new ProtocolError('not-utf8', what, '', 'not valid UTF-8');
+  }
+}
+
+function parseJson(what: string, text: string): unknown {
+  try {
+    return JSON.parse(text);
+  } catch {
+    throw new ProtocolError('not-json', what, '', 'not valid JSON');
+  }
+}

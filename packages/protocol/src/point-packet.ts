@@ -1,0 +1,82 @@
+/**
+ * One RTP payload of a point cloud: a 16-byte header and up to 1200 bytes of point data, little-endian.
+ *
+ *     0  u32 frameNumber      counts from 0 for each connection, wraps
+ *     4  u32 frameLength      bytes of point data in the whole frame
+ *     8  u32 sequenceOffset   where in the frame's point data this packet's block begins
+ *    12  u32 sequenceLength   bytes of point data in this packet
+ *    16  point data           see points64.ts
+ *
+ * Every packet can be decoded alone. The layout is the reference system's; in its own profile the payload is always
+ * zero-padded to 1216 bytes, in ours it ends with a placement trailer (placement.ts).
+ */
+
+export const POINT_PACKET_HEADER_BYTES = 16;
+/** int16 x, y, z and 16 bits of colour. */
+export const BYTES_PER_POINT = 8;
+export const POINTS_PER_PACKET = 150;
+export const MAX_POINT_DATA_BYTES = POINTS_PER_PACKET * BYTES_PER_POINT;
+/** Header and a full data block: what the reference profile always sends. */
+export const FULL_POINT_PACKET_BYTES = POINT_PACKET_HEADER_BYTES + MAX_POINT_DATA_BYTES;
+/** More points than any camera we stream has; a frame that claims more is refused. */
+export const MAX_POINTS_PER_FRAME = 4_194_304;
+
+export interface PointPacketHeader {
+  frameNumber: number;
+  frameLength: number;
+  sequenceOffset: number;
+  sequenceLength: number;
+}
+
+/** Why a point packet is dropped. */
+export type PointPacketFault =
+  | 'too-short' // no room for the header, or for the data that the header claims
+  | 'bad-length' // sequenceLength is 0, over 1200 or not whole points
+  | 'bad-frame-length' // frameLength is not whole points, or over the limit
+  | 'bad-offset'; // the block does not lie within the frame, or not on a point boundary
+
+export function emptyPointPacketHeader(): PointPacketHeader {
+  return { frameNumber: 0, frameLength: 0, sequenceOffset: 0, sequenceLength: 0 };
+}
+
+/** Writes the 16 bytes at `offset`. The view must have room. */
+export function writePointPacketHeader(view: DataView, offset: number, header: PointPacketHeader): void {
+  view.setUint32(offset, header.frameNumber, true);
+  view.setUint32(offset + 4, header.frameLength, true);
+  view.setUint32(offset + 8, header.sequenceOffset, true);
+  view.setUint32(offset + 12, header.sequenceLength, true);
+}
+
+/**
+ * Reads and checks a header into `into` (nothing is allocated), then says what is wrong with it, or `null`.
+ *
+ * @param view the whole payload
+ */
+export function readPointPacketHeader(view: DataView, into: PointPacketHeader): PointPacketFault | null {
+  if (view.byteLength < POINT_PACKET_HEADER_BYTES) return 'too-short';
+  into.frameNumber = view.getUint32(0, true);
+  into.frameLength = view.getUint32(4, true);
+  into.sequenceOffset = view.getUint32(8, true);
+  into.sequenceLength = view.getUint32(12, true);
+  const { frameLength, sequenceOffset, sequenceLength } = into;
+  if (
+    sequenceLength === 0 ||
+    sequenceLength > MAX_POINT_DATA_BYTES ||
+    sequenceLength % BYTES_PER_POINT !== 0
+  ) {
+    return 'bad-length';
+  }
+  if (frameLength % BYTES_PER_POINT !== 0 || frameLength > MAX_POINTS_PER_FRAME * BYTES_PER_POINT) {
+    return 'bad-frame-length';
+  }
+  if (sequenceOffset % BYTES_PER_POINT !== 0 || sequenceOffset + sequenceLength > frameLength) {
+    return 'bad-offset';
+  }
+  if (view.byteLength < POINT_PACKET_HEADER_BYTES + sequenceLength) return 'too-short';
+  return null;
+}
+
+/** How many packets carry a frame of `points` points. */
+export function packetCountOf(points: number): number {
+  return Math.ceil(points / POINTS_PER_PACKET);
+}

@@ -1,0 +1,166 @@
+/**
+ * The `session` channel, opened by the robot, ordered and reliable: who drives, what the stream is, what was refused.
+ */
+import * as z from 'zod';
+import { type CommandRejection, commandRejections } from './control.ts';
+import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './identifiers.ts';
+import type { JsonCodec } from './json.ts';
+
+/** What the robot allows. Nothing on the wire raises any of it. */
+export interface DriveLimits {
+  /** m/s, forward and backward. */
+  maxLinear: number;
+  /** rad/s. */
+  maxAngular: number;
+  /** Without a fresh command for this long the robot brakes to zero. */
+  watchdogMs: number;
+  /** At most so many commands a second are read. */
+  maxCommandsPerSecond: number;
+}
+
+/** First message of the robot on every session. */
+export interface Welcome {
+  type: 'welcome';
+  protocol: number;
+  robotId: string;
+  name: string;
+  limits: DriveLimits;
+  stream: { format: 'points64'; width: number; height: number; framesPerSecond: number };
+}
+
+/** Who may drive. `lease` is there only for the operator who holds it. */
+export interface LeaseState {
+  type: 'lease';
+  holder: 'you' | 'other' | 'nobody';
+  lease?: string | undefined;
+}
+
+export interface CommandRejected {
+  type: 'rejected';
+  /** The command's sequence number where it could be read. */
+  sequence?: number | undefined;
+  reason: CommandRejection;
+  /** For people: what and where. */
+  detail: string;
+  /** How many were refused for this reason since the last such message; refusals are reported at most 10 times a second. */
+  count: number;
+}
+
+export interface EstopState {
+  type: 'estop';
+  latched: boolean;
+  /** Who set it, where it is latched. */
+  by?: 'operator' | 'robot' | undefined;
+}
+
+/** Which frame answers a latency test. */
+export interface LatencyFrame {
+  type: 'latencyFrame';
+  id: number;
+  frameNumber: number;
+  points: number;
+  /** Robot's monotonic clock, ms: when the command came, when the frame was captured. */
+  commandMs: number;
+  captureMs: number;
+}
+
+/** A message of the operator that the robot could not use, other than a command. */
+export interface SessionFault {
+  type: 'fault';
+  message: string;
+}
+
+export type RobotSessionMessage =
+  | Welcome
+  | LeaseState
+  | CommandRejected
+  | EstopState
+  | LatencyFrame
+  | SessionFault;
+
+/** Asks to drive. `take` asks to take over from another operator; the robot's policy decides. */
+export interface LeaseRequest {
+  type: 'leaseRequest';
+  take: boolean;
+}
+export interface LeaseRelease {
+  type: 'leaseRelease';
+}
+/** Latches or releases the emergency stop. Anyone may latch; only the lease holder releases. */
+export interface EstopRequest {
+  type: 'estop';
+  latch: boolean;
+}
+/** Starts or pauses the stream of points to this operator. */
+export interface StreamRequest {
+  type: 'stream';
+  running: boolean;
+}
+
+export type OperatorSessionMessage = LeaseRequest | LeaseRelease | EstopRequest | StreamRequest;
+
+export const PROTOCOL_VERSION = 1;
+
+const positive = z.number().positive();
+
+export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
+  what: 'robot session message',
+  schema: z.discriminatedUnion('type', [
+    z.strictObject({
+      type: z.literal('welcome'),
+      protocol: z.int().min(1),
+      robotId: robotIdSchema,
+      name: displayNameSchema,
+      limits: z.strictObject({
+        maxLinear: positive,
+        maxAngular: positive,
+        watchdogMs: positive,
+        maxCommandsPerSecond: positive,
+      }),
+      stream: z.strictObject({
+        format: z.literal('points64'),
+        width: z.int().positive(),
+        height: z.int().positive(),
+        framesPerSecond: positive,
+      }),
+    }),
+    z.strictObject({
+      type: z.literal('lease'),
+      holder: z.enum(['you', 'other', 'nobody']),
+      lease: handleSchema.optional(),
+    }),
+    z.strictObject({
+      type: z.literal('rejected'),
+      sequence: uint32Schema.optional(),
+      reason: z.enum(commandRejections),
+      detail: z.string().max(512),
+      count: z.int().min(1),
+    }),
+    z.strictObject({
+      type: z.literal('estop'),
+      latched: z.boolean(),
+      by: z.enum(['operator', 'robot']).optional(),
+    }),
+    z.strictObject({
+      type: z.literal('latencyFrame'),
+      id: uint32Schema,
+      frameNumber: uint32Schema,
+      points: z.int().min(0),
+      commandMs: z.number(),
+      captureMs: z.number(),
+    }),
+    z.strictObject({ type: z.literal('fault'), message: z.string().max(512) }),
+  ]),
+  maxBytes: 4096,
+};
+
+export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
+  what: 'operator session message',
+  schema: z.discriminatedUnion('type', [
+    z.strictObject({ type: z.literal('leaseRequest'), take: z.boolean() }),
+    z.strictObject({ type: z.literal('leaseRelease') }),
+    z.strictObject({ type: z.literal('estop'), latch: z.boolean() }),
+    z.strictObject({ type: z.literal('stream'), running: z.boolean() }),
+  ]),
+  maxBytes: 1024,
+};

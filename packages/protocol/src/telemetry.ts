@@ -1,0 +1,97 @@
+/** The `telemetry` channel, opened by the robot, unordered, short-lived: the robot's state, 20 times a second. */
+import * as z from 'zod';
+import { type Pose, poseSchema, type Twist, twistSchema } from './geometry.ts';
+import { uint32Schema } from './identifiers.ts';
+import type { JsonCodec } from './json.ts';
+
+/** Why the robot stands still, or that it does not. */
+export const driveStates = [
+  'driving', // obeying fresh commands
+  'idle', // nobody holds the lease, or the holder asks for no motion
+  'watchdog', // no fresh command for the watchdog time: braking or standing
+  'estop', // the emergency stop is latched
+  'blocked', // in contact with an obstacle
+] as const;
+export type DriveState = (typeof driveStates)[number];
+
+export interface Battery {
+  /** Volts. */
+  voltage: number;
+  /** 0–1, as sensor_msgs/BatteryState has it. */
+  percentage: number;
+}
+
+/** Mean milliseconds a frame spent in each stage over the last telemetry interval. */
+export interface StageTimings {
+  captureMs: number;
+  sampleMs: number;
+  packMs: number;
+  /** From the first packet sent to the last. */
+  sendMs: number;
+}
+
+/** What left the robot for this operator, and what did not. Rates over the last second. */
+export interface StreamStatus {
+  frameNumber: number;
+  framesPerSecond: number;
+  pointsPerFrame: number;
+  /** Points of the raw cloud that were valid. */
+  validPoints: number;
+  bitsPerSecond: number;
+  /** What the rate controller allows. */
+  targetBitsPerSecond: number;
+  /** Frames dropped before sending since the session began, because the queue was full. */
+  droppedFrames: number;
+}
+
+export interface Telemetry {
+  type: 'telemetry';
+  /** Counts up, wraps at 2³². */
+  sequence: number;
+  /** Robot's monotonic clock, ms. */
+  timeMs: number;
+  /** base_link in the world frame. */
+  pose: Pose;
+  /** Measured velocity of base_link. */
+  twist: Twist;
+  /** Absent where the robot has no battery gauge. */
+  battery?: Battery | undefined;
+  drive: DriveState;
+  stages: StageTimings;
+  stream: StreamStatus;
+  /** How many operators are connected. */
+  operators: number;
+}
+
+const nonNegative = z.number().min(0);
+const count = z.int().min(0);
+
+export const telemetryCodec: JsonCodec<Telemetry> = {
+  what: 'telemetry message',
+  schema: z.strictObject({
+    type: z.literal('telemetry'),
+    sequence: uint32Schema,
+    timeMs: nonNegative,
+    pose: poseSchema,
+    twist: twistSchema,
+    battery: z.strictObject({ voltage: nonNegative, percentage: z.number().min(0).max(1) }).optional(),
+    drive: z.enum(driveStates),
+    stages: z.strictObject({
+      captureMs: nonNegative,
+      sampleMs: nonNegative,
+      packMs: nonNegative,
+      sendMs: nonNegative,
+    }),
+    stream: z.strictObject({
+      frameNumber: uint32Schema,
+      framesPerSecond: nonNegative,
+      pointsPerFrame: nonNegative,
+      validPoints: count,
+      bitsPerSecond: nonNegative,
+      targetBitsPerSecond: nonNegative,
+      droppedFrames: count,
+    }),
+    operators: count,
+  }),
+  maxBytes: 4096,
+};
