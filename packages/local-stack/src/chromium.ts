@@ -1,0 +1,53 @@
+import { existsSync } from 'node:fs';
+import { delimiter, join } from 'node:path';
+import { chromium, type LaunchOptions } from '@playwright/test';
+
+const PROGRAM_NAMES = ['chromium', 'chromium-browser', 'google-chrome-stable', 'google-chrome', 'chrome'];
+const OTHER_PLACES = [
+  '/Applications/Google Chrome.app/Contents/MacOS/Google Chrome',
+  '/Applications/Chromium.app/Contents/MacOS/Chromium',
+  'C:\\Program Files\\Google\\Chrome\\Application\\chrome.exe',
+];
+
+/**
+ * The browser for tests and benchmarks: `FARPOINT_CHROMIUM`, else Playwright's own, else one installed on this machine.
+ *
+ * @returns its path, or `null` where there is none
+ */
+export function findChromium(): string | null {
+  const named = process.env['FARPOINT_CHROMIUM'];
+  if (named !== undefined && named !== '') return existsSync(named) ? named : null;
+  const own = chromium.executablePath();
+  if (own !== '' && existsSync(own)) return own;
+  const folders = (process.env['PATH'] ?? '').split(delimiter);
+  const candidates = PROGRAM_NAMES.flatMap((name) => folders.map((folder) => join(folder, name)));
+  return [...candidates, ...OTHER_PLACES].find((path) => existsSync(path)) ?? null;
+}
+
+/** Launch options that work as root, without a GPU, and without a connection to the world. */
+export function chromiumLaunchOptions(): LaunchOptions {
+  const executablePath = findChromium();
+  if (executablePath === null) {
+    throw new Error('no Chromium on this machine: run `pnpm exec playwright install --with-deps chromium`');
+  }
+  return {
+    executablePath,
+    args: [
+      ...(process.getuid?.() === 0 ? ['--no-sandbox'] : []),
+      '--use-gl=angle',
+      '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader',
+      '--ignore-gpu-blocklist',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+      '--no-first-run',
+      // A page that a test does not look at must run as fast as one that a person does.
+      '--disable-background-timer-throttling',
+      '--disable-renderer-backgrounding',
+      '--disable-backgrounding-occluded-windows',
+      // Loopback candidates must be addresses, not mDNS names: there is no responder in a container.
+      '--disable-features=WebRtcHideLocalIpsWithMdns',
+    ],
+  };
+}

@@ -1,0 +1,11 @@
+/** `pnpm build`: what is deployed: the signaling bundle and the static web app. */
+import { run } from './lib/run.ts';
+
+for (const name of ['@farpoint/signaling', '@farpoint/webxr']) {
+  console.log(`building ${name}`);
+  const { code, output } = await run('pnpm', ['--filter', name, 'run', 'build']);
+  if (code !== 0) {
+    console.error(output);
+    process.exit(1);
+  }
+}

@@ -1,0 +1,112 @@
+/**
+ * `pnpm test`: everything that must hold, in the order in which a fault is cheapest to find. Each step says what it
+ * does and how long it took; a step that cannot proceed says what is missing and the command that cures it.
+ */
+import { parseArgs } from 'node:util';
+import { CHROMIUM_REMEDY, ensureChromium } from './lib/ensure-chromium.ts';
+import { run } from './lib/run.ts';
+import { addTallies, emptyTally, tallyCargo, tallyPlaywright, tallyVitest, type Tally } from './lib/tally.ts';
+import { testRust } from './lib/test-rust.ts';
+
+interface StepResult {
+  ok: boolean;
+  /** Why the step did not run, with the remedy; the whole run fails where `CI` is set. */
+  skipped?: string;
+  tally?: Tally;
+  output?: string;
+}
+
+interface Step {
+  name: string;
+  what: string;
+  run: () => Promise<StepResult>;
+}
+
+const say = (line: string): void => console.log(`  ${line}`);
+
+async function runQuietly(program: string, args: string[]): Promise<StepResult> {
+  const { code, output } = await run(program, args);
+  return { ok: code === 0, output };
+}
+
+const steps: Step[] = [
+  { name: 'lint', what: 'format and lint (biome)', run: () => runQuietly('biome', ['check', '.']) },
+  {
+    name: 'types',
+    what: 'type check (tsc)',
+    run: async () => {
+      const node = await runQuietly('tsc', ['-p', 'tsconfig.json']);
+      return node.ok ? runQuietly('tsc', ['-p', 'apps/webxr/tsconfig.json']) : node;
+    },
+  },
+  {
+    name: 'rust',
+    what: 'Rust: committed WASM is fresh, rebuilds from source, format, clippy, tests',
+    run: async () => {
+      const result = await testRust(say);
+      return { ...result, tally: tallyCargo(result.output) };
+    },
+  },
+  {
+    name: 'unit',
+    what: 'unit tests (vitest)',
+    run: async () => {
+      const { code, output } = await run('vitest', ['run'], { echo: true });
+      return { ok: code === 0, tally: tallyVitest(output) };
+    },
+  },
+  { name: 'build', what: 'build what is deployed', run: () => runQuietly('node', ['scripts/build.ts']) },
+  {
+    name: 'e2e',
+    what: 'end to end in Chromium (playwright)',
+    run: async () => {
+      if ((await ensureChromium(say)) === null) {
+        return { ok: false, output: `no Chromium, and it could not be installed; run: ${CHROMIUM_REMEDY}` };
+      }
+      const { code, output } = await run('pnpm', ['--dir', 'e2e', 'exec', 'playwright', 'test'], { echo: true });
+      return { ok: code === 0, tally: tallyPlaywright(output) };
+    },
+  },
+];
+
+const { values } = parseArgs({ options: { only: { type: 'string' }, help: { type: 'boolean', short: 'h' } } });
+
+if (values.help) {
+  console.log('pnpm test [--only STEP[,STEP…]]\n');
+  for (const step of steps) console.log(`  ${step.name.padEnd(6)} ${step.what}`);
+  process.exit(0);
+}
+
+const only = values.only?.split(',');
+const unknown = only?.find((name) => !steps.some((step) => step.name === name));
+if (unknown !== undefined) {
+  console.error(`--only: there is no step ${unknown}; the steps are ${steps.map((step) => step.name).join(', ')}`);
+  process.exit(2);
+}
+
+let total = emptyTally;
+const faults: string[] = [];
+const chosen = steps.filter((step) => only === undefined || only.includes(step.name));
+for (const [index, step] of chosen.entries()) {
+  console.log(`[${index + 1}/${chosen.length}] ${step.what}`);
+  const started = performance.now();
+  const result = await step.run();
+  const seconds = ((performance.now() - started) / 1000).toFixed(1);
+  if (result.tally !== undefined) total = addTallies(total, result.tally);
+  if (!result.ok) {
+    if (result.output !== undefined) console.log(result.output);
+    faults.push(`${step.name}: failed`);
+    console.log(`  ✗ failed after ${seconds} s`);
+  } else if (result.skipped !== undefined) {
+    console.log(`  – left out in part: ${result.skipped}`);
+    if (process.env['CI']) faults.push(`${step.name}: ${result.skipped}`);
+  } else {
+    console.log(`  ✓ ${seconds} s`);
+  }
+}
+
+// A step that fails without a failing test of its own (a lint, a build) counts as one failure.
+const failed = Math.max(total.failed, faults.length);
+for (const fault of faults) console.log(fault);
+console.log(`\n${total.passed} passed, ${failed} failed${total.skipped > 0 ? `, ${total.skipped} skipped` : ''}`);
+process.exit(faults.length === 0 && total.failed === 0 ? 0 : 1);
