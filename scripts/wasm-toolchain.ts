@@ -1,0 +1,150 @@
+/** Finds a Rust compiler for `wasm32-unknown-unknown`, by the ways that work on ordinary machines. */
+import { spawnSync } from 'node:child_process';
+import { existsSync, readFileSync } from 'node:fs';
+import { homedir } from 'node:os';
+import { join } from 'node:path';
+
+export const WASM_TARGET = 'wasm32-unknown-unknown';
+
+const DEBIAN_RUSTC = '/usr/bin/rustc';
+const DEBIAN_LINKER = '/usr/lib/llvm-22/bin/wasm-ld';
+/** Debian's newer compiler (made for browsers), the sources of its standard library, and its linker. */
+const DEBIAN_PACKAGES = ['rustc-web', 'rust-web-src', 'rust-web-llvm', 'lld-22'];
+
+export interface WasmToolchain {
+  /** Which way it was found. */
+  kind: 'rustup' | 'debian';
+  /** `rustc --version`, in full. */
+  version: string;
+  /** The compiler's own files: these paths must not show in what it makes. */
+  sysroot: string;
+  /** The Cargo that drives it. */
+  cargo: string;
+  /** Environment variables for Cargo, on top of the present ones. */
+  env: Record<string, string>;
+  /** Options for `cargo build`, after `--target`. */
+  cargoArgs: string[];
+  /** Compiler flags. */
+  rustFlags: string[];
+}
+
+/** No toolchain: `message` is one sentence that says what is missing and the command that cures it. */
+export class NoWasmToolchainError extends Error {
+  override readonly name = 'NoWasmToolchainError';
+}
+
+export interface FindOptions {
+  /** May install what is missing (`rustup target add`, `apt-get install`). Default true. */
+  install?: boolean;
+  /** Is told what is being installed. */
+  log?: (line: string) => void;
+}
+
+/** @throws NoWasmToolchainError */
+export function findWasmToolchain(options: FindOptions = {}): WasmToolchain {
+  const install = options.install ?? true;
+  const log = options.log ?? (() => {});
+  const cargo = findCargo();
+
+  if (cargo !== null) {
+    const ready = rustupToolchain(cargo);
+    if (ready !== null) return ready;
+  }
+  // Before rustup may try its server: on machines that cannot reach it, Debian's compiler is already there.
+  const debian = debianToolchain(cargo);
+  if (debian !== null) return debian;
+
+  if (install && cargo !== null && succeeds('rustup', ['--version'])) {
+    log(`rustup target add ${WASM_TARGET}`);
+    if (succeeds('rustup', ['target', 'add', WASM_TARGET], 60_000)) {
+      const added = rustupToolchain(cargo);
+      if (added !== null) return added;
+    }
+  }
+  if (install && installDebianPackages(cargo === null, log)) {
+    const installed = debianToolchain(findCargo());
+    if (installed !== null) return installed;
+  }
+  throw new NoWasmToolchainError(cureFor(cargo));
+}
+
+function rustupToolchain(cargo: string): WasmToolchain | null {
+  const libraries = output('rustc', ['--print', 'target-libdir', '--target', WASM_TARGET]);
+  if (libraries === null || !existsSync(libraries)) return null;
+  const version = output('rustc', ['--version']);
+  const sysroot = output('rustc', ['--print', 'sysroot']);
+  if (version === null || sysroot === null) return null;
+  return { kind: 'rustup', version, sysroot, cargo, env: {}, cargoArgs: [], rustFlags: [] };
+}
+
+/** Debian ships no standard library for WASM of that version; Cargo builds it from Debian's sources. */
+function debianToolchain(cargo: string | null): WasmToolchain | null {
+  if (cargo === null || !existsSync(DEBIAN_RUSTC) || !existsSync(DEBIAN_LINKER)) return null;
+  const version = output(DEBIAN_RUSTC, ['--version']);
+  const sysroot = output(DEBIAN_RUSTC, ['--print', 'sysroot']);
+  if (version === null || sysroot === null) return null;
+  if (!existsSync(join(sysroot, 'lib/rustlib/src/rust/library/std/Cargo.toml'))) return null;
+  return {
+    kind: 'debian',
+    version,
+    sysroot,
+    cargo,
+    // A released compiler builds the standard library only when told that this is meant.
+    env: { RUSTC: DEBIAN_RUSTC, RUSTC_BOOTSTRAP: '1' },
+    cargoArgs: ['-Zbuild-std=std,panic_abort'],
+    rustFlags: ['-Clinker=' + DEBIAN_LINKER],
+  };
+}
+
+function installDebianPackages(withCargo: boolean, log: (line: string) => void): boolean {
+  if (!isDebian()) return false;
+  const root = process.getuid?.() === 0;
+  if (!root && !succeeds('sudo', ['-n', 'true'])) return false;
+  const packages = withCargo ? [...DEBIAN_PACKAGES, 'cargo-web'] : DEBIAN_PACKAGES;
+  const apt = (args: string[]): boolean => {
+    log(`${root ? '' : 'sudo '}apt-get ${args.join(' ')}`);
+    const command = root ? 'apt-get' : 'sudo';
+    const all = root ? args : ['-n', 'apt-get', ...args];
+    const env = { ...process.env, DEBIAN_FRONTEND: 'noninteractive' };
+    return spawnSync(command, all, { stdio: ['ignore', 'ignore', 'inherit'], env }).status === 0;
+  };
+  const wanted = ['install', '-y', '--no-install-recommends', ...packages];
+  // A machine's package lists may be old or empty: the second try is after an update.
+  return apt(wanted) || (apt(['update']) && apt(wanted));
+}
+
+function cureFor(cargo: string | null): string {
+  if (cargo === null) {
+    return isDebian()
+      ? `Rust is missing: run \`apt-get install ${DEBIAN_PACKAGES.join(' ')} cargo-web\` as root.`
+      : 'Rust is missing: install it from https://rustup.rs and run `rustup target add ' + WASM_TARGET + '`.';
+  }
+  return isDebian()
+    ? `Rust's ${WASM_TARGET} target is missing: run \`apt-get install ${DEBIAN_PACKAGES.join(' ')}\` as root.`
+    : `Rust's ${WASM_TARGET} target is missing: run \`rustup target add ${WASM_TARGET}\`.`;
+}
+
+function findCargo(): string | null {
+  const own = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin', 'cargo');
+  for (const candidate of ['cargo', own]) {
+    if (succeeds(candidate, ['--version'])) return candidate;
+  }
+  return null;
+}
+
+function isDebian(): boolean {
+  try {
+    return /^ID(_LIKE)?=.*debian/m.test(readFileSync('/etc/os-release', 'utf8'));
+  } catch {
+    return false;
+  }
+}
+
+function output(command: string, args: string[]): string | null {
+  const result = spawnSync(command, args, { encoding: 'utf8', timeout: 20_000 });
+  return result.status === 0 ? result.stdout.trim() : null;
+}
+
+function succeeds(command: string, args: string[], timeout = 20_000): boolean {
+  return spawnSync(command, args, { stdio: 'ignore', timeout }).status === 0;
+}
