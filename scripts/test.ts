@@ -5,7 +5,7 @@
 import { parseArgs } from 'node:util';
 import { CHROMIUM_REMEDY, ensureChromium } from './lib/ensure-chromium.ts';
 import { run } from './lib/run.ts';
-import { addTallies, emptyTally, tallyCargo, tallyPlaywright, tallyVitest, type Tally } from './lib/tally.ts';
+import { addTallies, emptyTally, type Tally, tallyCargo, tallyPlaywright, tallyVitest } from './lib/tally.ts';
 import { testRust } from './lib/test-rust.ts';
 
 interface StepResult {
@@ -63,13 +63,17 @@ const steps: Step[] = [
       if ((await ensureChromium(say)) === null) {
         return { ok: false, output: `no Chromium, and it could not be installed; run: ${CHROMIUM_REMEDY}` };
       }
-      const { code, output } = await run('pnpm', ['--dir', 'e2e', 'exec', 'playwright', 'test'], { echo: true });
+      const { code, output } = await run('pnpm', ['--dir', 'e2e', 'exec', 'playwright', 'test'], {
+        echo: true,
+      });
       return { ok: code === 0, tally: tallyPlaywright(output) };
     },
   },
 ];
 
-const { values } = parseArgs({ options: { only: { type: 'string' }, help: { type: 'boolean', short: 'h' } } });
+const { values } = parseArgs({
+  options: { only: { type: 'string' }, help: { type: 'boolean', short: 'h' } },
+});
 
 if (values.help) {
   console.log('pnpm test [--only STEP[,STEP…]]\n');
@@ -80,7 +84,9 @@ if (values.help) {
 const only = values.only?.split(',');
 const unknown = only?.find((name) => !steps.some((step) => step.name === name));
 if (unknown !== undefined) {
-  console.error(`--only: there is no step ${unknown}; the steps are ${steps.map((step) => step.name).join(', ')}`);
+  console.error(
+    `--only: there is no step ${unknown}; the steps are ${steps.map((step) => step.name).join(', ')}`,
+  );
   process.exit(2);
 }
 
@@ -108,5 +114,7 @@ for (const [index, step] of chosen.entries()) {
 // A step that fails without a failing test of its own (a lint, a build) counts as one failure.
 const failed = Math.max(total.failed, faults.length);
 for (const fault of faults) console.log(fault);
-console.log(`\n${total.passed} passed, ${failed} failed${total.skipped > 0 ? `, ${total.skipped} skipped` : ''}`);
+console.log(
+  `\n${total.passed} passed, ${failed} failed${total.skipped > 0 ? `, ${total.skipped} skipped` : ''}`,
+);
 process.exit(faults.length === 0 && total.failed === 0 ? 0 : 1);

@@ -23,7 +23,9 @@ export async function ensureChromium(say: (line: string) => void): Promise<strin
   const asRoot = await rootCommand();
   if (asRoot !== null && (await run('apt-get', ['--version'])).code === 0) {
     say('installing the package chromium');
-    const [program, ...args] = [...asRoot, 'apt-get'] as [string, ...string[]];
+    const command = [...asRoot, 'apt-get'];
+    const program = command[0] ?? 'apt-get';
+    const args = command.slice(1);
     await run(program, [...args, 'update']);
     await run(program, [...args, 'install', '-y', '--no-install-recommends', 'chromium'], {
       env: { DEBIAN_FRONTEND: 'noninteractive' },

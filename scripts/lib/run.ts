@@ -31,7 +31,9 @@ export function run(program: string, args: string[], options: RunOptions = {}): 
         ...options.env,
       },
       stdio: ['ignore', 'pipe', 'pipe'],
-      ...(options.timeoutMs === undefined ? {} : { timeout: options.timeoutMs, killSignal: 'SIGKILL' as const }),
+      ...(options.timeoutMs === undefined
+        ? {}
+        : { timeout: options.timeoutMs, killSignal: 'SIGKILL' as const }),
     });
     let output = '';
     child.stdout.on('data', (chunk: Buffer) => {

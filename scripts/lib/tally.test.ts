@@ -11,7 +11,8 @@ describe('tally', () => {
   });
 
   it('reads the coloured summary of vitest', () => {
-    const output = ' Test Files  1 failed | 9 passed (10)\n\u001b[2m      Tests \u001b[22m 1 failed | 20 passed | 3 skipped (24)\n';
+    const output =
+      ' Test Files  1 failed | 9 passed (10)\n\u001b[2m      Tests \u001b[22m 1 failed | 20 passed | 3 skipped (24)\n';
     expect(tallyVitest(output)).toEqual({ passed: 20, failed: 1, skipped: 3 });
   });
 
@@ -24,6 +25,10 @@ describe('tally', () => {
   });
 
   it('gives zeros for output without a summary', () => {
-    expect(addTallies(tallyVitest('boom'), tallyPlaywright('boom'))).toEqual({ passed: 0, failed: 0, skipped: 0 });
+    expect(addTallies(tallyVitest('boom'), tallyPlaywright('boom'))).toEqual({
+      passed: 0,
+      failed: 0,
+      skipped: 0,
+    });
   });
 });

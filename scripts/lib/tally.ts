@@ -15,7 +15,11 @@ export const emptyTally: Tally = { passed: 0, failed: 0, skipped: 0 };
 export function tallyCargo(output: string): Tally {
   let tally = emptyTally;
   for (const match of output.matchAll(/^test result: \S+ (\d+) passed; (\d+) failed; (\d+) ignored/gm)) {
-    tally = addTallies(tally, { passed: Number(match[1]), failed: Number(match[2]), skipped: Number(match[3]) });
+    tally = addTallies(tally, {
+      passed: Number(match[1]),
+      failed: Number(match[2]),
+      skipped: Number(match[3]),
+    });
   }
   return tally;
 }

@@ -43,7 +43,11 @@ export async function testRust(say: (line: string) => void): Promise<RustResult>
       args: ['clippy', '--workspace', '--all-targets', '--locked', '--', '-D', 'warnings'],
       remedy: 'rustup component add clippy',
     },
-    { tool: 'test', args: ['test', '--workspace', '--locked'], remedy: 'install Rust from https://rustup.rs' },
+    {
+      tool: 'test',
+      args: ['test', '--workspace', '--locked'],
+      remedy: 'install Rust from https://rustup.rs',
+    },
   ]) {
     if ((await run('cargo', [tool, '--help'])).code !== 0) {
       skipped.push(`cargo ${tool} is missing: run \`${remedy}\`.`);
@@ -68,7 +72,11 @@ function rebuild(say: (line: string) => void): string | null {
         say(`${built.crate.name}: built; another toolchain than the recorded one, so bytes are not compared`);
         continue;
       }
-      for (const file of [`${built.crate.name}_bg.wasm`, `${built.crate.name}.js`, `${built.crate.name}.d.ts`]) {
+      for (const file of [
+        `${built.crate.name}_bg.wasm`,
+        `${built.crate.name}.js`,
+        `${built.crate.name}.d.ts`,
+      ]) {
         const fresh = readFileSync(join(built.folder, file));
         if (!fresh.equals(readFileSync(join(root, built.crate.outDir, file)))) {
           return `${built.crate.outDir}/${file} is not what its sources build to; run: pnpm build:wasm`;
