@@ -85,16 +85,18 @@ export function buildWasm(options: BuildOptions = {}): BuiltModule[] {
   const packages = crates.flatMap((crate) => ['-p', crate.package]);
   // Its own folder: another compiler's leftovers would make Cargo start anew each time.
   const target = join(workspace, 'target', 'wasm');
+  // A check must not change the lock file; a developer's build may, after a change of the dependencies.
+  const locked = options.outOfTree === undefined ? [] : ['--locked'];
   log(`compiling ${crates.map((crate) => crate.package).join(', ')}`);
   run(
     toolchain.cargo,
-    ['build', '--release', '--locked', '--target', WASM_TARGET, ...toolchain.cargoArgs, ...packages],
+    ['build', '--release', ...locked, '--target', WASM_TARGET, ...toolchain.cargoArgs, ...packages],
     workspace,
     { ...toolchain.env, CARGO_TARGET_DIR: target, CARGO_ENCODED_RUSTFLAGS: rustFlags(toolchain, workspace) },
   );
   log('compiling xtask (wasm-bindgen)');
   const xtaskEnv = toolchain.kind === 'debian' && !hasRustc() ? { RUSTC: '/usr/bin/rustc' } : {};
-  run(toolchain.cargo, ['build', '--locked', '-p', 'xtask'], workspace, xtaskEnv);
+  run(toolchain.cargo, ['build', ...locked, '-p', 'xtask'], workspace, xtaskEnv);
 
   const versions = `${toolchain.version}; ${toolVersions(workspace)}`;
   return crates.map((crate) => {

@@ -1,9 +1,165 @@
-//! The point codec's bindings for JavaScript.
+//! The point codec's bindings for JavaScript: objects whose buffers lie in the module's memory and are read and written
+//! there through views, so that a call passes numbers only. The checked interface is the TypeScript package around it.
 
+use farpoint_point_codec::points64::{InvalidCount, POINTS_PER_PACKET, SlotLayout, pack, unpack};
+use farpoint_point_codec::{
+    DepthMeasure, InvalidParameter, OutOfRange, Point, SampleReport, Sampler, SamplingParameters,
+};
 use wasm_bindgen::prelude::*;
+use wide::f32x4;
 
-/// The crate's version.
+/// How many numbers [`Encoder::report_ptr`] points to.
+const REPORT_LENGTH: usize = 10;
+
+/// A frame, the sampler and the packet slots it is packed into.
 #[wasm_bindgen]
-pub fn version() -> String {
-    env!("CARGO_PKG_VERSION").to_owned()
+pub struct Encoder {
+    // Vectors and not points: aligned to 16 bytes.
+    frame: Vec<f32x4>,
+    sampler: Sampler,
+    sampled_points: usize,
+    layout: SlotLayout,
+    slots: Vec<u8>,
+    report: Box<[f64; REPORT_LENGTH]>,
+}
+
+#[wasm_bindgen]
+impl Encoder {
+    /// Room for frames of `capacity` points; a block begins `data_offset` bytes into each `stride` bytes. `undefined` where
+    /// a full block does not fit into a slot.
+    pub fn create(capacity: usize, stride: usize, data_offset: usize) -> Option<Encoder> {
+        let layout = SlotLayout::new(stride, data_offset)?;
+        Some(Self {
+            frame: vec![f32x4::ZERO; capacity],
+            sampler: Sampler::new(capacity),
+            sampled_points: 0,
+            layout,
+            slots: vec![0; capacity.div_ceil(POINTS_PER_PACKET) * stride],
+            report: Box::default(),
+        })
+    }
+
+    /// 4 floats a point.
+    pub fn frame_ptr(&self) -> *const f32 {
+        self.frame.as_ptr().cast()
+    }
+
+    /// The slots, one after another.
+    pub fn slots_ptr(&self) -> *const u8 {
+        self.slots.as_ptr()
+    }
+
+    /// The indices that the last `sample` chose.
+    pub fn chosen_ptr(&self) -> *const u32 {
+        self.sampler.chosen().as_ptr()
+    }
+
+    /// After `sample`: kept; rejected as not finite, for non-positive depth, out of range, not drawn; min depth, max depth.
+    /// After `pack`, from 7 on: packets, points, saturated.
+    pub fn report_ptr(&self) -> *const f64 {
+        self.report.as_ptr()
+    }
+
+    /// 0, or what was wrong: 1 lambda, 2 epsilon, 3 near distance, 4 more points than the capacity.
+    #[allow(clippy::too_many_arguments, reason = "numbers cross this border without an allocation, objects do not")]
+    pub fn sample(
+        &mut self,
+        points: usize,
+        count: usize,
+        lambda: f32,
+        epsilon: f32,
+        near_distance: f32,
+        range: bool,
+        keep_out_of_range: bool,
+        seed: u64,
+    ) -> u32 {
+        self.sampled_points = 0;
+        let Some(frame) = self.frame.get(..points) else { return 4 };
+        let parameters = SamplingParameters {
+            count,
+            lambda,
+            epsilon,
+            near_distance,
+            depth_measure: if range { DepthMeasure::Range } else { DepthMeasure::Z },
+            out_of_range: if keep_out_of_range { OutOfRange::Keep } else { OutOfRange::Reject },
+            seed,
+        };
+        let frame: &[Point] = bytemuck::must_cast_slice(frame);
+        match self.sampler.sample(frame, &parameters) {
+            Ok(SampleReport { kept, rejected, min_depth, max_depth }) => {
+                self.sampled_points = points;
+                self.report[..7].copy_from_slice(&[
+                    kept as f64,
+                    rejected.not_finite as f64,
+                    rejected.non_positive_depth as f64,
+                    rejected.out_of_range as f64,
+                    rejected.not_drawn as f64,
+                    f64::from(min_depth),
+                    f64::from(max_depth),
+                ]);
+                0
+            }
+            Err(InvalidParameter::Lambda) => 1,
+            Err(InvalidParameter::Epsilon) => 2,
+            Err(InvalidParameter::NearDistance) => 3,
+        }
+    }
+
+    /// Packs what the last `sample` chose; nothing where it failed or there was none.
+    pub fn pack(&mut self, latency_test: bool) {
+        let frame: &[Point] = bytemuck::must_cast_slice(&self.frame[..self.sampled_points]);
+        let chosen = if self.sampled_points == 0 { &[] } else { self.sampler.chosen() };
+        let packed = pack(frame, chosen, self.layout, latency_test, &mut self.slots);
+        self.report[7..].copy_from_slice(&[packed.packets as f64, packed.points as f64, packed.saturated as f64]);
+    }
+}
+
+/// Packet slots and the points they unpack into.
+#[wasm_bindgen]
+pub struct Decoder {
+    layout: SlotLayout,
+    slots: Vec<u8>,
+    counts: Vec<u16>,
+    points: Vec<u64>,
+}
+
+#[wasm_bindgen]
+impl Decoder {
+    /// Room for `packets` packets, laid out as an encoder's. `undefined` where a full block does not fit into a slot.
+    pub fn create(packets: usize, stride: usize, data_offset: usize) -> Option<Decoder> {
+        let layout = SlotLayout::new(stride, data_offset)?;
+        Some(Self {
+            layout,
+            slots: vec![0; packets * stride],
+            counts: vec![0; packets],
+            points: vec![0; packets * POINTS_PER_PACKET],
+        })
+    }
+
+    /// The slots, one after another.
+    pub fn slots_ptr(&self) -> *const u8 {
+        self.slots.as_ptr()
+    }
+
+    /// The number of points of each slot.
+    pub fn counts_ptr(&self) -> *const u16 {
+        self.counts.as_ptr()
+    }
+
+    /// The unpacked points, 8 bytes each.
+    pub fn points_ptr(&self) -> *const u64 {
+        self.points.as_ptr()
+    }
+
+    /// Unpacks the first `packets` slots: the number of points, or −1 − the slot whose count is too large, or −1 − the
+    /// capacity where `packets` is over it.
+    pub fn unpack(&mut self, packets: usize) -> i32 {
+        let Some(counts) = self.counts.get(..packets) else {
+            return -1 - self.counts.len() as i32;
+        };
+        match unpack(&self.slots, self.layout, counts, &mut self.points) {
+            Ok(points) => points as i32,
+            Err(InvalidCount { slot }) => -1 - slot as i32,
+        }
+    }
 }

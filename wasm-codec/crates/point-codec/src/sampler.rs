@@ -1,0 +1,236 @@
+//! Chooses which points of a frame to send.
+
+use bytemuck::must_cast;
+use wide::{f32x4, u32x4};
+
+use crate::exponential::Generator;
+use crate::measure::{DepthMeasure, Measured, OutOfRange, measure};
+use crate::selection::{Histogram, NEVER, smallest};
+use crate::weight::{Cost, Even, Power, Real, Whole};
+use crate::Point;
+
+/// What the sampling depends on, beside the frame. The defaults are the paper's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SamplingParameters {
+    /// How many points to choose (the paper's N_max).
+    pub count: usize,
+    /// λ: how fast the weight falls with depth; 0 is uniform. 0 to [`SamplingParameters::MAX_LAMBDA`].
+    pub lambda: f32,
+    /// ε: keeps the weight of the nearest points finite. [`SamplingParameters::MIN_EPSILON`] to 1.
+    pub epsilon: f32,
+    /// D: points nearer than this have the weight of the nearest, metres. 0 and above.
+    pub near_distance: f32,
+    /// What depth is.
+    pub depth_measure: DepthMeasure,
+    /// What becomes of points that int16 millimetres cannot hold.
+    pub out_of_range: OutOfRange,
+    /// The same frame, parameters and seed give the same choice.
+    pub seed: u64,
+}
+
+impl SamplingParameters {
+    /// The largest λ.
+    pub const MAX_LAMBDA: f32 = 64.0;
+    /// The smallest ε: keys stay normal numbers.
+    pub const MIN_EPSILON: f32 = 1e-12;
+
+    fn check(&self) -> Result<(), InvalidParameter> {
+        // The ranges are written so that NaN is outside.
+        if !(0.0..=Self::MAX_LAMBDA).contains(&self.lambda) {
+            return Err(InvalidParameter::Lambda);
+        }
+        if !(Self::MIN_EPSILON..=1.0).contains(&self.epsilon) {
+            return Err(InvalidParameter::Epsilon);
+        }
+        if !(0.0..=f32::MAX).contains(&self.near_distance) {
+            return Err(InvalidParameter::NearDistance);
+        }
+        Ok(())
+    }
+}
+
+impl Default for SamplingParameters {
+    fn default() -> Self {
+        Self {
+            count: 0,
+            lambda: 3.0,
+            epsilon: 1e-6,
+            near_distance: 3.85,
+            depth_measure: DepthMeasure::Z,
+            out_of_range: OutOfRange::Reject,
+            seed: 0,
+        }
+    }
+}
+
+/// A parameter outside its range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InvalidParameter {
+    /// `lambda`
+    Lambda,
+    /// `epsilon`
+    Epsilon,
+    /// `near_distance`
+    NearDistance,
+}
+
+impl core::fmt::Display for InvalidParameter {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Lambda => "lambda is not between 0 and 64",
+            Self::Epsilon => "epsilon is not between 1e-12 and 1",
+            Self::NearDistance => "near_distance is negative or not finite",
+        })
+    }
+}
+
+impl core::error::Error for InvalidParameter {}
+
+/// Why points of the frame are not among the chosen; each counts once, under the first reason that holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rejected {
+    /// A coordinate is NaN or infinite.
+    pub not_finite: usize,
+    /// The depth is zero or negative.
+    pub non_positive_depth: usize,
+    /// A coordinate is beyond ±32.767 m.
+    pub out_of_range: usize,
+    /// The point could be sent; the draw left it out.
+    pub not_drawn: usize,
+}
+
+/// What a call of [`Sampler::sample`] did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SampleReport {
+    /// How many points were chosen.
+    pub kept: usize,
+    /// The other points of the frame: with `kept` they add up to the frame's size.
+    pub rejected: Rejected,
+    /// The smallest depth of a point that could be sent, metres; 0 where there was none.
+    pub min_depth: f32,
+    /// The largest such depth (the paper's max z).
+    pub max_depth: f32,
+}
+
+/// Draws points without replacement with probability proportional to their weight, exactly (Efraimidis and Spirakis
+/// 2006): each point gets the key e/v with e exponentially distributed, and the points with the smallest keys are the
+/// draw. The buffers are made once.
+pub struct Sampler {
+    depths: Vec<f32x4>,
+    keys: Vec<u32x4>,
+    histogram: Histogram,
+    candidates: Vec<u32>,
+    chosen: Vec<u32>,
+    kept: usize,
+}
+
+impl Sampler {
+    /// A sampler for frames of up to `capacity` points; larger frames make its buffers grow.
+    #[must_use]
+    pub fn new(capacity: usize) -> Self {
+        let mut sampler = Self {
+            depths: Vec::new(),
+            keys: Vec::new(),
+            histogram: Histogram::new(),
+            candidates: Vec::with_capacity(capacity / 16),
+            chosen: Vec::new(),
+            kept: 0,
+        };
+        sampler.reserve(capacity);
+        sampler
+    }
+
+    fn reserve(&mut self, points: usize) {
+        let quads = points.div_ceil(4);
+        if self.depths.len() < quads {
+            self.depths.resize(quads, f32x4::ZERO);
+            self.keys.resize(quads, u32x4::ZERO);
+            self.chosen.resize(quads * 4, 0);
+        }
+    }
+
+    /// The chosen points of the last [`Sampler::sample`]: indices into its frame, ascending.
+    #[must_use]
+    pub fn chosen(&self) -> &[u32] {
+        &self.chosen[..self.kept]
+    }
+
+    /// Chooses `parameters.count` points, or all that can be sent if those are fewer.
+    ///
+    /// # Errors
+    /// A parameter is outside its range; nothing is chosen then.
+    ///
+    /// # Panics
+    /// If the frame has more than 2³¹ points.
+    pub fn sample(&mut self, frame: &[Point], parameters: &SamplingParameters) -> Result<SampleReport, InvalidParameter> {
+        assert!(i32::try_from(frame.len()).is_ok(), "a frame of {} points", frame.len());
+        self.kept = 0;
+        parameters.check()?;
+        self.reserve(frame.len());
+        let quads = frame.len().div_ceil(4);
+        let measured =
+            measure(frame, parameters.depth_measure, parameters.out_of_range, &mut self.depths[..quads]);
+        self.kept = parameters.count.min(measured.valid);
+        if self.kept == measured.valid {
+            self.take_all_valid(quads);
+        } else if self.kept > 0 {
+            self.draw(quads, parameters, &measured);
+        }
+        Ok(SampleReport {
+            kept: self.kept,
+            rejected: Rejected {
+                not_finite: measured.not_finite,
+                non_positive_depth: measured.non_positive_depth,
+                out_of_range: measured.out_of_range,
+                not_drawn: measured.valid - self.kept,
+            },
+            min_depth: measured.min_depth,
+            max_depth: measured.max_depth,
+        })
+    }
+
+    fn take_all_valid(&mut self, quads: usize) {
+        let mut count = 0;
+        for (quad, depths) in self.depths[..quads].iter().enumerate() {
+            for (lane, depth) in depths.to_array().into_iter().enumerate() {
+                self.chosen[count] = (quad * 4 + lane) as u32;
+                count += usize::from(depth > 0.0);
+            }
+        }
+    }
+
+    fn draw(&mut self, quads: usize, parameters: &SamplingParameters, measured: &Measured) {
+        let lambda = parameters.lambda;
+        // The powers in use are compiled in; others go through a logarithm.
+        if lambda == 0.0 {
+            self.make_keys(quads, Even, parameters, measured);
+        } else if lambda == 1.0 {
+            self.make_keys(quads, Whole::<1>, parameters, measured);
+        } else if lambda == 2.0 {
+            self.make_keys(quads, Whole::<2>, parameters, measured);
+        } else if lambda == 3.0 {
+            self.make_keys(quads, Whole::<3>, parameters, measured);
+        } else {
+            self.make_keys(quads, Real(lambda), parameters, measured);
+        }
+        smallest(&self.keys[..quads], self.kept, &self.histogram, &mut self.candidates, &mut self.chosen);
+    }
+
+    fn make_keys<P: Power>(&mut self, quads: usize, power: P, parameters: &SamplingParameters, measured: &Measured) {
+        let cost = Cost::new(
+            power,
+            parameters.epsilon,
+            parameters.near_distance,
+            measured.min_depth,
+            measured.max_depth,
+        );
+        let mut generator = Generator::new(parameters.seed);
+        self.histogram.clear();
+        for (depth, keys) in self.depths[..quads].iter().zip(&mut self.keys) {
+            let key = generator.exponential() * cost.of(*depth);
+            let valid: u32x4 = must_cast(depth.simd_gt(f32x4::ZERO));
+            *keys = valid.select(must_cast(key), u32x4::splat(NEVER));
+            self.histogram.add(*keys);
+        }
+    }
+}

@@ -1,0 +1,115 @@
+/* tslint:disable */
+/* eslint-disable */
+
+/**
+ * Packet slots and the points they unpack into.
+ */
+export class Decoder {
+    private constructor();
+    free(): void;
+    [Symbol.dispose](): void;
+    /**
+     * The number of points of each slot.
+     */
+    counts_ptr(): number;
+    /**
+     * Room for `packets` packets, laid out as an encoder's. `undefined` where a full block does not fit into a slot.
+     */
+    static create(packets: number, stride: number, data_offset: number): Decoder | undefined;
+    /**
+     * The unpacked points, 8 bytes each.
+     */
+    points_ptr(): number;
+    /**
+     * The slots, one after another.
+     */
+    slots_ptr(): number;
+    /**
+     * Unpacks the first `packets` slots: the number of points, or −1 − the slot whose count is too large, or −1 − the
+     * capacity where `packets` is over it.
+     */
+    unpack(packets: number): number;
+}
+
+/**
+ * A frame, the sampler and the packet slots it is packed into.
+ */
+export class Encoder {
+    private constructor();
+    free(): void;
+    [Symbol.dispose](): void;
+    /**
+     * The indices that the last `sample` chose.
+     */
+    chosen_ptr(): number;
+    /**
+     * Room for frames of `capacity` points; a block begins `data_offset` bytes into each `stride` bytes. `undefined` where
+     * a full block does not fit into a slot.
+     */
+    static create(capacity: number, stride: number, data_offset: number): Encoder | undefined;
+    /**
+     * 4 floats a point.
+     */
+    frame_ptr(): number;
+    /**
+     * Packs what the last `sample` chose; nothing where it failed or there was none.
+     */
+    pack(latency_test: boolean): void;
+    /**
+     * After `sample`: kept; rejected as not finite, for non-positive depth, out of range, not drawn; min depth, max depth.
+     * After `pack`, from 7 on: packets, points, saturated.
+     */
+    report_ptr(): number;
+    /**
+     * 0, or what was wrong: 1 lambda, 2 epsilon, 3 near distance, 4 more points than the capacity.
+     */
+    sample(points: number, count: number, lambda: number, epsilon: number, near_distance: number, range: boolean, keep_out_of_range: boolean, seed: bigint): number;
+    /**
+     * The slots, one after another.
+     */
+    slots_ptr(): number;
+}
+
+export type InitInput = RequestInfo | URL | Response | BufferSource | WebAssembly.Module;
+
+export interface InitOutput {
+    readonly memory: WebAssembly.Memory;
+    readonly __wbg_decoder_free: (a: number, b: number) => void;
+    readonly __wbg_encoder_free: (a: number, b: number) => void;
+    readonly decoder_counts_ptr: (a: number) => number;
+    readonly decoder_create: (a: number, b: number, c: number) => number;
+    readonly decoder_points_ptr: (a: number) => number;
+    readonly decoder_slots_ptr: (a: number) => number;
+    readonly decoder_unpack: (a: number, b: number) => number;
+    readonly encoder_chosen_ptr: (a: number) => number;
+    readonly encoder_create: (a: number, b: number, c: number) => number;
+    readonly encoder_frame_ptr: (a: number) => number;
+    readonly encoder_pack: (a: number, b: number) => void;
+    readonly encoder_report_ptr: (a: number) => number;
+    readonly encoder_sample: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number, i: bigint) => number;
+    readonly encoder_slots_ptr: (a: number) => number;
+    readonly __wbindgen_externrefs: WebAssembly.Table;
+    readonly __wbindgen_start: () => void;
+}
+
+export type SyncInitInput = BufferSource | WebAssembly.Module;
+
+/**
+ * Instantiates the given `module`, which can either be bytes or
+ * a precompiled `WebAssembly.Module`.
+ *
+ * @param {{ module: SyncInitInput }} module - Passing `SyncInitInput` directly is deprecated.
+ *
+ * @returns {InitOutput}
+ */
+export function initSync(module: { module: SyncInitInput } | SyncInitInput): InitOutput;
+
+/**
+ * If `module_or_path` is {RequestInfo} or {URL}, makes a request and
+ * for everything else, calls `WebAssembly.instantiate` directly.
+ *
+ * @param {{ module_or_path: InitInput | Promise<InitInput> }} module_or_path - Passing `InitInput` directly is deprecated.
+ *
+ * @returns {Promise<InitOutput>}
+ */
+export default function __wbg_init (module_or_path: { module_or_path: InitInput | Promise<InitInput> } | InitInput | Promise<InitInput>): Promise<InitOutput>;

@@ -1,0 +1,317 @@
+/* @ts-self-types="./farpoint_codec.d.ts" */
+
+/**
+ * Packet slots and the points they unpack into.
+ */
+export class Decoder {
+    static __wrap(ptr) {
+        const obj = Object.create(Decoder.prototype);
+        obj.__wbg_ptr = ptr;
+        DecoderFinalization.register(obj, obj.__wbg_ptr, obj);
+        return obj;
+    }
+    __destroy_into_raw() {
+        const ptr = this.__wbg_ptr;
+        this.__wbg_ptr = 0;
+        DecoderFinalization.unregister(this);
+        return ptr;
+    }
+    free() {
+        const ptr = this.__destroy_into_raw();
+        wasm.__wbg_decoder_free(ptr, 0);
+    }
+    /**
+     * The number of points of each slot.
+     * @returns {number}
+     */
+    counts_ptr() {
+        const ret = wasm.decoder_counts_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Room for `packets` packets, laid out as an encoder's. `undefined` where a full block does not fit into a slot.
+     * @param {number} packets
+     * @param {number} stride
+     * @param {number} data_offset
+     * @returns {Decoder | undefined}
+     */
+    static create(packets, stride, data_offset) {
+        const ret = wasm.decoder_create(packets, stride, data_offset);
+        return ret === 0 ? undefined : Decoder.__wrap(ret);
+    }
+    /**
+     * The unpacked points, 8 bytes each.
+     * @returns {number}
+     */
+    points_ptr() {
+        const ret = wasm.decoder_points_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * The slots, one after another.
+     * @returns {number}
+     */
+    slots_ptr() {
+        const ret = wasm.decoder_slots_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Unpacks the first `packets` slots: the number of points, or −1 − the slot whose count is too large, or −1 − the
+     * capacity where `packets` is over it.
+     * @param {number} packets
+     * @returns {number}
+     */
+    unpack(packets) {
+        const ret = wasm.decoder_unpack(this.__wbg_ptr, packets);
+        return ret;
+    }
+}
+if (Symbol.dispose) Decoder.prototype[Symbol.dispose] = Decoder.prototype.free;
+
+/**
+ * A frame, the sampler and the packet slots it is packed into.
+ */
+export class Encoder {
+    static __wrap(ptr) {
+        const obj = Object.create(Encoder.prototype);
+        obj.__wbg_ptr = ptr;
+        EncoderFinalization.register(obj, obj.__wbg_ptr, obj);
+        return obj;
+    }
+    __destroy_into_raw() {
+        const ptr = this.__wbg_ptr;
+        this.__wbg_ptr = 0;
+        EncoderFinalization.unregister(this);
+        return ptr;
+    }
+    free() {
+        const ptr = this.__destroy_into_raw();
+        wasm.__wbg_encoder_free(ptr, 0);
+    }
+    /**
+     * The indices that the last `sample` chose.
+     * @returns {number}
+     */
+    chosen_ptr() {
+        const ret = wasm.encoder_chosen_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Room for frames of `capacity` points; a block begins `data_offset` bytes into each `stride` bytes. `undefined` where
+     * a full block does not fit into a slot.
+     * @param {number} capacity
+     * @param {number} stride
+     * @param {number} data_offset
+     * @returns {Encoder | undefined}
+     */
+    static create(capacity, stride, data_offset) {
+        const ret = wasm.encoder_create(capacity, stride, data_offset);
+        return ret === 0 ? undefined : Encoder.__wrap(ret);
+    }
+    /**
+     * 4 floats a point.
+     * @returns {number}
+     */
+    frame_ptr() {
+        const ret = wasm.encoder_frame_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Packs what the last `sample` chose; nothing where it failed or there was none.
+     * @param {boolean} latency_test
+     */
+    pack(latency_test) {
+        wasm.encoder_pack(this.__wbg_ptr, latency_test);
+    }
+    /**
+     * After `sample`: kept; rejected as not finite, for non-positive depth, out of range, not drawn; min depth, max depth.
+     * After `pack`, from 7 on: packets, points, saturated.
+     * @returns {number}
+     */
+    report_ptr() {
+        const ret = wasm.encoder_report_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * 0, or what was wrong: 1 lambda, 2 epsilon, 3 near distance, 4 more points than the capacity.
+     * @param {number} points
+     * @param {number} count
+     * @param {number} lambda
+     * @param {number} epsilon
+     * @param {number} near_distance
+     * @param {boolean} range
+     * @param {boolean} keep_out_of_range
+     * @param {bigint} seed
+     * @returns {number}
+     */
+    sample(points, count, lambda, epsilon, near_distance, range, keep_out_of_range, seed) {
+        const ret = wasm.encoder_sample(this.__wbg_ptr, points, count, lambda, epsilon, near_distance, range, keep_out_of_range, seed);
+        return ret >>> 0;
+    }
+    /**
+     * The slots, one after another.
+     * @returns {number}
+     */
+    slots_ptr() {
+        const ret = wasm.encoder_slots_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+}
+if (Symbol.dispose) Encoder.prototype[Symbol.dispose] = Encoder.prototype.free;
+function __wbg_get_imports() {
+    const import0 = {
+        __proto__: null,
+        __wbg___wbindgen_throw_4c88d8bf264fd984: function(arg0, arg1) {
+            throw new Error(getStringFromWasm0(arg0, arg1));
+        },
+        __wbindgen_init_externref_table: function() {
+            const table = wasm.__wbindgen_externrefs;
+            table.set(0, undefined);
+            table.set(1024, undefined);
+            table.set(1025, null);
+            table.set(1026, true);
+            table.set(1027, false);
+        },
+    };
+    return {
+        __proto__: null,
+        "./farpoint_codec_bg.js": import0,
+    };
+}
+
+const DecoderFinalization = (typeof FinalizationRegistry === 'undefined')
+    ? { register: () => {}, unregister: () => {} }
+    : new FinalizationRegistry(ptr => wasm.__wbg_decoder_free(ptr, 1));
+const EncoderFinalization = (typeof FinalizationRegistry === 'undefined')
+    ? { register: () => {}, unregister: () => {} }
+    : new FinalizationRegistry(ptr => wasm.__wbg_encoder_free(ptr, 1));
+
+function getStringFromWasm0(ptr, len) {
+    ptr = ptr >>> 0;
+    return decodeText(getUint8ArrayMemory0().subarray(ptr, ptr + len));
+}
+
+let cachedUint8ArrayMemory0 = null;
+function getUint8ArrayMemory0() {
+    if (cachedUint8ArrayMemory0 === null || cachedUint8ArrayMemory0.byteLength === 0) {
+        cachedUint8ArrayMemory0 = new Uint8Array(wasm.memory.buffer);
+    }
+    return cachedUint8ArrayMemory0;
+}
+
+let cachedTextDecoder = new TextDecoder('utf-8', { ignoreBOM: true });
+cachedTextDecoder.decode();
+const MAX_SAFARI_DECODE_BYTES = 2146435072;
+let numBytesDecoded = 0;
+function decodeText(bytes) {
+    numBytesDecoded += bytes.length;
+    if (numBytesDecoded >= MAX_SAFARI_DECODE_BYTES) {
+        cachedTextDecoder = new TextDecoder('utf-8', { ignoreBOM: true });
+        cachedTextDecoder.decode();
+        numBytesDecoded = bytes.length;
+    }
+    return cachedTextDecoder.decode(bytes);
+}
+
+let wasmModule, wasmInstance, wasm;
+function __wbg_finalize_init(instance, module) {
+    wasmInstance = instance;
+    wasm = instance.exports;
+    wasmModule = module;
+    cachedUint8ArrayMemory0 = null;
+    wasm.__wbindgen_start();
+    return wasm;
+}
+
+async function __wbg_load(module, imports) {
+    if (typeof Response === 'function' && module instanceof Response) {
+        if (!module.ok) {
+            throw new Error(`failed to fetch Wasm: ${module.status} ${module.statusText} fetching '${module.url}'`);
+        }
+
+        if (typeof WebAssembly.instantiateStreaming === 'function') {
+            try {
+                return await WebAssembly.instantiateStreaming(module, imports);
+            } catch (e) {
+                const validResponse = expectedResponseType(module.type);
+
+                if (validResponse && module.headers.get('Content-Type') !== 'application/wasm') {
+                    console.warn("`WebAssembly.instantiateStreaming` failed because your server does not serve Wasm with `application/wasm` MIME type. Falling back to `WebAssembly.instantiate` which is slower. Original error:\n", e);
+
+                } else { throw e; }
+            }
+        }
+
+        const bytes = await module.arrayBuffer();
+        return await WebAssembly.instantiate(bytes, imports);
+    } else {
+        const instance = await WebAssembly.instantiate(module, imports);
+
+        if (instance instanceof WebAssembly.Instance) {
+            return { instance, module };
+        } else {
+            return instance;
+        }
+    }
+
+    function expectedResponseType(type) {
+        switch (type) {
+            case 'basic': case 'cors': case 'default': return true;
+        }
+        return false;
+    }
+}
+
+function initSync(module) {
+    if (wasm !== undefined) return wasm;
+
+
+    if (module !== undefined) {
+        if (Object.getPrototypeOf(module) === Object.prototype) {
+            ({module} = module)
+        } else {
+            console.warn('using deprecated parameters for `initSync()`; pass a single object instead')
+        }
+    }
+
+    const imports = __wbg_get_imports();
+    if (!(module instanceof WebAssembly.Module)) {
+        module = new WebAssembly.Module(module);
+    }
+    const instance = new WebAssembly.Instance(module, imports);
+    return __wbg_finalize_init(instance, module);
+}
+
+let __wbg_init_promise;
+async function __wbg_init(module_or_path) {
+    if (wasm !== undefined) return wasm;
+    if (__wbg_init_promise === undefined) {
+        __wbg_init_promise = __wbg_init_once(module_or_path);
+        __wbg_init_promise.catch(() => { __wbg_init_promise = undefined; });
+    }
+    return __wbg_init_promise;
+}
+
+async function __wbg_init_once(module_or_path) {
+
+    if (module_or_path !== undefined) {
+        if (Object.getPrototypeOf(module_or_path) === Object.prototype) {
+            ({module_or_path} = module_or_path)
+        } else {
+            console.warn('using deprecated parameters for the initialization function; pass a single object instead')
+        }
+    }
+
+
+    const imports = __wbg_get_imports();
+
+    if (typeof module_or_path === 'string' || (typeof Request === 'function' && module_or_path instanceof Request) || (typeof URL === 'function' && module_or_path instanceof URL)) {
+        module_or_path = fetch(module_or_path);
+    }
+
+    const { instance, module } = await __wbg_load(await module_or_path, imports);
+
+    return __wbg_finalize_init(instance, module);
+}
+
+export { initSync, __wbg_init as default };
