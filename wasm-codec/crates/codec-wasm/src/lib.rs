@@ -61,7 +61,10 @@ impl Encoder {
     }
 
     /// 0, or what was wrong: 1 lambda, 2 epsilon, 3 near distance, 4 more points than the capacity.
-    #[allow(clippy::too_many_arguments, reason = "numbers cross this border without an allocation, objects do not")]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "numbers cross this border without an allocation, objects do not"
+    )]
     pub fn sample(
         &mut self,
         points: usize,
@@ -110,7 +113,11 @@ impl Encoder {
         let frame: &[Point] = bytemuck::must_cast_slice(&self.frame[..self.sampled_points]);
         let chosen = if self.sampled_points == 0 { &[] } else { self.sampler.chosen() };
         let packed = pack(frame, chosen, self.layout, latency_test, &mut self.slots);
-        self.report[7..].copy_from_slice(&[packed.packets as f64, packed.points as f64, packed.saturated as f64]);
+        self.report[7..].copy_from_slice(&[
+            packed.packets as f64,
+            packed.points as f64,
+            packed.saturated as f64,
+        ]);
     }
 }
 

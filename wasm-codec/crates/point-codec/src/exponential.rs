@@ -1,13 +1,12 @@
 //! Exponentially distributed variates, four at a time, exact to a few units in the last place of an `f32`.
 //!
-//! An Exp(1) variate splits into ln 2 times a geometric integer (how many fair coins fall heads in a row) and an
-//! independent rest −ln(1 − t), t uniform in (0, ½]. The rest is computed from t itself and not from 1 − t, so that
-//! small variates, the very ones that a selection of the smallest keys compares, keep their full relative precision.
+//! A variate is −ln(1 − t) with t uniform in (0, 1) on a grid of 2⁻³¹, computed from t itself and not from 1 − t alone, so
+//! that small variates, the very ones that a selection of the smallest keys compares, keep their relative precision.
 
 use bytemuck::must_cast;
 use wide::{f32x4, i32x4, u32x4};
 
-/// xoshiro128++ (Blackman and Vigna) in four lanes with independent states.
+/// xoshiro128+ (Blackman and Vigna, made for floating-point numbers) in four lanes with states of their own.
 #[derive(Clone, Debug)]
 pub struct Generator {
     state: [u32x4; 4],
@@ -37,8 +36,7 @@ impl Generator {
     #[inline(always)]
     pub fn bits(&mut self) -> u32x4 {
         let [s0, s1, s2, s3] = self.state;
-        let sum = s0 + s3;
-        let result = ((sum << 7) | (sum >> 25)) + s0;
+        let result = s0 + s3;
         let shifted = s1 << 9;
         let s2 = s2 ^ s0;
         let s3 = s3 ^ s1;
@@ -46,35 +44,41 @@ impl Generator {
         result
     }
 
-    /// The next Exp(1) variate of each lane: positive, finite, at most 17.4.
+    /// The next Exp(1) variate of each lane: positive, at most [`LARGEST`].
     #[inline(always)]
     pub fn exponential(&mut self) -> f32x4 {
-        // The exponent of a 24-bit integer counts its leading zeros: that is the geometric part. Zero counts as one,
-        // which cuts the tail off at a probability of 6e-8.
-        let coins: i32x4 = must_cast((self.bits() >> 8) | u32x4::splat(1));
-        let exponent: i32x4 = must_cast::<_, i32x4>(f32x4::from_i32x4(coins)) >> 23;
-        let heads = f32x4::from_i32x4(i32x4::splat(150) - exponent);
-        // 31 bits, so that the conversion to float is one of signed integers; never 0, at most 1/2.
-        let bits: i32x4 = must_cast(self.bits() >> 1);
-        let t = (f32x4::from_i32x4(bits) + f32x4::splat(0.5)) * f32x4::splat(1.0 / 4_294_967_296.0);
-        heads * f32x4::splat(core::f32::consts::LN_2) + minus_ln_one_minus(t)
+        // 31 bits, so that the conversion to float is one of signed integers; never 0.
+        let bits: i32x4 = must_cast((self.bits() >> 1) | u32x4::splat(1));
+        minus_ln_one_minus(f32x4::from_i32x4(bits) * f32x4::splat(1.0 / 2_147_483_648.0))
     }
 }
 
-/// −ln(1 − t) for t in [0, ½], with a relative error below 4e-7, also for small t.
+/// The largest variate, −ln 2⁻²⁵ (rounded up): larger ones have a probability of 3e-8.
+pub const LARGEST: f32 = 17.33;
+
+/// −ln(1 − t) for t in [0, 1], with a relative error below 4e-7 up to t = ½ and an absolute one of 2⁻²⁵ / (1 − t) beyond;
+/// never more than [`LARGEST`].
 #[inline(always)]
 #[must_use]
 pub fn minus_ln_one_minus(t: f32x4) -> f32x4 {
-    // −ln(1 − t) = 2 artanh(s) with s = t / (2 − t) ≤ 1/3; 2 artanh(s) / s is close to a polynomial in s². The
-    // coefficients are the minimax ones of degree 4 over [0, 1/9] (relative error 4e-9 before rounding to f32).
-    const COEFFICIENTS: [f32; 5] = [2.0, 0.666_663_15, 0.400_249_1, 0.279_606_03, 0.281_783_35];
-    let s = t / (f32x4::splat(2.0) - t);
-    let w = s * s;
-    let mut sum = f32x4::splat(COEFFICIENTS[4]);
-    for coefficient in COEFFICIENTS[..4].iter().rev() {
-        sum = sum * w + f32x4::splat(*coefficient);
+    let w = (f32x4::ONE - t).fast_max(f32x4::splat(1.0 / 33_554_432.0));
+    // What the subtraction rounded away: all of t where t is small.
+    let lost = (f32x4::ONE - w) - t;
+    // w = m · 2ᵏ with m in [√½, √2): then ln m is 2 artanh(s) with |s| ≤ 0.172, close to a polynomial in s². The
+    // coefficients are the minimax ones of degree 3 (relative error 7e-10 before rounding to f32).
+    const SQRT_HALF_BITS: i32 = 0x3f35_04f3;
+    const COEFFICIENTS: [f32; 4] = [2.0, 0.666_668_16, 0.399_747_95, 0.299_256_5];
+    let bits = must_cast::<f32x4, i32x4>(w) - i32x4::splat(SQRT_HALF_BITS);
+    let k = f32x4::from_i32x4(bits >> 23);
+    let m: f32x4 = must_cast((bits & i32x4::splat(0x007f_ffff)) + i32x4::splat(SQRT_HALF_BITS));
+    let f = (m - f32x4::ONE) + lost;
+    let s = f / (f32x4::splat(2.0) + f);
+    let square = s * s;
+    let mut sum = f32x4::splat(-COEFFICIENTS[3]);
+    for coefficient in COEFFICIENTS[..3].iter().rev() {
+        sum = sum * square - f32x4::splat(*coefficient);
     }
-    s * sum
+    s * sum - k * f32x4::splat(core::f32::consts::LN_2)
 }
 
 #[cfg(test)]
@@ -85,14 +89,22 @@ mod tests {
     fn logarithm_keeps_its_relative_precision() {
         let mut worst = 0.0_f64;
         for i in 0..200_000_u32 {
-            // From 2^-33 to 1/2, evenly in the logarithm.
-            let t = f64::from(i + 1).mul_add(32.0 / 200_000.0, -33.0).exp2() as f32;
+            // From 2^-31 to 1/2, evenly in the logarithm.
+            let t = f64::from(i + 1).mul_add(30.0 / 200_000.0, -31.0).exp2() as f32;
             let exact = -(-f64::from(t)).ln_1p();
             let got = f64::from(minus_ln_one_minus(f32x4::splat(t)).to_array()[0]);
             worst = worst.max((got / exact - 1.0).abs());
         }
         assert!(worst < 4e-7, "relative error {worst:e}");
         assert_eq!(minus_ln_one_minus(f32x4::ZERO).to_array(), [0.0; 4]);
+        for i in 0..200_000_u32 {
+            let t = 0.5 + 0.5 * (i as f32 / 200_000.0);
+            let rest = 1.0 - f64::from(t);
+            let error = f64::from(minus_ln_one_minus(f32x4::splat(t)).to_array()[0]) + rest.ln();
+            assert!(error.abs() < 2.0_f64.powi(-25) / rest + 1e-6, "at {t}: {error:e}");
+        }
+        let last = minus_ln_one_minus(f32x4::ONE).to_array()[0];
+        assert!(last <= LARGEST && last > LARGEST - 0.01);
     }
 
     #[test]
@@ -101,7 +113,7 @@ mod tests {
         let mut generator = Generator::new(7);
         let mut values: Vec<f32> = (0..250_000).flat_map(|_| generator.exponential().to_array()).collect();
         values.sort_by(f32::total_cmp);
-        assert!(values[0] > 0.0 && values[values.len() - 1] < 17.4);
+        assert!(values[0] > 0.0 && values[values.len() - 1] <= LARGEST);
         let distance = |sorted: &[f32], cdf: &dyn Fn(f64) -> f64| {
             let n = sorted.len() as f64;
             let mut worst = 0.0_f64;

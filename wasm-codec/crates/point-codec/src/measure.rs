@@ -47,7 +47,12 @@ const SQUARABLE: f32 = 1e18;
 /// Writes the depth of every point to `depths` in whole vectors, 0 where the point is not valid.
 ///
 /// `depths` has one vector for each four points of the frame, the last one padded with zeros.
-pub(crate) fn measure(frame: &[Point], measure: DepthMeasure, out_of_range: OutOfRange, depths: &mut [f32x4]) -> Measured {
+pub(crate) fn measure(
+    frame: &[Point],
+    measure: DepthMeasure,
+    out_of_range: OutOfRange,
+    depths: &mut [f32x4],
+) -> Measured {
     match measure {
         DepthMeasure::Z => pass::<false>(frame, out_of_range, depths),
         DepthMeasure::Range => pass::<true>(frame, out_of_range, depths),
@@ -118,7 +123,7 @@ impl Totals {
         } else {
             z
         };
-        let positive = finite & must_cast::<f32x4, i32x4>(depth.simd_gt(f32x4::ZERO));
+        let positive = finite & must_cast::<f32x4, i32x4>(depth.simd_ge(f32x4::splat(f32::MIN_POSITIVE)));
         let valid = positive & !largest.simd_gt(limit);
         // A mask is −1 in its lanes.
         self.finite -= finite;

@@ -85,7 +85,13 @@ pub const fn colour_664(rgba: u32) -> u16 {
 ///
 /// # Panics
 /// If an index is outside the frame, or the slots do not suffice.
-pub fn pack(frame: &[Point], chosen: &[u32], layout: SlotLayout, latency_test: bool, slots: &mut [u8]) -> Packed {
+pub fn pack(
+    frame: &[Point],
+    chosen: &[u32],
+    layout: SlotLayout,
+    latency_test: bool,
+    slots: &mut [u8],
+) -> Packed {
     let packets = chosen.len().div_ceil(POINTS_PER_PACKET);
     let used = &mut slots[..packets * layout.stride];
     let mut saturated = 0;
@@ -139,7 +145,12 @@ pub struct InvalidCount {
 ///
 /// # Panics
 /// If there are fewer slots than counts, or `points` is too short.
-pub fn unpack(slots: &[u8], layout: SlotLayout, counts: &[u16], points: &mut [u64]) -> Result<usize, InvalidCount> {
+pub fn unpack(
+    slots: &[u8],
+    layout: SlotLayout,
+    counts: &[u16],
+    points: &mut [u64],
+) -> Result<usize, InvalidCount> {
     let used = &slots[..counts.len() * layout.stride];
     let mut total = 0;
     for (slot, (count, bytes)) in counts.iter().zip(used.chunks_exact(layout.stride)).enumerate() {

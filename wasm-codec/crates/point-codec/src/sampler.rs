@@ -3,11 +3,11 @@
 use bytemuck::must_cast;
 use wide::{f32x4, u32x4};
 
+use crate::Point;
 use crate::exponential::Generator;
 use crate::measure::{DepthMeasure, Measured, OutOfRange, measure};
-use crate::selection::{Histogram, NEVER, smallest};
+use crate::selection::{Candidates, NEVER};
 use crate::weight::{Cost, Even, Power, Real, Whole};
-use crate::Point;
 
 /// What the sampling depends on, beside the frame. The defaults are the paper's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,9 +117,7 @@ pub struct SampleReport {
 /// draw. The buffers are made once.
 pub struct Sampler {
     depths: Vec<f32x4>,
-    keys: Vec<u32x4>,
-    histogram: Histogram,
-    candidates: Vec<u32>,
+    candidates: Candidates,
     chosen: Vec<u32>,
     kept: usize,
 }
@@ -128,14 +126,8 @@ impl Sampler {
     /// A sampler for frames of up to `capacity` points; larger frames make its buffers grow.
     #[must_use]
     pub fn new(capacity: usize) -> Self {
-        let mut sampler = Self {
-            depths: Vec::new(),
-            keys: Vec::new(),
-            histogram: Histogram::new(),
-            candidates: Vec::with_capacity(capacity / 16),
-            chosen: Vec::new(),
-            kept: 0,
-        };
+        let mut sampler =
+            Self { depths: Vec::new(), candidates: Candidates::new(), chosen: Vec::new(), kept: 0 };
         sampler.reserve(capacity);
         sampler
     }
@@ -144,8 +136,8 @@ impl Sampler {
         let quads = points.div_ceil(4);
         if self.depths.len() < quads {
             self.depths.resize(quads, f32x4::ZERO);
-            self.keys.resize(quads, u32x4::ZERO);
-            self.chosen.resize(quads * 4, 0);
+            self.candidates.reserve(quads);
+            self.chosen.resize(quads * 4 + 4, 0);
         }
     }
 
@@ -162,7 +154,11 @@ impl Sampler {
     ///
     /// # Panics
     /// If the frame has more than 2³¹ points.
-    pub fn sample(&mut self, frame: &[Point], parameters: &SamplingParameters) -> Result<SampleReport, InvalidParameter> {
+    pub fn sample(
+        &mut self,
+        frame: &[Point],
+        parameters: &SamplingParameters,
+    ) -> Result<SampleReport, InvalidParameter> {
         assert!(i32::try_from(frame.len()).is_ok(), "a frame of {} points", frame.len());
         self.kept = 0;
         parameters.check()?;
@@ -201,36 +197,66 @@ impl Sampler {
 
     fn draw(&mut self, quads: usize, parameters: &SamplingParameters, measured: &Measured) {
         let lambda = parameters.lambda;
-        // The powers in use are compiled in; others go through a logarithm.
         if lambda == 0.0 {
-            self.make_keys(quads, Even, parameters, measured);
-        } else if lambda == 1.0 {
-            self.make_keys(quads, Whole::<1>, parameters, measured);
-        } else if lambda == 2.0 {
-            self.make_keys(quads, Whole::<2>, parameters, measured);
-        } else if lambda == 3.0 {
-            self.make_keys(quads, Whole::<3>, parameters, measured);
+            self.draw_by(Even, quads, parameters, measured);
+        } else if lambda.fract() == 0.0 {
+            self.draw_by(Whole(lambda as u32), quads, parameters, measured);
         } else {
-            self.make_keys(quads, Real(lambda), parameters, measured);
+            self.draw_by(Real(lambda), quads, parameters, measured);
         }
-        smallest(&self.keys[..quads], self.kept, &self.histogram, &mut self.candidates, &mut self.chosen);
     }
 
-    fn make_keys<P: Power>(&mut self, quads: usize, power: P, parameters: &SamplingParameters, measured: &Measured) {
-        let cost = Cost::new(
-            power,
-            parameters.epsilon,
-            parameters.near_distance,
-            measured.min_depth,
-            measured.max_depth,
-        );
-        let mut generator = Generator::new(parameters.seed);
-        self.histogram.clear();
-        for (depth, keys) in self.depths[..quads].iter().zip(&mut self.keys) {
-            let key = generator.exponential() * cost.of(*depth);
-            let valid: u32x4 = must_cast(depth.simd_gt(f32x4::ZERO));
-            *keys = valid.select(must_cast(key), u32x4::splat(NEVER));
-            self.histogram.add(*keys);
+    fn draw_by<P: Power>(
+        &mut self,
+        power: P,
+        quads: usize,
+        parameters: &SamplingParameters,
+        measured: &Measured,
+    ) {
+        let SamplingParameters { epsilon, near_distance, seed, .. } = *parameters;
+        let cost = Cost::new(power, epsilon, near_distance, measured.min_depth, measured.max_depth);
+        let limit = self.likely_limit(&cost, quads, seed, measured.valid);
+        self.collect(&cost, quads, seed, limit);
+        if self.candidates.len() < self.kept {
+            // The guess was too low, which hardly ever happens: the same keys again, all of them.
+            self.collect(&cost, quads, seed, NEVER - 1);
+        }
+        self.candidates.smallest(self.kept, &mut self.chosen);
+    }
+
+    /// A key that most likely is a little above the largest key that will be chosen, guessed from other draws for one in
+    /// `STRIDE` of the points. Only how long the selection takes depends on it, never its outcome.
+    fn likely_limit<P: Power>(&mut self, cost: &Cost<P>, quads: usize, seed: u64, valid: usize) -> u32 {
+        const STRIDE: usize = 31;
+        let mut generator = Generator::new(!seed);
+        self.candidates.clear();
+        for depth in self.depths[..quads].iter().step_by(STRIDE) {
+            let keys = keys_of(*depth, &mut generator, cost);
+            self.candidates.add(keys, u32x4::splat(NEVER - 1), 0);
+        }
+        let seen = self.candidates.len();
+        let expected = (self.kept as f64 / valid as f64) * seen as f64;
+        // Four standard deviations above the expected rank.
+        let rank = (expected + 4.0 * expected.sqrt() + 4.0) as usize;
+        if rank < seen { self.candidates.threshold(rank) } else { NEVER - 1 }
+    }
+
+    /// Collects the points whose key is not above `limit`.
+    fn collect<P: Power>(&mut self, cost: &Cost<P>, quads: usize, seed: u64, limit: u32) {
+        let mut generator = Generator::new(seed);
+        let limit = u32x4::splat(limit);
+        self.candidates.clear();
+        for (quad, depth) in self.depths[..quads].iter().enumerate() {
+            let keys = keys_of(*depth, &mut generator, cost);
+            self.candidates.add(keys, limit, (quad * 4) as u32);
         }
     }
+}
+
+#[inline(always)]
+fn keys_of<P: Power>(depth: f32x4, generator: &mut Generator, cost: &Cost<P>) -> u32x4 {
+    let key = generator.exponential() * cost.of(depth);
+    let valid: u32x4 = must_cast(depth.simd_gt(f32x4::ZERO));
+    // A key has no sign bit: with all bits set an invalid point's is above every limit.
+    must_cast::<f32x4, u32x4>(key) | !valid
 }

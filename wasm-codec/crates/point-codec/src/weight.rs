@@ -21,16 +21,16 @@ impl Power for Even {
     }
 }
 
-/// λ = N, by repeated multiplication.
+/// λ is a whole number, by repeated multiplication.
 #[derive(Clone, Copy)]
-pub(crate) struct Whole<const N: u32>;
+pub(crate) struct Whole(pub u32);
 
-impl<const N: u32> Power for Whole<N> {
+impl Power for Whole {
     #[inline(always)]
     fn of(self, ratio: f32x4) -> f32x4 {
         let mut power = f32x4::ONE;
         let mut square = ratio;
-        let mut rest = N;
+        let mut rest = self.0;
         while rest > 0 {
             if rest & 1 == 1 {
                 power *= square;
@@ -59,19 +59,19 @@ pub(crate) struct Cost<P> {
     power: P,
     epsilon: f32x4,
     near: f32x4,
-    max_depth: f32x4,
+    per_depth: f32x4,
     lowest: f32x4,
 }
 
 impl<P: Power> Cost<P> {
-    /// `min_depth` and `max_depth` are those of the frame's valid points, both above 0; points nearer than
+    /// `min_depth` and `max_depth` are those of the frame's valid points, both normal numbers; points nearer than
     /// `near_distance` cost as little as the nearest.
     pub fn new(power: P, epsilon: f32, near_distance: f32, min_depth: f32, max_depth: f32) -> Self {
         let mut cost = Self {
             power,
             epsilon: f32x4::splat(epsilon),
             near: f32x4::ZERO,
-            max_depth: f32x4::splat(max_depth),
+            per_depth: f32x4::splat(1.0 / max_depth),
             lowest: f32x4::ZERO,
         };
         cost.lowest = cost.of(f32x4::splat(min_depth));
@@ -81,7 +81,7 @@ impl<P: Power> Cost<P> {
 
     #[inline(always)]
     pub fn of(&self, depth: f32x4) -> f32x4 {
-        let cost = self.power.of(depth / self.max_depth) + self.epsilon;
+        let cost = self.power.of(depth * self.per_depth) + self.epsilon;
         depth.simd_lt(self.near).select(self.lowest, cost)
     }
 }
@@ -103,9 +103,9 @@ mod tests {
         for depth in [3.85_f32, 4.0, 7.5, 12.25, 20.0] {
             let ratio = f64::from(depth) / 20.0;
             assert_close(cost(Even, depth), 1.0 + 1e-6);
-            assert_close(cost(Whole::<1>, depth), ratio + 1e-6);
-            assert_close(cost(Whole::<3>, depth), ratio.powi(3) + 1e-6);
-            assert_close(cost(Whole::<9>, depth), ratio.powi(9) + 1e-6);
+            assert_close(cost(Whole(1), depth), ratio + 1e-6);
+            assert_close(cost(Whole(3), depth), ratio.powi(3) + 1e-6);
+            assert_close(cost(Whole(9), depth), ratio.powi(9) + 1e-6);
             assert_close(cost(Real(2.5), depth), ratio.powf(2.5) + 1e-6);
             assert_close(cost(Real(9.0), depth), ratio.powi(9) + 1e-6);
         }
@@ -114,9 +114,9 @@ mod tests {
     #[test]
     fn near_points_cost_what_the_nearest_costs() {
         let nearest = (0.5_f64 / 20.0).powi(3) + 1e-6;
-        assert_close(cost(Whole::<3>, 0.5), nearest);
-        assert_close(cost(Whole::<3>, 2.0), nearest);
-        assert_close(cost(Whole::<3>, 3.849), nearest);
-        assert!(cost(Whole::<3>, 3.85) > 50.0 * nearest);
+        assert_close(cost(Whole(3), 0.5), nearest);
+        assert_close(cost(Whole(3), 2.0), nearest);
+        assert_close(cost(Whole(3), 3.849), nearest);
+        assert!(cost(Whole(3), 3.85) > 50.0 * nearest);
     }
 }
