@@ -44,13 +44,24 @@ impl Generator {
         result
     }
 
-    /// The next Exp(1) variate of each lane: positive, at most [`LARGEST`].
+    /// The next uniform number of each lane: a whole number from 1 to [`UNIFORM_SCALE`], as a float. Divided by
+    /// [`UNIFORM_SCALE`] it is the t of [`minus_ln_one_minus`].
     #[inline(always)]
-    pub fn exponential(&mut self) -> f32x4 {
+    pub fn uniform(&mut self) -> f32x4 {
         // 31 bits, so that the conversion to float is one of signed integers; never 0.
         let bits: i32x4 = must_cast((self.bits() >> 1) | u32x4::splat(1));
-        minus_ln_one_minus(f32x4::from_i32x4(bits) * f32x4::splat(1.0 / 2_147_483_648.0))
+        f32x4::from_i32x4(bits)
     }
+}
+
+/// What the numbers of [`Generator::uniform`] are to be divided by: 2³¹.
+pub const UNIFORM_SCALE: f32 = 2_147_483_648.0;
+
+/// The Exp(1) variate that belongs to a number of [`Generator::uniform`].
+#[inline(always)]
+#[must_use]
+pub fn exponential(uniform: f32x4) -> f32x4 {
+    minus_ln_one_minus(uniform * f32x4::splat(1.0 / UNIFORM_SCALE))
 }
 
 /// The largest variate, −ln 2⁻²⁵ (rounded up): larger ones have a probability of 3e-8.
@@ -111,7 +122,8 @@ mod tests {
     fn variates_follow_the_exponential_distribution() {
         // Kolmogorov–Smirnov over both ends: with x itself, and with the small values on their own.
         let mut generator = Generator::new(7);
-        let mut values: Vec<f32> = (0..250_000).flat_map(|_| generator.exponential().to_array()).collect();
+        let mut values: Vec<f32> =
+            (0..250_000).flat_map(|_| exponential(generator.uniform()).to_array()).collect();
         values.sort_by(f32::total_cmp);
         assert!(values[0] > 0.0 && values[values.len() - 1] <= LARGEST);
         let distance = |sorted: &[f32], cdf: &dyn Fn(f64) -> f64| {

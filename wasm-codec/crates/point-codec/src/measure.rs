@@ -44,9 +44,9 @@ const INFINITY_BITS: i32 = 0x7f80_0000;
 /// Coordinates are cut to this before they are squared: (1e18)² × 3 is still finite.
 const SQUARABLE: f32 = 1e18;
 
-/// Writes the depth of every point to `depths` in whole vectors, 0 where the point is not valid.
+/// Writes the depth of every point to `depths` in whole vectors, NaN where the point is not valid.
 ///
-/// `depths` has one vector for each four points of the frame, the last one padded with zeros.
+/// `depths` has one vector for each four points of the frame, the last one padded with NaN.
 pub(crate) fn measure(
     frame: &[Point],
     measure: DepthMeasure,
@@ -130,10 +130,10 @@ impl Totals {
         self.positive -= positive;
         self.valid -= valid;
         let mask: f32x4 = must_cast(valid);
-        let depth = depth & mask;
-        self.max_depth = self.max_depth.fast_max(depth);
+        self.max_depth = self.max_depth.fast_max(depth & mask);
         self.min_depth = self.min_depth.fast_min(mask.select(depth, f32x4::splat(f32::INFINITY)));
-        depth
+        // All bits set are a NaN.
+        depth | !mask
     }
 }
 

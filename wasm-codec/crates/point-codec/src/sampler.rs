@@ -1,12 +1,11 @@
 //! Chooses which points of a frame to send.
 
-use bytemuck::must_cast;
-use wide::{f32x4, u32x4};
+use wide::f32x4;
 
 use crate::Point;
 use crate::exponential::Generator;
 use crate::measure::{DepthMeasure, Measured, OutOfRange, measure};
-use crate::selection::{Candidates, NEVER};
+use crate::selection::{Candidates, NO_LIMIT};
 use crate::weight::{Cost, Even, Power, Real, Whole};
 
 /// What the sampling depends on, beside the frame. The defaults are the paper's.
@@ -111,6 +110,9 @@ pub struct SampleReport {
     /// The largest such depth (the paper's max z).
     pub max_depth: f32,
 }
+
+/// The bits of infinity: no key.
+const NOT_FOUND: u32 = 0x7f80_0000;
 
 /// Draws points without replacement with probability proportional to their weight, exactly (Efraimidis and Spirakis
 /// 2006): each point gets the key e/v with e exponentially distributed, and the points with the smallest keys are the
@@ -217,46 +219,41 @@ impl Sampler {
         let cost = Cost::new(power, epsilon, near_distance, measured.min_depth, measured.max_depth);
         let limit = self.likely_limit(&cost, quads, seed, measured.valid);
         self.collect(&cost, quads, seed, limit);
-        if self.candidates.len() < self.kept {
-            // The guess was too low, which hardly ever happens: the same keys again, all of them.
-            self.collect(&cost, quads, seed, NEVER - 1);
+        let mut threshold = NOT_FOUND;
+        if self.candidates.len() >= self.kept {
+            threshold = self.candidates.threshold(self.kept);
         }
-        self.candidates.smallest(self.kept, &mut self.chosen);
+        // A key just below the limit may be missing, by how the products round.
+        if f32::from_bits(threshold) >= limit * (1.0 - 4e-6) {
+            // The guess was too low, which hardly ever happens: the same draw again, with all points.
+            self.collect(&cost, quads, seed, NO_LIMIT);
+            threshold = self.candidates.threshold(self.kept);
+        }
+        self.candidates.smallest(self.kept, threshold, &mut self.chosen);
     }
 
     /// A key that most likely is a little above the largest key that will be chosen, guessed from other draws for one in
     /// `STRIDE` of the points. Only how long the selection takes depends on it, never its outcome.
-    fn likely_limit<P: Power>(&mut self, cost: &Cost<P>, quads: usize, seed: u64, valid: usize) -> u32 {
+    fn likely_limit<P: Power>(&mut self, cost: &Cost<P>, quads: usize, seed: u64, valid: usize) -> f32 {
         const STRIDE: usize = 31;
         let mut generator = Generator::new(!seed);
-        self.candidates.clear();
-        for depth in self.depths[..quads].iter().step_by(STRIDE) {
-            let keys = keys_of(*depth, &mut generator, cost);
-            self.candidates.add(keys, u32x4::splat(NEVER - 1), 0);
-        }
+        let depths = self.depths[..quads].iter().step_by(STRIDE);
+        self.candidates.collect(NO_LIMIT, depths.map(|depth| (generator.uniform(), cost.of(*depth), 0)));
         let seen = self.candidates.len();
         let expected = (self.kept as f64 / valid as f64) * seen as f64;
         // Four standard deviations above the expected rank.
         let rank = (expected + 4.0 * expected.sqrt() + 4.0) as usize;
-        if rank < seen { self.candidates.threshold(rank) } else { NEVER - 1 }
+        if rank < seen { f32::from_bits(self.candidates.threshold(rank)) } else { NO_LIMIT }
     }
 
-    /// Collects the points whose key is not above `limit`.
-    fn collect<P: Power>(&mut self, cost: &Cost<P>, quads: usize, seed: u64, limit: u32) {
+    fn collect<P: Power>(&mut self, cost: &Cost<P>, quads: usize, seed: u64, limit: f32) {
         let mut generator = Generator::new(seed);
-        let limit = u32x4::splat(limit);
-        self.candidates.clear();
-        for (quad, depth) in self.depths[..quads].iter().enumerate() {
-            let keys = keys_of(*depth, &mut generator, cost);
-            self.candidates.add(keys, limit, (quad * 4) as u32);
-        }
+        let mut first = 0;
+        let points = self.depths[..quads].iter().map(|depth| {
+            let quad = (generator.uniform(), cost.of(*depth), first);
+            first += 4;
+            quad
+        });
+        self.candidates.collect(limit, points);
     }
-}
-
-#[inline(always)]
-fn keys_of<P: Power>(depth: f32x4, generator: &mut Generator, cost: &Cost<P>) -> u32x4 {
-    let key = generator.exponential() * cost.of(depth);
-    let valid: u32x4 = must_cast(depth.simd_gt(f32x4::ZERO));
-    // A key has no sign bit: with all bits set an invalid point's is above every limit.
-    must_cast::<f32x4, u32x4>(key) | !valid
 }

@@ -1,13 +1,17 @@
-//! The k smallest of many keys, exactly, in their own order.
+//! The points with the k smallest keys, exactly, in their own order.
 //!
-//! Keys are the bits of positive floats: as integers they order as the floats do, and their upper bits make a
-//! logarithmic histogram. One bucket holds the k-th smallest key; only its keys need be looked at closely.
+//! A point's key is an Exp(1) variate times its cost. A variate −ln(1 − t) is never below its t, so t times the cost tells
+//! most points that their key is too large, without a logarithm; the others are *candidates*. Keys are positive floats,
+//! whose bits order as integers, and the upper bits make a logarithmic histogram: one bucket holds the k-th smallest key,
+//! and only its keys need be looked at closely.
 
-use bytemuck::{must_cast, must_cast_ref};
-use wide::{u8x16, u32x4};
+use bytemuck::{Pod, must_cast, must_cast_ref};
+use wide::{f32x4, u8x16, u32x4};
 
-/// The bits of infinity: above every key.
-pub(crate) const NEVER: u32 = 0x7f80_0000;
+use crate::exponential::{UNIFORM_SCALE, exponential};
+
+/// A limit that every point is below.
+pub(crate) const NO_LIMIT: f32 = f32::MAX;
 
 /// Exponent and four bits of mantissa: 16 buckets an octave.
 const SHIFT: u32 = 19;
@@ -35,10 +39,12 @@ const TO_FRONT: [[u8; 16]; 16] = {
     table
 };
 
-/// Keys with the indices they belong to, in ascending order of the indices.
+/// Candidates in ascending order of their indices.
 pub(crate) struct Candidates {
-    keys: Vec<u32>,
+    uniforms: Vec<f32>,
+    costs: Vec<f32>,
     indices: Vec<u32>,
+    keys: Vec<u32>,
     len: usize,
     histogram: Box<[u32; BUCKETS]>,
     scratch: Vec<u32>,
@@ -47,8 +53,10 @@ pub(crate) struct Candidates {
 impl Candidates {
     pub fn new() -> Self {
         Self {
-            keys: Vec::new(),
+            uniforms: Vec::new(),
+            costs: Vec::new(),
             indices: Vec::new(),
+            keys: Vec::new(),
             len: 0,
             histogram: Box::new([0; BUCKETS]),
             scratch: Vec::new(),
@@ -60,30 +68,46 @@ impl Candidates {
         // Four are written at a time, whether or not all of them count.
         let len = quads * 4 + 4;
         if self.keys.len() < len {
-            self.keys.resize(len, 0);
+            self.uniforms.resize(len, 0.0);
+            self.costs.resize(len, 0.0);
             self.indices.resize(len, 0);
+            self.keys.resize(len, 0);
         }
-    }
-
-    pub fn clear(&mut self) {
-        self.len = 0;
     }
 
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Adds those of the four keys that are not above `limit`; `first` is the index of the first.
+    /// Starts anew with those points whose key may be at most `limit`: all whose key is, and some more.
+    ///
+    /// `quads` gives four points at a time: uniform numbers, costs (NaN for a point that cannot be chosen) and the first
+    /// point's index.
     #[inline(always)]
-    pub fn add(&mut self, keys: u32x4, limit: u32x4, first: u32) {
-        let set = mask_of(keys.simd_le(limit));
-        let indices = u32x4::splat(first) + u32x4::from([0, 1, 2, 3]);
-        put(&mut self.keys, self.len, to_front(keys, set));
-        put(&mut self.indices, self.len, to_front(indices, set));
-        self.len += set.count_ones() as usize;
+    pub fn collect(&mut self, limit: f32, quads: impl Iterator<Item = (f32x4, f32x4, u32)>) {
+        let limit = f32x4::splat(limit * UNIFORM_SCALE);
+        let mut len = 0;
+        for (uniforms, costs, first) in quads {
+            let set = (uniforms * costs).simd_le(limit).to_bitmask();
+            put(&mut self.uniforms, len, to_front(uniforms, set));
+            put(&mut self.costs, len, to_front(costs, set));
+            put(&mut self.indices, len, to_front(u32x4::splat(first) + u32x4::from([0, 1, 2, 3]), set));
+            len += set.count_ones() as usize;
+        }
+        self.len = len;
+        let whole = len.next_multiple_of(4);
+        let uniforms = self.uniforms[..whole].as_chunks::<4>().0;
+        let costs = self.costs[..whole].as_chunks::<4>().0;
+        let keys = self.keys[..whole].as_chunks_mut::<4>().0;
+        for ((uniforms, costs), keys) in uniforms.iter().zip(costs).zip(keys) {
+            let key = exponential(f32x4::from(*uniforms)) * f32x4::from(*costs);
+            *keys = must_cast(key);
+        }
+        // What the last four are more than `len` never counts.
+        self.keys[len..whole].fill(u32::MAX);
     }
 
-    /// The k-th smallest key (k from 1) of those added.
+    /// The k-th smallest key (k from 1) of the candidates, as its bits.
     pub fn threshold(&mut self, k: usize) -> u32 {
         let keys = &self.keys[..self.len];
         self.histogram.fill(0);
@@ -93,7 +117,7 @@ impl Candidates {
         }
         let mut below = 0;
         let mut bucket = 0;
-        while below + self.histogram[bucket] as usize <= k - 1 {
+        while below + (self.histogram[bucket] as usize) < k {
             below += self.histogram[bucket] as usize;
             bucket += 1;
         }
@@ -102,53 +126,46 @@ impl Candidates {
         *self.scratch.select_nth_unstable(k - 1 - below).1
     }
 
-    /// Writes the indices of the `k` ≥ 1 smallest keys to `chosen`, ascending; of equal keys the earlier come first. There
-    /// must be as many candidates, and room in `chosen` for all candidates and three more.
-    pub fn smallest(&mut self, k: usize, chosen: &mut [u32]) {
-        let threshold = self.threshold(k);
+    /// Writes the indices of the `k` candidates with the smallest keys to `chosen`, ascending; of equal keys the earlier
+    /// come first. `threshold` is that of `k`, and `chosen` has room for all candidates and four more.
+    pub fn smallest(&self, k: usize, threshold: u32, chosen: &mut [u32]) {
         let limit = u32x4::splat(threshold);
-        // The last four may be partly left over from before: keys that never count go there.
-        put(&mut self.keys, self.len, u32x4::splat(NEVER));
         let mut count = 0;
-        let quads = self.len.div_ceil(4);
-        let keys = &self.keys.as_chunks::<4>().0[..quads];
-        let indices = &self.indices.as_chunks::<4>().0[..quads];
+        let whole = self.len.next_multiple_of(4);
+        let keys = self.keys[..whole].as_chunks::<4>().0;
+        let indices = self.indices[..whole].as_chunks::<4>().0;
         for (keys, indices) in keys.iter().zip(indices) {
-            let set = mask_of(u32x4::from(*keys).simd_le(limit));
+            let set = u32x4::from(*keys).simd_le(limit).to_bitmask();
             put(chosen, count, to_front(u32x4::from(*indices), set));
             count += set.count_ones() as usize;
         }
         // Several keys may equal the k-th smallest: the last of them go.
         let mut surplus = count - k;
-        let mut at = self.len;
         let mut place = count;
-        while surplus > 0 {
-            at -= 1;
-            if self.keys[at] <= threshold {
+        for key in self.keys[..self.len].iter().rev() {
+            if surplus == 0 {
+                break;
+            }
+            if *key <= threshold {
                 place -= 1;
-                if self.keys[at] == threshold {
-                    chosen.copy_within(place + 1..count, place);
-                    surplus -= 1;
-                }
+            }
+            if *key == threshold {
+                chosen.copy_within(place + 1..count, place);
+                surplus -= 1;
             }
         }
     }
 }
 
 #[inline(always)]
-fn mask_of(lanes: u32x4) -> u32 {
-    lanes.to_bitmask() & 15
-}
-
-#[inline(always)]
-fn to_front(values: u32x4, set: u32) -> u32x4 {
+fn to_front<V: Pod>(values: V, set: u32) -> V {
     let bytes: u8x16 = must_cast(values);
-    must_cast(bytes.shuffle(u8x16::new(TO_FRONT[set as usize])))
+    must_cast(bytes.shuffle(u8x16::new(TO_FRONT[set as usize & 15])))
 }
 
 #[inline(always)]
-fn put(into: &mut [u32], at: usize, values: u32x4) {
-    into[at..at + 4].copy_from_slice(must_cast_ref::<u32x4, [u32; 4]>(&values));
+fn put<V: Pod, T: Pod>(into: &mut [T], at: usize, values: V) {
+    into[at..at + 4].copy_from_slice(must_cast_ref::<V, [T; 4]>(&values));
 }
 
 #[cfg(test)]
@@ -156,24 +173,34 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn smallest(keys: &[u32], k: usize) -> Vec<u32> {
+    /// Costs of 1, so that the keys order as the uniform numbers do.
+    fn smallest(uniforms: &[u32], k: usize, limit: f32) -> Option<Vec<u32>> {
         let mut candidates = Candidates::new();
-        let quads = keys.len().div_ceil(4);
+        let quads = uniforms.len().div_ceil(4);
         candidates.reserve(quads);
-        for (i, four) in keys.chunks(4).enumerate() {
-            let mut quad = [NEVER; 4];
-            quad[..four.len()].copy_from_slice(four);
-            candidates.add(u32x4::from(quad), u32x4::splat(NEVER - 1), (i * 4) as u32);
+        let points = uniforms.chunks(4).enumerate().map(|(i, four)| {
+            let mut values = [0.0; 4];
+            let mut costs = [f32::NAN; 4];
+            for (lane, uniform) in four.iter().enumerate() {
+                values[lane] = *uniform as f32;
+                costs[lane] = 1.0;
+            }
+            (f32x4::from(values), f32x4::from(costs), (i * 4) as u32)
+        });
+        candidates.collect(limit, points);
+        if candidates.len() < k {
+            return None;
         }
         let mut chosen = vec![0; quads * 4 + 4];
-        candidates.smallest(k, &mut chosen);
+        let threshold = candidates.threshold(k);
+        candidates.smallest(k, threshold, &mut chosen);
         chosen.truncate(k);
-        chosen
+        Some(chosen)
     }
 
-    fn by_sorting(keys: &[u32], k: usize) -> Vec<u32> {
-        let mut order: Vec<u32> = (0..keys.len() as u32).collect();
-        order.sort_by_key(|i| (keys[*i as usize], *i));
+    fn by_sorting(uniforms: &[u32], k: usize) -> Vec<u32> {
+        let mut order: Vec<u32> = (0..uniforms.len() as u32).collect();
+        order.sort_by_key(|i| (uniforms[*i as usize], *i));
         order.truncate(k);
         order.sort_unstable();
         order
@@ -181,15 +208,32 @@ mod tests {
 
     proptest! {
         #[test]
-        fn equals_sorting(keys in prop::collection::vec(0..NEVER, 1..200), k in any::<prop::sample::Index>()) {
-            let k = k.index(keys.len()) + 1;
-            prop_assert_eq!(smallest(&keys, k), by_sorting(&keys, k));
+        fn equals_sorting(
+            uniforms in prop::collection::hash_set(1_u32..32_000, 1..200),
+            k in any::<prop::sample::Index>(),
+        ) {
+            // Steps of 2^16 are far enough apart for the logarithm to keep them in order.
+            let uniforms: Vec<u32> = uniforms.into_iter().map(|u| u << 16).collect();
+            let k = k.index(uniforms.len()) + 1;
+            prop_assert_eq!(smallest(&uniforms, k, NO_LIMIT), Some(by_sorting(&uniforms, k)));
         }
 
         #[test]
-        fn equals_sorting_with_many_ties(keys in prop::collection::vec(1_000_000_u32..1_000_004, 1..60), k in any::<prop::sample::Index>()) {
-            let k = k.index(keys.len()) + 1;
-            prop_assert_eq!(smallest(&keys, k), by_sorting(&keys, k));
+        fn equals_sorting_with_many_ties(
+            uniforms in prop::collection::vec(1_u32..5, 1..60),
+            k in any::<prop::sample::Index>(),
+        ) {
+            let uniforms: Vec<u32> = uniforms.into_iter().map(|u| u << 28).collect();
+            let k = k.index(uniforms.len()) + 1;
+            prop_assert_eq!(smallest(&uniforms, k, NO_LIMIT), Some(by_sorting(&uniforms, k)));
         }
+    }
+
+    #[test]
+    fn a_limit_leaves_out_only_what_is_above_it() {
+        let uniforms: Vec<u32> = (1..1000).map(|i| i << 21).collect();
+        // The key of uniform u is −ln(1 − u / 2³¹): 0.5 is passed after 0.39 of the range.
+        assert_eq!(smallest(&uniforms, 300, 0.5), Some((0..300).collect()));
+        assert_eq!(smallest(&uniforms, 900, 0.5), None);
     }
 }

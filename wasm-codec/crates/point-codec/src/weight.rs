@@ -5,7 +5,7 @@
 
 use wide::f32x4;
 
-/// The power of a depth between 0 and the deepest.
+/// The power of a depth between 0 and the deepest; NaN stays NaN.
 pub(crate) trait Power: Copy {
     fn of(self, ratio: f32x4) -> f32x4;
 }
@@ -16,8 +16,8 @@ pub(crate) struct Even;
 
 impl Power for Even {
     #[inline(always)]
-    fn of(self, _ratio: f32x4) -> f32x4 {
-        f32x4::ONE
+    fn of(self, ratio: f32x4) -> f32x4 {
+        ratio * f32x4::ZERO + f32x4::ONE
     }
 }
 
@@ -79,6 +79,7 @@ impl<P: Power> Cost<P> {
         cost
     }
 
+    /// NaN for a depth of NaN.
     #[inline(always)]
     pub fn of(&self, depth: f32x4) -> f32x4 {
         let cost = self.power.of(depth * self.per_depth) + self.epsilon;
@@ -109,6 +110,13 @@ mod tests {
             assert_close(cost(Real(2.5), depth), ratio.powf(2.5) + 1e-6);
             assert_close(cost(Real(9.0), depth), ratio.powi(9) + 1e-6);
         }
+    }
+
+    #[test]
+    fn no_depth_no_cost() {
+        assert!(cost(Even, f32::NAN).is_nan());
+        assert!(cost(Whole(3), f32::NAN).is_nan());
+        assert!(cost(Real(2.5), f32::NAN).is_nan());
     }
 
     #[test]
