@@ -14,7 +14,12 @@ import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { hashSources, sourcesOf } from './wasm-sources.ts';
 import { CARGO_WORKSPACE, WASM_CRATES, type WasmCrate } from './wasm-table.ts';
-import { findWasmToolchain, NoWasmToolchainError, WASM_TARGET, type WasmToolchain } from './wasm-toolchain.ts';
+import {
+  findWasmToolchain,
+  NoWasmToolchainError,
+  WASM_TARGET,
+  type WasmToolchain,
+} from './wasm-toolchain.ts';
 
 export { findWasmToolchain, NoWasmToolchainError } from './wasm-toolchain.ts';
 
@@ -156,7 +161,11 @@ function optimise(module: string): void {
   const tool = join(require.resolve('binaryen/package.json'), '..', 'bin', 'wasm-opt');
   const features = ['simd', 'bulk-memory', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals'];
   const enabled = [...features, 'reference-types', 'multivalue'].map((feature) => `--enable-${feature}`);
-  run(process.execPath, [tool, '-O3', '--strip-debug', '--strip-producers', ...enabled, module, '-o', module], ROOT);
+  run(
+    process.execPath,
+    [tool, '-O3', '--strip-debug', '--strip-producers', ...enabled, module, '-o', module],
+    ROOT,
+  );
 }
 
 function toolVersions(workspace: string): string {
@@ -176,7 +185,8 @@ function run(command: string, args: string[], cwd: string, env: Record<string, s
   const stdio: ['ignore', 'ignore', 'inherit'] = ['ignore', 'ignore', 'inherit'];
   const result = spawnSync(command, args, { cwd, stdio, env: { ...process.env, ...env } });
   if (result.error !== undefined) throw new Error(`${command}: ${result.error.message}`);
-  if (result.status !== 0) throw new Error(`${command} ${args.slice(0, 2).join(' ')} failed (${result.status})`);
+  if (result.status !== 0)
+    throw new Error(`${command} ${args.slice(0, 2).join(' ')} failed (${result.status})`);
 }
 
 function sha256(bytes: Uint8Array): string {
@@ -202,7 +212,9 @@ function main(): number {
   if (values.check) {
     const stale = checkFresh(ROOT, crates);
     for (const { name, outDir, reason } of stale) {
-      console.error(`${outDir}: ${name} is not built from the present sources (${reason}): run \`pnpm build:wasm\``);
+      console.error(
+        `${outDir}: ${name} is not built from the present sources (${reason}): run \`pnpm build:wasm\``,
+      );
     }
     if (stale.length === 0) console.log('WASM modules match their sources');
     return stale.length === 0 ? 0 : 1;

@@ -92,7 +92,7 @@ function debianToolchain(cargo: string | null): WasmToolchain | null {
     // A released compiler builds the standard library only when told that this is meant.
     env: { RUSTC: DEBIAN_RUSTC, RUSTC_BOOTSTRAP: '1' },
     cargoArgs: ['-Zbuild-std=std,panic_abort'],
-    rustFlags: ['-Clinker=' + DEBIAN_LINKER],
+    rustFlags: [`-Clinker=${DEBIAN_LINKER}`],
   };
 }
 
@@ -117,7 +117,7 @@ function cureFor(cargo: string | null): string {
   if (cargo === null) {
     return isDebian()
       ? `Rust is missing: run \`apt-get install ${DEBIAN_PACKAGES.join(' ')} cargo-web\` as root.`
-      : 'Rust is missing: install it from https://rustup.rs and run `rustup target add ' + WASM_TARGET + '`.';
+      : `Rust is missing: install it from https://rustup.rs and run \`rustup target add ${WASM_TARGET}\`.`;
   }
   return isDebian()
     ? `Rust's ${WASM_TARGET} target is missing: run \`apt-get install ${DEBIAN_PACKAGES.join(' ')}\` as root.`

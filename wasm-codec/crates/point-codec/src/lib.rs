@@ -12,7 +12,7 @@ mod sampler;
 mod selection;
 mod weight;
 
-pub use measure::{DepthMeasure, MAX_COORDINATE, OutOfRange};
+pub use measure::{DepthMeasure, MAX_COORDINATE, MIN_DEPTH, OutOfRange};
 pub use sampler::{InvalidParameter, Rejected, SampleReport, Sampler, SamplingParameters};
 
 /// x, y, z in metres and the colour, whose bit pattern is the bytes R, G, B, A (R lowest). Any of the coordinates may be

@@ -8,6 +8,9 @@ use crate::Point;
 /// The largest coordinate that int16 millimetres can hold, metres.
 pub const MAX_COORDINATE: f32 = 32.767;
 
+/// A depth below a micrometre counts as none, metres: no sensor means it, and its powers would underflow.
+pub const MIN_DEPTH: f32 = 1e-6;
+
 /// What "depth" means for the sampling weights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DepthMeasure {
@@ -123,7 +126,7 @@ impl Totals {
         } else {
             z
         };
-        let positive = finite & must_cast::<f32x4, i32x4>(depth.simd_ge(f32x4::splat(f32::MIN_POSITIVE)));
+        let positive = finite & must_cast::<f32x4, i32x4>(depth.simd_ge(f32x4::splat(MIN_DEPTH)));
         let valid = positive & !largest.simd_gt(limit);
         // A mask is −1 in its lanes.
         self.finite -= finite;

@@ -90,7 +90,7 @@ impl core::error::Error for InvalidParameter {}
 pub struct Rejected {
     /// A coordinate is NaN or infinite.
     pub not_finite: usize,
-    /// The depth is zero or negative.
+    /// The depth is below [`crate::MIN_DEPTH`]: zero or negative.
     pub non_positive_depth: usize,
     /// A coordinate is beyond ±32.767 m.
     pub out_of_range: usize,

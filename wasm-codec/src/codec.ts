@@ -1,0 +1,57 @@
+/** Loads the WASM module, once for each thread. */
+import init, { type InitInput, initSync, type SyncInitInput } from '../pkg/farpoint_codec.js';
+import { CodecError } from './errors.ts';
+
+/** The loaded module: what encoders and decoders are made from. They share its memory. */
+export interface Codec {
+  /** A `WebAssembly.Memory`: the buffer is another one after the memory has grown. */
+  readonly memory: { readonly buffer: ArrayBuffer };
+}
+
+/** Where the module comes from: an address, a response, its bytes, or a module compiled elsewhere. */
+export type CodecSource = InitInput;
+
+let loading: Promise<Codec> | undefined;
+
+/**
+ * Loads the module; later calls on the same thread give the same one, whatever their source. Without a source a page or
+ * worker fetches the file that its bundler put beside the script. Node programs use `@farpoint/wasm-codec/node`.
+ *
+ * @throws CodecError `not-loadable`
+ */
+export function loadCodec(source?: CodecSource | Promise<CodecSource>): Promise<Codec> {
+  loading ??= load(source);
+  return loading;
+}
+
+async function load(source: CodecSource | Promise<CodecSource> | undefined): Promise<Codec> {
+  try {
+    const { memory } = await init(source === undefined ? undefined : { module_or_path: source });
+    return { memory };
+  } catch (error) {
+    // A later call may have a better source.
+    loading = undefined;
+    throw notLoadable(error);
+  }
+}
+
+/**
+ * Like {@link loadCodec}, at once, from bytes or a compiled module.
+ *
+ * @throws CodecError `not-loadable`
+ */
+export function loadCodecSync(source: SyncInitInput): Codec {
+  try {
+    const { memory } = initSync({ module: source });
+    return { memory };
+  } catch (error) {
+    throw notLoadable(error);
+  }
+}
+
+function notLoadable(cause: unknown): CodecError {
+  const detail = cause instanceof Error ? cause.message : String(cause);
+  return new CodecError('not-loadable', `the point codec's WASM module cannot be loaded: ${detail}`, {
+    cause,
+  });
+}

@@ -1,0 +1,20 @@
+/** What was wrong with a call. */
+export type CodecErrorCode =
+  | 'not-loadable' // the WASM module cannot be read or compiled here
+  | 'bad-capacity' // not a whole number, or more than the module's memory can hold
+  | 'bad-layout' // a full data block does not fit into a slot
+  | 'too-many-points' // more points than the encoder's capacity
+  | 'too-many-packets' // more packets than the decoder's capacity
+  | 'bad-count' // a number of points that is not a whole number, or over 150 for one packet
+  | 'bad-parameter'; // a sampling parameter outside its range
+
+/** Thrown by this package for every call it refuses; after it the object can be used as before. */
+export class CodecError extends Error {
+  override readonly name = 'CodecError';
+  readonly code: CodecErrorCode;
+
+  constructor(code: CodecErrorCode, message: string, options?: ErrorOptions) {
+    super(message, options);
+    this.code = code;
+  }
+}

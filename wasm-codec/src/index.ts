@@ -1,0 +1,19 @@
+export { CloudDecoder } from './cloud-decoder.ts';
+export {
+  CloudEncoder,
+  type PackOptions,
+  type PackReport,
+  type RejectedPoints,
+  type SampleReport,
+  type SamplingParameters,
+} from './cloud-encoder.ts';
+export { type Codec, type CodecSource, loadCodec, loadCodecSync } from './codec.ts';
+export { CodecError, type CodecErrorCode } from './errors.ts';
+export { maxPoints, type PointBudget } from './max-points.ts';
+export {
+  BYTES_PER_POINT,
+  DEFAULT_SLOT_LAYOUT,
+  POINTS_PER_PACKET,
+  packetsFor,
+  type SlotLayout,
+} from './slot-layout.ts';
