@@ -78,7 +78,7 @@ pub fn minus_ln_one_minus(t: f32x4) -> f32x4 {
     // w = m · 2ᵏ with m in [√½, √2): then ln m is 2 artanh(s) with |s| ≤ 0.172, close to a polynomial in s². The
     // coefficients are the minimax ones of degree 3 (relative error 7e-10 before rounding to f32).
     const SQRT_HALF_BITS: i32 = 0x3f35_04f3;
-    const COEFFICIENTS: [f32; 4] = [2.0, 0.666_668_16, 0.399_747_95, 0.299_256_5];
+    const COEFFICIENTS: [f32; 4] = [2.0, 0.666_668_2, 0.399_747_95, 0.299_256_5];
     let bits = must_cast::<f32x4, i32x4>(w) - i32x4::splat(SQRT_HALF_BITS);
     let k = f32x4::from_i32x4(bits >> 23);
     let m: f32x4 = must_cast((bits & i32x4::splat(0x007f_ffff)) + i32x4::splat(SQRT_HALF_BITS));
