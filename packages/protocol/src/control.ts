@@ -12,7 +12,7 @@ export interface Command {
   type: 'command';
   /** Counts up by one for each command of this connection, wraps at 2³². */
   sequence: number;
-  /** The operator's monotonic clock at the input event, ms. */
+  /** The operator's monotonic clock when the input was read, ms: for a held stick or key each time it is read anew. */
   timeMs: number;
   /** The lease under which it is given (session.ts). */
   lease: string;
@@ -101,7 +101,7 @@ export const commandRejections = [
   'malformed', // not a command message
   'out-of-range', // beyond the robot's limits, or an axis it does not have
   'stale', // sent too long ago
-  'repeated', // a sequence number at or before the last accepted one
+  'repeated', // a sequence number at or before that of the last fresh command
   'not-lease-holder', // another operator drives, or nobody has asked to
   'dead-man-released', // motion asked for without the grip
   'estop-latched', // the emergency stop must be released first

@@ -1,0 +1,111 @@
+import type { PacketResult, RateController, ReceiverSums } from './rate-controller.ts';
+
+export interface FixedRateOptions {
+  /** The configured rate, bit/s: where it starts and the most it gives. */
+  bitsPerSecond: number;
+  /** Loss never takes it below, bit/s. A receiver's limit does. */
+  floorBitsPerSecond?: number;
+  /** Loss above this fraction for a whole interval halves the rate. */
+  lossThreshold?: number;
+  /** How long loss, or its absence, must last, ms. */
+  intervalMs?: number;
+  /** Factor by which the rate rises after an interval (nearly) without loss. */
+  increase?: number;
+}
+
+/** Loss below this fraction is taken for none: radio links lose a little without being full. */
+const CLEAN_LOSS = 0.02;
+/** Fewer packets say nothing about a fraction. */
+const MIN_PACKETS = 20;
+
+/**
+ * Sends at the configured rate. Sustained loss halves it, quiet intervals bring it back. It knows nothing of queues: a
+ * link with a long one is filled without any loss to be seen.
+ *
+ * Each interval is judged by itself. Transport-wide feedback is believed before the receiver's sums. A receiver that
+ * used to answer and answers nothing for a whole interval, while packets are sent, counts as losing everything.
+ */
+export class FixedRateController implements RateController {
+  readonly #configured: number;
+  readonly #floor: number;
+  readonly #lossThreshold: number;
+  readonly #intervalMs: number;
+  readonly #increase: number;
+  #rate: number;
+  #receiverLimit = Number.POSITIVE_INFINITY;
+  #intervalStartMs: number | null = null;
+  #packetsSent = 0;
+  #answered = false;
+  #feedback = { received: 0, lost: 0 };
+  #sums: ReceiverSums | null = null;
+  #sumsAtStart: ReceiverSums | null = null;
+  #reportInInterval = false;
+
+  constructor(options: FixedRateOptions) {
+    this.#configured = options.bitsPerSecond;
+    this.#floor = Math.min(options.floorBitsPerSecond ?? 1_000_000, this.#configured);
+    this.#lossThreshold = options.lossThreshold ?? 0.1;
+    this.#intervalMs = options.intervalMs ?? 1000;
+    this.#increase = options.increase ?? 1.2;
+    this.#rate = this.#configured;
+  }
+
+  onPacketSent(_transportSequence: number, _bytes: number, nowMs: number): void {
+    this.#intervalStartMs ??= nowMs;
+    this.#packetsSent++;
+  }
+
+  onFeedback(results: readonly PacketResult[], nowMs: number): void {
+    for (const { arrivalUs } of results) {
+      if (arrivalUs === null) this.#feedback.lost++;
+      else this.#feedback.received++;
+    }
+    this.onTick(nowMs);
+  }
+
+  onReceiverReport(report: ReceiverSums, nowMs: number): void {
+    const last = this.#sums;
+    // Reports may overtake each other: sums only grow.
+    if (last !== null && report.packetsReceived < last.packetsReceived) return;
+    this.#sums = { packetsReceived: report.packetsReceived, packetsLost: report.packetsLost };
+    this.#sumsAtStart ??= this.#sums;
+    this.#reportInInterval = true;
+    this.onTick(nowMs);
+  }
+
+  onReceiverLimit(bitsPerSecond: number, _nowMs: number): void {
+    this.#receiverLimit = Math.max(bitsPerSecond, 0);
+  }
+
+  onTick(nowMs: number): void {
+    if (this.#intervalStartMs === null || nowMs - this.#intervalStartMs < this.#intervalMs) return;
+    const loss = this.#lossFraction();
+    if (loss !== null) {
+      if (loss > this.#lossThreshold) this.#rate = Math.max(this.#rate / 2, this.#floor);
+      else if (loss < CLEAN_LOSS) this.#rate = Math.min(this.#rate * this.#increase, this.#configured);
+    }
+    this.#intervalStartMs = nowMs;
+    this.#packetsSent = 0;
+    this.#feedback = { received: 0, lost: 0 };
+    this.#sumsAtStart = this.#sums;
+    this.#reportInInterval = false;
+  }
+
+  targetBitsPerSecond(_nowMs: number): number {
+    return Math.min(this.#rate, this.#receiverLimit);
+  }
+
+  /** Of this interval; `null` where nothing can be said. */
+  #lossFraction(): number | null {
+    const { received, lost } = this.#feedback;
+    const heard = received + lost > 0 || this.#reportInInterval;
+    if (heard) this.#answered = true;
+    else return this.#answered && this.#packetsSent >= MIN_PACKETS ? 1 : null;
+    if (received + lost >= MIN_PACKETS) return lost / (received + lost);
+    if (this.#sums === null || this.#sumsAtStart === null) return null;
+    const sumReceived = this.#sums.packetsReceived - this.#sumsAtStart.packetsReceived;
+    // A late packet takes back a loss.
+    const sumLost = Math.max(this.#sums.packetsLost - this.#sumsAtStart.packetsLost, 0);
+    return sumReceived + sumLost >= MIN_PACKETS ? sumLost / (sumReceived + sumLost) : null;
+  }
+}

@@ -1,0 +1,176 @@
+import {
+  type Command,
+  type CommandRejection,
+  type DriveLimits,
+  isZeroTwist,
+  sequenceDelta32,
+  type Twist,
+} from '@farpoint/protocol';
+import type { EstopAnswer } from './estop.ts';
+import { QueueingDelay } from './queueing-delay.ts';
+import { TokenBucket } from './token-bucket.ts';
+
+export interface RejectedCommand {
+  accepted: false;
+  reason: CommandRejection;
+  /** For people: what and where, under 200 characters. */
+  detail: string;
+}
+
+export type CommandVerdict = { accepted: true; twist: Twist } | RejectedCommand;
+
+/** What the gate must know of the rest of the robot to judge one command. */
+export interface GateContext {
+  /** Whether the command's operator holds the lease that the command names. */
+  holdsLease: boolean;
+  /** Asked once for each command that is fresh: what the emergency stop says to this wish (estop.ts). */
+  meetEstop: (motion: boolean) => EstopAnswer;
+}
+
+export interface CommandGateOptions {
+  /** A command that waited longer on its way is stale, ms. */
+  maxAgeMs?: number;
+  /** Over how long the shortest way is remembered, ms (queueing-delay.ts). */
+  delayWindowMs?: number;
+}
+
+interface OperatorState {
+  bucket: TokenBucket;
+  delay: QueueingDelay;
+  lastSequence: number | null;
+}
+
+/** Operators whose clock and counter are remembered; beyond it the one heard of first is forgotten. */
+const MAX_OPERATORS = 64;
+/** Relative: what a float32 or a decimal round trip may add to a limit. The excess is cut off. */
+const TOLERANCE = 1e-6;
+
+/**
+ * Judges each command of each operator by itself: rate, lease, sequence, age, emergency stop, dead-man grip, range, in
+ * this order. State is kept apart for each operator: a broken or hostile clock or counter spoils its own commands only.
+ */
+export class CommandGate {
+  readonly #limits: Readonly<DriveLimits>;
+  readonly #maxAgeMs: number;
+  readonly #delayWindowMs: number;
+  readonly #operators = new Map<string, OperatorState>();
+
+  constructor(limits: DriveLimits, options: CommandGateOptions = {}) {
+    this.#limits = Object.freeze({ ...limits });
+    this.#maxAgeMs = options.maxAgeMs ?? limits.watchdogMs;
+    this.#delayWindowMs = options.delayWindowMs ?? 10_000;
+  }
+
+  check(operatorId: string, command: Command, nowMs: number, context: GateContext): CommandVerdict {
+    const operator = this.#operator(operatorId);
+    if (!operator.bucket.take(nowMs)) return this.#rateLimited();
+    // Every command tells of the way, also one that is refused: or a way that became longer would never be learnt.
+    const waitedMs = operator.delay.observe(command.timeMs, nowMs);
+    if (!context.holdsLease) return rejected('not-lease-holder', 'the command names no lease that you hold');
+    const { lastSequence } = operator;
+    if (lastSequence !== null && sequenceDelta32(command.sequence, lastSequence) <= 0) {
+      return rejected('repeated', `sequence ${command.sequence} is not after ${lastSequence}`);
+    }
+    if (!(waitedMs <= this.#maxAgeMs)) {
+      return rejected('stale', `${Math.round(waitedMs)} ms late, ${this.#maxAgeMs} ms allowed`);
+    }
+    // From here on the command is the operator's latest wish: an older one that comes after it counts no more, even
+    // where this one is refused (the grip let go, say).
+    operator.lastSequence = command.sequence;
+    const motion = !isZeroTwist(command.twist);
+    const estop = context.meetEstop(motion);
+    if (motion) {
+      const refusal =
+        estopRefusal(estop) ??
+        (command.deadMan ? null : rejected('dead-man-released', 'motion without the dead-man grip')) ??
+        this.#outOfRange(command.twist);
+      if (refusal !== null) return refusal;
+    }
+    const { maxLinear, maxAngular } = this.#limits;
+    return {
+      accepted: true,
+      twist: {
+        linear: { x: cutTo(maxLinear, command.twist.linear.x), y: 0, z: 0 },
+        angular: { x: 0, y: 0, z: cutTo(maxAngular, command.twist.angular.z) },
+      },
+    };
+  }
+
+  /** Counts a message that is no command against its sender's rate. */
+  malformed(operatorId: string, detail: string, nowMs: number): RejectedCommand {
+    if (!this.#operator(operatorId).bucket.take(nowMs)) return this.#rateLimited();
+    return rejected('malformed', detail.slice(0, 200));
+  }
+
+  /** Learns the way's delay from another stamped message of the same channel, a clock probe. */
+  observeClock(operatorId: string, sentMs: number, nowMs: number): void {
+    this.#operator(operatorId).delay.observe(sentMs, nowMs);
+  }
+
+  forget(operatorId: string): void {
+    this.#operators.delete(operatorId);
+  }
+
+  #operator(operatorId: string): OperatorState {
+    let operator = this.#operators.get(operatorId);
+    if (operator === undefined) {
+      if (this.#operators.size >= MAX_OPERATORS) {
+        this.#operators.delete(this.#operators.keys().next().value as string);
+      }
+      operator = {
+        bucket: new TokenBucket(this.#limits.maxCommandsPerSecond),
+        delay: new QueueingDelay(this.#delayWindowMs),
+        lastSequence: null,
+      };
+      this.#operators.set(operatorId, operator);
+    }
+    return operator;
+  }
+
+  #rateLimited(): RejectedCommand {
+    return rejected('rate-limited', `more than ${this.#limits.maxCommandsPerSecond} commands a second`);
+  }
+
+  #outOfRange(twist: Twist): RejectedCommand | null {
+    const { maxLinear, maxAngular } = this.#limits;
+    const axes: [name: string, value: number, limit: number, unit: string][] = [
+      ['linear.x', twist.linear.x, maxLinear, 'm/s'],
+      ['linear.y', twist.linear.y, 0, 'm/s'],
+      ['linear.z', twist.linear.z, 0, 'm/s'],
+      ['angular.x', twist.angular.x, 0, 'rad/s'],
+      ['angular.y', twist.angular.y, 0, 'rad/s'],
+      ['angular.z', twist.angular.z, maxAngular, 'rad/s'],
+    ];
+    for (const [name, value, limit, unit] of axes) {
+      // Written so that NaN is out of range.
+      if (Math.abs(value) <= limit * (1 + TOLERANCE)) continue;
+      const shown = Number(value.toPrecision(4));
+      return rejected(
+        'out-of-range',
+        limit === 0
+          ? `twist.${name} ${shown} ${unit}: the robot has no such axis`
+          : `twist.${name} ${shown} ${unit} is beyond ±${limit} ${unit}`,
+      );
+    }
+    return null;
+  }
+}
+
+function estopRefusal(estop: EstopAnswer): RejectedCommand | null {
+  if (estop === 'clear') return null;
+  return rejected(
+    'estop-latched',
+    estop === 'latched'
+      ? 'the emergency stop is latched'
+      : 'the emergency stop was released with the stick held: let go of it once',
+  );
+}
+
+function rejected(reason: CommandRejection, detail: string): RejectedCommand {
+  return { accepted: false, reason, detail };
+}
+
+/** −limit … limit; never −0. */
+function cutTo(limit: number, value: number): number {
+  return Math.min(Math.max(value, -limit), limit) + 0;
+}

@@ -1,0 +1,170 @@
+import {
+  type Command,
+  type DriveLimits,
+  type DriveState,
+  type EstopState,
+  isZeroTwist,
+  type LeaseState,
+  type Twist,
+  zeroTwist,
+} from '@farpoint/protocol';
+import {
+  CommandGate,
+  type CommandGateOptions,
+  type CommandVerdict,
+  type RejectedCommand,
+} from './command-gate.ts';
+import { EstopLatch, type EstopSource } from './estop.ts';
+import { type LeaseOptions, type LeaseOutcome, LeaseTable } from './lease.ts';
+import { Watchdog } from './watchdog.ts';
+
+export interface DriveGuardOptions extends LeaseOptions, CommandGateOptions {
+  limits: DriveLimits;
+}
+
+export type EstopReleaseOutcome =
+  | { released: true }
+  | { released: false; reason: 'not-latched' | 'not-lease-holder' };
+
+/**
+ * Everything between the operators' messages and the robot's wheels. All times are the robot's monotonic clock in ms.
+ *
+ * What holds for any sequence of calls:
+ * - `velocityAt` is within the limits given at construction, which nothing changes;
+ * - it is zero `watchdogMs` after the last accepted command, while the emergency stop is latched, while nobody holds the lease;
+ * - it follows the lease holder's commands and nobody else's;
+ * - what was asked for before an emergency stop, a change of the lease or a released grip never comes back.
+ */
+export class DriveGuard {
+  readonly #limits: Readonly<DriveLimits>;
+  readonly #gate: CommandGate;
+  readonly #leases: LeaseTable;
+  readonly #estop: EstopLatch;
+  readonly #watchdog: Watchdog;
+  #wish: Twist = zeroTwist();
+
+  constructor(options: DriveGuardOptions) {
+    this.#limits = Object.freeze({ ...options.limits });
+    this.#gate = new CommandGate(this.#limits, options);
+    this.#leases = new LeaseTable(options);
+    this.#estop = new EstopLatch(this.#limits.watchdogMs);
+    this.#watchdog = new Watchdog(this.#limits.watchdogMs);
+  }
+
+  /** Frozen. */
+  get limits(): Readonly<DriveLimits> {
+    return this.#limits;
+  }
+
+  /**
+   * Judges a command. An accepted one is the velocity until the next, or until the watchdog runs out: `nextDeadlineMs`
+   * changes with every call.
+   */
+  onCommand(operatorId: string, command: Command, nowMs: number): CommandVerdict {
+    const verdict = this.#gate.check(operatorId, command, nowMs, {
+      holdsLease: this.#leases.holds(operatorId, command.lease),
+      meetEstop: (motion) => this.#estop.meet(motion, nowMs),
+    });
+    if (verdict.accepted) {
+      this.#wish = verdict.twist;
+      this.#watchdog.feed(nowMs);
+      if (!isZeroTwist(verdict.twist)) this.#leases.noteMotion(nowMs);
+      return { accepted: true, twist: copyTwist(verdict.twist) };
+    }
+    // The gate gives this reason only to the holder's latest wish: the grip was let go, so stop now, not in 150 ms.
+    if (verdict.reason === 'dead-man-released') this.#halt();
+    return verdict;
+  }
+
+  /** A message that should have been a command and could not be decoded. It counts against the operator's rate. */
+  onMalformed(operatorId: string, detail: string, nowMs: number): RejectedCommand {
+    return this.#gate.malformed(operatorId, detail, nowMs);
+  }
+
+  /**
+   * Optional, for each clock probe of an operator: teaches the gate how long a message takes on this way, so that it tells
+   * stale from fresh at the very first command.
+   */
+  onClockProbe(operatorId: string, sentMs: number, nowMs: number): void {
+    this.#gate.observeClock(operatorId, sentMs, nowMs);
+  }
+
+  /** The velocity to apply now, a copy. */
+  velocityAt(nowMs: number): Twist {
+    const moving = this.#leases.holder !== null && !this.#estop.latched && !this.#watchdog.expired(nowMs);
+    return moving ? copyTwist(this.#wish) : zeroTwist();
+  }
+
+  /** When `velocityAt` becomes zero without anybody doing anything: arm a timer for it. `null` where it is zero. */
+  get nextDeadlineMs(): number | null {
+    return isZeroTwist(this.#wish) ? null : this.#watchdog.deadlineMs;
+  }
+
+  /** @param blocked whether the robot feels an obstacle */
+  state(nowMs: number, blocked = false): DriveState {
+    if (this.#estop.latched) return 'estop';
+    if (this.#leases.holder === null || isZeroTwist(this.#wish)) return 'idle';
+    if (this.#watchdog.expired(nowMs)) return 'watchdog';
+    return blocked ? 'blocked' : 'driving';
+  }
+
+  /** Who holds the lease. */
+  get leaseHolder(): string | null {
+    return this.#leases.holder;
+  }
+
+  /** After a grant tell every operator its `leaseState`. */
+  requestLease(operatorId: string, take: boolean, nowMs: number): LeaseOutcome {
+    const before = this.#leases.holder;
+    const outcome = this.#leases.request(operatorId, take, nowMs);
+    if (this.#leases.holder !== before) this.#halt();
+    return outcome;
+  }
+
+  /** @returns whether the operator held it: then tell every operator its `leaseState` */
+  releaseLease(operatorId: string): boolean {
+    const released = this.#leases.release(operatorId);
+    if (released) this.#halt();
+    return released;
+  }
+
+  /** The operator's connection has ended. @returns whether the lease became free */
+  operatorGone(operatorId: string): boolean {
+    this.#gate.forget(operatorId);
+    return this.releaseLease(operatorId);
+  }
+
+  /** The message that tells this operator who drives. */
+  leaseState(operatorId: string): LeaseState {
+    const lease = this.#leases.leaseOf(operatorId);
+    if (lease !== null) return { type: 'lease', holder: 'you', lease };
+    return { type: 'lease', holder: this.#leases.holder === null ? 'nobody' : 'other' };
+  }
+
+  /** Stops at once, whoever asks, however often. @returns false where it was latched already */
+  latchEstop(by: EstopSource): boolean {
+    this.#halt();
+    return this.#estop.latch(by);
+  }
+
+  /** Released by the lease holder only. Motion needs a new command, and a hand that has let go (estop.ts). */
+  releaseEstop(operatorId: string, nowMs: number): EstopReleaseOutcome {
+    if (this.#leases.holder !== operatorId) return { released: false, reason: 'not-lease-holder' };
+    return this.#estop.release(nowMs) ? { released: true } : { released: false, reason: 'not-latched' };
+  }
+
+  /** The message that tells every operator of the emergency stop. */
+  estopState(): EstopState {
+    const by = this.#estop.by;
+    return by === null ? { type: 'estop', latched: false } : { type: 'estop', latched: true, by };
+  }
+
+  #halt(): void {
+    this.#wish = zeroTwist();
+    this.#watchdog.reset();
+  }
+}
+
+function copyTwist({ linear, angular }: Twist): Twist {
+  return { linear: { ...linear }, angular: { ...angular } };
+}

@@ -1,0 +1,19 @@
+import type { DriveLimits } from '@farpoint/protocol';
+import * as z from 'zod';
+
+/**
+ * Schema of the drive limits in the robot's configuration; a field left out takes its default. The bounds keep a typing
+ * error from switching a protection off: a watchdog of an hour is none.
+ */
+export const driveLimitsSchema = z.strictObject({
+  /** m/s */
+  maxLinear: z.number().positive().max(10).default(1),
+  /** rad/s */
+  maxAngular: z.number().positive().max(10).default(1.5),
+  /** ms */
+  watchdogMs: z.number().min(50).max(1000).default(150),
+  /** 1/s */
+  maxCommandsPerSecond: z.number().min(10).max(1000).default(100),
+}) satisfies z.ZodType<DriveLimits>;
+
+export const defaultDriveLimits: Readonly<DriveLimits> = Object.freeze(driveLimitsSchema.parse({}));
