@@ -1,0 +1,60 @@
+/**
+ * `pnpm bench <name> [options]`: runs one benchmark. Each is a module `bench/src/<name>.ts` that exports `bench`; it is
+ * loaded only when asked for.
+ */
+import { readdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import type { Bench } from './src/report.ts';
+
+const FOLDER = join(import.meta.dirname, 'src');
+
+/** The names of the benchmarks: the modules that export one. Nothing is loaded. */
+function benchNames(): string[] {
+  return readdirSync(FOLDER)
+    .filter((file) => file.endsWith('.ts') && !file.endsWith('.test.ts'))
+    .filter((file) => /^export const bench\b/m.test(readFileSync(join(FOLDER, file), 'utf8')))
+    .map((file) => file.slice(0, -'.ts'.length))
+    .sort();
+}
+
+async function load(name: string): Promise<Bench> {
+  const module = (await import(pathToFileURL(join(FOLDER, `${name}.ts`)).href)) as { bench: Bench };
+  return module.bench;
+}
+
+async function usage(names: readonly string[]): Promise<string> {
+  const lines = ['pnpm bench <name> [options]', ''];
+  for (const name of names) {
+    const summary = await load(name).then(
+      (bench) => bench.summary,
+      (error: unknown) => `(cannot be loaded: ${error instanceof Error ? error.message : String(error)})`,
+    );
+    lines.push(`  ${name.padEnd(12)} ${summary}`);
+  }
+  lines.push('', 'Every benchmark takes --json (one JSON object as the last line of output) and --help.');
+  return lines.join('\n');
+}
+
+async function main(): Promise<number> {
+  const [name, ...argv] = process.argv.slice(2);
+  const names = benchNames();
+  if (name === undefined || name === '--help' || name === '-h') {
+    console.log(await usage(names));
+    return name === undefined ? 2 : 0;
+  }
+  if (!names.includes(name)) {
+    console.error(`bench: there is no benchmark \`${name}\`; there are ${names.join(', ')}`);
+    return 2;
+  }
+  try {
+    await (await load(name)).run(argv);
+    return 0;
+  } catch (error) {
+    console.error(`bench ${name}: ${error instanceof Error ? error.message : String(error)}`);
+    return 1;
+  }
+}
+
+const code = await main();
+if (code !== 0) process.exitCode = code;

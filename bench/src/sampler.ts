@@ -1,0 +1,123 @@
+/** `pnpm bench sampler`: a kernel benchmark of the depth-weighted sampling. */
+import { spawnSync } from 'node:child_process';
+import { join } from 'node:path';
+import { parseArgs } from 'node:util';
+import { CloudEncoder } from '@farpoint/wasm-codec';
+import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { depthWeights, SamplingFit } from './sampling-fit.ts';
+import { hallCloud, validDepths } from './sampling-scene.ts';
+import { type Distribution, distribution, rounded, timeCalls } from './stats.ts';
+
+const USAGE = `pnpm bench sampler [--points 230400] [--n 30000] [--lambda 3] [--rounds 300] [--draws 40] [--json]
+
+Kernel benchmark, in one process. Chooses --n of --points points by the paper's depth weights, in WASM and, where Cargo
+is there, natively; compares --draws draws with the exact distribution (p-value of a chi-square test).`;
+
+export const bench: Bench = {
+  name: 'sampler',
+  summary: 'kernel: time of the depth-weighted sampling, and whether its distribution is right',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        points: { type: 'string', default: '230400' },
+        n: { type: 'string', default: '30000' },
+        lambda: { type: 'string', default: '3' },
+        rounds: { type: 'string', default: '300' },
+        draws: { type: 'string', default: '40' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const points = numberOption('points', values.points, 1);
+    const count = numberOption('n', values.n, 1);
+    const lambda = numberOption('lambda', values.lambda);
+    const rounds = numberOption('rounds', values.rounds, 1);
+    const draws = numberOption('draws', values.draws, 1);
+
+    using encoder = new CloudEncoder(await loadCodecFromDisk(), points);
+    const cloud = hallCloud(points);
+    encoder.frameBits.set(new Uint32Array(cloud.frame.buffer));
+    const sample = (seed: number) => encoder.sample({ points, count, lambda, seed });
+
+    const wasm = rounded(distribution(timeCalls(sample, rounds)), 4);
+    const native = nativeTimes(points, count, rounds);
+
+    const { depths, indices } = validDepths(cloud);
+    const parameters = { lambda, epsilon: 1e-6, nearDistance: 3.85 };
+    let pValue: number | null = null;
+    if (count < depths.length) {
+      const positions = new Int32Array(points).fill(-1);
+      indices.forEach((index, position) => {
+        positions[index] = position;
+      });
+      const fit = new SamplingFit(depths, depthWeights(depths, parameters), count);
+      for (let seed = 0; seed < draws; seed++) {
+        sample(seed);
+        fit.add(encoder.chosen.map((index) => positions[index] as number));
+      }
+      pValue = fit.pValue();
+    }
+
+    console.log(`${count} of ${points} points, lambda ${lambda} (kernel: one process, no link)`);
+    const rows: (string | number)[][] = [['WASM', ...distributionCells(wasm)]];
+    if (native !== null) rows.push(['native', ...distributionCells(native)]);
+    printTable(['ms', 'p50', 'p95', 'p99', 'max'], rows);
+    if (native === null) console.log('native: not measured, Cargo is not there');
+    if (pValue === null) console.log('distribution: all points were kept, there was no draw');
+    else console.log(`distribution: p = ${pValue.toPrecision(3)} over ${draws} draws`);
+    if (values.json) {
+      printJson({
+        bench: 'sampler',
+        points,
+        n: count,
+        lambda,
+        msP50: wasm.p50,
+        nativeMsP50: native?.p50 ?? null,
+        pValue,
+        wasmMs: wasm,
+        nativeMs: native,
+      });
+    }
+  },
+};
+
+/** The same sampler compiled for this machine's processor; null where that cannot be done. */
+function nativeTimes(points: number, count: number, rounds: number): Distribution | null {
+  const workspace = join(import.meta.dirname, '../../wasm-codec');
+  const result = spawnSync(
+    'cargo',
+    ['bench', '-q', '--locked', '-p', 'farpoint-point-codec', '--bench', 'sampler', '--'].concat([
+      '--points',
+      `${points}`,
+      '--n',
+      `${count}`,
+      '--rounds',
+      `${rounds}`,
+    ]),
+    {
+      cwd: workspace,
+      encoding: 'utf8',
+      stdio: ['ignore', 'pipe', 'ignore'],
+      env: {
+        ...process.env,
+        RUSTFLAGS: '-Ctarget-cpu=native',
+        CARGO_TARGET_DIR: join(workspace, 'target', 'native'),
+      },
+    },
+  );
+  if (result.status !== 0) return null;
+  const line = result.stdout.trim().split('\n').at(-1) ?? '';
+  try {
+    const value: unknown = JSON.parse(line);
+    if (typeof value !== 'object' || value === null) return null;
+    const { p50, p95, p99, max } = value as Record<string, unknown>;
+    if (typeof p50 !== 'number' || typeof p95 !== 'number') return null;
+    if (typeof p99 !== 'number' || typeof max !== 'number') return null;
+    return { p50, p95, p99, max };
+  } catch {
+    return null;
+  }
+}
