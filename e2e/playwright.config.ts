@@ -1,0 +1,19 @@
+import { chromiumLaunchOptions } from '@farpoint/local-stack';
+import { defineConfig } from '@playwright/test';
+
+export default defineConfig({
+  testDir: 'tests',
+  outputDir: 'output',
+  // One stack and one software-rendered browser at a time: two would only slow each other down.
+  workers: 1,
+  retries: 0,
+  timeout: 120_000,
+  expect: { timeout: 30_000 },
+  forbidOnly: process.env.CI !== undefined,
+  reporter: [['list']],
+  use: {
+    launchOptions: chromiumLaunchOptions(),
+    viewport: { width: 960, height: 540 },
+    trace: 'retain-on-failure',
+  },
+});

@@ -1,0 +1,63 @@
+import { createRequire } from 'node:module';
+import type { Page } from '@playwright/test';
+
+const require = createRequire(import.meta.url);
+
+/** What the tests use of the emulated headset (iwer's XRDevice). */
+interface EmulatedDevice {
+  stereoEnabled: boolean;
+  position: { set(x: number, y: number, z: number): void };
+  controllers: Record<
+    'left' | 'right',
+    | {
+        updateAxes(id: string, x: number, y: number): void;
+        updateButtonValue(id: string, value: number): void;
+      }
+    | undefined
+  >;
+  installRuntime(options: { forceInstall: boolean }): void;
+}
+
+declare global {
+  interface Window {
+    IWER: { XRDevice: new (config: unknown) => EmulatedDevice; metaQuest3: unknown };
+    emulatedHeadset: EmulatedDevice;
+  }
+}
+
+export type Hand = 'left' | 'right';
+
+/** A Meta Quest 3 emulated in the page; put on before the page loads. */
+export class Headset {
+  readonly #page: Page;
+
+  private constructor(page: Page) {
+    this.#page = page;
+  }
+
+  static async wear(page: Page): Promise<Headset> {
+    await page.addInitScript({ path: require.resolve('iwer/build/iwer.min.js') });
+    await page.addInitScript(() => {
+      window.emulatedHeadset = new window.IWER.XRDevice(window.IWER.metaQuest3);
+      window.emulatedHeadset.stereoEnabled = true;
+      window.emulatedHeadset.installRuntime({ forceInstall: true });
+    });
+    return new Headset(page);
+  }
+
+  /** @param x right, @param y back (as WebXR has it: pushing forward is −1) */
+  async thumbstick(hand: Hand, x: number, y: number): Promise<void> {
+    await this.#page.evaluate(
+      ([hand, x, y]) => window.emulatedHeadset.controllers[hand]?.updateAxes('thumbstick', x, y),
+      [hand, x, y] as const,
+    );
+  }
+
+  /** @param value 0 released … 1 held */
+  async button(hand: Hand, id: string, value: number): Promise<void> {
+    await this.#page.evaluate(
+      ([hand, id, value]) => window.emulatedHeadset.controllers[hand]?.updateButtonValue(id, value),
+      [hand, id, value] as const,
+    );
+  }
+}

@@ -1,0 +1,45 @@
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
+import { LocalStack, repositoryRoot, type StackSpec } from '@farpoint/local-stack';
+import { test as base } from '@playwright/test';
+
+/** The built web app; `pnpm build` makes it. */
+export const webRoot = join(repositoryRoot, 'apps', 'webxr', 'dist');
+
+/** Recorded clouds that lie beside the repository on some machines; tests that use them skip where they are absent. */
+export const cloudsFolder = join(repositoryRoot, '..', 'shared', 'data', 'clouds');
+
+export interface StackFixtures {
+  /** Starts a stack of the real programs that lasts as long as the test. */
+  startStack: (spec?: Partial<StackSpec>) => Promise<LocalStack>;
+}
+
+export const simulatedRobot = {
+  id: 'sim-1',
+  name: 'Simulated robot 1',
+  args: ['--source', 'sim', '--seed', '1', '--max-points', '15000'],
+};
+
+export const test = base.extend<StackFixtures>({
+  startStack: async ({ browserName: _ }, use, testInfo) => {
+    if (!existsSync(join(webRoot, 'index.html'))) throw new Error('the web app is not built: run `pnpm build`');
+    const stacks: LocalStack[] = [];
+    const lines: string[] = [];
+    await use(async (spec = {}) => {
+      const stack = await LocalStack.start({
+        webRoot,
+        robots: [simulatedRobot],
+        onLine: (name, line) => lines.push(`${name} ${line}`),
+        ...spec,
+      });
+      stacks.push(stack);
+      return stack;
+    });
+    for (const stack of stacks) await stack.stop();
+    if (testInfo.status !== testInfo.expectedStatus) {
+      await testInfo.attach('programs.log', { body: lines.join('\n'), contentType: 'text/plain' });
+    }
+  },
+});
+
+export { expect } from '@playwright/test';
