@@ -54,7 +54,7 @@ export const DEFAULT_CAMERA: Readonly<Required<CameraOptions>> = {
   disparityStep: 1 / 32,
   near: 0.3,
   far: 15,
-  speckle: 0.015,
+  speckle: 0.025,
   colourNoise: 1,
 };
 

@@ -22,9 +22,9 @@ export const OFFICE_MATERIALS = {
   skirting: flat(0x5b6168),
   // Walls.
   wallWhite: flat(0xe8e4da, 0.1),
-  wallBlue: flat(0x9db9cf, 0.08),
-  wallGreen: flat(0xb4cdaa, 0.08),
-  wallSand: flat(0xe0c9a0, 0.08),
+  wallBlue: flat(0x9db9cf),
+  wallGreen: flat(0xb4cdaa),
+  wallSand: flat(0xe0c9a0),
   wallBrick: {
     texture: 'tile',
     colour: 0xb5654a,
@@ -62,7 +62,6 @@ export const OFFICE_MATERIALS = {
     width: 0.6,
     height: 0.6,
     joint: 0.02,
-    unmatched: 0.12,
   },
   lamp: { texture: 'flat', colour: 0xffffff, emission: 1, unmatched: 0.8 },
   // Furniture.

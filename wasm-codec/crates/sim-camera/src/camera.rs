@@ -24,7 +24,7 @@ impl Camera {
         let config = Config::read(config)?;
         let scene = Scene::read(scene)?;
         let identity = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
-        let count = scene.body_radius.len();
+        let count = scene.body_count;
         Ok(Self {
             raster: Raster::new(&config, &scene),
             frame: Frame::new(&config),

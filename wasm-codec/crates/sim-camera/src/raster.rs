@@ -13,17 +13,20 @@ pub const NOTHING: u32 = u32::MAX;
 /// Rows of a face that passes through the camera's plane are bounded where it comes this near (metres).
 const NEAR: f64 = 1e-3;
 
-/// One visible face in the camera's frame. A ray is `((x - cx)/fx, (y - cy)/fy, 1)`.
+/// An affine function of the pixel: `[0] · column + [1] · row + [2]`.
+pub type PixelAffine = [f32; 3];
+
+/// One visible face, as the shader needs it.
 #[derive(Debug, Clone, Copy)]
 pub struct Surface {
     pub material: usize,
-    /// Inverse depth is this, times the ray.
-    pub plane: [f32; 3],
+    /// Inverse depth, 1/m.
+    pub inverse_depth: PixelAffine,
     /// Distance of the camera from the face's plane, metres.
     pub distance: f32,
-    /// Texture coordinates: depth times (xyz times the ray), plus w.
-    pub u: [f32; 4],
-    pub v: [f32; 4],
+    /// Texture coordinates, metres: depth times the function, plus the constant.
+    pub u: (PixelAffine, f32),
+    pub v: (PixelAffine, f32),
     /// The face's normal in the world.
     pub normal: [f32; 3],
 }
@@ -78,23 +81,26 @@ impl Raster {
         let mut body = usize::MAX;
         let mut to_camera = world_to_camera;
         let mut eye = [0.0; 3];
-        let mut visible = false;
-        for face in &scene.faces {
-            if face.body != body {
-                body = face.body;
+        for group in &scene.groups {
+            if group.body != body {
+                body = group.body;
                 to_camera = world_to_camera.after(&bodies[body]);
                 eye = to_camera.inverse().translation;
-                visible = sphere_in_view(config, to_camera.translation, scene.body_radius[body]);
             }
-            let distance = dot(face.normal, eye) - face.offset;
-            // Behind the face, or so nearly in its plane that it covers no pixel.
-            if !visible || distance < 1e-5 {
+            if !sphere_in_view(config, to_camera.apply(group.centre), group.radius) {
                 continue;
             }
-            self.draw_face(config, face, distance, &to_camera, &bodies[body]);
+            for face in &scene.faces[group.faces.clone()] {
+                let distance = dot(face.normal, eye) - face.offset;
+                // Not behind the face, nor so nearly in its plane that it covers no pixel.
+                if distance > 1e-5 {
+                    self.draw_face(config, face, distance, &to_camera, &bodies[body]);
+                }
+            }
         }
     }
 
+    #[inline(never)]
     fn draw_face(&mut self, config: &Config, face: &Face, distance: f64, to_camera: &Pose, body: &Pose) {
         let mut corners = [[0.0; 3]; 4];
         let count = face.corner_count;
@@ -123,9 +129,9 @@ impl Raster {
             };
         }
 
-        let surface = surface_of(face, distance, to_camera, body);
+        let surface = surface_of(config, face, distance, to_camera, body);
         let id = self.surfaces.len() as u32;
-        let step = surface.plane[0] / config.fx as f32;
+        let [step, per_row, at_origin] = surface.inverse_depth;
         let mut seen = false;
         for row in first_row..end_row {
             let ray_y = (row as f64 - config.cy) / config.fy;
@@ -149,7 +155,7 @@ impl Raster {
                 continue;
             }
             seen = true;
-            let at_zero = surface.plane[1] * ray_y as f32 + surface.plane[2] - step * config.cx as f32;
+            let at_zero = per_row * row as f32 + at_origin;
             let start = row * self.width;
             self.fill_span(start, first, end, step, at_zero, id);
         }
@@ -159,7 +165,7 @@ impl Raster {
     }
 
     /// Writes pixels `first..end` of the row that begins at `start`, where the face is the nearest so far.
-    #[inline(always)]
+    #[inline(never)]
     fn fill_span(&mut self, start: usize, first: usize, end: usize, step: f32, at_zero: f32, id: u32) {
         // Four words past the end are part of the row's slice so that whole vectors can be moved.
         let depths = &mut self.inverse_depth[start..start + end + 4];
@@ -212,25 +218,31 @@ impl Raster {
     }
 }
 
-fn surface_of(face: &Face, distance: f64, to_camera: &Pose, body: &Pose) -> Surface {
-    let narrow = |v: [f64; 3]| v.map(|x| x as f32);
-    let affine = |f: &[f64; 4]| {
+/// A direction of the optical frame, times the ray through each pixel.
+pub fn along_rays(config: &Config, direction: [f64; 3]) -> PixelAffine {
+    let [x, y] = [direction[0] / config.fx, direction[1] / config.fy];
+    [x as f32, y as f32, (direction[2] - x * config.cx - y * config.cy) as f32]
+}
+
+fn surface_of(config: &Config, face: &Face, distance: f64, to_camera: &Pose, body: &Pose) -> Surface {
+    let texture = |f: &[f64; 4]| {
         let direction = to_camera.rotate([f[0], f[1], f[2]]);
-        let [x, y, z] = narrow(direction);
-        [x, y, z, (f[3] - dot(direction, to_camera.translation)) as f32]
+        let constant = f[3] - dot(direction, to_camera.translation);
+        (along_rays(config, direction), constant as f32)
     };
     // In the camera's frame the plane is normal·p = -distance, so 1/z = -(normal·ray)/distance.
+    let plane = to_camera.rotate(face.normal).map(|n| -n / distance);
     Surface {
         material: face.material,
-        plane: narrow(to_camera.rotate(face.normal).map(|n| -n / distance)),
+        inverse_depth: along_rays(config, plane),
         distance: distance as f32,
-        u: affine(&face.u),
-        v: affine(&face.v),
-        normal: narrow(body.rotate(face.normal)),
+        u: texture(&face.u),
+        v: texture(&face.v),
+        normal: body.rotate(face.normal).map(|n| n as f32),
     }
 }
 
-/// Whether a sphere may be in the camera's view; the static world (a huge sphere) always is.
+/// Whether a sphere may be in the camera's view.
 fn sphere_in_view(config: &Config, centre: [f64; 3], radius: f64) -> bool {
     if centre[2] < -radius {
         return false;

@@ -5,6 +5,7 @@
 //! 24 numbers a face (see `Material::read` and `Face::read`). Whole numbers are stored as floats.
 
 use core::fmt;
+use core::ops::Range;
 
 pub const VERSION: f32 = 1.0;
 pub const HEADER_LENGTH: usize = 5;
@@ -12,6 +13,8 @@ pub const MATERIAL_LENGTH: usize = 16;
 pub const FACE_LENGTH: usize = 24;
 /// Surfaces are numbered in 32-bit lanes, and the buffers of one frame must stay small.
 const MAX_FACES: usize = 1 << 17;
+/// Faces that are culled together: two boxes, which usually stand side by side.
+const GROUP_SIZE: usize = 12;
 
 /// Why a scene or a camera was refused.
 #[derive(Debug, Clone, PartialEq)]
@@ -166,13 +169,37 @@ impl Face {
     }
 }
 
+/// Neighbouring faces of one body and a sphere about them: culled together.
+#[derive(Debug)]
+pub struct Group {
+    pub body: usize,
+    pub faces: Range<usize>,
+    /// In the body's frame.
+    pub centre: [f64; 3],
+    pub radius: f64,
+}
+
+impl Group {
+    fn new(faces: &[Face], range: Range<usize>) -> Self {
+        let members = &faces[range.clone()];
+        let corners = || members.iter().flat_map(|face| &face.corners[..face.corner_count]);
+        let bound = |axis: usize, pick: fn(f64, f64) -> f64| {
+            corners().map(|corner| corner[axis]).reduce(pick).unwrap_or(0.0)
+        };
+        let centre = core::array::from_fn(|axis| (bound(axis, f64::min) + bound(axis, f64::max)) / 2.0);
+        let radius =
+            corners().map(|&corner| dot(sub(corner, centre), sub(corner, centre)).sqrt()).fold(0.0, f64::max);
+        Self { body: members[0].body, faces: range, centre, radius }
+    }
+}
+
 #[derive(Debug)]
 pub struct Scene {
     pub materials: Vec<Material>,
     /// Sorted by body.
     pub faces: Vec<Face>,
-    /// Radius of each body about its own origin, for culling.
-    pub body_radius: Vec<f64>,
+    pub groups: Vec<Group>,
+    pub body_count: usize,
     /// Distance between neighbouring ceiling lamps, along x and y.
     pub lamp_spacing: f32,
 }
@@ -214,14 +241,22 @@ impl Scene {
             .map(|(index, n)| Face::read(index, n, bodies, materials))
             .collect::<Result<_, _>>()?;
         face_list.sort_by_key(|face| face.body);
-        let mut body_radius = vec![0.0f64; bodies];
-        for face in &face_list {
-            for corner in &face.corners[..face.corner_count] {
-                let radius = dot(*corner, *corner).sqrt();
-                body_radius[face.body] = body_radius[face.body].max(radius);
+        let mut groups = Vec::new();
+        let mut first = 0;
+        for body in face_list.chunk_by(|a, b| a.body == b.body) {
+            for start in (0..body.len()).step_by(GROUP_SIZE) {
+                let end = (start + GROUP_SIZE).min(body.len());
+                groups.push(Group::new(&face_list, first + start..first + end));
             }
+            first += body.len();
         }
-        Ok(Self { materials: material_list, faces: face_list, body_radius, lamp_spacing: numbers[4] })
+        Ok(Self {
+            materials: material_list,
+            faces: face_list,
+            groups,
+            body_count: bodies,
+            lamp_spacing: numbers[4],
+        })
     }
 }
 

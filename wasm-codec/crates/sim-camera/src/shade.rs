@@ -5,9 +5,9 @@
 
 use crate::config::Config;
 use crate::pose::Pose;
-use crate::raster::{NOTHING, Raster, Surface};
+use crate::raster::{NOTHING, PixelAffine, Raster, Surface, along_rays};
 use crate::scene::{Material, Scene, TextureKind};
-use crate::simd::{F32x4, I32x4, hash, hash_cell, ramp, unit};
+use crate::simd::{F32x4, I32x4, biased_bits, byte_bits, hash, hash_cell, ramp, unit};
 
 type Colour = [F32x4; 3];
 
@@ -35,6 +35,7 @@ pub fn shade(config: &Config, scene: &Scene, camera: &Pose, raster: &Raster, col
     for row in 0..raster.height {
         let start = row * width;
         let ids = &raster.index[start..start + width];
+        let line = Line::new(&view, row);
         let mut x = 0;
         while x < width {
             let id = ids[x];
@@ -46,8 +47,11 @@ pub fn shade(config: &Config, scene: &Scene, camera: &Pose, raster: &Raster, col
                 colour[start + x..start + end].fill(0);
             } else {
                 let surface = &raster.surfaces[id as usize];
-                let run = Run { row, first: x, end, start };
-                shade_run(&view, surface, &scene.materials[surface.material], raster, run, colour);
+                let material = &scene.materials[surface.material];
+                let run = Run { row: row as f32, first: x, end, focal: view.focal };
+                let depths = &raster.inverse_depth[start..start + end + 4];
+                let colour = &mut colour[start..start + end + 4];
+                shade_run(&line, surface, material, run, depths, colour);
             }
             x = end;
         }
@@ -55,46 +59,82 @@ pub fn shade(config: &Config, scene: &Scene, camera: &Pose, raster: &Raster, col
 }
 
 struct View {
-    fx: f32,
-    cx: f32,
-    fy: f32,
-    cy: f32,
-    /// Rows of the camera's rotation into the world, each with the camera's position.
-    world: [[f32; 4]; 3],
-    lamp: f32,
+    focal: f32,
+    /// World x and y in units of the lamps' spacing, and minus four times the height plus one.
+    lamp_x: (PixelAffine, f32),
+    lamp_y: (PixelAffine, f32),
+    low: (PixelAffine, f32),
 }
 
 impl View {
     fn new(config: &Config, scene: &Scene, camera: &Pose) -> Self {
-        let r = &camera.rotation;
+        let world = |axis: usize, scale: f64, offset: f64| {
+            let direction = camera.rotation[axis].map(|r| r * scale);
+            (along_rays(config, direction), (camera.translation[axis] * scale + offset) as f32)
+        };
+        let lamp = 1.0 / f64::from(scene.lamp_spacing);
         Self {
-            fx: config.fx as f32,
-            cx: config.cx as f32,
-            fy: config.fy as f32,
-            cy: config.cy as f32,
-            world: core::array::from_fn(|i| {
-                [r[i][0] as f32, r[i][1] as f32, r[i][2] as f32, camera.translation[i] as f32]
-            }),
-            lamp: 1.0 / scene.lamp_spacing,
+            focal: config.fx as f32,
+            lamp_x: world(0, lamp, 0.0),
+            lamp_y: world(1, lamp, 0.0),
+            low: world(2, -4.0, 1.0),
         }
     }
 }
 
-/// Pixels `first..end` of a row that show one face; the row begins at `start` in the buffers.
+/// A quantity along a row: depth times an affine function of the column, plus a constant.
+#[derive(Clone, Copy)]
+struct Along {
+    step: F32x4,
+    start: F32x4,
+    constant: F32x4,
+}
+
+impl Along {
+    #[inline(always)]
+    fn new((function, constant): (PixelAffine, f32), row: f32) -> Self {
+        Self {
+            step: F32x4::splat(function[0]),
+            start: F32x4::splat(function[1] * row + function[2]),
+            constant: F32x4::splat(constant),
+        }
+    }
+
+    #[inline(always)]
+    fn at(self, column: F32x4, depth: F32x4) -> F32x4 {
+        (self.step * column + self.start) * depth + self.constant
+    }
+}
+
+/// What the lamps do along one row.
+struct Line {
+    lamp_x: Along,
+    lamp_y: Along,
+    low: Along,
+}
+
+impl Line {
+    fn new(view: &View, row: usize) -> Self {
+        let along = |f| Along::new(f, row as f32);
+        Self { lamp_x: along(view.lamp_x), lamp_y: along(view.lamp_y), low: along(view.low) }
+    }
+}
+
+/// Columns `first..end` of a row that show one face.
 #[derive(Clone, Copy)]
 struct Run {
-    row: usize,
+    row: f32,
     first: usize,
     end: usize,
-    start: usize,
+    focal: f32,
 }
 
 fn shade_run(
-    view: &View,
+    line: &Line,
     surface: &Surface,
     material: &Material,
-    raster: &Raster,
     run: Run,
+    depths: &[f32],
     colour: &mut [u32],
 ) {
     let first = material.first.map(F32x4::splat);
@@ -104,7 +144,7 @@ fn shade_run(
     // One loop for each texture, so that the choice costs a jump a run and not a jump a pixel.
     macro_rules! with {
         ($texture:expr) => {
-            fill(view, surface, material, raster, run, colour, $texture)
+            fill(line, surface, material, run, depths, colour, $texture)
         };
     }
     match material.kind {
@@ -121,88 +161,85 @@ fn shade_run(
     }
 }
 
-#[inline(always)]
+#[inline(never)]
 fn fill(
-    view: &View,
+    line: &Line,
     surface: &Surface,
     material: &Material,
-    raster: &Raster,
     run: Run,
+    depths: &[f32],
     colour: &mut [u32],
     texture: impl Fn(Sample) -> Colour,
 ) {
     let splat = F32x4::splat;
     let one = splat(1.0);
     let zero = splat(0.0);
-    let ray_y = (run.row as f32 - view.cy) / view.fy;
-    // Each is an affine function of the pixel, times depth: precompute its value at x = 0 and its step.
-    let along_row = |f: [f32; 4]| {
-        let step = f[0] / view.fx;
-        (splat(step), splat(f[1] * ray_y + f[2] - step * view.cx), splat(f[3]))
-    };
-    let u = along_row(surface.u);
-    let v = along_row(surface.v);
-    let world = view.world.map(along_row);
-    let at = |f: (F32x4, F32x4, F32x4), x: F32x4, depth: F32x4| (f.0 * x + f.1) * depth + f.2;
+    let u = Along::new(surface.u, run.row);
+    let v = Along::new(surface.v, run.row);
 
     let n = surface.normal;
-    // Two soft lights from above and the walls' own reflections: neighbouring faces differ in brightness.
-    let facing = 0.70 + 0.18 * n[2] + 0.10 * n[0] - 0.07 * n[1] + 0.05 * (n[0] * n[0]);
+    // Soft light from above and from the walls: neighbouring faces differ in brightness.
+    let facing = 0.72 + 0.16 * n[2].max(0.0) - 0.04 * n[2].min(0.0) + 0.08 * n[0] - 0.06 * n[1];
     let lit = 1.0 - material.emission;
-    let brightness = splat(facing * lit + material.emission);
+    let brightness = splat((facing * lit + material.emission) * 255.0);
+    // Lamps hang in a grid; between them it is darker. Upright faces darken towards the floor.
     let pool = splat(0.75 * lit);
-    // Upright faces darken towards the floor.
     let contact = splat(0.35 * (1.0 - n[2].abs()) * lit);
-    let lamp = splat(view.lamp);
-    let grazing = splat(surface.distance * 9.0);
-    let sharpness = splat(surface.distance * view.fx);
+    // A view along the surface leaves the matcher little to compare.
+    let failure_limit = splat(0.6 * 255.0);
+    let grazing = splat(-0.6 * 255.0 * 9.0 * surface.distance);
+    let sharpness = splat(surface.distance * run.focal);
     let unmatched = material.unmatched;
 
     let mut x = run.first;
     while x < run.end {
-        let pixel = run.start + x;
         // Past the run's end lies another face's depth, but the run that owns it writes later.
-        let inverse = F32x4::load(&raster.inverse_depth[pixel..]).max(splat(1e-3));
+        let inverse = F32x4::load(&depths[x..]).max(splat(1e-3));
         let depth = one / inverse;
         let column = ramp(x as f32);
         let sample = Sample {
-            u: at(u, column, depth),
-            v: at(v, column, depth),
+            u: u.at(column, depth),
+            v: v.at(column, depth),
             sharpness: sharpness * inverse * inverse,
         };
         let base = texture(sample);
 
-        let lamp_x = at(world[0], column, depth) * lamp;
-        let lamp_y = at(world[1], column, depth) * lamp;
+        let lamp_x = line.lamp_x.at(column, depth);
+        let lamp_y = line.lamp_y.at(column, depth);
         let lamp_x = lamp_x - lamp_x.nearest();
         let lamp_y = lamp_y - lamp_y.nearest();
-        let low = (one - at(world[2], column, depth) * splat(4.0)).max(zero);
+        let low = line.low.at(column, depth).max(zero);
         let light =
             brightness * (one - pool * (lamp_x * lamp_x + lamp_y * lamp_y)) * (one - contact * low * low);
-        let level = |c: F32x4| ((c * light).max(zero).min(one) * splat(255.0)).nearest().to_i32();
 
-        // A view along the surface leaves the matcher little to compare.
-        let mut failure = (one - grazing * inverse).max(zero) * splat(0.6);
+        let mut failure = (failure_limit + grazing * inverse).max(zero);
         if unmatched > 0.0 {
             failure = failure + patches(sample, unmatched, material.seed);
         }
-        let failure = (failure.min(one) * splat(255.0)).to_i32();
-        let word =
-            level(base[0]) | level(base[1]).shl::<8>() | level(base[2]).shl::<16>() | failure.shl::<24>();
-        word.store(&mut colour[pixel..]);
+        let word = (byte_bits(base[0] * light) & I32x4::splat(255))
+            | byte_bits(base[1] * light).shl::<8>()
+            | byte_bits(base[2] * light).shl::<16>()
+            | byte_bits(failure).shl::<24>();
+        word.store(&mut colour[x..]);
         x += 4;
     }
 }
 
-/// Patches of a surface, fixed to it, on which matching mostly fails; they cover a share of it.
+/// Patches of a surface, fixed to it, on which matching mostly fails (0 to 255); they cover a share of it.
 #[inline(always)]
 fn patches(s: Sample, share: f32, seed: i32) -> F32x4 {
-    let cell = |size: f32, salt: i32| {
-        let scale = F32x4::splat(1.0 / size);
-        unit(hash_cell((s.u * scale).floor().to_i32(), (s.v * scale).floor().to_i32(), seed ^ salt))
-    };
-    let mix = cell(0.22, 0x51) * F32x4::splat(0.7) + cell(0.05, 0x52) * F32x4::splat(0.3);
-    ((mix - F32x4::splat(1.0 - share)) * F32x4::splat(8.0)).max(F32x4::splat(0.0)).min(F32x4::splat(0.95))
+    let half = F32x4::splat(0.5);
+    let (i, _) = cell(s.u, 0.035);
+    let (j, _) = cell(s.v, 0.035);
+    let fine = unit(hash_cell(i, j, seed ^ 0x52));
+    // The fine cells fray the edges of the coarse ones.
+    let fray = (fine - half) * F32x4::splat(0.14);
+    let (i, _) = cell(s.u + fray, 0.2);
+    let (j, _) = cell(s.v - fray, 0.2);
+    let coarse = unit(hash_cell(i, j, seed ^ 0x51));
+    let mix = coarse * F32x4::splat(0.8) + fine * F32x4::splat(0.2);
+    let failure = (mix - F32x4::splat(1.0 - share)) * F32x4::splat(8.0 * 255.0);
+    failure.max(F32x4::splat(0.0)).min(F32x4::splat(0.95 * 255.0))
 }
 
 #[inline(always)]
@@ -216,12 +253,12 @@ fn flag(mask: I32x4) -> F32x4 {
     F32x4::splat(1.0).select(F32x4::splat(0.0), mask)
 }
 
-/// Cell index and the position within the cell, 0 to 1.
+/// Cell index, less a constant, and the position within the cell, 0 to 1.
 #[inline(always)]
 fn cell(value: F32x4, size: f32) -> (I32x4, F32x4) {
     let scaled = value * F32x4::splat(1.0 / size);
     let whole = scaled.floor();
-    (whole.to_i32(), scaled - whole)
+    (biased_bits(whole), scaled - whole)
 }
 
 #[inline(always)]
@@ -236,7 +273,7 @@ fn checker(s: Sample, first: Colour, second: Colour, p: [f32; 4]) -> Colour {
 #[inline(always)]
 fn tile(s: Sample, first: Colour, second: Colour, p: [f32; 4], seed: i32) -> Colour {
     let (row, in_v) = cell(s.v, p[1]);
-    let shift = row.to_f32() * F32x4::splat(p[0] * p[3]);
+    let shift = (s.v - in_v * F32x4::splat(p[1])) * F32x4::splat(p[3] * p[0] / p[1]);
     let (column, in_u) = cell(s.u + shift, p[0]);
     let one = F32x4::splat(1.0);
     let tint = (unit(hash_cell(column, row, seed)) - F32x4::splat(0.5)) * F32x4::splat(0.16);

@@ -7,10 +7,13 @@
 
 use crate::config::Config;
 use crate::raster::Raster;
-use crate::simd::{F32x4, I32x4, hash, hash_one, ramp, store_interleaved, unit};
+use crate::simd::{F32x4, I32x4, hash, hash_one, ramp, store_interleaved};
 
 /// Quiet NaN with no payload, so that invalid points are the same bits everywhere.
 const NAN: i32 = 0x7fc0_0000;
+/// Odd multipliers that spread pixel and block numbers over 32 bits before they are hashed.
+const PIXEL_SPREAD: i32 = 0x2c1b_3c6d;
+const BLOCK_SPREAD: i32 = 0x1656_67b1;
 
 /// The camera's three pictures, row by row.
 pub struct Frame {
@@ -35,13 +38,14 @@ impl Frame {
 }
 
 /// Measures the drawn scene as the camera would; `frame_number` selects the noise.
+#[inline(never)]
 pub fn measure(config: &Config, raster: &Raster, frame_number: u32, frame: &mut Frame, occluded: &mut [u32]) {
     let splat = F32x4::splat;
     let width = raster.width;
     let last_row = raster.height - 1;
     let focal_baseline = config.fx as f32 * config.baseline;
     let salt = hash_one(config.seed ^ hash_one(frame_number ^ 0x9e37_79b9)) as i32;
-    let (zero, one) = (splat(0.0), splat(1.0));
+    let one = splat(1.0);
     // A sum of four bytes has mean 510 and variance 4·(256² − 1)/12: scaled to standard deviation 1.
     let noise_scale = splat(config.noise / 147.8);
     let (quantum, quanta) = if config.disparity_step > 0.0 {
@@ -50,7 +54,8 @@ pub fn measure(config: &Config, raster: &Raster, frame_number: u32, frame: &mut 
         (0.0, 0.0)
     };
     let (nearest, farthest) = (splat(1.0 / config.near), splat(1.0 / config.far));
-    let speckle = splat(config.speckle);
+    let speckle = I32x4::splat((config.speckle * 16_777_216.0) as i32);
+    let edge_failure = I32x4::splat(140);
     let colour_more = I32x4::splat(config.colour_noise as i32 * 0x0001_0101);
     let colour_less = I32x4::splat(config.colour_noise.div_ceil(2) as i32 * 0x0001_0101);
     let rays = Rays::new(config);
@@ -62,13 +67,17 @@ pub fn measure(config: &Config, raster: &Raster, frame_number: u32, frame: &mut 
         let below = &raster.inverse_depth[(row + 2).min(last_row) * width..][..width];
         hidden_from_right(depths, focal_baseline, occluded);
         let ray_y = rays.y(row);
+        let mut spread_pixel =
+            (I32x4::splat(start as i32) + I32x4::new(0, 1, 2, 3)) * I32x4::splat(PIXEL_SPREAD);
+        let row_of_blocks = hash_one((row >> 1) as u32 ^ !salt as u32) as i32;
+        let mut spread_block = I32x4::splat(row_of_blocks) + I32x4::new(0, 0, BLOCK_SPREAD, BLOCK_SPREAD);
 
         let mut x = 0;
         while x < width {
             let pixel = start + x;
             let inverse = F32x4::load(&depths[x..]);
-            let pixels = I32x4::splat(pixel as i32) + I32x4::new(0, 1, 2, 3);
-            let random = hash((pixels * I32x4::splat(0x2c1b_3c6d)) ^ I32x4::splat(salt));
+            let random = hash(spread_pixel ^ I32x4::splat(salt));
+            spread_pixel = spread_pixel + I32x4::splat(4i32.wrapping_mul(PIXEL_SPREAD));
 
             let halves =
                 (random & I32x4::splat(0x00ff_00ff)) + (random.shr::<8>() & I32x4::splat(0x00ff_00ff));
@@ -88,23 +97,23 @@ pub fn measure(config: &Config, raster: &Raster, frame_number: u32, frame: &mut 
             let bend = if x == 0 || x + 4 >= width { bend_y } else { bend_x.max(bend_y) };
             let edge = bend.gt(splat(0.012) + inverse * splat(0.06));
 
-            let random = hash(random ^ I32x4::splat(0x68bc_21eb));
-            let chance = unit(random);
-            let color = I32x4::load(&frame.colour[pixel..]);
-            let failure = color.shr::<24>().to_f32() * splat(1.0 / 255.0);
-            let failure = failure.max(splat(0.55).select(zero, edge));
+            let random = (random ^ random.shr::<15>()) * I32x4::splat(0x2c1b_3c6d);
+            let colour = I32x4::load(&frame.colour[pixel..]);
+            let failure = colour.shr::<24>();
+            let failure = edge_failure.select(failure, edge & failure.lt(edge_failure));
             // Speckle falls on blocks of 2 × 2: wrong matches are rarely alone.
-            let block = pixels.shr::<1>() + I32x4::splat((row >> 1) as i32 * 0x3779 - (start >> 1) as i32);
-            let blotch = unit(hash((block * I32x4::splat(0x1656_67b1)) ^ I32x4::splat(!salt)));
+            let blotch = (spread_block ^ spread_block.shr::<16>()) * I32x4::splat(0x7feb_352d);
+            let blotch = blotch ^ blotch.shr::<15>();
+            spread_block = spread_block + I32x4::splat(2i32.wrapping_mul(BLOCK_SPREAD));
 
-            let invalid = chance.lt(failure)
-                | blotch.lt(speckle)
+            let invalid = random.shr::<24>().lt(failure)
+                | blotch.shr::<8>().lt(speckle)
                 | measured.lt(farthest)
                 | measured.gt(nearest)
                 | I32x4::load(&occluded[x..]);
 
             let dither = (random & colour_more, colour_less);
-            let rgba = color.dither_bytes(dither.0, dither.1) | I32x4::splat(0xff00_0000_u32 as i32);
+            let rgba = colour.dither_bytes(dither.0, dither.1) | I32x4::splat(0xff00_0000_u32 as i32);
             rgba.store(&mut frame.colour[pixel..pixel + 4]);
 
             let depth = one / measured;
@@ -119,6 +128,7 @@ pub fn measure(config: &Config, raster: &Raster, frame_number: u32, frame: &mut 
 }
 
 /// The scene as it is: no noise, no holes but where there is nothing at all.
+#[inline(never)]
 pub fn ground_truth(config: &Config, raster: &Raster, frame: &mut Frame) {
     let rays = Rays::new(config);
     let one = F32x4::splat(1.0);
@@ -143,6 +153,7 @@ pub fn ground_truth(config: &Config, raster: &Raster, frame: &mut Frame) {
 ///
 /// A pixel at column x lands at x − disparity in the right picture. Walking from the right, a pixel is hidden
 /// when one to its right lands at or left of it: that one is nearer and covers it.
+#[inline(never)]
 fn hidden_from_right(inverse_depth: &[f32], focal_baseline: f32, occluded: &mut [u32]) {
     let width = inverse_depth.len();
     let scale = F32x4::splat(focal_baseline);
