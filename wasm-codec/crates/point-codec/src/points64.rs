@@ -4,6 +4,9 @@
 //! frame's blocks lie in *slots*: one every `stride` bytes, each beginning `data_offset` bytes into its slot, which leaves
 //! room for a packet's header and trailer. The last block may be partial; it is packed by its own n.
 
+use bytemuck::must_cast;
+use wide::{f32x4, i32x4};
+
 use crate::Point;
 
 /// The points of a full packet.
@@ -97,21 +100,55 @@ pub fn pack(
     let mut saturated = 0;
     for (chosen, slot) in chosen.chunks(POINTS_PER_PACKET).zip(used.chunks_exact_mut(layout.stride)) {
         let block = &mut slot[layout.data_offset..][..chosen.len() * BYTES_PER_POINT];
-        let (coordinates, colours) = block.split_at_mut(chosen.len() * 6);
-        let coordinates = coordinates.as_chunks_mut::<6>().0;
-        let colours = colours.as_chunks_mut::<2>().0;
-        for ((index, coordinates), colour) in chosen.iter().zip(coordinates).zip(colours) {
-            let [x, y, z, rgba] = frame[*index as usize];
-            saturated += usize::from(saturates(x) | saturates(y) | saturates(z));
-            let [x0, x1] = quantise(x).to_le_bytes();
-            let [y0, y1] = quantise(y).to_le_bytes();
-            let [z0, z1] = quantise(z).to_le_bytes();
-            *coordinates = [x0, x1, y0, y1, z0, z1];
-            let bits = if latency_test { LATENCY_TEST_COLOUR } else { colour_664(rgba.to_bits()) };
-            *colour = bits.to_le_bytes();
-        }
+        saturated += pack_block(frame, chosen, latency_test, block);
     }
     Packed { packets, points: chosen.len(), saturated }
+}
+
+fn pack_block(frame: &[Point], chosen: &[u32], latency_test: bool, block: &mut [u8]) -> usize {
+    let mut saturated = 0;
+    for (i, index) in chosen.iter().enumerate() {
+        let point = frame[*index as usize];
+        let coordinates = quantise_vector(point).unwrap_or_else(|| {
+            let [x, y, z, _] = point;
+            saturated += usize::from(saturates(x) | saturates(y) | saturates(z));
+            let bits = |c: f32| u64::from(quantise(c) as u16);
+            bits(x) | bits(y) << 16 | bits(z) << 32
+        });
+        // Eight bytes where six belong: what follows is written later.
+        block[i * 6..i * 6 + 8].copy_from_slice(&coordinates.to_le_bytes());
+    }
+    let (_, colours) = block.split_at_mut(chosen.len() * 6);
+    for (index, colour) in chosen.iter().zip(colours.as_chunks_mut::<2>().0) {
+        let rgba = frame[*index as usize][3].to_bits();
+        *colour = if latency_test { LATENCY_TEST_COLOUR } else { colour_664(rgba) }.to_le_bytes();
+    }
+    saturated
+}
+
+/// x, y and z as [`quantise`] gives them, in the lower 48 bits; `None` where single precision cannot tell.
+#[inline(always)]
+fn quantise_vector(point: Point) -> Option<u64> {
+    // Products and sums up to 32767.5 are off by at most 2⁻⁹ together: nearer than that to a whole number, the lower one
+    // and the upper one are both possible.
+    const DOUBT: f32 = 1.0 / 256.0;
+    // The colour is no number to calculate with.
+    let metres: i32x4 = must_cast::<Point, i32x4>(point) & i32x4::new([-1, -1, -1, 0]);
+    let mm = must_cast::<i32x4, f32x4>(metres).abs() * f32x4::splat(1000.0);
+    let shifted = mm + f32x4::splat(0.5);
+    let whole = shifted.floor();
+    let rest = shifted - whole;
+    let sure = rest.simd_ge(f32x4::splat(DOUBT))
+        & rest.simd_le(f32x4::splat(1.0 - DOUBT))
+        & mm.simd_le(f32x4::splat(32767.0));
+    if sure.to_bitmask() & 0b111 != 0b111 {
+        return None;
+    }
+    // In 2²³ + n the lower bits of the mantissa are n.
+    let magnitude = must_cast::<f32x4, i32x4>(whole + f32x4::splat(8_388_608.0)) & i32x4::splat(0x7fff);
+    let sign: i32x4 = metres >> 31;
+    let [x, y, z, _] = ((magnitude ^ sign) - sign).to_array();
+    Some(u64::from(x as u16) | u64::from(y as u16) << 16 | u64::from(z as u16) << 32)
 }
 
 /// Writes one block of points as x, y, z and colour bits, four 16-bit numbers a point: the renderer's vertex layout.
@@ -163,4 +200,111 @@ pub fn unpack(
         total += count;
     }
     Ok(total)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const LAYOUT: SlotLayout = SlotLayout::new(1248, 16).unwrap();
+
+    /// Coordinates of all sizes, many of them on or next to half a millimetre.
+    fn coordinate() -> impl Strategy<Value = f32> {
+        prop_oneof![
+            -40.0_f32..40.0,
+            any::<f32>(),
+            (-65_540_i32..65_540, -2_i32..3).prop_map(|(half, ulps)| {
+                let metres = half as f32 / 2000.0;
+                f32::from_bits(metres.to_bits().saturating_add_signed(ulps))
+            }),
+        ]
+    }
+
+    #[test]
+    fn rounds_half_away_from_zero_and_saturates() {
+        let cases = [
+            (0.0, 0),
+            (-0.0, 0),
+            (0.0005, 1),
+            (-0.0005, -1),
+            (0.000_499, 0),
+            (1.2345, 1235),
+            (32.767, 32767),
+            (32.768, 32767),
+            (-32.768, -32767),
+            (1e30, 32767),
+            (f32::NEG_INFINITY, -32767),
+        ];
+        for (metres, mm) in cases {
+            assert_eq!(quantise(metres), mm, "{metres}");
+        }
+    }
+
+    #[test]
+    fn colours_keep_their_upper_bits() {
+        assert_eq!(colour_664(0x0000_00ff), 0xfc00);
+        assert_eq!(colour_664(0x0000_ff00), LATENCY_TEST_COLOUR);
+        assert_eq!(colour_664(0x00ff_0000), 0x000f);
+        assert_eq!(colour_664(0xff03_0303), 0);
+        assert_eq!(colour_664(0xff10_0404), 0b000001_000001_0001);
+    }
+
+    #[test]
+    fn a_layout_holds_a_full_block() {
+        assert!(SlotLayout::new(1216, 16).is_some());
+        assert!(SlotLayout::new(1215, 16).is_none());
+        assert!(SlotLayout::new(usize::MAX, usize::MAX).is_none());
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn vectors_quantise_as_single_numbers_do(x in coordinate(), y in coordinate(), z in coordinate(), rgba: u32) {
+            if let Some(bits) = quantise_vector([x, y, z, f32::from_bits(rgba)]) {
+                prop_assert!(!saturates(x) && !saturates(y) && !saturates(z));
+                let got = [bits as u16 as i16, (bits >> 16) as u16 as i16, (bits >> 32) as u16 as i16];
+                prop_assert_eq!(got, [quantise(x), quantise(y), quantise(z)]);
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn unpacking_gives_back_what_was_packed(
+            points in prop::collection::vec((coordinate(), coordinate(), coordinate(), any::<u32>()), 0..400),
+            latency_test: bool,
+        ) {
+            let frame: Vec<Point> = points.iter().map(|(x, y, z, c)| [*x, *y, *z, f32::from_bits(*c)]).collect();
+            let chosen: Vec<u32> = (0..frame.len() as u32).filter(|i| i % 3 != 1).collect();
+            let packets = chosen.len().div_ceil(POINTS_PER_PACKET);
+            let mut slots = vec![0xaa; packets * LAYOUT.stride()];
+            let packed = pack(&frame, &chosen, LAYOUT, latency_test, &mut slots);
+            prop_assert_eq!((packed.packets, packed.points), (packets, chosen.len()));
+            let beyond = |i: &&u32| frame[**i as usize][..3].iter().any(|c| saturates(*c));
+            prop_assert_eq!(packed.saturated, chosen.iter().filter(beyond).count());
+
+            let counts: Vec<u16> = chosen.chunks(POINTS_PER_PACKET).map(|chunk| chunk.len() as u16).collect();
+            let mut unpacked = vec![0; chosen.len()];
+            prop_assert_eq!(unpack(&slots, LAYOUT, &counts, &mut unpacked), Ok(chosen.len()));
+            for (index, bits) in chosen.iter().zip(unpacked) {
+                let [x, y, z, colour] = frame[*index as usize];
+                let colour = if latency_test { LATENCY_TEST_COLOUR } else { colour_664(colour.to_bits()) };
+                let expected = [quantise(x) as u16, quantise(y) as u16, quantise(z) as u16, colour];
+                prop_assert_eq!([bits as u16, (bits >> 16) as u16, (bits >> 32) as u16, (bits >> 48) as u16], expected);
+            }
+        }
+
+        #[test]
+        fn counts_from_outside_are_checked(counts in prop::collection::vec(0_u16..200, 0..4)) {
+            let slots = vec![0; counts.len() * LAYOUT.stride()];
+            let mut points = vec![0; counts.len() * POINTS_PER_PACKET];
+            let result = unpack(&slots, LAYOUT, &counts, &mut points);
+            match counts.iter().position(|count| usize::from(*count) > POINTS_PER_PACKET) {
+                Some(slot) => prop_assert_eq!(result, Err(InvalidCount { slot })),
+                None => prop_assert_eq!(result, Ok(counts.iter().map(|count| usize::from(*count)).sum())),
+            }
+        }
+    }
 }
