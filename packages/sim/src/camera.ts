@@ -1,4 +1,3 @@
-import { readFile } from 'node:fs/promises';
 import type { Pose } from '@farpoint/protocol';
 import { initSync, DepthCamera as Rasteriser } from '../wasm/farpoint_sim_camera.js';
 import { requireFinite, SimulationError } from './errors.ts';
@@ -83,13 +82,19 @@ let loading: Promise<WasmMemory> | undefined;
 /** Starts the WASM module once; `source` is needed only where the file beside this one cannot be read. */
 function loadRasteriser(source?: WasmSource): Promise<WasmMemory> {
   loading ??= (async () => {
-    const bytes = source ?? (await readFile(new URL('../wasm/farpoint_sim_camera_bg.wasm', import.meta.url)));
+    const bytes = source ?? (await readModule());
     return initSync({ module: bytes }).memory as WasmMemory;
   })().catch((error: unknown) => {
     loading = undefined;
     throw error;
   });
   return loading;
+}
+
+/** Imports Node's file system only here: a browser passes the bytes. */
+async function readModule(): Promise<WasmSource> {
+  const { readFile } = await import('node:fs/promises');
+  return readFile(new URL('../wasm/farpoint_sim_camera_bg.wasm', import.meta.url));
 }
 
 /** The simulated camera: poses in, images out. */

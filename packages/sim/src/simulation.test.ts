@@ -339,7 +339,7 @@ describe('motion', () => {
 
 /** After 20, 40 and 60 steps of the drive with seed 7. */
 const GOLDEN = [
-  'dfce7e668b3eb1fe9eff0401d009a4c5',
-  '3c7df3298a5287ad73f5e55843a99dcf',
-  '36be6030936e124cc31d21ff21ac2ab1',
+  '14c388dd6c3bfa340f6b88ef10387fb8',
+  'ede7a446ecca228b514bad2db48c93ff',
+  '331256fc65ff505c889f2463ef902673',
 ];

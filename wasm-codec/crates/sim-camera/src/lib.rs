@@ -11,6 +11,7 @@ mod scene;
 mod shade;
 mod simd;
 mod stereo;
+mod texture;
 
 use camera::Camera;
 
