@@ -1,0 +1,150 @@
+/** `pnpm bench sampling`: how many points survive the sampling at which distance (the paper's figures 4 and 5). */
+import { writeFile } from 'node:fs/promises';
+import { basename } from 'node:path';
+import { parseArgs } from 'node:util';
+import { CloudEncoder, maxPoints } from '@farpoint/wasm-codec';
+import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { type Panel, renderChart, type Series } from './plot/chart.ts';
+import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { pcdCloud, simulatedCloud } from './sampling-clouds.ts';
+
+const USAGE = `pnpm bench sampling [--cloud FILE.pcd] [--fps 10] [--near 3.85] [--plot FILE.svg] [--json]
+
+Samples one cloud (the simulated camera's, or a PCD file's) at several bandwidths and values of lambda, and counts the
+points that are kept at each distance: with all points nearer than --near metres weighing the same (the paper's D), and
+with no such zone. Without --plot it prints the mean depth only.`;
+
+const LAMBDAS = [0, 3, 7, 9];
+const MEGABITS = [10, 25, 50];
+const BINS = 48;
+
+interface Curve {
+  nearDistance: number;
+  lambda: number;
+  mbps: number;
+  kept: number;
+  /** Points in each bin of depth. */
+  counts: number[];
+  meanDepth: number;
+}
+
+export const bench: Bench = {
+  name: 'sampling',
+  summary: 'kept points over distance for several bandwidths and lambdas, as a plot',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        cloud: { type: 'string' },
+        fps: { type: 'string', default: '10' },
+        near: { type: 'string', default: '3.85' },
+        plot: { type: 'string' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const framesPerSecond = numberOption('fps', values.fps, 0.1);
+    const nearDistances = [...new Set([numberOption('near', values.near), 0])];
+    const cloud = values.cloud === undefined ? await simulatedCloud() : await pcdCloud(values.cloud);
+    const { points } = cloud;
+
+    using encoder = new CloudEncoder(await loadCodecFromDisk(), points);
+    encoder.frameBits.set(new Uint32Array(cloud.frame.buffer, 0, points * 4));
+    const raw = encoder.sample({ points, count: points, seed: 0 });
+    const edge = raw.maxDepth / BINS;
+    const histogram = () => {
+      const counts = new Array<number>(BINS).fill(0);
+      let sum = 0;
+      for (const index of encoder.chosen) {
+        const z = cloud.frame[index * 4 + 2] as number;
+        const bin = Math.min(BINS - 1, Math.floor(z / edge));
+        counts[bin] = (counts[bin] as number) + 1;
+        sum += z;
+      }
+      return { counts, meanDepth: sum / encoder.chosen.length };
+    };
+    const whole = histogram();
+
+    const curves: Curve[] = [];
+    for (const nearDistance of nearDistances) {
+      for (const mbps of MEGABITS) {
+        const count = maxPoints({ bitsPerSecond: mbps * 1e6, framesPerSecond, points });
+        for (const lambda of LAMBDAS) {
+          const { kept } = encoder.sample({ points, count, lambda, nearDistance, seed: 1 });
+          curves.push({ nearDistance, lambda, mbps, kept, ...histogram() });
+        }
+      }
+    }
+
+    const name = values.cloud === undefined ? 'simulated office' : basename(values.cloud);
+    console.log(`${name}: ${points} points, ${raw.kept} of them valid, up to ${raw.maxDepth.toFixed(1)} m`);
+    printTable(
+      ['D m', 'Mbit/s', 'lambda', 'kept', 'mean depth m'],
+      [
+        ['', 'raw', '', raw.kept, whole.meanDepth],
+        ...curves.map((curve) => [
+          `${curve.nearDistance}`,
+          `${curve.mbps}`,
+          `${curve.lambda}`,
+          curve.kept,
+          curve.meanDepth,
+        ]),
+      ],
+    );
+    if (values.plot !== undefined) {
+      const edges = Array.from({ length: BINS + 1 }, (_, i) => i * edge);
+      await writeFile(values.plot, plot(name, framesPerSecond, points, edges, whole.counts, curves));
+      console.log(`plot: ${values.plot}`);
+    }
+    if (values.json) {
+      printJson({
+        bench: 'sampling',
+        cloud: name,
+        points,
+        valid: raw.kept,
+        binM: edge,
+        raw: whole.counts,
+        curves,
+      });
+    }
+  },
+};
+
+function plot(
+  name: string,
+  framesPerSecond: number,
+  points: number,
+  edges: readonly number[],
+  raw: readonly number[],
+  curves: readonly Curve[],
+): string {
+  // A step holds until the next edge: the last value is repeated at the end.
+  const steps = (counts: readonly number[]) => [...counts, counts.at(-1) ?? 0];
+  const axes = { xLabel: 'depth (m)', yLabel: `points per ${(edges[1] as number).toFixed(2)} m` };
+  const cloud: Series = { label: 'raw cloud', x: edges, y: steps(raw), shape: 'area' };
+  const seriesOf = (curve: Curve, label: string): Series => ({
+    label,
+    x: edges,
+    y: steps(curve.counts),
+    shape: 'step',
+  });
+  const nearDistances = [...new Set(curves.map((curve) => curve.nearDistance))];
+  const panels = nearDistances.flatMap((nearDistance) =>
+    MEGABITS.map((mbps): Panel => {
+      const of = curves.filter((curve) => curve.nearDistance === nearDistance && curve.mbps === mbps);
+      const kept = of[0]?.kept.toLocaleString('en-US');
+      return {
+        ...axes,
+        title: `D = ${nearDistance} m, ${mbps} Mbit/s: ${kept} points`,
+        series: [cloud, ...of.map((curve) => seriesOf(curve, `λ = ${curve.lambda}`))],
+      };
+    }),
+  );
+  return renderChart({
+    title: 'Points kept by the depth-weighted sampling',
+    subtitle: `${name}, ${points.toLocaleString('en-US')} points, ${framesPerSecond} frames/s, ε = 1e-6; points nearer than D weigh as much as the nearest`,
+    panels,
+    columns: MEGABITS.length,
+  });
+}
