@@ -1,0 +1,101 @@
+import { createServer, type IncomingMessage, type ServerResponse } from 'node:http';
+import type { AddressInfo } from 'node:net';
+import { collectDefaultMetrics, Registry } from 'prom-client';
+import type { Health } from './health.ts';
+
+export { Counter, Gauge, Histogram, Registry } from 'prom-client';
+
+/** A registry of its own, with the process's memory, CPU, event-loop delay and garbage collection in it. */
+export function createMetrics(): Registry {
+  const registry = new Registry();
+  collectDefaultMetrics({ register: registry });
+  return registry;
+}
+
+/** Answers `/healthz` and `/metrics`; returns false, having done nothing, for any other path. */
+export type AdminHandler = (request: IncomingMessage, response: ServerResponse) => boolean;
+
+/** The handler to mount on an HTTP server that a program has anyway. */
+export function createAdminHandler(health: Health, metrics: Registry): AdminHandler {
+  return (request, response) => {
+    const path = request.url?.split('?', 1)[0];
+    if (path !== '/healthz' && path !== '/metrics') return false;
+    if (request.method !== 'GET' && request.method !== 'HEAD') {
+      reply(request, response, 405, 'text/plain; charset=utf-8', 'only GET and HEAD\n', {
+        allow: 'GET, HEAD',
+      });
+      return true;
+    }
+    if (path === '/healthz') {
+      const report = health.report();
+      reply(
+        request,
+        response,
+        report.status === 'ok' ? 200 : 503,
+        'application/json; charset=utf-8',
+        `${JSON.stringify(report)}\n`,
+      );
+    } else {
+      metrics.metrics().then(
+        (text) => reply(request, response, 200, metrics.contentType, text),
+        (error: unknown) =>
+          reply(request, response, 500, 'text/plain; charset=utf-8', `metrics failed: ${String(error)}\n`),
+      );
+    }
+    return true;
+  };
+}
+
+export interface AdminServer {
+  readonly port: number;
+  close(): Promise<void>;
+}
+
+/**
+ * An HTTP server with nothing but health and metrics, for programs that serve no HTTP otherwise.
+ *
+ * @throws {Error} where the address cannot be listened on, e.g. EADDRINUSE
+ */
+export async function startAdminServer(
+  handler: AdminHandler,
+  address: { host: string; port: number },
+): Promise<AdminServer> {
+  const server = createServer((request, response) => {
+    if (!handler(request, response)) {
+      reply(request, response, 404, 'text/plain; charset=utf-8', 'here are /healthz and /metrics\n');
+    }
+  });
+  await new Promise<void>((resolve, reject) => {
+    server.once('error', reject);
+    server.listen(address.port, address.host, () => {
+      server.off('error', reject);
+      resolve();
+    });
+  });
+  return {
+    port: (server.address() as AddressInfo).port,
+    close: () =>
+      new Promise((resolve) => {
+        server.close(() => resolve());
+        server.closeAllConnections();
+      }),
+  };
+}
+
+function reply(
+  request: IncomingMessage,
+  response: ServerResponse,
+  status: number,
+  contentType: string,
+  body: string,
+  headers: Record<string, string> = {},
+): void {
+  response.writeHead(status, {
+    'content-type': contentType,
+    'content-length': Buffer.byteLength(body),
+    'cache-control': 'no-store',
+    'x-content-type-options': 'nosniff',
+    ...headers,
+  });
+  response.end(request.method === 'HEAD' ? undefined : body);
+}

@@ -1,0 +1,89 @@
+import { Command, CommanderError, Option } from 'commander';
+import { type OptionPlace, OptionsError, type OptionTable, type ProgramDefinition } from './option-table.ts';
+
+export type ParsedFlags =
+  | { action: 'help' }
+  | { action: 'version' }
+  /** Key → text (or boolean, for a flag that takes no argument), only of flags that were given. */
+  | { action: 'run'; values: Map<string, unknown> };
+
+/**
+ * Reads the command line.
+ *
+ * @throws {OptionsError} for an unknown flag, a flag without its argument, or an argument without a flag
+ */
+export function parseFlags(
+  definition: ProgramDefinition<OptionTable>,
+  places: readonly OptionPlace[],
+  argv: readonly string[],
+): ParsedFlags {
+  const { command, keys } = buildCommand(definition, places);
+  try {
+    command.parse([...argv], { from: 'user' });
+  } catch (error) {
+    if (!(error instanceof CommanderError)) throw error;
+    if (error.code === 'commander.helpDisplayed') return { action: 'help' };
+    if (error.code === 'commander.version') return { action: 'version' };
+    // "error: unknown option '--prot'\n(Did you mean --port?)"
+    const detail = error.message.replace(/^error: /, '').replace(/\s*\n\s*/g, ' ');
+    throw new OptionsError('command line:', detail);
+  }
+  const given = command.opts<Record<string, unknown>>();
+  const values = new Map<string, unknown>();
+  for (const [attribute, key] of keys) {
+    if (command.getOptionValueSource(attribute) === 'cli') values.set(key, given[attribute]);
+  }
+  return { action: 'run', values };
+}
+
+/** What `--help` prints: every option with its default and its environment variable. */
+export function helpText(definition: ProgramDefinition<OptionTable>, places: readonly OptionPlace[]): string {
+  const { command } = buildCommand(definition, places);
+  return command.helpInformation();
+}
+
+function buildCommand(
+  definition: ProgramDefinition<OptionTable>,
+  places: readonly OptionPlace[],
+): { command: Command; keys: Map<string, string> } {
+  const silent = { writeOut: () => {}, writeErr: () => {} };
+  const command = new Command(definition.name)
+    .description(
+      `${definition.summary}\n\nEach option may be given as a flag, an environment variable, or a key of the ` +
+        `section "${definition.section}" of the configuration file; the first of these that has it counts.`,
+    )
+    .usage('[options]')
+    .version(definition.version, '--version', 'print the version')
+    .helpOption('-h, --help', 'print this')
+    .exitOverride()
+    .configureOutput(silent)
+    .configureHelp({ helpWidth: 110 });
+  const keys = new Map<string, string>();
+  for (const place of places) {
+    if (place.flag === null) continue;
+    const { spec, flag, key } = place;
+    const description = `${spec.help} ${origins(place)}`;
+    const option = new Option(spec.argument === undefined ? flag : `${flag} <${spec.argument}>`, description);
+    keys.set(option.attributeName(), key);
+    if (spec.argument !== undefined) {
+      command.addOption(option);
+      continue;
+    }
+    // A boolean: both `--x` and `--no-x` work, help shows the one that changes something.
+    const negated = new Option(flag.replace(/^--/, '--no-'), description);
+    command.addOption(option.hideHelp(spec.default === true));
+    command.addOption(negated.hideHelp(spec.default !== true));
+  }
+  return { command, keys };
+}
+
+function origins(place: OptionPlace): string {
+  const { spec, env } = place;
+  const parts: string[] = [];
+  if (spec.default !== null && !spec.secret && !(Array.isArray(spec.default) && spec.default.length === 0)) {
+    const shown = Array.isArray(spec.default) ? spec.default.join(',') : String(spec.default);
+    parts.push(`default: ${shown}`);
+  }
+  if (env !== null) parts.push(`env: ${env}`);
+  return parts.length === 0 ? '' : `(${parts.join(', ')})`;
+}

@@ -1,0 +1,33 @@
+const COLOURS: Readonly<Record<string, string>> = {
+  trace: '90',
+  debug: '90',
+  info: '36',
+  warn: '33',
+  error: '31',
+  fatal: '31;1',
+};
+
+/** One line of JSON log as people read it: `12:30:01.250 info  signaling: robot joined  robot=r1`. */
+export function formatLogLine(line: string, colour: boolean): string {
+  let record: Record<string, unknown>;
+  try {
+    record = JSON.parse(line) as Record<string, unknown>;
+  } catch {
+    return line;
+  }
+  const { level, time, name, msg, err, ...rest } = record;
+  const paint = (code: string, text: string): string => (colour ? `\u001b[${code}m${text}\u001b[0m` : text);
+  const levelName = String(level);
+  const clock = typeof time === 'string' ? time.slice(11, 23) : '';
+  const fields = Object.entries(rest).map(
+    ([key, value]) => `${key}=${typeof value === 'string' ? value : JSON.stringify(value)}`,
+  );
+  const head = `${paint('90', clock)} ${paint(COLOURS[levelName] ?? '0', levelName.padEnd(5))} ${String(name)}: ${String(msg ?? '')}`;
+  const tail = fields.length === 0 ? '' : `  ${paint('90', fields.join(' '))}`;
+  const error = isErrorRecord(err) ? `\n${err.stack ?? err.message ?? ''}` : '';
+  return `${head}${tail}${error}\n`;
+}
+
+function isErrorRecord(value: unknown): value is { stack?: string; message?: string } {
+  return typeof value === 'object' && value !== null;
+}

@@ -1,0 +1,101 @@
+import * as z from 'zod';
+
+/**
+ * Schemas for options. Each takes what a flag or the environment gives (text) as well as what YAML gives (typed values),
+ * and refuses with a message that completes the sentence "<option> …", e.g. "must be a whole number from 0 to 65535".
+ */
+
+export function text(limits: { min?: number; max?: number } = {}): z.ZodType<string> {
+  const { min = 1, max = 4096 } = limits;
+  const range = `must be ${min}–${max} characters long`;
+  // YAML reads an unquoted 7 or true as a number or a boolean; as a name they are meant as written.
+  return z.preprocess(
+    (value) => (typeof value === 'number' || typeof value === 'boolean' ? String(value) : value),
+    z.string('must be text').min(min, range).max(max, range),
+  ) as z.ZodType<string>;
+}
+
+export function number(limits: { min?: number; max?: number } = {}): z.ZodType<number> {
+  return numeric('a number', limits, Number.isFinite);
+}
+
+export function integer(limits: { min?: number; max?: number } = {}): z.ZodType<number> {
+  return numeric('a whole number', limits, Number.isSafeInteger);
+}
+
+/** A TCP or UDP port; 0 takes any free one. */
+export function port(): z.ZodType<number> {
+  return integer({ min: 0, max: 65_535 });
+}
+
+export function boolean(): z.ZodType<boolean> {
+  const words = new Map([
+    ['true', true],
+    ['yes', true],
+    ['on', true],
+    ['1', true],
+    ['false', false],
+    ['no', false],
+    ['off', false],
+    ['0', false],
+  ]);
+  return z.unknown().transform((value, context) => {
+    const read =
+      typeof value === 'boolean' ? value : words.get(typeof value === 'string' ? value.toLowerCase() : '');
+    if (read !== undefined) return read;
+    context.addIssue({ code: 'custom', message: 'must be true or false' });
+    return z.NEVER;
+  });
+}
+
+export function choice<const T extends readonly [string, ...string[]]>(values: T): z.ZodType<T[number]> {
+  return z.enum(values, `must be one of ${values.join(', ')}`) as z.ZodType<T[number]>;
+}
+
+/** Text separated by commas, or a YAML list. */
+export function list<T>(element: z.ZodType<T>): z.ZodType<T[]> {
+  return z.preprocess(
+    (value) =>
+      typeof value === 'string'
+        ? value
+            .split(',')
+            .map((part) => part.trim())
+            .filter((part) => part !== '')
+        : value,
+    z.array(element, 'must be a list'),
+  ) as z.ZodType<T[]>;
+}
+
+/** An option that may be left out altogether. Its default is `null`. */
+export function optional<T>(schema: z.ZodType<T>): z.ZodType<T | null> {
+  return schema.nullable();
+}
+
+function numeric(
+  what: string,
+  limits: { min?: number; max?: number },
+  accepts: (value: number) => boolean,
+): z.ZodType<number> {
+  const { min, max } = limits;
+  const range =
+    min !== undefined && max !== undefined
+      ? ` from ${min} to ${max}`
+      : min !== undefined
+        ? ` of at least ${min}`
+        : max !== undefined
+          ? ` of at most ${max}`
+          : '';
+  return z.unknown().transform((value, context) => {
+    const read = typeof value === 'string' && value.trim() !== '' ? Number(value) : value;
+    if (
+      typeof read === 'number' &&
+      accepts(read) &&
+      read >= (min ?? Number.NEGATIVE_INFINITY) &&
+      read <= (max ?? Number.POSITIVE_INFINITY)
+    ) {
+      return read;
+    }
+    context.addIssue({ code: 'custom', message: `must be ${what}${range}` });
+    return z.NEVER;
+  });
+}

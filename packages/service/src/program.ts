@@ -1,0 +1,104 @@
+import type { Registry } from 'prom-client';
+import { type AdminServer, createAdminHandler, createMetrics, startAdminServer } from './admin-server.ts';
+import { Health } from './health.ts';
+import { createLogger, type Logger } from './logger.ts';
+import { port, text } from './option-schemas.ts';
+import {
+  type CommonValues,
+  defineOption,
+  OptionsError,
+  type OptionTable,
+  type OptionValues,
+  type ProgramDefinition,
+} from './option-table.ts';
+import { resolveOptions } from './options.ts';
+import { Shutdown } from './shutdown.ts';
+
+/** What a running program gets from its rim. */
+export interface ProgramContext<Table extends OptionTable> {
+  readonly options: OptionValues<Table> & CommonValues;
+  readonly log: Logger;
+  readonly health: Health;
+  readonly metrics: Registry;
+  readonly shutdown: Shutdown;
+  /** Serves `/healthz` and `/metrics` until shutdown, for programs that have no HTTP server of their own. */
+  serveAdmin(address: { host: string; port: number }): Promise<AdminServer>;
+}
+
+/** The two options of a program that calls `serveAdmin`. */
+export function adminOptions(defaultPort: number) {
+  return {
+    adminHost: defineOption({
+      schema: text(),
+      default: '127.0.0.1',
+      argument: 'ADDRESS',
+      help: 'address for /healthz and /metrics',
+    }),
+    adminPort: defineOption({
+      schema: port(),
+      default: defaultPort,
+      argument: 'PORT',
+      help: 'port for /healthz and /metrics; 0 takes a free one',
+    }),
+  } satisfies OptionTable;
+}
+
+/**
+ * Runs a program: reads its options, sets up log, health, metrics and shutdown, calls `main`, and lets it run until a
+ * signal. Exit codes: 0 after an orderly end, 1 for a failure, 2 for a mistake in the options.
+ *
+ * `main` returns once the program is up; what keeps it alive (servers, timers) is closed through `shutdown.onClose`.
+ */
+export async function runProgram<const Table extends OptionTable>(
+  definition: ProgramDefinition<Table>,
+  main: (context: ProgramContext<Table>) => Promise<void>,
+): Promise<void> {
+  let resolved: ReturnType<typeof resolveOptions<Table>>;
+  try {
+    resolved = resolveOptions(definition, { argv: process.argv.slice(2), env: process.env });
+  } catch (error) {
+    if (!(error instanceof OptionsError)) throw error;
+    process.stderr.write(`${definition.name}: ${error.message}\n`);
+    process.exitCode = 2;
+    return;
+  }
+  if (resolved.action === 'print') {
+    process.stdout.write(resolved.text);
+    return;
+  }
+  const options = resolved.values;
+  const log = createLogger({ name: definition.section, level: options.logLevel, format: options.logFormat });
+  for (const name of resolved.unknownEnvironment) {
+    log.warn({ variable: name }, 'environment variable is not an option of this program');
+  }
+  const health = new Health();
+  const metrics = createMetrics();
+  const shutdown = new Shutdown({ log });
+  shutdown.signal.addEventListener('abort', () => health.stopping());
+  shutdown.listen();
+  const fail = (what: string) => (error: unknown) => {
+    log.fatal({ err: error }, what);
+    void shutdown.end(what, 1);
+  };
+  process.on('uncaughtException', fail('uncaught exception'));
+  process.on('unhandledRejection', fail('unhandled rejection'));
+  log.info({ version: definition.version, config: resolved.configPath, pid: process.pid }, 'starting');
+  try {
+    await main({
+      options,
+      log,
+      health,
+      metrics,
+      shutdown,
+      async serveAdmin(address) {
+        const server = await startAdminServer(createAdminHandler(health, metrics), address);
+        shutdown.onClose('admin server', () => server.close());
+        log.info({ host: address.host, port: server.port }, 'health and metrics');
+        return server;
+      },
+    });
+  } catch (error) {
+    log.fatal({ err: error }, 'could not start');
+    await shutdown.end('could not start', 1);
+  }
+}
