@@ -40,7 +40,7 @@ interface OperatorState {
   lastSequence: number | null;
 }
 
-/** Operators whose clock and counter are remembered; beyond it the one heard of first is forgotten. */
+/** Operators whose clock and counter are remembered; beyond it the one silent for longest is forgotten. */
 const MAX_OPERATORS = 64;
 /** Relative: what a float32 or a decimal round trip may add to a limit. The excess is cut off. */
 const TOLERANCE = 1e-6;
@@ -122,8 +122,11 @@ export class CommandGate {
         delay: new QueueingDelay(this.#delayWindowMs),
         lastSequence: null,
       };
-      this.#operators.set(operatorId, operator);
+    } else {
+      this.#operators.delete(operatorId);
     }
+    // Last in the map's order: heard of last.
+    this.#operators.set(operatorId, operator);
     return operator;
   }
 

@@ -31,10 +31,11 @@ export class QueueingDelay {
    *
    * @param sentMs the sender's clock
    * @param receivedMs our clock
-   * @returns how long it waited, ms, at least 0
+   * @returns how long it waited, ms, at least 0; `Infinity` where a time is not a finite number
    */
   observe(sentMs: number, receivedMs: number): number {
     const difference = receivedMs - sentMs;
+    if (!Number.isFinite(difference)) return Number.POSITIVE_INFINITY;
     this.#advance(Math.floor(receivedMs / this.#bucketMs));
     const at = (this.#newest as number) % BUCKETS;
     this.#minima[at] = Math.min(this.#minima[at] as number, difference);

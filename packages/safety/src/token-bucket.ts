@@ -1,24 +1,27 @@
-/** A token bucket: on average `perSecond` takes a second, and one second's worth at once after a pause. */
+/** One second's worth at once after a pause. */
+const CAPACITY_MS = 1000;
+
+/** A token bucket: on average `perSecond` takes a second. It is counted in milliseconds of credit, which add up exactly. */
 export class TokenBucket {
-  readonly #perSecond: number;
-  #tokens: number;
+  readonly #costMs: number;
+  #creditMs = CAPACITY_MS;
   #filledMs: number | null = null;
 
   constructor(perSecond: number) {
-    this.#perSecond = perSecond;
-    this.#tokens = perSecond;
+    this.#costMs = 1000 / perSecond;
   }
 
   /** @returns false where the bucket is empty; nothing is taken then */
   take(nowMs: number): boolean {
     // A clock that stands or runs backwards fills nothing.
-    if (this.#filledMs !== null && nowMs > this.#filledMs) {
-      const filled = this.#tokens + ((nowMs - this.#filledMs) / 1000) * this.#perSecond;
-      this.#tokens = Math.min(filled, this.#perSecond);
+    if (this.#filledMs === null) {
+      this.#filledMs = nowMs;
+    } else if (nowMs > this.#filledMs) {
+      this.#creditMs = Math.min(this.#creditMs + nowMs - this.#filledMs, CAPACITY_MS);
+      this.#filledMs = nowMs;
     }
-    this.#filledMs = Math.max(nowMs, this.#filledMs ?? nowMs);
-    if (this.#tokens < 1) return false;
-    this.#tokens -= 1;
+    if (this.#creditMs < this.#costMs) return false;
+    this.#creditMs -= this.#costMs;
     return true;
   }
 }

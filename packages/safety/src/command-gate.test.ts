@@ -1,0 +1,248 @@
+import type { Command, CommandRejection } from '@farpoint/protocol';
+import { describe, expect, test } from 'vitest';
+import { CommandGate, type CommandVerdict, type GateContext } from './command-gate.ts';
+import { defaultDriveLimits } from './limits.ts';
+
+const open: GateContext = { holdsLease: true, meetEstop: () => 'clear' };
+
+function command(change: Partial<Command> = {}, x = 0.5, yaw = -0.25): Command {
+  return {
+    type: 'command',
+    sequence: 1,
+    timeMs: 0,
+    lease: 'lease',
+    deadMan: true,
+    twist: { linear: { x, y: 0, z: 0 }, angular: { x: 0, y: 0, z: yaw } },
+    ...change,
+  };
+}
+
+function reasonOf(verdict: CommandVerdict): CommandRejection | 'accepted' {
+  return verdict.accepted ? 'accepted' : verdict.reason;
+}
+
+test('a good command passes', () => {
+  expect(new CommandGate(defaultDriveLimits).check('a', command(), 0, open)).toEqual({
+    accepted: true,
+    twist: { linear: { x: 0.5, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -0.25 } },
+  });
+});
+
+test('without the lease nothing passes, not even zero', () => {
+  const gate = new CommandGate(defaultDriveLimits);
+  const verdict = gate.check('a', command({}, 0, 0), 0, { ...open, holdsLease: false });
+  expect(reasonOf(verdict)).toBe('not-lease-holder');
+});
+
+describe('sequence', () => {
+  test.each([
+    [5, 5, 'repeated'],
+    [5, 4, 'repeated'],
+    [5, 6, 'accepted'],
+    [0xffffffff, 0, 'accepted'],
+    [0, 0xffffffff, 'repeated'],
+    [0x80000003, 2, 'accepted'],
+  ] as const)('%i, then %i: %s', (first, second, expected) => {
+    const gate = new CommandGate(defaultDriveLimits);
+    expect(reasonOf(gate.check('a', command({ sequence: first }), 0, open))).toBe('accepted');
+    expect(reasonOf(gate.check('a', command({ sequence: second }), 0, open))).toBe(expected);
+  });
+
+  test('an older wish does not come back after a newer one was refused for what it asked', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    expect(reasonOf(gate.check('a', command({ sequence: 3, deadMan: false }), 0, open))).toBe(
+      'dead-man-released',
+    );
+    expect(reasonOf(gate.check('a', command({ sequence: 2 }), 0, open))).toBe('repeated');
+  });
+
+  test('a stale command leaves the number free', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    gate.check('a', command({ sequence: 1, timeMs: 1000 }), 1000, open);
+    expect(reasonOf(gate.check('a', command({ sequence: 9, timeMs: 1000 }), 1200, open))).toBe('stale');
+    expect(reasonOf(gate.check('a', command({ sequence: 2, timeMs: 1210 }), 1210, open))).toBe('accepted');
+  });
+
+  test('each operator counts alone', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    gate.check('a', command({ sequence: 100 }), 0, open);
+    expect(reasonOf(gate.check('b', command({ sequence: 1 }), 0, open))).toBe('accepted');
+  });
+});
+
+describe('age', () => {
+  test('150 ms of waiting pass, more do not', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    gate.check('a', command({ sequence: 1, timeMs: 77_000 }), 0, open);
+    expect(reasonOf(gate.check('a', command({ sequence: 2, timeMs: 77_010 }), 160, open))).toBe('accepted');
+    const late = gate.check('a', command({ sequence: 3, timeMs: 77_020 }), 171, open);
+    expect(late).toEqual({ accepted: false, reason: 'stale', detail: '151 ms late, 150 ms allowed' });
+  });
+
+  test('after a stall the old ones of the burst are refused and the fresh ones pass', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    gate.check('a', command({ sequence: 0, timeMs: 0 }), 30, open);
+    const verdicts: string[] = [];
+    // Sent every 50 ms from 50 to 500, all delivered at 530.
+    for (let i = 1; i <= 10; i++) {
+      verdicts.push(reasonOf(gate.check('a', command({ sequence: i, timeMs: i * 50 }), 530, open)));
+    }
+    expect(verdicts).toEqual([...Array(6).fill('stale'), ...Array(4).fill('accepted')]);
+  });
+
+  test('a clock that jumps back locks out its own operator, for one window', () => {
+    const gate = new CommandGate(defaultDriveLimits, { delayWindowMs: 2000 });
+    gate.check('a', command({ sequence: 1, timeMs: 1e9 }), 0, open);
+    gate.check('b', command({ sequence: 1, timeMs: 500 }), 0, open);
+    const reasons: string[] = [];
+    for (let t = 100; t <= 2500; t += 100) {
+      const sequence = 1 + t / 100;
+      reasons.push(reasonOf(gate.check('a', command({ sequence, timeMs: t }), t, open)));
+      expect(reasonOf(gate.check('b', command({ sequence, timeMs: 500 + t }), t, open))).toBe('accepted');
+    }
+    expect(reasons.indexOf('accepted')).toBe(19);
+    expect(reasons.slice(0, 19).every((r) => r === 'stale')).toBe(true);
+    expect(reasons.slice(19).every((r) => r === 'accepted')).toBe(true);
+  });
+
+  test('a clock probe teaches the way before the first command', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    gate.observeClock('a', 1000, 1040);
+    expect(reasonOf(gate.check('a', command({ timeMs: 1100 }), 1400, open))).toBe('stale');
+  });
+
+  test('commands of an operator without the lease teach the way too', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    gate.check('a', command({ timeMs: 0 }), 0, { ...open, holdsLease: false });
+    expect(reasonOf(gate.check('a', command({ timeMs: 0 }), 200, open))).toBe('stale');
+  });
+
+  test('the configured age counts', () => {
+    const gate = new CommandGate(defaultDriveLimits, { maxAgeMs: 20 });
+    gate.check('a', command({ sequence: 1 }), 0, open);
+    expect(reasonOf(gate.check('a', command({ sequence: 2 }), 21, open))).toBe('stale');
+  });
+});
+
+describe('emergency stop', () => {
+  test.each(['latched', 'let-go'] as const)(
+    '%s: motion is refused, zero passes as a sign of life',
+    (answer) => {
+      const gate = new CommandGate(defaultDriveLimits);
+      const context: GateContext = { ...open, meetEstop: () => answer };
+      expect(reasonOf(gate.check('a', command({ sequence: 1 }), 0, context))).toBe('estop-latched');
+      expect(reasonOf(gate.check('a', command({ sequence: 2 }, 0, 0), 0, context))).toBe('accepted');
+    },
+  );
+
+  test('is asked about fresh commands only: a late zero is no letting go', () => {
+    const asked: boolean[] = [];
+    const gate = new CommandGate(defaultDriveLimits);
+    const context: GateContext = {
+      ...open,
+      meetEstop: (motion) => {
+        asked.push(motion);
+        return 'clear';
+      },
+    };
+    gate.check('a', command({ sequence: 1 }), 0, context);
+    gate.check('a', command({ sequence: 2 }, 0, 0), 1000, context);
+    gate.check('a', command({ sequence: 1 }, 0, 0), 0, context);
+    expect(asked).toEqual([true]);
+  });
+});
+
+test('motion needs the grip, standing still does not', () => {
+  const gate = new CommandGate(defaultDriveLimits);
+  expect(reasonOf(gate.check('a', command({ sequence: 1, deadMan: false }), 0, open))).toBe(
+    'dead-man-released',
+  );
+  expect(reasonOf(gate.check('a', command({ sequence: 2, deadMan: false }, 0, 0), 0, open))).toBe('accepted');
+});
+
+describe('range', () => {
+  const still = { x: 0, y: 0, z: 0 };
+
+  test('is said in words', () => {
+    const verdict = new CommandGate(defaultDriveLimits).check('a', command({}, 3.2), 0, open);
+    expect(verdict).toEqual({
+      accepted: false,
+      reason: 'out-of-range',
+      detail: 'twist.linear.x 3.2 m/s is beyond ±1 m/s',
+    });
+  });
+
+  test.each([
+    [{ linear: { ...still, x: -1.01 }, angular: still }],
+    [{ linear: still, angular: { ...still, z: 1.51 } }],
+    [{ linear: still, angular: { ...still, z: -9 } }],
+    [{ linear: { ...still, y: 1e-9 }, angular: still }],
+    [{ linear: { ...still, z: 1 }, angular: still }],
+    [{ linear: still, angular: { ...still, x: -1 } }],
+    [{ linear: still, angular: { ...still, y: 1 } }],
+    [{ linear: { ...still, x: Number.NaN }, angular: still }],
+    [{ linear: still, angular: { ...still, z: Number.POSITIVE_INFINITY } }],
+  ])('%j is refused, not clamped', (twist) => {
+    const gate = new CommandGate(defaultDriveLimits);
+    expect(reasonOf(gate.check('a', command({ twist }), 0, open))).toBe('out-of-range');
+  });
+
+  test('the limits themselves pass; what a float adds to them is cut off', () => {
+    const gate = new CommandGate({ ...defaultDriveLimits, maxLinear: 0.7 });
+    const verdict = gate.check('a', command({}, Math.fround(0.7), -1.5), 0, open);
+    expect(verdict).toMatchObject({
+      accepted: true,
+      twist: { linear: { x: Math.fround(0.7) }, angular: { z: -1.5 } },
+    });
+    const over = gate.check('a', command({ sequence: 2 }, 0.7 + 5e-7, 0), 0, open);
+    expect(over).toMatchObject({ accepted: true, twist: { linear: { x: 0.7 } } });
+  });
+
+  test('minus zero comes out as zero', () => {
+    const verdict = new CommandGate(defaultDriveLimits).check('a', command({}, -0, -0), 0, open);
+    expect(verdict.accepted && Object.is(verdict.twist.linear.x, 0)).toBe(true);
+  });
+});
+
+describe('rate', () => {
+  test('a flood is cut to the limit, before anything else is looked at', () => {
+    const gate = new CommandGate({ ...defaultDriveLimits, maxCommandsPerSecond: 10 });
+    const context: GateContext = { ...open, holdsLease: false };
+    const reasons: string[] = [];
+    for (let i = 0; i < 12; i++) reasons.push(reasonOf(gate.check('a', command(), 0, context)));
+    expect(reasons.slice(0, 10).every((r) => r === 'not-lease-holder')).toBe(true);
+    expect(reasons.slice(10)).toEqual(['rate-limited', 'rate-limited']);
+  });
+
+  test('messages that are no commands count', () => {
+    const gate = new CommandGate({ ...defaultDriveLimits, maxCommandsPerSecond: 10 });
+    for (let i = 0; i < 10; i++) {
+      expect(gate.malformed('a', 'not valid JSON', 0)).toEqual({
+        accepted: false,
+        reason: 'malformed',
+        detail: 'not valid JSON',
+      });
+    }
+    expect(gate.malformed('a', 'not valid JSON', 0).reason).toBe('rate-limited');
+    expect(reasonOf(gate.check('a', command(), 0, open))).toBe('rate-limited');
+    expect(reasonOf(gate.check('b', command(), 0, open))).toBe('accepted');
+  });
+});
+
+test('more operators than are remembered push out who was silent for longest', () => {
+  const gate = new CommandGate(defaultDriveLimits);
+  gate.check('a', command({ sequence: 5 }), 0, open);
+  gate.check('b', command({ sequence: 5 }), 0, open);
+  for (let i = 0; i < 62; i++) gate.check(`other-${i}`, command(), 0, open);
+  gate.check('a', command({ sequence: 6 }), 0, open);
+  gate.check('one more', command(), 0, open);
+  expect(reasonOf(gate.check('a', command({ sequence: 6 }), 0, open))).toBe('repeated');
+  expect(reasonOf(gate.check('b', command({ sequence: 5 }), 0, open))).toBe('accepted');
+});
+
+test('who is forgotten starts anew', () => {
+  const gate = new CommandGate(defaultDriveLimits);
+  gate.check('a', command({ sequence: 5 }), 0, open);
+  gate.forget('a');
+  expect(reasonOf(gate.check('a', command({ sequence: 1 }), 0, open))).toBe('accepted');
+});

@@ -1,0 +1,148 @@
+import { type Command, isZeroTwist, type Twist } from '@farpoint/protocol';
+import fc from 'fast-check';
+import { expect, test } from 'vitest';
+import { DriveGuard } from './drive-guard.ts';
+import { defaultDriveLimits } from './limits.ts';
+
+const operators = ['a', 'b', 'c'] as const;
+const operator = fc.constantFrom(...operators);
+const speed = fc.oneof(
+  fc.constantFrom(0, 0, 0.3, -0.3, 1, -1, 1.0000001, 1.5, 1e9, Number.NaN, Number.POSITIVE_INFINITY),
+  fc.double({ min: -2, max: 2, noNaN: true }),
+);
+const mostly = (usual: number, others: fc.Arbitrary<number>) =>
+  fc.oneof({ weight: 6, arbitrary: fc.constant(usual) }, { weight: 1, arbitrary: others });
+
+const step = fc.oneof(
+  {
+    weight: 12,
+    arbitrary: fc.record({
+      kind: fc.constant('command' as const),
+      by: operator,
+      lease: fc.constantFrom('own', 'own', 'own', 'holders', 'guess'),
+      sequenceStep: mostly(1, fc.constantFrom(0, -1, 7, 2 ** 31, -(2 ** 31) + 1)),
+      lateMs: mostly(0, fc.integer({ min: -500, max: 500 })),
+      deadMan: fc.constantFrom(true, true, true, false),
+      x: speed,
+      y: mostly(0, speed),
+      yaw: speed,
+    }),
+  },
+  {
+    weight: 3,
+    arbitrary: fc.record({ kind: fc.constant('request' as const), by: operator, take: fc.boolean() }),
+  },
+  {
+    weight: 1,
+    arbitrary: fc.record({ kind: fc.constantFrom('release', 'gone', 'malformed'), by: operator }),
+  },
+  {
+    weight: 1,
+    arbitrary: fc.record({ kind: fc.constant('latch' as const), by: fc.constantFrom('operator', 'robot') }),
+  },
+  { weight: 2, arbitrary: fc.record({ kind: fc.constant('unlatch' as const), by: operator }) },
+);
+const timedStep = fc.record({
+  waitMs: fc.constantFrom(0, 1, 5, 10, 20, 20, 20, 50, 149, 150, 151, 1000, 6000, 20_000),
+  step,
+});
+
+test('whatever is sent and whenever: within the limits, fresh, by the holder, and never while stopped', () => {
+  let moved = 0;
+  let checked = 0;
+  fc.assert(
+    fc.property(fc.array(timedStep, { minLength: 1, maxLength: 80 }), (steps) => {
+      let handles = 0;
+      const guard = new DriveGuard({
+        limits: defaultDriveLimits,
+        randomBytes: (count) => new Uint8Array(count).fill(++handles),
+      });
+      // What the robot's owner would write down, from the answers alone.
+      let nowMs = 0;
+      let holder: string | null = null;
+      let latched = false;
+      let last: { by: string; atMs: number; twist: Twist } | null = null;
+      const leases = new Map<string, string>();
+      const sequences = new Map<string, number>();
+
+      const check = (atMs: number) => {
+        checked++;
+        const velocity = guard.velocityAt(atMs);
+        expect(Math.abs(velocity.linear.x)).toBeLessThanOrEqual(1);
+        expect(Math.abs(velocity.angular.z)).toBeLessThanOrEqual(1.5);
+        expect([velocity.linear.y, velocity.linear.z, velocity.angular.x, velocity.angular.y]).toEqual([
+          0, 0, 0, 0,
+        ]);
+        expect(guard.limits).toEqual(defaultDriveLimits);
+        if (isZeroTwist(velocity)) return;
+        moved++;
+        expect(latched).toBe(false);
+        expect(last?.by).toBe(holder);
+        expect(atMs - (last?.atMs ?? 0)).toBeLessThan(150);
+        expect(velocity).toEqual(last?.twist);
+        expect(guard.nextDeadlineMs).toBe((last?.atMs ?? 0) + 150);
+      };
+
+      for (const { waitMs, step } of steps) {
+        check(nowMs + waitMs);
+        nowMs += waitMs;
+        const { by } = step;
+        if (step.kind === 'command') {
+          const sequence = ((sequences.get(by) ?? 0) + step.sequenceStep) >>> 0;
+          sequences.set(by, sequence);
+          const lease = { own: leases.get(by), holders: leases.get(holder ?? ''), guess: 'guess' }[
+            step.lease
+          ];
+          const command: Command = {
+            type: 'command',
+            sequence,
+            timeMs: nowMs - step.lateMs,
+            lease: lease ?? 'none',
+            deadMan: step.deadMan,
+            twist: { linear: { x: step.x, y: step.y, z: 0 }, angular: { x: 0, y: 0, z: step.yaw } },
+          };
+          const verdict = guard.onCommand(by, command, nowMs);
+          if (verdict.accepted) {
+            expect(by).toBe(holder);
+            expect(step.y).toBe(0);
+            expect(Math.abs(step.x)).toBeLessThan(1.001);
+            if (!isZeroTwist(command.twist)) expect(step.deadMan && !latched).toBe(true);
+            last = { by, atMs: nowMs, twist: verdict.twist };
+          } else {
+            expect(verdict.detail).not.toBe('');
+            if (verdict.reason === 'dead-man-released') last = null;
+          }
+        } else if (step.kind === 'request') {
+          const outcome = guard.requestLease(by, step.take, nowMs);
+          if (outcome.granted) {
+            if (holder !== by) last = null;
+            holder = by;
+            leases.set(by, outcome.lease);
+          }
+        } else if (step.kind === 'release' || step.kind === 'gone') {
+          const free = step.kind === 'release' ? guard.releaseLease(by) : guard.operatorGone(by);
+          expect(free).toBe(holder === by);
+          if (free) holder = null;
+          if (free) last = null;
+        } else if (step.kind === 'latch') {
+          guard.latchEstop(by === 'robot' ? 'robot' : 'operator');
+          latched = true;
+          last = null;
+        } else if (step.kind === 'unlatch') {
+          const outcome = guard.releaseEstop(by, nowMs);
+          expect(outcome.released).toBe(latched && holder === by);
+          if (outcome.released) latched = false;
+        } else {
+          guard.onMalformed(by, 'not valid JSON', nowMs);
+        }
+        expect(guard.leaseHolder).toBe(holder);
+        check(nowMs);
+      }
+      check(nowMs + 149.9);
+      check(nowMs + 150);
+    }),
+    { seed: 20_240, numRuns: 1500 },
+  );
+  // The property would hold for a robot that never moves.
+  expect(moved / checked).toBeGreaterThan(0.02);
+});

@@ -1,0 +1,224 @@
+import { type Command, decodeJson, encodeJson, isZeroTwist, robotSessionCodec } from '@farpoint/protocol';
+import { describe, expect, test } from 'vitest';
+import { DriveGuard, type DriveGuardOptions } from './drive-guard.ts';
+import { defaultDriveLimits } from './limits.ts';
+
+function randomBytes(): (count: number) => Uint8Array {
+  let next = 0;
+  return (count) => new Uint8Array(count).fill(++next);
+}
+
+function guardWith(options: Partial<DriveGuardOptions> = {}): DriveGuard {
+  return new DriveGuard({ limits: defaultDriveLimits, randomBytes: randomBytes(), ...options });
+}
+
+/** A guard whose lease `a` holds, and a way to send a's commands. */
+function driven() {
+  const guard = guardWith();
+  const outcome = guard.requestLease('a', false, 0);
+  if (!outcome.granted) throw new Error('no lease');
+  let sequence = 0;
+  const send = (nowMs: number, x: number, change: Partial<Command> = {}) =>
+    guard.onCommand(
+      'a',
+      {
+        type: 'command',
+        sequence: sequence++,
+        timeMs: nowMs,
+        lease: outcome.lease,
+        deadMan: true,
+        twist: { linear: { x, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0 } },
+        ...change,
+      },
+      nowMs,
+    );
+  return { guard, send, lease: outcome.lease };
+}
+
+test('stands still before anything has happened', () => {
+  const guard = guardWith();
+  expect(isZeroTwist(guard.velocityAt(0))).toBe(true);
+  expect(guard.nextDeadlineMs).toBeNull();
+  expect(guard.state(0)).toBe('idle');
+});
+
+test('drives by the latest command until the watchdog runs out', () => {
+  const { guard, send } = driven();
+  send(1000, 0.5);
+  expect(guard.velocityAt(1149).linear.x).toBe(0.5);
+  expect(guard.nextDeadlineMs).toBe(1150);
+  expect(guard.state(1149)).toBe('driving');
+  expect(guard.velocityAt(1150).linear.x).toBe(0);
+  expect(guard.state(1150)).toBe('watchdog');
+  send(1200, -0.25);
+  expect(guard.velocityAt(1201).linear.x).toBe(-0.25);
+});
+
+test('a refused command does not feed the watchdog', () => {
+  const { guard, send } = driven();
+  send(1000, 0.5);
+  expect(send(1100, 9).accepted).toBe(false);
+  expect(guard.nextDeadlineMs).toBe(1150);
+  expect(guard.velocityAt(1149).linear.x).toBe(0.5);
+});
+
+test('a command for zero is idle, not a watchdog stop, and needs no timer', () => {
+  const { guard, send } = driven();
+  send(1000, 0.5);
+  send(1020, 0);
+  expect(guard.state(1021)).toBe('idle');
+  expect(guard.nextDeadlineMs).toBeNull();
+  expect(guard.state(5000)).toBe('idle');
+});
+
+test('a released grip stops at once', () => {
+  const { guard, send } = driven();
+  send(1000, 0.5);
+  expect(send(1020, 0.5, { deadMan: false })).toMatchObject({ reason: 'dead-man-released' });
+  expect(isZeroTwist(guard.velocityAt(1020))).toBe(true);
+});
+
+test('another operator’s released grip stops nobody', () => {
+  const { guard, send, lease } = driven();
+  const command = send(1000, 0.5);
+  expect(command.accepted).toBe(true);
+  const other = guard.onCommand(
+    'b',
+    {
+      type: 'command',
+      sequence: 99,
+      timeMs: 0,
+      lease,
+      deadMan: false,
+      twist: { linear: { x: 1, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0 } },
+    },
+    1010,
+  );
+  expect(other).toMatchObject({ reason: 'not-lease-holder' });
+  expect(guard.velocityAt(1010).linear.x).toBe(0.5);
+});
+
+test('blocked is said only of a robot that wants to move', () => {
+  const { guard, send } = driven();
+  expect(guard.state(0, true)).toBe('idle');
+  send(0, 0.5);
+  expect(guard.state(1, true)).toBe('blocked');
+});
+
+describe('emergency stop', () => {
+  test('anyone latches, only the holder releases', () => {
+    const { guard, send } = driven();
+    send(0, 0.5);
+    guard.latchEstop('operator');
+    expect(isZeroTwist(guard.velocityAt(0))).toBe(true);
+    expect(guard.state(0)).toBe('estop');
+    expect(guard.estopState()).toEqual({ type: 'estop', latched: true, by: 'operator' });
+    expect(guard.releaseEstop('b', 10)).toEqual({ released: false, reason: 'not-lease-holder' });
+    expect(guard.releaseEstop('a', 10)).toEqual({ released: true });
+    expect(guard.releaseEstop('a', 10)).toEqual({ released: false, reason: 'not-latched' });
+    expect(guard.estopState()).toEqual({ type: 'estop', latched: false });
+  });
+
+  test('what was asked for before does not come back with the release', () => {
+    const { guard, send } = driven();
+    send(0, 0.5);
+    guard.latchEstop('robot');
+    guard.releaseEstop('a', 1);
+    expect(isZeroTwist(guard.velocityAt(2))).toBe(true);
+  });
+
+  test('a stick held through the release starts nothing until it was let go', () => {
+    const { guard, send } = driven();
+    guard.latchEstop('operator');
+    guard.releaseEstop('a', 0);
+    expect(send(10, 0.5)).toMatchObject({ reason: 'estop-latched' });
+    expect(send(20, 0)).toMatchObject({ accepted: true });
+    expect(send(30, 0.5)).toMatchObject({ accepted: true });
+    expect(guard.velocityAt(30).linear.x).toBe(0.5);
+  });
+
+  test('stays latched when the holder leaves; the next one releases it', () => {
+    const { guard } = driven();
+    guard.latchEstop('operator');
+    guard.operatorGone('a');
+    expect(guard.releaseEstop('a', 0).released).toBe(false);
+    guard.requestLease('b', false, 0);
+    expect(guard.releaseEstop('b', 0).released).toBe(true);
+  });
+});
+
+describe('lease', () => {
+  test('released, lost or taken: the robot stops at once, and the old lease drives no more', () => {
+    for (const end of ['release', 'gone', 'take'] as const) {
+      const { guard, send } = driven();
+      send(0, 0.5);
+      if (end === 'release') expect(guard.releaseLease('a')).toBe(true);
+      if (end === 'gone') expect(guard.operatorGone('a')).toBe(true);
+      if (end === 'take') expect(guard.requestLease('b', true, 5000).granted).toBe(true);
+      expect(isZeroTwist(guard.velocityAt(1))).toBe(true);
+      expect(send(10, 0.5)).toMatchObject({ reason: 'not-lease-holder' });
+      expect(guard.state(10)).toBe('idle');
+    }
+  });
+
+  test('nobody takes over from who is moving', () => {
+    const { guard, send } = driven();
+    for (let t = 0; t < 20_000; t += 100) {
+      send(t, 0.1);
+      expect(guard.requestLease('b', true, t).granted).toBe(false);
+    }
+  });
+
+  test('commands for zero do not keep a holder from being taken for idle', () => {
+    const { guard, send } = driven();
+    for (let t = 0; t <= 5000; t += 100) send(t, 0);
+    expect(guard.requestLease('b', true, 5000).granted).toBe(true);
+  });
+
+  test('is told to each operator as it concerns them', () => {
+    const guard = guardWith();
+    expect(guard.leaseState('a')).toEqual({ type: 'lease', holder: 'nobody' });
+    guard.requestLease('a', false, 0);
+    expect(guard.leaseState('a')).toEqual({ type: 'lease', holder: 'you', lease: '01'.repeat(16) });
+    expect(guard.leaseState('b')).toEqual({ type: 'lease', holder: 'other' });
+    for (const message of [guard.leaseState('a'), guard.leaseState('b'), guard.estopState()]) {
+      expect(decodeJson(robotSessionCodec, encodeJson(robotSessionCodec, message))).toEqual(message);
+    }
+  });
+});
+
+test('clock probes reach the gate', () => {
+  const { guard, send } = driven();
+  guard.onClockProbe('a', 1000, 1000);
+  expect(send(1300, 0.5, { timeMs: 1100 })).toMatchObject({ reason: 'stale' });
+});
+
+test('malformed messages count against the rate and move nothing', () => {
+  const { guard, send } = driven();
+  send(0, 0.5);
+  expect(guard.onMalformed('a', 'twist.linear.x: expected number', 10)).toMatchObject({
+    reason: 'malformed',
+  });
+  expect(guard.velocityAt(10).linear.x).toBe(0.5);
+});
+
+test('neither the limits nor the velocity can be changed from outside', () => {
+  const limits = { ...defaultDriveLimits };
+  const guard = new DriveGuard({ limits, randomBytes: randomBytes() });
+  limits.maxLinear = 100;
+  expect(guard.limits.maxLinear).toBe(1);
+  expect(() => {
+    (guard.limits as { maxLinear: number }).maxLinear = 100;
+  }).toThrow(TypeError);
+  const { guard: moving, send } = driven();
+  const verdict = send(0, 0.5);
+  if (verdict.accepted) verdict.twist.linear.x = 100;
+  moving.velocityAt(1).linear.x = 100;
+  expect(moving.velocityAt(1).linear.x).toBe(0.5);
+});
+
+test('a time that is no number stands still', () => {
+  const { guard, send } = driven();
+  send(0, 0.5);
+  expect(isZeroTwist(guard.velocityAt(Number.NaN))).toBe(true);
+});

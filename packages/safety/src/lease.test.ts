@@ -1,0 +1,76 @@
+import { handleSchema } from '@farpoint/protocol';
+import { expect, test } from 'vitest';
+import { type LeaseOptions, LeaseTable } from './lease.ts';
+
+/** Bytes 1,1,1… for the first lease, 2,2,2… for the second. */
+export function countingBytes(): (count: number) => Uint8Array {
+  let next = 0;
+  return (count) => new Uint8Array(count).fill(++next);
+}
+
+function table(options: Partial<LeaseOptions> = {}): LeaseTable {
+  return new LeaseTable({ randomBytes: countingBytes(), takeAfterIdleMs: 5000, ...options });
+}
+
+test('the first who asks drives, under a handle of 128 random bits', () => {
+  const leases = table();
+  const outcome = leases.request('a', false, 0);
+  expect(outcome).toEqual({ granted: true, lease: '01'.repeat(16), takenFrom: null });
+  expect(handleSchema.safeParse('01'.repeat(16)).success).toBe(true);
+  expect(leases.holder).toBe('a');
+  expect(leases.holds('a', '01'.repeat(16))).toBe(true);
+});
+
+test('nobody drives with another’s lease, nor the holder with another lease', () => {
+  const leases = table();
+  leases.request('a', false, 0);
+  expect(leases.holds('b', '01'.repeat(16))).toBe(false);
+  expect(leases.holds('a', '02'.repeat(16))).toBe(false);
+  expect(leases.leaseOf('b')).toBeNull();
+});
+
+test('asking again gives the holder the same lease', () => {
+  const leases = table();
+  const first = leases.request('a', false, 0);
+  expect(leases.request('a', true, 9000)).toEqual(first);
+});
+
+test('who does not ask to take over is refused, however idle the holder', () => {
+  const leases = table({ takePolicy: 'always' });
+  leases.request('a', false, 0);
+  expect(leases.request('b', false, 1e9)).toMatchObject({ granted: false, reason: 'held' });
+});
+
+test('idle: taken over only when nothing has moved for the time', () => {
+  const leases = table();
+  leases.request('a', false, 0);
+  leases.noteMotion(1000);
+  expect(leases.request('b', true, 5999)).toMatchObject({ granted: false, reason: 'take-refused' });
+  expect(leases.request('b', true, 6000)).toMatchObject({ granted: true, takenFrom: 'a' });
+  expect(leases.holds('a', '01'.repeat(16))).toBe(false);
+  expect(leases.holds('b', '02'.repeat(16))).toBe(true);
+});
+
+test('a fresh holder has the whole time before being taken for idle', () => {
+  const leases = table();
+  leases.request('a', false, 10_000);
+  expect(leases.request('b', true, 14_999).granted).toBe(false);
+});
+
+test('never and always', () => {
+  const never = table({ takePolicy: 'never' });
+  never.request('a', false, 0);
+  expect(never.request('b', true, 1e9)).toMatchObject({ granted: false, reason: 'take-refused' });
+  const always = table({ takePolicy: 'always' });
+  always.request('a', false, 0);
+  expect(always.request('b', true, 0)).toMatchObject({ granted: true, takenFrom: 'a' });
+});
+
+test('only the holder releases; then another lease is made', () => {
+  const leases = table();
+  leases.request('a', false, 0);
+  expect(leases.release('b')).toBe(false);
+  expect(leases.release('a')).toBe(true);
+  expect(leases.holder).toBeNull();
+  expect(leases.request('a', false, 1)).toMatchObject({ lease: '02'.repeat(16) });
+});
