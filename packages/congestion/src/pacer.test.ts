@@ -1,0 +1,210 @@
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import { type PacedFrame, PacketPacer } from './pacer.ts';
+
+const MBIT = 1_000_000;
+
+interface NumberedFrame extends PacedFrame {
+  id: number;
+}
+
+/** 1250-byte packets: 10,000 bits each, so 1 ms apart at 10 Mbit/s. */
+function frame(id: number, packets: number, minSpanMs?: number): NumberedFrame {
+  return { id, packets, bytes: packets * 1250, ...(minSpanMs === undefined ? {} : { minSpanMs }) };
+}
+
+/** Exact timing: no packet before its time. */
+function exact(bitsPerSecond: number, options = {}) {
+  return new PacketPacer<NumberedFrame>(bitsPerSecond, { factor: 1, burstMs: 0, ...options });
+}
+
+/** Wakes exactly when asked to. @returns [frame id, packet, time] of every packet */
+function drain(pacer: PacketPacer<NumberedFrame>, fromMs: number): [number, number, number][] {
+  const sent: [number, number, number][] = [];
+  let t = fromMs;
+  while (pacer.nextDueMs !== null) {
+    t = Math.max(t, pacer.nextDueMs);
+    for (let run = pacer.due(t); run !== null; run = pacer.due(t)) {
+      for (let i = 0; i < run.count; i++) sent.push([run.frame.id, run.first + i, t]);
+    }
+  }
+  return sent;
+}
+
+test('nothing to send, nothing due', () => {
+  const pacer = exact(10 * MBIT);
+  expect(pacer.nextDueMs).toBeNull();
+  expect(pacer.due(0)).toBeNull();
+});
+
+test('packets leave evenly at the rate', () => {
+  const pacer = exact(10 * MBIT);
+  pacer.enqueue(frame(1, 4), 100);
+  expect(drain(pacer, 100)).toEqual([
+    [1, 0, 100],
+    [1, 1, 101],
+    [1, 2, 102],
+    [1, 3, 103],
+  ]);
+});
+
+test('the factor makes it faster', () => {
+  const pacer = exact(8 * MBIT, { factor: 1.25 });
+  pacer.enqueue(frame(1, 3), 0);
+  expect(drain(pacer, 0).map(([, , t]) => t)).toEqual([0, 1, 2]);
+});
+
+test('a least span makes it slower', () => {
+  const pacer = exact(100 * MBIT);
+  pacer.enqueue(frame(1, 4, 20), 0);
+  expect(drain(pacer, 0).map(([, , t]) => t)).toEqual([0, 5, 10, 15]);
+});
+
+test('a burst window saves wake-ups and keeps the rate', () => {
+  const pacer = exact(40 * MBIT, { burstMs: 1 });
+  pacer.enqueue(frame(1, 48), 0);
+  const times = drain(pacer, 0).map(([, , t]) => t);
+  // Four packets a millisecond, together.
+  expect(times).toEqual(Array.from({ length: 48 }, (_, i) => Math.floor(i / 4)));
+});
+
+test('the last run of a frame says so', () => {
+  const pacer = exact(10 * MBIT);
+  pacer.enqueue(frame(1, 2), 0);
+  expect(pacer.due(0)).toMatchObject({ first: 0, count: 1, last: false });
+  expect(pacer.due(0)).toBeNull();
+  expect(pacer.due(1)).toMatchObject({ first: 1, count: 1, last: true });
+  expect(pacer.nextDueMs).toBeNull();
+});
+
+test('the next frame keeps the distance to the one before', () => {
+  const pacer = exact(10 * MBIT);
+  pacer.enqueue(frame(1, 2), 0);
+  pacer.enqueue(frame(2, 2), 0);
+  expect(drain(pacer, 0)).toEqual([
+    [1, 0, 0],
+    [1, 1, 1],
+    [2, 0, 2],
+    [2, 1, 3],
+  ]);
+});
+
+test('time without anything to send is not made up for', () => {
+  const pacer = exact(10 * MBIT);
+  pacer.enqueue(frame(1, 1), 0);
+  drain(pacer, 0);
+  pacer.enqueue(frame(2, 3), 500);
+  expect(drain(pacer, 500).map(([, , t]) => t)).toEqual([500, 501, 502]);
+});
+
+test('a late wake-up makes up for 10 ms and no more', () => {
+  const pacer = exact(10 * MBIT);
+  pacer.enqueue(frame(1, 100), 0);
+  pacer.due(0);
+  // Those of 50 … 59, then that of 60.
+  expect(pacer.due(60)).toMatchObject({ first: 1, count: 10 });
+  expect(pacer.due(60)).toMatchObject({ first: 11, count: 1 });
+  expect(pacer.due(60)).toBeNull();
+  expect(pacer.nextDueMs).toBe(61);
+});
+
+test('a new rate counts from the next packet on; none at all is a trickle', () => {
+  const pacer = exact(10 * MBIT);
+  pacer.enqueue(frame(1, 10), 0);
+  pacer.due(0);
+  pacer.setRate(1 * MBIT);
+  pacer.due(1);
+  expect(pacer.nextDueMs).toBe(11);
+  pacer.setRate(0);
+  pacer.due(11);
+  expect(pacer.nextDueMs).toBe(111);
+});
+
+describe('a queue that is full', () => {
+  test('a newer frame takes the place of the one not begun', () => {
+    const pacer = exact(10 * MBIT);
+    expect(pacer.enqueue(frame(1, 2), 0)).toEqual([]);
+    pacer.due(0);
+    expect(pacer.enqueue(frame(2, 2), 0)).toEqual([]);
+    expect(pacer.enqueue(frame(3, 2), 0)).toEqual([{ frame: frame(2, 2), reason: 'superseded', packets: 2 }]);
+    expect(drain(pacer, 0).map(([id]) => id)).toEqual([1, 3, 3]);
+    expect(pacer.drops).toEqual({ superseded: 1, overdue: 0, cleared: 0 });
+  });
+
+  test('a frame that takes too long gives way to a newer one, not before', () => {
+    const pacer = exact(1 * MBIT, { maxFrameMs: 250 });
+    pacer.enqueue(frame(1, 100), 0);
+    pacer.due(0);
+    pacer.due(10);
+    pacer.enqueue(frame(2, 1), 249);
+    expect(pacer.drops.overdue).toBe(0);
+    expect(pacer.enqueue(frame(3, 1), 250)).toEqual([
+      { frame: frame(1, 100), reason: 'overdue', packets: 98 },
+    ]);
+    expect(drain(pacer, 250).map(([id]) => id)).toEqual([2, 3]);
+  });
+
+  test('cleared: begun and waiting ones are given back', () => {
+    const pacer = exact(10 * MBIT);
+    pacer.enqueue(frame(1, 3), 0);
+    pacer.due(0);
+    pacer.enqueue(frame(2, 3), 0);
+    expect(pacer.clear()).toEqual([
+      { frame: frame(1, 3), reason: 'cleared', packets: 2 },
+      { frame: frame(2, 3), reason: 'cleared', packets: 3 },
+    ]);
+    expect(pacer.nextDueMs).toBeNull();
+  });
+});
+
+test('any frames, any wake-ups: every packet once and in order or its frame dropped, within rate and queue', () => {
+  const event = fc.record({
+    dt: fc.double({ min: 0, max: 40, noNaN: true }),
+    packets: fc.integer({ min: 0, max: 60 }),
+    rate: fc.constantFrom(0, 1, 5, 20, 100),
+  });
+  fc.assert(
+    fc.property(fc.array(event, { minLength: 1, maxLength: 60 }), (events) => {
+      const pacer = new PacketPacer<NumberedFrame>(20 * MBIT, { factor: 1.1 });
+      const frames = new Map<number, { packets: number; sent: number; dropped: number }>();
+      let t = 0;
+      let bits = 0;
+      let allowance = 0;
+      let fastest = 20;
+      const wake = () => {
+        for (let run = pacer.due(t); run !== null; run = pacer.due(t)) {
+          const state = frames.get(run.frame.id) as { packets: number; sent: number; dropped: number };
+          expect(run.first).toBe(state.sent);
+          state.sent += run.count;
+          expect(run.last).toBe(state.sent === state.packets);
+          bits += run.count * 10_000;
+        }
+        if (pacer.nextDueMs !== null) expect(pacer.nextDueMs).toBeGreaterThan(t);
+      };
+      events.forEach(({ dt, packets, rate }, id) => {
+        allowance += dt * Math.max(fastest, 0.1) * 1.1 * 1000;
+        t += dt;
+        wake();
+        if (rate > 0) {
+          pacer.setRate(rate * MBIT);
+          fastest = Math.max(fastest, rate);
+        }
+        if (packets > 0) {
+          frames.set(id, { packets, sent: 0, dropped: 0 });
+          for (const drop of pacer.enqueue(frame(id, packets), t)) {
+            (frames.get(drop.frame.id) as { dropped: number }).dropped += drop.packets;
+          }
+        }
+        wake();
+        // 10 ms of catching up, 1 ms of burst, one packet.
+        expect(bits).toBeLessThanOrEqual(allowance + 11 * fastest * 1.1 * 1000 + 10_000 + 1);
+        const open = [...frames.values()].filter((f) => f.sent + f.dropped < f.packets);
+        expect(open.length).toBeLessThanOrEqual(2);
+      });
+      for (const drop of pacer.clear())
+        (frames.get(drop.frame.id) as { dropped: number }).dropped += drop.packets;
+      for (const state of frames.values()) expect(state.sent + state.dropped).toBe(state.packets);
+    }),
+    { seed: 7, numRuns: 500 },
+  );
+});
