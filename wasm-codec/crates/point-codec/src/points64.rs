@@ -5,7 +5,7 @@
 //! room for a packet's header and trailer. The last block may be partial; it is packed by its own n.
 
 use bytemuck::must_cast;
-use wide::{f32x4, i32x4};
+use wide::{f32x4, i16x8, i32x4};
 
 use crate::Point;
 
@@ -106,27 +106,39 @@ pub fn pack(
 }
 
 fn pack_block(frame: &[Point], chosen: &[u32], latency_test: bool, block: &mut [u8]) -> usize {
+    let Some((last, others)) = chosen.split_last() else { return 0 };
     let mut saturated = 0;
-    for (i, index) in chosen.iter().enumerate() {
-        let point = frame[*index as usize];
-        let coordinates = quantise_vector(point).unwrap_or_else(|| {
-            let [x, y, z, _] = point;
-            saturated += usize::from(saturates(x) | saturates(y) | saturates(z));
-            let bits = |c: f32| u64::from(quantise(c) as u16);
-            bits(x) | bits(y) << 16 | bits(z) << 32
-        });
-        // Eight bytes where six belong: what follows is written later.
-        block[i * 6..i * 6 + 8].copy_from_slice(&coordinates.to_le_bytes());
+    let (coordinates, colours) = block.split_at_mut(chosen.len() * 6);
+    let (colours, _) = colours.as_chunks_mut::<2>();
+    let (last_colour, other_colours) = colours.split_last_mut().expect("one colour a point");
+    for (i, (index, colour)) in others.iter().zip(other_colours).enumerate() {
+        let (bits, own_colour) = quantise_point(frame[*index as usize], &mut saturated);
+        // Eight bytes where six belong: the next point is written over the rest.
+        coordinates[i * 6..i * 6 + 8].copy_from_slice(&bits.to_le_bytes());
+        *colour = own_colour.to_le_bytes();
     }
-    let (_, colours) = block.split_at_mut(chosen.len() * 6);
-    for (index, colour) in chosen.iter().zip(colours.as_chunks_mut::<2>().0) {
-        let rgba = frame[*index as usize][3].to_bits();
-        *colour = if latency_test { LATENCY_TEST_COLOUR } else { colour_664(rgba) }.to_le_bytes();
+    let (bits, own_colour) = quantise_point(frame[*last as usize], &mut saturated);
+    coordinates[others.len() * 6..].copy_from_slice(&bits.to_le_bytes()[..6]);
+    *last_colour = own_colour.to_le_bytes();
+    if latency_test {
+        colours.fill(LATENCY_TEST_COLOUR.to_le_bytes());
     }
     saturated
 }
 
-/// x, y and z as [`quantise`] gives them, in the lower 48 bits; `None` where single precision cannot tell.
+/// The coordinates in the lower 48 bits, and the colour.
+#[inline(always)]
+fn quantise_point(point: Point, saturated: &mut usize) -> (u64, u16) {
+    let coordinates = quantise_vector(point).unwrap_or_else(|| {
+        let [x, y, z, _] = point;
+        *saturated += usize::from(saturates(x) | saturates(y) | saturates(z));
+        let bits = |c: f32| u64::from(quantise(c) as u16);
+        bits(x) | bits(y) << 16 | bits(z) << 32
+    });
+    (coordinates, colour_664(point[3].to_bits()))
+}
+
+/// x, y and z as [`quantise`] gives them, in the lower 48 bits, and nothing of meaning above; `None` where single precision cannot tell.
 #[inline(always)]
 fn quantise_vector(point: Point) -> Option<u64> {
     // Products and sums up to 32767.5 are off by at most 2⁻⁹ together: nearer than that to a whole number, the lower one
@@ -147,8 +159,9 @@ fn quantise_vector(point: Point) -> Option<u64> {
     // In 2²³ + n the lower bits of the mantissa are n.
     let magnitude = must_cast::<f32x4, i32x4>(whole + f32x4::splat(8_388_608.0)) & i32x4::splat(0x7fff);
     let sign: i32x4 = metres >> 31;
-    let [x, y, z, _] = ((magnitude ^ sign) - sign).to_array();
-    Some(u64::from(x as u16) | u64::from(y as u16) << 16 | u64::from(z as u16) << 32)
+    let mm = (magnitude ^ sign) - sign;
+    let narrow: [u64; 2] = must_cast(i16x8::from_i32x8_saturate(must_cast([mm, mm])));
+    Some(narrow[0])
 }
 
 /// Writes one block of points as x, y, z and colour bits, four 16-bit numbers a point: the renderer's vertex layout.
@@ -247,7 +260,7 @@ mod tests {
         assert_eq!(colour_664(0x0000_ff00), LATENCY_TEST_COLOUR);
         assert_eq!(colour_664(0x00ff_0000), 0x000f);
         assert_eq!(colour_664(0xff03_0303), 0);
-        assert_eq!(colour_664(0xff10_0404), 0b000001_000001_0001);
+        assert_eq!(colour_664(0xff10_0404), (1 << 10) | (1 << 4) | 1);
     }
 
     #[test]
