@@ -1,0 +1,44 @@
+/** What the main thread and the capture worker say to each other. */
+import type { Twist } from '@farpoint/protocol';
+import type { EncodedFrame, SamplingOptions } from '../encode/frame-encoder.ts';
+import type { SourceDescription, SourceState } from './frame-source.ts';
+import type { SourceOptions } from './open-source.ts';
+
+export interface CaptureOptions {
+  source: SourceOptions;
+  framesPerSecond: number;
+  sampling: Omit<SamplingOptions, 'depthMeasure'>;
+  floorFraction: number;
+  mostPoints: number;
+  /** Without a word on the velocity for this long the worker itself stops the robot. */
+  watchdogMs: number;
+}
+
+export type CaptureRequest =
+  /** The velocity from now on; repeated at least every watchdog time while it is not zero. */
+  | { type: 'twist'; twist: Twist }
+  /** What the stream may take. With nobody watching nothing is captured. */
+  | { type: 'budget'; targetBitsPerSecond: number; overheadBytes: number; streaming: boolean }
+  /** Make the next captured frame a latency-test frame. */
+  | { type: 'latencyTest' }
+  /** A frame's buffer, no longer needed. */
+  | { type: 'recycle'; buffer: ArrayBuffer }
+  | { type: 'close' };
+
+/** One frame, ready to send; `buffer` is transferred. */
+export interface CapturedFrame extends EncodedFrame {
+  type: 'frame';
+  /** Packets in slots of 1248 bytes. */
+  buffer: ArrayBuffer;
+  latencyTest: boolean;
+  /** Robot's clock when the cloud was taken, ms, and how long that took. */
+  capturedAtMs: number;
+  captureMs: number;
+}
+
+export type CaptureReport =
+  | { type: 'ready'; description: SourceDescription }
+  | CapturedFrame
+  /** The robot's state, and frames that found no free buffer so far. */
+  | { type: 'state'; timeMs: number; state: SourceState; framesWithoutBuffer: number; watchdogStops: number }
+  | { type: 'closed' };

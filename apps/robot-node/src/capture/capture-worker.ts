@@ -1,0 +1,126 @@
+/**
+ * The capture thread: source → sampler → packets. Rendering and encoding take milliseconds at a time; here they never
+ * delay the thread that paces packets and reads commands.
+ */
+import { parentPort, workerData } from 'node:worker_threads';
+import { type Twist, zeroTwist } from '@farpoint/protocol';
+import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { monotonicMs } from '../clock.ts';
+import { FrameEncoder } from '../encode/frame-encoder.ts';
+import { SLOT_BYTES } from '../encode/packetiser.ts';
+import { planPoints } from '../encode/plan.ts';
+import type { CaptureOptions, CaptureReport, CaptureRequest } from './capture-messages.ts';
+import { BufferPool } from './buffer-pool.ts';
+import { openSource } from './open-source.ts';
+
+/** One frame being sent, one waiting, one being filled. */
+const BUFFERS = 3;
+const STATE_INTERVAL_MS = 20;
+/** Longest time between two looks at the source, ms. */
+const MAX_WAIT_MS = 10;
+
+const port = parentPort;
+if (port === null) throw new Error('capture-worker.ts runs as a worker only');
+const options = workerData as CaptureOptions;
+const send = (report: CaptureReport, transfer: ArrayBuffer[] = []) => port.postMessage(report, transfer);
+
+const source = await openSource(options.source);
+const { description } = source;
+const codec = await loadCodecFromDisk();
+const encoder = new FrameEncoder(
+  codec,
+  description.capacity,
+  { ...options.sampling, depthMeasure: description.depthMeasure },
+  monotonicMs,
+);
+const pool = new BufferPool(BUFFERS, Math.ceil(description.capacity / 150) * SLOT_BYTES);
+const frameIntervalMs = 1000 / options.framesPerSecond;
+
+let twist: Twist = zeroTwist();
+let twistAtMs = monotonicMs();
+let standing = true;
+let budget = { targetBitsPerSecond: 0, overheadBytes: 0, streaming: false };
+let latencyTest = false;
+let nextFrameMs = monotonicMs();
+let nextStateMs = 0;
+let watchdogStops = 0;
+let closed = false;
+
+port.on('message', (request: CaptureRequest) => {
+  switch (request.type) {
+    case 'twist':
+      // What was driven until now was driven under the old velocity.
+      source.advance(monotonicMs(), twist);
+      twist = request.twist;
+      twistAtMs = monotonicMs();
+      standing = false;
+      break;
+    case 'budget':
+      budget = request;
+      break;
+    case 'latencyTest':
+      latencyTest = true;
+      break;
+    case 'recycle':
+      pool.release(request.buffer);
+      break;
+    case 'close':
+      closed = true;
+      source.close();
+      send({ type: 'closed' });
+      port.close();
+      break;
+  }
+});
+
+function tick(): void {
+  if (closed) return;
+  const now = monotonicMs();
+  if (!standing && now - twistAtMs >= options.watchdogMs) {
+    // The main thread hangs or died: its own watchdog would have spoken first.
+    if (twist.linear.x !== 0 || twist.angular.z !== 0) watchdogStops++;
+    source.advance(twistAtMs + options.watchdogMs, twist);
+    twist = zeroTwist();
+    standing = true;
+  }
+  source.advance(now, twist);
+  if (now >= nextFrameMs) {
+    if (budget.streaming) captureFrame(now);
+    nextFrameMs += frameIntervalMs;
+    // After a stall the rhythm starts anew; frames are not made up for.
+    if (nextFrameMs < monotonicMs()) nextFrameMs = monotonicMs();
+  }
+  if (now >= nextStateMs) {
+    nextStateMs = now + STATE_INTERVAL_MS;
+    send({
+      type: 'state',
+      timeMs: now,
+      state: source.state,
+      framesWithoutBuffer: pool.refused,
+      watchdogStops,
+    });
+  }
+  setTimeout(tick, Math.min(Math.max(nextFrameMs - monotonicMs(), 0), MAX_WAIT_MS));
+}
+
+function captureFrame(now: number): void {
+  const buffer = pool.take();
+  if (buffer === null) return;
+  const frame = source.capture(now);
+  const captureMs = monotonicMs() - now;
+  const count = planPoints({
+    targetBitsPerSecond: budget.targetBitsPerSecond,
+    framesPerSecond: options.framesPerSecond,
+    rawPoints: frame.count,
+    overheadBytes: budget.overheadBytes,
+    floorFraction: options.floorFraction,
+    mostPoints: options.mostPoints,
+  });
+  const encoded = encoder.encode(frame, count, latencyTest);
+  encoder.copyPackets(new Uint8Array(buffer), encoded.packets);
+  send({ type: 'frame', ...encoded, buffer, latencyTest, capturedAtMs: frame.captureMs, captureMs }, [buffer]);
+  latencyTest = false;
+}
+
+send({ type: 'ready', description });
+tick();

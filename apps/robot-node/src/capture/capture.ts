@@ -1,0 +1,100 @@
+import { Worker } from 'node:worker_threads';
+import type { Twist } from '@farpoint/protocol';
+import type { CaptureOptions, CapturedFrame, CaptureReport, CaptureRequest } from './capture-messages.ts';
+import type { SourceDescription, SourceState } from './frame-source.ts';
+
+/** The capture thread ended by itself. */
+export class CaptureError extends Error {
+  override readonly name = 'CaptureError';
+}
+
+export interface CaptureState extends SourceState {
+  /** Robot's clock, ms. */
+  timeMs: number;
+}
+
+/** The main thread's end of the capture worker. */
+export class Capture {
+  readonly description: SourceDescription;
+  /** Gets each frame; it must give the buffer back with `recycle`. */
+  onFrame: ((frame: CapturedFrame) => void) | null = null;
+  onState: ((state: CaptureState) => void) | null = null;
+  /** Called once, if the thread ends without having been asked to. */
+  onFailure: ((error: CaptureError) => void) | null = null;
+  /** Frames not captured because all buffers were out. */
+  framesWithoutBuffer = 0;
+  /** How often the worker's own watchdog stopped the robot. */
+  watchdogStops = 0;
+  readonly #worker: Worker;
+  #closing = false;
+
+  private constructor(worker: Worker, description: SourceDescription) {
+    this.#worker = worker;
+    this.description = description;
+    worker.on('message', (report: CaptureReport) => {
+      if (report.type === 'frame') {
+        if (this.onFrame === null) this.recycle(report.buffer);
+        else this.onFrame(report);
+      } else if (report.type === 'state') {
+        this.framesWithoutBuffer = report.framesWithoutBuffer;
+        this.watchdogStops = report.watchdogStops;
+        this.onState?.({ ...report.state, timeMs: report.timeMs });
+      }
+    });
+    worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));
+    worker.on('exit', (code) => this.#fail(`exit code ${code}`));
+  }
+
+  /** @throws {CaptureError} where the source cannot be opened, saying why */
+  static async start(options: CaptureOptions): Promise<Capture> {
+    const worker = new Worker(new URL('./capture-worker.ts', import.meta.url), { workerData: options });
+    const description = await new Promise<SourceDescription>((resolve, reject) => {
+      const onError = (error: unknown) =>
+        reject(new CaptureError(error instanceof Error ? error.message : String(error), { cause: error }));
+      const onExit = (code: number) => onError(new Error(`the capture thread ended with code ${code}`));
+      worker.once('error', onError);
+      worker.once('exit', onExit);
+      worker.once('message', (report: CaptureReport) => {
+        worker.off('error', onError);
+        worker.off('exit', onExit);
+        if (report.type === 'ready') resolve(report.description);
+        else reject(new CaptureError('the capture thread did not introduce itself'));
+      });
+    });
+    return new Capture(worker, description);
+  }
+
+  setTwist(twist: Twist): void {
+    this.#post({ type: 'twist', twist });
+  }
+
+  setBudget(targetBitsPerSecond: number, overheadBytes: number, streaming: boolean): void {
+    this.#post({ type: 'budget', targetBitsPerSecond, overheadBytes, streaming });
+  }
+
+  requestLatencyTest(): void {
+    this.#post({ type: 'latencyTest' });
+  }
+
+  recycle(buffer: ArrayBuffer): void {
+    this.#post({ type: 'recycle', buffer }, [buffer]);
+  }
+
+  async close(): Promise<void> {
+    if (this.#closing) return;
+    this.#closing = true;
+    const ended = new Promise((resolve) => this.#worker.once('exit', resolve));
+    this.#post({ type: 'close' });
+    await ended;
+  }
+
+  #post(request: CaptureRequest, transfer: ArrayBuffer[] = []): void {
+    this.#worker.postMessage(request, transfer);
+  }
+
+  #fail(detail: string): void {
+    if (this.#closing) return;
+    this.#closing = true;
+    this.onFailure?.(new CaptureError(`the capture thread ended: ${detail}`));
+  }
+}

@@ -1,0 +1,46 @@
+/** Where clouds come from. A source lives in the capture worker; it is driven by the robot's clock, ms. */
+import type { Battery, Pose, Twist } from '@farpoint/protocol';
+
+export interface SourceDescription {
+  /** What it is, for people, e.g. `sim`. */
+  kind: string;
+  /** The grid of its clouds; height 1 where they have none. */
+  width: number;
+  height: number;
+  /** Most points of a frame. */
+  capacity: number;
+  /** What the sampler takes as depth: `range` for sensors that look all around. */
+  depthMeasure: 'z' | 'range';
+  /** False where there are no wheels: drive commands are accepted and change nothing. */
+  drives: boolean;
+}
+
+/** One cloud. The points are a view that the next capture may overwrite. */
+export interface SourceFrame {
+  /** x, y, z in metres in the optical frame; the fourth word's bytes are R, G, B, A. */
+  points: Float32Array;
+  /** How many are filled. */
+  count: number;
+  /** The optical frame in the world. */
+  cameraPose: Pose;
+  captureMs: number;
+}
+
+export interface SourceState {
+  /** base_link in the world. */
+  pose: Pose;
+  twist: Twist;
+  battery: Battery | null;
+  /** Touching an obstacle. */
+  contact: boolean;
+}
+
+export interface FrameSource {
+  readonly description: SourceDescription;
+  /** Lets time pass until `nowMs`; the velocity wanted in the meantime is `twist`. */
+  advance(nowMs: number, twist: Twist): void;
+  /** Takes one cloud now. @throws {Error} where the source is broken for good */
+  capture(nowMs: number): SourceFrame;
+  readonly state: SourceState;
+  close(): void;
+}

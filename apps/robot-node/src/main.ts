@@ -1,0 +1,19 @@
+#!/usr/bin/env node
+import { runProgram } from '@farpoint/service';
+import { robotProgram, toRobotOptions } from './options.ts';
+import { Robot } from './robot.ts';
+import { registerRobotMetrics } from './telemetry/robot-metrics.ts';
+
+await runProgram(robotProgram, async ({ options, log, health, metrics, shutdown, serveAdmin }) => {
+  const robot = await Robot.start(toRobotOptions(options), log);
+  shutdown.onClose('robot', () => robot.close());
+  robot.onFailure = (error) => {
+    log.fatal({ err: error }, 'the source failed');
+    void shutdown.end('the source failed', 1);
+  };
+  registerRobotMetrics(metrics, robot);
+  // Without signaling those who are connected go on: that is no failure of the robot.
+  health.add('signaling', () => ({ ok: true, detail: { registered: robot.signaling.registered } }));
+  health.add('operators', () => ({ ok: true, detail: { connected: robot.operators.size } }));
+  await serveAdmin({ host: options.adminHost, port: options.adminPort });
+});

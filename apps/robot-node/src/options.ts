@@ -1,0 +1,245 @@
+/** The robot program's options, and what the robot is made of when they are right. */
+import { readFileSync } from 'node:fs';
+import { randomBytes } from 'node:crypto';
+import { displayNameSchema, handleSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
+import { defaultDriveLimits } from '@farpoint/safety';
+import {
+  adminOptions,
+  defineOption,
+  defineProgram,
+  OptionsError,
+  type OptionTable,
+  type OptionValues,
+  schema,
+} from '@farpoint/service';
+import * as z from 'zod';
+import type { SourceOptions } from './capture/open-source.ts';
+import type { RobotOptions } from './robot.ts';
+
+const signalingUrlSchema = z
+  .url({ protocol: /^wss?$/, error: 'must be a ws:// or wss:// address' })
+  .refine((url) => new URL(url).search === '', 'must have no query');
+
+const options = {
+  signaling: defineOption({
+    schema: signalingUrlSchema,
+    default: 'ws://127.0.0.1:3000',
+    argument: 'URL',
+    help: 'signaling service, ws:// or wss://',
+  }),
+  tlsCa: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'FILE',
+    help: 'PEM file of certificate authorities to trust for wss://, instead of the system’s',
+  }),
+  token: defineOption({
+    schema: schema.optional(tokenSchema),
+    default: null,
+    argument: 'TOKEN',
+    secret: true,
+    help: 'token that the signaling service asks for',
+  }),
+  id: defineOption({
+    schema: robotIdSchema,
+    default: 'robot-1',
+    argument: 'ID',
+    help: 'the robot’s identity: a–z 0–9 . _ -',
+  }),
+  name: defineOption({
+    schema: displayNameSchema,
+    default: 'Robot',
+    argument: 'NAME',
+    help: 'what operators read',
+  }),
+  key: defineOption({
+    schema: schema.optional(handleSchema),
+    default: null,
+    argument: 'KEY',
+    secret: true,
+    help: 'proves to signaling, also after a restart, that this is the same robot; random where left out',
+  }),
+  source: defineOption({
+    schema: schema.choice(['sim']),
+    default: 'sim',
+    argument: 'KIND',
+    help: 'where the points come from: sim (a simulated robot)',
+  }),
+  fps: defineOption({
+    schema: schema.number({ min: 0.1, max: 120 }),
+    default: 30,
+    argument: 'RATE',
+    help: 'frames a second',
+  }),
+  simSeed: defineOption({
+    schema: schema.integer({ min: 0, max: 0xffffffff }),
+    default: 1,
+    argument: 'SEED',
+    help: 'seed of the simulated robot’s sensor noise',
+  }),
+  simSize: defineOption({
+    schema: schema.integer({ min: 16, max: 1024 }),
+    default: 480,
+    argument: 'PIXELS',
+    help: 'width and height of the simulated camera, a multiple of 4',
+  }),
+  bitrateMbps: defineOption({
+    schema: schema.number({ min: 0.1, max: 1000 }),
+    default: 40,
+    argument: 'MBPS',
+    help: 'most the stream to an operator may take on the wire, 10^6 bit/s, headers counted',
+  }),
+  maxPoints: defineOption({
+    schema: schema.integer({ min: 150, max: 4_194_304 }),
+    default: 4_194_304,
+    argument: 'N',
+    help: 'most points of a frame, whatever the rate allows',
+  }),
+  lambda: defineOption({
+    schema: schema.number({ min: 0, max: 64 }),
+    default: 3,
+    argument: 'L',
+    help: 'how fast a point’s weight falls with depth; 0 draws evenly',
+  }),
+  epsilon: defineOption({
+    schema: schema.number({ min: 1e-12, max: 1 }),
+    default: 1e-6,
+    argument: 'E',
+    help: 'keeps the weight of the nearest points finite',
+  }),
+  priorityDistance: defineOption({
+    schema: schema.number({ min: 0, max: 1000 }),
+    default: 3.85,
+    argument: 'METRES',
+    help: 'points nearer than this weigh as much as the nearest',
+  }),
+  floor: defineOption({
+    schema: schema.number({ min: 0, max: 1 }),
+    default: 0.1,
+    argument: 'FRACTION',
+    help: 'fraction of the raw cloud that is sent each second whatever the rate',
+  }),
+  maxLinear: defineOption({
+    schema: schema.number({ min: 0.01, max: 10 }),
+    default: defaultDriveLimits.maxLinear,
+    argument: 'M/S',
+    help: 'speed limit, m/s',
+  }),
+  maxAngular: defineOption({
+    schema: schema.number({ min: 0.01, max: 10 }),
+    default: defaultDriveLimits.maxAngular,
+    argument: 'RAD/S',
+    help: 'turning limit, rad/s',
+  }),
+  watchdogMs: defineOption({
+    schema: schema.number({ min: 50, max: 1000 }),
+    default: defaultDriveLimits.watchdogMs,
+    argument: 'MS',
+    help: 'without a fresh command for this long the robot stops',
+  }),
+  maxCommandsPerSecond: defineOption({
+    schema: schema.number({ min: 10, max: 1000 }),
+    default: defaultDriveLimits.maxCommandsPerSecond,
+    argument: 'N',
+    help: 'more commands a second are refused',
+  }),
+  takePolicy: defineOption({
+    schema: schema.choice(['never', 'idle', 'always']),
+    default: 'idle',
+    argument: 'POLICY',
+    help: 'may another operator take over: never, idle (where nothing has moved for 5 s), always',
+  }),
+  maxOperators: defineOption({
+    schema: schema.integer({ min: 1, max: 32 }),
+    default: 4,
+    argument: 'N',
+    help: 'operators at once, the one who drives included',
+  }),
+  silenceS: defineOption({
+    schema: schema.number({ min: 1, max: 300 }),
+    default: 5,
+    argument: 'SECONDS',
+    help: 'an operator of whom nothing is heard for this long is gone',
+  }),
+  iceServers: defineOption({
+    schema: schema.list(z.string().regex(/^(stun|turns?):/, 'must begin with stun:, turn: or turns:')),
+    default: [],
+    argument: 'URLS',
+    help: 'STUN or TURN servers besides those of the signaling service',
+  }),
+  udpPorts: defineOption({
+    schema: schema.optional(
+      z
+        .string()
+        .regex(/^\d{1,5}-\d{1,5}$/, 'must be two ports, e.g. 40000-40100')
+        .refine((text) => {
+          const [low, high] = text.split('-').map(Number) as [number, number];
+          return low >= 1 && low <= high && high <= 65_535;
+        }, 'must be two ports, the lower first'),
+    ),
+    default: null,
+    argument: 'LOW-HIGH',
+    help: 'local UDP ports for operators’ connections; any where left out',
+  }),
+  ...adminOptions(9400),
+} satisfies OptionTable;
+
+export const robotProgram = defineProgram({
+  name: 'farpoint-robot',
+  summary: 'The robot peer: captures point clouds, fits them to the link, streams them, obeys safe commands.',
+  version: '0.1.0',
+  section: 'robot',
+  options,
+});
+
+export type RobotOptionValues = OptionValues<typeof options>;
+
+/** @throws {OptionsError} for what only shows when options are seen together, or a file that cannot be read */
+export function toRobotOptions(values: RobotOptionValues): RobotOptions {
+  const limits = {
+    maxLinear: values.maxLinear,
+    maxAngular: values.maxAngular,
+    watchdogMs: values.watchdogMs,
+    maxCommandsPerSecond: values.maxCommandsPerSecond,
+  };
+  const [low, high] = (values.udpPorts ?? '').split('-').map(Number);
+  return {
+    id: values.id,
+    name: values.name,
+    signaling: {
+      url: values.signaling,
+      key: values.key ?? randomBytes(16).toString('hex'),
+      token: values.token,
+      ca: values.tlsCa === null ? null : readText('--tls-ca', values.tlsCa),
+    },
+    capture: {
+      source: toSource(values),
+      framesPerSecond: values.fps,
+      sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
+      floorFraction: values.floor,
+      mostPoints: values.maxPoints,
+      watchdogMs: values.watchdogMs,
+    },
+    limits,
+    takePolicy: values.takePolicy,
+    bitsPerSecond: values.bitrateMbps * 1e6,
+    maxOperators: values.maxOperators,
+    silenceMs: values.silenceS * 1000,
+    connectTimeoutMs: 20_000,
+    iceServers: values.iceServers.map((urls) => ({ urls })),
+    portRange: values.udpPorts === null ? undefined : [low as number, high as number],
+  };
+}
+
+function toSource(values: RobotOptionValues): SourceOptions {
+  if (values.simSize % 4 !== 0) throw new OptionsError('--sim-size', 'must be a multiple of 4');
+  return { kind: 'sim', seed: values.simSeed, size: values.simSize };
+}
+
+function readText(where: string, path: string): string {
+  try {
+    return readFileSync(path, 'utf8');
+  } catch (error) {
+    throw new OptionsError(where, `cannot be read: ${error instanceof Error ? error.message : String(error)}`);
+  }
+}

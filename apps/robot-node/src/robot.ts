@@ -1,0 +1,335 @@
+/** The robot put together: one capture, any number of operators, one guard over the wheels. */
+import { randomBytes } from 'node:crypto';
+import { FixedRateController } from '@farpoint/congestion';
+import {
+  type DriveLimits,
+  encodeJson,
+  type IceServer,
+  PROTOCOL_VERSION,
+  type ProtocolError,
+  type ServiceToRobot,
+  type Telemetry,
+  telemetryCodec,
+} from '@farpoint/protocol';
+import { DriveGuard, type RejectedCommand, type TakePolicy } from '@farpoint/safety';
+import type { Logger } from '@farpoint/service';
+import { Capture, type CaptureError, type CaptureState } from './capture/capture.ts';
+import type { CapturedFrame, CaptureOptions } from './capture/capture-messages.ts';
+import { monotonicMs } from './clock.ts';
+import { DriveStation } from './drive/drive-station.ts';
+import { ConnectedOperator } from './session/connected-operator.ts';
+import type { OperatorSession, SessionHost } from './session/operator-session.ts';
+import { SignalingClient, type SignalingOptions } from './signaling/signaling-client.ts';
+import { RobotCounters } from './telemetry/robot-counters.ts';
+import { StageTimer } from './telemetry/stage-timer.ts';
+import type { PeerEnd } from './transport/operator-peer.ts';
+import { SendLoop } from './transport/send-loop.ts';
+import { SharedFrame } from './transport/shared-frame.ts';
+
+export interface RobotOptions {
+  id: string;
+  name: string;
+  signaling: Pick<SignalingOptions, 'url' | 'key' | 'token' | 'ca'>;
+  capture: CaptureOptions;
+  limits: DriveLimits;
+  takePolicy: TakePolicy;
+  /** What a stream may take on the wire, bit/s. */
+  bitsPerSecond: number;
+  maxOperators: number;
+  /** An operator of whom nothing is heard for this long is gone, ms. */
+  silenceMs: number;
+  connectTimeoutMs: number;
+  /** Besides those of the signaling service. */
+  iceServers: IceServer[];
+  portRange?: readonly [number, number] | undefined;
+}
+
+const TELEMETRY_MS = 50;
+const TICK_MS = 25;
+/** A frame that is older than this when it comes out of the worker is not worth sending. */
+const MAX_FRAME_AGE_MS = 250;
+
+export class Robot implements SessionHost {
+  readonly capture: Capture;
+  readonly drive: DriveStation;
+  readonly signaling: SignalingClient;
+  readonly operators = new Map<string, ConnectedOperator>();
+  readonly counters = new RobotCounters();
+  /** Called once, where the robot cannot go on. */
+  onFailure: ((error: CaptureError) => void) | null = null;
+  readonly #options: RobotOptions;
+  readonly #log: Logger;
+  readonly #sendLoop = new SendLoop(monotonicMs);
+  readonly #captureStages = new StageTimer();
+  readonly #timers: NodeJS.Timeout[] = [];
+  #iceServers: readonly IceServer[] = [];
+  #state: CaptureState | null = null;
+  #telemetrySequence = 0;
+  #budget = { bitsPerSecond: -1, overheadBytes: 0, streaming: false };
+
+  private constructor(capture: Capture, options: RobotOptions, log: Logger) {
+    this.#options = options;
+    this.#log = log;
+    this.capture = capture;
+    const guard = new DriveGuard({
+      limits: options.limits,
+      takePolicy: options.takePolicy,
+      randomBytes: (count) => randomBytes(count),
+    });
+    this.drive = new DriveStation(guard, (twist) => capture.setTwist(twist), monotonicMs);
+    this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
+    this.signaling.onMessage = (message) => this.#onSignaling(message);
+    capture.onFrame = (frame) => this.#onFrame(frame);
+    capture.onState = (state) => {
+      this.#state = state;
+    };
+    capture.onFailure = (error) => this.onFailure?.(error);
+    this.#timers.push(setInterval(() => this.#tick(), TICK_MS));
+    this.#timers.push(setInterval(() => this.#sendTelemetry(), TELEMETRY_MS));
+  }
+
+  /** Opens the source and begins to call the signaling service. @throws {CaptureError} */
+  static async start(options: RobotOptions, log: Logger): Promise<Robot> {
+    const capture = await Capture.start(options.capture);
+    log.info({ source: capture.description }, 'source open');
+    const robot = new Robot(capture, options, log);
+    robot.signaling.start();
+    return robot;
+  }
+
+  /** Stops the wheels first, then takes leave of everyone. */
+  async close(): Promise<void> {
+    this.drive.guard.latchEstop('robot');
+    this.drive.apply();
+    for (const timer of this.#timers) clearInterval(timer);
+    for (const operator of [...this.operators.values()]) {
+      this.signaling.send({ type: 'session.close', session: operator.session.id });
+      operator.peer.close('closed', 'the robot is shutting down');
+    }
+    this.drive.close();
+    this.#sendLoop.close();
+    await this.signaling.close();
+    await this.capture.close();
+  }
+
+  // SessionHost
+
+  now(): number {
+    return monotonicMs();
+  }
+
+  leaseChanged(): void {
+    for (const operator of this.operators.values()) operator.session.sendLease();
+    this.#updateBudget();
+  }
+
+  estopChanged(): void {
+    const { guard } = this.drive;
+    this.#log.warn({ estop: guard.estopState() }, 'emergency stop changed');
+    for (const operator of this.operators.values()) operator.session.sendEstop();
+  }
+
+  latencyTestRequested(session: OperatorSession, id: number, commandMs: number): void {
+    this.operators.get(session.id)?.addLatencyTest({ id, commandMs });
+    this.capture.requestLatencyTest();
+  }
+
+  commandAccepted(): void {
+    this.counters.commandsAccepted++;
+  }
+
+  commandRejected(rejection: RejectedCommand): void {
+    this.counters.commandsRejected.add(rejection.reason);
+  }
+
+  messageRefused(channel: string, error: ProtocolError): void {
+    this.counters.messagesRefused.add(`${channel}:${error.code}`);
+    this.#log.debug({ err: error, channel }, 'message refused');
+  }
+
+  // Signaling
+
+  #onSignaling(message: ServiceToRobot): void {
+    switch (message.type) {
+      case 'robot.welcome':
+        this.#iceServers = [...message.iceServers, ...this.#options.iceServers];
+        break;
+      case 'session.request':
+        void this.#openSession(message.session, message.operator);
+        break;
+      case 'session.answer':
+        void this.operators.get(message.session)?.peer.answer(message.sdp);
+        break;
+      case 'session.candidate':
+        void this.#addCandidate(message.session, message.candidate);
+        break;
+      case 'session.closed': {
+        const operator = this.operators.get(message.session);
+        // The operator's line to signaling is gone, or ours was: while its connection lives, the session does.
+        if (message.reason === 'operator-left' && operator?.peer.connected) break;
+        operator?.peer.close('closed', message.reason);
+        break;
+      }
+      case 'error':
+        this.counters.signalingErrors.add(message.code);
+        this.#log.warn({ code: message.code, session: message.session, detail: message.message }, 'signaling refused');
+        if (message.session !== undefined && message.code === 'unknown-session') {
+          const operator = this.operators.get(message.session);
+          if (operator !== undefined && !operator.peer.connected) operator.peer.close('closed', message.message);
+        }
+        break;
+    }
+  }
+
+  async #addCandidate(session: string, candidate: Parameters<ConnectedOperator['peer']['addCandidate']>[0]) {
+    const fault = await this.operators.get(session)?.peer.addCandidate(candidate);
+    if (fault == null) return;
+    this.counters.candidatesRefused++;
+    this.#log.debug({ session, fault }, 'candidate refused');
+  }
+
+  async #openSession(session: string, operatorName: string): Promise<void> {
+    const { maxOperators, connectTimeoutMs, portRange, bitsPerSecond } = this.#options;
+    if (this.operators.has(session) || this.operators.size >= maxOperators) {
+      this.counters.sessionsRefused++;
+      this.#log.warn({ session, operators: this.operators.size }, 'session refused');
+      this.signaling.send({ type: 'session.close', session });
+      return;
+    }
+    const log = this.#log.child({ session, operator: operatorName });
+    const operator = new ConnectedOperator(
+      {
+        session,
+        operatorName,
+        peer: { iceServers: this.#iceServers, portRange, connectTimeoutMs },
+        controller: new FixedRateController({ bitsPerSecond }),
+      },
+      this,
+      this.#sendLoop,
+      {
+        onCandidate: (candidate) => this.signaling.send({ type: 'session.candidate', session, candidate }),
+        onConnected: () => {
+          log.info({ operators: this.operators.size }, 'operator connected');
+          this.#welcome(operator);
+        },
+        onBudgetChanged: () => this.#updateBudget(),
+        onLatencyFrameLost: () => this.capture.requestLatencyTest(),
+        onEnded: (end, detail) => this.#sessionEnded(operator, end, detail, log),
+      },
+    );
+    this.operators.set(session, operator);
+    this.counters.sessionsOpened++;
+    log.info('session requested');
+    try {
+      const sdp = await operator.peer.offer();
+      if (this.operators.get(session) === operator) this.signaling.send({ type: 'session.offer', session, sdp });
+    } catch (error) {
+      log.error({ err: error }, 'no offer');
+      operator.peer.close('not-connected', 'no offer could be made');
+    }
+  }
+
+  #welcome(operator: ConnectedOperator): void {
+    const { id, name, limits, capture } = this.#options;
+    const { width, height } = this.capture.description;
+    const { session } = operator;
+    session.send({
+      type: 'welcome',
+      protocol: PROTOCOL_VERSION,
+      robotId: id,
+      name,
+      limits,
+      stream: { format: 'points64', width, height, framesPerSecond: capture.framesPerSecond },
+    });
+    session.sendLease();
+    session.sendEstop();
+    this.#updateBudget();
+  }
+
+  #sessionEnded(operator: ConnectedOperator, end: PeerEnd, detail: string, log: Logger): void {
+    const { id } = operator.session;
+    this.operators.delete(id);
+    this.counters.sessionsEnded.add(end);
+    const leaseFreed = this.drive.guard.operatorGone(id);
+    this.drive.apply();
+    log.info({ end, detail, operators: this.operators.size }, 'session ended');
+    if (leaseFreed) this.leaseChanged();
+    this.#updateBudget();
+    this.signaling.send({ type: 'session.close', session: id });
+  }
+
+  // Stream
+
+  /** The driver's path decides how much is captured; without a driver the narrowest. Slower ones skip frames. */
+  #updateBudget(): void {
+    const streaming = [...this.operators.values()].filter((operator) => operator.streaming);
+    const driver = streaming.find((operator) => operator.session.id === this.drive.guard.leaseHolder);
+    const deciding = driver === undefined ? streaming : [driver];
+    const bitsPerSecond = Math.min(...deciding.map((operator) => operator.sender?.targetBitsPerSecond ?? 0));
+    const next = {
+      bitsPerSecond: streaming.length === 0 ? 0 : bitsPerSecond,
+      overheadBytes: Math.max(0, ...streaming.map((operator) => operator.sender?.overheadBytes ?? 0)),
+      streaming: streaming.length > 0,
+    };
+    const last = this.#budget;
+    if (
+      next.bitsPerSecond === last.bitsPerSecond &&
+      next.overheadBytes === last.overheadBytes &&
+      next.streaming === last.streaming
+    ) {
+      return;
+    }
+    this.#budget = next;
+    this.capture.setBudget(next.bitsPerSecond, next.overheadBytes, next.streaming);
+  }
+
+  #onFrame(frame: CapturedFrame): void {
+    this.counters.frame(frame);
+    this.#captureStages.add('captureMs', frame.captureMs);
+    this.#captureStages.add('sampleMs', frame.sampleMs);
+    this.#captureStages.add('packMs', frame.packMs);
+    const shared = new SharedFrame(frame, this.#budget.overheadBytes, (buffer) => this.capture.recycle(buffer));
+    if (monotonicMs() - frame.capturedAtMs > MAX_FRAME_AGE_MS) {
+      this.counters.framesStale++;
+      if (frame.latencyTest) this.capture.requestLatencyTest();
+    } else {
+      for (const operator of this.operators.values()) operator.enqueue(shared);
+    }
+    shared.release();
+    this.#sendLoop.run();
+  }
+
+  #tick(): void {
+    const now = monotonicMs();
+    for (const operator of [...this.operators.values()]) {
+      operator.tick();
+      if (operator.sender !== null && now - operator.heardMs > this.#options.silenceMs) {
+        operator.peer.close('silent', `nothing heard for ${this.#options.silenceMs / 1000} s`);
+      }
+    }
+    this.#updateBudget();
+  }
+
+  #sendTelemetry(): void {
+    const state = this.#state;
+    if (state === null || this.operators.size === 0) return;
+    const now = monotonicMs();
+    const captureStages = this.#captureStages.take();
+    this.#telemetrySequence = (this.#telemetrySequence + 1) >>> 0;
+    for (const operator of this.operators.values()) {
+      if (!operator.peer.connected) continue;
+      const message: Telemetry = {
+        type: 'telemetry',
+        sequence: this.#telemetrySequence,
+        timeMs: state.timeMs,
+        pose: state.pose,
+        twist: state.twist,
+        ...(state.battery === null ? {} : { battery: state.battery }),
+        drive: this.drive.guard.state(now, state.contact),
+        ...operator.status(captureStages, now),
+        operators: this.operators.size,
+      };
+      operator.peer.sendTelemetry(encodeJson(telemetryCodec, message));
+    }
+  }
+}

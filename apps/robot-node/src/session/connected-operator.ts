@@ -1,0 +1,184 @@
+import type { RateController } from '@farpoint/congestion';
+import type { IceCandidate, StageTimings, StreamStatus } from '@farpoint/protocol';
+import { RateMeter } from '../telemetry/rate-meter.ts';
+import { StageTimer } from '../telemetry/stage-timer.ts';
+import type { CloudTransport } from '../transport/cloud-transport.ts';
+import { OperatorPeer, type OperatorPeerOptions, type PeerEnd } from '../transport/operator-peer.ts';
+import type { SendLoop } from '../transport/send-loop.ts';
+import type { SharedFrame } from '../transport/shared-frame.ts';
+import { StreamSender } from '../transport/stream-sender.ts';
+import { OperatorSession, type SessionHost } from './operator-session.ts';
+
+/** A latency test that waits for its green frame. */
+export interface LatencyTest {
+  id: number;
+  commandMs: number;
+}
+
+export interface ConnectedOperatorOptions {
+  /** The session's handle; also the operator's name towards the guard. */
+  session: string;
+  operatorName: string;
+  peer: OperatorPeerOptions;
+  controller: RateController;
+}
+
+export interface ConnectedOperatorEvents {
+  onCandidate(candidate: IceCandidate): void;
+  onConnected(): void;
+  /** Streaming began, paused, or may go at another rate. */
+  onBudgetChanged(): void;
+  /** A green frame did not get through: another is needed. */
+  onLatencyFrameLost(): void;
+  onEnded(end: PeerEnd, detail: string): void;
+}
+
+/** More tests than this wait only where the operator misbehaves. */
+const MAX_LATENCY_TESTS = 16;
+
+/** One operator: connection, session and stream. */
+export class ConnectedOperator {
+  readonly session: OperatorSession;
+  readonly peer: OperatorPeer;
+  sender: StreamSender | null = null;
+  readonly #host: SessionHost;
+  readonly #sendLoop: SendLoop;
+  readonly #controller: RateController;
+  readonly #events: ConnectedOperatorEvents;
+  readonly #rates = new RateMeter<'framesSent' | 'pointsSent' | 'bytesSent'>();
+  readonly #stages = new StageTimer();
+  #tests: LatencyTest[] = [];
+  readonly #testsInFlight = new Map<SharedFrame, LatencyTest[]>();
+  #lastFrameNumber = 0;
+  #lastValidPoints = 0;
+
+  constructor(
+    options: ConnectedOperatorOptions,
+    host: SessionHost,
+    sendLoop: SendLoop,
+    events: ConnectedOperatorEvents,
+  ) {
+    this.#host = host;
+    this.#sendLoop = sendLoop;
+    this.#controller = options.controller;
+    this.#events = events;
+    this.peer = new OperatorPeer(options.peer, {
+      onCandidate: (candidate) => events.onCandidate(candidate),
+      onConnected: (transport) => this.#onConnected(transport),
+      onMessage: (channel, data) => this.session.onMessage(channel, data),
+      onEnded: (end, detail) => this.#onEnded(end, detail),
+    });
+    this.session = new OperatorSession(options.session, options.operatorName, host, this.peer);
+    this.session.onReceiverReport = (report) => this.sender?.onReceiverReport(report);
+    this.session.onReceiverLimit = (bitsPerSecond) => {
+      this.sender?.onReceiverLimit(bitsPerSecond);
+      events.onBudgetChanged();
+    };
+    this.session.onStreamSwitch = (running) => {
+      if (!running) this.sender?.clear();
+      events.onBudgetChanged();
+    };
+  }
+
+  /** Connected and not paused. */
+  get streaming(): boolean {
+    return this.sender !== null && this.session.streaming;
+  }
+
+  /** When anything was last heard from the operator, message or RTCP, robot's clock, ms. */
+  get heardMs(): number {
+    return Math.max(this.session.heardMs, this.sender?.heardMs ?? 0);
+  }
+
+  get droppedFrames(): number {
+    const drops = this.sender?.droppedFrames;
+    return drops === undefined ? 0 : drops.superseded + drops.overdue;
+  }
+
+  addLatencyTest(test: LatencyTest): void {
+    this.#tests.push(test);
+    if (this.#tests.length > MAX_LATENCY_TESTS) this.#tests.shift();
+  }
+
+  /** Sends the frame when its time comes; a green one answers the latency tests that wait. */
+  enqueue(shared: SharedFrame): void {
+    if (this.sender === null || !this.session.streaming) return;
+    const { frame } = shared;
+    if (frame.latencyTest && this.#tests.length > 0) {
+      this.#testsInFlight.set(shared, this.#tests);
+      for (const { id, commandMs } of this.#tests) {
+        const { frameNumber, points, capturedAtMs } = frame;
+        this.session.send({
+          type: 'latencyFrame',
+          id,
+          frameNumber,
+          points,
+          commandMs,
+          captureMs: capturedAtMs,
+        });
+      }
+      this.#tests = [];
+    }
+    this.#lastValidPoints = frame.validPoints;
+    this.sender.enqueue(shared);
+  }
+
+  /** Every 25 ms. */
+  tick(): void {
+    this.sender?.tick();
+    this.session.flushRejections();
+  }
+
+  /** What telemetry says of this operator's stream; call once for each telemetry message. */
+  status(captureStages: StageTimings, nowMs: number): { stages: StageTimings; stream: StreamStatus } {
+    const counters = this.sender?.counters ?? { framesSent: 0, pointsSent: 0, bytesSent: 0 };
+    const { framesSent, pointsSent, bytesSent } = this.#rates.update(
+      { framesSent: counters.framesSent, pointsSent: counters.pointsSent, bytesSent: counters.bytesSent },
+      nowMs,
+    );
+    return {
+      stages: { ...captureStages, sendMs: this.#stages.take().sendMs },
+      stream: {
+        frameNumber: this.#lastFrameNumber,
+        framesPerSecond: framesSent,
+        pointsPerFrame: framesSent > 0 ? pointsSent / framesSent : 0,
+        validPoints: this.#lastValidPoints,
+        bitsPerSecond: bytesSent * 8,
+        targetBitsPerSecond: this.sender?.targetBitsPerSecond ?? 0,
+        droppedFrames: this.droppedFrames,
+      },
+    };
+  }
+
+  #onConnected(transport: CloudTransport): void {
+    const sender = new StreamSender(transport, this.#controller, () => this.#host.now());
+    sender.onFrameSent = ({ shared, sendMs }) => {
+      this.#stages.add('sendMs', sendMs);
+      this.#lastFrameNumber = shared.frame.frameNumber;
+      this.#testsInFlight.delete(shared);
+    };
+    sender.onFrameDropped = (shared) => {
+      const tests = this.#testsInFlight.get(shared);
+      if (tests === undefined) return;
+      this.#testsInFlight.delete(shared);
+      for (const test of tests) this.addLatencyTest(test);
+      this.#events.onLatencyFrameLost();
+    };
+    this.session.heardMs = this.#host.now();
+    this.sender = sender;
+    this.#sendLoop.add(sender);
+    this.#events.onConnected();
+  }
+
+  #onEnded(end: PeerEnd, detail: string): void {
+    const sender = this.sender;
+    this.sender = null;
+    this.#tests = [];
+    this.#testsInFlight.clear();
+    if (sender !== null) {
+      this.#sendLoop.remove(sender);
+      sender.clear();
+    }
+    this.#events.onEnded(end, detail);
+  }
+}

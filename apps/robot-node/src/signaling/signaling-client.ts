@@ -1,0 +1,170 @@
+import {
+  decodeJson,
+  encodeJson,
+  MAX_SIGNALING_BYTES,
+  ProtocolError,
+  PROTOCOL_VERSION,
+  type RobotToService,
+  robotToServiceCodec,
+  type ServiceToRobot,
+  serviceToRobotCodec,
+} from '@farpoint/protocol';
+import type { Logger } from '@farpoint/service';
+import { WebSocket } from 'ws';
+import { Backoff } from './backoff.ts';
+
+export interface SignalingOptions {
+  /** `ws://` or `wss://` and host; `/robot` is added. */
+  url: string;
+  id: string;
+  name: string;
+  /** Proves over reconnects that this is the same robot. */
+  key: string;
+  token: string | null;
+  /** PEM of certificate authorities to trust instead of the system's. */
+  ca: string | null;
+}
+
+/** The service said no to a robot.hello, or to something else. */
+export type SignalingRefusal = Extract<ServiceToRobot, { type: 'error' }>;
+
+const HEARTBEAT_MS = 10_000;
+const CONNECT_TIMEOUT_MS = 10_000;
+/** More unsent bytes than this and the service is as good as gone. */
+const MAX_BACKLOG_BYTES = 1_048_576;
+
+/**
+ * The robot's line to the signaling service: comes back for ever, introduces itself anew each time. What is sent while
+ * the line is down is dropped: a session that was being set up then fails by its own timeout, one that is up needs nothing.
+ */
+export class SignalingClient {
+  onMessage: ((message: ServiceToRobot) => void) | null = null;
+  /** Registered: the service has answered robot.hello. */
+  registered = false;
+  /** Connections that came to nothing or broke, since the start. */
+  disconnects = 0;
+  /** Messages that could not be read. */
+  malformed = 0;
+  /** Messages not sent because the line was down. */
+  unsent = 0;
+  readonly #options: SignalingOptions;
+  readonly #log: Logger;
+  readonly #backoff: Backoff;
+  #socket: WebSocket | null = null;
+  #retry: NodeJS.Timeout | null = null;
+  #heartbeat: NodeJS.Timeout | null = null;
+  #closed = false;
+
+  constructor(options: SignalingOptions, log: Logger) {
+    this.#options = options;
+    this.#log = log;
+    this.#backoff = new Backoff({ firstMs: 250, maxMs: 10_000, random: Math.random });
+  }
+
+  start(): void {
+    this.#connect();
+  }
+
+  /** @returns false where the line is down */
+  send(message: RobotToService): boolean {
+    const socket = this.#socket;
+    if (!this.registered || socket === null || socket.readyState !== WebSocket.OPEN) {
+      this.unsent++;
+      return false;
+    }
+    if (socket.bufferedAmount > MAX_BACKLOG_BYTES) {
+      socket.terminate();
+      return false;
+    }
+    socket.send(encodeJson(robotToServiceCodec, message));
+    return true;
+  }
+
+  async close(): Promise<void> {
+    this.#closed = true;
+    if (this.#retry !== null) clearTimeout(this.#retry);
+    const socket = this.#socket;
+    if (socket === null) return;
+    const gone = new Promise((resolve) => socket.once('close', resolve));
+    socket.close(1001, 'robot is shutting down');
+    const timer = setTimeout(() => socket.terminate(), 1000);
+    await gone;
+    clearTimeout(timer);
+  }
+
+  #connect(): void {
+    const { url, ca } = this.#options;
+    const socket = new WebSocket(new URL('/robot', url), {
+      handshakeTimeout: CONNECT_TIMEOUT_MS,
+      maxPayload: MAX_SIGNALING_BYTES,
+      perMessageDeflate: false,
+      ...(ca === null ? {} : { ca }),
+    });
+    this.#socket = socket;
+    let detail = '';
+    let alive = true;
+    socket.on('open', () => {
+      const { id, name, key, token } = this.#options;
+      const hello: RobotToService = {
+        type: 'robot.hello',
+        protocol: PROTOCOL_VERSION,
+        id,
+        name,
+        key,
+        ...(token === null ? {} : { token }),
+      };
+      socket.send(encodeJson(robotToServiceCodec, hello));
+      this.#heartbeat = setInterval(() => {
+        if (!alive) {
+          detail = 'no answer to a ping';
+          socket.terminate();
+          return;
+        }
+        alive = false;
+        socket.ping();
+      }, HEARTBEAT_MS);
+    });
+    socket.on('pong', () => {
+      alive = true;
+    });
+    socket.on('message', (data: Buffer, binary: boolean) => {
+      alive = true;
+      this.#receive(binary ? data : data.toString('utf8'));
+    });
+    socket.on('error', (error) => {
+      detail = error.message;
+    });
+    socket.on('close', (code, reason) => {
+      if (this.#heartbeat !== null) clearInterval(this.#heartbeat);
+      this.#heartbeat = null;
+      this.#socket = null;
+      this.registered = false;
+      if (this.#closed) return;
+      this.disconnects++;
+      const waitMs = this.#backoff.nextMs();
+      this.#log.warn(
+        { url, code, detail: detail || reason.toString('utf8'), retryMs: Math.round(waitMs) },
+        'no line to signaling',
+      );
+      this.#retry = setTimeout(() => this.#connect(), waitMs);
+    });
+  }
+
+  #receive(data: string | Uint8Array): void {
+    let message: ServiceToRobot;
+    try {
+      message = decodeJson(serviceToRobotCodec, data);
+    } catch (error) {
+      if (!(error instanceof ProtocolError)) throw error;
+      this.malformed++;
+      this.#log.warn({ err: error }, 'unreadable message from signaling');
+      return;
+    }
+    if (message.type === 'robot.welcome') {
+      this.registered = true;
+      this.#backoff.reset();
+      this.#log.info({ url: this.#options.url, id: message.id }, 'registered with signaling');
+    }
+    this.onMessage?.(message);
+  }
+}

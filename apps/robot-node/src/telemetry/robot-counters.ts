@@ -1,0 +1,57 @@
+import type { CapturedFrame } from '../capture/capture-messages.ts';
+
+/** Counts by a typed reason. */
+export class ReasonCounts {
+  readonly #counts = new Map<string, number>();
+
+  add(reason: string, by = 1): void {
+    this.#counts.set(reason, (this.#counts.get(reason) ?? 0) + by);
+  }
+
+  entries(): IterableIterator<[string, number]> {
+    return this.#counts.entries();
+  }
+
+  get(reason: string): number {
+    return this.#counts.get(reason) ?? 0;
+  }
+}
+
+/** Everything the robot counts that belongs to no single operator; sums since the start. */
+export class RobotCounters {
+  sessionsOpened = 0;
+  sessionsRefused = 0;
+  readonly sessionsEnded = new ReasonCounts();
+  candidatesRefused = 0;
+  readonly signalingErrors = new ReasonCounts();
+  commandsAccepted = 0;
+  readonly commandsRejected = new ReasonCounts();
+  /** By channel and error code. */
+  readonly messagesRefused = new ReasonCounts();
+  framesCaptured = 0;
+  /** Captured, but too old when they came out of the worker. */
+  framesStale = 0;
+  pointsCaptured = 0;
+  /** Points not sent, by reason. */
+  readonly pointsRejected = new ReasonCounts();
+  /** Seconds of work by stage. */
+  readonly stageSeconds = new ReasonCounts();
+  /** Of the last frame. */
+  lastPoints = 0;
+  lastValidPoints = 0;
+
+  frame(frame: CapturedFrame): void {
+    this.framesCaptured++;
+    this.pointsCaptured += frame.points;
+    this.lastPoints = frame.points;
+    this.lastValidPoints = frame.validPoints;
+    const { notFinite, nonPositiveDepth, outOfRange, notDrawn } = frame.rejected;
+    this.pointsRejected.add('notFinite', notFinite);
+    this.pointsRejected.add('nonPositiveDepth', nonPositiveDepth);
+    this.pointsRejected.add('outOfRange', outOfRange);
+    this.pointsRejected.add('notDrawn', notDrawn);
+    this.stageSeconds.add('capture', frame.captureMs / 1000);
+    this.stageSeconds.add('sample', frame.sampleMs / 1000);
+    this.stageSeconds.add('pack', frame.packMs / 1000);
+  }
+}

@@ -1,0 +1,80 @@
+import { Counter, Gauge, type Registry } from '@farpoint/service';
+import type { Robot } from '../robot.ts';
+import type { ReasonCounts } from './robot-counters.ts';
+
+/** Puts the robot's counters on `/metrics`; they are read when somebody asks. */
+export function registerRobotMetrics(registry: Registry, robot: Robot): void {
+  const { counters, capture, signaling } = robot;
+  const sum = (name: string, help: string, read: () => number) => {
+    new Counter({
+      name: `farpoint_robot_${name}_total`,
+      help,
+      registers: [registry],
+      collect() {
+        this.reset();
+        this.inc(read());
+      },
+    });
+  };
+  const sumBy = (name: string, help: string, label: string, counts: ReasonCounts) => {
+    new Counter({
+      name: `farpoint_robot_${name}_total`,
+      help,
+      labelNames: [label],
+      registers: [registry],
+      collect() {
+        this.reset();
+        for (const [reason, count] of counts.entries()) this.inc({ [label]: reason }, count);
+      },
+    });
+  };
+  const gauge = (name: string, help: string, read: () => number) => {
+    new Gauge({
+      name: `farpoint_robot_${name}`,
+      help,
+      registers: [registry],
+      collect() {
+        this.set(read());
+      },
+    });
+  };
+  /** Of every operator now or ever connected. */
+  const overOperators = (read: (sender: NonNullable<ReturnType<typeof senderOf>>) => number) => () =>
+    [...robot.operators.values()].reduce((total, operator) => {
+      const sender = senderOf(operator);
+      return sender === null ? total : total + read(sender);
+    }, 0);
+
+  sum('sessions_opened', 'Sessions that operators asked for', () => counters.sessionsOpened);
+  sum('sessions_refused', 'Sessions refused: too many operators', () => counters.sessionsRefused);
+  sumBy('sessions_ended', 'Sessions that ended, by reason', 'reason', counters.sessionsEnded);
+  sum('ice_candidates_refused', 'ICE candidates that could not be used', () => counters.candidatesRefused);
+  sumBy('signaling_errors', 'Errors that signaling told of, by code', 'code', counters.signalingErrors);
+  sum('signaling_disconnects', 'Times the line to signaling broke', () => signaling.disconnects);
+  sum('signaling_malformed', 'Messages of signaling that could not be read', () => signaling.malformed);
+  sum('commands_accepted', 'Drive commands obeyed', () => counters.commandsAccepted);
+  sumBy('commands_rejected', 'Drive commands refused, by reason', 'reason', counters.commandsRejected);
+  sumBy('messages_refused', 'Unreadable messages, by channel and error', 'reason', counters.messagesRefused);
+  sum('frames_captured', 'Clouds captured', () => counters.framesCaptured);
+  sum('frames_without_buffer', 'Clouds not captured: all buffers out', () => capture.framesWithoutBuffer);
+  sum('frames_stale', 'Clouds dropped: too old when ready', () => counters.framesStale);
+  sum('points_sent_per_frame_sum', 'Points of all captured frames', () => counters.pointsCaptured);
+  sumBy('points_rejected', 'Points not sent, by reason', 'reason', counters.pointsRejected);
+  sumBy('stage_seconds', 'Time spent, by stage', 'stage', counters.stageSeconds);
+  sum('watchdog_thread_stops', 'Stops by the capture thread’s own watchdog', () => capture.watchdogStops);
+  gauge('signaling_registered', '1 while registered with signaling', () => (signaling.registered ? 1 : 0));
+  gauge('operators', 'Operators with a session', () => robot.operators.size);
+  gauge('points_per_frame', 'Points of the last frame', () => counters.lastPoints);
+  gauge('valid_points', 'Valid points of the last raw cloud', () => counters.lastValidPoints);
+  gauge('packets_sent', 'Packets to operators connected now', overOperators((s) => s.counters.packetsSent));
+  gauge('bytes_sent', 'Bytes on the wire to operators connected now', overOperators((s) => s.counters.bytesSent));
+  gauge(
+    'frames_superseded',
+    'Frames not sent because a newer one came first, operators connected now',
+    overOperators((s) => s.droppedFrames.superseded + s.droppedFrames.overdue),
+  );
+}
+
+function senderOf(operator: { sender: import('../transport/stream-sender.ts').StreamSender | null }) {
+  return operator.sender;
+}

@@ -1,0 +1,26 @@
+/**
+ * The seam between what is sent and how: one operator's unreliable path for cloud packets. Pacing, frames and rates lie
+ * above it; RTP, SRTP and sockets below it.
+ */
+
+/** What a packet costs on the wire beyond its payload, bytes. */
+export const UDP_IPV4_BYTES = 28;
+
+export interface CloudTransport {
+  /** Bytes that each payload grows by on the wire: RTP header, SRTP tag, UDP and IP. */
+  readonly overheadBytes: number;
+  /** False before the path is up and after it is gone. */
+  readonly ready: boolean;
+
+  /**
+   * Sends one payload now, or not at all: nothing is queued.
+   *
+   * @param timestamp RTP timestamp, u32 in 1/48000 s, the same for all packets of a frame
+   * @param marker on the last packet of a frame
+   * @returns the transport-wide sequence number (u16) it went out under, or `null` where the path is closed
+   */
+  send(payload: Uint8Array, timestamp: number, marker: boolean): number | null;
+
+  /** Raw RTCP compound packets from the peer, decrypted. */
+  onRtcp: ((compound: Uint8Array) => void) | null;
+}

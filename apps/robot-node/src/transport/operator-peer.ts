@@ -1,0 +1,250 @@
+/** The WebRTC connection with one operator: the robot offers, the operator answers, ICE trickles. */
+import { CLOUD_STREAM_ID, channels, type IceCandidate, type IceServer } from '@farpoint/protocol';
+import {
+  MediaStream,
+  type RTCDataChannel,
+  RTCPeerConnection,
+  RTCRtpCodecParameters,
+  type RTCRtpTransceiver,
+  useSdesMid,
+  useTransportWideCC,
+  useTWCC,
+} from 'werift';
+import type { CloudTransport } from './cloud-transport.ts';
+import { SrtpCloudTransport } from './srtp-cloud-transport.ts';
+
+/** Why a connection ended. */
+export type PeerEnd =
+  | 'closed' // by us
+  | 'bad-answer' // the operator's SDP or its codecs cannot be used
+  | 'not-connected' // no connection came about in time
+  | 'connection-lost' // ICE, DTLS or a channel ended
+  | 'silent' // nothing heard for too long
+  | 'not-reading'; // our reliable messages pile up
+
+export interface OperatorPeerOptions {
+  iceServers: readonly IceServer[];
+  /** Local UDP ports, both ends included; any where absent. */
+  portRange?: readonly [number, number] | undefined;
+  connectTimeoutMs: number;
+}
+
+export interface OperatorPeerEvents {
+  onCandidate(candidate: IceCandidate): void;
+  /** The path and our channels are up. */
+  onConnected(transport: CloudTransport): void;
+  onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void;
+  /** The last event. `detail` is for people. */
+  onEnded(end: PeerEnd, detail: string): void;
+}
+
+/** Our unreliable messages are dropped while this much waits, bytes. */
+const MAX_UNRELIABLE_BACKLOG = 16_384;
+/** A peer that lets this much of the reliable channel pile up is closed. */
+const MAX_RELIABLE_BACKLOG = 262_144;
+
+export class OperatorPeer {
+  readonly #events: OperatorPeerEvents;
+  readonly #connection: RTCPeerConnection;
+  readonly #cloud: RTCRtpTransceiver;
+  readonly #session: RTCDataChannel;
+  readonly #telemetry: RTCDataChannel;
+  readonly #connectTimer: NodeJS.Timeout;
+  #control: RTCDataChannel | null = null;
+  #bandwidth: RTCDataChannel | null = null;
+  #connected = false;
+  #ended = false;
+  #answered = false;
+  /** Messages not sent because the channel was full. */
+  unreliableDrops = 0;
+  /** Channels that the operator opened and we do not know. */
+  unknownChannels = 0;
+
+  constructor(options: OperatorPeerOptions, events: OperatorPeerEvents) {
+    this.#events = events;
+    // The same objects for both m-lines: within a bundle the ids must agree.
+    const extensions = [useSdesMid(), useTransportWideCC()];
+    this.#connection = new RTCPeerConnection({
+      iceServers: options.iceServers.flatMap(({ urls, username, credential }) =>
+        [urls].flat().map((url) => ({
+          urls: url,
+          ...(username === undefined ? {} : { username }),
+          ...(credential === undefined ? {} : { credential }),
+        })),
+      ),
+      bundlePolicy: 'max-bundle',
+      ...(options.portRange === undefined ? {} : { icePortRange: [...options.portRange] as [number, number] }),
+      codecs: {
+        audio: [
+          new RTCRtpCodecParameters({
+            mimeType: 'audio/opus',
+            clockRate: 48_000,
+            channels: 2,
+            rtcpFeedback: [useTWCC()],
+          }),
+        ],
+        video: [
+          new RTCRtpCodecParameters({ mimeType: 'video/VP8', clockRate: 90_000, rtcpFeedback: [useTWCC()] }),
+        ],
+      },
+      headerExtensions: { audio: extensions, video: extensions },
+    });
+    const connection = this.#connection;
+    // Points travel as "audio": the browser hands each packet over as it comes, without assembling frames.
+    this.#cloud = connection.addTransceiver('audio', {
+      direction: 'sendonly',
+      streams: [new MediaStream({ id: CLOUD_STREAM_ID })],
+    });
+    // Idle, but with a video m-line in the bundle the browser's UDP receive buffer is 2 MiB instead of 128 KiB.
+    connection.addTransceiver('video', { direction: 'sendonly' });
+    const { session, telemetry } = channels;
+    this.#session = connection.createDataChannel(session.label, { ordered: session.ordered });
+    this.#telemetry = connection.createDataChannel(telemetry.label, {
+      ordered: telemetry.ordered,
+      maxPacketLifeTime: telemetry.maxPacketLifeTime,
+    });
+    this.#session.onMessage.subscribe((data) => this.#events.onMessage('session', data));
+    this.#session.stateChanged.subscribe((state) => {
+      if (state === 'open') this.#checkConnected();
+      else if (state === 'closed') this.#end('connection-lost', 'the session channel closed');
+    });
+    connection.onDataChannel.subscribe((channel) => this.#adopt(channel));
+    connection.onIceCandidate.subscribe((candidate) => {
+      if (candidate === undefined || this.#ended) return;
+      const { candidate: text, sdpMid, sdpMLineIndex } = candidate.toJSON();
+      events.onCandidate({ candidate: text, sdpMid: sdpMid ?? null, sdpMLineIndex: sdpMLineIndex ?? null });
+    });
+    connection.connectionStateChange.subscribe((state) => {
+      if (state === 'connected') this.#checkConnected();
+      else if (state === 'failed' || state === 'closed') this.#end('connection-lost', `connection ${state}`);
+    });
+    this.#connectTimer = setTimeout(
+      () => this.#end('not-connected', `no connection within ${options.connectTimeoutMs / 1000} s`),
+      options.connectTimeoutMs,
+    );
+  }
+
+  get connected(): boolean {
+    return this.#connected && !this.#ended;
+  }
+
+  /** The SDP offer. Candidates follow as they are found; the answer may come before the last. */
+  async offer(): Promise<string> {
+    const description = await this.#connection.createOffer();
+    await this.#connection.setLocalDescription(description);
+    return this.#connection.localDescription?.sdp ?? description.sdp;
+  }
+
+  /** Never throws: a bad answer ends the connection. */
+  async answer(sdp: string): Promise<void> {
+    if (this.#ended) return;
+    if (this.#answered) return this.#end('bad-answer', 'a second answer');
+    this.#answered = true;
+    try {
+      await this.#connection.setRemoteDescription({ type: 'answer', sdp });
+    } catch (error) {
+      this.#end('bad-answer', errorText(error));
+    }
+  }
+
+  /**
+   * Never throws: a candidate that cannot be used is left out, others may do.
+   *
+   * @returns what was wrong with it, or `null`
+   */
+  async addCandidate(candidate: IceCandidate): Promise<string | null> {
+    if (this.#ended) return null;
+    try {
+      const { candidate: text, sdpMid, sdpMLineIndex } = candidate;
+      await this.#connection.addIceCandidate({
+        candidate: text,
+        ...(sdpMid == null ? {} : { sdpMid }),
+        ...(sdpMLineIndex == null ? {} : { sdpMLineIndex }),
+      });
+      return null;
+    } catch (error) {
+      return errorText(error);
+    }
+  }
+
+  /** Reliable and in order. */
+  sendSession(text: string): void {
+    if (!this.connected) return;
+    if (this.#session.bufferedAmount > MAX_RELIABLE_BACKLOG) {
+      this.#end('not-reading', 'session messages pile up');
+      return;
+    }
+    this.#send(this.#session, text);
+  }
+
+  sendTelemetry(text: string): void {
+    this.#sendUnreliable(this.#telemetry, text);
+  }
+
+  sendControl(text: string): void {
+    if (this.#control !== null) this.#sendUnreliable(this.#control, text);
+  }
+
+  close(end: PeerEnd = 'closed', detail = ''): void {
+    this.#end(end, detail);
+  }
+
+  #sendUnreliable(channel: RTCDataChannel, text: string): void {
+    if (!this.connected || channel.readyState !== 'open') return;
+    if (channel.bufferedAmount > MAX_UNRELIABLE_BACKLOG) {
+      this.unreliableDrops++;
+      return;
+    }
+    this.#send(channel, text);
+  }
+
+  #send(channel: RTCDataChannel, text: string): void {
+    try {
+      channel.send(text);
+    } catch (error) {
+      // The association is going down; the state change that says so may still be on its way.
+      this.#end('connection-lost', errorText(error));
+    }
+  }
+
+  #adopt(channel: RTCDataChannel): void {
+    if (channel.label === channels.control.label && this.#control === null) {
+      this.#control = channel;
+      channel.onMessage.subscribe((data) => this.#events.onMessage('control', data));
+    } else if (channel.label === channels.bandwidth.label && this.#bandwidth === null) {
+      this.#bandwidth = channel;
+      channel.onMessage.subscribe((data) => this.#events.onMessage('bandwidth', data));
+    } else if (channel !== this.#session && channel !== this.#telemetry) {
+      this.unknownChannels++;
+      channel.close();
+    }
+  }
+
+  #checkConnected(): void {
+    if (this.#connected || this.#ended) return;
+    if (this.#connection.connectionState !== 'connected' || this.#session.readyState !== 'open') return;
+    let transport: CloudTransport;
+    try {
+      transport = new SrtpCloudTransport(this.#cloud);
+    } catch (error) {
+      this.#end('bad-answer', errorText(error));
+      return;
+    }
+    clearTimeout(this.#connectTimer);
+    this.#connected = true;
+    this.#events.onConnected(transport);
+  }
+
+  #end(end: PeerEnd, detail: string): void {
+    if (this.#ended) return;
+    this.#ended = true;
+    clearTimeout(this.#connectTimer);
+    // werift may still be in the middle of a handshake; what fails while closing concerns nobody any more.
+    this.#connection.close().catch(() => undefined);
+    this.#events.onEnded(end, detail);
+  }
+}
+
+function errorText(error: unknown): string {
+  return (error instanceof Error ? error.message : String(error)).slice(0, 300);
+}

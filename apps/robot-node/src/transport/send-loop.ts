@@ -1,0 +1,43 @@
+/** What `SendLoop` serves. */
+export interface Pumped {
+  pump(): void;
+  readonly nextDueMs: number | null;
+}
+
+/** One timer for all operators' senders: asleep while nobody has anything to send. */
+export class SendLoop {
+  readonly #senders = new Set<Pumped>();
+  readonly #now: () => number;
+  #timer: NodeJS.Timeout | null = null;
+
+  constructor(now: () => number) {
+    this.#now = now;
+  }
+
+  add(sender: Pumped): void {
+    this.#senders.add(sender);
+  }
+
+  remove(sender: Pumped): void {
+    this.#senders.delete(sender);
+  }
+
+  /** Sends what is due and sleeps until the next. Call after a frame was enqueued. */
+  run(): void {
+    if (this.#timer !== null) clearTimeout(this.#timer);
+    this.#timer = null;
+    let next = Number.POSITIVE_INFINITY;
+    for (const sender of this.#senders) {
+      sender.pump();
+      next = Math.min(next, sender.nextDueMs ?? Number.POSITIVE_INFINITY);
+    }
+    if (next === Number.POSITIVE_INFINITY) return;
+    this.#timer = setTimeout(() => this.run(), Math.max(1, Math.ceil(next - this.#now())));
+  }
+
+  close(): void {
+    if (this.#timer !== null) clearTimeout(this.#timer);
+    this.#timer = null;
+    this.#senders.clear();
+  }
+}

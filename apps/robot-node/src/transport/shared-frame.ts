@@ -1,0 +1,35 @@
+import type { PacedFrame } from '@farpoint/congestion';
+import type { CapturedFrame } from '../capture/capture-messages.ts';
+import { framePayloadBytes } from '../encode/packetiser.ts';
+
+/** One captured frame on its way to several operators; its buffer goes back once the last of them let go of it. */
+export class SharedFrame implements PacedFrame {
+  readonly frame: CapturedFrame;
+  readonly slots: Uint8Array;
+  readonly packets: number;
+  /** On the wire, with the transport's headers. */
+  readonly bytes: number;
+  /** RTP timestamp: capture time in 1/48000 s, u32. */
+  readonly rtpTimestamp: number;
+  #holders = 1;
+  readonly #recycle: (buffer: ArrayBuffer) => void;
+
+  /** The maker holds it first and must `release` it. */
+  constructor(frame: CapturedFrame, overheadBytes: number, recycle: (buffer: ArrayBuffer) => void) {
+    this.frame = frame;
+    this.slots = new Uint8Array(frame.buffer);
+    this.packets = frame.packets;
+    this.bytes = framePayloadBytes(frame.points) + frame.packets * overheadBytes;
+    this.rtpTimestamp = Math.floor((frame.capturedAtMs * 48) % 0x1_0000_0000) >>> 0;
+    this.#recycle = recycle;
+  }
+
+  hold(): this {
+    this.#holders++;
+    return this;
+  }
+
+  release(): void {
+    if (--this.#holders === 0) this.#recycle(this.frame.buffer);
+  }
+}

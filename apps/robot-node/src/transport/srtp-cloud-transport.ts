@@ -1,0 +1,81 @@
+import { Buffer } from 'node:buffer';
+import { randomInt } from 'node:crypto';
+import { type RTCDtlsTransport, type RTCRtpTransceiver, RTP_EXTENSION_URI } from 'werift';
+import { type CloudTransport, UDP_IPV4_BYTES } from './cloud-transport.ts';
+import { RtpHeaderTemplate } from './rtp-header.ts';
+import { SRTP_GCM_TAG_BYTES, SrtpSealer } from './srtp-sealer.ts';
+import { IcePath, outgoingSrtpKeys, tapRtcp } from './werift-path.ts';
+
+/** The peer does not speak what the stream needs. */
+export class CloudTransportError extends Error {
+  override readonly name = 'CloudTransportError';
+}
+
+/**
+ * Cloud packets on a connected werift transceiver, sealed and sent by us: werift's own sender copies and serialises each
+ * packet several times. werift never sends RTP on this SSRC, so each nonce is used once. The transport-wide sequence is
+ * werift's own counter, shared with whatever else it sends in the bundle.
+ */
+export class SrtpCloudTransport implements CloudTransport {
+  onRtcp: ((compound: Uint8Array) => void) | null = null;
+  readonly overheadBytes: number;
+  readonly #dtls: RTCDtlsTransport;
+  readonly #path: IcePath;
+  readonly #header: RtpHeaderTemplate;
+  readonly #sealer: SrtpSealer;
+  /** The path is looked up once a turn of the event loop, not for each packet. */
+  #pathIsFresh = false;
+  #pathIsOpen = false;
+
+  /**
+   * @param transceiver negotiated, on a connected DTLS transport
+   * @throws {CloudTransportError} where the answer refused the codec or AES-128-GCM
+   */
+  constructor(transceiver: RTCRtpTransceiver) {
+    const { sender, mid } = transceiver;
+    const codec = sender.codec;
+    if (codec === undefined || mid === null) throw new CloudTransportError('the peer refused the cloud stream');
+    const dtls = transceiver.dtlsTransport;
+    const keys = outgoingSrtpKeys(dtls);
+    if (keys === null) throw new CloudTransportError('the peer does not take SRTP with AES-128-GCM');
+    const extensionId = (uri: string) => transceiver.headerExtensions.find((e) => e.uri === uri)?.id;
+    this.#header = new RtpHeaderTemplate({
+      payloadType: codec.payloadType,
+      ssrc: sender.ssrc,
+      mid,
+      midExtensionId: extensionId(RTP_EXTENSION_URI.sdesMid),
+      transportSequenceExtensionId: extensionId(RTP_EXTENSION_URI.transportWideCC),
+    });
+    this.#sealer = new SrtpSealer(keys.key, keys.salt, sender.ssrc, randomInt(0x8000));
+    this.#dtls = dtls;
+    this.#path = new IcePath(dtls);
+    this.overheadBytes = this.#header.bytes.length + SRTP_GCM_TAG_BYTES + UDP_IPV4_BYTES;
+    tapRtcp(dtls, (compound) => this.onRtcp?.(compound));
+  }
+
+  get ready(): boolean {
+    this.#refreshPath();
+    return this.#pathIsOpen;
+  }
+
+  send(payload: Uint8Array, timestamp: number, marker: boolean): number | null {
+    this.#refreshPath();
+    if (!this.#pathIsOpen) return null;
+    const transportSequence = (this.#dtls.transportSequenceNumber + 1) & 0xffff;
+    this.#dtls.transportSequenceNumber = transportSequence;
+    this.#header.patch(marker, this.#sealer.nextSequence, timestamp, transportSequence);
+    // A copy: a datagram that the kernel cannot take at once is still read from memory later.
+    const header = Buffer.from(this.#header.bytes);
+    this.#path.send(this.#sealer.seal(header, payload));
+    return transportSequence;
+  }
+
+  #refreshPath(): void {
+    if (this.#pathIsFresh) return;
+    this.#pathIsOpen = this.#dtls.state === 'connected' && this.#path.refresh();
+    this.#pathIsFresh = true;
+    queueMicrotask(() => {
+      this.#pathIsFresh = false;
+    });
+  }
+}

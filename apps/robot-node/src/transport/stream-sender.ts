@@ -1,0 +1,164 @@
+import {
+  type FrameDropReason,
+  FMT_TRANSPORT_WIDE,
+  PacketPacer,
+  type RateController,
+  RTCP_TRANSPORT_FEEDBACK,
+  parseTransportFeedback,
+  TransportFeedbackAdapter,
+  TransportFeedbackError,
+  walkRtcp,
+} from '@farpoint/congestion';
+import { payloadBytes, SLOT_BYTES } from '../encode/packetiser.ts';
+import type { CloudTransport } from './cloud-transport.ts';
+import type { SharedFrame } from './shared-frame.ts';
+
+/** Sums since the session began. */
+export interface StreamCounters {
+  framesSent: number;
+  packetsSent: number;
+  /** On the wire, all headers counted. */
+  bytesSent: number;
+  pointsSent: number;
+  /** Packets that found the path closed. */
+  packetsUnsent: number;
+  feedbackMessages: number;
+  feedbackMalformed: number;
+}
+
+/** A frame has been sent to its last packet. */
+export interface SentFrame {
+  shared: SharedFrame;
+  /** From the first packet to the last, ms. */
+  sendMs: number;
+}
+
+/**
+ * One operator's stream: takes whole frames, sends their packets evenly at the rate that the controller allows, and tells
+ * the controller what came of them. It owns no timer: call `pump` at `nextDueMs`.
+ */
+export class StreamSender {
+  readonly counters: StreamCounters = {
+    framesSent: 0,
+    packetsSent: 0,
+    bytesSent: 0,
+    pointsSent: 0,
+    packetsUnsent: 0,
+    feedbackMessages: 0,
+    feedbackMalformed: 0,
+  };
+  onFrameSent: ((sent: SentFrame) => void) | null = null;
+  onFrameDropped: ((shared: SharedFrame, reason: FrameDropReason) => void) | null = null;
+  readonly #transport: CloudTransport;
+  readonly #controller: RateController;
+  readonly #pacer: PacketPacer<SharedFrame>;
+  readonly #feedback = new TransportFeedbackAdapter();
+  readonly #now: () => number;
+  #beganMs = 0;
+  /** When RTCP last came from the operator, ms. */
+  heardMs = 0;
+
+  constructor(transport: CloudTransport, controller: RateController, now: () => number) {
+    this.#transport = transport;
+    this.#controller = controller;
+    this.#now = now;
+    this.#pacer = new PacketPacer(controller.targetBitsPerSecond(now()));
+    transport.onRtcp = (compound) => this.#onRtcp(compound);
+  }
+
+  get overheadBytes(): number {
+    return this.#transport.overheadBytes;
+  }
+
+  get targetBitsPerSecond(): number {
+    return this.#controller.targetBitsPerSecond(this.#now());
+  }
+
+  get droppedFrames(): Readonly<Record<FrameDropReason, number>> {
+    return this.#pacer.drops;
+  }
+
+  get nextDueMs(): number | null {
+    return this.#pacer.nextDueMs;
+  }
+
+  /** Takes a hold of the frame and sends it when its time comes, unless a newer one comes first. */
+  enqueue(shared: SharedFrame): void {
+    if (shared.packets === 0) return;
+    for (const { frame, reason } of this.#pacer.enqueue(shared.hold(), this.#now())) {
+      this.onFrameDropped?.(frame, reason);
+      frame.release();
+    }
+  }
+
+  /** Sends what is due now. */
+  pump(): void {
+    const transport = this.#transport;
+    for (;;) {
+      const now = this.#now();
+      const run = this.#pacer.due(now);
+      if (run === null) return;
+      const { frame: shared, first, count, last } = run;
+      if (first === 0) this.#beganMs = now;
+      const { points } = shared.frame;
+      for (let i = first; i < first + count; i++) {
+        const bytes = payloadBytes(points, i);
+        const payload = shared.slots.subarray(i * SLOT_BYTES, i * SLOT_BYTES + bytes);
+        const sequence = transport.send(payload, shared.rtpTimestamp, i === shared.packets - 1);
+        if (sequence === null) {
+          this.counters.packetsUnsent++;
+          continue;
+        }
+        const wireBytes = bytes + transport.overheadBytes;
+        this.#feedback.onPacketSent(sequence, wireBytes, now);
+        this.#controller.onPacketSent(sequence, wireBytes, now);
+        this.counters.packetsSent++;
+        this.counters.bytesSent += wireBytes;
+      }
+      if (!last) continue;
+      this.counters.framesSent++;
+      this.counters.pointsSent += points;
+      this.onFrameSent?.({ shared, sendMs: this.#now() - this.#beganMs });
+      shared.release();
+    }
+  }
+
+  /** Every 25 ms or so. */
+  tick(): void {
+    const now = this.#now();
+    this.#controller.onTick(now);
+    this.#pacer.setRate(this.#controller.targetBitsPerSecond(now));
+  }
+
+  onReceiverReport(report: { packetsReceived: number; packetsLost: number }): void {
+    this.#controller.onReceiverReport(report, this.#now());
+  }
+
+  onReceiverLimit(bitsPerSecond: number): void {
+    this.#controller.onReceiverLimit(bitsPerSecond, this.#now());
+  }
+
+  /** Drops what waits: the stream is stopped or the session over. */
+  clear(): void {
+    for (const { frame, reason } of this.#pacer.clear()) {
+      this.onFrameDropped?.(frame, reason);
+      frame.release();
+    }
+  }
+
+  #onRtcp(compound: Uint8Array): void {
+    this.heardMs = this.#now();
+    for (const packet of walkRtcp(compound, () => this.counters.feedbackMalformed++)) {
+      if (packet.packetType !== RTCP_TRANSPORT_FEEDBACK || packet.format !== FMT_TRANSPORT_WIDE) continue;
+      try {
+        const now = this.#now();
+        const results = this.#feedback.onFeedback(parseTransportFeedback(packet.bytes), now);
+        this.counters.feedbackMessages++;
+        if (results.length > 0) this.#controller.onFeedback(results, now);
+      } catch (error) {
+        if (!(error instanceof TransportFeedbackError)) throw error;
+        this.counters.feedbackMalformed++;
+      }
+    }
+  }
+}
