@@ -1,13 +1,12 @@
 /** Finds a Rust compiler for `wasm32-unknown-unknown`, by the ways that work on ordinary machines. */
 import { spawnSync } from 'node:child_process';
-import { existsSync, readFileSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { join } from 'node:path';
 
 export const WASM_TARGET = 'wasm32-unknown-unknown';
 
 const DEBIAN_RUSTC = '/usr/bin/rustc';
-const DEBIAN_LINKER = '/usr/lib/llvm-22/bin/wasm-ld';
 /** Debian's newer compiler (made for browsers), the sources of its standard library, and its linker. */
 const DEBIAN_PACKAGES = ['rustc-web', 'rust-web-src', 'rust-web-llvm', 'lld-22'];
 
@@ -79,7 +78,8 @@ function rustupToolchain(cargo: string): WasmToolchain | null {
 
 /** Debian ships no standard library for WASM of that version; Cargo builds it from Debian's sources. */
 function debianToolchain(cargo: string | null): WasmToolchain | null {
-  if (cargo === null || !existsSync(DEBIAN_RUSTC) || !existsSync(DEBIAN_LINKER)) return null;
+  const linker = debianLinker();
+  if (cargo === null || linker === null || !existsSync(DEBIAN_RUSTC)) return null;
   const version = output(DEBIAN_RUSTC, ['--version']);
   const sysroot = output(DEBIAN_RUSTC, ['--print', 'sysroot']);
   if (version === null || sysroot === null) return null;
@@ -92,8 +92,19 @@ function debianToolchain(cargo: string | null): WasmToolchain | null {
     // A released compiler builds the standard library only when told that this is meant.
     env: { RUSTC: DEBIAN_RUSTC, RUSTC_BOOTSTRAP: '1' },
     cargoArgs: ['-Zbuild-std=std,panic_abort'],
-    rustFlags: [`-Clinker=${DEBIAN_LINKER}`],
+    rustFlags: [`-Clinker=${linker}`],
   };
+}
+
+/** The linker of the newest LLVM that is installed: Debian keeps each version in a folder of its own. */
+function debianLinker(): string | null {
+  const versions = existsSync('/usr/lib') ? readdirSync('/usr/lib') : [];
+  const linkers = versions
+    .map((name) => /^llvm-(\d+)$/.exec(name)?.[1])
+    .filter((version) => version !== undefined)
+    .sort((a, b) => Number(b) - Number(a))
+    .map((version) => `/usr/lib/llvm-${version}/bin/wasm-ld`);
+  return linkers.find((linker) => existsSync(linker)) ?? null;
 }
 
 function installDebianPackages(withCargo: boolean, log: (line: string) => void): boolean {
@@ -114,14 +125,11 @@ function installDebianPackages(withCargo: boolean, log: (line: string) => void):
 }
 
 function cureFor(cargo: string | null): string {
-  if (cargo === null) {
-    return isDebian()
-      ? `Rust is missing: run \`apt-get install ${DEBIAN_PACKAGES.join(' ')} cargo-web\` as root.`
-      : `Rust is missing: install it from https://rustup.rs and run \`rustup target add ${WASM_TARGET}\`.`;
-  }
-  return isDebian()
-    ? `Rust's ${WASM_TARGET} target is missing: run \`apt-get install ${DEBIAN_PACKAGES.join(' ')}\` as root.`
-    : `Rust's ${WASM_TARGET} target is missing: run \`rustup target add ${WASM_TARGET}\`.`;
+  const missing = cargo === null ? 'Rust is missing' : `Rust's ${WASM_TARGET} target is missing`;
+  const packages = cargo === null ? [...DEBIAN_PACKAGES, 'cargo-web'] : DEBIAN_PACKAGES;
+  if (isDebian()) return `${missing}: run \`apt-get install ${packages.join(' ')}\` as root.`;
+  if (cargo !== null) return `${missing}: run \`rustup target add ${WASM_TARGET}\`.`;
+  return `${missing}: install it from https://rustup.rs with the option \`--target ${WASM_TARGET}\`.`;
 }
 
 function findCargo(): string | null {
@@ -132,9 +140,10 @@ function findCargo(): string | null {
   return null;
 }
 
+/** Debian itself: its derivatives do not all have these packages. */
 function isDebian(): boolean {
   try {
-    return /^ID(_LIKE)?=.*debian/m.test(readFileSync('/etc/os-release', 'utf8'));
+    return /^ID=["']?debian["']?$/m.test(readFileSync('/etc/os-release', 'utf8'));
   } catch {
     return false;
   }
