@@ -55,7 +55,7 @@ export type OperatorControlMessage = Command | ClockProbe | ReceiverReport;
 const timeMsSchema = z.number().min(0).max(Number.MAX_SAFE_INTEGER);
 const countSchema = z.int().min(0);
 
-export const commandSchema: z.ZodType<Command> = z.strictObject({
+export const commandSchema = z.strictObject({
   type: z.literal('command'),
   sequence: uint32Schema,
   timeMs: timeMsSchema,
@@ -63,7 +63,7 @@ export const commandSchema: z.ZodType<Command> = z.strictObject({
   deadMan: z.boolean(),
   twist: twistSchema,
   latencyTest: uint32Schema.optional(),
-});
+}) satisfies z.ZodType<Command>;
 
 const clockProbeSchema = z.strictObject({
   type: z.literal('clockProbe'),
@@ -81,7 +81,7 @@ const receiverReportSchema = z.strictObject({
 
 export const operatorControlCodec: JsonCodec<OperatorControlMessage> = {
   what: 'operator control message',
-  schema: z.union([commandSchema, clockProbeSchema, receiverReportSchema]),
+  schema: z.discriminatedUnion('type', [commandSchema, clockProbeSchema, receiverReportSchema]),
   maxBytes: 1024,
 };
 

@@ -3,7 +3,7 @@
  * arrives alone can be drawn in its place. 28 bytes, little-endian, at the very end:
  *
  *     0  f32 ×3  position of the camera's optical frame in the world, metres
- *    12  i16 ×4  orientation x, y, z, w × 32767
+ *    12  i16 ×4  orientation x, y, z, w × 32767, saturating
  *    20  u32     capture time, microseconds of the robot's monotonic clock, wraps every 71.6 minutes
  *    24  u8      flags: bit 0 latency-test frame, bit 1 some coordinate of the frame was saturated
  *    25  u8      sensor index
@@ -49,10 +49,10 @@ export function writePlacement(view: DataView, offset: number, placement: Placem
   view.setFloat32(offset, position.x, true);
   view.setFloat32(offset + 4, position.y, true);
   view.setFloat32(offset + 8, position.z, true);
-  view.setInt16(offset + 12, Math.round(orientation.x * QUATERNION_SCALE), true);
-  view.setInt16(offset + 14, Math.round(orientation.y * QUATERNION_SCALE), true);
-  view.setInt16(offset + 16, Math.round(orientation.z * QUATERNION_SCALE), true);
-  view.setInt16(offset + 18, Math.round(orientation.w * QUATERNION_SCALE), true);
+  view.setInt16(offset + 12, toInt16(orientation.x), true);
+  view.setInt16(offset + 14, toInt16(orientation.y), true);
+  view.setInt16(offset + 16, toInt16(orientation.z), true);
+  view.setInt16(offset + 18, toInt16(orientation.w), true);
   view.setUint32(offset + 20, placement.captureTimeUs >>> 0, true);
   view.setUint8(
     offset + 24,
@@ -61,6 +61,12 @@ export function writePlacement(view: DataView, offset: number, placement: Placem
   view.setUint8(offset + 25, placement.sensor);
   view.setUint8(offset + 26, 0);
   view.setUint8(offset + 27, FORMAT_POINTS64);
+}
+
+/** A pose may be off unit length by a little: saturates, as a component over 1 would wrap to the other side. */
+function toInt16(component: number): number {
+  const scaled = Math.round(component * QUATERNION_SCALE);
+  return Math.min(Math.max(scaled, -QUATERNION_SCALE), QUATERNION_SCALE);
 }
 
 /** Reads the trailer at the end of `view` into `into` (nothing is allocated) and says what is wrong, or `null`. */
