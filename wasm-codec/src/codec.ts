@@ -26,13 +26,18 @@ export function loadCodec(source?: CodecSource | Promise<CodecSource>): Promise<
 
 async function load(source: CodecSource | Promise<CodecSource> | undefined): Promise<Codec> {
   try {
-    const { memory } = await init(source === undefined ? undefined : { module_or_path: source });
+    const { memory } = await init({ module_or_path: source ?? besideThisFile() });
     return { memory };
   } catch (error) {
     // A later call may have a better source.
     loading = undefined;
     throw notLoadable(error);
   }
+}
+
+/** Written so that bundlers see it and take the file along. */
+function besideThisFile(): URL {
+  return new URL('../pkg/farpoint_codec_bg.wasm', import.meta.url);
 }
 
 /**
