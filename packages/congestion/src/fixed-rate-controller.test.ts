@@ -148,7 +148,7 @@ test('whatever is reported: between floor and configured rate, never above the r
     fc.record({ kind: fc.constant('sent' as const), received: fc.nat(60), lost: fc.nat(0) }),
   );
   fc.assert(
-    fc.property(fc.array(fc.tuple(fc.nat(1500), event), { maxLength: 100 }), (events) => {
+    fc.property(fc.array(fc.tuple(fc.nat(1500), event), { maxLength: 100, size: 'max' }), (events) => {
       const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
       let t = 0;
       let limit = Number.POSITIVE_INFINITY;

@@ -164,7 +164,7 @@ test('any frames, any wake-ups: every packet once and in order or its frame drop
     rate: fc.constantFrom(0, 1, 5, 20, 100),
   });
   fc.assert(
-    fc.property(fc.array(event, { minLength: 1, maxLength: 60 }), (events) => {
+    fc.property(fc.array(event, { minLength: 1, maxLength: 60, size: 'max' }), (events) => {
       const pacer = new PacketPacer<NumberedFrame>(20 * MBIT, { factor: 1.1 });
       const frames = new Map<number, { packets: number; sent: number; dropped: number }>();
       let t = 0;

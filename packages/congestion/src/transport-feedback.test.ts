@@ -106,7 +106,7 @@ test('round trip of any statuses', () => {
     fc.property(
       fc.integer({ min: 0, max: 0xffff }),
       fc.integer({ min: -(2 ** 23), max: 2 ** 23 - 1 }),
-      fc.array(delta, { minLength: 1, maxLength: 200 }),
+      fc.array(delta, { minLength: 1, maxLength: 200, size: 'max' }),
       (base, reference, deltas) => {
         let time = reference * 64_000;
         const expected = deltas.map((d) => {
@@ -128,10 +128,14 @@ test('any bytes give feedback or a typed error', () => {
     const outcome = errorOf(bytes)?.code ?? 'feedback';
     outcomes.set(outcome, (outcomes.get(outcome) ?? 0) + 1);
   };
-  fc.assert(fc.property(fc.uint8Array({ maxLength: 200 }), judge), { seed: 2, numRuns: 2000 });
+  fc.assert(fc.property(fc.uint8Array({ maxLength: 200, size: 'max' }), judge), { seed: 2, numRuns: 2000 });
   // A right header, then anything.
   const behindHeader = fc
-    .tuple(fc.integer({ min: 4, max: 30 }), fc.boolean(), fc.uint8Array({ minLength: 120, maxLength: 120 }))
+    .tuple(
+      fc.integer({ min: 4, max: 30 }),
+      fc.boolean(),
+      fc.uint8Array({ minLength: 120, maxLength: 120, size: 'max' }),
+    )
     .map(([words, padded, noise]) => {
       const bytes = new Uint8Array((words + 1) * 4);
       bytes.set(noise.subarray(0, bytes.length - 4), 4);

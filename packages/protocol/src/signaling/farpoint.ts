@@ -48,6 +48,8 @@ export const signalingErrorCodes = [
   'unknown-robot', // no such robot here now
   'unknown-session', // not a session of yours
   'too-many-sessions',
+  'unsupported-protocol', // `protocol` of the hello is not spoken here: fatal
+  'full', // no room for another robot or operator: fatal
   'shutting-down', // come back in a moment: fatal
 ] as const;
 export type SignalingErrorCode = (typeof signalingErrorCodes)[number];

@@ -10,7 +10,7 @@ const robotId = z.int().min(0).max(0xffffffff);
 const candidate = z.string().max(1024);
 
 const robotToService = z.discriminatedUnion('type', [
-  z.object({ type: z.literal('register'), name: z.string().max(256), sdpOffer: sdp }),
+  z.object({ type: z.literal('register'), name: z.string().max(256), sdpOffer: sdp.nullish() }),
   z.object({ type: z.literal('offer'), robotId, sdpOffer: sdp }),
   z.object({ type: z.literal('candidate'), robotId, candidate }),
   z.object({ type: z.literal('deregister'), robotId }),
@@ -27,7 +27,8 @@ export type ReferenceClientToService = z.infer<typeof clientToService>;
 const robotRecord = z.object({
   id: robotId,
   name: z.string(),
-  sdpOffer: z.string(),
+  /** Null for a robot that registered without one. */
+  sdpOffer: z.string().nullable(),
   sdpAnswer: z.string().nullable(),
   robotCandidates: z.array(z.string()),
   clientCandidates: z.array(z.string()),
@@ -47,7 +48,7 @@ const serviceToClient = z.discriminatedUnion('type', [
   z.object({ type: z.literal('register'), robot: robotRecord }),
   z.object({ type: z.literal('offer'), robotId, sdpOffer: sdp }),
   z.object({ type: z.literal('candidate'), robotId, candidate }),
-  /** Sent at a robot's explicit farewell; the reference service leaves the id out, ours never does. */
+  /** Sent at a robot's explicit farewell; the reference bridge knows only `deregistered`, so ours sends both. */
   z.object({ type: z.literal('deregister'), robotId: robotId.optional() }),
   z.object({ type: z.literal('deregistered'), robotId }),
 ]);

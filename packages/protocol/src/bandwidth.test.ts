@@ -1,0 +1,54 @@
+import { readFileSync } from 'node:fs';
+import fc from 'fast-check';
+import { expect, test } from 'vitest';
+import { decodeBandwidth, encodeBandwidth } from './bandwidth.ts';
+import { ProtocolError } from './errors.ts';
+
+const vectors = JSON.parse(readFileSync(new URL('../vectors/bandwidth.json', import.meta.url), 'utf8')) as {
+  decode: { hex: string; bitsPerSecond?: number; error?: string }[];
+  encode: { bitsPerSecond: number; hex: string }[];
+};
+
+test.each(vectors.decode)('decode %j', ({ hex, bitsPerSecond, error }) => {
+  const bytes = new Uint8Array(Buffer.from(hex, 'hex'));
+  if (error === undefined) {
+    expect(decodeBandwidth(bytes)).toBe(bitsPerSecond);
+    expect(decodeBandwidth(bytes.buffer)).toBe(bitsPerSecond);
+  } else {
+    expect(() => decodeBandwidth(bytes)).toThrow(
+      expect.objectContaining({ name: 'ProtocolError', code: error }),
+    );
+  }
+});
+
+test.each(vectors.encode)('encode %j', ({ bitsPerSecond, hex }) => {
+  expect(Buffer.from(encodeBandwidth(bitsPerSecond)).toString('hex')).toBe(hex);
+});
+
+test('what is no number is no bandwidth', () => {
+  expect(decodeBandwidth(encodeBandwidth(Number.NaN))).toBe(0);
+});
+
+test('round trip, also inside a larger buffer', () => {
+  fc.assert(
+    fc.property(fc.nat(0x7fffffff), fc.nat(8), (rate, offset) => {
+      const room = new Uint8Array(offset + 9);
+      room.set(encodeBandwidth(rate), offset);
+      expect(decodeBandwidth(room.subarray(offset, offset + 4))).toBe(rate);
+    }),
+    { seed: 1 },
+  );
+});
+
+test('any bytes give a rate or a ProtocolError', () => {
+  fc.assert(
+    fc.property(fc.uint8Array({ maxLength: 8, size: 'max' }), (bytes) => {
+      try {
+        expect(decodeBandwidth(bytes)).toBeGreaterThanOrEqual(0);
+      } catch (error) {
+        expect(error).toBeInstanceOf(ProtocolError);
+      }
+    }),
+    { seed: 2, numRuns: 500 },
+  );
+});

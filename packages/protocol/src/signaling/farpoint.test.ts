@@ -1,0 +1,12 @@
+import { expect, test } from 'vitest';
+import { encodeJsonBytes } from '../json.ts';
+import { MAX_SIGNALING_BYTES, type RobotToService, robotToServiceCodec } from './farpoint.ts';
+
+const offerOf = (sdp: string): RobotToService => ({ type: 'session.offer', session: 's1', sdp });
+
+test('an SDP has its bound, and one of it fits a message', () => {
+  const longest = offerOf('x'.repeat(60_000));
+  expect(robotToServiceCodec.schema.safeParse(longest).success).toBe(true);
+  expect(encodeJsonBytes(robotToServiceCodec, longest).length).toBeLessThan(MAX_SIGNALING_BYTES);
+  expect(robotToServiceCodec.schema.safeParse(offerOf('x'.repeat(60_001))).success).toBe(false);
+});

@@ -1,0 +1,518 @@
+#!/usr/bin/env python3
+"""Writes the conformance vectors of this folder from the layouts in docs/protocol.md.
+
+Shares no code with the implementations that are tested against them. Standard library only.
+"""
+import copy
+import json
+import os
+import struct
+from fractions import Fraction
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+
+
+def write(name, lists):
+    """One vector a line, so that a change can be read."""
+    parts = []
+    for key, vectors in lists.items():
+        rows = ",\n".join("    " + json.dumps(v, ensure_ascii=True) for v in vectors)
+        parts.append('  "%s": [\n%s\n  ]' % (key, rows))
+    with open(os.path.join(FOLDER, name), "w") as out:
+        out.write("{\n" + ",\n".join(parts) + "\n}\n")
+
+
+def f32(value):
+    return struct.unpack("<f", struct.pack("<f", value))[0]
+
+
+# points64 ------------------------------------------------------------------------------------------------------------
+
+def millimetres(metres):
+    """Exact: half away from zero, saturating."""
+    exact = Fraction(metres) * 1000
+    whole = int(abs(exact) + Fraction(1, 2))
+    return min(whole, 32767) * (1 if exact >= 0 else -1)
+
+
+def saturated(metres):
+    return abs(Fraction(metres) * 1000) >= 32767 + Fraction(1, 2)
+
+
+def colour(r, g, b):
+    return (r // 4) * 1024 + (g // 4) * 16 + b // 16
+
+
+quantise = []
+for text in ["0", "-0.0", "1", "-1", "0.0004", "-0.0004", "0.0005", "-0.0005", "0.0015", "-0.0015", "0.0025", "1.2345",
+             "-1.2345", "0.4995", "2.0005", "7.8125", "-7.8125", "0.0625", "0.1875", "0.3125", "12.9995", "32.766", "32.767",
+             "-32.767", "32.7674", "32.7675", "-32.7675", "32.768", "-32.768", "100", "-1e9", "1e-30", "0.0312500", "0.0078125",
+             "-0.0078125", "0.1484375", "-0.1484375"]:
+    value = f32(float(text))
+    quantise.append({"metres": value, "millimetres": millimetres(value), "saturated": saturated(value)})
+
+
+def block(name, points):
+    xyz = b"".join(struct.pack("<hhh", *(millimetres(f32(c)) for c in p[:3])) for p in points)
+    colours = b"".join(struct.pack("<H", p[3]) for p in points)
+    return {
+        "name": name, "metres": [[f32(c) for c in p[:3]] for p in points], "colours": [p[3] for p in points],
+        "saturated": sum(any(saturated(f32(c)) for c in p[:3]) for p in points), "hex": (xyz + colours).hex(),
+    }
+
+
+def scatter(n, seed):
+    """Points without any pattern, from a 32-bit linear congruential generator (Numerical Recipes)."""
+    state, out = seed, []
+    for _ in range(n):
+        row = []
+        for _ in range(4):
+            state = (state * 1664525 + 1013904223) % 2 ** 32
+            row.append(state >> 16)
+        out.append((row[0] / 4096 - 8, row[1] / 4096 - 8, row[2] / 4096 + 0.25, row[3]))
+    return out
+
+
+write("points64.json", {
+    "quantise": quantise,
+    "blocks": [
+        block("one point", [(1.0, -2.0, 3.0, 0xABCD)]),
+        block("two points: coordinates first, then colours", [(0.001, 0.002, 0.003, 1), (0.004, 0.005, 0.006, 0xFFFE)]),
+        block("negative, and halves away from zero", [(-0.0625, 0.0625, 0.1875, 0), (-0.1875, -0.3125, 0.3125, 0x8000)]),
+        block("beyond the range: saturates, and is counted once a point",
+              [(40.0, -40.0, 50.0, 7), (32.767, -32.767, 1.0, 8), (0.0, 32.7675, 1.0, 9), (0.0, 1.0, 1e6, 10)]),
+        block("latency test", [(0.1, 0.2, 0.3, 0x03F0), (0.4, 0.5, 0.6, 0x03F0)]),
+        block("149 points", scatter(149, 1)),
+        block("a full block of 150 points", scatter(150, 2)),
+    ],
+})
+
+# colour664 -----------------------------------------------------------------------------------------------------------
+
+write("colour664.json", {
+    "pack": [{"rgb": list(rgb), "colour": colour(*rgb)} for rgb in [
+        (0, 0, 0), (255, 255, 255), (255, 0, 0), (0, 255, 0), (0, 0, 255), (3, 3, 15), (4, 4, 16), (252, 252, 240), (251, 251, 239),
+        (128, 64, 32), (1, 2, 3), (200, 100, 50)]],
+    # The centre of each bin: 4 values wide for red and green, 16 for blue.
+    "unpack": [{"colour": c, "rgb": [c // 1024 * 4 + 2, c // 16 % 64 * 4 + 2, c % 16 * 16 + 8]} for c in [
+        0, 0xFFFF, 0x03F0, 0xFC00, 0x000F, 0x0010, 0x0400, 0x1234, 0xABCD]],
+})
+
+# point packet --------------------------------------------------------------------------------------------------------
+
+
+def header(number, frame, offset, length):
+    return struct.pack("<IIII", number, frame, offset, length)
+
+
+def packet_case(name, number, frame, offset, length, payload=None, fault=None):
+    case = {"name": name, "headerHex": header(number, frame, offset, length).hex(),
+            "payloadBytes": 16 + length if payload is None else payload}
+    if fault:
+        case["fault"] = fault
+    else:
+        case["header"] = {"frameNumber": number, "frameLength": frame, "sequenceOffset": offset, "sequenceLength": length}
+    return case
+
+
+write("point-packet.json", {"payloads": [
+    packet_case("first of a frame of 30,000 points", 0, 240000, 0, 1200),
+    packet_case("in the middle", 41, 240000, 120000, 1200),
+    packet_case("last, full", 41, 240000, 238800, 1200),
+    packet_case("last, partial", 41, 240008, 240000, 8),
+    packet_case("a frame of one point", 7, 8, 0, 8),
+    packet_case("reference profile: partial, padded to 1216 bytes", 7, 808, 0, 808, 1216),
+    packet_case("the largest numbers", 2 ** 32 - 1, 4194304 * 8, 4194304 * 8 - 1200, 1200),
+    packet_case("a data block need not begin at a multiple of 1200", 1, 2400, 8, 1200),
+    packet_case("nothing", 0, 8, 0, 8, 0, "too-short"),
+    packet_case("half a header", 0, 8, 0, 8, 15, "too-short"),
+    packet_case("header alone", 0, 8, 0, 8, 16, "too-short"),
+    packet_case("a byte of data missing", 0, 1200, 0, 1200, 1215, "too-short"),
+    packet_case("no data", 0, 1200, 0, 0, 1216, "bad-length"),
+    packet_case("more than 150 points", 0, 2400, 0, 1208, 1224, "bad-length"),
+    packet_case("half a point", 0, 1200, 0, 1196, 1216, "bad-length"),
+    packet_case("length of all ones", 0, 1200, 0, 2 ** 32 - 1, 1216, "bad-length"),
+    packet_case("frame of half a point", 0, 1204, 0, 1200, 1216, "bad-frame-length"),
+    packet_case("frame over the limit", 0, 4194304 * 8 + 8, 0, 1200, 1216, "bad-frame-length"),
+    packet_case("frame shorter than the block", 0, 1192, 0, 1200, 1216, "bad-offset"),
+    packet_case("frame of nothing", 0, 0, 0, 8, 24, "bad-offset"),
+    packet_case("offset inside a point", 0, 2400, 4, 1200, 1216, "bad-offset"),
+    packet_case("offset beyond the frame", 0, 2400, 2400, 8, 24, "bad-offset"),
+    packet_case("offset plus length wraps 32 bits", 0, 2400, 2 ** 32 - 8, 16, 32, "bad-offset"),
+]})
+
+# placement and cloud payload -----------------------------------------------------------------------------------------
+
+
+def trailer(position=(0.0, 0.0, 0.0), quaternion=(0, 0, 0, 32767), stamp=0, flags=0, sensor=0, reserved=0, fmt=1):
+    return struct.pack("<fff4hIBBBB", *position, *quaternion, stamp, flags, sensor, reserved, fmt)
+
+
+def placed(position, quaternion, stamp, flags, sensor):
+    names = "xyzw"
+    return {
+        "position": {k: f32(v) for k, v in zip(names, position)},
+        "orientation": {k: v / 32767 for k, v in zip(names, quaternion)},
+        "captureTimeUs": stamp, "latencyTest": bool(flags & 1), "saturated": bool(flags & 2), "sensor": sensor,
+    }
+
+
+def placement_case(name, position=(0.0, 0.0, 0.0), quaternion=(0, 0, 0, 32767), stamp=0, flags=0, sensor=0, **more):
+    return {"name": name, "hex": trailer(position, quaternion, stamp, flags, sensor, **more).hex(),
+            "placement": placed(position, quaternion, stamp, flags, sensor)}
+
+
+def refused(name, data, fault):
+    return {"name": name, "hex": data.hex(), "fault": fault}
+
+
+half = 23170  # 32767 * sqrt(1/2) = 23169.77
+write("placement.json", {
+    "read": [
+        placement_case("at the origin"),
+        placement_case("somewhere", (1.5, -2.25, 0.75), (half, 0, -half, 0), 123456789, 0, 3),
+        placement_case("latency test", flags=1),
+        placement_case("saturated", flags=2),
+        placement_case("both flags, last stamp, last sensor", stamp=2 ** 32 - 1, flags=3, sensor=255),
+        placement_case("flags of a later version are passed over", flags=0xFC),
+        placement_case("the reserved byte is passed over", reserved=9),
+        placement_case("negative quaternion", quaternion=(0, 0, 0, -32767)),
+        placement_case("a float that no decimal gives", (f32(0.1), f32(-1e-20), f32(3e8))),
+        {"name": "read from the end of what comes before", "hex": "ffffffffff" + trailer(stamp=5).hex(),
+         "placement": placed((0, 0, 0), (0, 0, 0, 32767), 5, 0, 0)},
+        refused("nothing", b"", "too-short"),
+        refused("a byte short", trailer()[1:], "too-short"),
+        refused("format 0", trailer(fmt=0), "unknown-format"),
+        refused("format 2", trailer(fmt=2), "unknown-format"),
+        refused("position not a number", trailer((float("nan"), 0.0, 0.0)), "bad-pose"),
+        refused("position infinite", trailer((0.0, float("inf"), 0.0)), "bad-pose"),
+        refused("infinities that cancel", trailer((float("inf"), float("-inf"), 0.0)), "bad-pose"),
+        refused("quaternion of nothing", trailer(quaternion=(0, 0, 0, 0)), "bad-pose"),
+        refused("quaternion too short", trailer(quaternion=(0, 0, 0, 32400)), "bad-pose"),
+        refused("quaternion too long", trailer(quaternion=(32767, 0, 0, 32767)), "bad-pose"),
+    ],
+    # Quaternion components may exceed 1 by what a pose may be off unit length: they saturate.
+    "write": [
+        {"name": "at the origin", "placement": placed((0, 0, 0), (0, 0, 0, 32767), 0, 0, 0), "hex": trailer().hex()},
+        {"name": "everything", "placement": placed((1.5, -2.25, 0.75), (half, 0, -half, 0), 2 ** 32 - 1, 3, 7),
+         "hex": trailer((1.5, -2.25, 0.75), (half, 0, -half, 0), 2 ** 32 - 1, 3, 7).hex()},
+        {"name": "components beyond one", "placement": {**placed((0, 0, 0), (0, 0, 0, 0), 0, 0, 0),
+                                                         "orientation": {"x": 0, "y": 0, "z": 0, "w": 1.005}},
+         "hex": trailer().hex()},
+        {"name": "components beyond minus one", "placement": {**placed((0, 0, 0), (0, 0, 0, 0), 0, 0, 0),
+                                                               "orientation": {"x": 0, "y": -1.005, "z": 0, "w": 0}},
+         "hex": trailer(quaternion=(0, -32767, 0, 0)).hex()},
+    ],
+})
+
+
+def points(n):
+    return bytes((i * 37 + 11) % 256 for i in range(8 * n))
+
+
+def payload(n, frame=None, **more):
+    return header(9, 8 * n if frame is None else frame, 0, 8 * n) + points(n) + trailer(stamp=77, **more)
+
+
+def payload_case(name, data, frame, length):
+    return {"name": name, "hex": data.hex(),
+            "header": {"frameNumber": 9, "frameLength": frame, "sequenceOffset": 0, "sequenceLength": length},
+            "placement": placed((0, 0, 0), (0, 0, 0, 32767), 77, 0, 0)}
+
+
+write("cloud-payload.json", {"payloads": [
+    payload_case("full", payload(150, 240000), 240000, 1200),
+    payload_case("partial", payload(3), 24, 24),
+    payload_case("one point", payload(1), 8, 8),
+    refused("nothing", b"", "too-short"),
+    refused("a placement alone", trailer(), "bad-length"),
+    refused("a byte of data missing", (lambda d: d[:20] + d[21:])(payload(3)), "too-short"),
+    refused("a byte too many between data and placement", (lambda d: d[:40] + b"\0" + d[40:])(payload(3)), "trailing-bytes"),
+    refused("reference profile: padding where the placement should be", header(9, 24, 0, 24) + points(3) + bytes(1176),
+            "unknown-format"),
+    refused("unknown format, whatever the header says", b"\xff" * 16 + points(3) + trailer(fmt=9), "unknown-format"),
+    refused("bad pose", payload(3, quaternion=(0, 0, 0, 1)), "bad-pose"),
+    refused("block longer than the frame", payload(3, 16), "bad-offset"),
+    refused("frame of half a point", payload(3, 28), "bad-frame-length"),
+]})
+
+# bandwidth -----------------------------------------------------------------------------------------------------------
+
+write("bandwidth.json", {
+    "decode": [
+        {"hex": struct.pack("<i", v).hex(), "bitsPerSecond": v} for v in [0, 1, 256, 40_000_000, 2 ** 31 - 1]
+    ] + [
+        {"hex": struct.pack("<i", -1).hex(), "error": "invalid"},
+        {"hex": struct.pack("<i", -2 ** 31).hex(), "error": "invalid"},
+        {"hex": "", "error": "too-short"}, {"hex": "010203", "error": "too-short"}, {"hex": "0102030405", "error": "too-large"},
+    ],
+    "encode": [{"bitsPerSecond": v, "hex": struct.pack("<i", min(max(int(v + 0.5), 0), 2 ** 31 - 1)).hex()}
+               for v in [0, 40_000_000, 2 ** 31 - 1, 2 ** 31, 1e12, 1234.4, 1234.6]]
+    + [{"bitsPerSecond": -5, "hex": "00000000"}],
+})
+
+# JSON messages -------------------------------------------------------------------------------------------------------
+
+ABSENT = object()
+
+
+def changed(base, path, value):
+    message = copy.deepcopy(base)
+    at = message
+    keys = path.split(".")
+    for key in keys[:-1]:
+        at = at[int(key)] if isinstance(at, list) else at[key]
+    key = int(keys[-1]) if isinstance(at, list) else keys[-1]
+    if value is ABSENT:
+        del at[key]
+    else:
+        at[key] = value
+    return message
+
+
+class Messages:
+    def __init__(self):
+        self.valid, self.invalid = [], []
+
+    def good(self, message, name=None):
+        name = name or message.get("type", "message")
+        self.valid.append({"name": name, "text": json.dumps(message, separators=(",", ":"))})
+        return message
+
+    def bad(self, name, text, code, path="", **more):
+        text = text if isinstance(text, str) else json.dumps(text, separators=(",", ":"))
+        self.invalid.append({"name": name, "text": text, "code": code, "path": path, **more})
+
+    def spoil(self, base, *changes):
+        """Each change: (path, value) makes the message wrong just there, or (path, value, where the error points)."""
+        for path, value, *where in changes:
+            shown = "absent" if value is ABSENT else json.dumps(value)
+            shown = shown if len(shown) < 50 else shown[:40] + "..."
+            name = "%s: %s %s" % (base.get("type", "message"), path, shown)
+            self.bad(name, changed(base, path, value), "invalid", where[0] if where else path)
+
+    def common(self, base, oversize):
+        self.bad("empty", "", "not-json")
+        self.bad("not JSON", "{", "not-json")
+        self.bad("JSON and more", json.dumps(base) + "x", "not-json")
+        self.bad("not a number that JSON has", '{"type":NaN}', "not-json")
+        self.bad("null", "null", "invalid")
+        self.bad("a number", "7", "invalid")
+        self.bad("a string", '"stop"', "invalid")
+        self.bad("an array", "[]", "invalid")
+        self.bad("no type", "{}", "invalid", "type" if "type" in base else next(iter(base)))
+        # The text, then as many spaces as make it one byte too long.
+        self.bad("too long", json.dumps(base), "too-large", padTo=oversize + 1)
+        self.invalid.append({"name": "not UTF-8", "hex": "7b22fffe", "code": "not-utf8", "path": ""})
+
+    def lists(self):
+        return {"valid": self.valid, "invalid": self.invalid}
+
+
+def vector3(x=0, y=0, z=0):
+    return {"x": x, "y": y, "z": z}
+
+
+control = Messages()
+command = control.good({"type": "command", "sequence": 17, "timeMs": 52311.5, "lease": "0f3a9c", "deadMan": True,
+                        "twist": {"linear": vector3(0.5), "angular": vector3(0, 0, -0.25)}})
+control.good({**command, "latencyTest": 4, "sequence": 2 ** 32 - 1, "timeMs": 0}, "command with a latency test, largest sequence")
+control.good({**command, "lease": "A-Za-z0-9_-" + "x" * 53, "deadMan": False}, "command with the longest lease")
+probe = control.good({"type": "clockProbe", "id": 3, "sentMs": 1000.25})
+report = control.good({"type": "receiverReport", "sequence": 9, "packetsReceived": 60000, "packetsLost": 12, "bytesReceived": 74640000})
+control.common(command, 1024)
+control.spoil(command, ("sequence", -1), ("sequence", 2 ** 32), ("sequence", 1.5), ("sequence", "17"), ("sequence", ABSENT),
+              ("timeMs", -0.1), ("timeMs", None), ("timeMs", 1e300), ("lease", ""), ("lease", "x" * 65), ("lease", "a b"), ("lease", ABSENT),
+              ("deadMan", 1), ("deadMan", ABSENT), ("twist", None), ("twist.linear", ABSENT), ("twist.linear.x", "0.5"),
+              ("twist.linear.x", None), ("twist.angular.z", ABSENT), ("latencyTest", -1), ("latencyTest", True),
+              ("extra", 1, ""), ("twist.extra", 1, "twist"), ("twist.linear.w", 1, "twist.linear"), ("type", "Command"), ("type", 7))
+control.bad("a number too large for a double", json.dumps(command).replace("0.5", "1e999"), "invalid", "twist.linear.x")
+control.bad("a key of the prototype", json.dumps(command)[:-1] + ',"__proto__":{}}', "invalid")
+control.spoil(probe, ("id", -1), ("sentMs", ABSENT), ("robotMs", 1, ""))
+control.spoil(report, ("packetsLost", -1), ("packetsReceived", 0.5), ("bytesReceived", 2 ** 53))
+write("operator-control.json", control.lists())
+
+answer = Messages()
+base = answer.good({"type": "clockAnswer", "id": 3, "sentMs": 1000.25, "robotMs": 88123.75})
+answer.common(base, 256)
+answer.spoil(base, ("id", 2 ** 32), ("sentMs", -1), ("robotMs", "88123"), ("robotMs", ABSENT), ("type", "clockProbe"), ("extra", 0, ""))
+write("clock-answer.json", answer.lists())
+
+robot_session = Messages()
+limits = {"maxLinear": 1, "maxAngular": 1.5, "watchdogMs": 150, "maxCommandsPerSecond": 100}
+welcome = robot_session.good({"type": "welcome", "protocol": 1, "robotId": "sim-1", "name": "Simulated robot", "limits": limits,
+                              "stream": {"format": "points64", "width": 480, "height": 480, "framesPerSecond": 30}})
+lease = robot_session.good({"type": "lease", "holder": "you", "lease": "0f3a9c"}, "lease held by this operator")
+robot_session.good({"type": "lease", "holder": "other"}, "lease held by another")
+robot_session.good({"type": "lease", "holder": "nobody"}, "lease free")
+rejected = robot_session.good({"type": "rejected", "sequence": 17, "reason": "out-of-range",
+                               "detail": "twist.linear.x 3.2 m/s is beyond \u00b11 m/s", "count": 1})
+for reason in ["malformed", "stale", "repeated", "not-lease-holder", "dead-man-released", "estop-latched", "rate-limited"]:
+    robot_session.good({"type": "rejected", "reason": reason, "detail": "", "count": 40}, "rejected: " + reason)
+estop = robot_session.good({"type": "estop", "latched": True, "by": "operator"})
+robot_session.good({"type": "estop", "latched": True, "by": "robot"}, "estop by the robot")
+robot_session.good({"type": "estop", "latched": False}, "estop released")
+latency = robot_session.good({"type": "latencyFrame", "id": 4, "frameNumber": 901, "points": 30000, "commandMs": 88120.5, "captureMs": 88131})
+fault = robot_session.good({"type": "fault", "message": "operator session message: latch: expected boolean"})
+robot_session.common(fault, 4096)
+robot_session.spoil(welcome, ("protocol", 0), ("protocol", 1.5), ("robotId", "Sim"), ("robotId", "-sim"), ("robotId", "x" * 65), ("name", ""),
+                    ("name", "a\nb"), ("name", "x" * 65), ("limits.maxLinear", 0), ("limits.watchdogMs", -150),
+                    ("limits.maxAngular", ABSENT), ("limits.extra", 1, "limits"), ("stream.format", "points32"), ("stream.width", 0),
+                    ("stream.height", 1.5), ("stream.framesPerSecond", 0))
+robot_session.spoil(lease, ("holder", "me"), ("lease", "a b"), ("lease", 7))
+robot_session.spoil(rejected, ("reason", "because"), ("detail", "x" * 513), ("count", 0), ("sequence", -1))
+robot_session.spoil(estop, ("latched", "yes"), ("by", "me"))
+robot_session.spoil(latency, ("id", -1), ("frameNumber", 2 ** 32), ("points", -1), ("commandMs", ABSENT))
+robot_session.spoil(fault, ("message", "x" * 513), ("message", 1))
+write("robot-session.json", robot_session.lists())
+
+operator_session = Messages()
+request = operator_session.good({"type": "leaseRequest", "take": False})
+operator_session.good({"type": "leaseRequest", "take": True}, "leaseRequest to take over")
+operator_session.good({"type": "leaseRelease"})
+stop = operator_session.good({"type": "estop", "latch": True})
+operator_session.good({"type": "estop", "latch": False}, "estop release")
+stream = operator_session.good({"type": "stream", "running": False})
+operator_session.common(stop, 1024)
+operator_session.spoil(request, ("take", ABSENT), ("take", 0), ("limits", limits, ""))
+operator_session.spoil(stop, ("latch", "true"), ("latch", ABSENT), ("type", "eStop"))
+operator_session.spoil(stream, ("running", None))
+write("operator-session.json", operator_session.lists())
+
+telemetry = Messages()
+pose = {"position": vector3(1.5, -2, 0), "orientation": {"x": 0, "y": 0, "z": 0.6, "w": 0.8}}
+state = telemetry.good({
+    "type": "telemetry", "sequence": 40, "timeMs": 88131.25, "pose": pose,
+    "twist": {"linear": vector3(0.5), "angular": vector3(0, 0, -0.25)}, "battery": {"voltage": 25.2, "percentage": 0.81},
+    "drive": "driving", "stages": {"captureMs": 8.1, "sampleMs": 1.2, "packMs": 0.4, "sendMs": 20},
+    "stream": {"frameNumber": 901, "framesPerSecond": 30, "pointsPerFrame": 30000, "validPoints": 201344, "bitsPerSecond": 6e7,
+               "targetBitsPerSecond": 8e7, "droppedFrames": 0},
+    "operators": 2})
+telemetry.good(changed(state, "battery", ABSENT), "telemetry without a battery")
+for drive in ["idle", "watchdog", "estop", "blocked"]:
+    telemetry.good(changed(state, "drive", drive), "telemetry: " + drive)
+telemetry.common(state, 4096)
+telemetry.spoil(state, ("sequence", -1), ("timeMs", -1), ("pose.position.x", None), ("pose.orientation.w", 2, "pose.orientation"),
+                ("pose.orientation.z", ABSENT), ("twist.linear", ABSENT), ("battery.percentage", 1.01), ("battery.voltage", -1),
+                ("drive", "parked"), ("stages.sendMs", -1), ("stages.extra", 1, "stages"), ("stream.validPoints", 1.5),
+                ("stream.frameNumber", 2 ** 32), ("operators", -1), ("operators", ABSENT))
+write("telemetry.json", telemetry.lists())
+
+reference_control = Messages()
+twist = reference_control.good({"linear": vector3(0.5), "angular": vector3(0, 0, -0.25)}, "twist")
+reference_control.good({"linear": vector3(0, 0, 1), "angular": vector3()}, "asks for a latency-test frame")
+reference_control.common(twist, 1024)
+reference_control.spoil(twist, ("linear.x", "1"), ("linear.z", ABSENT), ("angular", None), ("angular.y", None))
+write("reference-control.json", reference_control.lists())
+
+# Signaling -----------------------------------------------------------------------------------------------------------
+
+SDP = "v=0\r\no=- 1 1 IN IP4 0.0.0.0\r\ns=-\r\nt=0 0\r\n"
+CANDIDATE = "candidate:1 1 udp 2113937151 192.0.2.7 50000 typ host"
+ice = {"candidate": CANDIDATE, "sdpMid": "0", "sdpMLineIndex": 0}
+offer = {"type": "session.offer", "session": "s1", "sdp": SDP}
+session_answer = {"type": "session.answer", "session": "s1", "sdp": SDP}
+trickle = {"type": "session.candidate", "session": "s1", "candidate": ice}
+close = {"type": "session.close", "session": "s1"}
+closed = {"type": "session.closed", "session": "s1", "reason": "operator-left"}
+error = {"type": "error", "code": "unknown-robot", "message": "no robot 'sim-9' is here", "session": "s1"}
+servers = [{"urls": "stun:stun.example.org"},
+           {"urls": ["turn:turn.example.org", "turns:turn.example.org"], "username": "u", "credential": "c"}]
+
+m = Messages()
+hello = m.good({"type": "robot.hello", "protocol": 1, "id": "sim-1", "name": "Simulated robot", "key": "k_0-Z", "token": "secret"})
+m.good(changed(hello, "token", ABSENT), "robot.hello without a token")
+for message in [offer, trickle, close]:
+    m.good(message)
+m.good({**trickle, "candidate": {"candidate": ""}}, "the end of the candidates")
+m.good({**trickle, "candidate": {**ice, "sdpMid": None, "sdpMLineIndex": None, "usernameFragment": "abcd"}}, "candidate with nulls")
+m.common(close, 65536)
+m.spoil(hello, ("protocol", 0), ("id", "Robot 1"), ("id", ""), ("name", ""), ("name", "\u0000"), ("key", ""), ("key", "a.b"), ("token", ""),
+        ("token", "x" * 4097), ("admin", True, ""))
+m.spoil(offer, ("session", ""), ("session", "s 1"), ("sdp", ""), ("sdp", ABSENT), ("type", "session.answer"))
+m.spoil(trickle, ("candidate", CANDIDATE), ("candidate.candidate", "x" * 1025), ("candidate.sdpMLineIndex", -1), ("candidate.extra", 1, "candidate"))
+write("signaling-robot-to-service.json", m.lists())
+
+m = Messages()
+m_welcome = m.good({"type": "robot.welcome", "id": "sim-1", "iceServers": servers})
+m_request = m.good({"type": "session.request", "session": "s1", "operator": "Ada"})
+for message in [session_answer, trickle, closed, error]:
+    m.good(message)
+for reason in ["robot-left", "closed-by-operator", "closed-by-robot"]:
+    m.good({**closed, "reason": reason}, "session.closed: " + reason)
+for code in ["malformed", "too-large", "rate-limited", "hello-first", "unauthorized", "robot-id-taken", "unknown-session",
+             "too-many-sessions", "shutting-down"]:
+    m.good({"type": "error", "code": code, "message": ""}, "error: " + code)
+m.common(m_request, 65536)
+m.spoil(m_welcome, ("iceServers", ABSENT), ("iceServers.0.urls", 1), ("iceServers.1.password", "x", "iceServers.1"))
+m.spoil(m_request, ("operator", ""), ("session", None), ("type", "session.offer"))
+m.spoil(closed, ("reason", "bored"))
+m.spoil(error, ("code", "oops"), ("message", "x" * 1025))
+write("signaling-service-to-robot.json", m.lists())
+
+m = Messages()
+hello = m.good({"type": "operator.hello", "protocol": 1, "name": "Ada", "token": "secret"})
+m_open = m.good({"type": "session.open", "robotId": "sim-1"})
+for message in [session_answer, trickle, close]:
+    m.good(message)
+m.common(m_open, 65536)
+m.spoil(hello, ("protocol", "1"), ("name", ABSENT), ("token", 5))
+m.spoil(m_open, ("robotId", 0), ("robotId", "../x"), ("type", "session.offer"))
+write("signaling-operator-to-service.json", m.lists())
+
+m = Messages()
+m.good({"type": "operator.welcome", "iceServers": []})
+robots = m.good({"type": "robots", "robots": [{"id": "sim-1", "name": "Simulated robot"}, {"id": "r2", "name": "\u00d6rn"}]})
+m.good({"type": "robots", "robots": []}, "no robots")
+opened = m.good({"type": "session.opened", "session": "s1", "robotId": "sim-1"})
+for message in [offer, trickle, closed, error]:
+    m.good(message)
+m.common(opened, 1048576)
+m.spoil(robots, ("robots", None), ("robots.0.id", "A"), ("robots.1.name", ABSENT), ("robots.1.key", "k", "robots.1"))
+m.spoil(opened, ("robotId", ABSENT), ("type", "session.answer"))
+write("signaling-service-to-operator.json", m.lists())
+
+# The reference system's signaling: unknown fields are let through, ids are numbers from 0.
+m = Messages()
+register = m.good({"type": "register", "name": "robot", "sdpOffer": SDP})
+m.good({**register, "version": 3}, "register with a field unknown to us")
+m_offer = m.good({"type": "offer", "robotId": 0, "sdpOffer": SDP})
+m_candidate = m.good({"type": "candidate", "robotId": 0, "candidate": CANDIDATE})
+gone = m.good({"type": "deregister", "robotId": 0})
+m.common(gone, 65536)
+m.spoil(register, ("name", ABSENT), ("name", "x" * 257), ("sdpOffer", 1), ("type", "hello"))
+m.spoil(m_offer, ("robotId", -1), ("robotId", "0"), ("robotId", ABSENT))
+m.spoil(m_candidate, ("candidate", {"candidate": CANDIDATE}), ("candidate", "x" * 1025))
+write("reference-robot-to-service.json", m.lists())
+
+m = Messages()
+m_get = m.good({"type": "getRobots"})
+m_answer = m.good({"type": "answer", "robotId": 0, "sdpAnswer": SDP})
+m.good({"type": "candidate", "robotId": 0, "candidate": CANDIDATE})
+m.common(m_get, 65536)
+m.spoil(m_answer, ("robotId", None), ("sdpAnswer", ABSENT), ("type", "offer"))
+write("reference-client-to-service.json", m.lists())
+
+m = Messages()
+registered = m.good({"type": "registered", "robotId": 0})
+m_answer = m.good({"type": "sdpAnswer", "sdpAnswer": SDP})
+m.good({"type": "candidate", "candidate": CANDIDATE})
+m.common(registered, 65536)
+m.spoil(registered, ("robotId", 0.5))
+m.spoil(m_answer, ("sdpAnswer", None))
+write("reference-service-to-robot.json", m.lists())
+
+m = Messages()
+record = {"id": 0, "name": "robot", "sdpOffer": SDP, "sdpAnswer": None, "robotCandidates": [CANDIDATE], "clientCandidates": []}
+listing = m.good({"type": "robots", "robots": [record, {**record, "id": 1, "sdpAnswer": SDP}]})
+pushed = m.good({"type": "register", "robot": record})
+m.good({"type": "offer", "robotId": 0, "sdpOffer": SDP})
+m.good({"type": "candidate", "robotId": 0, "candidate": CANDIDATE})
+m.good({"type": "deregister", "robotId": 0})
+m.good({"type": "deregister"}, "deregister as the reference service sends it")
+away = m.good({"type": "deregistered", "robotId": 0})
+m.common(away, 8388608)
+m.spoil(listing, ("robots.0.id", "0"), ("robots.1.robotCandidates", [1], "robots.1.robotCandidates.0"))
+m.spoil(pushed, ("robot", ABSENT), ("robot.sdpAnswer", 0))
+m.spoil(away, ("robotId", ABSENT))
+write("reference-service-to-client.json", m.lists())
