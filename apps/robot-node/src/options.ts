@@ -1,6 +1,7 @@
 /** The robot program's options, and what the robot is made of when they are right. */
-import { readFileSync } from 'node:fs';
+
 import { randomBytes } from 'node:crypto';
+import { readFileSync } from 'node:fs';
 import { displayNameSchema, handleSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
 import { defaultDriveLimits } from '@farpoint/safety';
 import {
@@ -60,10 +61,22 @@ const options = {
     help: 'proves to signaling, also after a restart, that this is the same robot; random where left out',
   }),
   source: defineOption({
-    schema: schema.choice(['sim']),
+    schema: schema.choice(['sim', 'pcd', 'rgbd']),
     default: 'sim',
     argument: 'KIND',
-    help: 'where the points come from: sim (a simulated robot)',
+    help: 'where the points come from: sim (a simulated robot), pcd (recorded clouds), rgbd (recorded colour and depth pictures)',
+  }),
+  path: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'PATH',
+    help: 'pcd: a .pcd file or a folder of them; rgbd: a folder as Open3D lays it out',
+  }),
+  pcdFrame: defineOption({
+    schema: schema.choice(['auto', 'optical', 'body']),
+    default: 'auto',
+    argument: 'FRAME',
+    help: 'axes of PCD points: optical (z forward), body (x forward, z up), or auto: optical for grids, else body',
   }),
   fps: defineOption({
     schema: schema.number({ min: 0.1, max: 120 }),
@@ -232,6 +245,11 @@ export function toRobotOptions(values: RobotOptionValues): RobotOptions {
 }
 
 function toSource(values: RobotOptionValues): SourceOptions {
+  const { source, path } = values;
+  if (source !== 'sim') {
+    if (path === null) throw new OptionsError('--path', `is needed for --source ${source}`);
+    return source === 'pcd' ? { kind: source, path, frame: values.pcdFrame } : { kind: source, path };
+  }
   if (values.simSize % 4 !== 0) throw new OptionsError('--sim-size', 'must be a multiple of 4');
   return { kind: 'sim', seed: values.simSeed, size: values.simSize };
 }
@@ -240,6 +258,9 @@ function readText(where: string, path: string): string {
   try {
     return readFileSync(path, 'utf8');
   } catch (error) {
-    throw new OptionsError(where, `cannot be read: ${error instanceof Error ? error.message : String(error)}`);
+    throw new OptionsError(
+      where,
+      `cannot be read: ${error instanceof Error ? error.message : String(error)}`,
+    );
   }
 }

@@ -172,10 +172,14 @@ export class Robot implements SessionHost {
       }
       case 'error':
         this.counters.signalingErrors.add(message.code);
-        this.#log.warn({ code: message.code, session: message.session, detail: message.message }, 'signaling refused');
+        this.#log.warn(
+          { code: message.code, session: message.session, detail: message.message },
+          'signaling refused',
+        );
         if (message.session !== undefined && message.code === 'unknown-session') {
           const operator = this.operators.get(message.session);
-          if (operator !== undefined && !operator.peer.connected) operator.peer.close('closed', message.message);
+          if (operator !== undefined && !operator.peer.connected)
+            operator.peer.close('closed', message.message);
         }
         break;
     }
@@ -222,7 +226,8 @@ export class Robot implements SessionHost {
     log.info('session requested');
     try {
       const sdp = await operator.peer.offer();
-      if (this.operators.get(session) === operator) this.signaling.send({ type: 'session.offer', session, sdp });
+      if (this.operators.get(session) === operator)
+        this.signaling.send({ type: 'session.offer', session, sdp });
     } catch (error) {
       log.error({ err: error }, 'no offer');
       operator.peer.close('not-connected', 'no offer could be made');
@@ -288,7 +293,9 @@ export class Robot implements SessionHost {
     this.#captureStages.add('captureMs', frame.captureMs);
     this.#captureStages.add('sampleMs', frame.sampleMs);
     this.#captureStages.add('packMs', frame.packMs);
-    const shared = new SharedFrame(frame, this.#budget.overheadBytes, (buffer) => this.capture.recycle(buffer));
+    const shared = new SharedFrame(frame, this.#budget.overheadBytes, (buffer) =>
+      this.capture.recycle(buffer),
+    );
     if (monotonicMs() - frame.capturedAtMs > MAX_FRAME_AGE_MS) {
       this.counters.framesStale++;
       if (frame.latencyTest) this.capture.requestLatencyTest();

@@ -9,8 +9,8 @@ import { monotonicMs } from '../clock.ts';
 import { FrameEncoder } from '../encode/frame-encoder.ts';
 import { SLOT_BYTES } from '../encode/packetiser.ts';
 import { planPoints } from '../encode/plan.ts';
-import type { CaptureOptions, CaptureReport, CaptureRequest } from './capture-messages.ts';
 import { BufferPool } from './buffer-pool.ts';
+import type { CaptureOptions, CaptureReport, CaptureRequest } from './capture-messages.ts';
 import { openSource } from './open-source.ts';
 
 /** One frame being sent, one waiting, one being filled. */
@@ -118,7 +118,9 @@ function captureFrame(now: number): void {
   });
   const encoded = encoder.encode(frame, count, latencyTest);
   encoder.copyPackets(new Uint8Array(buffer), encoded.packets);
-  send({ type: 'frame', ...encoded, buffer, latencyTest, capturedAtMs: frame.captureMs, captureMs }, [buffer]);
+  send({ type: 'frame', ...encoded, buffer, latencyTest, capturedAtMs: frame.captureMs, captureMs }, [
+    buffer,
+  ]);
   latencyTest = false;
 }
 

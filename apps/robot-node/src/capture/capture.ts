@@ -1,6 +1,6 @@
 import { Worker } from 'node:worker_threads';
 import type { Twist } from '@farpoint/protocol';
-import type { CaptureOptions, CapturedFrame, CaptureReport, CaptureRequest } from './capture-messages.ts';
+import type { CapturedFrame, CaptureOptions, CaptureReport, CaptureRequest } from './capture-messages.ts';
 import type { SourceDescription, SourceState } from './frame-source.ts';
 
 /** The capture thread ended by itself. */

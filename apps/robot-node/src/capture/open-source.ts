@@ -1,13 +1,22 @@
 import type { FrameSource } from './frame-source.ts';
-import { SimSource } from './sim-source.ts';
+import { openPcdSource, type PcdSourceOptions } from './pcd-source.ts';
+import { openRgbdSource, type RgbdSourceOptions } from './rgbd-source.ts';
+import { SimSource, type SimSourceOptions } from './sim-source.ts';
 
 /** Which source to open; plain data, so that it can be handed to the worker. */
-export type SourceOptions = { kind: 'sim'; seed: number; size: number };
+export type SourceOptions =
+  | ({ kind: 'sim' } & SimSourceOptions)
+  | ({ kind: 'pcd' } & PcdSourceOptions)
+  | ({ kind: 'rgbd' } & RgbdSourceOptions);
 
 /** @throws {Error} naming what could not be opened and why */
 export async function openSource(options: SourceOptions): Promise<FrameSource> {
   switch (options.kind) {
     case 'sim':
       return SimSource.create(options);
+    case 'pcd':
+      return openPcdSource(options);
+    case 'rgbd':
+      return openRgbdSource(options);
   }
 }

@@ -135,7 +135,11 @@ export class OperatorSession {
   }
 
   #onMalformed(error: ProtocolError): void {
-    const verdict = this.#host.drive.guard.onMalformed(this.id, error.message.slice(0, MAX_DETAIL), this.heardMs);
+    const verdict = this.#host.drive.guard.onMalformed(
+      this.id,
+      error.message.slice(0, MAX_DETAIL),
+      this.heardMs,
+    );
     this.#reject(verdict, undefined);
   }
 

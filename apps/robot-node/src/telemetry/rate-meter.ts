@@ -12,7 +12,8 @@ export class RateMeter<K extends string> {
     const samples = this.#samples;
     samples.push({ atMs: nowMs, sums: { ...sums } });
     // One sample at or before the window's beginning is kept, so that it is covered whole.
-    while (samples.length > 2 && nowMs - (samples[1] as { atMs: number }).atMs >= this.#windowMs) samples.shift();
+    while (samples.length > 2 && nowMs - (samples[1] as { atMs: number }).atMs >= this.#windowMs)
+      samples.shift();
     const oldest = samples[0] as { atMs: number; sums: Readonly<Record<K, number>> };
     const seconds = (nowMs - oldest.atMs) / 1000;
     const rates = {} as Record<K, number>;

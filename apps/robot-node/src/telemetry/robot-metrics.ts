@@ -66,8 +66,16 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   gauge('operators', 'Operators with a session', () => robot.operators.size);
   gauge('points_per_frame', 'Points of the last frame', () => counters.lastPoints);
   gauge('valid_points', 'Valid points of the last raw cloud', () => counters.lastValidPoints);
-  gauge('packets_sent', 'Packets to operators connected now', overOperators((s) => s.counters.packetsSent));
-  gauge('bytes_sent', 'Bytes on the wire to operators connected now', overOperators((s) => s.counters.bytesSent));
+  gauge(
+    'packets_sent',
+    'Packets to operators connected now',
+    overOperators((s) => s.counters.packetsSent),
+  );
+  gauge(
+    'bytes_sent',
+    'Bytes on the wire to operators connected now',
+    overOperators((s) => s.counters.bytesSent),
+  );
   gauge(
     'frames_superseded',
     'Frames not sent because a newer one came first, operators connected now',

@@ -73,7 +73,9 @@ export class OperatorPeer {
         })),
       ),
       bundlePolicy: 'max-bundle',
-      ...(options.portRange === undefined ? {} : { icePortRange: [...options.portRange] as [number, number] }),
+      ...(options.portRange === undefined
+        ? {}
+        : { icePortRange: [...options.portRange] as [number, number] }),
       codecs: {
         audio: [
           new RTCRtpCodecParameters({

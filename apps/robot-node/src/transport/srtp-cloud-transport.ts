@@ -34,7 +34,8 @@ export class SrtpCloudTransport implements CloudTransport {
   constructor(transceiver: RTCRtpTransceiver) {
     const { sender, mid } = transceiver;
     const codec = sender.codec;
-    if (codec === undefined || mid === null) throw new CloudTransportError('the peer refused the cloud stream');
+    if (codec === undefined || mid === null)
+      throw new CloudTransportError('the peer refused the cloud stream');
     const dtls = transceiver.dtlsTransport;
     const keys = outgoingSrtpKeys(dtls);
     if (keys === null) throw new CloudTransportError('the peer does not take SRTP with AES-128-GCM');

@@ -22,7 +22,8 @@ export class SrtpSealer {
    */
   constructor(key: Uint8Array, salt: Uint8Array, ssrc: number, firstSequence: number) {
     if (key.byteLength !== 16) throw new RangeError(`SRTP key of ${key.byteLength} bytes, 16 needed`);
-    if (salt.byteLength < NONCE_BYTES) throw new RangeError(`SRTP salt of ${salt.byteLength} bytes, 12 needed`);
+    if (salt.byteLength < NONCE_BYTES)
+      throw new RangeError(`SRTP salt of ${salt.byteLength} bytes, 12 needed`);
     this.#key = createSecretKey(key);
     this.#salt = Uint8Array.from(salt.subarray(0, NONCE_BYTES));
     this.#ssrc = ssrc;

@@ -1,10 +1,10 @@
 import {
-  type FrameDropReason,
   FMT_TRANSPORT_WIDE,
+  type FrameDropReason,
   PacketPacer,
+  parseTransportFeedback,
   type RateController,
   RTCP_TRANSPORT_FEEDBACK,
-  parseTransportFeedback,
   TransportFeedbackAdapter,
   TransportFeedbackError,
   walkRtcp,

@@ -29,14 +29,16 @@ export function outgoingSrtpKeys(dtls: RTCDtlsTransport): SrtpKeys | null {
   if (context === undefined) throw new WeriftShapeError('no SRTP context after DTLS connected');
   if (context.profile !== SRTP_AEAD_AES_128_GCM) return null;
   const { srtpSessionKey: key, srtpSessionSalt: salt } = context;
-  if (key?.byteLength !== 16 || !(salt?.byteLength >= 12)) throw new WeriftShapeError('unknown SRTP key layout');
+  if (key?.byteLength !== 16 || !(salt?.byteLength >= 12))
+    throw new WeriftShapeError('unknown SRTP key layout');
   return { key, salt };
 }
 
 /** Hands every decrypted RTCP compound packet to `tap`, before werift parses it. */
 export function tapRtcp(dtls: RTCDtlsTransport, tap: (compound: Uint8Array) => void): void {
   const { srtcp } = dtls;
-  if (typeof srtcp?.decrypt !== 'function') throw new WeriftShapeError('no SRTCP context after DTLS connected');
+  if (typeof srtcp?.decrypt !== 'function')
+    throw new WeriftShapeError('no SRTCP context after DTLS connected');
   const decrypt = srtcp.decrypt;
   srtcp.decrypt = (data: Buffer) => {
     const compound = decrypt(data);
@@ -80,7 +82,11 @@ export class IcePath {
     if ('consentFresh' in connection && connection.consentFresh === false) return false;
     const protocol = pair.protocol as unknown as Partial<StunProtocolShape>;
     const transport = protocol.transport;
-    if (protocol.type !== 'stun' || transport?.type !== 'udp' || typeof transport.socket?.send !== 'function') {
+    if (
+      protocol.type !== 'stun' ||
+      transport?.type !== 'udp' ||
+      typeof transport.socket?.send !== 'function'
+    ) {
       return true;
     }
     if (transport.closed) return false;

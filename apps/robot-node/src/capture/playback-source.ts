@@ -1,0 +1,84 @@
+import { type Pose, type Twist, zeroTwist } from '@farpoint/protocol';
+import type { FrameSource, SourceDescription, SourceFrame, SourceState } from './frame-source.ts';
+
+/** One recorded cloud, decoded when it is needed. */
+export interface RecordedFrame {
+  /** What it is read from, for errors. */
+  name: string;
+  /** @throws {Error} where it cannot be read */
+  load(): Float32Array;
+  cameraPose: Pose;
+}
+
+/** Decoded frames that are kept, bytes; beyond it frames are decoded each time. */
+const CACHE_BYTES = 512 * 1024 * 1024;
+
+/** Optical axes as REP-103 has them (z forward, x right, y down), looking along +x of a world with z up. */
+const LOOKING_AHEAD = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };
+
+/** Where a camera without poses stands: 1 m above the world's origin, looking along +x. */
+export const STATIC_CAMERA_POSE: Pose = {
+  position: { x: 0, y: 0, z: 1 },
+  orientation: LOOKING_AHEAD,
+};
+
+const STANDING: SourceState = {
+  pose: { position: { x: 0, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } },
+  twist: zeroTwist(),
+  battery: null,
+  contact: false,
+};
+
+/** Recorded clouds, one for each capture, over and over. It has no wheels: velocities change nothing. */
+export class PlaybackSource implements FrameSource {
+  readonly description: SourceDescription;
+  readonly state = STANDING;
+  readonly #frames: readonly RecordedFrame[];
+  readonly #cache = new Map<number, Float32Array>();
+  #cachedBytes = 0;
+  #next = 0;
+
+  /** @throws {Error} where there is no frame, or one of those that are kept cannot be read: said now, not in mid-stream */
+  constructor(description: Omit<SourceDescription, 'drives'>, frames: readonly RecordedFrame[]) {
+    if (frames.length === 0) throw new Error(`${description.kind}: no frames`);
+    this.description = { ...description, drives: false };
+    this.#frames = frames;
+    for (let i = 0; i < frames.length && this.#cachedBytes < CACHE_BYTES; i++) this.#points(i);
+  }
+
+  advance(_nowMs: number, _twist: Twist): void {}
+
+  capture(nowMs: number): SourceFrame {
+    const index = this.#next;
+    this.#next = (index + 1) % this.#frames.length;
+    const points = this.#points(index);
+    const { cameraPose } = this.#frames[index] as RecordedFrame;
+    return { points, count: points.length / 4, cameraPose, captureMs: nowMs };
+  }
+
+  close(): void {
+    this.#cache.clear();
+  }
+
+  #points(index: number): Float32Array {
+    const cached = this.#cache.get(index);
+    if (cached !== undefined) return cached;
+    const frame = this.#frames[index] as RecordedFrame;
+    let points: Float32Array;
+    try {
+      points = frame.load();
+    } catch (error) {
+      throw new Error(`${frame.name}: ${error instanceof Error ? error.message : String(error)}`, {
+        cause: error,
+      });
+    }
+    if (points.length / 4 > this.description.capacity) {
+      throw new Error(`${frame.name}: ${points.length / 4} points, ${this.description.capacity} expected`);
+    }
+    if (this.#cachedBytes + points.byteLength <= CACHE_BYTES) {
+      this.#cache.set(index, points);
+      this.#cachedBytes += points.byteLength;
+    }
+    return points;
+  }
+}
