@@ -80,9 +80,9 @@ test('the last run of a frame says so', () => {
 test('the next frame keeps the distance to the one before', () => {
   const pacer = exact(10 * MBIT);
   pacer.enqueue(frame(1, 2), 0);
+  pacer.due(0);
   pacer.enqueue(frame(2, 2), 0);
   expect(drain(pacer, 0)).toEqual([
-    [1, 0, 0],
     [1, 1, 1],
     [2, 0, 2],
     [2, 1, 3],
@@ -131,6 +131,16 @@ describe('a queue that is full', () => {
     expect(pacer.drops).toEqual({ superseded: 1, overdue: 0, cleared: 0 });
   });
 
+  test('a frame whose first packet must still wait is not begun', () => {
+    const pacer = exact(1 * MBIT);
+    pacer.enqueue(frame(1, 1), 0);
+    pacer.due(0);
+    pacer.enqueue(frame(2, 1), 1);
+    expect(pacer.due(1)).toBeNull();
+    expect(pacer.enqueue(frame(3, 1), 2)).toMatchObject([{ frame: { id: 2 }, reason: 'superseded' }]);
+    expect(drain(pacer, 3)).toEqual([[3, 0, 10]]);
+  });
+
   test('a frame that takes too long gives way to a newer one, not before', () => {
     const pacer = exact(1 * MBIT, { maxFrameMs: 250 });
     pacer.enqueue(frame(1, 100), 0);
@@ -141,7 +151,7 @@ describe('a queue that is full', () => {
     expect(pacer.enqueue(frame(3, 1), 250)).toEqual([
       { frame: frame(1, 100), reason: 'overdue', packets: 98 },
     ]);
-    expect(drain(pacer, 250).map(([id]) => id)).toEqual([2, 3]);
+    expect(drain(pacer, 250).map(([id]) => id)).toEqual([3]);
   });
 
   test('cleared: begun and waiting ones are given back', () => {

@@ -29,7 +29,7 @@ export interface PacedRun<T extends PacedFrame> {
 }
 
 export interface PacerOptions {
-  /** Frames that may wait behind the one being sent. */
+  /** Frames that may wait to be begun, at least 1. */
   maxWaitingFrames?: number;
   /** Rate of sending over the target rate, 1.0–1.25: a little faster, so that a frame is over before the next comes. */
   factor?: number;
@@ -53,7 +53,7 @@ const MIN_BITS_PER_SECOND = 100_000;
  */
 export class PacketPacer<T extends PacedFrame> {
   readonly #options: Required<PacerOptions>;
-  readonly #waiting: T[] = [];
+  readonly #waiting: { frame: T; sinceMs: number }[] = [];
   readonly #drops: Record<FrameDropReason, number> = { superseded: 0, overdue: 0, cleared: 0 };
   #bitsPerSecond: number;
   #current: { frame: T; sent: number; startMs: number } | null = null;
@@ -89,10 +89,9 @@ export class PacketPacer<T extends PacedFrame> {
       dropped.push(this.#dropped(current.frame, 'overdue', current.frame.packets - current.sent));
       this.#current = null;
     }
-    this.#waiting.push(frame);
-    const room = this.#options.maxWaitingFrames + (this.#current === null ? 1 : 0);
-    while (this.#waiting.length > room) {
-      const oldest = this.#waiting.shift() as T;
+    this.#waiting.push({ frame, sinceMs: nowMs });
+    while (this.#waiting.length > this.#options.maxWaitingFrames) {
+      const oldest = (this.#waiting.shift() as { frame: T }).frame;
       dropped.push(this.#dropped(oldest, 'superseded', oldest.packets));
     }
     return dropped;
@@ -106,20 +105,25 @@ export class PacketPacer<T extends PacedFrame> {
       dropped.push(this.#dropped(frame, 'cleared', frame.packets - sent));
       this.#current = null;
     }
-    for (const frame of this.#waiting.splice(0)) dropped.push(this.#dropped(frame, 'cleared', frame.packets));
+    for (const { frame } of this.#waiting.splice(0))
+      dropped.push(this.#dropped(frame, 'cleared', frame.packets));
     return dropped;
   }
 
-  /** When `due` has something next, maybe long past; `null` where nothing waits. */
+  /** When `due` has something next, maybe past; `null` where nothing waits. */
   get nextDueMs(): number | null {
-    return this.#current === null && this.#waiting.length === 0 ? null : this.#nextMs;
+    if (this.#current !== null) return this.#nextMs;
+    const next = this.#waiting[0];
+    // What was not sent while there was nothing to send is not made up for.
+    return next === undefined ? null : Math.max(this.#nextMs, next.sinceMs);
   }
 
   /** The packets that may go now, of one frame; `null` where none may. Ask again until `null`. */
   due(nowMs: number): PacedRun<T> | null {
+    const dueMs = this.nextDueMs;
+    if (dueMs === null || dueMs > nowMs) return null;
     const current = this.#current ?? this.#begin(nowMs);
-    if (current === null || this.#nextMs > nowMs) return null;
-    this.#nextMs = Math.max(this.#nextMs, nowMs - this.#options.catchUpMs);
+    this.#nextMs = Math.max(dueMs, nowMs - this.#options.catchUpMs);
     const { frame } = current;
     const spacingMs = this.#spacingMs(frame);
     const first = current.sent;
@@ -135,11 +139,8 @@ export class PacketPacer<T extends PacedFrame> {
     return { frame, first, count, last };
   }
 
-  #begin(nowMs: number): { frame: T; sent: number; startMs: number } | null {
-    const frame = this.#waiting.shift();
-    if (frame === undefined) return null;
-    // What was not sent while there was nothing to send is not made up for.
-    this.#nextMs = Math.max(this.#nextMs, nowMs);
+  #begin(nowMs: number): { frame: T; sent: number; startMs: number } {
+    const { frame } = this.#waiting.shift() as { frame: T };
     this.#current = { frame, sent: 0, startMs: nowMs };
     return this.#current;
   }

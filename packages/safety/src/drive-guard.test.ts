@@ -156,6 +156,7 @@ describe('lease', () => {
       if (end === 'gone') expect(guard.operatorGone('a')).toBe(true);
       if (end === 'take') expect(guard.requestLease('b', true, 5000).granted).toBe(true);
       expect(isZeroTwist(guard.velocityAt(1))).toBe(true);
+      expect(guard.nextDeadlineMs).toBeNull();
       expect(send(10, 0.5)).toMatchObject({ reason: 'not-lease-holder' });
       expect(guard.state(10)).toBe('idle');
     }
@@ -185,6 +186,15 @@ describe('lease', () => {
       expect(decodeJson(robotSessionCodec, encodeJson(robotSessionCodec, message))).toEqual(message);
     }
   });
+});
+
+test('an operator that left and came back under the same name counts its commands anew', () => {
+  const { guard, send } = driven();
+  send(0, 0.5, { sequence: 900 });
+  guard.operatorGone('a');
+  const outcome = guard.requestLease('a', false, 10);
+  const lease = outcome.granted ? outcome.lease : '';
+  expect(send(20, 0.5, { sequence: 0, lease })).toMatchObject({ accepted: true });
 });
 
 test('clock probes reach the gate', () => {
