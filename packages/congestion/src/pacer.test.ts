@@ -150,6 +150,7 @@ describe('a queue that is full', () => {
     expect(pacer.drops.overdue).toBe(0);
     expect(pacer.enqueue(frame(3, 1), 250)).toEqual([
       { frame: frame(1, 100), reason: 'overdue', packets: 98 },
+      { frame: frame(2, 1), reason: 'superseded', packets: 1 },
     ]);
     expect(drain(pacer, 250).map(([id]) => id)).toEqual([3]);
   });
