@@ -86,6 +86,15 @@ describe('without transport-wide feedback', () => {
     expect(controller.targetBitsPerSecond(0)).toBe(20 * MBIT);
   });
 
+  test('each interval’s sums count by themselves', () => {
+    const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
+    controller.onPacketSent(0, 1244, 0);
+    for (let t = 0; t <= 6000; t += 200) {
+      controller.onReceiverReport({ packetsReceived: t, packetsLost: Math.min(t, 1000) / 4 }, t);
+    }
+    expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
+  });
+
   test('a report that was overtaken changes nothing', () => {
     const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
     controller.onPacketSent(0, 1244, 0);

@@ -15,7 +15,7 @@ export class SequenceUnwrapper16 {
   #last: number | null = null;
 
   unwrap(value: number): number {
-    this.#last = this.#last === null ? value : this.#last + sequenceDelta16(value, this.#last & 0xffff);
+    this.#last = this.#last === null ? value : this.#last + sequenceDelta16(value, this.#last);
     return this.#last;
   }
 }

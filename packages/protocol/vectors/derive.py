@@ -427,7 +427,7 @@ for message in [offer, trickle, close]:
 m.good({**trickle, "candidate": {"candidate": ""}}, "the end of the candidates")
 m.good({**trickle, "candidate": {**ice, "sdpMid": None, "sdpMLineIndex": None, "usernameFragment": "abcd"}}, "candidate with nulls")
 m.common(close, 65536)
-m.spoil(hello, ("protocol", 0), ("id", "Robot 1"), ("id", ""), ("name", ""), ("name", "\u0000"), ("key", ""), ("key", "a.b"), ("token", ""),
+m.spoil(hello, ("protocol", 0), ("id", "Robot 1"), ("id", ""), ("name", ""), ("name", "\u0000"), ("key", ""), ("key", "a.b"), ("key", ABSENT), ("token", ""),
         ("token", "x" * 4097), ("admin", True, ""))
 m.spoil(offer, ("session", ""), ("session", "s 1"), ("sdp", ""), ("sdp", ABSENT), ("type", "session.answer"))
 m.spoil(trickle, ("candidate", CANDIDATE), ("candidate.candidate", "x" * 1025), ("candidate.sdpMLineIndex", -1), ("candidate.extra", 1, "candidate"))

@@ -28,3 +28,9 @@ test('a clock that runs backwards fills nothing, and does not fill twice when it
   expect(takes(bucket, 5, 1000)).toBe(0);
   expect(takes(bucket, 5, 1100)).toBe(1);
 });
+
+test('a clock that runs backwards takes no credit away', () => {
+  const bucket = new TokenBucket(10);
+  expect(takes(bucket, 4, 1000)).toBe(4);
+  expect(takes(bucket, 20, 0)).toBe(6);
+});
