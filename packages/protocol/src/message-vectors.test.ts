@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { clockAnswerCodec, operatorControlCodec } from './control.ts';
+import { clockAnswerCodec, commandRejections, operatorControlCodec } from './control.ts';
 import { ProtocolError } from './errors.ts';
 import { decodeJson, encodeJson, encodeJsonBytes, type JsonCodec, type MessageData } from './json.ts';
 import { referenceControlCodec } from './reference-control.ts';
@@ -12,6 +12,8 @@ import {
   robotToServiceCodec,
   serviceToOperatorCodec,
   serviceToRobotCodec,
+  sessionEndReasons,
+  signalingErrorCodes,
 } from './signaling/farpoint.ts';
 import {
   referenceClientToServiceCodec,
@@ -19,7 +21,7 @@ import {
   referenceServiceToClientCodec,
   referenceServiceToRobotCodec,
 } from './signaling/reference.ts';
-import { telemetryCodec } from './telemetry.ts';
+import { driveStates, telemetryCodec } from './telemetry.ts';
 
 const codecs: [file: string, codec: JsonCodec<unknown>][] = [
   ['operator-control', operatorControlCodec],
@@ -125,6 +127,18 @@ describe.each(codecs)('%s', (file, codec) => {
       { seed: 4, numRuns: 300 },
     );
   });
+});
+
+test.each([
+  ['robot-session', 'reason', commandRejections],
+  ['telemetry', 'drive', driveStates],
+  ['signaling-service-to-robot', 'code', signalingErrorCodes],
+  ['signaling-service-to-robot', 'reason', sessionEndReasons],
+])('the vectors of %s have every %s', (file, member, all) => {
+  const values = vectorsOf(file).valid.map(
+    ({ text }) => (JSON.parse(text) as Record<string, unknown>)[member],
+  );
+  expect(new Set(values.filter((value) => value !== undefined))).toEqual(new Set<unknown>(all));
 });
 
 /** Every object or array member in a JSON value. */

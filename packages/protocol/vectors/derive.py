@@ -441,7 +441,7 @@ for message in [session_answer, trickle, closed, error]:
 for reason in ["robot-left", "closed-by-operator", "closed-by-robot"]:
     m.good({**closed, "reason": reason}, "session.closed: " + reason)
 for code in ["malformed", "too-large", "rate-limited", "hello-first", "unauthorized", "robot-id-taken", "unknown-session",
-             "too-many-sessions", "shutting-down"]:
+             "too-many-sessions", "unsupported-protocol", "full", "shutting-down"]:
     m.good({"type": "error", "code": code, "message": ""}, "error: " + code)
 m.common(m_request, 65536)
 m.spoil(m_welcome, ("iceServers", ABSENT), ("iceServers.0.urls", 1), ("iceServers.1.password", "x", "iceServers.1"))
