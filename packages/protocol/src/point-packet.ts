@@ -1,7 +1,7 @@
 /**
  * One RTP payload of a point cloud: a 16-byte header and up to 1200 bytes of point data, little-endian.
  *
- *     0  u32 frameNumber      counts from 0 for each connection, wraps
+ *     0  u32 frameNumber      counts up frame by frame, wraps; from 0 for each connection in the reference profile
  *     4  u32 frameLength      bytes of point data in the whole frame
  *     8  u32 sequenceOffset   where in the frame's point data this packet's block begins
  *    12  u32 sequenceLength   bytes of point data in this packet
