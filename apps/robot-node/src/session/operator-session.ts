@@ -87,7 +87,7 @@ export class OperatorSession {
     try {
       if (channel === 'control') this.#onControl(data);
       else if (channel === 'session') this.#onSession(data);
-      else this.onReceiverLimit?.(decodeBandwidth(toBytes(data)));
+      else this.#onBandwidth(data);
     } catch (error) {
       if (!(error instanceof ProtocolError)) throw error;
       this.#host.messageRefused(channel, error);
@@ -95,6 +95,12 @@ export class OperatorSession {
       if (channel === 'control') this.#onMalformed(error);
       else this.send({ type: 'fault', message: error.message.slice(0, 512) });
     }
+  }
+
+  #onBandwidth(data: string | Uint8Array): void {
+    if (typeof data === 'string')
+      throw new ProtocolError('invalid', 'bandwidth message', '', 'text, not bytes');
+    this.onReceiverLimit?.(decodeBandwidth(data));
   }
 
   #onControl(data: string | Uint8Array): void {
@@ -215,8 +221,4 @@ export class OperatorSession {
     this.streaming = running;
     this.onStreamSwitch?.(running);
   }
-}
-
-function toBytes(data: string | Uint8Array): Uint8Array {
-  return typeof data === 'string' ? new TextEncoder().encode(data) : data;
 }

@@ -17,7 +17,7 @@ import { SrtpCloudTransport } from './srtp-cloud-transport.ts';
 export type PeerEnd =
   | 'closed' // by us
   | 'bad-answer' // the operator's SDP or its codecs cannot be used
-  | 'not-connected' // no connection came about in time
+  | 'not-connected' // no connection came about
   | 'connection-lost' // ICE, DTLS or a channel ended
   | 'silent' // nothing heard for too long
   | 'not-reading'; // our reliable messages pile up
@@ -52,6 +52,7 @@ export class OperatorPeer {
   readonly #connectTimer: NodeJS.Timeout;
   #control: RTCDataChannel | null = null;
   #bandwidth: RTCDataChannel | null = null;
+  #transport: SrtpCloudTransport | null = null;
   #connected = false;
   #ended = false;
   #answered = false;
@@ -118,7 +119,9 @@ export class OperatorPeer {
     });
     connection.connectionStateChange.subscribe((state) => {
       if (state === 'connected') this.#checkConnected();
-      else if (state === 'failed' || state === 'closed') this.#end('connection-lost', `connection ${state}`);
+      else if (state === 'failed' || state === 'closed') {
+        this.#end(this.#connected ? 'connection-lost' : 'not-connected', `connection ${state}`);
+      }
     });
     this.#connectTimer = setTimeout(
       () => this.#end('not-connected', `no connection within ${options.connectTimeoutMs / 1000} s`),
@@ -225,7 +228,7 @@ export class OperatorPeer {
   #checkConnected(): void {
     if (this.#connected || this.#ended) return;
     if (this.#connection.connectionState !== 'connected' || this.#session.readyState !== 'open') return;
-    let transport: CloudTransport;
+    let transport: SrtpCloudTransport;
     try {
       transport = new SrtpCloudTransport(this.#cloud);
     } catch (error) {
@@ -234,6 +237,7 @@ export class OperatorPeer {
     }
     clearTimeout(this.#connectTimer);
     this.#connected = true;
+    this.#transport = transport;
     this.#events.onConnected(transport);
   }
 
@@ -241,6 +245,7 @@ export class OperatorPeer {
     if (this.#ended) return;
     this.#ended = true;
     clearTimeout(this.#connectTimer);
+    this.#transport?.close();
     // werift may still be in the middle of a handshake; what fails while closing concerns nobody any more.
     this.#connection.close().catch(() => undefined);
     this.#events.onEnded(end, detail);

@@ -26,6 +26,7 @@ export class SrtpCloudTransport implements CloudTransport {
   /** The path is looked up once a turn of the event loop, not for each packet. */
   #pathIsFresh = false;
   #pathIsOpen = false;
+  #closed = false;
 
   /**
    * @param transceiver negotiated, on a connected DTLS transport
@@ -71,9 +72,16 @@ export class SrtpCloudTransport implements CloudTransport {
     return transportSequence;
   }
 
+  /** Nothing is sent from here on, though werift takes a while to close. */
+  close(): void {
+    this.#closed = true;
+    this.#pathIsOpen = false;
+    this.onRtcp = null;
+  }
+
   #refreshPath(): void {
     if (this.#pathIsFresh) return;
-    this.#pathIsOpen = this.#dtls.state === 'connected' && this.#path.refresh();
+    this.#pathIsOpen = !this.#closed && this.#dtls.state === 'connected' && this.#path.refresh();
     this.#pathIsFresh = true;
     queueMicrotask(() => {
       this.#pathIsFresh = false;

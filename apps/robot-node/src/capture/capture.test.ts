@@ -1,0 +1,149 @@
+import { existsSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { emptyPlacement, emptyPointPacketHeader, readCloudPayload, zeroTwist } from '@farpoint/protocol';
+import { afterEach, describe, expect, it } from 'vitest';
+import { payloadBytes, SLOT_BYTES } from '../encode/packetiser.ts';
+import { Capture, CaptureError, type CaptureState } from './capture.ts';
+import type { CapturedFrame, CaptureOptions } from './capture-messages.ts';
+import type { SourceOptions } from './open-source.ts';
+
+const open: Capture[] = [];
+afterEach(async () => {
+  for (const capture of open.splice(0)) await capture.close();
+});
+
+async function start(source: SourceOptions, more: Partial<CaptureOptions> = {}): Promise<Capture> {
+  const capture = await Capture.start({
+    source,
+    framesPerSecond: 60,
+    sampling: { lambda: 3, epsilon: 1e-6, nearDistance: 3.85 },
+    floorFraction: 0.1,
+    mostPoints: 1_000_000,
+    watchdogMs: 150,
+    ...more,
+  });
+  open.push(capture);
+  return capture;
+}
+
+const sim: SourceOptions = { kind: 'sim', seed: 1, size: 64 };
+
+async function frames(capture: Capture, count: number, recycle = true): Promise<CapturedFrame[]> {
+  const got: CapturedFrame[] = [];
+  await new Promise<void>((resolve) => {
+    capture.onFrame = (frame) => {
+      if (got.length < count) got.push(recycle ? { ...frame, buffer: frame.buffer.slice(0) } : frame);
+      if (recycle) capture.recycle(frame.buffer);
+      if (got.length === count) resolve();
+    };
+  });
+  return got;
+}
+
+async function stateWhere(capture: Capture, is: (state: CaptureState) => boolean): Promise<CaptureState> {
+  return new Promise((resolve) => {
+    capture.onState = (state) => {
+      if (is(state)) resolve(state);
+    };
+  });
+}
+
+function checkPayloads(frame: CapturedFrame): void {
+  const header = emptyPointPacketHeader();
+  const placement = emptyPlacement();
+  for (let i = 0; i < frame.packets; i++) {
+    const view = new DataView(frame.buffer, i * SLOT_BYTES, payloadBytes(frame.points, i));
+    expect(readCloudPayload(view, header, placement)).toBeNull();
+    expect(header.frameNumber).toBe(frame.frameNumber);
+  }
+}
+
+describe('capture thread', () => {
+  it('gives frames that can be sent as they are, numbered, on the robot’s clock', async () => {
+    const capture = await start(sim);
+    capture.setBudget(20e6, 68, true);
+    const [a, b] = (await frames(capture, 2)) as [CapturedFrame, CapturedFrame];
+    for (const frame of [a, b]) {
+      expect(frame.points).toBeGreaterThan(0);
+      checkPayloads(frame);
+    }
+    expect(b.frameNumber).toBe(a.frameNumber + 1);
+    expect(b.capturedAtMs).toBeGreaterThan(a.capturedAtMs);
+  });
+
+  it('keeps to the point budget', async () => {
+    const capture = await start(sim, { mostPoints: 450 });
+    capture.setBudget(1e9, 68, true);
+    const [frame] = await frames(capture, 1);
+    expect(frame?.points).toBe(450);
+  });
+
+  it('captures nothing while nobody watches', async () => {
+    const capture = await start(sim);
+    let count = 0;
+    capture.onFrame = () => count++;
+    // Twenty reports of the state later there could have been many frames.
+    let reports = 0;
+    await stateWhere(capture, () => ++reports === 20);
+    expect(count).toBe(0);
+  });
+
+  it('holds no more frames than it has buffers, and goes on when one comes back', async () => {
+    const capture = await start(sim);
+    capture.setBudget(20e6, 68, true);
+    const held = await frames(capture, 3, false);
+    await stateWhere(capture, () => capture.framesWithoutBuffer > 0);
+    const next = frames(capture, 1);
+    capture.recycle((held[0] as CapturedFrame).buffer);
+    const [frame] = await next;
+    expect(frame?.frameNumber).toBe(3);
+  });
+
+  it('makes the next captured frame green when asked', async () => {
+    const capture = await start(sim);
+    capture.setBudget(20e6, 68, true);
+    capture.requestLatencyTest();
+    const got = await frames(capture, 3);
+    expect(got.filter((frame) => frame.latencyTest)).toHaveLength(1);
+  });
+
+  it('drives while the velocity is repeated, and stops by itself when it is not', async () => {
+    const capture = await start(sim);
+    const twist = { ...zeroTwist(), linear: { x: 0.3, y: 0, z: 0 } };
+    capture.setTwist(twist);
+    await stateWhere(capture, (state) => state.twist.linear.x > 0);
+    // Not repeated: the thread's own watchdog brakes.
+    await stateWhere(capture, (state) => state.twist.linear.x === 0);
+    expect(capture.watchdogStops).toBe(1);
+  });
+
+  it('says what is wrong with a source that cannot be opened', async () => {
+    await expect(start({ kind: 'pcd', path: '/nowhere/cloud.pcd', frame: 'auto' })).rejects.toThrow(
+      CaptureError,
+    );
+    await expect(start({ kind: 'pcd', path: '/nowhere/cloud.pcd', frame: 'auto' })).rejects.toThrow(
+      '/nowhere/cloud.pcd',
+    );
+  });
+});
+
+const clouds = new URL('../../../../../shared/data/clouds/', import.meta.url);
+describe.skipIf(!existsSync(clouds))('recorded sources (skipped without ../shared/data)', () => {
+  const path = (name: string) => fileURLToPath(new URL(name, clouds));
+  it.each<[SourceOptions, number, number]>([
+    [{ kind: 'pcd', path: path('kinect-room.pcd'), frame: 'auto' }, 640, 480],
+    [{ kind: 'pcd', path: path('lidar-street.pcd'), frame: 'auto' }, 115_385, 1],
+    [{ kind: 'rgbd', path: path('rgbd-sequence') }, 640, 480],
+  ])('plays %j', async (source, width, height) => {
+    const capture = await start(source);
+    expect(capture.description).toMatchObject({ width, height, drives: false });
+    capture.setBudget(200e6, 68, true);
+    const got = await frames(capture, 6);
+    for (const frame of got) {
+      expect(frame.points).toBeGreaterThan(10_000);
+      checkPayloads(frame);
+    }
+    const state = await stateWhere(capture, () => true);
+    expect(state.pose.position).toEqual({ x: 0, y: 0, z: 0 });
+  });
+});

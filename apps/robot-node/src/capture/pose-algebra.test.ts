@@ -1,0 +1,46 @@
+import fc from 'fast-check';
+import { describe, expect, it } from 'vitest';
+import { bodyToOptical } from './pcd-source.ts';
+import { STATIC_CAMERA_POSE } from './playback-source.ts';
+import { compose, inverse, rotate } from './pose-algebra.ts';
+
+const component = fc.double({ min: -5, max: 5, noNaN: true });
+const pose = fc
+  .tuple(component, component, component, component, component, component, component)
+  .filter(([, , , a, b, c, d]) => Math.hypot(a, b, c, d) > 0.1)
+  .map(([x, y, z, a, b, c, d]) => {
+    const norm = Math.hypot(a, b, c, d);
+    return { position: { x, y, z }, orientation: { x: a / norm, y: b / norm, z: c / norm, w: d / norm } };
+  });
+
+describe('pose algebra', () => {
+  it('a pose after its inverse is nothing', () => {
+    fc.assert(
+      fc.property(pose, (p) => {
+        const { position, orientation } = compose(inverse(p), p);
+        expect(Math.hypot(position.x, position.y, position.z)).toBeLessThan(1e-9);
+        expect(Math.abs(orientation.w)).toBeCloseTo(1, 9);
+      }),
+      { seed: 10 },
+    );
+  });
+
+  it('a camera without poses looks along +x with the sky above', () => {
+    const { orientation } = STATIC_CAMERA_POSE;
+    const forward = rotate(orientation, { x: 0, y: 0, z: 1 });
+    const down = rotate(orientation, { x: 0, y: 1, z: 0 });
+    expect([forward.x, forward.y, forward.z].map((c) => Math.round(c) + 0)).toEqual([1, 0, 0]);
+    expect([down.x, down.y, down.z].map((c) => Math.round(c) + 0)).toEqual([0, 0, -1]);
+  });
+
+  it('a point in the body frame lands where it was, one metre up', () => {
+    const points = Float32Array.of(5, 2, -1, 0);
+    bodyToOptical(points);
+    const [x, y, z] = points as unknown as [number, number, number];
+    const { position } = compose(STATIC_CAMERA_POSE, {
+      position: { x, y, z },
+      orientation: { x: 0, y: 0, z: 0, w: 1 },
+    });
+    expect([position.x, position.y, position.z].map(Math.round)).toEqual([5, 2, 0]);
+  });
+});

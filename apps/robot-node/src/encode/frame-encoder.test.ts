@@ -1,0 +1,116 @@
+import {
+  emptyPlacement,
+  emptyPointPacketHeader,
+  isLatencyTestBlock,
+  MAX_CLOUD_PAYLOAD_BYTES,
+  packColour664,
+  readCloudPayload,
+  writePlacement,
+  writePointPacketHeader,
+  writePoints64Block,
+} from '@farpoint/protocol';
+import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { describe, expect, it } from 'vitest';
+import type { SourceFrame } from '../capture/frame-source.ts';
+import { FrameEncoder } from './frame-encoder.ts';
+import { framePayloadBytes, payloadBytes, SLOT_BYTES } from './packetiser.ts';
+
+const codec = await loadCodecFromDisk();
+const sampling = { lambda: 3, epsilon: 1e-6, nearDistance: 3.85, depthMeasure: 'z' } as const;
+const CAPACITY = 1000;
+
+function cloud(count: number): SourceFrame {
+  const points = new Float32Array(count * 4);
+  const words = new Uint32Array(points.buffer);
+  for (let i = 0; i < count; i++) {
+    points[i * 4] = i / 100;
+    points[i * 4 + 1] = -i / 300;
+    points[i * 4 + 2] = 1 + i / 200;
+    // Among them bit patterns that are NaN as floats.
+    words[i * 4 + 3] = (i * 2_654_435_761) >>> 0;
+  }
+  return {
+    points,
+    count,
+    cameraPose: { position: { x: 1, y: -2, z: 0.5 }, orientation: { x: 0, y: 0, z: 0.6, w: 0.8 } },
+    // One second past the wrap of the microsecond stamp.
+    captureMs: 4_294_967.296 + 1000,
+  };
+}
+
+/** The format's plain statement: what the packets of a frame of which every point is sent must be. */
+function expectedPayload(frame: SourceFrame, frameNumber: number, index: number): Uint8Array {
+  const first = index * 150;
+  const count = Math.min(150, frame.count - first);
+  const payload = new Uint8Array(16 + count * 8 + 28);
+  const view = new DataView(payload.buffer);
+  writePointPacketHeader(view, 0, {
+    frameNumber,
+    frameLength: frame.count * 8,
+    sequenceOffset: first * 8,
+    sequenceLength: count * 8,
+  });
+  const bytes = new Uint8Array(frame.points.buffer);
+  const positions = new Float32Array(frame.count * 3).map(
+    (_, k) => frame.points[Math.floor(k / 3) * 4 + (k % 3)] as number,
+  );
+  const colours = Uint16Array.from({ length: frame.count }, (_, i) =>
+    packColour664(bytes[i * 16 + 12] as number, bytes[i * 16 + 13] as number, bytes[i * 16 + 14] as number),
+  );
+  writePoints64Block(view, 16, positions, colours, first, count);
+  writePlacement(view, 16 + count * 8, {
+    ...emptyPlacement(),
+    pose: frame.cameraPose,
+    captureTimeUs: 1_000_000,
+  });
+  return payload;
+}
+
+describe('FrameEncoder', () => {
+  it.each([1, 149, 150, 151, 450, 701])('makes the very bytes of the protocol for %i points', (count) => {
+    const encoder = new FrameEncoder(codec, CAPACITY, sampling, () => 0);
+    const frame = cloud(count);
+    for (const frameNumber of [0, 1]) {
+      const encoded = encoder.encode(frame, CAPACITY, false);
+      expect(encoded).toMatchObject({ frameNumber, points: count, packets: Math.ceil(count / 150) });
+      const slots = new Uint8Array(encoded.packets * SLOT_BYTES);
+      encoder.copyPackets(slots, encoded.packets);
+      let total = 0;
+      for (let i = 0; i < encoded.packets; i++) {
+        const bytes = payloadBytes(count, i);
+        expect(slots.subarray(i * SLOT_BYTES, i * SLOT_BYTES + bytes)).toEqual(
+          expectedPayload(frame, frameNumber, i),
+        );
+        total += bytes;
+      }
+      expect(framePayloadBytes(count)).toBe(total);
+    }
+  });
+
+  it('counts what it leaves out, and marks a latency-test frame green', () => {
+    const encoder = new FrameEncoder(codec, CAPACITY, sampling, () => 0);
+    const frame = cloud(600);
+    frame.points[0] = Number.NaN;
+    frame.points[6] = -1;
+    frame.points[8] = 40;
+    const encoded = encoder.encode(frame, 300, true);
+    expect(encoded).toMatchObject({ points: 300, packets: 2, validPoints: 597 });
+    expect(encoded.rejected).toEqual({ notFinite: 1, nonPositiveDepth: 1, outOfRange: 1, notDrawn: 297 });
+    const slots = new Uint8Array(2 * SLOT_BYTES);
+    encoder.copyPackets(slots, 2);
+    const view = new DataView(slots.buffer, SLOT_BYTES, MAX_CLOUD_PAYLOAD_BYTES);
+    const header = emptyPointPacketHeader();
+    const placement = emptyPlacement();
+    expect(readCloudPayload(view, header, placement)).toBeNull();
+    expect(header).toMatchObject({ frameLength: 2400, sequenceOffset: 1200 });
+    expect(placement.latencyTest).toBe(true);
+    expect(isLatencyTestBlock(view, 16, 1200)).toBe(true);
+  });
+
+  it('sends nothing of a frame without a valid point', () => {
+    const encoder = new FrameEncoder(codec, CAPACITY, sampling, () => 0);
+    const frame = cloud(10);
+    frame.points.fill(Number.NaN);
+    expect(encoder.encode(frame, 10, false)).toMatchObject({ points: 0, packets: 0, validPoints: 0 });
+  });
+});

@@ -1,0 +1,229 @@
+import {
+  clockAnswerCodec,
+  decodeJson,
+  encodeBandwidth,
+  type ProtocolError,
+  type RobotSessionMessage,
+  robotSessionCodec,
+  zeroTwist,
+} from '@farpoint/protocol';
+import { DriveGuard, defaultDriveLimits, type RejectedCommand } from '@farpoint/safety';
+import fc from 'fast-check';
+import { afterEach, describe, expect, it } from 'vitest';
+import { DriveStation } from '../drive/drive-station.ts';
+import { OperatorSession, type SessionHost } from './operator-session.ts';
+
+const stations: DriveStation[] = [];
+afterEach(() => {
+  for (const station of stations.splice(0)) station.close();
+});
+
+/** A robot with the real guard and two operators, on a clock of its own. */
+function robot() {
+  let nowMs = 1000;
+  let speed = 0;
+  const guard = new DriveGuard({
+    limits: defaultDriveLimits,
+    randomBytes: (count) => new Uint8Array(count).fill(7),
+  });
+  const drive = new DriveStation(
+    guard,
+    (twist) => {
+      speed = twist.linear.x;
+    },
+    () => nowMs,
+  );
+  stations.push(drive);
+  const tests: [string, number, number][] = [];
+  const refused: [string, string][] = [];
+  const rejected: RejectedCommand[] = [];
+  const operators = new Map<string, ReturnType<typeof operator>>();
+  const host: SessionHost = {
+    drive,
+    now: () => nowMs,
+    leaseChanged: () => operators.forEach(({ session }) => session.sendLease()),
+    estopChanged: () => operators.forEach(({ session }) => session.sendEstop()),
+    latencyTestRequested: (session, id, commandMs) => tests.push([session.id, id, commandMs]),
+    commandAccepted: () => undefined,
+    commandRejected: (rejection) => rejected.push(rejection),
+    messageRefused: (channel: string, error: ProtocolError) => refused.push([channel, error.code]),
+  };
+  function operator(id: string) {
+    const inbox: RobotSessionMessage[] = [];
+    const control: string[] = [];
+    const session = new OperatorSession(id, id, host, {
+      // What leaves the robot must be readable by the other side's own decoder.
+      sendSession: (text) => inbox.push(decodeJson(robotSessionCodec, text)),
+      sendControl: (text) => control.push(text),
+    });
+    const send = (message: object) => session.onMessage('session', JSON.stringify(message));
+    const command = (sequence: number, lease: string, x: number, more: object = {}) =>
+      session.onMessage(
+        'control',
+        JSON.stringify({
+          type: 'command',
+          sequence,
+          timeMs: nowMs,
+          lease,
+          deadMan: true,
+          twist: { ...zeroTwist(), linear: { x, y: 0, z: 0 } },
+          ...more,
+        }),
+      );
+    const takeLease = () => {
+      send({ type: 'leaseRequest', take: false });
+      const state = inbox.at(-1);
+      return state?.type === 'lease' ? (state.lease ?? '') : '';
+    };
+    return { session, inbox, control, send, command, takeLease };
+  }
+  for (const id of ['alice', 'bob']) operators.set(id, operator(id));
+  return {
+    alice: operators.get('alice')!,
+    bob: operators.get('bob')!,
+    guard,
+    tests,
+    refused,
+    rejected,
+    speed: () => speed,
+    pass: (ms: number) => {
+      nowMs += ms;
+      drive.apply();
+    },
+  };
+}
+
+describe('OperatorSession', () => {
+  it('lets the lease holder drive and tells the other who does', () => {
+    const { alice, bob, speed } = robot();
+    const lease = alice.takeLease();
+    expect(bob.inbox.at(-1)).toEqual({ type: 'lease', holder: 'other' });
+    alice.command(0, lease, 0.4);
+    expect(speed()).toBe(0.4);
+  });
+
+  it('refuses the other’s commands and says why, summed up', () => {
+    const { alice, bob, speed, pass, rejected } = robot();
+    const lease = alice.takeLease();
+    bob.inbox.length = 0;
+    for (let i = 0; i < 5; i++) {
+      bob.command(i, lease, 0.4);
+      pass(20);
+      bob.session.flushRejections();
+    }
+    pass(100);
+    bob.session.flushRejections();
+    expect(speed()).toBe(0);
+    expect(rejected).toHaveLength(5);
+    const reports = bob.inbox.filter((message) => message.type === 'rejected');
+    expect(reports.reduce((sum, report) => sum + report.count, 0)).toBe(5);
+    expect(reports.length).toBeLessThan(4);
+    expect(reports.every((report) => report.reason === 'not-lease-holder')).toBe(true);
+  });
+
+  it('stops at once for an emergency stop by anyone; only the driver releases it', () => {
+    const { alice, bob, speed } = robot();
+    const lease = alice.takeLease();
+    alice.command(0, lease, 0.4);
+    bob.send({ type: 'estop', latch: true });
+    expect(speed()).toBe(0);
+    expect(alice.inbox.at(-1)).toEqual({ type: 'estop', latched: true, by: 'operator' });
+    bob.send({ type: 'estop', latch: false });
+    expect(bob.inbox.slice(-2).map((message) => message.type)).toEqual(['fault', 'estop']);
+    alice.send({ type: 'estop', latch: false });
+    expect(bob.inbox.at(-1)).toEqual({ type: 'estop', latched: false });
+  });
+
+  it('stops when the lease is given back', () => {
+    const { alice, bob, speed } = robot();
+    const lease = alice.takeLease();
+    alice.command(0, lease, 0.4);
+    alice.send({ type: 'leaseRelease' });
+    expect(speed()).toBe(0);
+    expect(bob.inbox.at(-1)).toEqual({ type: 'lease', holder: 'nobody' });
+  });
+
+  it('says why a lease is not given', () => {
+    const { alice, bob } = robot();
+    alice.takeLease();
+    bob.send({ type: 'leaseRequest', take: false });
+    expect(bob.inbox.slice(-2)).toEqual([
+      { type: 'fault', message: 'another operator drives' },
+      { type: 'lease', holder: 'other' },
+    ]);
+  });
+
+  it('asks for a latency-test frame for an accepted command only', () => {
+    const { alice, bob, tests } = robot();
+    const lease = alice.takeLease();
+    bob.command(0, lease, 0, { latencyTest: 1 });
+    expect(tests).toEqual([]);
+    alice.command(0, lease, 0, { latencyTest: 2 });
+    expect(tests).toEqual([['alice', 2, 1000]]);
+  });
+
+  it('answers clock probes at once', () => {
+    const { alice } = robot();
+    alice.session.onMessage('control', '{"type":"clockProbe","id":3,"sentMs":12.5}');
+    expect(alice.control.map((text) => decodeJson(clockAnswerCodec, text))).toEqual([
+      { type: 'clockAnswer', id: 3, sentMs: 12.5, robotMs: 1000 },
+    ]);
+  });
+
+  it('passes on receiver reports, newer ones only, and limits', () => {
+    const { alice } = robot();
+    const reports: number[] = [];
+    alice.session.onReceiverReport = (report) => reports.push(report.sequence);
+    for (const sequence of [5, 4, 5, 6]) {
+      const report = {
+        type: 'receiverReport',
+        sequence,
+        packetsReceived: 1,
+        packetsLost: 0,
+        bytesReceived: 1,
+      };
+      alice.session.onMessage('control', JSON.stringify(report));
+    }
+    expect(reports).toEqual([5, 6]);
+    let limit = 0;
+    alice.session.onReceiverLimit = (bitsPerSecond) => {
+      limit = bitsPerSecond;
+    };
+    alice.session.onMessage('bandwidth', encodeBandwidth(3e6));
+    expect(limit).toBe(3e6);
+  });
+
+  it('switches the stream by message and by the reference system’s words', () => {
+    const { alice } = robot();
+    const switches: boolean[] = [];
+    alice.session.onStreamSwitch = (running) => switches.push(running);
+    alice.session.onMessage('session', 'stop');
+    alice.send({ type: 'stream', running: false });
+    alice.send({ type: 'stream', running: true });
+    expect(switches).toEqual([false, true]);
+  });
+
+  it('calls a broken command malformed, and a broken request a fault', () => {
+    const { alice, refused } = robot();
+    alice.session.onMessage('control', '{"type":"command"}');
+    expect(alice.inbox.at(-1)).toMatchObject({ type: 'rejected', reason: 'malformed', count: 1 });
+    alice.session.onMessage('session', '{"type":"dance"}');
+    expect(alice.inbox.at(-1)).toMatchObject({ type: 'fault' });
+    alice.session.onMessage('bandwidth', 'fast');
+    expect(refused.map(([channel]) => channel)).toEqual(['control', 'session', 'bandwidth']);
+  });
+
+  it('stands still whatever bytes a watcher sends', () => {
+    const { alice, bob, speed } = robot();
+    alice.takeLease();
+    const text = fc.oneof(fc.string(), fc.json(), fc.constantFrom('start', '{"type":"leaseRelease"}'));
+    const data = fc.oneof<fc.Arbitrary<string | Uint8Array>[]>(text, fc.uint8Array({ maxLength: 2000 }));
+    fc.assert(
+      fc.property(fc.constantFrom('session', 'control', 'bandwidth'), data, (channel, message) => {
+        bob.session.onMessage(channel as 'session', message);
+        expect(speed()).toBe(0);
+      }),
+      { seed: 9, numRuns: 500 },
+    );
+  });
+});

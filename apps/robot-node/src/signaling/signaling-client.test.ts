@@ -1,0 +1,119 @@
+import { once } from 'node:events';
+import type { AddressInfo } from 'node:net';
+import {
+  decodeJson,
+  type RobotToService,
+  robotToServiceCodec,
+  type ServiceToRobot,
+} from '@farpoint/protocol';
+import { silentLogger } from '@farpoint/service';
+import { afterEach, describe, expect, it } from 'vitest';
+import { type WebSocket, WebSocketServer } from 'ws';
+import { Backoff } from './backoff.ts';
+import { SignalingClient } from './signaling-client.ts';
+
+describe('Backoff', () => {
+  it('grows to its limit, spread over half of each step, and starts over after success', () => {
+    const backoff = new Backoff({ firstMs: 100, maxMs: 1000, random: () => 0.999 });
+    const waits = Array.from({ length: 6 }, () => Math.round(backoff.nextMs()));
+    expect(waits).toEqual([100, 200, 400, 800, 1000, 1000]);
+    backoff.reset();
+    expect(Math.round(backoff.nextMs())).toBe(100);
+    expect(new Backoff({ firstMs: 100, maxMs: 1000, random: () => 0 }).nextMs()).toBe(50);
+  });
+});
+
+const cleanups: (() => Promise<unknown> | unknown)[] = [];
+afterEach(async () => {
+  for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
+});
+
+async function service(port = 0) {
+  const server = new WebSocketServer({ port, host: '127.0.0.1' });
+  await once(server, 'listening');
+  const stop = async () => {
+    for (const socket of server.clients) socket.terminate();
+    await new Promise((resolve) => server.close(resolve));
+  };
+  cleanups.push(stop);
+  /** The next robot that calls, with what it says first. */
+  const nextRobot = async (): Promise<{ socket: WebSocket; path: string; hello: RobotToService }> => {
+    const [socket, request] = (await once(server, 'connection')) as [WebSocket, { url: string }];
+    const [data] = (await once(socket, 'message')) as [Buffer];
+    return { socket, path: request.url, hello: decodeJson(robotToServiceCodec, data.toString()) };
+  };
+  return { port: (server.address() as AddressInfo).port, nextRobot, stop };
+}
+
+function client(port: number, token: string | null = null) {
+  const url = `ws://127.0.0.1:${port}`;
+  const options = { url, id: 'r1', name: 'Robot', key: 'k1', token, ca: null };
+  const made = new SignalingClient(options, silentLogger());
+  cleanups.push(() => made.close());
+  return made;
+}
+
+const welcome = JSON.stringify({ type: 'robot.welcome', id: 'r1', iceServers: [] } satisfies ServiceToRobot);
+
+describe('SignalingClient', () => {
+  it('introduces itself and is registered once welcomed', async () => {
+    const { port, nextRobot } = await service();
+    const robot = client(port, 'secret');
+    const messages: ServiceToRobot[] = [];
+    const welcomed = new Promise<void>((resolve) => {
+      robot.onMessage = (message) => {
+        messages.push(message);
+        resolve();
+      };
+    });
+    const called = nextRobot();
+    robot.start();
+    const { socket, path, hello } = await called;
+    expect(path).toBe('/robot');
+    expect(hello).toEqual({
+      type: 'robot.hello',
+      protocol: 1,
+      id: 'r1',
+      name: 'Robot',
+      key: 'k1',
+      token: 'secret',
+    });
+    expect(robot.send({ type: 'session.close', session: 's' })).toBe(false);
+    socket.send(welcome);
+    await welcomed;
+    expect(robot.registered).toBe(true);
+    const said = once(socket, 'message');
+    expect(robot.send({ type: 'session.close', session: 's' })).toBe(true);
+    expect(JSON.parse(String((await said)[0]))).toEqual({ type: 'session.close', session: 's' });
+  });
+
+  it('comes back with the same key after the service was away', async () => {
+    const first = await service();
+    const robot = client(first.port);
+    const called = first.nextRobot();
+    robot.start();
+    await called;
+    await first.stop();
+    const second = await service(first.port);
+    const { hello } = await second.nextRobot();
+    expect(hello).toMatchObject({ type: 'robot.hello', key: 'k1' });
+    expect(robot.disconnects).toBeGreaterThanOrEqual(1);
+  });
+
+  it('counts what it cannot read and goes on', async () => {
+    const { port, nextRobot } = await service();
+    const robot = client(port);
+    const welcomed = new Promise<void>((resolve) => {
+      robot.onMessage = () => resolve();
+    });
+    const called = nextRobot();
+    robot.start();
+    const { socket } = await called;
+    for (const bad of ['', 'null', '{"type":"session.offer"}', '[1]']) socket.send(bad);
+    socket.send(Buffer.of(0xff, 0xfe));
+    socket.send(welcome);
+    await welcomed;
+    expect(robot.malformed).toBe(5);
+    expect(robot.registered).toBe(true);
+  });
+});

@@ -1,0 +1,207 @@
+/** An operator for tests: a werift peer that answers the robot's offer, as a browser would. */
+import {
+  channels,
+  decodeJson,
+  emptyPlacement,
+  emptyPointPacketHeader,
+  type IceCandidate,
+  type OperatorControlMessage,
+  type OperatorSessionMessage,
+  type RobotSessionMessage,
+  readCloudPayload,
+  robotSessionCodec,
+  type Telemetry,
+  type Twist,
+  telemetryCodec,
+  zeroTwist,
+} from '@farpoint/protocol';
+import {
+  type RTCDataChannel,
+  RTCPeerConnection,
+  RTCRtpCodecParameters,
+  useSdesMid,
+  useTransportWideCC,
+  useTWCC,
+} from 'werift';
+
+/** What came of one frame so far. */
+export interface ReceivedFrame {
+  frameNumber: number;
+  packets: number;
+  points: number;
+  latencyTest: boolean;
+  complete: boolean;
+}
+
+export class OperatorClient {
+  readonly connection: RTCPeerConnection;
+  readonly session: RobotSessionMessage[] = [];
+  readonly control: RTCDataChannel;
+  readonly frames = new Map<number, ReceivedFrame>();
+  onCandidate: ((candidate: IceCandidate) => void) | null = null;
+  telemetry: Telemetry | null = null;
+  packets = 0;
+  malformedPackets = 0;
+  readonly #waiters = new Set<() => void>();
+  readonly #bandwidth: RTCDataChannel;
+  #sessionChannel: RTCDataChannel | null = null;
+  #probes: NodeJS.Timeout | null = null;
+  #sequence = 0;
+
+  constructor() {
+    const extensions = [useSdesMid(), useTransportWideCC()];
+    const rtcpFeedback = [useTWCC()];
+    this.connection = new RTCPeerConnection({
+      iceServers: [],
+      bundlePolicy: 'max-bundle',
+      codecs: {
+        audio: [
+          new RTCRtpCodecParameters({ mimeType: 'audio/opus', clockRate: 48_000, channels: 2, rtcpFeedback }),
+        ],
+        video: [new RTCRtpCodecParameters({ mimeType: 'video/VP8', clockRate: 90_000, rtcpFeedback })],
+      },
+      headerExtensions: { audio: extensions, video: extensions },
+    });
+    const { connection } = this;
+    connection.onTrack.subscribe((track) => {
+      track.onReceiveRtp.subscribe((packet) => this.#onPayload(packet.payload));
+    });
+    connection.onIceCandidate.subscribe((candidate) => {
+      if (candidate === undefined) return;
+      const { candidate: text, sdpMid, sdpMLineIndex } = candidate.toJSON();
+      this.onCandidate?.({ candidate: text, sdpMid: sdpMid ?? null, sdpMLineIndex: sdpMLineIndex ?? null });
+    });
+    connection.onDataChannel.subscribe((channel) => {
+      if (channel.label === 'session') this.#sessionChannel = channel;
+      channel.onMessage.subscribe((data) => {
+        if (channel.label === 'session') this.session.push(decodeJson(robotSessionCodec, data));
+        else if (channel.label === 'telemetry') this.telemetry = decodeJson(telemetryCodec, data);
+        this.#changed();
+      });
+    });
+    const { control, bandwidth } = channels;
+    // werift takes a count of 0 for "reliable": 1 here, a browser uses 0.
+    this.control = connection.createDataChannel(control.label, {
+      ordered: control.ordered,
+      maxRetransmits: 1,
+    });
+    this.#bandwidth = connection.createDataChannel(bandwidth.label, { ordered: bandwidth.ordered });
+    this.control.stateChanged.subscribe(() => this.#changed());
+    this.control.onMessage.subscribe(() => this.#changed());
+    connection.connectionStateChange.subscribe(() => this.#changed());
+  }
+
+  /** @returns the SDP answer */
+  async answer(offer: string): Promise<string> {
+    await this.connection.setRemoteDescription({ type: 'offer', sdp: offer });
+    await this.connection.setLocalDescription(await this.connection.createAnswer());
+    return this.connection.localDescription?.sdp ?? '';
+  }
+
+  /** Resolves as soon as `is` holds; it is asked again whenever anything came. */
+  until(is: () => boolean): Promise<void> {
+    return new Promise((resolve) => {
+      const look = () => {
+        if (!is()) return;
+        this.#waiters.delete(look);
+        resolve();
+      };
+      this.#waiters.add(look);
+      look();
+    });
+  }
+
+  /** The latest message of a type, once there is one. */
+  async message<T extends RobotSessionMessage['type']>(
+    type: T,
+    is: (message: Extract<RobotSessionMessage, { type: T }>) => boolean = () => true,
+  ): Promise<Extract<RobotSessionMessage, { type: T }>> {
+    let found: Extract<RobotSessionMessage, { type: T }> | undefined;
+    await this.until(() => {
+      found = this.session.findLast(
+        (message): message is Extract<RobotSessionMessage, { type: T }> =>
+          message.type === type && is(message as Extract<RobotSessionMessage, { type: T }>),
+      );
+      return found !== undefined;
+    });
+    return found as Extract<RobotSessionMessage, { type: T }>;
+  }
+
+  /** Connected, welcomed, and able to send commands. Probes the robot's clock from then on, as a page does. */
+  async ready(): Promise<void> {
+    await this.message('welcome');
+    await this.until(() => this.control.readyState === 'open');
+    this.#probes = setInterval(() => {
+      this.sendControl({ type: 'clockProbe', id: 1, sentMs: performance.now() });
+    }, 500);
+  }
+
+  sendControl(message: OperatorControlMessage): void {
+    this.control.send(JSON.stringify(message));
+  }
+
+  sendSession(message: OperatorSessionMessage): void {
+    this.#sessionChannel?.send(JSON.stringify(message));
+  }
+
+  sendBandwidth(bytes: Uint8Array): void {
+    this.#bandwidth.send(Buffer.from(bytes));
+  }
+
+  async takeLease(): Promise<string> {
+    this.sendSession({ type: 'leaseRequest', take: false });
+    const { lease } = await this.message('lease', (message) => message.holder === 'you');
+    return lease ?? '';
+  }
+
+  drive(lease: string, linear: number, more: { latencyTest?: number; twist?: Twist } = {}): void {
+    this.sendControl({
+      type: 'command',
+      sequence: this.#sequence++,
+      timeMs: performance.now(),
+      lease,
+      deadMan: true,
+      twist: { ...zeroTwist(), linear: { x: linear, y: 0, z: 0 } },
+      ...more,
+    });
+  }
+
+  get completeFrames(): ReceivedFrame[] {
+    return [...this.frames.values()].filter((frame) => frame.complete);
+  }
+
+  async close(): Promise<void> {
+    if (this.#probes !== null) clearInterval(this.#probes);
+    await this.connection.close();
+  }
+
+  #onPayload(payload: Buffer): void {
+    this.packets++;
+    const header = emptyPointPacketHeader();
+    const placement = emptyPlacement();
+    const view = new DataView(payload.buffer, payload.byteOffset, payload.byteLength);
+    if (readCloudPayload(view, header, placement) !== null) {
+      this.malformedPackets++;
+      this.#changed();
+      return;
+    }
+    const { frameNumber, frameLength, sequenceLength } = header;
+    const frame = this.frames.get(frameNumber) ?? {
+      frameNumber,
+      packets: 0,
+      points: 0,
+      latencyTest: placement.latencyTest,
+      complete: false,
+    };
+    frame.packets++;
+    frame.points += sequenceLength / 8;
+    frame.complete = frame.points * 8 === frameLength;
+    this.frames.set(frameNumber, frame);
+    if (this.frames.size > 1000) this.frames.delete(this.frames.keys().next().value as number);
+    this.#changed();
+  }
+
+  #changed(): void {
+    for (const look of [...this.#waiters]) look();
+  }
+}

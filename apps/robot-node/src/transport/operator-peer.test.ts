@@ -1,0 +1,154 @@
+import fc from 'fast-check';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { OperatorClient } from '../testing/operator-client.ts';
+import type { CloudTransport } from './cloud-transport.ts';
+import { OperatorPeer, type PeerEnd } from './operator-peer.ts';
+
+const cleanups: (() => unknown)[] = [];
+const unhandled: unknown[] = [];
+const note = (reason: unknown) => unhandled.push(reason);
+beforeEach(() => {
+  unhandled.length = 0;
+  process.on('unhandledRejection', note);
+});
+afterEach(async () => {
+  for (const cleanup of cleanups.splice(0)) await cleanup();
+  process.off('unhandledRejection', note);
+  expect(unhandled).toEqual([]);
+});
+
+function robotPeer(connectTimeoutMs = 20_000) {
+  const messages: [string, string | Uint8Array][] = [];
+  let client: OperatorClient | null = null;
+  const connected = Promise.withResolvers<CloudTransport>();
+  const ended = Promise.withResolvers<[PeerEnd, string]>();
+  const heard = Promise.withResolvers<void>();
+  const peer = new OperatorPeer(
+    { iceServers: [], connectTimeoutMs },
+    {
+      onCandidate: (candidate) =>
+        void client?.connection.addIceCandidate(candidate as never).catch(() => undefined),
+      onConnected: (transport) => connected.resolve(transport),
+      onMessage: (channel, data) => {
+        messages.push([channel, data]);
+        heard.resolve();
+      },
+      onEnded: (end, detail) => ended.resolve([end, detail]),
+    },
+  );
+  cleanups.push(() => peer.close());
+  const meet = async () => {
+    client = new OperatorClient();
+    cleanups.push(() => client?.close());
+    client.onCandidate = (candidate) => void peer.addCandidate(candidate);
+    await peer.answer(await client.answer(await peer.offer()));
+    return client;
+  };
+  return { peer, messages, connected: connected.promise, ended: ended.promise, heard: heard.promise, meet };
+}
+
+describe('OperatorPeer', () => {
+  it('offers one bundle: the cloud as audio in a stream of its own, an idle video, data channels', async () => {
+    const { peer } = robotPeer();
+    const sdp = await peer.offer();
+    expect(sdp.match(/^m=\w+/gm)).toEqual(['m=audio', 'm=video', 'm=application']);
+    expect(sdp).toMatch(/a=group:BUNDLE 0 1 2/);
+    expect(sdp).toMatch(/a=rtpmap:\d+ opus\/48000\/2/);
+    expect(sdp).toMatch(/a=msid:farpoint-cloud /);
+    const ids = (uri: string) =>
+      [...sdp.matchAll(new RegExp(`a=extmap:(\\d+) ${uri}`, 'g'))].map((match) => match[1]);
+    for (const uri of ['urn:ietf:params:rtp-hdrext:sdes:mid', '.*transport-wide-cc-extensions-01']) {
+      expect(ids(uri)).toHaveLength(2);
+      expect(new Set(ids(uri)).size).toBe(1);
+    }
+  });
+
+  it('connects, carries packets and messages, and notices when the operator goes', async () => {
+    const robot = robotPeer();
+    const client = await robot.meet();
+    const transport = await robot.connected;
+    expect(transport.ready).toBe(true);
+    const sequences = [0, 1, 2].map((i) => transport.send(Buffer.alloc(100, i), i, true) as number);
+    expect(sequences[2]).toBe(((sequences[0] as number) + 2) & 0xffff);
+    await client.until(() => client.packets === 3);
+    await client.until(() => client.control.readyState === 'open');
+    client.control.send('hello');
+    await robot.heard;
+    expect(robot.messages).toEqual([['control', 'hello']]);
+    await client.close();
+    expect((await robot.ended)[0]).toBe('connection-lost');
+    expect(transport.send(Buffer.alloc(100), 0, true)).toBeNull();
+  });
+
+  it('closes channels that it does not know', async () => {
+    const robot = robotPeer();
+    const client = await robot.meet();
+    await robot.connected;
+    const strange = client.connection.createDataChannel('strange');
+    await new Promise<void>((resolve) =>
+      strange.stateChanged.subscribe((state) => state === 'closed' && resolve()),
+    );
+    expect(robot.peer.unknownChannels).toBe(1);
+    expect(robot.peer.connected).toBe(true);
+  });
+
+  it('gives up where nobody answers', async () => {
+    const robot = robotPeer(20);
+    await robot.peer.offer();
+    expect((await robot.ended)[0]).toBe('not-connected');
+  });
+
+  it('ends at an answer that is no answer, and at a second one', async () => {
+    const bad = robotPeer();
+    await bad.peer.offer();
+    await bad.peer.answer('v=0\r\nnonsense');
+    expect((await bad.ended)[0]).toBe('not-connected');
+    const twice = robotPeer();
+    await twice.meet();
+    await twice.peer.answer('v=0');
+    expect((await twice.ended)[0]).toBe('bad-answer');
+  });
+
+  it('survives damaged answers', async () => {
+    const donor = robotPeer();
+    const offer = await donor.peer.offer();
+    const client = new OperatorClient();
+    cleanups.push(() => client.close());
+    const lines = (await client.answer(offer)).split('\r\n');
+    const damage = fc.array(
+      fc.tuple(fc.nat(), fc.constantFrom('drop', 'twice', 'cut', 'swap'), fc.string({ maxLength: 8 })),
+      { minLength: 1, maxLength: 4 },
+    );
+    await fc.assert(
+      fc.asyncProperty(damage, async (edits) => {
+        const broken = [...lines];
+        for (const [n, edit, text] of edits) {
+          const at = n % broken.length;
+          const line = broken[at] ?? '';
+          if (edit === 'drop') broken.splice(at, 1);
+          else if (edit === 'twice') broken.splice(at, 0, line);
+          else if (edit === 'cut') broken[at] = line.slice(0, n % (line.length + 1));
+          else broken[at] = line.replace(/[0-9a-f]+/, text);
+        }
+        const robot = robotPeer();
+        await robot.peer.offer();
+        await robot.peer.answer(broken.join('\r\n'));
+        robot.peer.close();
+        await robot.ended;
+      }),
+      { seed: 11, numRuns: 40 },
+    );
+  });
+
+  it('leaves out candidates that cannot be used', async () => {
+    const robot = robotPeer();
+    const client = await robot.meet();
+    const bad = ['', 'candidate:', 'candidate:1 1 udp 1 999.1.1.1 99999 typ host', 'x'.repeat(1000)];
+    for (const candidate of bad) await robot.peer.addCandidate({ candidate, sdpMid: '0' });
+    for (const candidate of bad)
+      await robot.peer.addCandidate({ candidate, sdpMid: 'none', sdpMLineIndex: 9 });
+    await robot.connected;
+    await client.message;
+    expect(robot.peer.connected).toBe(true);
+  });
+});

@@ -1,0 +1,207 @@
+import { FixedRateController } from '@farpoint/congestion';
+import { describe, expect, it } from 'vitest';
+import type { CapturedFrame } from '../capture/capture-messages.ts';
+import { payloadBytes, SLOT_BYTES } from '../encode/packetiser.ts';
+import type { CloudTransport } from './cloud-transport.ts';
+import { SharedFrame } from './shared-frame.ts';
+import { StreamSender } from './stream-sender.ts';
+
+interface Sent {
+  atMs: number;
+  first: number;
+  bytes: number;
+  timestamp: number;
+  marker: boolean;
+}
+
+/** A path whose other end is this test. */
+class RecordingTransport implements CloudTransport {
+  readonly overheadBytes = 68;
+  ready = true;
+  onRtcp: ((compound: Uint8Array) => void) | null = null;
+  readonly sent: Sent[] = [];
+  readonly #now: () => number;
+
+  constructor(now: () => number) {
+    this.#now = now;
+  }
+
+  send(payload: Uint8Array, timestamp: number, marker: boolean): number | null {
+    if (!this.ready) return null;
+    this.sent.push({
+      atMs: this.#now(),
+      first: payload[0] as number,
+      bytes: payload.length,
+      timestamp,
+      marker,
+    });
+    return (this.sent.length - 1) & 0xffff;
+  }
+}
+
+function frame(points: number, capturedAtMs = 1000): CapturedFrame {
+  const packets = Math.ceil(points / 150);
+  const buffer = new ArrayBuffer(packets * SLOT_BYTES);
+  const slots = new Uint8Array(buffer);
+  for (let i = 0; i < packets; i++) slots[i * SLOT_BYTES] = i;
+  return {
+    type: 'frame',
+    frameNumber: 0,
+    points,
+    packets,
+    validPoints: points,
+    rejected: { notFinite: 0, nonPositiveDepth: 0, outOfRange: 0, notDrawn: 0 },
+    saturated: 0,
+    sampleMs: 0,
+    packMs: 0,
+    buffer,
+    latencyTest: false,
+    capturedAtMs,
+    captureMs: 0,
+  };
+}
+
+function stage(bitsPerSecond = 10e6) {
+  let nowMs = 0;
+  const now = () => nowMs;
+  const transport = new RecordingTransport(now);
+  const sender = new StreamSender(transport, new FixedRateController({ bitsPerSecond }), now);
+  const recycled: ArrayBuffer[] = [];
+  const share = (captured: CapturedFrame) =>
+    new SharedFrame(captured, transport.overheadBytes, (buffer) => recycled.push(buffer));
+  /** Lets time pass as a timer would. */
+  const runUntil = (endMs: number) => {
+    while (sender.nextDueMs !== null && sender.nextDueMs <= endMs) {
+      nowMs = Math.max(nowMs, sender.nextDueMs);
+      sender.pump();
+    }
+    nowMs = endMs;
+  };
+  return { transport, sender, recycled, share, runUntil };
+}
+
+describe('StreamSender', () => {
+  it('sends every packet of a frame once, in order, evenly, the last one marked and cut to its length', () => {
+    const { transport, sender, share, runUntil } = stage();
+    const shared = share(frame(1510, 2000));
+    sender.enqueue(shared);
+    shared.release();
+    runUntil(1000);
+    expect(transport.sent.map((packet) => packet.first)).toEqual([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
+    expect(transport.sent.map((packet) => packet.bytes)).toEqual(
+      Array.from({ length: 11 }, (_, i) => payloadBytes(1510, i)),
+    );
+    expect(transport.sent.map((packet) => packet.marker)).toEqual([...Array<boolean>(10).fill(false), true]);
+    expect(transport.sent.every((packet) => packet.timestamp === 96_000)).toBe(true);
+    const span = (transport.sent.at(-1) as Sent).atMs;
+    const bits = shared.bytes * 8;
+    // Between the target and 1.25 times the target.
+    expect(bits / (span / 1000)).toBeGreaterThan(10e6);
+    expect((bits * 10) / 11 / (span / 1000)).toBeLessThan(12.5e6);
+    expect(sender.counters).toMatchObject({
+      framesSent: 1,
+      packetsSent: 11,
+      bytesSent: shared.bytes,
+      pointsSent: 1510,
+    });
+  });
+
+  it('gives a buffer back once, after the last holder let go of it', () => {
+    const a = stage();
+    const b = stage();
+    const shared = a.share(frame(300));
+    a.sender.enqueue(shared);
+    b.sender.enqueue(shared);
+    shared.release();
+    a.runUntil(1000);
+    expect(a.recycled).toHaveLength(0);
+    b.runUntil(1000);
+    expect(a.recycled).toEqual([shared.frame.buffer]);
+  });
+
+  it('drops the older of two frames that wait, says so, and gives its buffer back', () => {
+    const { sender, recycled, share, runUntil } = stage(1e6);
+    const dropped: [SharedFrame, string][] = [];
+    sender.onFrameDropped = (shared, reason) => dropped.push([shared, reason]);
+    const frames = [share(frame(1500)), share(frame(1500)), share(frame(1500))] as const;
+    sender.enqueue(frames[0]);
+    runUntil(1);
+    sender.enqueue(frames[1]);
+    sender.enqueue(frames[2]);
+    for (const shared of frames) shared.release();
+    expect(dropped).toEqual([[frames[1], 'superseded']]);
+    expect(recycled).toEqual([frames[1].frame.buffer]);
+    runUntil(10_000);
+    expect(sender.counters.framesSent).toBe(2);
+    expect(recycled).toHaveLength(3);
+  });
+
+  it('clears what waits when the stream stops', () => {
+    const { transport, sender, recycled, share, runUntil } = stage(1e6);
+    const shared = share(frame(1500));
+    sender.enqueue(shared);
+    shared.release();
+    runUntil(20);
+    const before = transport.sent.length;
+    expect(before).toBeGreaterThan(0);
+    sender.clear();
+    runUntil(10_000);
+    expect(transport.sent.length).toBe(before);
+    expect(recycled).toHaveLength(1);
+    expect(sender.nextDueMs).toBeNull();
+  });
+
+  it('loses packets, not itself, while the path is closed', () => {
+    const { transport, sender, recycled, share, runUntil } = stage();
+    transport.ready = false;
+    const shared = share(frame(300));
+    sender.enqueue(shared);
+    shared.release();
+    runUntil(1000);
+    expect(sender.counters).toMatchObject({ packetsSent: 0, packetsUnsent: 2 });
+    expect(recycled).toHaveLength(1);
+  });
+
+  it('has nothing to do with an empty frame', () => {
+    const { sender, recycled, share } = stage();
+    const shared = share(frame(0));
+    sender.enqueue(shared);
+    shared.release();
+    expect(sender.nextDueMs).toBeNull();
+    expect(recycled).toHaveLength(1);
+  });
+
+  it('hands transport feedback to the controller, and outlives feedback that is broken', () => {
+    const { transport, sender, share, runUntil } = stage(1e6);
+    const shared = share(frame(15_000));
+    sender.enqueue(shared);
+    shared.release();
+    runUntil(1300);
+    // Reports packets 0–39 as lost: 40 packets, run length chunk "not received".
+    const feedback = Buffer.alloc(24);
+    feedback.writeUInt8(0x8f, 0);
+    feedback.writeUInt8(205, 1);
+    feedback.writeUInt16BE(5, 2);
+    feedback.writeUInt16BE(0, 12);
+    feedback.writeUInt16BE(40, 14);
+    feedback.writeUInt16BE(40, 20);
+    transport.onRtcp?.(feedback);
+    expect(sender.counters.feedbackMessages).toBe(1);
+    expect(sender.heardMs).toBe(1300);
+    // All of the interval was lost: the rate halves, down to its floor at most.
+    runUntil(2500);
+    sender.tick();
+    transport.onRtcp?.(feedback.subarray(0, 22));
+    transport.onRtcp?.(Uint8Array.of(1));
+    const truncated = Buffer.from(feedback);
+    truncated.writeUInt16BE(9999, 14);
+    transport.onRtcp?.(truncated);
+    expect(sender.counters).toMatchObject({ feedbackMessages: 1, feedbackMalformed: 3 });
+  });
+
+  it('obeys the receiver’s limit', () => {
+    const { sender } = stage(10e6);
+    sender.onReceiverLimit(2e6);
+    expect(sender.targetBitsPerSecond).toBe(2e6);
+  });
+});
