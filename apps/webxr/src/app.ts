@@ -1,0 +1,229 @@
+/** The page: what comes from the robot to the screen, what comes from the hands to the robot. */
+import { Batch } from './cloud/batch.ts';
+import { CloudView } from './cloud/cloud-view.ts';
+import type { FromCloudWorker, ToCloudWorker } from './cloud/worker-messages.ts';
+import { Driver } from './drive/driver.ts';
+import { ScriptInput } from './drive/script-input.ts';
+import { LatencyProbe } from './latency/latency-probe.ts';
+import { RobotLink } from './link/robot-link.ts';
+import type { TransformSupport } from './peer/encoded-transform.ts';
+import type { Settings } from './settings.ts';
+import { PageStatistics } from './status/page-stats.ts';
+import { failureWords, lossWords, rejectionWords } from './status/words.ts';
+import { installTestApi } from './test-hooks.ts';
+import { ControlsUi } from './ui/controls-ui.ts';
+import { elements } from './ui/elements.ts';
+import { notify, showFailure } from './ui/notice.ts';
+import { OperatorInputs } from './ui/operator-inputs.ts';
+import { showRobots } from './ui/robot-list.ts';
+import { StatusUi } from './ui/status-ui.ts';
+import { GpuCompletion } from './view/gpu-completion.ts';
+import { Stage } from './view/stage.ts';
+import { VrSession } from './view/vr-session.ts';
+import { WristPanel } from './view/wrist-panel.ts';
+
+const DRIVE_TICK_MS = 25;
+const STATUS_TICK_MS = 250;
+/** Without points for so long the picture begins to turn grey, and so much later it is. */
+const STALE_AFTER_MS = 600;
+const STALE_FADE_MS = 1400;
+
+export class App {
+  readonly settings: Settings;
+  readonly stage: Stage;
+  readonly cloud: CloudView;
+  readonly link: RobotLink;
+  readonly driver: Driver;
+  readonly inputs: OperatorInputs;
+  readonly script = new ScriptInput();
+  readonly stats: PageStatistics;
+  readonly latency: LatencyProbe;
+  readonly vr: VrSession;
+  readonly #worker: Worker;
+  readonly #completion: GpuCompletion;
+  readonly #status: StatusUi;
+  #generation = 0;
+  lastPointsMs = 0;
+  #pixelWaiters: (() => void)[] = [];
+
+  /** @throws {Error} without WebGL 2 */
+  constructor(settings: Settings, transform: TransformSupport) {
+    this.settings = settings;
+    this.stage = new Stage(elements.stage, settings.canvas);
+    const { renderer } = this.stage;
+    this.#completion = new GpuCompletion(renderer);
+    this.#worker = new Worker(new URL('./cloud/cloud-worker.ts', import.meta.url), { type: 'module' });
+    this.stats = new PageStatistics((captureUs, nowMs) => this.link.session.ageMs(captureUs, nowMs));
+    this.cloud = new CloudView(this.stage.gl, {
+      onPacket: (batch, packet) => {
+        this.stats.onPacket(batch, packet);
+        this.latency.onPacket(batch, packet);
+      },
+      onDone: (buffer) => {
+        const message: ToCloudWorker = { type: 'return', buffer };
+        this.#worker.postMessage(message, [buffer]);
+      },
+    });
+    this.cloud.sizeScale = settings.pointScale;
+    this.stage.world.add(this.cloud.object);
+    this.link = this.#makeLink(transform);
+    this.inputs = new OperatorInputs(() => this.driver.tick(performance.now()));
+    this.driver = new Driver([...this.inputs.all, this.script], {
+      sendCommand: (command) => this.link.sendCommand(command),
+      sendSession: (message) => this.link.sendSession(message),
+      onOtherDrives: () => notify(rejectionWords['not-lease-holder'], 'warning'),
+    });
+    this.latency = new LatencyProbe(this.link, this.driver, (result) => this.stats.onResult(result));
+    this.vr = new VrSession(renderer, (active) => this.#onVr(active));
+    this.#status = new StatusUi(this, new WristPanel(renderer, this.stage.rig));
+  }
+
+  start(): void {
+    this.#listenToWorker();
+    this.#listenToCanvas();
+    const controls = new ControlsUi(this);
+    controls.start();
+    this.inputs.onAction = (action, timeMs) => controls.act(action, timeMs);
+    this.link.start();
+    if (this.settings.robot !== null) this.link.connect(this.settings.robot);
+    setInterval(() => {
+      this.inputs.poll();
+      this.driver.suspended = this.#handsAway();
+      this.driver.tick(performance.now());
+    }, DRIVE_TICK_MS);
+    setInterval(() => {
+      const nowMs = performance.now();
+      this.stats.tick(this.cloud, nowMs);
+      this.#status.update(nowMs);
+      this.latency.tick(nowMs);
+    }, STATUS_TICK_MS);
+    this.stage.renderer.setAnimationLoop((nowMs) => this.#frame(nowMs));
+    installTestApi(this);
+  }
+
+  /** Resolves within the next display frame, after it was drawn and before it is shown. */
+  afterNextFrame(act: () => void): void {
+    this.#pixelWaiters.push(act);
+  }
+
+  #frame(nowMs: number): void {
+    const began = performance.now();
+    const { renderer, scene, camera } = this.stage;
+    if (this.vr.active) this.inputs.readHeadset(this.vr.inputSources);
+    const stale = (began - this.lastPointsMs - STALE_AFTER_MS) / STALE_FADE_MS;
+    this.cloud.freshness = 1 - Math.min(Math.max(stale, 0), 1);
+    this.cloud.update();
+    this.stage.prepare(this.cloud, nowMs);
+    renderer.render(scene, camera);
+    // Only where a time is taken: waiting for the GPU costs frames.
+    if (this.latency.wantsTime || this.settings.canvas !== null) this.#completion.wait();
+    const ended = performance.now();
+    this.latency.onDrawn(ended);
+    this.stats.onDrawn(ended, ended - began);
+    if (this.#pixelWaiters.length > 0) {
+      for (const act of this.#pixelWaiters) act();
+      this.#pixelWaiters = [];
+    }
+  }
+
+  /** Commands may only come from hands that see what they do. */
+  #handsAway(): boolean {
+    if (this.vr.active) return this.vr.hidden;
+    return document.hidden || !document.hasFocus();
+  }
+
+  #makeLink(transform: TransformSupport): RobotLink {
+    const { signalingUrl, name, token } = this.settings;
+    const options = { signalingUrl, name, token, worker: this.#worker, transform };
+    return new RobotLink(options, {
+      onSignaling: () => this.#status.update(performance.now()),
+      onRobots: (robots) => showRobots(robots, (robotId) => this.link.connect(robotId)),
+      onPhase: (phase) => {
+        if (phase === 'none') {
+          this.cloud.reset();
+          this.stage.forgetPose();
+        }
+        if (phase !== 'live') {
+          this.driver.reset();
+          this.latency.fail('no-session');
+        }
+        this.lastPointsMs = performance.now();
+        this.#status.update(performance.now());
+      },
+      onLoss: (loss) => notify(lossWords[loss], 'warning'),
+      onGeneration: (generation) => {
+        this.#generation = generation;
+        this.cloud.reset();
+        this.stats.reset();
+        this.stage.forgetPose();
+      },
+      onRefusal: (message) => notify(message, 'warning'),
+      onWelcome: (welcome) => {
+        this.driver.onLimits(welcome.limits);
+        notify(`Connected to ${welcome.name}`, 'good');
+      },
+      onLease: (lease) => {
+        this.driver.onLease(lease);
+        this.latency.onLease();
+        this.#status.update(performance.now());
+      },
+      onRejected: (rejected) => {
+        console.info('command refused:', rejected.reason, rejected.detail);
+        notify(rejectionWords[rejected.reason], 'warning');
+      },
+      onEstop: () => this.#status.update(performance.now()),
+      onLatencyFrame: (frame) => this.latency.onRobotFrame(frame),
+      onTelemetry: (telemetry) => this.stage.setBody(telemetry.pose),
+      onRobotFault: (message) => notify(`The robot says: ${message}`, 'warning'),
+    });
+  }
+
+  #listenToWorker(): void {
+    this.#worker.onmessage = ({ data: message }: MessageEvent<FromCloudWorker>) => {
+      switch (message.type) {
+        case 'batch': {
+          const batch = new Batch(message.buffer, message.packets, message.points);
+          // Of an earlier session, or nobody would draw it.
+          if (message.generation !== this.#generation || (document.hidden && !this.vr.active)) {
+            const back: ToCloudWorker = { type: 'return', buffer: message.buffer };
+            this.#worker.postMessage(back, [message.buffer]);
+          } else {
+            this.cloud.enqueue(batch);
+          }
+          const nowMs = performance.now();
+          if (message.generation === this.#generation) {
+            this.lastPointsMs = nowMs;
+            this.link.onPoints(nowMs);
+          }
+          return;
+        }
+        case 'report':
+          if (message.generation !== this.#generation) return;
+          this.stats.onReport(message);
+          this.link.sendReport(message);
+          return;
+        case 'failed':
+          console.error('cloud worker:', message.message);
+          showFailure(failureWords.workerFailed);
+          return;
+        case 'ready':
+      }
+    };
+    this.#worker.onerror = () => showFailure(failureWords.workerFailed);
+  }
+
+  #listenToCanvas(): void {
+    new ResizeObserver(() => this.stage.resize()).observe(elements.stage);
+    elements.stage.addEventListener('webglcontextlost', () => showFailure(failureWords.contextLost));
+    elements.stage.addEventListener('webglcontextrestored', () => {
+      this.cloud.recreate();
+      showFailure(null);
+    });
+  }
+
+  #onVr(active: boolean): void {
+    this.inputs.releaseAll();
+    this.#status.onVr(active);
+    if (!active) this.stage.resize();
+  }
+}

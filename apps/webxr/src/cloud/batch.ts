@@ -1,0 +1,99 @@
+/**
+ * Points on their way from the worker to the page: one buffer, handed over by transfer and given back empty.
+ *
+ *     0             `BATCH_PACKETS` entries of 64 bytes, one a packet, in the platform's byte order:
+ *                     0 f64 received, ms since the epoch    8 u32 frameNumber   12 u32 frameLength   16 u32 sequenceOffset
+ *                    20 u32 points    24 u32 captureTimeUs  28 u32 flags (1 = latency test)
+ *                    32 f32 ×3 position of the camera       44 f32 ×4 its orientation x, y, z, w
+ *     POINTS_OFFSET  the packets' points one after another, x, y, z in mm and the colour's bits, int16 each
+ */
+import type { Placement, PointPacketHeader } from '@farpoint/protocol';
+
+export const BATCH_PACKETS = 128;
+const ENTRY_BYTES = 64;
+const POINTS_OFFSET = BATCH_PACKETS * ENTRY_BYTES;
+export const BATCH_POINTS = BATCH_PACKETS * 150;
+export const BATCH_BYTES = POINTS_OFFSET + BATCH_POINTS * 8;
+export const ENTRY_LATENCY_TEST = 1;
+
+/** Views of one buffer. */
+export class Batch {
+  readonly buffer: ArrayBuffer;
+  /** 4 per point. */
+  readonly points: Int16Array;
+  readonly #u32: Uint32Array;
+  readonly #f32: Float32Array;
+  readonly #f64: Float64Array;
+  /** Packets in use, and their points. */
+  packets = 0;
+  pointCount = 0;
+
+  /** @param buffer `BATCH_BYTES` long */
+  constructor(buffer: ArrayBuffer, packets = 0, pointCount = 0) {
+    this.buffer = buffer;
+    this.points = new Int16Array(buffer, POINTS_OFFSET);
+    this.#u32 = new Uint32Array(buffer, 0, POINTS_OFFSET / 4);
+    this.#f32 = new Float32Array(buffer, 0, POINTS_OFFSET / 4);
+    this.#f64 = new Float64Array(buffer, 0, POINTS_OFFSET / 8);
+    this.packets = packets;
+    this.pointCount = pointCount;
+  }
+
+  get full(): boolean {
+    return this.packets === BATCH_PACKETS;
+  }
+
+  /** Adds one packet's entry; its points are written by the caller. Must not be full. */
+  add(header: PointPacketHeader, placement: Placement, receivedMs: number): void {
+    const i = this.packets * 16;
+    const points = header.sequenceLength / 8;
+    this.#f64[i / 2] = receivedMs;
+    this.#u32[i + 2] = header.frameNumber;
+    this.#u32[i + 3] = header.frameLength;
+    this.#u32[i + 4] = header.sequenceOffset;
+    this.#u32[i + 5] = points;
+    this.#u32[i + 6] = placement.captureTimeUs;
+    this.#u32[i + 7] = placement.latencyTest ? ENTRY_LATENCY_TEST : 0;
+    const { position, orientation } = placement.pose;
+    this.#f32[i + 8] = position.x;
+    this.#f32[i + 9] = position.y;
+    this.#f32[i + 10] = position.z;
+    this.#f32[i + 11] = orientation.x;
+    this.#f32[i + 12] = orientation.y;
+    this.#f32[i + 13] = orientation.z;
+    this.#f32[i + 14] = orientation.w;
+    this.packets++;
+    this.pointCount += points;
+  }
+
+  clear(): void {
+    this.packets = 0;
+    this.pointCount = 0;
+  }
+
+  receivedMs(packet: number): number {
+    return this.#f64[packet * 8] as number;
+  }
+  frameNumber(packet: number): number {
+    return this.#u32[packet * 16 + 2] as number;
+  }
+  frameLength(packet: number): number {
+    return this.#u32[packet * 16 + 3] as number;
+  }
+  sequenceOffset(packet: number): number {
+    return this.#u32[packet * 16 + 4] as number;
+  }
+  pointsOf(packet: number): number {
+    return this.#u32[packet * 16 + 5] as number;
+  }
+  captureTimeUs(packet: number): number {
+    return this.#u32[packet * 16 + 6] as number;
+  }
+  isLatencyTest(packet: number): boolean {
+    return ((this.#u32[packet * 16 + 7] as number) & ENTRY_LATENCY_TEST) !== 0;
+  }
+  /** Pose as 7 floats: position x, y, z, orientation x, y, z, w. */
+  poseComponent(packet: number, component: number): number {
+    return this.#f32[packet * 16 + 8 + component] as number;
+  }
+}

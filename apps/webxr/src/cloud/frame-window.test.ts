@@ -1,0 +1,209 @@
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import { FrameWindow, MAX_RUNS } from './frame-window.ts';
+
+/** What the ring's vertices hold, as the GPU would: `frame:offset` of each point's packet. */
+class Ring {
+  readonly window: FrameWindow;
+  #cells: string[] = [];
+
+  constructor(capacity: number, maxCapacity = capacity) {
+    this.window = new FrameWindow(capacity, maxCapacity);
+  }
+
+  take(frame: number, packets: number, index: number, points = 2): string | null {
+    const move = this.window.reserve(points);
+    if (move !== null) {
+      expect(move.from >= move.count || move.capacity > this.#cells.length).toBe(true);
+      const live = this.#cells.slice(move.from, move.from + move.count);
+      this.#cells = live;
+      expect(this.window.tail + points).toBeLessThanOrEqual(move.capacity);
+    }
+    const at = this.window.tail;
+    const drop = this.window.accept(frame, packets * points * 8, index * points * 8, points);
+    if (drop === null) {
+      expect(this.window.tail).toBe(at + points);
+      for (let i = 0; i < points; i++) this.#cells[at + i] = `${frame}:${index}`;
+    } else {
+      expect(this.window.tail).toBe(at);
+    }
+    return drop;
+  }
+
+  /** Packets drawn, each with the slot of its pose. */
+  drawn(): Map<string, number> {
+    const drawn = new Map<string, number>();
+    for (let vertex = this.window.head; vertex < this.window.tail; vertex++) {
+      const slot = this.window.slotOf(vertex);
+      if (slot !== null) drawn.set(this.#cells[vertex] as string, slot);
+    }
+    return drawn;
+  }
+
+  names(): string[] {
+    return [...this.drawn().keys()];
+  }
+}
+
+describe('FrameWindow', () => {
+  test('a frame that trickles in replaces the previous one place by place', () => {
+    const ring = new Ring(64);
+    for (let i = 0; i < 4; i++) ring.take(0, 4, i);
+    ring.take(1, 4, 0);
+    expect(ring.names()).toEqual(['0:1', '0:2', '0:3', '1:0']);
+    ring.take(1, 4, 1);
+    expect(ring.names()).toEqual(['0:2', '0:3', '1:0', '1:1']);
+    ring.take(1, 4, 2);
+    ring.take(1, 4, 3);
+    expect(ring.names()).toEqual(['1:0', '1:1', '1:2', '1:3']);
+  });
+
+  test('a lost packet leaves a hole for one frame', () => {
+    const ring = new Ring(64);
+    for (const i of [0, 1, 2, 3]) ring.take(0, 4, i);
+    for (const i of [0, 2, 3]) ring.take(1, 4, i);
+    expect(ring.names()).toEqual(['1:0', '1:2', '1:3']);
+    for (const i of [0, 1]) ring.take(2, 4, i);
+    expect(ring.names()).toEqual(['1:2', '1:3', '2:0', '2:1']);
+  });
+
+  test('a lost tail goes when the frame after begins', () => {
+    const ring = new Ring(64);
+    for (const i of [0, 1, 2, 3]) ring.take(0, 4, i);
+    for (const i of [0, 1]) ring.take(1, 4, i);
+    expect(ring.names()).toEqual(['0:2', '0:3', '1:0', '1:1']);
+    ring.take(2, 4, 0);
+    expect(ring.names()).toEqual(['1:1', '2:0']);
+  });
+
+  test('late packets: drawn while their place is not replaced, else dropped by reason', () => {
+    const ring = new Ring(64);
+    for (const i of [0, 1]) ring.take(0, 4, i);
+    ring.take(1, 4, 0);
+    expect(ring.take(0, 4, 2)).toBe(null);
+    expect(ring.names()).toEqual(['0:1', '1:0', '0:2']);
+    expect(ring.take(1, 4, 1)).toBe(null);
+    expect(ring.names()).toEqual(['1:0', '0:2', '1:1']);
+    expect(ring.take(1, 4, 2)).toBe(null);
+    expect(ring.names()).toEqual(['1:0', '1:1', '1:2']);
+    expect(ring.take(0, 4, 2)).toBe('superseded');
+    ring.take(2, 4, 0);
+    expect(ring.take(0, 4, 3)).toBe('late');
+  });
+
+  test('frames of different size replace each other by place', () => {
+    const ring = new Ring(64);
+    for (let i = 0; i < 8; i++) ring.take(0, 8, i);
+    ring.take(1, 2, 0);
+    expect(ring.names()).toEqual(['0:4', '0:5', '0:6', '0:7', '1:0']);
+  });
+
+  test('frame numbers wrap', () => {
+    const ring = new Ring(64);
+    ring.take(0xffffffff, 1, 0);
+    ring.take(0, 1, 0);
+    expect(ring.names()).toEqual(['0:0']);
+    expect(ring.take(0xfffffffe, 1, 0)).toBe('late');
+  });
+
+  test('the ring grows to what frames need, up to its largest', () => {
+    const ring = new Ring(8, 64);
+    for (let frame = 0; frame < 5; frame++) for (let i = 0; i < 8; i++) ring.take(frame, 8, i);
+    expect(ring.window.capacity).toBe(64);
+    expect(ring.names()).toEqual(Array.from({ length: 8 }, (_, i) => `4:${i}`));
+  });
+
+  test('more than the largest ring holds begins anew instead of overrunning', () => {
+    const ring = new Ring(16, 16);
+    for (let i = 0; i < 50; i++) expect(ring.take(0, 50, i)).toBe(null);
+    expect(ring.window.tail).toBeLessThanOrEqual(16);
+  });
+
+  test('any order of arrival, against the plain rule', () => {
+    const frames = fc.array(fc.integer({ min: 1, max: 12 }), { minLength: 1, maxLength: 8 });
+    const anyArrival = frames.chain((sizes) => {
+      const packets = sizes.flatMap((size, frame) =>
+        Array.from({ length: size }, (_, index) => ({ frame, size, index })),
+      );
+      return fc
+        .array(fc.record({ lost: fc.boolean(), delay: fc.integer({ min: 0, max: 9 }) }), {
+          minLength: packets.length,
+          maxLength: packets.length,
+        })
+        .map((fates) =>
+          packets
+            .map((packet, i) => ({ ...packet, ...fates[i]!, at: i + fates[i]!.delay }))
+            .filter((packet) => !packet.lost || packet.index % 3 !== 0)
+            .sort((a, b) => a.at - b.at),
+        );
+    });
+    fc.assert(
+      fc.property(anyArrival, (packets) => {
+        const ring = new Ring(64, 256);
+        const model = new PlainRule();
+        for (const { frame, size, index } of packets) {
+          const runsWereFull = ring.window.runCount >= MAX_RUNS - 3;
+          const drop = ring.take(frame, size, index);
+          // What happens when runs are used up is another test's.
+          fc.pre(!runsWereFull && drop !== 'window-full');
+          expect(drop).toBe(model.take(frame, size, index));
+          expect(new Set(ring.names())).toEqual(model.drawn);
+          // One pose a frame, never shared.
+          const slots = new Map<string, Set<number>>();
+          for (const [name, slot] of ring.drawn()) {
+            const of = name.split(':')[0]!;
+            slots.set(of, (slots.get(of) ?? new Set()).add(slot));
+          }
+          expect([...slots.values()].every((set) => set.size === 1)).toBe(true);
+          expect(slots.size).toBe(new Set([...slots.values()].flatMap((set) => [...set])).size);
+        }
+      }),
+      { seed: 7, numRuns: 500 },
+    );
+  });
+
+  test('runs used up: packets of the newest frame are never refused', () => {
+    const ring = new Ring(1024);
+    ring.take(0, 100, 0);
+    ring.take(1, 100, 0);
+    for (let i = 1; i < 90; i++) {
+      expect([null, 'window-full']).toContain(ring.take(0, 100, 99));
+      expect(ring.take(1, 100, i)).toBe(null);
+    }
+    expect(ring.window.runCount).toBeLessThanOrEqual(MAX_RUNS);
+    expect(ring.names().filter((name) => name.startsWith('1:'))).toHaveLength(90);
+    for (let i = 0; i < 100; i++) expect(ring.take(2, 100, i)).toBe(null);
+    expect(ring.names()).toHaveLength(100);
+  });
+});
+
+/** The rule of frame-window.ts, said plainly. */
+class PlainRule {
+  #newest = -1;
+  #previous = -1;
+  #progress = 0;
+  #packets: { frame: number; size: number; index: number }[] = [];
+
+  take(frame: number, size: number, index: number): string | null {
+    if (frame < this.#newest) {
+      if (frame !== this.#previous) return 'late';
+      if (index / size < this.#progress) return 'superseded';
+    }
+    if (frame > this.#newest) {
+      this.#previous = this.#newest;
+      this.#newest = frame;
+      this.#progress = 0;
+    }
+    if (frame === this.#newest) this.#progress = Math.max(this.#progress, (index + 1) / size);
+    this.#packets.push({ frame, size, index });
+    return null;
+  }
+
+  get drawn(): Set<string> {
+    const drawn = this.#packets.filter(
+      ({ frame, size, index }) =>
+        frame === this.#newest || (frame === this.#previous && index / size >= this.#progress),
+    );
+    return new Set(drawn.map(({ frame, index }) => `${frame}:${index}`));
+  }
+}

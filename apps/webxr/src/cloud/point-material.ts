@@ -1,0 +1,125 @@
+/**
+ * The point shader: int16 millimetres and 6-6-4 colour as they came, the pose of the point's frame, the paper's size
+ * equation.
+ *
+ * Size (diameter, pixels): `s0 · (1/w) · (m + |z|·k)`, z the depth in the capturing camera, w the clip coordinate. With
+ * s0 the pixels that one metre at w = 1 covers in this viewport, m + |z|·k is a size in metres: the distance of
+ * neighbouring samples at depth z. k is the angle between neighbours, so that points just close their gaps whatever the
+ * resolution, the eye and the density of the frame; m keeps the nearest from vanishing.
+ */
+import { GLSL3, RawShaderMaterial, Vector4 } from 'three';
+import { MAX_RUNS, RUN_FIELDS } from './frame-window.ts';
+
+/** m: metres added to every point's size. */
+export const SIZE_OFFSET_M = 0.002;
+
+const vertexShader = /* glsl */ `
+precision highp float;
+precision highp int;
+uniform mat4 projectionMatrix;
+uniform mat4 modelViewMatrix;
+// First vertex, first visible vertex, pose slot, unused (frame-window.ts).
+uniform ivec4 runs[${MAX_RUNS}];
+uniform int runCount;
+// Position of the camera in the world, metres; w: the size equation's k.
+uniform vec4 framePosition[2];
+uniform vec4 frameOrientation[2];
+uniform float viewportHeight;
+uniform float sizeScale;
+uniform float freshness;
+in ivec4 position;
+out vec3 pointColour;
+out float pointSize;
+
+vec3 rotate(vec4 q, vec3 v) {
+  return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
+}
+
+void main() {
+  int run = runCount - 1;
+  while (run > 0 && gl_VertexID < runs[run].x) run--;
+  if (run < 0 || gl_VertexID < runs[run].y) {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    gl_PointSize = 1.0;
+    return;
+  }
+  int slot = runs[run].z;
+  vec3 camera = vec3(position.xyz) * 0.001;
+  vec3 world = rotate(frameOrientation[slot], camera) + framePosition[slot].xyz;
+  gl_Position = projectionMatrix * (modelViewMatrix * vec4(world, 1.0));
+
+  float s0 = 0.5 * viewportHeight * projectionMatrix[1][1];
+  float metres = ${SIZE_OFFSET_M} + abs(camera.z) * framePosition[slot].w;
+  pointSize = clamp(sizeScale * s0 * metres / max(gl_Position.w, 0.01), 1.0, 0.08 * viewportHeight);
+  gl_PointSize = pointSize;
+
+  uint colour = uint(position.w) & 0xffffu;
+  // Bin centres of 6, 6 and 4 bits.
+  vec3 rgb = vec3(
+    float((colour >> 10) * 4u + 2u),
+    float(((colour >> 4) & 63u) * 4u + 2u),
+    float((colour & 15u) * 16u + 8u)
+  ) / 255.0;
+  // The latency test's green has no grey in it.
+  if (colour == 0x03f0u) rgb = vec3(0.0, 1.0, 0.0);
+  // A picture that is no longer fed turns grey: nobody may take it for the present.
+  float grey = dot(rgb, vec3(0.3, 0.59, 0.11)) * 0.6;
+  pointColour = mix(vec3(grey), rgb, freshness);
+}
+`;
+
+const fragmentShader = /* glsl */ `
+precision mediump float;
+in vec3 pointColour;
+in float pointSize;
+out vec4 fragColour;
+
+void main() {
+  // Below 3 pixels a disc is a square with holes.
+  vec2 offset = gl_PointCoord - 0.5;
+  if (pointSize > 3.0 && dot(offset, offset) > 0.25) discard;
+  fragColour = vec4(pointColour, 1.0);
+}
+`;
+
+export interface PointUniforms {
+  runs: { value: Int32Array };
+  runCount: { value: number };
+  framePosition: { value: Vector4[] };
+  frameOrientation: { value: Vector4[] };
+  /** Of one eye, pixels of the drawing buffer. */
+  viewportHeight: { value: number };
+  /** The operator's taste, 1 = as computed. */
+  sizeScale: { value: number };
+  /** 1 live … 0 not fed any more. */
+  freshness: { value: number };
+}
+
+export function createPointMaterial(): { material: RawShaderMaterial; uniforms: PointUniforms } {
+  const uniforms: PointUniforms = {
+    runs: { value: new Int32Array(MAX_RUNS * RUN_FIELDS) },
+    runCount: { value: 0 },
+    framePosition: { value: [new Vector4(), new Vector4()] },
+    frameOrientation: { value: [new Vector4(0, 0, 0, 1), new Vector4(0, 0, 0, 1)] },
+    viewportHeight: { value: 1 },
+    sizeScale: { value: 1 },
+    freshness: { value: 1 },
+  };
+  const material = new RawShaderMaterial({
+    glslVersion: GLSL3,
+    vertexShader,
+    fragmentShader,
+    uniforms: { ...uniforms },
+  });
+  return { material, uniforms };
+}
+
+/** tan(half the field of view) × 2 that is assumed of the robot's camera: 90°, most depth cameras within a third. */
+const IMAGE_EXTENT = 2;
+/** Samples are drawn at random: at 1 the circles would only close a regular grid. */
+const COVER = 1.5;
+
+/** k of the size equation for a frame of `points`: the angle between neighbours, radians. */
+export function spacingPerMetre(points: number): number {
+  return points > 0 ? (COVER * IMAGE_EXTENT) / Math.sqrt(points) : 0;
+}

@@ -1,0 +1,31 @@
+/** What the page and the cloud worker say to each other. */
+import type { DropCounts } from './packet-intake.ts';
+
+export type ToCloudWorker =
+  /** A buffer of an earlier batch, empty again. */
+  | { type: 'return'; buffer: ArrayBuffer }
+  /** Where the browser lacks `RTCRtpScriptTransform`: the receiver's stream of encoded frames. */
+  | { type: 'stream'; readable: ReadableStream<RTCEncodedAudioFrame>; generation: number };
+
+/** Options of the `RTCRtpScriptTransform`. */
+export interface CloudTransformOptions {
+  /** Counts sessions: batches of an earlier one are told by it. */
+  generation: number;
+}
+
+export type FromCloudWorker =
+  | { type: 'ready' }
+  | { type: 'failed'; message: string }
+  | { type: 'batch'; generation: number; packets: number; points: number; buffer: ArrayBuffer }
+  | ({ type: 'report' } & IntakeReport);
+
+/** Sums since the session began. */
+export interface IntakeReport {
+  generation: number;
+  packetsReceived: number;
+  bytesReceived: number;
+  packetsLost: number;
+  drops: DropCounts;
+  /** Mean µs the worker spent on a packet since the last report. */
+  decodeUs: number;
+}

@@ -1,0 +1,16 @@
+/** One hand on one device: what every input device tells the driver. */
+import type { DriveWish } from './velocity-mapping.ts';
+
+export interface DriveInput {
+  readonly name: 'keyboard' | 'gamepad' | 'touch' | 'headset' | 'script';
+  /** The dead-man grip. */
+  readonly held: boolean;
+  /** Shaped: dead zone and curve applied. */
+  readonly wish: Readonly<DriveWish>;
+}
+
+/** The first device whose grip is held drives; the others are ignored until it lets go. */
+export function activeInput(inputs: readonly DriveInput[], before: DriveInput | null): DriveInput | null {
+  if (before?.held === true && inputs.includes(before)) return before;
+  return inputs.find((input) => input.held) ?? null;
+}

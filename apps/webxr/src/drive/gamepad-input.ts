@@ -1,0 +1,45 @@
+/** A gamepad in the standard mapping: either stick, while a shoulder button is held. */
+import { DEFAULT_STICK_RESPONSE, shapeAxis } from './dead-zone.ts';
+import type { DriveInput } from './drive-input.ts';
+import type { DriveWish } from './velocity-mapping.ts';
+
+/** Shoulders and triggers of the standard mapping. */
+const GRIP_BUTTONS = [4, 5, 6, 7];
+const ESTOP_BUTTON = 1;
+const LATENCY_BUTTON = 0;
+
+/** What is read of a Gamepad. */
+export interface GamepadState {
+  axes: readonly (number | null)[];
+  buttons: readonly { pressed: boolean; value: number }[];
+}
+
+export class GamepadInput implements DriveInput {
+  readonly name = 'gamepad';
+  readonly wish: DriveWish = { forward: 0, left: 0 };
+  held = false;
+  #estop = false;
+  #latency = false;
+
+  /**
+   * @param pad the gamepad now, or `null` where it is gone
+   * @returns buttons that went down since the last call
+   */
+  read(pad: GamepadState | null): { estop: boolean; latencyTest: boolean } {
+    const estop = pad?.buttons[ESTOP_BUTTON]?.pressed === true;
+    const latency = pad?.buttons[LATENCY_BUTTON]?.pressed === true;
+    const pressed = { estop: estop && !this.#estop, latencyTest: latency && !this.#latency };
+    this.#estop = estop;
+    this.#latency = latency;
+    this.held = pad !== null && GRIP_BUTTONS.some((index) => (pad.buttons[index]?.value ?? 0) > 0.5);
+    const [x, y] = pad === null ? [0, 0] : strongerStick(pad.axes);
+    this.wish.forward = -shapeAxis(y, DEFAULT_STICK_RESPONSE) + 0;
+    this.wish.left = -shapeAxis(x, DEFAULT_STICK_RESPONSE) + 0;
+    return pressed;
+  }
+}
+
+function strongerStick(axes: GamepadState['axes']): [number, number] {
+  const [lx, ly, rx, ry] = [axes[0] ?? 0, axes[1] ?? 0, axes[2] ?? 0, axes[3] ?? 0];
+  return Math.hypot(rx, ry) > Math.hypot(lx, ly) ? [rx, ry] : [lx, ly];
+}

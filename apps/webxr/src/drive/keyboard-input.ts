@@ -1,0 +1,41 @@
+/** W A S D or the arrows, while Space or Shift is held. Pure: told of keys by their code. */
+import type { DriveInput } from './drive-input.ts';
+import type { DriveWish } from './velocity-mapping.ts';
+
+const GRIPS: readonly string[] = ['Space', 'ShiftLeft', 'ShiftRight'];
+const FORWARD: readonly string[] = ['KeyW', 'ArrowUp'];
+const BACK: readonly string[] = ['KeyS', 'ArrowDown'];
+const LEFT: readonly string[] = ['KeyA', 'ArrowLeft'];
+const RIGHT: readonly string[] = ['KeyD', 'ArrowRight'];
+const KEYS: ReadonlySet<string> = new Set([...GRIPS, ...FORWARD, ...BACK, ...LEFT, ...RIGHT]);
+
+export class KeyboardInput implements DriveInput {
+  readonly name = 'keyboard';
+  readonly wish: DriveWish = { forward: 0, left: 0 };
+  readonly #down = new Set<string>();
+
+  get held(): boolean {
+    return this.#any(GRIPS);
+  }
+
+  /** @param code KeyboardEvent.code. @returns whether the key is one of ours */
+  key(code: string, down: boolean): boolean {
+    if (!KEYS.has(code)) return false;
+    if (down) this.#down.add(code);
+    else this.#down.delete(code);
+    this.wish.forward = Number(this.#any(FORWARD)) - Number(this.#any(BACK));
+    this.wish.left = Number(this.#any(LEFT)) - Number(this.#any(RIGHT));
+    return true;
+  }
+
+  /** The page does not hear keys any more: none counts as held. */
+  releaseAll(): void {
+    this.#down.clear();
+    this.wish.forward = 0;
+    this.wish.left = 0;
+  }
+
+  #any(codes: readonly string[]): boolean {
+    return codes.some((code) => this.#down.has(code));
+  }
+}

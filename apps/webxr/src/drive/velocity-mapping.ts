@@ -1,0 +1,25 @@
+/** From a stick to geometry_msgs/Twist of base_link (REP-103: x forward, positive rotation to the left). */
+import type { DriveLimits, Twist } from '@farpoint/protocol';
+
+/** −1…1, dead zone and curve already applied. */
+export interface DriveWish {
+  /** Forward positive. */
+  forward: number;
+  /** To the left positive. */
+  left: number;
+}
+
+export const REST: Readonly<DriveWish> = Object.freeze({ forward: 0, left: 0 });
+
+/** Scales to the robot's limits. What is beyond ±1 or not a number is cut to the limits, to 0. */
+export function toTwist(wish: DriveWish, limits: Pick<DriveLimits, 'maxLinear' | 'maxAngular'>): Twist {
+  return {
+    linear: { x: unit(wish.forward) * limits.maxLinear, y: 0, z: 0 },
+    angular: { x: 0, y: 0, z: unit(wish.left) * limits.maxAngular },
+  };
+}
+
+function unit(value: number): number {
+  // + 0: never −0.
+  return Number.isNaN(value) ? 0 : Math.min(Math.max(value, -1), 1) + 0;
+}

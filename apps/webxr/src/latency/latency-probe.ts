@@ -1,0 +1,114 @@
+/** Runs latency tests: asks for the lease, sends the flagged command, gives up when nothing comes. */
+import type { LatencyFrame } from '@farpoint/protocol';
+import type { Batch } from '../cloud/batch.ts';
+import type { Driver } from '../drive/driver.ts';
+import type { RobotLink } from '../link/robot-link.ts';
+import { type LatencyFailure, type LatencyResult, LatencyTest } from './latency-test.ts';
+
+export type LatencyReport = LatencyResult & { robot: LatencyFrame | null };
+
+/** Thrown to whoever asked for a test without a result. */
+export class LatencyError extends Error {
+  override readonly name = 'LatencyError';
+  readonly reason: LatencyFailure;
+
+  constructor(reason: LatencyFailure) {
+    super(`latency test: ${reason}`);
+    this.reason = reason;
+  }
+}
+
+interface Waiting {
+  resolve: (report: LatencyReport) => void;
+  reject: (error: LatencyError) => void;
+  deadlineMs: number;
+  /** Not sent yet: the lease is being asked for. */
+  needsLease: boolean;
+  robot: LatencyFrame | null;
+}
+
+const TIMEOUT_MS = 3000;
+
+export class LatencyProbe {
+  readonly #link: RobotLink;
+  readonly #driver: Driver;
+  readonly #onResult: (result: LatencyResult) => void;
+  readonly #test = new LatencyTest();
+  #waiting: Waiting | null = null;
+
+  constructor(link: RobotLink, driver: Driver, onResult: (result: LatencyResult) => void) {
+    this.#link = link;
+    this.#driver = driver;
+    this.#onResult = onResult;
+  }
+
+  /**
+   * One test at a time.
+   *
+   * @param startedMs when the operator acted. Where the lease must be asked for first, the time runs from its coming.
+   * @throws {LatencyError}
+   */
+  run(startedMs: number): Promise<LatencyReport> {
+    if (this.#waiting !== null) return Promise.reject(new LatencyError('busy'));
+    if (this.#link.phase !== 'live') return Promise.reject(new LatencyError('no-session'));
+    return new Promise((resolve, reject) => {
+      const needsLease = this.#driver.stream.lease === null;
+      this.#waiting = { resolve, reject, deadlineMs: startedMs + TIMEOUT_MS, needsLease, robot: null };
+      if (needsLease) this.#driver.requestLease(false);
+      else this.#send(startedMs);
+    });
+  }
+
+  onLease(): void {
+    if (this.#waiting?.needsLease !== true) return;
+    if (this.#driver.stream.lease !== null) this.#send(performance.now());
+    else if (this.#driver.holder === 'other') this.fail('no-lease');
+  }
+
+  onRobotFrame(frame: LatencyFrame): void {
+    if (this.#waiting !== null && frame.id === this.#test.runningId) this.#waiting.robot = frame;
+  }
+
+  onPacket(batch: Batch, packet: number): void {
+    this.#test.onPacket(
+      batch.isLatencyTest(packet),
+      batch.frameNumber(packet),
+      batch.pointsOf(packet),
+      batch.frameLength(packet) / 8,
+    );
+  }
+
+  get wantsTime(): boolean {
+    return this.#test.wantsTime;
+  }
+
+  onDrawn(nowMs: number): void {
+    const result = this.#test.onDrawn(nowMs);
+    if (result === null) return;
+    const waiting = this.#waiting;
+    this.#waiting = null;
+    this.#onResult(result);
+    console.info(`motion to photon ${result.mtpMs.toFixed(1)} ms (first ${result.firstMs.toFixed(1)} ms)`);
+    waiting?.resolve({ ...result, robot: waiting.robot });
+  }
+
+  tick(nowMs: number): void {
+    if (this.#waiting !== null && nowMs >= this.#waiting.deadlineMs) this.fail('timeout');
+  }
+
+  fail(reason: LatencyFailure): void {
+    const waiting = this.#waiting;
+    this.#waiting = null;
+    this.#test.cancel();
+    waiting?.reject(new LatencyError(reason));
+  }
+
+  #send(startedMs: number): void {
+    const waiting = this.#waiting!;
+    waiting.needsLease = false;
+    waiting.deadlineMs = startedMs + TIMEOUT_MS;
+    const command = this.#driver.stream.latencyTest(performance.now(), this.#test.start(startedMs));
+    if (command === null) this.fail('no-lease');
+    else this.#link.sendCommand(command);
+  }
+}

@@ -1,0 +1,252 @@
+/** One robot's link: signaling, session keeper, peer connection and what comes over it, put together. */
+import {
+  type Command,
+  encodeBandwidth,
+  encodeJson,
+  type OperatorControlMessage,
+  type OperatorSessionMessage,
+  operatorControlCodec,
+  operatorSessionCodec,
+  type RobotListing,
+} from '@farpoint/protocol';
+import type { IntakeReport } from '../cloud/worker-messages.ts';
+import type { TransformSupport } from '../peer/encoded-transform.ts';
+import { OperatorPeer } from '../peer/operator-peer.ts';
+import { RobotSession, type RobotSessionEvents } from '../session/robot-session.ts';
+import { SessionKeeper, type SessionLoss, type SessionPhase } from '../session/session-keeper.ts';
+import {
+  OperatorSignaling,
+  type SessionSignal,
+  type SignalingState,
+} from '../signaling/operator-signaling.ts';
+import { WebSocketPort } from '../signaling/web-socket-port.ts';
+
+export interface RobotLinkOptions {
+  signalingUrl: string;
+  name: string;
+  token: string | undefined;
+  worker: Worker;
+  transform: TransformSupport;
+}
+
+export interface RobotLinkEvents extends RobotSessionEvents {
+  onSignaling(state: SignalingState): void;
+  onRobots(robots: readonly RobotListing[]): void;
+  onPhase(phase: SessionPhase): void;
+  onLoss(loss: SessionLoss): void;
+  /** A peer connection is being made: batches of this generation are its own. */
+  onGeneration(generation: number): void;
+  /** The service refused something, in its own words. */
+  onRefusal(message: string): void;
+}
+
+const TICK_MS = 250;
+const PROBE_MS = 500;
+
+export class RobotLink {
+  readonly #options: RobotLinkOptions;
+  readonly #events: RobotLinkEvents;
+  readonly #signaling: OperatorSignaling;
+  readonly #keeper: SessionKeeper;
+  #peer: OperatorPeer | null = null;
+  #generation = 0;
+  #session: RobotSession;
+  #robots: readonly RobotListing[] = [];
+  #reportSequence = 0;
+  #lastHeardMs = 0;
+  #probeDueMs = 0;
+  sessionsOpened = 0;
+  lastLoss: SessionLoss | null = null;
+
+  constructor(options: RobotLinkOptions, events: RobotLinkEvents) {
+    this.#options = options;
+    this.#events = events;
+    this.#session = new RobotSession(events);
+    const port = new WebSocketPort(options.signalingUrl, () => this.#signaling);
+    this.#signaling = new OperatorSignaling(
+      { name: options.name, token: options.token },
+      port,
+      {
+        onState: (state) => {
+          this.#keeper.onSignaling(state === 'ready', performance.now());
+          events.onSignaling(state);
+        },
+        onRobots: (robots) => {
+          this.#robots = robots;
+          this.#keeper.onRobots(robots, performance.now());
+          events.onRobots(robots);
+        },
+        onSession: (message) => this.#onSignal(message),
+        onFault: (error) => console.warn('signaling:', error.message),
+      },
+      Math.random,
+    );
+    this.#keeper = new SessionKeeper(
+      {
+        requestSession: (robotId) => this.#signaling.send({ type: 'session.open', robotId }),
+        closeSession: (session) => this.#signaling.send({ type: 'session.close', session }),
+        dropPeer: () => this.#dropPeer(),
+        onPhase: (phase) => {
+          if (phase === 'live') this.sessionsOpened++;
+          events.onPhase(phase);
+        },
+        onLoss: (loss) => {
+          this.lastLoss = loss;
+          events.onLoss(loss);
+        },
+      },
+      Math.random,
+    );
+  }
+
+  start(): void {
+    this.#signaling.start();
+    setInterval(() => this.#tick(performance.now()), TICK_MS);
+    // The network came back: what is waiting need not wait any longer.
+    window.addEventListener('online', () => this.#signaling.retryNow());
+  }
+
+  connect(robotId: string): void {
+    this.#keeper.want(robotId, this.#robots, performance.now());
+  }
+
+  disconnect(): void {
+    this.#keeper.want(null, this.#robots, performance.now());
+  }
+
+  get phase(): SessionPhase {
+    return this.#keeper.phase;
+  }
+  get signaling(): SignalingState {
+    return this.#signaling.state;
+  }
+  get robots(): readonly RobotListing[] {
+    return this.#robots;
+  }
+  get robotId(): string | null {
+    return this.#keeper.robotId;
+  }
+  get robotListed(): boolean {
+    return this.#keeper.robotListed;
+  }
+  /** What the robot has told in this session. */
+  get session(): RobotSession {
+    return this.#session;
+  }
+  silentMs(nowMs: number): number {
+    return nowMs - this.#lastHeardMs;
+  }
+
+  sendCommand(command: Command): void {
+    this.#sendControl(command);
+  }
+
+  sendSession(message: OperatorSessionMessage): void {
+    this.#peer?.sendSession(encodeJson(operatorSessionCodec, message));
+  }
+
+  limitBandwidth(bitsPerSecond: number): void {
+    this.#peer?.sendBandwidth(encodeBandwidth(bitsPerSecond) as Uint8Array<ArrayBuffer>);
+  }
+
+  /** Points came. */
+  onPoints(nowMs: number): void {
+    this.#heard(nowMs);
+  }
+
+  sendReport(report: IntakeReport): void {
+    if (report.generation !== this.#generation) return;
+    this.#reportSequence = (this.#reportSequence + 1) >>> 0;
+    const { packetsReceived, packetsLost, bytesReceived } = report;
+    this.#sendControl({
+      type: 'receiverReport',
+      sequence: this.#reportSequence,
+      packetsReceived,
+      packetsLost,
+      bytesReceived,
+    });
+  }
+
+  #sendControl(message: OperatorControlMessage): void {
+    this.#peer?.sendControl(encodeJson(operatorControlCodec, message));
+  }
+
+  #onSignal(message: SessionSignal): void {
+    const nowMs = performance.now();
+    switch (message.type) {
+      case 'session.opened': {
+        const ours = this.#keeper.onOpened(message.session, message.robotId);
+        if (!ours) this.#signaling.send({ type: 'session.close', session: message.session });
+        else this.#openPeer(message.session);
+        return;
+      }
+      case 'session.offer':
+        if (message.session === this.#keeper.session) void this.#peer?.offer(message.sdp);
+        return;
+      case 'session.candidate':
+        if (message.session === this.#keeper.session) void this.#peer?.candidate(message.candidate);
+        return;
+      case 'session.closed': {
+        const { reason } = message;
+        const known = reason === 'robot-left' || reason === 'closed-by-robot' ? reason : 'other';
+        this.#keeper.onClosed(message.session, known, nowMs);
+        return;
+      }
+      case 'error':
+        // A session that outlived its signaling is unknown to the service, and that is all right.
+        if (message.code !== 'unknown-session') this.#events.onRefusal(message.message);
+        this.#keeper.onRefused(message.session, nowMs);
+    }
+  }
+
+  #openPeer(session: string): void {
+    this.#dropPeer();
+    this.#generation++;
+    this.#reportSequence = 0;
+    this.#session = new RobotSession(this.#events);
+    this.#events.onGeneration(this.#generation);
+    const { worker, transform } = this.#options;
+    const peer: OperatorPeer = new OperatorPeer(
+      { iceServers: this.#signaling.iceServers, worker, transform, generation: this.#generation },
+      {
+        onAnswer: (sdp) => this.#signaling.send({ type: 'session.answer', session, sdp }),
+        onCandidate: (candidate) => this.#signaling.send({ type: 'session.candidate', session, candidate }),
+        onConnected: () => {
+          this.#heard(performance.now());
+          this.#keeper.onPeerConnected(performance.now());
+        },
+        onMessage: (channel, data) => {
+          if (peer !== this.#peer) return;
+          const nowMs = performance.now();
+          this.#heard(nowMs);
+          this.#session.onMessage(channel, data, nowMs);
+        },
+        onPath: () => undefined,
+        onFailed: (detail) => {
+          if (peer !== this.#peer) return;
+          console.warn('peer:', detail);
+          this.#keeper.onPeerFailed(performance.now());
+        },
+      },
+    );
+    this.#peer = peer;
+  }
+
+  #dropPeer(): void {
+    this.#peer?.close();
+    this.#peer = null;
+  }
+
+  #heard(nowMs: number): void {
+    this.#lastHeardMs = nowMs;
+    this.#keeper.onHeard(nowMs);
+  }
+
+  #tick(nowMs: number): void {
+    this.#keeper.tick(nowMs);
+    if (this.#keeper.phase === 'live' && nowMs >= this.#probeDueMs) {
+      this.#probeDueMs = nowMs + PROBE_MS;
+      this.#sendControl({ type: 'clockProbe', id: this.#session.nextProbeId(), sentMs: nowMs });
+    }
+  }
+}

@@ -1,0 +1,40 @@
+/** How this browser lets a worker take a receiver's encoded frames, if it does. */
+import type { CloudTransformOptions, ToCloudWorker } from '../cloud/worker-messages.ts';
+
+export type TransformSupport =
+  | 'script-transform' // RTCRtpScriptTransform: WebRTC Encoded Transform
+  | 'encoded-streams' // createEncodedStreams: Chromium before 2025, Quest browsers before 42
+  | 'none';
+
+interface EncodedStreamsReceiver extends RTCRtpReceiver {
+  createEncodedStreams(): { readable: ReadableStream<RTCEncodedAudioFrame>; writable: WritableStream };
+}
+
+export function transformSupport(): TransformSupport {
+  if (typeof RTCRtpReceiver === 'undefined') return 'none';
+  if (typeof RTCRtpScriptTransform !== 'undefined') return 'script-transform';
+  return 'createEncodedStreams' in RTCRtpReceiver.prototype ? 'encoded-streams' : 'none';
+}
+
+/** What the peer connection must be made with. */
+export function transformConfiguration(support: TransformSupport): RTCConfiguration {
+  // Not in the standard any more, so not in its types.
+  return support === 'encoded-streams' ? ({ encodedInsertableStreams: true } as RTCConfiguration) : {};
+}
+
+/** Hands the receiver's frames to the worker. Must be called synchronously in `ontrack`, or the first frames are lost. */
+export function attachWorker(
+  receiver: RTCRtpReceiver,
+  worker: Worker,
+  support: TransformSupport,
+  generation: number,
+): void {
+  if (support === 'script-transform') {
+    const options: CloudTransformOptions = { generation };
+    receiver.transform = new RTCRtpScriptTransform(worker, options);
+  } else if (support === 'encoded-streams') {
+    const { readable } = (receiver as EncodedStreamsReceiver).createEncodedStreams();
+    const message: ToCloudWorker = { type: 'stream', readable, generation };
+    worker.postMessage(message, [readable]);
+  }
+}

@@ -1,0 +1,96 @@
+/** What the robot has told on its channels in this session. Takes bytes and the time; no channel, no clock. */
+import {
+  ageOfStampMs,
+  ClockOffset,
+  type CommandRejected,
+  clockAnswerCodec,
+  decodeJson,
+  type EstopState,
+  type LatencyFrame,
+  type LeaseState,
+  type MessageData,
+  ProtocolError,
+  robotSessionCodec,
+  sequenceDelta32,
+  type Telemetry,
+  telemetryCodec,
+  type Welcome,
+} from '@farpoint/protocol';
+
+export interface RobotSessionEvents {
+  onWelcome(welcome: Welcome): void;
+  onLease(lease: LeaseState): void;
+  onRejected(rejected: CommandRejected): void;
+  onEstop(estop: EstopState): void;
+  onLatencyFrame(frame: LatencyFrame): void;
+  onTelemetry(telemetry: Telemetry): void;
+  /** The robot could not use a message of ours. */
+  onRobotFault(message: string): void;
+}
+
+export class RobotSession {
+  welcome: Welcome | null = null;
+  lease: LeaseState = { type: 'lease', holder: 'nobody' };
+  estop: EstopState = { type: 'estop', latched: false };
+  telemetry: Telemetry | null = null;
+  readonly clock = new ClockOffset();
+  /** Messages that are not of the protocol. */
+  malformed = 0;
+  #probeId = 0;
+  readonly #events: RobotSessionEvents;
+
+  constructor(events: RobotSessionEvents) {
+    this.#events = events;
+  }
+
+  onMessage(channel: 'session' | 'telemetry' | 'control', data: MessageData, nowMs: number): void {
+    try {
+      if (channel === 'session') this.#onSession(data);
+      else if (channel === 'telemetry') this.#onTelemetry(data);
+      else this.clock.add(decodeJson(clockAnswerCodec, data), nowMs);
+    } catch (error) {
+      if (!(error instanceof ProtocolError)) throw error;
+      this.malformed++;
+    }
+  }
+
+  nextProbeId(): number {
+    this.#probeId = (this.#probeId + 1) >>> 0;
+    return this.#probeId;
+  }
+
+  /** How long ago a stamp of the robot's clock was, ms; `null` until its clock is known. */
+  ageMs(stampUs: number, nowMs: number): number | null {
+    const { offsetMs } = this.clock;
+    return offsetMs === null ? null : ageOfStampMs(stampUs, nowMs + offsetMs);
+  }
+
+  #onSession(data: MessageData): void {
+    const message = decodeJson(robotSessionCodec, data);
+    switch (message.type) {
+      case 'welcome':
+        this.welcome = message;
+        return this.#events.onWelcome(message);
+      case 'lease':
+        this.lease = message;
+        return this.#events.onLease(message);
+      case 'rejected':
+        return this.#events.onRejected(message);
+      case 'estop':
+        this.estop = message;
+        return this.#events.onEstop(message);
+      case 'latencyFrame':
+        return this.#events.onLatencyFrame(message);
+      case 'fault':
+        return this.#events.onRobotFault(message.message);
+    }
+  }
+
+  #onTelemetry(data: MessageData): void {
+    const telemetry = decodeJson(telemetryCodec, data);
+    // Unordered: an older one that comes later tells nothing.
+    if (this.telemetry !== null && sequenceDelta32(telemetry.sequence, this.telemetry.sequence) <= 0) return;
+    this.telemetry = telemetry;
+    this.#events.onTelemetry(telemetry);
+  }
+}

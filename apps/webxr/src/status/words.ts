@@ -1,0 +1,123 @@
+/** What the page says, in plain words: one place for every state, refusal and failure a person may meet. */
+import type { CommandRejection, DriveState } from '@farpoint/protocol';
+import type { SessionLoss, SessionPhase } from '../session/session-keeper.ts';
+import type { SignalingState } from '../signaling/operator-signaling.ts';
+
+export type Tone = 'good' | 'neutral' | 'warning' | 'bad';
+
+export interface Words {
+  text: string;
+  tone: Tone;
+}
+
+export const driveWords: Record<DriveState, Words> = {
+  driving: { text: 'Driving', tone: 'good' },
+  idle: { text: 'Standing', tone: 'neutral' },
+  watchdog: { text: 'Stopped: no fresh command', tone: 'warning' },
+  estop: { text: 'Emergency stop', tone: 'bad' },
+  blocked: { text: 'Blocked by an obstacle', tone: 'warning' },
+};
+
+export const rejectionWords: Record<CommandRejection, string> = {
+  malformed: 'The robot could not read a command.',
+  'out-of-range': 'The robot refused a speed beyond its limits.',
+  stale: 'Commands reach the robot too late. It stands still until the link is better.',
+  repeated: 'The robot refused a command that came out of order.',
+  'not-lease-holder': 'Someone else drives this robot. Ask to take over.',
+  'dead-man-released': 'The robot moves only while the grip is held.',
+  'estop-latched': 'The emergency stop is on. Release it, let go of the grip, then drive.',
+  'rate-limited': 'The robot gets more commands than it reads.',
+};
+
+export const signalingWords: Record<SignalingState, Words> = {
+  connecting: { text: 'Connecting to the signaling service…', tone: 'neutral' },
+  ready: { text: 'Signaling connected', tone: 'good' },
+  waiting: { text: 'The signaling service cannot be reached. Trying again…', tone: 'warning' },
+  refused: { text: 'The signaling service refused the token. Correct it in the settings.', tone: 'bad' },
+  stopped: { text: 'Signaling is off', tone: 'neutral' },
+};
+
+export const lossWords: Record<SessionLoss, string> = {
+  'not-connected': 'No connection to the robot came about. Trying again…',
+  'connection-failed': 'The connection to the robot is lost. The robot has stopped by itself. Trying again…',
+  'closed-by-robot': 'The robot ended the session. Trying again…',
+  'robot-restarted': 'The robot has restarted. Connecting anew…',
+  silent: 'Nothing is heard from the robot. Trying again…',
+  'signaling-lost': 'The signaling service went away while connecting. Trying again…',
+  refused: 'The service did not open a session. Trying again…',
+};
+
+export interface LinkFacts {
+  phase: SessionPhase;
+  signaling: SignalingState;
+  robotListed: boolean;
+  /** Since the last message or point of the robot, ms. */
+  silentMs: number;
+  /** Since the last point, ms. */
+  pointsSilentMs: number;
+}
+
+const SILENT_MS = 1000;
+const NO_POINTS_MS = 3000;
+
+/** The state of the link in one line. */
+export function linkWords(facts: LinkFacts): Words {
+  switch (facts.phase) {
+    case 'none':
+      return signalingWords[facts.signaling];
+    case 'waiting':
+      if (facts.signaling !== 'ready') return signalingWords[facts.signaling];
+      return facts.robotListed
+        ? { text: 'Connecting…', tone: 'neutral' }
+        : { text: 'The robot is away. Waiting for it to come back…', tone: 'warning' };
+    case 'opening':
+      return { text: 'Connecting to the robot…', tone: 'neutral' };
+    case 'live':
+      if (facts.silentMs >= SILENT_MS) {
+        return {
+          text: `Connection lost for ${Math.round(facts.silentMs / 1000)} s. The robot stops by itself.`,
+          tone: 'bad',
+        };
+      }
+      if (facts.pointsSilentMs >= NO_POINTS_MS) {
+        return { text: 'Connected, but no points arrive.', tone: 'warning' };
+      }
+      if (facts.signaling !== 'ready') return { text: 'Live (signaling is away)', tone: 'good' };
+      return { text: 'Live', tone: 'good' };
+  }
+}
+
+export const failureWords = {
+  noWebGl2: {
+    title: 'This browser cannot draw the point cloud',
+    text: 'It has no WebGL 2, or its graphics acceleration is off. Switch hardware acceleration on, or use another browser.',
+  },
+  noWebRtc: {
+    title: 'This browser has no WebRTC',
+    text: 'Use a current Chrome, Edge, Safari or the headset’s own browser, and open the page over https or on localhost.',
+  },
+  noTransform: {
+    title: 'This browser cannot hand over the point packets',
+    text: 'It lacks encoded transforms (RTCRtpScriptTransform). Update the browser; on a Quest, version 42 or newer.',
+  },
+  workerFailed: {
+    title: 'The point decoder could not be started',
+    text: 'Reload the page. If it stays so, the server does not deliver the page’s WebAssembly file.',
+  },
+  contextLost: {
+    title: 'The graphics system was reset',
+    text: 'The picture comes back by itself in a moment.',
+  },
+} as const;
+
+/** Why there is no VR button, or `null` where there can be one. */
+export function vrUnavailable(facts: {
+  secure: boolean;
+  hasWebXr: boolean;
+  supported: boolean;
+}): string | null {
+  if (facts.supported) return null;
+  if (!facts.secure) return 'VR needs https: open the page by its https address.';
+  if (!facts.hasWebXr) return 'This browser has no WebXR. VR works in a headset’s browser.';
+  return 'No headset found.';
+}

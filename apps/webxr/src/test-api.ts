@@ -1,0 +1,110 @@
+/**
+ * `window.farpoint`: what end-to-end tests and benchmarks see of the page, and do with it. Times in ms, rates a second.
+ * It can do nothing that the page's own controls cannot.
+ */
+import type { DriveState, LatencyFrame, LeaseState, RobotListing } from '@farpoint/protocol';
+import type { DropCounts } from './cloud/packet-intake.ts';
+import type { LatencyResult } from './latency/latency-test.ts';
+import type { Distribution } from './latency/sample-window.ts';
+import type { SessionLoss, SessionPhase } from './session/session-keeper.ts';
+import type { SignalingState } from './signaling/operator-signaling.ts';
+
+export interface PageState {
+  signaling: SignalingState;
+  session: SessionPhase;
+  /** Sessions that came to stand since the page was loaded. */
+  sessionsOpened: number;
+  lastLoss: SessionLoss | null;
+  robotId: string | null;
+  robotListed: boolean;
+  /** The line that the page shows about the link. */
+  link: string;
+  /** The last thing the page told: refusals, failures. */
+  notice: string | null;
+  holder: LeaseState['holder'];
+  estop: boolean;
+  drive: DriveState | null;
+  battery: number | null;
+  /** base_link in the world, REP-103: metres, radians. */
+  body: { x: number; y: number; z: number; yaw: number } | null;
+  /** m/s and rad/s, as the robot measures. */
+  velocity: { linear: number; angular: number } | null;
+  /** Sending commands now, and by which device. */
+  driving: boolean;
+  input: string | null;
+  vr: boolean;
+}
+
+export interface PageStats {
+  /** Since the session began. */
+  packetsReceived: number;
+  packetsLost: number;
+  bytesReceived: number;
+  framesDrawn: number;
+  pointsDrawn: number;
+  drops: DropCounts;
+  /** Over the last second. */
+  bitsPerSecond: number;
+  framesPerSecond: number;
+  pointsPerFrame: number;
+  /** Share of packets lost over the last seconds, 0–1. */
+  lossRate: number;
+  /** Round trip of the latest clock probe, and the shortest of the last. */
+  rttMs: number | null;
+  minRttMs: number | null;
+  /** Capture to the worker, each packet. */
+  deliveryMs: Distribution | null;
+  /** Capture to the end of the display frame with the frame's last points. Exact (GPU finished) with `?canvas=`. */
+  frameLatencyMs: Distribution | null;
+  mtpMs: Distribution | null;
+  mtpFirstMs: Distribution | null;
+  /** Milliseconds of the frame loop's own work; with `?canvas=` up to the GPU having finished. */
+  renderMs: Distribution | null;
+  displayFramesPerSecond: number;
+  /** Mean µs the worker spent on a packet. */
+  decodeUs: number;
+  canvas: { width: number; height: number };
+}
+
+/** What is drawn now. */
+export interface DrawnProbe {
+  /** Points drawn, and those of them in the latency test's green. */
+  points: number;
+  green: number;
+  /** Of the drawn points in the world (REP-103), metres. */
+  bounds: { min: [number, number, number]; max: [number, number, number] } | null;
+  /** Where the newest frame's camera stood, metres. */
+  camera: { x: number; y: number; z: number; yaw: number } | null;
+  newestFrame: number | null;
+}
+
+export interface FarpointTestApi {
+  readonly version: 1;
+  state(): PageState;
+  stats(): PageStats;
+  /** Forgets all distributions, so that what follows is measured by itself. */
+  resetStats(): void;
+  robots(): readonly RobotListing[];
+  /** As choosing the robot in the list. Resolves when its session stands; rejects after `timeoutMs`. */
+  connect(robotId: string, timeoutMs?: number): Promise<void>;
+  disconnect(): void;
+  requestLease(take?: boolean): void;
+  estop(latch: boolean): void;
+  /** As pressing L. Asks for the lease first where nobody drives. Rejects with the reason. */
+  latencyTest(): Promise<LatencyResult & { robot: LatencyFrame | null }>;
+  /** Every result since the page was loaded. */
+  latencyResults(): readonly LatencyResult[];
+  /** As holding the grip and the stick for so long; −1…1, forward and left positive. */
+  drive(wish: { forward: number; left: number }, ms: number): Promise<void>;
+  /** Limits the stream, bit/s (the `bandwidth` channel). */
+  limitBandwidth(bitsPerSecond: number): void;
+  probe(): DrawnProbe;
+  /** Colour of one pixel after the next display frame, x and y as shares of the canvas from its top left. */
+  pixel(x: number, y: number): Promise<[number, number, number]>;
+}
+
+declare global {
+  interface Window {
+    farpoint: FarpointTestApi;
+  }
+}

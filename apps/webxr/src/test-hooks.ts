@@ -1,0 +1,127 @@
+/** Puts {@link FarpointTestApi} on the window. */
+import { LATENCY_TEST_COLOUR, type Pose } from '@farpoint/protocol';
+import { Quaternion, Vector3 } from 'three';
+import type { App } from './app.ts';
+import type { DrawnProbe, FarpointTestApi } from './test-api.ts';
+import { lastNotice } from './ui/notice.ts';
+import { describeLink, snapshot } from './ui/status-ui.ts';
+import { bodyYaw, opticalYaw } from './view/axes.ts';
+
+export function installTestApi(app: App): void {
+  const { link, driver, cloud, stage } = app;
+  const api: FarpointTestApi = {
+    version: 1,
+    state() {
+      const { telemetry, estop } = link.session;
+      return {
+        signaling: link.signaling,
+        session: link.phase,
+        sessionsOpened: link.sessionsOpened,
+        lastLoss: link.lastLoss,
+        robotId: link.robotId,
+        robotListed: link.robotListed,
+        link: describeLink(app, performance.now()).text,
+        notice: lastNotice(),
+        holder: driver.holder,
+        estop: estop.latched,
+        drive: telemetry?.drive ?? null,
+        battery: telemetry?.battery?.percentage ?? null,
+        body: telemetry === null ? null : flatPose(telemetry.pose),
+        velocity:
+          telemetry === null
+            ? null
+            : { linear: telemetry.twist.linear.x, angular: telemetry.twist.angular.z },
+        driving: driver.stream.held && driver.holder === 'you',
+        input: driver.input?.name ?? null,
+        vr: app.vr.active,
+      };
+    },
+    stats: () => snapshot(app),
+    resetStats: () => app.stats.resetDistributions(),
+    robots: () => link.robots,
+    connect(robotId, timeoutMs = 30_000) {
+      link.connect(robotId);
+      return until(() => link.phase === 'live' && cloud.hasPoints, timeoutMs, `no session with ${robotId}`);
+    },
+    disconnect: () => link.disconnect(),
+    requestLease: (take = false) => driver.requestLease(take),
+    estop: (latch) => link.sendSession({ type: 'estop', latch }),
+    latencyTest: () => app.latency.run(performance.now()),
+    latencyResults: () => app.stats.results,
+    async drive(wish, ms) {
+      app.script.wish.forward = wish.forward;
+      app.script.wish.left = wish.left;
+      app.script.held = true;
+      driver.tick(performance.now());
+      await new Promise((resolve) => setTimeout(resolve, ms));
+      app.script.held = false;
+      driver.tick(performance.now());
+    },
+    limitBandwidth: (bitsPerSecond) => link.limitBandwidth(bitsPerSecond),
+    probe: () => probe(app),
+    pixel: (x, y) =>
+      new Promise((resolve) => {
+        app.afterNextFrame(() => {
+          const { gl } = stage;
+          const bytes = new Uint8Array(4);
+          const column = Math.min(Math.floor(x * gl.drawingBufferWidth), gl.drawingBufferWidth - 1);
+          const row = Math.min(Math.floor((1 - y) * gl.drawingBufferHeight), gl.drawingBufferHeight - 1);
+          gl.readPixels(column, row, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+          resolve([bytes[0] as number, bytes[1] as number, bytes[2] as number]);
+        });
+      }),
+  };
+  window.farpoint = api;
+}
+
+function probe({ cloud }: App): DrawnProbe {
+  const { points, slots } = cloud.readBack();
+  const poses = [0, 1].map((slot) => {
+    const { position, orientation } = cloud.pose(slot);
+    return {
+      position: new Vector3(position.x, position.y, position.z),
+      orientation: new Quaternion(orientation.x, orientation.y, orientation.z, orientation.w),
+    };
+  });
+  const min = new Vector3(1, 1, 1).multiplyScalar(Number.POSITIVE_INFINITY);
+  const max = min.clone().negate();
+  const point = new Vector3();
+  let count = 0;
+  let green = 0;
+  for (const [index, slot] of slots.entries()) {
+    if (slot === null) continue;
+    count++;
+    if ((points[index * 4 + 3] as number) === LATENCY_TEST_COLOUR) green++;
+    point.fromArray(points, index * 4).multiplyScalar(0.001);
+    point.applyQuaternion(poses[slot]!.orientation).add(poses[slot]!.position);
+    min.min(point);
+    max.max(point);
+  }
+  const { x, y, z } = cloud.cameraPosition;
+  return {
+    points: count,
+    green,
+    bounds: count === 0 ? null : { min: min.toArray(), max: max.toArray() },
+    camera: cloud.hasPoints ? { x, y, z, yaw: opticalYaw(cloud.cameraOrientation, 0) } : null,
+    newestFrame: cloud.window.newestFrame,
+  };
+}
+
+function flatPose({ position, orientation }: Pose): { x: number; y: number; z: number; yaw: number } {
+  return { x: position.x, y: position.y, z: position.z, yaw: bodyYaw(orientation) };
+}
+
+function until(condition: () => boolean, timeoutMs: number, failure: string): Promise<void> {
+  return new Promise((resolve, reject) => {
+    const began = performance.now();
+    const timer = setInterval(() => {
+      if (condition()) {
+        clearInterval(timer);
+        resolve();
+      } else if (performance.now() - began > timeoutMs) {
+        clearInterval(timer);
+        reject(new Error(`${failure} within ${timeoutMs} ms`));
+      }
+    }, 20);
+  });
+}

@@ -1,0 +1,32 @@
+/** The page's elements by id, each checked for its kind once. */
+function byId<T extends HTMLElement>(id: string, kind: new () => T): T {
+  const element = document.getElementById(id);
+  if (!(element instanceof kind)) throw new Error(`the page has no <${kind.name}> with id ${id}`);
+  return element;
+}
+
+export const elements = {
+  stage: byId('stage', HTMLCanvasElement),
+  link: byId('link', HTMLElement),
+  view: byId('view', HTMLButtonElement),
+  vr: byId('vr', HTMLButtonElement),
+  vrReason: byId('vr-reason', HTMLElement),
+  settingsOpen: byId('settings-open', HTMLButtonElement),
+  settings: byId('settings', HTMLDialogElement),
+  disconnect: byId('disconnect', HTMLButtonElement),
+  robots: byId('robots', HTMLElement),
+  robotList: byId('robot-list', HTMLUListElement),
+  robotsEmpty: byId('robots-empty', HTMLElement),
+  hud: byId('hud', HTMLElement),
+  facts: byId('facts', HTMLElement),
+  notice: byId('notice', HTMLElement),
+  drive: byId('drive', HTMLElement),
+  joystick: byId('joystick', HTMLElement),
+  knob: byId('knob', HTMLElement),
+  holder: byId('holder', HTMLElement),
+  take: byId('take', HTMLButtonElement),
+  release: byId('release', HTMLButtonElement),
+  latency: byId('latency', HTMLButtonElement),
+  estop: byId('estop', HTMLButtonElement),
+  failure: byId('failure', HTMLElement),
+};

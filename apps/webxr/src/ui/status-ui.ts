@@ -1,0 +1,174 @@
+/** What the page shows of the link, the robot and the stream, a few times a second: on the screen and on the wrist. */
+import type { App } from '../app.ts';
+import { driveWords, linkWords, type Words } from '../status/words.ts';
+import type { PageStats } from '../test-api.ts';
+import type { WristPanel } from '../view/wrist-panel.ts';
+import { elements } from './elements.ts';
+import { type Fact, showFacts } from './facts.ts';
+
+export class StatusUi {
+  readonly #app: App;
+  readonly #wrist: WristPanel;
+
+  constructor(app: App, wrist: WristPanel) {
+    this.#app = app;
+    this.#wrist = wrist;
+  }
+
+  get link(): Words {
+    return describeLink(this.#app, performance.now());
+  }
+
+  onVr(active: boolean): void {
+    elements.vr.textContent = active ? 'Leave VR' : 'Enter VR';
+    this.#wrist.visible = active;
+  }
+
+  update(nowMs: number): void {
+    const { link, settings } = this.#app;
+    const words =
+      settings.signalingFault !== null && link.phase === 'none'
+        ? ({ text: `Signaling address: ${settings.signalingFault}`, tone: 'bad' } as const)
+        : describeLink(this.#app, nowMs);
+    setPill(elements.link, words);
+    const connected = link.phase !== 'none';
+    elements.robots.hidden = connected;
+    elements.disconnect.hidden = !connected;
+    elements.view.hidden = !connected;
+    elements.drive.hidden = link.phase !== 'live';
+    elements.hud.hidden = link.phase !== 'live';
+    if (link.phase === 'live') this.#showSession();
+    if (this.#app.vr.active) this.#showWrist(words);
+  }
+
+  #showSession(): void {
+    const { driver, link } = this.#app;
+    const { estop } = link.session;
+    setPill(elements.holder, this.#holderWords());
+    elements.take.hidden = driver.holder !== 'other';
+    elements.release.hidden = driver.holder !== 'you';
+    elements.estop.setAttribute('aria-pressed', String(estop.latched));
+    elements.estop.querySelector('b')!.textContent = estop.latched ? 'RELEASE' : 'STOP';
+    showFacts(this.#facts());
+  }
+
+  #holderWords(): Words {
+    const { driver } = this.#app;
+    if (driver.holder === 'other') return { text: 'Someone else drives', tone: 'warning' };
+    if (driver.holder === 'nobody') return { text: 'Nobody drives', tone: 'neutral' };
+    return driver.stream.held
+      ? { text: `You drive (${driver.input?.name ?? ''})`, tone: 'good' }
+      : { text: 'You may drive', tone: 'good' };
+  }
+
+  #facts(): Fact[] {
+    const { link } = this.#app;
+    const { telemetry, estop, welcome } = link.session;
+    const stats = this.#stats();
+    const facts: Fact[] = [];
+    if (welcome !== null) facts.push({ name: 'Robot', value: welcome.name });
+    if (telemetry !== null) {
+      const drive = driveWords[telemetry.drive];
+      const by = estop.latched && estop.by !== undefined ? ` (by ${estop.by})` : '';
+      facts.push({ name: 'State', value: drive.text + by, tone: drive.tone });
+      const { linear, angular } = telemetry.twist;
+      facts.push({ name: 'Speed', value: `${linear.x.toFixed(2)} m/s  ${angular.z.toFixed(2)} rad/s` });
+      if (telemetry.battery !== undefined) {
+        const share = telemetry.battery.percentage;
+        facts.push({
+          name: 'Battery',
+          value: `${Math.round(share * 100)} %  ${telemetry.battery.voltage.toFixed(1)} V`,
+          tone: share < 0.1 ? 'bad' : share < 0.25 ? 'warning' : 'neutral',
+        });
+      }
+    }
+    facts.push(...streamFacts(stats));
+    if (telemetry !== null && telemetry.operators > 1) {
+      facts.push({ name: 'Operators', value: String(telemetry.operators) });
+    }
+    return facts;
+  }
+
+  #showWrist(words: Words): void {
+    const stats = this.#stats();
+    const { telemetry } = this.#app.link.session;
+    const drive = telemetry === null ? null : driveWords[telemetry.drive];
+    const battery = telemetry?.battery;
+    this.#wrist.show([
+      words,
+      ...(drive === null ? [] : [drive]),
+      this.#holderWords(),
+      {
+        text: `${(stats.pointsPerFrame / 1000).toFixed(1)}k points  ${stats.framesPerSecond.toFixed(0)}/s  ${mbps(stats)} Mbit/s`,
+        tone: 'neutral',
+      },
+      {
+        text: `rtt ${ms(stats.minRttMs)}  frame ${ms(stats.frameLatencyMs?.p50)}  loss ${(stats.lossRate * 100).toFixed(1)} %`,
+        tone: stats.lossRate > 0.05 ? 'warning' : 'neutral',
+      },
+      {
+        text:
+          battery === undefined
+            ? 'Squeeze: drive  B: stop'
+            : `Battery ${Math.round(battery.percentage * 100)} %`,
+        tone: 'neutral',
+      },
+    ]);
+  }
+
+  #stats(): PageStats {
+    return snapshot(this.#app);
+  }
+}
+
+/** The page's figures now. */
+export function snapshot(app: App): PageStats {
+  const { clock } = app.link.session;
+  const times = { rttMs: clock.lastRttMs, minRttMs: clock.minRttMs };
+  return app.stats.snapshot(app.cloud, times, app.stage.renderer.domElement);
+}
+
+export function describeLink(app: App, nowMs: number): Words {
+  const { link } = app;
+  return linkWords({
+    phase: link.phase,
+    signaling: link.signaling,
+    robotListed: link.robotListed,
+    silentMs: link.silentMs(nowMs),
+    pointsSilentMs: nowMs - app.lastPointsMs,
+  });
+}
+
+function streamFacts(stats: PageStats): Fact[] {
+  const facts: Fact[] = [
+    {
+      name: 'Points',
+      value: `${Math.round(stats.pointsPerFrame).toLocaleString('en')} × ${stats.framesPerSecond.toFixed(0)}/s`,
+    },
+    { name: 'Rate', value: `${mbps(stats)} Mbit/s` },
+    {
+      name: 'Loss',
+      value: `${(stats.lossRate * 100).toFixed(1)} %`,
+      tone: stats.lossRate > 0.05 ? 'warning' : 'neutral',
+    },
+    { name: 'Round trip', value: ms(stats.minRttMs) },
+    { name: 'Frame age', value: ms(stats.frameLatencyMs?.p50) },
+  ];
+  if (stats.mtpMs !== null) {
+    facts.push({ name: 'Motion to photon', value: `${ms(stats.mtpMs.p50)}  p95 ${ms(stats.mtpMs.p95)}` });
+  }
+  return facts;
+}
+
+function mbps(stats: PageStats): string {
+  return (stats.bitsPerSecond / 1e6).toFixed(1);
+}
+
+function ms(value: number | null | undefined): string {
+  return value === null || value === undefined ? '–' : `${value.toFixed(0)} ms`;
+}
+
+function setPill(element: HTMLElement, words: Words): void {
+  if (element.textContent !== words.text) element.textContent = words.text;
+  element.dataset['tone'] = words.tone;
+}

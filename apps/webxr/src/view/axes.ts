@@ -1,0 +1,26 @@
+/**
+ * The one place where axes are converted. REP-103 world: x forward, y left, z up. three.js: x right, y up, z back, so
+ * that x₃ = −y, y₃ = z, z₃ = −x.
+ */
+import { Matrix4, type Quaternion, Vector3 } from 'three';
+
+/** Takes world coordinates to three's; the root group of everything in the robot's world has it. */
+export function worldToThree(): Matrix4 {
+  return new Matrix4().makeBasis(new Vector3(0, 0, -1), new Vector3(-1, 0, 0), new Vector3(0, 1, 0));
+}
+
+/**
+ * Heading of an optical frame (z forward) in the world: angle about z, counter-clockwise from x, radians; `fallback`
+ * where it looks straight up or down.
+ */
+export function opticalYaw(q: Pick<Quaternion, 'x' | 'y' | 'z' | 'w'>, fallback: number): number {
+  // The frame's z axis in the world.
+  const x = 2 * (q.x * q.z + q.w * q.y);
+  const y = 2 * (q.y * q.z - q.w * q.x);
+  return Math.hypot(x, y) < 1e-3 ? fallback : Math.atan2(y, x);
+}
+
+/** Heading of a body frame (x forward), radians. */
+export function bodyYaw(q: { x: number; y: number; z: number; w: number }): number {
+  return Math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
+}

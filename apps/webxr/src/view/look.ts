@@ -1,0 +1,47 @@
+/** Where the operator looks on a flat screen: relative to the robot's heading, or from behind it. */
+export type ViewMode = 'first-person' | 'third-person';
+
+export const MIN_FOV = 30;
+export const MAX_FOV = 100;
+export const DEFAULT_FOV = 75;
+const MAX_PITCH = (Math.PI / 180) * 85;
+
+export class Look {
+  mode: ViewMode = 'first-person';
+  /** Radians; to the left positive. */
+  yaw = 0;
+  /** Radians; up positive. */
+  pitch = 0;
+  /** Vertical field of view, degrees. */
+  fov = DEFAULT_FOV;
+  /** Behind the robot, metres. */
+  distance = 2.5;
+
+  /** A drag over the screen. @param radiansPerPixel so that the point under the cursor stays under it */
+  drag(dx: number, dy: number, radiansPerPixel: number): void {
+    this.yaw += dx * radiansPerPixel;
+    this.pitch = clamp(this.pitch + dy * radiansPerPixel, -MAX_PITCH, MAX_PITCH);
+  }
+
+  /** @param factor over 1: further away */
+  zoom(factor: number): void {
+    if (this.mode === 'first-person') this.fov = clamp(this.fov * factor, MIN_FOV, MAX_FOV);
+    else this.distance = clamp(this.distance * factor, 0.8, 15);
+  }
+
+  recentre(): void {
+    this.yaw = 0;
+    this.pitch = this.mode === 'first-person' ? 0 : -0.35;
+    this.fov = DEFAULT_FOV;
+    this.distance = 2.5;
+  }
+
+  switchMode(): void {
+    this.mode = this.mode === 'first-person' ? 'third-person' : 'first-person';
+    this.recentre();
+  }
+}
+
+function clamp(value: number, least: number, most: number): number {
+  return Math.min(Math.max(value, least), most);
+}

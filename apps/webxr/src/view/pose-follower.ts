@@ -1,0 +1,46 @@
+/** Follows a position and a heading smoothly: the rig that carries the operator's head. Allocates nothing. */
+export class PoseFollower {
+  x = 0;
+  y = 0;
+  z = 0;
+  /** Radians, not wrapped. */
+  yaw = 0;
+  #started = false;
+  readonly #timeConstantMs: number;
+
+  /** @param timeConstantMs after so long 63 % of a step is made up */
+  constructor(timeConstantMs: number) {
+    this.#timeConstantMs = timeConstantMs;
+  }
+
+  /** The next pose is taken at once. */
+  reset(): void {
+    this.#started = false;
+  }
+
+  get started(): boolean {
+    return this.#started;
+  }
+
+  /** @param elapsedMs since the last call */
+  follow(x: number, y: number, z: number, yaw: number, elapsedMs: number): void {
+    const dx = x - this.x;
+    const dy = y - this.y;
+    const dz = z - this.z;
+    // Beyond a stride it is not motion but another place.
+    const jump = !this.#started || dx * dx + dy * dy + dz * dz > JUMP_M * JUMP_M;
+    const share = jump ? 1 : 1 - Math.exp(-Math.max(elapsedMs, 0) / this.#timeConstantMs);
+    this.x += dx * share;
+    this.y += dy * share;
+    this.z += dz * share;
+    this.yaw += shortestTurn(yaw - this.yaw) * share;
+    this.#started = true;
+  }
+}
+
+const JUMP_M = 2;
+
+/** −π … π. */
+export function shortestTurn(angle: number): number {
+  return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+}

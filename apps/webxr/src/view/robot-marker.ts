@@ -1,0 +1,57 @@
+/** A plain outline of the robot and its heading, and a grid on the floor: what the eye holds on to. */
+import {
+  BoxGeometry,
+  BufferGeometry,
+  EdgesGeometry,
+  Float32BufferAttribute,
+  GridHelper,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+} from 'three';
+
+/** Footprint of a small wheeled robot, metres. */
+const LENGTH = 0.5;
+const WIDTH = 0.4;
+const HEIGHT = 0.25;
+
+export class RobotMarker {
+  /** In the world's axes (REP-103), at base_link. */
+  readonly object = new Group();
+
+  constructor() {
+    const outline = new LineSegments(
+      new EdgesGeometry(new BoxGeometry(LENGTH, WIDTH, HEIGHT)),
+      new LineBasicMaterial({ color: 0x35c9b5, transparent: true, opacity: 0.8 }),
+    );
+    outline.position.z = HEIGHT / 2 + 0.03;
+    const arrow = new BufferGeometry();
+    arrow.setAttribute(
+      'position',
+      new Float32BufferAttribute([0.62, 0, 0.02, 0.4, 0.12, 0.02, 0.4, -0.12, 0.02], 3),
+    );
+    arrow.setIndex([0, 1, 2]);
+    const heading = new Mesh(
+      arrow,
+      new MeshBasicMaterial({ color: 0x35c9b5, transparent: true, opacity: 0.7 }),
+    );
+    this.object.add(outline, heading);
+    this.object.visible = false;
+  }
+}
+
+/** Lines every metre, in three's axes; moves along in whole metres, so that it stands still and never ends. */
+export class GroundGrid {
+  readonly object = new GridHelper(40, 40, 0x2a3a48, 0x1a242e);
+
+  constructor() {
+    this.object.position.y = -0.01;
+  }
+
+  centreOn(x: number, z: number): void {
+    this.object.position.x = Math.round(x);
+    this.object.position.z = Math.round(z);
+  }
+}

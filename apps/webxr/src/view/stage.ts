@@ -1,0 +1,138 @@
+/** Renderer, scene and cameras. The frame loop does nothing but upload what has come, place the camera and draw. */
+import { Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import type { CloudView } from '../cloud/cloud-view.ts';
+import { bodyYaw, opticalYaw, worldToThree } from './axes.ts';
+import { Look } from './look.ts';
+import { PoseFollower } from './pose-follower.ts';
+import { GroundGrid, RobotMarker } from './robot-marker.ts';
+
+const BACKGROUND = 0x0b0f14;
+const NEAR_M = 0.05;
+const FAR_M = 200;
+/** How slowly the head follows the robot, ms. */
+const FOLLOW_MS = 90;
+/** Without a pose: a person's eyes looking at the origin. */
+const DEFAULT_EYE_M = 1.2;
+
+interface BodyPose {
+  position: { x: number; y: number; z: number };
+  orientation: { x: number; y: number; z: number; w: number };
+}
+
+export class Stage {
+  readonly renderer: WebGLRenderer;
+  readonly scene = new Scene();
+  /** Everything in the robot's world, REP-103. */
+  readonly world = new Group();
+  /** Carries the operator's head; three's axes. */
+  readonly rig = new Group();
+  readonly camera = new PerspectiveCamera(75, 1, NEAR_M, FAR_M);
+  readonly look = new Look();
+  readonly #marker = new RobotMarker();
+  readonly #grid = new GroundGrid();
+  readonly #follower = new PoseFollower(FOLLOW_MS);
+  readonly #fixedSize: { width: number; height: number } | null;
+  #lastMs = 0;
+
+  /** @throws {Error} without WebGL 2 */
+  constructor(canvas: HTMLCanvasElement, fixedSize: { width: number; height: number } | null) {
+    this.#fixedSize = fixedSize;
+    this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: 'high-performance' });
+    this.renderer.xr.enabled = true;
+    // The head's place when VR begins is the robot's camera.
+    this.renderer.xr.setReferenceSpaceType('local');
+    this.scene.background = new Color(BACKGROUND);
+    this.world.matrixAutoUpdate = false;
+    this.world.matrix.copy(worldToThree());
+    this.world.add(this.#marker.object);
+    this.rig.add(this.camera);
+    this.scene.add(this.world, this.rig, this.#grid.object);
+    this.rig.position.set(0, DEFAULT_EYE_M, 0);
+    this.camera.rotation.order = 'YXZ';
+    this.resize();
+  }
+
+  get gl(): WebGL2RenderingContext {
+    return this.renderer.getContext() as WebGL2RenderingContext;
+  }
+
+  resize(): void {
+    if (this.renderer.xr.isPresenting) return;
+    if (this.#fixedSize !== null) {
+      this.renderer.setPixelRatio(1);
+      this.renderer.setSize(this.#fixedSize.width, this.#fixedSize.height, false);
+    } else {
+      const { clientWidth, clientHeight } = this.renderer.domElement;
+      this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+      this.renderer.setSize(Math.max(clientWidth, 1), Math.max(clientHeight, 1), false);
+    }
+    const { width, height } = this.renderer.domElement;
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+  }
+
+  /** Pixels of one eye's picture, from top to bottom. */
+  get viewportHeight(): number {
+    const { xr, domElement } = this.renderer;
+    if (!xr.isPresenting) return domElement.height;
+    const eye = xr.getCamera().cameras[0];
+    return eye?.viewport?.w ?? domElement.height;
+  }
+
+  /** The next pose is another robot's: go there at once. */
+  forgetPose(): void {
+    this.#follower.reset();
+    this.#marker.object.visible = false;
+  }
+
+  /** The robot's body, from telemetry. */
+  setBody(pose: BodyPose): void {
+    const { object } = this.#marker;
+    object.position.copy(pose.position as typeof object.position);
+    object.quaternion.set(pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w);
+    object.visible = true;
+  }
+
+  /** Places the operator's head and the cloud's uniforms for this display frame. */
+  prepare(cloud: CloudView, nowMs: number): void {
+    const elapsed = nowMs - this.#lastMs;
+    this.#lastMs = nowMs;
+    const follower = this.#follower;
+    if (cloud.hasPoints) {
+      const { x, y, z } = cloud.cameraPosition;
+      follower.follow(x, y, z, opticalYaw(cloud.cameraOrientation, follower.yaw), elapsed);
+    }
+    if (follower.started) {
+      this.rig.position.set(-follower.y, follower.z, -follower.x);
+      this.rig.rotation.y = follower.yaw;
+    }
+    this.#grid.centreOn(this.rig.position.x, this.rig.position.z);
+    cloud.viewportHeight = this.viewportHeight;
+    if (!this.renderer.xr.isPresenting) this.#placeFlatCamera();
+  }
+
+  /** Of the robot's body, for tests and the panel: radians. */
+  get bodyYaw(): number {
+    return bodyYaw(this.#marker.object.quaternion);
+  }
+
+  #placeFlatCamera(): void {
+    const { camera, look } = this;
+    camera.rotation.set(look.pitch, look.yaw, 0);
+    if (look.mode === 'first-person') {
+      camera.position.set(0, 0, 0);
+    } else {
+      // Back along the line of sight.
+      const level = Math.cos(look.pitch) * look.distance;
+      camera.position.set(
+        Math.sin(look.yaw) * level,
+        -Math.sin(look.pitch) * look.distance,
+        Math.cos(look.yaw) * level,
+      );
+    }
+    if (camera.fov !== look.fov) {
+      camera.fov = look.fov;
+      camera.updateProjectionMatrix();
+    }
+  }
+}

@@ -1,0 +1,93 @@
+/** The status in VR: a small panel on the left wrist, or low in front where no left controller is. */
+import {
+  CanvasTexture,
+  Group,
+  Mesh,
+  MeshBasicMaterial,
+  PlaneGeometry,
+  SRGBColorSpace,
+  type WebGLRenderer,
+} from 'three';
+import type { Tone } from '../status/words.ts';
+
+const WIDTH = 512;
+const HEIGHT = 288;
+const PANEL_M = 0.18;
+const COLOURS: Record<Tone, string> = {
+  good: '#35c9b5',
+  neutral: '#9fb2c1',
+  warning: '#f0b429',
+  bad: '#ff5d5d',
+};
+
+export interface PanelLine {
+  text: string;
+  tone: Tone;
+}
+
+export class WristPanel {
+  readonly #group = new Group();
+  readonly #context: CanvasRenderingContext2D;
+  readonly #texture: CanvasTexture;
+  #shown = '';
+
+  constructor(renderer: WebGLRenderer, rig: Group) {
+    const canvas = document.createElement('canvas');
+    canvas.width = WIDTH;
+    canvas.height = HEIGHT;
+    this.#context = canvas.getContext('2d')!;
+    this.#texture = new CanvasTexture(canvas);
+    this.#texture.colorSpace = SRGBColorSpace;
+    const mesh = new Mesh(
+      new PlaneGeometry(PANEL_M, (PANEL_M * HEIGHT) / WIDTH),
+      new MeshBasicMaterial({ map: this.#texture, transparent: true, opacity: 0.92 }),
+    );
+    this.#group.add(mesh);
+    this.#group.visible = false;
+    const rest = (): void => {
+      rig.add(this.#group);
+      this.#group.position.set(0, -0.32, -0.7);
+      this.#group.rotation.set(-0.5, 0, 0);
+      this.#group.scale.setScalar(1.6);
+    };
+    rest();
+    for (const index of [0, 1]) {
+      const grip = renderer.xr.getControllerGrip(index);
+      rig.add(grip);
+      grip.addEventListener('connected', ({ data }) => {
+        if (data.handedness !== 'left') return;
+        grip.add(this.#group);
+        this.#group.position.set(0, 0.03, 0.06);
+        this.#group.rotation.set(-1.0, 0, 0);
+        this.#group.scale.setScalar(1);
+      });
+      grip.addEventListener('disconnected', () => {
+        if (this.#group.parent === grip) rest();
+      });
+    }
+  }
+
+  set visible(visible: boolean) {
+    this.#group.visible = visible;
+  }
+
+  /** Draws anew only what has changed; call a few times a second at most. */
+  show(lines: readonly PanelLine[]): void {
+    const key = lines.map((line) => line.tone + line.text).join('\n');
+    if (key === this.#shown) return;
+    this.#shown = key;
+    const context = this.#context;
+    context.clearRect(0, 0, WIDTH, HEIGHT);
+    context.fillStyle = '#0d141bee';
+    context.beginPath();
+    context.roundRect(0, 0, WIDTH, HEIGHT, 24);
+    context.fill();
+    context.textBaseline = 'top';
+    for (const [index, line] of lines.slice(0, 6).entries()) {
+      context.font = index === 0 ? '600 36px system-ui, sans-serif' : '30px system-ui, sans-serif';
+      context.fillStyle = COLOURS[line.tone];
+      context.fillText(line.text, 24, 20 + index * 44, WIDTH - 48);
+    }
+    this.#texture.needsUpdate = true;
+  }
+}

@@ -1,0 +1,25 @@
+import { readFileSync } from 'node:fs';
+import { defineConfig } from 'vite';
+
+// A headset on the LAN needs https for WebXR: give a certificate that it trusts.
+const { FARPOINT_HTTPS_CERT: cert, FARPOINT_HTTPS_KEY: key, FARPOINT_WEB_PORT: port } = process.env;
+
+export default defineConfig({
+  // Works under whatever path it is served.
+  base: './',
+  server: {
+    port: port === undefined ? 5173 : Number(port),
+    ...(cert === undefined || key === undefined
+      ? {}
+      : { host: true, https: { cert: readFileSync(cert), key: readFileSync(key) } }),
+    headers: { 'Permissions-Policy': 'xr-spatial-tracking=(self), gamepad=(self)' },
+  },
+  worker: { format: 'es' },
+  build: {
+    target: 'es2022',
+    // The WASM module stays a file: it is compiled while it streams in.
+    assetsInlineLimit: 0,
+    sourcemap: true,
+    chunkSizeWarningLimit: 900,
+  },
+});
