@@ -3,28 +3,26 @@ import { randomBytes } from 'node:crypto';
 import { FixedRateController } from '@farpoint/congestion';
 import {
   type DriveLimits,
-  encodeJson,
   type IceServer,
   PROTOCOL_VERSION,
   type ProtocolError,
   type ServiceToRobot,
-  type Telemetry,
-  telemetryCodec,
 } from '@farpoint/protocol';
 import { DriveGuard, type RejectedCommand, type TakePolicy } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import { Capture, type CaptureError, type CaptureState } from './capture/capture.ts';
-import type { CapturedFrame, CaptureOptions } from './capture/capture-messages.ts';
+import type { CaptureOptions } from './capture/capture-messages.ts';
 import { monotonicMs } from './clock.ts';
 import { DriveStation } from './drive/drive-station.ts';
 import { ConnectedOperator } from './session/connected-operator.ts';
+import { FrameFanOut } from './session/frame-fan-out.ts';
 import type { OperatorSession, SessionHost } from './session/operator-session.ts';
 import { SignalingClient, type SignalingOptions } from './signaling/signaling-client.ts';
 import { RobotCounters } from './telemetry/robot-counters.ts';
 import { StageTimer } from './telemetry/stage-timer.ts';
+import { TelemetrySender } from './telemetry/telemetry-sender.ts';
 import type { PeerEnd } from './transport/operator-peer.ts';
 import { SendLoop } from './transport/send-loop.ts';
-import { SharedFrame } from './transport/shared-frame.ts';
 
 export interface RobotOptions {
   id: string;
@@ -46,8 +44,6 @@ export interface RobotOptions {
 
 const TELEMETRY_MS = 50;
 const TICK_MS = 25;
-/** A frame that is older than this when it comes out of the worker is not worth sending. */
-const MAX_FRAME_AGE_MS = 250;
 
 export class Robot implements SessionHost {
   readonly capture: Capture;
@@ -60,12 +56,11 @@ export class Robot implements SessionHost {
   readonly #options: RobotOptions;
   readonly #log: Logger;
   readonly #sendLoop = new SendLoop(monotonicMs);
-  readonly #captureStages = new StageTimer();
+  readonly #fanOut: FrameFanOut;
+  readonly #telemetry: TelemetrySender;
   readonly #timers: NodeJS.Timeout[] = [];
   #iceServers: readonly IceServer[] = [];
   #state: CaptureState | null = null;
-  #telemetrySequence = 0;
-  #budget = { bitsPerSecond: -1, overheadBytes: 0, streaming: false };
 
   private constructor(capture: Capture, options: RobotOptions, log: Logger) {
     this.#options = options;
@@ -77,15 +72,29 @@ export class Robot implements SessionHost {
       randomBytes: (count) => randomBytes(count),
     });
     this.drive = new DriveStation(guard, (twist) => capture.setTwist(twist), monotonicMs);
+    const stages = new StageTimer();
+    this.#telemetry = new TelemetrySender(this.operators, guard, stages);
+    this.#fanOut = new FrameFanOut({
+      capture,
+      operators: this.operators,
+      sendLoop: this.#sendLoop,
+      driver: () => guard.leaseHolder,
+      counters: this.counters,
+      stages,
+      now: monotonicMs,
+    });
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
     this.signaling.onMessage = (message) => this.#onSignaling(message);
-    capture.onFrame = (frame) => this.#onFrame(frame);
     capture.onState = (state) => {
       this.#state = state;
     };
     capture.onFailure = (error) => this.onFailure?.(error);
     this.#timers.push(setInterval(() => this.#tick(), TICK_MS));
-    this.#timers.push(setInterval(() => this.#sendTelemetry(), TELEMETRY_MS));
+    this.#timers.push(
+      setInterval(() => {
+        if (this.#state !== null) this.#telemetry.send(this.#state, monotonicMs());
+      }, TELEMETRY_MS),
+    );
   }
 
   /** Opens the source and begins to call the signaling service. @throws {CaptureError} */
@@ -120,7 +129,7 @@ export class Robot implements SessionHost {
 
   leaseChanged(): void {
     for (const operator of this.operators.values()) operator.session.sendLease();
-    this.#updateBudget();
+    this.#fanOut.updateBudget();
   }
 
   estopChanged(): void {
@@ -216,7 +225,7 @@ export class Robot implements SessionHost {
           log.info({ operators: this.operators.size }, 'operator connected');
           this.#welcome(operator);
         },
-        onBudgetChanged: () => this.#updateBudget(),
+        onBudgetChanged: () => this.#fanOut.updateBudget(),
         onLatencyFrameLost: () => this.capture.requestLatencyTest(),
         onEnded: (end, detail) => this.#sessionEnded(operator, end, detail, log),
       },
@@ -248,7 +257,7 @@ export class Robot implements SessionHost {
     });
     session.sendLease();
     session.sendEstop();
-    this.#updateBudget();
+    this.#fanOut.updateBudget();
   }
 
   #sessionEnded(operator: ConnectedOperator, end: PeerEnd, detail: string, log: Logger): void {
@@ -259,51 +268,8 @@ export class Robot implements SessionHost {
     this.drive.apply();
     log.info({ end, detail, operators: this.operators.size }, 'session ended');
     if (leaseFreed) this.leaseChanged();
-    this.#updateBudget();
+    this.#fanOut.updateBudget();
     this.signaling.send({ type: 'session.close', session: id });
-  }
-
-  // Stream
-
-  /** The driver's path decides how much is captured; without a driver the narrowest. Slower ones skip frames. */
-  #updateBudget(): void {
-    const streaming = [...this.operators.values()].filter((operator) => operator.streaming);
-    const driver = streaming.find((operator) => operator.session.id === this.drive.guard.leaseHolder);
-    const deciding = driver === undefined ? streaming : [driver];
-    const bitsPerSecond = Math.min(...deciding.map((operator) => operator.sender?.targetBitsPerSecond ?? 0));
-    const next = {
-      bitsPerSecond: streaming.length === 0 ? 0 : bitsPerSecond,
-      overheadBytes: Math.max(0, ...streaming.map((operator) => operator.sender?.overheadBytes ?? 0)),
-      streaming: streaming.length > 0,
-    };
-    const last = this.#budget;
-    if (
-      next.bitsPerSecond === last.bitsPerSecond &&
-      next.overheadBytes === last.overheadBytes &&
-      next.streaming === last.streaming
-    ) {
-      return;
-    }
-    this.#budget = next;
-    this.capture.setBudget(next.bitsPerSecond, next.overheadBytes, next.streaming);
-  }
-
-  #onFrame(frame: CapturedFrame): void {
-    this.counters.frame(frame);
-    this.#captureStages.add('captureMs', frame.captureMs);
-    this.#captureStages.add('sampleMs', frame.sampleMs);
-    this.#captureStages.add('packMs', frame.packMs);
-    const shared = new SharedFrame(frame, this.#budget.overheadBytes, (buffer) =>
-      this.capture.recycle(buffer),
-    );
-    if (monotonicMs() - frame.capturedAtMs > MAX_FRAME_AGE_MS) {
-      this.counters.framesStale++;
-      if (frame.latencyTest) this.capture.requestLatencyTest();
-    } else {
-      for (const operator of this.operators.values()) operator.enqueue(shared);
-    }
-    shared.release();
-    this.#sendLoop.run();
   }
 
   #tick(): void {
@@ -314,29 +280,6 @@ export class Robot implements SessionHost {
         operator.peer.close('silent', `nothing heard for ${this.#options.silenceMs / 1000} s`);
       }
     }
-    this.#updateBudget();
-  }
-
-  #sendTelemetry(): void {
-    const state = this.#state;
-    if (state === null || this.operators.size === 0) return;
-    const now = monotonicMs();
-    const captureStages = this.#captureStages.take();
-    this.#telemetrySequence = (this.#telemetrySequence + 1) >>> 0;
-    for (const operator of this.operators.values()) {
-      if (!operator.peer.connected) continue;
-      const message: Telemetry = {
-        type: 'telemetry',
-        sequence: this.#telemetrySequence,
-        timeMs: state.timeMs,
-        pose: state.pose,
-        twist: state.twist,
-        ...(state.battery === null ? {} : { battery: state.battery }),
-        drive: this.drive.guard.state(now, state.contact),
-        ...operator.status(captureStages, now),
-        operators: this.operators.size,
-      };
-      operator.peer.sendTelemetry(encodeJson(telemetryCodec, message));
-    }
+    this.#fanOut.updateBudget();
   }
 }

@@ -74,29 +74,20 @@ function asciiOf(field: FieldSpec, value: number): string {
 const isBits = (field: FieldSpec) => field.name.startsWith('rgb');
 
 function write(view: DataView, at: number, field: FieldSpec, value: number): void {
-  if (isBits(field)) return view.setUint32(at, value, true);
-  switch (`${field.type}${field.size}`) {
-    case 'F4':
-      return view.setFloat32(at, value, true);
-    case 'F8':
-      return view.setFloat64(at, value, true);
-    case 'I1':
-      return view.setInt8(at, value);
-    case 'I2':
-      return view.setInt16(at, value, true);
-    case 'I4':
-      return view.setInt32(at, value, true);
-    case 'I8':
-      return view.setBigInt64(at, BigInt(value), true);
-    case 'U1':
-      return view.setUint8(at, value);
-    case 'U2':
-      return view.setUint16(at, value, true);
-    case 'U4':
-      return view.setUint32(at, value, true);
-    default:
-      return view.setBigUint64(at, BigInt(value), true);
-  }
+  const writers: Record<string, () => void> = {
+    F4: () => view.setFloat32(at, value, true),
+    F8: () => view.setFloat64(at, value, true),
+    I1: () => view.setInt8(at, value),
+    I2: () => view.setInt16(at, value, true),
+    I4: () => view.setInt32(at, value, true),
+    I8: () => view.setBigInt64(at, BigInt(value), true),
+    U1: () => view.setUint8(at, value),
+    U2: () => view.setUint16(at, value, true),
+    U4: () => view.setUint32(at, value, true),
+    U8: () => view.setBigUint64(at, BigInt(value), true),
+  };
+  if (isBits(field)) view.setUint32(at, value, true);
+  else writers[`${field.type}${field.size}`]?.();
 }
 
 function concat(...parts: Uint8Array[]): Uint8Array {

@@ -41,8 +41,12 @@ function robot() {
   const host: SessionHost = {
     drive,
     now: () => nowMs,
-    leaseChanged: () => operators.forEach(({ session }) => session.sendLease()),
-    estopChanged: () => operators.forEach(({ session }) => session.sendEstop()),
+    leaseChanged: () => {
+      for (const { session } of operators.values()) session.sendLease();
+    },
+    estopChanged: () => {
+      for (const { session } of operators.values()) session.sendEstop();
+    },
     latencyTestRequested: (session, id, commandMs) => tests.push([session.id, id, commandMs]),
     commandAccepted: () => undefined,
     commandRejected: (rejection) => rejected.push(rejection),

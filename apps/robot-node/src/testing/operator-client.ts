@@ -170,6 +170,12 @@ export class OperatorClient {
     return [...this.frames.values()].filter((frame) => frame.complete);
   }
 
+  /** Stops hearing and speaking, as a machine does whose power is cut. */
+  async vanish(): Promise<void> {
+    if (this.#probes !== null) clearInterval(this.#probes);
+    for (const { connection } of this.connection.iceTransports) await connection.close();
+  }
+
   async close(): Promise<void> {
     if (this.#probes !== null) clearInterval(this.#probes);
     await this.connection.close();

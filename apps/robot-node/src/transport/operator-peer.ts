@@ -74,6 +74,8 @@ export class OperatorPeer {
         })),
       ),
       bundlePolicy: 'max-bundle',
+      // Points over TCP would arrive late in heaps; a relay's own TCP is another matter.
+      iceUseTcp: false,
       ...(options.portRange === undefined
         ? {}
         : { icePortRange: [...options.portRange] as [number, number] }),

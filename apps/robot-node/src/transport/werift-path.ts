@@ -47,6 +47,9 @@ export function tapRtcp(dtls: RTCDtlsTransport, tap: (compound: Uint8Array) => v
   };
 }
 
+/** A socket on which more than this waits, bytes, gets no more for now: the kernel's queue is full already. */
+const MAX_SOCKET_BACKLOG = 524_288;
+
 interface UdpPath {
   socket: Socket;
   address: string;
@@ -62,7 +65,8 @@ interface StunProtocolShape {
 export class IcePath {
   readonly #dtls: RTCDtlsTransport;
   #udp: UdpPath | null = null;
-  /** Datagrams that a relay or TCP path refused. */
+  readonly #guarded = new WeakSet<Socket>();
+  /** Errors of sockets, and datagrams that a relay or TCP path refused. */
   failed = 0;
 
   constructor(dtls: RTCDtlsTransport) {
@@ -72,7 +76,7 @@ export class IcePath {
   /**
    * Looks the selected pair up again; call before each burst.
    *
-   * @returns false where nothing may be sent: no pair, or the peer's consent (RFC 7675) has run out
+   * @returns false where nothing may be sent: no pair, the peer's consent (RFC 7675) has run out, a socket that is full
    */
   refresh(): boolean {
     this.#udp = null;
@@ -89,9 +93,19 @@ export class IcePath {
     ) {
       return true;
     }
-    if (transport.closed) return false;
+    if (transport.closed || transport.socket.getSendQueueSize() > MAX_SOCKET_BACKLOG) return false;
+    this.#guard(transport.socket);
     this.#udp = { socket: transport.socket, address: pair.remoteAddr[0], port: pair.remoteAddr[1] };
     return true;
+  }
+
+  /** werift leaves a socket's errors (an unreachable network, say) unheard, and Node ends the process for them. */
+  #guard(socket: Socket): void {
+    if (this.#guarded.has(socket)) return;
+    this.#guarded.add(socket);
+    socket.on('error', () => {
+      this.failed++;
+    });
   }
 
   /** Sends the parts as one datagram. They must not be changed before the next turn of the event loop. */

@@ -1,0 +1,76 @@
+import type { Capture } from '../capture/capture.ts';
+import type { CapturedFrame } from '../capture/capture-messages.ts';
+import type { RobotCounters } from '../telemetry/robot-counters.ts';
+import type { StageTimer } from '../telemetry/stage-timer.ts';
+import type { SendLoop } from '../transport/send-loop.ts';
+import { SharedFrame } from '../transport/shared-frame.ts';
+import type { ConnectedOperator } from './connected-operator.ts';
+
+/** A frame that is older than this when it comes out of the worker is not worth sending. */
+const MAX_FRAME_AGE_MS = 250;
+
+export interface FanOutOptions {
+  capture: Capture;
+  operators: ReadonlyMap<string, ConnectedOperator>;
+  sendLoop: SendLoop;
+  /** Whose path decides how much is captured; `null` where nobody drives. */
+  driver: () => string | null;
+  counters: RobotCounters;
+  stages: StageTimer;
+  now: () => number;
+}
+
+/** One encode for all: each captured frame goes to every operator who wants it, and their paths decide its size. */
+export class FrameFanOut {
+  readonly #options: FanOutOptions;
+  #budget = { bitsPerSecond: -1, overheadBytes: 0, streaming: false };
+
+  constructor(options: FanOutOptions) {
+    this.#options = options;
+    options.capture.onFrame = (frame) => this.#onFrame(frame);
+  }
+
+  /**
+   * Tells the worker how much to capture, where that changed. The driver's path decides; without a driver the narrowest
+   * does. Operators with slower paths skip frames.
+   */
+  updateBudget(): void {
+    const { capture, operators, driver } = this.#options;
+    const streaming = [...operators.values()].filter((operator) => operator.streaming);
+    const driving = streaming.find((operator) => operator.session.id === driver());
+    const deciding = driving === undefined ? streaming : [driving];
+    const rates = deciding.map((operator) => operator.sender?.targetBitsPerSecond ?? 0);
+    const next = {
+      bitsPerSecond: rates.length === 0 ? 0 : Math.min(...rates),
+      overheadBytes: Math.max(0, ...streaming.map((operator) => operator.sender?.overheadBytes ?? 0)),
+      streaming: streaming.length > 0,
+    };
+    const last = this.#budget;
+    if (
+      next.bitsPerSecond === last.bitsPerSecond &&
+      next.overheadBytes === last.overheadBytes &&
+      next.streaming === last.streaming
+    ) {
+      return;
+    }
+    this.#budget = next;
+    capture.setBudget(next.bitsPerSecond, next.overheadBytes, next.streaming);
+  }
+
+  #onFrame(frame: CapturedFrame): void {
+    const { capture, operators, sendLoop, counters, stages, now } = this.#options;
+    counters.frame(frame);
+    stages.add('captureMs', frame.captureMs);
+    stages.add('sampleMs', frame.sampleMs);
+    stages.add('packMs', frame.packMs);
+    const shared = new SharedFrame(frame, this.#budget.overheadBytes, (buffer) => capture.recycle(buffer));
+    if (now() - frame.capturedAtMs > MAX_FRAME_AGE_MS) {
+      counters.framesStale++;
+      if (frame.latencyTest) capture.requestLatencyTest();
+    } else {
+      for (const operator of operators.values()) operator.enqueue(shared);
+    }
+    shared.release();
+    sendLoop.run();
+  }
+}

@@ -1,0 +1,40 @@
+import { encodeJson, type Telemetry, telemetryCodec } from '@farpoint/protocol';
+import type { DriveGuard } from '@farpoint/safety';
+import type { CaptureState } from '../capture/capture.ts';
+import type { ConnectedOperator } from '../session/connected-operator.ts';
+import type { StageTimer } from './stage-timer.ts';
+
+/** Tells each operator the robot's state and what became of its stream. Call `send` 20 times a second. */
+export class TelemetrySender {
+  readonly #operators: ReadonlyMap<string, ConnectedOperator>;
+  readonly #guard: DriveGuard;
+  readonly #stages: StageTimer;
+  #sequence = 0;
+
+  constructor(operators: ReadonlyMap<string, ConnectedOperator>, guard: DriveGuard, stages: StageTimer) {
+    this.#operators = operators;
+    this.#guard = guard;
+    this.#stages = stages;
+  }
+
+  send(state: CaptureState, nowMs: number): void {
+    if (this.#operators.size === 0) return;
+    const stages = this.#stages.take();
+    this.#sequence = (this.#sequence + 1) >>> 0;
+    for (const operator of this.#operators.values()) {
+      if (!operator.peer.connected) continue;
+      const message: Telemetry = {
+        type: 'telemetry',
+        sequence: this.#sequence,
+        timeMs: state.timeMs,
+        pose: state.pose,
+        twist: state.twist,
+        ...(state.battery === null ? {} : { battery: state.battery }),
+        drive: this.#guard.state(nowMs, state.contact),
+        ...operator.status(stages, nowMs),
+        operators: this.#operators.size,
+      };
+      operator.peer.sendTelemetry(encodeJson(telemetryCodec, message));
+    }
+  }
+}
