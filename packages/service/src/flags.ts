@@ -80,7 +80,13 @@ function buildCommand(
 function origins(place: OptionPlace): string {
   const { spec, env } = place;
   const parts: string[] = [];
-  if (spec.default !== null && !spec.secret && !(Array.isArray(spec.default) && spec.default.length === 0)) {
+  // Of a boolean, help shows only the flag that changes something: that says it.
+  if (
+    spec.argument !== undefined &&
+    spec.default !== null &&
+    !spec.secret &&
+    !(Array.isArray(spec.default) && spec.default.length === 0)
+  ) {
     const shown = Array.isArray(spec.default) ? spec.default.join(',') : String(spec.default);
     parts.push(`default: ${shown}`);
   }

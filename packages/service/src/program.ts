@@ -47,7 +47,7 @@ export function adminOptions(defaultPort: number) {
  * Runs a program: reads its options, sets up log, health, metrics and shutdown, calls `main`, and lets it run until a
  * signal. Exit codes: 0 after an orderly end, 1 for a failure, 2 for a mistake in the options.
  *
- * `main` returns once the program is up; what keeps it alive (servers, timers) is closed through `shutdown.onClose`.
+ * `main` may throw OptionsError too, for mistakes that only show once files are read. It returns once the program is up; what keeps it alive (servers, timers) is closed through `shutdown.onClose`.
  */
 export async function runProgram<const Table extends OptionTable>(
   definition: ProgramDefinition<Table>,
@@ -98,7 +98,9 @@ export async function runProgram<const Table extends OptionTable>(
       },
     });
   } catch (error) {
-    log.fatal({ err: error }, 'could not start');
-    await shutdown.end('could not start', 1);
+    const mistake = error instanceof OptionsError;
+    if (mistake) process.stderr.write(`${definition.name}: ${error.message}\n`);
+    else log.fatal({ err: error }, 'could not start');
+    await shutdown.end('could not start', mistake ? 2 : 1);
   }
 }

@@ -1,0 +1,114 @@
+import {
+  createServer,
+  type IncomingMessage,
+  type RequestListener,
+  type Server,
+  STATUS_CODES,
+} from 'node:http';
+import { createServer as createTlsServer, type Server as TlsServer } from 'node:https';
+import type { AddressInfo } from 'node:net';
+import type { Duplex } from 'node:stream';
+import { type ServerOptions, type WebSocket, WebSocketServer } from 'ws';
+
+export interface TlsFiles {
+  readonly cert: Buffer;
+  readonly key: Buffer;
+}
+
+/** What becomes of a request for a WebSocket. */
+export type UpgradeDecision =
+  | { readonly accept: (socket: WebSocket) => void }
+  | { readonly status: number; readonly reason: string };
+
+export interface ListenerOptions {
+  readonly host: string;
+  readonly port: number;
+  readonly tls: TlsFiles | null;
+  /** Longer messages close the connection (1009). */
+  readonly maxPayload: number;
+  readonly maxSockets: number;
+  readonly closeTimeoutMs: number;
+  readonly http: RequestListener;
+  readonly upgrade: (request: IncomingMessage) => UpgradeDecision;
+}
+
+/** One port: HTTP(S) and WebSockets on it. */
+export class Listener {
+  readonly port: number;
+  readonly #server: Server | TlsServer;
+
+  private constructor(server: Server | TlsServer) {
+    this.#server = server;
+    this.port = (server.address() as AddressInfo).port;
+  }
+
+  /** @throws {Error} where the address cannot be listened on (EADDRINUSE, EACCES …) or the certificate is not one */
+  static async open(options: ListenerOptions): Promise<Listener> {
+    const timeouts = {
+      headersTimeout: 10_000,
+      requestTimeout: 20_000,
+      keepAliveTimeout: 5000,
+      connectionsCheckingInterval: 2000,
+    };
+    const server =
+      options.tls === null
+        ? createServer(timeouts, options.http)
+        : createTlsServer({ ...timeouts, ...options.tls }, options.http);
+    server.maxConnections = options.maxSockets;
+    // `closeTimeout` is missing from the types of ws.
+    const webSocketOptions: ServerOptions & { closeTimeout: number } = {
+      noServer: true,
+      clientTracking: false,
+      // Costs hundreds of kilobytes a connection, for messages of a few.
+      perMessageDeflate: false,
+      maxPayload: options.maxPayload,
+      maxFragments: 1024,
+      maxBufferedChunks: 4096,
+      autoPong: false,
+      closeTimeout: options.closeTimeoutMs,
+    };
+    const webSockets = new WebSocketServer(webSocketOptions);
+    // A request that is no proper WebSocket handshake has been answered with 400 by ws.
+    webSockets.on('wsClientError', (_error, socket) => socket.destroy());
+    server.on('upgrade', (request, socket, head) => {
+      socket.on('error', () => socket.destroy());
+      const decision = options.upgrade(request);
+      if ('status' in decision) refuse(socket, decision.status, decision.reason);
+      else webSockets.handleUpgrade(request, socket, head, decision.accept);
+    });
+    server.on('clientError', (_error, socket) => {
+      if (socket.writable) refuse(socket, 400, 'not HTTP');
+      else socket.destroy();
+    });
+    await new Promise<void>((resolve, reject) => {
+      server.once('error', reject);
+      server.listen({ port: options.port, host: options.host, backlog: 4096 }, () => {
+        server.off('error', reject);
+        resolve();
+      });
+    });
+    return new Listener(server);
+  }
+
+  /** New connections get the new certificate, existing ones keep theirs. */
+  setTls(tls: TlsFiles): void {
+    if ('setSecureContext' in this.#server) this.#server.setSecureContext(tls);
+  }
+
+  /** Takes no new connections; WebSockets live on. */
+  async close(): Promise<void> {
+    const closed = new Promise<void>((resolve) => this.#server.close(() => resolve()));
+    // Plain HTTP connections only: upgraded ones are no longer the server's.
+    this.#server.closeAllConnections();
+    await closed;
+  }
+}
+
+function refuse(socket: Duplex, status: number, reason: string): void {
+  const body = `${reason}\n`;
+  socket.end(
+    `HTTP/1.1 ${status} ${STATUS_CODES[status]}\r\nConnection: close\r\nContent-Type: text/plain; charset=utf-8\r\n` +
+      `Content-Length: ${Buffer.byteLength(body)}\r\n\r\n${body}`,
+    () => socket.destroy(),
+  );
+}

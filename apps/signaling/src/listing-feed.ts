@@ -1,0 +1,113 @@
+import type { Clock } from './clock.ts';
+import type { Peer } from './peer.ts';
+
+export interface ListingFeedOptions {
+  readonly clock: Clock;
+  /** The newest list, encoded; the same object until it changes. */
+  readonly listing: () => Uint8Array;
+  /** Least time between two rounds, ms. */
+  readonly intervalMs: number;
+  /** Sending may take this fraction of the time: each slice is followed by a pause that sees to it. */
+  readonly share?: number;
+  /** Bytes sent before other work gets its turn. */
+  readonly sliceBytes?: number;
+  /** A peer with more bytes waiting than this is passed over until it has caught up. */
+  readonly maxBacklogBytes?: number;
+}
+
+/** What one message costs beside its bytes: a system call, about as long as copying this much. */
+const MESSAGE_COST_BYTES = 4096;
+
+/**
+ * Keeps operators' lists of robots fresh. A change goes out at once when all was quiet; under many changes there is at
+ * most one round per interval, each operator gets the newest list only, big rounds are sent in slices so that relays
+ * do not wait behind them, and all rounds together take at most a share of the time. So a list of 2,000 robots (100 KB)
+ * for 2,000 operators (200 MB a round) costs freshness, never the latency of a session that is being set up.
+ */
+export class ListingFeed {
+  readonly #clock: Clock;
+  readonly #listing: () => Uint8Array;
+  readonly #intervalMs: number;
+  readonly #share: number;
+  readonly #sliceBytes: number;
+  readonly #maxBacklogBytes: number;
+  /** Each subscriber with the list it has. */
+  readonly #subscribers = new Map<Peer, Uint8Array>();
+  #queue: Peer[] = [];
+  #earliest = Number.NEGATIVE_INFINITY;
+  #changed = false;
+  #cancel: (() => void) | null = null;
+
+  constructor(options: ListingFeedOptions) {
+    this.#clock = options.clock;
+    this.#listing = options.listing;
+    this.#intervalMs = options.intervalMs;
+    this.#share = options.share ?? 0.2;
+    this.#sliceBytes = options.sliceBytes ?? 1_048_576;
+    this.#maxBacklogBytes = options.maxBacklogBytes ?? 65_536;
+  }
+
+  /** Sends the list now and at every change. */
+  add(peer: Peer): void {
+    this.#send(peer, this.#listing());
+  }
+
+  remove(peer: Peer): void {
+    this.#subscribers.delete(peer);
+  }
+
+  /** The list has changed. */
+  changed(): void {
+    this.#changed = true;
+    // A round that is under way is followed by another.
+    if (this.#cancel === null) this.#schedule();
+  }
+
+  stop(): void {
+    this.#cancel?.();
+    this.#cancel = null;
+    this.#queue = [];
+    this.#subscribers.clear();
+  }
+
+  #schedule(): void {
+    const wait = Math.max(0, this.#earliest - this.#clock.now());
+    this.#cancel = this.#clock.after(wait, () => {
+      this.#changed = false;
+      this.#queue = [...this.#subscribers.keys()];
+      this.#slice();
+    });
+  }
+
+  #slice(): void {
+    const begin = this.#clock.now();
+    const listing = this.#listing();
+    let budget = this.#sliceBytes;
+    let peer = this.#queue.pop();
+    for (; peer !== undefined; peer = budget > 0 ? this.#queue.pop() : undefined) {
+      const has = this.#subscribers.get(peer);
+      if (has === undefined || has === listing) continue;
+      if (peer.backlog > this.#maxBacklogBytes) {
+        this.#changed = true; // it is behind: once more in the next round
+        continue;
+      }
+      this.#send(peer, listing);
+      budget -= listing.byteLength + MESSAGE_COST_BYTES;
+    }
+    const now = this.#clock.now();
+    if (this.#queue.length > 0) {
+      // As long a pause as the share asks for, so that the slices of one round are spread too.
+      const pause = (now - begin) * (1 / this.#share - 1);
+      this.#cancel = this.#clock.after(pause, () => this.#slice());
+      return;
+    }
+    this.#cancel = null;
+    this.#earliest = now + this.#intervalMs;
+    if (this.#changed) this.#schedule();
+  }
+
+  #send(peer: Peer, listing: Uint8Array): void {
+    this.#subscribers.set(peer, listing);
+    peer.send(listing);
+  }
+}

@@ -1,0 +1,77 @@
+import { decodeJson, type JsonCodec, type MessageData, ProtocolError } from '@farpoint/protocol';
+import { TokenBucket } from './token-bucket.ts';
+
+export interface MessageLimits {
+  /** Longest accepted message, bytes. */
+  readonly maxMessageBytes: number;
+  /** Messages a socket may send, in the long run and at once. */
+  readonly messagesPerSecond: number;
+  readonly messageBurst: number;
+  /** So many refused messages and the socket is closed. */
+  readonly maxFaults: number;
+}
+
+export type Refusal = 'malformed' | 'too-large' | 'rate-limited';
+
+/** Stands between a socket and its hub: lets through only messages of the protocol, and not too many of them. */
+export class MessageGuard<T> {
+  readonly #codec: JsonCodec<T>;
+  readonly #maxFaults: number;
+  readonly #binary: boolean;
+  readonly #bucket: TokenBucket;
+  readonly #refuse: (refusal: Refusal, detail: string) => void;
+  #faults = 0;
+  #limited = false;
+
+  /**
+   * @param refuse is told of each refused message, but of a run of rate-limited ones only once
+   * @param options.binary JSON may come in binary messages too
+   */
+  constructor(
+    codec: JsonCodec<T>,
+    limits: MessageLimits,
+    nowMs: number,
+    refuse: (refusal: Refusal, detail: string) => void,
+    options: { binary?: boolean } = {},
+  ) {
+    this.#binary = options.binary ?? false;
+    this.#codec = { ...codec, maxBytes: Math.min(codec.maxBytes, limits.maxMessageBytes) };
+    this.#maxFaults = limits.maxFaults;
+    this.#bucket = new TokenBucket(limits.messagesPerSecond, limits.messageBurst, nowMs);
+    this.#refuse = refuse;
+  }
+
+  /** So many faults that the socket should be closed. */
+  get exhausted(): boolean {
+    return this.#faults >= this.#maxFaults;
+  }
+
+  /** Counts a fault that the hub found in a well-formed message. */
+  fault(): void {
+    this.#faults++;
+  }
+
+  /** The message, or null where it was refused. */
+  read(data: MessageData, nowMs: number): T | null {
+    if (!this.#bucket.take(nowMs)) {
+      this.#faults++;
+      if (!this.#limited) this.#refuse('rate-limited', 'too many messages: slow down');
+      this.#limited = true;
+      return null;
+    }
+    this.#limited = false;
+    if (typeof data !== 'string' && !this.#binary) {
+      this.#faults++;
+      this.#refuse('malformed', `${this.#codec.what}: must be text, not binary`);
+      return null;
+    }
+    try {
+      return decodeJson(this.#codec, data);
+    } catch (error) {
+      if (!(error instanceof ProtocolError)) throw error;
+      this.#faults++;
+      this.#refuse(error.code === 'too-large' ? 'too-large' : 'malformed', error.message);
+      return null;
+    }
+  }
+}

@@ -1,0 +1,110 @@
+import { Counter, Gauge, Histogram, type Logger, type Registry } from '@farpoint/service';
+import type { Observer, RejectReason, Role } from './observer.ts';
+import { TokenBucket } from './token-bucket.ts';
+
+/** Worth a line in the log each: somebody tried what they may not. */
+const NOTABLE: ReadonlySet<RejectReason> = new Set([
+  'unauthorized',
+  'robot-id-taken',
+  'not-yours',
+  'full',
+  'slow-consumer',
+]);
+
+export interface Counts {
+  readonly connections: Readonly<Record<Role, number>>;
+  readonly robots: number;
+  readonly referenceRobots: number;
+  readonly sessions: number;
+}
+
+/** Makes metrics and log lines of what the core reports. */
+export function createObserver(log: Logger, registry: Registry, counts: () => Counts): Observer {
+  const registers = [registry];
+  new Gauge({
+    name: 'farpoint_signaling_connections',
+    help: 'Open WebSockets by role.',
+    labelNames: ['role'],
+    registers,
+    collect() {
+      for (const [role, value] of Object.entries(counts().connections)) this.set({ role }, value);
+    },
+  });
+  new Gauge({
+    name: 'farpoint_signaling_robots',
+    help: 'Robots that are here, by protocol.',
+    labelNames: ['protocol'],
+    registers,
+    collect() {
+      const { robots, referenceRobots } = counts();
+      this.set({ protocol: 'farpoint' }, robots);
+      this.set({ protocol: 'reference' }, referenceRobots);
+    },
+  });
+  new Gauge({
+    name: 'farpoint_signaling_sessions',
+    help: 'Sessions that are being set up or running.',
+    registers,
+    collect() {
+      this.set(counts().sessions);
+    },
+  });
+  const opened = new Counter({
+    name: 'farpoint_signaling_sessions_total',
+    help: 'Sessions opened.',
+    registers,
+  });
+  const ended = new Counter({
+    name: 'farpoint_signaling_session_ends_total',
+    help: 'Sessions ended by reason.',
+    labelNames: ['reason'],
+    registers,
+  });
+  const relays = new Counter({
+    name: 'farpoint_signaling_relays_total',
+    help: 'Messages relayed by type.',
+    labelNames: ['type'],
+    registers,
+  });
+  const relaySeconds = new Histogram({
+    name: 'farpoint_signaling_relay_seconds',
+    help: 'From reading a message to handing it to the socket of its receiver.',
+    buckets: [0.00002, 0.00005, 0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01, 0.05],
+    registers,
+  });
+  const rejects = new Counter({
+    name: 'farpoint_signaling_rejects_total',
+    help: 'Messages and connections refused, by role and reason.',
+    labelNames: ['role', 'reason'],
+    registers,
+  });
+  // A peer that misbehaves must not be able to fill the log.
+  const notable = new TokenBucket(5, 50, performance.now());
+
+  return {
+    robotJoined(role, robot, address, tookOver) {
+      log.info({ role, robot, address, ...(tookOver ? { tookOver } : {}) }, 'robot joined');
+    },
+    robotLeft(role, robot) {
+      log.info({ role, robot }, 'robot left');
+    },
+    sessionOpened(session, robot, operator) {
+      opened.inc();
+      log.info({ session, robot, operator }, 'session opened');
+    },
+    sessionClosed(session, reason) {
+      ended.inc({ reason });
+      log.info({ session, reason }, 'session closed');
+    },
+    relayed(type, ms) {
+      relays.inc({ type });
+      relaySeconds.observe(ms / 1000);
+    },
+    rejected(role, reason, detail) {
+      rejects.inc({ role, reason });
+      if (NOTABLE.has(reason) && notable.take(performance.now()))
+        log.warn({ role, reason, detail }, 'refused');
+      else log.debug({ role, reason, detail }, 'refused');
+    },
+  };
+}

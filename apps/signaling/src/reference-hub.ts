@@ -1,0 +1,310 @@
+import {
+  encodeJson,
+  encodeJsonBytes,
+  type MessageData,
+  type ReferenceClientToService,
+  type ReferenceRobot,
+  type ReferenceRobotToService,
+  type ReferenceServiceToClient,
+  type ReferenceServiceToRobot,
+  referenceClientToServiceCodec,
+  referenceRobotToServiceCodec,
+  referenceServiceToClientCodec,
+  referenceServiceToRobotCodec,
+} from '@farpoint/protocol';
+import type { Clock } from './clock.ts';
+import { MessageGuard, type MessageLimits } from './message-guard.ts';
+import type { Observer, RejectReason } from './observer.ts';
+import { type Connection, closeCodes, type Peer } from './peer.ts';
+
+export interface ReferenceHubOptions {
+  readonly clock: Clock;
+  readonly observer: Observer;
+  readonly limits: MessageLimits & {
+    readonly maxRobots: number;
+    /** Buffered for late joiners, each way; the oldest go first. */
+    readonly maxCandidatesPerRobot: number;
+  };
+}
+
+interface Entry {
+  readonly peer: Peer;
+  readonly record: ReferenceRobot;
+  /** The record as JSON until it changes: lists are put together from these. */
+  json: string | null;
+}
+
+/**
+ * The reference system's signaling for its own robots and bridges (see `@farpoint/protocol`, signaling/reference.ts):
+ * every client sees every robot and may answer it; a robot's socket speaks for its own robot only. The protocol has no
+ * error messages: what is refused is counted and dropped, and a socket that sends nothing else is closed.
+ */
+export class ReferenceHub {
+  readonly #options: ReferenceHubOptions;
+  readonly #robots = new Map<number, Entry>();
+  readonly #clients = new Set<Peer>();
+  #nextId = 0;
+  #listing: Uint8Array | null = null;
+
+  constructor(options: ReferenceHubOptions) {
+    this.#options = options;
+  }
+
+  get counts(): { robots: number; clients: number } {
+    return { robots: this.#robots.size, clients: this.#clients.size };
+  }
+
+  /** A socket on the robots' port. */
+  robot(peer: Peer): Connection {
+    return new RobotConnection(peer, this, this.#options);
+  }
+
+  /** A socket on the clients' port: it is told of changes from now on. */
+  client(peer: Peer): Connection {
+    this.#clients.add(peer);
+    return new ClientConnection(peer, this, this.#options);
+  }
+
+  /** @returns the new robot's id, or null where there is no room */
+  register(peer: Peer, name: string, sdpOffer: string | null): number | null {
+    if (this.#robots.size >= this.#options.limits.maxRobots) return null;
+    const id = this.#nextId++;
+    const record = { id, name, sdpOffer, sdpAnswer: null, robotCandidates: [], clientCandidates: [] };
+    this.#robots.set(id, { peer, record, json: null });
+    this.#listing = null;
+    toRobot(peer, { type: 'registered', robotId: id });
+    this.#toClients({ type: 'register', robot: record });
+    this.#options.observer.robotJoined('reference-robot', id, peer.address, false);
+    return id;
+  }
+
+  /** @param explicit the robot said so, rather than just being gone */
+  deregister(id: number, explicit: boolean): void {
+    if (!this.#robots.delete(id)) return;
+    this.#listing = null;
+    if (explicit) this.#toClients({ type: 'deregister', robotId: id });
+    this.#toClients({ type: 'deregistered', robotId: id });
+    this.#options.observer.robotLeft('reference-robot', id);
+  }
+
+  offer(id: number, sdpOffer: string): void {
+    const record = this.#change(id);
+    if (record === null) return;
+    record.sdpOffer = sdpOffer;
+    record.sdpAnswer = null; // it answered the offer before
+    this.#toClients({ type: 'offer', robotId: id, sdpOffer });
+  }
+
+  robotCandidate(id: number, candidate: string): void {
+    const record = this.#change(id);
+    if (record === null) return;
+    this.#buffer(record.robotCandidates, candidate);
+    this.#toClients({ type: 'candidate', robotId: id, candidate });
+  }
+
+  /** @returns false where there is no such robot */
+  answer(id: number, sdpAnswer: string): boolean {
+    const record = this.#change(id);
+    if (record === null) return false;
+    record.sdpAnswer = sdpAnswer;
+    toRobot(this.#robots.get(id)!.peer, { type: 'sdpAnswer', sdpAnswer });
+    return true;
+  }
+
+  /** @returns false where there is no such robot */
+  clientCandidate(id: number, candidate: string): boolean {
+    const record = this.#change(id);
+    if (record === null) return false;
+    this.#buffer(record.clientCandidates, candidate);
+    toRobot(this.#robots.get(id)!.peer, { type: 'candidate', candidate });
+    return true;
+  }
+
+  /** The message `robots`, encoded once until something changes. */
+  listing(): Uint8Array {
+    if (this.#listing === null) {
+      const robots: string[] = [];
+      for (const entry of this.#robots.values()) {
+        entry.json ??= JSON.stringify(entry.record);
+        robots.push(entry.json);
+      }
+      this.#listing = Buffer.from(`{"type":"robots","robots":[${robots.join(',')}]}`);
+    }
+    return this.#listing;
+  }
+
+  clientLeft(peer: Peer): void {
+    this.#clients.delete(peer);
+  }
+
+  #change(id: number): ReferenceRobot | null {
+    const entry = this.#robots.get(id);
+    if (entry === undefined) return null;
+    entry.json = null;
+    this.#listing = null;
+    return entry.record;
+  }
+
+  #buffer(candidates: string[], candidate: string): void {
+    candidates.push(candidate);
+    if (candidates.length > this.#options.limits.maxCandidatesPerRobot) candidates.shift();
+  }
+
+  #toClients(message: ReferenceServiceToClient): void {
+    if (this.#clients.size === 0) return;
+    const bytes = encodeJsonBytes(referenceServiceToClientCodec, message);
+    for (const client of this.#clients) client.send(bytes);
+  }
+}
+
+/** What both kinds of sockets have in common. */
+abstract class ReferenceConnection<Message> implements Connection {
+  protected readonly peer: Peer;
+  protected readonly hub: ReferenceHub;
+  readonly #role: 'reference-robot' | 'reference-client';
+  readonly #options: ReferenceHubOptions;
+  readonly #guard: MessageGuard<Message>;
+  #ended = false;
+
+  constructor(
+    peer: Peer,
+    hub: ReferenceHub,
+    role: 'reference-robot' | 'reference-client',
+    guard: (refuse: (reason: RejectReason, detail: string) => void) => MessageGuard<Message>,
+    options: ReferenceHubOptions,
+  ) {
+    this.peer = peer;
+    this.hub = hub;
+    this.#role = role;
+    this.#options = options;
+    this.#guard = guard((reason, detail) => options.observer.rejected(role, reason, detail));
+  }
+
+  receive(data: MessageData): void {
+    if (this.#ended) return;
+    const begin = this.#options.clock.now();
+    const message = this.#guard.read(data, begin);
+    if (message !== null) {
+      const relayed = this.handle(message);
+      if (relayed !== null) this.#options.observer.relayed(relayed, this.#options.clock.now() - begin);
+    }
+    if (this.#guard.exhausted) {
+      this.#options.observer.rejected(this.#role, 'too-many-faults', '');
+      this.end(closeCodes.policyViolation, 'too many refused messages');
+    }
+  }
+
+  closed(): void {
+    this.#ended = true;
+    this.left();
+  }
+
+  shutDown(): void {
+    this.end(closeCodes.goingAway, 'service restart');
+  }
+
+  /** @returns the type of a message that was relayed */
+  protected abstract handle(message: Message): string | null;
+  protected abstract left(): void;
+
+  protected refuse(reason: RejectReason, detail: string, fault: boolean): null {
+    this.#options.observer.rejected(this.#role, reason, detail);
+    if (fault) this.#guard.fault();
+    return null;
+  }
+
+  protected end(code: number, reason: string): void {
+    if (this.#ended) return;
+    this.#ended = true;
+    this.peer.close(code, reason);
+  }
+}
+
+class RobotConnection extends ReferenceConnection<ReferenceRobotToService> {
+  /** The one robot this socket may speak for. */
+  #robotId: number | null = null;
+
+  constructor(peer: Peer, hub: ReferenceHub, options: ReferenceHubOptions) {
+    super(
+      peer,
+      hub,
+      'reference-robot',
+      (refuse) =>
+        new MessageGuard(referenceRobotToServiceCodec, options.limits, options.clock.now(), refuse, {
+          binary: true,
+        }),
+      options,
+    );
+  }
+
+  protected handle(message: ReferenceRobotToService): string | null {
+    if (message.type === 'register') {
+      if (this.#robotId !== null) this.hub.deregister(this.#robotId, false); // it begins anew
+      this.#robotId = this.hub.register(this.peer, message.name, message.sdpOffer ?? null);
+      if (this.#robotId === null) {
+        this.refuse('full', 'no room for another robot', false);
+        this.end(closeCodes.tryAgainLater, 'no room for another robot');
+      }
+      return null;
+    }
+    if (message.robotId !== this.#robotId) {
+      return this.refuse('not-yours', `${message.type} for robot ${message.robotId}`, true);
+    }
+    switch (message.type) {
+      case 'offer':
+        this.hub.offer(message.robotId, message.sdpOffer);
+        return 'reference.offer';
+      case 'candidate':
+        this.hub.robotCandidate(message.robotId, message.candidate);
+        return 'reference.candidate';
+      case 'deregister':
+        this.hub.deregister(message.robotId, true);
+        this.#robotId = null;
+        return null;
+    }
+  }
+
+  protected left(): void {
+    if (this.#robotId !== null) this.hub.deregister(this.#robotId, false);
+    this.#robotId = null;
+  }
+}
+
+class ClientConnection extends ReferenceConnection<ReferenceClientToService> {
+  constructor(peer: Peer, hub: ReferenceHub, options: ReferenceHubOptions) {
+    super(
+      peer,
+      hub,
+      'reference-client',
+      (refuse) =>
+        new MessageGuard(referenceClientToServiceCodec, options.limits, options.clock.now(), refuse, {
+          binary: true,
+        }),
+      options,
+    );
+  }
+
+  protected handle(message: ReferenceClientToService): string | null {
+    switch (message.type) {
+      case 'getRobots':
+        this.peer.send(this.hub.listing());
+        return null;
+      case 'answer':
+        if (this.hub.answer(message.robotId, message.sdpAnswer)) return 'reference.answer';
+        break;
+      case 'candidate':
+        if (this.hub.clientCandidate(message.robotId, message.candidate)) return 'reference.candidate';
+        break;
+    }
+    // No fault: it may have left a moment ago.
+    return this.refuse('unknown-robot', `${message.type} for robot ${message.robotId}`, false);
+  }
+
+  protected left(): void {
+    this.hub.clientLeft(this.peer);
+  }
+}
+
+function toRobot(peer: Peer, message: ReferenceServiceToRobot): void {
+  peer.send(encodeJson(referenceServiceToRobotCodec, message));
+}

@@ -1,0 +1,364 @@
+import { randomBytes } from 'node:crypto';
+import { readFileSync } from 'node:fs';
+import type { IncomingMessage, RequestListener } from 'node:http';
+import {
+  createAdminHandler,
+  createMetrics,
+  Health,
+  type Logger,
+  OptionsError,
+  type Registry,
+  silentLogger,
+} from '@farpoint/service';
+import type { WebSocket } from 'ws';
+import { AccessList } from './access.ts';
+import { Admission, peerAddress } from './admission.ts';
+import { systemClock } from './clock.ts';
+import { FarpointHub } from './farpoint-hub.ts';
+import { Heartbeat } from './heartbeat.ts';
+import { turnCredentials } from './ice-servers.ts';
+import { Listener, type TlsFiles, type UpgradeDecision } from './listener.ts';
+import { createObserver } from './metrics.ts';
+import type { Role } from './observer.ts';
+import { defaultOptions, type SignalingOptions } from './options.ts';
+import type { Connection, Peer } from './peer.ts';
+import { ReferenceHub } from './reference-hub.ts';
+import { SocketPeer } from './socket-peer.ts';
+import { parseTokens } from './token-file.ts';
+import { webRoot } from './web-root.ts';
+
+/** What a program lends the service; tests may leave it out. */
+export interface SignalingRim {
+  readonly log?: Logger;
+  readonly health?: Health;
+  readonly metrics?: Registry;
+}
+
+export interface SignalingPorts {
+  readonly signaling: number;
+  readonly referenceRobot: number | null;
+  readonly referenceClient: number | null;
+}
+
+export interface RunningSignaling {
+  readonly ports: SignalingPorts;
+  /** Reads certificate and tokens again. @throws {OptionsError} leaving the old ones in force */
+  reload(): void;
+  /** Tells every peer, waits for them to hang up for `shutdownMs`, then cuts. */
+  close(): Promise<void>;
+}
+
+const CANDIDATES_PER_REFERENCE_ROBOT = 128;
+const LOOPBACK = /^(127\.|::1$|localhost$)/;
+
+/**
+ * Starts the service.
+ *
+ * @param given options that differ from their defaults
+ * @throws {OptionsError} for files that are missing or wrong; {Error} where a port cannot be listened on
+ */
+export async function startSignaling(
+  given: Partial<SignalingOptions> = {},
+  rim: SignalingRim = {},
+): Promise<RunningSignaling> {
+  const service = new SignalingService({ ...defaultOptions(), ...given }, rim);
+  await service.open();
+  return service;
+}
+
+interface Files {
+  readonly tls: TlsFiles | null;
+  readonly robots: AccessList;
+  readonly operators: AccessList;
+}
+
+class SignalingService implements RunningSignaling {
+  readonly #options: SignalingOptions;
+  readonly #log: Logger;
+  readonly #http: RequestListener;
+  readonly #farpoint: FarpointHub;
+  readonly #reference: ReferenceHub;
+  readonly #admission: Admission;
+  readonly #heartbeat: Heartbeat;
+  readonly #observer: ReturnType<typeof createObserver>;
+  readonly #live = new Map<SocketPeer, Connection>();
+  readonly #byRole: Record<Role, number> = {
+    robot: 0,
+    operator: 0,
+    'reference-robot': 0,
+    'reference-client': 0,
+  };
+  #files: Files;
+  #listeners: Listener[] = [];
+  #nextPeerId = 1;
+  #closing: Promise<void> | null = null;
+  #onEmpty: (() => void) | null = null;
+
+  constructor(options: SignalingOptions, rim: SignalingRim) {
+    this.#options = options;
+    this.#log = rim.log ?? silentLogger();
+    const metrics = rim.metrics ?? createMetrics();
+    const health = rim.health ?? new Health();
+    this.#files = readFiles(options);
+    this.#observer = createObserver(this.#log, metrics, () => this.#counts());
+    const core = { clock: systemClock, observer: this.#observer };
+    this.#farpoint = new FarpointHub({
+      ...core,
+      limits: options,
+      listIntervalMs: options.listIntervalMs,
+      access: () => this.#files,
+      iceServers: (name) => [
+        ...options.iceServers,
+        ...(options.turnSecret === null || options.turnUrls.length === 0
+          ? []
+          : [
+              turnCredentials(
+                { urls: options.turnUrls, secret: options.turnSecret, ttlSeconds: options.turnTtlSeconds },
+                name,
+                Date.now() / 1000,
+              ),
+            ]),
+      ],
+      makeHandle: () => randomBytes(16).toString('base64url'),
+    });
+    this.#reference = new ReferenceHub({
+      ...core,
+      limits: { ...options, maxCandidatesPerRobot: CANDIDATES_PER_REFERENCE_ROBOT },
+    });
+    this.#admission = new Admission(options);
+    this.#heartbeat = new Heartbeat(options.heartbeatMs);
+    health.add('connections', () => {
+      const { connections, robots, referenceRobots, sessions } = this.#counts();
+      const ok = this.#admission.total < options.maxConnections;
+      return { ok, detail: { ...connections, robots, referenceRobots, sessions } };
+    });
+    this.#http = httpHandler(createAdminHandler(health, metrics), options.webRoot);
+  }
+
+  get ports(): SignalingPorts {
+    const [signaling, robot, client] = this.#listeners;
+    return {
+      signaling: signaling!.port,
+      referenceRobot: robot?.port ?? null,
+      referenceClient: client?.port ?? null,
+    };
+  }
+
+  async open(): Promise<void> {
+    const { port, reference, referenceRobotPort, referenceClientPort } = this.#options;
+    try {
+      await this.#listen(port, this.#http, (request, url) => this.#upgrade(request, url));
+      if (reference) {
+        await this.#listen(referenceRobotPort, notFound, (request, url) =>
+          this.#upgradeReference(request, url, 'reference-robot'),
+        );
+        await this.#listen(referenceClientPort, notFound, (request, url) =>
+          this.#upgradeReference(request, url, 'reference-client'),
+        );
+      }
+    } catch (error) {
+      await this.close();
+      throw error;
+    }
+    this.#log.info({ host: this.#options.host, ...this.ports, tls: this.#files.tls !== null }, 'listening');
+    this.#warnIfOpen();
+  }
+
+  reload(): void {
+    this.#files = readFiles(this.#options);
+    for (const listener of this.#listeners) if (this.#files.tls !== null) listener.setTls(this.#files.tls);
+    this.#log.info('read certificate and tokens again');
+  }
+
+  close(): Promise<void> {
+    this.#closing ??= this.#close();
+    return this.#closing;
+  }
+
+  async #close(): Promise<void> {
+    const listening = Promise.all(this.#listeners.map((listener) => listener.close()));
+    this.#farpoint.stop();
+    this.#heartbeat.stop();
+    for (const connection of [...this.#live.values()]) connection.shutDown();
+    if (this.#live.size > 0) {
+      await new Promise<void>((resolve) => {
+        const timer = setTimeout(resolve, this.#options.shutdownMs);
+        this.#onEmpty = () => {
+          clearTimeout(timer);
+          resolve();
+        };
+      });
+    }
+    for (const peer of this.#live.keys()) peer.terminate();
+    await listening;
+  }
+
+  async #listen(
+    port: number,
+    http: RequestListener,
+    decide: (request: IncomingMessage, url: URL) => UpgradeDecision,
+  ): Promise<void> {
+    const { host, maxMessageBytes, maxConnections, shutdownMs } = this.#options;
+    this.#listeners.push(
+      await Listener.open({
+        host,
+        port,
+        tls: this.#files.tls,
+        // A little too long is told so; far too long is cut off.
+        maxPayload: 2 * maxMessageBytes,
+        maxSockets: maxConnections + 256,
+        closeTimeoutMs: shutdownMs,
+        http,
+        upgrade: (request) => {
+          const url = URL.parse(request.url ?? '', 'http://service');
+          return url === null ? { status: 400, reason: 'not a URL' } : decide(request, url);
+        },
+      }),
+    );
+  }
+
+  #upgrade(request: IncomingMessage, url: URL): UpgradeDecision {
+    switch (url.pathname) {
+      case '/robot':
+        return this.#admit(request, 'robot', (peer) => this.#farpoint.robot(peer));
+      case '/operator':
+        return this.#admit(request, 'operator', (peer) => this.#farpoint.operator(peer));
+      default:
+        this.#observer.rejected('operator', 'unknown-path', url.pathname.slice(0, 100));
+        return { status: 404, reason: 'WebSockets are at /robot and /operator' };
+    }
+  }
+
+  /** Any path. Its protocol has no tokens: where some are set, one must be in the URL. */
+  #upgradeReference(
+    request: IncomingMessage,
+    url: URL,
+    role: 'reference-robot' | 'reference-client',
+  ): UpgradeDecision {
+    const access = role === 'reference-robot' ? this.#files.robots : this.#files.operators;
+    if (!this.#options.referenceOpen && !access.allows(url.searchParams.get('token') ?? undefined, null)) {
+      this.#observer.rejected(role, 'unauthorized', '');
+      return { status: 401, reason: 'needs ?token= in the URL' };
+    }
+    return this.#admit(request, role, (peer) =>
+      role === 'reference-robot' ? this.#reference.robot(peer) : this.#reference.client(peer),
+    );
+  }
+
+  #admit(request: IncomingMessage, role: Role, connect: (peer: Peer) => Connection): UpgradeDecision {
+    const { allowedOrigins, trustProxy } = this.#options;
+    if (this.#closing !== null) return { status: 503, reason: 'shutting down' };
+    const { origin } = request.headers;
+    if (allowedOrigins.length > 0 && origin !== undefined && !allowedOrigins.includes(origin)) {
+      this.#observer.rejected(role, 'origin', origin.slice(0, 100));
+      return { status: 403, reason: 'not from this origin' };
+    }
+    const address = peerAddress(request, trustProxy);
+    const refusal = this.#admission.refusal(address);
+    if (refusal !== null) {
+      this.#observer.rejected(role, refusal, address);
+      return refusal === 'too-many-connections'
+        ? { status: 503, reason: 'no room for another connection' }
+        : { status: 429, reason: 'too many connections from this address' };
+    }
+    return { accept: (socket) => this.#accept(socket, role, address, connect) };
+  }
+
+  #accept(socket: WebSocket, role: Role, address: string, connect: (peer: Peer) => Connection): void {
+    const peer = new SocketPeer(socket, {
+      id: this.#nextPeerId++,
+      address,
+      maxBacklogBytes: this.#options.maxBacklogBytes,
+      onDropped: (reason) => this.#observer.rejected(role, reason, address),
+    });
+    const leave = this.#admission.enter(address);
+    const removePulse = this.#heartbeat.add(peer);
+    const connection = connect(peer);
+    this.#byRole[role]++;
+    this.#live.set(peer, connection);
+    peer.attach(connection, () => {
+      leave();
+      removePulse();
+      this.#byRole[role]--;
+      this.#live.delete(peer);
+      if (this.#live.size === 0) this.#onEmpty?.();
+    });
+  }
+
+  #counts() {
+    const farpoint = this.#farpoint.counts;
+    return {
+      connections: this.#byRole,
+      robots: farpoint.robots,
+      sessions: farpoint.sessions,
+      referenceRobots: this.#reference.counts.robots,
+    };
+  }
+
+  #warnIfOpen(): void {
+    const { host, reference, referenceOpen } = this.#options;
+    if (LOOPBACK.test(host)) return;
+    const { robots, operators } = this.#files;
+    if (robots.open || operators.open) {
+      this.#log.warn(
+        { host, robots: robots.open ? 'open' : 'tokens', operators: operators.open ? 'open' : 'tokens' },
+        'anybody who reaches this address may come in: set --robot-tokens and --operator-tokens',
+      );
+    } else if (reference && referenceOpen) {
+      this.#log.warn({ host }, 'anybody who reaches the ports of the reference system may come in');
+    }
+  }
+}
+
+function readFiles(options: SignalingOptions): Files {
+  const { tlsCert, tlsKey, robotTokens, operatorTokens } = options;
+  if ((tlsCert === null) !== (tlsKey === null)) {
+    throw new OptionsError(
+      tlsCert === null ? '--tls-key' : '--tls-cert',
+      'needs the other one of --tls-cert and --tls-key',
+    );
+  }
+  return {
+    tls:
+      tlsCert === null || tlsKey === null
+        ? null
+        : { cert: readOptionFile('--tls-cert', tlsCert), key: readOptionFile('--tls-key', tlsKey) },
+    robots: readTokens('--robot-tokens', robotTokens, true),
+    operators: readTokens('--operator-tokens', operatorTokens, false),
+  };
+}
+
+function readTokens(flag: string, path: string | null, bound: boolean): AccessList {
+  if (path === null) return new AccessList(null);
+  try {
+    return new AccessList(parseTokens(readOptionFile(flag, path).toString('utf8'), bound));
+  } catch (error) {
+    if (error instanceof OptionsError) throw error;
+    throw new OptionsError(`${flag}: ${path}`, (error as Error).message);
+  }
+}
+
+function readOptionFile(flag: string, path: string): Buffer {
+  try {
+    return readFileSync(path);
+  } catch (error) {
+    throw new OptionsError(flag, `names a file that cannot be read: ${(error as Error).message}`);
+  }
+}
+
+function httpHandler(admin: ReturnType<typeof createAdminHandler>, folder: string | null): RequestListener {
+  const files = folder === null ? null : webRoot(folder);
+  return (request, response) => {
+    if (admin(request, response)) return;
+    if (files === null) notFound(request, response);
+    else files(request, response, () => notFound(request, response));
+  };
+}
+
+const notFound: RequestListener = (_request, response) => {
+  response.writeHead(404, {
+    'content-type': 'text/plain; charset=utf-8',
+    'x-content-type-options': 'nosniff',
+  });
+  response.end('nothing here\n');
+};

@@ -1,0 +1,80 @@
+/** One operator with one robot. Owners are whatever identifies a socket. */
+export interface Session<Robot, Operator> {
+  readonly handle: string;
+  readonly robot: Robot;
+  readonly operator: Operator;
+}
+
+export interface SessionLimits {
+  readonly maxSessionsPerOperator: number;
+  readonly maxSessionsPerRobot: number;
+}
+
+/** The sessions that are being set up or running, found by handle, by robot and by operator. */
+export class SessionTable<Robot extends object, Operator extends object> {
+  readonly #limits: SessionLimits;
+  readonly #makeHandle: () => string;
+  readonly #sessions = new Map<string, Session<Robot, Operator>>();
+  readonly #byOwner = new Map<object, Set<Session<Robot, Operator>>>();
+
+  /** @param makeHandle must be unguessable: a handle is proof of nothing, but not worth handing out */
+  constructor(limits: SessionLimits, makeHandle: () => string) {
+    this.#limits = limits;
+    this.#makeHandle = makeHandle;
+  }
+
+  get size(): number {
+    return this.#sessions.size;
+  }
+
+  /** @returns null where either side has as many sessions as it may have */
+  open(robot: Robot, operator: Operator): Session<Robot, Operator> | null {
+    const full =
+      this.#count(operator) >= this.#limits.maxSessionsPerOperator ||
+      this.#count(robot) >= this.#limits.maxSessionsPerRobot;
+    if (full) return null;
+    const session = { handle: this.#makeHandle(), robot, operator };
+    this.#sessions.set(session.handle, session);
+    this.#ownedBy(robot).add(session);
+    this.#ownedBy(operator).add(session);
+    return session;
+  }
+
+  /** The session of this handle, if `owner` is one of its two sides. */
+  find(handle: string, owner: Robot | Operator): Session<Robot, Operator> | null {
+    const session = this.#sessions.get(handle);
+    return session !== undefined && (session.robot === owner || session.operator === owner) ? session : null;
+  }
+
+  close(session: Session<Robot, Operator>): void {
+    this.#sessions.delete(session.handle);
+    this.#release(session.robot, session);
+    this.#release(session.operator, session);
+  }
+
+  /** Closes all sessions of one side and returns them. */
+  closeAll(owner: Robot | Operator): Session<Robot, Operator>[] {
+    const sessions = [...(this.#byOwner.get(owner) ?? [])];
+    for (const session of sessions) this.close(session);
+    return sessions;
+  }
+
+  #count(owner: object): number {
+    return this.#byOwner.get(owner)?.size ?? 0;
+  }
+
+  #ownedBy(owner: object): Set<Session<Robot, Operator>> {
+    let owned = this.#byOwner.get(owner);
+    if (owned === undefined) {
+      owned = new Set();
+      this.#byOwner.set(owner, owned);
+    }
+    return owned;
+  }
+
+  #release(owner: object, session: Session<Robot, Operator>): void {
+    const owned = this.#byOwner.get(owner);
+    owned?.delete(session);
+    if (owned?.size === 0) this.#byOwner.delete(owner);
+  }
+}

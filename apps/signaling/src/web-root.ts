@@ -1,0 +1,47 @@
+import { existsSync } from 'node:fs';
+import type { IncomingMessage, ServerResponse } from 'node:http';
+import { join } from 'node:path';
+import { OptionsError } from '@farpoint/service';
+import sirv from 'sirv';
+
+const CONTENT_SECURITY_POLICY = [
+  "default-src 'self'",
+  "script-src 'self' 'wasm-unsafe-eval'",
+  "worker-src 'self' blob:",
+  // The signaling service may be another host than the page's.
+  "connect-src 'self' ws: wss: blob: data:",
+  "img-src 'self' data: blob:",
+  "media-src 'self' blob:",
+  "style-src 'self' 'unsafe-inline'",
+  "object-src 'none'",
+  "base-uri 'none'",
+  "frame-ancestors 'self'",
+].join('; ');
+
+/** Serves a built web app; calls `next` for what is not in it. The folder is read once: restart after a new build. */
+export function webRoot(
+  folder: string,
+): (request: IncomingMessage, response: ServerResponse, next: () => void) => void {
+  if (!existsSync(join(folder, 'index.html'))) {
+    throw new OptionsError(
+      '--web-root',
+      `names a folder without index.html: ${folder} (build the web app first)`,
+    );
+  }
+  return sirv(folder, {
+    etag: true,
+    setHeaders(response, path) {
+      // File names under assets/ carry a hash of the content.
+      const fixed = path.startsWith('/assets/');
+      response.setHeader('Cache-Control', fixed ? 'public, max-age=31536000, immutable' : 'no-cache');
+      response.setHeader('X-Content-Type-Options', 'nosniff');
+      response.setHeader('Referrer-Policy', 'no-referrer');
+      response.setHeader('Content-Security-Policy', CONTENT_SECURITY_POLICY);
+      response.setHeader('Permissions-Policy', 'xr-spatial-tracking=(self), gamepad=(self)');
+      // Cross-origin isolated: precise clocks and shared memory.
+      response.setHeader('Cross-Origin-Opener-Policy', 'same-origin');
+      response.setHeader('Cross-Origin-Embedder-Policy', 'require-corp');
+      response.setHeader('Cross-Origin-Resource-Policy', 'same-origin');
+    },
+  });
+}
