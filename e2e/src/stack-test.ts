@@ -17,12 +17,13 @@ export interface StackFixtures {
 export const simulatedRobot = {
   id: 'sim-1',
   name: 'Simulated robot 1',
-  args: ['--source', 'sim', '--seed', '1', '--max-points', '15000'],
+  args: ['--source', 'sim', '--sim-seed', '1', '--max-points', '15000'],
 };
 
 export const test = base.extend<StackFixtures>({
   startStack: async ({ browserName: _ }, use, testInfo) => {
-    if (!existsSync(join(webRoot, 'index.html'))) throw new Error('the web app is not built: run `pnpm build`');
+    if (!existsSync(join(webRoot, 'index.html')))
+      throw new Error('the web app is not built: run `pnpm build`');
     const stacks: LocalStack[] = [];
     const lines: string[] = [];
     await use(async (spec = {}) => {

@@ -27,7 +27,7 @@ export function run(program: string, args: string[], options: RunOptions = {}): 
       cwd: options.cwd ?? root,
       env: {
         ...process.env,
-        PATH: `${join(root, 'node_modules', '.bin')}${delimiter}${process.env['PATH'] ?? ''}`,
+        PATH: `${join(root, 'node_modules', '.bin')}${delimiter}${process.env.PATH ?? ''}`,
         ...options.env,
       },
       stdio: ['ignore', 'pipe', 'pipe'],

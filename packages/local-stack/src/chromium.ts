@@ -15,11 +15,11 @@ const OTHER_PLACES = [
  * @returns its path, or `null` where there is none
  */
 export function findChromium(): string | null {
-  const named = process.env['FARPOINT_CHROMIUM'];
+  const named = process.env.FARPOINT_CHROMIUM;
   if (named !== undefined && named !== '') return existsSync(named) ? named : null;
   const own = chromium.executablePath();
   if (own !== '' && existsSync(own)) return own;
-  const folders = (process.env['PATH'] ?? '').split(delimiter);
+  const folders = (process.env.PATH ?? '').split(delimiter);
   const candidates = PROGRAM_NAMES.flatMap((name) => folders.map((folder) => join(folder, name)));
   return [...candidates, ...OTHER_PLACES].find((path) => existsSync(path)) ?? null;
 }

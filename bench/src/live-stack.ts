@@ -1,0 +1,63 @@
+/** The whole stack as an operator has it: the real programs, and the built page in a headless Chromium. */
+import { spawnSync } from 'node:child_process';
+import { join } from 'node:path';
+import { chromiumLaunchOptions, LocalStack, type RobotSpec, repositoryRoot } from '@farpoint/local-stack';
+import type {} from '@farpoint/webxr/test-api';
+import { type Browser, chromium, type Page } from '@playwright/test';
+
+export interface LiveStackOptions {
+  robot: RobotSpec;
+  /** Pixels of the page's canvas. Small: there is no GPU here, and it is the stream that is measured. */
+  canvas: string;
+  log: (line: string) => void;
+}
+
+export interface LiveStack {
+  stack: LocalStack;
+  page: Page;
+  /** Process id of the browser; its renderer, GPU and network processes are children of it. */
+  browserPid: number;
+  close(): Promise<void>;
+}
+
+/** Builds the page, starts signaling, one robot and a browser, and connects them. */
+export async function startLiveStack(options: LiveStackOptions): Promise<LiveStack> {
+  const { log, robot } = options;
+  log('building the page');
+  buildPage();
+  log('starting signaling and the robot');
+  const stack = await LocalStack.start({
+    webRoot: join(repositoryRoot, 'apps', 'webxr', 'dist'),
+    robots: [robot],
+    env: { FARPOINT_LOG_LEVEL: 'warn' },
+  });
+  const server = await chromium.launchServer(chromiumLaunchOptions());
+  const close = async (): Promise<void> => {
+    await server.close();
+    await stack.stop();
+  };
+  try {
+    log('starting the browser');
+    const browser: Browser = await chromium.connect(server.wsEndpoint());
+    const page = await browser.newPage();
+    await page.goto(`${stack.webUrl}?canvas=${options.canvas}`);
+    await page.waitForFunction(() => window.farpoint !== undefined);
+    await page.waitForFunction((id) => window.farpoint.robots().some((listed) => listed.id === id), robot.id);
+    await page.evaluate((id) => window.farpoint.connect(id, 20_000), robot.id);
+    await page.waitForFunction(() => window.farpoint.stats().framesDrawn > 30);
+    return { stack, page, browserPid: server.process().pid as number, close };
+  } catch (error) {
+    await close();
+    throw error;
+  }
+}
+
+function buildPage(): void {
+  const vite = join(repositoryRoot, 'apps', 'webxr', 'node_modules', 'vite', 'bin', 'vite.js');
+  const cwd = join(repositoryRoot, 'apps', 'webxr');
+  const result = spawnSync(process.execPath, [vite, 'build', '--logLevel', 'error'], {
+    cwd,
+    encoding: 'utf8',
+  });
+  if (result.status !== 0) throw new Error(`the page does not build:\n${result.stdout}${result.stderr}`);
+}

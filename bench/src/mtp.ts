@@ -1,0 +1,94 @@
+/** `pnpm bench mtp`: motion-to-photon of the whole stack on this machine, with no network between. */
+import { parseArgs } from 'node:util';
+import { startLiveStack } from './live-stack.ts';
+import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { distribution, rounded } from './stats.ts';
+
+const USAGE = `pnpm bench mtp [--points 30000] [--fps 30] [--samples 100] [--mbps 150] [--canvas 640x360] [--json]
+
+Real signaling, robot (simulated office) and headless Chromium. Each sample is one latency test: from an input event to the
+end of the display frame that shows the whole green cloud (mtpMs), or its first points (mtpFirstMs). Input events come at
+times unrelated to the camera's. --mbps is what the robot may send; the camera has 480 × 480 points.`;
+
+export const bench: Bench = {
+  name: 'mtp',
+  summary: 'motion-to-photon of the whole stack on this machine',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        points: { type: 'string', default: '30000' },
+        fps: { type: 'string', default: '30' },
+        samples: { type: 'string', default: '100' },
+        mbps: { type: 'string', default: '150' },
+        canvas: { type: 'string', default: '640x360' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const points = numberOption('points', values.points, 150);
+    const fps = numberOption('fps', values.fps, 1);
+    const samples = numberOption('samples', values.samples, 1);
+    const mbps = numberOption('mbps', values.mbps, 1);
+
+    const live = await startLiveStack({
+      robot: {
+        id: 'sim-1',
+        name: 'Simulated robot',
+        args: ['--fps', String(fps), '--max-points', String(points), '--bitrate-mbps', String(mbps)],
+      },
+      canvas: values.canvas,
+      log: (line) => console.error(line),
+    });
+    try {
+      const { page } = live;
+      await page.evaluate(() => window.farpoint.latencyTest());
+      await page.evaluate(() => window.farpoint.resetStats());
+      console.error(`${samples} latency tests`);
+      // Pauses from a fixed sequence (the golden ratio's), so that events fall evenly over the camera's period.
+      const results = await page.evaluate(async (count) => {
+        const results = [];
+        for (let i = 0; i < count; i++) {
+          await new Promise((resolve) => setTimeout(resolve, 60 + ((i * 0.618034) % 1) * 80));
+          results.push(await window.farpoint.latencyTest());
+        }
+        return results;
+      }, samples);
+      const stats = await page.evaluate(() => window.farpoint.stats());
+
+      const mtpMs = rounded(distribution(results.map((result) => result.mtpMs)), 1);
+      const mtpFirstMs = rounded(distribution(results.map((result) => result.firstMs)), 1);
+      printTable(
+        ['', 'p50', 'p95', 'p99', 'max'],
+        [
+          ['motion to whole cloud, ms', ...distributionCells(mtpMs)],
+          ['motion to first points, ms', ...distributionCells(mtpFirstMs)],
+          ['frame latency, ms', ...(stats.frameLatencyMs ? distributionCells(stats.frameLatencyMs) : [])],
+          ['render, ms', ...(stats.renderMs ? distributionCells(stats.renderMs) : [])],
+        ],
+      );
+      console.log(
+        `${results.length} samples, ${stats.framesPerSecond.toFixed(1)} frames/s of ${Math.round(stats.pointsPerFrame)} points, ` +
+          `canvas ${values.canvas}, ${stats.displayFramesPerSecond.toFixed(0)} display frames/s`,
+      );
+      if (values.json) {
+        printJson({
+          bench: 'mtp',
+          mtpMs,
+          mtpFirstMs,
+          samples: results.length,
+          framesPerSecond: stats.framesPerSecond,
+          pointsPerFrame: stats.pointsPerFrame,
+          frameLatencyMs: stats.frameLatencyMs,
+          renderMs: stats.renderMs,
+          displayFramesPerSecond: stats.displayFramesPerSecond,
+          lossRate: stats.lossRate,
+          canvas: values.canvas,
+        });
+      }
+    } finally {
+      await live.close();
+    }
+  },
+};

@@ -1,0 +1,220 @@
+/**
+ * The other side of `pnpm bench signaling`, in a process of its own: many robots and operators on real sockets. Started
+ * with its plan as JSON in argv, prints its result as one line of JSON. Both ends of every relay are here, so that one
+ * clock times it: from handing a message to the sender's socket until the receiver's socket has given it out.
+ */
+import { WebSocket } from 'ws';
+
+export interface ClientPlan {
+  url: string;
+  robots: number;
+  operators: number;
+  /** Sessions begun per second. */
+  rate: number;
+  /** Candidates each way in a session. */
+  candidates: number;
+  /** Robots per second that hang up and come back while sessions are set up; they are none of those in sessions. */
+  churn: number;
+}
+
+export interface ClientResult {
+  connectMs: number[];
+  /** From session.open to session.opened. */
+  openMs: number[];
+  relayMs: Record<'session.offer' | 'session.answer' | 'session.candidate', number[]>;
+  lists: number;
+  listMegabytes: number;
+  /** Descriptions of what went wrong, counted. */
+  errors: Record<string, number>;
+}
+
+/** What the parent asks for between the phases, and is told of. */
+export type PhaseMessage = 'connected' | 'done';
+
+const CONNECTING_AT_ONCE = 64;
+const PHASE_TIMEOUT_MS = 120_000;
+const LIST = Buffer.from('{"type":"robots"');
+// As long as werift's and Chromium's are.
+const SDP = `v=0\r\n${'a=rtcp-fb:96 transport-cc\r\n'.repeat(100)}`;
+const CANDIDATE =
+  'candidate:1 1 udp 2122260223 192.168.178.21 54321 typ host generation 0 ufrag abcd network-id 1 ';
+
+interface Message {
+  type: string;
+  session?: string;
+  sdp?: string;
+  candidate?: { candidate: string };
+  code?: string;
+}
+
+const result: ClientResult = {
+  connectMs: [],
+  openMs: [],
+  relayMs: { 'session.offer': [], 'session.answer': [], 'session.candidate': [] },
+  lists: 0,
+  listMegabytes: 0,
+  errors: {},
+};
+let closing = false;
+
+function fault(what: string): void {
+  result.errors[what] = (result.errors[what] ?? 0) + 1;
+}
+
+/** A socket that has been welcomed. */
+function connect(
+  url: string,
+  path: string,
+  hello: object,
+  onMessage: (message: Message, now: number) => void,
+): Promise<WebSocket> {
+  const begin = performance.now();
+  const socket = new WebSocket(url + path, { perMessageDeflate: false, handshakeTimeout: 30_000 });
+  return new Promise((resolve, reject) => {
+    socket.once('open', () => socket.send(JSON.stringify(hello)));
+    socket.on('error', (error) => {
+      fault(error.message);
+      reject(error);
+    });
+    socket.on('close', (code) => {
+      if (!closing && socket.listenerCount('expected-close') === 0) fault(`closed ${code}`);
+    });
+    socket.on('message', (data: Buffer) => {
+      const now = performance.now();
+      // Thousands of long lists: a page reads each, this process only needs to know that they came.
+      if (data.subarray(0, LIST.length).equals(LIST)) {
+        result.lists++;
+        result.listMegabytes += data.length / 1e6;
+        return;
+      }
+      const message = JSON.parse(data.toString()) as Message;
+      if (message.type.endsWith('.welcome')) {
+        result.connectMs.push(now - begin);
+        resolve(socket);
+      } else if (message.type === 'error') fault(`error ${message.code}`);
+      else onMessage(message, now);
+    });
+  });
+}
+
+/** The time a text says it was sent at. */
+function sentAt(text: string | undefined): number {
+  return Number(text?.slice(text.lastIndexOf(' ') + 1));
+}
+
+async function run(plan: ClientPlan): Promise<void> {
+  const robots: WebSocket[] = [];
+  const operators: WebSocket[] = [];
+  let expected = 0;
+  let received = 0;
+  let finished = (): void => {};
+  const relayed = (type: keyof ClientResult['relayMs'], text: string | undefined, now: number): void => {
+    result.relayMs[type].push(now - sentAt(text));
+    received++;
+    if (received === expected) finished();
+  };
+  const description = (type: string, session: string | undefined) =>
+    JSON.stringify({ type, session, sdp: `${SDP}a=x-sent: ${performance.now()}` });
+  const trickle = (socket: WebSocket, session: string | undefined): void => {
+    for (let i = 0; i < plan.candidates; i++) {
+      const candidate = { candidate: CANDIDATE + performance.now(), sdpMid: '0', sdpMLineIndex: 0 };
+      socket.send(JSON.stringify({ type: 'session.candidate', session, candidate }));
+    }
+  };
+
+  const connectRobot = async (index: number): Promise<void> => {
+    const hello = {
+      type: 'robot.hello',
+      protocol: 1,
+      id: `robot-${index}`,
+      name: `Robot ${index}`,
+      key: `k${index}`,
+    };
+    robots[index] = await connect(plan.url, '/robot', hello, ({ type, session, sdp, candidate }, now) => {
+      if (type === 'session.request') {
+        robots[index]!.send(description('session.offer', session));
+        trickle(robots[index]!, session);
+      } else if (type === 'session.answer') relayed(type, sdp, now);
+      else if (type === 'session.candidate') relayed(type, candidate?.candidate, now);
+      else if (!closing) fault(type);
+    });
+  };
+  const openedAt: number[] = [];
+  const connectOperator = async (index: number): Promise<void> => {
+    const hello = { type: 'operator.hello', protocol: 1, name: `Operator ${index}` };
+    operators[index] = await connect(
+      plan.url,
+      '/operator',
+      hello,
+      ({ type, session, sdp, candidate }, now) => {
+        if (type === 'session.opened') result.openMs.push(now - openedAt[index]!);
+        else if (type === 'session.offer') {
+          relayed(type, sdp, now);
+          operators[index]!.send(description('session.answer', session));
+          trickle(operators[index]!, session);
+        } else if (type === 'session.candidate') relayed(type, candidate?.candidate, now);
+        else if (!closing) fault(type);
+      },
+    );
+  };
+  await inParallel(plan.robots, connectRobot);
+  await inParallel(plan.operators, connectOperator);
+  await tellParent('connected');
+
+  expected = plan.operators * (2 + 2 * plan.candidates);
+  const all = new Promise<void>((resolve) => {
+    finished = resolve;
+  });
+  const timer = setTimeout(() => {
+    fault('not everything was relayed in time');
+    finished();
+  }, PHASE_TIMEOUT_MS);
+  let churned = 0;
+  const churn =
+    plan.churn === 0
+      ? null
+      : setInterval(() => {
+          const index = plan.robots + (churned++ % 8);
+          void connectRobot(index)
+            .then(() => {
+              robots[index]!.on('expected-close' as 'close', () => {});
+              robots[index]!.close();
+            })
+            .catch(() => {});
+        }, 1000 / plan.churn);
+  const begin = performance.now();
+  for (let index = 0; index < plan.operators; index++) {
+    const wait = begin + (index * 1000) / plan.rate - performance.now();
+    if (wait > 1) await new Promise((resolve) => setTimeout(resolve, wait));
+    openedAt[index] = performance.now();
+    operators[index]!.send(JSON.stringify({ type: 'session.open', robotId: `robot-${index % plan.robots}` }));
+  }
+  await all;
+  clearTimeout(timer);
+  if (churn !== null) clearInterval(churn);
+  if (received !== expected) fault('relays missing');
+  await tellParent('done');
+  closing = true;
+  for (const socket of [...robots, ...operators]) socket?.terminate();
+}
+
+/** `count` tasks, at most {@link CONNECTING_AT_ONCE} at a time. */
+async function inParallel(count: number, task: (index: number) => Promise<void>): Promise<void> {
+  let next = 0;
+  await Promise.all(
+    Array.from({ length: Math.min(count, CONNECTING_AT_ONCE) }, async () => {
+      while (next < count) await task(next++);
+    }),
+  );
+}
+
+/** Tells the parent that a phase is over and waits until it has measured what it wants to. */
+function tellParent(phase: PhaseMessage): Promise<void> {
+  return new Promise((resolve) => {
+    process.once('message', () => resolve());
+    process.send!(phase);
+  });
+}
+
+await run(JSON.parse(process.argv[2] ?? '') as ClientPlan);
+process.send!(result, () => process.disconnect());

@@ -1,0 +1,104 @@
+import type { LocalStack } from '@farpoint/local-stack';
+import type { DrawnProbe, PageState, PageStats } from '@farpoint/webxr/test-api';
+import { expect, type Page, type TestInfo } from '@playwright/test';
+
+export interface OpenOptions {
+  robot?: string;
+  token?: string;
+}
+
+/** The operator's page as a test uses it: real keys and buttons, and `window.farpoint` to look inside. */
+export class OperatorPage {
+  readonly page: Page;
+
+  private constructor(page: Page) {
+    this.page = page;
+  }
+
+  static async open(page: Page, stack: LocalStack, options: OpenOptions = {}): Promise<OperatorPage> {
+    const url = new URL(stack.webUrl);
+    if (options.robot !== undefined) url.searchParams.set('robot', options.robot);
+    if (options.token !== undefined) url.searchParams.set('token', options.token);
+    await page.goto(url.href);
+    await page.waitForFunction(() => window.farpoint !== undefined);
+    return new OperatorPage(page);
+  }
+
+  state(): Promise<PageState> {
+    return this.page.evaluate(() => window.farpoint.state());
+  }
+
+  stats(): Promise<PageStats> {
+    return this.page.evaluate(() => window.farpoint.stats());
+  }
+
+  probe(): Promise<DrawnProbe> {
+    return this.page.evaluate(() => window.farpoint.probe());
+  }
+
+  /** Waits until a fact of the page's state is as it should be. */
+  async expectState<Key extends keyof PageState>(key: Key, value: PageState[Key]): Promise<void> {
+    await expect.poll(async () => (await this.state())[key], { message: `state.${key}` }).toEqual(value);
+  }
+
+  /** Waits until the robot's points are drawn, and go on coming. */
+  async expectPoints(least = 1000): Promise<void> {
+    await this.expectState('session', 'live');
+    await expect
+      .poll(async () => (await this.probe()).points, { message: 'points drawn' })
+      .toBeGreaterThan(least);
+    const { framesDrawn } = await this.stats();
+    await expect
+      .poll(async () => (await this.stats()).framesDrawn, { message: 'frames drawn' })
+      .toBeGreaterThan(framesDrawn + 5);
+  }
+
+  /** base_link in the world; the robot's telemetry must have come. */
+  async body(): Promise<{ x: number; y: number; yaw: number }> {
+    const { body } = await this.state();
+    if (body === null) throw new Error('no telemetry of the robot yet');
+    return body;
+  }
+
+  /** Waits until the robot has moved so far from where it was, metres. */
+  async expectMovedFrom(from: { x: number; y: number }, least: number): Promise<void> {
+    await expect
+      .poll(
+        async () => {
+          const { x, y } = await this.body();
+          return Math.hypot(x - from.x, y - from.y);
+        },
+        { message: 'metres driven' },
+      )
+      .toBeGreaterThan(least);
+  }
+
+  /** Waits until the robot measures that it stands. */
+  async expectStanding(): Promise<void> {
+    await expect
+      .poll(
+        async () => {
+          const { velocity } = await this.state();
+          return velocity === null ? Number.NaN : Math.abs(velocity.linear) + Math.abs(velocity.angular);
+        },
+        { message: 'speed' },
+      )
+      .toBe(0);
+  }
+
+  /** Holds the dead man and drives forward until {@link releaseKeys}. The first grip asks for the lease. */
+  async holdForward(): Promise<void> {
+    await this.page.keyboard.down('Space');
+    await this.page.keyboard.down('KeyW');
+  }
+
+  async releaseKeys(): Promise<void> {
+    await this.page.keyboard.up('KeyW');
+    await this.page.keyboard.up('Space');
+  }
+
+  /** Keeps a picture of the page with the test's output. */
+  async screenshot(testInfo: TestInfo, name: string): Promise<Buffer> {
+    return this.page.screenshot({ path: testInfo.outputPath(`${name}.png`) });
+  }
+}

@@ -1,0 +1,114 @@
+import { chromiumLaunchOptions } from '@farpoint/local-stack';
+import { chromium } from '@playwright/test';
+import { OperatorPage } from '../src/operator-page.ts';
+import { expect, test } from '../src/stack-test.ts';
+
+/** m/s and m/s²: the simulated robot's own. */
+const MAX_SPEED = 1;
+const DECELERATION = 2;
+const WATCHDOG_S = 0.15;
+/** Between the kill and the last telemetry that tells of the time before it. */
+const OBSERVATION_S = 0.3;
+
+test('the robot stops by itself when the browser that drives it is killed', async ({ page, startStack }) => {
+  const stack = await startStack();
+  const watcher = await OperatorPage.open(page, stack, { robot: 'sim-1' });
+  await watcher.expectPoints();
+  const start = await watcher.body();
+
+  const server = await chromium.launchServer(chromiumLaunchOptions());
+  try {
+    const browser = await chromium.connect(server.wsEndpoint());
+    const driver = await OperatorPage.open(await browser.newPage(), stack, { robot: 'sim-1' });
+    await driver.expectPoints();
+    await driver.holdForward();
+    await watcher.expectMovedFrom(start, 0.3);
+    const atKill = await watcher.body();
+    await server.kill();
+    await watcher.expectStanding();
+    const stopped = await watcher.body();
+    const distance = Math.hypot(stopped.x - atKill.x, stopped.y - atKill.y);
+    const braking = MAX_SPEED ** 2 / (2 * DECELERATION);
+    expect(distance).toBeLessThan(MAX_SPEED * (WATCHDOG_S + OBSERVATION_S) + braking);
+    expect(['watchdog', 'idle', 'blocked']).toContain((await watcher.state()).drive);
+  } finally {
+    await server.kill();
+  }
+});
+
+test('two robots: the page switches between them', async ({ page, startStack }) => {
+  const robots = [1, 2].map((n) => ({
+    id: `sim-${n}`,
+    name: `Simulated robot ${n}`,
+    args: ['--source', 'sim', '--sim-seed', String(n), '--max-points', '6000', '--fps', '15'],
+  }));
+  const stack = await startStack({ robots });
+  const operator = await OperatorPage.open(page, stack);
+  await page.getByRole('button', { name: /Simulated robot 1/ }).click();
+  await operator.expectPoints();
+  const start = await operator.body();
+  await operator.holdForward();
+  await operator.expectMovedFrom(start, 0.3);
+  await operator.releaseKeys();
+  await operator.expectStanding();
+
+  await page.getByRole('button', { name: /Simulated robot 2/ }).click();
+  await operator.expectState('robotId', 'sim-2');
+  await operator.expectPoints();
+  // The other robot has not moved.
+  const other = await operator.body();
+  expect(other.x).toBeCloseTo(start.x, 5);
+  expect(other.y).toBeCloseTo(start.y, 5);
+
+  await page.getByRole('button', { name: /Simulated robot 1/ }).click();
+  await operator.expectState('robotId', 'sim-1');
+  await operator.expectPoints();
+  await operator.expectMovedFrom(start, 0.25);
+});
+
+test('signaling is killed and restarted while driving: the drive goes on, the service comes back', async ({
+  page,
+  startStack,
+}) => {
+  const stack = await startStack();
+  const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
+  await operator.expectPoints();
+  const start = await operator.body();
+  await operator.holdForward();
+  await operator.expectMovedFrom(start, 0.2);
+
+  await stack.signaling.kill();
+  await operator.expectState('signaling', 'waiting');
+  const afterKill = await operator.body();
+  await operator.expectMovedFrom(afterKill, 0.2);
+  expect((await operator.state()).session).toBe('live');
+  await operator.releaseKeys();
+
+  await stack.startSignaling();
+  await operator.expectState('signaling', 'ready');
+  await operator.expectState('robotListed', true);
+  await operator.expectPoints();
+  expect((await operator.state()).sessionsOpened).toBe(1);
+});
+
+test('the robot process is killed and restarted: the page says so and comes back by itself', async ({
+  page,
+  startStack,
+}) => {
+  const stack = await startStack();
+  const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
+  await operator.expectPoints();
+
+  await stack.robot('sim-1').kill();
+  await operator.expectState('robotListed', false);
+  await expect(page.getByText(/lost|away|restarted/i).first()).toBeVisible();
+
+  await stack.restartRobot('sim-1');
+  await operator.expectState('session', 'live');
+  await operator.expectPoints();
+  expect((await operator.state()).sessionsOpened).toBe(2);
+  const start = await operator.body();
+  await operator.holdForward();
+  await operator.expectMovedFrom(start, 0.2);
+  await operator.releaseKeys();
+});

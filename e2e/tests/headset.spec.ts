@@ -1,0 +1,59 @@
+import { Headset } from '../src/headset.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { differingShare, leftEye, readPicture, rightEye } from '../src/picture.ts';
+import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+
+test('in the headset: both eyes show the room, the thumbstick drives, the world stands still', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  // λ = 0 draws near and far alike, so that the far wall can be measured against.
+  const stack = await startStack({
+    robots: [{ ...simulatedRobot, args: [...simulatedRobot.args, '--lambda', '0'] }],
+  });
+  const headset = await Headset.wear(page);
+  const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
+  await operator.expectPoints(5000);
+
+  await page.getByRole('button', { name: /VR/ }).click();
+  await operator.expectState('vr', true);
+  await operator.expectPoints(5000);
+  const before = await operator.screenshot(testInfo, 'both-eyes');
+  const [left, right] = await readPicture(page, before, [leftEye, rightEye]);
+  for (const eye of [left, right]) {
+    expect(eye?.drawnShare).toBeGreaterThan(0.2);
+    expect(eye?.colours).toBeGreaterThan(15);
+  }
+  // Two eyes, not one picture twice.
+  expect(await differingShare(page, before, leftEye, rightEye)).toBeGreaterThan(0.02);
+
+  const start = await operator.body();
+  const drawnBefore = await operator.probe();
+  await headset.button('right', 'squeeze', 1);
+  await headset.thumbstick('right', 0, -1);
+  await operator.expectMovedFrom(start, 1);
+  await headset.thumbstick('right', 0, 0);
+  await operator.expectStanding();
+  await headset.button('right', 'squeeze', 0);
+  await operator.expectPoints(5000);
+  await operator.screenshot(testInfo, 'both-eyes-after-driving');
+
+  // The camera moved as the wheels did; what it sees of the world stayed where it is.
+  const end = await operator.body();
+  const drawnAfter = await operator.probe();
+  const moved = { x: end.x - start.x, y: end.y - start.y };
+  expect((drawnAfter.camera?.x ?? 0) - (drawnBefore.camera?.x ?? 0)).toBeCloseTo(moved.x, 1);
+  expect((drawnAfter.camera?.y ?? 0) - (drawnBefore.camera?.y ?? 0)).toBeCloseTo(moved.y, 1);
+  const floorBefore = drawnBefore.bounds?.min[2] ?? Number.NaN;
+  const floorAfter = drawnAfter.bounds?.min[2] ?? Number.NaN;
+  expect(Math.abs(floorAfter - floorBefore)).toBeLessThan(0.3);
+
+  // Turning left: the yaw grows (REP-103).
+  await headset.button('right', 'squeeze', 1);
+  await headset.thumbstick('right', -1, 0);
+  await expect
+    .poll(async () => (await operator.body()).yaw - end.yaw, { message: 'yaw' })
+    .toBeGreaterThan(0.3);
+  await headset.button('right', 'squeeze', 0);
+  await operator.expectStanding();
+});
