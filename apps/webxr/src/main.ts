@@ -16,16 +16,20 @@ const settings = readSettings(new URLSearchParams(search), loadStored(), {
 
 function start(): void {
   const transform = transformSupport();
-  if (typeof RTCPeerConnection === 'undefined') return showFailure(failureWords.noWebRtc);
-  if (transform === 'none') return showFailure(failureWords.noTransform);
-  let app: App;
+  if (typeof RTCPeerConnection === 'undefined') {
+    showFailure(failureWords.noWebRtc);
+    return;
+  }
+  if (transform === 'none') {
+    showFailure(failureWords.noTransform);
+    return;
+  }
   try {
-    app = new App(settings, transform);
+    new App(settings, transform).start();
   } catch (error) {
     console.error(error);
-    return showFailure(failureWords.noWebGl2);
+    showFailure(failureWords.noWebGl2);
   }
-  app.start();
 }
 
 start();

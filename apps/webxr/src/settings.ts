@@ -91,7 +91,7 @@ export function parseStored(text: string | null): StoredSettings {
     signaling: textOf('signaling'),
     token: textOf('token'),
     name: textOf('name'),
-    pointScale: typeof record['pointScale'] === 'number' ? clampScale(record['pointScale']) : undefined,
+    pointScale: typeof record.pointScale === 'number' ? clampScale(record.pointScale) : undefined,
   };
 }
 

@@ -28,8 +28,8 @@ uniform float viewportHeight;
 uniform float sizeScale;
 uniform float freshness;
 in ivec4 position;
-out vec3 pointColour;
-out float pointSize;
+flat out vec3 pointColour;
+flat out float pointSize;
 
 vec3 rotate(vec4 q, vec3 v) {
   return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
@@ -70,8 +70,8 @@ void main() {
 
 const fragmentShader = /* glsl */ `
 precision mediump float;
-in vec3 pointColour;
-in float pointSize;
+flat in vec3 pointColour;
+flat in float pointSize;
 out vec4 fragColour;
 
 void main() {
@@ -116,8 +116,11 @@ export function createPointMaterial(): { material: RawShaderMaterial; uniforms: 
 
 /** tan(half the field of view) × 2 that is assumed of the robot's camera: 90°, most depth cameras within a third. */
 const IMAGE_EXTENT = 2;
-/** Samples are drawn at random: at 1 the circles would only close a regular grid. */
-const COVER = 1.5;
+/**
+ * Diameter in mean distances. Samples are drawn at random, so that circles of c mean distances cover 1 − exp(−π·c²/4) of a
+ * surface: 96 % at 2.
+ */
+const COVER = 2;
 
 /** k of the size equation for a frame of `points`: the angle between neighbours, radians. */
 export function spacingPerMetre(points: number): number {

@@ -22,12 +22,15 @@ interface Waiting {
   resolve: (report: LatencyReport) => void;
   reject: (error: LatencyError) => void;
   deadlineMs: number;
+  repeatMs: number;
   /** Not sent yet: the lease is being asked for. */
   needsLease: boolean;
   robot: LatencyFrame | null;
 }
 
 const TIMEOUT_MS = 3000;
+/** A request that the robot has not confirmed is sent again after so long: control messages may be lost. */
+const REPEAT_MS = 250;
 
 export class LatencyProbe {
   readonly #link: RobotLink;
@@ -53,7 +56,14 @@ export class LatencyProbe {
     if (this.#link.phase !== 'live') return Promise.reject(new LatencyError('no-session'));
     return new Promise((resolve, reject) => {
       const needsLease = this.#driver.stream.lease === null;
-      this.#waiting = { resolve, reject, deadlineMs: startedMs + TIMEOUT_MS, needsLease, robot: null };
+      this.#waiting = {
+        resolve,
+        reject,
+        deadlineMs: startedMs + TIMEOUT_MS,
+        repeatMs: Number.POSITIVE_INFINITY,
+        needsLease,
+        robot: null,
+      };
       if (needsLease) this.#driver.requestLease(false);
       else this.#send(startedMs);
     });
@@ -93,7 +103,10 @@ export class LatencyProbe {
   }
 
   tick(nowMs: number): void {
-    if (this.#waiting !== null && nowMs >= this.#waiting.deadlineMs) this.fail('timeout');
+    const waiting = this.#waiting;
+    if (waiting === null) return;
+    if (nowMs >= waiting.deadlineMs) this.fail('timeout');
+    else if (nowMs >= waiting.repeatMs && waiting.robot === null) this.#request(nowMs);
   }
 
   fail(reason: LatencyFailure): void {
@@ -107,8 +120,18 @@ export class LatencyProbe {
     const waiting = this.#waiting!;
     waiting.needsLease = false;
     waiting.deadlineMs = startedMs + TIMEOUT_MS;
-    const command = this.#driver.stream.latencyTest(performance.now(), this.#test.start(startedMs));
-    if (command === null) this.fail('no-lease');
-    else this.#link.sendCommand(command);
+    this.#test.start(startedMs);
+    this.#request(performance.now());
+  }
+
+  #request(nowMs: number): void {
+    const { runningId } = this.#test;
+    const command = runningId === null ? null : this.#driver.stream.latencyTest(nowMs, runningId);
+    if (command === null) {
+      this.fail('no-lease');
+      return;
+    }
+    this.#waiting!.repeatMs = nowMs + REPEAT_MS;
+    this.#link.sendCommand(command);
   }
 }

@@ -70,19 +70,25 @@ export class RobotSession {
     switch (message.type) {
       case 'welcome':
         this.welcome = message;
-        return this.#events.onWelcome(message);
+        this.#events.onWelcome(message);
+        return;
       case 'lease':
         this.lease = message;
-        return this.#events.onLease(message);
+        this.#events.onLease(message);
+        return;
       case 'rejected':
-        return this.#events.onRejected(message);
+        this.#events.onRejected(message);
+        return;
       case 'estop':
         this.estop = message;
-        return this.#events.onEstop(message);
+        this.#events.onEstop(message);
+        return;
       case 'latencyFrame':
-        return this.#events.onLatencyFrame(message);
+        this.#events.onLatencyFrame(message);
+        return;
       case 'fault':
-        return this.#events.onRobotFault(message.message);
+        this.#events.onRobotFault(message.message);
+        return;
     }
   }
 

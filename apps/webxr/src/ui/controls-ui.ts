@@ -13,8 +13,12 @@ const latencyFailureWords: Record<LatencyError['reason'], string> = {
   busy: 'A latency test runs already.',
 };
 
+/** A press so soon after the last one never releases the emergency stop. */
+const ESTOP_CALM_MS = 1000;
+
 export class ControlsUi {
   readonly #app: App;
+  #lastEstopMs = Number.NEGATIVE_INFINITY;
 
   constructor(app: App) {
     this.#app = app;
@@ -40,10 +44,10 @@ export class ControlsUi {
   }
 
   act(action: Action, timeMs: number): void {
-    const { link, stage } = this.#app;
+    const { stage } = this.#app;
     switch (action) {
       case 'estop':
-        if (link.phase === 'live') link.sendSession({ type: 'estop', latch: !link.session.estop.latched });
+        this.#estop(timeMs);
         return;
       case 'latency-test':
         this.#app.latency.run(timeMs).then(
@@ -61,6 +65,17 @@ export class ControlsUi {
       case 'view':
         stage.look.switchMode();
     }
+  }
+
+  /** Any press stops. Only a single, calm one releases: whoever hammers at it in fright never does. */
+  #estop(timeMs: number): void {
+    const { link } = this.#app;
+    const calm = timeMs - this.#lastEstopMs >= ESTOP_CALM_MS;
+    this.#lastEstopMs = timeMs;
+    if (link.phase !== 'live') return;
+    const { latched } = link.session.estop;
+    if (!latched) link.sendSession({ type: 'estop', latch: true });
+    else if (calm) link.sendSession({ type: 'estop', latch: false });
   }
 
   #startVr(): void {

@@ -9,25 +9,26 @@ export interface Fact {
 }
 
 const rows = new Map<string, { term: HTMLElement; value: HTMLElement }>();
+let shownNames = '';
 
 export function showFacts(facts: readonly Fact[]): void {
-  const present = new Set<string>();
   for (const { name, value, tone } of facts) {
-    present.add(name);
     let row = rows.get(name);
     if (row === undefined) {
       row = { term: document.createElement('dt'), value: document.createElement('dd') };
       row.term.textContent = name;
-      elements.facts.append(row.term, row.value);
       rows.set(name, row);
     }
     if (row.value.textContent !== value) row.value.textContent = value;
-    row.value.dataset['tone'] = tone ?? '';
+    row.value.dataset.tone = tone ?? '';
   }
-  for (const [name, row] of rows) {
-    if (present.has(name)) continue;
-    row.term.remove();
-    row.value.remove();
-    rows.delete(name);
-  }
+  const names = facts.map((fact) => fact.name).join('\n');
+  if (names === shownNames) return;
+  shownNames = names;
+  elements.facts.replaceChildren(
+    ...facts.flatMap(({ name }) => {
+      const row = rows.get(name);
+      return row === undefined ? [] : [row.term, row.value];
+    }),
+  );
 }

@@ -10,7 +10,7 @@ export function notify(text: string, tone: Tone = 'neutral'): void {
   const { notice } = elements;
   last = text;
   notice.textContent = text;
-  notice.dataset['tone'] = tone;
+  notice.dataset.tone = tone;
   notice.hidden = false;
   clearTimeout(timer);
   timer = setTimeout(() => {

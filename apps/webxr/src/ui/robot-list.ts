@@ -4,12 +4,11 @@ import { elements } from './elements.ts';
 /** Shows who is here; keeps the focus where it was. */
 export function showRobots(robots: readonly RobotListing[], onChoose: (robotId: string) => void): void {
   const { robotList, robotsEmpty } = elements;
-  const focused =
-    document.activeElement instanceof HTMLElement ? document.activeElement.dataset['robot'] : '';
+  const focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset.robot : '';
   robotList.replaceChildren(
     ...robots.map((robot) => {
       const button = document.createElement('button');
-      button.dataset['robot'] = robot.id;
+      button.dataset.robot = robot.id;
       const name = document.createElement('span');
       name.textContent = robot.name;
       const id = document.createElement('small');
@@ -22,7 +21,7 @@ export function showRobots(robots: readonly RobotListing[], onChoose: (robotId: 
     }),
   );
   for (const button of robotList.querySelectorAll('button')) {
-    if (button.dataset['robot'] === focused) button.focus();
+    if (button.dataset.robot === focused) button.focus();
   }
   robotsEmpty.hidden = robots.length > 0;
 }

@@ -170,5 +170,5 @@ function ms(value: number | null | undefined): string {
 
 function setPill(element: HTMLElement, words: Words): void {
   if (element.textContent !== words.text) element.textContent = words.text;
-  element.dataset['tone'] = words.tone;
+  element.dataset.tone = words.tone;
 }
