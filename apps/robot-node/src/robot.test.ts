@@ -1,0 +1,175 @@
+/** The robot program as it runs, with the real signaling service: processes, sockets, WebRTC. */
+import { LocalStack } from '@farpoint/local-stack';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { SignaledOperator } from './testing/signaled-operator.ts';
+
+const ROBOT = 'sim-1';
+const ARGS = ['--sim-size', '64', '--max-points', '600', '--silence-s', '1', '--max-operators', '2'];
+
+let stack: LocalStack;
+const operators: SignaledOperator[] = [];
+
+beforeAll(async () => {
+  stack = await LocalStack.start({ robots: [{ id: ROBOT, name: 'Simulated robot', args: ARGS }] });
+}, 60_000);
+afterAll(async () => {
+  await stack.stop();
+}, 30_000);
+afterEach(async () => {
+  for (const operator of operators.splice(0)) await operator.close();
+  await until(async () => (await metric('operators')) === 0);
+});
+
+async function connect(): Promise<SignaledOperator> {
+  const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+  operators.push(operator);
+  return operator;
+}
+
+async function metric(name: string, labels = ''): Promise<number> {
+  const text = await (await fetch(`${stack.robotAdminUrl(ROBOT)}/metrics`)).text();
+  const line = text.split('\n').find((row) => row.startsWith(`farpoint_robot_${name}${labels} `));
+  return line === undefined ? 0 : Number(line.split(' ').at(-1));
+}
+
+async function until(is: () => Promise<boolean>): Promise<void> {
+  while (!(await is())) await new Promise((resolve) => setTimeout(resolve, 20));
+}
+
+/** Commands at 50 Hz, as a page sends them, until `is` holds. */
+async function driveUntil(operator: SignaledOperator, lease: string, linear: number, is: () => boolean) {
+  const timer = setInterval(() => operator.client.drive(lease, linear), 20);
+  await operator.client.until(is);
+  clearInterval(timer);
+}
+
+describe('robot process', { timeout: 30_000 }, () => {
+  it('streams whole frames to an operator', async () => {
+    const { client } = await connect();
+    await client.until(() => client.completeFrames.length >= 10);
+    expect(client.malformedPackets).toBe(0);
+    expect(client.completeFrames.every((frame) => frame.points === 600 && frame.packets === 4)).toBe(true);
+    const welcome = await client.message('welcome');
+    expect(welcome).toMatchObject({
+      robotId: ROBOT,
+      name: 'Simulated robot',
+      stream: { width: 64, height: 64 },
+    });
+    await client.until(() => (client.telemetry?.stream.pointsPerFrame ?? 0) > 0);
+    expect(client.telemetry).toMatchObject({ drive: 'idle', operators: 1 });
+  });
+
+  it('drives under a lease and stands still once the commands end', async () => {
+    const operator = await connect();
+    const { client } = operator;
+    const lease = await client.takeLease();
+    await client.until(() => client.telemetry !== null);
+    const start = client.telemetry!.pose.position.x;
+    await driveUntil(operator, lease, 0.3, () => (client.telemetry?.pose.position.x ?? 0) > start + 0.1);
+    expect(client.telemetry?.drive).toBe('driving');
+    await client.until(() => client.telemetry?.drive === 'watchdog');
+    await client.until(() => client.telemetry?.twist.linear.x === 0);
+  });
+
+  it('answers a latency test with a green frame', async () => {
+    const { client } = await connect();
+    const lease = await client.takeLease();
+    client.drive(lease, 0, { latencyTest: 41 });
+    const answer = await client.message('latencyFrame');
+    expect(answer).toMatchObject({ id: 41 });
+    expect(answer.captureMs).toBeGreaterThanOrEqual(answer.commandMs);
+    await client.until(() => client.frames.get(answer.frameNumber)?.complete === true);
+    expect(client.frames.get(answer.frameNumber)?.latencyTest).toBe(true);
+    await client.until(() => client.frames.has(answer.frameNumber + 2));
+    const green = [...client.frames.values()].filter((frame) => frame.latencyTest);
+    expect(green.map((frame) => frame.frameNumber)).toEqual([answer.frameNumber]);
+  });
+
+  it('refuses bad commands with the reason', async () => {
+    const { client } = await connect();
+    client.drive('no-lease', 0.3);
+    await client.message('rejected', (message) => message.reason === 'not-lease-holder');
+    client.control.send('{"type":"command"}');
+    await client.message('rejected', (message) => message.reason === 'malformed');
+    const lease = await client.takeLease();
+    client.drive(lease, 50);
+    await client.message('rejected', (message) => message.reason === 'out-of-range');
+    expect(client.telemetry?.twist.linear.x ?? 0).toBe(0);
+    expect(await metric('commands_rejected_total', '{reason="malformed"}')).toBeGreaterThanOrEqual(1);
+  });
+
+  it('lets a second operator watch the same frames, and no third', async () => {
+    const [driver, watcher] = [await connect(), await connect()];
+    await driver.client.takeLease();
+    await watcher.client.message('lease', (message) => message.holder === 'other');
+    const common = () =>
+      watcher.client.completeFrames.some(
+        ({ frameNumber }) => driver.client.frames.get(frameNumber)?.complete,
+      );
+    await Promise.race([watcher.client.until(common), driver.client.until(common)]);
+    const refused = await metric('sessions_refused_total');
+    void SignaledOperator.connect(stack.signalingUrl, ROBOT).then((third) => operators.push(third));
+    await until(async () => (await metric('sessions_refused_total')) === refused + 1);
+  });
+
+  it('pauses and resumes the stream', async () => {
+    const { client } = await connect();
+    await client.until(() => client.completeFrames.length > 0);
+    client.sendSession({ type: 'stream', running: false });
+    await client.until(() => client.telemetry?.stream.framesPerSecond === 0);
+    const paused = client.packets;
+    const { sequence } = client.telemetry!;
+    await client.until(() => (client.telemetry?.sequence ?? 0) >= sequence + 10);
+    expect(client.packets).toBe(paused);
+    client.sendSession({ type: 'stream', running: true });
+    await client.until(() => client.packets > paused);
+  });
+
+  it('frees the lease of an operator that vanishes, and stops', async () => {
+    const lost = await connect();
+    const lease = await lost.client.takeLease();
+    const watcher = await connect();
+    await watcher.client.message('lease', (message) => message.holder === 'other');
+    await driveUntil(lost, lease, 0.2, () => (lost.client.telemetry?.twist.linear.x ?? 0) > 0.1);
+    await lost.vanish();
+    await watcher.client.until(() => watcher.client.telemetry?.twist.linear.x === 0);
+    await watcher.client.message('lease', (message) => message.holder === 'nobody');
+    await watcher.client.takeLease();
+  });
+
+  it('ends the session when the operator closes it', async () => {
+    const operator = await connect();
+    operator.closeSession();
+    await until(async () => (await metric('operators')) === 0);
+  });
+
+  it('keeps streaming while signaling is away, and is found again when it is back', async () => {
+    const { client } = await connect();
+    await stack.signaling.kill();
+    await until(async () => (await metric('signaling_registered')) === 0);
+    const before = client.completeFrames.length;
+    await client.until(() => client.completeFrames.length > before + 10);
+    await stack.startSignaling();
+    await until(async () => (await metric('signaling_registered')) === 1);
+    const second = await connect();
+    await second.client.until(() => second.client.completeFrames.length > 0);
+    expect(client.session.at(-1)?.type).not.toBe('fault');
+  });
+
+  it('comes back after being killed', async () => {
+    const lost = await connect();
+    await lost.client.until(() => lost.client.completeFrames.length > 0);
+    await stack.robot(ROBOT).kill();
+    await stack.restartRobot(ROBOT);
+    const { client } = await connect();
+    await client.until(() => client.completeFrames.length > 0);
+  });
+
+  it('ends in order when asked to', async () => {
+    const { client } = await connect();
+    await client.until(() => client.completeFrames.length > 0);
+    const { code } = await stack.robot(ROBOT).stop();
+    expect(code).toBe(0);
+    await stack.restartRobot(ROBOT);
+  });
+});
