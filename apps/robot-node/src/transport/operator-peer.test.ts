@@ -1,3 +1,6 @@
+import { createSocket } from 'node:dgram';
+import { once } from 'node:events';
+import type { IceServer } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { OperatorClient } from '../testing/operator-client.ts';
@@ -17,14 +20,14 @@ afterEach(async () => {
   expect(unhandled).toEqual([]);
 });
 
-function robotPeer(connectTimeoutMs = 20_000) {
+function robotPeer(connectTimeoutMs = 20_000, iceServers: IceServer[] = []) {
   const messages: [string, string | Uint8Array][] = [];
   let client: OperatorClient | null = null;
   const connected = Promise.withResolvers<CloudTransport>();
   const ended = Promise.withResolvers<[PeerEnd, string]>();
   const heard = Promise.withResolvers<void>();
   const peer = new OperatorPeer(
-    { iceServers: [], connectTimeoutMs },
+    { iceServers, connectTimeoutMs },
     {
       onCandidate: (candidate) =>
         void client?.connection.addIceCandidate(candidate as never).catch(() => undefined),
@@ -78,6 +81,16 @@ describe('OperatorPeer', () => {
     await client.close();
     expect((await robot.ended)[0]).toBe('connection-lost');
     expect(transport.send(Buffer.alloc(100), 0, true)).toBeNull();
+  });
+
+  it('does not wait for a STUN server that says nothing', async () => {
+    const silent = createSocket('udp4').bind(0, '127.0.0.1');
+    cleanups.push(() => silent.close());
+    await once(silent, 'listening');
+    const robot = robotPeer(20_000, [{ urls: `stun:127.0.0.1:${silent.address().port}` }]);
+    // werift asks it for five seconds, as long as a test may take.
+    await robot.meet();
+    await robot.connected;
   });
 
   it('closes channels that it does not know', async () => {

@@ -135,11 +135,14 @@ export class OperatorPeer {
     return this.#connected && !this.#ended;
   }
 
-  /** The SDP offer. Candidates follow as they are found; the answer may come before the last. */
+  /** The SDP offer, at once: candidates follow as they are found, be a STUN or TURN server ever so slow. */
   async offer(): Promise<string> {
     const description = await this.#connection.createOffer();
-    await this.#connection.setLocalDescription(description);
-    return this.#connection.localDescription?.sdp ?? description.sdp;
+    // Resolves only when every candidate is gathered.
+    this.#connection.setLocalDescription(description).catch((error: unknown) => {
+      this.#end('not-connected', `no local description: ${errorText(error)}`);
+    });
+    return description.sdp;
   }
 
   /** Never throws: a bad answer ends the connection. */
