@@ -84,7 +84,7 @@ export class CloudView {
     this.#waiting.push(batch);
   }
 
-  /** A new session: the frames of the last one stay drawn until the first points of the new one come. */
+  /** A new session, or none: what was drawn goes. */
   reset(): void {
     for (const batch of this.#waiting) this.#events.onDone(batch.buffer);
     this.#waiting.length = 0;

@@ -1,0 +1,68 @@
+import { emptyPlacement } from '@farpoint/protocol';
+import { describe, expect, test } from 'vitest';
+import { BATCH_BYTES, BATCH_PACKETS, Batch } from './batch.ts';
+import { BatchPool } from './batch-pool.ts';
+
+describe('Batch', () => {
+  test('the page reads what the worker wrote', () => {
+    const worker = new Batch(new ArrayBuffer(BATCH_BYTES));
+    const header = {
+      frameNumber: 4_000_000_000,
+      frameLength: 2400,
+      sequenceOffset: 1200,
+      sequenceLength: 80,
+    };
+    const placement = emptyPlacement();
+    placement.pose.position.y = 1.5;
+    placement.pose.orientation.z = 0.25;
+    placement.captureTimeUs = 4_294_967_295;
+    placement.latencyTest = true;
+    worker.add({ ...header, sequenceLength: 8 }, emptyPlacement(), 0);
+    worker.add(header, placement, 1_795_000_000_000.25);
+    const page = new Batch(worker.buffer, worker.packets, worker.pointCount);
+    expect(page.pointCount).toBe(11);
+    expect(page.frameNumber(1)).toBe(4_000_000_000);
+    expect(page.frameLength(1)).toBe(2400);
+    expect(page.sequenceOffset(1)).toBe(1200);
+    expect(page.pointsOf(1)).toBe(10);
+    expect(page.captureTimeUs(1)).toBe(4_294_967_295);
+    expect(page.receivedMs(1)).toBe(1_795_000_000_000.25);
+    expect([page.isLatencyTest(0), page.isLatencyTest(1)]).toEqual([false, true]);
+    expect(Array.from({ length: 7 }, (_, i) => page.poseComponent(1, i))).toEqual([0, 1.5, 0, 0, 0, 0.25, 1]);
+  });
+
+  test('holds a full packet for each entry', () => {
+    const batch = new Batch(new ArrayBuffer(BATCH_BYTES));
+    expect(batch.points).toHaveLength(BATCH_PACKETS * 150 * 4);
+    for (let i = 0; i < BATCH_PACKETS; i++) {
+      expect(batch.full).toBe(false);
+      batch.add(
+        { frameNumber: 0, frameLength: 8, sequenceOffset: 0, sequenceLength: 8 },
+        emptyPlacement(),
+        0,
+      );
+    }
+    expect(batch.full).toBe(true);
+  });
+});
+
+describe('BatchPool', () => {
+  test('lends so many buffers and no more, until they come back', () => {
+    const pool = new BatchPool(2);
+    const [a, b] = [pool.take(), pool.take()];
+    pool.sent();
+    pool.sent();
+    expect(pool.take()).toBe(null);
+    pool.giveBack(b!.buffer);
+    expect(pool.out).toBe(1);
+    expect(pool.take()?.buffer).toBe(b!.buffer);
+    pool.giveBack(new ArrayBuffer(8));
+    expect(pool.out).toBe(1);
+    pool.giveBack(a!.buffer);
+    expect(pool.out).toBe(0);
+    // More than was lent cannot come back.
+    pool.giveBack(new ArrayBuffer(BATCH_BYTES));
+    expect(pool.take()?.buffer).toBe(a!.buffer);
+    expect(pool.take()).toBe(null);
+  });
+});

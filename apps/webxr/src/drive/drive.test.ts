@@ -1,0 +1,166 @@
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import { shapeAxis } from './dead-zone.ts';
+import { activeInput } from './drive-input.ts';
+import { GamepadInput } from './gamepad-input.ts';
+import { HeadsetInput } from './headset-input.ts';
+import { KeyboardInput } from './keyboard-input.ts';
+import { toTwist } from './velocity-mapping.ts';
+
+const RESPONSE = { deadZone: 0.12, expo: 0.4 };
+const limits = { maxLinear: 1.2, maxAngular: 2 };
+
+describe('shapeAxis', () => {
+  test('nothing within the dead zone, all of it at the end', () => {
+    expect(shapeAxis(0.12, RESPONSE)).toBe(0);
+    expect(shapeAxis(-0.1, RESPONSE)).toBe(0);
+    expect(shapeAxis(1, RESPONSE)).toBe(1);
+    expect(shapeAxis(-1, RESPONSE)).toBe(-1);
+    expect(shapeAxis(3, RESPONSE)).toBe(1);
+  });
+
+  test('null, undefined and NaN are rest', () => {
+    for (const value of [null, undefined, Number.NaN]) expect(shapeAxis(value, RESPONSE)).toBe(0);
+  });
+
+  test('rises steadily from the dead zone, the same both ways', () => {
+    const deflection = fc.double({ min: 0, max: 1, noNaN: true });
+    fc.assert(
+      fc.property(deflection, deflection, (a, b) => {
+        const [low, high] = a < b ? [a, b] : [b, a];
+        expect(shapeAxis(low, RESPONSE)).toBeLessThanOrEqual(shapeAxis(high, RESPONSE));
+        expect(shapeAxis(-high, RESPONSE)).toBeCloseTo(-shapeAxis(high, RESPONSE), 12);
+      }),
+      { seed: 1 },
+    );
+    expect(shapeAxis(0.121, RESPONSE)).toBeLessThan(0.002);
+  });
+});
+
+describe('toTwist', () => {
+  test('forward is linear.x, left is angular.z, at the robot’s limits', () => {
+    expect(toTwist({ forward: 1, left: -0.5 }, limits)).toEqual({
+      linear: { x: 1.2, y: 0, z: 0 },
+      angular: { x: 0, y: 0, z: -1 },
+    });
+  });
+
+  test('never beyond the limits, never NaN', () => {
+    fc.assert(
+      fc.property(fc.double(), fc.double(), (forward, left) => {
+        const { linear, angular } = toTwist({ forward, left }, limits);
+        expect(Math.abs(linear.x)).toBeLessThanOrEqual(limits.maxLinear);
+        expect(Math.abs(angular.z)).toBeLessThanOrEqual(limits.maxAngular);
+        expect(Object.is(linear.x, -0) || Object.is(angular.z, -0)).toBe(false);
+      }),
+      { seed: 2 },
+    );
+  });
+});
+
+describe('KeyboardInput', () => {
+  test('drives while Space or Shift is held', () => {
+    const keys = new KeyboardInput();
+    expect(keys.key('KeyW', true)).toBe(true);
+    expect(keys.held).toBe(false);
+    keys.key('Space', true);
+    keys.key('ArrowLeft', true);
+    expect(keys.held).toBe(true);
+    expect(keys.wish).toEqual({ forward: 1, left: 1 });
+    keys.key('KeyS', true);
+    expect(keys.wish.forward).toBe(0);
+    keys.releaseAll();
+    expect(keys.held).toBe(false);
+    expect(keys.wish).toEqual({ forward: 0, left: 0 });
+    expect(keys.key('KeyQ', true)).toBe(false);
+  });
+});
+
+const button = (value: number) => ({ pressed: value > 0.5, value });
+
+describe('GamepadInput', () => {
+  const pad = (axes: (number | null)[], down: number[]) => ({
+    axes,
+    buttons: Array.from({ length: 17 }, (_, index) => button(down.includes(index) ? 1 : 0)),
+  });
+
+  test('the stronger stick, while a shoulder is held', () => {
+    const input = new GamepadInput();
+    input.read(pad([0, 0, 1, -1], [5]));
+    expect(input.held).toBe(true);
+    expect(input.wish).toEqual({ forward: 1, left: -1 });
+    input.read(pad([0, 1, 0, 0], []));
+    expect(input.held).toBe(false);
+    expect(input.wish.forward).toBe(-1);
+    input.read(null);
+    expect(input.wish).toEqual({ forward: 0, left: 0 });
+  });
+
+  test('buttons tell once for each press', () => {
+    const input = new GamepadInput();
+    expect(input.read(pad([], [1])).estop).toBe(true);
+    expect(input.read(pad([], [1])).estop).toBe(false);
+    expect(input.read(pad([], [0]))).toEqual({ estop: false, latencyTest: true });
+  });
+});
+
+describe('HeadsetInput', () => {
+  const controller = (
+    handedness: string,
+    squeeze: number,
+    x: number | null,
+    y: number | null,
+    extra = -1,
+  ) => ({
+    handedness,
+    gamepad: {
+      axes: [null, null, x, y],
+      buttons: Array.from({ length: 6 }, (_, i) => button(i === 1 ? squeeze : i === extra ? 1 : 0)),
+    },
+  });
+
+  test('the hand that squeezes drives; pushing forward is −1', () => {
+    const input = new HeadsetInput();
+    input.read([controller('left', 0, 0, 1), controller('right', 1, -1, -1)]);
+    expect(input.held).toBe(true);
+    expect(input.wish).toEqual({ forward: 1, left: 1 });
+  });
+
+  test('the hand that began goes on driving', () => {
+    const input = new HeadsetInput();
+    input.read([controller('left', 0, 0, 0), controller('right', 1, 0, -1)]);
+    input.read([controller('left', 1, 0, 1), controller('right', 1, 0, -1)]);
+    expect(input.wish.forward).toBe(1);
+    input.read([controller('left', 1, 0, 1), controller('right', 0, 0, -1)]);
+    expect(input.wish.forward).toBe(-1);
+  });
+
+  test('null axes and sources without a gamepad are rest', () => {
+    const input = new HeadsetInput();
+    input.read([
+      { handedness: 'none' },
+      { handedness: 'none', gamepad: null },
+      controller('left', 1, null, null),
+    ]);
+    expect(input.held).toBe(true);
+    expect(input.wish).toEqual({ forward: 0, left: 0 });
+  });
+
+  test('A or X asks for a latency test, B or Y for the stop, once a press', () => {
+    const input = new HeadsetInput();
+    expect(input.read([controller('right', 0, 0, 0, 4)])).toEqual({ estop: false, latencyTest: true });
+    expect(input.read([controller('right', 0, 0, 0, 5)])).toEqual({ estop: true, latencyTest: false });
+    expect(input.read([controller('right', 0, 0, 0, 5)])).toEqual({ estop: false, latencyTest: false });
+  });
+});
+
+test('one device drives at a time: the one that began', () => {
+  const device = (held: boolean) => ({ name: 'touch' as const, held, wish: { forward: 0, left: 0 } });
+  const [a, b] = [device(true), device(true)];
+  expect(activeInput([a, b], null)).toBe(a);
+  expect(activeInput([a, b], b)).toBe(b);
+  b.held = false;
+  expect(activeInput([a, b], b)).toBe(a);
+  a.held = false;
+  expect(activeInput([a, b], a)).toBe(null);
+});

@@ -1,0 +1,65 @@
+import type { Command, OperatorSessionMessage } from '@farpoint/protocol';
+import { describe, expect, test } from 'vitest';
+import { Driver } from './driver.ts';
+import { ScriptInput } from './script-input.ts';
+
+function bench() {
+  const commands: Command[] = [];
+  const messages: OperatorSessionMessage[] = [];
+  let told = 0;
+  const hand = new ScriptInput();
+  const driver = new Driver([hand], {
+    sendCommand: (command) => commands.push(command),
+    sendSession: (message) => messages.push(message),
+    onOtherDrives: () => told++,
+  });
+  driver.onLimits({ maxLinear: 1, maxAngular: 1, watchdogMs: 150, maxCommandsPerSecond: 100 });
+  return { commands, messages, hand, driver, told: () => told };
+}
+
+describe('Driver', () => {
+  test('the first grip asks for the lease; with it the commands flow', () => {
+    const { commands, messages, hand, driver } = bench();
+    hand.held = true;
+    hand.wish.forward = 1;
+    for (const now of [0, 25, 50]) driver.tick(now);
+    expect(messages).toEqual([{ type: 'leaseRequest', take: false }]);
+    expect(commands).toEqual([]);
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    driver.tick(75);
+    expect(commands).toHaveLength(1);
+    expect(commands[0]?.twist.linear.x).toBe(1);
+  });
+
+  test('asks again while nobody answers, never to take over', () => {
+    const { messages, hand, driver, told } = bench();
+    hand.held = true;
+    for (let now = 0; now <= 1000; now += 25) driver.tick(now);
+    expect(messages).toHaveLength(3);
+    driver.onLease({ type: 'lease', holder: 'other' });
+    for (let now = 1000; now <= 2000; now += 25) driver.tick(now);
+    expect(messages).toHaveLength(3);
+    expect(told()).toBe(1);
+  });
+
+  test('a page that is not looked at lets go', () => {
+    const { commands, hand, driver } = bench();
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    hand.held = true;
+    hand.wish.forward = 1;
+    driver.tick(0);
+    driver.suspended = true;
+    for (let now = 25; now < 1000; now += 25) driver.tick(now);
+    expect(commands.slice(1).every((command) => !command.deadMan && command.twist.linear.x === 0)).toBe(true);
+    expect(commands.length).toBeLessThan(8);
+  });
+
+  test('without its lease nothing is sent', () => {
+    const { commands, hand, driver } = bench();
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    driver.onLease({ type: 'lease', holder: 'other' });
+    hand.held = true;
+    driver.tick(0);
+    expect(commands).toEqual([]);
+  });
+});

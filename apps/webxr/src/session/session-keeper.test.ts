@@ -1,0 +1,213 @@
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import { SessionKeeper, type SessionLoss } from './session-keeper.ts';
+
+const HERE = [{ id: 'rover', name: 'Rover' }];
+
+class Bench {
+  readonly requests: string[] = [];
+  readonly closed: string[] = [];
+  readonly losses: SessionLoss[] = [];
+  drops = 0;
+  now = 0;
+  readonly keeper = new SessionKeeper(
+    {
+      requestSession: (id) => this.requests.push(id),
+      closeSession: (session) => this.closed.push(session),
+      dropPeer: () => this.drops++,
+      onPhase: () => undefined,
+      onLoss: (loss) => this.losses.push(loss),
+    },
+    () => 0.5,
+  );
+
+  /** The service and the robot are here, the robot is wanted. */
+  wanted(): this {
+    this.keeper.onSignaling(true, this.now);
+    this.keeper.want('rover', HERE, this.now);
+    return this;
+  }
+
+  live(session = 's1'): this {
+    this.wanted();
+    this.keeper.onOpened(session, 'rover');
+    this.keeper.onPeerConnected(this.now);
+    expect(this.keeper.phase).toBe('live');
+    return this;
+  }
+
+  pass(ms: number, heard = false): void {
+    for (const end = this.now + ms; this.now < end; ) {
+      this.now += 250;
+      if (heard) this.keeper.onHeard(this.now);
+      this.keeper.tick(this.now);
+    }
+  }
+}
+
+describe('SessionKeeper', () => {
+  test('opens a session once the service and the robot are here', () => {
+    const bench = new Bench();
+    bench.keeper.want('rover', [], 0);
+    bench.keeper.onSignaling(true, 0);
+    expect(bench.requests).toEqual([]);
+    bench.keeper.onRobots(HERE, 0);
+    expect(bench.requests).toEqual(['rover']);
+    expect(bench.keeper.phase).toBe('opening');
+  });
+
+  test('a live session outlives signaling', () => {
+    const bench = new Bench().live();
+    bench.keeper.onSignaling(false, bench.now);
+    bench.pass(60_000, true);
+    bench.keeper.onSignaling(true, bench.now);
+    bench.keeper.onRobots(HERE, bench.now);
+    bench.pass(5000, true);
+    expect(bench.keeper.phase).toBe('live');
+    expect(bench.requests).toHaveLength(1);
+  });
+
+  test('a live session outlives the robot’s signaling, too', () => {
+    const bench = new Bench().live();
+    bench.keeper.onClosed('s1', 'robot-left', bench.now);
+    bench.keeper.onRobots([], bench.now);
+    bench.pass(5000, true);
+    bench.keeper.onRobots(HERE, bench.now);
+    bench.pass(5000, true);
+    expect(bench.keeper.phase).toBe('live');
+    expect(bench.drops).toBe(0);
+  });
+
+  test('an outage of the path alone is waited out', () => {
+    const bench = new Bench().live();
+    bench.pass(20_000);
+    expect(bench.keeper.phase).toBe('live');
+    bench.pass(30_000);
+    expect(bench.losses).toEqual(['silent']);
+  });
+
+  test('a restarted robot is connected to anew soon after it is back', () => {
+    const bench = new Bench().live();
+    bench.keeper.onRobots([], bench.now);
+    bench.pass(4000);
+    expect(bench.keeper.phase).toBe('live');
+    bench.keeper.onRobots(HERE, bench.now);
+    bench.pass(250);
+    expect(bench.losses).toEqual(['robot-restarted']);
+    expect(bench.requests).toHaveLength(2);
+    expect(bench.closed).toEqual(['s1']);
+    expect(bench.drops).toBe(1);
+  });
+
+  test('a restart quicker than the silence it takes to see it', () => {
+    const bench = new Bench().live();
+    bench.keeper.onRobots([], bench.now);
+    bench.keeper.onRobots(HERE, bench.now);
+    bench.pass(1250);
+    expect(bench.requests).toHaveLength(1);
+    bench.pass(500);
+    expect(bench.requests).toHaveLength(2);
+  });
+
+  test('a failed connection is opened again, each time later, and at once when the robot comes back', () => {
+    const bench = new Bench().live();
+    const gaps: number[] = [];
+    for (let i = 0; i < 5; i++) {
+      const failed = bench.now;
+      bench.keeper.onPeerFailed(bench.now);
+      const { length } = bench.requests;
+      while (bench.requests.length === length) bench.pass(250);
+      gaps.push(bench.now - failed);
+      bench.keeper.onOpened(`t${i}`, 'rover');
+    }
+    expect(gaps).toEqual([500, 1000, 2000, 4000, 5000]);
+    bench.keeper.onPeerFailed(bench.now);
+    bench.keeper.onRobots([], bench.now);
+    bench.keeper.onRobots(HERE, bench.now);
+    expect(bench.keeper.phase).toBe('opening');
+  });
+
+  test('a session that does not come about is given up and tried again', () => {
+    const bench = new Bench().wanted();
+    bench.keeper.onOpened('s1', 'rover');
+    bench.pass(15_000);
+    expect(bench.losses).toEqual(['not-connected']);
+    expect(bench.closed).toEqual(['s1']);
+    bench.pass(1000);
+    expect(bench.requests).toHaveLength(2);
+  });
+
+  test('refusals count only where they concern what is being opened', () => {
+    const bench = new Bench().wanted();
+    bench.keeper.onRefused('old', bench.now);
+    expect(bench.keeper.phase).toBe('opening');
+    bench.keeper.onRefused(undefined, bench.now);
+    expect(bench.losses).toEqual(['refused']);
+    const live = new Bench().live();
+    live.keeper.onRefused(undefined, live.now);
+    expect(live.keeper.phase).toBe('live');
+  });
+
+  test('signaling lost before the peers met: again when it is back', () => {
+    const bench = new Bench().wanted();
+    bench.keeper.onSignaling(false, bench.now);
+    expect(bench.losses).toEqual(['signaling-lost']);
+    bench.pass(5000);
+    expect(bench.requests).toHaveLength(1);
+    bench.keeper.onSignaling(true, bench.now);
+    expect(bench.requests).toHaveLength(2);
+  });
+
+  test('a session we did not ask for is refused', () => {
+    const bench = new Bench().live();
+    expect(bench.keeper.onOpened('other', 'rover')).toBe(false);
+    expect(bench.keeper.session).toBe('s1');
+  });
+
+  test('leaving closes the session and asks for no other', () => {
+    const bench = new Bench().live();
+    bench.keeper.want(null, HERE, bench.now);
+    bench.pass(10_000);
+    expect(bench.closed).toEqual(['s1']);
+    expect(bench.keeper.phase).toBe('none');
+    expect(bench.requests).toHaveLength(1);
+  });
+
+  test('whatever happens, a robot that is here and answers is live in the end', () => {
+    const anything = fc.constantFrom(
+      'signaling',
+      'noSignaling',
+      'robot',
+      'noRobot',
+      'fail',
+      'closed',
+      'time',
+    );
+    fc.assert(
+      fc.property(fc.array(anything, { maxLength: 40 }), (events) => {
+        const bench = new Bench().live();
+        for (const event of events) {
+          const { keeper, now } = bench;
+          if (event === 'signaling' || event === 'noSignaling')
+            keeper.onSignaling(event === 'signaling', now);
+          else if (event === 'robot' || event === 'noRobot')
+            keeper.onRobots(event === 'robot' ? HERE : [], now);
+          else if (event === 'fail') keeper.onPeerFailed(now);
+          else if (event === 'closed') keeper.onClosed(keeper.session ?? 'x', 'closed-by-robot', now);
+          else bench.pass(3000);
+        }
+        bench.keeper.onSignaling(true, bench.now);
+        bench.keeper.onRobots(HERE, bench.now);
+        for (let i = 0; i < 40 && bench.keeper.phase !== 'live'; i++) {
+          bench.pass(500);
+          if (bench.keeper.phase === 'opening') {
+            bench.keeper.onOpened(`n${i}`, 'rover');
+            bench.keeper.onPeerConnected(bench.now);
+          }
+        }
+        expect(bench.keeper.phase).toBe('live');
+      }),
+      { seed: 11, numRuns: 300 },
+    );
+  });
+});

@@ -1,0 +1,51 @@
+import { commandRejections, driveStates } from '@farpoint/protocol';
+import { describe, expect, test } from 'vitest';
+import { RateMeter } from './rate-meter.ts';
+import { driveWords, linkWords, rejectionWords, vrUnavailable } from './words.ts';
+
+const live = {
+  phase: 'live',
+  signaling: 'ready',
+  robotListed: true,
+  silentMs: 20,
+  pointsSilentMs: 20,
+} as const;
+
+describe('words', () => {
+  test('every state and refusal of the protocol has words', () => {
+    for (const state of driveStates) expect(driveWords[state].text).not.toBe('');
+    for (const reason of commandRejections) expect(rejectionWords[reason]).not.toBe('');
+  });
+
+  test('the link’s line names what is wrong, gravest first', () => {
+    expect(linkWords(live)).toEqual({ text: 'Live', tone: 'good' });
+    expect(linkWords({ ...live, signaling: 'waiting' }).text).toContain('signaling is away');
+    expect(linkWords({ ...live, pointsSilentMs: 3000 }).text).toContain('no points arrive');
+    expect(linkWords({ ...live, silentMs: 4200, pointsSilentMs: 4200 })).toEqual({
+      text: 'Connection lost for 4 s. The robot stops by itself.',
+      tone: 'bad',
+    });
+    expect(linkWords({ ...live, phase: 'waiting', robotListed: false }).text).toContain('away');
+    expect(linkWords({ ...live, phase: 'none', signaling: 'refused' }).tone).toBe('bad');
+  });
+
+  test('why there is no VR', () => {
+    expect(vrUnavailable({ secure: true, hasWebXr: true, supported: true })).toBe(null);
+    expect(vrUnavailable({ secure: false, hasWebXr: false, supported: false })).toContain('https');
+    expect(vrUnavailable({ secure: true, hasWebXr: false, supported: false })).toContain('WebXR');
+    expect(vrUnavailable({ secure: true, hasWebXr: true, supported: false })).toContain('headset');
+  });
+});
+
+describe('RateMeter', () => {
+  test('measures over its window and forgets what is older', () => {
+    const meter = new RateMeter(1000);
+    expect(meter.perSecond).toBe(0);
+    for (let now = 0; now <= 2000; now += 250) meter.update(now * 2, now);
+    expect(meter.perSecond).toBe(2000);
+    for (let now = 2250; now <= 3500; now += 250) meter.update(4000, now);
+    expect(meter.perSecond).toBe(0);
+    meter.reset();
+    expect(meter.perSecond).toBe(0);
+  });
+});

@@ -1,0 +1,89 @@
+import fc from 'fast-check';
+import { Quaternion, Vector3 } from 'three';
+import { describe, expect, test } from 'vitest';
+import { bodyYaw, opticalYaw, worldToThree } from './axes.ts';
+import { Look, MAX_FOV, MIN_FOV } from './look.ts';
+import { PoseFollower, shortestTurn } from './pose-follower.ts';
+
+/** Optical frame (z forward, x right, y down) of a level camera with the given heading, in REP-103 axes. */
+function opticalOrientation(yaw: number): Quaternion {
+  const level = new Quaternion(-0.5, 0.5, -0.5, 0.5);
+  return new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), yaw).multiply(level);
+}
+
+describe('axes', () => {
+  test('forward goes into the screen, left to the left, up stays up, nothing is mirrored', () => {
+    const matrix = worldToThree();
+    const at = (x: number, y: number, z: number) => new Vector3(x, y, z).applyMatrix4(matrix).toArray();
+    expect(at(1, 0, 0).map((v) => v + 0)).toEqual([0, 0, -1]);
+    expect(at(0, 1, 0).map((v) => v + 0)).toEqual([-1, 0, 0]);
+    expect(at(0, 0, 1).map((v) => v + 0)).toEqual([0, 1, 0]);
+    expect(matrix.determinant()).toBeCloseTo(1, 12);
+  });
+
+  test('headings of optical and body frames', () => {
+    const angle = fc.double({ min: -3.1, max: 3.1, noNaN: true });
+    fc.assert(
+      fc.property(angle, (yaw) => {
+        expect(opticalYaw(opticalOrientation(yaw), 0)).toBeCloseTo(yaw, 9);
+        const body = new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), yaw);
+        expect(bodyYaw(body)).toBeCloseTo(yaw, 9);
+      }),
+      { seed: 1 },
+    );
+  });
+
+  test('a camera that looks straight down keeps the last heading', () => {
+    const down = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(0, 0, -1));
+    expect(opticalYaw(down, 1.25)).toBe(1.25);
+  });
+});
+
+describe('PoseFollower', () => {
+  test('begins at the first pose, then makes up 63 % in a time constant', () => {
+    const follower = new PoseFollower(100);
+    follower.follow(5, 6, 7, 1, 0);
+    expect([follower.x, follower.y, follower.z, follower.yaw]).toEqual([5, 6, 7, 1]);
+    follower.follow(6, 6, 7, 1, 100);
+    expect(follower.x).toBeCloseTo(5.632, 3);
+  });
+
+  test('turns the short way across ±π and jumps where the place is another', () => {
+    const follower = new PoseFollower(100);
+    follower.follow(0, 0, 0, 3.1, 0);
+    follower.follow(0, 0, 0, -3.1, 100);
+    expect(follower.yaw).toBeGreaterThan(3.1);
+    expect(follower.yaw).toBeLessThan(3.2);
+    follower.follow(50, 0, 0, 0, 1);
+    expect(follower.x).toBe(50);
+  });
+
+  test('shortestTurn stays within half a turn', () => {
+    fc.assert(
+      fc.property(fc.double({ min: -100, max: 100, noNaN: true }), (angle) => {
+        const turn = shortestTurn(angle);
+        expect(Math.abs(turn)).toBeLessThanOrEqual(Math.PI + 1e-9);
+        expect(Math.cos(turn)).toBeCloseTo(Math.cos(angle), 6);
+      }),
+      { seed: 2 },
+    );
+  });
+});
+
+describe('Look', () => {
+  test('drag and zoom keep within bounds; recentre undoes them', () => {
+    const look = new Look();
+    look.drag(100, 1e6, 0.01);
+    expect(look.yaw).toBe(1);
+    expect(look.pitch).toBeLessThan(Math.PI / 2);
+    look.zoom(100);
+    expect(look.fov).toBe(MAX_FOV);
+    look.zoom(0.001);
+    expect(look.fov).toBe(MIN_FOV);
+    look.recentre();
+    expect([look.yaw, look.pitch]).toEqual([0, 0]);
+    look.switchMode();
+    look.zoom(1000);
+    expect(look.distance).toBe(15);
+  });
+});
