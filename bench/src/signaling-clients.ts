@@ -3,6 +3,7 @@
  * with its plan as JSON in argv, prints its result as one line of JSON. Both ends of every relay are here, so that one
  * clock times it: from handing a message to the sender's socket until the receiver's socket has given it out.
  */
+import { monitorEventLoopDelay } from 'node:perf_hooks';
 import { WebSocket } from 'ws';
 
 export interface ClientPlan {
@@ -22,6 +23,8 @@ export interface ClientResult {
   /** From session.open to session.opened. */
   openMs: number[];
   relayMs: Record<'session.offer' | 'session.answer' | 'session.candidate', number[]>;
+  /** How late this process itself was at its timers while sessions were set up, p99: part of every time above. */
+  lateMsP99: number;
   lists: number;
   listMegabytes: number;
   /** Descriptions of what went wrong, counted. */
@@ -51,10 +54,13 @@ const result: ClientResult = {
   connectMs: [],
   openMs: [],
   relayMs: { 'session.offer': [], 'session.answer': [], 'session.candidate': [] },
+  lateMsP99: 0,
   lists: 0,
   listMegabytes: 0,
   errors: {},
 };
+/** Sockets that we close ourselves. */
+const leaving = new WeakSet<WebSocket>();
 let closing = false;
 
 function fault(what: string): void {
@@ -77,7 +83,7 @@ function connect(
       reject(error);
     });
     socket.on('close', (code) => {
-      if (!closing && socket.listenerCount('expected-close') === 0) fault(`closed ${code}`);
+      if (!closing && !leaving.has(socket)) fault(`closed ${code}`);
     });
     socket.on('message', (data: Buffer) => {
       const now = performance.now();
@@ -177,11 +183,13 @@ async function run(plan: ClientPlan): Promise<void> {
           const index = plan.robots + (churned++ % 8);
           void connectRobot(index)
             .then(() => {
-              robots[index]!.on('expected-close' as 'close', () => {});
+              leaving.add(robots[index]!);
               robots[index]!.close();
             })
             .catch(() => {});
         }, 1000 / plan.churn);
+  const delay = monitorEventLoopDelay({ resolution: 1 });
+  delay.enable();
   const begin = performance.now();
   for (let index = 0; index < plan.operators; index++) {
     const wait = begin + (index * 1000) / plan.rate - performance.now();
@@ -191,6 +199,8 @@ async function run(plan: ClientPlan): Promise<void> {
   }
   await all;
   clearTimeout(timer);
+  delay.disable();
+  result.lateMsP99 = delay.percentile(99) / 1e6;
   if (churn !== null) clearInterval(churn);
   if (received !== expected) fault('relays missing');
   await tellParent('done');

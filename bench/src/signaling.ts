@@ -102,7 +102,8 @@ export const bench: Bench = {
       );
       console.log(
         `${bytesPerConnection} bytes a connection, ${serviceCpu.toFixed(2)} cores, ` +
-          `${result.lists} lists (${result.listMegabytes.toFixed(0)} MB), ${errors} errors`,
+          `${result.lists} lists (${result.listMegabytes.toFixed(0)} MB), ${errors} errors; ` +
+          `timers late (p99): service ${done.loopDelayMs.toFixed(1)} ms, clients ${result.lateMsP99.toFixed(1)} ms`,
       );
       for (const [what, count] of Object.entries(result.errors)) console.log(`  ${count} × ${what}`);
       if (values.json) {
@@ -122,6 +123,7 @@ export const bench: Bench = {
           bytesPerConnection,
           residentBytes: done.residentBytes,
           serviceCpu,
+          lateMsP99: { service: done.loopDelayMs, clients: result.lateMsP99 },
           lists: result.lists,
           listMegabytes: result.listMegabytes,
           errors,
@@ -175,7 +177,9 @@ class Clients {
   }
 }
 
-async function readMetrics(url: string): Promise<{ residentBytes: number; cpuSeconds: number }> {
+async function readMetrics(
+  url: string,
+): Promise<{ residentBytes: number; cpuSeconds: number; loopDelayMs: number }> {
   const text = await (await fetch(url)).text();
   const value = (name: string): number => {
     const found = new RegExp(`^${name} (\\S+)$`, 'm').exec(text);
@@ -185,5 +189,6 @@ async function readMetrics(url: string): Promise<{ residentBytes: number; cpuSec
   return {
     residentBytes: value('process_resident_memory_bytes'),
     cpuSeconds: value('process_cpu_seconds_total'),
+    loopDelayMs: value('nodejs_eventloop_lag_p99_seconds') * 1000,
   };
 }

@@ -22,6 +22,7 @@ import { type Session, type SessionLimits, SessionTable } from './session-table.
 export interface FarpointHubOptions extends HubConnectionOptions {
   readonly limits: HubConnectionOptions['limits'] & SessionLimits & { readonly maxRobots: number };
   readonly listIntervalMs: number;
+  readonly listBytesPerSecond: number;
   readonly access: () => { readonly robots: AccessList; readonly operators: AccessList };
   /** What a peer of this name is told to use for ICE. */
   readonly iceServers: (name: string) => IceServer[];
@@ -51,6 +52,7 @@ export class FarpointHub {
       clock: options.clock,
       listing: () => this.#registry.listing(),
       intervalMs: options.listIntervalMs,
+      bytesPerSecond: options.listBytesPerSecond,
     });
   }
 

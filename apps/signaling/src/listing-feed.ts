@@ -7,8 +7,8 @@ export interface ListingFeedOptions {
   readonly listing: () => Uint8Array;
   /** Least time between two rounds, ms. */
   readonly intervalMs: number;
-  /** Sending may take this fraction of the time: each slice is followed by a pause that sees to it. */
-  readonly share?: number;
+  /** All lists together may take this much: each slice is followed by a pause that sees to it. */
+  readonly bytesPerSecond: number;
   /** Bytes sent before other work gets its turn. */
   readonly sliceBytes?: number;
   /** A peer with more bytes waiting than this is passed over until it has caught up. */
@@ -20,15 +20,15 @@ const MESSAGE_COST_BYTES = 4096;
 
 /**
  * Keeps operators' lists of robots fresh. A change goes out at once when all was quiet; under many changes there is at
- * most one round per interval, each operator gets the newest list only, big rounds are sent in slices so that relays
- * do not wait behind them, and all rounds together take at most a share of the time. So a list of 2,000 robots (100 KB)
- * for 2,000 operators (200 MB a round) costs freshness, never the latency of a session that is being set up.
+ * most one round per interval, each operator gets the newest list only, and a big round goes out in slices with pauses
+ * between, so that neither relays nor the network wait behind it: 2,000 robots (80 KB) for 2,000 operators are 160 MB a
+ * round. Many operators with many robots so have lists that are some seconds old; sessions are set up as fast as ever.
  */
 export class ListingFeed {
   readonly #clock: Clock;
   readonly #listing: () => Uint8Array;
   readonly #intervalMs: number;
-  readonly #share: number;
+  readonly #bytesPerMs: number;
   readonly #sliceBytes: number;
   readonly #maxBacklogBytes: number;
   /** Each subscriber with the list it has. */
@@ -42,8 +42,8 @@ export class ListingFeed {
     this.#clock = options.clock;
     this.#listing = options.listing;
     this.#intervalMs = options.intervalMs;
-    this.#share = options.share ?? 0.2;
-    this.#sliceBytes = options.sliceBytes ?? 1_048_576;
+    this.#bytesPerMs = options.bytesPerSecond / 1000;
+    this.#sliceBytes = options.sliceBytes ?? 262_144;
     this.#maxBacklogBytes = options.maxBacklogBytes ?? 65_536;
   }
 
@@ -80,7 +80,6 @@ export class ListingFeed {
   }
 
   #slice(): void {
-    const begin = this.#clock.now();
     const listing = this.#listing();
     let budget = this.#sliceBytes;
     let peer = this.#queue.pop();
@@ -94,15 +93,13 @@ export class ListingFeed {
       this.#send(peer, listing);
       budget -= listing.byteLength + MESSAGE_COST_BYTES;
     }
-    const now = this.#clock.now();
+    const pause = (this.#sliceBytes - budget) / this.#bytesPerMs;
     if (this.#queue.length > 0) {
-      // As long a pause as the share asks for, so that the slices of one round are spread too.
-      const pause = (now - begin) * (1 / this.#share - 1);
       this.#cancel = this.#clock.after(pause, () => this.#slice());
       return;
     }
     this.#cancel = null;
-    this.#earliest = now + this.#intervalMs;
+    this.#earliest = this.#clock.now() + Math.max(this.#intervalMs, pause);
     if (this.#changed) this.#schedule();
   }
 

@@ -200,6 +200,12 @@ export const program = defineProgram({
       argument: 'MS',
       help: 'least time between two lists of robots to one operator',
     }),
+    listBytesPerSecond: defineOption({
+      schema: schema.integer({ min: 100_000 }),
+      default: 20_000_000,
+      argument: 'BYTES',
+      help: 'what all lists of robots to all operators may take of the network',
+    }),
     shutdownMs: defineOption({
       schema: count,
       default: 2000,

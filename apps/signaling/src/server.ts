@@ -106,6 +106,7 @@ class SignalingService implements RunningSignaling {
       ...core,
       limits: options,
       listIntervalMs: options.listIntervalMs,
+      listBytesPerSecond: options.listBytesPerSecond,
       access: () => this.#files,
       iceServers: (name) => [
         ...options.iceServers,
