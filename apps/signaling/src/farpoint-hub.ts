@@ -119,7 +119,7 @@ export class FarpointHub {
     }
     this.#options.observer.robotJoined('robot', entry.id, peer.address, previous !== null);
     toRobot(peer, { type: 'robot.welcome', id: entry.id, iceServers: this.#options.iceServers(entry.id) });
-    if (previous === null || previous.name !== entry.name) this.#feed.changed();
+    if (joined.listed) this.#feed.changed();
     return entry;
   }
 

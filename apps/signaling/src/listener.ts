@@ -68,12 +68,11 @@ export class Listener {
       closeTimeout: options.closeTimeoutMs,
     };
     const webSockets = new WebSocketServer(webSocketOptions);
-    // A request that is no proper WebSocket handshake has been answered with 400 by ws.
-    webSockets.on('wsClientError', (_error, socket) => socket.destroy());
     server.on('upgrade', (request, socket, head) => {
       socket.on('error', () => socket.destroy());
       const decision = options.upgrade(request);
       if ('status' in decision) refuse(socket, decision.status, decision.reason);
+      // Answers what is no proper WebSocket handshake with 400 itself.
       else webSockets.handleUpgrade(request, socket, head, decision.accept);
     });
     server.on('clientError', (_error, socket) => {

@@ -16,7 +16,12 @@ export interface RobotEntry {
 
 export type JoinResult =
   /** `previous`: the older socket of the same robot, whose place was taken. */
-  | { readonly ok: true; readonly previous: RobotEntry | null }
+  | {
+      readonly ok: true;
+      readonly previous: RobotEntry | null;
+      /** The list has changed. */
+      readonly listed: boolean;
+    }
   | { readonly ok: false; readonly reason: 'robot-id-taken' | 'full' };
 
 /** The robots that are here now, by id. */
@@ -42,8 +47,9 @@ export class RobotRegistry {
     if (previous !== null && previous.key !== entry.key) return { ok: false, reason: 'robot-id-taken' };
     if (previous === null && this.#robots.size >= this.#maxRobots) return { ok: false, reason: 'full' };
     this.#robots.set(entry.id, entry);
-    this.#listing = null;
-    return { ok: true, previous };
+    const listed = previous === null || previous.name !== entry.name;
+    if (listed) this.#listing = null;
+    return { ok: true, previous, listed };
   }
 
   /** Removes exactly this entry: not a newer one that took its place. */

@@ -1,0 +1,69 @@
+import { spawn, spawnSync } from 'node:child_process';
+import { once } from 'node:events';
+import { mkdtempSync, readdirSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { createInterface } from 'node:readline';
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import { TestSocket } from './test-sockets.ts';
+
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-bundle-'));
+const bundle = join(folder, 'signaling.mjs');
+
+beforeAll(() => {
+  const built = spawnSync(process.execPath, [resolve(import.meta.dirname, '../build.ts'), bundle]);
+  if (built.status !== 0) throw new Error(built.stderr.toString());
+}, 60_000);
+afterAll(() => rmSync(folder, { recursive: true }));
+
+function start(args: string[]) {
+  const child = spawn(process.execPath, [bundle, ...args], {
+    cwd: folder,
+    env: { PATH: process.env.PATH },
+    stdio: ['ignore', 'pipe', 'pipe'],
+  });
+  const lines = createInterface({ input: child.stdout })[Symbol.asyncIterator]();
+  let errors = '';
+  child.stderr.on('data', (data: Buffer) => {
+    errors += data.toString();
+  });
+  return {
+    child,
+    errors: () => errors,
+    exited: once(child, 'close').then(([code]) => code as number),
+    async logged(message: string): Promise<Record<string, unknown>> {
+      for (;;) {
+        const line = await lines.next();
+        if (line.done === true) throw new Error(`never logged: ${message}\n${errors}`);
+        const record = JSON.parse(line.value) as Record<string, unknown>;
+        if (record.msg === message) return record;
+      }
+    },
+  };
+}
+
+const anyPorts = ['--port', '0', '--reference-robot-port', '0', '--reference-client-port', '0'];
+
+test('runs alone, serves, and at SIGTERM says farewell and exits with 0', async () => {
+  expect(readdirSync(folder)).toEqual(['signaling.mjs']);
+  const { child, logged, exited } = start(anyPorts);
+  const { signaling } = await logged('listening');
+  expect((await fetch(`http://127.0.0.1:${String(signaling)}/healthz`)).status).toBe(200);
+  const robot = await TestSocket.open(`ws://127.0.0.1:${String(signaling)}/robot`);
+  robot.send({ type: 'robot.hello', protocol: 1, id: 'r1', name: 'R', key: 'k' });
+  await robot.until('robot.welcome');
+  child.kill('SIGHUP'); // nothing to read again, nothing lost
+  await logged('read certificate and tokens again');
+  child.kill('SIGTERM');
+  expect(await robot.until('error')).toMatchObject({ code: 'shutting-down' });
+  expect((await robot.closed).code).toBe(1012);
+  expect(await exited).toBe(0);
+});
+
+test('a file that is missing is one sentence and exit code 2', async () => {
+  const { errors, exited } = start([...anyPorts, '--robot-tokens', '/nix']);
+  expect(await exited).toBe(2);
+  expect(errors()).toMatch(
+    /^farpoint-signaling: --robot-tokens names a file that cannot be read: ENOENT.*\n$/,
+  );
+});

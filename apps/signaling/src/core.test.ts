@@ -1,0 +1,135 @@
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import { AccessList } from './access.ts';
+import { Admission, addressKey } from './admission.ts';
+import { turnCredentials } from './ice-servers.ts';
+import { TokenBucket } from './token-bucket.ts';
+import { parseTokens } from './token-file.ts';
+
+describe('token bucket', () => {
+  test('never lets through more than burst + rate × time, and always that after a rest', () => {
+    fc.assert(
+      fc.property(fc.array(fc.integer({ min: 0, max: 300 }), { maxLength: 200 }), (gaps) => {
+        const bucket = new TokenBucket(10, 5, 0);
+        let now = 0;
+        let taken = 0;
+        for (const gap of gaps) {
+          now += gap;
+          if (bucket.take(now)) taken++;
+          expect(taken).toBeLessThanOrEqual(5 + (now * 10) / 1000 + 1e-9);
+        }
+        now += 500;
+        for (let i = 0; i < 5; i++) expect(bucket.take(now)).toBe(true);
+      }),
+      { seed: 3 },
+    );
+  });
+
+  test('a clock that goes back gives nothing', () => {
+    const bucket = new TokenBucket(1000, 1, 100);
+    expect(bucket.take(100)).toBe(true);
+    expect(bucket.take(50)).toBe(false);
+  });
+});
+
+describe('tokens', () => {
+  const free = (...tokens: string[]) => ({ bound: new Map(), free: tokens });
+
+  test.each([
+    ['lines', 'abc\n# a comment\ndef\n', free('abc', 'def')],
+    ['one line', 'abc', free('abc')],
+    ['a number', '0123456789\n', free('0123456789')],
+    ['a YAML list', '- abc\n- "d e"\n', free('abc', 'd e')],
+    ['a JSON list', '["abc"]', free('abc')],
+    [
+      'a YAML mapping',
+      'r1: abc\nr2: [def, ghi]\n',
+      {
+        bound: new Map([
+          ['r1', ['abc']],
+          ['r2', ['def', 'ghi']],
+        ]),
+        free: [],
+      },
+    ],
+    ['a JSON mapping', '{"r1":"abc"}', { bound: new Map([['r1', ['abc']]]), free: [] }],
+  ])('from %s', (_, content, tokens) => {
+    expect(parseTokens(content, true)).toEqual(tokens);
+  });
+
+  test('names of operators bind nothing', () => {
+    expect(parseTokens('Ada Lovelace: abc', false)).toEqual(free('abc'));
+  });
+
+  test.each([
+    ['', 'has no tokens'],
+    ['# only\n# comments', 'has no tokens'],
+    ['{}', 'has no tokens'],
+    ['R 1: secret', '"R 1" is not a robot id'],
+    ['r1: {a: secret}', 'r1: a token is text of 1–4096 characters'],
+    ['- secret\n- [x]', 'entry 2: a token is text of 1–4096 characters'],
+    ['{"a": "secret"', 'is neither YAML nor JSON nor one token a line'],
+  ])('%j is refused without being quoted', (content, message) => {
+    let thrown = '';
+    try {
+      parseTokens(content, true);
+    } catch (error) {
+      thrown = (error as Error).message;
+    }
+    expect(thrown).toBe(message);
+    expect(thrown).not.toContain('secret');
+  });
+
+  test('open lets everybody in; an empty set nobody', () => {
+    expect(new AccessList(null).allows(undefined, 'r1')).toBe(true);
+    const closed = new AccessList(free());
+    expect(closed.open).toBe(false);
+    expect(closed.allows(undefined, null)).toBe(false);
+    expect(closed.allows('', null)).toBe(false);
+  });
+
+  test('a token bound to one robot is good for that one and for coming in at all', () => {
+    const list = new AccessList({ bound: new Map([['r1', ['abc']]]), free: [] });
+    expect([list.allows('abc', 'r1'), list.allows('abc', 'r2'), list.allows('abc', null)]).toEqual([
+      true,
+      false,
+      true,
+    ]);
+  });
+});
+
+describe('admission', () => {
+  test('counts in all and by address, and gives places back', () => {
+    const admission = new Admission({ maxConnections: 3, maxConnectionsPerAddress: 2 });
+    const leave = admission.enter('192.0.2.1');
+    admission.enter('192.0.2.1');
+    expect(admission.refusal('192.0.2.1')).toBe('too-many-connections-per-address');
+    expect(admission.refusal('192.0.2.2')).toBeNull();
+    admission.enter('192.0.2.2');
+    expect(admission.refusal('192.0.2.3')).toBe('too-many-connections');
+    leave();
+    expect(admission.refusal('192.0.2.1')).toBeNull();
+    expect(admission.total).toBe(2);
+  });
+
+  test.each([
+    ['192.0.2.1', '192.0.2.1'],
+    ['2001:db8:1:2:3:4:5:6', '2001:db8:1:2::/64'],
+    ['2001:db8::6', '2001:db8:0:0::/64'],
+    ['::1', '0:0:0:0::/64'],
+    ['2001:db8:1:2::', '2001:db8:1:2::/64'],
+  ])('%s counts as %s', (address, key) => {
+    expect(addressKey(address)).toBe(key);
+  });
+});
+
+test('TURN credentials as coturn checks them', () => {
+  // echo -n 1700003600:r1 | openssl dgst -sha1 -hmac secret -binary | base64
+  expect(
+    turnCredentials({ urls: ['turn:a'], secret: 'secret', ttlSeconds: 3600 }, 'r1', 1_700_000_000.7),
+  ).toEqual({
+    urls: ['turn:a'],
+    username: '1700003600:r1',
+    credential: 'uaxcLwlwqCDX/aJ/oXjxjex31Ts=',
+  });
+});

@@ -1,0 +1,451 @@
+import { describe, expect, test } from 'vitest';
+import { AccessList } from './access.ts';
+import { FarpointHub } from './farpoint-hub.ts';
+import type { Connection } from './peer.ts';
+import { FakeClock, FakePeer, type Json, RecordingObserver } from './test-support.ts';
+
+const limits = {
+  maxMessageBytes: 4096,
+  messagesPerSecond: 10,
+  messageBurst: 20,
+  maxFaults: 5,
+  maxSessionsPerOperator: 2,
+  maxSessionsPerRobot: 2,
+  maxRobots: 3,
+  helloTimeoutMs: 1000,
+};
+
+class Client {
+  readonly peer = new FakePeer();
+  readonly connection: Connection;
+
+  constructor(connect: (peer: FakePeer) => Connection) {
+    this.connection = connect(this.peer);
+  }
+
+  send(message: Json): void {
+    this.connection.receive(JSON.stringify(message));
+  }
+
+  take(): Json[] {
+    return this.peer.take();
+  }
+
+  types(): unknown[] {
+    return this.take().map((message) => message.code ?? message.type);
+  }
+}
+
+function setup(options: { robots?: AccessList; operators?: AccessList } = {}) {
+  const clock = new FakeClock();
+  const observer = new RecordingObserver();
+  let handles = 0;
+  const hub = new FarpointHub({
+    clock,
+    observer,
+    limits,
+    listIntervalMs: 100,
+    listBytesPerSecond: 1e9,
+    access: () => ({
+      robots: options.robots ?? new AccessList(null),
+      operators: options.operators ?? new AccessList(null),
+    }),
+    iceServers: (name) => [{ urls: 'turn:turn.example', username: name, credential: 'c' }],
+    makeHandle: () => `s${++handles}`,
+  });
+  const robot = (id: string, key = `key-${id}`, more: Json = {}): Client => {
+    const client = new Client((peer) => hub.robot(peer));
+    client.send({ type: 'robot.hello', protocol: 1, id, name: `Robot ${id}`, key, ...more });
+    return client;
+  };
+  const operator = (name = 'Ada', more: Json = {}): Client => {
+    const client = new Client((peer) => hub.operator(peer));
+    client.send({ type: 'operator.hello', protocol: 1, name, ...more });
+    return client;
+  };
+  /** A robot and an operator with a session, everything so far taken. */
+  const session = (id = 'r1') => {
+    const r = robot(id);
+    const o = operator();
+    o.send({ type: 'session.open', robotId: id });
+    const handle = o.take().find((message) => message.type === 'session.opened')!.session as string;
+    r.take();
+    return { r, o, handle };
+  };
+  return { hub, clock, observer, robot, operator, session };
+}
+
+describe('hello', () => {
+  test('a robot is welcomed and listed, an operator is welcomed with the list', () => {
+    const { robot, operator } = setup();
+    const r = robot('r1');
+    expect(r.take()).toEqual([
+      {
+        type: 'robot.welcome',
+        id: 'r1',
+        iceServers: [{ urls: 'turn:turn.example', username: 'r1', credential: 'c' }],
+      },
+    ]);
+    const o = operator();
+    expect(o.take()).toEqual([
+      { type: 'operator.welcome', iceServers: [expect.objectContaining({ urls: 'turn:turn.example' })] },
+      { type: 'robots', robots: [{ id: 'r1', name: 'Robot r1' }] },
+    ]);
+  });
+
+  test('must come first', () => {
+    const { hub, observer } = setup();
+    const client = new Client((peer) => hub.operator(peer));
+    client.send({ type: 'session.open', robotId: 'r1' });
+    expect(client.types()).toEqual(['hello-first']);
+    client.send({ type: 'operator.hello', protocol: 1, name: 'Ada' });
+    expect(client.types()).toEqual(['operator.welcome', 'robots']);
+    expect(observer.rejects).toEqual(['operator: hello-first']);
+  });
+
+  test('must come in time', () => {
+    const { hub, clock } = setup();
+    const client = new Client((peer) => hub.robot(peer));
+    clock.advance(999);
+    expect(client.peer.closed).toBeNull();
+    clock.advance(1);
+    expect(client.types()).toEqual(['hello-first']);
+    expect(client.peer.closed?.code).toBe(1008);
+  });
+
+  test('in time, or gone before, leaves no timer', () => {
+    const { hub, clock, robot } = setup();
+    robot('r1');
+    new Client((peer) => hub.robot(peer)).connection.closed();
+    clock.advance(0);
+    expect(clock.pending).toBe(0);
+  });
+
+  test('of another protocol version is refused', () => {
+    const { robot } = setup();
+    const r = robot('r1', 'k', { protocol: 2 });
+    expect(r.types()).toEqual(['unsupported-protocol']);
+    expect(r.peer.closed?.code).toBe(1008);
+  });
+
+  test('comes once', () => {
+    const { robot } = setup();
+    const r = robot('r1');
+    r.take();
+    r.send({ type: 'robot.hello', protocol: 1, id: 'r2', name: 'x', key: 'k' });
+    expect(r.types()).toEqual(['malformed']);
+  });
+
+  test('half a surrogate pair in a name is listed as U+FFFD', () => {
+    const { operator, robot } = setup();
+    robot('r1', 'k', { name: 'a\ud800' });
+    expect(operator().take()[1]).toEqual({ type: 'robots', robots: [{ id: 'r1', name: 'a\ufffd' }] });
+  });
+});
+
+describe('robot ids', () => {
+  test('another key cannot take the id of a live robot', () => {
+    const { robot, session, observer } = setup();
+    const { r, o, handle } = session('r1');
+    const thief = robot('r1', 'other-key');
+    expect(thief.types()).toEqual(['robot-id-taken']);
+    expect(thief.peer.closed?.code).toBe(1008);
+    thief.connection.closed();
+    r.send({ type: 'session.offer', session: handle, sdp: 'v=0' });
+    expect(o.types()).toEqual(['session.offer']);
+    expect(observer.left).toEqual([]);
+  });
+
+  test('the same key takes over: the older socket is closed and its sessions end', () => {
+    const { robot, session, clock, hub } = setup();
+    const { r, o, handle } = session('r1');
+    const newer = robot('r1');
+    expect(newer.types()).toEqual(['robot.welcome']);
+    expect(r.peer.closed?.code).toBe(1008);
+    expect(o.take()).toEqual([{ type: 'session.closed', session: handle, reason: 'robot-left' }]);
+    // The older socket's end changes nothing any more.
+    r.connection.closed();
+    clock.advance(1000);
+    expect(o.take()).toEqual([]);
+    expect(hub.counts).toEqual({ robots: 1, operators: 1, sessions: 0 });
+    o.send({ type: 'session.open', robotId: 'r1' });
+    expect(newer.types()).toEqual(['session.request']);
+  });
+
+  test('an id is free again once its robot has left', () => {
+    const { robot } = setup();
+    robot('r1', 'a').connection.closed();
+    expect(robot('r1', 'b').types()).toEqual(['robot.welcome']);
+  });
+
+  test('there is room for so many robots only, but a known one may come back', () => {
+    const { robot } = setup();
+    for (const id of ['a', 'b', 'c']) robot(id);
+    const d = robot('d');
+    expect(d.types()).toEqual(['full']);
+    expect(d.peer.closed?.code).toBe(1008);
+    expect(robot('a').types()).toEqual(['robot.welcome']);
+  });
+});
+
+describe('tokens', () => {
+  const robots = new AccessList({ bound: new Map([['r1', ['token-of-r1']]]), free: ['any-robot'] });
+  const operators = new AccessList({ bound: new Map(), free: ['operator-token'] });
+
+  test.each([
+    ['r1', 'token-of-r1', 'robot.welcome'],
+    ['r2', 'token-of-r1', 'unauthorized'],
+    ['r2', 'any-robot', 'robot.welcome'],
+    ['r1', 'operator-token', 'unauthorized'],
+    ['r1', undefined, 'unauthorized'],
+  ])('robot %s with %s: %s', (id, token, answer) => {
+    const { robot } = setup({ robots, operators });
+    const r = robot(id, 'k', token === undefined ? {} : { token });
+    expect(r.types()).toEqual([answer]);
+    expect(r.peer.closed === null).toBe(answer === 'robot.welcome');
+  });
+
+  test('operators need theirs', () => {
+    const { operator } = setup({ robots, operators });
+    expect(operator('Ada', { token: 'operator-token' }).types()).toEqual(['operator.welcome', 'robots']);
+    for (const more of [{}, { token: 'any-robot' }, { token: 'operator-toke' }]) {
+      expect(operator('Eve', more).types()).toEqual(['unauthorized']);
+    }
+  });
+});
+
+describe('sessions', () => {
+  test('are opened by the operator and requested from the robot', () => {
+    const { robot, operator } = setup();
+    const r = robot('r1');
+    const o = operator('Ada');
+    r.take();
+    o.take();
+    o.send({ type: 'session.open', robotId: 'r1' });
+    expect(o.take()).toEqual([{ type: 'session.opened', session: 's1', robotId: 'r1' }]);
+    expect(r.take()).toEqual([{ type: 'session.request', session: 's1', operator: 'Ada' }]);
+  });
+
+  test('relay offer, answer and candidates unchanged, each in its direction', () => {
+    const { session, observer } = setup();
+    const { r, o, handle } = session();
+    const candidate = { candidate: 'candidate:1 1 udp 1 ::1 9 typ host', sdpMid: null, sdpMLineIndex: 0 };
+    const offer = { type: 'session.offer', session: handle, sdp: 'v=0\r\n' };
+    r.send(offer);
+    r.send({ type: 'session.candidate', session: handle, candidate });
+    expect(o.take()).toEqual([offer, { type: 'session.candidate', session: handle, candidate }]);
+    const answer = { type: 'session.answer', session: handle, sdp: 'v=0 answer' };
+    o.send(answer);
+    o.send({ type: 'session.candidate', session: handle, candidate: { candidate: '' } });
+    expect(r.take()).toEqual([
+      answer,
+      { type: 'session.candidate', session: handle, candidate: { candidate: '' } },
+    ]);
+    r.send(offer); // a re-offer
+    expect(o.take()).toEqual([offer]);
+    expect(observer.relays).toEqual([
+      'session.offer',
+      'session.candidate',
+      'session.answer',
+      'session.candidate',
+      'session.offer',
+    ]);
+  });
+
+  test('refuse the wrong direction', () => {
+    const { session } = setup();
+    const { r, o, handle } = session();
+    r.send({ type: 'session.answer', session: handle, sdp: 'v=0' });
+    o.send({ type: 'session.offer', session: handle, sdp: 'v=0' });
+    r.send({ type: 'session.open', robotId: 'r1' });
+    expect([r.types(), o.types()]).toEqual([['malformed', 'malformed'], ['malformed']]);
+  });
+
+  test('belong to their two sockets: nobody else can relay into them or close them', () => {
+    const { session, robot, operator } = setup();
+    const { r, o, handle } = session('r1');
+    const otherRobot = robot('r2');
+    const otherOperator = operator('Eve');
+    otherRobot.take();
+    otherOperator.take();
+    o.take();
+    for (const type of ['session.offer', 'session.candidate', 'session.close']) {
+      otherRobot.send({ type, session: handle, ...(type === 'session.close' ? {} : payload(type)) });
+    }
+    for (const type of ['session.answer', 'session.candidate', 'session.close']) {
+      otherOperator.send({ type, session: handle, ...(type === 'session.close' ? {} : payload(type)) });
+    }
+    const refusal = {
+      type: 'error',
+      code: 'unknown-session',
+      message: 'not a session of yours',
+      session: handle,
+    };
+    expect(otherRobot.take()).toEqual([refusal, refusal, refusal]);
+    expect(otherOperator.take()).toEqual([refusal, refusal, refusal]);
+    expect([r.take(), o.take()]).toEqual([[], []]);
+  });
+
+  test('closed by either side, the other one is told', () => {
+    const { session, observer } = setup();
+    const first = session('r1');
+    first.o.send({ type: 'session.close', session: first.handle });
+    expect(first.r.take()).toEqual([
+      { type: 'session.closed', session: first.handle, reason: 'closed-by-operator' },
+    ]);
+    expect(first.o.take()).toEqual([]);
+    const second = session('r2');
+    second.r.send({ type: 'session.close', session: second.handle });
+    expect(second.o.take()).toEqual([
+      { type: 'session.closed', session: second.handle, reason: 'closed-by-robot' },
+    ]);
+    second.o.send({ type: 'session.close', session: second.handle });
+    expect(second.o.types()).toEqual(['unknown-session']);
+    expect(observer.sessionEnds).toEqual(['closed-by-operator', 'closed-by-robot']);
+  });
+
+  test('end when either side leaves', () => {
+    const { session, clock } = setup();
+    const first = session('r1');
+    first.o.connection.closed();
+    expect(first.r.take()).toEqual([
+      { type: 'session.closed', session: first.handle, reason: 'operator-left' },
+    ]);
+    const second = session('r2');
+    second.r.connection.closed();
+    clock.advance(0);
+    expect(second.o.take()).toEqual([
+      { type: 'session.closed', session: second.handle, reason: 'robot-left' },
+      { type: 'robots', robots: [{ id: 'r1', name: 'Robot r1' }] },
+    ]);
+  });
+
+  test('with an unknown robot are refused', () => {
+    const { operator } = setup();
+    const o = operator();
+    o.take();
+    o.send({ type: 'session.open', robotId: 'nobody' });
+    expect(o.take()).toEqual([{ type: 'error', code: 'unknown-robot', message: 'robot nobody is not here' }]);
+  });
+
+  test('are limited for each side, and free again once closed', () => {
+    const { robot, operator, hub } = setup();
+    robot('r1');
+    robot('r2');
+    const [a, b] = [operator('A'), operator('B')];
+    a.send({ type: 'session.open', robotId: 'r1' });
+    a.send({ type: 'session.open', robotId: 'r1' });
+    b.take();
+    b.send({ type: 'session.open', robotId: 'r1' });
+    expect(b.types()).toEqual(['too-many-sessions']); // the robot's
+    a.take();
+    a.send({ type: 'session.open', robotId: 'r2' });
+    expect(a.types()).toEqual(['too-many-sessions']); // the operator's
+    a.send({ type: 'session.close', session: 's1' });
+    b.send({ type: 'session.open', robotId: 'r1' });
+    expect(b.types()).toEqual(['session.opened']);
+    a.connection.closed();
+    b.connection.closed();
+    expect(hub.counts.sessions).toBe(0);
+  });
+});
+
+describe('lists of robots', () => {
+  test('go to every operator when robots come, go, or change their name', () => {
+    const { robot, operator, clock } = setup();
+    const o = operator();
+    o.take();
+    const r = robot('r1');
+    clock.advance(0);
+    expect(o.take()).toEqual([{ type: 'robots', robots: [{ id: 'r1', name: 'Robot r1' }] }]);
+    clock.advance(100);
+    robot('r1', 'key-r1', { name: 'New' });
+    clock.advance(0);
+    expect(o.take()).toEqual([{ type: 'robots', robots: [{ id: 'r1', name: 'New' }] }]);
+    r.connection.closed();
+    clock.advance(1000);
+    expect(o.take()).toEqual([]);
+  });
+});
+
+describe('what is no message of the protocol', () => {
+  const junk: [string, string | Uint8Array][] = [
+    ['text', 'hello?'],
+    ['null', 'null'],
+    ['a number', '7'],
+    ['a list', '[]'],
+    ['nothing', ''],
+    ['another type', '{"type":"sudo"}'],
+    ['a key too many', '{"type":"session.close","session":"s1","x":1}'],
+    ['__proto__', '{"type":"session.close","session":"s1","__proto__":{"a":1}}'],
+    ['a wrong handle', '{"type":"session.close","session":"../etc"}'],
+    ['deep nesting', '['.repeat(2000)],
+    ['deep nesting that closes', `{"type":"session.close","session":${'['.repeat(1000)}${']'.repeat(1000)}}`],
+    ['binary', new Uint8Array([1, 2, 3])],
+    ['JSON as binary', new TextEncoder().encode('{"type":"session.close","session":"s1"}')],
+  ];
+
+  test.each(junk)('%s is refused and harms nobody', (_, data) => {
+    const { session, hub } = setup();
+    const { r, o, handle } = session();
+    r.connection.receive(data);
+    o.connection.receive(data);
+    expect([r.types(), o.types()]).toEqual([['malformed'], ['malformed']]);
+    r.send({ type: 'session.offer', session: handle, sdp: 'v=0' });
+    expect(o.types()).toEqual(['session.offer']);
+    new Client((peer) => hub.robot(peer)).connection.receive(data);
+  });
+
+  test('too long a message is refused', () => {
+    const { session } = setup();
+    const { r, handle } = session();
+    r.send({ type: 'session.offer', session: handle, sdp: 'x'.repeat(5000) });
+    expect(r.types()).toEqual(['too-large']);
+  });
+
+  test('many of them and the socket is closed, its sessions end once it is gone', () => {
+    const { session, observer } = setup();
+    const { r, o } = session();
+    for (let i = 0; i < 7; i++) r.connection.receive('x');
+    expect(r.types()).toEqual(['malformed', 'malformed', 'malformed', 'malformed', 'malformed']);
+    expect(r.peer.closed).toEqual({ code: 1008, reason: 'too many refused messages' });
+    expect(observer.rejects.at(-1)).toBe('robot: too-many-faults');
+    r.connection.closed();
+    expect(o.types()).toEqual(['session.closed']);
+  });
+
+  test('a key given twice reaches the other side once, with the value that was checked', () => {
+    const { session } = setup();
+    const { r, o, handle } = session();
+    r.connection.receive(`{"type":"session.offer","session":"evil","session":"${handle}","sdp":"v=0"}`);
+    expect(o.take()).toEqual([{ type: 'session.offer', session: handle, sdp: 'v=0' }]);
+  });
+});
+
+test('too many messages are dropped, said once, and forgiven after a pause', () => {
+  const { session, clock } = setup();
+  const { r, o, handle } = session();
+  for (let i = 0; i < 22; i++) {
+    r.send({ type: 'session.candidate', session: handle, candidate: { candidate: `c${i}` } });
+  }
+  expect(o.take()).toHaveLength(19); // 20 at once, of which one was the hello
+  expect(r.types()).toEqual(['rate-limited']);
+  clock.advance(100); // a tenth of a second at 10 a second
+  r.send({ type: 'session.offer', session: handle, sdp: 'v=0' });
+  expect(o.types()).toEqual(['session.offer']);
+});
+
+test('at shutdown everybody is told to come back, and closed with 1012', () => {
+  const { session, hub } = setup();
+  const { r, o } = session();
+  const newcomer = new Client((peer) => hub.operator(peer));
+  for (const client of [r, o, newcomer]) {
+    client.connection.shutDown();
+    expect(client.types()).toEqual(['shutting-down']);
+    expect(client.peer.closed?.code).toBe(1012);
+  }
+});
+
+function payload(type: string): Json {
+  return type === 'session.candidate' ? { candidate: { candidate: 'c' } } : { sdp: 'v=0' };
+}

@@ -1,0 +1,183 @@
+import { connect } from 'node:net';
+import fc from 'fast-check';
+import { afterEach, beforeEach, expect, test } from 'vitest';
+import { TestService, type TestSocket } from './test-sockets.ts';
+
+let service: TestService;
+let robot: TestSocket;
+let operator: TestSocket;
+let client: TestSocket;
+let referenceRobot: TestSocket;
+
+beforeEach(async () => {
+  service = await TestService.start({
+    maxFaults: 3,
+    maxConnections: 100_000,
+    maxConnectionsPerAddress: 100_000,
+  });
+  robot = await service.robot('bystander');
+  operator = await service.operator();
+  client = await service.referenceClient();
+  referenceRobot = await service.referenceRobot();
+  await referenceRobot.until('registered');
+  await client.until('register');
+});
+afterEach(() => service.stop());
+
+/** Those who did nothing wrong notice nothing. */
+async function expectBystandersWell(): Promise<void> {
+  await service.expectSession(robot, 'bystander', operator);
+  referenceRobot.send({ type: 'candidate', robotId: 0, candidate: 'candidate:well' });
+  expect(await client.until('candidate')).toMatchObject({ robotId: 0, candidate: 'candidate:well' });
+  expect((await fetch(service.http('/healthz'))).status).toBe(200);
+}
+
+const doors = [
+  ['/robot', 'signaling'],
+  ['/operator', 'signaling'],
+  ['/', 'referenceRobot'],
+  ['/', 'referenceClient'],
+] as const;
+
+/** Sends each on sockets of its own, one door after the other, until the service closes them or all are sent. */
+async function attack(messages: readonly (string | Uint8Array)[], hello: boolean): Promise<void> {
+  for (const [path, port] of doors) {
+    const socket = await service.open(service.url(path, port));
+    if (hello && path === '/robot')
+      socket.send({ type: 'robot.hello', protocol: 1, id: 'evil', name: 'e', key: 'k' });
+    if (hello && path === '/operator') socket.send({ type: 'operator.hello', protocol: 1, name: 'e' });
+    for (const message of messages) socket.socket.send(message);
+    // In order after all of it: answered with a pong, or the socket is closed by then.
+    const answered = new Promise<void>((resolve) => socket.socket.once('pong', () => resolve()));
+    if (socket.socket.readyState === socket.socket.OPEN) socket.socket.ping();
+    await Promise.race([answered, socket.closed]);
+    socket.socket.terminate();
+  }
+}
+
+const valid = [
+  { type: 'robot.hello', protocol: 1, id: 'bystander', name: 'x', key: 'k' },
+  { type: 'operator.hello', protocol: 1, name: 'x' },
+  { type: 'session.open', robotId: 'bystander' },
+  { type: 'session.offer', session: 's', sdp: 'v=0' },
+  { type: 'session.answer', session: 's', sdp: 'v=0' },
+  { type: 'session.candidate', session: 's', candidate: { candidate: 'c', sdpMid: '0' } },
+  { type: 'session.close', session: 's' },
+  { type: 'register', name: 'x', sdpOffer: 'v=0' },
+  { type: 'offer', robotId: 0, sdpOffer: 'evil' },
+  { type: 'deregister', robotId: 0 },
+  { type: 'getRobots' },
+  { type: 'answer', robotId: 0, sdpAnswer: 'x' },
+];
+
+/** A message of the protocol with one of its values replaced or removed, or a byte of its text changed. */
+const mutated = fc.oneof(
+  fc.tuple(fc.constantFrom(...valid), fc.nat(), fc.anything({ maxDepth: 2 })).map(([message, at, value]) => {
+    const keys = Object.keys(message);
+    return JSON.stringify({ ...message, [keys[at % keys.length]!]: value }) as string;
+  }),
+  fc
+    .tuple(fc.constantFrom(...valid), fc.nat(), fc.integer({ min: 32, max: 126 }))
+    .map(([message, at, code]) => {
+      const text = JSON.stringify(message);
+      const index = at % text.length;
+      return text.slice(0, index) + String.fromCharCode(code) + text.slice(index + 1);
+    }),
+);
+
+test('random bytes and text', async () => {
+  const messages = fc.array(fc.oneof(fc.uint8Array({ maxLength: 300 }), fc.string({ maxLength: 300 })), {
+    maxLength: 8,
+  });
+  await fc.assert(
+    fc.asyncProperty(messages, fc.boolean(), async (list, hello) => attack(list, hello)),
+    { seed: 11, numRuns: 40 },
+  );
+  await expectBystandersWell();
+});
+
+test('messages of the protocol, damaged', async () => {
+  const messages = fc.array(mutated, { minLength: 1, maxLength: 8 });
+  await fc.assert(
+    fc.asyncProperty(messages, fc.boolean(), async (list, hello) => attack(list, hello)),
+    { seed: 12, numRuns: 60 },
+  );
+  await expectBystandersWell();
+});
+
+test('what has killed such services before', async () => {
+  await attack(
+    ['null', 'undefined', '[]', '{}', '0', '""', 'true', '{"type":null}', '{"type":"__proto__"}'],
+    true,
+  );
+  await attack(['['.repeat(60_000)], true);
+  await attack([`{"type":${'{"a":'.repeat(10_000)}1${'}'.repeat(10_000)}}`], true);
+  await attack([new Uint8Array(60_000).fill(0xff)], false);
+  await attack(['{"type":"register","name":"\\u0000\\ud800","sdpOffer":"x"}'], false);
+  await expectBystandersWell();
+});
+
+test('messages beyond the longest are refused; far beyond, the socket is closed with 1009', async () => {
+  const long = await service.operator();
+  await long.until('robots');
+  long.socket.send('x'.repeat(70_000));
+  expect(await long.next()).toMatchObject({ code: 'too-large' });
+  long.socket.send('x'.repeat(1_000_000));
+  expect((await long.closed).code).toBe(1009);
+  await expectBystandersWell();
+});
+
+test('text that is not UTF-8 and frames that break RFC 6455 close the socket', async () => {
+  const frames: [string, number[], number][] = [
+    ['text that is not UTF-8', [0x81, 0x82, 0, 0, 0, 0, 0xff, 0xff], 1007],
+    ['an unmasked frame', [0x81, 0x01, 0x41], 1002],
+    ['a reserved opcode', [0x83, 0x80, 0, 0, 0, 0], 1002],
+    ['reserved bits', [0xf1, 0x80, 0, 0, 0, 0], 1002],
+  ];
+  for (const [, bytes, code] of frames) {
+    const socket = await service.operator();
+    const { _socket } = socket.socket as unknown as { _socket: import('node:net').Socket };
+    _socket.write(Uint8Array.from(bytes));
+    expect((await socket.closed).code).toBe(code);
+  }
+  await expectBystandersWell();
+});
+
+test('half a handshake, or a wrong one, harms nobody', async () => {
+  for (const request of [
+    'GET /robot HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\r\n',
+    'GET /robot HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: x\r\nSec-WebSocket-Version: 99\r\n\r\n',
+    'GET //[ HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\r\n',
+    'GET http://[ HTTP/1.1\r\nHost: x\r\nUpgrade: h2c\r\nConnection: Upgrade\r\n\r\n',
+  ]) {
+    const socket = connect(service.service.ports.signaling, '127.0.0.1');
+    socket.write(request);
+    let answer = '';
+    for await (const chunk of socket) answer += String(chunk);
+    expect(answer).toMatch(/^HTTP\/1\.1 4\d\d /);
+  }
+  connect(service.service.ports.referenceRobot!, '127.0.0.1').end('GET / HT');
+  await expectBystandersWell();
+});
+
+test('a flood of pings that is not read is cut off', async () => {
+  const socket = await service.operator();
+  for (let i = 0; i < 60; i++) socket.socket.ping();
+  await socket.closed;
+  await expectBystandersWell();
+});
+
+test('another robot can neither be spoken for nor taken', async () => {
+  const evil = await service.referenceRobot('Eve');
+  const { robotId } = await evil.until('registered');
+  expect(robotId).toBe(1);
+  await client.until('register');
+  evil.send({ type: 'offer', robotId: 0, sdpOffer: 'evil' });
+  evil.send({ type: 'candidate', robotId: 0, candidate: 'evil' });
+  evil.send({ type: 'candidate', robotId: 1, candidate: 'own' });
+  expect(await client.next()).toEqual({ type: 'candidate', robotId: 1, candidate: 'own' });
+  client.send({ type: 'getRobots' });
+  const { robots } = (await client.until('robots')) as unknown as { robots: { sdpOffer: string }[] };
+  expect(robots[0]!.sdpOffer).toBe('v=0');
+  await expectBystandersWell();
+});

@@ -1,0 +1,119 @@
+import { describe, expect, test } from 'vitest';
+import { ListingFeed } from './listing-feed.ts';
+import { FakeClock, FakePeer } from './test-support.ts';
+
+function setup(options: { sliceBytes?: number; bytesPerSecond?: number } = {}) {
+  const clock = new FakeClock();
+  let version = 0;
+  let listing = encode(0);
+  const feed = new ListingFeed({
+    clock,
+    listing: () => listing,
+    intervalMs: 100,
+    bytesPerSecond: options.bytesPerSecond ?? 1e9,
+    ...(options.sliceBytes === undefined ? {} : { sliceBytes: options.sliceBytes }),
+  });
+  const change = () => {
+    listing = encode(++version);
+    feed.changed();
+  };
+  const add = () => {
+    const peer = new FakePeer();
+    feed.add(peer);
+    return peer;
+  };
+  return { clock, feed, change, add };
+}
+
+function encode(version: number): Uint8Array {
+  return new TextEncoder().encode(JSON.stringify({ version }));
+}
+
+function versions(peer: FakePeer): unknown[] {
+  return peer.take().map((message) => message.version);
+}
+
+describe('listing feed', () => {
+  test('sends the list at once to who is new', () => {
+    expect(versions(setup().add())).toEqual([0]);
+  });
+
+  test('sends a first change at once, further ones together once the interval is over', () => {
+    const { clock, change, add } = setup();
+    const peer = add();
+    versions(peer);
+    change();
+    clock.advance(0);
+    expect(versions(peer)).toEqual([1]);
+    for (let i = 0; i < 50; i++) change();
+    clock.advance(99);
+    expect(versions(peer)).toEqual([]);
+    clock.advance(1);
+    expect(versions(peer)).toEqual([51]);
+    clock.advance(10_000);
+    expect(versions(peer)).toEqual([]);
+  });
+
+  test('2,000 changes in 2 s make at most 20 messages for each of many operators', () => {
+    const { clock, change, add } = setup();
+    const peers = Array.from({ length: 30 }, add);
+    for (const peer of peers) versions(peer);
+    for (let i = 0; i < 2000; i++) {
+      change();
+      clock.advance(1);
+    }
+    clock.advance(200);
+    for (const peer of peers) {
+      const seen = versions(peer);
+      expect(seen.length).toBeLessThanOrEqual(21);
+      expect(seen.at(-1)).toBe(2000);
+    }
+  });
+
+  test('a big round goes out in slices within the byte rate, and everybody ends with the newest', () => {
+    // Each list counts for about 4.1 kB: two a slice, 100 kB/s.
+    const { clock, change, add } = setup({ sliceBytes: 8000, bytesPerSecond: 100_000 });
+    const peers = Array.from({ length: 10 }, add);
+    for (const peer of peers) versions(peer);
+    change();
+    clock.advance(0);
+    expect(peers.flatMap(versions)).toEqual([1, 1]);
+    change(); // in the middle of a round: the rest get the newer list already
+    clock.advance(85);
+    expect(peers.flatMap(versions)).toEqual([2, 2]);
+    clock.advance(2000);
+    expect(peers.flatMap(versions)).toEqual([2, 2, 2, 2, 2, 2, 2, 2]);
+  });
+
+  test('passes over who does not read, and comes back with the newest', () => {
+    const { clock, change, add } = setup();
+    const [slow, fast] = [add(), add()];
+    versions(slow);
+    versions(fast);
+    slow.backlog = 100_000;
+    change();
+    clock.advance(300);
+    change();
+    clock.advance(300);
+    expect([versions(slow), versions(fast)]).toEqual([[], [1, 2]]);
+    slow.backlog = 0;
+    clock.advance(100);
+    expect(versions(slow)).toEqual([2]);
+  });
+
+  test('forgets who left, and does nothing once stopped', () => {
+    const { clock, change, add, feed } = setup();
+    const [gone, here] = [add(), add()];
+    versions(gone);
+    versions(here);
+    feed.remove(gone);
+    change();
+    clock.advance(0);
+    expect([versions(gone), versions(here)]).toEqual([[], [1]]);
+    change();
+    feed.stop();
+    clock.advance(1000);
+    expect(versions(here)).toEqual([]);
+    expect(clock.pending).toBe(0);
+  });
+});

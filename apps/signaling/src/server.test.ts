@@ -1,0 +1,369 @@
+import { spawnSync } from 'node:child_process';
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { connect } from 'node:net';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { createMetrics, Health } from '@farpoint/service';
+import { afterAll, afterEach, describe, expect, test } from 'vitest';
+import type { SignalingOptions } from './options.ts';
+import type { SignalingRim } from './server.ts';
+import { TestService } from './test-sockets.ts';
+
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-signaling-'));
+afterAll(() => rmSync(folder, { recursive: true }));
+
+let service: TestService;
+afterEach(async () => {
+  await service?.stop();
+});
+
+async function start(options: Partial<SignalingOptions> = {}, rim: SignalingRim = {}): Promise<TestService> {
+  service = await TestService.start(options, rim);
+  return service;
+}
+
+function file(name: string, content: string): string {
+  const path = join(folder, name);
+  writeFileSync(path, content);
+  return path;
+}
+
+describe('Farpoint over real sockets', () => {
+  test('a session from list to close', async () => {
+    await start();
+    const operator = await service.operator();
+    expect(await operator.next()).toEqual({ type: 'robots', robots: [] });
+    const robot = await service.robot('r1');
+    expect(await operator.next()).toEqual({ type: 'robots', robots: [{ id: 'r1', name: 'Robot r1' }] });
+    await service.expectSession(robot, 'r1', operator);
+    robot.socket.terminate();
+    expect(await operator.next()).toEqual({ type: 'robots', robots: [] });
+  });
+
+  test('a robot that comes back with its key takes over from its older socket', async () => {
+    await start();
+    const operator = await service.operator();
+    const older = await service.robot('r1');
+    operator.send({ type: 'session.open', robotId: 'r1' });
+    await operator.until('session.opened');
+    const newer = await service.robot('r1');
+    expect(await operator.until('session.closed')).toMatchObject({ reason: 'robot-left' });
+    expect((await older.closed).code).toBe(1008);
+    await service.expectSession(newer, 'r1', operator);
+  });
+
+  test('another key is refused and closed', async () => {
+    await start();
+    await service.robot('r1');
+    const thief = await service.open(service.url('/robot'));
+    thief.send({ type: 'robot.hello', protocol: 1, id: 'r1', name: 'x', key: 'stolen' });
+    expect(await thief.next()).toMatchObject({ type: 'error', code: 'robot-id-taken' });
+    expect((await thief.closed).code).toBe(1008);
+  });
+
+  test('who says nothing is closed', async () => {
+    await start({ helloTimeoutMs: 20 });
+    const mute = await service.open(service.url('/operator'));
+    expect(await mute.next()).toMatchObject({ code: 'hello-first' });
+    expect((await mute.closed).code).toBe(1008);
+  });
+
+  test('a socket that answers no pings gives its id free', async () => {
+    await start({ heartbeatMs: 100 });
+    const operator = await service.operator();
+    await operator.next();
+    const robot = await service.robot('r1');
+    await operator.until('robots');
+    // As after a lost link: the connection is open and nothing is read from it.
+    robot.socket.pause();
+    expect(await operator.until('robots')).toEqual({ type: 'robots', robots: [] });
+  });
+
+  test('who does not read is disconnected, and only that one', async () => {
+    const metrics = createMetrics();
+    await start({ maxBacklogBytes: 65_536, messagesPerSecond: 1e6, messageBurst: 1e6 }, { metrics });
+    const robot = await service.robot('r1');
+    const other = await service.operator();
+    const stuck = await service.operator();
+    stuck.send({ type: 'session.open', robotId: 'r1' });
+    const { session } = await stuck.until('session.opened');
+    await robot.until('session.request');
+    stuck.socket.pause();
+    const offer = JSON.stringify({ type: 'session.offer', session, sdp: 'x'.repeat(50_000) });
+    const gone = robot.until('session.closed');
+    let waiting = true;
+    void gone.then(() => {
+      waiting = false;
+    });
+    while (waiting)
+      await new Promise<void>((resolve) => robot.socket.send(offer, () => setImmediate(resolve)));
+    expect(await gone).toMatchObject({ reason: 'operator-left' });
+    expect(await metrics.metrics()).toContain('rejects_total{role="operator",reason="slow-consumer"} 1');
+    await service.expectSession(robot, 'r1', other);
+  });
+});
+
+describe('the reference protocol over real sockets', () => {
+  test('robot 0, on any path: register, trickle, answer, re-offer, deregister', async () => {
+    await start();
+    const client = await service.referenceClient();
+    client.send({ type: 'getRobots' });
+    expect(await client.next()).toEqual({ type: 'robots', robots: [] });
+    const robot = await service.referenceRobot();
+    expect(await robot.next()).toEqual({ type: 'registered', robotId: 0 });
+    expect(await client.next()).toMatchObject({
+      type: 'register',
+      robot: { id: 0, name: 'Diane', sdpOffer: 'v=0' },
+    });
+    robot.send({ type: 'candidate', robotId: 0, candidate: 'candidate:1' });
+    expect(await client.next()).toEqual({ type: 'candidate', robotId: 0, candidate: 'candidate:1' });
+    client.send({ type: 'answer', robotId: 0, sdpAnswer: 'yes' });
+    client.send({ type: 'candidate', robotId: 0, candidate: 'candidate:2' });
+    expect(await robot.next()).toEqual({ type: 'sdpAnswer', sdpAnswer: 'yes' });
+    expect(await robot.next()).toEqual({ type: 'candidate', candidate: 'candidate:2' });
+    robot.send({ type: 'offer', robotId: 0, sdpOffer: 'again' });
+    expect(await client.next()).toEqual({ type: 'offer', robotId: 0, sdpOffer: 'again' });
+    robot.send({ type: 'deregister', robotId: 0 });
+    expect(await client.next()).toEqual({ type: 'deregister', robotId: 0 });
+    expect(await client.next()).toEqual({ type: 'deregistered', robotId: 0 });
+  });
+
+  test('a robot whose socket closes is deregistered', async () => {
+    await start();
+    const client = await service.referenceClient();
+    const robot = await service.referenceRobot();
+    await client.until('register');
+    robot.socket.close();
+    expect(await client.next()).toEqual({ type: 'deregistered', robotId: 0 });
+  });
+
+  test('can be left out', async () => {
+    await start({ reference: false });
+    expect(service.service.ports).toMatchObject({ referenceRobot: null, referenceClient: null });
+  });
+});
+
+describe('tokens', () => {
+  const robotTokens = file('robots.yaml', 'r1: token-of-r1\n');
+  const operatorTokens = file('operators.txt', 'operator-token\n');
+
+  test('are asked for on every port', async () => {
+    await start({ robotTokens, operatorTokens });
+    const robot = await service.robot('r1', { token: 'token-of-r1' });
+    await service.expectSession(robot, 'r1', await service.operator({ token: 'operator-token' }));
+    for (const [path, hello] of [
+      ['/robot', { type: 'robot.hello', protocol: 1, id: 'r2', name: 'x', key: 'k', token: 'token-of-r1' }],
+      ['/robot', { type: 'robot.hello', protocol: 1, id: 'r2', name: 'x', key: 'k' }],
+      ['/operator', { type: 'operator.hello', protocol: 1, name: 'x', token: 'token-of-r1' }],
+    ] as const) {
+      const socket = await service.open(service.url(path));
+      socket.send(hello);
+      expect(await socket.next()).toMatchObject({ code: 'unauthorized' });
+      expect((await socket.closed).code).toBe(1008);
+    }
+    for (const port of ['referenceRobot', 'referenceClient'] as const) {
+      await expect(service.open(service.url('/', port))).rejects.toThrow('401');
+      await expect(service.open(service.url('/?token=wrong', port))).rejects.toThrow('401');
+    }
+    const client = await service.open(service.url('/?token=operator-token', 'referenceClient'));
+    const referenceRobot = await service.open(service.url('/x?token=token-of-r1', 'referenceRobot'));
+    referenceRobot.send({ type: 'register', name: 'Diane', sdpOffer: 'v=0' });
+    await client.until('register');
+  });
+
+  test('not on the reference ports if those are declared open', async () => {
+    await start({ robotTokens, operatorTokens, referenceOpen: true });
+    await service.referenceClient();
+    expect(await (await service.referenceRobot()).next()).toEqual({ type: 'registered', robotId: 0 });
+  });
+
+  test('are read again at reload; a broken file leaves the old ones', async () => {
+    const path = file('changing.txt', 'first-token');
+    await start({ operatorTokens: path });
+    file('changing.txt', 'second-token');
+    service.service.reload();
+    await service.operator({ token: 'second-token' });
+    file('changing.txt', '');
+    expect(() => service.service.reload()).toThrow(`--operator-tokens: ${path} has no tokens`);
+    await service.operator({ token: 'second-token' });
+  });
+
+  test('from a file that is not there are a clear error', async () => {
+    await expect(TestService.start({ robotTokens: join(folder, 'nix') })).rejects.toThrow(
+      /^--robot-tokens names a file that cannot be read: ENOENT/,
+    );
+  });
+});
+
+describe('admission', () => {
+  test('unknown paths, foreign origins, too many from one address', async () => {
+    await start({ allowedOrigins: ['https://teleop.example'], maxConnectionsPerAddress: 2 });
+    await expect(service.open(service.url('/'))).rejects.toThrow('404');
+    const from = (origin: string) => service.open(service.url('/operator'), { origin });
+    await expect(from('https://evil.example')).rejects.toThrow('403');
+    const first = await from('https://teleop.example');
+    await service.robot('r1');
+    await expect(service.open(service.url('/robot'))).rejects.toThrow('429');
+    first.socket.close();
+    await first.closed;
+    await service.operator();
+  });
+
+  test('too many in all', async () => {
+    await start({ maxConnections: 1 });
+    await service.robot('r1');
+    await expect(service.referenceClient()).rejects.toThrow('503');
+    expect((await fetch(service.http('/healthz'))).status).toBe(503);
+  });
+
+  test('behind a proxy, addresses are those the proxy saw', async () => {
+    await start({ maxConnectionsPerAddress: 1, trustProxy: true });
+    const via = (forwarded: string) =>
+      service.open(service.url('/operator'), { headers: { 'x-forwarded-for': forwarded } });
+    await via('203.0.113.9, 192.0.2.1');
+    await expect(via('203.0.113.8, 192.0.2.1')).rejects.toThrow('429');
+    await via('192.0.2.2');
+  });
+
+  test('a port in use is an error and leaves nothing open', async () => {
+    await start();
+    const { signaling } = service.service.ports;
+    await expect(TestService.start({ referenceClientPort: signaling })).rejects.toThrow('EADDRINUSE');
+  });
+});
+
+describe('HTTP', () => {
+  test('health and metrics know what goes on', async () => {
+    const metrics = createMetrics();
+    const health = new Health();
+    await start({}, { metrics, health });
+    const robot = await service.robot('r1');
+    await service.expectSession(robot, 'r1', await service.operator());
+    await service.referenceRobot();
+    const response = await fetch(service.http('/healthz'));
+    expect([response.status, await response.json()]).toEqual([
+      200,
+      expect.objectContaining({
+        status: 'ok',
+        checks: {
+          connections: { ok: true, detail: expect.objectContaining({ robots: 1, operator: 1, robot: 1 }) },
+        },
+      }),
+    ]);
+    const text = await (await fetch(service.http('/metrics'))).text();
+    for (const line of [
+      'farpoint_signaling_connections{role="operator"} 1',
+      'farpoint_signaling_robots{protocol="farpoint"} 1',
+      'farpoint_signaling_sessions 0',
+      'farpoint_signaling_sessions_total 1',
+      'farpoint_signaling_session_ends_total{reason="closed-by-operator"} 1',
+      'farpoint_signaling_relays_total{type="session.offer"} 1',
+      'farpoint_signaling_relay_seconds_count 2',
+    ]) {
+      expect(text).toContain(`${line}\n`);
+    }
+  });
+
+  test('serves the web app with its headers, and nothing outside of it', async () => {
+    const root = join(folder, 'web');
+    mkdirSync(join(root, 'assets'), { recursive: true });
+    writeFileSync(join(root, 'index.html'), '<title>Farpoint</title>');
+    writeFileSync(join(root, 'assets/codec-abc.wasm'), '');
+    file('secret.txt', 'secret');
+    await start({ webRoot: root });
+    const page = await fetch(service.http('/'));
+    expect(await page.text()).toContain('Farpoint');
+    expect(Object.fromEntries(page.headers)).toMatchObject({
+      'content-type': 'text/html;charset=utf-8',
+      'cache-control': 'no-cache',
+      'x-content-type-options': 'nosniff',
+      'cross-origin-opener-policy': 'same-origin',
+      'content-security-policy': expect.stringContaining("'wasm-unsafe-eval'"),
+    });
+    const wasm = await fetch(service.http('/assets/codec-abc.wasm'));
+    expect(wasm.headers.get('content-type')).toBe('application/wasm');
+    expect(wasm.headers.get('cache-control')).toContain('immutable');
+    for (const path of ['/nothing', '/..%2fsecret.txt', '/%2e%2e/secret.txt', '/%']) {
+      expect((await fetch(service.http(path))).status).toBe(404);
+    }
+    expect((await fetch(service.http('/healthz'))).status).toBe(200);
+  });
+
+  test('a web root without a page is a clear error', async () => {
+    await expect(TestService.start({ webRoot: folder })).rejects.toThrow(
+      /^--web-root names a folder without index.html/,
+    );
+  });
+
+  test('what is not HTTP gets a 400', async () => {
+    await start();
+    const socket = connect(service.service.ports.signaling, '127.0.0.1');
+    socket.end('\x16\x03\x01 hello\r\n\r\n');
+    let answer = '';
+    for await (const chunk of socket) answer += String(chunk);
+    expect(answer).toMatch(/^HTTP\/1\.1 400 /);
+  });
+});
+
+test('TLS on every port, and a new certificate at reload', async () => {
+  const make = (name: string): { tlsCert: string; tlsKey: string } => {
+    const [tlsKey, tlsCert] = [join(folder, 'tls.key'), join(folder, 'tls.crt')];
+    const made = spawnSync('openssl', [
+      ...[
+        'req',
+        '-x509',
+        '-newkey',
+        'ec',
+        '-pkeyopt',
+        'ec_paramgen_curve:prime256v1',
+        '-nodes',
+        '-days',
+        '2',
+      ],
+      ...['-keyout', tlsKey, '-out', tlsCert, '-subj', `/CN=${name}`],
+    ]);
+    if (made.status !== 0) throw new Error(made.stderr.toString());
+    return { tlsCert, tlsKey };
+  };
+  await start(make('first'));
+  const insecure = { rejectUnauthorized: false };
+  const subject = async (port: 'signaling' | 'referenceRobot' | 'referenceClient'): Promise<string> => {
+    const { socket } = await service.open(service.url('/operator', port), insecure);
+    const { _socket } = socket as unknown as { _socket: import('node:tls').TLSSocket };
+    return String(_socket.getPeerCertificate().subject.CN);
+  };
+  for (const port of ['signaling', 'referenceRobot', 'referenceClient'] as const) {
+    expect(await subject(port)).toBe('first');
+  }
+  make('second');
+  service.service.reload();
+  expect(await subject('signaling')).toBe('second');
+  const { tlsCert } = make('third');
+  await expect(TestService.start({ tlsCert })).rejects.toThrow('--tls-cert needs the other one');
+});
+
+describe('shutdown', () => {
+  test('tells everybody, closes with 1012 or 1001, and takes nobody new', async () => {
+    await start();
+    const [robot, operator, client] = [
+      await service.robot('r1'),
+      await service.operator(),
+      await service.referenceClient(),
+    ];
+    const { signaling } = service.service.ports;
+    await service.service.close();
+    expect(await robot.until('error')).toMatchObject({ code: 'shutting-down' });
+    expect(await operator.until('error')).toMatchObject({ code: 'shutting-down' });
+    expect([(await robot.closed).code, (await operator.closed).code, (await client.closed).code]).toEqual([
+      1012, 1012, 1001,
+    ]);
+    await expect(fetch(`http://127.0.0.1:${signaling}/healthz`)).rejects.toThrow();
+  });
+
+  test('does not wait longer than the deadline for who does not hang up', async () => {
+    await start({ shutdownMs: 20 });
+    const robot = await service.robot('r1');
+    robot.socket.pause();
+    await service.service.close();
+  });
+});

@@ -1,0 +1,95 @@
+/** For tests of the core: time, peers and observer without sockets. */
+import type { Clock } from './clock.ts';
+import type { Observer, RejectReason, Role } from './observer.ts';
+import type { Peer } from './peer.ts';
+
+/** Time that stands until told to go on. */
+export class FakeClock implements Clock {
+  #now = 0;
+  #timers: { at: number; call: () => void }[] = [];
+
+  now(): number {
+    return this.#now;
+  }
+
+  after(ms: number, call: () => void): () => void {
+    const timer = { at: this.#now + ms, call };
+    this.#timers.push(timer);
+    return () => {
+      this.#timers = this.#timers.filter((other) => other !== timer);
+    };
+  }
+
+  /** Lets time pass, calling back what falls due, in order. */
+  advance(ms: number): void {
+    const end = this.#now + ms;
+    for (;;) {
+      const due = this.#timers.filter((timer) => timer.at <= end).sort((a, b) => a.at - b.at)[0];
+      if (due === undefined) break;
+      this.#timers = this.#timers.filter((timer) => timer !== due);
+      this.#now = Math.max(this.#now, due.at);
+      due.call();
+    }
+    this.#now = end;
+  }
+
+  get pending(): number {
+    return this.#timers.length;
+  }
+}
+
+export type Json = Record<string, unknown>;
+
+export class FakePeer implements Peer {
+  static #next = 1;
+  readonly id = FakePeer.#next++;
+  readonly address = '192.0.2.1';
+  backlog = 0;
+  /** What it was sent and a test has not taken yet. */
+  inbox: Json[] = [];
+  /** Code and reason, once the service closed it. */
+  closed: { code: number; reason: string } | null = null;
+
+  send(message: string | Uint8Array): void {
+    if (this.closed !== null) return;
+    this.inbox.push(
+      JSON.parse(typeof message === 'string' ? message : new TextDecoder().decode(message)) as Json,
+    );
+  }
+
+  close(code: number, reason: string): void {
+    this.closed ??= { code, reason };
+  }
+
+  /** Everything since the last call. */
+  take(): Json[] {
+    const taken = this.inbox;
+    this.inbox = [];
+    return taken;
+  }
+}
+
+export class RecordingObserver implements Observer {
+  readonly relays: string[] = [];
+  readonly rejects: string[] = [];
+  readonly joined: unknown[] = [];
+  readonly left: unknown[] = [];
+  readonly sessionEnds: string[] = [];
+
+  robotJoined(_role: Role, id: string | number, _address: string, tookOver: boolean): void {
+    this.joined.push(tookOver ? `${id} took over` : id);
+  }
+  robotLeft(_role: Role, id: string | number): void {
+    this.left.push(id);
+  }
+  sessionOpened(): void {}
+  sessionClosed(_session: string, reason: string): void {
+    this.sessionEnds.push(reason);
+  }
+  relayed(type: string): void {
+    this.relays.push(type);
+  }
+  rejected(role: Role, reason: RejectReason): void {
+    this.rejects.push(`${role}: ${reason}`);
+  }
+}
