@@ -5,6 +5,7 @@ import type { FromCloudWorker, ToCloudWorker } from './cloud/worker-messages.ts'
 import { Driver } from './drive/driver.ts';
 import { ScriptInput } from './drive/script-input.ts';
 import { LatencyProbe } from './latency/latency-probe.ts';
+import type { PacketRecord } from './latency/packet-record.ts';
 import { RobotLink } from './link/robot-link.ts';
 import type { TransformSupport } from './peer/encoded-transform.ts';
 import type { Settings } from './settings.ts';
@@ -18,6 +19,7 @@ import { OperatorInputs } from './ui/operator-inputs.ts';
 import { showRobots } from './ui/robot-list.ts';
 import { StatusUi } from './ui/status-ui.ts';
 import { GpuCompletion } from './view/gpu-completion.ts';
+import { ResolutionGovernor } from './view/resolution-governor.ts';
 import { Stage } from './view/stage.ts';
 import { VrSession } from './view/vr-session.ts';
 import { WristPanel } from './view/wrist-panel.ts';
@@ -42,8 +44,11 @@ export class App {
   readonly #worker: Worker;
   readonly #completion: GpuCompletion;
   readonly #status: StatusUi;
+  readonly #resolution = new ResolutionGovernor();
   #generation = 0;
   lastPointsMs = 0;
+  /** Filled while a measurement asks for it. */
+  packetRecord: PacketRecord | null = null;
   #pixelWaiters: (() => void)[] = [];
 
   /** @throws {Error} without WebGL 2 */
@@ -96,6 +101,7 @@ export class App {
       this.stats.tick(this.cloud, nowMs);
       this.#status.update(nowMs);
       this.latency.tick(nowMs);
+      this.#governResolution(nowMs);
     }, STATUS_TICK_MS);
     this.stage.renderer.setAnimationLoop((nowMs) => this.#frame(nowMs));
     installTestApi(this);
@@ -107,6 +113,8 @@ export class App {
   }
 
   #frame(nowMs: number): void {
+    // In VR the headset's compositor keeps the pace.
+    if (!this.vr.active && this.#completion.busy) return;
     const began = performance.now();
     const { renderer, scene, camera } = this.stage;
     if (this.vr.active) this.inputs.readHeadset(this.vr.inputSources);
@@ -117,12 +125,20 @@ export class App {
     renderer.render(scene, camera);
     // Only where a time is taken: waiting for the GPU costs frames.
     if (this.latency.wantsTime || this.settings.canvas !== null) this.#completion.wait();
+    else if (!this.vr.active) this.#completion.mark();
     const ended = performance.now();
     this.latency.onDrawn(ended);
     this.stats.onDrawn(ended, ended - began);
     if (this.#pixelWaiters.length > 0) {
       for (const act of this.#pixelWaiters) act();
       this.#pixelWaiters = [];
+    }
+  }
+
+  #governResolution(nowMs: number): void {
+    if (this.vr.active || document.hidden || this.link.phase !== 'live') this.#resolution.pause();
+    else if (this.#resolution.update(this.stats.displayFramesPerSecond, nowMs)) {
+      this.stage.resolution = this.#resolution.scale;
     }
   }
 
@@ -183,6 +199,7 @@ export class App {
       switch (message.type) {
         case 'batch': {
           const batch = new Batch(message.buffer, message.packets, message.points);
+          this.packetRecord?.add(batch, performance.timeOrigin);
           // Of an earlier session, or nobody would draw it.
           if (message.generation !== this.#generation || (document.hidden && !this.vr.active)) {
             const back: ToCloudWorker = { type: 'return', buffer: message.buffer };

@@ -99,6 +99,13 @@ export interface FarpointTestApi {
   /** Limits the stream, bit/s (the `bandwidth` channel). */
   limitBandwidth(bitsPerSecond: number): void;
   probe(): DrawnProbe;
+  /** Begins to record when each packet arrives, up to so many; `null` ends it. */
+  recordPackets(capacity: number | null): void;
+  /**
+   * Frame number, sequence offset and arrival of each recorded packet, one after another. Arrivals in ms of the robot's
+   * clock as the page knows it, right to half of `minRttMs`.
+   */
+  recordedPackets(): { values: number[]; minRttMs: number | null };
   /** Colour of one pixel after the next display frame, x and y as shares of the canvas from its top left. */
   pixel(x: number, y: number): Promise<[number, number, number]>;
 }

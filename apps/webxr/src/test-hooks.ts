@@ -2,6 +2,7 @@
 import { LATENCY_TEST_COLOUR, type Pose } from '@farpoint/protocol';
 import { Quaternion, Vector3 } from 'three';
 import type { App } from './app.ts';
+import { PacketRecord } from './latency/packet-record.ts';
 import type { DrawnProbe, FarpointTestApi } from './test-api.ts';
 import { lastNotice } from './ui/notice.ts';
 import { describeLink, snapshot } from './ui/status-ui.ts';
@@ -59,6 +60,16 @@ export function installTestApi(app: App): void {
     },
     limitBandwidth: (bitsPerSecond) => link.limitBandwidth(bitsPerSecond),
     probe: () => probe(app),
+    recordPackets(capacity) {
+      app.packetRecord = capacity === null ? null : new PacketRecord(capacity);
+    },
+    recordedPackets() {
+      const { clock } = link.session;
+      const values = [...(app.packetRecord?.values ?? [])];
+      for (let i = 2; i < values.length; i += 3)
+        values[i] = (values[i] as number) + (clock.offsetMs ?? Number.NaN);
+      return { values, minRttMs: clock.minRttMs };
+    },
     pixel: (x, y) =>
       new Promise((resolve) => {
         app.afterNextFrame(() => {

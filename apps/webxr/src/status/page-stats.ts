@@ -90,6 +90,10 @@ export class PageStatistics {
     this.#display.update(this.#displayFrames, nowMs);
   }
 
+  get displayFramesPerSecond(): number {
+    return this.#display.perSecond;
+  }
+
   snapshot(
     cloud: CloudView,
     clock: { rttMs: number | null; minRttMs: number | null },

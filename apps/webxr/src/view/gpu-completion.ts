@@ -1,7 +1,8 @@
-/** Waits until the GPU has drawn everything so far. Only where a time is measured: it stalls the pipeline. */
+/** Whether the GPU has drawn what it was given. */
 import type { WebGLRenderer } from 'three';
 
 export class GpuCompletion {
+  #fence: WebGLSync | null = null;
   readonly #pixel = new Uint8Array(4);
   readonly #renderer: WebGLRenderer;
 
@@ -9,7 +10,7 @@ export class GpuCompletion {
     this.#renderer = renderer;
   }
 
-  /** Reads one pixel of what was drawn to: that cannot answer before it is drawn. */
+  /** Waits for it, by reading a pixel of it. Only where a time is measured: it stalls the pipeline. */
   wait(): void {
     const gl = this.#renderer.getContext() as WebGL2RenderingContext;
     const { xr, state } = this.#renderer;
@@ -17,5 +18,23 @@ export class GpuCompletion {
     const framebuffer = layer !== null && 'framebuffer' in layer ? layer.framebuffer : null;
     state.bindFramebuffer(gl.FRAMEBUFFER, framebuffer as WebGLFramebuffer);
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, this.#pixel);
+  }
+
+  /** The display frame is submitted. */
+  mark(): void {
+    const gl = this.#renderer.getContext() as WebGL2RenderingContext;
+    if (this.#fence !== null) gl.deleteSync(this.#fence);
+    this.#fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+  }
+
+  /**
+   * Whether the GPU still draws the display frame marked last. Another one behind it would only be shown later: a slow
+   * GPU shows what is newest when it is free, not what was newest when it was asked.
+   */
+  get busy(): boolean {
+    if (this.#fence === null) return false;
+    const gl = this.#renderer.getContext() as WebGL2RenderingContext;
+    return !gl.isContextLost() && gl.getSyncParameter(this.#fence, gl.SYNC_STATUS) === gl.UNSIGNALED;
   }
 }

@@ -33,6 +33,7 @@ export class Stage {
   readonly #follower = new PoseFollower(FOLLOW_MS);
   readonly #fixedSize: { width: number; height: number } | null;
   #lastMs = 0;
+  #resolution = 1;
 
   /** @throws {Error} without WebGL 2 */
   constructor(canvas: HTMLCanvasElement, fixedSize: { width: number; height: number } | null) {
@@ -56,6 +57,12 @@ export class Stage {
     return this.renderer.getContext() as WebGL2RenderingContext;
   }
 
+  /** Share of the screen's own resolution that is drawn, for machines that cannot keep up. */
+  set resolution(scale: number) {
+    this.#resolution = scale;
+    this.resize();
+  }
+
   resize(): void {
     if (this.renderer.xr.isPresenting) return;
     if (this.#fixedSize !== null) {
@@ -63,7 +70,7 @@ export class Stage {
       this.renderer.setSize(this.#fixedSize.width, this.#fixedSize.height, false);
     } else {
       const { clientWidth, clientHeight } = this.renderer.domElement;
-      this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+      this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2) * this.#resolution);
       this.renderer.setSize(Math.max(clientWidth, 1), Math.max(clientHeight, 1), false);
     }
     const { width, height } = this.renderer.domElement;
