@@ -52,6 +52,7 @@ test('two robots: the page switches between them', async ({ page, startStack }) 
   await operator.releaseKeys();
   await operator.expectStanding();
 
+  await page.getByRole('button', { name: 'Disconnect' }).click();
   await page.getByRole('button', { name: /Simulated robot 2/ }).click();
   await operator.expectState('robotId', 'sim-2');
   await operator.expectPoints();
@@ -60,6 +61,7 @@ test('two robots: the page switches between them', async ({ page, startStack }) 
   expect(other.x).toBeCloseTo(start.x, 5);
   expect(other.y).toBeCloseTo(start.y, 5);
 
+  await page.getByRole('button', { name: 'Disconnect' }).click();
   await page.getByRole('button', { name: /Simulated robot 1/ }).click();
   await operator.expectState('robotId', 'sim-1');
   await operator.expectPoints();

@@ -194,6 +194,12 @@ const options = {
     argument: 'LOW-HIGH',
     help: 'local UDP ports for operators’ connections; any where left out',
   }),
+  packetLog: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'FILE',
+    help: 'for measurements: when each packet was sent, as CSV, written when the robot stops',
+  }),
   ...adminOptions(9400),
 } satisfies OptionTable;
 
@@ -241,6 +247,7 @@ export function toRobotOptions(values: RobotOptionValues): RobotOptions {
     connectTimeoutMs: 20_000,
     iceServers: values.iceServers.map((urls) => ({ urls })),
     portRange: values.udpPorts === null ? undefined : [low as number, high as number],
+    packetLog: values.packetLog ?? undefined,
   };
 }
 

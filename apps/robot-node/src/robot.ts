@@ -22,6 +22,7 @@ import { RobotCounters } from './telemetry/robot-counters.ts';
 import { StageTimer } from './telemetry/stage-timer.ts';
 import { TelemetrySender } from './telemetry/telemetry-sender.ts';
 import type { PeerEnd } from './transport/operator-peer.ts';
+import { PacketLog } from './transport/packet-log.ts';
 import { SendLoop } from './transport/send-loop.ts';
 
 export interface RobotOptions {
@@ -40,6 +41,8 @@ export interface RobotOptions {
   /** Besides those of the signaling service. */
   iceServers: IceServer[];
   portRange?: readonly [number, number] | undefined;
+  /** File for a log of every packet sent, written when the robot closes. */
+  packetLog?: string | undefined;
 }
 
 const TELEMETRY_MS = 50;
@@ -55,6 +58,7 @@ export class Robot implements SessionHost {
   onFailure: ((error: CaptureError) => void) | null = null;
   readonly #options: RobotOptions;
   readonly #log: Logger;
+  readonly #packetLog: PacketLog | undefined;
   readonly #sendLoop = new SendLoop(monotonicMs);
   readonly #fanOut: FrameFanOut;
   readonly #telemetry: TelemetrySender;
@@ -65,6 +69,7 @@ export class Robot implements SessionHost {
   private constructor(capture: Capture, options: RobotOptions, log: Logger) {
     this.#options = options;
     this.#log = log;
+    this.#packetLog = options.packetLog === undefined ? undefined : new PacketLog(options.packetLog);
     this.capture = capture;
     const guard = new DriveGuard({
       limits: options.limits,
@@ -119,6 +124,7 @@ export class Robot implements SessionHost {
     this.#sendLoop.close();
     await this.signaling.close();
     await this.capture.close();
+    this.#packetLog?.write();
   }
 
   // SessionHost
@@ -216,6 +222,7 @@ export class Robot implements SessionHost {
         operatorName,
         peer: { iceServers: this.#iceServers, portRange, connectTimeoutMs },
         controller: new FixedRateController({ bitsPerSecond }),
+        packetLog: this.#packetLog,
       },
       this,
       this.#sendLoop,

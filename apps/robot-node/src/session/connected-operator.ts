@@ -4,6 +4,7 @@ import { RateMeter } from '../telemetry/rate-meter.ts';
 import { StageTimer } from '../telemetry/stage-timer.ts';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
 import { OperatorPeer, type OperatorPeerOptions, type PeerEnd } from '../transport/operator-peer.ts';
+import type { PacketLog } from '../transport/packet-log.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
 import type { SharedFrame } from '../transport/shared-frame.ts';
 import { StreamSender } from '../transport/stream-sender.ts';
@@ -21,6 +22,7 @@ export interface ConnectedOperatorOptions {
   operatorName: string;
   peer: OperatorPeerOptions;
   controller: RateController;
+  packetLog?: PacketLog | undefined;
 }
 
 export interface ConnectedOperatorEvents {
@@ -44,6 +46,7 @@ export class ConnectedOperator {
   readonly #host: SessionHost;
   readonly #sendLoop: SendLoop;
   readonly #controller: RateController;
+  readonly #packetLog: PacketLog | undefined;
   readonly #events: ConnectedOperatorEvents;
   readonly #rates = new RateMeter<'framesSent' | 'pointsSent' | 'bytesSent'>();
   readonly #stages = new StageTimer();
@@ -61,6 +64,7 @@ export class ConnectedOperator {
     this.#host = host;
     this.#sendLoop = sendLoop;
     this.#controller = options.controller;
+    this.#packetLog = options.packetLog;
     this.#events = events;
     this.peer = new OperatorPeer(options.peer, {
       onCandidate: (candidate) => events.onCandidate(candidate),
@@ -152,6 +156,8 @@ export class ConnectedOperator {
 
   #onConnected(transport: CloudTransport): void {
     const sender = new StreamSender(transport, this.#controller, () => this.#host.now());
+    const log = this.#packetLog;
+    if (log !== undefined) sender.onPacketSent = (frame, offset, sentMs) => log.add(frame, offset, sentMs);
     sender.onFrameSent = ({ shared, sendMs }) => {
       this.#stages.add('sendMs', sendMs);
       this.#lastFrameNumber = shared.frame.frameNumber;

@@ -1,7 +1,7 @@
 import { writeFileSync } from 'node:fs';
 
-/** Packets kept: 25 s at 40 Mbit/s, 100 s at 10. */
-const CAPACITY = 131_072;
+/** Packets kept: half a minute at 40 Mbit/s. */
+const DEFAULT_CAPACITY = 131_072;
 const FIELDS = 3;
 
 /**
@@ -10,17 +10,20 @@ const FIELDS = 3;
  */
 export class PacketLog {
   readonly #path: string;
-  readonly #records = new Float64Array(CAPACITY * FIELDS);
+  readonly #records: Float64Array;
+  readonly #capacity: number;
   #count = 0;
 
   /** @param path where {@link write} puts the log: CSV with the columns frameNumber, sequenceOffset, sentMs */
-  constructor(path: string) {
+  constructor(path: string, capacity = DEFAULT_CAPACITY) {
     this.#path = path;
+    this.#capacity = capacity;
+    this.#records = new Float64Array(capacity * FIELDS);
   }
 
   /** @param sentMs the robot's monotonic clock */
   add(frameNumber: number, sequenceOffset: number, sentMs: number): void {
-    const at = (this.#count % CAPACITY) * FIELDS;
+    const at = (this.#count % this.#capacity) * FIELDS;
     this.#records[at] = frameNumber;
     this.#records[at + 1] = sequenceOffset;
     this.#records[at + 2] = sentMs;
@@ -28,12 +31,12 @@ export class PacketLog {
   }
 
   write(): void {
-    const first = Math.max(0, this.#count - CAPACITY);
+    const first = Math.max(0, this.#count - this.#capacity);
     const lines = ['frameNumber,sequenceOffset,sentMs'];
     for (let i = first; i < this.#count; i++) {
-      const at = (i % CAPACITY) * FIELDS;
-      const [frameNumber, offset, sentMs] = this.#records.subarray(at, at + FIELDS) as unknown as number[];
-      lines.push(`${frameNumber},${offset},${(sentMs as number).toFixed(4)}`);
+      const at = (i % this.#capacity) * FIELDS;
+      const sentMs = this.#records[at + 2] as number;
+      lines.push(`${this.#records[at]},${this.#records[at + 1]},${sentMs.toFixed(4)}`);
     }
     writeFileSync(this.#path, `${lines.join('\n')}\n`);
   }

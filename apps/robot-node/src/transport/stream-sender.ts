@@ -9,6 +9,7 @@ import {
   TransportFeedbackError,
   walkRtcp,
 } from '@farpoint/congestion';
+import { MAX_POINT_DATA_BYTES } from '@farpoint/protocol';
 import { payloadBytes, SLOT_BYTES } from '../encode/packetiser.ts';
 import type { CloudTransport } from './cloud-transport.ts';
 import type { SharedFrame } from './shared-frame.ts';
@@ -49,6 +50,8 @@ export class StreamSender {
   };
   onFrameSent: ((sent: SentFrame) => void) | null = null;
   onFrameDropped: ((shared: SharedFrame, reason: FrameDropReason) => void) | null = null;
+  /** Told of each packet that left: frame number, where its data lies in the frame, robot's clock. For measurements. */
+  onPacketSent: ((frameNumber: number, sequenceOffset: number, sentMs: number) => void) | null = null;
   readonly #transport: CloudTransport;
   readonly #controller: RateController;
   readonly #pacer: PacketPacer<SharedFrame>;
@@ -112,6 +115,7 @@ export class StreamSender {
         const wireBytes = bytes + transport.overheadBytes;
         this.#feedback.onPacketSent(sequence, wireBytes, now);
         this.#controller.onPacketSent(sequence, wireBytes, now);
+        this.onPacketSent?.(shared.frame.frameNumber, i * MAX_POINT_DATA_BYTES, this.#now());
         this.counters.packetsSent++;
         this.counters.bytesSent += wireBytes;
       }

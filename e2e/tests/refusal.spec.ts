@@ -1,0 +1,31 @@
+import { writeFileSync } from 'node:fs';
+import { OperatorPage } from '../src/operator-page.ts';
+import { expect, test } from '../src/stack-test.ts';
+
+test('a refused token is said in plain words, and the right one cures it', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const tokens = testInfo.outputPath('operators.json');
+  writeFileSync(tokens, JSON.stringify({ anna: 'a-right-token-of-some-length' }));
+  const stack = await startStack({ signalingArgs: ['--operator-tokens', tokens] });
+  const operator = await OperatorPage.open(page, stack, { token: 'a-wrong-token-of-some-length' });
+  await operator.expectState('signaling', 'refused');
+  await expect(page.getByText(/refused the token/i).first()).toBeVisible();
+  expect(await page.evaluate(() => window.farpoint.robots())).toEqual([]);
+  await operator.screenshot(testInfo, 'refused');
+
+  await page.getByRole('button', { name: 'Settings' }).click();
+  await page.getByLabel('Token').fill('a-right-token-of-some-length');
+  await page.getByRole('button', { name: 'Save and reconnect' }).click();
+  await page.waitForFunction(() => window.farpoint?.state().signaling === 'ready');
+  await page.getByRole('button', { name: /Simulated robot 1/ }).click();
+  await operator.expectPoints();
+});
+
+test('without a headset the page says why there is no VR', async ({ page, startStack }) => {
+  const stack = await startStack();
+  await OperatorPage.open(page, stack);
+  await expect(page.getByText(/headset|WebXR/).first()).toBeVisible();
+  await expect(page.getByRole('button', { name: 'Enter VR' })).toBeHidden();
+});
