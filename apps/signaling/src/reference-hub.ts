@@ -1,7 +1,6 @@
 import {
   encodeJson,
   encodeJsonBytes,
-  type MessageData,
   type ReferenceClientToService,
   type ReferenceRobot,
   type ReferenceRobotToService,
@@ -12,14 +11,11 @@ import {
   referenceServiceToClientCodec,
   referenceServiceToRobotCodec,
 } from '@farpoint/protocol';
-import type { Clock } from './clock.ts';
 import { MessageGuard, type MessageLimits } from './message-guard.ts';
-import type { Observer, RejectReason } from './observer.ts';
 import { type Connection, closeCodes, type Peer } from './peer.ts';
+import { ReferenceConnection, type ReferenceConnectionOptions } from './reference-connection.ts';
 
-export interface ReferenceHubOptions {
-  readonly clock: Clock;
-  readonly observer: Observer;
+export interface ReferenceHubOptions extends ReferenceConnectionOptions {
   readonly limits: MessageLimits & {
     readonly maxRobots: number;
     /** Buffered for late joiners, each way; the oldest go first. */
@@ -157,77 +153,14 @@ export class ReferenceHub {
   }
 }
 
-/** What both kinds of sockets have in common. */
-abstract class ReferenceConnection<Message> implements Connection {
-  protected readonly peer: Peer;
-  protected readonly hub: ReferenceHub;
-  readonly #role: 'reference-robot' | 'reference-client';
-  readonly #options: ReferenceHubOptions;
-  readonly #guard: MessageGuard<Message>;
-  #ended = false;
-
-  constructor(
-    peer: Peer,
-    hub: ReferenceHub,
-    role: 'reference-robot' | 'reference-client',
-    guard: (refuse: (reason: RejectReason, detail: string) => void) => MessageGuard<Message>,
-    options: ReferenceHubOptions,
-  ) {
-    this.peer = peer;
-    this.hub = hub;
-    this.#role = role;
-    this.#options = options;
-    this.#guard = guard((reason, detail) => options.observer.rejected(role, reason, detail));
-  }
-
-  receive(data: MessageData): void {
-    if (this.#ended) return;
-    const begin = this.#options.clock.now();
-    const message = this.#guard.read(data, begin);
-    if (message !== null) {
-      const relayed = this.handle(message);
-      if (relayed !== null) this.#options.observer.relayed(relayed, this.#options.clock.now() - begin);
-    }
-    if (this.#guard.exhausted) {
-      this.#options.observer.rejected(this.#role, 'too-many-faults', '');
-      this.end(closeCodes.policyViolation, 'too many refused messages');
-    }
-  }
-
-  closed(): void {
-    this.#ended = true;
-    this.left();
-  }
-
-  shutDown(): void {
-    this.end(closeCodes.goingAway, 'service restart');
-  }
-
-  /** @returns the type of a message that was relayed */
-  protected abstract handle(message: Message): string | null;
-  protected abstract left(): void;
-
-  protected refuse(reason: RejectReason, detail: string, fault: boolean): null {
-    this.#options.observer.rejected(this.#role, reason, detail);
-    if (fault) this.#guard.fault();
-    return null;
-  }
-
-  protected end(code: number, reason: string): void {
-    if (this.#ended) return;
-    this.#ended = true;
-    this.peer.close(code, reason);
-  }
-}
-
 class RobotConnection extends ReferenceConnection<ReferenceRobotToService> {
+  readonly #hub: ReferenceHub;
   /** The one robot this socket may speak for. */
   #robotId: number | null = null;
 
   constructor(peer: Peer, hub: ReferenceHub, options: ReferenceHubOptions) {
     super(
       peer,
-      hub,
       'reference-robot',
       (refuse) =>
         new MessageGuard(referenceRobotToServiceCodec, options.limits, options.clock.now(), refuse, {
@@ -235,12 +168,13 @@ class RobotConnection extends ReferenceConnection<ReferenceRobotToService> {
         }),
       options,
     );
+    this.#hub = hub;
   }
 
   protected handle(message: ReferenceRobotToService): string | null {
     if (message.type === 'register') {
-      if (this.#robotId !== null) this.hub.deregister(this.#robotId, false); // it begins anew
-      this.#robotId = this.hub.register(this.peer, message.name, message.sdpOffer ?? null);
+      if (this.#robotId !== null) this.#hub.deregister(this.#robotId, false); // it begins anew
+      this.#robotId = this.#hub.register(this.peer, message.name, message.sdpOffer ?? null);
       if (this.#robotId === null) {
         this.refuse('full', 'no room for another robot', false);
         this.end(closeCodes.tryAgainLater, 'no room for another robot');
@@ -252,29 +186,30 @@ class RobotConnection extends ReferenceConnection<ReferenceRobotToService> {
     }
     switch (message.type) {
       case 'offer':
-        this.hub.offer(message.robotId, message.sdpOffer);
+        this.#hub.offer(message.robotId, message.sdpOffer);
         return 'reference.offer';
       case 'candidate':
-        this.hub.robotCandidate(message.robotId, message.candidate);
+        this.#hub.robotCandidate(message.robotId, message.candidate);
         return 'reference.candidate';
       case 'deregister':
-        this.hub.deregister(message.robotId, true);
+        this.#hub.deregister(message.robotId, true);
         this.#robotId = null;
         return null;
     }
   }
 
   protected left(): void {
-    if (this.#robotId !== null) this.hub.deregister(this.#robotId, false);
+    if (this.#robotId !== null) this.#hub.deregister(this.#robotId, false);
     this.#robotId = null;
   }
 }
 
 class ClientConnection extends ReferenceConnection<ReferenceClientToService> {
+  readonly #hub: ReferenceHub;
+
   constructor(peer: Peer, hub: ReferenceHub, options: ReferenceHubOptions) {
     super(
       peer,
-      hub,
       'reference-client',
       (refuse) =>
         new MessageGuard(referenceClientToServiceCodec, options.limits, options.clock.now(), refuse, {
@@ -282,18 +217,19 @@ class ClientConnection extends ReferenceConnection<ReferenceClientToService> {
         }),
       options,
     );
+    this.#hub = hub;
   }
 
   protected handle(message: ReferenceClientToService): string | null {
     switch (message.type) {
       case 'getRobots':
-        this.peer.send(this.hub.listing());
+        this.peer.send(this.#hub.listing());
         return null;
       case 'answer':
-        if (this.hub.answer(message.robotId, message.sdpAnswer)) return 'reference.answer';
+        if (this.#hub.answer(message.robotId, message.sdpAnswer)) return 'reference.answer';
         break;
       case 'candidate':
-        if (this.hub.clientCandidate(message.robotId, message.candidate)) return 'reference.candidate';
+        if (this.#hub.clientCandidate(message.robotId, message.candidate)) return 'reference.candidate';
         break;
     }
     // No fault: it may have left a moment ago.
@@ -301,7 +237,7 @@ class ClientConnection extends ReferenceConnection<ReferenceClientToService> {
   }
 
   protected left(): void {
-    this.hub.clientLeft(this.peer);
+    this.#hub.clientLeft(this.peer);
   }
 }
 

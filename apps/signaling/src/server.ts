@@ -1,30 +1,27 @@
 import { randomBytes } from 'node:crypto';
-import { readFileSync } from 'node:fs';
 import type { IncomingMessage, RequestListener } from 'node:http';
 import {
   createAdminHandler,
   createMetrics,
   Health,
   type Logger,
-  OptionsError,
   type Registry,
   silentLogger,
 } from '@farpoint/service';
 import type { WebSocket } from 'ws';
-import { AccessList } from './access.ts';
 import { Admission, peerAddress } from './admission.ts';
 import { systemClock } from './clock.ts';
 import { FarpointHub } from './farpoint-hub.ts';
 import { Heartbeat } from './heartbeat.ts';
 import { turnCredentials } from './ice-servers.ts';
-import { Listener, type TlsFiles, type UpgradeDecision } from './listener.ts';
+import { Listener, type UpgradeDecision } from './listener.ts';
 import { createObserver } from './metrics.ts';
 import type { Role } from './observer.ts';
 import { defaultOptions, type SignalingOptions } from './options.ts';
 import type { Connection, Peer } from './peer.ts';
 import { ReferenceHub } from './reference-hub.ts';
+import { readFiles, type ServiceFiles } from './service-files.ts';
 import { SocketPeer } from './socket-peer.ts';
-import { parseTokens } from './token-file.ts';
 import { webRoot } from './web-root.ts';
 
 /** What a program lends the service; tests may leave it out. */
@@ -66,12 +63,6 @@ export async function startSignaling(
   return service;
 }
 
-interface Files {
-  readonly tls: TlsFiles | null;
-  readonly robots: AccessList;
-  readonly operators: AccessList;
-}
-
 class SignalingService implements RunningSignaling {
   readonly #options: SignalingOptions;
   readonly #log: Logger;
@@ -88,7 +79,7 @@ class SignalingService implements RunningSignaling {
     'reference-robot': 0,
     'reference-client': 0,
   };
-  #files: Files;
+  #files: ServiceFiles;
   #listeners: Listener[] = [];
   #nextPeerId = 1;
   #closing: Promise<void> | null = null;
@@ -308,42 +299,6 @@ class SignalingService implements RunningSignaling {
     } else if (reference && referenceOpen) {
       this.#log.warn({ host }, 'anybody who reaches the ports of the reference system may come in');
     }
-  }
-}
-
-function readFiles(options: SignalingOptions): Files {
-  const { tlsCert, tlsKey, robotTokens, operatorTokens } = options;
-  if ((tlsCert === null) !== (tlsKey === null)) {
-    throw new OptionsError(
-      tlsCert === null ? '--tls-key' : '--tls-cert',
-      'needs the other one of --tls-cert and --tls-key',
-    );
-  }
-  return {
-    tls:
-      tlsCert === null || tlsKey === null
-        ? null
-        : { cert: readOptionFile('--tls-cert', tlsCert), key: readOptionFile('--tls-key', tlsKey) },
-    robots: readTokens('--robot-tokens', robotTokens, true),
-    operators: readTokens('--operator-tokens', operatorTokens, false),
-  };
-}
-
-function readTokens(flag: string, path: string | null, bound: boolean): AccessList {
-  if (path === null) return new AccessList(null);
-  try {
-    return new AccessList(parseTokens(readOptionFile(flag, path).toString('utf8'), bound));
-  } catch (error) {
-    if (error instanceof OptionsError) throw error;
-    throw new OptionsError(`${flag}: ${path}`, (error as Error).message);
-  }
-}
-
-function readOptionFile(flag: string, path: string): Buffer {
-  try {
-    return readFileSync(path);
-  } catch (error) {
-    throw new OptionsError(flag, `names a file that cannot be read: ${(error as Error).message}`);
   }
 }
 

@@ -1,0 +1,54 @@
+import { readFileSync } from 'node:fs';
+import { OptionsError } from '@farpoint/service';
+import { AccessList } from './access.ts';
+import type { TlsFiles } from './listener.ts';
+import type { SignalingOptions } from './options.ts';
+import { parseTokens } from './token-file.ts';
+
+/** What the options name files for; read at start and again at each reload. */
+export interface ServiceFiles {
+  readonly tls: TlsFiles | null;
+  readonly robots: AccessList;
+  readonly operators: AccessList;
+}
+
+/**
+ * Reads certificate and tokens.
+ *
+ * @throws {OptionsError} that names the option of a file that is missing or wrong
+ */
+export function readFiles(options: SignalingOptions): ServiceFiles {
+  const { tlsCert, tlsKey, robotTokens, operatorTokens } = options;
+  if ((tlsCert === null) !== (tlsKey === null)) {
+    throw new OptionsError(
+      tlsCert === null ? '--tls-key' : '--tls-cert',
+      'needs the other one of --tls-cert and --tls-key',
+    );
+  }
+  return {
+    tls:
+      tlsCert === null || tlsKey === null
+        ? null
+        : { cert: readOptionFile('--tls-cert', tlsCert), key: readOptionFile('--tls-key', tlsKey) },
+    robots: readTokens('--robot-tokens', robotTokens, true),
+    operators: readTokens('--operator-tokens', operatorTokens, false),
+  };
+}
+
+function readTokens(flag: string, path: string | null, bound: boolean): AccessList {
+  if (path === null) return new AccessList(null);
+  try {
+    return new AccessList(parseTokens(readOptionFile(flag, path).toString('utf8'), bound));
+  } catch (error) {
+    if (error instanceof OptionsError) throw error;
+    throw new OptionsError(`${flag}: ${path}`, (error as Error).message);
+  }
+}
+
+function readOptionFile(flag: string, path: string): Buffer {
+  try {
+    return readFileSync(path);
+  } catch (error) {
+    throw new OptionsError(flag, `names a file that cannot be read: ${(error as Error).message}`);
+  }
+}
