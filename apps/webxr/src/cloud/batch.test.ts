@@ -17,14 +17,15 @@ describe('Batch', () => {
     placement.pose.orientation.z = 0.25;
     placement.captureTimeUs = 4_294_967_295;
     placement.latencyTest = true;
-    worker.add({ ...header, sequenceLength: 8 }, emptyPlacement(), 0);
-    worker.add(header, placement, 1_795_000_000_000.25);
+    worker.add({ ...header, sequenceLength: 8 }, emptyPlacement(), 0, 2);
+    worker.add(header, placement, 1_795_000_000_000.25, 0.5);
     const page = new Batch(worker.buffer, worker.packets, worker.pointCount);
     expect(page.pointCount).toBe(11);
     expect(page.frameNumber(1)).toBe(4_000_000_000);
     expect(page.frameLength(1)).toBe(2400);
     expect(page.sequenceOffset(1)).toBe(1200);
     expect(page.pointsOf(1)).toBe(10);
+    expect(page.imageExtent(1)).toBe(0.5);
     expect(page.captureTimeUs(1)).toBe(4_294_967_295);
     expect(page.receivedMs(1)).toBe(1_795_000_000_000.25);
     expect([page.isLatencyTest(0), page.isLatencyTest(1)]).toEqual([false, true]);
@@ -40,6 +41,7 @@ describe('Batch', () => {
         { frameNumber: 0, frameLength: 8, sequenceOffset: 0, sequenceLength: 8 },
         emptyPlacement(),
         0,
+        2,
       );
     }
     expect(batch.full).toBe(true);

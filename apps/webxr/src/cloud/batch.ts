@@ -5,6 +5,7 @@
  *                     0 f64 received, ms since the epoch    8 u32 frameNumber   12 u32 frameLength   16 u32 sequenceOffset
  *                    20 u32 points    24 u32 captureTimeUs  28 u32 flags (1 = latency test)
  *                    32 f32 ×3 position of the camera       44 f32 ×4 its orientation x, y, z, w
+ *                    60 f32 how wide the camera sees (image-extent.ts)
  *     POINTS_OFFSET  the packets' points one after another, x, y, z in mm and the colour's bits, int16 each
  */
 import type { Placement, PointPacketHeader } from '@farpoint/protocol';
@@ -44,7 +45,7 @@ export class Batch {
   }
 
   /** Adds one packet's entry; its points are written by the caller. Must not be full. */
-  add(header: PointPacketHeader, placement: Placement, receivedMs: number): void {
+  add(header: PointPacketHeader, placement: Placement, receivedMs: number, imageExtent: number): void {
     const i = this.packets * 16;
     const points = header.sequenceLength / 8;
     this.#f64[i / 2] = receivedMs;
@@ -62,6 +63,7 @@ export class Batch {
     this.#f32[i + 12] = orientation.y;
     this.#f32[i + 13] = orientation.z;
     this.#f32[i + 14] = orientation.w;
+    this.#f32[i + 15] = imageExtent;
     this.packets++;
     this.pointCount += points;
   }
@@ -91,6 +93,9 @@ export class Batch {
   }
   isLatencyTest(packet: number): boolean {
     return ((this.#u32[packet * 16 + 7] as number) & ENTRY_LATENCY_TEST) !== 0;
+  }
+  imageExtent(packet: number): number {
+    return this.#f32[packet * 16 + 15] as number;
   }
   /** Pose as 7 floats: position x, y, z, orientation x, y, z, w. */
   poseComponent(packet: number, component: number): number {

@@ -174,7 +174,7 @@ export class CloudView {
       batch.poseComponent(packet, 0),
       batch.poseComponent(packet, 1),
       batch.poseComponent(packet, 2),
-      spacingPerMetre(this.window.newestTotal),
+      spacingPerMetre(this.window.newestTotal, batch.imageExtent(packet)),
     );
     this.#uniforms.frameOrientation.value[slot]!.set(
       batch.poseComponent(packet, 3),

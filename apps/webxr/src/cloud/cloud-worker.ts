@@ -6,6 +6,7 @@
 import { CloudDecoder, loadCodec } from '@farpoint/wasm-codec';
 import { BATCH_PACKETS, type Batch } from './batch.ts';
 import { BatchPool } from './batch-pool.ts';
+import { ImageExtent } from './image-extent.ts';
 import { countDrop, PacketIntake } from './packet-intake.ts';
 import type { CloudTransformOptions, FromCloudWorker, ToCloudWorker } from './worker-messages.ts';
 
@@ -31,6 +32,7 @@ codecReady.then(
 
 let generation = -1;
 let intake = new PacketIntake();
+let extent = new ImageExtent();
 let batch: Batch | null = null;
 let flushTimer: ReturnType<typeof setTimeout> | undefined;
 let busyMs = 0;
@@ -61,6 +63,7 @@ async function consume(stream: ReadableStream<RTCEncodedAudioFrame>, of: number)
   if (decoder === null || of < generation) return;
   generation = of;
   intake = new PacketIntake();
+  extent = new ImageExtent();
   reportedPackets = -1;
   abandonBatch(decoder);
   const reader = stream.getReader();
@@ -76,7 +79,8 @@ async function consume(stream: ReadableStream<RTCEncodedAudioFrame>, of: number)
 function receive(frame: RTCEncodedAudioFrame, decoder: CloudDecoder): void {
   const began = performance.now();
   const { data } = frame;
-  const fault = intake.take(new DataView(data), frame.getMetadata().sequenceNumber);
+  const payload = new DataView(data);
+  const fault = intake.take(payload, frame.getMetadata().sequenceNumber);
   if (fault === null) {
     batch ??= pool.take();
     if (batch === null) {
@@ -84,7 +88,8 @@ function receive(frame: RTCEncodedAudioFrame, decoder: CloudDecoder): void {
     } else {
       const { header } = intake;
       decoder.put(new Uint8Array(data, HEADER_BYTES, header.sequenceLength));
-      batch.add(header, intake.placement, performance.timeOrigin + began);
+      extent.add(header.frameNumber, payload, HEADER_BYTES, header.sequenceLength / 8);
+      batch.add(header, intake.placement, performance.timeOrigin + began, extent.value);
       const lastOfFrame = header.sequenceOffset + header.sequenceLength === header.frameLength;
       if (batch.full || (lastOfFrame && pool.out < BATCHES_AHEAD)) flush(decoder);
       else scheduleFlush();

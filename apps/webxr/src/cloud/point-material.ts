@@ -114,15 +114,18 @@ export function createPointMaterial(): { material: RawShaderMaterial; uniforms: 
   return { material, uniforms };
 }
 
-/** tan(half the field of view) × 2 that is assumed of the robot's camera: 90°, most depth cameras within a third. */
-const IMAGE_EXTENT = 2;
 /**
  * Diameter in mean distances. Samples are drawn at random, so that circles of c mean distances cover 1 − exp(−π·c²/4) of a
  * surface: 96 % at 2.
  */
 const COVER = 2;
 
-/** k of the size equation for a frame of `points`: the angle between neighbours, radians. */
-export function spacingPerMetre(points: number): number {
-  return points > 0 ? (COVER * IMAGE_EXTENT) / Math.sqrt(points) : 0;
+/**
+ * k of the size equation: the distance of neighbours at 1 m of depth, metres.
+ *
+ * @param points of the frame
+ * @param imageExtent side of the camera's picture at 1 m, metres (image-extent.ts)
+ */
+export function spacingPerMetre(points: number, imageExtent: number): number {
+  return points > 0 ? (COVER * imageExtent) / Math.sqrt(points) : 0;
 }

@@ -7,7 +7,7 @@ function batchOf(offsets: number[]): Batch {
   const batch = new Batch(new ArrayBuffer(BATCH_BYTES));
   for (const sequenceOffset of offsets) {
     const header = { frameNumber: 7, frameLength: 9600, sequenceOffset, sequenceLength: 1200 };
-    batch.add(header, emptyPlacement(), 1000.5 + sequenceOffset);
+    batch.add(header, emptyPlacement(), 1000.5 + sequenceOffset, 2);
   }
   return batch;
 }

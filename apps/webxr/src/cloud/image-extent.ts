@@ -1,0 +1,66 @@
+/**
+ * How wide a camera sees, from the points themselves: the stream does not tell the field of view, and the size of a point
+ * follows from it. A few points of each packet are looked at; nothing is allocated.
+ */
+
+/** As of a camera that sees 90°, until a frame has told better. */
+export const DEFAULT_EXTENT = 2;
+
+const SAMPLES_PER_PACKET = 4;
+/** A frame with fewer samples tells nothing. */
+const LEAST_SAMPLES = 16;
+/** Points beside the camera (LiDAR) have tangents without bound. */
+const MOST_TANGENT = 3;
+const SMOOTHING = 0.3;
+
+export class ImageExtent {
+  /** Side of a square on the plane at z = 1 m that is as large as the camera's picture. */
+  value = DEFAULT_EXTENT;
+  #frame: number | null = null;
+  #measured = false;
+  #count = 0;
+  #sumX = 0;
+  #sumY = 0;
+  #sumXx = 0;
+  #sumYy = 0;
+
+  /** @param payload from byte `offset`: x, y, z as int16 mm of `count` points (points64) */
+  add(frameNumber: number, payload: DataView, offset: number, count: number): void {
+    if (frameNumber !== this.#frame) this.#close(frameNumber);
+    const step = Math.max(1, Math.floor(count / SAMPLES_PER_PACKET));
+    for (let i = 0; i < count; i += step) {
+      const at = offset + i * 6;
+      const z = payload.getInt16(at + 4, true);
+      if (z <= 0) continue;
+      const x = clamp(payload.getInt16(at, true) / z);
+      const y = clamp(payload.getInt16(at + 2, true) / z);
+      this.#count++;
+      this.#sumX += x;
+      this.#sumY += y;
+      this.#sumXx += x * x;
+      this.#sumYy += y * y;
+    }
+  }
+
+  #close(nextFrame: number): void {
+    const n = this.#count;
+    if (n >= LEAST_SAMPLES) {
+      const varianceX = this.#sumXx / n - (this.#sumX / n) ** 2;
+      const varianceY = this.#sumYy / n - (this.#sumY / n) ** 2;
+      // Evenly spread over a side a the variance is a²/12; the geometric mean of both sides keeps the area.
+      const extent = Math.sqrt(12) * Math.max(varianceX * varianceY, 0) ** 0.25;
+      this.value += (extent - this.value) * (this.#measured ? SMOOTHING : 1);
+      this.#measured = true;
+    }
+    this.#frame = nextFrame;
+    this.#count = 0;
+    this.#sumX = 0;
+    this.#sumY = 0;
+    this.#sumXx = 0;
+    this.#sumYy = 0;
+  }
+}
+
+function clamp(tangent: number): number {
+  return Math.min(Math.max(tangent, -MOST_TANGENT), MOST_TANGENT);
+}
