@@ -5,6 +5,7 @@
 import { BufferGeometry, Points, Sphere, Vector3 } from 'three';
 import type { Batch } from './batch.ts';
 import { FrameWindow } from './frame-window.ts';
+import { DEFAULT_EXTENT } from './image-extent.ts';
 import { countDrop, type DropCounts } from './packet-intake.ts';
 import { createPointMaterial, spacingPerMetre } from './point-material.ts';
 import { PointRing } from './point-ring.ts';
@@ -71,6 +72,8 @@ export class CloudView {
   get cameraOrientation(): { x: number; y: number; z: number; w: number } {
     return this.#uniforms.frameOrientation.value[this.window.newestSlot]!;
   }
+  /** How wide that camera sees: side of its picture at 1 m, metres. */
+  imageExtent = DEFAULT_EXTENT;
   get hasPoints(): boolean {
     return this.window.newestFrame !== null;
   }
@@ -169,12 +172,13 @@ export class CloudView {
 
   #beginFrame(batch: Batch, packet: number): void {
     this.frames++;
+    this.imageExtent = batch.imageExtent(packet);
     const slot = this.window.newestSlot;
     this.#uniforms.framePosition.value[slot]!.set(
       batch.poseComponent(packet, 0),
       batch.poseComponent(packet, 1),
       batch.poseComponent(packet, 2),
-      spacingPerMetre(this.window.newestTotal, batch.imageExtent(packet)),
+      spacingPerMetre(this.window.newestTotal, this.imageExtent),
     );
     this.#uniforms.frameOrientation.value[slot]!.set(
       batch.poseComponent(packet, 3),

@@ -4,6 +4,11 @@ export type ViewMode = 'first-person' | 'third-person';
 export const MIN_FOV = 30;
 export const MAX_FOV = 100;
 export const DEFAULT_FOV = 75;
+/** A narrow camera fills the screen, with a little room about it; a wide one need not be seen whole. */
+const FIT_MARGIN = 1.15;
+const LEAST_FIT_FOV = 35;
+/** The view is left alone while the fit is within so many degrees. */
+const FIT_TOLERANCE = 5;
 const MAX_PITCH = (Math.PI / 180) * 85;
 
 export class Look {
@@ -16,6 +21,8 @@ export class Look {
   fov = DEFAULT_FOV;
   /** Behind the robot, metres. */
   distance = 2.5;
+  #fitted = DEFAULT_FOV;
+  #zoomed = false;
 
   /** A drag over the screen. @param radiansPerPixel so that the point under the cursor stays under it */
   drag(dx: number, dy: number, radiansPerPixel: number): void {
@@ -23,16 +30,31 @@ export class Look {
     this.pitch = clamp(this.pitch + dy * radiansPerPixel, -MAX_PITCH, MAX_PITCH);
   }
 
+  /**
+   * Fits the first-person view to the camera, until the operator zooms.
+   *
+   * @param imageExtent side of the camera's picture at 1 m, metres
+   */
+  fit(imageExtent: number): void {
+    const camera = (2 * Math.atan(imageExtent / 2) * 180) / Math.PI;
+    const fov = clamp(camera * FIT_MARGIN, LEAST_FIT_FOV, DEFAULT_FOV);
+    if (Math.abs(fov - this.#fitted) >= FIT_TOLERANCE) this.#fitted = fov;
+    if (!this.#zoomed && this.mode === 'first-person') this.fov = this.#fitted;
+  }
+
   /** @param factor over 1: further away */
   zoom(factor: number): void {
-    if (this.mode === 'first-person') this.fov = clamp(this.fov * factor, MIN_FOV, MAX_FOV);
-    else this.distance = clamp(this.distance * factor, 0.8, 15);
+    if (this.mode === 'first-person') {
+      this.fov = clamp(this.fov * factor, MIN_FOV, MAX_FOV);
+      this.#zoomed = true;
+    } else this.distance = clamp(this.distance * factor, 0.8, 15);
   }
 
   recentre(): void {
     this.yaw = 0;
     this.pitch = this.mode === 'first-person' ? 0 : -0.35;
-    this.fov = DEFAULT_FOV;
+    this.fov = this.mode === 'first-person' ? this.#fitted : DEFAULT_FOV;
+    this.#zoomed = false;
     this.distance = 2.5;
   }
 

@@ -107,6 +107,7 @@ export class Stage {
     const follower = this.#follower;
     if (cloud.hasPoints) {
       const { x, y, z } = cloud.cameraPosition;
+      this.look.fit(cloud.imageExtent);
       follower.follow(x, y, z, opticalYaw(cloud.cameraOrientation, follower.yaw), elapsed);
     }
     if (follower.started) {

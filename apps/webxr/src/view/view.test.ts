@@ -2,7 +2,7 @@ import fc from 'fast-check';
 import { Quaternion, Vector3 } from 'three';
 import { describe, expect, test } from 'vitest';
 import { bodyYaw, opticalYaw, worldToThree } from './axes.ts';
-import { Look, MAX_FOV, MIN_FOV } from './look.ts';
+import { DEFAULT_FOV, Look, MAX_FOV, MIN_FOV } from './look.ts';
 import { PoseFollower, shortestTurn } from './pose-follower.ts';
 
 /** Optical frame (z forward, x right, y down) of a level camera with the given heading, in REP-103 axes. */
@@ -85,5 +85,20 @@ describe('Look', () => {
     look.switchMode();
     look.zoom(1000);
     expect(look.distance).toBe(15);
+  });
+
+  test('fits a narrow camera until the operator zooms, and again after recentring', () => {
+    const look = new Look();
+    look.fit(2);
+    expect(look.fov).toBe(DEFAULT_FOV);
+    look.fit(0.7);
+    expect(look.fov).toBeCloseTo(44.4, 1);
+    look.fit(0.72);
+    expect(look.fov).toBeCloseTo(44.4, 1);
+    look.zoom(1.5);
+    look.fit(0.7);
+    expect(look.fov).toBeCloseTo(66.6, 1);
+    look.recentre();
+    expect(look.fov).toBeCloseTo(44.4, 1);
   });
 });
