@@ -110,7 +110,8 @@ const options = {
   }),
   lambda: defineOption({
     schema: schema.number({ min: 0, max: 64 }),
-    default: 3,
+    // As the reference system ships. With 3 and more, a budget below the points nearer than D leaves nothing beyond it.
+    default: 1,
     argument: 'L',
     help: 'how fast a point’s weight falls with depth; 0 draws evenly',
   }),
