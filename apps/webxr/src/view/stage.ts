@@ -1,7 +1,7 @@
 /** Renderer, scene and cameras. The frame loop does nothing but upload what has come, place the camera and draw. */
 import { Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
 import type { CloudView } from '../cloud/cloud-view.ts';
-import { bodyYaw, opticalYaw, worldToThree } from './axes.ts';
+import { opticalYaw, worldToThree } from './axes.ts';
 import { Look } from './look.ts';
 import { PoseFollower } from './pose-follower.ts';
 import { GroundGrid, RobotMarker } from './robot-marker.ts';
@@ -117,11 +117,6 @@ export class Stage {
     this.#grid.centreOn(this.rig.position.x, this.rig.position.z);
     cloud.viewportHeight = this.viewportHeight;
     if (!this.renderer.xr.isPresenting) this.#placeFlatCamera();
-  }
-
-  /** Of the robot's body, for tests and the panel: radians. */
-  get bodyYaw(): number {
-    return bodyYaw(this.#marker.object.quaternion);
   }
 
   #placeFlatCamera(): void {
