@@ -39,7 +39,11 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
   try {
     log('starting the browser');
     const browser: Browser = await chromium.connect(server.wsEndpoint());
-    const page = await browser.newPage();
+    // No larger than the canvas: the browser composes its window in software too.
+    const [width, height] = options.canvas.split('x').map(Number) as [number, number];
+    const page = await browser.newPage({
+      viewport: { width: Math.max(width, 320), height: Math.max(height, 180) },
+    });
     await page.goto(`${stack.webUrl}?canvas=${options.canvas}`);
     await page.waitForFunction(() => window.farpoint !== undefined);
     await page.waitForFunction((id) => window.farpoint.robots().some((listed) => listed.id === id), robot.id);

@@ -4,7 +4,7 @@ import { startLiveStack } from './live-stack.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
-const USAGE = `pnpm bench mtp [--points 30000] [--fps 30] [--samples 100] [--mbps 150] [--canvas 640x360] [--json]
+const USAGE = `pnpm bench mtp [--points 30000] [--fps 30] [--samples 100] [--mbps 300] [--canvas 160x90] [--json]
 
 Real signaling, robot (simulated office) and headless Chromium. Each sample is one latency test: from an input event to the
 end of the display frame that shows the whole green cloud (mtpMs), or its first points (mtpFirstMs). Input events come at
@@ -20,8 +20,8 @@ export const bench: Bench = {
         points: { type: 'string', default: '30000' },
         fps: { type: 'string', default: '30' },
         samples: { type: 'string', default: '100' },
-        mbps: { type: 'string', default: '150' },
-        canvas: { type: 'string', default: '640x360' },
+        mbps: { type: 'string', default: '300' },
+        canvas: { type: 'string', default: '160x90' },
         json: { type: 'boolean' },
         help: { type: 'boolean' },
       },

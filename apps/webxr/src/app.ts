@@ -18,6 +18,7 @@ import { notify, showFailure } from './ui/notice.ts';
 import { OperatorInputs } from './ui/operator-inputs.ts';
 import { showRobots } from './ui/robot-list.ts';
 import { StatusUi } from './ui/status-ui.ts';
+import { DrawGate } from './view/draw-gate.ts';
 import { GpuCompletion } from './view/gpu-completion.ts';
 import { ResolutionGovernor } from './view/resolution-governor.ts';
 import { Stage } from './view/stage.ts';
@@ -43,6 +44,7 @@ export class App {
   readonly vr: VrSession;
   readonly #worker: Worker;
   readonly #completion: GpuCompletion;
+  readonly #gate = new DrawGate();
   readonly #status: StatusUi;
   readonly #resolution = new ResolutionGovernor();
   #generation = 0;
@@ -57,6 +59,7 @@ export class App {
     this.stage = new Stage(elements.stage, settings.canvas);
     const { renderer } = this.stage;
     this.#completion = new GpuCompletion(renderer);
+    this.#completion.onCost = (costMs) => this.#gate.onCost(costMs);
     this.#worker = new Worker(new URL('./cloud/cloud-worker.ts', import.meta.url), { type: 'module' });
     this.stats = new PageStatistics((captureUs, nowMs) => this.link.session.ageMs(captureUs, nowMs));
     this.cloud = new CloudView(this.stage.gl, {
@@ -116,16 +119,20 @@ export class App {
     // In VR the headset's compositor keeps the pace.
     if (!this.vr.active && this.#completion.busy) return;
     const began = performance.now();
+    this.cloud.update();
+    if (!this.vr.active && !this.#gate.mayDraw(this.cloud.wholeFrame, began)) return;
+    this.#gate.onDraw(this.cloud.wholeFrame, began);
     const { renderer, scene, camera } = this.stage;
     if (this.vr.active) this.inputs.readHeadset(this.vr.inputSources);
     const stale = (began - this.lastPointsMs - STALE_AFTER_MS) / STALE_FADE_MS;
     this.cloud.freshness = 1 - Math.min(Math.max(stale, 0), 1);
-    this.cloud.update();
     this.stage.prepare(this.cloud, nowMs);
     renderer.render(scene, camera);
     // Only where a time is taken: waiting for the GPU costs frames.
-    if (this.latency.wantsTime || this.settings.canvas !== null) this.#completion.wait();
-    else if (!this.vr.active) this.#completion.mark();
+    if (this.latency.wantsTime || this.settings.canvas !== null) {
+      this.#completion.wait();
+      this.#gate.onCost(performance.now() - began);
+    } else if (!this.vr.active) this.#completion.mark();
     const ended = performance.now();
     this.latency.onDrawn(ended);
     this.stats.onDrawn(ended, ended - began);

@@ -41,6 +41,9 @@ export function chromiumLaunchOptions(): LaunchOptions {
       '--disable-background-networking',
       '--disable-component-update',
       '--disable-sync',
+      // Software compositing beside software WebGL: the window need not be drawn by the same emulated GPU.
+      '--disable-gpu-compositing',
+      '--disable-gpu-rasterization',
       '--no-first-run',
       // A page that a test does not look at must run as fast as one that a person does.
       '--disable-background-timer-throttling',

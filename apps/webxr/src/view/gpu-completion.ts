@@ -2,7 +2,10 @@
 import type { WebGLRenderer } from 'three';
 
 export class GpuCompletion {
+  /** Told how long each picture took from its marking, ms, as far as {@link busy} was asked. */
+  onCost: ((costMs: number) => void) | null = null;
   #fence: WebGLSync | null = null;
+  #markedMs = 0;
   readonly #pixel = new Uint8Array(4);
   readonly #renderer: WebGLRenderer;
 
@@ -26,6 +29,7 @@ export class GpuCompletion {
     if (this.#fence !== null) gl.deleteSync(this.#fence);
     this.#fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();
+    this.#markedMs = performance.now();
   }
 
   /**
@@ -35,6 +39,11 @@ export class GpuCompletion {
   get busy(): boolean {
     if (this.#fence === null) return false;
     const gl = this.#renderer.getContext() as WebGL2RenderingContext;
-    return !gl.isContextLost() && gl.getSyncParameter(this.#fence, gl.SYNC_STATUS) === gl.UNSIGNALED;
+    if (!gl.isContextLost() && gl.getSyncParameter(this.#fence, gl.SYNC_STATUS) === gl.UNSIGNALED)
+      return true;
+    gl.deleteSync(this.#fence);
+    this.#fence = null;
+    this.onCost?.(performance.now() - this.#markedMs);
+    return false;
   }
 }

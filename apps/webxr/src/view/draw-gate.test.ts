@@ -1,0 +1,41 @@
+import { describe, expect, it } from 'vitest';
+import { DrawGate } from './draw-gate.ts';
+
+function gateWithCost(costMs: number): DrawGate {
+  const gate = new DrawGate();
+  for (let i = 0; i < 50; i++) gate.onCost(costMs);
+  return gate;
+}
+
+describe('DrawGate', () => {
+  it('lets a fast machine draw every fragment', () => {
+    const gate = gateWithCost(3);
+    gate.onDraw(5, 100);
+    expect(gate.mayDraw(5, 101)).toBe(true);
+  });
+
+  it('makes a slow machine wait for the next whole frame', () => {
+    const gate = gateWithCost(30);
+    gate.onDraw(5, 100);
+    expect(gate.mayDraw(5, 120)).toBe(false);
+    expect(gate.mayDraw(6, 121)).toBe(true);
+  });
+
+  it('does not wait long for a frame that lost a packet, nor while nothing comes', () => {
+    const gate = gateWithCost(30);
+    gate.onDraw(5, 100);
+    expect(gate.mayDraw(5, 149)).toBe(false);
+    expect(gate.mayDraw(5, 150)).toBe(true);
+  });
+
+  it('draws before anything is known', () => {
+    expect(new DrawGate().mayDraw(null, 0)).toBe(true);
+  });
+
+  it('forgets a slow time', () => {
+    const gate = gateWithCost(30);
+    for (let i = 0; i < 20; i++) gate.onCost(2);
+    gate.onDraw(5, 100);
+    expect(gate.mayDraw(5, 101)).toBe(true);
+  });
+});

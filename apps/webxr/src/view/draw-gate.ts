@@ -1,0 +1,39 @@
+/**
+ * When a slow machine draws on a flat screen. A GPU that needs most of a display interval for one picture is better spent
+ * on whole frames of the robot than on every fragment of them: drawing a fragment delays the rest. A fast one draws
+ * always. No clock here.
+ */
+
+/** A picture that costs less than this is drawn at every display frame, ms. */
+const CHEAP_MS = 8;
+/** A frame that does not become whole is not waited for longer, ms. */
+const MAX_HOLD_MS = 50;
+/** Weight of the latest cost in the running mean. */
+const SMOOTHING = 0.2;
+
+export class DrawGate {
+  #costMs = 0;
+  #lastDrawMs = Number.NEGATIVE_INFINITY;
+  #lastWhole: number | null = null;
+
+  /**
+   * @param wholeFrame the newest frame of the robot whose points are all here; `null` where there is none
+   * @returns whether to draw now
+   */
+  mayDraw(wholeFrame: number | null, nowMs: number): boolean {
+    return (
+      this.#costMs < CHEAP_MS || wholeFrame !== this.#lastWhole || nowMs - this.#lastDrawMs >= MAX_HOLD_MS
+    );
+  }
+
+  /** A picture was begun. */
+  onDraw(wholeFrame: number | null, nowMs: number): void {
+    this.#lastWhole = wholeFrame;
+    this.#lastDrawMs = nowMs;
+  }
+
+  /** The GPU took so long for a picture. */
+  onCost(costMs: number): void {
+    this.#costMs += (costMs - this.#costMs) * SMOOTHING;
+  }
+}
