@@ -7,7 +7,7 @@ import { expect, test } from '../src/stack-test.ts';
 const MAX_SPEED = 1;
 const DECELERATION = 2;
 const WATCHDOG_S = 0.15;
-/** Between the kill and the last telemetry that tells of the time before it. */
+/** What the watcher's page knows of the robot may be this old. */
 const OBSERVATION_S = 0.3;
 
 test('the robot stops by itself when the browser that drives it is killed', async ({ page, startStack }) => {
@@ -23,8 +23,9 @@ test('the robot stops by itself when the browser that drives it is killed', asyn
     await driver.expectPoints();
     await driver.holdForward();
     await watcher.expectMovedFrom(start, 0.3);
-    const atKill = await watcher.body();
     await server.kill();
+    // From here on no command can come.
+    const atKill = await watcher.body();
     await watcher.expectStanding();
     const stopped = await watcher.body();
     const distance = Math.hypot(stopped.x - atKill.x, stopped.y - atKill.y);
