@@ -3,7 +3,8 @@
  * does and how long it took; a step that cannot proceed says what is missing and the command that cures it.
  */
 import { parseArgs } from 'node:util';
-import { CHROMIUM_REMEDY, ensureChromium } from './lib/ensure-chromium.ts';
+import { CHROMIUM_REMEDY } from '@farpoint/local-stack';
+import { ensureChromium } from './lib/ensure-chromium.ts';
 import { run } from './lib/run.ts';
 import { addTallies, emptyTally, type Tally, tallyCargo, tallyPlaywright, tallyVitest } from './lib/tally.ts';
 import { testRust } from './lib/test-rust.ts';
@@ -34,13 +35,7 @@ const steps: Step[] = [
   {
     name: 'types',
     what: 'type check (tsc)',
-    run: async () => {
-      for (const project of ['tsconfig.json', 'apps/webxr/tsconfig.json', 'e2e/tsconfig.json']) {
-        const result = await runQuietly('tsc', ['-p', project]);
-        if (!result.ok) return result;
-      }
-      return { ok: true };
-    },
+    run: () => runQuietly('pnpm', ['run', 'typecheck']),
   },
   {
     name: 'rust',

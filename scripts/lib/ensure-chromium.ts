@@ -1,9 +1,6 @@
 import { findChromium } from '@farpoint/local-stack';
 import { rootCommand, run } from './run.ts';
 
-/** The one command that cures a missing browser. */
-export const CHROMIUM_REMEDY = 'pnpm exec playwright install --with-deps chromium';
-
 /**
  * Finds a Chromium, or installs one: Playwright's own, else the distribution's package.
  *

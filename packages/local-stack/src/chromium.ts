@@ -2,6 +2,9 @@ import { existsSync } from 'node:fs';
 import { delimiter, join } from 'node:path';
 import { chromium, type LaunchOptions } from '@playwright/test';
 
+/** The one command that cures a missing browser. */
+export const CHROMIUM_REMEDY = 'npx -y pnpm@12 --dir e2e exec playwright install --with-deps chromium';
+
 const PROGRAM_NAMES = ['chromium', 'chromium-browser', 'google-chrome-stable', 'google-chrome', 'chrome'];
 const OTHER_PLACES = [
   '/Applications/Google Chrome.app/Contents/MacOS/Google Chrome',
@@ -28,7 +31,7 @@ export function findChromium(): string | null {
 export function chromiumLaunchOptions(): LaunchOptions {
   const executablePath = findChromium();
   if (executablePath === null) {
-    throw new Error('no Chromium on this machine: run `pnpm exec playwright install --with-deps chromium`');
+    throw new Error(`no Chromium on this machine: run \`${CHROMIUM_REMEDY}\``);
   }
   return {
     executablePath,

@@ -11,6 +11,7 @@ export * from './json.ts';
 export * from './placement.ts';
 export * from './point-packet.ts';
 export * from './points64.ts';
+export * from './pose-algebra.ts';
 export * from './reference-control.ts';
 export * from './sequence.ts';
 export * from './session-messages.ts';

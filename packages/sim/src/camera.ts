@@ -1,7 +1,6 @@
-import type { Pose } from '@farpoint/protocol';
+import { type Pose, rotationMatrix } from '@farpoint/protocol';
 import { initSync, DepthCamera as Rasteriser } from '../wasm/farpoint_sim_camera.js';
 import { requireFinite, SimulationError } from './errors.ts';
-import { rotationMatrix } from './quaternion.ts';
 import type { CompiledScene } from './scene.ts';
 
 /** Pinhole model; pixel centres are whole numbers. */

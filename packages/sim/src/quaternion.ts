@@ -1,61 +1,9 @@
-import type { Pose, Quaternion, Vector3 } from '@farpoint/protocol';
+import type { Quaternion } from '@farpoint/protocol';
 import { cos, sin } from './trigonometry.ts';
 
 /** A turn by `yaw` about z. */
 export function fromYaw(yaw: number): Quaternion {
   return { x: 0, y: 0, z: sin(yaw / 2), w: cos(yaw / 2) };
-}
-
-/** First `b`, then `a`. */
-export function multiply(a: Quaternion, b: Quaternion): Quaternion {
-  return {
-    x: a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-    y: a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-    z: a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
-    w: a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
-  };
-}
-
-/** Row-major rotation matrix of a unit quaternion. */
-export function rotationMatrix({
-  x,
-  y,
-  z,
-  w,
-}: Quaternion): [number, number, number, number, number, number, number, number, number] {
-  return [
-    1 - 2 * (y * y + z * z),
-    2 * (x * y - z * w),
-    2 * (x * z + y * w),
-    2 * (x * y + z * w),
-    1 - 2 * (x * x + z * z),
-    2 * (y * z - x * w),
-    2 * (x * z - y * w),
-    2 * (y * z + x * w),
-    1 - 2 * (x * x + y * y),
-  ];
-}
-
-export function rotate(q: Quaternion, v: Vector3): Vector3 {
-  const m = rotationMatrix(q);
-  return {
-    x: m[0] * v.x + m[1] * v.y + m[2] * v.z,
-    y: m[3] * v.x + m[4] * v.y + m[5] * v.z,
-    z: m[6] * v.x + m[7] * v.y + m[8] * v.z,
-  };
-}
-
-/** The child's pose in the parent's parent: `parent` then `child`, as tf does it. */
-export function compose(parent: Pose, child: Pose): Pose {
-  const moved = rotate(parent.orientation, child.position);
-  return {
-    position: {
-      x: parent.position.x + moved.x,
-      y: parent.position.y + moved.y,
-      z: parent.position.z + moved.z,
-    },
-    orientation: multiply(parent.orientation, child.orientation),
-  };
 }
 
 /** From a body frame (x forward, y left, z up) to its optical frame (z forward, x right, y down), REP-103. */

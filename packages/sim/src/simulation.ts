@@ -1,4 +1,4 @@
-import type { Pose, Twist } from '@farpoint/protocol';
+import { compose, multiply, type Pose, type Twist } from '@farpoint/protocol';
 import { Battery, type BatteryState } from './battery.ts';
 import { type CameraOptions, type Images, type Intrinsics, StereoCamera, type WasmSource } from './camera.ts';
 import { CollisionWorld, staticObstacles } from './collision.ts';
@@ -6,7 +6,7 @@ import { DifferentialDrive, type RobotLimits } from './drive.ts';
 import { requireFinite, SimulationError } from './errors.ts';
 import { type Part, STRIDE } from './figures.ts';
 import { MovingBody } from './movers.ts';
-import { BODY_TO_OPTICAL, compose, fromYaw, multiply } from './quaternion.ts';
+import { BODY_TO_OPTICAL, fromYaw } from './quaternion.ts';
 import { compileScene } from './scene.ts';
 import { cos, sin, wrapAngle } from './trigonometry.ts';
 import type { WorldDescription } from './world.ts';

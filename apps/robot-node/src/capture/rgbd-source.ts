@@ -1,11 +1,10 @@
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Pose } from '@farpoint/protocol';
+import { compose, inverse, type Pose } from '@farpoint/protocol';
 import { decodeColourJpeg, decodeDepthPng, parseIntrinsics, pointsOfRgbd } from '../formats/rgbd.ts';
 import { parseTrajectoryLog } from '../formats/trajectory-log.ts';
 import type { FrameSource } from './frame-source.ts';
 import { PlaybackSource, STATIC_CAMERA_POSE } from './playback-source.ts';
-import { compose, inverse } from './pose-algebra.ts';
 
 export interface RgbdSourceOptions {
   /**

@@ -1,6 +1,6 @@
+import { rotate } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { rotate } from '../capture/pose-algebra.ts';
 import { parseTrajectoryLog, TrajectoryError } from './trajectory-log.ts';
 
 const quarterTurn = '0 0 1\n0 -1 0 1\n1 0 0 2\n0 0 1 -0.3\n0 0 0 1\n';
