@@ -1,9 +1,8 @@
-import { spawn, spawnSync } from 'node:child_process';
-import { once } from 'node:events';
+import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
-import { createInterface } from 'node:readline';
+import { LoggingProcess } from '@farpoint/service/testing';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { TestSocket } from './test-sockets.ts';
 
@@ -16,54 +15,31 @@ beforeAll(() => {
 }, 60_000);
 afterAll(() => rmSync(folder, { recursive: true }));
 
-function start(args: string[]) {
-  const child = spawn(process.execPath, [bundle, ...args], {
-    cwd: folder,
-    env: { PATH: process.env.PATH },
-    stdio: ['ignore', 'pipe', 'pipe'],
-  });
-  const lines = createInterface({ input: child.stdout })[Symbol.asyncIterator]();
-  let errors = '';
-  child.stderr.on('data', (data: Buffer) => {
-    errors += data.toString();
-  });
-  return {
-    child,
-    errors: () => errors,
-    exited: once(child, 'close').then(([code]) => code as number),
-    async logged(message: string): Promise<Record<string, unknown>> {
-      for (;;) {
-        const line = await lines.next();
-        if (line.done === true) throw new Error(`never logged: ${message}\n${errors}`);
-        const record = JSON.parse(line.value) as Record<string, unknown>;
-        if (record.msg === message) return record;
-      }
-    },
-  };
-}
+const start = (args: string[]) =>
+  new LoggingProcess(bundle, args, { cwd: folder, env: { PATH: process.env.PATH } });
 
 const anyPorts = ['--port', '0', '--reference-robot-port', '0', '--reference-client-port', '0'];
 
 test('runs alone, serves, and at SIGTERM says farewell and exits with 0', async () => {
   expect(readdirSync(folder)).toEqual(['signaling.mjs']);
-  const { child, logged, exited } = start(anyPorts);
-  const { signaling } = await logged('listening');
+  const service = start(anyPorts);
+  const { signaling } = await service.logged('listening');
   expect((await fetch(`http://127.0.0.1:${String(signaling)}/healthz`)).status).toBe(200);
   const robot = await TestSocket.open(`ws://127.0.0.1:${String(signaling)}/robot`);
   robot.send({ type: 'robot.hello', protocol: 1, id: 'r1', name: 'R', key: 'k' });
   await robot.until('robot.welcome');
-  child.kill('SIGHUP'); // nothing to read again, nothing lost
-  await logged('read certificate and tokens again');
-  child.kill('SIGTERM');
+  service.child.kill('SIGHUP'); // nothing to read again, nothing lost
+  await service.logged('read certificate and tokens again');
+  service.child.kill('SIGTERM');
   expect(await robot.until('error')).toMatchObject({ code: 'shutting-down' });
   expect((await robot.closed).code).toBe(1012);
-  expect(await exited).toBe(0);
+  expect(await service.exited).toBe(0);
 });
 
 test('a file that is missing is one sentence and exit code 2', async () => {
-  const { errors, exited } = start([...anyPorts, '--robot-tokens', '/nix']);
-  expect(await exited).toBe(2);
-  expect(errors()).toMatch(
+  const service = start([...anyPorts, '--robot-tokens', '/nix']);
+  expect(await service.exited).toBe(2);
+  expect(service.errors).toMatch(
     /^farpoint-signaling: --robot-tokens names a file that cannot be read: ENOENT.*\n$/,
   );
 });
