@@ -3,6 +3,7 @@ import { spawnSync } from 'node:child_process';
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { join } from 'node:path';
+import { rootCommand } from './lib/root-command.ts';
 
 export const WASM_TARGET = 'wasm32-unknown-unknown';
 
@@ -109,15 +110,16 @@ function debianLinker(): string | null {
 
 function installDebianPackages(withCargo: boolean, log: (line: string) => void): boolean {
   if (!isDebian()) return false;
-  const root = process.getuid?.() === 0;
-  if (!root && !succeeds('sudo', ['-n', 'true'])) return false;
+  const asRoot = rootCommand();
+  if (asRoot === null) return false;
   const packages = withCargo ? [...DEBIAN_PACKAGES, 'cargo-web'] : DEBIAN_PACKAGES;
   const apt = (args: string[]): boolean => {
-    log(`${root ? '' : 'sudo '}apt-get ${args.join(' ')}`);
-    const command = root ? 'apt-get' : 'sudo';
-    const all = root ? args : ['-n', 'apt-get', ...args];
+    const command = [...asRoot, 'apt-get', ...args] as [string, ...string[]];
+    log(command.join(' '));
     const env = { ...process.env, DEBIAN_FRONTEND: 'noninteractive' };
-    return spawnSync(command, all, { stdio: ['ignore', 'ignore', 'inherit'], env }).status === 0;
+    return (
+      spawnSync(command[0], command.slice(1), { stdio: ['ignore', 'ignore', 'inherit'], env }).status === 0
+    );
   };
   const wanted = ['install', '-y', '--no-install-recommends', ...packages];
   // A machine's package lists may be old or empty: the second try is after an update.

@@ -1,5 +1,6 @@
 import { findChromium } from '@farpoint/local-stack';
-import { rootCommand, run } from './run.ts';
+import { rootCommand } from './root-command.ts';
+import { run } from './run.ts';
 
 /**
  * Finds a Chromium, or installs one: Playwright's own, else the distribution's package.
@@ -17,7 +18,7 @@ export async function ensureChromium(say: (line: string) => void): Promise<strin
     timeoutMs: 300_000,
   });
   if (fetched.code === 0 && (await starts(findChromium()))) return findChromium();
-  const asRoot = await rootCommand();
+  const asRoot = rootCommand();
   if (asRoot !== null && (await run('apt-get', ['--version'])).code === 0) {
     say('installing the package chromium');
     const command = [...asRoot, 'apt-get'];

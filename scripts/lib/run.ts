@@ -48,9 +48,3 @@ export function run(program: string, args: string[], options: RunOptions = {}): 
     child.once('close', (code, signal) => resolve({ code: code ?? (signal === null ? 1 : 137), output }));
   });
 }
-
-/** `[]` as root, `['sudo', '-n']` where sudo asks for no password, else `null`. */
-export async function rootCommand(): Promise<string[] | null> {
-  if (process.getuid?.() === 0) return [];
-  return (await run('sudo', ['-n', 'true'])).code === 0 ? ['sudo', '-n'] : null;
-}
