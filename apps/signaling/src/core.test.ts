@@ -1,36 +1,8 @@
-import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { AccessList } from './access.ts';
 import { Admission, addressKey } from './admission.ts';
 import { turnCredentials } from './ice-servers.ts';
-import { TokenBucket } from './token-bucket.ts';
 import { parseTokens } from './token-file.ts';
-
-describe('token bucket', () => {
-  test('never lets through more than burst + rate × time, and always that after a rest', () => {
-    fc.assert(
-      fc.property(fc.array(fc.integer({ min: 0, max: 300 }), { maxLength: 200 }), (gaps) => {
-        const bucket = new TokenBucket(10, 5, 0);
-        let now = 0;
-        let taken = 0;
-        for (const gap of gaps) {
-          now += gap;
-          if (bucket.take(now)) taken++;
-          expect(taken).toBeLessThanOrEqual(5 + (now * 10) / 1000 + 1e-9);
-        }
-        now += 500;
-        for (let i = 0; i < 5; i++) expect(bucket.take(now)).toBe(true);
-      }),
-      { seed: 3 },
-    );
-  });
-
-  test('a clock that goes back gives nothing', () => {
-    const bucket = new TokenBucket(1000, 1, 100);
-    expect(bucket.take(100)).toBe(true);
-    expect(bucket.take(50)).toBe(false);
-  });
-});
 
 describe('tokens', () => {
   const free = (...tokens: string[]) => ({ bound: new Map(), free: tokens });

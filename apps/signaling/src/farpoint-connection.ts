@@ -63,7 +63,7 @@ export class HubConnection<Message, Entry> implements Connection {
     this.#role = role;
     this.#options = options;
     this.#handlers = handlers;
-    this.#guard = new MessageGuard(codec, options.limits, options.clock.now(), (refusal, detail) =>
+    this.#guard = new MessageGuard(codec, options.limits, (refusal, detail) =>
       // The guard has counted the fault.
       this.#refuse(refusal, detail, { fault: false }),
     );

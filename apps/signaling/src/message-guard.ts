@@ -1,5 +1,5 @@
+import { TokenBucket } from '@farpoint/congestion';
 import { decodeJson, type JsonCodec, type MessageData, ProtocolError } from '@farpoint/protocol';
-import { TokenBucket } from './token-bucket.ts';
 
 export interface MessageLimits {
   /** Longest accepted message, bytes. */
@@ -30,14 +30,13 @@ export class MessageGuard<T> {
   constructor(
     codec: JsonCodec<T>,
     limits: MessageLimits,
-    nowMs: number,
     refuse: (refusal: Refusal, detail: string) => void,
     options: { binary?: boolean } = {},
   ) {
     this.#binary = options.binary ?? false;
     this.#codec = { ...codec, maxBytes: Math.min(codec.maxBytes, limits.maxMessageBytes) };
     this.#maxFaults = limits.maxFaults;
-    this.#bucket = new TokenBucket(limits.messagesPerSecond, limits.messageBurst, nowMs);
+    this.#bucket = new TokenBucket({ perSecond: limits.messagesPerSecond, burst: limits.messageBurst });
     this.#refuse = refuse;
   }
 

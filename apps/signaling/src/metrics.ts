@@ -1,6 +1,6 @@
+import { TokenBucket } from '@farpoint/congestion';
 import { Counter, Gauge, Histogram, type Logger, type Registry } from '@farpoint/service';
 import type { Observer, RejectReason, Role } from './observer.ts';
-import { TokenBucket } from './token-bucket.ts';
 
 /** Worth a line in the log each: somebody tried what they may not. */
 const NOTABLE: ReadonlySet<RejectReason> = new Set([
@@ -79,7 +79,7 @@ export function createObserver(log: Logger, registry: Registry, counts: () => Co
     registers,
   });
   // A peer that misbehaves must not be able to fill the log.
-  const notable = new TokenBucket(5, 50, performance.now());
+  const notable = new TokenBucket({ perSecond: 5, burst: 50 });
 
   return {
     robotJoined(role, robot, address, tookOver) {

@@ -163,7 +163,7 @@ class RobotConnection extends ReferenceConnection<ReferenceRobotToService> {
       peer,
       'reference-robot',
       (refuse) =>
-        new MessageGuard(referenceRobotToServiceCodec, options.limits, options.clock.now(), refuse, {
+        new MessageGuard(referenceRobotToServiceCodec, options.limits, refuse, {
           binary: true,
         }),
       options,
@@ -212,7 +212,7 @@ class ClientConnection extends ReferenceConnection<ReferenceClientToService> {
       peer,
       'reference-client',
       (refuse) =>
-        new MessageGuard(referenceClientToServiceCodec, options.limits, options.clock.now(), refuse, {
+        new MessageGuard(referenceClientToServiceCodec, options.limits, refuse, {
           binary: true,
         }),
       options,

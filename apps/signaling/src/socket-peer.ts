@@ -1,7 +1,7 @@
+import { TokenBucket } from '@farpoint/congestion';
 import type { RawData, WebSocket } from 'ws';
 import type { Pulse } from './heartbeat.ts';
 import type { Connection, Peer } from './peer.ts';
-import { TokenBucket } from './token-bucket.ts';
 
 export interface SocketPeerOptions {
   readonly id: number;
@@ -64,7 +64,7 @@ export class SocketPeer implements Peer, Pulse {
   /** Hands the socket's messages and its end to the hub. */
   attach(connection: Connection, onClosed: () => void): void {
     const socket = this.#socket;
-    const pings = new TokenBucket(10, 50, performance.now());
+    const pings = new TokenBucket({ perSecond: 10, burst: 50 });
     socket.on('message', (data: RawData, binary: boolean) => {
       this.alive = true;
       // A Buffer: ws's default binaryType is nodebuffer, and it has checked that text is UTF-8.

@@ -1,3 +1,4 @@
+import { TokenBucket } from '@farpoint/congestion';
 import {
   type Command,
   type CommandRejection,
@@ -8,7 +9,6 @@ import {
 } from '@farpoint/protocol';
 import type { EstopAnswer } from './estop.ts';
 import { QueueingDelay } from './queueing-delay.ts';
-import { TokenBucket } from './token-bucket.ts';
 
 export interface RejectedCommand {
   accepted: false;
@@ -118,7 +118,7 @@ export class CommandGate {
         this.#operators.delete(this.#operators.keys().next().value as string);
       }
       operator = {
-        bucket: new TokenBucket(this.#limits.maxCommandsPerSecond),
+        bucket: new TokenBucket({ perSecond: this.#limits.maxCommandsPerSecond }),
         delay: new QueueingDelay(this.#delayWindowMs),
         lastSequence: null,
       };

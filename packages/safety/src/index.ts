@@ -5,5 +5,4 @@ export * from './lease.ts';
 export * from './limits.ts';
 export * from './queueing-delay.ts';
 export * from './rejection-reporter.ts';
-export * from './token-bucket.ts';
 export * from './watchdog.ts';

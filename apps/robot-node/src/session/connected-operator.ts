@@ -1,6 +1,5 @@
-import type { RateController } from '@farpoint/congestion';
+import { type RateController, RateMeter } from '@farpoint/congestion';
 import type { IceCandidate, StageTimings, StreamStatus } from '@farpoint/protocol';
-import { RateMeter } from '../telemetry/rate-meter.ts';
 import { StageTimer } from '../telemetry/stage-timer.ts';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
 import { OperatorPeer, type OperatorPeerOptions, type PeerEnd } from '../transport/operator-peer.ts';
@@ -48,7 +47,9 @@ export class ConnectedOperator {
   readonly #controller: RateController;
   readonly #packetLog: PacketLog | undefined;
   readonly #events: ConnectedOperatorEvents;
-  readonly #rates = new RateMeter<'framesSent' | 'pointsSent' | 'bytesSent'>();
+  readonly #frames = new RateMeter();
+  readonly #points = new RateMeter();
+  readonly #bytes = new RateMeter();
   readonly #stages = new StageTimer();
   #tests: LatencyTest[] = [];
   readonly #testsInFlight = new Map<SharedFrame, LatencyTest[]>();
@@ -136,18 +137,18 @@ export class ConnectedOperator {
   /** What telemetry says of this operator's stream; call once for each telemetry message. */
   status(captureStages: StageTimings, nowMs: number): { stages: StageTimings; stream: StreamStatus } {
     const counters = this.sender?.counters ?? { framesSent: 0, pointsSent: 0, bytesSent: 0 };
-    const { framesSent, pointsSent, bytesSent } = this.#rates.update(
-      { framesSent: counters.framesSent, pointsSent: counters.pointsSent, bytesSent: counters.bytesSent },
-      nowMs,
-    );
+    this.#frames.update(counters.framesSent, nowMs);
+    this.#points.update(counters.pointsSent, nowMs);
+    this.#bytes.update(counters.bytesSent, nowMs);
+    const framesPerSecond = this.#frames.perSecond;
     return {
       stages: { ...captureStages, sendMs: this.#stages.take().sendMs },
       stream: {
         frameNumber: this.#lastFrameNumber,
-        framesPerSecond: framesSent,
-        pointsPerFrame: framesSent > 0 ? pointsSent / framesSent : 0,
+        framesPerSecond,
+        pointsPerFrame: framesPerSecond > 0 ? this.#points.perSecond / framesPerSecond : 0,
         validPoints: this.#lastValidPoints,
-        bitsPerSecond: bytesSent * 8,
+        bitsPerSecond: this.#bytes.perSecond * 8,
         targetBitsPerSecond: this.sender?.targetBitsPerSecond ?? 0,
         droppedFrames: this.droppedFrames,
       },

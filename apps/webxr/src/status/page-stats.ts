@@ -1,4 +1,5 @@
 /** Everything the page counts and measures about the stream. Time is an argument. */
+import { RateMeter } from '@farpoint/congestion';
 import type { Batch } from '../cloud/batch.ts';
 import type { CloudView } from '../cloud/cloud-view.ts';
 import type { DropCounts } from '../cloud/packet-intake.ts';
@@ -7,7 +8,6 @@ import { type AgeOfStamp, FrameLatency } from '../latency/frame-latency.ts';
 import type { LatencyResult } from '../latency/latency-test.ts';
 import { SampleWindow } from '../latency/sample-window.ts';
 import type { PageStats } from '../test-api.ts';
-import { RateMeter } from './rate-meter.ts';
 
 const MAX_RESULTS = 1000;
 const LOSS_WINDOW_MS = 3000;
@@ -103,7 +103,7 @@ export class PageStatistics {
     for (const [reason, count] of Object.entries(cloud.drops)) {
       drops[reason as keyof DropCounts] = (drops[reason as keyof DropCounts] ?? 0) + count;
     }
-    const lost = Math.max(0, this.#lost.perSecond);
+    const lost = this.#lost.perSecond;
     const sent = lost + this.#received.perSecond;
     const frames = this.#frames.perSecond;
     return {

@@ -1,6 +1,5 @@
 import { commandRejections, driveStates } from '@farpoint/protocol';
 import { describe, expect, test } from 'vitest';
-import { RateMeter } from './rate-meter.ts';
 import { driveWords, linkWords, rejectionWords, vrUnavailable } from './words.ts';
 
 const live = {
@@ -34,18 +33,5 @@ describe('words', () => {
     expect(vrUnavailable({ secure: false, hasWebXr: false, supported: false })).toContain('https');
     expect(vrUnavailable({ secure: true, hasWebXr: false, supported: false })).toContain('WebXR');
     expect(vrUnavailable({ secure: true, hasWebXr: true, supported: false })).toContain('headset');
-  });
-});
-
-describe('RateMeter', () => {
-  test('measures over its window and forgets what is older', () => {
-    const meter = new RateMeter(1000);
-    expect(meter.perSecond).toBe(0);
-    for (let now = 0; now <= 2000; now += 250) meter.update(now * 2, now);
-    expect(meter.perSecond).toBe(2000);
-    for (let now = 2250; now <= 3500; now += 250) meter.update(4000, now);
-    expect(meter.perSecond).toBe(0);
-    meter.reset();
-    expect(meter.perSecond).toBe(0);
   });
 });

@@ -1,4 +1,4 @@
-/** How much a growing sum grows a second, over the last second or so. */
+/** How much a sum that is sampled now and then grows a second, over the last second or so. Time is an argument. */
 export class RateMeter {
   readonly #times: number[] = [];
   readonly #sums: number[] = [];
@@ -8,20 +8,21 @@ export class RateMeter {
     this.#windowMs = windowMs;
   }
 
-  /** @param sum never falls, except at {@link reset} */
   update(sum: number, nowMs: number): void {
     this.#times.push(nowMs);
     this.#sums.push(sum);
+    // One sample at or before the window's beginning is kept, so that it is covered whole.
     while (this.#times.length > 2 && nowMs - (this.#times[1] as number) >= this.#windowMs) {
       this.#times.shift();
       this.#sums.shift();
     }
   }
 
-  /** Per second; 0 before two updates. */
+  /** Per second; 0 before two updates, and where the sum fell. */
   get perSecond(): number {
-    const elapsed = (this.#times.at(-1) ?? 0) - (this.#times[0] ?? 0);
-    return elapsed <= 0 ? 0 : (((this.#sums.at(-1) ?? 0) - (this.#sums[0] ?? 0)) * 1000) / elapsed;
+    const elapsedMs = (this.#times.at(-1) ?? 0) - (this.#times[0] ?? 0);
+    if (elapsedMs <= 0) return 0;
+    return (Math.max(0, (this.#sums.at(-1) ?? 0) - (this.#sums[0] ?? 0)) * 1000) / elapsedMs;
   }
 
   reset(): void {

@@ -1,0 +1,37 @@
+/** Credit is counted in thousandths of a token: whole rates and whole milliseconds then add up exactly. */
+const TOKEN = 1000;
+
+export interface TokenBucketOptions {
+  /** Takes a second, in the long run. */
+  readonly perSecond: number;
+  /** Takes at once after a pause. Default: one second's worth. */
+  readonly burst?: number;
+}
+
+/** A token bucket, full at first: on average `perSecond` takes a second, and up to `burst` at once. Time is an argument. */
+export class TokenBucket {
+  readonly #perSecond: number;
+  readonly #capacity: number;
+  #credit: number;
+  #filledMs: number | null = null;
+
+  constructor({ perSecond, burst = perSecond }: TokenBucketOptions) {
+    this.#perSecond = perSecond;
+    this.#capacity = burst * TOKEN;
+    this.#credit = this.#capacity;
+  }
+
+  /** @returns false where the bucket is empty; nothing is taken then */
+  take(nowMs: number): boolean {
+    // A clock that stands or runs backwards fills nothing.
+    if (this.#filledMs === null) {
+      this.#filledMs = nowMs;
+    } else if (nowMs > this.#filledMs) {
+      this.#credit = Math.min(this.#credit + (nowMs - this.#filledMs) * this.#perSecond, this.#capacity);
+      this.#filledMs = nowMs;
+    }
+    if (this.#credit < TOKEN) return false;
+    this.#credit -= TOKEN;
+    return true;
+  }
+}
