@@ -52,9 +52,10 @@ export class Encoder {
      */
     frame_ptr(): number;
     /**
-     * Packs what the last `sample` chose; nothing where it failed or there was none.
+     * Packs what the last `sample` chose, nearest bands of depth first where asked; nothing where it failed or there was
+     * none.
      */
-    pack(latency_test: boolean): void;
+    pack(near_points_first: boolean, latency_test: boolean): void;
     /**
      * After `sample`: kept; rejected as not finite, for non-positive depth, out of range, not drawn; min depth, max depth.
      * After `pack`, from 7 on: packets, points, saturated.
@@ -84,7 +85,7 @@ export interface InitOutput {
     readonly encoder_chosen_ptr: (a: number) => number;
     readonly encoder_create: (a: number, b: number, c: number) => number;
     readonly encoder_frame_ptr: (a: number) => number;
-    readonly encoder_pack: (a: number, b: number) => void;
+    readonly encoder_pack: (a: number, b: number, c: number) => void;
     readonly encoder_report_ptr: (a: number) => number;
     readonly encoder_sample: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number, i: bigint) => number;
     readonly encoder_slots_ptr: (a: number) => number;

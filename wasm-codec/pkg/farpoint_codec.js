@@ -117,11 +117,13 @@ export class Encoder {
         return ret >>> 0;
     }
     /**
-     * Packs what the last `sample` chose; nothing where it failed or there was none.
+     * Packs what the last `sample` chose, nearest bands of depth first where asked; nothing where it failed or there was
+     * none.
+     * @param {boolean} near_points_first
      * @param {boolean} latency_test
      */
-    pack(latency_test) {
-        wasm.encoder_pack(this.__wbg_ptr, latency_test);
+    pack(near_points_first, latency_test) {
+        wasm.encoder_pack(this.__wbg_ptr, near_points_first, latency_test);
     }
     /**
      * After `sample`: kept; rejected as not finite, for non-positive depth, out of range, not drawn; min depth, max depth.

@@ -111,6 +111,22 @@ describe('CloudEncoder', () => {
     );
   });
 
+  test('packs near bands of depth first, in raster order inside a band', () => {
+    using encoder = new CloudEncoder(codec, 8);
+    const depths = [9, 0.5, 3, 1.5, 20, 0.75, 1.25, 4];
+    fill(
+      encoder,
+      depths.map((z, i): PlainPoint => [0, 0, z, i << 2]),
+    );
+    encoder.sample({ points: 8, count: 8, seed: 0, lambda: 0 });
+    encoder.pack({ order: 'near-first' });
+    const ordered = [0.5, 0.75, 1.5, 1.25, 3, 4, 9, 20].map(
+      (z): PlainPoint => [0, 0, z, depths.indexOf(z) << 2],
+    );
+    expect(blockOf(encoder, 0, 8)).toEqual(expectedBlock(ordered, false));
+    expect([...encoder.chosen]).toEqual([0, 1, 2, 3, 4, 5, 6, 7]);
+  });
+
   test('gives the same choice for the same seed and another one for another', () => {
     using encoder = new CloudEncoder(codec, 10_000);
     const points = Array.from({ length: 10_000 }, (_, i): PlainPoint => [0, 0, 1 + i / 1000, i]);

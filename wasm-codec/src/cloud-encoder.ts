@@ -52,6 +52,8 @@ export interface SampleReport {
 }
 
 export interface PackOptions {
+  /** `raster` (default): as in the frame. `near-first`: by bands of depth whose far edge doubles (1, 2, 4, 8, 16 m), raster order inside a band. */
+  order?: 'raster' | 'near-first';
   /** Makes every colour the latency test's green (0x03F0). Default false. */
   latencyTest?: boolean;
 }
@@ -172,7 +174,7 @@ export class CloudEncoder implements Disposable {
 
   /** Writes the chosen points as `points64` data blocks into the slots. */
   pack(options: PackOptions = {}): PackReport {
-    this.#encoder.pack(options.latencyTest ?? false);
+    this.#encoder.pack(options.order === 'near-first', options.latencyTest ?? false);
     this.#refresh();
     const report = this.#report;
     return {

@@ -51,7 +51,7 @@ export class FrameEncoder {
     const frameNumber = this.#frameNumber;
     const sampled = encoder.sample({ ...this.#sampling, points: frame.count, count, seed: frameNumber });
     const middle = this.#now();
-    const packed = encoder.pack({ latencyTest });
+    const packed = encoder.pack({ order: 'near-first', latencyTest });
     const placement: Placement = {
       pose: frame.cameraPose,
       captureTimeUs: Math.floor((frame.captureMs * 1000) % 0x1_0000_0000),

@@ -3,7 +3,7 @@
 
 use farpoint_point_codec::points64::{InvalidCount, POINTS_PER_PACKET, SlotLayout, pack, unpack};
 use farpoint_point_codec::{
-    DepthMeasure, InvalidParameter, OutOfRange, Point, SampleReport, Sampler, SamplingParameters,
+    DepthMeasure, InvalidParameter, OutOfRange, Point, SampleReport, Sampler, SamplingParameters, near_first,
 };
 use wasm_bindgen::prelude::*;
 use wide::f32x4;
@@ -17,7 +17,9 @@ pub struct Encoder {
     // Vectors and not points: aligned to 16 bytes.
     frame: Vec<f32x4>,
     sampler: Sampler,
+    ordered: Vec<u32>,
     sampled_points: usize,
+    depth_measure: DepthMeasure,
     layout: SlotLayout,
     slots: Vec<u8>,
     report: Box<[f64; REPORT_LENGTH]>,
@@ -32,7 +34,9 @@ impl Encoder {
         Some(Self {
             frame: vec![f32x4::ZERO; capacity],
             sampler: Sampler::new(capacity),
+            ordered: Vec::with_capacity(capacity),
             sampled_points: 0,
+            depth_measure: DepthMeasure::Z,
             layout,
             slots: vec![0; capacity.div_ceil(POINTS_PER_PACKET) * stride],
             report: Box::default(),
@@ -78,12 +82,13 @@ impl Encoder {
     ) -> u32 {
         self.sampled_points = 0;
         let Some(frame) = self.frame.get(..points) else { return 4 };
+        let depth_measure = if range { DepthMeasure::Range } else { DepthMeasure::Z };
         let parameters = SamplingParameters {
             count,
             lambda,
             epsilon,
             near_distance,
-            depth_measure: if range { DepthMeasure::Range } else { DepthMeasure::Z },
+            depth_measure,
             out_of_range: if keep_out_of_range { OutOfRange::Keep } else { OutOfRange::Reject },
             seed,
         };
@@ -91,6 +96,7 @@ impl Encoder {
         match self.sampler.sample(frame, &parameters) {
             Ok(SampleReport { kept, rejected, min_depth, max_depth }) => {
                 self.sampled_points = points;
+                self.depth_measure = depth_measure;
                 self.report[..7].copy_from_slice(&[
                     kept as f64,
                     rejected.not_finite as f64,
@@ -108,10 +114,15 @@ impl Encoder {
         }
     }
 
-    /// Packs what the last `sample` chose; nothing where it failed or there was none.
-    pub fn pack(&mut self, latency_test: bool) {
+    /// Packs what the last `sample` chose, nearest bands of depth first where asked; nothing where it failed or there was
+    /// none.
+    pub fn pack(&mut self, near_points_first: bool, latency_test: bool) {
         let frame: &[Point] = bytemuck::must_cast_slice(&self.frame[..self.sampled_points]);
-        let chosen = if self.sampled_points == 0 { &[] } else { self.sampler.chosen() };
+        let mut chosen = if self.sampled_points == 0 { &[] } else { self.sampler.chosen() };
+        if near_points_first {
+            near_first(frame, chosen, self.depth_measure, &mut self.ordered);
+            chosen = &self.ordered;
+        }
         let packed = pack(frame, chosen, self.layout, latency_test, &mut self.slots);
         self.report[7..].copy_from_slice(&[
             packed.packets as f64,

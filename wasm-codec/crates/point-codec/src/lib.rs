@@ -7,12 +7,14 @@
 
 pub mod exponential;
 mod measure;
+mod order;
 pub mod points64;
 mod sampler;
 mod selection;
 mod weight;
 
 pub use measure::{DepthMeasure, MAX_COORDINATE, MIN_DEPTH, OutOfRange};
+pub use order::near_first;
 pub use sampler::{InvalidParameter, Rejected, SampleReport, Sampler, SamplingParameters};
 
 /// x, y, z in metres and the colour, whose bit pattern is the bytes R, G, B, A (R lowest). Any of the coordinates may be
