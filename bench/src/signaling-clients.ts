@@ -36,7 +36,7 @@ export type PhaseMessage = 'connected' | 'done';
 
 const CONNECTING_AT_ONCE = 64;
 const PHASE_TIMEOUT_MS = 120_000;
-const LIST = Buffer.from('{"type":"robots"');
+const LIST = Buffer.from('{"type":"robots');
 // As long as werift's and Chromium's are.
 const SDP = `v=0\r\n${'a=rtcp-fb:96 transport-cc\r\n'.repeat(100)}`;
 const CANDIDATE =
@@ -87,7 +87,7 @@ function connect(
     });
     socket.on('message', (data: Buffer) => {
       const now = performance.now();
-      // Thousands of long lists: a page reads each, this process only needs to know that they came.
+      // Thousands of lists and changes to them: a page reads each, this process only needs to know that they came.
       if (data.subarray(0, LIST.length).equals(LIST)) {
         result.lists++;
         result.listMegabytes += data.length / 1e6;

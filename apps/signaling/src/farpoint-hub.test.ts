@@ -316,7 +316,7 @@ describe('sessions', () => {
     clock.advance(0);
     expect(second.o.take()).toEqual([
       { type: 'session.closed', session: second.handle, reason: 'robot-left' },
-      { type: 'robots', robots: [{ id: 'r1', name: 'Robot r1' }] },
+      { type: 'robots.changed', here: [], gone: ['r2'] },
     ]);
   });
 
@@ -351,17 +351,17 @@ describe('sessions', () => {
 });
 
 describe('lists of robots', () => {
-  test('go to every operator when robots come, go, or change their name', () => {
+  test('every operator is told when robots come, go, or change their name', () => {
     const { robot, operator, clock } = setup();
     const o = operator();
     o.take();
     const r = robot('r1');
     clock.advance(0);
-    expect(o.take()).toEqual([{ type: 'robots', robots: [{ id: 'r1', name: 'Robot r1' }] }]);
+    expect(o.take()).toEqual([{ type: 'robots.changed', here: [{ id: 'r1', name: 'Robot r1' }], gone: [] }]);
     clock.advance(100);
     robot('r1', 'key-r1', { name: 'New' });
     clock.advance(0);
-    expect(o.take()).toEqual([{ type: 'robots', robots: [{ id: 'r1', name: 'New' }] }]);
+    expect(o.take()).toEqual([{ type: 'robots.changed', here: [{ id: 'r1', name: 'New' }], gone: [] }]);
     r.connection.closed();
     clock.advance(1000);
     expect(o.take()).toEqual([]);

@@ -50,7 +50,7 @@ export class FarpointHub {
     this.#sessions = new SessionTable(options.limits, options.makeHandle);
     this.#feed = new ListingFeed({
       clock: options.clock,
-      listing: () => this.#registry.listing(),
+      listing: this.#registry.listing,
       intervalMs: options.listIntervalMs,
       bytesPerSecond: options.listBytesPerSecond,
     });

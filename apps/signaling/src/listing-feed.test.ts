@@ -4,17 +4,20 @@ import { FakeClock, FakePeer } from './test-support.ts';
 
 function setup(options: { sliceBytes?: number; bytesPerSecond?: number } = {}) {
   const clock = new FakeClock();
-  let version = 0;
-  let listing = encode(0);
+  const listing = {
+    version: 0,
+    whole: () => encode({ version: listing.version }),
+    since: (version: number) => encode({ since: version, version: listing.version }),
+  };
   const feed = new ListingFeed({
     clock,
-    listing: () => listing,
+    listing,
     intervalMs: 100,
     bytesPerSecond: options.bytesPerSecond ?? 1e9,
     ...(options.sliceBytes === undefined ? {} : { sliceBytes: options.sliceBytes }),
   });
   const change = () => {
-    listing = encode(++version);
+    listing.version++;
     feed.changed();
   };
   const add = () => {
@@ -25,8 +28,8 @@ function setup(options: { sliceBytes?: number; bytesPerSecond?: number } = {}) {
   return { clock, feed, change, add };
 }
 
-function encode(version: number): Uint8Array {
-  return new TextEncoder().encode(JSON.stringify({ version }));
+function encode(message: object): Uint8Array {
+  return new TextEncoder().encode(JSON.stringify(message));
 }
 
 function versions(peer: FakePeer): unknown[] {
@@ -34,8 +37,20 @@ function versions(peer: FakePeer): unknown[] {
 }
 
 describe('listing feed', () => {
-  test('sends the list at once to who is new', () => {
-    expect(versions(setup().add())).toEqual([0]);
+  test('sends the list at once to who is new, and then all that it misses', () => {
+    const { clock, change, add } = setup();
+    const peer = add();
+    expect(peer.take()).toEqual([{ version: 0 }]);
+    change();
+    clock.advance(0);
+    change();
+    change();
+    clock.advance(100);
+    expect(peer.take()).toEqual([
+      { since: 0, version: 1 },
+      { since: 1, version: 3 },
+    ]);
+    expect(add().take()).toEqual([{ version: 3 }]);
   });
 
   test('sends a first change at once, further ones together once the interval is over', () => {

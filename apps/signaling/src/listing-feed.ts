@@ -1,10 +1,19 @@
 import type { Clock } from './clock.ts';
 import type { Peer } from './peer.ts';
 
+/** A list that changes. */
+export interface ListingSource {
+  /** Grows with every change. */
+  readonly version: number;
+  /** The list, as a message. */
+  whole(): Uint8Array;
+  /** What brings the list of an earlier version up to date, as a message. */
+  since(version: number): Uint8Array;
+}
+
 export interface ListingFeedOptions {
   readonly clock: Clock;
-  /** The newest list, encoded; the same object until it changes. */
-  readonly listing: () => Uint8Array;
+  readonly listing: ListingSource;
   /** Least time between two rounds, ms. */
   readonly intervalMs: number;
   /** All lists together may take this much: each slice is followed by a pause that sees to it. */
@@ -19,20 +28,19 @@ export interface ListingFeedOptions {
 const MESSAGE_COST_BYTES = 4096;
 
 /**
- * Keeps operators' lists of robots fresh. A change goes out at once when all was quiet; under many changes there is at
- * most one round per interval, each operator gets the newest list only, and a big round goes out in slices with pauses
- * between, so that neither relays nor the network wait behind it: 2,000 robots (80 KB) for 2,000 operators are 160 MB a
- * round. Many operators with many robots so have lists that are some seconds old; sessions are set up as fast as ever.
+ * Keeps operators' lists of robots fresh: the whole list once, then what changes. A change goes out at once when all was
+ * quiet; under many changes there is at most one round per interval, each operator gets all that it misses in one
+ * message, and a big round goes out in slices with pauses between, so that neither relays nor the network wait behind it.
  */
 export class ListingFeed {
   readonly #clock: Clock;
-  readonly #listing: () => Uint8Array;
+  readonly #listing: ListingSource;
   readonly #intervalMs: number;
   readonly #bytesPerMs: number;
   readonly #sliceBytes: number;
   readonly #maxBacklogBytes: number;
-  /** Each subscriber with the list it has. */
-  readonly #subscribers = new Map<Peer, Uint8Array>();
+  /** Each subscriber with the version it has. */
+  readonly #subscribers = new Map<Peer, number>();
   #queue: Peer[] = [];
   #earliest = Number.NEGATIVE_INFINITY;
   #changed = false;
@@ -47,9 +55,9 @@ export class ListingFeed {
     this.#maxBacklogBytes = options.maxBacklogBytes ?? 65_536;
   }
 
-  /** Sends the list now and at every change. */
+  /** Sends the list now, and later what changes in it. */
   add(peer: Peer): void {
-    this.#send(peer, this.#listing());
+    this.#send(peer, this.#listing.whole());
   }
 
   remove(peer: Peer): void {
@@ -80,18 +88,18 @@ export class ListingFeed {
   }
 
   #slice(): void {
-    const listing = this.#listing();
     let budget = this.#sliceBytes;
     let peer = this.#queue.pop();
     for (; peer !== undefined; peer = budget > 0 ? this.#queue.pop() : undefined) {
       const has = this.#subscribers.get(peer);
-      if (has === undefined || has === listing) continue;
+      if (has === undefined || has === this.#listing.version) continue;
       if (peer.backlog > this.#maxBacklogBytes) {
         this.#changed = true; // it is behind: once more in the next round
         continue;
       }
-      this.#send(peer, listing);
-      budget -= listing.byteLength + MESSAGE_COST_BYTES;
+      const message = this.#listing.since(has);
+      this.#send(peer, message);
+      budget -= message.byteLength + MESSAGE_COST_BYTES;
     }
     const pause = (this.#sliceBytes - budget) / this.#bytesPerMs;
     if (this.#queue.length > 0) {
@@ -103,8 +111,8 @@ export class ListingFeed {
     if (this.#changed) this.#schedule();
   }
 
-  #send(peer: Peer, listing: Uint8Array): void {
-    this.#subscribers.set(peer, listing);
-    peer.send(listing);
+  #send(peer: Peer, message: Uint8Array): void {
+    this.#subscribers.set(peer, this.#listing.version);
+    peer.send(message);
   }
 }

@@ -198,13 +198,13 @@ export const program = defineProgram({
       schema: count,
       default: 100,
       argument: 'MS',
-      help: 'least time between two lists of robots to one operator',
+      help: 'least time between two updates of an operator’s list of robots',
     }),
     listBytesPerSecond: defineOption({
       schema: schema.integer({ min: 100_000 }),
       default: 20_000_000,
       argument: 'BYTES',
-      help: 'what all lists of robots to all operators may take of the network',
+      help: 'what the lists of robots and their updates to all operators may take of the network',
     }),
     shutdownMs: defineOption({
       schema: count,

@@ -1,10 +1,5 @@
-import {
-  encodeJsonBytes,
-  type RobotListing,
-  type ServiceToOperator,
-  serviceToOperatorCodec,
-} from '@farpoint/protocol';
 import type { Peer } from './peer.ts';
+import { VersionedListing } from './versioned-listing.ts';
 
 /** A robot that is here now. */
 export interface RobotEntry {
@@ -28,7 +23,7 @@ export type JoinResult =
 export class RobotRegistry {
   readonly #robots = new Map<string, RobotEntry>();
   readonly #maxRobots: number;
-  #listing: Uint8Array | null = null;
+  readonly listing = new VersionedListing(this.#robots);
 
   constructor(maxRobots: number) {
     this.#maxRobots = maxRobots;
@@ -48,7 +43,7 @@ export class RobotRegistry {
     if (previous === null && this.#robots.size >= this.#maxRobots) return { ok: false, reason: 'full' };
     this.#robots.set(entry.id, entry);
     const listed = previous === null || previous.name !== entry.name;
-    if (listed) this.#listing = null;
+    if (listed) this.listing.changed(entry.id);
     return { ok: true, previous, listed };
   }
 
@@ -56,16 +51,7 @@ export class RobotRegistry {
   leave(entry: RobotEntry): boolean {
     if (this.#robots.get(entry.id) !== entry) return false;
     this.#robots.delete(entry.id);
-    this.#listing = null;
+    this.listing.changed(entry.id);
     return true;
-  }
-
-  /** The message `robots`, encoded once for all operators until something changes. */
-  listing(): Uint8Array {
-    this.#listing ??= encodeJsonBytes<ServiceToOperator>(serviceToOperatorCodec, {
-      type: 'robots',
-      robots: Array.from(this.#robots.values(), ({ id, name }): RobotListing => ({ id, name })),
-    });
-    return this.#listing;
   }
 }

@@ -34,10 +34,14 @@ describe('Farpoint over real sockets', () => {
     const operator = await service.operator();
     expect(await operator.next()).toEqual({ type: 'robots', robots: [] });
     const robot = await service.robot('r1');
-    expect(await operator.next()).toEqual({ type: 'robots', robots: [{ id: 'r1', name: 'Robot r1' }] });
+    expect(await operator.next()).toEqual({
+      type: 'robots.changed',
+      here: [{ id: 'r1', name: 'Robot r1' }],
+      gone: [],
+    });
     await service.expectSession(robot, 'r1', operator);
     robot.socket.terminate();
-    expect(await operator.next()).toEqual({ type: 'robots', robots: [] });
+    expect(await operator.next()).toEqual({ type: 'robots.changed', here: [], gone: ['r1'] });
   });
 
   test('a robot that comes back with its key takes over from its older socket', async () => {
@@ -73,10 +77,14 @@ describe('Farpoint over real sockets', () => {
     const operator = await service.operator();
     await operator.next();
     const robot = await service.robot('r1');
-    await operator.until('robots');
+    await operator.until('robots.changed');
     // As after a lost link: the connection is open and nothing is read from it.
     robot.socket.pause();
-    expect(await operator.until('robots')).toEqual({ type: 'robots', robots: [] });
+    expect(await operator.until('robots.changed')).toEqual({
+      type: 'robots.changed',
+      here: [],
+      gone: ['r1'],
+    });
   });
 
   test('who does not read is disconnected, and only that one', async () => {

@@ -4,7 +4,12 @@ import { expect, test } from 'vitest';
 import { clockAnswerCodec, operatorControlCodec } from './control.ts';
 import { decodeJson, type JsonCodec } from './json.ts';
 import { operatorSessionCodec, robotSessionCodec } from './session-messages.ts';
-import { operatorToServiceCodec, robotToServiceCodec, serviceToRobotCodec } from './signaling/farpoint.ts';
+import {
+  operatorToServiceCodec,
+  robotToServiceCodec,
+  serviceToOperatorCodec,
+  serviceToRobotCodec,
+} from './signaling/farpoint.ts';
 import { telemetryCodec } from './telemetry.ts';
 
 const text = readFileSync(new URL('../../../docs/protocol.md', import.meta.url), 'utf8');
@@ -16,7 +21,7 @@ const kinds: Record<string, JsonCodec<unknown>[]> = {
   '`session`, robot → operator': [robotSessionCodec],
   '`session`, operator → robot': [operatorSessionCodec],
   '`telemetry`': [telemetryCodec],
-  Signaling: [robotToServiceCodec, serviceToRobotCodec, operatorToServiceCodec],
+  Signaling: [robotToServiceCodec, serviceToRobotCodec, operatorToServiceCodec, serviceToOperatorCodec],
 };
 
 /** One message begins at each line that begins with a brace. */

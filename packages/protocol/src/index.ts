@@ -17,5 +17,6 @@ export * from './sequence.ts';
 export * from './session-messages.ts';
 export * from './signaling/farpoint.ts';
 export * from './signaling/reference.ts';
+export * from './signaling/robot-list.ts';
 export * from './stream-switch.ts';
 export * from './telemetry.ts';

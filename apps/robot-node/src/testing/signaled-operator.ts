@@ -38,7 +38,9 @@ export class SignaledOperator {
   static async connect(url: string, robotId: string): Promise<SignaledOperator> {
     const operator = new SignaledOperator(url);
     await operator.until(
-      (message) => message.type === 'robots' && message.robots.some(({ id }) => id === robotId),
+      (message) =>
+        (message.type === 'robots' && message.robots.some(({ id }) => id === robotId)) ||
+        (message.type === 'robots.changed' && message.here.some(({ id }) => id === robotId)),
     );
     operator.#send({ type: 'session.open', robotId });
     await operator.client.ready();

@@ -56,6 +56,10 @@ describe('OperatorSignaling', () => {
     expect(bench.machine.iceServers).toEqual([{ urls: 'stun:a' }]);
     bench.receive({ type: 'robots', robots: [{ id: 'r', name: 'R' }] });
     expect(bench.robots).toEqual([{ id: 'r', name: 'R' }]);
+    bench.receive({ type: 'robots.changed', here: [{ id: 's', name: 'S' }], gone: ['r'] });
+    expect(bench.robots).toEqual([{ id: 's', name: 'S' }]);
+    bench.receive({ type: 'robots', robots: [] });
+    expect(bench.robots).toEqual([]);
     expect(bench.states).toEqual(['connecting', 'ready']);
   });
 

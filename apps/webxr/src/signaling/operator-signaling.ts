@@ -3,6 +3,7 @@
  * calls on the port. Reconnects for ever.
  */
 import {
+  applyRobotsChanged,
   decodeJson,
   encodeJson,
   type IceServer,
@@ -43,7 +44,10 @@ export interface SignalingEvents {
   onFault(error: ProtocolError): void;
 }
 
-export type SessionSignal = Exclude<ServiceToOperator, { type: 'operator.welcome' } | { type: 'robots' }>;
+export type SessionSignal = Exclude<
+  ServiceToOperator,
+  { type: 'operator.welcome' } | { type: 'robots' } | { type: 'robots.changed' }
+>;
 
 const FIRST_RETRY_MS = 500;
 const MOST_RETRY_MS = 10_000;
@@ -59,6 +63,7 @@ export class OperatorSignaling {
   readonly #token: string | undefined;
   #state: SignalingState = 'stopped';
   #iceServers: readonly IceServer[] = [];
+  #robots: readonly RobotListing[] = [];
 
   constructor(
     identity: { name: string; token?: string | undefined },
@@ -149,7 +154,12 @@ export class OperatorSignaling {
         this.#enter('ready');
         return;
       case 'robots':
-        this.#events.onRobots(message.robots);
+        this.#robots = message.robots;
+        this.#events.onRobots(this.#robots);
+        return;
+      case 'robots.changed':
+        this.#robots = applyRobotsChanged(this.#robots, message);
+        this.#events.onRobots(this.#robots);
         return;
       case 'error':
         if (message.code === 'unauthorized') {

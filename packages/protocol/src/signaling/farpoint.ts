@@ -87,6 +87,15 @@ const robotListing = z.strictObject({ id: robotIdSchema, name: displayNameSchema
 /** A robot that is here now. */
 export type RobotListing = z.infer<typeof robotListing>;
 
+const robotsChanged = z.strictObject({
+  type: z.literal('robots.changed'),
+  /** Who came, or changed its name. */
+  here: z.array(robotListing),
+  /** Ids of who went. */
+  gone: z.array(robotIdSchema),
+});
+export type RobotsChanged = z.infer<typeof robotsChanged>;
+
 const robotToService = z.discriminatedUnion('type', [
   z.strictObject({
     type: z.literal('robot.hello'),
@@ -134,8 +143,10 @@ export type OperatorToService = z.infer<typeof operatorToService>;
 
 const serviceToOperator = z.discriminatedUnion('type', [
   z.strictObject({ type: z.literal('operator.welcome'), iceServers: z.array(iceServerSchema) }),
-  /** Every robot that is here now; sent after the welcome and at every change. */
+  /** Every robot that is here now; sent after the welcome, and to an operator that fell far behind. */
   z.strictObject({ type: z.literal('robots'), robots: z.array(robotListing) }),
+  /** What has changed since the last `robots` or `robots.changed`. */
+  robotsChanged,
   z.strictObject({ type: z.literal('session.opened'), session: handleSchema, robotId: robotIdSchema }),
   sessionOffer,
   sessionCandidate,
