@@ -8,21 +8,19 @@ import {
   type Registry,
   silentLogger,
 } from '@farpoint/service';
-import type { WebSocket } from 'ws';
 import { Admission, peerAddress } from './admission.ts';
 import { systemClock } from './clock.ts';
 import { FarpointHub } from './farpoint-hub.ts';
-import { Heartbeat } from './heartbeat.ts';
+import { httpHandler, notFound } from './http-handler.ts';
 import { turnCredentials } from './ice-servers.ts';
 import { Listener, type UpgradeDecision } from './listener.ts';
+import { LiveSockets } from './live-sockets.ts';
 import { createObserver } from './metrics.ts';
 import type { Role } from './observer.ts';
 import { defaultOptions, type SignalingOptions } from './options.ts';
 import type { Connection, Peer } from './peer.ts';
 import { ReferenceHub } from './reference-hub.ts';
 import { readFiles, type ServiceFiles } from './service-files.ts';
-import { SocketPeer } from './socket-peer.ts';
-import { webRoot } from './web-root.ts';
 
 /** What a program lends the service; tests may leave it out. */
 export interface SignalingRim {
@@ -70,20 +68,11 @@ class SignalingService implements RunningSignaling {
   readonly #farpoint: FarpointHub;
   readonly #reference: ReferenceHub;
   readonly #admission: Admission;
-  readonly #heartbeat: Heartbeat;
+  readonly #sockets: LiveSockets;
   readonly #observer: ReturnType<typeof createObserver>;
-  readonly #live = new Map<SocketPeer, Connection>();
-  readonly #byRole: Record<Role, number> = {
-    robot: 0,
-    operator: 0,
-    'reference-robot': 0,
-    'reference-client': 0,
-  };
   #files: ServiceFiles;
   #listeners: Listener[] = [];
-  #nextPeerId = 1;
   #closing: Promise<void> | null = null;
-  #onEmpty: (() => void) | null = null;
 
   constructor(options: SignalingOptions, rim: SignalingRim) {
     this.#options = options;
@@ -118,7 +107,13 @@ class SignalingService implements RunningSignaling {
       limits: { ...options, maxCandidatesPerRobot: CANDIDATES_PER_REFERENCE_ROBOT },
     });
     this.#admission = new Admission(options);
-    this.#heartbeat = new Heartbeat(options.heartbeatMs);
+    const { heartbeatMs, maxBacklogBytes } = options;
+    this.#sockets = new LiveSockets({
+      heartbeatMs,
+      maxBacklogBytes,
+      admission: this.#admission,
+      observer: this.#observer,
+    });
     health.add('connections', () => {
       const { connections, robots, referenceRobots, sessions } = this.#counts();
       const ok = this.#admission.total < options.maxConnections;
@@ -170,18 +165,7 @@ class SignalingService implements RunningSignaling {
   async #close(): Promise<void> {
     const listening = Promise.all(this.#listeners.map((listener) => listener.close()));
     this.#farpoint.stop();
-    this.#heartbeat.stop();
-    for (const connection of [...this.#live.values()]) connection.shutDown();
-    if (this.#live.size > 0) {
-      await new Promise<void>((resolve) => {
-        const timer = setTimeout(resolve, this.#options.shutdownMs);
-        this.#onEmpty = () => {
-          clearTimeout(timer);
-          resolve();
-        };
-      });
-    }
-    for (const peer of this.#live.keys()) peer.terminate();
+    await this.#sockets.shutDown(this.#options.shutdownMs);
     await listening;
   }
 
@@ -253,34 +237,13 @@ class SignalingService implements RunningSignaling {
         ? { status: 503, reason: 'no room for another connection' }
         : { status: 429, reason: 'too many connections from this address' };
     }
-    return { accept: (socket) => this.#accept(socket, role, address, connect) };
-  }
-
-  #accept(socket: WebSocket, role: Role, address: string, connect: (peer: Peer) => Connection): void {
-    const peer = new SocketPeer(socket, {
-      id: this.#nextPeerId++,
-      address,
-      maxBacklogBytes: this.#options.maxBacklogBytes,
-      onDropped: (reason) => this.#observer.rejected(role, reason, address),
-    });
-    const leave = this.#admission.enter(address);
-    const removePulse = this.#heartbeat.add(peer);
-    const connection = connect(peer);
-    this.#byRole[role]++;
-    this.#live.set(peer, connection);
-    peer.attach(connection, () => {
-      leave();
-      removePulse();
-      this.#byRole[role]--;
-      this.#live.delete(peer);
-      if (this.#live.size === 0) this.#onEmpty?.();
-    });
+    return { accept: (socket) => this.#sockets.accept(socket, role, address, connect) };
   }
 
   #counts() {
     const farpoint = this.#farpoint.counts;
     return {
-      connections: this.#byRole,
+      connections: this.#sockets.byRole,
       robots: farpoint.robots,
       sessions: farpoint.sessions,
       referenceRobots: this.#reference.counts.robots,
@@ -301,20 +264,3 @@ class SignalingService implements RunningSignaling {
     }
   }
 }
-
-function httpHandler(admin: ReturnType<typeof createAdminHandler>, folder: string | null): RequestListener {
-  const files = folder === null ? null : webRoot(folder);
-  return (request, response) => {
-    if (admin(request, response)) return;
-    if (files === null) notFound(request, response);
-    else files(request, response, () => notFound(request, response));
-  };
-}
-
-const notFound: RequestListener = (_request, response) => {
-  response.writeHead(404, {
-    'content-type': 'text/plain; charset=utf-8',
-    'x-content-type-options': 'nosniff',
-  });
-  response.end('nothing here\n');
-};
