@@ -1,0 +1,83 @@
+/** Why a packet does not come out of the link. */
+export const dropReasons = ['loss', 'burst-loss', 'queue-full', 'blackhole'] as const;
+export type DropReason = (typeof dropReasons)[number];
+
+export const BIN_MS = 100;
+
+/** What happened on one direction in {@link BIN_MS}. Bytes are bytes on the wire. */
+export interface LinkBin {
+  /** When the bin begins, on the clock that the model is given. */
+  readonly timeMs: number;
+  /** Mean over the bin; `null` where there is no bottleneck. */
+  readonly capacityMbps: number | null;
+  /** What the peers sent, dropped packets included. */
+  readonly offeredBytes: number;
+  /** What left the bottleneck, the competing flow's left out. */
+  readonly deliveredBytes: number;
+  /** What left it for the competing flow. */
+  readonly crossBytes: number;
+  readonly offeredPackets: number;
+  readonly deliveredPackets: number;
+  /** From a packet's arrival until its last bit is sent: of the packets that left; 0 where none did. */
+  readonly queueMsMean: number;
+  /** The same; while nothing leaves, the age of the oldest packet at the bin's end. */
+  readonly queueMsMax: number;
+  /** Waiting at the bin's end, the competing flow's included. */
+  readonly backlogBytes: number;
+  /** Packets of the peers. */
+  readonly drops: Readonly<Record<DropReason, number>>;
+  /** Packets of the competing flow, for whatever reason. */
+  readonly crossDrops: number;
+}
+
+/** Sums for one bin at a time. */
+export class LinkStatistics {
+  offeredBytes = 0;
+  deliveredBytes = 0;
+  crossBytes = 0;
+  offeredPackets = 0;
+  deliveredPackets = 0;
+  crossDrops = 0;
+  #queueMsSum = 0;
+  #queueMsMax = 0;
+  #drops = noDrops();
+
+  departed(bytes: number, queueMs: number): void {
+    this.deliveredBytes += bytes;
+    this.deliveredPackets++;
+    this.#queueMsSum += queueMs;
+    if (queueMs > this.#queueMsMax) this.#queueMsMax = queueMs;
+  }
+
+  dropped(reason: DropReason): void {
+    this.#drops[reason]++;
+  }
+
+  /** The bin that ends here; sums begin anew. */
+  close(timeMs: number, capacityBits: number, backlogBytes: number, oldestMs: number): LinkBin {
+    const packets = this.deliveredPackets;
+    const bin: LinkBin = {
+      timeMs,
+      capacityMbps: Number.isFinite(capacityBits) ? capacityBits / BIN_MS / 1000 : null,
+      offeredBytes: this.offeredBytes,
+      deliveredBytes: this.deliveredBytes,
+      crossBytes: this.crossBytes,
+      offeredPackets: this.offeredPackets,
+      deliveredPackets: packets,
+      queueMsMean: packets === 0 ? 0 : this.#queueMsSum / packets,
+      queueMsMax: Math.max(this.#queueMsMax, oldestMs),
+      backlogBytes,
+      drops: this.#drops,
+      crossDrops: this.crossDrops,
+    };
+    this.offeredBytes = this.deliveredBytes = this.crossBytes = 0;
+    this.offeredPackets = this.deliveredPackets = this.crossDrops = 0;
+    this.#queueMsSum = this.#queueMsMax = 0;
+    this.#drops = noDrops();
+    return bin;
+  }
+}
+
+function noDrops(): Record<DropReason, number> {
+  return { loss: 0, 'burst-loss': 0, 'queue-full': 0, blackhole: 0 };
+}
