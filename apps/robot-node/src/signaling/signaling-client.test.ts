@@ -9,19 +9,7 @@ import {
 import { silentLogger } from '@farpoint/service';
 import { afterEach, describe, expect, it } from 'vitest';
 import { type WebSocket, WebSocketServer } from 'ws';
-import { Backoff } from './backoff.ts';
 import { SignalingClient } from './signaling-client.ts';
-
-describe('Backoff', () => {
-  it('grows to its limit, spread over half of each step, and starts over after success', () => {
-    const backoff = new Backoff({ firstMs: 100, maxMs: 1000, random: () => 0.999 });
-    const waits = Array.from({ length: 6 }, () => Math.round(backoff.nextMs()));
-    expect(waits).toEqual([100, 200, 400, 800, 1000, 1000]);
-    backoff.reset();
-    expect(Math.round(backoff.nextMs())).toBe(100);
-    expect(new Backoff({ firstMs: 100, maxMs: 1000, random: () => 0 }).nextMs()).toBe(50);
-  });
-});
 
 const cleanups: (() => Promise<unknown> | unknown)[] = [];
 afterEach(async () => {

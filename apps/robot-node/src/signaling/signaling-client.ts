@@ -1,3 +1,4 @@
+import { Backoff } from '@farpoint/congestion';
 import {
   decodeJson,
   encodeJson,
@@ -11,7 +12,6 @@ import {
 } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import { WebSocket } from 'ws';
-import { Backoff } from './backoff.ts';
 
 export interface SignalingOptions {
   /** `ws://` or `wss://` and host; `/robot` is added. */
@@ -58,7 +58,7 @@ export class SignalingClient {
   constructor(options: SignalingOptions, log: Logger) {
     this.#options = options;
     this.#log = log;
-    this.#backoff = new Backoff({ firstMs: 250, maxMs: 10_000, random: Math.random });
+    this.#backoff = new Backoff({ firstMs: 250, mostMs: 10_000, random: Math.random });
   }
 
   start(): void {

@@ -3,8 +3,8 @@
  * it decides when to open, keep, give up and open again. A session lives on while its peers hear each other, whatever
  * becomes of signaling.
  */
+import { Backoff } from '@farpoint/congestion';
 import type { RobotListing } from '@farpoint/protocol';
-import { Backoff } from '../signaling/backoff.ts';
 
 export type SessionPhase =
   | 'none' // no robot is wanted
@@ -55,7 +55,7 @@ export class SessionKeeper {
 
   constructor(actions: SessionActions, random: () => number) {
     this.#actions = actions;
-    this.#backoff = new Backoff(500, 5000, random);
+    this.#backoff = new Backoff({ firstMs: 500, mostMs: 5000, random });
   }
 
   get phase(): SessionPhase {
@@ -176,7 +176,7 @@ export class SessionKeeper {
 
   #lose(loss: SessionLoss, nowMs: number): void {
     this.#endSession();
-    this.#retryAtMs = nowMs + this.#backoff.next();
+    this.#retryAtMs = nowMs + this.#backoff.nextMs();
     this.#actions.onLoss(loss);
     this.#enter('waiting');
   }

@@ -2,6 +2,7 @@
  * The operator's side of Farpoint's signaling, without a socket or a clock: what comes in are events, what goes out are
  * calls on the port. Reconnects for ever.
  */
+import { Backoff } from '@farpoint/congestion';
 import {
   applyRobotsChanged,
   decodeJson,
@@ -16,7 +17,6 @@ import {
   type ServiceToOperator,
   serviceToOperatorCodec,
 } from '@farpoint/protocol';
-import { Backoff } from './backoff.ts';
 
 /** The socket and the timer. */
 export interface SignalingPort {
@@ -75,7 +75,7 @@ export class OperatorSignaling {
     this.#token = identity.token;
     this.#port = port;
     this.#events = events;
-    this.#backoff = new Backoff(FIRST_RETRY_MS, MOST_RETRY_MS, random);
+    this.#backoff = new Backoff({ firstMs: FIRST_RETRY_MS, mostMs: MOST_RETRY_MS, random });
   }
 
   get state(): SignalingState {
@@ -120,7 +120,7 @@ export class OperatorSignaling {
   onClose(): void {
     if (this.#state !== 'connecting' && this.#state !== 'ready') return;
     this.#enter('waiting');
-    this.#port.setTimer(this.#backoff.next());
+    this.#port.setTimer(this.#backoff.nextMs());
   }
 
   onTimer(): void {
