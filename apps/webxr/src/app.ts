@@ -3,15 +3,16 @@ import { Batch } from './cloud/batch.ts';
 import { CloudView } from './cloud/cloud-view.ts';
 import type { FromCloudWorker, ToCloudWorker } from './cloud/worker-messages.ts';
 import { Driver } from './drive/driver.ts';
+import { type PresentRobot, RobotSwitch } from './drive/robot-switch.ts';
 import { ScriptInput } from './drive/script-input.ts';
 import { LatencyProbe } from './latency/latency-probe.ts';
 import type { PacketRecord } from './latency/packet-record.ts';
 import { RobotLink } from './link/robot-link.ts';
+import type { PageParts } from './page-parts.ts';
 import type { TransformSupport } from './peer/encoded-transform.ts';
 import type { Settings } from './settings.ts';
 import { PageStatistics } from './status/page-stats.ts';
-import { failureWords, lossWords, rejectionWords } from './status/words.ts';
-import { installTestApi } from './test-hooks.ts';
+import { failureWords, leavingWords, lossWords, rejectionWords } from './status/words.ts';
 import { ControlsUi } from './ui/controls-ui.ts';
 import { elements } from './ui/elements.ts';
 import { notify, showFailure } from './ui/notice.ts';
@@ -31,7 +32,7 @@ const STATUS_TICK_MS = 250;
 const STALE_AFTER_MS = 600;
 const STALE_FADE_MS = 1400;
 
-export class App {
+export class App implements PageParts {
   readonly settings: Settings;
   readonly stage: Stage;
   readonly cloud: CloudView;
@@ -47,6 +48,10 @@ export class App {
   readonly #gate = new DrawGate();
   readonly #status: StatusUi;
   readonly #resolution = new ResolutionGovernor();
+  readonly #switch = new RobotSwitch({
+    letGo: () => this.driver.letGo(performance.now()),
+    connect: (robotId) => this.link.connect(robotId),
+  });
   #generation = 0;
   lastPointsMs = 0;
   /** Filled while a measurement asks for it. */
@@ -98,6 +103,7 @@ export class App {
       this.inputs.poll();
       this.driver.suspended = this.#handsAway();
       this.driver.tick(performance.now());
+      this.#switch.tick(this.#presentRobot, performance.now());
     }, DRIVE_TICK_MS);
     setInterval(() => {
       const nowMs = performance.now();
@@ -107,7 +113,36 @@ export class App {
       this.#governResolution(nowMs);
     }, STATUS_TICK_MS);
     this.stage.renderer.setAnimationLoop((nowMs) => this.#frame(nowMs));
-    installTestApi(this);
+  }
+
+  get chosenRobotId(): string | null {
+    return this.#switch.target ?? this.link.robotId;
+  }
+
+  /** Connects to this robot; another one is left standing first. */
+  choose(robotId: string): void {
+    this.#switch.choose(robotId, this.#presentRobot, performance.now());
+    if (this.#switch.target !== null) notify(leavingWords);
+    this.#status.update(performance.now());
+  }
+
+  leave(): void {
+    this.#switch.cancel();
+    this.link.disconnect();
+  }
+
+  get #presentRobot(): PresentRobot {
+    const { telemetry } = this.link.session;
+    const speed =
+      telemetry === null
+        ? null
+        : Math.max(Math.abs(telemetry.twist.linear.x), Math.abs(telemetry.twist.angular.z));
+    return {
+      robotId: this.link.robotId,
+      live: this.link.phase === 'live',
+      holder: this.driver.holder,
+      speed,
+    };
   }
 
   /** Resolves within the next display frame, after it was drawn and before it is shown. */
@@ -160,7 +195,7 @@ export class App {
     const options = { signalingUrl, name, token, worker: this.#worker, transform };
     return new RobotLink(options, {
       onSignaling: () => this.#status.update(performance.now()),
-      onRobots: (robots) => showRobots(robots, (robotId) => this.link.connect(robotId)),
+      onRobots: (robots) => showRobots(robots, (robotId) => this.choose(robotId)),
       onPhase: (phase) => {
         if (phase === 'none') {
           this.cloud.reset();

@@ -3,6 +3,7 @@ import { App } from './app.ts';
 import { transformSupport } from './peer/encoded-transform.ts';
 import { readSettings } from './settings.ts';
 import { failureWords } from './status/words.ts';
+import { installTestApi } from './test-hooks.ts';
 import { showFailure } from './ui/notice.ts';
 import { loadStored } from './ui/settings-dialog.ts';
 
@@ -25,7 +26,9 @@ function start(): void {
     return;
   }
   try {
-    new App(settings, transform).start();
+    const app = new App(settings, transform);
+    app.start();
+    installTestApi(app);
   } catch (error) {
     console.error(error);
     showFailure(failureWords.noWebGl2);

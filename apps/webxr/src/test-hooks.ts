@@ -41,10 +41,11 @@ export function installTestApi(app: App): void {
     resetStats: () => app.stats.resetDistributions(),
     robots: () => link.robots,
     connect(robotId, timeoutMs = 30_000) {
-      link.connect(robotId);
-      return until(() => link.phase === 'live' && cloud.hasPoints, timeoutMs, `no session with ${robotId}`);
+      app.choose(robotId);
+      const stands = () => link.robotId === robotId && link.phase === 'live' && cloud.hasPoints;
+      return until(stands, timeoutMs, `no session with ${robotId}`);
     },
-    disconnect: () => link.disconnect(),
+    disconnect: () => app.leave(),
     requestLease: (take = false) => driver.requestLease(take),
     estop: (latch) => link.sendSession({ type: 'estop', latch }),
     latencyTest: () => app.latency.run(performance.now()),

@@ -9,6 +9,13 @@ export interface DriveInput {
   readonly wish: Readonly<DriveWish>;
 }
 
+/** Buttons beside the grip that went down since a device was last read. */
+export interface PressedButtons {
+  readonly estop: boolean;
+  readonly latencyTest: boolean;
+  readonly nextRobot: boolean;
+}
+
 /** The first device whose grip is held drives; the others are ignored until it lets go. */
 export function activeInput(inputs: readonly DriveInput[], before: DriveInput | null): DriveInput | null {
   if (before?.held === true && inputs.includes(before)) return before;

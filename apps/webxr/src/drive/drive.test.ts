@@ -100,7 +100,9 @@ describe('GamepadInput', () => {
     const input = new GamepadInput();
     expect(input.read(pad([], [1])).estop).toBe(true);
     expect(input.read(pad([], [1])).estop).toBe(false);
-    expect(input.read(pad([], [0]))).toEqual({ estop: false, latencyTest: true });
+    expect(input.read(pad([], [0]))).toEqual({ estop: false, latencyTest: true, nextRobot: false });
+    expect(input.read(pad([], [9])).nextRobot).toBe(true);
+    expect(input.read(pad([], [9])).nextRobot).toBe(false);
   });
 });
 
@@ -146,11 +148,32 @@ describe('HeadsetInput', () => {
     expect(input.wish).toEqual({ forward: 0, left: 0 });
   });
 
+  test('a stick’s press goes over to the next robot, once a press, and never while a hand drives', () => {
+    const input = new HeadsetInput();
+    expect(input.read([controller('left', 0, 0, 0, 3)]).nextRobot).toBe(true);
+    expect(input.read([controller('left', 0, 0, 0, 3)]).nextRobot).toBe(false);
+    input.read([controller('left', 0, 0, 0)]);
+    expect(input.read([controller('left', 0, 0, 0, 3), controller('right', 1, 0, -1)]).nextRobot).toBe(false);
+    expect(input.read([controller('left', 0, 0, 0, 3)]).nextRobot).toBe(false);
+  });
+
   test('A or X asks for a latency test, B or Y for the stop, once a press', () => {
     const input = new HeadsetInput();
-    expect(input.read([controller('right', 0, 0, 0, 4)])).toEqual({ estop: false, latencyTest: true });
-    expect(input.read([controller('right', 0, 0, 0, 5)])).toEqual({ estop: true, latencyTest: false });
-    expect(input.read([controller('right', 0, 0, 0, 5)])).toEqual({ estop: false, latencyTest: false });
+    expect(input.read([controller('right', 0, 0, 0, 4)])).toEqual({
+      estop: false,
+      latencyTest: true,
+      nextRobot: false,
+    });
+    expect(input.read([controller('right', 0, 0, 0, 5)])).toEqual({
+      estop: true,
+      latencyTest: false,
+      nextRobot: false,
+    });
+    expect(input.read([controller('right', 0, 0, 0, 5)])).toEqual({
+      estop: false,
+      latencyTest: false,
+      nextRobot: false,
+    });
   });
 });
 

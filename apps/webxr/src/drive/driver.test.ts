@@ -54,6 +54,31 @@ describe('Driver', () => {
     expect(commands.length).toBeLessThan(8);
   });
 
+  test('letting go stops, gives the lease back, and counts nothing that stays held', () => {
+    const { commands, messages, hand, driver } = bench();
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    hand.held = true;
+    hand.wish.forward = 1;
+    driver.tick(0);
+    driver.letGo(25);
+    expect(commands.map(({ deadMan, twist }) => [deadMan, twist.linear.x])).toEqual([
+      [true, 1],
+      [false, 0],
+    ]);
+    expect(messages).toEqual([{ type: 'leaseRelease' }]);
+    // The next robot: the hand is still closed.
+    driver.reset();
+    driver.onLimits({ maxLinear: 1, maxAngular: 1, watchdogMs: 150, maxCommandsPerSecond: 100 });
+    driver.onLease({ type: 'lease', holder: 'nobody' });
+    for (let now = 50; now < 1000; now += 25) driver.tick(now);
+    expect([commands.length, messages.length]).toEqual([2, 1]);
+    hand.held = false;
+    driver.tick(1000);
+    hand.held = true;
+    driver.tick(1025);
+    expect(messages.at(-1)).toEqual({ type: 'leaseRequest', take: false });
+  });
+
   test('without its lease nothing is sent', () => {
     const { commands, hand, driver } = bench();
     driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });

@@ -23,6 +23,7 @@ export class Driver {
   #nextLeaseRequestMs = 0;
   #suspended = false;
   #toldOther = false;
+  #mustOpen = false;
 
   constructor(inputs: readonly DriveInput[], port: DriverPort) {
     this.#inputs = inputs;
@@ -68,9 +69,22 @@ export class Driver {
     this.#port.sendSession({ type: 'leaseRelease' });
   }
 
+  /**
+   * Stops and gives the lease back. What is held now counts as let go until every hand has been open once: it must not
+   * move the next robot.
+   */
+  letGo(nowMs: number): void {
+    this.#mustOpen = true;
+    this.tick(nowMs);
+    if (this.#holder === 'you') this.releaseLease();
+    // Zeros that came after the release would be refused.
+    this.stream.setLease(null);
+  }
+
   /** At the stream's rate, and at once when the grip or the stick changes. */
   tick(nowMs: number): void {
-    this.#input = this.#suspended ? null : activeInput(this.#inputs, this.#input);
+    if (this.#mustOpen) this.#mustOpen = this.#inputs.some((input) => input.held);
+    this.#input = this.#suspended || this.#mustOpen ? null : activeInput(this.#inputs, this.#input);
     const held = this.#input !== null;
     this.stream.set(held, this.#input?.wish ?? REST);
     if (held && this.#holder !== 'you') this.#ask(nowMs);

@@ -1,12 +1,13 @@
 /** A gamepad in the standard mapping: either stick, while a shoulder button is held. */
 import { DEFAULT_STICK_RESPONSE, shapeAxis } from './dead-zone.ts';
-import type { DriveInput } from './drive-input.ts';
+import type { DriveInput, PressedButtons } from './drive-input.ts';
 import type { DriveWish } from './velocity-mapping.ts';
 
 /** Shoulders and triggers of the standard mapping. */
 const GRIP_BUTTONS = [4, 5, 6, 7];
 const ESTOP_BUTTON = 1;
 const LATENCY_BUTTON = 0;
+const NEXT_ROBOT_BUTTON = 9;
 
 /** What is read of a Gamepad. */
 export interface GamepadState {
@@ -20,17 +21,24 @@ export class GamepadInput implements DriveInput {
   held = false;
   #estop = false;
   #latency = false;
+  #next = false;
 
   /**
    * @param pad the gamepad now, or `null` where it is gone
    * @returns buttons that went down since the last call
    */
-  read(pad: GamepadState | null): { estop: boolean; latencyTest: boolean } {
+  read(pad: GamepadState | null): PressedButtons {
     const estop = pad?.buttons[ESTOP_BUTTON]?.pressed === true;
     const latency = pad?.buttons[LATENCY_BUTTON]?.pressed === true;
-    const pressed = { estop: estop && !this.#estop, latencyTest: latency && !this.#latency };
+    const next = pad?.buttons[NEXT_ROBOT_BUTTON]?.pressed === true;
+    const pressed = {
+      estop: estop && !this.#estop,
+      latencyTest: latency && !this.#latency,
+      nextRobot: next && !this.#next,
+    };
     this.#estop = estop;
     this.#latency = latency;
+    this.#next = next;
     this.held = pad !== null && GRIP_BUTTONS.some((index) => (pad.buttons[index]?.value ?? 0) > 0.5);
     const [x, y] = pad === null ? [0, 0] : strongerStick(pad.axes);
     this.wish.forward = -shapeAxis(y, DEFAULT_STICK_RESPONSE) + 0;

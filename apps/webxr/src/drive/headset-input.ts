@@ -1,13 +1,14 @@
 /**
- * Headset controllers, WebXR's `xr-standard` mapping: thumbstick axes 2 and 3, squeeze is button 1, A/X button 4, B/Y
- * button 5. The hand that squeezes drives.
+ * Headset controllers, WebXR's `xr-standard` mapping: thumbstick axes 2 and 3, squeeze is button 1, the thumbstick's
+ * press button 3, A/X button 4, B/Y button 5. The hand that squeezes drives.
  */
 import { DEFAULT_STICK_RESPONSE, shapeAxis } from './dead-zone.ts';
-import type { DriveInput } from './drive-input.ts';
+import type { DriveInput, PressedButtons } from './drive-input.ts';
 import type { GamepadState } from './gamepad-input.ts';
 import type { DriveWish } from './velocity-mapping.ts';
 
 const SQUEEZE = 1;
+const STICK_PRESS = 3;
 const AX_BUTTON = 4;
 const BY_BUTTON = 5;
 
@@ -24,17 +25,20 @@ export class HeadsetInput implements DriveInput {
   #hand: string | null = null;
   #estop = false;
   #latency = false;
+  #stickPress = false;
 
   /** @returns buttons that went down since the last call */
-  read(sources: Iterable<XrController>): { estop: boolean; latencyTest: boolean } {
+  read(sources: Iterable<XrController>): PressedButtons {
     let driving: XrController | null = null;
     let estop = false;
     let latency = false;
+    let stickPress = false;
     for (const source of sources) {
       const buttons = source.gamepad?.buttons;
       if (buttons === undefined) continue;
       estop ||= buttons[BY_BUTTON]?.pressed === true;
       latency ||= buttons[AX_BUTTON]?.pressed === true;
+      stickPress ||= buttons[STICK_PRESS]?.pressed === true;
       if ((buttons[SQUEEZE]?.value ?? 0) <= 0.5) continue;
       if (driving === null || source.handedness === this.#hand) driving = source;
     }
@@ -44,9 +48,15 @@ export class HeadsetInput implements DriveInput {
     // Unused axes are null on some runtimes; shapeAxis takes that as rest. Forward is −1, right is +1.
     this.wish.forward = -shapeAxis(axes?.[3], DEFAULT_STICK_RESPONSE) + 0;
     this.wish.left = -shapeAxis(axes?.[2], DEFAULT_STICK_RESPONSE) + 0;
-    const pressed = { estop: estop && !this.#estop, latencyTest: latency && !this.#latency };
+    const pressed = {
+      estop: estop && !this.#estop,
+      latencyTest: latency && !this.#latency,
+      // A stick is easily pressed while it is pushed.
+      nextRobot: stickPress && !this.#stickPress && !this.held,
+    };
     this.#estop = estop;
     this.#latency = latency;
+    this.#stickPress = stickPress;
     return pressed;
   }
 

@@ -47,6 +47,9 @@ export const lossWords: Record<SessionLoss, string> = {
   refused: 'The service did not open a session. Trying again…',
 };
 
+/** Another robot was chosen. */
+export const leavingWords = 'This robot stops first…';
+
 export interface LinkFacts {
   phase: SessionPhase;
   signaling: SignalingState;

@@ -1,9 +1,11 @@
 /** Buttons, mouse, wheel and keys to what they do. */
-import type { App } from '../app.ts';
+import { robotAfter } from '../drive/robot-switch.ts';
 import { LatencyError } from '../latency/latency-probe.ts';
+import type { PageParts } from '../page-parts.ts';
 import { elements } from './elements.ts';
 import { notify } from './notice.ts';
 import type { Action } from './operator-inputs.ts';
+import { initRobotSwitcher } from './robot-switcher.ts';
 import { initSettingsDialog } from './settings-dialog.ts';
 
 const latencyFailureWords: Record<LatencyError['reason'], string> = {
@@ -17,16 +19,16 @@ const latencyFailureWords: Record<LatencyError['reason'], string> = {
 const ESTOP_CALM_MS = 1000;
 
 export class ControlsUi {
-  readonly #app: App;
+  readonly #app: PageParts;
   #lastEstopMs = Number.NEGATIVE_INFINITY;
 
-  constructor(app: App) {
+  constructor(app: PageParts) {
     this.#app = app;
   }
 
   start(): void {
     const app = this.#app;
-    elements.disconnect.addEventListener('click', () => app.link.disconnect());
+    elements.disconnect.addEventListener('click', () => app.leave());
     elements.estop.addEventListener('click', () => this.act('estop', performance.now()));
     elements.latency.addEventListener('click', ({ timeStamp }) => this.act('latency-test', timeStamp));
     elements.view.addEventListener('click', () => this.act('view', performance.now()));
@@ -36,6 +38,7 @@ export class ControlsUi {
     for (const button of document.querySelectorAll<HTMLButtonElement>('#bar button, #drive button')) {
       button.addEventListener('click', () => button.blur());
     }
+    initRobotSwitcher((robotId) => app.choose(robotId));
     initSettingsDialog((scale) => {
       app.cloud.sizeScale = scale;
     });
@@ -64,7 +67,18 @@ export class ControlsUi {
         return;
       case 'view':
         stage.look.switchMode();
+        return;
+      case 'next-robot':
+        this.#nextRobot();
     }
+  }
+
+  #nextRobot(): void {
+    const { chosenRobotId, link } = this.#app;
+    if (chosenRobotId === null) return;
+    const next = robotAfter(link.robots, chosenRobotId);
+    if (next === null) notify('No other robot is here.');
+    else this.#app.choose(next.id);
   }
 
   /** Any press stops. Only a single, calm one releases: whoever hammers at it in fright never does. */

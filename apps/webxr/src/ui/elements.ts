@@ -13,6 +13,7 @@ export const elements = {
   vrReason: byId('vr-reason', HTMLElement),
   settingsOpen: byId('settings-open', HTMLButtonElement),
   settings: byId('settings', HTMLDialogElement),
+  robotSwitch: byId('robot-switch', HTMLSelectElement),
   disconnect: byId('disconnect', HTMLButtonElement),
   robots: byId('robots', HTMLElement),
   robotList: byId('robot-list', HTMLUListElement),

@@ -1,18 +1,19 @@
 /** Every device the page listens to. What is held is let go when the page cannot hear it any more. */
-import type { DriveInput } from '../drive/drive-input.ts';
+import type { DriveInput, PressedButtons } from '../drive/drive-input.ts';
 import { GamepadInput } from '../drive/gamepad-input.ts';
 import { HeadsetInput, type XrController } from '../drive/headset-input.ts';
 import { KeyboardInput } from '../drive/keyboard-input.ts';
 import { TouchJoystick } from '../drive/touch-joystick.ts';
 import { elements } from './elements.ts';
 
-export type Action = 'estop' | 'latency-test' | 'recentre' | 'view';
+export type Action = 'estop' | 'latency-test' | 'recentre' | 'view' | 'next-robot';
 
 const ACTION_KEYS: Readonly<Record<string, Action>> = {
   KeyX: 'estop',
   KeyL: 'latency-test',
   KeyC: 'recentre',
   KeyV: 'view',
+  KeyN: 'next-robot',
 };
 
 export class OperatorInputs {
@@ -57,23 +58,36 @@ export class OperatorInputs {
     if (wasHeld !== this.#headset.held) this.#onChange();
   }
 
-  #buttons(pressed: { estop: boolean; latencyTest: boolean }): void {
+  #buttons(pressed: PressedButtons): void {
     if (pressed.estop) this.onAction('estop', performance.now());
     if (pressed.latencyTest) this.onAction('latency-test', performance.now());
+    if (pressed.nextRobot) this.onAction('next-robot', performance.now());
   }
 
   #onKey(event: KeyboardEvent, down: boolean): void {
     const { target } = event;
-    if (target instanceof HTMLInputElement || elements.settings.open) return;
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const elsewhere = target instanceof HTMLInputElement || elements.settings.open;
+    const driving = !elements.drive.hidden && !elsewhere;
+    // A key that goes up is let go, whatever has the focus by now.
+    if (!down) {
+      if (!this.#keyboard.key(event.code, false)) return;
+      if (driving) event.preventDefault();
+      this.#onChange();
+      return;
+    }
+    if (elsewhere || event.ctrlKey || event.metaKey || event.altKey) return;
+    const choosing = target instanceof HTMLSelectElement;
+    if (choosing && event.code.startsWith('Arrow')) return;
     // Space on a focused button would press it; driving goes first once a robot is there.
-    if (!elements.drive.hidden && this.#keyboard.key(event.code, down)) {
+    if (driving && this.#keyboard.key(event.code, true)) {
       event.preventDefault();
       if (!event.repeat) this.#onChange();
       return;
     }
-    if (!down) this.#keyboard.key(event.code, false);
     const action = ACTION_KEYS[event.code];
-    if (down && !event.repeat && action !== undefined) this.onAction(action, event.timeStamp);
+    if (action === undefined) return;
+    // A letter would choose from the list as well.
+    if (choosing) event.preventDefault();
+    if (!event.repeat) this.onAction(action, event.timeStamp);
   }
 }

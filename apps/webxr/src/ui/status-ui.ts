@@ -1,22 +1,20 @@
 /** What the page shows of the link, the robot and the stream, a few times a second: on the screen and on the wrist. */
-import type { App } from '../app.ts';
+import { robotAfter } from '../drive/robot-switch.ts';
+import type { PageParts } from '../page-parts.ts';
 import { driveWords, linkWords, type Words } from '../status/words.ts';
 import type { PageStats } from '../test-api.ts';
 import type { WristPanel } from '../view/wrist-panel.ts';
 import { elements } from './elements.ts';
 import { type Fact, showFacts } from './facts.ts';
+import { showRobotSwitcher } from './robot-switcher.ts';
 
 export class StatusUi {
-  readonly #app: App;
+  readonly #app: PageParts;
   readonly #wrist: WristPanel;
 
-  constructor(app: App, wrist: WristPanel) {
+  constructor(app: PageParts, wrist: WristPanel) {
     this.#app = app;
     this.#wrist = wrist;
-  }
-
-  get link(): Words {
-    return describeLink(this.#app, performance.now());
   }
 
   onVr(active: boolean): void {
@@ -34,6 +32,7 @@ export class StatusUi {
     const connected = link.phase !== 'none';
     elements.robots.hidden = connected;
     elements.disconnect.hidden = !connected;
+    showRobotSwitcher(link.robots, this.#app.chosenRobotId);
     elements.view.hidden = !connected;
     elements.drive.hidden = link.phase !== 'live';
     elements.hud.hidden = link.phase !== 'live';
@@ -91,7 +90,9 @@ export class StatusUi {
 
   #showWrist(words: Words): void {
     const stats = this.#stats();
-    const { telemetry } = this.#app.link.session;
+    const { chosenRobotId, link } = this.#app;
+    const { telemetry } = link.session;
+    const next = robotAfter(link.robots, chosenRobotId);
     const drive = telemetry === null ? null : driveWords[telemetry.drive];
     const battery = telemetry?.battery;
     this.#wrist.show([
@@ -107,10 +108,12 @@ export class StatusUi {
         tone: stats.lossRate > 0.05 ? 'warning' : 'neutral',
       },
       {
-        text:
+        text: [
           battery === undefined
             ? 'Squeeze: drive  B: stop'
             : `Battery ${Math.round(battery.percentage * 100)} %`,
+          ...(next === null ? [] : [`press stick: ${next.name}`]),
+        ].join('  '),
         tone: 'neutral',
       },
     ]);
@@ -122,13 +125,13 @@ export class StatusUi {
 }
 
 /** The page's figures now. */
-export function snapshot(app: App): PageStats {
+export function snapshot(app: PageParts): PageStats {
   const { clock } = app.link.session;
   const times = { rttMs: clock.lastRttMs, minRttMs: clock.minRttMs };
   return app.stats.snapshot(app.cloud, times, app.stage.renderer.domElement);
 }
 
-export function describeLink(app: App, nowMs: number): Words {
+export function describeLink(app: PageParts, nowMs: number): Words {
   const { link } = app;
   return linkWords({
     phase: link.phase,

@@ -1,0 +1,85 @@
+import { describe, expect, test } from 'vitest';
+import { LONGEST_WAIT_MS, type PresentRobot, RobotSwitch, robotAfter } from './robot-switch.ts';
+
+const driven: PresentRobot = { robotId: 'a', live: true, holder: 'you', speed: 0.8 };
+
+function bench() {
+  const done: string[] = [];
+  const change = new RobotSwitch({
+    letGo: () => done.push('let go'),
+    connect: (robotId) => done.push(`connect ${robotId}`),
+  });
+  return { done, change };
+}
+
+describe('RobotSwitch', () => {
+  test('lets go, and connects to the other once the lease is back and the robot stands', () => {
+    const { done, change } = bench();
+    change.choose('b', driven, 0);
+    expect(done).toEqual(['let go']);
+    change.tick({ ...driven, speed: 0 }, 25); // the lease is still ours
+    change.tick({ ...driven, holder: 'nobody' }, 50); // it still rolls
+    expect([done, change.target]).toEqual([['let go'], 'b']);
+    change.tick({ ...driven, holder: 'nobody', speed: 0.01 }, 75);
+    expect([done, change.target]).toEqual([['let go', 'connect b'], null]);
+    change.tick({ ...driven, robotId: 'b' }, 100);
+    expect(done).toHaveLength(2);
+  });
+
+  test('does not wait for a robot that nobody here moves', () => {
+    for (const present of [
+      { ...driven, holder: 'other' as const },
+      { ...driven, holder: 'nobody' as const, speed: null },
+    ]) {
+      const { done, change } = bench();
+      change.choose('b', present, 0);
+      expect(done).toEqual(['let go', 'connect b']);
+    }
+  });
+
+  test('connects at once where there is no session', () => {
+    const { done, change } = bench();
+    change.choose('b', { robotId: null, live: false, holder: 'nobody', speed: null }, 0);
+    expect(done).toEqual(['connect b']);
+  });
+
+  test('leaves a robot that does not answer in the end, and one that is lost at once', () => {
+    const silent = bench();
+    silent.change.choose('b', driven, 0);
+    silent.change.tick(driven, LONGEST_WAIT_MS - 1);
+    expect(silent.done).toEqual(['let go']);
+    silent.change.tick(driven, LONGEST_WAIT_MS);
+    expect(silent.done).toEqual(['let go', 'connect b']);
+    const lost = bench();
+    lost.change.choose('b', driven, 0);
+    lost.change.tick({ ...driven, live: false }, 25);
+    expect(lost.done).toEqual(['let go', 'connect b']);
+  });
+
+  test('the last choice counts; the present robot, or leaving, takes it back', () => {
+    const { done, change } = bench();
+    change.choose('b', driven, 0);
+    change.choose('c', driven, 1000);
+    change.tick(driven, LONGEST_WAIT_MS);
+    expect(done).toEqual(['let go', 'let go', 'connect c']);
+    change.choose('b', driven, 2000);
+    change.choose('a', driven, 2025);
+    change.choose('c', driven, 3000);
+    change.cancel();
+    change.tick({ ...driven, live: false }, 9000);
+    expect(done.filter((what) => what.startsWith('connect'))).toEqual(['connect c']);
+  });
+});
+
+test('the robot after this one', () => {
+  const [a, b, c] = ['a', 'b', 'c'].map((id) => ({ id, name: id })) as [
+    { id: string; name: string },
+    { id: string; name: string },
+    { id: string; name: string },
+  ];
+  expect(robotAfter([a, b, c], 'b')).toBe(c);
+  expect(robotAfter([a, b, c], 'c')).toBe(a);
+  expect(robotAfter([a, b], 'gone')).toBe(a);
+  expect(robotAfter([a], 'a')).toBe(null);
+  expect(robotAfter([], 'a')).toBe(null);
+});
