@@ -47,10 +47,15 @@ export class OperatorPage {
     await expect
       .poll(async () => (await this.probe()).points, { message: 'points drawn' })
       .toBeGreaterThan(least);
+    await this.expectFrames(5);
+  }
+
+  /** Waits until more than so many further frames of the robot are drawn. */
+  async expectFrames(more: number): Promise<void> {
     const { framesDrawn } = await this.stats();
     await expect
       .poll(async () => (await this.stats()).framesDrawn, { message: 'frames drawn' })
-      .toBeGreaterThan(framesDrawn + 5);
+      .toBeGreaterThan(framesDrawn + more);
   }
 
   /** base_link in the world; the robot's telemetry must have come. */

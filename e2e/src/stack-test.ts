@@ -2,6 +2,7 @@ import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { LocalStack, repositoryRoot, type StackSpec } from '@farpoint/local-stack';
 import { test as base } from '@playwright/test';
+import { OperatorPage } from './operator-page.ts';
 
 /** The built web app; `pnpm build` makes it. */
 export const webRoot = join(repositoryRoot, 'apps', 'webxr', 'dist');
@@ -12,6 +13,8 @@ export const cloudsFolder = join(repositoryRoot, '..', 'shared', 'data', 'clouds
 export interface StackFixtures {
   /** Starts a stack of the real programs that lasts as long as the test. */
   startStack: (spec?: Partial<StackSpec>) => Promise<LocalStack>;
+  /** Starts a stack with {@link simulatedRobot} and opens the page on it; its points are drawn. */
+  openRobot: () => Promise<{ stack: LocalStack; operator: OperatorPage }>;
 }
 
 export const simulatedRobot = {
@@ -40,6 +43,14 @@ export const test = base.extend<StackFixtures>({
     if (testInfo.status !== testInfo.expectedStatus) {
       await testInfo.attach('programs.log', { body: lines.join('\n'), contentType: 'text/plain' });
     }
+  },
+  openRobot: async ({ page, startStack }, use) => {
+    await use(async () => {
+      const stack = await startStack();
+      const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
+      await operator.expectPoints();
+      return { stack, operator };
+    });
   },
 });
 

@@ -10,10 +10,8 @@ const WATCHDOG_S = 0.15;
 /** What the watcher's page knows of the robot may be this old. */
 const OBSERVATION_S = 0.3;
 
-test('the robot stops by itself when the browser that drives it is killed', async ({ page, startStack }) => {
-  const stack = await startStack();
-  const watcher = await OperatorPage.open(page, stack, { robot: 'sim-1' });
-  await watcher.expectPoints();
+test('the robot stops by itself when the browser that drives it is killed', async ({ openRobot }) => {
+  const { stack, operator: watcher } = await openRobot();
   const start = await watcher.body();
 
   const server = await chromium.launchServer(chromiumLaunchOptions());
@@ -37,7 +35,10 @@ test('the robot stops by itself when the browser that drives it is killed', asyn
   }
 });
 
-test('two robots: the page switches between them', async ({ page, startStack }) => {
+test('two robots: the operator goes over in one action; the robot left behind stands, the other waits for the hand to open', async ({
+  page,
+  startStack,
+}) => {
   const robots = [1, 2].map((n) => ({
     id: `sim-${n}`,
     name: `Simulated robot ${n}`,
@@ -50,32 +51,43 @@ test('two robots: the page switches between them', async ({ page, startStack }) 
   const start = await operator.body();
   await operator.holdForward();
   await operator.expectMovedFrom(start, 0.3);
-  await operator.releaseKeys();
-  await operator.expectStanding();
 
-  await page.getByRole('button', { name: 'Disconnect' }).click();
-  await page.getByRole('button', { name: /Simulated robot 2/ }).click();
+  // While it drives, and the keys stay held.
+  const left = await operator.body();
+  await page.getByRole('combobox', { name: 'Robot' }).selectOption('sim-2');
   await operator.expectState('robotId', 'sim-2');
   await operator.expectPoints();
-  // The other robot has not moved.
+  await operator.expectFrames(15);
+  expect(await operator.state()).toMatchObject({ holder: 'nobody', driving: false });
   const other = await operator.body();
   expect(other.x).toBeCloseTo(start.x, 5);
   expect(other.y).toBeCloseTo(start.y, 5);
 
-  await page.getByRole('button', { name: 'Disconnect' }).click();
-  await page.getByRole('button', { name: /Simulated robot 1/ }).click();
+  // The hand opens and closes: now the other one drives.
+  await operator.releaseKeys();
+  await operator.holdForward();
+  await operator.expectMovedFrom(other, 0.3);
+  await operator.releaseKeys();
+  await operator.expectStanding();
+
+  // Back by a key. The first robot stands where it braked.
+  await page.keyboard.press('KeyN');
   await operator.expectState('robotId', 'sim-1');
   await operator.expectPoints();
-  await operator.expectMovedFrom(start, 0.25);
+  await operator.expectStanding();
+  const back = await operator.body();
+  const braking = MAX_SPEED ** 2 / (2 * DECELERATION);
+  expect(Math.hypot(back.x - left.x, back.y - left.y)).toBeLessThan(MAX_SPEED * OBSERVATION_S + braking);
+  expect((await operator.state()).holder).toBe('nobody');
+
+  await page.getByRole('button', { name: 'Disconnect' }).click();
+  await expect(page.getByRole('button', { name: /Simulated robot 2/ })).toBeVisible();
 });
 
 test('signaling is killed and restarted while driving: the drive goes on, the service comes back', async ({
-  page,
-  startStack,
+  openRobot,
 }) => {
-  const stack = await startStack();
-  const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
-  await operator.expectPoints();
+  const { stack, operator } = await openRobot();
   const start = await operator.body();
   await operator.holdForward();
   await operator.expectMovedFrom(start, 0.2);
@@ -96,11 +108,9 @@ test('signaling is killed and restarted while driving: the drive goes on, the se
 
 test('the robot process is killed and restarted: the page says so and comes back by itself', async ({
   page,
-  startStack,
+  openRobot,
 }) => {
-  const stack = await startStack();
-  const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
-  await operator.expectPoints();
+  const { stack, operator } = await openRobot();
 
   await stack.robot('sim-1').kill();
   await operator.expectState('robotListed', false);

@@ -32,14 +32,11 @@ test('on a flat screen: choose the robot, see its world, drive it with the keybo
   expect(Math.cos(heading - start.yaw)).toBeGreaterThan(0.99);
 });
 
-test('without the dead-man key nothing moves', async ({ page, startStack }) => {
-  const stack = await startStack();
-  const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
-  await operator.expectPoints();
+test('without the dead-man key nothing moves', async ({ page, openRobot }) => {
+  const { operator } = await openRobot();
   const start = await operator.body();
   await page.keyboard.down('KeyW');
-  const { framesDrawn } = await operator.stats();
-  await expect.poll(async () => (await operator.stats()).framesDrawn).toBeGreaterThan(framesDrawn + 30);
+  await operator.expectFrames(30);
   await page.keyboard.up('KeyW');
   const end = await operator.body();
   expect(Math.hypot(end.x - start.x, end.y - start.y)).toBe(0);
@@ -47,11 +44,9 @@ test('without the dead-man key nothing moves', async ({ page, startStack }) => {
 
 test('the latency test turns the next cloud green and tells motion-to-photon', async ({
   page,
-  startStack,
+  openRobot,
 }) => {
-  const stack = await startStack();
-  const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
-  await operator.expectPoints();
+  await openRobot();
   const result = await page.evaluate(() => window.farpoint.latencyTest());
   expect(result.points).toBeGreaterThan(1000);
   expect(result.points).toBeLessThanOrEqual(result.totalPoints);
@@ -63,10 +58,8 @@ test('the latency test turns the next cloud green and tells motion-to-photon', a
   await expect.poll(() => page.evaluate(() => window.farpoint.latencyResults().length)).toBe(2);
 });
 
-test('the emergency stop latches until it is released on purpose', async ({ page, startStack }) => {
-  const stack = await startStack();
-  const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
-  await operator.expectPoints();
+test('the emergency stop latches until it is released on purpose', async ({ page, openRobot }) => {
+  const { operator } = await openRobot();
   const start = await operator.body();
   await operator.holdForward();
   await operator.expectMovedFrom(start, 0.2);
@@ -79,8 +72,7 @@ test('the emergency stop latches until it is released on purpose', async ({ page
   await operator.releaseKeys();
   const stopped = await operator.body();
   await operator.holdForward();
-  const { framesDrawn } = await operator.stats();
-  await expect.poll(async () => (await operator.stats()).framesDrawn).toBeGreaterThan(framesDrawn + 30);
+  await operator.expectFrames(30);
   expect(await operator.body()).toEqual(stopped);
   await operator.releaseKeys();
 
