@@ -106,7 +106,7 @@ test('a flow that has ended sends nothing', () => {
 test('CUBIC keeps 0.7 of its window after a loss and is back at its plateau after K', () => {
   const window = new CubicWindow();
   while (window.segments < 100) window.acknowledged(0, RTT);
-  window.lost(0);
+  window.lost();
   expect(window.segments).toBeCloseTo(70, 9);
   // RFC 9438: K = cbrt(W_max × (1 − 0.7) / 0.4) = 4.217 s. A long round trip keeps the Reno estimate below the curve.
   let nowMs = 0;

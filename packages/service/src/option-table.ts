@@ -35,7 +35,7 @@ export interface ProgramDefinition<Table extends OptionTable> {
 }
 
 /** Every program's section: a section that is none of these is a typing mistake and refused. */
-export const configSections = ['robot', 'signaling', 'bridge', 'web'] as const;
+export const configSections = ['robot', 'signaling', 'bridge', 'web', 'link'] as const;
 export type ConfigSection = (typeof configSections)[number];
 
 export const DEFAULT_CONFIG_PATH = 'farpoint.yaml';

@@ -161,7 +161,7 @@ describe('mistakes name their place', () => {
     ],
     [
       { files: { 'farpoint.yaml': 'robto: {}' } },
-      'farpoint.yaml: robto is not a section (did you mean robot?); the sections are robot, signaling, bridge, web',
+      'farpoint.yaml: robto is not a section (did you mean robot?); the sections are robot, signaling, bridge, web, link',
     ],
     [{ files: { 'farpoint.yaml': '[1]' } }, 'farpoint.yaml must be a mapping from program to options'],
     [

@@ -1,0 +1,35 @@
+import { idealProfile, monotonicMs, UdpLink } from '@farpoint/link-emulator';
+import { afterEach, expect, test } from 'vitest';
+import { ZodError } from 'zod';
+import { control } from './control.ts';
+
+const links: UdpLink[] = [];
+afterEach(() => {
+  for (const link of links.splice(0)) link.close();
+});
+function open(): UdpLink {
+  const link = new UdpLink({ up: { profile: idealProfile }, down: { profile: idealProfile }, seed: 1 });
+  links.push(link);
+  return link;
+}
+
+test('a message changes what it names, in the direction that it names', () => {
+  const link = open();
+  control(link, { type: 'set', direction: 'up', rateMbps: 3, delayMs: 7, queueMs: 50 });
+  expect(link.models.up.profile).toEqual({
+    ...idealProfile,
+    capacity: { steps: [{ atMs: 0, mbps: 3 }], periodMs: null },
+    delayMs: 7,
+    queue: { ms: 50 },
+  });
+  expect(link.models.down.profile).toBe(idealProfile);
+  control(link, { type: 'blackhole', direction: 'both', active: true });
+  expect(link.models.down.offer(100, monotonicMs(), 0)).toBe('blackhole');
+});
+
+test('what is no message of control, or cannot be, leaves the link as it was', () => {
+  const link = open();
+  expect(() => control(link, { type: 'set', direction: 'sideways' })).toThrow(ZodError);
+  expect(() => control(link, { type: 'set', direction: 'up', loss: 3 })).toThrow('is not a probability');
+  expect(link.models.up.profile).toBe(idealProfile);
+});

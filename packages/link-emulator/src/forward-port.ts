@@ -1,0 +1,84 @@
+import { createSocket, type RemoteInfo, type Socket } from 'node:dgram';
+import { isIP } from 'node:net';
+import type { Endpoint } from './candidate.ts';
+import type { Side } from './signaling-messages.ts';
+
+/** Asked for; the kernel gives as much as it allows. */
+const SOCKET_BUFFER_BYTES = 4 * 1024 * 1024;
+
+/** A socket that stands in for one endpoint of a peer: what comes to it is on its way to that endpoint. */
+export class ForwardPort {
+  readonly side: Side;
+  readonly real: Endpoint;
+  /** Resolves once {@link own} is known. */
+  readonly ready: Promise<void>;
+  /** Nothing was sent or received since; milliseconds. */
+  usedMs: number;
+  /** Whom the latest packet came from: mostly the next comes from there too. */
+  lastFrom: ForwardPort | null = null;
+  sendErrors = 0;
+  readonly #socket: Socket;
+  #own: Endpoint | null = null;
+  #closed = false;
+
+  constructor(
+    side: Side,
+    real: Endpoint,
+    bindAddress: string,
+    nowMs: number,
+    onPacket: (to: ForwardPort, data: Buffer, source: RemoteInfo) => void,
+  ) {
+    this.side = side;
+    this.real = real;
+    this.usedMs = nowMs;
+    const family = isIP(real.address) === 6 ? 6 : 4;
+    this.#socket = createSocket({
+      type: family === 6 ? 'udp6' : 'udp4',
+      recvBufferSize: SOCKET_BUFFER_BYTES,
+      sendBufferSize: SOCKET_BUFFER_BYTES,
+      // Addresses are never names: no look-up, no turn of the event loop for each packet.
+      lookup: (address, _options, callback) => callback(null, address, family),
+    });
+    this.#socket.on('message', (data, source) => onPacket(this, data, source));
+    this.ready = new Promise((resolve, reject) => {
+      this.#socket.once('error', reject);
+      this.#socket.bind(0, bindAddress, () => {
+        this.#socket.off('error', reject);
+        // An unreachable peer is no fault of ours.
+        this.#socket.on('error', () => {
+          this.sendErrors++;
+        });
+        const { address, port } = this.#socket.address();
+        this.#own = { address, port };
+        resolve();
+      });
+    });
+    // Who needs it awaits it; who does not must not end the process.
+    this.ready.catch(() => this.close());
+  }
+
+  /** What the other peer is told. `null` before {@link ready}. */
+  get own(): Endpoint | null {
+    return this.#own;
+  }
+
+  get closed(): boolean {
+    return this.#closed;
+  }
+
+  /** Sends from this socket, as if the endpoint it stands in for had sent. */
+  send(data: Buffer, to: Endpoint): void {
+    if (this.#closed) return;
+    this.#socket.send(data, to.port, to.address, this.#onSent);
+  }
+
+  close(): void {
+    if (this.#closed) return;
+    this.#closed = true;
+    this.#socket.close();
+  }
+
+  readonly #onSent = (error: Error | null): void => {
+    if (error !== null) this.sendErrors++;
+  };
+}
