@@ -1,4 +1,10 @@
-import type { PacketResult, RateController, ReceiverSums } from './rate-controller.ts';
+import type {
+  PacketResult,
+  RateController,
+  RateDecision,
+  RateSnapshot,
+  ReceiverSums,
+} from './rate-controller.ts';
 
 export interface FixedRateOptions {
   /** The configured rate, bit/s: where it starts and the most it gives. */
@@ -40,6 +46,14 @@ export class FixedRateController implements RateController {
   #sums: ReceiverSums | null = null;
   #sumsAtStart: ReceiverSums | null = null;
   #reportInInterval = false;
+  #loss = 0;
+  readonly #decision: RateDecision = {
+    targetBitsPerSecond: 0,
+    pacingBitsPerSecond: 0,
+    congestionWindowBytes: Number.POSITIVE_INFINITY,
+    bytesInFlight: 0,
+    probe: null,
+  };
 
   constructor(options: FixedRateOptions) {
     this.#configured = options.bitsPerSecond;
@@ -81,6 +95,7 @@ export class FixedRateController implements RateController {
     if (this.#intervalStartMs === null || nowMs - this.#intervalStartMs < this.#intervalMs) return;
     const loss = this.#lossFraction();
     if (loss !== null) {
+      this.#loss = loss;
       if (loss > this.#lossThreshold) this.#rate = Math.max(this.#rate / 2, this.#floor);
       else if (loss < CLEAN_LOSS) this.#rate = Math.min(this.#rate * this.#increase, this.#configured);
     }
@@ -93,6 +108,24 @@ export class FixedRateController implements RateController {
 
   targetBitsPerSecond(_nowMs: number): number {
     return Math.min(this.#rate, this.#receiverLimit);
+  }
+
+  /** No window, no probes. */
+  decision(nowMs: number): Readonly<RateDecision> {
+    this.#decision.targetBitsPerSecond = this.targetBitsPerSecond(nowMs);
+    this.#decision.pacingBitsPerSecond = this.#decision.targetBitsPerSecond * 1.1;
+    return this.#decision;
+  }
+
+  snapshot(nowMs: number): RateSnapshot {
+    return {
+      estimateBitsPerSecond: this.targetBitsPerSecond(nowMs),
+      state: 'fixed',
+      lossFraction: this.#loss,
+      rttMs: null,
+      queueMs: 0,
+      ackedBitsPerSecond: 0,
+    };
   }
 
   /** Of this interval; `null` where nothing can be said. */

@@ -1,3 +1,4 @@
+export * from './adaptive-rate-controller.ts';
 export * from './backoff.ts';
 export * from './fixed-rate-controller.ts';
 export * from './pacer.ts';

@@ -1,0 +1,87 @@
+/** A fraction is judged over so many packets and so long. */
+const LEAST_PACKETS = 60;
+const LEAST_MS = 180;
+/** Loss must exceed the base by so much before anything is done, and by so many standard deviations. */
+const MARGIN = 0.03;
+const DEVIATIONS = 3;
+
+/**
+ * Tells loss by overload from loss that is simply there (radio, a policer of someone else's). The test is causal: when loss
+ * exceeds its base, the rate is cut to below what got through. Overload would end with that. If the loss stays as it was,
+ * it is the link's own: the base rises to it, and the rate is given back.
+ */
+export class LossJudge {
+  /** Loss that no lower rate has cured, 0–1. */
+  base = 0;
+  /** Of the last judged window, 0–1. */
+  fraction = 0;
+  #received = 0;
+  #lost = 0;
+  #sinceMs = Number.NaN;
+  /** A cut is on trial: packets sent from this time on are its evidence. */
+  #trialFromMs = Number.NaN;
+  #trialLoss = 0;
+
+  get onTrial(): boolean {
+    return !Number.isNaN(this.#trialFromMs);
+  }
+
+  /**
+   * @param oldestSentMs when the first packet of the message left
+   * @returns `excess`: cut to below the delivered rate, now; `innocent`: the cut changed nothing, take it back
+   */
+  onFeedback(
+    received: number,
+    lost: number,
+    oldestSentMs: number,
+    nowMs: number,
+  ): 'none' | 'excess' | 'innocent' | 'guilty' {
+    if (this.onTrial && oldestSentMs < this.#trialFromMs) return 'none';
+    if (Number.isNaN(this.#sinceMs)) this.#sinceMs = nowMs - 60;
+    this.#received += received;
+    this.#lost += lost;
+    const n = this.#received + this.#lost;
+    if (n < LEAST_PACKETS || nowMs - this.#sinceMs < LEAST_MS) return 'none';
+    const fraction = this.#lost / n;
+    this.fraction = fraction;
+    this.#restart();
+    if (this.onTrial) {
+      this.#trialFromMs = Number.NaN;
+      if (fraction - this.base > 0.5 * (this.#trialLoss - this.base)) {
+        this.base = fraction;
+        return 'innocent';
+      }
+      this.#fall(fraction);
+      return 'guilty';
+    }
+    const deviation = Math.sqrt((this.base * (1 - this.base)) / n);
+    if (fraction > this.base + Math.max(MARGIN, DEVIATIONS * deviation)) {
+      this.#trialLoss = fraction;
+      return 'excess';
+    }
+    this.#fall(fraction);
+    return 'none';
+  }
+
+  /** The rate was cut at this time because of `excess`. */
+  cutAt(nowMs: number): void {
+    this.#trialFromMs = nowMs;
+    this.#restart();
+  }
+
+  /** What was lost so far says nothing, as after an outage. */
+  forget(): void {
+    this.#trialFromMs = Number.NaN;
+    this.#restart();
+  }
+
+  #fall(fraction: number): void {
+    if (fraction < this.base) this.base += (fraction - this.base) * 0.3;
+  }
+
+  #restart(): void {
+    this.#received = 0;
+    this.#lost = 0;
+    this.#sinceMs = Number.NaN;
+  }
+}

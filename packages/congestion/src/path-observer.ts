@@ -1,0 +1,193 @@
+import type { PacketResult } from './rate-controller.ts';
+import { WindowedMinimum } from './windowed-minimum.ts';
+
+/** One feedback message, condensed. Overwritten by the next. */
+export interface PathObservation {
+  received: number;
+  lost: number;
+  receivedBytes: number;
+  /** Waiting time in the path's queues, ms: what most packets of the message exceed, and its newest packets' median. */
+  queueMs: number;
+  queueEndMs: number;
+  /** What arrived, bit/s: over the last 100 ms or so, and over the last 30 ms or so of this message. */
+  ackedBitsPerSecond: number;
+  recentBitsPerSecond: number;
+  /** From sending the newest packet to hearing of it, ms. */
+  rttMs: number;
+  /** When the newest and the oldest packet of the message left, ms. */
+  newestSentMs: number;
+  oldestSentMs: number;
+}
+
+/** Base delay and base round trip are the least of this long. Clocks differ by up to 100 ppm: 3 ms in 30 s. */
+const BASE_WINDOW_MS = 30_000;
+/** A one-way delay that grew by so much more than the round trip did is a clock that jumped, ms. */
+const CLOCK_JUMP_MS = 60;
+const RATE_WINDOW_MS = 95;
+const RECENT_MS = 20;
+/** The least delay of so many packets is the message's end: one late packet is no queue. */
+const END_PACKETS = 4;
+const RECENT_PACKETS = 8;
+const MESSAGES = 32;
+const NOISE_CLAMP_MS = 12;
+
+/** Turns feedback into queueing delay, arrival rate, loss and round trip. Knows nothing of what follows from them. */
+export class PathObserver {
+  readonly observation: PathObservation = {
+    received: 0,
+    lost: 0,
+    receivedBytes: 0,
+    queueMs: 0,
+    queueEndMs: 0,
+    ackedBitsPerSecond: 0,
+    recentBitsPerSecond: 0,
+    rttMs: 0,
+    newestSentMs: 0,
+    oldestSentMs: 0,
+  };
+  readonly #baseDelay = new WindowedMinimum(BASE_WINDOW_MS);
+  readonly #baseRtt = new WindowedMinimum(BASE_WINDOW_MS);
+  /** The last messages: newest arrival, bytes of the message. */
+  readonly #ends = new Float64Array(MESSAGES);
+  readonly #bytes = new Float64Array(MESSAGES);
+  #messages = 0;
+  #delays = new Float64Array(1024);
+  #arrivals = new Float64Array(1024);
+  #sizes = new Float64Array(1024);
+  #lastMs = Number.NEGATIVE_INFINITY;
+  #newestSequence = -1;
+  #lastQueueMs = 0;
+  #changes = 0;
+  /** How much the delay jumps about between messages, ms. */
+  noiseMs = 1;
+  /** Smoothed time between feedback messages, ms. */
+  feedbackIntervalMs = 60;
+  /** How often the receiver's clock was found to have jumped. */
+  clockJumps = 0;
+
+  /** The least round trip of late, ms; a guess before the first. */
+  get baseRttMs(): number {
+    const value = this.#baseRtt.value;
+    return value < Number.POSITIVE_INFINITY ? value : 100;
+  }
+
+  /** The delay seen is the path's own now, not a queue's. */
+  rebase(): void {
+    this.#baseDelay.reset();
+    this.#baseRtt.reset();
+  }
+
+  /** @returns false where no packet of the message arrived: then only the loss is news */
+  onFeedback(results: readonly PacketResult[], nowMs: number): boolean {
+    const o = this.observation;
+    o.received = 0;
+    o.lost = 0;
+    o.receivedBytes = 0;
+    o.newestSentMs = Number.NEGATIVE_INFINITY;
+    o.oldestSentMs = Number.POSITIVE_INFINITY;
+    if (results.length > this.#delays.length) {
+      this.#delays = new Float64Array(results.length * 2);
+      this.#arrivals = new Float64Array(results.length * 2);
+      this.#sizes = new Float64Array(results.length * 2);
+    }
+    let newestArrivalMs = Number.NEGATIVE_INFINITY;
+    let rttMs = 0;
+    const first = results[0]?.transportSequence ?? 0;
+    const gap = this.#newestSequence < 0 || ((first - this.#newestSequence) & 0xffff) !== 1;
+    this.#newestSequence = results[results.length - 1]?.transportSequence ?? this.#newestSequence;
+    for (const { arrivalUs, sentMs, bytes } of results) {
+      if (sentMs < o.oldestSentMs) o.oldestSentMs = sentMs;
+      if (arrivalUs === null) {
+        o.lost++;
+        continue;
+      }
+      const arrivalMs = arrivalUs / 1000;
+      this.#delays[o.received] = arrivalMs - sentMs;
+      this.#arrivals[o.received] = arrivalMs;
+      this.#sizes[o.received] = bytes;
+      o.received++;
+      o.receivedBytes += bytes;
+      if (arrivalMs > newestArrivalMs) newestArrivalMs = arrivalMs;
+      if (sentMs > o.newestSentMs) {
+        o.newestSentMs = sentMs;
+        rttMs = nowMs - sentMs;
+      }
+    }
+    if (nowMs - this.#lastMs < 1000 && nowMs > this.#lastMs)
+      this.feedbackIntervalMs += (nowMs - this.#lastMs - this.feedbackIntervalMs) * 0.1;
+    this.#lastMs = nowMs;
+    if (o.received === 0) return false;
+    o.rttMs = rttMs;
+    this.#baseRtt.add(rttMs, nowMs);
+    if (!this.#queue(rttMs, nowMs)) return false;
+    this.#rates(newestArrivalMs, gap);
+    return true;
+  }
+
+  /** @returns false where the clock jumped: the message says nothing */
+  #queue(rttMs: number, nowMs: number): boolean {
+    const o = this.observation;
+    const n = o.received;
+    let endDelay = Number.POSITIVE_INFINITY;
+    for (let i = Math.max(0, n - END_PACKETS); i < n; i++)
+      endDelay = Math.min(endDelay, this.#delays[i] as number);
+    const all = this.#delays.subarray(0, n).sort();
+    const least = all[0] as number;
+    const queuedAtMost = Math.max(rttMs - this.baseRttMs, 0);
+    if (endDelay - this.#baseDelay.value > queuedAtMost + CLOCK_JUMP_MS) {
+      this.clockJumps++;
+      this.#baseDelay.reset();
+      this.#baseDelay.add(endDelay - queuedAtMost, nowMs);
+      this.#messages = 0;
+      return false;
+    }
+    this.#baseDelay.add(least, nowMs);
+    const base = this.#baseDelay.value;
+    o.queueMs = (all[Math.floor(n / 10)] as number) - base;
+    const change = Math.min(Math.abs(o.queueMs - this.#lastQueueMs), NOISE_CLAMP_MS);
+    this.#changes++;
+    this.noiseMs += (change - this.noiseMs) * Math.max(0.03, 1 / (this.#changes + 3));
+    this.#lastQueueMs = o.queueMs;
+    o.queueEndMs = endDelay - base;
+    return true;
+  }
+
+  #rates(newestArrivalMs: number, gap: boolean): void {
+    const o = this.observation;
+    const last = this.#messages > 0 ? (this.#ends[(this.#messages - 1) % MESSAGES] as number) : Number.NaN;
+    if (gap || newestArrivalMs < last || newestArrivalMs > last + 2000) {
+      // A message is missing, the clock jumped, or there was a long silence: this message stands for itself.
+      this.#messages = 0;
+      this.#push(this.#arrivals[0] as number, 0);
+      this.#push(newestArrivalMs, o.receivedBytes - (this.#sizes[0] as number));
+    } else this.#push(newestArrivalMs, o.receivedBytes);
+    let bytes = 0;
+    let spanMs = 0;
+    for (
+      let back = 0;
+      back + 1 < Math.min(this.#messages, MESSAGES) &&
+      spanMs < RATE_WINDOW_MS + 20 * Math.max(this.noiseMs - 2, 0);
+      back++
+    ) {
+      bytes += this.#bytes[(this.#messages - 1 - back) % MESSAGES] as number;
+      spanMs = newestArrivalMs - (this.#ends[(this.#messages - 2 - back) % MESSAGES] as number);
+    }
+    if (spanMs > 0) o.ackedBitsPerSecond = (bytes * 8000) / spanMs;
+    let recentBytes = 0;
+    let i = o.received - 1;
+    for (; i >= 1; i--) {
+      recentBytes += this.#sizes[i] as number;
+      const span = newestArrivalMs - (this.#arrivals[i - 1] as number);
+      if (span >= RECENT_MS && o.received - i >= RECENT_PACKETS) break;
+    }
+    const recentSpan = newestArrivalMs - (this.#arrivals[Math.max(i - 1, 0)] as number);
+    const enough = i >= 1 && recentSpan >= RECENT_MS;
+    o.recentBitsPerSecond = enough ? (recentBytes * 8000) / recentSpan : o.ackedBitsPerSecond;
+  }
+
+  #push(endMs: number, bytes: number): void {
+    this.#ends[this.#messages % MESSAGES] = endMs;
+    this.#bytes[this.#messages % MESSAGES] = bytes;
+    this.#messages++;
+  }
+}

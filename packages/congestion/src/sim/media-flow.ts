@@ -1,0 +1,230 @@
+import { type PacedFrame, PacketPacer } from '../pacer.ts';
+import type { ProbeRequest, RateController, RateSnapshot } from '../rate-controller.ts';
+import type { PacketStatus, TransportFeedback } from '../transport-feedback.ts';
+import { TransportFeedbackAdapter } from '../transport-feedback-adapter.ts';
+import type { EventQueue } from './event-queue.ts';
+import { FlowRecord } from './flow-record.ts';
+import type { Path } from './path.ts';
+import type { Random } from './random.ts';
+
+export interface MediaFlowOptions {
+  name?: string;
+  controller: RateController;
+  forward: Path;
+  /** The way of the feedback. */
+  back: Path;
+  startMs?: number;
+  stopMs?: number;
+  /** Pauses: no frames between these times, ms. */
+  pauses?: readonly (readonly [number, number])[];
+  /** The most the source has to give in a frame, bytes; with `probes` false padding does not exceed it either. */
+  maxFrameBytes?: number;
+  /** Whether the source fulfils probes. Default true. */
+  probes?: boolean;
+  /** Whole frames at once, in place of pacing. */
+  bursts?: boolean;
+  /** Bounds of the interval between two feedback messages, ms. */
+  feedbackMs?: readonly [number, number];
+  /** Feedback messages, 0–1, that come twice. */
+  duplicateFeedback?: number;
+  /** At these times the receiver's clock jumps by so much, ms. */
+  clockJumps?: readonly (readonly [number, number])[];
+  /** The receiver's clock runs faster by so many millionths. */
+  clockSkewPpm?: number;
+}
+
+interface SimFrame extends PacedFrame {
+  createdMs: number;
+}
+
+const PACKET_BYTES = 1244;
+const FRAME_MS = 1000 / 30;
+const TICK_MS = 25;
+/** Packets of the window that feedback is told of at most; more are lost from sight. */
+const RECEIVER_WINDOW = 1 << 15;
+
+/**
+ * A robot and an operator as the robot's sender and Chromium's receiver behave: frames at 30 a second, as large as the
+ * target allows, paced; feedback at intervals; a window and probes obeyed.
+ */
+export class MediaFlow {
+  readonly record: FlowRecord;
+  readonly #events: EventQueue;
+  readonly #random: Random;
+  readonly #options: MediaFlowOptions;
+  readonly #controller: RateController;
+  readonly #pacer = new PacketPacer<SimFrame>(1e6, { factor: 1 });
+  readonly #adapter = new TransportFeedbackAdapter();
+  readonly #startMs: number;
+  readonly #stopMs: number;
+  #sequence = 0;
+  #wakeMs = Number.POSITIVE_INFINITY;
+  #probeCluster = 0;
+  #probeBytesLeft = 0;
+  #probeNextMs = 0;
+  #probeRate = 0;
+  // The receiver: arrival times by unwrapped sequence number, until reported.
+  readonly #arrivals = new Float64Array(RECEIVER_WINDOW);
+  #highestArrived = -1;
+  #nextToReport = 0;
+
+  constructor(events: EventQueue, random: Random, options: MediaFlowOptions) {
+    this.#events = events;
+    this.#random = random;
+    this.#options = options;
+    this.#controller = options.controller;
+    this.#startMs = options.startMs ?? 0;
+    this.#stopMs = options.stopMs ?? Number.POSITIVE_INFINITY;
+    this.record = new FlowRecord(options.name ?? 'media');
+    this.#arrivals.fill(Number.NaN);
+    events.at(this.#startMs, () => {
+      this.#frame();
+      this.#tick();
+    });
+    events.at(this.#startMs + this.#feedbackInterval(), () => this.#report());
+  }
+
+  get snapshot(): RateSnapshot {
+    return this.#controller.snapshot(this.#events.nowMs);
+  }
+
+  #frame(): void {
+    const now = this.#events.nowMs;
+    if (now >= this.#stopMs) {
+      this.#pacer.clear();
+      return;
+    }
+    this.#events.at(now + FRAME_MS, () => this.#frame());
+    if (this.#options.pauses?.some(([from, to]) => now >= from && now < to)) return;
+    const target = this.#controller.decision(now).targetBitsPerSecond;
+    const most = this.#options.maxFrameBytes ?? Number.POSITIVE_INFINITY;
+    const bytes = Math.min((target * FRAME_MS) / 8000, most);
+    const packets = Math.floor(bytes / PACKET_BYTES);
+    if (packets === 0 && this.#random() * PACKET_BYTES > bytes) return;
+    const count = Math.max(packets, 1);
+    this.#pacer.enqueue({ packets: count, bytes: count * PACKET_BYTES, createdMs: now }, now);
+    this.#pump();
+  }
+
+  #tick(): void {
+    const now = this.#events.nowMs;
+    if (now >= this.#stopMs) return;
+    this.#controller.onTick(now);
+    this.record.sample(now, this.#controller);
+    this.#pump();
+    this.#events.at(now + TICK_MS, () => this.#tick());
+  }
+
+  #pump(): void {
+    const now = this.#events.nowMs;
+    const decision = this.#controller.decision(now);
+    if (this.#options.probes !== false) this.#takeProbe(decision.probe, now);
+    const paced = this.#options.bursts ? 1e9 : decision.pacingBitsPerSecond;
+    const probing = this.#probeBytesLeft > 0;
+    this.#pacer.setRate(probing ? Math.max(this.#probeRate, paced) : paced);
+    for (;;) {
+      if (decision.bytesInFlight >= decision.congestionWindowBytes) return;
+      const run = this.#pacer.due(now);
+      if (run === null) break;
+      for (let i = 0; i < run.count; i++) this.#send(run.frame.createdMs, now);
+      this.#controller.decision(now);
+    }
+    while (this.#probeBytesLeft > 0 && this.#probeNextMs <= now + 1) this.#send(now, now);
+    const next = Math.min(
+      this.#pacer.nextDueMs ?? Number.POSITIVE_INFINITY,
+      this.#probeBytesLeft > 0 ? this.#probeNextMs : Number.POSITIVE_INFINITY,
+    );
+    // A wake-up for a rate that has changed meanwhile does no harm: pacer and probe know their own times.
+    if (next < Number.POSITIVE_INFINITY && (next < this.#wakeMs || this.#wakeMs <= now)) {
+      const at = Math.max(next, now + 0.25);
+      this.#wakeMs = at;
+      this.#events.at(at, () => {
+        if (this.#wakeMs === at) this.#wakeMs = Number.POSITIVE_INFINITY;
+        this.#pump();
+      });
+    }
+  }
+
+  #takeProbe(probe: Readonly<ProbeRequest> | null, now: number): void {
+    if (probe === null) {
+      this.#probeBytesLeft = 0;
+      return;
+    }
+    if (probe.clusterId === this.#probeCluster) return;
+    this.#probeCluster = probe.clusterId;
+    this.#probeBytesLeft = probe.bytes;
+    this.#probeRate = probe.bitsPerSecond;
+    this.#probeNextMs = now;
+  }
+
+  #send(createdMs: number, now: number): void {
+    const cluster = this.#probeBytesLeft > 0 ? this.#probeCluster : 0;
+    if (cluster !== 0) {
+      this.#probeBytesLeft -= PACKET_BYTES;
+      this.#probeNextMs = Math.max(this.#probeNextMs, now - 2) + (PACKET_BYTES * 8000) / this.#probeRate;
+    }
+    const sequence = this.#sequence++;
+    this.#adapter.onPacketSent(sequence & 0xffff, PACKET_BYTES, now);
+    this.#controller.onPacketSent(sequence & 0xffff, PACKET_BYTES, now, cluster);
+    const { arrivalMs, queueMs } = this.#options.forward.send(PACKET_BYTES, now);
+    this.record.sent(PACKET_BYTES, now, createdMs, arrivalMs, queueMs);
+    if (arrivalMs === Number.POSITIVE_INFINITY) return;
+    this.#events.at(arrivalMs, () => {
+      const at = sequence % RECEIVER_WINDOW;
+      if (sequence < this.#nextToReport) return;
+      this.#arrivals[at] = this.#receiverClock(arrivalMs);
+      if (sequence > this.#highestArrived) this.#highestArrived = sequence;
+    });
+  }
+
+  #receiverClock(atMs: number): number {
+    let clock = atMs * (1 + (this.#options.clockSkewPpm ?? 0) / 1e6) + 1e6;
+    for (const [when, by] of this.#options.clockJumps ?? []) if (atMs >= when) clock += by;
+    return clock;
+  }
+
+  #feedbackInterval(): number {
+    const [least, most] = this.#options.feedbackMs ?? [50, 62];
+    return least + (most - least) * this.#random();
+  }
+
+  #report(): void {
+    const now = this.#events.nowMs;
+    if (now > this.#stopMs + 5000) return;
+    this.#events.at(now + this.#feedbackInterval(), () => this.#report());
+    if (this.#highestArrived < this.#nextToReport) return;
+    const packets: PacketStatus[] = [];
+    const first = Math.max(this.#nextToReport, this.#highestArrived - RECEIVER_WINDOW + 1);
+    for (let sequence = first; sequence <= this.#highestArrived; sequence++) {
+      const at = sequence % RECEIVER_WINDOW;
+      const arrival = this.#arrivals[at] as number;
+      const received = !Number.isNaN(arrival);
+      this.#arrivals[at] = Number.NaN;
+      // The format counts in steps of 250 µs.
+      packets.push({
+        sequence: sequence & 0xffff,
+        received,
+        arrivalUs: received ? Math.round(arrival * 4) * 250 : null,
+      });
+    }
+    this.#nextToReport = this.#highestArrived + 1;
+    const bytes = 60 + Math.ceil(packets.length * 1.25);
+    const { arrivalMs } = this.#options.back.send(bytes, now);
+    if (arrivalMs === Number.POSITIVE_INFINITY) return;
+    const feedback: TransportFeedback = {
+      senderSsrc: 1,
+      mediaSsrc: 2,
+      baseSequence: first & 0xffff,
+      referenceTimeUs: 0,
+      feedbackCount: 0,
+      packets,
+    };
+    const deliver = () => {
+      const results = this.#adapter.onFeedback(feedback, this.#events.nowMs);
+      if (results.length > 0) this.#controller.onFeedback(results, this.#events.nowMs);
+      this.#pump();
+    };
+    this.#events.at(arrivalMs, deliver);
+    if (this.#random() < (this.#options.duplicateFeedback ?? 0)) this.#events.at(arrivalMs + 3, deliver);
+  }
+}

@@ -1,0 +1,57 @@
+import type { Bottleneck } from './bottleneck.ts';
+import type { Random } from './random.ts';
+
+export interface PathOptions {
+  /** Shared by all flows that pass it. `null`: none. */
+  bottleneck: Bottleneck | null;
+  /** Propagation, ms, behind the bottleneck. */
+  delayMs: number;
+  /** Mean of an exponentially distributed extra delay, ms. It never reorders. */
+  jitterMs?: number;
+  /** Packets, 0–1, that are held back by `reorderMs` and overtaken meanwhile. */
+  reorder?: number;
+  reorderMs?: number;
+  /** Lost anywhere on the way, 0–1. */
+  loss?: number;
+}
+
+/** What happened to a packet on its way. */
+export interface Passage {
+  /** When it arrives, ms; Infinity: lost. */
+  arrivalMs: number;
+  /** In the bottleneck, its own serialisation counted, ms; NaN where the queue dropped it. */
+  queueMs: number;
+}
+
+/** One direction between two ends: a bottleneck, then propagation with jitter and loss. */
+export class Path {
+  readonly #options: PathOptions;
+  readonly #random: Random;
+  #lastArrivalMs = 0;
+  readonly #passage: Passage = { arrivalMs: 0, queueMs: 0 };
+
+  constructor(options: PathOptions, random: Random) {
+    this.#options = options;
+    this.#random = random;
+  }
+
+  /** @returns overwritten by the next call */
+  send(bytes: number, nowMs: number): Readonly<Passage> {
+    const { bottleneck, delayMs, jitterMs = 0, reorder = 0, reorderMs = 0, loss = 0 } = this.#options;
+    const passage = this.#passage;
+    const leaves = bottleneck === null ? nowMs : bottleneck.enter(bytes, nowMs);
+    if (leaves < 0) {
+      passage.arrivalMs = Number.POSITIVE_INFINITY;
+      passage.queueMs = Number.NaN;
+      return passage;
+    }
+    passage.queueMs = leaves - nowMs;
+    const jitter = jitterMs > 0 ? -jitterMs * Math.log(1 - this.#random()) : 0;
+    let arrival = Math.max(leaves + delayMs + jitter, this.#lastArrivalMs);
+    if (reorder > 0 && this.#random() < reorder) arrival += reorderMs;
+    else this.#lastArrivalMs = arrival;
+    const lost = (bottleneck?.loses() ?? false) || (loss > 0 && this.#random() < loss);
+    passage.arrivalMs = lost ? Number.POSITIVE_INFINITY : arrival;
+    return passage;
+  }
+}
