@@ -1,8 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { AccessList } from './access.ts';
 import { FarpointHub } from './farpoint-hub.ts';
-import type { Connection } from './peer.ts';
-import { FakeClock, FakePeer, type Json, RecordingObserver } from './test-support.ts';
+import { FakeClient, FakeClock, type Json, RecordingObserver } from './test-support.ts';
 
 const limits = {
   maxMessageBytes: 4096,
@@ -14,27 +13,6 @@ const limits = {
   maxRobots: 3,
   helloTimeoutMs: 1000,
 };
-
-class Client {
-  readonly peer = new FakePeer();
-  readonly connection: Connection;
-
-  constructor(connect: (peer: FakePeer) => Connection) {
-    this.connection = connect(this.peer);
-  }
-
-  send(message: Json): void {
-    this.connection.receive(JSON.stringify(message));
-  }
-
-  take(): Json[] {
-    return this.peer.take();
-  }
-
-  types(): unknown[] {
-    return this.take().map((message) => message.code ?? message.type);
-  }
-}
 
 function setup(options: { robots?: AccessList; operators?: AccessList } = {}) {
   const clock = new FakeClock();
@@ -53,13 +31,13 @@ function setup(options: { robots?: AccessList; operators?: AccessList } = {}) {
     iceServers: (name) => [{ urls: 'turn:turn.example', username: name, credential: 'c' }],
     makeHandle: () => `s${++handles}`,
   });
-  const robot = (id: string, key = `key-${id}`, more: Json = {}): Client => {
-    const client = new Client((peer) => hub.robot(peer));
+  const robot = (id: string, key = `key-${id}`, more: Json = {}): FakeClient => {
+    const client = new FakeClient((peer) => hub.robot(peer));
     client.send({ type: 'robot.hello', protocol: 1, id, name: `Robot ${id}`, key, ...more });
     return client;
   };
-  const operator = (name = 'Ada', more: Json = {}): Client => {
-    const client = new Client((peer) => hub.operator(peer));
+  const operator = (name = 'Ada', more: Json = {}): FakeClient => {
+    const client = new FakeClient((peer) => hub.operator(peer));
     client.send({ type: 'operator.hello', protocol: 1, name, ...more });
     return client;
   };
@@ -95,7 +73,7 @@ describe('hello', () => {
 
   test('must come first', () => {
     const { hub, observer } = setup();
-    const client = new Client((peer) => hub.operator(peer));
+    const client = new FakeClient((peer) => hub.operator(peer));
     client.send({ type: 'session.open', robotId: 'r1' });
     expect(client.types()).toEqual(['hello-first']);
     client.send({ type: 'operator.hello', protocol: 1, name: 'Ada' });
@@ -105,7 +83,7 @@ describe('hello', () => {
 
   test('must come in time', () => {
     const { hub, clock } = setup();
-    const client = new Client((peer) => hub.robot(peer));
+    const client = new FakeClient((peer) => hub.robot(peer));
     clock.advance(999);
     expect(client.peer.closed).toBeNull();
     clock.advance(1);
@@ -116,7 +94,7 @@ describe('hello', () => {
   test('in time, or gone before, leaves no timer', () => {
     const { hub, clock, robot } = setup();
     robot('r1');
-    new Client((peer) => hub.robot(peer)).connection.closed();
+    new FakeClient((peer) => hub.robot(peer)).connection.closed();
     clock.advance(0);
     expect(clock.pending).toBe(0);
   });
@@ -393,7 +371,7 @@ describe('what is no message of the protocol', () => {
     expect([r.types(), o.types()]).toEqual([['malformed'], ['malformed']]);
     r.send({ type: 'session.offer', session: handle, sdp: 'v=0' });
     expect(o.types()).toEqual(['session.offer']);
-    new Client((peer) => hub.robot(peer)).connection.receive(data);
+    new FakeClient((peer) => hub.robot(peer)).connection.receive(data);
   });
 
   test('too long a message is refused', () => {
@@ -438,7 +416,7 @@ test('too many messages are dropped, said once, and forgiven after a pause', () 
 test('at shutdown everybody is told to come back, and closed with 1012', () => {
   const { session, hub } = setup();
   const { r, o } = session();
-  const newcomer = new Client((peer) => hub.operator(peer));
+  const newcomer = new FakeClient((peer) => hub.operator(peer));
   for (const client of [r, o, newcomer]) {
     client.connection.shutDown();
     expect(client.types()).toEqual(['shutting-down']);

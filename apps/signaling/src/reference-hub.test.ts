@@ -1,24 +1,6 @@
 import { describe, expect, test } from 'vitest';
-import type { Connection } from './peer.ts';
 import { ReferenceHub } from './reference-hub.ts';
-import { FakeClock, FakePeer, type Json, RecordingObserver } from './test-support.ts';
-
-class Client {
-  readonly peer = new FakePeer();
-  readonly connection: Connection;
-
-  constructor(connect: (peer: FakePeer) => Connection) {
-    this.connection = connect(this.peer);
-  }
-
-  send(message: unknown): void {
-    this.connection.receive(JSON.stringify(message));
-  }
-
-  take(): Json[] {
-    return this.peer.take();
-  }
-}
+import { FakeClient, FakeClock, type Json, RecordingObserver } from './test-support.ts';
 
 function setup() {
   const clock = new FakeClock();
@@ -35,8 +17,8 @@ function setup() {
       maxCandidatesPerRobot: 4,
     },
   });
-  const client = () => new Client((peer) => hub.client(peer));
-  const socket = () => new Client((peer) => hub.robot(peer));
+  const client = () => new FakeClient((peer) => hub.client(peer));
+  const socket = () => new FakeClient((peer) => hub.robot(peer));
   const robot = (name = 'Diane') => {
     const made = socket();
     made.send({ type: 'register', name, sdpOffer: `offer of ${name}` });

@@ -1,7 +1,7 @@
 /** For tests of the core: time, peers and observer without sockets. */
 import type { Clock } from './clock.ts';
 import type { Observer, RejectReason, Role } from './observer.ts';
-import type { Peer } from './peer.ts';
+import type { Connection, Peer } from './peer.ts';
 
 /** Time that stands until told to go on. */
 export class FakeClock implements Clock {
@@ -66,6 +66,31 @@ export class FakePeer implements Peer {
     const taken = this.inbox;
     this.inbox = [];
     return taken;
+  }
+}
+
+/** Somebody at the other end of a {@link FakePeer}. */
+export class FakeClient {
+  readonly peer = new FakePeer();
+  readonly connection: Connection;
+
+  /** @param connect the hub's end */
+  constructor(connect: (peer: FakePeer) => Connection) {
+    this.connection = connect(this.peer);
+  }
+
+  send(message: unknown): void {
+    this.connection.receive(JSON.stringify(message));
+  }
+
+  /** Everything since the last call. */
+  take(): Json[] {
+    return this.peer.take();
+  }
+
+  /** Of everything since the last call, the types, or of errors the codes. */
+  types(): unknown[] {
+    return this.take().map((message) => message.code ?? message.type);
   }
 }
 
