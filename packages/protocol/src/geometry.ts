@@ -44,3 +44,14 @@ export function isZeroTwist(twist: Twist): boolean {
   const { linear, angular } = twist;
   return [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z].every((c) => c === 0);
 }
+
+/** Pinhole model of a camera; pixel centres are whole numbers. */
+export interface CameraIntrinsics {
+  width: number;
+  height: number;
+  /** Focal lengths and principal point, pixels. */
+  fx: number;
+  fy: number;
+  cx: number;
+  cy: number;
+}

@@ -1,18 +1,7 @@
-import { type Pose, rotationMatrix } from '@farpoint/protocol';
+import { type CameraIntrinsics, type Pose, rotationMatrix } from '@farpoint/protocol';
 import { initSync, DepthCamera as Rasteriser } from '../wasm/farpoint_sim_camera.js';
 import { requireFinite, SimulationError } from './errors.ts';
 import type { CompiledScene } from './scene.ts';
-
-/** Pinhole model; pixel centres are whole numbers. */
-export interface Intrinsics {
-  width: number;
-  height: number;
-  /** Focal lengths and principal point, pixels. */
-  fx: number;
-  fy: number;
-  cx: number;
-  cy: number;
-}
 
 export interface CameraOptions {
   /** Pixels, multiples of 4; default 480 × 480. */
@@ -98,7 +87,7 @@ async function readModule(): Promise<WasmSource> {
 
 /** The simulated camera: poses in, images out. */
 export class StereoCamera {
-  readonly intrinsics: Readonly<Intrinsics>;
+  readonly intrinsics: Readonly<CameraIntrinsics>;
   readonly options: Readonly<Required<CameraOptions>>;
   readonly #memory: WasmMemory;
   readonly #rasteriser: Rasteriser;
@@ -108,7 +97,7 @@ export class StereoCamera {
   private constructor(
     memory: WasmMemory,
     rasteriser: Rasteriser,
-    intrinsics: Intrinsics,
+    intrinsics: CameraIntrinsics,
     options: Required<CameraOptions>,
   ) {
     this.#memory = memory;

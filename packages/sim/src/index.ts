@@ -4,7 +4,6 @@ export {
   DEFAULT_CAMERA,
   depthToMillimetres,
   type Images,
-  type Intrinsics,
   type WasmSource,
 } from './camera.ts';
 export { DEFAULT_LIMITS, type RobotLimits } from './drive.ts';

@@ -1,6 +1,6 @@
-import { compose, multiply, type Pose, type Twist } from '@farpoint/protocol';
+import { type CameraIntrinsics, compose, multiply, type Pose, type Twist } from '@farpoint/protocol';
 import { Battery, type BatteryState } from './battery.ts';
-import { type CameraOptions, type Images, type Intrinsics, StereoCamera, type WasmSource } from './camera.ts';
+import { type CameraOptions, type Images, StereoCamera, type WasmSource } from './camera.ts';
 import { CollisionWorld, staticObstacles } from './collision.ts';
 import { DifferentialDrive, type RobotLimits } from './drive.ts';
 import { requireFinite, SimulationError } from './errors.ts';
@@ -53,7 +53,7 @@ export interface RobotState {
 export interface CloudFrame extends Images {
   width: number;
   height: number;
-  intrinsics: Readonly<Intrinsics>;
+  intrinsics: Readonly<CameraIntrinsics>;
   /** Simulated seconds at which it was taken, and where the camera was then. */
   captureTime: number;
   cameraPose: Pose;
@@ -67,7 +67,7 @@ export interface CloudFrame extends Images {
  */
 export class Simulation {
   readonly world: WorldDescription;
-  readonly intrinsics: Readonly<Intrinsics>;
+  readonly intrinsics: Readonly<CameraIntrinsics>;
   readonly #drive: DifferentialDrive;
   readonly #battery = new Battery();
   readonly #collisions: CollisionWorld;

@@ -1,4 +1,5 @@
 /** A colour and a depth picture into a frame of points. */
+import type { CameraIntrinsics } from '@farpoint/protocol';
 import { decode as decodePng } from 'fast-png';
 import jpeg from 'jpeg-js';
 import * as z from 'zod';
@@ -6,16 +7,6 @@ import * as z from 'zod';
 /** Pictures or intrinsics that cannot be used. */
 export class RgbdError extends Error {
   override readonly name = 'RgbdError';
-}
-
-/** Pinhole model; pixel centres are whole numbers. */
-export interface CameraIntrinsics {
-  width: number;
-  height: number;
-  fx: number;
-  fy: number;
-  cx: number;
-  cy: number;
 }
 
 const MAX_SIDE = 4096;
