@@ -13,6 +13,8 @@ export interface ProcessSpec {
   /** How long that may take, ms. */
   readyTimeoutMs?: number | undefined;
   onLine?: ((name: string, line: string) => void) | undefined;
+  /** It listens to messages of {@link ManagedProcess.send}. */
+  ipc?: boolean | undefined;
 }
 
 /** How a child ended. */
@@ -39,7 +41,7 @@ export class ManagedProcess {
     this.#child = spawn(program === 'node' ? process.execPath : program, args, {
       cwd: spec.cwd,
       env: { ...process.env, ...spec.env },
-      stdio: ['ignore', 'pipe', 'pipe'],
+      stdio: ['ignore', 'pipe', 'pipe', ...(spec.ipc ? (['ipc'] as const) : [])],
       detached: process.platform !== 'win32',
     });
     for (const stream of [this.#child.stdout, this.#child.stderr]) {
@@ -95,6 +97,11 @@ export class ManagedProcess {
   /** Its last lines of output. */
   get output(): string {
     return this.#lines.join('\n');
+  }
+
+  /** Tells a program started with `ipc` something; what it cannot hear is lost. */
+  send(message: object): void {
+    if (this.running && this.#child.connected) this.#child.send(message);
   }
 
   /** Asks it to end (SIGTERM), and ends it (SIGKILL) where it does not. */

@@ -1,0 +1,55 @@
+import { freePorts } from './free-port.ts';
+import { ManagedProcess } from './managed-process.ts';
+import { type LocalStack, repositoryRoot } from './stack.ts';
+
+export interface EmulatedLinkSpec {
+  /** Flags of the link program, e.g. `['--rate-mbps', '20', '--rtt-ms', '40']`. */
+  args: string[];
+  /** Where it writes what happens in each 100 ms, one JSON object a line. */
+  statsFile?: string;
+  env?: Record<string, string>;
+  onLine?: (name: string, line: string) => void;
+}
+
+/** A bad network before a stack's signaling: who is pointed at {@link signalingUrl} has every packet led through it. */
+export class EmulatedLink {
+  readonly process: ManagedProcess;
+  readonly signalingUrl: string;
+
+  private constructor(started: ManagedProcess, signalingUrl: string) {
+    this.process = started;
+    this.signalingUrl = signalingUrl;
+  }
+
+  /** @throws {Error} with the program's last lines where it does not come up */
+  static async start(stack: LocalStack, spec: EmulatedLinkSpec): Promise<EmulatedLink> {
+    const [port, adminPort] = (await freePorts(2)) as [number, number];
+    const started = await ManagedProcess.start({
+      name: 'link',
+      command: [
+        'node',
+        'apps/link-emulator/src/main.ts',
+        ...['--signaling', stack.signalingUrl],
+        ...['--port', String(port)],
+        ...['--admin-port', String(adminPort)],
+        ...(spec.statsFile === undefined ? [] : ['--stats', spec.statsFile]),
+        ...spec.args,
+      ],
+      cwd: repositoryRoot,
+      env: spec.env,
+      readyUrl: `http://127.0.0.1:${adminPort}/healthz`,
+      onLine: spec.onLine,
+      ipc: true,
+    });
+    return new EmulatedLink(started, `ws://127.0.0.1:${port}`);
+  }
+
+  /** Changes the link while it runs: a message of apps/link-emulator/src/control.ts. */
+  tell(message: object): void {
+    this.process.send(message);
+  }
+
+  async stop(): Promise<void> {
+    await this.process.stop();
+  }
+}
