@@ -23,6 +23,13 @@ export const simulatedRobot = {
   args: ['--source', 'sim', '--sim-seed', '1', '--max-points', '15000'],
 };
 
+/** Two of them, light enough to stream one after the other. */
+export const twoRobots = [1, 2].map((n) => ({
+  id: `sim-${n}`,
+  name: `Simulated robot ${n}`,
+  args: ['--source', 'sim', '--sim-seed', String(n), '--max-points', '6000', '--fps', '15'],
+}));
+
 export const test = base.extend<StackFixtures>({
   startStack: async ({ browserName: _ }, use, testInfo) => {
     if (!existsSync(join(webRoot, 'index.html')))

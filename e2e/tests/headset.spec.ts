@@ -1,7 +1,7 @@
 import { Headset } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { differingShare, leftEye, readPicture, rightEye } from '../src/picture.ts';
-import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { expect, simulatedRobot, test, twoRobots } from '../src/stack-test.ts';
 
 test('in the headset: both eyes show the room, the thumbstick drives, the world stands still', async ({
   page,
@@ -56,4 +56,21 @@ test('in the headset: both eyes show the room, the thumbstick drives, the world 
     .toBeGreaterThan(0.3);
   await headset.button('right', 'squeeze', 0);
   await operator.expectStanding();
+});
+
+test('in the headset: a press of the stick goes over to the next robot, without leaving VR', async ({
+  page,
+  startStack,
+}) => {
+  const stack = await startStack({ robots: twoRobots });
+  const headset = await Headset.wear(page);
+  const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
+  await operator.expectPoints();
+  await page.getByRole('button', { name: /VR/ }).click();
+  await operator.expectState('vr', true);
+  await headset.button('left', 'thumbstick', 1);
+  await operator.expectState('robotId', 'sim-2');
+  await headset.button('left', 'thumbstick', 0);
+  await operator.expectPoints();
+  expect((await operator.state()).vr).toBe(true);
 });
