@@ -27,4 +27,10 @@ export const WASM_CRATES: readonly WasmCrate[] = [
     outDir: 'packages/sim/wasm',
     crates: ['sim-camera'],
   },
+  {
+    package: 'farpoint-bandwidth-estimator',
+    name: 'farpoint_bandwidth_estimator',
+    outDir: 'packages/congestion/wasm',
+    crates: ['bandwidth-estimator', 'goog-cc'],
+  },
 ];

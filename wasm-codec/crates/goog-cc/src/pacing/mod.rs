@@ -1,0 +1,2 @@
+mod interval_budget;
+pub use interval_budget::*;
