@@ -9,6 +9,7 @@ export { type BurstLoss, burstLossOf } from './loss.ts';
 export * from './profile.ts';
 export * from './signaling-interposer.ts';
 export * from './signaling-messages.ts';
+export * from './tc.ts';
 export * from './tcp-flow.ts';
 export * from './trace.ts';
 export * from './udp-link.ts';
