@@ -36,7 +36,10 @@ export const bench: Bench = {
       robot: {
         id: 'sim-1',
         name: 'Simulated robot',
-        args: ['--fps', String(fps), '--max-points', String(points), '--bitrate-mbps', String(mbps)],
+        args: [
+          ...['--fps', String(fps), '--max-points', String(points)],
+          ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)],
+        ],
       },
       canvas: values.canvas,
       log: (line) => console.error(line),

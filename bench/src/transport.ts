@@ -45,7 +45,10 @@ export const bench: Bench = {
       robot: {
         id: 'sim-1',
         name: 'Simulated robot',
-        args: ['--fps', String(fps), '--bitrate-mbps', String(mbps), '--packet-log', logFile],
+        args: [
+          ...['--fps', String(fps), '--packet-log', logFile],
+          ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)],
+        ],
       },
       canvas: values.canvas,
       log: (line) => console.error(line),

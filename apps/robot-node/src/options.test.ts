@@ -15,7 +15,12 @@ describe('robot options', () => {
       source: { kind: 'sim', seed: 1, size: 480 },
       framesPerSecond: 30,
     });
-    expect(options).toMatchObject({ bitsPerSecond: 40e6, limits: { watchdogMs: 150 }, maxOperators: 4 });
+    expect(options).toMatchObject({
+      bitsPerSecond: 60e6,
+      rateControl: 'adaptive',
+      limits: { watchdogMs: 150 },
+      maxOperators: 4,
+    });
     expect(options.signaling.key).not.toBe(robot().signaling.key);
   });
 

@@ -15,6 +15,7 @@ import {
 } from '@farpoint/service';
 import * as z from 'zod';
 import type { SourceOptions } from './capture/open-source.ts';
+import { PLAN_POLICIES } from './encode/plan.ts';
 import type { RobotOptions } from './robot.ts';
 
 const signalingUrlSchema = z
@@ -82,7 +83,7 @@ const options = {
     schema: schema.number({ min: 0.1, max: 120 }),
     default: 30,
     argument: 'RATE',
-    help: 'frames a second',
+    help: 'most frames a second that the source is asked for',
   }),
   simSeed: defineOption({
     schema: schema.integer({ min: 0, max: 0xffffffff }),
@@ -98,9 +99,27 @@ const options = {
   }),
   bitrateMbps: defineOption({
     schema: schema.number({ min: 0.1, max: 1000 }),
-    default: 40,
+    default: 60,
     argument: 'MBPS',
     help: 'most the stream to an operator may take on the wire, 10^6 bit/s, headers counted',
+  }),
+  rateControl: defineOption({
+    schema: schema.choice(['adaptive', 'fixed']),
+    default: 'adaptive',
+    argument: 'KIND',
+    help: 'adaptive: what the link is found to carry; fixed: always the most, halved on sustained loss',
+  }),
+  startMbps: defineOption({
+    schema: schema.number({ min: 0.1, max: 1000 }),
+    default: 3,
+    argument: 'MBPS',
+    help: 'rate of the first moments, before anything is known of the link, 10^6 bit/s',
+  }),
+  plan: defineOption({
+    schema: schema.choice(PLAN_POLICIES),
+    default: 'latency',
+    argument: 'POLICY',
+    help: 'latency: as many frames a second as the rate makes pictures of; paper: every frame, points by its equations 2 and 3',
   }),
   maxPoints: defineOption({
     schema: schema.integer({ min: 150, max: 4_194_304 }),
@@ -131,7 +150,7 @@ const options = {
     schema: schema.number({ min: 0, max: 1 }),
     default: 0.1,
     argument: 'FRACTION',
-    help: 'fraction of the raw cloud that is sent each second whatever the rate',
+    help: 'with --plan paper: fraction of the raw cloud that is sent each second whatever the rate',
   }),
   maxLinear: defineOption({
     schema: schema.number({ min: 0.01, max: 10 }),
@@ -235,6 +254,7 @@ export function toRobotOptions(values: RobotOptionValues): RobotOptions {
     capture: {
       source: toSource(values),
       framesPerSecond: values.fps,
+      plan: values.plan,
       sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
       floorFraction: values.floor,
       mostPoints: values.maxPoints,
@@ -243,6 +263,8 @@ export function toRobotOptions(values: RobotOptionValues): RobotOptions {
     limits,
     takePolicy: values.takePolicy,
     bitsPerSecond: values.bitrateMbps * 1e6,
+    rateControl: values.rateControl,
+    startBitsPerSecond: values.startMbps * 1e6,
     maxOperators: values.maxOperators,
     silenceMs: values.silenceS * 1000,
     connectTimeoutMs: 20_000,

@@ -1,6 +1,6 @@
 /** The robot put together: one capture, any number of operators, one guard over the wheels. */
 import { randomBytes } from 'node:crypto';
-import { FixedRateController } from '@farpoint/congestion';
+import { AdaptiveRateController, FixedRateController, type RateController } from '@farpoint/congestion';
 import {
   type DriveLimits,
   type IceServer,
@@ -32,8 +32,12 @@ export interface RobotOptions {
   capture: CaptureOptions;
   limits: DriveLimits;
   takePolicy: TakePolicy;
-  /** What a stream may take on the wire, bit/s. */
+  /** The most a stream may take on the wire, bit/s. */
   bitsPerSecond: number;
+  /** How the rate of a stream is found: `adaptive`, or always the most, halved on sustained loss. */
+  rateControl: 'adaptive' | 'fixed';
+  /** What an adaptive rate begins with, bit/s. */
+  startBitsPerSecond: number;
   maxOperators: number;
   /** An operator of whom nothing is heard for this long is gone, ms. */
   silenceMs: number;
@@ -208,7 +212,7 @@ export class Robot implements SessionHost {
   }
 
   async #openSession(session: string, operatorName: string): Promise<void> {
-    const { maxOperators, connectTimeoutMs, portRange, bitsPerSecond } = this.#options;
+    const { maxOperators, connectTimeoutMs, portRange } = this.#options;
     if (this.operators.has(session) || this.operators.size >= maxOperators) {
       this.counters.sessionsRefused++;
       this.#log.warn({ session, operators: this.operators.size }, 'session refused');
@@ -221,7 +225,7 @@ export class Robot implements SessionHost {
         session,
         operatorName,
         peer: { iceServers: this.#iceServers, portRange, connectTimeoutMs },
-        controller: new FixedRateController({ bitsPerSecond }),
+        controller: this.#makeController(),
         packetLog: this.#packetLog,
       },
       this,
@@ -248,6 +252,16 @@ export class Robot implements SessionHost {
       log.error({ err: error }, 'no offer');
       operator.peer.close('not-connected', 'no offer could be made');
     }
+  }
+
+  #makeController(): RateController {
+    const { bitsPerSecond, rateControl, startBitsPerSecond } = this.#options;
+    return rateControl === 'fixed'
+      ? new FixedRateController({ bitsPerSecond })
+      : new AdaptiveRateController({
+          startBitsPerSecond: Math.min(startBitsPerSecond, bitsPerSecond),
+          maxBitsPerSecond: bitsPerSecond,
+        });
   }
 
   #welcome(operator: ConnectedOperator): void {
@@ -288,5 +302,6 @@ export class Robot implements SessionHost {
       }
     }
     this.#fanOut.updateBudget();
+    this.#sendLoop.run();
   }
 }

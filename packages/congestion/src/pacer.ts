@@ -4,6 +4,8 @@ export interface PacedFrame {
   bytes: number;
   /** Spread over at least this long, ms, even where the rate allows less; 0 for as fast as the rate allows. */
   minSpanMs?: number;
+  /** Begun this long ago, ms, it gives way to a newer frame; the pacer's `maxFrameMs` where absent. */
+  maxSpanMs?: number;
 }
 
 /** Why a frame, or the rest of it, is not sent. */
@@ -85,7 +87,8 @@ export class PacketPacer<T extends PacedFrame> {
   enqueue(frame: T, nowMs: number): DroppedFrame<T>[] {
     const dropped: DroppedFrame<T>[] = [];
     const current = this.#current;
-    if (current !== null && nowMs - current.startMs >= this.#options.maxFrameMs) {
+    const maxSpanMs = current?.frame.maxSpanMs ?? this.#options.maxFrameMs;
+    if (current !== null && nowMs - current.startMs >= maxSpanMs) {
       dropped.push(this.#dropped(current.frame, 'overdue', current.frame.packets - current.sent));
       this.#current = null;
     }

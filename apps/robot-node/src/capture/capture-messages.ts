@@ -1,12 +1,15 @@
 /** What the main thread and the capture worker say to each other. */
 import type { Twist } from '@farpoint/protocol';
 import type { EncodedFrame, SamplingOptions } from '../encode/frame-encoder.ts';
+import type { PlanPolicy } from '../encode/plan.ts';
 import type { SourceDescription, SourceState } from './frame-source.ts';
 import type { SourceOptions } from './open-source.ts';
 
 export interface CaptureOptions {
   source: SourceOptions;
+  /** The most the source may be asked for. */
   framesPerSecond: number;
+  plan: PlanPolicy;
   sampling: Omit<SamplingOptions, 'depthMeasure'>;
   floorFraction: number;
   mostPoints: number;
@@ -14,11 +17,21 @@ export interface CaptureOptions {
   watchdogMs: number;
 }
 
+/** What the stream may take. */
+export interface CaptureBudget {
+  targetBitsPerSecond: number;
+  /** Bytes that the transport adds to each payload. */
+  overheadBytes: number;
+  /** With nobody watching nothing is captured. */
+  streaming: boolean;
+  /** The next frame alone is to have at least so many bytes on the wire: the rate control tries the link. */
+  probeBytes: number;
+}
+
 export type CaptureRequest =
   /** The velocity from now on; repeated at least every watchdog time while it is not zero. */
   | { type: 'twist'; twist: Twist }
-  /** What the stream may take. With nobody watching nothing is captured. */
-  | { type: 'budget'; targetBitsPerSecond: number; overheadBytes: number; streaming: boolean }
+  | ({ type: 'budget' } & CaptureBudget)
   /** Make the next captured frame a latency-test frame. */
   | { type: 'latencyTest' }
   /** A frame's buffer, no longer needed. */
@@ -31,6 +44,8 @@ export interface CapturedFrame extends EncodedFrame {
   /** Packets in slots of 1248 bytes. */
   buffer: ArrayBuffer;
   latencyTest: boolean;
+  /** How long until the next one, as planned, ms. */
+  intervalMs: number;
   /** Robot's clock when the cloud was taken, ms, and how long that took. */
   capturedAtMs: number;
   captureMs: number;

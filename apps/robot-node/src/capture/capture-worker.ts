@@ -8,9 +8,9 @@ import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { monotonicMs } from '../clock.ts';
 import { FrameEncoder } from '../encode/frame-encoder.ts';
 import { SLOT_BYTES } from '../encode/packetiser.ts';
-import { planPoints } from '../encode/plan.ts';
+import { FramePlanner } from '../encode/plan.ts';
 import { BufferPool } from './buffer-pool.ts';
-import type { CaptureOptions, CaptureReport, CaptureRequest } from './capture-messages.ts';
+import type { CaptureBudget, CaptureOptions, CaptureReport, CaptureRequest } from './capture-messages.ts';
 import { openSource } from './open-source.ts';
 
 /** One frame being sent, one waiting, one being filled. */
@@ -34,12 +34,20 @@ const encoder = new FrameEncoder(
   monotonicMs,
 );
 const pool = new BufferPool(BUFFERS, Math.ceil(description.capacity / 150) * SLOT_BYTES);
-const frameIntervalMs = 1000 / options.framesPerSecond;
+const planner = new FramePlanner({
+  policy: options.plan,
+  mostFramesPerSecond: options.framesPerSecond,
+  floorFraction: options.floorFraction,
+  mostPoints: options.mostPoints,
+});
+/** Weight of the latest frame in the mean of what a frame costs. */
+const SMOOTHING = 0.1;
 
 let twist: Twist = zeroTwist();
 let twistAtMs = monotonicMs();
 let standing = true;
-let budget = { targetBitsPerSecond: 0, overheadBytes: 0, streaming: false };
+let budget: CaptureBudget = { targetBitsPerSecond: 0, overheadBytes: 0, streaming: false, probeBytes: 0 };
+let workMs = 0;
 let latencyTest = false;
 let nextFrameMs = monotonicMs();
 let nextStateMs = 0;
@@ -85,8 +93,7 @@ function tick(): void {
   }
   source.advance(now, twist);
   if (now >= nextFrameMs) {
-    if (budget.streaming) captureFrame(now);
-    nextFrameMs += frameIntervalMs;
+    nextFrameMs += budget.streaming ? captureFrame(now) : 1000 / options.framesPerSecond;
     // After a stall the rhythm starts anew; frames are not made up for.
     if (nextFrameMs < monotonicMs()) nextFrameMs = monotonicMs();
   }
@@ -103,25 +110,22 @@ function tick(): void {
   setTimeout(tick, Math.min(Math.max(nextFrameMs - monotonicMs(), 0), MAX_WAIT_MS));
 }
 
-function captureFrame(now: number): void {
+/** @returns the time until the next one, ms */
+function captureFrame(now: number): number {
   const buffer = pool.take();
-  if (buffer === null) return;
+  if (buffer === null) return 1000 / options.framesPerSecond;
   const frame = source.capture(now);
+  const { captureMs: capturedAtMs } = frame;
   const captureMs = monotonicMs() - now;
-  const count = planPoints({
-    targetBitsPerSecond: budget.targetBitsPerSecond,
-    framesPerSecond: options.framesPerSecond,
-    rawPoints: frame.count,
-    overheadBytes: budget.overheadBytes,
-    floorFraction: options.floorFraction,
-    mostPoints: options.mostPoints,
-  });
-  const encoded = encoder.encode(frame, count, latencyTest);
+  const { points, framesPerSecond } = planner.plan({ ...budget, rawPoints: frame.count, workMs });
+  budget.probeBytes = 0;
+  const intervalMs = 1000 / framesPerSecond;
+  const encoded = encoder.encode(frame, points, latencyTest);
   encoder.copyPackets(new Uint8Array(buffer), encoded.packets);
-  send({ type: 'frame', ...encoded, buffer, latencyTest, capturedAtMs: frame.captureMs, captureMs }, [
-    buffer,
-  ]);
+  send({ type: 'frame', ...encoded, buffer, latencyTest, intervalMs, capturedAtMs, captureMs }, [buffer]);
   latencyTest = false;
+  workMs += (monotonicMs() - now - workMs) * (workMs === 0 ? 1 : SMOOTHING);
+  return intervalMs;
 }
 
 send({ type: 'ready', description });

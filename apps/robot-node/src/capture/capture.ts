@@ -1,6 +1,12 @@
 import { Worker } from 'node:worker_threads';
 import type { Twist } from '@farpoint/protocol';
-import type { CapturedFrame, CaptureOptions, CaptureReport, CaptureRequest } from './capture-messages.ts';
+import type {
+  CaptureBudget,
+  CapturedFrame,
+  CaptureOptions,
+  CaptureReport,
+  CaptureRequest,
+} from './capture-messages.ts';
 import type { SourceDescription, SourceState } from './frame-source.ts';
 
 /** The capture thread ended by itself. */
@@ -68,8 +74,8 @@ export class Capture {
     this.#post({ type: 'twist', twist });
   }
 
-  setBudget(targetBitsPerSecond: number, overheadBytes: number, streaming: boolean): void {
-    this.#post({ type: 'budget', targetBitsPerSecond, overheadBytes, streaming });
+  setBudget(budget: CaptureBudget): void {
+    this.#post({ type: 'budget', ...budget });
   }
 
   requestLatencyTest(): void {

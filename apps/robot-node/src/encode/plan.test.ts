@@ -1,33 +1,110 @@
+import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { planPoints } from './plan.ts';
+import { FramePlanner, type PlanInput, type PlanOptions, wireBytesOfPacket } from './plan.ts';
 
-const base = {
-  targetBitsPerSecond: 40e6,
-  framesPerSecond: 30,
-  rawPoints: 230_400,
-  overheadBytes: 68,
+const OPTIONS: PlanOptions = {
+  policy: 'latency',
+  mostFramesPerSecond: 60,
   floorFraction: 0.1,
   mostPoints: 1e6,
 };
-const wireBitsPerSecond = (points: number) =>
-  (points / 150) * (16 + 1200 + 28 + 68) * 8 * base.framesPerSecond;
+const INPUT: PlanInput = {
+  targetBitsPerSecond: 40e6,
+  rawPoints: 230_400,
+  overheadBytes: 68,
+  probeBytes: 0,
+  workMs: 5,
+};
+const planner = (options: Partial<PlanOptions> = {}) => new FramePlanner({ ...OPTIONS, ...options });
+const wireBitsPerSecond = (points: number, framesPerSecond: number) =>
+  (points / 150) * wireBytesOfPacket(68) * 8 * framesPerSecond;
 
-describe('planPoints', () => {
+describe('FramePlanner, as the paper', () => {
+  const paper = () => planner({ policy: 'paper', mostFramesPerSecond: 30 });
+
   it('fills the rate on the wire with whole packets, and not one more', () => {
-    const points = planPoints(base);
+    const { points, framesPerSecond } = paper().plan(INPUT);
+    expect(framesPerSecond).toBe(30);
     expect(points % 150).toBe(0);
-    expect(wireBitsPerSecond(points)).toBeLessThanOrEqual(40e6);
-    expect(wireBitsPerSecond(points + 150)).toBeGreaterThan(40e6);
+    expect(wireBitsPerSecond(points, 30)).toBeLessThanOrEqual(40e6);
+    expect(wireBitsPerSecond(points + 150, 30)).toBeGreaterThan(40e6);
   });
 
   it('sends no more than there is, and than is allowed', () => {
-    expect(planPoints({ ...base, rawPoints: 1000 })).toBe(900);
-    expect(planPoints({ ...base, mostPoints: 10_000 })).toBe(9900);
+    expect(paper().plan({ ...INPUT, rawPoints: 1000 }).points).toBe(900);
+    expect(planner({ policy: 'paper', mostFramesPerSecond: 30, mostPoints: 10_000 }).plan(INPUT).points).toBe(
+      9900,
+    );
   });
 
   it('keeps the floor of 10 % of the raw cloud a second', () => {
     // 23,040 points a second, 768 a frame: five packets.
-    expect(planPoints({ ...base, targetBitsPerSecond: 0 })).toBe(750);
-    expect(planPoints({ ...base, targetBitsPerSecond: 0, floorFraction: 0 })).toBe(0);
+    expect(paper().plan({ ...INPUT, targetBitsPerSecond: 0 }).points).toBe(750);
+  });
+});
+
+describe('FramePlanner, for latency', () => {
+  it('takes every frame of the source where the link carries it', () => {
+    const { points, framesPerSecond } = planner().plan(INPUT);
+    expect(framesPerSecond).toBe(60);
+    expect(wireBitsPerSecond(points, 60)).toBeLessThanOrEqual(40e6);
+    expect(wireBitsPerSecond(points + 150, 60)).toBeGreaterThan(40e6);
+  });
+
+  it('rather sends fewer frames than pictures of next to nothing, but at least 10 a second', () => {
+    const at = (mbps: number) =>
+      planner().plan({ ...INPUT, targetBitsPerSecond: mbps * 1e6 }).framesPerSecond;
+    expect([20, 8, 5, 4, 1, 0].map(at)).toEqual([60, 30, 20, 15, 10, 10]);
+    expect(
+      planner({ mostFramesPerSecond: 5 }).plan({ ...INPUT, targetBitsPerSecond: 0 }).framesPerSecond,
+    ).toBe(5);
+  });
+
+  it('sends one packet a frame where there is no rate at all', () => {
+    expect(planner().plan({ ...INPUT, targetBitsPerSecond: 0 }).points).toBe(150);
+  });
+
+  it('does not go to and fro between two frame rates', () => {
+    const plan = planner();
+    const rates = [14, 12, 14, 12, 14, 18, 14].map(
+      (mbps) => plan.plan({ ...INPUT, targetBitsPerSecond: mbps * 1e6 }).framesPerSecond,
+    );
+    expect(rates).toEqual([60, 30, 30, 30, 30, 60, 60]);
+  });
+
+  it('leaves the thread time to breathe', () => {
+    expect(planner().plan({ ...INPUT, workMs: 20 }).framesPerSecond).toBe(30);
+    expect(planner().plan({ ...INPUT, workMs: 200 }).framesPerSecond).toBe(10);
+  });
+
+  it('makes a frame large enough for the train that the rate control asks for', () => {
+    const small = { ...INPUT, targetBitsPerSecond: 2e6 };
+    const plain = planner().plan(small).points;
+    const probing = planner().plan({ ...small, probeBytes: 40_000 }).points;
+    expect(plain).toBeLessThan(3200);
+    expect((probing / 150) * wireBytesOfPacket(68)).toBeGreaterThanOrEqual(40_000);
+    // … but not without bounds.
+    expect(planner().plan({ ...small, probeBytes: 1e9 }).points).toBeLessThanOrEqual(8 * 3200);
+    expect(planner({ mostPoints: 600 }).plan({ ...small, probeBytes: 40_000 }).points).toBe(600);
+  });
+
+  it('never plans more than the rate, except one packet a frame', () => {
+    const numbers = fc.record({
+      targetBitsPerSecond: fc.integer({ min: 0, max: 300_000_000 }),
+      rawPoints: fc.integer({ min: 0, max: 400_000 }),
+      workMs: fc.double({ min: 0, max: 100, noNaN: true }),
+      mostFramesPerSecond: fc.integer({ min: 1, max: 120 }),
+    });
+    fc.assert(
+      fc.property(numbers, ({ mostFramesPerSecond, ...input }) => {
+        const { points, framesPerSecond } = planner({ mostFramesPerSecond }).plan({ ...INPUT, ...input });
+        expect(points % 150).toBe(0);
+        expect(framesPerSecond).toBeGreaterThanOrEqual(Math.min(10, mostFramesPerSecond));
+        expect(framesPerSecond).toBeLessThanOrEqual(mostFramesPerSecond);
+        if (points > 150) {
+          expect(wireBitsPerSecond(points, framesPerSecond)).toBeLessThanOrEqual(input.targetBitsPerSecond);
+        }
+      }),
+    );
   });
 });

@@ -1,4 +1,11 @@
-/** How many points of a frame to send (the paper's equations 2 and 3), with the bit rate counted on the wire. */
+/**
+ * From a bit rate, counted on the wire, to frames a second and points a frame. Two policies:
+ *
+ * - `paper`: every frame of the source, as many points as the paper's equations 2 and 3 say.
+ * - `latency`: as many frames a second as can still be read as pictures. What an operator waits for is the next capture
+ *   and the sending of one frame; both last as long as a frame interval, so smaller frames halve them. The floor is one
+ *   packet a frame: on a link that carries nothing, commands and telemetry matter more than the paper's floor of points.
+ */
 import {
   MAX_POINT_DATA_BYTES,
   PLACEMENT_BYTES,
@@ -7,30 +14,110 @@ import {
 } from '@farpoint/protocol';
 import { maxPoints } from '@farpoint/wasm-codec';
 
+export const PLAN_POLICIES = ['latency', 'paper'] as const;
+export type PlanPolicy = (typeof PLAN_POLICIES)[number];
+
+export interface PlanOptions {
+  policy: PlanPolicy;
+  /** What the source can give, frames a second. */
+  mostFramesPerSecond: number;
+  /** Equation 3's fraction of the raw cloud a second that is sent whatever the rate; for the policy `paper`. */
+  floorFraction: number;
+  /** The configuration's own limit of points a frame. */
+  mostPoints: number;
+}
+
 export interface PlanInput {
   /** What the stream may take on the wire, all headers counted, bit/s. */
   targetBitsPerSecond: number;
-  framesPerSecond: number;
   /** Points of the raw cloud. */
   rawPoints: number;
   /** Bytes that the transport adds to each payload: RTP, SRTP, UDP, IP. */
   overheadBytes: number;
-  /** Equation 3's fraction of the raw cloud a second that is sent whatever the rate. */
-  floorFraction: number;
-  /** The operator's or the configuration's own limit of points a frame. */
-  mostPoints: number;
+  /** The rate control wants to try the link with a train of so many bytes on the wire; 0 for none. */
+  probeBytes: number;
+  /** Processor time that a frame takes, ms. */
+  workMs: number;
 }
 
-/** @returns whole packets' worth of points, at most `mostPoints` rounded down to whole packets */
-export function planPoints(input: PlanInput): number {
-  const { targetBitsPerSecond, framesPerSecond, rawPoints, overheadBytes, floorFraction, mostPoints } = input;
-  const wireBytes = POINT_PACKET_HEADER_BYTES + MAX_POINT_DATA_BYTES + PLACEMENT_BYTES + overheadBytes;
-  const planned = maxPoints({
+export interface FramePlan {
+  framesPerSecond: number;
+  /** Whole packets' worth. */
+  points: number;
+}
+
+/** Fewer points do not make a picture of a room: rather fewer frames. */
+const LEAST_POINTS = 3000;
+/** … but the world must still move, frames a second. */
+const LEAST_FRAMES_PER_SECOND = 10;
+/** A higher frame rate is chosen only where it can be kept when the link gives a little less. */
+const UPWARD_MARGIN = 1.25;
+/** The capture thread also reads commands, moves the robot and must not fall behind: share of its time for frames. */
+const MOST_LOAD = 0.7;
+/** A probe may make a frame so much larger than planned, at most. */
+const MOST_PROBE_FACTOR = 8;
+
+export class FramePlanner {
+  readonly #options: PlanOptions;
+  #framesPerSecond: number;
+
+  constructor(options: PlanOptions) {
+    this.#options = options;
+    this.#framesPerSecond = options.mostFramesPerSecond;
+  }
+
+  /** The plan for the frame that is captured now. */
+  plan(input: PlanInput): FramePlan {
+    const { policy, mostFramesPerSecond, floorFraction, mostPoints } = this.#options;
+    const { rawPoints } = input;
+    const wireBytes = wireBytesOfPacket(input.overheadBytes);
     // Of each packet's bytes on the wire only the points count for the equation.
-    bitsPerSecond: (targetBitsPerSecond * MAX_POINT_DATA_BYTES) / wireBytes,
-    framesPerSecond,
-    points: rawPoints,
-    floorFraction,
-  });
-  return Math.min(planned, Math.floor(mostPoints / POINTS_PER_PACKET) * POINTS_PER_PACKET);
+    const pointBitsPerSecond = (input.targetBitsPerSecond * MAX_POINT_DATA_BYTES) / wireBytes;
+    const most = Math.floor(mostPoints / POINTS_PER_PACKET) * POINTS_PER_PACKET;
+    if (policy === 'paper') {
+      const framesPerSecond = mostFramesPerSecond;
+      const planned = maxPoints({
+        bitsPerSecond: pointBitsPerSecond,
+        framesPerSecond,
+        points: rawPoints,
+        floorFraction,
+      });
+      return { framesPerSecond, points: Math.min(planned, most) };
+    }
+    const framesPerSecond = this.#chooseFrameRate(pointBitsPerSecond / 64, Math.min(most, rawPoints), input);
+    const points = maxPoints({
+      bitsPerSecond: pointBitsPerSecond,
+      framesPerSecond,
+      points: rawPoints,
+      floorFraction: 0,
+    });
+    const probePackets = Math.min(
+      Math.ceil(input.probeBytes / wireBytes),
+      (MOST_PROBE_FACTOR * Math.max(points, LEAST_POINTS)) / POINTS_PER_PACKET,
+    );
+    const wanted = Math.max(points, Math.floor(probePackets) * POINTS_PER_PACKET, POINTS_PER_PACKET);
+    return { framesPerSecond, points: Math.min(wanted, most) };
+  }
+
+  /** The source's rate, or a whole fraction of it: cameras can be asked for every second picture, not for every 1.3rd. */
+  #chooseFrameRate(pointsPerSecond: number, mostPoints: number, { workMs }: PlanInput): number {
+    const { mostFramesPerSecond } = this.#options;
+    const least = Math.min(LEAST_POINTS, mostPoints);
+    const affordable = workMs > 0 ? (1000 * MOST_LOAD) / workMs : Number.POSITIVE_INFINITY;
+    for (let divisor = 1; ; divisor++) {
+      const candidate = mostFramesPerSecond / divisor;
+      const next = mostFramesPerSecond / (divisor + 1);
+      const margin = candidate > this.#framesPerSecond ? UPWARD_MARGIN : 1;
+      const fits =
+        pointsPerSecond / candidate >= least * margin && candidate * (margin === 1 ? 1 : 1.1) <= affordable;
+      if (!fits && next >= Math.min(LEAST_FRAMES_PER_SECOND, mostFramesPerSecond)) continue;
+      this.#framesPerSecond = candidate;
+      return candidate;
+    }
+  }
+}
+
+/** A full packet with all its headers. */
+export function wireBytesOfPacket(overheadBytes: number): number {
+  return POINT_PACKET_HEADER_BYTES + MAX_POINT_DATA_BYTES + PLACEMENT_BYTES + overheadBytes;
 }

@@ -171,6 +171,10 @@ export class ConnectedOperator {
       for (const test of tests) this.addLatencyTest(test);
       this.#events.onLatencyFrameLost();
     };
+    sender.onRateChanged = () => {
+      this.#events.onBudgetChanged();
+      this.#sendLoop.run();
+    };
     this.session.heardMs = this.#host.now();
     this.sender = sender;
     this.#sendLoop.add(sender);

@@ -1,5 +1,5 @@
 import type { Capture } from '../capture/capture.ts';
-import type { CapturedFrame } from '../capture/capture-messages.ts';
+import type { CaptureBudget, CapturedFrame } from '../capture/capture-messages.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { StageTimer } from '../telemetry/stage-timer.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
@@ -23,7 +23,9 @@ export interface FanOutOptions {
 /** One encode for all: each captured frame goes to every operator who wants it, and their paths decide its size. */
 export class FrameFanOut {
   readonly #options: FanOutOptions;
-  #budget = { bitsPerSecond: -1, overheadBytes: 0, streaming: false };
+  #budget: CaptureBudget = { targetBitsPerSecond: -1, overheadBytes: 0, streaming: false, probeBytes: 0 };
+  /** Of the probe that was last passed on. */
+  #probeCluster = 0;
 
   constructor(options: FanOutOptions) {
     this.#options = options;
@@ -40,21 +42,27 @@ export class FrameFanOut {
     const driving = streaming.find((operator) => operator.session.id === driver());
     const deciding = driving === undefined ? streaming : [driving];
     const rates = deciding.map((operator) => operator.sender?.targetBitsPerSecond ?? 0);
-    const next = {
-      bitsPerSecond: rates.length === 0 ? 0 : Math.min(...rates),
+    // One path at a time can be tried with larger frames: they go to everyone.
+    const probe = deciding.length === 1 ? (deciding[0]?.sender?.probeWish ?? null) : null;
+    const isNewProbe = probe !== null && probe.clusterId !== this.#probeCluster;
+    if (isNewProbe) this.#probeCluster = probe.clusterId;
+    const next: CaptureBudget = {
+      targetBitsPerSecond: rates.length === 0 ? 0 : Math.min(...rates),
+      probeBytes: isNewProbe ? probe.bytes : 0,
       overheadBytes: Math.max(0, ...streaming.map((operator) => operator.sender?.overheadBytes ?? 0)),
       streaming: streaming.length > 0,
     };
     const last = this.#budget;
     if (
-      next.bitsPerSecond === last.bitsPerSecond &&
+      !isNewProbe &&
+      next.targetBitsPerSecond === last.targetBitsPerSecond &&
       next.overheadBytes === last.overheadBytes &&
       next.streaming === last.streaming
     ) {
       return;
     }
     this.#budget = next;
-    capture.setBudget(next.bitsPerSecond, next.overheadBytes, next.streaming);
+    capture.setBudget(next);
   }
 
   #onFrame(frame: CapturedFrame): void {

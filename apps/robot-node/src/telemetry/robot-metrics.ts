@@ -1,3 +1,4 @@
+import type { RateSnapshot } from '@farpoint/congestion';
 import { Counter, Gauge, type Registry } from '@farpoint/service';
 import type { Robot } from '../robot.ts';
 import type { ReasonCounts } from './robot-counters.ts';
@@ -76,6 +77,51 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
     'Bytes on the wire to operators connected now',
     overOperators((s) => s.counters.bytesSent),
   );
+  gauge(
+    'frames_per_second_planned',
+    'Frames a second that the plan has now',
+    () => counters.lastFramesPerSecond,
+  );
+  // Of the path that carries least: with one operator, of that one's.
+  const narrowest = (read: (rate: RateSnapshot) => number) => () => {
+    const rates = [...robot.operators.values()].flatMap(({ sender }) => (sender === null ? [] : [sender.rate]));
+    return rates.length === 0 ? Number.NaN : Math.min(...rates.map(read));
+  };
+  gauge(
+    'rate_estimate_bits_per_second',
+    'What the narrowest path is thought to carry',
+    narrowest((rate) => rate.estimateBitsPerSecond),
+  );
+  gauge(
+    'rate_target_bits_per_second',
+    'What the narrowest path is given',
+    () => Math.min(...[...robot.operators.values()].map(({ sender }) => sender?.targetBitsPerSecond ?? Number.NaN)),
+  );
+  gauge(
+    'rate_acknowledged_bits_per_second',
+    'What the receiver got lately',
+    narrowest((rate) => rate.ackedBitsPerSecond),
+  );
+  gauge(
+    'rate_queue_seconds',
+    'Estimated waiting time in the path’s queue',
+    narrowest((rate) => rate.queueMs / 1000),
+  );
+  gauge(
+    'rate_loss_ratio',
+    'Share of packets lost lately',
+    narrowest((rate) => rate.lossFraction),
+  );
+  new Gauge({
+    name: 'farpoint_robot_rate_state',
+    help: 'Operators by what their rate control is doing',
+    labelNames: ['state'],
+    registers: [registry],
+    collect() {
+      this.reset();
+      for (const { sender } of robot.operators.values()) if (sender !== null) this.inc({ state: sender.rate.state });
+    },
+  });
   gauge(
     'frames_superseded',
     'Frames not sent because a newer one came first, operators connected now',

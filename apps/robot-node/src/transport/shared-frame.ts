@@ -2,6 +2,9 @@ import type { PacedFrame } from '@farpoint/congestion';
 import type { CapturedFrame } from '../capture/capture-messages.ts';
 import { framePayloadBytes } from '../encode/packetiser.ts';
 
+/** A frame takes one interval to send; the farthest points of one that takes so many are not waited for. */
+const MOST_INTERVALS = 1.5;
+
 /** One captured frame on its way to several operators; its buffer goes back once the last of them let go of it. */
 export class SharedFrame implements PacedFrame {
   readonly frame: CapturedFrame;
@@ -11,6 +14,8 @@ export class SharedFrame implements PacedFrame {
   readonly bytes: number;
   /** RTP timestamp: capture time in 1/48000 s, u32. */
   readonly rtpTimestamp: number;
+  /** While a newer frame waits, the rest of this one has so long from its first packet. */
+  readonly maxSpanMs: number;
   #holders = 1;
   readonly #recycle: (buffer: ArrayBuffer) => void;
 
@@ -21,6 +26,7 @@ export class SharedFrame implements PacedFrame {
     this.packets = frame.packets;
     this.bytes = framePayloadBytes(frame.points) + frame.packets * overheadBytes;
     this.rtpTimestamp = Math.floor((frame.capturedAtMs * 48) % 0x1_0000_0000) >>> 0;
+    this.maxSpanMs = frame.intervalMs * MOST_INTERVALS;
     this.#recycle = recycle;
   }
 

@@ -1,4 +1,4 @@
-import { FixedRateController } from '@farpoint/congestion';
+import { FixedRateController, type RateController, type RateDecision } from '@farpoint/congestion';
 import { describe, expect, it } from 'vitest';
 import type { CapturedFrame } from '../capture/capture-messages.ts';
 import { payloadBytes, SLOT_BYTES } from '../encode/packetiser.ts';
@@ -56,16 +56,42 @@ function frame(points: number, capturedAtMs = 1000): CapturedFrame {
     packMs: 0,
     buffer,
     latencyTest: false,
+    intervalMs: 1000,
     capturedAtMs,
     captureMs: 0,
   };
 }
 
-function stage(bitsPerSecond = 10e6) {
+/** Does as it is told. */
+class ScriptedController extends FixedRateController {
+  readonly wanted: RateDecision;
+  readonly clusters: number[] = [];
+  inFlight = 0;
+
+  constructor(bitsPerSecond: number) {
+    super({ bitsPerSecond });
+    this.wanted = { ...super.decision(0) };
+  }
+
+  override decision(): RateDecision {
+    return { ...this.wanted, bytesInFlight: this.inFlight };
+  }
+
+  override onPacketSent(sequence: number, bytes: number, nowMs: number, probeCluster = 0): void {
+    super.onPacketSent(sequence, bytes, nowMs);
+    this.inFlight += bytes;
+    this.clusters.push(probeCluster);
+  }
+}
+
+function stage(
+  bitsPerSecond = 10e6,
+  controller: RateController = new FixedRateController({ bitsPerSecond }),
+) {
   let nowMs = 0;
   const now = () => nowMs;
   const transport = new RecordingTransport(now);
-  const sender = new StreamSender(transport, new FixedRateController({ bitsPerSecond }), now);
+  const sender = new StreamSender(transport, controller, now);
   const recycled: ArrayBuffer[] = [];
   const share = (captured: CapturedFrame) =>
     new SharedFrame(captured, transport.overheadBytes, (buffer) => recycled.push(buffer));
@@ -197,6 +223,68 @@ describe('StreamSender', () => {
     truncated.writeUInt16BE(9999, 14);
     transport.onRtcp?.(truncated);
     expect(sender.counters).toMatchObject({ feedbackMessages: 1, feedbackMalformed: 3 });
+  });
+
+  it('stops while too much is on its way, and goes on when that has changed', () => {
+    const controller = new ScriptedController(10e6);
+    controller.wanted.congestionWindowBytes = 5000;
+    const { transport, sender, share, runUntil } = stage(10e6, controller);
+    const shared = share(frame(3000));
+    sender.enqueue(shared);
+    shared.release();
+    runUntil(100);
+    expect(controller.inFlight).toBeGreaterThanOrEqual(5000);
+    expect(transport.sent.length).toBeLessThan(7);
+    expect(sender.nextDueMs).toBeNull();
+    controller.wanted.congestionWindowBytes = 1e6;
+    runUntil(1000);
+    expect(transport.sent).toHaveLength(20);
+  });
+
+  it('sends a train at the rate that is asked for, in a frame that is large enough, once', () => {
+    const controller = new ScriptedController(1e6);
+    controller.wanted.probe = { clusterId: 7, bitsPerSecond: 10e6, bytes: 10_000 };
+    const { transport, sender, share, runUntil } = stage(1e6, controller);
+    const small = share(frame(150));
+    sender.enqueue(small);
+    small.release();
+    runUntil(100);
+    expect(controller.clusters).toEqual([0]);
+    expect(sender.probeWish?.clusterId).toBe(7);
+
+    const large = share(frame(3000));
+    sender.enqueue(large);
+    large.release();
+    expect(sender.probeWish).toBeNull();
+    runUntil(1000);
+    const train = controller.clusters.flatMap((cluster, i) =>
+      cluster === 7 ? [transport.sent[i] as Sent] : [],
+    );
+    expect(train).toHaveLength(8);
+    const bits = train.slice(1).reduce((sum, { bytes }) => sum + (bytes + 68) * 8, 0);
+    const seconds = ((train.at(-1) as Sent).atMs - (train[0] as Sent).atMs) / 1000;
+    expect(bits / seconds).toBeGreaterThan(8e6);
+    expect(bits / seconds).toBeLessThan(13e6);
+    // The rest goes at the rate for all.
+    expect((transport.sent.at(-1) as Sent).atMs - (train.at(-1) as Sent).atMs).toBeGreaterThan(90);
+  });
+
+  it('does not wait for the farthest points of a frame that takes too long', () => {
+    const { transport, sender, share, runUntil } = stage(1e6);
+    const dropped: string[] = [];
+    sender.onFrameDropped = (_, reason) => dropped.push(reason);
+    const slow = share({ ...frame(15_000), intervalMs: 40 });
+    sender.enqueue(slow);
+    slow.release();
+    for (const atMs of [40, 80]) {
+      runUntil(atMs);
+      const next = share({ ...frame(150), intervalMs: 40 });
+      sender.enqueue(next);
+      next.release();
+    }
+    expect(dropped).toEqual(['superseded', 'overdue'].toSorted());
+    runUntil(200);
+    expect(transport.sent.at(-1)?.marker).toBe(true);
   });
 
   it('obeys the receiver’s limit', () => {

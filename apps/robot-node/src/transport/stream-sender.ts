@@ -2,8 +2,10 @@ import {
   FMT_TRANSPORT_WIDE,
   type FrameDropReason,
   PacketPacer,
+  type ProbeRequest,
   parseTransportFeedback,
   type RateController,
+  type RateSnapshot,
   RTCP_TRANSPORT_FEEDBACK,
   TransportFeedbackAdapter,
   TransportFeedbackError,
@@ -52,12 +54,18 @@ export class StreamSender {
   onFrameDropped: ((shared: SharedFrame, reason: FrameDropReason) => void) | null = null;
   /** Told of each packet that left: frame number, where its data lies in the frame, robot's clock. For measurements. */
   onPacketSent: ((frameNumber: number, sequenceOffset: number, sentMs: number) => void) | null = null;
+  /** The rate control has learnt something: what may be sent, and when, has changed. */
+  onRateChanged: (() => void) | null = null;
   readonly #transport: CloudTransport;
   readonly #controller: RateController;
   readonly #pacer: PacketPacer<SharedFrame>;
   readonly #feedback = new TransportFeedbackAdapter();
   readonly #now: () => number;
   #beganMs = 0;
+  /** The probe that is being sent, its rate and what is left of it. */
+  #probeCluster = 0;
+  #probeBitsPerSecond = 0;
+  #probeBytesLeft = 0;
   /** When RTCP last came from the operator, ms. */
   heardMs = 0;
 
@@ -65,7 +73,8 @@ export class StreamSender {
     this.#transport = transport;
     this.#controller = controller;
     this.#now = now;
-    this.#pacer = new PacketPacer(controller.targetBitsPerSecond(now()));
+    // The controller says how much faster than planned packets may go.
+    this.#pacer = new PacketPacer(controller.decision(now()).pacingBitsPerSecond, { factor: 1 });
     transport.onRtcp = (compound) => this.#onRtcp(compound);
   }
 
@@ -77,17 +86,35 @@ export class StreamSender {
     return this.#controller.targetBitsPerSecond(this.#now());
   }
 
+  /** What the rate control knows and thinks, for people. */
+  get rate(): RateSnapshot {
+    return this.#controller.snapshot(this.#now());
+  }
+
+  /** A train of packets that the rate control waits for: a frame of at least so many bytes carries it. */
+  get probeWish(): Readonly<ProbeRequest> | null {
+    const { probe } = this.#controller.decision(this.#now());
+    return probe === null || probe.clusterId === this.#probeCluster ? null : probe;
+  }
+
   get droppedFrames(): Readonly<Record<FrameDropReason, number>> {
     return this.#pacer.drops;
   }
 
+  /** `null` also where too much is on its way already: feedback, or the next tick, will change that. */
   get nextDueMs(): number | null {
-    return this.#pacer.nextDueMs;
+    return this.#windowFull ? null : this.#pacer.nextDueMs;
   }
 
   /** Takes a hold of the frame and sends it when its time comes, unless a newer one comes first. */
   enqueue(shared: SharedFrame): void {
     if (shared.packets === 0) return;
+    const wish = this.probeWish;
+    if (wish !== null && shared.bytes >= wish.bytes) {
+      this.#probeCluster = wish.clusterId;
+      this.#probeBitsPerSecond = wish.bitsPerSecond;
+      this.#probeBytesLeft = wish.bytes;
+    }
     for (const { frame, reason } of this.#pacer.enqueue(shared.hold(), this.#now())) {
       this.onFrameDropped?.(frame, reason);
       frame.release();
@@ -99,6 +126,8 @@ export class StreamSender {
     const transport = this.#transport;
     for (;;) {
       const now = this.#now();
+      if (this.#windowFull) return;
+      this.#setPace(now);
       const run = this.#pacer.due(now);
       if (run === null) return;
       const { frame: shared, first, count, last } = run;
@@ -114,7 +143,13 @@ export class StreamSender {
         }
         const wireBytes = bytes + transport.overheadBytes;
         this.#feedback.onPacketSent(sequence, wireBytes, now);
-        this.#controller.onPacketSent(sequence, wireBytes, now);
+        this.#controller.onPacketSent(
+          sequence,
+          wireBytes,
+          now,
+          this.#probeBytesLeft > 0 ? this.#probeCluster : 0,
+        );
+        this.#probeBytesLeft -= wireBytes;
         this.onPacketSent?.(shared.frame.frameNumber, i * MAX_POINT_DATA_BYTES, this.#now());
         this.counters.packetsSent++;
         this.counters.bytesSent += wireBytes;
@@ -131,7 +166,7 @@ export class StreamSender {
   tick(): void {
     const now = this.#now();
     this.#controller.onTick(now);
-    this.#pacer.setRate(this.#controller.targetBitsPerSecond(now));
+    this.#setPace(now);
   }
 
   onReceiverReport(report: { packetsReceived: number; packetsLost: number }): void {
@@ -152,17 +187,34 @@ export class StreamSender {
 
   #onRtcp(compound: Uint8Array): void {
     this.heardMs = this.#now();
+    let changed = false;
     for (const packet of walkRtcp(compound, () => this.counters.feedbackMalformed++)) {
       if (packet.packetType !== RTCP_TRANSPORT_FEEDBACK || packet.format !== FMT_TRANSPORT_WIDE) continue;
       try {
         const now = this.#now();
         const results = this.#feedback.onFeedback(parseTransportFeedback(packet.bytes), now);
         this.counters.feedbackMessages++;
-        if (results.length > 0) this.#controller.onFeedback(results, now);
+        if (results.length === 0) continue;
+        this.#controller.onFeedback(results, now);
+        changed = true;
       } catch (error) {
         if (!(error instanceof TransportFeedbackError)) throw error;
         this.counters.feedbackMalformed++;
       }
     }
+    if (changed) this.onRateChanged?.();
+  }
+
+  get #windowFull(): boolean {
+    const { bytesInFlight, congestionWindowBytes } = this.#controller.decision(this.#now());
+    return bytesInFlight >= congestionWindowBytes;
+  }
+
+  #setPace(nowMs: number): void {
+    const { pacingBitsPerSecond } = this.#controller.decision(nowMs);
+    const probing = this.#probeBytesLeft > 0;
+    this.#pacer.setRate(
+      probing ? Math.max(this.#probeBitsPerSecond, pacingBitsPerSecond) : pacingBitsPerSecond,
+    );
   }
 }
