@@ -5,11 +5,20 @@ import { control } from './control.ts';
 import { directionOf } from './directions.ts';
 import { registerLinkMetrics } from './metrics.ts';
 import { program } from './options.ts';
+import { setNiceness } from './priority.ts';
 import { StatisticsFile } from './statistics-file.ts';
 
 const RIM_INTERVAL_MS = 1000;
 
 await runProgram(program, async ({ options, log, health, metrics, shutdown, serveAdmin }) => {
+  try {
+    setNiceness(options.niceness);
+  } catch (error) {
+    log.info(
+      { niceness: options.niceness, err: error },
+      'the system keeps the priority: a busy processor makes packets late',
+    );
+  }
   const file =
     options.stats === null
       ? null

@@ -172,6 +172,12 @@ export const program = defineProgram({
       argument: 'FILE',
       help: 'write what happens in each 100 ms to this file, one JSON object a line',
     }),
+    niceness: defineOption({
+      schema: schema.integer({ min: -20, max: 19 }),
+      default: -10,
+      argument: 'N',
+      help: 'of this process, where the system lets it: what waits for the processor is a link nobody asked for',
+    }),
     ...adminOptions(9500),
     ...(directionalOptions() as Directional),
   },
