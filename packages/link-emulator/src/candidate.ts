@@ -67,7 +67,7 @@ export function endpointsOf(sdp: string): Endpoint[] {
 
 /**
  * The session description with every candidate led elsewhere or left out, and the default addresses of its media lines
- * blotted out as for trickled candidates (RFC 8840 §4.1.1): no address of the peer itself remains. Takes any text.
+ * blotted out as for trickled candidates (RFC 8840): no address of the peer itself remains. Takes any text.
  *
  * @param place what stands in for an endpoint; `null` leaves the candidate out
  * @param onFault for each candidate that cannot be led anywhere

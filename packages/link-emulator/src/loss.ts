@@ -1,6 +1,6 @@
 import type { Random } from './random.ts';
 
-/** Gilbert–Elliott: two states, stepped once for each packet (Elliott 1963; RFC 6390 calls its output burst loss). */
+/** Gilbert–Elliott: two states, stepped once for each packet (Gilbert 1960, Elliott 1963). */
 export interface BurstLoss {
   /** Probability of going from good to bad, per packet. */
   readonly enter: number;
