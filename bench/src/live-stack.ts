@@ -1,20 +1,35 @@
 /** The whole stack as an operator has it: the real programs, and the built page in a headless Chromium. */
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
-import { chromiumLaunchOptions, LocalStack, type RobotSpec, repositoryRoot } from '@farpoint/local-stack';
+import {
+  chromiumLaunchOptions,
+  EmulatedLink,
+  type EmulatedLinkSpec,
+  LocalStack,
+  type RobotSpec,
+  repositoryRoot,
+} from '@farpoint/local-stack';
 import type {} from '@farpoint/webxr/test-api';
-import { type Browser, chromium, type Page } from '@playwright/test';
+import { type Browser, type BrowserServer, chromium, type Page } from '@playwright/test';
 
 export interface LiveStackOptions {
   robot: RobotSpec;
   /** Pixels of the page's canvas. Small: there is no GPU here, and it is the stream that is measured. */
   canvas: string;
+  /** A bad network between the robots and everybody else. */
+  link?: EmulatedLinkSpec;
+  /** Robots besides the one that is driven. */
+  otherRobots?: RobotSpec[];
   log: (line: string) => void;
 }
 
 export interface LiveStack {
   stack: LocalStack;
+  /** `null` without a link in the options. */
+  link: EmulatedLink | null;
   page: Page;
+  /** Another page, connected to another robot. */
+  openPage(robotId: string): Promise<Page>;
   /** Process id of the browser; its renderer, GPU and network processes are children of it. */
   browserPid: number;
   close(): Promise<void>;
@@ -28,28 +43,43 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
   log('starting signaling and the robot');
   const stack = await LocalStack.start({
     webRoot: join(repositoryRoot, 'apps', 'webxr', 'dist'),
-    robots: [robot],
+    robots: [],
     env: { FARPOINT_LOG_LEVEL: 'warn' },
   });
-  const server = await chromium.launchServer(chromiumLaunchOptions());
+  let link: EmulatedLink | null = null;
+  let server: BrowserServer | null = null;
   const close = async (): Promise<void> => {
-    await server.close();
+    await server?.close();
     await stack.stop();
+    await link?.stop();
   };
   try {
+    if (options.link !== undefined) link = await EmulatedLink.start(stack, options.link);
+    const through = link === null ? [] : ['--signaling', link.signalingUrl];
+    for (const spec of [robot, ...(options.otherRobots ?? [])]) {
+      await stack.startRobot({ ...spec, args: [...(spec.args ?? []), ...through] });
+    }
+    server = await chromium.launchServer(chromiumLaunchOptions());
     log('starting the browser');
     const browser: Browser = await chromium.connect(server.wsEndpoint());
     // No larger than the canvas: the browser composes its window in software too.
     const [width, height] = options.canvas.split('x').map(Number) as [number, number];
-    const page = await browser.newPage({
-      viewport: { width: Math.max(width, 320), height: Math.max(height, 180) },
-    });
-    await page.goto(`${stack.webUrl}?canvas=${options.canvas}`);
-    await page.waitForFunction(() => window.farpoint !== undefined);
-    await page.waitForFunction((id) => window.farpoint.robots().some((listed) => listed.id === id), robot.id);
-    await page.evaluate((id) => window.farpoint.connect(id, 20_000), robot.id);
-    await page.waitForFunction(() => window.farpoint.stats().framesDrawn > 30);
-    return { stack, page, browserPid: server.process().pid as number, close };
+    const openPage = async (robotId: string): Promise<Page> => {
+      const page = await browser.newPage({
+        viewport: { width: Math.max(width, 320), height: Math.max(height, 180) },
+      });
+      await page.goto(`${stack.webUrl}?canvas=${options.canvas}`);
+      await page.waitForFunction(() => window.farpoint !== undefined);
+      await page.waitForFunction(
+        (id) => window.farpoint.robots().some((listed) => listed.id === id),
+        robotId,
+      );
+      await page.evaluate((id) => window.farpoint.connect(id, 20_000), robotId);
+      await page.waitForFunction(() => window.farpoint.stats().framesDrawn > 5);
+      return page;
+    };
+    const page = await openPage(robot.id);
+    return { stack, link, page, openPage, browserPid: server.process().pid as number, close };
   } catch (error) {
     await close();
     throw error;

@@ -1,12 +1,11 @@
 #!/usr/bin/env node
 import { directions, monotonicMs, SignalingInterposer, UdpLink } from '@farpoint/link-emulator';
-import { runProgram } from '@farpoint/service';
+import { JsonLinesFile, runProgram } from '@farpoint/service';
 import { control } from './control.ts';
 import { directionOf } from './directions.ts';
 import { registerLinkMetrics } from './metrics.ts';
 import { program } from './options.ts';
 import { setNiceness } from './priority.ts';
-import { StatisticsFile } from './statistics-file.ts';
 
 const RIM_INTERVAL_MS = 1000;
 
@@ -22,7 +21,7 @@ await runProgram(program, async ({ options, log, health, metrics, shutdown, serv
   const file =
     options.stats === null
       ? null
-      : new StatisticsFile(options.stats, (error) => log.error({ err: error }, 'statistics are not written'));
+      : new JsonLinesFile(options.stats, (error) => log.error({ err: error }, 'statistics are not written'));
   const counters = registerLinkMetrics(metrics, () => link);
   const link = new UdpLink({
     up: directionOf(options, 'up'),

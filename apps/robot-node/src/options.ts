@@ -220,6 +220,12 @@ const options = {
     argument: 'FILE',
     help: 'for measurements: when each packet was sent, as CSV, written when the robot stops',
   }),
+  stats: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'FILE',
+    help: 'for measurements: what each stream does in each 100 ms, one JSON object a line',
+  }),
   ...adminOptions(9400),
 } satisfies OptionTable;
 
@@ -271,6 +277,7 @@ export function toRobotOptions(values: RobotOptionValues): RobotOptions {
     iceServers: values.iceServers.map((urls) => ({ urls })),
     portRange: values.udpPorts === null ? undefined : [low as number, high as number],
     packetLog: values.packetLog ?? undefined,
+    statisticsFile: values.stats ?? undefined,
   };
 }
 

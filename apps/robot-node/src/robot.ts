@@ -9,7 +9,7 @@ import {
   type ServiceToRobot,
 } from '@farpoint/protocol';
 import { DriveGuard, type RejectedCommand, type TakePolicy } from '@farpoint/safety';
-import type { Logger } from '@farpoint/service';
+import { JsonLinesFile, type Logger } from '@farpoint/service';
 import { Capture, type CaptureError, type CaptureState } from './capture/capture.ts';
 import type { CaptureOptions } from './capture/capture-messages.ts';
 import { monotonicMs } from './clock.ts';
@@ -20,6 +20,7 @@ import type { OperatorSession, SessionHost } from './session/operator-session.ts
 import { SignalingClient, type SignalingOptions } from './signaling/signaling-client.ts';
 import { RobotCounters } from './telemetry/robot-counters.ts';
 import { StageTimer } from './telemetry/stage-timer.ts';
+import { streamStatistics } from './telemetry/stream-statistics.ts';
 import { TelemetrySender } from './telemetry/telemetry-sender.ts';
 import type { PeerEnd } from './transport/operator-peer.ts';
 import { PacketLog } from './transport/packet-log.ts';
@@ -47,10 +48,13 @@ export interface RobotOptions {
   portRange?: readonly [number, number] | undefined;
   /** File for a log of every packet sent, written when the robot closes. */
   packetLog?: string | undefined;
+  /** File for what each stream does in each 100 ms, one JSON object a line. */
+  statisticsFile?: string | undefined;
 }
 
 const TELEMETRY_MS = 50;
 const TICK_MS = 25;
+const STATISTICS_MS = 100;
 
 export class Robot implements SessionHost {
   readonly capture: Capture;
@@ -67,6 +71,7 @@ export class Robot implements SessionHost {
   readonly #fanOut: FrameFanOut;
   readonly #telemetry: TelemetrySender;
   readonly #timers: NodeJS.Timeout[] = [];
+  readonly #statistics: JsonLinesFile | null = null;
   #iceServers: readonly IceServer[] = [];
   #state: CaptureState | null = null;
 
@@ -99,6 +104,23 @@ export class Robot implements SessionHost {
     };
     capture.onFailure = (error) => this.onFailure?.(error);
     this.#timers.push(setInterval(() => this.#tick(), TICK_MS));
+    if (options.statisticsFile !== undefined) {
+      const file = new JsonLinesFile(options.statisticsFile, (error) =>
+        log.error({ err: error }, 'statistics are not written'),
+      );
+      this.#statistics = file;
+      this.#timers.push(
+        setInterval(() => {
+          for (const line of streamStatistics(
+            this.operators.values(),
+            this.#state,
+            this.counters,
+            monotonicMs(),
+          ))
+            file.write(line);
+        }, STATISTICS_MS),
+      );
+    }
     this.#timers.push(
       setInterval(() => {
         if (this.#state !== null) this.#telemetry.send(this.#state, monotonicMs());
@@ -129,6 +151,7 @@ export class Robot implements SessionHost {
     await this.signaling.close();
     await this.capture.close();
     this.#packetLog?.write();
+    await this.#statistics?.close();
   }
 
   // SessionHost
@@ -149,8 +172,8 @@ export class Robot implements SessionHost {
   }
 
   latencyTestRequested(session: OperatorSession, id: number, commandMs: number): void {
-    this.operators.get(session.id)?.addLatencyTest({ id, commandMs });
-    this.capture.requestLatencyTest();
+    const isNew = this.operators.get(session.id)?.askLatencyTest({ id, commandMs }) ?? false;
+    if (isNew) this.capture.requestLatencyTest();
   }
 
   commandAccepted(): void {

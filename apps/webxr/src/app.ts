@@ -104,12 +104,12 @@ export class App implements PageParts {
       this.driver.suspended = this.#handsAway();
       this.driver.tick(performance.now());
       this.#switch.tick(this.#presentRobot, performance.now());
+      this.latency.tick(performance.now());
     }, DRIVE_TICK_MS);
     setInterval(() => {
       const nowMs = performance.now();
       this.stats.tick(this.cloud, nowMs);
       this.#status.update(nowMs);
-      this.latency.tick(nowMs);
       this.#governResolution(nowMs);
     }, STATUS_TICK_MS);
     this.stage.renderer.setAnimationLoop((nowMs) => this.#frame(nowMs));

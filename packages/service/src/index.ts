@@ -1,5 +1,6 @@
 export * from './admin-server.ts';
 export * from './health.ts';
+export * from './json-lines-file.ts';
 export * from './logger.ts';
 export * as schema from './option-schemas.ts';
 export * from './option-table.ts';

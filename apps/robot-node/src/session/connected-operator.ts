@@ -52,6 +52,7 @@ export class ConnectedOperator {
   readonly #bytes = new RateMeter();
   readonly #stages = new StageTimer();
   #tests: LatencyTest[] = [];
+  #lastTestId: number | null = null;
   readonly #testsInFlight = new Map<SharedFrame, LatencyTest[]>();
   #lastFrameNumber = 0;
   #lastValidPoints = 0;
@@ -100,7 +101,15 @@ export class ConnectedOperator {
     return drops === undefined ? 0 : drops.superseded + drops.overdue;
   }
 
-  addLatencyTest(test: LatencyTest): void {
+  /** @returns false where the test is known: the operator repeats a request until it is answered. */
+  askLatencyTest(test: LatencyTest): boolean {
+    if (test.id === this.#lastTestId) return false;
+    this.#lastTestId = test.id;
+    this.#addLatencyTest(test);
+    return true;
+  }
+
+  #addLatencyTest(test: LatencyTest): void {
     this.#tests.push(test);
     if (this.#tests.length > MAX_LATENCY_TESTS) this.#tests.shift();
   }
@@ -168,7 +177,7 @@ export class ConnectedOperator {
       const tests = this.#testsInFlight.get(shared);
       if (tests === undefined) return;
       this.#testsInFlight.delete(shared);
-      for (const test of tests) this.addLatencyTest(test);
+      for (const test of tests) this.#addLatencyTest(test);
       this.#events.onLatencyFrameLost();
     };
     sender.onRateChanged = () => {

@@ -38,12 +38,14 @@ export class RobotCounters {
   readonly stageSeconds = new ReasonCounts();
   /** Of the last frame. */
   lastPoints = 0;
+  lastFramesPerSecond = 0;
   lastValidPoints = 0;
 
   frame(frame: CapturedFrame): void {
     this.framesCaptured++;
     this.pointsCaptured += frame.points;
     this.lastPoints = frame.points;
+    this.lastFramesPerSecond = 1000 / frame.intervalMs;
     this.lastValidPoints = frame.validPoints;
     const { notFinite, nonPositiveDepth, outOfRange, notDrawn } = frame.rejected;
     this.pointsRejected.add('notFinite', notFinite);

@@ -84,7 +84,9 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   );
   // Of the path that carries least: with one operator, of that one's.
   const narrowest = (read: (rate: RateSnapshot) => number) => () => {
-    const rates = [...robot.operators.values()].flatMap(({ sender }) => (sender === null ? [] : [sender.rate]));
+    const rates = [...robot.operators.values()].flatMap(({ sender }) =>
+      sender === null ? [] : [sender.rate],
+    );
     return rates.length === 0 ? Number.NaN : Math.min(...rates.map(read));
   };
   gauge(
@@ -92,10 +94,8 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
     'What the narrowest path is thought to carry',
     narrowest((rate) => rate.estimateBitsPerSecond),
   );
-  gauge(
-    'rate_target_bits_per_second',
-    'What the narrowest path is given',
-    () => Math.min(...[...robot.operators.values()].map(({ sender }) => sender?.targetBitsPerSecond ?? Number.NaN)),
+  gauge('rate_target_bits_per_second', 'What the narrowest path is given', () =>
+    Math.min(...[...robot.operators.values()].map(({ sender }) => sender?.targetBitsPerSecond ?? Number.NaN)),
   );
   gauge(
     'rate_acknowledged_bits_per_second',
@@ -119,7 +119,8 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
     registers: [registry],
     collect() {
       this.reset();
-      for (const { sender } of robot.operators.values()) if (sender !== null) this.inc({ state: sender.rate.state });
+      for (const { sender } of robot.operators.values())
+        if (sender !== null) this.inc({ state: sender.rate.state });
     },
   });
   gauge(

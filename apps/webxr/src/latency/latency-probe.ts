@@ -29,8 +29,8 @@ interface Waiting {
 }
 
 const TIMEOUT_MS = 3000;
-/** A request that the robot has not confirmed is sent again after so long: control messages may be lost. */
-const REPEAT_MS = 250;
+/** A request that the robot has not confirmed is sent again after so long, as every command is: messages get lost. */
+const REPEAT_MS = 50;
 
 export class LatencyProbe {
   readonly #link: RobotLink;

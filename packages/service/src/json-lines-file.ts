@@ -1,19 +1,20 @@
 import { createWriteStream, type WriteStream } from 'node:fs';
 
-/** Lines of JSON to a file, in the order in which they come. A file that does not keep up loses lines, counted. */
-export class StatisticsFile {
+/** What waits for the disk at most, bytes. */
+const MOST_BACKLOG = 1 << 22;
+
+/** Lines of JSON to a file, in the order in which they come. A disk that does not keep up loses lines, counted. */
+export class JsonLinesFile {
   readonly #stream: WriteStream;
-  readonly #onError: (error: Error) => void;
   dropped = 0;
 
   constructor(path: string, onError: (error: Error) => void) {
-    this.#onError = onError;
     this.#stream = createWriteStream(path);
-    this.#stream.on('error', (error) => this.#onError(error));
+    this.#stream.on('error', onError);
   }
 
   write(line: object): void {
-    if (this.#stream.writableLength > 1 << 22) this.dropped++;
+    if (this.#stream.writableLength > MOST_BACKLOG) this.dropped++;
     else this.#stream.write(`${JSON.stringify(line)}\n`);
   }
 

@@ -1,0 +1,50 @@
+import type { RateSnapshot } from '@farpoint/congestion';
+import type { CaptureState } from '../capture/capture.ts';
+import type { ConnectedOperator } from '../session/connected-operator.ts';
+import type { RobotCounters } from './robot-counters.ts';
+
+/** One operator's stream at one moment, for measurements. Sums since the session began. */
+export interface StreamStatistics extends RateSnapshot {
+  session: string;
+  /** Robot's clock (CLOCK_MONOTONIC where the system has it), ms. */
+  timeMs: number;
+  targetBitsPerSecond: number;
+  bytesSent: number;
+  packetsSent: number;
+  framesSent: number;
+  pointsSent: number;
+  /** Dropped by the pacer, wholly or in part. */
+  framesDropped: number;
+  /** As planned for the last frame. */
+  framesPerSecond: number;
+  pointsPerFrame: number;
+  /** Of the robot's body, m/s and rad/s. */
+  speed: number;
+  turn: number;
+}
+
+export function streamStatistics(
+  operators: Iterable<ConnectedOperator>,
+  state: CaptureState | null,
+  { lastFramesPerSecond, lastPoints }: RobotCounters,
+  timeMs: number,
+): StreamStatistics[] {
+  const lines: StreamStatistics[] = [];
+  for (const { session, sender, droppedFrames } of operators) {
+    if (sender === null) continue;
+    const { bytesSent, packetsSent, framesSent, pointsSent } = sender.counters;
+    lines.push({
+      session: session.id,
+      timeMs,
+      ...sender.rate,
+      targetBitsPerSecond: sender.targetBitsPerSecond,
+      ...{ bytesSent, packetsSent, framesSent, pointsSent },
+      framesDropped: droppedFrames,
+      framesPerSecond: lastFramesPerSecond,
+      pointsPerFrame: lastPoints,
+      speed: state?.twist.linear.x ?? 0,
+      turn: state?.twist.angular.z ?? 0,
+    });
+  }
+  return lines;
+}

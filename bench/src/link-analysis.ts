@@ -1,0 +1,236 @@
+/** What a run over an emulated link shows: pure functions of what the link, the robot and the page wrote down. */
+
+/** One line of `farpoint-link --stats`: one direction in 100 ms. */
+export interface LinkBin {
+  /** CLOCK_MONOTONIC, ms, of its beginning. */
+  timeMs: number;
+  /** Mean; `null` without a bottleneck. */
+  capacityMbps: number | null;
+  offeredBytes: number;
+  deliveredBytes: number;
+  crossBytes: number;
+  deliveredPackets: number;
+  queueMsMean: number;
+  queueMsMax: number;
+  drops: Record<string, number>;
+}
+
+export const BIN_MS = 100;
+
+/** Times on the same clock, ms. */
+export interface TimeSpan {
+  fromMs: number;
+  toMs: number;
+}
+
+/** Below this a link carries no stream, Mbit/s. */
+const DEAD_MBPS = 0.5;
+/** A shorter sign of life does not end an outage; a shorter silence is none. */
+const BLIP_MS = 300;
+const LEAST_OUTAGE_MS = 1500;
+
+/** When the link carried nothing. */
+export function outagesOf(bins: readonly Pick<LinkBin, 'timeMs' | 'capacityMbps'>[]): TimeSpan[] {
+  const spans: TimeSpan[] = [];
+  for (const { timeMs, capacityMbps } of bins) {
+    if (capacityMbps === null || capacityMbps >= DEAD_MBPS) continue;
+    const last = spans.at(-1);
+    if (last !== undefined && timeMs - last.toMs <= BLIP_MS) last.toMs = timeMs + BIN_MS;
+    else spans.push({ fromMs: timeMs, toMs: timeMs + BIN_MS });
+  }
+  return spans.filter(({ fromMs, toMs }) => toMs - fromMs >= LEAST_OUTAGE_MS);
+}
+
+/** Share of the capacity that the peers' packets took, the competing flow's part counted as theirs to take. */
+export function utilisationOf(bins: readonly LinkBin[]): number {
+  let bytes = 0;
+  let capacity = 0;
+  for (const bin of bins) {
+    if (bin.capacityMbps === null) continue;
+    bytes += bin.deliveredBytes;
+    capacity += (bin.capacityMbps * BIN_MS * 1000) / 8;
+  }
+  return bytes / capacity;
+}
+
+/** Share of what left the link that was the peers', besides a competing flow. */
+export function shareOf(bins: readonly LinkBin[]): number {
+  const own = bins.reduce((sum, bin) => sum + bin.deliveredBytes, 0);
+  const cross = bins.reduce((sum, bin) => sum + bin.crossBytes, 0);
+  return own / (own + cross);
+}
+
+/** Queueing delay over all packets, to the grain of the bins: each counts with its bin's mean. */
+export function queueQuantiles(bins: readonly LinkBin[]): {
+  p50: number;
+  p95: number;
+  p99: number;
+  max: number;
+} {
+  const sorted = bins.filter((bin) => bin.deliveredPackets > 0).sort((a, b) => a.queueMsMean - b.queueMsMean);
+  const total = sorted.reduce((sum, bin) => sum + bin.deliveredPackets, 0);
+  const at = (q: number) => {
+    let passed = 0;
+    for (const bin of sorted) {
+      passed += bin.deliveredPackets;
+      if (passed >= q * total) return bin.queueMsMean;
+    }
+    return Number.NaN;
+  };
+  return {
+    p50: at(0.5),
+    p95: at(0.95),
+    p99: at(0.99),
+    max: bins.reduce((most, bin) => Math.max(most, bin.queueMsMax), 0),
+  };
+}
+
+/** The longest time in one piece for which the queue was longer than `limitMs`, ms. */
+export function longestQueueAbove(bins: readonly LinkBin[], limitMs: number): number {
+  let longest = 0;
+  let current = 0;
+  for (const bin of bins) {
+    current = bin.queueMsMax > limitMs ? current + BIN_MS : 0;
+    longest = Math.max(longest, current);
+  }
+  return longest;
+}
+
+/** The capacity changes for good by at least this factor … */
+const STEP_FACTOR = 1.5;
+/** … which means: the means of so long before and after. */
+const STEP_MS = 3000;
+/** Delivery is looked at over so long. */
+const SMOOTH_MS = 500;
+
+export interface CapacityRise {
+  timeMs: number;
+  fromMbps: number;
+  toMbps: number;
+  /** Until 90 % of the new capacity was used; `null`: not before the next change or the end. */
+  recoverySeconds: number | null;
+}
+
+/** Steps up of the capacity, and how long it took to use them. Capacities that never stand still have none. */
+export function capacityRises(bins: readonly LinkBin[]): CapacityRise[] {
+  const side = STEP_MS / BIN_MS;
+  const capacity = bins.map((bin) => bin.capacityMbps ?? Number.NaN);
+  const rises: CapacityRise[] = [];
+  for (let i = side; i + side <= bins.length; i++) {
+    const before = capacity.slice(i - side, i);
+    const after = capacity.slice(i, i + side);
+    // Steps only: constant on both sides.
+    if (Math.max(...before) > Math.min(...before) * 1.02 || Math.max(...after) > Math.min(...after) * 1.02)
+      continue;
+    const [fromMbps, toMbps] = [before[0] as number, after[0] as number];
+    if (!(toMbps >= fromMbps * STEP_FACTOR)) continue;
+    const timeMs = (bins[i] as LinkBin).timeMs;
+    rises.push({ timeMs, fromMbps, toMbps, recoverySeconds: recovery(bins, i, toMbps) });
+  }
+  return rises;
+}
+
+function recovery(bins: readonly LinkBin[], from: number, capacityMbps: number): number | null {
+  const window = SMOOTH_MS / BIN_MS;
+  for (let i = from; i + window <= bins.length; i++) {
+    const span = bins.slice(i, i + window);
+    if (span.some((bin) => Math.abs((bin.capacityMbps ?? 0) - capacityMbps) > 0.02 * capacityMbps))
+      return null;
+    const mbps = span.reduce((sum, bin) => sum + bin.deliveredBytes, 0) / (SMOOTH_MS * 125);
+    if (mbps >= 0.9 * capacityMbps) return ((i + window - from) * BIN_MS) / 1000;
+  }
+  return null;
+}
+
+/** One line of the robot's `--stats`. */
+export interface RobotSample {
+  timeMs: number;
+  session: string;
+  estimateBitsPerSecond: number;
+  targetBitsPerSecond: number;
+  bytesSent: number;
+  packetsSent: number;
+  framesDropped: number;
+  pointsPerFrame: number;
+  framesPerSecond: number;
+  queueMs: number;
+  lossFraction: number;
+  state: string;
+  speed: number;
+  turn: number;
+}
+
+/** What the page wrote down every 100 ms, on the robot's clock. Sums since its session began. */
+export interface PageSample {
+  timeMs: number;
+  packetsReceived: number;
+  packetsLost: number;
+  framesDrawn: number;
+  pointsDrawn: number;
+  session: string;
+  link: string;
+}
+
+export interface Outage {
+  startS: number;
+  endS: number;
+  /** From its beginning until the robot stood; `null`: it never did. */
+  stoppedAfterMs: number | null;
+  /** From its end until points came again; `null`: not within the run. */
+  resumedAfterMs: number | null;
+  /** What the page said of the link in the meantime. */
+  words: string[];
+}
+
+const STANDING = 0.01;
+
+export function describeOutages(
+  spans: readonly TimeSpan[],
+  robot: readonly { timeMs: number; speed: number; turn: number }[],
+  page: readonly PageSample[],
+  zeroMs: number,
+): Outage[] {
+  return spans.map(({ fromMs, toMs }) => {
+    const during = robot.filter(({ timeMs }) => timeMs >= fromMs && timeMs < toMs);
+    const stood = during.find(({ speed, turn }) => Math.abs(speed) < STANDING && Math.abs(turn) < STANDING);
+    let resumedMs: number | null = null;
+    for (let i = 1; i < page.length; i++) {
+      const [last, now] = [page[i - 1] as PageSample, page[i] as PageSample];
+      if (now.timeMs < toMs) continue;
+      // Sums begin anew with a new session.
+      const came =
+        now.packetsReceived - (now.packetsReceived < last.packetsReceived ? 0 : last.packetsReceived);
+      if (came > 0 && now.session === 'live') {
+        resumedMs = now.timeMs;
+        break;
+      }
+    }
+    return {
+      startS: round((fromMs - zeroMs) / 1000),
+      endS: round((toMs - zeroMs) / 1000),
+      stoppedAfterMs: stood === undefined ? null : Math.round(stood.timeMs - fromMs),
+      resumedAfterMs: resumedMs === null ? null : Math.round(resumedMs - toMs),
+      words: [
+        ...new Set(page.filter(({ timeMs }) => timeMs >= fromMs && timeMs < toMs).map(({ link }) => link)),
+      ],
+    };
+  });
+}
+
+/** Growth of sums that may begin anew. */
+export function grown(values: readonly number[]): number {
+  let sum = 0;
+  for (let i = 1; i < values.length; i++) {
+    const [last, now] = [values[i - 1] as number, values[i] as number];
+    sum += now >= last ? now - last : now;
+  }
+  return sum;
+}
+
+export function isWithin(spans: readonly TimeSpan[], fromMs: number, toMs: number): boolean {
+  return spans.some((span) => fromMs < span.toMs && toMs > span.fromMs);
+}
+
+function round(value: number): number {
+  return Number(value.toFixed(1));
+}

@@ -1,0 +1,109 @@
+/** Drives one robot through the emulated link and writes down what happens. */
+import { readFileSync } from 'node:fs';
+import type { Page } from '@playwright/test';
+import type { LinkBin, PageSample, RobotSample } from './link-analysis.ts';
+
+export interface LatencySample {
+  /** When the operator acted, on the robot's clock, ms. */
+  timeMs: number;
+  /** `null`: no answer came. */
+  mtpMs: number | null;
+  firstMs: number | null;
+}
+
+export interface PageRun {
+  series: PageSample[];
+  latencies: LatencySample[];
+}
+
+/** The robot's and the link's clock: CLOCK_MONOTONIC. */
+export function monotonicMs(): number {
+  return Number(process.hrtime.bigint()) / 1e6;
+}
+
+/** What to add to the page's `performance.now()` for {@link monotonicMs}. Both are on this machine. */
+export async function clockOffsetOf(page: Page): Promise<number> {
+  let best = { tookMs: Number.POSITIVE_INFINITY, offset: 0 };
+  for (let i = 0; i < 10; i++) {
+    const before = monotonicMs();
+    const now = await page.evaluate(() => performance.now());
+    const after = monotonicMs();
+    if (after - before < best.tookMs) best = { tookMs: after - before, offset: (before + after) / 2 - now };
+  }
+  return best.offset;
+}
+
+/**
+ * Drives in circles and tests the latency again and again, at times unrelated to the camera's, for so long. A lost session
+ * is left to the page to mend.
+ */
+export async function drivePage(page: Page, seconds: number): Promise<PageRun> {
+  const offset = await clockOffsetOf(page);
+  const { series, latencies } = await page.evaluate(async (ms) => {
+    const { farpoint } = window;
+    const pause = (time: number) => new Promise((resolve) => setTimeout(resolve, time));
+    const end = performance.now() + ms;
+    const series: PageSample[] = [];
+    const latencies: LatencySample[] = [];
+    const timer = setInterval(() => {
+      const { packetsReceived, packetsLost, framesDrawn, pointsDrawn } = farpoint.stats();
+      const { session, link, holder } = farpoint.state();
+      series.push({
+        timeMs: performance.now(),
+        ...{ packetsReceived, packetsLost, framesDrawn, pointsDrawn, session, link },
+      });
+      if (session === 'live' && holder === 'nobody') farpoint.requestLease();
+    }, 100);
+    const driving = (async () => {
+      // Let go now and then: after a break the robot wants the grip to be held anew.
+      while (performance.now() < end) {
+        await farpoint.drive({ forward: 0.4, left: 0.5 }, 900);
+        await pause(100);
+      }
+    })();
+    for (let i = 0; performance.now() < end; i++) {
+      // The golden ratio's sequence falls evenly over the camera's period.
+      await pause(60 + ((i * 0.618034) % 1) * 80);
+      const timeMs = performance.now();
+      const result = await farpoint.latencyTest().catch(() => null);
+      if (result === null) await pause(100);
+      latencies.push({ timeMs, mtpMs: result?.mtpMs ?? null, firstMs: result?.firstMs ?? null });
+    }
+    await driving;
+    clearInterval(timer);
+    return { series, latencies };
+  }, seconds * 1000);
+  const shift = <T extends { timeMs: number }>(samples: readonly T[]) =>
+    samples.map((sample) => ({ ...sample, timeMs: sample.timeMs + offset }));
+  return { series: shift(series), latencies: shift(latencies) };
+}
+
+/** Lines of JSON; a last line that was cut off is left out. */
+export function readLines<T>(path: string): T[] {
+  const text = readFileSync(path, 'utf8');
+  return text
+    .slice(0, text.lastIndexOf('\n') + 1)
+    .split('\n')
+    .filter((line) => line !== '')
+    .map((line) => JSON.parse(line) as T);
+}
+
+export function readRobotSamples(path: string): RobotSample[] {
+  return readLines<RobotSample>(path);
+}
+
+/** From the robot to the operator, in one run of the link. */
+export function readUplink(path: string): LinkBin[] {
+  return readLines<LinkBin & { type: string; direction: string }>(path).filter(
+    ({ type, direction }) => type === 'bin' && direction === 'up',
+  );
+}
+
+/** Sums of a Prometheus counter by its label. */
+export async function scrape(url: string, name: string, label: string): Promise<Record<string, number>> {
+  const text = await (await fetch(`${url}/metrics`)).text();
+  const sums: Record<string, number> = {};
+  const line = new RegExp(`^${name}\\{[^}]*${label}="([^"]*)"[^}]*\\} (\\S+)$`, 'gm');
+  for (const [, value, number] of text.matchAll(line)) sums[value as string] = Number(number);
+  return sums;
+}

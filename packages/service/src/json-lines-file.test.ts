@@ -1,0 +1,27 @@
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { afterAll, describe, expect, it } from 'vitest';
+import { JsonLinesFile } from './json-lines-file.ts';
+
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-lines-'));
+afterAll(() => rmSync(folder, { recursive: true }));
+
+describe('JsonLinesFile', () => {
+  it('writes one object a line, all of them before it is closed', async () => {
+    const path = join(folder, 'a.jsonl');
+    const file = new JsonLinesFile(path, (error) => expect.unreachable(error.message));
+    for (let i = 0; i < 1000; i++) file.write({ i, text: 'ä\n' });
+    await file.close();
+    const lines = readFileSync(path, 'utf8').trimEnd().split('\n');
+    expect(lines.map((line) => JSON.parse(line).i)).toEqual([...Array(1000).keys()]);
+    expect(file.dropped).toBe(0);
+  });
+
+  it('tells of a file that cannot be written, and closes all the same', async () => {
+    const told = Promise.withResolvers<Error>();
+    const file = new JsonLinesFile(join(folder, 'none', 'a.jsonl'), told.resolve);
+    expect((await told.promise).message).toContain('ENOENT');
+    await file.close();
+  });
+});
