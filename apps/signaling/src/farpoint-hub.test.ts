@@ -298,6 +298,47 @@ describe('sessions', () => {
     ]);
   });
 
+  test('resumed: the robot is asked to restart ICE, also where the service has forgotten the session', () => {
+    const { session, operator, robot, hub } = setup();
+    const { r, o, handle } = session('r1');
+    const resume = { type: 'session.resume', session: handle, robotId: 'r1' };
+    const opened = { type: 'session.opened', session: handle, robotId: 'r1' };
+    const asked = { type: 'session.resume', session: handle, operator: 'Ada' };
+    o.send(resume);
+    expect([o.take(), r.take()]).toEqual([[opened], [asked]]);
+    // A newer socket of the same operator, while the old one is half-open.
+    const o2 = operator();
+    o2.take();
+    o2.send(resume);
+    expect([o2.take(), r.take()]).toEqual([[opened], [asked]]);
+    o.connection.closed();
+    expect(r.take()).toEqual([]);
+    // And one of the robot.
+    const r2 = robot('r1');
+    r2.take();
+    expect(o2.take()).toEqual([{ type: 'session.closed', session: handle, reason: 'robot-left' }]);
+    o2.send(resume);
+    expect([o2.take(), r2.take()]).toEqual([[opened], [asked]]);
+    expect(hub.counts.sessions).toBe(1);
+    r2.send({ type: 'session.offer', session: handle, sdp: 'v=0' });
+    expect(o2.types()).toEqual(['session.offer']);
+  });
+
+  test('cannot be resumed with another robot, or one that is not here', () => {
+    const { session, robot } = setup();
+    const { r, o, handle } = session('r1');
+    const other = robot('r2');
+    o.take();
+    other.take();
+    o.send({ type: 'session.resume', session: handle, robotId: 'r2' });
+    o.send({ type: 'session.resume', session: handle, robotId: 'nobody' });
+    expect(o.take().filter(({ type }) => type === 'error')).toMatchObject([
+      { code: 'unknown-session', session: handle },
+      { code: 'unknown-robot', session: handle },
+    ]);
+    expect([r.take(), other.take()]).toEqual([[], []]);
+  });
+
   test('with an unknown robot are refused', () => {
     const { operator } = setup();
     const o = operator();

@@ -178,6 +178,9 @@ export class FarpointHub {
       case 'session.open':
         this.#open(operator, message.robotId, refuse);
         return null;
+      case 'session.resume':
+        this.#resume(operator, message, refuse);
+        return null;
     }
     const session = this.#find(operator, message.session, refuse);
     if (session === null) return null;
@@ -212,6 +215,42 @@ export class FarpointHub {
     // The operator first: it must know the handle before an offer can come.
     toOperator(operator.peer, { type: 'session.opened', session: session.handle, robotId });
     toRobot(robot.peer, { type: 'session.request', session: session.handle, operator: operator.name });
+  }
+
+  /**
+   * Asks the robot to restart ICE in a session that its peers may still have, though this service may have forgotten it
+   * with an earlier socket of theirs. Who knows the handle may: it is unguessable, and without the keys of the peers'
+   * connection its messages cannot be read.
+   */
+  #resume(
+    operator: OperatorEntry,
+    { session: handle, robotId }: Extract<OperatorToService, { type: 'session.resume' }>,
+    refuse: Refuse,
+  ): void {
+    const robot = this.#registry.get(robotId);
+    if (robot === undefined) {
+      refuse('unknown-robot', `robot ${robotId} is not here`, { session: handle, fault: false });
+      return;
+    }
+    const known = this.#sessions.get(handle);
+    if (known !== null && known.robot.id !== robotId) {
+      refuse('unknown-session', 'not a session of yours', { session: handle, fault: false });
+      return;
+    }
+    if (known?.operator !== operator || known.robot !== robot) {
+      // The socket it was opened by may be half-open still, or gone.
+      if (known !== null) this.#end(known, 'operator-left');
+      if (this.#sessions.open(robot, operator, handle) === null) {
+        refuse('too-many-sessions', `no more sessions with robot ${robotId}: close one first`, {
+          session: handle,
+          fault: false,
+        });
+        return;
+      }
+      this.#options.observer.sessionOpened(handle, robot.id, operator.name);
+    }
+    toOperator(operator.peer, { type: 'session.opened', session: handle, robotId });
+    toRobot(robot.peer, { type: 'session.resume', session: handle, operator: operator.name });
   }
 
   #find(owner: RobotEntry | OperatorEntry, handle: string, refuse: Refuse): HubSession | null {

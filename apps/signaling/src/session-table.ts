@@ -17,7 +17,7 @@ export class SessionTable<Robot extends object, Operator extends object> {
   readonly #sessions = new Map<string, Session<Robot, Operator>>();
   readonly #byOwner = new Map<object, Set<Session<Robot, Operator>>>();
 
-  /** @param makeHandle must be unguessable: a handle is proof of nothing, but not worth handing out */
+  /** @param makeHandle must be unguessable: who knows a handle may resume its session */
   constructor(limits: SessionLimits, makeHandle: () => string) {
     this.#limits = limits;
     this.#makeHandle = makeHandle;
@@ -27,13 +27,16 @@ export class SessionTable<Robot extends object, Operator extends object> {
     return this.#sessions.size;
   }
 
-  /** @returns null where either side has as many sessions as it may have */
-  open(robot: Robot, operator: Operator): Session<Robot, Operator> | null {
+  /**
+   * @param handle of a session that its peers have and this table has forgotten
+   * @returns null where either side has as many sessions as it may have
+   */
+  open(robot: Robot, operator: Operator, handle = this.#makeHandle()): Session<Robot, Operator> | null {
     const full =
       this.#count(operator) >= this.#limits.maxSessionsPerOperator ||
       this.#count(robot) >= this.#limits.maxSessionsPerRobot;
     if (full) return null;
-    const session = { handle: this.#makeHandle(), robot, operator };
+    const session = { handle, robot, operator };
     this.#sessions.set(session.handle, session);
     this.#ownedBy(robot).add(session);
     this.#ownedBy(operator).add(session);
@@ -44,6 +47,11 @@ export class SessionTable<Robot extends object, Operator extends object> {
   find(handle: string, owner: Robot | Operator): Session<Robot, Operator> | null {
     const session = this.#sessions.get(handle);
     return session !== undefined && (session.robot === owner || session.operator === owner) ? session : null;
+  }
+
+  /** The session of this handle, whoever its sides are. */
+  get(handle: string): Session<Robot, Operator> | null {
+    return this.#sessions.get(handle) ?? null;
   }
 
   close(session: Session<Robot, Operator>): void {

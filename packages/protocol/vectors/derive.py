@@ -436,6 +436,7 @@ write("signaling-robot-to-service.json", m.lists())
 m = Messages()
 m_welcome = m.good({"type": "robot.welcome", "id": "sim-1", "iceServers": servers})
 m_request = m.good({"type": "session.request", "session": "s1", "operator": "Ada"})
+m_resume = m.good({"type": "session.resume", "session": "s1", "operator": "Ada"})
 for message in [session_answer, trickle, closed, error]:
     m.good(message)
 for reason in ["robot-left", "closed-by-operator", "closed-by-robot"]:
@@ -446,6 +447,7 @@ for code in ["malformed", "too-large", "rate-limited", "hello-first", "unauthori
 m.common(m_request, 65536)
 m.spoil(m_welcome, ("iceServers", ABSENT), ("iceServers.0.urls", 1), ("iceServers.1.password", "x", "iceServers.1"))
 m.spoil(m_request, ("operator", ""), ("session", None), ("type", "session.offer"))
+m.spoil(m_resume, ("operator", ABSENT), ("session", "../x"))
 m.spoil(closed, ("reason", "bored"))
 m.spoil(error, ("code", "oops"), ("message", "x" * 1025))
 write("signaling-service-to-robot.json", m.lists())
@@ -453,10 +455,12 @@ write("signaling-service-to-robot.json", m.lists())
 m = Messages()
 hello = m.good({"type": "operator.hello", "protocol": 1, "name": "Ada", "token": "secret"})
 m_open = m.good({"type": "session.open", "robotId": "sim-1"})
+m_resume = m.good({"type": "session.resume", "session": "s1", "robotId": "sim-1"})
 for message in [session_answer, trickle, close]:
     m.good(message)
 m.common(m_open, 65536)
 m.spoil(hello, ("protocol", "1"), ("name", ABSENT), ("token", 5))
+m.spoil(m_resume, ("robotId", ABSENT), ("session", ABSENT), ("session", "a b"))
 m.spoil(m_open, ("robotId", 0), ("robotId", "../x"), ("type", "session.offer"))
 write("signaling-operator-to-service.json", m.lists())
 

@@ -120,6 +120,8 @@ const serviceToRobot = z.discriminatedUnion('type', [
   }),
   /** An operator asks for a session: offer. */
   z.strictObject({ type: z.literal('session.request'), session: handleSchema, operator: displayNameSchema }),
+  /** The operator hears nothing in this session: offer an ICE restart, or close a session that you do not have. */
+  z.strictObject({ type: z.literal('session.resume'), session: handleSchema, operator: displayNameSchema }),
   sessionAnswer,
   sessionCandidate,
   sessionClosed,
@@ -135,6 +137,11 @@ const operatorToService = z.discriminatedUnion('type', [
     token: tokenSchema.optional(),
   }),
   z.strictObject({ type: z.literal('session.open'), robotId: robotIdSchema }),
+  /**
+   * For a session that has connected once: its path is silent. Also where the service has forgotten the session with an
+   * earlier socket of either side. Answered with `session.opened`; the robot offers an ICE restart.
+   */
+  z.strictObject({ type: z.literal('session.resume'), session: handleSchema, robotId: robotIdSchema }),
   sessionAnswer,
   sessionCandidate,
   sessionClose,
