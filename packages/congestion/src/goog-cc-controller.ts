@@ -21,12 +21,12 @@ const ROW = 5;
 /** Clocks begin here, µs: the controller does not like times near 0. */
 const EPOCH_US = 1e9;
 
-let memory: WebAssembly.Memory | null = null;
+let memory: { readonly buffer: ArrayBuffer } | null = null;
 
-function loadModule(): WebAssembly.Memory {
+function loadModule(): { readonly buffer: ArrayBuffer } {
   if (memory === null) {
     const file = new URL('../wasm/farpoint_bandwidth_estimator_bg.wasm', import.meta.url);
-    memory = initSync({ module: readFileSync(file) }).memory;
+    memory = initSync({ module: readFileSync(file) }).memory as { readonly buffer: ArrayBuffer };
   }
   return memory;
 }

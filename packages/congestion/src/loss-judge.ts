@@ -10,6 +10,9 @@ const DEVIATIONS = 3;
  * exceeds its base, the rate is cut to below what got through. Overload would end with that. If the loss stays as it was,
  * it is the link's own: the base rises to it, and the rate is given back.
  */
+/** `excess`: cut to below what got through; `innocent`: the cut changed nothing; `guilty`: it ended the loss. */
+export type LossVerdict = 'none' | 'excess' | 'innocent' | 'guilty';
+
 export class LossJudge {
   /** Loss that no lower rate has cured, 0–1. */
   base = 0;
@@ -30,12 +33,7 @@ export class LossJudge {
    * @param oldestSentMs when the first packet of the message left
    * @returns `excess`: cut to below the delivered rate, now; `innocent`: the cut changed nothing, take it back
    */
-  onFeedback(
-    received: number,
-    lost: number,
-    oldestSentMs: number,
-    nowMs: number,
-  ): 'none' | 'excess' | 'innocent' | 'guilty' {
+  onFeedback(received: number, lost: number, oldestSentMs: number, nowMs: number): LossVerdict {
     if (this.onTrial && oldestSentMs < this.#trialFromMs) return 'none';
     if (Number.isNaN(this.#sinceMs)) this.#sinceMs = nowMs - 60;
     this.#received += received;

@@ -29,7 +29,7 @@ const RECENT_MS = 20;
 const END_PACKETS = 4;
 const RECENT_PACKETS = 8;
 const MESSAGES = 32;
-const NOISE_CLAMP_MS = 12;
+const NOISE_CLAMP_MS = 16;
 
 /** Turns feedback into queueing delay, arrival rate, loss and round trip. Knows nothing of what follows from them. */
 export class PathObserver {
@@ -58,8 +58,13 @@ export class PathObserver {
   #newestSequence = -1;
   #lastQueueMs = 0;
   #changes = 0;
-  /** How much the delay jumps about between messages, ms. */
-  noiseMs = 1;
+  #lastChange = 0;
+  #opposed = 0;
+  /**
+   * Standard deviation of the delay's noise between messages, ms. Noise shows as changes that are followed by opposite
+   * ones (of independent samples, half the variance of the changes); a queue grows or shrinks for several messages.
+   */
+  noiseMs = 0;
   /** Smoothed time between feedback messages, ms. */
   feedbackIntervalMs = 60;
   /** How often the receiver's clock was found to have jumped. */
@@ -71,10 +76,9 @@ export class PathObserver {
     return value < Number.POSITIVE_INFINITY ? value : 100;
   }
 
-  /** The delay seen is the path's own now, not a queue's. */
-  rebase(): void {
-    this.#baseDelay.reset();
-    this.#baseRtt.reset();
+  /** What arrived before says nothing about the rate now, as after an outage. */
+  forgetRates(): void {
+    this.#newestSequence = -1;
   }
 
   /** @returns false where no packet of the message arrived: then only the loss is news */
@@ -132,7 +136,6 @@ export class PathObserver {
     for (let i = Math.max(0, n - END_PACKETS); i < n; i++)
       endDelay = Math.min(endDelay, this.#delays[i] as number);
     const all = this.#delays.subarray(0, n).sort();
-    const least = all[0] as number;
     const queuedAtMost = Math.max(rttMs - this.baseRttMs, 0);
     if (endDelay - this.#baseDelay.value > queuedAtMost + CLOCK_JUMP_MS) {
       this.clockJumps++;
@@ -141,12 +144,15 @@ export class PathObserver {
       this.#messages = 0;
       return false;
     }
-    this.#baseDelay.add(least, nowMs);
+    this.#baseDelay.add(all[Math.floor(n / 10)] as number, nowMs);
     const base = this.#baseDelay.value;
     o.queueMs = (all[Math.floor(n / 10)] as number) - base;
-    const change = Math.min(Math.abs(o.queueMs - this.#lastQueueMs), NOISE_CLAMP_MS);
+    const change = Math.min(Math.max(o.queueMs - this.#lastQueueMs, -NOISE_CLAMP_MS), NOISE_CLAMP_MS);
     this.#changes++;
-    this.noiseMs += (change - this.noiseMs) * Math.max(0.03, 1 / (this.#changes + 3));
+    const gain = Math.max(0.03, 1 / (this.#changes + 3));
+    this.#opposed += (-change * this.#lastChange - this.#opposed) * gain;
+    this.noiseMs = Math.sqrt(Math.max(this.#opposed, 0));
+    this.#lastChange = change;
     this.#lastQueueMs = o.queueMs;
     o.queueEndMs = endDelay - base;
     return true;
@@ -165,8 +171,7 @@ export class PathObserver {
     let spanMs = 0;
     for (
       let back = 0;
-      back + 1 < Math.min(this.#messages, MESSAGES) &&
-      spanMs < RATE_WINDOW_MS + 20 * Math.max(this.noiseMs - 2, 0);
+      back + 1 < Math.min(this.#messages, MESSAGES) && spanMs < RATE_WINDOW_MS + 20 * this.noiseMs;
       back++
     ) {
       bytes += this.#bytes[(this.#messages - 1 - back) % MESSAGES] as number;

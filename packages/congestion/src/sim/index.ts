@@ -6,4 +6,5 @@ export * from './measures.ts';
 export * from './media-flow.ts';
 export * from './path.ts';
 export * from './random.ts';
+export * as rfc8867 from './rfc8867.ts';
 export * from './scenario.ts';

@@ -58,6 +58,7 @@ export class MediaFlow {
   readonly #startMs: number;
   readonly #stopMs: number;
   #sequence = 0;
+  #budgetBytes = 0;
   #wakeMs = Number.POSITIVE_INFINITY;
   #probeCluster = 0;
   #probeBytesLeft = 0;
@@ -99,9 +100,11 @@ export class MediaFlow {
     const target = this.#controller.decision(now).targetBitsPerSecond;
     const most = this.#options.maxFrameBytes ?? Number.POSITIVE_INFINITY;
     const bytes = Math.min((target * FRAME_MS) / 8000, most);
-    const packets = Math.floor(bytes / PACKET_BYTES);
-    if (packets === 0 && this.#random() * PACKET_BYTES > bytes) return;
-    const count = Math.max(packets, 1);
+    // Whole packets; what is over goes to the next frame, as a planner in points would have it.
+    this.#budgetBytes = Math.min(this.#budgetBytes + bytes, bytes + PACKET_BYTES);
+    const count = Math.floor(this.#budgetBytes / PACKET_BYTES);
+    this.#budgetBytes -= count * PACKET_BYTES;
+    if (count === 0) return;
     this.#pacer.enqueue({ packets: count, bytes: count * PACKET_BYTES, createdMs: now }, now);
     this.#pump();
   }

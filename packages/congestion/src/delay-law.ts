@@ -1,0 +1,74 @@
+import type { PathObservation } from './path-observer.ts';
+
+const PACKET_BITS = 10_000;
+/** Of what got through while the queue stood, the part that is planned for. */
+const KEEP = 0.96;
+/** A standing queue should be gone after this time, ms; at most this part of the rate is held back for it. */
+const DRAIN_MS = 150;
+const DRAIN_MOST = 0.6;
+/** Noise from which on one message is no proof, ms. */
+const NOISY_MS = 2;
+
+/**
+ * Queueing delay that is tolerated, ms. More at low rates: so the smaller one of two flows goes on growing when the larger
+ * one has to yield, and they come to the same rate.
+ */
+export function toleratedQueueMs(bitsPerSecond: number): number {
+  return Math.min(Math.max(8 * Math.cbrt(20e6 / bitsPerSecond), 6), 25) + packetMs(bitsPerSecond);
+}
+
+/** A packet's own time on a link of this rate, ms. */
+export function packetMs(bitsPerSecond: number): number {
+  return (PACKET_BITS * 1000) / bitsPerSecond;
+}
+
+/** How much of the delay may be noise, ms. */
+export function noiseAllowanceMs(noiseMs: number): number {
+  return 5 * Math.max(noiseMs - 1, 0);
+}
+
+/** Growth, bit/s per s: with the square root of the rate, so that a small flow gains on a large one; bounded for slow links. */
+export function growth(bitsPerSecond: number): number {
+  return Math.min(0.4e6 * Math.sqrt(bitsPerSecond / 1e6), 0.25 * bitsPerSecond);
+}
+
+/** How the delay reads: `over`, the queue is longer than tolerated; `clear`, it is (nearly) empty. */
+export type DelayReading = 'over' | 'between' | 'clear';
+
+/** Judges each message's delay, and says what is left of the estimate when it is over. */
+export class DelayLaw {
+  #overInRow = 0;
+
+  read(
+    o: Readonly<PathObservation>,
+    toleratedMs: number,
+    allowanceMs: number,
+    noiseMs: number,
+  ): DelayReading {
+    // The queue as most of the message saw it, unless it has gone meanwhile.
+    const queue = Math.min(o.queueMs, o.queueEndMs * 1.5 + 2);
+    this.#overInRow = queue > toleratedMs || o.queueEndMs > 1.5 * toleratedMs ? this.#overInRow + 1 : 0;
+    if (this.#overInRow >= (noiseMs > NOISY_MS ? 2 : 1) || o.queueEndMs > 2.5 * toleratedMs) return 'over';
+    return queue < (toleratedMs + allowanceMs) / 2 ? 'clear' : 'between';
+  }
+
+  /** While the queue stands, what arrives is the path's rate for us. */
+  estimateWhenOver(
+    o: Readonly<PathObservation>,
+    estimate: number,
+    toleratedMs: number,
+    noiseMs: number,
+  ): number {
+    const acked = o.ackedBitsPerSecond;
+    // A queue that has just shot up: the newest arrivals tell the new rate; but they are few.
+    const rate =
+      o.queueEndMs > 2 * toleratedMs ? Math.min(acked, Math.max(o.recentBitsPerSecond, 0.5 * acked)) : acked;
+    const floor = noiseMs > NOISY_MS && o.queueEndMs < 2.5 * toleratedMs ? 0.85 * estimate : 0;
+    return Math.min(estimate, Math.max(KEEP * rate, floor));
+  }
+
+  /** The part of the rate that is held back until the queue has gone. */
+  drain(o: Readonly<PathObservation>, allowanceMs: number): number {
+    return Math.min(Math.max(o.queueEndMs - allowanceMs - 2, 0) / DRAIN_MS, DRAIN_MOST);
+  }
+}

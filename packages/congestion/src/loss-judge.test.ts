@@ -1,0 +1,44 @@
+import { expect, test } from 'vitest';
+import { LossJudge, type LossVerdict } from './loss-judge.ts';
+
+/** Messages of 100 packets each 60 ms, `loss` of them lost, until a verdict. @returns it and the time after */
+function until(judge: LossJudge, loss: number, fromMs: number, wanted: LossVerdict): number {
+  for (let t = fromMs; t < fromMs + 5000; t += 60) {
+    const lost = Math.round(100 * loss);
+    if (judge.onFeedback(100 - lost, lost, t - 60, t) === wanted) return t;
+  }
+  throw new Error(`no verdict '${wanted}'`);
+}
+
+test('loss that a lower rate ends was overload', () => {
+  const judge = new LossJudge();
+  const cut = until(judge, 0.1, 1000, 'excess');
+  judge.cutAt(cut);
+  expect(judge.onTrial).toBe(true);
+  until(judge, 0, cut, 'guilty');
+  expect(judge.base).toBe(0);
+});
+
+test('loss that stays is the link’s own, and no reason any more', () => {
+  const judge = new LossJudge();
+  const cut = until(judge, 0.2, 1000, 'excess');
+  judge.cutAt(cut);
+  const end = until(judge, 0.2, cut, 'innocent');
+  expect(judge.base).toBeCloseTo(0.2);
+  expect(() => until(judge, 0.2, end, 'excess')).toThrow();
+  // On top of it, overload is seen as before; a link that gets better is noticed.
+  until(judge, 0.3, end, 'excess');
+});
+
+test('packets from before the cut say nothing about it', () => {
+  const judge = new LossJudge();
+  judge.cutAt(until(judge, 0.1, 1000, 'excess') + 10_000);
+  expect(() => until(judge, 0.1, 1300, 'innocent')).toThrow();
+});
+
+test('less loss than the base lowers it', () => {
+  const judge = new LossJudge();
+  judge.base = 0.2;
+  for (let t = 0; t < 5000; t += 60) judge.onFeedback(100, 0, t - 60, t);
+  expect(judge.base).toBeLessThan(0.02);
+});

@@ -1,0 +1,64 @@
+import { expect, test } from 'vitest';
+import { PathObserver } from './path-observer.ts';
+import type { PacketResult } from './rate-controller.ts';
+
+/** Packets 1 ms apart, each delayed by what `delayMs` says of its time of sending. */
+function message(
+  from: number,
+  count: number,
+  delayMs: (sentMs: number) => number,
+): { results: PacketResult[]; nowMs: number } {
+  const results = Array.from({ length: count }, (_, i) => ({
+    transportSequence: (from + i) & 0xffff,
+    bytes: 1250,
+    sentMs: from + i,
+    arrivalUs: (from + i + delayMs(from + i)) * 1000,
+  }));
+  return { results, nowMs: from + count - 1 + Math.min(delayMs(from + count - 1), 200) + 20 };
+}
+
+function feed(path: PathObserver, from: number, to: number, delayMs: (sentMs: number) => number): void {
+  for (let at = from; at < to; at += 50) {
+    const { results, nowMs } = message(at, 50, delayMs);
+    path.onFeedback(results, nowMs);
+  }
+}
+
+test('queueing delay is what exceeds the least; the rate is what arrives', () => {
+  const path = new PathObserver();
+  feed(path, 0, 500, () => 20);
+  expect(path.observation.queueMs).toBeCloseTo(0);
+  expect(path.observation.ackedBitsPerSecond).toBeCloseTo(10e6, -5);
+  // The link takes 2 ms a packet from now on.
+  feed(path, 500, 600, (t) => 20 + (t - 500));
+  expect(path.observation.queueEndMs).toBeGreaterThan(90);
+  expect(path.observation.ackedBitsPerSecond).toBeCloseTo(5e6, -5);
+  expect(path.observation.recentBitsPerSecond).toBeCloseTo(5e6, -5);
+});
+
+test('a missing message does not look like a slower path', () => {
+  const path = new PathObserver();
+  feed(path, 0, 500, () => 20);
+  feed(path, 600, 650, () => 20);
+  expect(path.observation.ackedBitsPerSecond).toBeCloseTo(10e6, -5);
+});
+
+test('a clock that jumps is no queue', () => {
+  const path = new PathObserver();
+  feed(path, 0, 500, () => 20);
+  const { results } = message(500, 50, () => 520);
+  expect(path.onFeedback(results, 590)).toBe(false);
+  expect(path.clockJumps).toBe(1);
+  const next = message(550, 50, () => 520).results;
+  expect(path.onFeedback(next, 640)).toBe(true);
+  expect(path.observation.queueMs).toBeLessThan(15);
+});
+
+test('delay that changes to and fro is noise, delay that grows is not', () => {
+  const noisy = new PathObserver();
+  feed(noisy, 0, 3000, (t) => 20 + (Math.floor(t / 50) % 2) * 10);
+  const growing = new PathObserver();
+  feed(growing, 0, 3000, (t) => 20 + t / 20);
+  expect(noisy.noiseMs).toBeGreaterThan(5);
+  expect(growing.noiseMs).toBeLessThan(1);
+});

@@ -1,0 +1,80 @@
+import type { ProbeOutcome } from './probe-tester.ts';
+
+/** Lengths of a train: in time, and at the least in bytes. */
+const TRAIN_MS = 15;
+const TRAIN_BYTES = 7500;
+/** More for each ms of the path's noise, ms. */
+const TRAIN_PER_NOISE = 4;
+const LEAST_WAIT_MS = 250;
+const MOST_WAIT_MS = 1400;
+/** Where the source does not use what it has, more is no news. */
+const IDLE_WAIT_MS = 5000;
+const FACTOR = 1.5;
+const FACTOR_AT_START = 3;
+const FACTOR_AFTER_SUCCESS = 2;
+/** A train that arrives at this part of the rate it was sent at has found no limit. */
+const UNLIMITED = 0.9;
+const UNLIMITED_IN_NOISE = 0.75;
+/** Noise that spoils the measurement, ms. */
+const NOISY_MS = 2;
+
+/** When to try a higher rate and how high; what follows from the outcome. */
+export class ProbePlan {
+  #factor = FACTOR_AT_START;
+  #waitMs = LEAST_WAIT_MS;
+  #lastMs = Number.NEGATIVE_INFINITY;
+  #failures = 0;
+  /** Looking for a rate that is wholly unknown. */
+  searching = true;
+
+  restart(): void {
+    this.searching = true;
+    this.#factor = FACTOR_AT_START;
+    this.#failures = 0;
+  }
+
+  /** The path turned out to be full. */
+  onOveruse(): void {
+    this.searching = false;
+    this.#factor = FACTOR;
+  }
+
+  /** @returns whether it is time for a train */
+  isDue(sinceOveruseMs: number, idle: boolean, nowMs: number): boolean {
+    const waitMs = this.searching ? 0 : idle ? IDLE_WAIT_MS : this.#waitMs;
+    return nowMs - this.#lastMs >= waitMs && sinceOveruseMs >= Math.max(waitMs, LEAST_WAIT_MS);
+  }
+
+  /** @returns the rate of the next train, bit/s */
+  rate(estimate: number, mostBitsPerSecond: number): number {
+    return Math.min(this.#factor * estimate, 1.1 * mostBitsPerSecond);
+  }
+
+  bytes(rate: number, noiseMs: number): number {
+    return Math.max((rate * (TRAIN_MS + TRAIN_PER_NOISE * noiseMs)) / 8000, TRAIN_BYTES);
+  }
+
+  onAsked(nowMs: number): void {
+    this.#lastMs = nowMs;
+  }
+
+  /** @returns the new estimate, never lower */
+  onOutcome(outcome: Readonly<ProbeOutcome>, estimate: number, noiseMs: number, nowMs: number): number {
+    const { sentBitsPerSecond: sent, arrivedBitsPerSecond: arrived } = outcome;
+    const noisy = noiseMs > NOISY_MS;
+    if (arrived >= (noisy ? UNLIMITED_IN_NOISE : UNLIMITED) * sent) {
+      this.#failures = 0;
+      this.#factor = this.searching ? FACTOR_AT_START : FACTOR_AFTER_SUCCESS;
+      this.#waitMs = 0;
+      return Math.max(estimate, 0.95 * Math.min(sent, arrived));
+    }
+    // The train was spread: it arrived at the link's rate, or at its own share of it where others send as well.
+    const gain = (this.searching ? 1 : 0.6) * (0.93 * arrived - estimate);
+    this.#waitMs = Math.min(Math.max(2 * this.#waitMs, LEAST_WAIT_MS), MOST_WAIT_MS);
+    if (gain > 0.15 * estimate) this.#waitMs = LEAST_WAIT_MS;
+    this.#factor = FACTOR;
+    if (++this.#failures >= (noisy ? 3 : 1)) this.searching = false;
+    this.#lastMs = nowMs;
+    return estimate + Math.max(gain, 0);
+  }
+}
