@@ -9,6 +9,20 @@ export interface LatencySample {
   /** `null`: no answer came. */
   mtpMs: number | null;
   firstMs: number | null;
+  /** Where it went, ms; `null` where the robot's part is not known. */
+  parts: LatencyParts | null;
+}
+
+/** The parts of motion-to-photon, ms. */
+export interface LatencyParts {
+  /** From the input event to the robot. */
+  command: number;
+  /** Until the camera's next picture. */
+  captureWait: number;
+  /** Picture, sampling, packing, sending and the link, to the last packet's arrival. */
+  delivery: number;
+  /** To the end of the display frame. */
+  display: number;
 }
 
 export interface PageRun {
@@ -44,7 +58,7 @@ export async function drivePage(page: Page, seconds: number): Promise<PageRun> {
     const pause = (time: number) => new Promise((resolve) => setTimeout(resolve, time));
     const end = performance.now() + ms;
     const series: PageSample[] = [];
-    const latencies: LatencySample[] = [];
+    const latencies: PageLatency[] = [];
     const timer = setInterval(() => {
       const { packetsReceived, packetsLost, framesDrawn, pointsDrawn } = farpoint.stats();
       const { session, link, holder } = farpoint.state();
@@ -67,7 +81,13 @@ export async function drivePage(page: Page, seconds: number): Promise<PageRun> {
       const timeMs = performance.now();
       const result = await farpoint.latencyTest().catch(() => null);
       if (result === null) await pause(100);
-      latencies.push({ timeMs, mtpMs: result?.mtpMs ?? null, firstMs: result?.firstMs ?? null });
+      latencies.push({
+        timeMs,
+        mtpMs: result?.mtpMs ?? null,
+        firstMs: result?.firstMs ?? null,
+        arrivedMs: result?.arrivedMs ?? 0,
+        robot: result?.robot ?? null,
+      });
     }
     await driving;
     clearInterval(timer);
@@ -75,7 +95,29 @@ export async function drivePage(page: Page, seconds: number): Promise<PageRun> {
   }, seconds * 1000);
   const shift = <T extends { timeMs: number }>(samples: readonly T[]) =>
     samples.map((sample) => ({ ...sample, timeMs: sample.timeMs + offset }));
-  return { series: shift(series), latencies: shift(latencies) };
+  return {
+    series: shift(series),
+    latencies: shift(latencies).map(({ timeMs, mtpMs, firstMs, arrivedMs, robot }) => ({
+      ...{ timeMs, mtpMs, firstMs },
+      parts:
+        mtpMs === null || robot === null
+          ? null
+          : {
+              command: robot.commandMs - timeMs,
+              captureWait: robot.captureMs - robot.commandMs,
+              delivery: timeMs + arrivedMs - robot.captureMs,
+              display: mtpMs - arrivedMs,
+            },
+    })),
+  };
+}
+
+interface PageLatency {
+  timeMs: number;
+  mtpMs: number | null;
+  firstMs: number | null;
+  arrivedMs: number;
+  robot: { commandMs: number; captureMs: number } | null;
 }
 
 /** Lines of JSON; a last line that was cut off is left out. */

@@ -17,7 +17,14 @@ import {
   utilisationOf,
 } from './link-analysis.ts';
 import { plotLink } from './link-plot.ts';
-import { drivePage, monotonicMs, readRobotSamples, readUplink, scrape } from './link-run.ts';
+import {
+  drivePage,
+  type LatencyParts,
+  monotonicMs,
+  readRobotSamples,
+  readUplink,
+  scrape,
+} from './link-run.ts';
 import { startLiveStack } from './live-stack.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
@@ -180,6 +187,14 @@ export const bench: Bench = {
       const allBytes = robotFiles.reduce((sum, file) => sum + bytesOf(file), 0);
 
       const mtpMs = rounded(distribution(answered.map(({ mtpMs }) => mtpMs as number)), 1);
+      const partOf = (name: keyof LatencyParts) =>
+        rounded(distribution(answered.flatMap(({ parts }) => (parts === null ? [] : [parts[name]]))), 1);
+      const parts = {
+        command: partOf('command'),
+        captureWait: partOf('captureWait'),
+        delivery: partOf('delivery'),
+        display: partOf('display'),
+      };
       const mtpFirstMs = rounded(distribution(answered.map(({ firstMs }) => firstMs as number)), 1);
       const result = {
         bench: 'link',
@@ -195,6 +210,7 @@ export const bench: Bench = {
         utilisation: Number(utilisationOf(served).toFixed(3)),
         mtpMs,
         mtpFirstMs,
+        mtpPartsMs: parts,
         samples: answered.length,
         unanswered: tests.length - answered.length,
         frameLatencyMs: statistics.frameLatencyMs,
@@ -233,6 +249,10 @@ export const bench: Bench = {
         ['', 'p50', 'p95', 'p99', 'max'],
         [
           ['motion to whole cloud, ms', ...distributionCells(mtpMs)],
+          ['  command to the robot', ...distributionCells(parts.command)],
+          ['  wait for the camera', ...distributionCells(parts.captureWait)],
+          ['  capture to last arrival', ...distributionCells(parts.delivery)],
+          ['  arrival to photon', ...distributionCells(parts.display)],
           ['motion to first points, ms', ...distributionCells(mtpFirstMs)],
           ['queue of the link, ms', ...distributionCells(result.queueMs)],
           ...(statistics.frameLatencyMs === null

@@ -15,7 +15,7 @@ declare const self: DedicatedWorkerGlobalScope & {
 };
 
 /** A burst that has begun is handed over after so long at the latest, ms; a frame's last packet does not wait. */
-const FLUSH_AFTER_MS = 1;
+const FLUSH_AFTER_MS = 4;
 /** With so many batches undrawn the page is slower than we are: fill buffers before handing over. */
 const BATCHES_AHEAD = 6;
 const MAX_BATCHES = 48;

@@ -85,6 +85,7 @@ export class LatencyProbe {
       batch.frameNumber(packet),
       batch.pointsOf(packet),
       batch.frameLength(packet) / 8,
+      batch.receivedMs(packet) - performance.timeOrigin,
     );
   }
 

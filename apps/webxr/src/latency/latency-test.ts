@@ -9,6 +9,8 @@ export interface LatencyResult {
   mtpMs: number;
   /** … with its first points. */
   firstMs: number;
+  /** Input event to the arrival of the last green packet, ms. */
+  arrivedMs: number;
   /** Green points drawn, and in the whole frame. */
   points: number;
   totalPoints: number;
@@ -29,6 +31,7 @@ interface Running {
   points: number;
   totalPoints: number;
   firstMs: number | null;
+  arrivedMs: number;
   /** Uploaded for the display frame that is being drawn. */
   fresh: boolean;
   /** No more of the frame will come. */
@@ -53,6 +56,7 @@ export class LatencyTest {
       points: 0,
       totalPoints: 0,
       firstMs: null,
+      arrivedMs: 0,
       fresh: false,
       complete: false,
     };
@@ -64,8 +68,14 @@ export class LatencyTest {
     this.#running = null;
   }
 
-  /** A packet's points were uploaded for the display frame being prepared. */
-  onPacket(isLatencyTest: boolean, frameNumber: number, points: number, totalPoints: number): void {
+  /** A packet's points, which arrived at `receivedMs`, were uploaded for the display frame being prepared. */
+  onPacket(
+    isLatencyTest: boolean,
+    frameNumber: number,
+    points: number,
+    totalPoints: number,
+    receivedMs: number,
+  ): void {
     const test = this.#running;
     if (test === null || test.complete) return;
     if (!isLatencyTest) {
@@ -79,6 +89,7 @@ export class LatencyTest {
     }
     if (frameNumber !== test.frameNumber) return;
     test.points += points;
+    test.arrivedMs = Math.max(test.arrivedMs, receivedMs - test.startedMs);
     test.fresh = true;
     if (test.points >= totalPoints) test.complete = true;
   }
@@ -111,6 +122,7 @@ export class LatencyTest {
       id: test.id,
       mtpMs: endMs - test.startedMs,
       firstMs: test.firstMs,
+      arrivedMs: test.arrivedMs,
       points: test.points,
       totalPoints: test.totalPoints,
       frameNumber: test.frameNumber,

@@ -7,17 +7,18 @@ describe('LatencyTest', () => {
   test('first points and whole cloud are timed apart', () => {
     const latency = new LatencyTest();
     expect(latency.start(1000)).toBe(1);
-    latency.onPacket(false, 5, 150, 300);
+    latency.onPacket(false, 5, 150, 300, 0);
     expect(latency.wantsTime).toBe(false);
-    latency.onPacket(true, 6, 150, 300);
+    latency.onPacket(true, 6, 150, 300, 1030);
     expect(latency.wantsTime).toBe(true);
     expect(latency.onDrawn(1040)).toBe(null);
     expect(latency.wantsTime).toBe(false);
-    latency.onPacket(true, 6, 150, 300);
+    latency.onPacket(true, 6, 150, 300, 1048);
     expect(latency.onDrawn(1056)).toEqual({
       id: 1,
       firstMs: 40,
       mtpMs: 56,
+      arrivedMs: 48,
       points: 300,
       totalPoints: 300,
       frameNumber: 6,
@@ -28,42 +29,42 @@ describe('LatencyTest', () => {
   test('lost packets: the last green points that came count, once the next frame begins', () => {
     const latency = new LatencyTest();
     latency.start(0);
-    latency.onPacket(true, 6, 150, 450);
+    latency.onPacket(true, 6, 150, 450, 0);
     latency.onDrawn(30);
-    latency.onPacket(true, 6, 150, 450);
+    latency.onPacket(true, 6, 150, 450, 0);
     latency.onDrawn(46);
     latency.onDrawn(62);
-    latency.onPacket(false, 7, 150, 450);
+    latency.onPacket(false, 7, 150, 450, 0);
     expect(latency.onDrawn(78)).toMatchObject({ firstMs: 30, mtpMs: 46, points: 300, totalPoints: 450 });
   });
 
   test('lost packets, and the next frame begins in the same display frame', () => {
     const latency = new LatencyTest();
     latency.start(0);
-    latency.onPacket(true, 6, 150, 450);
-    latency.onPacket(false, 7, 150, 450);
+    latency.onPacket(true, 6, 150, 450, 0);
+    latency.onPacket(false, 7, 150, 450, 0);
     expect(latency.onDrawn(30)).toMatchObject({ firstMs: 30, mtpMs: 30, points: 150 });
   });
 
   test('a late packet of the frame before does not end it, a second green frame does not count', () => {
     const latency = new LatencyTest();
     latency.start(0);
-    latency.onPacket(true, 0, 150, 300);
-    latency.onPacket(false, 0xffffffff, 150, 300);
+    latency.onPacket(true, 0, 150, 300, 0);
+    latency.onPacket(false, 0xffffffff, 150, 300, 0);
     expect(latency.onDrawn(20)).toBe(null);
-    latency.onPacket(true, 1, 150, 300);
+    latency.onPacket(true, 1, 150, 300, 0);
     expect(latency.onDrawn(30)).toBe(null);
-    latency.onPacket(true, 0, 150, 300);
+    latency.onPacket(true, 0, 150, 300, 0);
     expect(latency.onDrawn(40)).toMatchObject({ points: 300, mtpMs: 40 });
   });
 
   test('without a test nothing wants a time', () => {
     const latency = new LatencyTest();
-    latency.onPacket(true, 6, 150, 150);
+    latency.onPacket(true, 6, 150, 150, 0);
     expect(latency.wantsTime).toBe(false);
     latency.start(0);
     latency.cancel();
-    latency.onPacket(true, 7, 150, 150);
+    latency.onPacket(true, 7, 150, 150, 0);
     expect(latency.onDrawn(10)).toBe(null);
   });
 });
