@@ -155,8 +155,8 @@ export class App implements PageParts {
     if (!this.vr.active && this.#completion.busy) return;
     const began = performance.now();
     this.cloud.update();
-    if (!this.vr.active && !this.#gate.mayDraw(this.cloud.wholeFrame, began)) return;
-    this.#gate.onDraw(this.cloud.wholeFrame, began);
+    if (!this.vr.active && !this.#gate.mayDraw(this.cloud.window.endedFrame, began)) return;
+    this.#gate.onDraw(this.cloud.window.endedFrame, began);
     const { renderer, scene, camera } = this.stage;
     if (this.vr.active) this.inputs.readHeadset(this.vr.inputSources);
     const stale = (began - this.lastPointsMs - STALE_AFTER_MS) / STALE_FADE_MS;

@@ -31,9 +31,6 @@ export class CloudView {
   frames = 0;
   packets = 0;
   points = 0;
-  /** The newest frame of which every point has come, in this session; `null` before the first. */
-  wholeFrame: number | null = null;
-  #newestArrived = 0;
   readonly #ring: PointRing;
   readonly #geometry = new BufferGeometry();
   readonly #uniforms: ReturnType<typeof createPointMaterial>['uniforms'];
@@ -95,7 +92,6 @@ export class CloudView {
     for (const batch of this.#waiting) this.#events.onDone(batch.buffer);
     this.#waiting.length = 0;
     this.window.reset();
-    this.wholeFrame = null;
     this.object.visible = false;
     for (const reason of Object.keys(this.drops)) delete this.drops[reason as keyof DropCounts];
     this.frames = 0;
@@ -161,10 +157,6 @@ export class CloudView {
         count += points;
         this.packets++;
         this.points += points;
-        if (frame === window.newestFrame) {
-          this.#newestArrived += points;
-          if (this.#newestArrived >= window.newestTotal) this.wholeFrame = frame;
-        }
         this.#events.onPacket(batch, packet);
       } else {
         countDrop(this.drops, drop);
@@ -180,7 +172,6 @@ export class CloudView {
 
   #beginFrame(batch: Batch, packet: number): void {
     this.frames++;
-    this.#newestArrived = 0;
     this.imageExtent = batch.imageExtent(packet);
     const slot = this.window.newestSlot;
     this.#uniforms.framePosition.value[slot]!.set(

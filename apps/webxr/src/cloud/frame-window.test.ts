@@ -46,6 +46,21 @@ class Ring {
 }
 
 describe('FrameWindow', () => {
+  test('a frame has ended with its last packet, or when the next one begins, whatever was lost', () => {
+    const ring = new Ring(64);
+    expect(ring.window.endedFrame).toBe(null);
+    ring.take(7, 3, 0);
+    expect(ring.window.endedFrame).toBe(null);
+    ring.take(7, 3, 2);
+    expect(ring.window.endedFrame).toBe(7);
+    ring.take(8, 3, 0);
+    expect(ring.window.endedFrame).toBe(7);
+    ring.take(9, 3, 0);
+    expect(ring.window.endedFrame).toBe(8);
+    ring.take(9, 3, 2);
+    expect(ring.window.endedFrame).toBe(9);
+  });
+
   test('a frame that trickles in replaces the previous one place by place', () => {
     const ring = new Ring(64);
     for (let i = 0; i < 4; i++) ring.take(0, 4, i);

@@ -69,6 +69,14 @@ export class FrameWindow {
     this.maxCapacity = maxCapacity;
   }
 
+  /**
+   * The newest frame of which no more is waited for: its last packet has come, or a newer frame has overtaken it. Some of
+   * its packets may be lost.
+   */
+  get endedFrame(): number | null {
+    return this.progress >= 1 ? this.newestFrame : this.previousFrame;
+  }
+
   /** Forgets everything: a new session's frame numbers begin anew. */
   reset(): void {
     this.head = 0;

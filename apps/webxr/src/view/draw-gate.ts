@@ -14,21 +14,21 @@ const SMOOTHING = 0.2;
 export class DrawGate {
   #costMs = 0;
   #lastDrawMs = Number.NEGATIVE_INFINITY;
-  #lastWhole: number | null = null;
+  #lastEnded: number | null = null;
 
   /**
-   * @param wholeFrame the newest frame of the robot whose points are all here; `null` where there is none
+   * @param endedFrame the newest frame of the robot of which no more is waited for; `null` where there is none
    * @returns whether to draw now
    */
-  mayDraw(wholeFrame: number | null, nowMs: number): boolean {
+  mayDraw(endedFrame: number | null, nowMs: number): boolean {
     return (
-      this.#costMs < CHEAP_MS || wholeFrame !== this.#lastWhole || nowMs - this.#lastDrawMs >= MAX_HOLD_MS
+      this.#costMs < CHEAP_MS || endedFrame !== this.#lastEnded || nowMs - this.#lastDrawMs >= MAX_HOLD_MS
     );
   }
 
   /** A picture was begun. */
-  onDraw(wholeFrame: number | null, nowMs: number): void {
-    this.#lastWhole = wholeFrame;
+  onDraw(endedFrame: number | null, nowMs: number): void {
+    this.#lastEnded = endedFrame;
     this.#lastDrawMs = nowMs;
   }
 
