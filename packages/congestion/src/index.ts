@@ -4,6 +4,7 @@ export * from './fixed-rate-controller.ts';
 export * from './pacer.ts';
 export * from './rate-controller.ts';
 export * from './rate-meter.ts';
+export * from './reconnect.ts';
 export * from './rtcp.ts';
 export * from './sent-packet-history.ts';
 export * from './token-bucket.ts';

@@ -18,6 +18,8 @@ export interface BottleneckOptions {
   capacity: readonly CapacityStep[];
   /** Drop-tail: what finds this many bytes waiting is dropped. */
   queueBytes: number;
+  /** In place of that: so many ms of the capacity of the moment, and at least two packets. */
+  queueMs?: number;
   /** Packets that are lost behind the queue whatever its length, 0–1. */
   loss?: number;
   burstLoss?: BurstLoss;
@@ -27,11 +29,14 @@ export interface BottleneckOptions {
 export class Bottleneck {
   readonly #steps: readonly CapacityStep[];
   readonly #queueBytes: number;
+  readonly #queueMs: number | null;
+  #limitBytes = 3000;
   readonly #loss: number;
   readonly #burst: BurstLoss | null;
   readonly #random: Random;
   #bad = false;
   #step = 0;
+  #limitStep = 0;
   /** When what has entered will have left. */
   #busyUntilMs = 0;
   /** Waiting packets: when each leaves and its size, as rings. */
@@ -45,6 +50,7 @@ export class Bottleneck {
   constructor(options: BottleneckOptions, random: Random) {
     this.#steps = options.capacity;
     this.#queueBytes = options.queueBytes;
+    this.#queueMs = options.queueMs ?? null;
     this.#loss = options.loss ?? 0;
     this.#burst = options.burstLoss ?? null;
     this.#random = random;
@@ -65,7 +71,7 @@ export class Bottleneck {
       this.#sizes.splice(0, this.#head);
       this.#head = 0;
     }
-    if (this.#waitingBytes + bytes > this.#queueBytes) {
+    if (this.#waitingBytes + bytes > this.#limit(nowMs)) {
       this.overflows++;
       return -1;
     }
@@ -85,6 +91,16 @@ export class Bottleneck {
       if (this.#bad && this.#random() < burst.lossInBad) return true;
     }
     return this.#loss > 0 && this.#random() < this.#loss;
+  }
+
+  #limit(nowMs: number): number {
+    if (this.#queueMs === null) return this.#queueBytes;
+    while (this.#limitStep + 1 < this.#steps.length && this.#stepAt(this.#limitStep + 1).fromMs <= nowMs)
+      this.#limitStep++;
+    const { bitsPerSecond } = this.#stepAt(this.#limitStep);
+    // While the link stands still the queue keeps the size it had.
+    if (bitsPerSecond > 0) this.#limitBytes = Math.max((bitsPerSecond * this.#queueMs) / 8000, 3000);
+    return this.#limitBytes;
   }
 
   /** When `bits` that begin at `fromMs` are through. */

@@ -31,6 +31,8 @@ export interface Scenario {
   rttMs: number;
   /** Drop-tail, ms at the first capacity; or in bytes. */
   queueMs?: number;
+  /** The queue's ms are reckoned at the capacity of the moment. */
+  queueFollows?: boolean;
   queueBytes?: number;
   loss?: number;
   burstLoss?: BurstLoss;
@@ -64,7 +66,13 @@ export function runScenario(scenario: Scenario, controller: () => RateController
   const queueBytes = scenario.queueBytes ?? queueBytesOf(capacity, scenario.queueMs ?? 100);
   const { loss = 0, burstLoss } = scenario;
   const link = new Bottleneck(
-    { capacity, queueBytes, loss, ...(burstLoss === undefined ? {} : { burstLoss }) },
+    {
+      capacity,
+      queueBytes,
+      loss,
+      ...(scenario.queueFollows ? { queueMs: scenario.queueMs ?? 100 } : {}),
+      ...(burstLoss === undefined ? {} : { burstLoss }),
+    },
     random,
   );
   const backQueueBytes = queueBytesOf(backCapacity ?? [], scenario.backQueueMs ?? 100);

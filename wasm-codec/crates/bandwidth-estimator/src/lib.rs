@@ -102,7 +102,7 @@ impl BandwidthEstimator {
 
     /// The first `count` rows are one feedback message (see `RESULT_ROW`).
     pub fn feedback(&mut self, count: usize, in_flight: f64, now_us: f64) {
-        let packet_feedbacks = (0..count.min(ROWS))
+        let packet_feedbacks: Vec<PacketResult> = (0..count.min(ROWS))
             .map(|i| {
                 let arrival = self.rows[i * RESULT_ROW + 4];
                 PacketResult {
@@ -112,6 +112,10 @@ impl BandwidthEstimator {
                 }
             })
             .collect();
+        // The controller does not expect a message of losses alone.
+        if !packet_feedbacks.iter().any(PacketResult::is_received) {
+            return;
+        }
         let update = self.controller.on_transport_packets_feedback(TransportPacketsFeedback {
             feedback_time: at(now_us),
             data_in_flight: DataSize::from_bytes(in_flight as i64),

@@ -1,0 +1,215 @@
+/** `pnpm bench congestion`: rate controllers on simulated links. */
+import { readFileSync, writeFileSync } from 'node:fs';
+import { parseArgs } from 'node:util';
+import { AdaptiveRateController, FixedRateController, type RateController } from '@farpoint/congestion';
+import { GoogCcController } from '@farpoint/congestion/goog-cc';
+import {
+  type CapacityStep,
+  type FlowRecord,
+  losses,
+  msAboveQueue,
+  msUntilUsed,
+  type Outcome,
+  queueQuantiles,
+  runScenario,
+  type Scenario,
+  share,
+  sumBins,
+  throughput,
+  utilisation,
+} from '@farpoint/congestion/sim';
+import { type Panel, renderChart, type Series } from './plot/chart.ts';
+import { type Bench, type Cell, numberOption, printJson, printTable } from './report.ts';
+
+const USAGE = `pnpm bench congestion [--controller NAME,…] [--scenario TEXT] [--trace FILE] [--seed 1] [--plot FILE.svg] [--json]
+
+Runs rate controllers (adaptive: ours; gcc: libwebrtc's Google congestion control; fixed: 40 Mbit/s, halved by loss) over
+simulated links in virtual time: a 30 Hz source as large as the target allows, paced, with padding for probes; a drop-tail
+queue; feedback each 50–62 ms. --trace adds a link from a file of lines \`seconds,Mbit/s\`; --scenario runs those whose name
+contains the text; --plot draws the step, and the trace where one is given.
+
+used: arrived over what the link could carry, after 5 s. queue: waiting time of the packets sent after 5 s. overflow: of the packets
+sent, those the full queue dropped. until90: from the beginning (or the last rise) until 90 % of the link are used over 0.5 s.
+above100: how long packets kept coming out that had waited more than 100 ms, after the fall. share: of what both flows got.`;
+
+const M = 1e6;
+const LINK = 41.44 * M;
+const CONTROLLERS: Record<string, () => RateController> = {
+  adaptive: () => new AdaptiveRateController(),
+  gcc: () => new GoogCcController(),
+  fixed: () => new FixedRateController({ bitsPerSecond: 40 * M }),
+};
+/** What is plotted of a scenario: an outcome for each controller. */
+type Runs = Map<string, Outcome>;
+
+interface Case extends Scenario {
+  fallMs?: number;
+  riseMs?: number;
+}
+
+const flat = (bitsPerSecond: number): CapacityStep[] => [{ fromMs: 0, bitsPerSecond }];
+const BASE = { durationMs: 30_000, capacity: flat(LINK), rttMs: 42.4, queueMs: 100 };
+const TCP = { ...BASE, durationMs: 60_000, capacity: flat(20 * M), cubic: [{ startMs: 5000 }] };
+
+const CASES: readonly Case[] = [
+  { ...BASE, name: 'steady 41.44 Mbit/s' },
+  { ...BASE, name: 'steady 8 Mbit/s', capacity: flat(8 * M) },
+  {
+    ...BASE,
+    name: 'step 41.44–8–41.44 Mbit/s',
+    durationMs: 40_000,
+    capacity: [
+      ...flat(LINK),
+      { fromMs: 15_000, bitsPerSecond: 8 * M },
+      { fromMs: 28_000, bitsPerSecond: LINK },
+    ],
+    fallMs: 15_000,
+    riseMs: 28_000,
+  },
+  { ...BASE, name: 'queue of 10 ms', queueMs: 10 },
+  { ...BASE, name: '5 % loss', loss: 0.05 },
+  { ...BASE, name: '20 % loss', loss: 0.2 },
+  { ...BASE, name: 'bursts of loss', burstLoss: { enterBad: 0.002, leaveBad: 0.05, lossInBad: 0.8 } },
+  { ...BASE, name: 'jitter of 3 ms', jitterMs: 3 },
+  { ...BASE, name: '20 % of feedback lost', backLoss: 0.2 },
+  {
+    ...BASE,
+    name: 'outage of 10 s',
+    durationMs: 40_000,
+    capacity: [...flat(LINK), { fromMs: 15_000, bitsPerSecond: 0 }, { fromMs: 25_000, bitsPerSecond: LINK }],
+    riseMs: 25_000,
+  },
+  { ...TCP, name: 'CUBIC, 20 Mbit/s, queue 50 ms', queueMs: 50 },
+  { ...TCP, name: 'CUBIC, 20 Mbit/s, queue 100 ms' },
+  { ...TCP, name: 'CUBIC, 20 Mbit/s, queue 200 ms', queueMs: 200 },
+  { ...BASE, name: 'two of the same', durationMs: 60_000, media: [{}, { startMs: 10_000 }] },
+];
+
+export const bench: Bench = {
+  name: 'congestion',
+  summary: 'rate controllers on simulated links: use, queue, loss, recovery, share beside TCP',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        controller: { type: 'string', default: 'adaptive,gcc,fixed' },
+        scenario: { type: 'string', default: '' },
+        trace: { type: 'string' },
+        seed: { type: 'string', default: '1' },
+        plot: { type: 'string' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const seed = numberOption('seed', values.seed);
+    const names = values.controller.split(',');
+    const unknown = names.find((name) => CONTROLLERS[name] === undefined);
+    if (unknown !== undefined) {
+      throw new Error(`--controller: no \`${unknown}\`; there are ${Object.keys(CONTROLLERS).join(', ')}`);
+    }
+    const trace = values.trace === undefined ? [] : [traceCase(values.trace)];
+    const cases = [...CASES, ...trace].filter(({ name }) => name.includes(values.scenario));
+    const results: Record<string, unknown>[] = [];
+    const plots: Panel[] = [];
+    for (const one of cases) {
+      const runs: Runs = new Map();
+      for (const name of names) {
+        const outcome = runScenario({ ...one, seed }, CONTROLLERS[name] as () => RateController);
+        runs.set(name, outcome);
+        results.push({ scenario: one.name, controller: name, ...measure(one, outcome) });
+      }
+      if (one.fallMs !== undefined || trace.includes(one)) plots.push(...panels(one, runs));
+    }
+    printTable(
+      [
+        'scenario',
+        'controller',
+        'used',
+        'queue p50',
+        'p95 ms',
+        'overflow %',
+        'until90 s',
+        'above100 ms',
+        'share',
+      ],
+      results.map((row) => Object.values(row) as Cell[]),
+    );
+    if (values.plot !== undefined) {
+      const title = 'Rate controllers on simulated links';
+      writeFileSync(values.plot, renderChart({ title, panels: plots, columns: 2, panelWidth: 560 }));
+    }
+    if (values.json) printJson({ bench: 'congestion', seed, results });
+  },
+};
+
+function measure(one: Case, outcome: Outcome): Record<string, Cell> {
+  const { durationMs } = one;
+  const [flow, second] = outcome.media as [FlowRecord, FlowRecord | undefined];
+  const other = outcome.cubic[0] ?? second;
+  const [p50, p95] = queueQuantiles(flow, 5000, durationMs, [0.5, 0.95]) as [number, number];
+  const together = second === undefined ? 0 : utilisation(outcome, second, 5000, durationMs);
+  const round = (value: number, digits: number) =>
+    Number.isNaN(value) ? null : Number(value.toFixed(digits));
+  return {
+    used: round(utilisation(outcome, flow, 5000, durationMs) + together, 3),
+    queueMsP50: round(p50, 1),
+    queueMsP95: round(p95, 1),
+    overflowPercent: round(100 * losses(flow, 0, durationMs).overflow, 2),
+    secondsUntil90: round(msUntilUsed(outcome, flow, one.riseMs ?? 0, durationMs) / 1000, 1),
+    msAbove100:
+      one.fallMs === undefined
+        ? null
+        : round(msAboveQueue(flow, 100, one.fallMs, one.riseMs ?? durationMs), 0),
+    share: other === undefined ? null : round(share(flow, other, 15_000, durationMs), 2),
+  };
+}
+
+/** Rates above, queueing delay below: two panels. */
+function panels(one: Case, runs: Runs): Panel[] {
+  const seconds = (steps: readonly CapacityStep[]) =>
+    [...steps.map((s) => s.fromMs), one.durationMs].map((t) => t / 1000);
+  const capacity = one.capacity.map((s) => s.bitsPerSecond / M);
+  const rates: Series[] = [
+    { label: 'link', x: seconds(one.capacity), y: [...capacity, capacity.at(-1) ?? 0], shape: 'area' },
+  ];
+  const queues: Series[] = [];
+  const bin = 200;
+  const times = Array.from({ length: Math.floor(one.durationMs / bin) }, (_, i) => i * bin);
+  for (const [label, outcome] of runs) {
+    const flow = outcome.media[0] as FlowRecord;
+    const x = times.map((t) => t / 1000);
+    rates.push({ label, x, y: times.map((t) => throughput(flow, t, t + bin) / M) });
+    queues.push({ label, x, y: times.map((t) => mostWaited(flow, t, t + bin)) });
+  }
+  const axis = { xLabel: 'time (s)' };
+  return [
+    { ...axis, title: one.name, yLabel: 'arriving (Mbit/s)', series: rates },
+    { ...axis, title: one.name, yLabel: 'longest wait in the queue (ms)', series: queues, yRange: [0, 600] },
+  ];
+}
+
+function mostWaited(flow: FlowRecord, fromMs: number, toMs: number): number {
+  if (sumBins(flow.sentPackets, fromMs, toMs) === 0) return Number.NaN;
+  return Math.min(queueQuantiles(flow, fromMs, toMs, [1])[0] ?? Number.NaN, 10_000);
+}
+
+/** Lines `seconds,Mbit/s`; others are left out. */
+function traceCase(file: string): Case {
+  const capacity = readFileSync(file, 'utf8')
+    .split('\n')
+    .map((line) => line.split(',').map(Number))
+    .filter((row): row is [number, number] => row.length === 2 && row.every((value) => value >= 0))
+    .map(([s, mbit]) => ({ fromMs: s * 1000, bitsPerSecond: mbit * M }));
+  const last = capacity.at(-1);
+  if (last === undefined || capacity[0]?.fromMs !== 0)
+    throw new Error(`${file}: no lines \`seconds,Mbit/s\` from 0 on`);
+  // A cellular base station keeps a long queue for each user.
+  return {
+    name: `trace ${file.split('/').at(-1)}`,
+    durationMs: last.fromMs,
+    capacity,
+    rttMs: 42.4,
+    queueBytes: 500_000,
+  };
+}
