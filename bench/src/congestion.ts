@@ -71,6 +71,7 @@ const CASES: readonly Case[] = [
   { ...BASE, name: '20 % loss', loss: 0.2 },
   { ...BASE, name: 'bursts of loss', burstLoss: { enterBad: 0.002, leaveBad: 0.05, lossInBad: 0.8 } },
   { ...BASE, name: 'jitter of 3 ms', jitterMs: 3 },
+  { ...BASE, name: 'delay that wobbles by ± 5 ms', wobbleMs: 5 },
   { ...BASE, name: '20 % of feedback lost', backLoss: 0.2 },
   {
     ...BASE,
@@ -184,7 +185,13 @@ function panels(one: Case, runs: Runs): Panel[] {
   }
   const axis = { xLabel: 'time (s)' };
   return [
-    { ...axis, title: one.name, yLabel: 'arriving (Mbit/s)', series: rates },
+    {
+      ...axis,
+      title: one.name,
+      yLabel: 'arriving (Mbit/s)',
+      series: rates,
+      yRange: [0, 1.6 * Math.max(...capacity)],
+    },
     { ...axis, title: one.name, yLabel: 'longest wait in the queue (ms)', series: queues, yRange: [0, 600] },
   ];
 }

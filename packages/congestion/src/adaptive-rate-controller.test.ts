@@ -153,6 +153,22 @@ describe('what the path may do besides', () => {
     expect(losses(outcome.media[0]!, 0, 20_000).overflow).toBeLessThan(0.01);
   });
 
+  test.each([
+    [41.44, 5],
+    [8, 10],
+  ])('delay that wobbles: %f Mbit/s, ± %i ms', (mbit, wobbleMs) => {
+    const outcome = run({ capacity: flat(mbit * M), wobbleMs });
+    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.7);
+    expect(q95(outcome, 5000, 20_000)).toBeLessThan(40);
+  });
+
+  test('a queue that is shorter, in bytes, on a slower link', () => {
+    const capacity = [...flat(LINK), { fromMs: 10_000, bitsPerSecond: 8 * M }];
+    const outcome = run({ capacity, queueMs: 100, queueFollows: true });
+    expect(used(outcome, 11_000, 20_000)).toBeGreaterThan(0.85);
+    expect(losses(outcome.media[0]!, 11_000, 20_000).overflow).toBeLessThan(0.01);
+  });
+
   test('reordered packets and feedback that comes twice', () => {
     const outcome = run({ reorder: 0.02, media: [{ duplicateFeedback: 0.1 }] });
     expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.85);

@@ -65,7 +65,7 @@ export class Competition {
 
   begin(o: Readonly<PathObservation>, estimate: number, baseRttMs: number, nowMs: number): void {
     // Draining in vain has cost us our share: begin near what we had.
-    const rate = Math.min(0.8 * this.#peak, 5 * estimate);
+    const rate = Math.min(this.#peak, 8 * estimate);
     this.#tcp.start(rate, baseRttMs + o.queueMs, nowMs);
     this.#testEveryMs = TEST_EVERY_MS;
     this.#nextTestMs = nowMs + TEST_FIRST_MS;

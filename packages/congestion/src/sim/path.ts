@@ -8,12 +8,16 @@ export interface PathOptions {
   delayMs: number;
   /** Mean of an exponentially distributed extra delay, ms. It never reorders. */
   jitterMs?: number;
+  /** Delay that varies evenly by up to so much, ms, drawn anew each 10 ms, as a radio's scheduler has it; no overtaking. */
+  wobbleMs?: number;
   /** Packets, 0–1, that are held back by `reorderMs` and overtaken meanwhile. */
   reorder?: number;
   reorderMs?: number;
   /** Lost anywhere on the way, 0–1. */
   loss?: number;
 }
+
+const WOBBLE_EVERY_MS = 10;
 
 /** What happened to a packet on its way. */
 export interface Passage {
@@ -28,6 +32,8 @@ export class Path {
   readonly #options: PathOptions;
   readonly #random: Random;
   #lastArrivalMs = 0;
+  #wobble = 0;
+  #wobbleUntilMs = 0;
   readonly #passage: Passage = { arrivalMs: 0, queueMs: 0 };
 
   constructor(options: PathOptions, random: Random) {
@@ -37,7 +43,15 @@ export class Path {
 
   /** @returns overwritten by the next call */
   send(bytes: number, nowMs: number): Readonly<Passage> {
-    const { bottleneck, delayMs, jitterMs = 0, reorder = 0, reorderMs = 0, loss = 0 } = this.#options;
+    const {
+      bottleneck,
+      delayMs,
+      jitterMs = 0,
+      wobbleMs = 0,
+      reorder = 0,
+      reorderMs = 0,
+      loss = 0,
+    } = this.#options;
     const passage = this.#passage;
     const leaves = bottleneck === null ? nowMs : bottleneck.enter(bytes, nowMs);
     if (leaves < 0) {
@@ -47,7 +61,11 @@ export class Path {
     }
     passage.queueMs = leaves - nowMs;
     const jitter = jitterMs > 0 ? -jitterMs * Math.log(1 - this.#random()) : 0;
-    let arrival = Math.max(leaves + delayMs + jitter, this.#lastArrivalMs);
+    if (wobbleMs > 0 && nowMs >= this.#wobbleUntilMs) {
+      this.#wobbleUntilMs = nowMs + WOBBLE_EVERY_MS;
+      this.#wobble = wobbleMs * (2 * this.#random() - 1);
+    }
+    let arrival = Math.max(leaves + delayMs + jitter + this.#wobble, this.#lastArrivalMs);
     if (reorder > 0 && this.#random() < reorder) arrival += reorderMs;
     else this.#lastArrivalMs = arrival;
     const lost = (bottleneck?.loses() ?? false) || (loss > 0 && this.#random() < loss);

@@ -37,6 +37,7 @@ export interface Scenario {
   loss?: number;
   burstLoss?: BurstLoss;
   jitterMs?: number;
+  wobbleMs?: number;
   reorder?: number;
   /** Of the feedback. */
   backLoss?: number;
@@ -78,9 +79,9 @@ export function runScenario(scenario: Scenario, controller: () => RateController
   const backQueueBytes = queueBytesOf(backCapacity ?? [], scenario.backQueueMs ?? 100);
   const backLink =
     backCapacity && new Bottleneck({ capacity: backCapacity, queueBytes: backQueueBytes }, random);
-  const { jitterMs = 0, reorder = 0 } = scenario;
+  const { jitterMs = 0, wobbleMs = 0, reorder = 0 } = scenario;
   const forwardPath = (rttMs: number) =>
-    new Path({ bottleneck: link, delayMs: rttMs / 2, jitterMs, reorder, reorderMs: 10 }, random);
+    new Path({ bottleneck: link, delayMs: rttMs / 2, jitterMs, wobbleMs, reorder, reorderMs: 10 }, random);
   const backPath = (rttMs: number) =>
     new Path({ bottleneck: backLink ?? null, delayMs: rttMs / 2, loss: scenario.backLoss ?? 0 }, random);
 
