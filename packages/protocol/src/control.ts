@@ -104,6 +104,7 @@ export const commandRejections = [
   'repeated', // a sequence number at or before that of the last fresh command
   'not-lease-holder', // another operator drives, or nobody has asked to
   'dead-man-released', // motion asked for without the grip
+  'let-go-first', // motion by a grip that was held while no command came through for long
   'estop-latched', // the emergency stop must be released first
   'rate-limited', // more commands a second than the robot reads
 ] as const;

@@ -100,9 +100,10 @@ describe('age', () => {
       reasons.push(reasonOf(gate.check('a', command({ sequence, timeMs: t }), t, open)));
       expect(reasonOf(gate.check('b', command({ sequence, timeMs: 500 + t }), t, open))).toBe('accepted');
     }
-    expect(reasons.indexOf('accepted')).toBe(19);
+    // It is fresh again from here on; the hand held on all the while.
+    expect(reasons.indexOf('let-go-first')).toBe(19);
     expect(reasons.slice(0, 19).every((r) => r === 'stale')).toBe(true);
-    expect(reasons.slice(19).every((r) => r === 'accepted')).toBe(true);
+    expect(reasons.slice(19).every((r) => r === 'let-go-first')).toBe(true);
   });
 
   test('a clock probe teaches the way before the first command', () => {
@@ -245,4 +246,41 @@ test('who is forgotten starts anew', () => {
   gate.check('a', command({ sequence: 5 }), 0, open);
   gate.forget('a');
   expect(reasonOf(gate.check('a', command({ sequence: 1 }), 0, open))).toBe('accepted');
+});
+
+describe('a grip held through silence', () => {
+  const at = (gate: CommandGate, ms: number, change: Partial<Command> = {}, x = 0.5) =>
+    reasonOf(gate.check('a', command({ sequence: ms + 1, timeMs: ms, ...change }, x, 0), ms, open));
+
+  test('a second without a command: motion is refused until the hand has let go', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    expect(at(gate, 0)).toBe('accepted');
+    expect(at(gate, 999)).toBe('accepted');
+    expect(at(gate, 1999)).toBe('let-go-first');
+    expect(at(gate, 2020)).toBe('let-go-first');
+    expect(at(gate, 9000)).toBe('let-go-first');
+    expect(at(gate, 9020, {}, 0)).toBe('accepted');
+    expect(at(gate, 9040)).toBe('accepted');
+  });
+
+  test('the grip shown released is letting go, too', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    expect(at(gate, 0)).toBe('accepted');
+    expect(at(gate, 5000, { deadMan: false })).toBe('dead-man-released');
+    expect(at(gate, 5020)).toBe('accepted');
+  });
+
+  test('a hand that was open before the silence drives at once', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    expect(at(gate, 0)).toBe('accepted');
+    expect(at(gate, 20, { deadMan: false }, 0)).toBe('accepted');
+    expect(at(gate, 60_000)).toBe('accepted');
+  });
+
+  test('a burst of what the link held back is no sign of life', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    expect(at(gate, 0)).toBe('accepted');
+    expect(at(gate, 3000, { timeMs: 200 })).toBe('stale');
+    expect(at(gate, 3001)).toBe('let-go-first');
+  });
 });

@@ -30,6 +30,8 @@ export interface GateContext {
 export interface CommandGateOptions {
   /** A command that waited longer on its way is stale, ms. */
   maxAgeMs?: number;
+  /** After motion, and then no accepted command for so long, a hand that still holds must let go first, ms. */
+  letGoAfterMs?: number;
   /** Over how long the shortest way is remembered, ms (queueing-delay.ts). */
   delayWindowMs?: number;
 }
@@ -38,6 +40,8 @@ interface OperatorState {
   bucket: TokenBucket;
   delay: QueueingDelay;
   lastSequence: number | null;
+  /** When motion was last accepted; `null` once the hand has let go. */
+  movedMs: number | null;
 }
 
 /** Operators whose clock and counter are remembered; beyond it the one silent for longest is forgotten. */
@@ -46,19 +50,21 @@ const MAX_OPERATORS = 64;
 const TOLERANCE = 1e-6;
 
 /**
- * Judges each command of each operator by itself: rate, lease, sequence, age, emergency stop, dead-man grip, range, in
- * this order. State is kept apart for each operator: a broken or hostile clock or counter spoils its own commands only.
+ * Judges each command of each operator by itself: rate, lease, sequence, age, emergency stop, dead-man grip, a
+ * grip held through silence, range, in this order. State is kept apart for each operator: a broken or hostile clock or counter spoils its own commands only.
  */
 export class CommandGate {
   readonly #limits: Readonly<DriveLimits>;
   readonly #maxAgeMs: number;
   readonly #delayWindowMs: number;
+  readonly #letGoAfterMs: number;
   readonly #operators = new Map<string, OperatorState>();
 
   constructor(limits: DriveLimits, options: CommandGateOptions = {}) {
     this.#limits = Object.freeze({ ...limits });
     this.#maxAgeMs = options.maxAgeMs ?? limits.watchdogMs;
     this.#delayWindowMs = options.delayWindowMs ?? 10_000;
+    this.#letGoAfterMs = options.letGoAfterMs ?? 1000;
   }
 
   check(operatorId: string, command: Command, nowMs: number, context: GateContext): CommandVerdict {
@@ -78,13 +84,16 @@ export class CommandGate {
     // where this one is refused (the grip let go, say).
     operator.lastSequence = command.sequence;
     const motion = !isZeroTwist(command.twist);
+    if (!motion || !command.deadMan) operator.movedMs = null;
     const estop = context.meetEstop(motion);
     if (motion) {
       const refusal =
         estopRefusal(estop) ??
         (command.deadMan ? null : rejected('dead-man-released', 'motion without the dead-man grip')) ??
+        this.#heldThroughSilence(operator, nowMs) ??
         this.#outOfRange(command.twist);
       if (refusal !== null) return refusal;
+      operator.movedMs = nowMs;
     }
     const { maxLinear, maxAngular } = this.#limits;
     return {
@@ -121,6 +130,7 @@ export class CommandGate {
         bucket: new TokenBucket({ perSecond: this.#limits.maxCommandsPerSecond }),
         delay: new QueueingDelay(this.#delayWindowMs),
         lastSequence: null,
+        movedMs: null,
       };
     } else {
       this.#operators.delete(operatorId);
@@ -132,6 +142,13 @@ export class CommandGate {
 
   #rateLimited(): RejectedCommand {
     return rejected('rate-limited', `more than ${this.#limits.maxCommandsPerSecond} commands a second`);
+  }
+
+  /** A hand that held on while the link was away must not move the robot by itself when it comes back. */
+  #heldThroughSilence({ movedMs }: OperatorState, nowMs: number): RejectedCommand | null {
+    if (movedMs === null || nowMs - movedMs < this.#letGoAfterMs) return null;
+    const seconds = ((nowMs - movedMs) / 1000).toFixed(1);
+    return rejected('let-go-first', `held while no command came through for ${seconds} s: let go of it once`);
   }
 
   #outOfRange(twist: Twist): RejectedCommand | null {

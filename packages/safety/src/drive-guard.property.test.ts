@@ -47,9 +47,10 @@ const timedStep = fc.record({
   step,
 });
 
-test('whatever is sent and whenever: within the limits, fresh, by the holder, and never while stopped', () => {
+test('whatever is sent and whenever: within the limits, fresh, by the holder, never while stopped, never by a hand that held on through silence', () => {
   let moved = 0;
   let checked = 0;
+  let letGo = 0;
   fc.assert(
     fc.property(fc.array(timedStep, { minLength: 1, maxLength: 80, size: 'max' }), (steps) => {
       let handles = 0;
@@ -64,6 +65,8 @@ test('whatever is sent and whenever: within the limits, fresh, by the holder, an
       let last: { by: string; atMs: number; twist: Twist } | null = null;
       const leases = new Map<string, string>();
       const sequences = new Map<string, number>();
+      /** When a hand that has not let go since was last obeyed. */
+      const held = new Map<string, number>();
 
       const check = (atMs: number) => {
         checked++;
@@ -106,11 +109,20 @@ test('whatever is sent and whenever: within the limits, fresh, by the holder, an
             expect(by).toBe(holder);
             expect(step.y).toBe(0);
             expect(Math.abs(step.x)).toBeLessThan(1.001);
-            if (!isZeroTwist(command.twist)) expect(step.deadMan && !latched).toBe(true);
+            if (isZeroTwist(command.twist)) held.delete(by);
+            else {
+              expect(step.deadMan && !latched).toBe(true);
+              expect(nowMs - (held.get(by) ?? nowMs)).toBeLessThan(1000);
+              held.set(by, nowMs);
+            }
             last = { by, atMs: nowMs, twist: verdict.twist };
           } else {
             expect(verdict.detail).not.toBe('');
             if (verdict.reason === 'dead-man-released') last = null;
+            // Not a wish of now.
+            const passedOver = ['malformed', 'rate-limited', 'not-lease-holder', 'repeated', 'stale'];
+            if (!step.deadMan && !passedOver.includes(verdict.reason)) held.delete(by);
+            if (verdict.reason === 'let-go-first') letGo++;
           }
         } else if (step.kind === 'request') {
           const outcome = guard.requestLease(by, step.take, nowMs);
@@ -124,6 +136,7 @@ test('whatever is sent and whenever: within the limits, fresh, by the holder, an
           expect(free).toBe(holder === by);
           if (free) holder = null;
           if (free) last = null;
+          if (step.kind === 'gone') held.delete(by);
         } else if (step.kind === 'latch') {
           guard.latchEstop(by === 'robot' ? 'robot' : 'operator');
           latched = true;
@@ -145,4 +158,5 @@ test('whatever is sent and whenever: within the limits, fresh, by the holder, an
   );
   // The property would hold for a robot that never moves.
   expect(moved / checked).toBeGreaterThan(0.02);
+  expect(letGo).toBeGreaterThan(0);
 });

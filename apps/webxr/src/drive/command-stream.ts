@@ -58,6 +58,13 @@ export class CommandStream {
     this.#nextMs = 0;
   }
 
+  /** Zeros again, where nothing is held: those sent last may be lost with the path. */
+  repeatStop(): void {
+    if (this.#held) return;
+    this.#stopsLeft = STOP_REPEATS;
+    this.#nextMs = 0;
+  }
+
   /** The command due now, if any. */
   tick(nowMs: number): Command | null {
     if (!this.active || nowMs < this.#nextMs) return null;

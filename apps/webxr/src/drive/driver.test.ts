@@ -79,6 +79,28 @@ describe('Driver', () => {
     expect(messages.at(-1)).toEqual({ type: 'leaseRequest', take: false });
   });
 
+  test('a hand that holds while the path is lost moves nothing until it has opened', () => {
+    const { commands, hand, driver } = bench();
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    hand.held = true;
+    hand.wish.forward = 1;
+    driver.tick(0);
+    expect(commands.splice(0).map(({ deadMan }) => deadMan)).toEqual([true]);
+    driver.onPath(false, 1000);
+    for (let now = 1025; now < 5000; now += 25) driver.tick(now);
+    commands.splice(0);
+    // What was said meanwhile is lost: that nothing is held is said again.
+    driver.onPath(true, 5000);
+    for (let now = 5025; now < 8000; now += 25) driver.tick(now);
+    expect(commands.length).toBeGreaterThan(1);
+    expect(commands.splice(0).every(({ deadMan, twist }) => !deadMan && twist.linear.x === 0)).toBe(true);
+    hand.held = false;
+    driver.tick(8025);
+    hand.held = true;
+    driver.tick(8050);
+    expect(commands.at(-1)).toMatchObject({ deadMan: true, twist: { linear: { x: 1 } } });
+  });
+
   test('without its lease nothing is sent', () => {
     const { commands, hand, driver } = bench();
     driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });

@@ -81,6 +81,16 @@ export class Driver {
     this.stream.setLease(null);
   }
 
+  /**
+   * The path to the robot is lost (`false`), or carries again. What is held meanwhile counts as let go until every hand has
+   * been open once: a hand that waited must not move the robot by itself.
+   */
+  onPath(up: boolean, nowMs: number): void {
+    if (up) this.stream.repeatStop();
+    else this.#mustOpen = true;
+    this.tick(nowMs);
+  }
+
   /** At the stream's rate, and at once when the grip or the stick changes. */
   tick(nowMs: number): void {
     if (this.#mustOpen) this.#mustOpen = this.#inputs.some((input) => input.held);

@@ -21,7 +21,7 @@ describe('words', () => {
     expect(linkWords({ ...live, signaling: 'waiting' }).text).toContain('signaling is away');
     expect(linkWords({ ...live, pointsSilentMs: 3000 }).text).toContain('no points arrive');
     expect(linkWords({ ...live, silentMs: 4200, pointsSilentMs: 4200 })).toEqual({
-      text: 'Connection lost for 4 s. The robot stops by itself.',
+      text: 'Connection lost for 4 s. The robot stops by itself. Trying to reach it…',
       tone: 'bad',
     });
     expect(linkWords({ ...live, phase: 'waiting', robotListed: false }).text).toContain('away');

@@ -25,6 +25,7 @@ export const rejectionWords: Record<CommandRejection, string> = {
   repeated: 'The robot refused a command that came out of order.',
   'not-lease-holder': 'Someone else drives this robot. Ask to take over.',
   'dead-man-released': 'The robot moves only while the grip is held.',
+  'let-go-first': 'The link was away while the grip was held. Let go of it, then drive.',
   'estop-latched': 'The emergency stop is on. Release it, let go of the grip, then drive.',
   'rate-limited': 'The robot gets more commands than it reads.',
 };
@@ -78,7 +79,7 @@ export function linkWords(facts: LinkFacts): Words {
     case 'live':
       if (facts.silentMs >= SILENT_MS) {
         return {
-          text: `Connection lost for ${Math.round(facts.silentMs / 1000)} s. The robot stops by itself.`,
+          text: `Connection lost for ${Math.round(facts.silentMs / 1000)} s. The robot stops by itself. Trying to reach it…`,
           tone: 'bad',
         };
       }
