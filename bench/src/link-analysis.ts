@@ -116,8 +116,9 @@ export function capacityRises(bins: readonly LinkBin[]): CapacityRise[] {
   const side = STEP_MS / BIN_MS;
   const capacity = bins.map((bin) => bin.capacityMbps ?? Number.NaN);
   const rises: CapacityRise[] = [];
-  for (let i = side; i + side <= bins.length; i++) {
-    const before = capacity.slice(i - side, i);
+  // The bin before may hold the change itself.
+  for (let i = side + 1; i + side <= bins.length; i++) {
+    const before = capacity.slice(i - 1 - side, i - 1);
     const after = capacity.slice(i, i + side);
     // Steps only: constant on both sides.
     if (Math.max(...before) > Math.min(...before) * 1.02 || Math.max(...after) > Math.min(...after) * 1.02)
@@ -125,6 +126,7 @@ export function capacityRises(bins: readonly LinkBin[]): CapacityRise[] {
     const [fromMbps, toMbps] = [before[0] as number, after[0] as number];
     if (!(toMbps >= fromMbps * STEP_FACTOR)) continue;
     const timeMs = (bins[i] as LinkBin).timeMs;
+    if (timeMs - (rises.at(-1)?.timeMs ?? Number.NEGATIVE_INFINITY) < STEP_MS) continue;
     rises.push({ timeMs, fromMbps, toMbps, recoverySeconds: recovery(bins, i, toMbps) });
   }
   return rises;
