@@ -47,6 +47,13 @@ describe('a steady link', () => {
     expect(q95(outcome, 5000, 20_000)).toBeLessThan(mbit === 1 ? 60 : 25);
   });
 
+  test('without any probe', () => {
+    const outcome = run({ media: [{ probes: false }] });
+    expect(msUntilUsed(outcome, outcome.media[0]!, 0, 20_000, 0.85)).toBeLessThan(6000);
+    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.85);
+    expect(q95(outcome, 5000, 20_000)).toBeLessThan(25);
+  });
+
   test('with a round trip of 200 ms and a queue of 0.5 s', () => {
     const outcome = run({ capacity: flat(8 * M), rttMs: 200, queueMs: 500 });
     expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.85);

@@ -107,7 +107,7 @@ export class AdaptiveRateController implements RateController {
 
   onTick(nowMs: number): void {
     const { feedbackIntervalMs, baseRttMs } = this.#path;
-    this.#probe.onTick(nowMs, baseRttMs);
+    if (this.#probe.onTick(nowMs, baseRttMs)) this.#plan.onIgnored();
     if (this.#state !== 'silent') {
       const sinceMs = nowMs - this.#lastFeedbackMs;
       if (!Silence.begins(this.#flight.bytes, sinceMs, feedbackIntervalMs, baseRttMs)) {
@@ -188,8 +188,10 @@ export class AdaptiveRateController implements RateController {
       this.#onOveruse(nowMs);
     } else if (this.#state === 'drain') {
       if (reading === 'clear') this.#state = 'steady';
-    } else if (!this.#plan.searching && this.#used() > 0.75) {
-      this.#estimate += (growth(this.#estimate) * elapsedMs) / 1000;
+    } else if (this.#used() > 0.75 && (!this.#plan.searching || this.#plan.ignored)) {
+      // Who sends no probes searches by doubling, 0.7 s each.
+      const perSecond = this.#plan.searching ? this.#estimate : growth(this.#estimate);
+      this.#estimate += (perSecond * elapsedMs) / 1000;
     }
     this.#heldBack = this.#state === 'drain' ? this.#delay.drain(o, allowanceMs) : 0;
   }

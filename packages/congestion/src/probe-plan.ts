@@ -26,6 +26,8 @@ export class ProbePlan {
   #failures = 0;
   /** Looking for a rate that is wholly unknown. */
   searching = true;
+  /** The sender does not fulfil probes: the search has to do without. */
+  ignored = false;
 
   restart(): void {
     this.searching = true;
@@ -37,6 +39,10 @@ export class ProbePlan {
   onOveruse(): void {
     this.searching = false;
     this.#factor = FACTOR;
+  }
+
+  onIgnored(): void {
+    this.ignored = true;
   }
 
   /** @returns whether it is time for a train */
@@ -60,6 +66,7 @@ export class ProbePlan {
 
   /** @returns the new estimate, never lower */
   onOutcome(outcome: Readonly<ProbeOutcome>, estimate: number, noiseMs: number, nowMs: number): number {
+    this.ignored = false;
     const { sentBitsPerSecond: sent, arrivedBitsPerSecond: arrived } = outcome;
     const noisy = noiseMs > NOISY_MS;
     if (arrived >= (noisy ? UNLIMITED_IN_NOISE : UNLIMITED) * sent) {

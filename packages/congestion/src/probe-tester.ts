@@ -55,10 +55,13 @@ export class ProbeTester {
     this.#sentBytes += bytes;
   }
 
-  onTick(nowMs: number, roundTripMs: number): void {
-    if (this.#request === null) return;
+  /** @returns whether a train is given up that nobody began to send */
+  onTick(nowMs: number, roundTripMs: number): boolean {
+    if (this.#request === null) return false;
     const since = this.#sentBytes > 0 ? this.#sentFirstMs : this.#askedMs;
-    if (nowMs - since > PATIENCE_MS + 2 * roundTripMs) this.#request = null;
+    if (nowMs - since <= PATIENCE_MS + 2 * roundTripMs) return false;
+    this.#request = null;
+    return this.#sentBytes === 0;
   }
 
   /** @returns what the train told, once feedback has passed its end */
