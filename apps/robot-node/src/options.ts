@@ -188,11 +188,17 @@ const options = {
     argument: 'N',
     help: 'operators at once, the one who drives included',
   }),
+  icePolicy: defineOption({
+    schema: schema.choice(['all', 'relay']),
+    default: 'all',
+    argument: 'POLICY',
+    help: 'relay: reach operators by TURN servers only',
+  }),
   silenceS: defineOption({
     schema: schema.number({ min: 1, max: 300 }),
-    default: 5,
+    default: 60,
     argument: 'SECONDS',
-    help: 'an operator of whom nothing is heard for this long is gone',
+    help: 'an operator of whom nothing is heard for this long is gone; after 5 s of it another may drive',
   }),
   iceServers: defineOption({
     schema: schema.list(z.string().regex(/^(stun|turns?):/, 'must begin with stun:, turn: or turns:')),
@@ -275,6 +281,7 @@ export function toRobotOptions(values: RobotOptionValues): RobotOptions {
     silenceMs: values.silenceS * 1000,
     connectTimeoutMs: 20_000,
     iceServers: values.iceServers.map((urls) => ({ urls })),
+    icePolicy: values.icePolicy,
     portRange: values.udpPorts === null ? undefined : [low as number, high as number],
     packetLog: values.packetLog ?? undefined,
     statisticsFile: values.stats ?? undefined,

@@ -17,6 +17,8 @@ import { DriveStation } from './drive/drive-station.ts';
 import { ConnectedOperator } from './session/connected-operator.ts';
 import { FrameFanOut } from './session/frame-fan-out.ts';
 import type { OperatorSession, SessionHost } from './session/operator-session.ts';
+import { PathKeeper } from './session/path-keeper.ts';
+import { silenceLimits } from './session/silence.ts';
 import { SignalingClient, type SignalingOptions } from './signaling/signaling-client.ts';
 import { RobotCounters } from './telemetry/robot-counters.ts';
 import { StageTimer } from './telemetry/stage-timer.ts';
@@ -46,6 +48,8 @@ export interface RobotOptions {
   /** Besides those of the signaling service. */
   iceServers: IceServer[];
   portRange?: readonly [number, number] | undefined;
+  /** `relay`: media by TURN servers only. */
+  icePolicy: 'all' | 'relay';
   /** File for a log of every packet sent, written when the robot closes. */
   packetLog?: string | undefined;
   /** File for what each stream does in each 100 ms, one JSON object a line. */
@@ -70,6 +74,7 @@ export class Robot implements SessionHost {
   readonly #sendLoop = new SendLoop(monotonicMs);
   readonly #fanOut: FrameFanOut;
   readonly #telemetry: TelemetrySender;
+  readonly #paths: PathKeeper;
   readonly #timers: NodeJS.Timeout[] = [];
   readonly #statistics: JsonLinesFile | null = null;
   #iceServers: readonly IceServer[] = [];
@@ -98,6 +103,15 @@ export class Robot implements SessionHost {
       now: monotonicMs,
     });
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
+    this.#paths = new PathKeeper({
+      operators: this.operators,
+      limits: silenceLimits(options.silenceMs),
+      drive: this.drive,
+      signaling: this.signaling,
+      leaseChanged: () => this.leaseChanged(),
+      log,
+      now: monotonicMs,
+    });
     this.signaling.onMessage = (message) => this.#onSignaling(message);
     capture.onState = (state) => {
       this.#state = state;
@@ -199,8 +213,12 @@ export class Robot implements SessionHost {
       case 'session.request':
         void this.#openSession(message.session, message.operator);
         break;
+      case 'session.resume':
+        this.operators.get(message.session)?.peer.useIceServers(this.#iceServers);
+        void this.#paths.resume(message.session);
+        break;
       case 'session.answer':
-        void this.operators.get(message.session)?.peer.answer(message.sdp);
+        void this.operators.get(message.session)?.answer(message.sdp);
         break;
       case 'session.candidate':
         void this.#addCandidate(message.session, message.candidate);
@@ -235,7 +253,7 @@ export class Robot implements SessionHost {
   }
 
   async #openSession(session: string, operatorName: string): Promise<void> {
-    const { maxOperators, connectTimeoutMs, portRange } = this.#options;
+    const { maxOperators, connectTimeoutMs, portRange, icePolicy } = this.#options;
     if (this.operators.has(session) || this.operators.size >= maxOperators) {
       this.counters.sessionsRefused++;
       this.#log.warn({ session, operators: this.operators.size }, 'session refused');
@@ -247,7 +265,7 @@ export class Robot implements SessionHost {
       {
         session,
         operatorName,
-        peer: { iceServers: this.#iceServers, portRange, connectTimeoutMs },
+        peer: { iceServers: this.#iceServers, portRange, icePolicy, connectTimeoutMs },
         controller: this.#makeController(),
         packetLog: this.#packetLog,
       },
@@ -317,13 +335,7 @@ export class Robot implements SessionHost {
   }
 
   #tick(): void {
-    const now = monotonicMs();
-    for (const operator of [...this.operators.values()]) {
-      operator.tick();
-      if (operator.sender !== null && now - operator.heardMs > this.#options.silenceMs) {
-        operator.peer.close('silent', `nothing heard for ${this.#options.silenceMs / 1000} s`);
-      }
-    }
+    this.#paths.tick();
     this.#fanOut.updateBudget();
     this.#sendLoop.run();
   }

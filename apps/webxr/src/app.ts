@@ -191,8 +191,8 @@ export class App implements PageParts {
   }
 
   #makeLink(transform: TransformSupport): RobotLink {
-    const { signalingUrl, name, token } = this.settings;
-    const options = { signalingUrl, name, token, worker: this.#worker, transform };
+    const { signalingUrl, name, token, icePolicy } = this.settings;
+    const options = { signalingUrl, name, token, icePolicy, worker: this.#worker, transform };
     return new RobotLink(options, {
       onSignaling: () => this.#status.update(performance.now()),
       onRobots: (robots) => showRobots(robots, (robotId) => this.choose(robotId)),
@@ -209,6 +209,10 @@ export class App implements PageParts {
         this.#status.update(performance.now());
       },
       onLoss: (loss) => notify(lossWords[loss], 'warning'),
+      onPath: () => {
+        this.driver.onPath(performance.now());
+        this.#status.update(performance.now());
+      },
       onGeneration: (generation) => {
         this.#generation = generation;
         this.cloud.reset();

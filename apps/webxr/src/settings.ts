@@ -18,6 +18,8 @@ export interface Settings {
   name: string;
   /** Connect to it as soon as it is there. */
   robot: string | null;
+  /** `relay`: by TURN servers only. */
+  icePolicy: 'all' | 'relay';
   /** Fixed size of the canvas in pixels, for benchmarks. */
   canvas: { width: number; height: number } | null;
   pointScale: number;
@@ -51,6 +53,7 @@ export function readSettings(
     token: token !== undefined && tokenSchema.safeParse(token).success ? token : undefined,
     name: displayNameSchema.safeParse(name).success ? name : 'Operator',
     robot: robot !== undefined && robotIdSchema.safeParse(robot).success ? robot : null,
+    icePolicy: query.get('ice') === 'relay' ? 'relay' : 'all',
     canvas: parseCanvas(query.get('canvas')),
     pointScale: clampScale(stored.pointScale),
   };

@@ -8,6 +8,7 @@ import type { SendLoop } from '../transport/send-loop.ts';
 import type { SharedFrame } from '../transport/shared-frame.ts';
 import { StreamSender } from '../transport/stream-sender.ts';
 import { OperatorSession, type SessionHost } from './operator-session.ts';
+import { RestartPolicy } from './restart-policy.ts';
 
 /** A latency test that waits for its green frame. */
 export interface LatencyTest {
@@ -41,7 +42,10 @@ const MAX_LATENCY_TESTS = 16;
 export class ConnectedOperator {
   readonly session: OperatorSession;
   readonly peer: OperatorPeer;
+  readonly restarts = new RestartPolicy();
   sender: StreamSender | null = null;
+  /** Nothing is heard: points would go nowhere. */
+  quiet = false;
   readonly #host: SessionHost;
   readonly #sendLoop: SendLoop;
   readonly #controller: RateController;
@@ -54,6 +58,7 @@ export class ConnectedOperator {
   #tests: LatencyTest[] = [];
   #lastTestId: number | null = null;
   readonly #testsInFlight = new Map<SharedFrame, LatencyTest[]>();
+  #pathHeardMs = 0;
   #lastFrameNumber = 0;
   #lastValidPoints = 0;
 
@@ -86,14 +91,20 @@ export class ConnectedOperator {
     };
   }
 
-  /** Connected and not paused. */
-  get streaming(): boolean {
-    return this.sender !== null && this.session.streaming;
+  /** The operator's answer to our latest offer. Never throws. */
+  async answer(sdp: string): Promise<void> {
+    this.restarts.onAnswer();
+    await this.peer.answer(sdp);
   }
 
-  /** When anything was last heard from the operator, message or RTCP, robot's clock, ms. */
+  /** Connected, not paused, and heard of. */
+  get streaming(): boolean {
+    return this.sender !== null && this.session.streaming && !this.quiet;
+  }
+
+  /** When anything was last heard from the operator, message, RTCP or connectivity check, robot's clock, ms. */
   get heardMs(): number {
-    return Math.max(this.session.heardMs, this.sender?.heardMs ?? 0);
+    return Math.max(this.session.heardMs, this.sender?.heardMs ?? 0, this.#pathHeardMs);
   }
 
   get droppedFrames(): number {
@@ -116,7 +127,7 @@ export class ConnectedOperator {
 
   /** Sends the frame when its time comes; a green one answers the latency tests that wait. */
   enqueue(shared: SharedFrame): void {
-    if (this.sender === null || !this.session.streaming) return;
+    if (this.sender === null || !this.streaming) return;
     const { frame } = shared;
     if (frame.latencyTest && this.#tests.length > 0) {
       this.#testsInFlight.set(shared, this.#tests);
@@ -139,6 +150,7 @@ export class ConnectedOperator {
 
   /** Every 25 ms. */
   tick(): void {
+    if (this.peer.heardSinceLast()) this.#pathHeardMs = this.#host.now();
     this.sender?.tick();
     this.session.flushRejections();
   }

@@ -1,4 +1,4 @@
-import { Backoff } from '@farpoint/congestion';
+import { Reconnect } from '@farpoint/congestion';
 import {
   decodeJson,
   encodeJson,
@@ -29,7 +29,8 @@ export interface SignalingOptions {
 export type SignalingRefusal = Extract<ServiceToRobot, { type: 'error' }>;
 
 const HEARTBEAT_MS = 10_000;
-const CONNECT_TIMEOUT_MS = 10_000;
+/** A ping that is sent because the line is in doubt is answered by then, or the line is dead. */
+const CHECK_TIMEOUT_MS = 2000;
 /** More unsent bytes than this and the service is as good as gone. */
 const MAX_BACKLOG_BYTES = 1_048_576;
 
@@ -49,16 +50,16 @@ export class SignalingClient {
   unsent = 0;
   readonly #options: SignalingOptions;
   readonly #log: Logger;
-  readonly #backoff: Backoff;
+  readonly #reconnect = new Reconnect(Math.random);
   #socket: WebSocket | null = null;
   #retry: NodeJS.Timeout | null = null;
   #heartbeat: NodeJS.Timeout | null = null;
   #closed = false;
+  #check: (() => void) | null = null;
 
   constructor(options: SignalingOptions, log: Logger) {
     this.#options = options;
     this.#log = log;
-    this.#backoff = new Backoff({ firstMs: 250, mostMs: 10_000, random: Math.random });
   }
 
   start(): void {
@@ -80,6 +81,11 @@ export class SignalingClient {
     return true;
   }
 
+  /** Asks the service for a sign of life where none has come of late: a line that is dead is given up within 2 s. */
+  check(): void {
+    this.#check?.();
+  }
+
   async close(): Promise<void> {
     this.#closed = true;
     if (this.#retry !== null) clearTimeout(this.#retry);
@@ -95,7 +101,7 @@ export class SignalingClient {
   #connect(): void {
     const { url, ca } = this.#options;
     const socket = new WebSocket(new URL('/robot', url), {
-      handshakeTimeout: CONNECT_TIMEOUT_MS,
+      handshakeTimeout: this.#reconnect.timeoutMs,
       maxPayload: MAX_SIGNALING_BYTES,
       perMessageDeflate: false,
       ...(ca === null ? {} : { ca }),
@@ -103,7 +109,23 @@ export class SignalingClient {
     this.#socket = socket;
     let detail = '';
     let alive = true;
+    let checking: NodeJS.Timeout | null = null;
+    const heard = () => {
+      alive = true;
+      if (checking !== null) clearTimeout(checking);
+      checking = null;
+    };
     socket.on('open', () => {
+      this.#check = () => {
+        if (checking !== null) return;
+        checking = setTimeout(() => {
+          detail = 'no answer to a ping';
+          socket.terminate();
+        }, CHECK_TIMEOUT_MS);
+        socket.ping();
+      };
+      // The welcome may be lost with the network.
+      this.#check();
       const { id, name, key, token } = this.#options;
       const hello: RobotToService = {
         type: 'robot.hello',
@@ -124,11 +146,9 @@ export class SignalingClient {
         socket.ping();
       }, HEARTBEAT_MS);
     });
-    socket.on('pong', () => {
-      alive = true;
-    });
+    socket.on('pong', heard);
     socket.on('message', (data: Buffer, binary: boolean) => {
-      alive = true;
+      heard();
       this.#receive(binary ? data : data.toString('utf8'));
     });
     socket.on('error', (error) => {
@@ -137,11 +157,13 @@ export class SignalingClient {
     socket.on('close', (code, reason) => {
       if (this.#heartbeat !== null) clearInterval(this.#heartbeat);
       this.#heartbeat = null;
+      if (checking !== null) clearTimeout(checking);
+      this.#check = null;
       this.#socket = null;
       this.registered = false;
       if (this.#closed) return;
       this.disconnects++;
-      const waitMs = this.#backoff.nextMs();
+      const waitMs = this.#reconnect.nextMs();
       this.#log.warn(
         { url, code, detail: detail || reason.toString('utf8'), retryMs: Math.round(waitMs) },
         'no line to signaling',
@@ -162,7 +184,7 @@ export class SignalingClient {
     }
     if (message.type === 'robot.welcome') {
       this.registered = true;
-      this.#backoff.reset();
+      this.#reconnect.reset();
       this.#log.info({ url: this.#options.url, id: message.id }, 'registered with signaling');
     }
     this.onMessage?.(message);

@@ -23,14 +23,18 @@ afterEach(async () => {
 function robotPeer(connectTimeoutMs = 20_000, iceServers: IceServer[] = []) {
   const messages: [string, string | Uint8Array][] = [];
   let client: OperatorClient | null = null;
+  let answering: Promise<unknown> = Promise.resolve();
   const connected = Promise.withResolvers<CloudTransport>();
   const ended = Promise.withResolvers<[PeerEnd, string]>();
   const heard = Promise.withResolvers<void>();
   const peer = new OperatorPeer(
     { iceServers, connectTimeoutMs },
     {
+      // They follow the offer that they belong to.
       onCandidate: (candidate) =>
-        void client?.connection.addIceCandidate(candidate as never).catch(() => undefined),
+        void answering
+          .then(() => client?.connection.addIceCandidate(candidate as never))
+          .catch(() => undefined),
       onConnected: (transport) => connected.resolve(transport),
       onMessage: (channel, data) => {
         messages.push([channel, data]);
@@ -44,10 +48,27 @@ function robotPeer(connectTimeoutMs = 20_000, iceServers: IceServer[] = []) {
     client = new OperatorClient();
     cleanups.push(() => client?.close());
     client.onCandidate = (candidate) => void peer.addCandidate(candidate);
-    await peer.answer(await client.answer(await peer.offer()));
+    await negotiate(await peer.offer());
     return client;
   };
-  return { peer, messages, connected: connected.promise, ended: ended.promise, heard: heard.promise, meet };
+  const negotiate = async (offer: string) => {
+    const answer = client?.answer(offer) ?? '';
+    answering = Promise.resolve(answer);
+    await peer.answer(await answer);
+  };
+  return {
+    peer,
+    messages,
+    connected: connected.promise,
+    ended: ended.promise,
+    heard: heard.promise,
+    meet,
+    negotiate,
+  };
+}
+
+async function until(is: () => boolean): Promise<void> {
+  while (!is()) await new Promise((resolve) => setTimeout(resolve, 5));
 }
 
 describe('OperatorPeer', () => {
@@ -81,6 +102,32 @@ describe('OperatorPeer', () => {
     await client.close();
     expect((await robot.ended)[0]).toBe('connection-lost');
     expect(transport.send(Buffer.alloc(100), 0, true)).toBeNull();
+  });
+
+  it('restarts ICE on new sockets: the path is another, keys, counters and channels are the same', async () => {
+    const robot = robotPeer();
+    const client = await robot.meet();
+    const transport = await robot.connected;
+    await client.until(() => client.control.readyState === 'open');
+    const ufragsOf = (sdp: string) =>
+      new Set([...sdp.matchAll(/ice-ufrag:(\S+)/g)].map(([, ufrag]) => ufrag));
+    const first = transport.send(Buffer.alloc(100), 0, true) as number;
+    await client.until(() => client.packets === 1);
+    const ufrags = new Set<string>();
+    for (let round = 1; round <= 3; round++) {
+      const offer = await robot.peer.restart();
+      for (const ufrag of ufragsOf(offer)) ufrags.add(ufrag as string);
+      expect(transport.ready).toBe(false);
+      await robot.negotiate(offer);
+      await until(() => transport.ready);
+      expect(transport.send(Buffer.alloc(100), round, true)).toBe((first + round) & 0xffff);
+      await client.until(() => client.packets === 1 + round);
+      client.control.send(`after ${round}`);
+      await until(() => robot.messages.some(([, data]) => data === `after ${round}`));
+    }
+    expect(ufrags.size).toBe(3);
+    expect(robot.peer.restarts).toBe(3);
+    expect(robot.peer.connected).toBe(true);
   });
 
   it('does not wait for a STUN server that says nothing', async () => {

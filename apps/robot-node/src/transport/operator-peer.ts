@@ -11,6 +11,7 @@ import {
   useTWCC,
 } from 'werift';
 import type { CloudTransport } from './cloud-transport.ts';
+import { discardSockets, guardSockets, pairLateCandidates, startChecks } from './ice-restart.ts';
 import { SrtpCloudTransport } from './srtp-cloud-transport.ts';
 
 /** Why a connection ended. */
@@ -26,6 +27,8 @@ export interface OperatorPeerOptions {
   iceServers: readonly IceServer[];
   /** Local UDP ports, both ends included; any where absent. */
   portRange?: readonly [number, number] | undefined;
+  /** `relay`: by TURN servers only. */
+  icePolicy?: 'all' | 'relay' | undefined;
   connectTimeoutMs: number;
 }
 
@@ -55,7 +58,11 @@ export class OperatorPeer {
   #transport: SrtpCloudTransport | null = null;
   #connected = false;
   #ended = false;
-  #answered = false;
+  #answerDue = false;
+  /** ICE is restarted and answered, but its checks wait for a first local candidate. */
+  #startDue = false;
+  /** Restarts of ICE that were offered. */
+  restarts = 0;
   /** Messages not sent because the channel was full. */
   unreliableDrops = 0;
   /** Channels that the operator opened and we do not know. */
@@ -66,16 +73,11 @@ export class OperatorPeer {
     // The same objects for both m-lines: within a bundle the ids must agree.
     const extensions = [useSdesMid(), useTransportWideCC()];
     this.#connection = new RTCPeerConnection({
-      iceServers: options.iceServers.flatMap(({ urls, username, credential }) =>
-        [urls].flat().map((url) => ({
-          urls: url,
-          ...(username === undefined ? {} : { username }),
-          ...(credential === undefined ? {} : { credential }),
-        })),
-      ),
+      iceServers: toWeriftServers(options.iceServers),
       bundlePolicy: 'max-bundle',
       // Points over TCP would arrive late in heaps; a relay's own TCP is another matter.
       iceUseTcp: false,
+      iceTransportPolicy: options.icePolicy ?? 'all',
       ...(options.portRange === undefined
         ? {}
         : { icePortRange: [...options.portRange] as [number, number] }),
@@ -116,14 +118,23 @@ export class OperatorPeer {
     connection.onDataChannel.subscribe((channel) => this.#adopt(channel));
     connection.onIceCandidate.subscribe((candidate) => {
       if (candidate === undefined || this.#ended) return;
-      const { candidate: text, sdpMid, sdpMLineIndex } = candidate.toJSON();
-      events.onCandidate({ candidate: text, sdpMid: sdpMid ?? null, sdpMLineIndex: sdpMLineIndex ?? null });
+      guardSockets(this.#cloud.dtlsTransport);
+      this.#checkPairs();
+      const { candidate: text, sdpMid, sdpMLineIndex, usernameFragment } = candidate.toJSON();
+      events.onCandidate({
+        candidate: text,
+        sdpMid: sdpMid ?? null,
+        sdpMLineIndex: sdpMLineIndex ?? null,
+        // Tells the operator which generation it belongs to, should it come late.
+        usernameFragment: usernameFragment ?? null,
+      });
     });
     connection.connectionStateChange.subscribe((state) => {
       if (state === 'connected') this.#checkConnected();
-      else if (state === 'failed' || state === 'closed') {
+      else if (state === 'closed' || (state === 'failed' && !this.#connected)) {
         this.#end(this.#connected ? 'connection-lost' : 'not-connected', `connection ${state}`);
       }
+      // Once connected, failed means that consent has run out (RFC 7675): a restart of ICE heals it.
     });
     this.#connectTimer = setTimeout(
       () => this.#end('not-connected', `no connection within ${options.connectTimeoutMs / 1000} s`),
@@ -138,20 +149,52 @@ export class OperatorPeer {
   /** The SDP offer, at once: candidates follow as they are found, be a STUN or TURN server ever so slow. */
   async offer(): Promise<string> {
     const description = await this.#connection.createOffer();
+    this.#describe(description);
+    return description.sdp;
+  }
+
+  /**
+   * An offer that restarts ICE, with new sockets: DTLS session, SRTP keys and channels stay. Nothing can be sent until the
+   * operator has answered it and a path is found. Candidates follow.
+   */
+  async restart(): Promise<string> {
+    const description = await this.#connection.createOffer({ iceRestart: true });
+    this.restarts++;
+    discardSockets(this.#cloud.dtlsTransport);
+    this.#describe(description);
+    return description.sdp;
+  }
+
+  /** From the next restart on. */
+  useIceServers(iceServers: readonly IceServer[]): void {
+    if (!this.#ended) this.#connection.setConfiguration({ iceServers: toWeriftServers(iceServers) });
+  }
+
+  /** Whether the peer was heard on the path since the last call, be it by a connectivity check. */
+  heardSinceLast(): boolean {
+    return this.#transport?.heardSinceLast() ?? false;
+  }
+
+  #describe(description: Awaited<ReturnType<RTCPeerConnection['createOffer']>>): void {
+    this.#answerDue = true;
+    this.#startDue = false;
     // Resolves only when every candidate is gathered.
     this.#connection.setLocalDescription(description).catch((error: unknown) => {
       this.#end('not-connected', `no local description: ${errorText(error)}`);
     });
-    return description.sdp;
   }
 
   /** Never throws: a bad answer ends the connection. */
   async answer(sdp: string): Promise<void> {
     if (this.#ended) return;
-    if (this.#answered) return this.#end('bad-answer', 'a second answer');
-    this.#answered = true;
+    if (!this.#answerDue) return this.#end('bad-answer', 'a second answer');
+    this.#answerDue = false;
+    const dtls = this.#cloud.dtlsTransport;
+    const isRestart = dtls.state === 'connected';
     try {
       await this.#connection.setRemoteDescription({ type: 'answer', sdp });
+      this.#startDue = isRestart;
+      this.#checkPairs();
     } catch (error) {
       this.#end('bad-answer', errorText(error));
     }
@@ -197,6 +240,12 @@ export class OperatorPeer {
 
   close(end: PeerEnd = 'closed', detail = ''): void {
     this.#end(end, detail);
+  }
+
+  #checkPairs(): void {
+    const dtls = this.#cloud.dtlsTransport;
+    if (this.#startDue && startChecks(dtls)) this.#startDue = false;
+    if (this.#connection.remoteDescription !== undefined) pairLateCandidates(dtls);
   }
 
   #sendUnreliable(channel: RTCDataChannel, text: string): void {
@@ -255,6 +304,16 @@ export class OperatorPeer {
     this.#connection.close().catch(() => undefined);
     this.#events.onEnded(end, detail);
   }
+}
+
+function toWeriftServers(servers: readonly IceServer[]) {
+  return servers.flatMap(({ urls, username, credential }) =>
+    [urls].flat().map((url) => ({
+      urls: url,
+      ...(username === undefined ? {} : { username }),
+      ...(credential === undefined ? {} : { credential }),
+    })),
+  );
 }
 
 function errorText(error: unknown): string {

@@ -72,6 +72,11 @@ export class SrtpCloudTransport implements CloudTransport {
     return transportSequence;
   }
 
+  /** @returns whether the peer was heard since the last call, be it by a connectivity check */
+  heardSinceLast(): boolean {
+    return this.#path.heardSinceLast();
+  }
+
   /** Nothing is sent from here on, though werift takes a while to close. */
   close(): void {
     this.#closed = true;

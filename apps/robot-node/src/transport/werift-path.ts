@@ -3,7 +3,7 @@
  * here is looked up at run time and checked, so that another werift version fails with a message and not with silence.
  */
 import type { Buffer } from 'node:buffer';
-import type { Socket } from 'node:dgram';
+import { Socket } from 'node:dgram';
 import type { RTCDtlsTransport } from 'werift';
 
 const SRTP_AEAD_AES_128_GCM = 7;
@@ -50,6 +50,23 @@ export function tapRtcp(dtls: RTCDtlsTransport, tap: (compound: Uint8Array) => v
 /** A socket on which more than this waits, bytes, gets no more for now: the kernel's queue is full already. */
 const MAX_SOCKET_BACKLOG = 524_288;
 
+const guarded = new WeakSet<Socket>();
+let socketErrors = 0;
+
+/** werift leaves a socket's errors (an unreachable network, say) unheard, and Node ends the process for them. */
+export function guardSocket(socket: unknown): void {
+  if (!(socket instanceof Socket) || guarded.has(socket)) return;
+  guarded.add(socket);
+  socket.on('error', () => {
+    socketErrors++;
+  });
+}
+
+/** Errors of all ICE sockets so far. */
+export function iceSocketErrors(): number {
+  return socketErrors;
+}
+
 interface UdpPath {
   socket: Socket;
   address: string;
@@ -65,8 +82,8 @@ interface StunProtocolShape {
 export class IcePath {
   readonly #dtls: RTCDtlsTransport;
   #udp: UdpPath | null = null;
-  readonly #guarded = new WeakSet<Socket>();
-  /** Errors of sockets, and datagrams that a relay or TCP path refused. */
+  #seen = '';
+  /** Datagrams that a relay or TCP path refused. */
   failed = 0;
 
   constructor(dtls: RTCDtlsTransport) {
@@ -94,18 +111,19 @@ export class IcePath {
       return true;
     }
     if (transport.closed || transport.socket.getSendQueueSize() > MAX_SOCKET_BACKLOG) return false;
-    this.#guard(transport.socket);
+    guardSocket(transport.socket);
     this.#udp = { socket: transport.socket, address: pair.remoteAddr[0], port: pair.remoteAddr[1] };
     return true;
   }
 
-  /** werift leaves a socket's errors (an unreachable network, say) unheard, and Node ends the process for them. */
-  #guard(socket: Socket): void {
-    if (this.#guarded.has(socket)) return;
-    this.#guarded.add(socket);
-    socket.on('error', () => {
-      this.failed++;
-    });
+  /** @returns whether the peer was heard on the selected pair since the last call: data, or a connectivity check */
+  heardSinceLast(): boolean {
+    const pair = this.#dtls.iceTransport.connection.nominated;
+    if (pair === undefined) return false;
+    const seen = `${pair.id} ${pair.packetsReceived} ${pair.requestsReceived} ${pair.responsesReceived}`;
+    if (seen === this.#seen) return false;
+    this.#seen = seen;
+    return true;
   }
 
   /** Sends the parts as one datagram. They must not be changed before the next turn of the event loop. */

@@ -8,6 +8,8 @@ import { type DriveWish, REST, toTwist } from './velocity-mapping.ts';
 export const COMMANDS_PER_SECOND = 40;
 /** Zeros sent after the grip is let go. */
 export const STOP_REPEATS = 4;
+/** Commands of rest before motion, where {@link CommandStream.restFirst} asks for it: one may be lost. */
+export const FIRST_RESTS = 2;
 
 export class CommandStream {
   #limits: DriveLimits | null = null;
@@ -16,6 +18,7 @@ export class CommandStream {
   #wish: DriveWish = { ...REST };
   #held = false;
   #stopsLeft = 0;
+  #restsLeft = 0;
   #nextMs = 0;
 
   /** A new session: nothing is held any more, the counter begins anew. */
@@ -24,6 +27,7 @@ export class CommandStream {
     this.#lease = null;
     this.#sequence = 0;
     this.#stopsLeft = 0;
+    this.#restsLeft = 0;
     this.#held = false;
   }
 
@@ -58,11 +62,9 @@ export class CommandStream {
     this.#nextMs = 0;
   }
 
-  /** Zeros again, where nothing is held: those sent last may be lost with the path. */
-  repeatStop(): void {
-    if (this.#held) return;
-    this.#stopsLeft = STOP_REPEATS;
-    this.#nextMs = 0;
+  /** The next grip begins with rest: the robot may not have heard that the hand was open in between. */
+  restFirst(): void {
+    this.#restsLeft = FIRST_RESTS;
   }
 
   /** The command due now, if any. */
@@ -77,8 +79,10 @@ export class CommandStream {
     const perSecond = Math.min(COMMANDS_PER_SECOND, this.#limits.maxCommandsPerSecond * 0.8);
     // 2 ms less: a timer that fires a little early is meant for this command.
     this.#nextMs = nowMs + 1000 / perSecond - 2;
+    const command = this.#make(nowMs, this.#limits, this.#lease);
     if (!this.#held) this.#stopsLeft--;
-    return this.#make(nowMs, this.#limits, this.#lease);
+    else if (this.#restsLeft > 0) this.#restsLeft--;
+    return command;
   }
 
   /**
@@ -99,7 +103,7 @@ export class CommandStream {
       timeMs: nowMs,
       lease,
       deadMan: this.#held,
-      twist: this.#held ? toTwist(this.#wish, limits) : zeroTwist(),
+      twist: this.#held && this.#restsLeft === 0 ? toTwist(this.#wish, limits) : zeroTwist(),
     };
   }
 }

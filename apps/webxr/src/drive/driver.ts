@@ -82,12 +82,12 @@ export class Driver {
   }
 
   /**
-   * The path to the robot is lost (`false`), or carries again. What is held meanwhile counts as let go until every hand has
-   * been open once: a hand that waited must not move the robot by itself.
+   * The path to the robot is lost, or carries again. What is held counts as let go until every hand has been open once: a
+   * hand that waited must not move the robot by itself.
    */
-  onPath(up: boolean, nowMs: number): void {
-    if (up) this.stream.repeatStop();
-    else this.#mustOpen = true;
+  onPath(nowMs: number): void {
+    this.#mustOpen = true;
+    this.stream.restFirst();
     this.tick(nowMs);
   }
 

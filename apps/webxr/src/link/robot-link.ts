@@ -27,6 +27,8 @@ export interface RobotLinkOptions {
   token: string | undefined;
   worker: Worker;
   transform: TransformSupport;
+  /** `relay`: by TURN servers only. */
+  icePolicy: RTCIceTransportPolicy;
 }
 
 export interface RobotLinkEvents extends RobotSessionEvents {
@@ -34,6 +36,8 @@ export interface RobotLinkEvents extends RobotSessionEvents {
   onRobots(robots: readonly RobotListing[]): void;
   onPhase(phase: SessionPhase): void;
   onLoss(loss: SessionLoss): void;
+  /** Within a session: nothing comes through (`false`), or something does again. */
+  onPath(up: boolean): void;
   /** A peer connection is being made: batches of this generation are its own. */
   onGeneration(generation: number): void;
   /** The service refused something, in its own words. */
@@ -56,6 +60,8 @@ export class RobotLink {
   #lastHeardMs = 0;
   #probeDueMs = 0;
   sessionsOpened = 0;
+  /** Requests for an ICE restart. */
+  resumesAsked = 0;
   lastLoss: SessionLoss | null = null;
 
   constructor(options: RobotLinkOptions, events: RobotLinkEvents) {
@@ -84,6 +90,10 @@ export class RobotLink {
     this.#keeper = new SessionKeeper(
       {
         requestSession: (robotId) => this.#signaling.send({ type: 'session.open', robotId }),
+        resumeSession: (session, robotId) => {
+          this.resumesAsked++;
+          this.#signaling.ask({ type: 'session.resume', session, robotId });
+        },
         closeSession: (session) => this.#signaling.send({ type: 'session.close', session }),
         dropPeer: () => this.#dropPeer(),
         onPhase: (phase) => {
@@ -94,6 +104,7 @@ export class RobotLink {
           this.lastLoss = loss;
           events.onLoss(loss);
         },
+        onPath: (up) => events.onPath(up),
       },
       Math.random,
     );
@@ -102,8 +113,15 @@ export class RobotLink {
   start(): void {
     this.#signaling.start();
     setInterval(() => this.#tick(performance.now()), TICK_MS);
-    // The network came back: what is waiting need not wait any longer.
-    window.addEventListener('online', () => this.#signaling.retryNow());
+    const onNetworkChange = () => {
+      // What is waiting need not wait any longer.
+      if (navigator.onLine) this.#signaling.retryNow();
+      this.#keeper.onNetworkChange(performance.now());
+    };
+    window.addEventListener('online', onNetworkChange);
+    window.addEventListener('offline', onNetworkChange);
+    // Not in every browser, nor in TypeScript's types.
+    (navigator as { connection?: EventTarget }).connection?.addEventListener('change', onNetworkChange);
   }
 
   connect(robotId: string): void {
@@ -133,12 +151,17 @@ export class RobotLink {
   get session(): RobotSession {
     return this.#session;
   }
+  /** Within a session, nothing comes through. */
+  get interrupted(): boolean {
+    return this.#keeper.interrupted;
+  }
   silentMs(nowMs: number): number {
     return nowMs - this.#lastHeardMs;
   }
 
+  /** On a path that carries nothing a command is lost, and would keep later ones waiting. */
   sendCommand(command: Command): void {
-    this.#sendControl(command);
+    if (!this.interrupted) this.#sendControl(command);
   }
 
   sendSession(message: OperatorSessionMessage): void {
@@ -155,7 +178,7 @@ export class RobotLink {
   }
 
   sendReport(report: IntakeReport): void {
-    if (report.generation !== this.#generation) return;
+    if (report.generation !== this.#generation || this.interrupted) return;
     this.#reportSequence = (this.#reportSequence + 1) >>> 0;
     const { packetsReceived, packetsLost, bytesReceived } = report;
     this.#sendControl({
@@ -175,13 +198,17 @@ export class RobotLink {
     const nowMs = performance.now();
     switch (message.type) {
       case 'session.opened': {
+        // The service has passed our request for a new path on.
+        if (message.session === this.#keeper.session) return;
         const ours = this.#keeper.onOpened(message.session, message.robotId);
         if (!ours) this.#signaling.send({ type: 'session.close', session: message.session });
         else this.#openPeer(message.session);
         return;
       }
       case 'session.offer':
-        if (message.session === this.#keeper.session) void this.#peer?.offer(message.sdp);
+        if (message.session !== this.#keeper.session) return;
+        this.#peer?.useIceServers(this.#signaling.iceServers, this.#options.icePolicy);
+        void this.#peer?.offer(message.sdp);
         return;
       case 'session.candidate':
         if (message.session === this.#keeper.session) void this.#peer?.candidate(message.candidate);
@@ -193,8 +220,10 @@ export class RobotLink {
         return;
       }
       case 'error':
-        // A session that outlived its signaling is unknown to the service, and that is all right.
-        if (message.code !== 'unknown-session') this.#events.onRefusal(message.message);
+        // A session that stands needs no service: that it is unknown, or the robot away, is all right.
+        if (message.code !== 'unknown-session' && !(this.phase === 'live' && message.session !== undefined)) {
+          this.#events.onRefusal(message.message);
+        }
         this.#keeper.onRefused(message.session, nowMs);
     }
   }
@@ -205,9 +234,9 @@ export class RobotLink {
     this.#reportSequence = 0;
     this.#session = new RobotSession(this.#events);
     this.#events.onGeneration(this.#generation);
-    const { worker, transform } = this.#options;
+    const { worker, transform, icePolicy } = this.#options;
     const peer: OperatorPeer = new OperatorPeer(
-      { iceServers: this.#signaling.iceServers, worker, transform, generation: this.#generation },
+      { iceServers: this.#signaling.iceServers, icePolicy, worker, transform, generation: this.#generation },
       {
         onAnswer: (sdp) => this.#signaling.send({ type: 'session.answer', session, sdp }),
         onCandidate: (candidate) => this.#signaling.send({ type: 'session.candidate', session, candidate }),
@@ -219,9 +248,10 @@ export class RobotLink {
           if (peer !== this.#peer) return;
           const nowMs = performance.now();
           this.#heard(nowMs);
+          // What the robot sends here answers our clock probes.
+          if (channel === 'control') this.#keeper.onAnswered(nowMs);
           this.#session.onMessage(channel, data, nowMs);
         },
-        onPath: () => undefined,
         onFailed: (detail) => {
           if (peer !== this.#peer) return;
           console.warn('peer:', detail);

@@ -14,14 +14,14 @@ export interface OperatorPeerEvents {
   /** The path stands and the robot's session channel is open. */
   onConnected(): void;
   onMessage(channel: 'session' | 'telemetry' | 'control', data: MessageData): void;
-  /** ICE has lost the path for now (`false`), or has it again. */
-  onPath(up: boolean): void;
   /** The last event, unless {@link OperatorPeer.close} was called. */
   onFailed(detail: string): void;
 }
 
 export interface OperatorPeerOptions {
   iceServers: readonly IceServer[];
+  /** `relay`: by TURN servers only. */
+  icePolicy: RTCIceTransportPolicy;
   worker: Worker;
   transform: TransformSupport;
   /** Counts sessions, for the worker's batches. */
@@ -45,11 +45,7 @@ export class OperatorPeer {
   constructor(options: OperatorPeerOptions, events: OperatorPeerEvents) {
     this.#events = events;
     const connection = new RTCPeerConnection({
-      iceServers: options.iceServers.map(({ urls, username, credential }) => ({
-        urls,
-        ...(username === undefined ? {} : { username }),
-        ...(credential === undefined ? {} : { credential }),
-      })),
+      ...iceConfiguration(options),
       bundlePolicy: 'max-bundle',
       ...transformConfiguration(options.transform),
     });
@@ -74,7 +70,22 @@ export class OperatorPeer {
     connection.onconnectionstatechange = () => this.#onState(connection.connectionState);
   }
 
-  /** Answers the offer. Never throws: what cannot be used ends the connection. */
+  /** From the next offer on. */
+  useIceServers(iceServers: readonly IceServer[], icePolicy: RTCIceTransportPolicy): void {
+    if (this.#ended) return;
+    // What of the configuration is left out would change, and may not.
+    const configuration = {
+      ...this.#connection.getConfiguration(),
+      ...iceConfiguration({ iceServers, icePolicy }),
+    };
+    try {
+      this.#connection.setConfiguration(configuration);
+    } catch (error) {
+      console.warn('ICE servers stay as they were:', error);
+    }
+  }
+
+  /** Answers an offer, the first or one that restarts ICE. Never throws: what cannot be used ends the connection. */
   async offer(sdp: string): Promise<void> {
     const connection = this.#connection;
     try {
@@ -163,12 +174,9 @@ export class OperatorPeer {
 
   #onState(state: RTCPeerConnectionState): void {
     if (this.#ended) return;
-    if (state === 'failed') this.#fail('no network path to the robot');
-    else if (state === 'disconnected') this.#events.onPath(false);
-    else if (state === 'connected') {
-      if (this.#connected) this.#events.onPath(true);
-      this.#checkConnected();
-    }
+    // Once connected, a failed path is healed by a restart of ICE; who hears nothing asks for one.
+    if (state === 'failed' && !this.#connected) this.#fail('no network path to the robot');
+    else if (state === 'connected') this.#checkConnected();
   }
 
   #checkConnected(): void {
@@ -183,4 +191,18 @@ export class OperatorPeer {
     this.close();
     this.#events.onFailed(detail);
   }
+}
+
+function iceConfiguration({
+  iceServers,
+  icePolicy,
+}: Pick<OperatorPeerOptions, 'iceServers' | 'icePolicy'>): RTCConfiguration {
+  return {
+    iceServers: iceServers.map(({ urls, username, credential }) => ({
+      urls,
+      ...(username === undefined ? {} : { username }),
+      ...(credential === undefined ? {} : { credential }),
+    })),
+    iceTransportPolicy: icePolicy,
+  };
 }

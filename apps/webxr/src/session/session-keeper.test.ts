@@ -8,15 +8,19 @@ class Bench {
   readonly requests: string[] = [];
   readonly closed: string[] = [];
   readonly losses: SessionLoss[] = [];
+  readonly resumed: string[] = [];
+  readonly paths: boolean[] = [];
   drops = 0;
   now = 0;
   readonly keeper = new SessionKeeper(
     {
       requestSession: (id) => this.requests.push(id),
+      resumeSession: (session, robotId) => this.resumed.push(`${session} ${robotId}`),
       closeSession: (session) => this.closed.push(session),
       dropPeer: () => this.drops++,
       onPhase: () => undefined,
       onLoss: (loss) => this.losses.push(loss),
+      onPath: (up) => this.paths.push(up),
     },
     () => 0.5,
   );
@@ -39,7 +43,10 @@ class Bench {
   pass(ms: number, heard = false): void {
     for (const end = this.now + ms; this.now < end; ) {
       this.now += 250;
-      if (heard) this.keeper.onHeard(this.now);
+      if (heard) {
+        this.keeper.onHeard(this.now);
+        this.keeper.onAnswered(this.now);
+      }
       this.keeper.tick(this.now);
     }
   }
@@ -78,35 +85,64 @@ describe('SessionKeeper', () => {
     expect(bench.drops).toBe(0);
   });
 
-  test('an outage of the path alone is waited out', () => {
+  test('an outage of the path: the robot is asked for a new one in the same session until it is heard again', () => {
     const bench = new Bench().live();
-    bench.pass(20_000);
+    bench.pass(35_000);
     expect(bench.keeper.phase).toBe('live');
-    bench.pass(30_000);
-    expect(bench.losses).toEqual(['silent']);
+    expect(bench.keeper.interrupted).toBe(true);
+    expect(new Set(bench.resumed)).toEqual(new Set(['s1 rover']));
+    expect(bench.resumed).toHaveLength(35);
+    bench.keeper.onHeard(bench.now);
+    expect(bench.keeper.interrupted).toBe(false);
+    expect(bench.paths).toEqual([false, true]);
+    bench.pass(5000, true);
+    expect(bench.resumed).toHaveLength(35);
+    expect([bench.losses, bench.drops]).toEqual([[], 0]);
   });
 
-  test('a restarted robot is connected to anew soon after it is back', () => {
+  test('an outage of a minute ends the session', () => {
+    const bench = new Bench().live();
+    bench.pass(59_000);
+    expect(bench.losses).toEqual([]);
+    bench.pass(1000);
+    expect(bench.losses).toEqual(['silent']);
+    expect(bench.closed).toEqual(['s1']);
+  });
+
+  test('signaling comes back after the path was lost: asked at once', () => {
+    const bench = new Bench().live();
+    bench.keeper.onSignaling(false, bench.now);
+    bench.pass(10_000);
+    expect(bench.resumed).toEqual([]);
+    bench.keeper.onSignaling(true, bench.now);
+    expect(bench.resumed).toHaveLength(1);
+    bench.keeper.onRobots([], bench.now);
+    bench.pass(3000);
+    expect(bench.resumed).toHaveLength(1);
+    bench.keeper.onRobots(HERE, bench.now);
+    expect(bench.resumed).toHaveLength(2);
+  });
+
+  test('a restarted robot does not know the session: a new one, at once', () => {
     const bench = new Bench().live();
     bench.keeper.onRobots([], bench.now);
     bench.pass(4000);
     expect(bench.keeper.phase).toBe('live');
     bench.keeper.onRobots(HERE, bench.now);
-    bench.pass(250);
+    expect(bench.resumed).toEqual(['s1 rover']);
+    bench.keeper.onClosed('s1', 'closed-by-robot', bench.now);
     expect(bench.losses).toEqual(['robot-restarted']);
     expect(bench.requests).toHaveLength(2);
-    expect(bench.closed).toEqual(['s1']);
     expect(bench.drops).toBe(1);
   });
 
   test('a restart quicker than the silence it takes to see it', () => {
     const bench = new Bench().live();
-    bench.keeper.onRobots([], bench.now);
-    bench.keeper.onRobots(HERE, bench.now);
-    bench.pass(1250);
-    expect(bench.requests).toHaveLength(1);
-    bench.pass(500);
-    expect(bench.requests).toHaveLength(2);
+    bench.keeper.onClosed('s1', 'robot-left', bench.now);
+    bench.pass(750);
+    expect(bench.resumed).toEqual([]);
+    bench.pass(250);
+    expect(bench.resumed).toHaveLength(1);
   });
 
   test('a failed connection is opened again, each time later, and at once when the robot comes back', () => {

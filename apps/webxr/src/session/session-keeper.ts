@@ -5,6 +5,7 @@
  */
 import { Backoff } from '@farpoint/congestion';
 import type { RobotListing } from '@farpoint/protocol';
+import { ResumePolicy } from './resume-policy.ts';
 
 export type SessionPhase =
   | 'none' // no robot is wanted
@@ -17,27 +18,29 @@ export type SessionLoss =
   | 'not-connected' // no peer connection came about in time
   | 'connection-failed' // ICE or DTLS ended
   | 'closed-by-robot'
-  | 'robot-restarted' // the robot registered anew while nothing was heard
+  | 'robot-restarted' // the robot went, came back, and does not know the session
   | 'silent' // nothing heard for long
   | 'signaling-lost' // before the peers had met
   | 'refused'; // the service would not open it
 
 export interface SessionActions {
   requestSession(robotId: string): void;
+  /** Ask the robot to restart ICE in the session that stands. */
+  resumeSession(session: string, robotId: string): void;
   /** Tell the service; the session may already be unknown to it. */
   closeSession(session: string): void;
   /** Close the peer connection, if there is one. */
   dropPeer(): void;
   onPhase(phase: SessionPhase): void;
   onLoss(loss: SessionLoss): void;
+  /** Within a live session: the path is lost (`false`), or carries again. */
+  onPath(up: boolean): void;
 }
 
 /** From the request to a peer connection. */
 const OPEN_TIMEOUT_MS = 15_000;
-/** A robot that was away and is back must have been silent for so long before its old session counts as dead. */
-const SILENCE_AFTER_RETURN_MS = 1500;
-/** Longer than any ICE consent timeout: then the connection's own state cannot be believed. */
-const SILENCE_LIMIT_MS = 40_000;
+/** Then the robot has given the session up too. */
+const SILENCE_LIMIT_MS = 60_000;
 
 export class SessionKeeper {
   readonly #actions: SessionActions;
@@ -51,7 +54,8 @@ export class SessionKeeper {
   #robotWasAway = false;
   #deadlineMs = Number.POSITIVE_INFINITY;
   #retryAtMs = 0;
-  #lastHeardMs = 0;
+  readonly #resume = new ResumePolicy();
+  #pathUp = false;
 
   constructor(actions: SessionActions, random: () => number) {
     this.#actions = actions;
@@ -72,6 +76,11 @@ export class SessionKeeper {
     return this.#listed;
   }
 
+  /** The peer connection stands, but nothing comes through. */
+  get interrupted(): boolean {
+    return this.#phase === 'live' && !this.#pathUp;
+  }
+
   want(robotId: string | null, robots: readonly RobotListing[], nowMs: number): void {
     if (robotId === this.#robotId) return;
     if (this.#phase === 'opening' || this.#phase === 'live') this.#endSession();
@@ -90,6 +99,7 @@ export class SessionKeeper {
       if (this.#phase === 'opening') this.#lose('signaling-lost', nowMs);
       return;
     }
+    this.#resume.onSignalingBack();
     this.tick(nowMs);
   }
 
@@ -100,6 +110,7 @@ export class SessionKeeper {
     if (listed && !this.#listed) {
       this.#retryAtMs = 0;
       this.#backoff.reset();
+      this.#resume.onSignalingBack();
     }
     this.#listed = listed;
     this.tick(nowMs);
@@ -119,7 +130,10 @@ export class SessionKeeper {
       this.#robotWasAway = true;
       return;
     }
-    this.#lose('closed-by-robot', nowMs);
+    const restarted = this.#robotWasAway && reason === 'closed-by-robot';
+    this.#lose(restarted ? 'robot-restarted' : 'closed-by-robot', nowMs);
+    if (restarted) this.#retryAtMs = 0;
+    this.tick(nowMs);
   }
 
   /** The service refused a request of ours. `session` where it named one. */
@@ -132,7 +146,8 @@ export class SessionKeeper {
 
   onPeerConnected(nowMs: number): void {
     if (this.#phase !== 'opening') return;
-    this.#lastHeardMs = nowMs;
+    this.#resume.begin(nowMs);
+    this.#pathUp = true;
     this.#robotWasAway = false;
     this.#deadlineMs = Number.POSITIVE_INFINITY;
     this.#enter('live');
@@ -140,8 +155,21 @@ export class SessionKeeper {
 
   /** Any packet or message of the robot. */
   onHeard(nowMs: number): void {
-    this.#lastHeardMs = nowMs;
-    if (this.#phase === 'live') this.#backoff.reset();
+    this.#resume.onHeard(nowMs);
+    if (this.#phase !== 'live') return;
+    this.#backoff.reset();
+    this.#notePath(nowMs);
+  }
+
+  /** The robot answered a clock probe: it hears us. */
+  onAnswered(nowMs: number): void {
+    this.#resume.onAnswered(nowMs);
+  }
+
+  /** The browser has another network, or none. */
+  onNetworkChange(nowMs: number): void {
+    this.#resume.onNetworkChange(nowMs);
+    this.tick(nowMs);
   }
 
   onPeerFailed(nowMs: number): void {
@@ -152,12 +180,12 @@ export class SessionKeeper {
   tick(nowMs: number): void {
     if (this.#phase === 'opening' && nowMs >= this.#deadlineMs) this.#lose('not-connected', nowMs);
     if (this.#phase === 'live') {
-      const silentMs = nowMs - this.#lastHeardMs;
-      if (this.#robotWasAway && this.#listed && silentMs >= SILENCE_AFTER_RETURN_MS) {
-        this.#lose('robot-restarted', nowMs);
-        this.#retryAtMs = 0;
-      } else if (silentMs >= SILENCE_LIMIT_MS) {
-        this.#lose('silent', nowMs);
+      const canAsk = this.#signalingReady && this.#listed;
+      const ask = this.#resume.tick(nowMs, canAsk);
+      this.#notePath(nowMs);
+      if (this.#resume.silentMs(nowMs) >= SILENCE_LIMIT_MS) this.#lose('silent', nowMs);
+      else if (ask && this.#session !== null && this.#robotId !== null) {
+        this.#actions.resumeSession(this.#session, this.#robotId);
       }
     }
     if (
@@ -172,6 +200,13 @@ export class SessionKeeper {
       this.#enter('opening');
       this.#actions.requestSession(this.#robotId);
     }
+  }
+
+  #notePath(nowMs: number): void {
+    const up = !this.#resume.lost(nowMs);
+    if (up === this.#pathUp) return;
+    this.#pathUp = up;
+    this.#actions.onPath(up);
   }
 
   #lose(loss: SessionLoss, nowMs: number): void {

@@ -2,7 +2,7 @@
  * The operator's side of Farpoint's signaling, without a socket or a clock: what comes in are events, what goes out are
  * calls on the port. Reconnects for ever.
  */
-import { Backoff } from '@farpoint/congestion';
+import { Reconnect } from '@farpoint/congestion';
 import {
   applyRobotsChanged,
   decodeJson,
@@ -49,19 +49,18 @@ export type SessionSignal = Exclude<
   { type: 'operator.welcome' } | { type: 'robots' } | { type: 'robots.changed' }
 >;
 
-const FIRST_RETRY_MS = 500;
-const MOST_RETRY_MS = 10_000;
 const REFUSED_RETRY_MS = 30_000;
-/** From opening the socket to the welcome. */
-const WELCOME_TIMEOUT_MS = 8000;
+/** A question that the service answers by itself: without an answer by then the line is dead, ms. */
+const ANSWER_TIMEOUT_MS = 2000;
 
 export class OperatorSignaling {
   readonly #port: SignalingPort;
   readonly #events: SignalingEvents;
-  readonly #backoff: Backoff;
+  readonly #reconnect: Reconnect;
   readonly #name: string;
   readonly #token: string | undefined;
   #state: SignalingState = 'stopped';
+  #answerDue = false;
   #iceServers: readonly IceServer[] = [];
   #robots: readonly RobotListing[] = [];
 
@@ -75,7 +74,7 @@ export class OperatorSignaling {
     this.#token = identity.token;
     this.#port = port;
     this.#events = events;
-    this.#backoff = new Backoff({ firstMs: FIRST_RETRY_MS, mostMs: MOST_RETRY_MS, random });
+    this.#reconnect = new Reconnect(random);
   }
 
   get state(): SignalingState {
@@ -104,6 +103,14 @@ export class OperatorSignaling {
     return true;
   }
 
+  /** Sends what the service answers at once. A line that stays silent then is given up, and made anew. */
+  ask(message: OperatorToService): boolean {
+    if (!this.send(message)) return false;
+    if (!this.#answerDue) this.#port.setTimer(ANSWER_TIMEOUT_MS);
+    this.#answerDue = true;
+    return true;
+  }
+
   onOpen(): void {
     if (this.#state !== 'connecting') return;
     const token = this.#token === undefined ? {} : { token: this.#token };
@@ -120,13 +127,17 @@ export class OperatorSignaling {
   onClose(): void {
     if (this.#state !== 'connecting' && this.#state !== 'ready') return;
     this.#enter('waiting');
-    this.#port.setTimer(this.#backoff.nextMs());
+    this.#port.setTimer(this.#reconnect.nextMs());
   }
 
   onTimer(): void {
     if (this.#state === 'connecting') {
       this.#port.close();
       this.onClose();
+    } else if (this.#state === 'ready') {
+      if (!this.#answerDue) return;
+      this.#port.close();
+      this.#connect();
     } else if (this.#state === 'waiting' || this.#state === 'refused') {
       this.#connect();
     }
@@ -139,6 +150,7 @@ export class OperatorSignaling {
 
   onMessage(data: MessageData): void {
     if (this.#state !== 'connecting' && this.#state !== 'ready') return;
+    this.#answerDue = false;
     let message: ServiceToOperator;
     try {
       message = decodeJson(serviceToOperatorCodec, data);
@@ -149,7 +161,7 @@ export class OperatorSignaling {
     }
     switch (message.type) {
       case 'operator.welcome':
-        this.#backoff.reset();
+        this.#reconnect.reset();
         this.#iceServers = message.iceServers;
         this.#enter('ready');
         return;
@@ -175,8 +187,9 @@ export class OperatorSignaling {
   }
 
   #connect(): void {
+    this.#answerDue = false;
     this.#enter('connecting');
-    this.#port.setTimer(WELCOME_TIMEOUT_MS);
+    this.#port.setTimer(this.#reconnect.timeoutMs);
     this.#port.open();
   }
 
