@@ -5,6 +5,10 @@ import { expect, type Page, type TestInfo } from '@playwright/test';
 export interface OpenOptions {
   robot?: string;
   token?: string;
+  /** Where the page finds signaling, if not where it came from. */
+  signaling?: string;
+  /** `relay`: by TURN servers only. */
+  ice?: 'relay';
 }
 
 /** The operator's page as a test uses it: real keys and buttons, and `window.farpoint` to look inside. */
@@ -18,7 +22,10 @@ export class OperatorPage {
   static async open(page: Page, stack: LocalStack, options: OpenOptions = {}): Promise<OperatorPage> {
     const url = new URL(stack.webUrl);
     if (options.robot !== undefined) url.searchParams.set('robot', options.robot);
-    if (options.token !== undefined) url.searchParams.set('token', options.token);
+    for (const name of ['token', 'signaling', 'ice'] as const) {
+      const value = options[name];
+      if (value !== undefined) url.searchParams.set(name, value);
+    }
     await page.goto(url.href);
     await page.waitForFunction(() => window.farpoint !== undefined);
     return new OperatorPage(page);

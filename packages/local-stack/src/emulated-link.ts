@@ -13,35 +13,42 @@ export interface EmulatedLinkSpec {
 
 /** A bad network before a stack's signaling: who is pointed at {@link signalingUrl} has every packet led through it. */
 export class EmulatedLink {
-  readonly process: ManagedProcess;
   readonly signalingUrl: string;
+  readonly #start: () => Promise<ManagedProcess>;
+  #process: ManagedProcess;
 
-  private constructor(started: ManagedProcess, signalingUrl: string) {
-    this.process = started;
+  private constructor(started: ManagedProcess, signalingUrl: string, start: () => Promise<ManagedProcess>) {
+    this.#process = started;
     this.signalingUrl = signalingUrl;
+    this.#start = start;
+  }
+
+  get process(): ManagedProcess {
+    return this.#process;
   }
 
   /** @throws {Error} with the program's last lines where it does not come up */
   static async start(stack: LocalStack, spec: EmulatedLinkSpec): Promise<EmulatedLink> {
     const [port, adminPort] = (await freePorts(2)) as [number, number];
-    const started = await ManagedProcess.start({
-      name: 'link',
-      command: [
-        'node',
-        'apps/link-emulator/src/main.ts',
-        ...['--signaling', stack.signalingUrl],
-        ...['--port', String(port)],
-        ...['--admin-port', String(adminPort)],
-        ...(spec.statsFile === undefined ? [] : ['--stats', spec.statsFile]),
-        ...spec.args,
-      ],
-      cwd: repositoryRoot,
-      env: spec.env,
-      readyUrl: `http://127.0.0.1:${adminPort}/healthz`,
-      onLine: spec.onLine,
-      ipc: true,
-    });
-    return new EmulatedLink(started, `ws://127.0.0.1:${port}`);
+    const start = () =>
+      ManagedProcess.start({
+        name: 'link',
+        command: [
+          'node',
+          'apps/link-emulator/src/main.ts',
+          ...['--signaling', stack.signalingUrl],
+          ...['--port', String(port)],
+          ...['--admin-port', String(adminPort)],
+          ...(spec.statsFile === undefined ? [] : ['--stats', spec.statsFile]),
+          ...spec.args,
+        ],
+        cwd: repositoryRoot,
+        env: spec.env,
+        readyUrl: `http://127.0.0.1:${adminPort}/healthz`,
+        onLine: spec.onLine,
+        ipc: true,
+      });
+    return new EmulatedLink(await start(), `ws://127.0.0.1:${port}`, start);
   }
 
   /** Changes the link while it runs: a message of apps/link-emulator/src/control.ts. */
@@ -49,7 +56,13 @@ export class EmulatedLink {
     this.process.send(message);
   }
 
+  /** Every address behind it goes away at once, for good; its signaling comes back where it was. */
+  async renumber(): Promise<void> {
+    await this.#process.kill();
+    this.#process = await this.#start();
+  }
+
   async stop(): Promise<void> {
-    await this.process.stop();
+    await this.#process.stop();
   }
 }

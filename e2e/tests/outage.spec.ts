@@ -1,0 +1,150 @@
+import { EmulatedLink } from '@farpoint/local-stack';
+import type { TestInfo } from '@playwright/test';
+import { OperatorPage } from '../src/operator-page.ts';
+import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+
+/** What the operator waits at most, once the network is back; as much again for a machine under load. */
+const RESUMED_MS = 2000;
+const LOADED_MS = 2000;
+
+const linkArgs = ['--rate-mbps', '20', '--rtt-ms', '30'];
+const robotArgs = [...simulatedRobot.args, '--bitrate-mbps', '6'];
+
+/** ms from now until the page has drawn a frame that was not there before. */
+async function msToNextFrame(operator: OperatorPage): Promise<number> {
+  return operator.page.evaluate(async () => {
+    const began = performance.now();
+    const { framesDrawn } = window.farpoint.stats();
+    while (window.farpoint.stats().framesDrawn === framesDrawn) {
+      if (performance.now() - began > 20_000) return Number.POSITIVE_INFINITY;
+      await new Promise((resolve) => setTimeout(resolve, 10));
+    }
+    return performance.now() - began;
+  });
+}
+
+function note(testInfo: TestInfo, what: string, ms: number): void {
+  testInfo.annotations.push({ type: what, description: `${Math.round(ms)} ms` });
+  console.log(`  ${what}: ${Math.round(ms)} ms`);
+}
+
+/** After the outage: same session, the robot stands though the keys are held, and drives when they are pressed anew. */
+async function expectDriveAgain(operator: OperatorPage): Promise<void> {
+  expect(await operator.state()).toMatchObject({ session: 'live', sessionsOpened: 1, driving: false });
+  // What the page knew last was how it drove.
+  await operator.expectStanding();
+  const stood = await operator.body();
+  await operator.expectFrames(15);
+  const stands = await operator.body();
+  expect(Math.hypot(stands.x - stood.x, stands.y - stood.y)).toBeLessThan(0.01);
+  await operator.releaseKeys();
+  const began = performance.now();
+  await operator.holdForward();
+  await operator.expectMovedFrom(stands, 0.05);
+  console.log(`  drives again after ${Math.round(performance.now() - began)} ms`);
+  await operator.releaseKeys();
+  await operator.expectStanding();
+}
+
+test('the network is away for 33 s: the page says so, everything resumes in the same session, held keys move nothing', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [] });
+  const link = await EmulatedLink.start(stack, { args: linkArgs });
+  try {
+    await stack.startRobot({
+      ...simulatedRobot,
+      args: [...robotArgs, '--signaling', link.signalingUrl],
+    });
+    const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
+    await operator.expectPoints();
+    const start = await operator.body();
+    await operator.holdForward();
+    await operator.expectMovedFrom(start, 0.2);
+
+    link.tell({ type: 'blackhole', direction: 'both', active: true });
+    await expect(page.getByText(/Connection lost for \d+ s/).first()).toBeVisible();
+    await page.waitForTimeout(33_000);
+    expect((await operator.state()).session).toBe('live');
+    link.tell({ type: 'blackhole', direction: 'both', active: false });
+    const resumedMs = await msToNextFrame(operator);
+    note(testInfo, 'resumed after', resumedMs);
+    expect(resumedMs).toBeLessThan(RESUMED_MS + LOADED_MS);
+    await expectDriveAgain(operator);
+
+    // Clocks and latency are right again.
+    const { minRttMs } = await operator.stats();
+    expect(minRttMs).toBeGreaterThanOrEqual(30);
+    await operator.page.evaluate(() => window.farpoint.requestLease());
+    await operator.expectState('holder', 'you');
+    await page.evaluate(() => window.farpoint.latencyTest());
+    expect(await page.evaluate(() => window.farpoint.latencyResults().at(-1)?.mtpMs)).toBeLessThan(5000);
+  } finally {
+    await link.stop();
+  }
+});
+
+test('signaling is away with the network, its sockets frozen: resumes as soon', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [] });
+  const link = await EmulatedLink.start(stack, { args: linkArgs });
+  try {
+    await stack.startRobot({
+      ...simulatedRobot,
+      args: [...robotArgs, '--signaling', link.signalingUrl],
+    });
+    const operator = await OperatorPage.open(page, stack, {
+      robot: simulatedRobot.id,
+      signaling: link.signalingUrl,
+    });
+    await operator.expectPoints();
+    const start = await operator.body();
+    await operator.holdForward();
+    await operator.expectMovedFrom(start, 0.2);
+
+    // No packet and no FIN: as when a mobile link goes.
+    process.kill(link.process.pid, 'SIGSTOP');
+    await expect.poll(async () => (await operator.state()).signaling).not.toBe('ready');
+    await page.waitForTimeout(6000);
+    process.kill(link.process.pid, 'SIGCONT');
+    const resumedMs = await msToNextFrame(operator);
+    note(testInfo, 'resumed after', resumedMs);
+    expect(resumedMs).toBeLessThan(RESUMED_MS + LOADED_MS);
+    await expectDriveAgain(operator);
+  } finally {
+    await link.stop();
+  }
+});
+
+test('every address changes: ICE restarts on new ones, in the same session', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [] });
+  const link = await EmulatedLink.start(stack, { args: linkArgs });
+  try {
+    await stack.startRobot({
+      ...simulatedRobot,
+      args: [...robotArgs, '--signaling', link.signalingUrl],
+    });
+    const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
+    await operator.expectPoints();
+    const start = await operator.body();
+    await operator.holdForward();
+    await operator.expectMovedFrom(start, 0.2);
+
+    const began = performance.now();
+    await link.renumber();
+    const renumberedMs = performance.now() - began;
+    const resumedMs = await msToNextFrame(operator);
+    note(testInfo, 'new addresses after', renumberedMs);
+    note(testInfo, 'resumed after', resumedMs);
+    expect(resumedMs).toBeLessThan(RESUMED_MS + LOADED_MS);
+    await expectDriveAgain(operator);
+  } finally {
+    await link.stop();
+  }
+});
