@@ -5,6 +5,7 @@
 import { parseArgs } from 'node:util';
 import { CHROMIUM_REMEDY } from '@farpoint/local-stack';
 import { ensureChromium } from './lib/ensure-chromium.ts';
+import { ensureTurnServer } from './lib/ensure-turn-server.ts';
 import { run } from './lib/run.ts';
 import { addTallies, emptyTally, type Tally, tallyCargo, tallyPlaywright, tallyVitest } from './lib/tally.ts';
 import { testRust } from './lib/test-rust.ts';
@@ -61,6 +62,7 @@ const steps: Step[] = [
       if ((await ensureChromium(say)) === null) {
         return { ok: false, output: `no Chromium, and it could not be installed; run: ${CHROMIUM_REMEDY}` };
       }
+      await ensureTurnServer(say);
       const { code, output } = await run('pnpm', ['--dir', 'e2e', 'exec', 'playwright', 'test'], {
         echo: true,
       });

@@ -1,5 +1,5 @@
 import { findChromium } from '@farpoint/local-stack';
-import { rootCommand } from './root-command.ts';
+import { aptInstall } from './apt-install.ts';
 import { run } from './run.ts';
 
 /**
@@ -18,17 +18,7 @@ export async function ensureChromium(say: (line: string) => void): Promise<strin
     timeoutMs: 300_000,
   });
   if (fetched.code === 0 && (await starts(findChromium()))) return findChromium();
-  const asRoot = rootCommand();
-  if (asRoot !== null && (await run('apt-get', ['--version'])).code === 0) {
-    say('installing the package chromium');
-    const command = [...asRoot, 'apt-get'];
-    const program = command[0] ?? 'apt-get';
-    const args = command.slice(1);
-    await run(program, [...args, 'update']);
-    await run(program, [...args, 'install', '-y', '--no-install-recommends', 'chromium'], {
-      env: { DEBIAN_FRONTEND: 'noninteractive' },
-    });
-  }
+  await aptInstall('chromium', say);
   const installed = findChromium();
   return (await starts(installed)) ? installed : null;
 }

@@ -1,0 +1,44 @@
+import { freePorts } from '@farpoint/local-stack';
+import { OperatorPage } from '../src/operator-page.ts';
+import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { hasTurnServer, TURN_REMEDY, TurnServer } from '../src/turn-server.ts';
+
+test('by a TURN relay alone: points flow, commands arrive; a relay that is restarted is found again', async ({
+  page,
+  startStack,
+}) => {
+  test.skip(!hasTurnServer(), `no turnserver here: ${TURN_REMEDY}`);
+  const turn = new TurnServer((await freePorts(1))[0] as number);
+  await turn.start();
+  try {
+    const stack = await startStack({
+      signalingArgs: ['--turn-urls', turn.url, '--turn-secret', turn.secret],
+      robots: [
+        {
+          ...simulatedRobot,
+          args: [...simulatedRobot.args, '--ice-policy', 'relay', '--bitrate-mbps', '6'],
+        },
+      ],
+    });
+    const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id, ice: 'relay' });
+    await operator.expectPoints();
+    const start = await operator.body();
+    await operator.holdForward();
+    await operator.expectMovedFrom(start, 0.3);
+    await operator.releaseKeys();
+    await operator.expectStanding();
+
+    // There is no other way, and the relay's memory of both peers is gone with it.
+    await turn.stop();
+    await expect.poll(async () => (await operator.state()).link).toContain('Connection lost');
+    await turn.start();
+    await operator.expectFrames(5);
+    const stood = await operator.body();
+    await operator.holdForward();
+    await operator.expectMovedFrom(stood, 0.1);
+    await operator.releaseKeys();
+    expect((await operator.state()).sessionsOpened).toBe(1);
+  } finally {
+    await turn.stop();
+  }
+});

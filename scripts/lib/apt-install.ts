@@ -1,0 +1,14 @@
+import { rootCommand } from './root-command.ts';
+import { run } from './run.ts';
+
+/** Installs a package of the distribution, where there is apt and we may. Whether it worked is for the caller to see. */
+export async function aptInstall(name: string, say: (line: string) => void): Promise<void> {
+  const asRoot = rootCommand();
+  if (asRoot === null || (await run('apt-get', ['--version'])).code !== 0) return;
+  say(`installing the package ${name}`);
+  const [program = 'apt-get', ...args] = [...asRoot, 'apt-get'];
+  await run(program, [...args, 'update']);
+  await run(program, [...args, 'install', '-y', '--no-install-recommends', name], {
+    env: { DEBIAN_FRONTEND: 'noninteractive' },
+  });
+}
