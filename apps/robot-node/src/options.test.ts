@@ -13,7 +13,7 @@ describe('robot options', () => {
     const options = robot();
     expect(options.capture).toMatchObject({
       source: { kind: 'sim', seed: 1, size: 480 },
-      framesPerSecond: 30,
+      framesPerSecond: 60,
     });
     expect(options).toMatchObject({
       bitsPerSecond: 60e6,

@@ -80,10 +80,10 @@ const options = {
     help: 'axes of PCD points: optical (z forward), body (x forward, z up), or auto: optical for grids, else body',
   }),
   fps: defineOption({
-    schema: schema.number({ min: 0.1, max: 120 }),
-    default: 30,
+    schema: schema.optional(schema.number({ min: 0.1, max: 120 })),
+    default: null,
     argument: 'RATE',
-    help: 'most frames a second that the source is asked for',
+    help: 'most frames a second that the source is asked for; left out, 60 of the simulated camera, 30 of recordings',
   }),
   simSeed: defineOption({
     schema: schema.integer({ min: 0, max: 0xffffffff }),
@@ -265,7 +265,7 @@ export function toRobotOptions(values: RobotOptionValues): RobotOptions {
     },
     capture: {
       source: toSource(values),
-      framesPerSecond: values.fps,
+      framesPerSecond: values.fps ?? (values.source === 'sim' ? 60 : 30),
       plan: values.plan,
       sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
       floorFraction: values.floor,

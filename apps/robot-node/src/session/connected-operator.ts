@@ -8,6 +8,7 @@ import type { SendLoop } from '../transport/send-loop.ts';
 import type { SharedFrame } from '../transport/shared-frame.ts';
 import { StreamSender } from '../transport/stream-sender.ts';
 import { OperatorSession, type SessionHost } from './operator-session.ts';
+import { PathBudget } from './path-budget.ts';
 import { RestartPolicy } from './restart-policy.ts';
 
 /** A latency test that waits for its green frame. */
@@ -55,6 +56,7 @@ export class ConnectedOperator {
   readonly #points = new RateMeter();
   readonly #bytes = new RateMeter();
   readonly #stages = new StageTimer();
+  readonly #budget = new PathBudget();
   #tests: LatencyTest[] = [];
   #lastTestId: number | null = null;
   readonly #testsInFlight = new Map<SharedFrame, LatencyTest[]>();
@@ -107,6 +109,11 @@ export class ConnectedOperator {
     return Math.max(this.session.heardMs, this.sender?.heardMs ?? 0, this.#pathHeardMs);
   }
 
+  /** What points may take of the path, bit/s on the wire; 0 while there is none. */
+  get cloudBitsPerSecond(): number {
+    return this.sender === null ? 0 : this.#budget.cloudBitsPerSecond(this.sender.targetBitsPerSecond);
+  }
+
   get droppedFrames(): number {
     const drops = this.sender?.droppedFrames;
     return drops === undefined ? 0 : drops.superseded + drops.overdue;
@@ -151,6 +158,7 @@ export class ConnectedOperator {
   /** Every 25 ms. */
   tick(): void {
     if (this.peer.heardSinceLast()) this.#pathHeardMs = this.#host.now();
+    this.#budget.update(this.peer.messageBytesSent, this.#host.now());
     this.sender?.tick();
     this.session.flushRejections();
   }

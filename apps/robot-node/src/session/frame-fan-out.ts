@@ -41,7 +41,7 @@ export class FrameFanOut {
     const streaming = [...operators.values()].filter((operator) => operator.streaming);
     const driving = streaming.find((operator) => operator.session.id === driver());
     const deciding = driving === undefined ? streaming : [driving];
-    const rates = deciding.map((operator) => operator.sender?.targetBitsPerSecond ?? 0);
+    const rates = deciding.map((operator) => operator.cloudBitsPerSecond);
     // One path at a time can be tried with larger frames: they go to everyone.
     const probe = deciding.length === 1 ? (deciding[0]?.sender?.probeWish ?? null) : null;
     const isNewProbe = probe !== null && probe.clusterId !== this.#probeCluster;

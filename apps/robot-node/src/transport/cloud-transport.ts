@@ -3,6 +3,8 @@
  * above it; RTP, SRTP and sockets below it.
  */
 
+import type { ResendRefusal } from '@farpoint/congestion';
+
 /** What a packet costs on the wire beyond its payload, bytes. */
 export const UDP_IPV4_BYTES = 28;
 
@@ -17,9 +19,27 @@ export interface CloudTransport {
    *
    * @param timestamp RTP timestamp, u32 in 1/48000 s, the same for all packets of a frame
    * @param marker on the last packet of a frame
+   * @param nowMs robot's clock
+   * @param usefulMs for so long it may be sent again, where it is missed
    * @returns the transport-wide sequence number (u16) it went out under, or `null` where the path is closed
    */
-  send(payload: Uint8Array, timestamp: number, marker: boolean): number | null;
+  send(
+    payload: Uint8Array,
+    timestamp: number,
+    marker: boolean,
+    nowMs: number,
+    usefulMs: number,
+  ): number | null;
+
+  /**
+   * Sends a packet again that the peer misses, the same bytes, where that is of use.
+   *
+   * @param sequence RTP sequence number
+   * @returns bytes on the wire, 0 where it was not sent
+   */
+  resend(sequence: number, nowMs: number): number;
+  /** How often a missed packet was not sent again, by reason. */
+  readonly resendRefusals: Readonly<Record<ResendRefusal, number>>;
 
   /** Raw RTCP compound packets from the peer, decrypted. */
   onRtcp: ((compound: Uint8Array) => void) | null;

@@ -92,7 +92,7 @@ describe('OperatorPeer', () => {
     const client = await robot.meet();
     const transport = await robot.connected;
     expect(transport.ready).toBe(true);
-    const sequences = [0, 1, 2].map((i) => transport.send(Buffer.alloc(100, i), i, true) as number);
+    const sequences = [0, 1, 2].map((i) => transport.send(Buffer.alloc(100, i), i, true, 0, 1000) as number);
     expect(sequences[2]).toBe(((sequences[0] as number) + 2) & 0xffff);
     await client.until(() => client.packets === 3);
     await client.until(() => client.control.readyState === 'open');
@@ -101,7 +101,7 @@ describe('OperatorPeer', () => {
     expect(robot.messages).toEqual([['control', 'hello']]);
     await client.close();
     expect((await robot.ended)[0]).toBe('connection-lost');
-    expect(transport.send(Buffer.alloc(100), 0, true)).toBeNull();
+    expect(transport.send(Buffer.alloc(100), 0, true, 0, 1000)).toBeNull();
   });
 
   it('restarts ICE on new sockets: the path is another, keys, counters and channels are the same', async () => {
@@ -111,7 +111,7 @@ describe('OperatorPeer', () => {
     await client.until(() => client.control.readyState === 'open');
     const ufragsOf = (sdp: string) =>
       new Set([...sdp.matchAll(/ice-ufrag:(\S+)/g)].map(([, ufrag]) => ufrag));
-    const first = transport.send(Buffer.alloc(100), 0, true) as number;
+    const first = transport.send(Buffer.alloc(100), 0, true, 0, 1000) as number;
     await client.until(() => client.packets === 1);
     const ufrags = new Set<string>();
     for (let round = 1; round <= 3; round++) {
@@ -120,7 +120,7 @@ describe('OperatorPeer', () => {
       expect(transport.ready).toBe(false);
       await robot.negotiate(offer);
       await until(() => transport.ready);
-      expect(transport.send(Buffer.alloc(100), round, true)).toBe((first + round) & 0xffff);
+      expect(transport.send(Buffer.alloc(100), round, true, 0, 1000)).toBe((first + round) & 0xffff);
       await client.until(() => client.packets === 1 + round);
       client.control.send(`after ${round}`);
       await until(() => robot.messages.some(([, data]) => data === `after ${round}`));

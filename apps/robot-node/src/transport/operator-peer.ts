@@ -6,6 +6,7 @@ import {
   RTCPeerConnection,
   RTCRtpCodecParameters,
   type RTCRtpTransceiver,
+  useNACK,
   useSdesMid,
   useTransportWideCC,
   useTWCC,
@@ -41,6 +42,8 @@ export interface OperatorPeerEvents {
   onEnded(end: PeerEnd, detail: string): void;
 }
 
+/** What a message costs on the wire beyond its text: SCTP chunk and header 28, DTLS record 37, UDP and IPv4 28 bytes. */
+const MESSAGE_OVERHEAD_BYTES = 93;
 /** Our unreliable messages are dropped while this much waits, bytes. */
 const MAX_UNRELIABLE_BACKLOG = 16_384;
 /** A peer that lets this much of the reliable channel pile up is closed. */
@@ -63,6 +66,8 @@ export class OperatorPeer {
   #startDue = false;
   /** Restarts of ICE that were offered. */
   restarts = 0;
+  /** On the wire, all headers counted. */
+  messageBytesSent = 0;
   /** Messages not sent because the channel was full. */
   unreliableDrops = 0;
   /** Channels that the operator opened and we do not know. */
@@ -87,7 +92,7 @@ export class OperatorPeer {
             mimeType: 'audio/opus',
             clockRate: 48_000,
             channels: 2,
-            rtcpFeedback: [useTWCC()],
+            rtcpFeedback: [useTWCC(), useNACK()],
           }),
         ],
         video: [
@@ -260,6 +265,8 @@ export class OperatorPeer {
   #send(channel: RTCDataChannel, text: string): void {
     try {
       channel.send(text);
+      // Texts are ASCII but for names.
+      this.messageBytesSent += text.length + MESSAGE_OVERHEAD_BYTES;
     } catch (error) {
       // The association is going down; the state change that says so may still be on its way.
       this.#end('connection-lost', errorText(error));

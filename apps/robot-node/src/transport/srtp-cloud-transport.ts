@@ -1,5 +1,6 @@
 import { Buffer } from 'node:buffer';
 import { randomInt } from 'node:crypto';
+import { ResendHistory } from '@farpoint/congestion';
 import { type RTCDtlsTransport, type RTCRtpTransceiver, RTP_EXTENSION_URI } from 'werift';
 import { type CloudTransport, UDP_IPV4_BYTES } from './cloud-transport.ts';
 import { RtpHeaderTemplate } from './rtp-header.ts';
@@ -23,6 +24,8 @@ export class SrtpCloudTransport implements CloudTransport {
   readonly #path: IcePath;
   readonly #header: RtpHeaderTemplate;
   readonly #sealer: SrtpSealer;
+  /** Sealed packets: sealing other bytes under a number again would give the key away (RFC 7714 §8.4). */
+  readonly #sent = new ResendHistory<readonly Buffer[]>();
   /** The path is looked up once a turn of the event loop, not for each packet. */
   #pathIsFresh = false;
   #pathIsOpen = false;
@@ -60,16 +63,37 @@ export class SrtpCloudTransport implements CloudTransport {
     return this.#pathIsOpen;
   }
 
-  send(payload: Uint8Array, timestamp: number, marker: boolean): number | null {
+  get resendRefusals() {
+    return this.#sent.refusals;
+  }
+
+  send(
+    payload: Uint8Array,
+    timestamp: number,
+    marker: boolean,
+    nowMs: number,
+    usefulMs: number,
+  ): number | null {
     this.#refreshPath();
     if (!this.#pathIsOpen) return null;
     const transportSequence = (this.#dtls.transportSequenceNumber + 1) & 0xffff;
     this.#dtls.transportSequenceNumber = transportSequence;
-    this.#header.patch(marker, this.#sealer.nextSequence, timestamp, transportSequence);
+    const { nextSequence } = this.#sealer;
+    this.#header.patch(marker, nextSequence, timestamp, transportSequence);
     // A copy: a datagram that the kernel cannot take at once is still read from memory later.
     const header = Buffer.from(this.#header.bytes);
-    this.#path.send(this.#sealer.seal(header, payload));
+    const sealed = this.#sealer.seal(header, payload);
+    this.#sent.add(nextSequence, sealed, nowMs, usefulMs);
+    this.#path.send(sealed);
     return transportSequence;
+  }
+
+  resend(sequence: number, nowMs: number): number {
+    this.#refreshPath();
+    const sealed = this.#pathIsOpen ? this.#sent.take(sequence, nowMs) : null;
+    if (sealed === null) return 0;
+    this.#path.send(sealed);
+    return sealed.reduce((sum, part) => sum + part.length, UDP_IPV4_BYTES);
   }
 
   /** @returns whether the peer was heard since the last call, be it by a connectivity check */

@@ -20,6 +20,8 @@ class RecordingTransport implements CloudTransport {
   ready = true;
   onRtcp: ((compound: Uint8Array) => void) | null = null;
   readonly sent: Sent[] = [];
+  readonly resendRefusals = { unknown: 0, 'too-late': 0, resent: 0 };
+  readonly resent: number[] = [];
   readonly #now: () => number;
 
   constructor(now: () => number) {
@@ -36,6 +38,11 @@ class RecordingTransport implements CloudTransport {
       marker,
     });
     return (this.sent.length - 1) & 0xffff;
+  }
+
+  resend(sequence: number): number {
+    this.resent.push(sequence);
+    return sequence === 9 ? 0 : 1300;
   }
 }
 
@@ -285,6 +292,30 @@ describe('StreamSender', () => {
     expect(dropped).toEqual(['superseded', 'overdue'].toSorted());
     runUntil(200);
     expect(transport.sent.at(-1)?.marker).toBe(true);
+  });
+
+  it('sends again what the receiver misses, but not without bounds', () => {
+    const { transport, sender, runUntil } = stage();
+    const nack = (pid: number, blp: number) => {
+      const bytes = Buffer.alloc(16);
+      bytes.writeUInt8(0x81, 0);
+      bytes.writeUInt8(205, 1);
+      bytes.writeUInt16BE(3, 2);
+      bytes.writeUInt16BE(pid, 12);
+      bytes.writeUInt16BE(blp, 14);
+      return bytes;
+    };
+    transport.onRtcp?.(nack(7, 0b11));
+    expect(transport.resent).toEqual([7, 8, 9]);
+    // One of them was too old.
+    expect(sender.counters).toMatchObject({ packetsResent: 2, bytesSent: 2600, packetsSent: 0 });
+    for (let i = 0; i < 10; i++) transport.onRtcp?.(nack(i * 100, 0xffff));
+    expect(transport.resent).toHaveLength(50);
+    runUntil(1000);
+    transport.onRtcp?.(nack(3000, 0));
+    expect(transport.resent).toHaveLength(51);
+    transport.onRtcp?.(nack(1, 1).subarray(0, 12));
+    expect(sender.counters.feedbackMalformed).toBe(1);
   });
 
   it('obeys the receiver’s limit', () => {

@@ -1,4 +1,5 @@
 import {
+  FMT_GENERIC_NACK,
   FMT_TRANSPORT_WIDE,
   type FrameDropReason,
   PacketPacer,
@@ -7,6 +8,8 @@ import {
   type RateController,
   type RateSnapshot,
   RTCP_TRANSPORT_FEEDBACK,
+  readNack,
+  TokenBucket,
   TransportFeedbackAdapter,
   TransportFeedbackError,
   walkRtcp,
@@ -27,6 +30,8 @@ export interface StreamCounters {
   packetsUnsent: number;
   feedbackMessages: number;
   feedbackMalformed: number;
+  /** Sent again because the operator missed them; not among `packetsSent`. */
+  packetsResent: number;
 }
 
 /** A frame has been sent to its last packet. */
@@ -49,6 +54,7 @@ export class StreamSender {
     packetsUnsent: 0,
     feedbackMessages: 0,
     feedbackMalformed: 0,
+    packetsResent: 0,
   };
   onFrameSent: ((sent: SentFrame) => void) | null = null;
   onFrameDropped: ((shared: SharedFrame, reason: FrameDropReason) => void) | null = null;
@@ -60,6 +66,8 @@ export class StreamSender {
   readonly #controller: RateController;
   readonly #pacer: PacketPacer<SharedFrame>;
   readonly #feedback = new TransportFeedbackAdapter();
+  /** A peer that asks for everything again gets a tenth of it. */
+  readonly #resends = new TokenBucket({ perSecond: 400, burst: 50 });
   readonly #now: () => number;
   #beganMs = 0;
   /** The probe that is being sent, its rate and what is left of it. */
@@ -136,7 +144,8 @@ export class StreamSender {
       for (let i = first; i < first + count; i++) {
         const bytes = payloadBytes(points, i);
         const payload = shared.slots.subarray(i * SLOT_BYTES, i * SLOT_BYTES + bytes);
-        const sequence = transport.send(payload, shared.rtpTimestamp, i === shared.packets - 1);
+        const marker = i === shared.packets - 1;
+        const sequence = transport.send(payload, shared.rtpTimestamp, marker, now, shared.frame.intervalMs);
         if (sequence === null) {
           this.counters.packetsUnsent++;
           continue;
@@ -189,7 +198,9 @@ export class StreamSender {
     this.heardMs = this.#now();
     let changed = false;
     for (const packet of walkRtcp(compound, () => this.counters.feedbackMalformed++)) {
-      if (packet.packetType !== RTCP_TRANSPORT_FEEDBACK || packet.format !== FMT_TRANSPORT_WIDE) continue;
+      if (packet.packetType !== RTCP_TRANSPORT_FEEDBACK) continue;
+      if (packet.format === FMT_GENERIC_NACK) this.#onNack(packet.bytes);
+      if (packet.format !== FMT_TRANSPORT_WIDE) continue;
       try {
         const now = this.#now();
         const results = this.#feedback.onFeedback(parseTransportFeedback(packet.bytes), now);
@@ -203,6 +214,18 @@ export class StreamSender {
       }
     }
     if (changed) this.onRateChanged?.();
+  }
+
+  #onNack(bytes: Uint8Array): void {
+    const now = this.#now();
+    const fault = readNack(bytes, (sequence) => {
+      if (!this.#resends.take(now)) return;
+      const sent = this.#transport.resend(sequence, now);
+      if (sent === 0) return;
+      this.counters.packetsResent++;
+      this.counters.bytesSent += sent;
+    });
+    if (fault !== null) this.counters.feedbackMalformed++;
   }
 
   get #windowFull(): boolean {
