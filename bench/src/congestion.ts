@@ -4,6 +4,7 @@ import { parseArgs } from 'node:util';
 import { AdaptiveRateController, FixedRateController, type RateController } from '@farpoint/congestion';
 import { GoogCcController } from '@farpoint/congestion/goog-cc';
 import {
+  BUSY_COMPUTER,
   type CapacityStep,
   type FlowRecord,
   losses,
@@ -51,6 +52,12 @@ const flat = (bitsPerSecond: number): CapacityStep[] => [{ fromMs: 0, bitsPerSec
 const BASE = { durationMs: 30_000, capacity: flat(LINK), rttMs: 42.4, queueMs: 100 };
 const TCP = { ...BASE, durationMs: 60_000, capacity: flat(20 * M), cubic: [{ startMs: 5000 }] };
 
+const STEP: CapacityStep[] = [
+  ...flat(LINK),
+  { fromMs: 15_000, bitsPerSecond: 8 * M },
+  { fromMs: 28_000, bitsPerSecond: LINK },
+];
+
 const CASES: readonly Case[] = [
   { ...BASE, name: 'steady 41.44 Mbit/s' },
   { ...BASE, name: 'steady 8 Mbit/s', capacity: flat(8 * M) },
@@ -58,11 +65,7 @@ const CASES: readonly Case[] = [
     ...BASE,
     name: 'step 41.44–8–41.44 Mbit/s',
     durationMs: 40_000,
-    capacity: [
-      ...flat(LINK),
-      { fromMs: 15_000, bitsPerSecond: 8 * M },
-      { fromMs: 28_000, bitsPerSecond: LINK },
-    ],
+    capacity: STEP,
     fallMs: 15_000,
     riseMs: 28_000,
   },
@@ -73,6 +76,27 @@ const CASES: readonly Case[] = [
   { ...BASE, name: 'jitter of 3 ms', jitterMs: 3 },
   { ...BASE, name: 'delay that wobbles by ± 5 ms', wobbleMs: 5 },
   { ...BASE, name: '20 % of feedback lost', backLoss: 0.2 },
+  { ...BASE, name: 'a busy computer', stalls: BUSY_COMPUTER },
+  { ...BASE, name: 'a busy computer, 5 % loss', stalls: BUSY_COMPUTER, loss: 0.05 },
+  {
+    ...BASE,
+    name: 'a busy computer, step 41.44–8–41.44 Mbit/s',
+    stalls: BUSY_COMPUTER,
+    durationMs: 40_000,
+    capacity: STEP,
+    fallMs: 15_000,
+    riseMs: 28_000,
+  },
+  {
+    ...BASE,
+    name: 'a link that stalls for 5–25 ms, 4 / s',
+    stalls: { link: { perSecond: 4, lengthMs: [5, 25] } },
+  },
+  {
+    ...BASE,
+    name: 'a sender that stalls for 5–40 ms, 5 / s',
+    stalls: { sender: { perSecond: 5, lengthMs: [5, 40] } },
+  },
   {
     ...BASE,
     name: 'outage of 10 s',
@@ -83,6 +107,7 @@ const CASES: readonly Case[] = [
   { ...TCP, name: 'CUBIC, 20 Mbit/s, queue 50 ms', queueMs: 50 },
   { ...TCP, name: 'CUBIC, 20 Mbit/s, queue 100 ms' },
   { ...TCP, name: 'CUBIC, 20 Mbit/s, queue 200 ms', queueMs: 200 },
+  { ...TCP, name: 'CUBIC, 20 Mbit/s, queue 100 ms, a busy computer', stalls: BUSY_COMPUTER },
   { ...BASE, name: 'two of the same', durationMs: 60_000, media: [{}, { startMs: 10_000 }] },
 ];
 

@@ -8,3 +8,4 @@ export * from './path.ts';
 export * from './random.ts';
 export * as rfc8867 from './rfc8867.ts';
 export * from './scenario.ts';
+export * from './stalls.ts';

@@ -6,6 +6,7 @@ import type { EventQueue } from './event-queue.ts';
 import { FlowRecord } from './flow-record.ts';
 import type { Path } from './path.ts';
 import type { Random } from './random.ts';
+import type { Stalls } from './stalls.ts';
 
 export interface MediaFlowOptions {
   name?: string;
@@ -31,6 +32,9 @@ export interface MediaFlowOptions {
   clockJumps?: readonly (readonly [number, number])[];
   /** The receiver's clock runs faster by so many millionths. */
   clockSkewPpm?: number;
+  /** When sender and receiver stand still; the arrivals' own delay by it is the forward path's. */
+  senderStalls?: Stalls | null;
+  receiverStalls?: Stalls | null;
 }
 
 interface SimFrame extends PacedFrame {
@@ -78,8 +82,8 @@ export class MediaFlow {
     this.#stopMs = options.stopMs ?? Number.POSITIVE_INFINITY;
     this.record = new FlowRecord(options.name ?? 'media');
     this.#arrivals.fill(Number.NaN);
-    events.at(this.#startMs, () => {
-      this.#frame();
+    this.#senderAt(this.#startMs, () => {
+      this.#frame(this.#startMs);
       this.#tick();
     });
     events.at(this.#startMs + this.#feedbackInterval(), () => this.#report());
@@ -89,13 +93,14 @@ export class MediaFlow {
     return this.#controller.snapshot(this.#events.nowMs);
   }
 
-  #frame(): void {
+  #frame(dueMs: number): void {
     const now = this.#events.nowMs;
     if (now >= this.#stopMs) {
       this.#pacer.clear();
       return;
     }
-    this.#events.at(now + FRAME_MS, () => this.#frame());
+    const next = dueMs + FRAME_MS;
+    this.#senderAt(next, () => this.#frame(next));
     if (this.#options.pauses?.some(([from, to]) => now >= from && now < to)) return;
     const target = this.#controller.decision(now).targetBitsPerSecond;
     const most = this.#options.maxFrameBytes ?? Number.POSITIVE_INFINITY;
@@ -115,7 +120,7 @@ export class MediaFlow {
     this.#controller.onTick(now);
     this.record.sample(now, this.#controller);
     this.#pump();
-    this.#events.at(now + TICK_MS, () => this.#tick());
+    this.#senderAt(now + TICK_MS, () => this.#tick());
   }
 
   #pump(): void {
@@ -141,7 +146,7 @@ export class MediaFlow {
     if (next < Number.POSITIVE_INFINITY && (next < this.#wakeMs || this.#wakeMs <= now)) {
       const at = Math.max(next, now + 0.25);
       this.#wakeMs = at;
-      this.#events.at(at, () => {
+      this.#senderAt(at, () => {
         if (this.#wakeMs === at) this.#wakeMs = Number.POSITIVE_INFINITY;
         this.#pump();
       });
@@ -194,7 +199,8 @@ export class MediaFlow {
   #report(): void {
     const now = this.#events.nowMs;
     if (now > this.#stopMs + 5000) return;
-    this.#events.at(now + this.#feedbackInterval(), () => this.#report());
+    const next = now + this.#feedbackInterval();
+    this.#events.at(this.#options.receiverStalls?.after(next) ?? next, () => this.#report());
     if (this.#highestArrived < this.#nextToReport) return;
     const packets: PacketStatus[] = [];
     const first = Math.max(this.#nextToReport, this.#highestArrived - RECEIVER_WINDOW + 1);
@@ -227,7 +233,12 @@ export class MediaFlow {
       if (results.length > 0) this.#controller.onFeedback(results, this.#events.nowMs);
       this.#pump();
     };
-    this.#events.at(arrivalMs, deliver);
-    if (this.#random() < (this.#options.duplicateFeedback ?? 0)) this.#events.at(arrivalMs + 3, deliver);
+    this.#senderAt(arrivalMs, deliver);
+    if (this.#random() < (this.#options.duplicateFeedback ?? 0)) this.#senderAt(arrivalMs + 3, deliver);
+  }
+
+  /** What the sender's process is to do at a time. */
+  #senderAt(atMs: number, action: () => void): void {
+    this.#events.at(this.#options.senderStalls?.after(atMs) ?? atMs, action);
   }
 }

@@ -1,5 +1,6 @@
 import type { Bottleneck } from './bottleneck.ts';
 import type { Random } from './random.ts';
+import type { Stalls } from './stalls.ts';
 
 export interface PathOptions {
   /** Shared by all flows that pass it. `null`: none. */
@@ -15,6 +16,10 @@ export interface PathOptions {
   reorderMs?: number;
   /** Lost anywhere on the way, 0–1. */
   loss?: number;
+  /** The link stands still: what comes or is due to leave meanwhile does so afterwards, and the link's time is lost. */
+  linkStalls?: Stalls | null;
+  /** The receiver stands still: it notes what comes meanwhile as come at the end. */
+  receiverStalls?: Stalls | null;
 }
 
 const WOBBLE_EVERY_MS = 10;
@@ -51,9 +56,13 @@ export class Path {
       reorder = 0,
       reorderMs = 0,
       loss = 0,
+      linkStalls = null,
+      receiverStalls = null,
     } = this.#options;
     const passage = this.#passage;
-    const leaves = bottleneck === null ? nowMs : bottleneck.enter(bytes, nowMs);
+    const enters = linkStalls === null ? nowMs : linkStalls.after(nowMs);
+    let leaves = bottleneck === null ? enters : bottleneck.enter(bytes, enters);
+    if (leaves >= 0 && linkStalls !== null) leaves = linkStalls.after(leaves);
     if (leaves < 0) {
       passage.arrivalMs = Number.POSITIVE_INFINITY;
       passage.queueMs = Number.NaN;
@@ -69,6 +78,7 @@ export class Path {
     if (reorder > 0 && this.#random() < reorder) arrival += reorderMs;
     else this.#lastArrivalMs = arrival;
     const lost = (bottleneck?.loses() ?? false) || (loss > 0 && this.#random() < loss);
+    if (receiverStalls !== null) arrival = receiverStalls.after(arrival);
     passage.arrivalMs = lost ? Number.POSITIVE_INFINITY : arrival;
     return passage;
   }

@@ -6,8 +6,11 @@ import type { FlowRecord } from './flow-record.ts';
 import { MediaFlow, type MediaFlowOptions } from './media-flow.ts';
 import { Path } from './path.ts';
 import { seededRandom } from './random.ts';
+import { type StallOptions, Stalls } from './stalls.ts';
 
-type OwnOptions = Partial<Omit<MediaFlowOptions, 'controller' | 'forward' | 'back'>>;
+type OwnOptions = Partial<
+  Omit<MediaFlowOptions, 'controller' | 'forward' | 'back' | 'senderStalls' | 'receiverStalls'>
+>;
 
 /** One of our flows; its round trip may differ from the scenario's. */
 export interface MediaSpec extends OwnOptions {
@@ -39,6 +42,8 @@ export interface Scenario {
   jitterMs?: number;
   wobbleMs?: number;
   reorder?: number;
+  /** Sender, link and receiver are processes on busy machines. */
+  stalls?: { sender?: StallOptions; link?: StallOptions; receiver?: StallOptions };
   /** Of the feedback. */
   backLoss?: number;
   /** A bottleneck on the feedback's way. */
@@ -80,19 +85,38 @@ export function runScenario(scenario: Scenario, controller: () => RateController
   const backLink =
     backCapacity && new Bottleneck({ capacity: backCapacity, queueBytes: backQueueBytes }, random);
   const { jitterMs = 0, wobbleMs = 0, reorder = 0 } = scenario;
-  const forwardPath = (rttMs: number) =>
-    new Path({ bottleneck: link, delayMs: rttMs / 2, jitterMs, wobbleMs, reorder, reorderMs: 10 }, random);
+  // Of their own seed, so that they are the same whatever the flows do.
+  const stallRandom = seededRandom((scenario.seed ?? 1) + 77);
+  const stalls = (options: StallOptions | undefined) =>
+    options === undefined ? null : new Stalls(options, seededRandom(stallRandom() * 2 ** 32));
+  const linkStalls = stalls(scenario.stalls?.link);
+  const forwardPath = (rttMs: number, receiverStalls: Stalls | null) =>
+    new Path(
+      {
+        bottleneck: link,
+        delayMs: rttMs / 2,
+        jitterMs,
+        wobbleMs,
+        reorder,
+        reorderMs: 10,
+        linkStalls,
+        receiverStalls,
+      },
+      random,
+    );
   const backPath = (rttMs: number) =>
     new Path({ bottleneck: backLink ?? null, delayMs: rttMs / 2, loss: scenario.backLoss ?? 0 }, random);
 
   const media = (scenario.media ?? [{}]).map((spec, i) => {
     const { rttMs = scenario.rttMs, ...own } = spec;
     const name = `media ${i + 1}`;
-    const paths = { forward: forwardPath(rttMs), back: backPath(rttMs) };
-    return new MediaFlow(events, random, { name, ...own, ...paths, controller: controller() });
+    const receiverStalls = stalls(scenario.stalls?.receiver);
+    const paths = { forward: forwardPath(rttMs, receiverStalls), back: backPath(rttMs) };
+    const busy = { senderStalls: stalls(scenario.stalls?.sender), receiverStalls };
+    return new MediaFlow(events, random, { name, ...busy, ...own, ...paths, controller: controller() });
   });
   const cubic = (scenario.cubic ?? []).map(({ reverse, ...own }, i) => {
-    const forward = reverse ? backPath(scenario.rttMs) : forwardPath(scenario.rttMs);
+    const forward = reverse ? backPath(scenario.rttMs) : forwardPath(scenario.rttMs, null);
     return new CubicFlow(events, {
       name: `cubic ${i + 1}`,
       ...own,
