@@ -62,6 +62,7 @@ export class AdaptiveRateController implements RateController {
   #lastOveruseMs = Number.NEGATIVE_INFINITY;
   /** Loss of packets that left before this time tells nothing of the present path. */
   #ignoreLossBeforeMs = Number.NEGATIVE_INFINITY;
+  /** The rate before the cut for loss that is on trial; 0 where delay has cut it since. */
   #beforeTrial = 0;
   readonly #decision: RateDecision = {
     targetBitsPerSecond: 0,
@@ -167,7 +168,7 @@ export class AdaptiveRateController implements RateController {
     if (this.#state !== 'compete') {
       if (this.#competition.notice(o, this.#estimate, this.#heldBack, allowanceMs, elapsedMs)) {
         this.#state = 'compete';
-        this.#plan.onOveruse();
+        this.#plan.onOveruse(1);
         this.#probe.cancel();
         this.#competition.begin(o, this.#estimate, baseRttMs, nowMs);
       }
@@ -183,9 +184,14 @@ export class AdaptiveRateController implements RateController {
     }
     const reading = this.#delay.read(o, toleratedMs, allowanceMs, noiseMs);
     if (reading === 'over') {
-      this.#estimate = this.#delay.estimateWhenOver(o, this.#estimate, toleratedMs, noiseMs);
+      const before = this.#estimate;
+      this.#estimate = this.#delay.estimateWhenOver(this.#path, before, toleratedMs);
       this.#state = 'drain';
-      this.#onOveruse(nowMs);
+      this.#probe.cancel();
+      if (this.#estimate < before) {
+        this.#beforeTrial = 0;
+        this.#onOveruse(this.#estimate / before, nowMs);
+      }
     } else if (this.#state === 'drain') {
       if (reading === 'clear') this.#state = 'steady';
     } else if (this.#used() > 0.75 && (!this.#plan.searching || this.#plan.ignored)) {
@@ -201,9 +207,9 @@ export class AdaptiveRateController implements RateController {
     return this.#path.observation.ackedBitsPerSecond / (this.#estimate * (1 - this.#loss.base));
   }
 
-  #onOveruse(nowMs: number): void {
+  #onOveruse(kept: number, nowMs: number): void {
     this.#lastOveruseMs = nowMs;
-    this.#plan.onOveruse();
+    this.#plan.onOveruse(kept);
     this.#probe.cancel();
   }
 
@@ -216,8 +222,8 @@ export class AdaptiveRateController implements RateController {
       const through = (KEEP_IN_LOSS * o.ackedBitsPerSecond) / (1 - this.#loss.base);
       this.#estimate = Math.min(this.#estimate, Math.max(through, LOSS_CUT * this.#estimate));
       this.#loss.cutAt(nowMs);
-      this.#onOveruse(nowMs);
-    } else if (verdict === 'innocent' && this.#state === 'steady') {
+      this.#onOveruse(1, nowMs);
+    } else if (verdict === 'innocent') {
       this.#estimate = Math.max(this.#estimate, this.#beforeTrial);
     }
   }

@@ -1,8 +1,13 @@
-import type { PathObservation } from './path-observer.ts';
+import type { PathObservation, PathObserver } from './path-observer.ts';
 
 const PACKET_BITS = 10_000;
 /** Of what got through while the queue stood, the part that is planned for. */
 const KEEP = 0.96;
+/** Over how long the rate is told: of a queue's first message, and of later ones, ms. */
+const FIRST_WINDOW_MS = 20;
+const WINDOW_MS = 40;
+/** A message of fewer packets comes from a link so slow that only the sum tells its rate. */
+const FEW_PACKETS = 16;
 /** A standing queue should be gone after this time, ms; at most this part of the rate is held back for it. */
 const DRAIN_MS = 150;
 const DRAIN_MOST = 0.6;
@@ -52,18 +57,18 @@ export class DelayLaw {
     return queue < (toleratedMs + allowanceMs) / 2 ? 'clear' : 'between';
   }
 
-  /** While the queue stands, what arrives is the path's rate for us. */
-  estimateWhenOver(
-    o: Readonly<PathObservation>,
-    estimate: number,
-    toleratedMs: number,
-    noiseMs: number,
-  ): number {
-    const acked = o.ackedBitsPerSecond;
-    // A queue that has just shot up: the newest arrivals tell the new rate; but they are few.
-    const rate =
-      o.queueEndMs > 2 * toleratedMs ? Math.min(acked, Math.max(o.recentBitsPerSecond, 0.5 * acked)) : acked;
-    const floor = noiseMs > NOISY_MS && o.queueEndMs < 2.5 * toleratedMs ? 0.85 * estimate : 0;
+  /**
+   * While the queue stands, what arrives is the path's rate for us. A queue is no proof of a lower rate: everything may have
+   * stood still for a moment. So a rate counts that held while the queue stood, the most generous one at first; and what
+   * arrived over all only when the queue stays and tells no such rate.
+   */
+  estimateWhenOver(path: PathObserver, estimate: number, toleratedMs: number): number {
+    const { ackedBitsPerSecond: acked, queueEndMs, received } = path.observation;
+    const first = this.#overInRow <= 1;
+    const queued = path.rateWhileQueued(first ? FIRST_WINDOW_MS : WINDOW_MS);
+    let rate = Math.max(queued, 0.5 * acked);
+    if (Number.isNaN(queued)) rate = first && received >= FEW_PACKETS ? estimate / KEEP : acked;
+    const floor = path.noiseMs > NOISY_MS && queueEndMs < 2.5 * toleratedMs ? 0.85 * estimate : 0;
     return Math.min(estimate, Math.max(KEEP * rate, floor));
   }
 

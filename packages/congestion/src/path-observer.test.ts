@@ -33,7 +33,7 @@ test('queueing delay is what exceeds the least; the rate is what arrives', () =>
   feed(path, 500, 600, (t) => 20 + (t - 500));
   expect(path.observation.queueEndMs).toBeGreaterThan(90);
   expect(path.observation.ackedBitsPerSecond).toBeCloseTo(5e6, -5);
-  expect(path.observation.recentBitsPerSecond).toBeCloseTo(5e6, -5);
+  expect(path.rateWhileQueued(25)).toBeCloseTo(5e6, -5);
 });
 
 test('a missing message does not look like a slower path', () => {
@@ -61,4 +61,19 @@ test('delay that changes to and fro is noise, delay that grows is not', () => {
   feed(growing, 0, 3000, (t) => 20 + t / 20);
   expect(noisy.noiseMs).toBeGreaterThan(5);
   expect(growing.noiseMs).toBeLessThan(1);
+});
+
+test('a path that stood still for a moment carries what it carried', () => {
+  const path = new PathObserver();
+  feed(path, 0, 500, () => 20);
+  // From 510 on nothing moves; at 530 all of it comes, and what follows waits as long.
+  feed(path, 500, 550, (t) => (t < 510 ? 20 : 40));
+  expect(path.observation.queueEndMs).toBeCloseTo(20);
+  expect(path.observation.ackedBitsPerSecond).toBeLessThan(9e6);
+  expect(path.rateWhileQueued(25)).toBeCloseTo(10e6, -5);
+  // At the very end of a message a queue tells no rate.
+  feed(path, 550, 1000, () => 20);
+  feed(path, 1000, 1050, (t) => (t < 1040 ? 20 : 40));
+  expect(path.observation.queueEndMs).toBeCloseTo(20);
+  expect(path.rateWhileQueued(25)).toBeNaN();
 });

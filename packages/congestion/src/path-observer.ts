@@ -9,9 +9,8 @@ export interface PathObservation {
   /** Waiting time in the path's queues, ms: what most packets of the message exceed, and its newest packets' median. */
   queueMs: number;
   queueEndMs: number;
-  /** What arrived, bit/s: over the last 100 ms or so, and over the last 30 ms or so of this message. */
+  /** What arrived over the last 100 ms or so, bit/s. */
   ackedBitsPerSecond: number;
-  recentBitsPerSecond: number;
   /** From sending the newest packet to hearing of it, ms. */
   rttMs: number;
   /** When the newest and the oldest packet of the message left, ms. */
@@ -24,10 +23,10 @@ const BASE_WINDOW_MS = 30_000;
 /** A one-way delay that grew by so much more than the round trip did is a clock that jumped, ms. */
 const CLOCK_JUMP_MS = 60;
 const RATE_WINDOW_MS = 95;
-const RECENT_MS = 20;
 /** The least delay of so many packets is the message's end: one late packet is no queue. */
 const END_PACKETS = 4;
-const RECENT_PACKETS = 8;
+/** A rate is told from so many packets at least. */
+const RATE_PACKETS = 8;
 const MESSAGES = 32;
 const NOISE_CLAMP_MS = 16;
 
@@ -40,7 +39,6 @@ export class PathObserver {
     queueMs: 0,
     queueEndMs: 0,
     ackedBitsPerSecond: 0,
-    recentBitsPerSecond: 0,
     rttMs: 0,
     newestSentMs: 0,
     oldestSentMs: 0,
@@ -52,6 +50,7 @@ export class PathObserver {
   readonly #bytes = new Float64Array(MESSAGES);
   #messages = 0;
   #delays = new Float64Array(1024);
+  #sorted = new Float64Array(1024);
   #arrivals = new Float64Array(1024);
   #sizes = new Float64Array(1024);
   #lastMs = Number.NEGATIVE_INFINITY;
@@ -81,6 +80,33 @@ export class PathObserver {
     this.#newestSequence = -1;
   }
 
+  /**
+   * The most that arrived in any `windowMs` of the last message while its queue stood, bit/s: what the path carries of ours.
+   * A path or a receiver that stood still for a moment, or a sender that did, leaves other windows as they were.
+   *
+   * @returns NaN where the queue is too young to tell
+   */
+  rateWhileQueued(windowMs: number): number {
+    const n = this.observation.received;
+    const queued = this.#baseDelay.value + this.observation.queueEndMs / 2;
+    let begin = n;
+    while (begin > 0 && (this.#delays[begin - 1] as number) >= queued) begin--;
+    let most = Number.NaN;
+    let bytes = 0;
+    let from = begin;
+    for (let to = begin + 1; to < n; to++) {
+      const arrival = this.#arrivals[to] as number;
+      bytes += this.#sizes[to] as number;
+      while (arrival - (this.#arrivals[from + 1] as number) >= windowMs && to - from > RATE_PACKETS)
+        bytes -= this.#sizes[++from] as number;
+      const spanMs = arrival - (this.#arrivals[from] as number);
+      if (spanMs < windowMs || to - from < RATE_PACKETS) continue;
+      const rate = (bytes * 8000) / spanMs;
+      if (!(rate <= most)) most = rate;
+    }
+    return most;
+  }
+
   /** @returns false where no packet of the message arrived: then only the loss is news */
   onFeedback(results: readonly PacketResult[], nowMs: number): boolean {
     const o = this.observation;
@@ -91,6 +117,7 @@ export class PathObserver {
     o.oldestSentMs = Number.POSITIVE_INFINITY;
     if (results.length > this.#delays.length) {
       this.#delays = new Float64Array(results.length * 2);
+      this.#sorted = new Float64Array(results.length * 2);
       this.#arrivals = new Float64Array(results.length * 2);
       this.#sizes = new Float64Array(results.length * 2);
     }
@@ -135,7 +162,8 @@ export class PathObserver {
     let endDelay = Number.POSITIVE_INFINITY;
     for (let i = Math.max(0, n - END_PACKETS); i < n; i++)
       endDelay = Math.min(endDelay, this.#delays[i] as number);
-    const all = this.#delays.subarray(0, n).sort();
+    this.#sorted.set(this.#delays.subarray(0, n));
+    const all = this.#sorted.subarray(0, n).sort();
     const queuedAtMost = Math.max(rttMs - this.baseRttMs, 0);
     if (endDelay - this.#baseDelay.value > queuedAtMost + CLOCK_JUMP_MS) {
       this.clockJumps++;
@@ -178,16 +206,6 @@ export class PathObserver {
       spanMs = newestArrivalMs - (this.#ends[(this.#messages - 2 - back) % MESSAGES] as number);
     }
     if (spanMs > 0) o.ackedBitsPerSecond = (bytes * 8000) / spanMs;
-    let recentBytes = 0;
-    let i = o.received - 1;
-    for (; i >= 1; i--) {
-      recentBytes += this.#sizes[i] as number;
-      const span = newestArrivalMs - (this.#arrivals[i - 1] as number);
-      if (span >= RECENT_MS && o.received - i >= RECENT_PACKETS) break;
-    }
-    const recentSpan = newestArrivalMs - (this.#arrivals[Math.max(i - 1, 0)] as number);
-    const enough = i >= 1 && recentSpan >= RECENT_MS;
-    o.recentBitsPerSecond = enough ? (recentBytes * 8000) / recentSpan : o.ackedBitsPerSecond;
   }
 
   #push(endMs: number, bytes: number): void {

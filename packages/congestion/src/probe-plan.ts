@@ -9,6 +9,7 @@ const LEAST_WAIT_MS = 250;
 const MOST_WAIT_MS = 1400;
 /** Where the source does not use what it has, more is no news. */
 const IDLE_WAIT_MS = 5000;
+const DEEP_CUT = 0.6;
 const FACTOR = 1.5;
 const FACTOR_AT_START = 3;
 const FACTOR_AFTER_SUCCESS = 2;
@@ -35,10 +36,16 @@ export class ProbePlan {
     this.#failures = 0;
   }
 
-  /** The path turned out to be full. */
-  onOveruse(): void {
+  /**
+   * The path turned out to be full.
+   *
+   * @param kept the part of the estimate that is left
+   */
+  onOveruse(kept: number): void {
     this.searching = false;
     this.#factor = FACTOR;
+    // A deep cut may have been too deep.
+    if (kept < DEEP_CUT) this.#waitMs = LEAST_WAIT_MS;
   }
 
   onIgnored(): void {
