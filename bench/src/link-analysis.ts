@@ -213,7 +213,11 @@ export function describeOutages(
       stoppedAfterMs: stood === undefined ? null : Math.round(stood.timeMs - fromMs),
       resumedAfterMs: resumedMs === null ? null : Math.round(resumedMs - toMs),
       words: [
-        ...new Set(page.filter(({ timeMs }) => timeMs >= fromMs && timeMs < toMs).map(({ link }) => link)),
+        ...new Set(
+          page
+            .filter(({ timeMs }) => timeMs >= fromMs && timeMs < toMs)
+            .map(({ link }) => link.replaceAll(/\d+/g, 'N')),
+        ),
       ],
     };
   });

@@ -168,6 +168,7 @@ export const bench: Bench = {
       const robotSamples = within(allRobot, fromMs);
       const pageSamples = within(series, fromMs);
       const outages = outagesOf(allBins);
+      const quiet = outages.map(({ fromMs, toMs }) => ({ fromMs, toMs: toMs + MARGIN_MS }));
       const served = bins.filter(({ timeMs }) => !isWithin(outages, timeMs, timeMs));
       const tests = within(latencies, fromMs).filter(
         ({ timeMs, mtpMs }) => !isWithin(outages, timeMs - MARGIN_MS, timeMs + (mtpMs ?? 3000) + MARGIN_MS),
@@ -214,8 +215,11 @@ export const bench: Bench = {
         samples: answered.length,
         unanswered: tests.length - answered.length,
         frameLatencyMs: statistics.frameLatencyMs,
-        queueMs: rounded(queueQuantiles(bins), 1),
-        longestQueueAbove100Ms: longestQueueAbove(allBins, 100.5),
+        queueMs: rounded(queueQuantiles(bins.filter(({ timeMs }) => !isWithin(quiet, timeMs, timeMs))), 1),
+        longestQueueAbove100Ms: longestQueueAbove(
+          allBins.filter(({ timeMs }) => !isWithin(quiet, timeMs, timeMs)),
+          100.5,
+        ),
         pointsPerFrame: Math.round(
           grown(pageSamples.map(({ pointsDrawn }) => pointsDrawn)) / Math.max(frames, 1),
         ),
@@ -232,10 +236,15 @@ export const bench: Bench = {
           simulator: cores('capture'),
           sample: cores('sample'),
           pack: cores('pack'),
-          sendAndRest:
+          send: cores('send'),
+          rest:
             robotCores === null
               ? null
-              : Number((robotCores - cores('capture') - cores('sample') - cores('pack')).toFixed(3)),
+              : Number(
+                  (
+                    robotCores - ['capture', 'sample', 'pack', 'send'].reduce((sum, s) => sum + cores(s), 0)
+                  ).toFixed(3),
+                ),
         },
         robotMbps: Number(((ownBytes * 8) / elapsedS / 1e6).toFixed(2)),
         browserCpu: coresBetween(cpuBefore.browser, cpuAfter.browser, endMs - zeroMs),

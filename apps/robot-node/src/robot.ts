@@ -12,7 +12,7 @@ import { DriveGuard, type RejectedCommand, type TakePolicy } from '@farpoint/saf
 import { JsonLinesFile, type Logger } from '@farpoint/service';
 import { Capture, type CaptureError, type CaptureState } from './capture/capture.ts';
 import type { CaptureOptions } from './capture/capture-messages.ts';
-import { monotonicMs } from './clock.ts';
+import { monotonicMs, threadCpuMs } from './clock.ts';
 import { DriveStation } from './drive/drive-station.ts';
 import { ConnectedOperator } from './session/connected-operator.ts';
 import { FrameFanOut } from './session/frame-fan-out.ts';
@@ -71,7 +71,7 @@ export class Robot implements SessionHost {
   readonly #options: RobotOptions;
   readonly #log: Logger;
   readonly #packetLog: PacketLog | undefined;
-  readonly #sendLoop = new SendLoop(monotonicMs);
+  readonly #sendLoop = new SendLoop(monotonicMs, threadCpuMs);
   readonly #fanOut: FrameFanOut;
   readonly #telemetry: TelemetrySender;
   readonly #paths: PathKeeper;
@@ -113,6 +113,7 @@ export class Robot implements SessionHost {
       now: monotonicMs,
     });
     this.signaling.onMessage = (message) => this.#onSignaling(message);
+    this.#sendLoop.onWork = (ms) => this.counters.stageSeconds.add('send', ms / 1000);
     capture.onState = (state) => {
       this.#state = state;
     };

@@ -49,6 +49,8 @@ export interface CapturedFrame extends EncodedFrame {
   /** Robot's clock when the cloud was taken, ms, and how long that took. */
   capturedAtMs: number;
   captureMs: number;
+  /** Of that, the thread's own processor time. */
+  captureCpuMs: number;
 }
 
 export type CaptureReport =

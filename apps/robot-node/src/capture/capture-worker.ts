@@ -5,7 +5,7 @@
 import { parentPort, workerData } from 'node:worker_threads';
 import { type Twist, zeroTwist } from '@farpoint/protocol';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
-import { monotonicMs } from '../clock.ts';
+import { monotonicMs, threadCpuMs } from '../clock.ts';
 import { FrameEncoder } from '../encode/frame-encoder.ts';
 import { SLOT_BYTES } from '../encode/packetiser.ts';
 import { FramePlanner } from '../encode/plan.ts';
@@ -114,25 +114,21 @@ function tick(): void {
 function captureFrame(now: number): number {
   const buffer = pool.take();
   if (buffer === null) return 1000 / options.framesPerSecond;
-  const cpuBefore = threadMs();
+  const cpuBefore = threadCpuMs();
   const frame = source.capture(now);
   const { captureMs: capturedAtMs } = frame;
   const captureMs = monotonicMs() - now;
+  const captureCpuMs = threadCpuMs() - cpuBefore;
   const { points, framesPerSecond } = planner.plan({ ...budget, rawPoints: frame.count, workMs });
   budget.probeBytes = 0;
   const intervalMs = 1000 / framesPerSecond;
   const encoded = encoder.encode(frame, points, latencyTest);
   encoder.copyPackets(new Uint8Array(buffer), encoded.packets);
-  send({ type: 'frame', ...encoded, buffer, latencyTest, intervalMs, capturedAtMs, captureMs }, [buffer]);
+  const times = { intervalMs, capturedAtMs, captureMs, captureCpuMs };
+  send({ type: 'frame', ...encoded, buffer, latencyTest, ...times }, [buffer]);
   latencyTest = false;
-  workMs += (threadMs() - cpuBefore - workMs) * (workMs === 0 ? 1 : SMOOTHING);
+  workMs += (threadCpuMs() - cpuBefore - workMs) * (workMs === 0 ? 1 : SMOOTHING);
   return intervalMs;
-}
-
-/** Processor time of this thread, ms: what others take from it in the meantime is not its work. */
-function threadMs(): number {
-  const { user, system } = process.threadCpuUsage();
-  return (user + system) / 1000;
 }
 
 send({ type: 'ready', description });

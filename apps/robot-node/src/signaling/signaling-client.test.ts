@@ -88,6 +88,33 @@ describe('SignalingClient', () => {
     expect(robot.disconnects).toBeGreaterThanOrEqual(1);
   });
 
+  it('in doubt it asks the service; a line that does not answer within 2 s is made anew', async () => {
+    const deaf = new WebSocketServer({ port: 0, host: '127.0.0.1', autoPong: false });
+    await once(deaf, 'listening');
+    cleanups.push(() => {
+      for (const socket of deaf.clients) socket.terminate();
+      deaf.close();
+    });
+    const robot = client((deaf.address() as AddressInfo).port);
+    const called = once(deaf, 'connection');
+    robot.start();
+    const [socket] = (await called) as [WebSocket];
+    await once(socket, 'ping');
+    socket.pong();
+    let asked = false;
+    socket.once('ping', () => {
+      asked = true;
+    });
+    while (!asked) {
+      robot.check();
+      await new Promise((resolve) => setTimeout(resolve, 5));
+    }
+    // This one stays without an answer.
+    const [again] = (await once(deaf, 'connection')) as [WebSocket];
+    expect(again).not.toBe(socket);
+    expect(robot.disconnects).toBe(1);
+  });
+
   it('counts what it cannot read and goes on', async () => {
     const { port, nextRobot } = await service();
     const robot = client(port);

@@ -34,7 +34,7 @@ export class RobotCounters {
   pointsCaptured = 0;
   /** Points not sent, by reason. */
   readonly pointsRejected = new ReasonCounts();
-  /** Seconds of work by stage. */
+  /** Seconds of work by stage; for the source's own work, and for sending, processor time. */
   readonly stageSeconds = new ReasonCounts();
   /** Of the last frame. */
   lastPoints = 0;
@@ -52,7 +52,7 @@ export class RobotCounters {
     this.pointsRejected.add('nonPositiveDepth', nonPositiveDepth);
     this.pointsRejected.add('outOfRange', outOfRange);
     this.pointsRejected.add('notDrawn', notDrawn);
-    this.stageSeconds.add('capture', frame.captureMs / 1000);
+    this.stageSeconds.add('capture', frame.captureCpuMs / 1000);
     this.stageSeconds.add('sample', frame.sampleMs / 1000);
     this.stageSeconds.add('pack', frame.packMs / 1000);
   }

@@ -1,4 +1,4 @@
-/** What werift leaves undone when ICE is restarted by the side that offers. */
+/** What werift leaves undone in ICE, above all where it is restarted by the side that offers. */
 import { CandidatePairState, type RTCDtlsTransport } from 'werift';
 import { guardSocket, WeriftShapeError } from './werift-path.ts';
 
@@ -8,6 +8,8 @@ interface ProtocolShape {
 }
 
 interface ConnectionShape {
+  stunServer: unknown;
+  options: { stunServer?: unknown };
   nominated: unknown;
   remotePassword: string;
   checkList: { state: CandidatePairState; handle: unknown }[];
@@ -24,6 +26,13 @@ function protocolsOf(dtls: RTCDtlsTransport): ProtocolShape[] {
 /** Gives the sockets that gather candidates a listener for errors: without one a network that goes away ends the process. */
 export function guardSockets(dtls: RTCDtlsTransport): void {
   for (const { transport } of protocolsOf(dtls)) guardSocket(transport?.socket);
+}
+
+/** Before candidates are gathered: where no STUN server is configured werift would ask a public one. */
+export function dropDefaultStun(dtls: RTCDtlsTransport): void {
+  const connection = dtls.iceTransport.connection as unknown as Partial<ConnectionShape>;
+  if (connection.options === undefined) throw new WeriftShapeError('no ICE options');
+  if (connection.options.stunServer === undefined) connection.stunServer = undefined;
 }
 
 /**

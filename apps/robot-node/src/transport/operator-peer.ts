@@ -12,7 +12,13 @@ import {
   useTWCC,
 } from 'werift';
 import type { CloudTransport } from './cloud-transport.ts';
-import { discardSockets, guardSockets, pairLateCandidates, startChecks } from './ice-restart.ts';
+import {
+  discardSockets,
+  dropDefaultStun,
+  guardSockets,
+  pairLateCandidates,
+  startChecks,
+} from './ice-restart.ts';
 import { SrtpCloudTransport } from './srtp-cloud-transport.ts';
 
 /** Why a connection ended. */
@@ -183,6 +189,7 @@ export class OperatorPeer {
   #describe(description: Awaited<ReturnType<RTCPeerConnection['createOffer']>>): void {
     this.#answerDue = true;
     this.#startDue = false;
+    dropDefaultStun(this.#cloud.dtlsTransport);
     // Resolves only when every candidate is gathered.
     this.#connection.setLocalDescription(description).catch((error: unknown) => {
       this.#end('not-connected', `no local description: ${errorText(error)}`);

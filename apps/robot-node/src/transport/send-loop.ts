@@ -7,11 +7,16 @@ export interface Pumped {
 /** One timer for all operators' senders: asleep while nobody has anything to send. */
 export class SendLoop {
   readonly #senders = new Set<Pumped>();
+  /** Told the processor time of each round, ms. */
+  onWork: ((ms: number) => void) | null = null;
   readonly #now: () => number;
+  readonly #cpu: () => number;
   #timer: NodeJS.Timeout | null = null;
 
-  constructor(now: () => number) {
+  /** @param cpu processor time of this thread, ms */
+  constructor(now: () => number, cpu: () => number = () => 0) {
     this.#now = now;
+    this.#cpu = cpu;
   }
 
   add(sender: Pumped): void {
@@ -26,11 +31,13 @@ export class SendLoop {
   run(): void {
     if (this.#timer !== null) clearTimeout(this.#timer);
     this.#timer = null;
+    const began = this.#cpu();
     let next = Number.POSITIVE_INFINITY;
     for (const sender of this.#senders) {
       sender.pump();
       next = Math.min(next, sender.nextDueMs ?? Number.POSITIVE_INFINITY);
     }
+    this.onWork?.(this.#cpu() - began);
     if (next === Number.POSITIVE_INFINITY) return;
     this.#timer = setTimeout(() => this.run(), Math.max(1, Math.ceil(next - this.#now())));
   }

@@ -66,6 +66,7 @@ function frame(points: number, capturedAtMs = 1000): CapturedFrame {
     intervalMs: 1000,
     capturedAtMs,
     captureMs: 0,
+    captureCpuMs: 0,
   };
 }
 
