@@ -1,8 +1,11 @@
 import { Backoff } from './backoff.ts';
 
 const FIRST_RETRY_MS = 250;
-/** The longest wait between two attempts, ms: short for as long as a network is usually away, then kinder to the service. */
-const MOST_RETRY_MS = 1000;
+/**
+ * The longest wait between two attempts, ms, a second with its spread: short for as long as a network is usually away,
+ * then kinder to the service.
+ */
+const MOST_RETRY_MS = 800;
 const PATIENT_RETRY_MS = 10_000;
 /** About three minutes of failures. */
 const PATIENT_AFTER = 60;

@@ -83,7 +83,7 @@ describe('OperatorSignaling', () => {
       bench.machine.onTimer();
       expect(bench.machine.state).toBe('connecting');
     }
-    expect(waits).toEqual([250, 500, 1000, 1000, 1000, 1000, 1000, 1000]);
+    expect(waits).toEqual([250, 500, 800, 800, 800, 800, 800, 800]);
     bench.machine.onOpen();
     bench.receive({ type: 'operator.welcome', iceServers: [] });
     bench.machine.onClose();
