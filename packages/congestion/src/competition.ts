@@ -14,7 +14,9 @@ const PEAK_MS = 10_000;
 const TEST_PART = 0.5;
 const TEST_FIRST_MS = 1000;
 const TEST_EVERY_MS = 4000;
-const TEST_SELDOM_MS = 12_000;
+const TEST_SELDOM_MS = 8000;
+/** Our rate rose by so much since the last test: the competitor may have left. */
+const RISEN = 1.4;
 /** The competitor is gone when the queue has been nearly empty for so long, ms. */
 const CALM_MS = 500;
 
@@ -34,6 +36,7 @@ export class Competition {
   #testFromMs = 0;
   #testUntilMs = Number.NaN;
   #testQueueMs = 0;
+  #testRate = 0;
   #calmMs = 0;
 
   get windowBytes(): number {
@@ -107,7 +110,12 @@ export class Competition {
     nowMs: number,
   ): boolean {
     if (Number.isNaN(this.#testUntilMs)) {
+      if (o.ackedBitsPerSecond > RISEN * this.#testRate && this.#testEveryMs > TEST_EVERY_MS) {
+        this.#testEveryMs = TEST_EVERY_MS;
+        this.#nextTestMs = Math.min(this.#nextTestMs, nowMs + TEST_FIRST_MS);
+      }
       if (nowMs <= this.#nextTestMs || o.queueEndMs <= toleratedMs) return false;
+      this.#testRate = o.ackedBitsPerSecond;
       this.#testFromMs = nowMs;
       this.#testQueueMs = o.queueEndMs;
       // Alone, that empties about half of the queue.

@@ -6,6 +6,10 @@ const KEEP = 0.96;
 /** Over how long the rate is told: of a queue's first message, and of later ones, ms. */
 const FIRST_WINDOW_MS = 20;
 const WINDOW_MS = 40;
+/** A gap between two arrivals that tells of a halt and not of a slow link, ms. */
+const HALT_MS = 8;
+/** After so many messages a queue is not young. */
+const LONG_QUEUED = 4;
 /** A message of fewer packets comes from a link so slow that only the sum tells its rate. */
 const FEW_PACKETS = 16;
 /** A standing queue should be gone after this time, ms; at most this part of the rate is held back for it. */
@@ -43,6 +47,7 @@ export type DelayReading = 'over' | 'between' | 'clear';
 /** Judges each message's delay, and says what is left of the estimate when it is over. */
 export class DelayLaw {
   #overInRow = 0;
+  #lastQueued = Number.NaN;
 
   read(
     o: Readonly<PathObservation>,
@@ -65,9 +70,14 @@ export class DelayLaw {
   estimateWhenOver(path: PathObserver, estimate: number, toleratedMs: number): number {
     const { ackedBitsPerSecond: acked, queueEndMs, received } = path.observation;
     const first = this.#overInRow <= 1;
-    const queued = path.rateWhileQueued(first ? FIRST_WINDOW_MS : WINDOW_MS);
-    let rate = Math.max(queued, 0.5 * acked);
-    if (Number.isNaN(queued)) rate = first && received >= FEW_PACKETS ? estimate / KEEP : acked;
+    const queued = first ? path.rateWhileQueued(FIRST_WINDOW_MS, HALT_MS) : path.rateWhileQueued(WINDOW_MS);
+    let rate: number;
+    if (received < FEW_PACKETS) rate = Number.isNaN(queued) ? acked : queued;
+    // The queue is young.
+    else if (Number.isNaN(queued)) rate = this.#overInRow < LONG_QUEUED ? estimate / KEEP : acked;
+    else rate = first || Number.isNaN(this.#lastQueued) ? queued : Math.max(queued, this.#lastQueued);
+    this.#lastQueued = queued;
+    rate = Math.max(rate, 0.5 * acked);
     const floor = path.noiseMs > NOISY_MS && queueEndMs < 2.5 * toleratedMs ? 0.85 * estimate : 0;
     return Math.min(estimate, Math.max(KEEP * rate, floor));
   }

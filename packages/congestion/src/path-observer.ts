@@ -84,13 +84,18 @@ export class PathObserver {
    * The most that arrived in any `windowMs` of the last message while its queue stood, bit/s: what the path carries of ours.
    * A path or a receiver that stood still for a moment, or a sender that did, leaves other windows as they were.
    *
+   * @param haltMs what came before a gap of so long between two arrivals does not count
    * @returns NaN where the queue is too young to tell
    */
-  rateWhileQueued(windowMs: number): number {
+  rateWhileQueued(windowMs: number, haltMs = Number.POSITIVE_INFINITY): number {
     const n = this.observation.received;
     const queued = this.#baseDelay.value + this.observation.queueEndMs / 2;
     let begin = n;
-    while (begin > 0 && (this.#delays[begin - 1] as number) >= queued) begin--;
+    while (begin > 0 && (this.#delays[begin - 1] as number) >= queued) {
+      const gapMs = begin < n ? (this.#arrivals[begin] as number) - (this.#arrivals[begin - 1] as number) : 0;
+      if (gapMs >= haltMs) break;
+      begin--;
+    }
     let most = Number.NaN;
     let bytes = 0;
     let from = begin;
