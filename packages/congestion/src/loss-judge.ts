@@ -4,6 +4,10 @@ const LEAST_MS = 180;
 /** Loss must exceed the base by so much before anything is done, and by so many standard deviations. */
 const MARGIN = 0.03;
 const DEVIATIONS = 3;
+/** How fast the base follows the loss where it is far below it, and otherwise; and how fast a trial is forgotten. Per window. */
+const FAST = 0.3;
+const SLOW = 0.1;
+const FORGET = 0.02;
 
 /**
  * Tells loss by overload from loss that is simply there (radio, a policer of someone else's). The test is causal: when loss
@@ -18,6 +22,8 @@ export class LossJudge {
   base = 0;
   /** Of the last judged window, 0–1. */
   fraction = 0;
+  /** What a trial has shown to be the link's own; forgotten slowly. */
+  #proven = 0;
   #received = 0;
   #lost = 0;
   #sinceMs = Number.NaN;
@@ -47,9 +53,10 @@ export class LossJudge {
       this.#trialFromMs = Number.NaN;
       if (fraction - this.base > 0.5 * (this.#trialLoss - this.base)) {
         this.base = fraction;
+        this.#proven = fraction;
         return 'innocent';
       }
-      this.#fall(fraction);
+      this.#follow(fraction);
       return 'guilty';
     }
     const deviation = Math.sqrt((this.base * (1 - this.base)) / n);
@@ -57,7 +64,7 @@ export class LossJudge {
       this.#trialLoss = fraction;
       return 'excess';
     }
-    this.#fall(fraction);
+    this.#follow(fraction);
     return 'none';
   }
 
@@ -73,8 +80,11 @@ export class LossJudge {
     this.#restart();
   }
 
-  #fall(fraction: number): void {
-    if (fraction < this.base) this.base += (fraction - this.base) * 0.3;
+  /** The base goes with the loss, but never above what a trial has shown. */
+  #follow(fraction: number): void {
+    const gain = fraction < this.base - MARGIN ? FAST : SLOW;
+    this.base = Math.min(this.base + (fraction - this.base) * gain, Math.max(this.#proven, this.base));
+    this.#proven += (this.base - this.#proven) * FORGET;
   }
 
   #restart(): void {
