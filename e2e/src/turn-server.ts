@@ -1,7 +1,9 @@
 import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
 import { randomBytes } from 'node:crypto';
 import { createSocket } from 'node:dgram';
-import { networkInterfaces } from 'node:os';
+import { rmSync } from 'node:fs';
+import { networkInterfaces, tmpdir } from 'node:os';
+import { join } from 'node:path';
 
 /** How to get it where it is missing. */
 export const TURN_REMEDY = 'apt-get install coturn';
@@ -22,10 +24,12 @@ export class TurnServer {
   readonly secret = randomBytes(16).toString('hex');
   readonly address = ownAddress();
   readonly port: number;
+  readonly #pidFile: string;
   #child: ChildProcess | null = null;
 
   constructor(port: number) {
     this.port = port;
+    this.#pidFile = join(tmpdir(), `farpoint-turn-${port}.pid`);
   }
 
   get url(): string {
@@ -42,7 +46,7 @@ export class TurnServer {
       '--no-dtls',
       '--no-tcp',
       ...['--log-file', 'stdout'],
-      ...['--pidfile', `/tmp/farpoint-turn-${this.port}.pid`],
+      ...['--pidfile', this.#pidFile],
       ...['--listening-ip', this.address],
       ...['--relay-ip', this.address],
       ...['--listening-port', String(this.port)],
@@ -52,6 +56,7 @@ export class TurnServer {
       '--allow-loopback-peers',
     ]);
     this.#child = child;
+    process.once('exit', this.#kill);
     for (const stream of [child.stdout, child.stderr]) {
       stream.on('data', (data: Buffer) => {
         output = (output + data.toString()).slice(-4000);
@@ -72,7 +77,13 @@ export class TurnServer {
     const gone = new Promise((resolve) => child.once('exit', resolve));
     child.kill('SIGKILL');
     await gone;
+    process.off('exit', this.#kill);
+    rmSync(this.#pidFile, { force: true });
   }
+
+  readonly #kill = (): void => {
+    this.#child?.kill('SIGKILL');
+  };
 }
 
 /** A STUN binding request (RFC 8489), and 100 ms for its answer. */
