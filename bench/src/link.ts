@@ -54,6 +54,8 @@ that shows the whole green cloud (mtpMs), or its first points (mtpFirstMs). Figu
 /** Begins with the link's own start: the rate is still being found. */
 const WARM_UP_MS = 5000;
 const DOWNLINK_MBPS = 50;
+/** Before a trace begins. */
+const CONNECT_MBPS = 10;
 /** A test that is under way when the service ends or begins says nothing of the link with service. */
 const MARGIN_MS = 500;
 
@@ -117,6 +119,7 @@ export const bench: Bench = {
       robot: robot(0),
       otherRobots: Array.from({ length: robots - 1 }, (_, i) => robot(i + 1)),
       canvas: values.canvas,
+      ...(values.trace === undefined ? {} : { connectAtMbps: CONNECT_MBPS }),
       link: {
         args: [
           ...capacity,
@@ -149,7 +152,8 @@ export const bench: Bench = {
       });
       const stages = () => scrape(adminUrl, 'farpoint_robot_stage_seconds_total', 'stage');
       console.error(`${seconds} s`);
-      link.tell({ type: 'restart' });
+      // A trace may begin without service: connections are made over a quiet link.
+      link.tell({ type: 'reset' });
       const zeroMs = monotonicMs();
       const [cpuBefore, stagesBefore] = [cpu(), await stages()];
       const { series, latencies } = await drivePage(page, seconds);

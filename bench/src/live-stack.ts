@@ -18,6 +18,8 @@ export interface LiveStackOptions {
   canvas: string;
   /** A bad network between the robots and everybody else. */
   link?: EmulatedLinkSpec;
+  /** What the link carries until it is told otherwise (`reset`), Mbit/s; as its options say where left out. */
+  connectAtMbps?: number;
   /** Robots besides the one that is driven. */
   otherRobots?: RobotSpec[];
   log: (line: string) => void;
@@ -55,6 +57,8 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
   };
   try {
     if (options.link !== undefined) link = await EmulatedLink.start(stack, options.link);
+    if (options.connectAtMbps !== undefined)
+      link?.tell({ type: 'set', direction: 'both', rateMbps: options.connectAtMbps });
     const through = link === null ? [] : ['--signaling', link.signalingUrl];
     for (const spec of [robot, ...(options.otherRobots ?? [])]) {
       await stack.startRobot({ ...spec, args: [...(spec.args ?? []), ...through] });

@@ -1,8 +1,9 @@
-import { idealProfile, monotonicMs, UdpLink } from '@farpoint/link-emulator';
+import { constantCapacity, idealProfile, monotonicMs, UdpLink } from '@farpoint/link-emulator';
 import { afterEach, expect, test } from 'vitest';
 import { ZodError } from 'zod';
 import { control } from './control.ts';
 
+const initial = { up: idealProfile, down: idealProfile };
 const links: UdpLink[] = [];
 afterEach(() => {
   for (const link of links.splice(0)) link.close();
@@ -15,7 +16,7 @@ function open(): UdpLink {
 
 test('a message changes what it names, in the direction that it names', () => {
   const link = open();
-  control(link, { type: 'set', direction: 'up', rateMbps: 3, delayMs: 7, queueMs: 50 });
+  control(link, { type: 'set', direction: 'up', rateMbps: 3, delayMs: 7, queueMs: 50 }, initial);
   expect(link.models.up.profile).toEqual({
     ...idealProfile,
     capacity: { steps: [{ atMs: 0, mbps: 3 }], periodMs: null },
@@ -23,13 +24,24 @@ test('a message changes what it names, in the direction that it names', () => {
     queue: { ms: 50 },
   });
   expect(link.models.down.profile).toBe(idealProfile);
-  control(link, { type: 'blackhole', direction: 'both', active: true });
+  control(link, { type: 'blackhole', direction: 'both', active: true }, initial);
   expect(link.models.down.offer(100, monotonicMs(), 0)).toBe('blackhole');
 });
 
 test('what is no message of control, or cannot be, leaves the link as it was', () => {
   const link = open();
-  expect(() => control(link, { type: 'set', direction: 'sideways' })).toThrow(ZodError);
-  expect(() => control(link, { type: 'set', direction: 'up', loss: 3 })).toThrow('is not a probability');
+  expect(() => control(link, { type: 'set', direction: 'sideways' }, initial)).toThrow(ZodError);
+  expect(() => control(link, { type: 'set', direction: 'up', loss: 3 }, initial)).toThrow(
+    'is not a probability',
+  );
   expect(link.models.up.profile).toBe(idealProfile);
+});
+
+test('a reset brings back what the options said', () => {
+  const link = open();
+  const options = { up: { ...idealProfile, capacity: constantCapacity(3) }, down: idealProfile };
+  control(link, { type: 'set', direction: 'both', rateMbps: 10, loss: 0.5 }, options);
+  control(link, { type: 'reset' }, options);
+  expect(link.models.up.profile).toBe(options.up);
+  expect(link.models.down.profile).toBe(options.down);
 });

@@ -2,6 +2,8 @@
 import {
   type CapacitySpec,
   constantCapacity,
+  type Direction,
+  directions,
   type LinkProfile,
   monotonicMs,
   type UdpLink,
@@ -29,20 +31,32 @@ export const controlSchema = z.discriminatedUnion('type', [
   z.strictObject({ type: z.literal('blackhole'), direction, active: z.boolean() }),
   /** The second 0 of traces, steps and outages is now. */
   z.strictObject({ type: z.literal('restart') }),
+  /** As the options have it again, and second 0 is now. */
+  z.strictObject({ type: z.literal('reset') }),
 ]);
 export type ControlMessage = z.infer<typeof controlSchema>;
 
-/** @throws {z.ZodError | ProfileError | CapacityError} leaving the link as it was */
-export function control(link: UdpLink, data: unknown): ControlMessage {
+/**
+ * @param initial the link as the options have it
+ * @throws {z.ZodError | ProfileError | CapacityError} leaving the link as it was
+ */
+export function control(
+  link: UdpLink,
+  data: unknown,
+  initial: Readonly<Record<Direction, LinkProfile>>,
+): ControlMessage {
   const message = controlSchema.parse(data);
   link.tick();
   const nowMs = monotonicMs();
+  if (message.type === 'reset') {
+    for (const way of directions) link.models[way].setProfile(initial[way], nowMs);
+  }
   const models =
     !('direction' in message) || message.direction === 'both'
       ? [link.models.up, link.models.down]
       : [link.models[message.direction]];
   for (const model of models) {
-    if (message.type === 'restart') model.restart(nowMs);
+    if (message.type === 'restart' || message.type === 'reset') model.restart(nowMs);
     else if (message.type === 'pause') model.pause(message.paused, nowMs);
     else if (message.type === 'blackhole') model.blackhole(message.active, nowMs);
     else model.setProfile(patched(model.profile, message), message.atMs ?? nowMs);

@@ -74,9 +74,10 @@ await runProgram(program, async ({ options, log, health, metrics, shutdown, serv
     log.info({ peers, url, upstream }, `point ${peers === 'farpoint' ? 'the robot' : peers} at ${url}`);
   }
 
+  const initial = { up: link.models.up.profile, down: link.models.down.profile };
   process.on('message', (data) => {
     try {
-      log.info(control(link, data), 'told');
+      log.info(control(link, data, initial), 'told');
     } catch (error) {
       log.error({ err: error }, 'a message of the parent process cannot be obeyed');
     }
