@@ -3,6 +3,7 @@ import { describe, expect, test } from 'vitest';
 import { AdaptiveRateController } from './adaptive-rate-controller.ts';
 import type { PacketResult } from './rate-controller.ts';
 import {
+  BUSY_COMPUTER,
   losses,
   msAboveQueue,
   msUntilUsed,
@@ -227,6 +228,61 @@ describe('what the path may do besides', () => {
     }));
     const outcome = run({ capacity, queueMs: 500 });
     expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.6);
+  });
+});
+
+describe('on a busy computer', () => {
+  const sharpDrops = (outcome: Outcome, fromMs: number) => {
+    const { target, sampleMs } = outcome.media[0]!;
+    return sampleMs.filter((ms, i) => ms > fromMs && target[i]! < 0.5 * LINK).length;
+  };
+
+  test.each([1, 2, 3, 4])('stalls of sender, link and receiver cost little (seed %i)', (seed) => {
+    const outcome = run({ seed, stalls: BUSY_COMPUTER });
+    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.9);
+    expect(q95(outcome, 5000, 20_000)).toBeLessThan(30);
+    expect(sharpDrops(outcome, 2000)).toBe(0);
+  });
+
+  test.each([
+    ['link', 4, 5, 25],
+    ['receiver', 5, 5, 25],
+    ['sender', 5, 5, 40],
+    ['link', 1, 40, 60],
+  ] as const)('the %s alone stalls, %i / s, for %i–%i ms', (who, perSecond, least, most) => {
+    const outcome = run({ stalls: { [who]: { perSecond, lengthMs: [least, most] } } });
+    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.88);
+    expect(q95(outcome, 5000, 20_000)).toBeLessThan(60);
+  });
+
+  test.each([1, 2, 3])('with 5 %% of loss that is the link’s own (seed %i)', (seed) => {
+    const outcome = run({ seed, stalls: BUSY_COMPUTER, loss: 0.05 });
+    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.82);
+  });
+
+  test.each([0, 17, 34, 51])('a link that falls is still noticed (%i ms later)', (late) => {
+    const down = 10_000 + late;
+    const capacity = [
+      ...flat(LINK),
+      { fromMs: down, bitsPerSecond: 8 * M },
+      { fromMs: 20_000, bitsPerSecond: LINK },
+    ];
+    const outcome = run({ durationMs: 30_000, seed: 3 + late, stalls: BUSY_COMPUTER, capacity });
+    expect(msAboveQueue(outcome.media[0]!, 100, down, 20_000)).toBeLessThan(600);
+    expect(used(outcome, 12_000, 20_000)).toBeGreaterThan(0.8);
+    expect(msUntilUsed(outcome, outcome.media[0]!, 20_000, 30_000, 0.85)).toBeLessThan(4500);
+  });
+
+  test('it still shares with a TCP flow', () => {
+    const outcome = run({
+      durationMs: 60_000,
+      capacity: flat(20 * M),
+      stalls: BUSY_COMPUTER,
+      cubic: [{ startMs: 5000 }],
+    });
+    const ours = share(outcome.media[0]!, outcome.cubic[0]!, 10_000, 60_000);
+    expect(ours).toBeGreaterThan(0.25);
+    expect(ours).toBeLessThan(0.75);
   });
 });
 

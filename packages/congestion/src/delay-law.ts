@@ -9,9 +9,9 @@ const WINDOW_MS = 40;
 /** A gap between two arrivals that tells of a halt and not of a slow link, ms. */
 const HALT_MS = 8;
 /** After so many messages a queue is not young. */
-const LONG_QUEUED = 4;
-/** A message of fewer packets comes from a link so slow that only the sum tells its rate. */
-const FEW_PACKETS = 16;
+const LONG_QUEUED = 6;
+/** On so slow a link only the sum tells the rate: a packet's time, ms. */
+const SLOW_PACKET_MS = 2.5;
 /** A standing queue should be gone after this time, ms; at most this part of the rate is held back for it. */
 const DRAIN_MS = 150;
 const DRAIN_MOST = 0.6;
@@ -68,14 +68,18 @@ export class DelayLaw {
    * arrived over all only when the queue stays and tells no such rate.
    */
   estimateWhenOver(path: PathObserver, estimate: number, toleratedMs: number): number {
-    const { ackedBitsPerSecond: acked, queueEndMs, received } = path.observation;
+    const { ackedBitsPerSecond: acked, queueEndMs } = path.observation;
     const first = this.#overInRow <= 1;
-    const queued = first ? path.rateWhileQueued(FIRST_WINDOW_MS, HALT_MS) : path.rateWhileQueued(WINDOW_MS);
+    const leastMs = toleratedMs / 2;
+    const queued = first
+      ? path.rateWhileQueued(leastMs, FIRST_WINDOW_MS, HALT_MS)
+      : path.rateWhileQueued(leastMs, WINDOW_MS);
     let rate: number;
-    if (received < FEW_PACKETS) rate = Number.isNaN(queued) ? acked : queued;
-    // The queue is young.
-    else if (Number.isNaN(queued)) rate = this.#overInRow < LONG_QUEUED ? estimate / KEEP : acked;
-    else rate = first || Number.isNaN(this.#lastQueued) ? queued : Math.max(queued, this.#lastQueued);
+    if (packetMs(estimate) > SLOW_PACKET_MS) rate = Number.isNaN(queued) ? acked : queued;
+    else if (Number.isNaN(queued)) {
+      const old = this.#overInRow >= LONG_QUEUED && queueEndMs > toleratedMs;
+      rate = old ? acked : estimate / KEEP;
+    } else rate = first || Number.isNaN(this.#lastQueued) ? queued : Math.max(queued, this.#lastQueued);
     this.#lastQueued = queued;
     rate = Math.max(rate, 0.5 * acked);
     const floor = path.noiseMs > NOISY_MS && queueEndMs < 2.5 * toleratedMs ? 0.85 * estimate : 0;

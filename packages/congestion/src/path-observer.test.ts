@@ -33,7 +33,7 @@ test('queueing delay is what exceeds the least; the rate is what arrives', () =>
   feed(path, 500, 600, (t) => 20 + (t - 500));
   expect(path.observation.queueEndMs).toBeGreaterThan(90);
   expect(path.observation.ackedBitsPerSecond).toBeCloseTo(5e6, -5);
-  expect(path.rateWhileQueued(25)).toBeCloseTo(5e6, -5);
+  expect(path.rateWhileQueued(5, 25)).toBeCloseTo(5e6, -5);
 });
 
 test('a missing message does not look like a slower path', () => {
@@ -70,10 +70,11 @@ test('a path that stood still for a moment carries what it carried', () => {
   feed(path, 500, 550, (t) => (t < 510 ? 20 : 40));
   expect(path.observation.queueEndMs).toBeCloseTo(20);
   expect(path.observation.ackedBitsPerSecond).toBeLessThan(9e6);
-  expect(path.rateWhileQueued(25)).toBeCloseTo(10e6, -5);
+  expect(path.rateWhileQueued(5, 25)).toBeCloseTo(10e6, -5);
+  expect(path.rateWhileQueued(25, 25)).toBeNaN();
   // At the very end of a message a queue tells no rate.
   feed(path, 550, 1000, () => 20);
   feed(path, 1000, 1050, (t) => (t < 1040 ? 20 : 40));
   expect(path.observation.queueEndMs).toBeCloseTo(20);
-  expect(path.rateWhileQueued(25)).toBeNaN();
+  expect(path.rateWhileQueued(5, 25)).toBeNaN();
 });

@@ -84,12 +84,13 @@ export class PathObserver {
    * The most that arrived in any `windowMs` of the last message while its queue stood, bit/s: what the path carries of ours.
    * A path or a receiver that stood still for a moment, or a sender that did, leaves other windows as they were.
    *
+   * @param leastMs what waited shorter saw no queue
    * @param haltMs what came before a gap of so long between two arrivals does not count
    * @returns NaN where the queue is too young to tell
    */
-  rateWhileQueued(windowMs: number, haltMs = Number.POSITIVE_INFINITY): number {
+  rateWhileQueued(leastMs: number, windowMs: number, haltMs = Number.POSITIVE_INFINITY): number {
     const n = this.observation.received;
-    const queued = this.#baseDelay.value + this.observation.queueEndMs / 2;
+    const queued = this.#baseDelay.value + Math.max(this.observation.queueEndMs / 2, leastMs);
     let begin = n;
     while (begin > 0 && (this.#delays[begin - 1] as number) >= queued) {
       const gapMs = begin < n ? (this.#arrivals[begin] as number) - (this.#arrivals[begin - 1] as number) : 0;

@@ -83,7 +83,9 @@ export class ProbePlan {
       return Math.max(estimate, 0.95 * Math.min(sent, arrived));
     }
     // The train was spread: it arrived at the link's rate, or at its own share of it where others send as well.
-    const gain = (this.searching ? 1 : 0.6) * (0.93 * arrived - estimate);
+    // After one that found no limit this is the first that did: nothing else is known, as in the search.
+    const known = !this.searching && this.#factor !== FACTOR_AFTER_SUCCESS;
+    const gain = (known ? 0.6 : 0.75) * (0.93 * arrived - estimate);
     this.#waitMs = Math.min(Math.max(2 * this.#waitMs, LEAST_WAIT_MS), MOST_WAIT_MS);
     if (gain > 0.15 * estimate) this.#waitMs = LEAST_WAIT_MS;
     this.#factor = FACTOR;
