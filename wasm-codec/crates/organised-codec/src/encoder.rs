@@ -1,0 +1,448 @@
+//! Frames to packets.
+
+use crate::load::{Left, Loaded, MAX_COORDINATE, Quantiser, Source};
+use crate::rans::{self, Counter, Tokens};
+use crate::stream::{MAX_PACKET_BYTES, PACKET_HEADER_BYTES, PacketHeader, StreamHeader};
+use crate::syntax::{Neighbours, code_tile};
+use crate::tables::Tables;
+use crate::tile::{ColourMode, Grid, Kind, LAST_TRANSFORMED, Pattern, TILE, Tile};
+use crate::transform::{forward, plane_step, point_step, quantise, to_ycocg};
+
+/// How a frame is coded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// 0 to 7: the depth error is at most 0.0625 · 2^level mm · z².
+    pub depth_level: u8,
+    /// Colour at all, and its chroma.
+    pub mode: ColourMode,
+    /// 0 to 31: step of colour, 0 the finest.
+    pub quality: u8,
+    /// Table set for geometry.
+    pub geometry_set: u8,
+    /// Table set for colour.
+    pub colour_set: u8,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { depth_level: 3, mode: ColourMode::Subsampled, quality: 16, geometry_set: 0, colour_set: 0 }
+    }
+}
+
+/// A packet of the last frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Packet {
+    /// Where it begins in the encoder's bytes.
+    pub start: usize,
+    /// Its length.
+    pub length: usize,
+    /// Points in it.
+    pub points: usize,
+    /// The nearest quantised inverse depth in it.
+    pub nearest: i32,
+}
+
+/// What the last pass made of a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Frame {
+    /// Packets.
+    pub packets: usize,
+    /// Bytes of all packets.
+    pub bytes: usize,
+    /// Points sent.
+    pub points: usize,
+    /// Pixels that carried none.
+    pub left: Left,
+    /// Valid points that the patterns left out.
+    pub thinned: usize,
+    /// Of these, points of tiles that would not have fitted into a packet.
+    pub too_dense: usize,
+}
+
+/// Codes frames of one stream.
+pub struct Encoder {
+    header: StreamHeader,
+    grid: Grid,
+    tables: Tables,
+    quantiser: Quantiser,
+    /// Of every tile.
+    patterns: Vec<Pattern>,
+    loaded: Loaded,
+    tile: Tile,
+    tokens: Tokens,
+    bytes: Vec<u8>,
+    packets: Vec<Packet>,
+    scratch: Box<[u8; MAX_PACKET_BYTES]>,
+}
+
+/// The packet being filled.
+struct Open {
+    first: usize,
+    /// Tiles up to the last that is not empty, and the tokens for them.
+    count: usize,
+    mark: (usize, u32),
+    points: usize,
+    nearest: i32,
+    near: Neighbours,
+}
+
+impl Encoder {
+    /// `None` where a value of the header is outside its range.
+    #[must_use]
+    pub fn new(header: StreamHeader) -> Option<Self> {
+        if !header.is_valid() {
+            return None;
+        }
+        let grid = header.grid();
+        let limits = |rays: &mut dyn Iterator<Item = f32>, length: usize| {
+            let mut limits: Vec<f32> =
+                rays.map(|ray| MAX_COORDINATE / ray.abs().max(1.0)).collect();
+            limits.resize(length, 0.0);
+            limits
+        };
+        let quantiser = Quantiser {
+            scale: 0.0,
+            column_limits: limits(&mut header.intrinsics.columns(grid.width), grid.columns * TILE),
+            row_limits: limits(&mut header.intrinsics.rows(grid.height), grid.rows * TILE),
+        };
+        Some(Self {
+            header,
+            grid,
+            tables: Tables::new(),
+            quantiser,
+            patterns: vec![Pattern(0); grid.tiles()],
+            loaded: Loaded::new(),
+            tile: Tile::new(),
+            tokens: Tokens::with_capacity(1 << 15),
+            bytes: Vec::with_capacity(grid.width * grid.height),
+            packets: Vec::with_capacity(grid.tiles()),
+            scratch: Box::new([0; MAX_PACKET_BYTES]),
+        })
+    }
+
+    /// The stream's header.
+    #[must_use]
+    pub fn header(&self) -> &StreamHeader {
+        &self.header
+    }
+
+    /// The pattern of every tile for the next frames.
+    pub fn patterns(&mut self) -> &mut [Pattern] {
+        &mut self.patterns
+    }
+
+    /// The packets of the last frame.
+    #[must_use]
+    pub fn packets(&self) -> &[Packet] {
+        &self.packets
+    }
+
+    /// The bytes of a packet of the last frame.
+    #[must_use]
+    pub fn packet(&self, index: usize) -> &[u8] {
+        let Packet { start, length, .. } = self.packets[index];
+        &self.bytes[start..start + length]
+    }
+
+    /// Codes a frame. `None` where it has not the header's number of pixels.
+    pub fn encode(&mut self, source: Source<'_>, settings: &Settings) -> Option<Frame> {
+        if source.len() != self.grid.width * self.grid.height {
+            return None;
+        }
+        self.bytes.clear();
+        self.packets.clear();
+        self.quantiser.scale = 1.0 / self.header.depth_step(settings.depth_level);
+        let mut frame = Frame::default();
+        let mut open: Option<Open> = None;
+        for index in 0..self.grid.tiles() {
+            let place = self.grid.place(index);
+            self.quantiser.load(source, self.grid, place, &mut self.loaded, &mut frame.left);
+            if self.loaded.valid == 0 && open.is_none() {
+                continue;
+            }
+            let mut pattern = self.patterns[index];
+            let valid = self.loaded.valid as usize;
+            prepare(&self.loaded, &mut self.tile, pattern, settings);
+            loop {
+                let packet = open.get_or_insert_with(|| {
+                    self.tokens.clear();
+                    Open {
+                        first: index,
+                        count: 0,
+                        mark: (0, 0),
+                        points: 0,
+                        nearest: 0,
+                        near: Neighbours::new(),
+                    }
+                });
+                let mut coder = rans::Encoder {
+                    tokens: &mut self.tokens,
+                    costs: self.tables.costs(),
+                    geometry: Tables::geometry_base(settings.geometry_set.into()),
+                    colour: Tables::colour_base(settings.colour_set.into()),
+                };
+                let (row, edge) = (place.row_in_strip, place.column == 0);
+                code_tile(&mut coder, &mut self.tile, &mut packet.near, row, edge, settings.mode);
+                if self.tokens.cost() <= COST_LIMIT {
+                    if self.tile.kind != Kind::Empty {
+                        packet.count = index + 1 - packet.first;
+                        packet.mark = self.tokens.mark();
+                        packet.points += self.tile.valid();
+                        packet.nearest = packet.nearest.max(nearest(&self.tile));
+                        frame.thinned += valid - self.tile.valid();
+                        if pattern != self.patterns[index] {
+                            frame.too_dense += valid - self.tile.valid();
+                        }
+                    } else {
+                        frame.thinned += valid;
+                    }
+                    break;
+                }
+                if packet.count > 0 {
+                    let full = open.take().expect("a packet");
+                    self.close(full, settings, &mut frame);
+                    if self.loaded.valid == 0 {
+                        break;
+                    }
+                } else {
+                    // A tile that no packet can hold: half of its points, and so on.
+                    open = None;
+                    pattern = Pattern((pattern.0 + 1).min(Pattern::COUNT - 1));
+                    prepare(&self.loaded, &mut self.tile, pattern, settings);
+                }
+            }
+        }
+        if let Some(last) = open.take() {
+            self.close(last, settings, &mut frame);
+        }
+        frame.packets = self.packets.len();
+        frame.bytes = self.bytes.len();
+        Some(frame)
+    }
+
+    fn close(&mut self, packet: Open, settings: &Settings, frame: &mut Frame) {
+        if packet.count == 0 {
+            return;
+        }
+        self.tokens.rewind(packet.mark);
+        // The limit leaves room for what the estimate may be wrong by.
+        let at = self.tokens.write(&self.tables, &mut self.scratch[..]).expect("a packet within its limit");
+        let start = self.bytes.len();
+        let header = PacketHeader {
+            id: self.header.id,
+            geometry_set: settings.geometry_set,
+            colour_set: settings.colour_set,
+            mode: settings.mode,
+            depth_level: settings.depth_level,
+            quality: settings.quality,
+            first: packet.first as u16,
+            count: packet.count as u16,
+        };
+        self.bytes.extend_from_slice(&[0; PACKET_HEADER_BYTES]);
+        self.bytes.extend_from_slice(&self.scratch[at..]);
+        header.write(&mut self.bytes[start..]);
+        let length = self.bytes.len() - start;
+        self.packets.push(Packet { start, length, points: packet.points, nearest: packet.nearest });
+        frame.points += packet.points;
+    }
+
+    /// Counts the symbols of every `step`-th column of tiles, as packets of `per_packet` tiles would code them.
+    pub fn count(&mut self, source: Source<'_>, settings: &Settings, per_packet: usize, step: usize, counter: &mut Counter<'_>) {
+        self.quantiser.scale = 1.0 / self.header.depth_step(settings.depth_level);
+        let mut near = Neighbours::new();
+        let mut left = Left::default();
+        let mut in_packet = 0;
+        for index in 0..self.grid.tiles() {
+            if step > 1 && index / per_packet % step != 0 {
+                in_packet = per_packet;
+                continue;
+            }
+            if in_packet >= per_packet {
+                in_packet = 0;
+                near = Neighbours::new();
+            }
+            let place = self.grid.place(index);
+            self.quantiser.load(source, self.grid, place, &mut self.loaded, &mut left);
+            prepare(&self.loaded, &mut self.tile, self.patterns[index], settings);
+            if self.tile.kind == Kind::Empty && in_packet == 0 {
+                continue;
+            }
+            in_packet += 1;
+            code_tile(counter, &mut self.tile, &mut near, place.row_in_strip, place.column == 0, settings.mode);
+        }
+    }
+}
+
+/// What the symbols of a packet may cost, in 1/256 bit: 32 bits and more fit into the states, and the estimate is off by a
+/// fraction of a bit in a hundred.
+const COST_LIMIT: u32 = ((MAX_PACKET_BYTES - PACKET_HEADER_BYTES - 8) * 8) as u32 * 256;
+
+fn nearest(tile: &Tile) -> i32 {
+    let (width, height) = (tile.pattern.width(), tile.pattern.height());
+    // Pixels that are not valid hold predictions from valid ones.
+    let rows = (0..height).flat_map(|y| &tile.depth[Tile::at(0, y)..Tile::at(width, y)]);
+    rows.copied().max().unwrap_or(0)
+}
+
+/// Makes of a loaded tile what the syntax codes.
+fn prepare(loaded: &Loaded, tile: &mut Tile, pattern: Pattern, settings: &Settings) {
+    tile.pattern = pattern;
+    let (width, height) = (pattern.width(), pattern.height());
+    let mut rgba = [0_u32; TILE * TILE];
+    tile.rows = [0; TILE];
+    let mut valid = 0;
+    if pattern.0 == 0 {
+        tile.rows = loaded.rows;
+        valid = loaded.valid as usize;
+        rgba = loaded.rgba;
+        for y in 0..TILE {
+            let row = &loaded.depth[y * TILE..(y + 1) * TILE];
+            tile.depth[Tile::at(0, y)..Tile::at(TILE, y)].copy_from_slice(row);
+        }
+    } else if loaded.valid > 0 {
+        for y in 0..height {
+            for x in 0..width {
+                let (u, v) = pattern.pixel(x, y);
+                tile.depth[Tile::at(x, y)] = loaded.depth[v * TILE + u];
+                rgba[y * TILE + x] = loaded.rgba[v * TILE + u];
+                tile.rows[y] |= (loaded.rows[v] >> u & 1) << x;
+            }
+        }
+        valid = tile.valid();
+    }
+    tile.kind = match valid {
+        0 => Kind::Empty,
+        _ if valid == width * height => Kind::Full,
+        _ => Kind::Mixed,
+    };
+    if tile.kind == Kind::Empty || settings.mode == ColourMode::None {
+        return;
+    }
+    if pattern <= LAST_TRANSFORMED {
+        if tile.kind == Kind::Mixed {
+            fill(&mut rgba, &tile.rows, width, height);
+        }
+        transform_blocks(&rgba, tile, settings);
+    } else {
+        let step = point_step(settings.quality.into());
+        let mut at = 0;
+        for y in 0..height {
+            for x in 0..width {
+                if tile.rows[y] >> x & 1 == 1 {
+                    // Times 4 in, steps in 1/16.
+                    tile.points[at] = to_ycocg(rgba[y * TILE + x]).map(|c| {
+                        let c = 4 * c;
+                        (c + (step / 2) * c.signum()) / step
+                    });
+                    at += 1;
+                }
+            }
+        }
+    }
+}
+
+/// Gives pixels that are not valid the colour of the valid one to their left, or above.
+fn fill(rgba: &mut [u32; TILE * TILE], rows: &[u16; TILE], width: usize, height: usize) {
+    let first = rows[..height].iter().position(|row| *row != 0).unwrap_or(0);
+    let mut above = first * TILE + (rows[first].trailing_zeros() as usize).min(TILE - 1);
+    for y in 0..height {
+        let row = rows[y];
+        if row == 0 {
+            if y > 0 {
+                rgba.copy_within((y - 1) * TILE..y * TILE, y * TILE);
+            } else {
+                let colour = rgba[above];
+                rgba[..TILE].fill(colour);
+            }
+            continue;
+        }
+        if row >> (width - 1) == 1 && row.count_ones() as usize == width {
+            above = y * TILE;
+            continue;
+        }
+        let mut colour = rgba[above];
+        if row & 1 == 0 {
+            colour = rgba[y * TILE + row.trailing_zeros() as usize];
+        }
+        for x in 0..width {
+            if row >> x & 1 == 1 {
+                colour = rgba[y * TILE + x];
+            } else {
+                rgba[y * TILE + x] = colour;
+            }
+        }
+        above = y * TILE;
+    }
+}
+
+fn transform_blocks(rgba: &[u32; TILE * TILE], tile: &mut Tile, settings: &Settings) {
+    use wide::{f32x8, i32x8};
+    let subsampled = settings.mode == ColourMode::Subsampled;
+    let (width, height) = (tile.pattern.width(), tile.pattern.height());
+    let mut planes = [[0_i32; TILE * TILE]; 3];
+    {
+        let [luma, orange, green] = &mut planes;
+        for ((pixel, y), (co, cg)) in rgba.iter().zip(luma).zip(orange.iter_mut().zip(green)) {
+            [*y, *co, *cg] = to_ycocg(*pixel);
+        }
+    }
+    if subsampled && tile.pattern.0 < 2 {
+        for plane in &mut planes[1..] {
+            halve(plane, width == TILE);
+        }
+    }
+    let _ = height;
+    let mut index = 0;
+    for plane in 0..3 {
+        let (columns, rows) = settings.mode.blocks(tile.pattern, plane);
+        let step = plane_step(settings.quality.into(), plane, subsampled);
+        for by in 0..rows {
+            for bx in 0..columns {
+                let block: [f32x8; 8] = core::array::from_fn(|y| {
+                    let at = (by * 8 + y) * TILE + bx * 8;
+                    let row: [i32; 8] = *planes[plane][at..at + 8].first_chunk().expect("eight pixels");
+                    f32x8::from_i32x8(i32x8::from(row))
+                });
+                quantise(&forward(&block), step, &mut tile.blocks[index]);
+                index += 1;
+            }
+        }
+    }
+}
+
+/// Means of 2 × 2 pixels, or of 1 × 2 where the tile is 8 wide, into the upper left 8 × 8.
+fn halve(plane: &mut [i32; TILE * TILE], wide: bool) {
+    for y in 0..8 {
+        for x in 0..8 {
+            let upper = 2 * y * TILE;
+            let lower = upper + TILE;
+            plane[y * TILE + x] = if wide {
+                (plane[upper + 2 * x] + plane[upper + 2 * x + 1] + plane[lower + 2 * x] + plane[lower + 2 * x + 1] + 2) >> 2
+            } else {
+                (plane[upper + x] + plane[lower + x] + 1) >> 1
+            };
+        }
+    }
+}
+
+impl Encoder {
+    /// Sets the table sets that code a sample of the frame in the fewest bits.
+    pub fn choose_tables(&mut self, source: Source<'_>, settings: &mut Settings) {
+        use crate::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, SYMBOLS};
+        use crate::tables::{COLOUR_SETS, GEOMETRY_SETS};
+        let mut geometry = vec![0; GEOMETRY_CONTEXTS * SYMBOLS];
+        let mut colour = vec![0; COLOUR_CONTEXTS * SYMBOLS];
+        let mut counter = Counter { geometry: &mut geometry, colour: &mut colour, raw_bits: 0 };
+        self.count(source, settings, 12, 8, &mut counter);
+        let cost = |counts: &[u32], base: usize| -> u64 {
+            let costs = &self.tables.costs()[base..base + counts.len()];
+            counts.iter().zip(costs).map(|(count, cost)| u64::from(*count) * u64::from(*cost)).sum()
+        };
+        settings.geometry_set = (0..GEOMETRY_SETS)
+            .min_by_key(|set| cost(&geometry, Tables::geometry_base(*set)))
+            .unwrap_or(0) as u8;
+        settings.colour_set = (0..COLOUR_SETS)
+            .min_by_key(|set| cost(&colour, Tables::colour_base(*set)))
+            .unwrap_or(0) as u8;
+    }
+}

@@ -1,0 +1,27 @@
+//! Point clouds that lie on a camera's pixel grid, coded as depth and colour: a few bits a point, packets of at most 1200
+//! bytes, each decodable alone and in any order. The format is specified in `docs/organised-codec.md`.
+//!
+//! Without I/O; works in buffers made once; packets decode to the same bits natively and in WASM.
+#![forbid(unsafe_code)]
+
+pub mod contexts;
+mod decoder;
+mod encoder;
+mod grid;
+pub mod load;
+pub mod rans;
+pub mod stream;
+pub mod syntax;
+pub mod tables;
+pub mod tile;
+pub mod transform;
+
+pub use decoder::{Decoder, Put};
+pub use encoder::{Encoder, Frame, Settings};
+pub use grid::Intrinsics;
+pub use load::{Left, Source};
+pub use stream::{HeaderError, PacketError, StreamHeader};
+pub use tile::ColourMode;
+
+/// x, y, z in metres and the colour, whose bit pattern is the bytes R, G, B, A (R lowest).
+pub type Point = [f32; 4];

@@ -1,0 +1,201 @@
+//! A tile of 16 × 16 pixels, as the syntax sees it.
+
+/// Pixels along a tile's side.
+pub const TILE: usize = 16;
+/// Tile rows of a strip: tiles are numbered downwards within a strip's columns.
+pub const STRIP: usize = 3;
+/// From one row of [`Tile::depth`] to the next: a column on the left, up to 16 pixels, one on the right.
+pub const STRIDE: usize = 18;
+/// Blocks of a tile: 4 for each plane at most.
+pub const MAX_BLOCKS: usize = 12;
+
+/// Where the tiles of an image lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Grid {
+    /// Image width, pixels.
+    pub width: usize,
+    /// Image height, pixels.
+    pub height: usize,
+    /// Tiles across.
+    pub columns: usize,
+    /// Tiles down.
+    pub rows: usize,
+}
+
+impl Grid {
+    /// For an image of `width` × `height` pixels.
+    #[must_use]
+    pub const fn new(width: usize, height: usize) -> Self {
+        Self { width, height, columns: width.div_ceil(TILE), rows: height.div_ceil(TILE) }
+    }
+
+    /// Tiles of the image.
+    #[must_use]
+    pub const fn tiles(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Column and row of a tile, and its row in its strip.
+    #[must_use]
+    pub const fn place(&self, tile: usize) -> Place {
+        let strip = tile / (STRIP * self.columns);
+        let first_row = strip * STRIP;
+        let left = self.rows - first_row;
+        let height = if left < STRIP { left } else { STRIP };
+        let within = tile - first_row * self.columns;
+        let row_in_strip = within % height;
+        Place { column: within / height, row: first_row + row_in_strip, row_in_strip }
+    }
+}
+
+/// See [`Grid::place`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Tile column.
+    pub column: usize,
+    /// Tile row.
+    pub row: usize,
+    /// Tile row within the strip.
+    pub row_in_strip: usize,
+}
+
+/// Which pixels of a tile are kept: 0 all, 1 every second (quincunx), 2 a quarter, … 7 two, each half of those before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Pattern(pub u8);
+
+impl Pattern {
+    /// How many there are.
+    pub const COUNT: u8 = 8;
+
+    /// Kept pixels in a row of kept pixels.
+    #[inline(always)]
+    #[must_use]
+    pub const fn width(self) -> usize {
+        TILE >> ((self.0 + 1) >> 1)
+    }
+
+    /// Rows with kept pixels.
+    #[inline(always)]
+    #[must_use]
+    pub const fn height(self) -> usize {
+        TILE >> (self.0 >> 1)
+    }
+
+    /// Column and row in the tile of the kept pixel `x`, `y`. Odd patterns shift every second row by half a step.
+    #[inline(always)]
+    #[must_use]
+    pub const fn pixel(self, x: usize, y: usize) -> (usize, usize) {
+        let shift = self.0 >> 1;
+        let x = if self.0 & 1 == 1 { 2 * x + (y & 1) } else { x };
+        (x << shift, y << shift)
+    }
+}
+
+/// Which pixels of a pattern are valid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// None.
+    #[default]
+    Empty,
+    /// All.
+    Full,
+    /// As the mask says.
+    Mixed,
+}
+
+/// How colours are coded in a packet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ColourMode {
+    /// Not at all: every point is pure green.
+    None,
+    /// Chroma at half the resolution.
+    #[default]
+    Subsampled,
+    /// Chroma as fine as luma.
+    Full,
+}
+
+impl ColourMode {
+    /// Blocks across and down of a plane (0 luma, 1 and 2 chroma) in a tile of a pattern up to 2.
+    #[inline(always)]
+    #[must_use]
+    pub const fn blocks(self, pattern: Pattern, plane: usize) -> (usize, usize) {
+        if plane > 0 && matches!(self, Self::Subsampled) {
+            (1, 1)
+        } else {
+            (pattern.width() / 8, pattern.height() / 8)
+        }
+    }
+}
+
+/// The coarsest pattern whose colours are transformed; the rest code each point's colour by itself.
+pub const LAST_TRANSFORMED: Pattern = Pattern(2);
+
+/// A block's quantised coefficients.
+#[derive(Clone, Copy)]
+pub struct Block {
+    /// Level of the mean.
+    pub dc: i32,
+    /// AC levels up to the last that is not 0.
+    pub count: usize,
+    /// AC levels in zigzag order: `levels[i]` is the coefficient at zigzag position i + 1. Valid up to `count`.
+    pub levels: [i16; 63],
+}
+
+/// A tile's content: coordinates are those of the pattern, not of the image.
+pub struct Tile {
+    /// Which pixels are kept.
+    pub pattern: Pattern,
+    /// Which of them are valid.
+    pub kind: Kind,
+    /// Valid pixels of each row, the leftmost in bit 0.
+    pub rows: [u16; TILE],
+    /// Quantised inverse depth; pixel x, y at `(y + 1) * STRIDE + x + 1`, the borders hold the neighbours'.
+    pub depth: [i32; STRIDE * (TILE + 1)],
+    /// Coefficients, planes one after another, each in raster order.
+    pub blocks: [Block; MAX_BLOCKS],
+    /// Quantised colours of the valid pixels where they are not transformed.
+    pub points: [[i32; 3]; 32],
+}
+
+impl Tile {
+    /// An empty one.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            pattern: Pattern(0),
+            kind: Kind::Empty,
+            rows: [0; TILE],
+            depth: [0; STRIDE * (TILE + 1)],
+            blocks: [Block { dc: 0, count: 0, levels: [0; 63] }; MAX_BLOCKS],
+            points: [[0; 3]; 32],
+        }
+    }
+
+    /// Where pixel x, y of the pattern lies in [`Tile::depth`].
+    #[inline(always)]
+    #[must_use]
+    pub const fn at(x: usize, y: usize) -> usize {
+        (y + 1) * STRIDE + x + 1
+    }
+
+    /// Number of valid pixels.
+    #[must_use]
+    pub fn valid(&self) -> usize {
+        self.rows[..self.pattern.height()].iter().map(|row| row.count_ones() as usize).sum()
+    }
+
+    /// True where a luma-sized block holds a valid pixel.
+    #[inline(always)]
+    #[must_use]
+    pub fn block_is_seen(&self, column: usize, row: usize) -> bool {
+        let bits = self.rows[row * 8..row * 8 + 8].iter().fold(0, |all, row| all | row);
+        bits >> (column * 8) & 0xff != 0
+    }
+}
+
+impl Default for Tile {
+    fn default() -> Self {
+        Self::new()
+    }
+}
