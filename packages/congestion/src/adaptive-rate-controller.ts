@@ -33,6 +33,8 @@ export type AdaptiveState =
 const PACING = 1.1;
 const LEAST_PACING = 300_000;
 const LEAST_WINDOW_BYTES = 7500;
+/** Below this the source cannot follow the rate in fine steps: what it leaves unused says nothing, bit/s. */
+const SMALL = 1e6;
 /** Of what arrives under too much loss, the part that is kept; and the most that is given up at once. */
 const KEEP_IN_LOSS = 0.95;
 const LOSS_CUT = 0.85;
@@ -158,7 +160,8 @@ export class AdaptiveRateController implements RateController {
     const rate = this.#estimate * (1 - (this.#state === 'drain' ? this.#heldBack : 0));
     const bytes = (rate * (baseRttMs + feedbackIntervalMs + 5 + missedMs)) / 8000;
     if (this.#state === 'compete') return this.#competition.windowBytes + bytes;
-    return Math.max(bytes, LEAST_WINDOW_BYTES);
+    // A train fits in beside what is on its way.
+    return Math.max(bytes, LEAST_WINDOW_BYTES) + (this.#probe.wish?.bytes ?? 0);
   }
 
   #onDelay(elapsedMs: number, nowMs: number): void {
@@ -194,7 +197,10 @@ export class AdaptiveRateController implements RateController {
       }
     } else if (this.#state === 'drain') {
       if (reading === 'clear') this.#state = 'steady';
-    } else if (this.#used() > 0.75 && (!this.#plan.searching || this.#plan.ignored)) {
+    } else if (
+      (this.#used() > 0.75 || this.#estimate < SMALL) &&
+      (!this.#plan.searching || this.#plan.ignored)
+    ) {
       // Who sends no probes searches by doubling, 0.7 s each.
       const perSecond = this.#plan.searching ? this.#estimate : growth(this.#estimate);
       this.#estimate += (perSecond * elapsedMs) / 1000;

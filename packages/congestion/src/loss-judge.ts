@@ -1,6 +1,9 @@
 /** A fraction is judged over so many packets and so long. */
 const LEAST_PACKETS = 60;
 const LEAST_MS = 180;
+/** On a slow link so few packets must do after so long. */
+const FEW_PACKETS = 20;
+const PATIENCE_MS = 1000;
 /** Loss must exceed the base by so much before anything is done, and by so many standard deviations. */
 const MARGIN = 0.03;
 const DEVIATIONS = 3;
@@ -45,7 +48,8 @@ export class LossJudge {
     this.#received += received;
     this.#lost += lost;
     const n = this.#received + this.#lost;
-    if (n < LEAST_PACKETS || nowMs - this.#sinceMs < LEAST_MS) return 'none';
+    const elapsedMs = nowMs - this.#sinceMs;
+    if (n < (elapsedMs < PATIENCE_MS ? LEAST_PACKETS : FEW_PACKETS) || elapsedMs < LEAST_MS) return 'none';
     const fraction = this.#lost / n;
     this.fraction = fraction;
     this.#restart();
