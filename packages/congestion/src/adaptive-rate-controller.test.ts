@@ -318,6 +318,14 @@ describe('decisions', () => {
     expect(sent).toBeGreaterThan(200_000);
   });
 
+  test('a train fits into the window', () => {
+    const controller = new AdaptiveRateController({ startBitsPerSecond: 200_000 });
+    controller.onPacketSent(0, 7000, 0);
+    controller.onTick(25);
+    const d = controller.decision(25);
+    expect(d.bytesInFlight + d.probe!.bytes).toBeLessThan(d.congestionWindowBytes + 1250);
+  });
+
   test('a receiver’s limit binds', () => {
     const controller = new AdaptiveRateController({ startBitsPerSecond: 10 * M });
     controller.onReceiverLimit(2 * M, 0);

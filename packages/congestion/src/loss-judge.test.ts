@@ -42,3 +42,19 @@ test('less loss than the base lowers it', () => {
   for (let t = 0; t < 5000; t += 60) judge.onFeedback(100, 0, t - 60, t);
   expect(judge.base).toBeLessThan(0.02);
 });
+
+test('a trial on a slow link ends within 2 s', () => {
+  const judge = new LossJudge();
+  let now = 0;
+  // One packet in 50 ms, in pairs; a fifth is lost.
+  const until = (verdict: string): number => {
+    for (let i = 0; i < 100; i++) {
+      now += 100;
+      if (judge.onFeedback(i % 5 < 3 ? 2 : 1, i % 5 < 3 ? 0 : 1, now - 50, now) === verdict) return now;
+    }
+    return Number.NaN;
+  };
+  const cutMs = until('excess');
+  judge.cutAt(cutMs);
+  expect(until('innocent') - cutMs).toBeLessThan(2000);
+});
