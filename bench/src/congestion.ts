@@ -80,7 +80,7 @@ const CASES: readonly Case[] = [
   { ...BASE, name: 'a busy computer, 5 % loss', stalls: BUSY_COMPUTER, loss: 0.05 },
   {
     ...BASE,
-    name: 'a busy computer, step 41.44–8–41.44 Mbit/s',
+    name: 'a busy computer, 41.44–8–41.44 Mbit/s',
     stalls: BUSY_COMPUTER,
     durationMs: 40_000,
     capacity: STEP,
