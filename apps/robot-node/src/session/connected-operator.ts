@@ -111,7 +111,8 @@ export class ConnectedOperator {
 
   /** What points may take of the path, bit/s on the wire; 0 while there is none. */
   get cloudBitsPerSecond(): number {
-    return this.sender === null ? 0 : this.#budget.cloudBitsPerSecond(this.sender.targetBitsPerSecond);
+    const { sender } = this;
+    return sender === null ? 0 : this.#budget.cloudBitsPerSecond(sender.targetBitsPerSecond) * sender.fit;
   }
 
   get droppedFrames(): number {

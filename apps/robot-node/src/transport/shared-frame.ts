@@ -3,7 +3,7 @@ import type { CapturedFrame } from '../capture/capture-messages.ts';
 import { framePayloadBytes } from '../encode/packetiser.ts';
 
 /** A frame takes one interval to send; the farthest points of one that takes so many are not waited for. */
-const MOST_INTERVALS = 1.5;
+const MOST_INTERVALS = 2;
 
 /** One captured frame on its way to several operators; its buffer goes back once the last of them let go of it. */
 export class SharedFrame implements PacedFrame {

@@ -17,6 +17,7 @@ import {
 import { MAX_POINT_DATA_BYTES } from '@farpoint/protocol';
 import { payloadBytes, SLOT_BYTES } from '../encode/packetiser.ts';
 import type { CloudTransport } from './cloud-transport.ts';
+import { FrameFit } from './frame-fit.ts';
 import type { SharedFrame } from './shared-frame.ts';
 
 /** Sums since the session began. */
@@ -66,6 +67,7 @@ export class StreamSender {
   readonly #controller: RateController;
   readonly #pacer: PacketPacer<SharedFrame>;
   readonly #feedback = new TransportFeedbackAdapter();
+  readonly #fit = new FrameFit();
   /** A peer that asks for everything again gets a tenth of it. */
   readonly #resends = new TokenBucket({ perSecond: 400, burst: 50 });
   readonly #now: () => number;
@@ -92,6 +94,11 @@ export class StreamSender {
 
   get targetBitsPerSecond(): number {
     return this.#controller.targetBitsPerSecond(this.#now());
+  }
+
+  /** Of the target, what points should be planned for, 0–1: less than all where frames cannot be sent whole. */
+  get fit(): number {
+    return this.#fit.share;
   }
 
   /** What the rate control knows and thinks, for people. */
@@ -124,6 +131,7 @@ export class StreamSender {
       this.#probeBytesLeft = wish.bytes;
     }
     for (const { frame, reason } of this.#pacer.enqueue(shared.hold(), this.#now())) {
+      this.#fit.onCut();
       this.onFrameDropped?.(frame, reason);
       frame.release();
     }
@@ -164,6 +172,7 @@ export class StreamSender {
         this.counters.bytesSent += wireBytes;
       }
       if (!last) continue;
+      this.#fit.onSent();
       this.counters.framesSent++;
       this.counters.pointsSent += points;
       this.onFrameSent?.({ shared, sendMs: this.#now() - this.#beganMs });

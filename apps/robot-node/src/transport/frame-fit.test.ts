@@ -1,0 +1,33 @@
+import { describe, expect, it } from 'vitest';
+import { FrameFit } from './frame-fit.ts';
+
+describe('FrameFit', () => {
+  it('plans for all of the path while frames fit', () => {
+    const fit = new FrameFit();
+    for (let i = 0; i < 10; i++) fit.onSent();
+    expect(fit.share).toBe(1);
+  });
+
+  it('settles where every other frame would be cut, and finds back', () => {
+    const fit = new FrameFit();
+    for (let i = 0; i < 100; i++) fit.onCut();
+    expect(fit.share).toBe(0.25);
+    // About two seconds of 30 frames/s.
+    for (let i = 0; i < 71; i++) fit.onSent();
+    expect(fit.share).toBe(1);
+    fit.onCut();
+    expect(fit.share).toBe(0.8);
+  });
+
+  it('comes to rest near what can be sent', () => {
+    const fit = new FrameFit();
+    const shares: number[] = [];
+    for (let i = 0; i < 500; i++) {
+      if (fit.share > 0.6) fit.onCut();
+      else fit.onSent();
+      shares.push(fit.share);
+    }
+    expect(Math.min(...shares.slice(100))).toBeGreaterThan(0.47);
+    expect(Math.max(...shares.slice(100))).toBeLessThan(0.62);
+  });
+});
