@@ -160,6 +160,213 @@ export class Encoder {
     }
 }
 if (Symbol.dispose) Encoder.prototype[Symbol.dispose] = Encoder.prototype.free;
+
+/**
+ * One packet and the points of all that were decoded since the last `clear`.
+ */
+export class UnorganisedDecoder {
+    static __wrap(ptr) {
+        const obj = Object.create(UnorganisedDecoder.prototype);
+        obj.__wbg_ptr = ptr;
+        UnorganisedDecoderFinalization.register(obj, obj.__wbg_ptr, obj);
+        return obj;
+    }
+    __destroy_into_raw() {
+        const ptr = this.__wbg_ptr;
+        this.__wbg_ptr = 0;
+        UnorganisedDecoderFinalization.unregister(this);
+        return ptr;
+    }
+    free() {
+        const ptr = this.__destroy_into_raw();
+        wasm.__wbg_unorganiseddecoder_free(ptr, 0);
+    }
+    /**
+     * Forgets all points.
+     */
+    clear() {
+        wasm.unorganiseddecoder_clear(this.__wbg_ptr);
+    }
+    /**
+     * Room for `capacity` points.
+     * @param {number} capacity
+     * @returns {UnorganisedDecoder}
+     */
+    static create(capacity) {
+        const ret = wasm.unorganiseddecoder_create(capacity);
+        return UnorganisedDecoder.__wrap(ret);
+    }
+    /**
+     * Decodes the first `length` bytes of the packet's memory: the number of points, or minus what was wrong: 1 too
+     * short, 2 too long, 3 check value, 4 version, 5 header, 6 data, 7 no room.
+     * @param {number} length
+     * @returns {number}
+     */
+    decode(length) {
+        const ret = wasm.unorganiseddecoder_decode(this.__wbg_ptr, length);
+        return ret;
+    }
+    /**
+     * Three words a packet: first point, count, attribute.
+     * @returns {number}
+     */
+    extents_ptr() {
+        const ret = wasm.unorganiseddecoder_extents_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Writes all points as metres, three floats each, and says where.
+     * @returns {number}
+     */
+    metres_ptr() {
+        const ret = wasm.unorganiseddecoder_metres_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Where the next packet is to be written, 1200 bytes.
+     * @returns {number}
+     */
+    packet_ptr() {
+        const ret = wasm.unorganiseddecoder_packet_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * How many packets there are.
+     * @returns {number}
+     */
+    packets_length() {
+        const ret = wasm.unorganiseddecoder_packets_length(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * 256 words: what an intensity becomes.
+     * @returns {number}
+     */
+    palette_ptr() {
+        const ret = wasm.unorganiseddecoder_palette_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Four floats a packet: origin and step, metres.
+     * @returns {number}
+     */
+    places_ptr() {
+        const ret = wasm.unorganiseddecoder_places_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * How many points there are.
+     * @returns {number}
+     */
+    points_length() {
+        const ret = wasm.unorganiseddecoder_points_length(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * The decoded points, four int16 each.
+     * @returns {number}
+     */
+    points_ptr() {
+        const ret = wasm.unorganiseddecoder_points_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Colours as 6-6-4 bits from now on, else 5-6-5.
+     * @param {boolean} colour_664
+     */
+    set_colour_664(colour_664) {
+        wasm.unorganiseddecoder_set_colour_664(this.__wbg_ptr, colour_664);
+    }
+}
+if (Symbol.dispose) UnorganisedDecoder.prototype[Symbol.dispose] = UnorganisedDecoder.prototype.free;
+
+/**
+ * A frame and the packets it was encoded into.
+ */
+export class UnorganisedEncoder {
+    static __wrap(ptr) {
+        const obj = Object.create(UnorganisedEncoder.prototype);
+        obj.__wbg_ptr = ptr;
+        UnorganisedEncoderFinalization.register(obj, obj.__wbg_ptr, obj);
+        return obj;
+    }
+    __destroy_into_raw() {
+        const ptr = this.__wbg_ptr;
+        this.__wbg_ptr = 0;
+        UnorganisedEncoderFinalization.unregister(this);
+        return ptr;
+    }
+    free() {
+        const ptr = this.__destroy_into_raw();
+        wasm.__wbg_unorganisedencoder_free(ptr, 0);
+    }
+    /**
+     * How much of it there is.
+     * @returns {number}
+     */
+    bytes_length() {
+        const ret = wasm.unorganisedencoder_bytes_length(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * The memory in which the last frame's packets lie.
+     * @returns {number}
+     */
+    bytes_ptr() {
+        const ret = wasm.unorganisedencoder_bytes_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Room for frames of `capacity` points.
+     * @param {number} capacity
+     * @returns {UnorganisedEncoder}
+     */
+    static create(capacity) {
+        const ret = wasm.unorganisedencoder_create(capacity);
+        return UnorganisedEncoder.__wrap(ret);
+    }
+    /**
+     * `attribute`: 0 none, 1 colour, 2 intensity of 8 bits, 3 of 16. `order`: 0 auto, 1 as given, 2 sweep, 3 Morton. A
+     * budget of 0 is none. Gives 0, or what was wrong: 1 step, 2 packet bytes, 3 lambda, 4 more points than the capacity.
+     * @param {number} points
+     * @param {number} step_mm
+     * @param {number} attribute
+     * @param {number} order
+     * @param {number} max_packet_bytes
+     * @param {number} budget_bytes
+     * @param {number} lambda
+     * @returns {number}
+     */
+    encode(points, step_mm, attribute, order, max_packet_bytes, budget_bytes, lambda) {
+        const ret = wasm.unorganisedencoder_encode(this.__wbg_ptr, points, step_mm, attribute, order, max_packet_bytes, budget_bytes, lambda);
+        return ret >>> 0;
+    }
+    /**
+     * Offset, length and points of each packet, nearest first.
+     * @returns {number}
+     */
+    extents_ptr() {
+        const ret = wasm.unorganisedencoder_extents_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * 4 words a point.
+     * @returns {number}
+     */
+    frame_ptr() {
+        const ret = wasm.unorganisedencoder_frame_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Kept, thinned, not finite, out of range, packets, bytes.
+     * @returns {number}
+     */
+    report_ptr() {
+        const ret = wasm.unorganisedencoder_report_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+}
+if (Symbol.dispose) UnorganisedEncoder.prototype[Symbol.dispose] = UnorganisedEncoder.prototype.free;
 function __wbg_get_imports() {
     const import0 = {
         __proto__: null,
@@ -187,6 +394,12 @@ const DecoderFinalization = (typeof FinalizationRegistry === 'undefined')
 const EncoderFinalization = (typeof FinalizationRegistry === 'undefined')
     ? { register: () => {}, unregister: () => {} }
     : new FinalizationRegistry(ptr => wasm.__wbg_encoder_free(ptr, 1));
+const UnorganisedDecoderFinalization = (typeof FinalizationRegistry === 'undefined')
+    ? { register: () => {}, unregister: () => {} }
+    : new FinalizationRegistry(ptr => wasm.__wbg_unorganiseddecoder_free(ptr, 1));
+const UnorganisedEncoderFinalization = (typeof FinalizationRegistry === 'undefined')
+    ? { register: () => {}, unregister: () => {} }
+    : new FinalizationRegistry(ptr => wasm.__wbg_unorganisedencoder_free(ptr, 1));
 
 function getStringFromWasm0(ptr, len) {
     ptr = ptr >>> 0;

@@ -17,3 +17,16 @@ export {
   packetsFor,
   type SlotLayout,
 } from './slot-layout.ts';
+export {
+  UnorganisedDecoder,
+  type UnorganisedDecoderOptions,
+  type UnorganisedFault,
+  type UnorganisedPlace,
+} from './unorganised-decoder.ts';
+export {
+  type UnorganisedAttribute,
+  UnorganisedEncoder,
+  type UnorganisedOrder,
+  type UnorganisedReport,
+  type UnorganisedSettings,
+} from './unorganised-encoder.ts';

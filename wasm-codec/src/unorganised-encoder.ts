@@ -1,0 +1,154 @@
+/** From a frame of points without a grid to `unorganised` packets (docs/unorganised-codec.md). */
+import { UnorganisedEncoder as WasmEncoder } from '../pkg/farpoint_codec.js';
+import type { Codec } from './codec.ts';
+import { CodecError } from './errors.ts';
+import { checkCapacity } from './slot-layout.ts';
+
+/** What the fourth word of a point holds. */
+export type UnorganisedAttribute = 'none' | 'colour' | 'intensity8' | 'intensity16';
+const ATTRIBUTES: readonly UnorganisedAttribute[] = ['none', 'colour', 'intensity8', 'intensity16'];
+
+/**
+ * The order of the points: as they came (`given`), ring by ring about the axis along which the cloud is flattest
+ * (`sweep`), along a Morton curve (`morton`), or (`auto`) as they came where that is an order already, else what costs less.
+ */
+export type UnorganisedOrder = 'auto' | 'given' | 'sweep' | 'morton';
+const ORDERS: readonly UnorganisedOrder[] = ['auto', 'given', 'sweep', 'morton'];
+
+export interface UnorganisedSettings {
+  /** How many points of the frame are filled, from its beginning. */
+  points: number;
+  /** The grid's step, whole millimetres from 1 to 100; a coordinate is wrong by half of it at most. Default 10. */
+  stepMm?: number;
+  /** Default `colour`. */
+  attribute?: UnorganisedAttribute;
+  /** Default `auto`. */
+  order?: UnorganisedOrder;
+  /** 128 to 1200, default 1200. */
+  maxPacketBytes?: number;
+  /** Points are left out until all packets together have no more bytes. Default: none are left out. */
+  budgetBytes?: number;
+  /** How fast the share of kept points falls with range beyond 4 m where there is a budget: range^−lambda, 0 to 8. Default 0: even. */
+  lambda?: number;
+}
+
+export interface UnorganisedReport {
+  /** Points in the packets. */
+  kept: number;
+  /** Points left out for the budget. */
+  thinned: number;
+  rejected: {
+    /** A coordinate is NaN or infinite. */
+    notFinite: number;
+    /** A coordinate is beyond ±500 m. */
+    outOfRange: number;
+  };
+  packets: number;
+  /** All packets together. */
+  bytes: number;
+}
+
+const FAULTS = [
+  'stepMm is not a whole number from 1 to 100',
+  'maxPacketBytes is not between 128 and 1200',
+  'lambda is not between 0 and 8',
+] as const;
+
+/**
+ * Encodes frames: fill {@link frame}, call {@link encode}, send {@link packet} 0, 1, 2 …, which are those nearest to the
+ * sensor first. Take the views from the encoder for each frame and do not keep them: the memory moves when it grows.
+ */
+export class UnorganisedEncoder implements Disposable {
+  readonly capacityPoints: number;
+  readonly #memory: Codec['memory'];
+  readonly #encoder: WasmEncoder;
+  #packets = 0;
+
+  /** @throws CodecError `bad-capacity` */
+  constructor(codec: Codec, capacityPoints: number) {
+    checkCapacity('capacityPoints', capacityPoints);
+    this.capacityPoints = capacityPoints;
+    this.#memory = codec.memory;
+    this.#encoder = WasmEncoder.create(capacityPoints);
+  }
+
+  /** 4 floats a point: x, y, z in metres with the sensor at the origin; the fourth as {@link frameBits} has it. */
+  get frame(): Float32Array {
+    return new Float32Array(this.#memory.buffer, this.#encoder.frame_ptr(), this.capacityPoints * 4);
+  }
+
+  /** The same memory as 32-bit words; the fourth is the bytes R, G, B, A from the lowest, or an intensity of 8 or 16 bits. */
+  get frameBits(): Uint32Array {
+    return new Uint32Array(this.#memory.buffer, this.#encoder.frame_ptr(), this.capacityPoints * 4);
+  }
+
+  /** @throws CodecError `bad-count`, `too-many-points`, `bad-parameter` */
+  encode(settings: UnorganisedSettings): UnorganisedReport {
+    const { points, budgetBytes = 0, stepMm = 10, maxPacketBytes = 1200, lambda = 0 } = settings;
+    this.#packets = 0;
+    checkWhole('points', points, 0);
+    if (points > this.capacityPoints) {
+      throw new CodecError('too-many-points', `${points} points: more than the capacity`);
+    }
+    checkWhole('stepMm', stepMm, 1);
+    checkWhole('maxPacketBytes', maxPacketBytes, 1);
+    if (settings.budgetBytes !== undefined) checkWhole('budgetBytes', budgetBytes, 1);
+    const fault = this.#encoder.encode(
+      points,
+      stepMm,
+      ATTRIBUTES.indexOf(settings.attribute ?? 'colour'),
+      ORDERS.indexOf(settings.order ?? 'auto'),
+      maxPacketBytes,
+      budgetBytes,
+      lambda,
+    );
+    if (fault !== 0) throw new CodecError('bad-parameter', FAULTS[fault - 1] ?? 'too many points');
+    const report = new Uint32Array(this.#memory.buffer, this.#encoder.report_ptr(), 6);
+    const [kept, thinned, notFinite, outOfRange, packets, bytes] = report as unknown as [
+      number,
+      number,
+      number,
+      number,
+      number,
+      number,
+    ];
+    this.#packets = packets;
+    return { kept, thinned, rejected: { notFinite, outOfRange }, packets, bytes };
+  }
+
+  /** Packets of the last frame. */
+  get packetCount(): number {
+    return this.#packets;
+  }
+
+  /**
+   * The i-th packet's bytes, at most 1200: a view that holds until the next call.
+   *
+   * @throws CodecError `bad-count` where there is no such packet
+   */
+  packet(i: number): Uint8Array {
+    if (!Number.isInteger(i) || i < 0 || i >= this.#packets) {
+      throw new CodecError('bad-count', `packet ${i} of ${this.#packets}`);
+    }
+    const { buffer } = this.#memory;
+    const extents = new Uint32Array(buffer, this.#encoder.extents_ptr() + i * 12, 3);
+    return new Uint8Array(buffer, this.#encoder.bytes_ptr() + (extents[0] as number), extents[1]);
+  }
+
+  /** Points of the i-th packet. */
+  pointsOf(i: number): number {
+    if (!Number.isInteger(i) || i < 0 || i >= this.#packets) return 0;
+    return new Uint32Array(this.#memory.buffer, this.#encoder.extents_ptr() + i * 12, 3)[2] as number;
+  }
+
+  /** Gives the memory back; the encoder and its views must not be used any more. */
+  [Symbol.dispose](): void {
+    this.#encoder.free();
+  }
+}
+
+function checkWhole(name: string, value: number, least: number): void {
+  if (!Number.isInteger(value) || value < least || value > 0x7fff_ffff) {
+    throw new CodecError('bad-count', `${name} is ${value}, not a whole number from ${least} on`);
+  }
+}
