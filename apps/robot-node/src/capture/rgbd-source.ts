@@ -1,8 +1,13 @@
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import {
+  decodeColourJpeg,
+  decodeDepthPng,
+  parseIntrinsics,
+  parseTrajectoryLog,
+  pointsOfRgbd,
+} from '@farpoint/cloud-formats';
 import { compose, inverse, type Pose } from '@farpoint/protocol';
-import { decodeColourJpeg, decodeDepthPng, parseIntrinsics, pointsOfRgbd } from '../formats/rgbd.ts';
-import { parseTrajectoryLog } from '../formats/trajectory-log.ts';
 import type { FrameSource } from './frame-source.ts';
 import { PlaybackSource, STATIC_CAMERA_POSE } from './playback-source.ts';
 

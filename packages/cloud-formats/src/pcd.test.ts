@@ -2,7 +2,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { compressLzf } from './lzf-writer.ts';
-import { decodePcd, PcdError, parsePcdHeader } from './pcd.ts';
+import { decodePcd, PcdError, parsePcdHeader, pcdIntensity } from './pcd.ts';
 
 interface FieldSpec {
   name: string;
@@ -178,6 +178,17 @@ describe('decodePcd', () => {
     expect(bright(file, 100)).toBeGreaterThan(bright(file, 0));
     expect(bright(writePcd([x, y, z], 1, 1, 'binary'), 0)).toBe(600);
   });
+
+  it.each(['ascii', 'binary', 'binary_compressed'] as const)(
+    'gives intensities as they stand (%s)',
+    (encoding) => {
+      const intensity: FieldSpec = { name: 'intensity', type: 'U', size: 2, value: (i) => i * 300 };
+      expect([...(pcdIntensity(writePcd([x, intensity, y, z], 3, 1, encoding)) ?? [])]).toEqual([
+        0, 300, 600,
+      ]);
+      expect(pcdIntensity(writePcd([x, y, z], 3, 1, encoding))).toBeNull();
+    },
+  );
 
   const text = (...lines: string[]) => new TextEncoder().encode(lines.join('\n'));
   const good = [

@@ -43,6 +43,20 @@ export function decodePcd(file: Uint8Array): PcdCloud {
   return { header, points };
 }
 
+/**
+ * The intensities of a file whose points have no colour of their own, as they stand in it; null where there are none.
+ *
+ * @throws {PcdError}
+ */
+export function pcdIntensity(file: Uint8Array): Float32Array | null {
+  const header = parsePcdHeader(file);
+  const names = new Map(header.fields.map((field) => [field.name, field]));
+  const field = names.get('intensity') ?? names.get('i');
+  if (field === undefined || ['rgb', 'rgba', 'r'].some((name) => names.has(name))) return null;
+  const reader = header.data === 'ascii' ? asciiReader(file, header) : binaryReader(file, header);
+  return Float32Array.from({ length: header.points }, (_, i) => i).map(reader(field, false));
+}
+
 /** @returns R in the lowest byte, then G, B and 255 */
 function colourOf(
   header: PcdHeader,
