@@ -3,7 +3,9 @@
 
 use std::time::Instant;
 
-use farpoint_organised_codec::{ColourMode, Decoder, Encoder, Intrinsics, Settings, Source, StreamHeader, stream};
+use farpoint_organised_codec::{
+    ColourMode, Decoder, Encoder, Intrinsics, Settings, Source, StreamHeader, find_palette, stream,
+};
 
 fn main() {
     let mut settings = Settings::default();
@@ -21,6 +23,7 @@ fn main() {
             "--mode" => {
                 settings.mode = match value().as_str() {
                     "none" => ColourMode::None,
+                    "palette" => ColourMode::Palette,
                     "420" => ColourMode::Subsampled,
                     _ => ColourMode::Full,
                 }
@@ -29,9 +32,12 @@ fn main() {
         }
     }
     for file in files {
-        let (header, points) = read(&file);
-        let mut encoder = Encoder::new(header).expect("a camera");
-        let mut decoder = Decoder::new(header, true).expect("a camera");
+        let (mut header, points) = read(&file);
+        if settings.mode == ColourMode::Palette {
+            header.palette = find_palette(Source::Points(&points)).expect("few colours");
+        }
+        let mut encoder = Encoder::new(header.clone()).expect("a camera");
+        let mut decoder = Decoder::new(header.clone(), true).expect("a camera");
         let mut fast = Decoder::new(header, false).expect("a camera");
         let qualities = match psnr_wanted {
             Some(_) => (0..32).rev().collect(),
@@ -112,6 +118,7 @@ fn read(file: &str) -> (StreamHeader, Vec<[f32; 4]>) {
         height: word(1) as u16,
         intrinsics,
         depth_unit: stream::DEPTH_UNIT,
+        palette: Vec::new(),
     };
     let points = (0..word(0) as usize * word(1) as usize)
         .map(|i| core::array::from_fn(|c| float(6 + 4 * i + c)))

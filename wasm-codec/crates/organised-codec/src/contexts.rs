@@ -9,12 +9,11 @@ pub const KIND: usize = 0;
 pub const PATTERN: usize = KIND + 16;
 /// Four pixels of a validity mask: 4 × the four above, 2 × the left one, the one above to the right.
 pub const MASK: usize = PATTERN + 9;
-/// Depth residual: 4 × the bin of the gradient + the bin of the residual before.
+/// Depth residual: 4 × the bin of the gradient + the bin of the residual before; then by the latter alone, in a row with
+/// nothing above.
 pub const DEPTH: usize = MASK + 64;
-/// Depth residual in a row with nothing above: the bin of the residual before.
-pub const DEPTH_FIRST: usize = DEPTH + 40;
 /// Contexts of a geometry table set.
-pub const GEOMETRY_CONTEXTS: usize = DEPTH_FIRST + 4;
+pub const GEOMETRY_CONTEXTS: usize = DEPTH + 44;
 
 /// DC residual: 3 × (0 luma, 1 chroma) + how many neighbours it is predicted from.
 pub const DC: usize = 0;
@@ -26,5 +25,7 @@ pub const LEAD: usize = LAST + 12;
 pub const COEFFICIENT: usize = LEAD + 16;
 /// Colour of a single point: 4 × plane + the bin of the residual before.
 pub const POINT: usize = COEFFICIENT + 80;
+/// Residual of a palette index, as [`DEPTH`].
+pub const INDEX: usize = POINT + 12;
 /// Contexts of a colour table set.
-pub const COLOUR_CONTEXTS: usize = POINT + 12;
+pub const COLOUR_CONTEXTS: usize = INDEX + 44;

@@ -43,6 +43,7 @@ pub struct Decoder {
     rows: Vec<f32>,
     /// int16 x, y, z in millimetres and 6-6-4 colour: 8 bytes a point.
     points: Vec<u64>,
+    palette: Vec<u32>,
     count: usize,
     /// A bit for each tile that has come.
     come: Vec<u64>,
@@ -62,12 +63,15 @@ impl Decoder {
         let pixels = grid.width * grid.height;
         let mut columns: Vec<f32> = header.intrinsics.columns(grid.width).collect();
         columns.resize(grid.columns * TILE, 0.0);
+        let palette = header.palette.iter().map(|[r, g, b]| u32::from_le_bytes([*r, *g, *b, 255])).collect();
+        let rows = header.intrinsics.rows(grid.height).collect();
         Some(Self {
             header,
+            palette,
             grid,
             tables: Tables::new(),
             columns,
-            rows: header.intrinsics.rows(grid.height).collect(),
+            rows,
             points: vec![0; pixels],
             count: 0,
             come: vec![0; grid.tiles().div_ceil(64)],
@@ -160,7 +164,7 @@ impl Decoder {
             if self.tile.kind == Kind::Empty {
                 continue;
             }
-            paint(&self.tile, header, &mut self.rgba);
+            paint(&self.tile, header, &self.palette, &mut self.rgba)?;
             let view = View { grid: self.grid, columns: &self.columns, rows: &self.rows, place, scale };
             count = emit(&self.tile, &self.rgba, &view, &mut self.points, count, self.images.as_mut())?;
         }
@@ -168,13 +172,21 @@ impl Decoder {
     }
 }
 
-/// The colours of a tile's pixels; pixel x, y of the pattern at `y * TILE + x`.
-fn paint(tile: &Tile, header: &PacketHeader, rgba: &mut [u32; TILE * TILE]) {
+/// The colours of a tile's pixels, `None` where one is not in the palette; pixel x, y of the pattern at `y * TILE + x`.
+fn paint(tile: &Tile, header: &PacketHeader, palette: &[u32], rgba: &mut [u32; TILE * TILE]) -> Option<()> {
     let (width, height) = (tile.pattern.width(), tile.pattern.height());
     let quality = usize::from(header.quality);
     if header.mode == ColourMode::None {
         rgba.fill(GREEN);
-        return;
+        return Some(());
+    }
+    if header.mode == ColourMode::Palette {
+        for y in 0..height {
+            for x in 0..width {
+                rgba[y * TILE + x] = *palette.get(tile.index[Tile::at(x, y)] as usize - 1)?;
+            }
+        }
+        return Some(());
     }
     if tile.pattern > LAST_TRANSFORMED {
         let step = point_step(quality);
@@ -187,7 +199,7 @@ fn paint(tile: &Tile, header: &PacketHeader, rgba: &mut [u32; TILE * TILE]) {
                 }
             }
         }
-        return;
+        return Some(());
     }
     let subsampled = header.mode == ColourMode::Subsampled;
     let mut index = 0;
@@ -228,6 +240,7 @@ fn paint(tile: &Tile, header: &PacketHeader, rgba: &mut [u32; TILE * TILE]) {
             *pixel = to_rgba(*y, *co, *cg);
         }
     }
+    Some(())
 }
 
 struct View<'a> {

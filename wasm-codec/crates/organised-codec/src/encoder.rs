@@ -1,5 +1,6 @@
 //! Frames to packets.
 
+use crate::palette::Palette;
 use crate::load::{Left, Loaded, MAX_COORDINATE, Quantiser, Source};
 use crate::rans::{self, Counter, Tokens};
 use crate::stream::{MAX_PACKET_BYTES, PACKET_HEADER_BYTES, PacketHeader, StreamHeader};
@@ -73,6 +74,7 @@ pub struct Encoder {
     bytes: Vec<u8>,
     packets: Vec<Packet>,
     scratch: Box<[u8; MAX_PACKET_BYTES]>,
+    palette: Palette,
 }
 
 /// The packet being filled.
@@ -106,7 +108,6 @@ impl Encoder {
             row_limits: limits(&mut header.intrinsics.rows(grid.height), grid.rows * TILE),
         };
         Some(Self {
-            header,
             grid,
             tables: Tables::new(),
             quantiser,
@@ -117,6 +118,8 @@ impl Encoder {
             bytes: Vec::with_capacity(grid.width * grid.height),
             packets: Vec::with_capacity(grid.tiles()),
             scratch: Box::new([0; MAX_PACKET_BYTES]),
+            palette: Palette::new(&header.palette),
+            header,
         })
     }
 
@@ -162,7 +165,7 @@ impl Encoder {
             }
             let mut pattern = self.patterns[index];
             let valid = self.loaded.valid as usize;
-            prepare(&self.loaded, &mut self.tile, pattern, settings);
+            prepare(&self.loaded, &mut self.tile, pattern, settings, &self.palette);
             loop {
                 let packet = open.get_or_insert_with(|| {
                     self.tokens.clear();
@@ -208,7 +211,7 @@ impl Encoder {
                     // A tile that no packet can hold: half of its points, and so on.
                     open = None;
                     pattern = Pattern((pattern.0 + 1).min(Pattern::COUNT - 1));
-                    prepare(&self.loaded, &mut self.tile, pattern, settings);
+                    prepare(&self.loaded, &mut self.tile, pattern, settings, &self.palette);
                 }
             }
         }
@@ -263,7 +266,7 @@ impl Encoder {
             }
             let place = self.grid.place(index);
             self.quantiser.load(source, self.grid, place, &mut self.loaded, &mut left);
-            prepare(&self.loaded, &mut self.tile, self.patterns[index], settings);
+            prepare(&self.loaded, &mut self.tile, self.patterns[index], settings, &self.palette);
             if self.tile.kind == Kind::Empty && in_packet == 0 {
                 continue;
             }
@@ -285,7 +288,7 @@ fn nearest(tile: &Tile) -> i32 {
 }
 
 /// Makes of a loaded tile what the syntax codes.
-fn prepare(loaded: &Loaded, tile: &mut Tile, pattern: Pattern, settings: &Settings) {
+fn prepare(loaded: &Loaded, tile: &mut Tile, pattern: Pattern, settings: &Settings, palette: &Palette) {
     tile.pattern = pattern;
     let (width, height) = (pattern.width(), pattern.height());
     let mut rgba = [0_u32; TILE * TILE];
@@ -318,7 +321,15 @@ fn prepare(loaded: &Loaded, tile: &mut Tile, pattern: Pattern, settings: &Settin
     if tile.kind == Kind::Empty || settings.mode == ColourMode::None {
         return;
     }
-    if pattern <= LAST_TRANSFORMED {
+    if settings.mode == ColourMode::Palette {
+        for y in 0..height {
+            for x in 0..width {
+                if tile.rows[y] >> x & 1 == 1 {
+                    tile.index[Tile::at(x, y)] = palette.index(rgba[y * TILE + x]);
+                }
+            }
+        }
+    } else if pattern <= LAST_TRANSFORMED {
         if tile.kind == Kind::Mixed {
             fill(&mut rgba, &tile.rows, width, height);
         }

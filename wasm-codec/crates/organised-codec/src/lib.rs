@@ -9,6 +9,7 @@ mod decoder;
 mod encoder;
 mod grid;
 pub mod load;
+mod palette;
 pub mod rans;
 pub mod stream;
 pub mod syntax;
@@ -20,6 +21,7 @@ pub use decoder::{Decoder, Put};
 pub use encoder::{Encoder, Frame, Settings};
 pub use grid::Intrinsics;
 pub use load::{Left, Source};
+pub use palette::find_palette;
 pub use stream::{HeaderError, PacketError, StreamHeader};
 pub use tile::ColourMode;
 

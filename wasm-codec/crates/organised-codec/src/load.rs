@@ -58,7 +58,7 @@ impl Source<'_> {
         }
     }
 
-    fn one(&self, at: usize) -> (f32, u32) {
+    pub(crate) fn one(&self, at: usize) -> (f32, u32) {
         match self {
             Self::Points(points) => {
                 let [x, y, z, c] = points[at];

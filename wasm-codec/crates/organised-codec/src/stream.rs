@@ -4,8 +4,10 @@ use crate::grid::Intrinsics;
 use crate::tables::TABLE_VERSION;
 use crate::tile::{ColourMode, Grid};
 
-/// Bytes of a stream header.
+/// Bytes of a stream header before its palette and its check value.
 pub const STREAM_HEADER_BYTES: usize = 34;
+/// Colours of a palette.
+pub const MAX_PALETTE: usize = 256;
 /// Bytes of a packet before the states of the entropy coder.
 pub const PACKET_HEADER_BYTES: usize = 9;
 /// A packet is never longer.
@@ -20,7 +22,7 @@ pub const DEPTH_LEVELS: u8 = 8;
 pub const MAX_SIDE: usize = 4080;
 
 /// What a stream's packets have in common.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StreamHeader {
     /// Named by every packet.
     pub id: u8,
@@ -32,6 +34,8 @@ pub struct StreamHeader {
     pub intrinsics: Intrinsics,
     /// Step of inverse depth at level 0, 1/m.
     pub depth_unit: f32,
+    /// R, G, B of each colour, for [`ColourMode::Palette`]; neighbours should be alike. Mostly empty.
+    pub palette: Vec<[u8; 3]>,
 }
 
 /// Why a stream header is refused.
@@ -52,20 +56,19 @@ pub enum HeaderError {
 impl StreamHeader {
     /// The header as it goes over the wire.
     #[must_use]
-    pub fn to_bytes(&self) -> [u8; STREAM_HEADER_BYTES] {
-        let mut bytes = [0; STREAM_HEADER_BYTES];
-        bytes[..4].copy_from_slice(b"FPOC");
-        bytes[4] = VERSION;
-        bytes[5] = TABLE_VERSION;
-        bytes[6] = self.id;
-        bytes[8..10].copy_from_slice(&self.width.to_le_bytes());
-        bytes[10..12].copy_from_slice(&self.height.to_le_bytes());
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = b"FPOC".to_vec();
+        bytes.extend([VERSION, TABLE_VERSION, self.id, 0]);
+        bytes.extend(self.width.to_le_bytes());
+        bytes.extend(self.height.to_le_bytes());
         let Intrinsics { fx, fy, cx, cy } = self.intrinsics;
-        for (i, value) in [fx, fy, cx, cy, self.depth_unit].into_iter().enumerate() {
-            bytes[12 + 4 * i..16 + 4 * i].copy_from_slice(&value.to_le_bytes());
+        for value in [fx, fy, cx, cy, self.depth_unit] {
+            bytes.extend(value.to_le_bytes());
         }
-        let check = crc16(&[&bytes[..32]]);
-        bytes[32..].copy_from_slice(&check.to_le_bytes());
+        bytes.extend((self.palette.len() as u16).to_le_bytes());
+        bytes.extend(self.palette.iter().flatten());
+        let check = crc16(&[&bytes]);
+        bytes.extend(check.to_le_bytes());
         bytes
     }
 
@@ -74,11 +77,15 @@ impl StreamHeader {
     /// # Errors
     /// See [`HeaderError`].
     pub fn parse(bytes: &[u8]) -> Result<Self, HeaderError> {
-        let bytes: &[u8; STREAM_HEADER_BYTES] = bytes.try_into().map_err(|_| HeaderError::Length)?;
+        let (bytes, check) = bytes.split_last_chunk::<2>().ok_or(HeaderError::Length)?;
+        let (fixed, palette) = bytes.split_first_chunk::<STREAM_HEADER_BYTES>().ok_or(HeaderError::Length)?;
         if bytes[..4] != *b"FPOC" {
             return Err(HeaderError::Magic);
         }
-        if u16::from_le_bytes([bytes[32], bytes[33]]) != crc16(&[&bytes[..32]]) {
+        if palette.len() != 3 * usize::from(u16::from_le_bytes([fixed[32], fixed[33]])) {
+            return Err(HeaderError::Length);
+        }
+        if u16::from_le_bytes(*check) != crc16(&[bytes]) {
             return Err(HeaderError::Check);
         }
         if bytes[4] != VERSION || bytes[5] != TABLE_VERSION {
@@ -91,6 +98,7 @@ impl StreamHeader {
             height: u16::from_le_bytes([bytes[10], bytes[11]]),
             intrinsics: Intrinsics { fx: float(12), fy: float(16), cx: float(20), cy: float(24) },
             depth_unit: float(28),
+            palette: palette.as_chunks::<3>().0.to_vec(),
         };
         if bytes[7] == 0 && header.is_valid() { Ok(header) } else { Err(HeaderError::Value) }
     }
@@ -103,6 +111,7 @@ impl StreamHeader {
             && side(self.height)
             && self.intrinsics.is_valid()
             && (1e-6..=0.1).contains(&self.depth_unit)
+            && self.palette.len() <= MAX_PALETTE
     }
 
     /// The image's tiles.
@@ -169,6 +178,7 @@ impl PacketHeader {
             0 => ColourMode::None,
             1 => ColourMode::Subsampled,
             2 => ColourMode::Full,
+            3 => ColourMode::Palette,
             _ => return Err(PacketError::Reserved),
         };
         Ok(Self {
@@ -268,6 +278,7 @@ mod tests {
             height: 481,
             intrinsics: Intrinsics { fx: 240.0, fy: 241.0, cx: 239.5, cy: 240.0 },
             depth_unit: DEPTH_UNIT,
+            palette: vec![[1, 2, 3], [4, 5, 6]],
         }
     }
 
@@ -276,7 +287,7 @@ mod tests {
         let bytes = header().to_bytes();
         assert_eq!(StreamHeader::parse(&bytes), Ok(header()));
         for bit in 0..bytes.len() * 8 {
-            let mut damaged = bytes;
+            let mut damaged = bytes.clone();
             damaged[bit / 8] ^= 1 << (bit % 8);
             assert!(StreamHeader::parse(&damaged).is_err(), "bit {bit}");
         }
@@ -288,8 +299,9 @@ mod tests {
         let change = |at: usize, value: u8| {
             let mut bytes = header().to_bytes();
             bytes[at] = value;
-            let check = crc16(&[&bytes[..32]]);
-            bytes[32..].copy_from_slice(&check.to_le_bytes());
+            let end = bytes.len() - 2;
+            let check = crc16(&[&bytes[..end]]);
+            bytes[end..].copy_from_slice(&check.to_le_bytes());
             StreamHeader::parse(&bytes)
         };
         assert_eq!(change(4, 2), Err(HeaderError::Version));

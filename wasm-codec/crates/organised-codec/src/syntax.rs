@@ -1,8 +1,8 @@
 //! The order of symbols in a packet and the contexts they are coded with: one walk for coding, decoding and counting.
 
-use crate::contexts::{COEFFICIENT, DC, DEPTH, DEPTH_FIRST, KIND, LAST, LEAD, MASK, PATTERN, POINT};
+use crate::contexts::{COEFFICIENT, DC, DEPTH, INDEX, KIND, LAST, LEAD, MASK, PATTERN, POINT};
 use crate::rans::{Coder, Family};
-use crate::tile::{Block, ColourMode, Kind, LAST_TRANSFORMED, Pattern, STRIDE, STRIP, TILE, Tile};
+use crate::tile::{Block, ColourMode, Kind, LAST_TRANSFORMED, Pattern, Plane, STRIDE, STRIP, TILE, Tile};
 
 /// The largest quantised inverse depth.
 pub const MAX_DEPTH: i32 = 65_535;
@@ -21,26 +21,30 @@ const NO_BLOCK: BlockEdge = BlockEdge { dc: i32::MIN, count: 0 };
 /// Kind of no tile.
 const NO_KIND: usize = 3;
 
+/// A tile's outermost pixels, spread over 16.
+type Side = [i32; TILE];
+
 /// What a tile leaves to the one on its right or below.
 #[derive(Clone, Copy)]
 struct Edge {
     kind: usize,
-    /// False where there is no depth to predict from.
+    /// False where there is nothing to predict from.
     known: bool,
-    depth: [i32; TILE],
+    depth: Side,
+    index: Side,
     blocks: [[BlockEdge; 2]; 3],
 }
 
 const NO_EDGE: Edge =
-    Edge { kind: NO_KIND, known: false, depth: [0; TILE], blocks: [[NO_BLOCK; 2]; 3] };
+    Edge { kind: NO_KIND, known: false, depth: [0; TILE], index: [0; TILE], blocks: [[NO_BLOCK; 2]; 3] };
 
 /// What the tiles of a packet know of those before them.
 #[derive(Clone)]
 pub struct Neighbours {
     left: [Edge; STRIP],
     top: Edge,
-    /// The pixel diagonally above, or −1.
-    diagonal: i32,
+    /// Depth and index of the pixel diagonally above, or −1.
+    diagonal: [i32; 2],
     pattern: usize,
     point: [i32; 3],
 }
@@ -49,7 +53,7 @@ impl Neighbours {
     /// At the beginning of a packet: nothing.
     #[must_use]
     pub const fn new() -> Self {
-        Self { left: [NO_EDGE; STRIP], top: NO_EDGE, diagonal: -1, pattern: 8, point: [0; 3] }
+        Self { left: [NO_EDGE; STRIP], top: NO_EDGE, diagonal: [-1; 2], pattern: 8, point: [0; 3] }
     }
 }
 
@@ -71,7 +75,7 @@ pub fn code_tile<C: Coder>(
 ) {
     if row == 0 {
         near.top = NO_EDGE;
-        near.diagonal = -1;
+        near.diagonal = [-1; 2];
     }
     if first_column {
         near.left[row] = NO_EDGE;
@@ -84,7 +88,9 @@ pub fn code_tile<C: Coder>(
         _ => Kind::Mixed,
     };
     let diagonal = near.diagonal;
-    near.diagonal = if near.left[row].known { near.left[row].depth[TILE - 1] } else { -1 };
+    let left = near.left[row];
+    let top = near.top;
+    near.diagonal = if left.known { [left.depth[TILE - 1], left.index[TILE - 1]] } else { [-1; 2] };
     if tile.kind == Kind::Empty {
         tile.rows = [0; TILE];
         let edge = Edge { kind: 0, ..NO_EDGE };
@@ -96,9 +102,21 @@ pub fn code_tile<C: Coder>(
     tile.pattern = Pattern(pattern as u8 & 7);
     near.pattern = usize::from(tile.pattern.0);
     code_mask(coder, tile);
-    code_depth(coder, tile, near, row, diagonal);
+    let mut right = Edge { kind: kind as usize & 3, known: true, ..left };
+    let mut bottom = Edge { kind: right.kind, known: true, ..top };
+    let shape = Shape { width: tile.pattern.width(), height: tile.pattern.height(), rows: tile.rows, full: tile.kind == Kind::Full };
+    let (beside, above) = (left.known.then_some(left.depth), top.known.then_some(top.depth));
+    (right.depth, bottom.depth) =
+        code_plane::<C, false>(coder, &mut tile.depth, &shape, beside, above, diagonal[0]);
+    if mode == ColourMode::Palette {
+        let (beside, above) = (left.known.then_some(left.index), top.known.then_some(top.index));
+        (right.index, bottom.index) =
+            code_plane::<C, true>(coder, &mut tile.index, &shape, beside, above, diagonal[1]);
+    }
+    near.left[row] = right;
+    near.top = bottom;
     match mode {
-        ColourMode::None => {}
+        ColourMode::None | ColourMode::Palette => {}
         _ if tile.pattern <= LAST_TRANSFORMED => code_blocks(coder, tile, near, row, mode),
         _ => code_points(coder, tile, near, row),
     }
@@ -219,50 +237,55 @@ fn code_large<C: Coder>(coder: &mut C, token: u32, high: u32) -> u32 {
     }
 }
 
-fn code_depth<C: Coder>(coder: &mut C, tile: &mut Tile, near: &mut Neighbours, row: usize, diagonal: i32) {
-    let (width, height) = (tile.pattern.width(), tile.pattern.height());
-    let left = near.left[row];
-    let top_known = near.top.known;
-    // Borders.
-    if left.known {
+/// What a plane's coding needs to know of its tile.
+struct Shape {
+    width: usize,
+    height: usize,
+    rows: [u16; TILE],
+    full: bool,
+}
+
+/// Codes a tile's depth, or its palette indices, and returns its right and lower sides.
+fn code_plane<C: Coder, const INDICES: bool>(
+    coder: &mut C,
+    plane: &mut Plane,
+    shape: &Shape,
+    left: Option<Side>,
+    top: Option<Side>,
+    diagonal: i32,
+) -> (Side, Side) {
+    let (width, height) = (shape.width, shape.height);
+    if let Some(left) = left {
         for y in 0..height {
-            tile.depth[(y + 1) * STRIDE] = left.depth[y * TILE / height];
+            plane[(y + 1) * STRIDE] = left[y * TILE / height];
         }
     }
-    if top_known {
+    if let Some(top) = top {
         for x in 0..width {
-            tile.depth[x + 1] = near.top.depth[x * TILE / width];
+            plane[x + 1] = top[x * TILE / width];
         }
-        tile.depth[width + 1] = tile.depth[width];
-        tile.depth[0] = if left.known && diagonal > 0 { diagonal } else { tile.depth[1] };
+        plane[width + 1] = plane[width];
+        plane[0] = if left.is_some() && diagonal > 0 { diagonal } else { plane[1] };
     } else {
-        let start = if left.known { left.depth[0] } else { code_anchor(coder, tile) };
-        tile.depth[..STRIDE].fill(start);
+        let start = left.map_or_else(|| code_anchor(coder, plane, shape), |left| left[0]);
+        plane[..STRIDE].fill(start);
     }
-    if tile.kind == Kind::Full {
-        code_rows::<C, true>(coder, tile, left.known, top_known);
+    if shape.full {
+        code_rows::<C, INDICES, true>(coder, plane, shape, left.is_some(), top.is_some());
     } else {
-        code_rows::<C, false>(coder, tile, left.known, top_known);
+        code_rows::<C, INDICES, false>(coder, plane, shape, left.is_some(), top.is_some());
     }
-    let mut right = Edge { kind: tile.kind as usize, known: true, ..NO_EDGE };
-    let mut bottom = right;
-    for i in 0..TILE {
-        right.depth[i] = tile.depth[Tile::at(width - 1, i * height / TILE)];
-        bottom.depth[i] = tile.depth[Tile::at(i * width / TILE, height - 1)];
-    }
-    right.blocks = left.blocks;
-    bottom.blocks = near.top.blocks;
-    near.left[row] = right;
-    near.top = bottom;
+    let right = core::array::from_fn(|i| plane[Tile::at(width - 1, i * height / TILE)]);
+    let bottom = core::array::from_fn(|i| plane[Tile::at(i * width / TILE, height - 1)]);
+    (right, bottom)
 }
 
 /// The first valid pixel's value where there is no neighbour to predict it from.
-fn code_anchor<C: Coder>(coder: &mut C, tile: &Tile) -> i32 {
+fn code_anchor<C: Coder>(coder: &mut C, plane: &Plane, shape: &Shape) -> i32 {
     let mut value = 1;
     if !C::DECODES {
-        let rows = tile.rows[..tile.pattern.height()].iter().enumerate();
-        if let Some((y, row)) = rows.into_iter().find(|(_, row)| **row != 0) {
-            value = tile.depth[Tile::at(row.trailing_zeros() as usize, y)] as u32;
+        if let Some(y) = shape.rows.iter().position(|row| *row != 0) {
+            value = plane[Tile::at(shape.rows[y].trailing_zeros() as usize, y)] as u32;
         }
     }
     let low = coder.raw(8, value & 255);
@@ -270,12 +293,19 @@ fn code_anchor<C: Coder>(coder: &mut C, tile: &Tile) -> i32 {
 }
 
 #[inline(always)]
-fn code_rows<C: Coder, const FULL: bool>(coder: &mut C, tile: &mut Tile, left_known: bool, top_known: bool) {
-    let (width, height) = (tile.pattern.width(), tile.pattern.height());
+fn code_rows<C: Coder, const INDICES: bool, const FULL: bool>(
+    coder: &mut C,
+    plane: &mut Plane,
+    shape: &Shape,
+    left_known: bool,
+    top_known: bool,
+) {
+    let (family, base) = if INDICES { (Family::Colour, INDEX) } else { (Family::Geometry, DEPTH) };
+    let width = shape.width;
     let mut before = 0;
-    for y in 0..height {
-        let valid = tile.rows[y];
-        let (upper, lower) = tile.depth.split_at_mut((y + 1) * STRIDE);
+    for y in 0..shape.height {
+        let valid = shape.rows[y];
+        let (upper, lower) = plane.split_at_mut((y + 1) * STRIDE);
         let upper: &[i32; STRIDE] = upper[y * STRIDE..].first_chunk().expect("a row above");
         let current: &mut [i32; STRIDE] = lower.first_chunk_mut().expect("a row");
         if !left_known {
@@ -286,27 +316,27 @@ fn code_rows<C: Coder, const FULL: bool>(coder: &mut C, tile: &mut Tile, left_kn
         let first = y == 0 && !top_known;
         for x in 0..width {
             let top = upper[x + 1];
-            let value = if first { left } else { median(left, top, diagonal) };
-            let mut depth = value;
+            let predicted = if first { left } else { median(left, top, diagonal) };
+            let mut value = predicted;
             if FULL || valid >> x & 1 == 1 {
                 let (context, shift) = if first {
-                    (DEPTH_FIRST + residual_bin(before), 0)
+                    (base + 40 + residual_bin(before), 0)
                 } else {
                     let gradient = (left - diagonal).abs() + (top - diagonal).abs() + (upper[x + 2] - top).abs();
                     let bin = gradient_bin(gradient);
-                    (DEPTH + 4 * bin + residual_bin(before), GRADIENT_SHIFT[bin])
+                    (base + 4 * bin + residual_bin(before), GRADIENT_SHIFT[bin])
                 };
-                let residual = zigzag(current[x + 1] - value);
-                let residual = code_number(coder, Family::Geometry, context, shift, residual);
+                let residual = zigzag(current[x + 1] - predicted);
+                let residual = code_number(coder, family, context, shift, residual);
                 before = residual;
-                depth = value + unzigzag(residual);
+                value = predicted + unzigzag(residual);
                 if C::DECODES {
-                    depth = depth.clamp(1, MAX_DEPTH);
+                    value = value.clamp(1, MAX_DEPTH);
                 }
             }
-            current[x + 1] = depth;
+            current[x + 1] = value;
             diagonal = top;
-            left = depth;
+            left = value;
         }
         // What the next row sees to the right of its last pixel.
         current[width + 1] = left;

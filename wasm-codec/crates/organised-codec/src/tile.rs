@@ -113,6 +113,8 @@ pub enum ColourMode {
     Subsampled,
     /// Chroma as fine as luma.
     Full,
+    /// By index into the stream's palette, without loss.
+    Palette,
 }
 
 impl ColourMode {
@@ -142,6 +144,9 @@ pub struct Block {
     pub levels: [i16; 63],
 }
 
+/// Numbers above 0 for the pixels of a tile; pixel x, y at `(y + 1) * STRIDE + x + 1`, the borders hold the neighbours'.
+pub type Plane = [i32; STRIDE * (TILE + 1)];
+
 /// A tile's content: coordinates are those of the pattern, not of the image.
 pub struct Tile {
     /// Which pixels are kept.
@@ -150,8 +155,10 @@ pub struct Tile {
     pub kind: Kind,
     /// Valid pixels of each row, the leftmost in bit 0.
     pub rows: [u16; TILE],
-    /// Quantised inverse depth; pixel x, y at `(y + 1) * STRIDE + x + 1`, the borders hold the neighbours'.
-    pub depth: [i32; STRIDE * (TILE + 1)],
+    /// Quantised inverse depth.
+    pub depth: Plane,
+    /// Place in the palette, from 1.
+    pub index: Plane,
     /// Coefficients, planes one after another, each in raster order.
     pub blocks: [Block; MAX_BLOCKS],
     /// Quantised colours of the valid pixels where they are not transformed.
@@ -167,6 +174,7 @@ impl Tile {
             kind: Kind::Empty,
             rows: [0; TILE],
             depth: [0; STRIDE * (TILE + 1)],
+            index: [0; STRIDE * (TILE + 1)],
             blocks: [Block { dc: 0, count: 0, levels: [0; 63] }; MAX_BLOCKS],
             points: [[0; 3]; 32],
         }
