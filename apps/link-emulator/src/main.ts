@@ -1,11 +1,10 @@
 #!/usr/bin/env node
 import { directions, monotonicMs, SignalingInterposer, UdpLink } from '@farpoint/link-emulator';
-import { JsonLinesFile, runProgram } from '@farpoint/service';
+import { JsonLinesFile, runProgram, setNiceness } from '@farpoint/service';
 import { control } from './control.ts';
 import { directionOf } from './directions.ts';
 import { registerLinkMetrics } from './metrics.ts';
 import { program } from './options.ts';
-import { setNiceness } from './priority.ts';
 
 const RIM_INTERVAL_MS = 1000;
 

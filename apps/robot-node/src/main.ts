@@ -1,10 +1,15 @@
 #!/usr/bin/env node
-import { runProgram } from '@farpoint/service';
+import { runProgram, setNiceness } from '@farpoint/service';
 import { robotProgram, toRobotOptions } from './options.ts';
 import { Robot } from './robot.ts';
 import { registerRobotMetrics } from './telemetry/robot-metrics.ts';
 
 await runProgram(robotProgram, async ({ options, log, health, metrics, shutdown, serveAdmin }) => {
+  try {
+    setNiceness(options.niceness);
+  } catch (error) {
+    log.info({ niceness: options.niceness, err: error }, 'the system keeps the priority');
+  }
   const robot = await Robot.start(toRobotOptions(options), log);
   shutdown.onClose('robot', () => robot.close());
   robot.onFailure = (error) => {

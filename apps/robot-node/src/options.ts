@@ -232,6 +232,12 @@ const options = {
     argument: 'FILE',
     help: 'for measurements: what each stream does in each 100 ms, one JSON object a line',
   }),
+  niceness: defineOption({
+    schema: schema.integer({ min: -20, max: 19 }),
+    default: -5,
+    argument: 'N',
+    help: 'of this process, where the system lets it: commands and packets should not wait for the processor',
+  }),
   ...adminOptions(9400),
 } satisfies OptionTable;
 

@@ -2,6 +2,7 @@ export * from './admin-server.ts';
 export * from './health.ts';
 export * from './json-lines-file.ts';
 export * from './logger.ts';
+export * from './niceness.ts';
 export * as schema from './option-schemas.ts';
 export * from './option-table.ts';
 export * from './options.ts';

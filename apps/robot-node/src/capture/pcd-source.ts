@@ -1,7 +1,6 @@
 import { readdirSync, readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { decodePcd, type PcdHeader, parsePcdHeader } from '@farpoint/cloud-formats';
-
 import type { FrameSource } from './frame-source.ts';
 import { PlaybackSource, STATIC_CAMERA_POSE } from './playback-source.ts';
 

@@ -1,4 +1,6 @@
-/** After a frame that could not be sent whole, the next ones are this much smaller … */
+/** One frame that could not be sent whole says nothing; the second within so many makes the next ones smaller … */
+const WINDOW_FRAMES = 15;
+/** … by this much … */
 const CUT = 0.8;
 /** … but not without end; and grow again by this much with each that could. */
 const LEAST = 0.25;
@@ -11,6 +13,7 @@ const GROWTH = 1.02;
  */
 export class FrameFit {
   #share = 1;
+  #framesSinceCut = WINDOW_FRAMES;
 
   get share(): number {
     return this.#share;
@@ -18,11 +21,13 @@ export class FrameFit {
 
   /** A frame was sent to its last packet. */
   onSent(): void {
+    this.#framesSinceCut++;
     this.#share = Math.min(this.#share * GROWTH, 1);
   }
 
   /** A frame, or the rest of one, gave way to a newer one. */
   onCut(): void {
-    this.#share = Math.max(this.#share * CUT, LEAST);
+    if (this.#framesSinceCut < WINDOW_FRAMES) this.#share = Math.max(this.#share * CUT, LEAST);
+    this.#framesSinceCut = 0;
   }
 }

@@ -20,6 +20,9 @@ import type { CloudTransport } from './cloud-transport.ts';
 import { FrameFit } from './frame-fit.ts';
 import type { SharedFrame } from './shared-frame.ts';
 
+/** Packets leave in bursts of so long, ms: a wake-up for each would cost more than the packets do. */
+const BURST_MS = 2.5;
+
 /** Sums since the session began. */
 export interface StreamCounters {
   framesSent: number;
@@ -84,7 +87,10 @@ export class StreamSender {
     this.#controller = controller;
     this.#now = now;
     // The controller says how much faster than planned packets may go.
-    this.#pacer = new PacketPacer(controller.decision(now()).pacingBitsPerSecond, { factor: 1 });
+    this.#pacer = new PacketPacer(controller.decision(now()).pacingBitsPerSecond, {
+      factor: 1,
+      burstMs: BURST_MS,
+    });
     transport.onRtcp = (compound) => this.#onRtcp(compound);
   }
 
