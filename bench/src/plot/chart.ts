@@ -7,8 +7,11 @@ export interface Series {
   /** Ascending x; NaN in y leaves a gap. */
   x: ArrayLike<number>;
   y: ArrayLike<number>;
-  /** `line` (default); `step`: y holds until the next x; `area`: a filled step, for what the others are compared with. */
-  shape?: 'line' | 'step' | 'area';
+  /**
+   * `line` (default); `step`: y holds until the next x; `area`: a filled step, for what the others are compared with;
+   * `points`: a dot at each, joined by a thin line.
+   */
+  shape?: 'line' | 'step' | 'area' | 'points';
   /** Default: the next of the palette; areas are grey. */
   colour?: string;
   dashed?: boolean;
@@ -192,7 +195,7 @@ function renderSeries(
   for (let i = 0; i < series.x.length; i++) {
     const at = xPixel(series.x[i] as number);
     const before = points.at(-1);
-    if (series.shape !== undefined && series.shape !== 'line' && before !== undefined)
+    if ((series.shape === 'step' || series.shape === 'area') && before !== undefined)
       points.push([at, before[1]]);
     points.push([at, yPixel(series.y[i] as number)]);
   }
@@ -203,7 +206,10 @@ function renderSeries(
   }
   const dash = series.dashed ? '5 4' : undefined;
   const line = { fill: 'none', stroke: colour, 'stroke-width': 1.8, 'stroke-linejoin': 'round' };
-  return element('path', { d: linePath(points), ...line, 'stroke-dasharray': dash });
+  const path = element('path', { d: linePath(points), ...line, 'stroke-dasharray': dash });
+  if (series.shape !== 'points') return path;
+  const dots = points.filter(([, y]) => Number.isFinite(y));
+  return path + dots.map(([cx, cy]) => element('circle', { cx, cy, r: 3.5, fill: colour })).join('');
 }
 
 /** In the upper right, where the curves of most plots are low; on a ground of its own where they are not. */

@@ -1,0 +1,65 @@
+/** One codec on one cloud. */
+import { distribution, timeCalls } from '../stats.ts';
+import type { BenchCloud, CodecRun } from './adapter.ts';
+import { type LossRate, type LossResult, measureLoss } from './loss.ts';
+import { verify } from './verify.ts';
+
+export interface CodecRow {
+  cloud: string;
+  codec: string;
+  setting: string;
+  /** Points of the cloud that were measured at all. */
+  validPoints: number;
+  /** Those that the codec sends: fewer where its format cannot hold some. */
+  sentPoints: number;
+  /** Of a sent point. */
+  bitsPerPoint: number;
+  depthErrorMmPerZ2: number;
+  depthErrorMm: number;
+  colorPsnrDb: number | null;
+  encodeMs: number;
+  decodeMs: number;
+  packets: number;
+  maxPacketBytes: number;
+  /** One lost packet loses the frame. */
+  blob: boolean;
+  loss: Record<LossRate, LossResult>;
+}
+
+const WARM_UP = 3;
+
+export function measureCodec(cloud: BenchCloud, run: CodecRun, rounds: number): CodecRow {
+  run.encode();
+  run.settle?.();
+  const packetBytes = run.packetBytes();
+  const all = packetBytes.map((_, i) => i);
+  run.decode(all);
+  const decoded = run.decoded();
+  const { depthErrorMmPerZ2, depthErrorMm, worstM, colorPsnrDb } = verify(cloud, decoded);
+  const loss = measureLoss(cloud, run, decoded.points, worstM);
+  const median = (call: () => void) => distribution(timeCalls(call, rounds, WARM_UP)).p50;
+  const encodeMs = median(() => run.encode());
+  const decodeMs = median(() => run.decode(all));
+  const bytes = packetBytes.reduce((sum, size) => sum + size, 0);
+  return {
+    cloud: cloud.name,
+    codec: run.codec,
+    setting: run.setting,
+    validPoints: cloud.valid.length,
+    sentPoints: decoded.points,
+    bitsPerPoint: round((bytes * 8) / decoded.points, 3),
+    depthErrorMmPerZ2: round(depthErrorMmPerZ2, 4),
+    depthErrorMm: round(depthErrorMm, 3),
+    colorPsnrDb: colorPsnrDb === null ? null : round(colorPsnrDb, 2),
+    encodeMs: round(encodeMs, 3),
+    decodeMs: round(decodeMs, 3),
+    packets: packetBytes.length,
+    maxPacketBytes: Math.max(0, ...packetBytes),
+    blob: run.blob,
+    loss,
+  };
+}
+
+function round(value: number, digits: number): number {
+  return Number(value.toFixed(digits));
+}

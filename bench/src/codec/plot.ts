@@ -1,0 +1,43 @@
+/** Rate, distortion and speed of the codecs as a picture. */
+import { type Panel, renderChart, type Series } from '../plot/chart.ts';
+import type { CodecRow } from './measure.ts';
+
+/** For each cloud: depth error and colour over the bits of a point, and the time of a frame. */
+export function plotCodecs(rows: readonly CodecRow[]): string {
+  const clouds = [...new Set(rows.map((row) => row.cloud))];
+  const panels = clouds.flatMap((cloud): Panel[] => {
+    const own = rows.filter((row) => row.cloud === cloud);
+    const series = (x: (row: CodecRow) => number, y: (row: CodecRow) => number): Series[] =>
+      [...new Set(own.map((row) => row.codec))].map((codec) => {
+        const points = own.filter((row) => row.codec === codec).sort((a, b) => x(a) - x(b));
+        return { label: codec, x: points.map(x), y: points.map(y), shape: 'points' };
+      });
+    const bits = (row: CodecRow) => row.bitsPerPoint;
+    return [
+      {
+        title: cloud,
+        xLabel: 'bits a point',
+        yLabel: 'worst depth error (mm)',
+        series: series(bits, (row) => row.depthErrorMm),
+      },
+      {
+        title: `${cloud}: colour or intensity`,
+        xLabel: 'bits a point',
+        yLabel: 'PSNR (dB)',
+        series: series(bits, (row) => row.colorPsnrDb ?? Number.NaN),
+      },
+      {
+        title: `${cloud}: speed`,
+        xLabel: 'bits a point',
+        yLabel: 'encode + decode (ms)',
+        series: series(bits, (row) => row.encodeMs + row.decodeMs),
+      },
+    ];
+  });
+  return renderChart({
+    title: 'Point codecs: rate, distortion and speed',
+    subtitle: 'WASM, medians; PSNR of 99 dB stands for none lost',
+    panels,
+    columns: 3,
+  });
+}
