@@ -72,6 +72,127 @@ export class Encoder {
 }
 
 /**
+ * Packets of one stream into points.
+ */
+export class OrganisedDecoder {
+    private constructor();
+    free(): void;
+    [Symbol.dispose](): void;
+    /**
+     * Begins a frame.
+     */
+    begin(): void;
+    /**
+     * Colour, 4 bytes a pixel.
+     */
+    colour_ptr(): number;
+    /**
+     * Points of the frame so far.
+     */
+    count(): number;
+    /**
+     * For the stream of a header; with `images`, depth and colour images too. Check the header before: `undefined` tells
+     * nothing.
+     */
+    static create(header: Uint8Array | number[], images: boolean): OrganisedDecoder | undefined;
+    /**
+     * Depth in metres, a float a pixel.
+     */
+    depth_ptr(): number;
+    /**
+     * 0, or what is wrong with a header: 1 length, 2 magic, 3 version, 4 check value, 5 a value.
+     */
+    static fault_of(header: Uint8Array | number[]): number;
+    /**
+     * Image height, pixels.
+     */
+    height(): number;
+    /**
+     * True where a packet of the frame was one of a latency test.
+     */
+    latency_test(): boolean;
+    /**
+     * Where to write a packet: 1201 bytes.
+     */
+    packet_ptr(): number;
+    /**
+     * Points of the frame, 8 bytes each.
+     */
+    points_ptr(): number;
+    /**
+     * Decodes the first `length` bytes at `packet_ptr`: the number of points, or −1 too short, −2 too long, −3 check value,
+     * −4 reserved, −5 unknown stream, −6 tiles, −7 duplicate, −8 corrupt.
+     */
+    put(length: number): number;
+    /**
+     * Image width, pixels.
+     */
+    width(): number;
+}
+
+/**
+ * A frame, its coder and the packet slots it is coded into.
+ */
+export class OrganisedEncoder {
+    private constructor();
+    free(): void;
+    [Symbol.dispose](): void;
+    /**
+     * Begins a stream and returns its header: empty where a value is outside its range. With `palette`, the frame's colours
+     * become the palette; empty where they are too many.
+     */
+    begin(id: number, fx: number, fy: number, cx: number, cy: number, palette: boolean, images: boolean): Uint8Array;
+    /**
+     * Whether the frame lies on the camera's grid; as `estimate`.
+     */
+    check(fx: number, fy: number, cx: number, cy: number): number;
+    /**
+     * 4 bytes a pixel, made at the first call.
+     */
+    colour_ptr(): number;
+    /**
+     * For frames of `width` × `height` pixels; a packet begins `data_offset` bytes into each `stride` bytes. `undefined`
+     * where a packet does not fit into a slot or an image has no pixels.
+     */
+    static create(width: number, height: number, stride: number, data_offset: number): OrganisedEncoder | undefined;
+    /**
+     * A float a pixel, made at the first call.
+     */
+    depth_ptr(): number;
+    /**
+     * Codes the frame with fixed settings. `mode`: 0 no colour, 1 chroma subsampled, 2 full chroma, 3 palette. `density`: of
+     * the nearest points' pixels, 1 or more to keep all of those; 0 for no thinning. False before `begin`.
+     */
+    encode(images: boolean, depth_level: number, mode: number, quality: number, density: number, lambda: number, epsilon: number, near_distance: number): boolean;
+    /**
+     * Codes the frame in at most so many bytes. False before `begin`.
+     */
+    encode_within(images: boolean, bytes: number, latency_test: boolean, palette: boolean, lambda: number, epsilon: number, near_distance: number): boolean;
+    /**
+     * Finds the camera by the frame: 0, or 1 shape, 2 too few points, 3 no camera's focal length, 4 off the grid.
+     */
+    estimate(): number;
+    /**
+     * 4 floats a point.
+     */
+    frame_ptr(): number;
+    /**
+     * Bytes and points of each packet of the last frame, two numbers a packet.
+     */
+    lengths_ptr(): number;
+    /**
+     * After `encode` and `encode_within`: packets, bytes, points; not finite, depth not positive, out of range, thinned,
+     * too dense, dropped; depth level, quality, mode, passes. After `estimate` and `check`, from 16 on: fx, fy, cx, cy;
+     * or pixels off the grid.
+     */
+    report_ptr(): number;
+    /**
+     * The slots of the last frame.
+     */
+    slots_ptr(): number;
+}
+
+/**
  * One packet and the points of all that were decoded since the last `clear`.
  */
 export class UnorganisedDecoder {
@@ -173,6 +294,8 @@ export interface InitOutput {
     readonly memory: WebAssembly.Memory;
     readonly __wbg_decoder_free: (a: number, b: number) => void;
     readonly __wbg_encoder_free: (a: number, b: number) => void;
+    readonly __wbg_organiseddecoder_free: (a: number, b: number) => void;
+    readonly __wbg_organisedencoder_free: (a: number, b: number) => void;
     readonly __wbg_unorganiseddecoder_free: (a: number, b: number) => void;
     readonly __wbg_unorganisedencoder_free: (a: number, b: number) => void;
     readonly decoder_counts_ptr: (a: number) => number;
@@ -187,6 +310,30 @@ export interface InitOutput {
     readonly encoder_report_ptr: (a: number) => number;
     readonly encoder_sample: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number, i: bigint) => number;
     readonly encoder_slots_ptr: (a: number) => number;
+    readonly organiseddecoder_begin: (a: number) => void;
+    readonly organiseddecoder_colour_ptr: (a: number) => number;
+    readonly organiseddecoder_count: (a: number) => number;
+    readonly organiseddecoder_create: (a: number, b: number, c: number) => number;
+    readonly organiseddecoder_depth_ptr: (a: number) => number;
+    readonly organiseddecoder_fault_of: (a: number, b: number) => number;
+    readonly organiseddecoder_height: (a: number) => number;
+    readonly organiseddecoder_latency_test: (a: number) => number;
+    readonly organiseddecoder_packet_ptr: (a: number) => number;
+    readonly organiseddecoder_points_ptr: (a: number) => number;
+    readonly organiseddecoder_put: (a: number, b: number) => number;
+    readonly organiseddecoder_width: (a: number) => number;
+    readonly organisedencoder_begin: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number) => [number, number];
+    readonly organisedencoder_check: (a: number, b: number, c: number, d: number, e: number) => number;
+    readonly organisedencoder_colour_ptr: (a: number) => number;
+    readonly organisedencoder_create: (a: number, b: number, c: number, d: number) => number;
+    readonly organisedencoder_depth_ptr: (a: number) => number;
+    readonly organisedencoder_encode: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number, i: number) => number;
+    readonly organisedencoder_encode_within: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number) => number;
+    readonly organisedencoder_estimate: (a: number) => number;
+    readonly organisedencoder_frame_ptr: (a: number) => number;
+    readonly organisedencoder_lengths_ptr: (a: number) => number;
+    readonly organisedencoder_report_ptr: (a: number) => number;
+    readonly organisedencoder_slots_ptr: (a: number) => number;
     readonly unorganiseddecoder_clear: (a: number) => void;
     readonly unorganiseddecoder_create: (a: number) => number;
     readonly unorganiseddecoder_decode: (a: number, b: number) => number;
@@ -207,6 +354,8 @@ export interface InitOutput {
     readonly unorganisedencoder_frame_ptr: (a: number) => number;
     readonly unorganisedencoder_report_ptr: (a: number) => number;
     readonly __wbindgen_externrefs: WebAssembly.Table;
+    readonly __wbindgen_malloc: (a: number, b: number) => number;
+    readonly __wbindgen_free: (a: number, b: number, c: number) => void;
     readonly __wbindgen_start: () => void;
 }
 

@@ -162,6 +162,290 @@ export class Encoder {
 if (Symbol.dispose) Encoder.prototype[Symbol.dispose] = Encoder.prototype.free;
 
 /**
+ * Packets of one stream into points.
+ */
+export class OrganisedDecoder {
+    static __wrap(ptr) {
+        const obj = Object.create(OrganisedDecoder.prototype);
+        obj.__wbg_ptr = ptr;
+        OrganisedDecoderFinalization.register(obj, obj.__wbg_ptr, obj);
+        return obj;
+    }
+    __destroy_into_raw() {
+        const ptr = this.__wbg_ptr;
+        this.__wbg_ptr = 0;
+        OrganisedDecoderFinalization.unregister(this);
+        return ptr;
+    }
+    free() {
+        const ptr = this.__destroy_into_raw();
+        wasm.__wbg_organiseddecoder_free(ptr, 0);
+    }
+    /**
+     * Begins a frame.
+     */
+    begin() {
+        wasm.organiseddecoder_begin(this.__wbg_ptr);
+    }
+    /**
+     * Colour, 4 bytes a pixel.
+     * @returns {number}
+     */
+    colour_ptr() {
+        const ret = wasm.organiseddecoder_colour_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Points of the frame so far.
+     * @returns {number}
+     */
+    count() {
+        const ret = wasm.organiseddecoder_count(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * For the stream of a header; with `images`, depth and colour images too. Check the header before: `undefined` tells
+     * nothing.
+     * @param {Uint8Array | number[]} header
+     * @param {boolean} images
+     * @returns {OrganisedDecoder | undefined}
+     */
+    static create(header, images) {
+        const val2 = +images;
+        const ptr0 = passArray8ToWasm0(header, wasm.__wbindgen_malloc);
+        const len0 = WASM_VECTOR_LEN;
+        const ret = wasm.organiseddecoder_create(ptr0, len0, val2);
+        return ret === 0 ? undefined : OrganisedDecoder.__wrap(ret);
+    }
+    /**
+     * Depth in metres, a float a pixel.
+     * @returns {number}
+     */
+    depth_ptr() {
+        const ret = wasm.organiseddecoder_depth_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * 0, or what is wrong with a header: 1 length, 2 magic, 3 version, 4 check value, 5 a value.
+     * @param {Uint8Array | number[]} header
+     * @returns {number}
+     */
+    static fault_of(header) {
+        const ptr0 = passArray8ToWasm0(header, wasm.__wbindgen_malloc);
+        const len0 = WASM_VECTOR_LEN;
+        const ret = wasm.organiseddecoder_fault_of(ptr0, len0);
+        return ret >>> 0;
+    }
+    /**
+     * Image height, pixels.
+     * @returns {number}
+     */
+    height() {
+        const ret = wasm.organiseddecoder_height(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * True where a packet of the frame was one of a latency test.
+     * @returns {boolean}
+     */
+    latency_test() {
+        const ret = wasm.organiseddecoder_latency_test(this.__wbg_ptr);
+        return ret !== 0;
+    }
+    /**
+     * Where to write a packet: 1201 bytes.
+     * @returns {number}
+     */
+    packet_ptr() {
+        const ret = wasm.organiseddecoder_packet_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Points of the frame, 8 bytes each.
+     * @returns {number}
+     */
+    points_ptr() {
+        const ret = wasm.organiseddecoder_points_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Decodes the first `length` bytes at `packet_ptr`: the number of points, or −1 too short, −2 too long, −3 check value,
+     * −4 reserved, −5 unknown stream, −6 tiles, −7 duplicate, −8 corrupt.
+     * @param {number} length
+     * @returns {number}
+     */
+    put(length) {
+        const ret = wasm.organiseddecoder_put(this.__wbg_ptr, length);
+        return ret;
+    }
+    /**
+     * Image width, pixels.
+     * @returns {number}
+     */
+    width() {
+        const ret = wasm.organiseddecoder_width(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+}
+if (Symbol.dispose) OrganisedDecoder.prototype[Symbol.dispose] = OrganisedDecoder.prototype.free;
+
+/**
+ * A frame, its coder and the packet slots it is coded into.
+ */
+export class OrganisedEncoder {
+    static __wrap(ptr) {
+        const obj = Object.create(OrganisedEncoder.prototype);
+        obj.__wbg_ptr = ptr;
+        OrganisedEncoderFinalization.register(obj, obj.__wbg_ptr, obj);
+        return obj;
+    }
+    __destroy_into_raw() {
+        const ptr = this.__wbg_ptr;
+        this.__wbg_ptr = 0;
+        OrganisedEncoderFinalization.unregister(this);
+        return ptr;
+    }
+    free() {
+        const ptr = this.__destroy_into_raw();
+        wasm.__wbg_organisedencoder_free(ptr, 0);
+    }
+    /**
+     * Begins a stream and returns its header: empty where a value is outside its range. With `palette`, the frame's colours
+     * become the palette; empty where they are too many.
+     * @param {number} id
+     * @param {number} fx
+     * @param {number} fy
+     * @param {number} cx
+     * @param {number} cy
+     * @param {boolean} palette
+     * @param {boolean} images
+     * @returns {Uint8Array}
+     */
+    begin(id, fx, fy, cx, cy, palette, images) {
+        const ret = wasm.organisedencoder_begin(this.__wbg_ptr, id, fx, fy, cx, cy, palette, images);
+        var v1 = getArrayU8FromWasm0(ret[0], ret[1]).slice();
+        wasm.__wbindgen_free(ret[0], ret[1] * 1, 1);
+        return v1;
+    }
+    /**
+     * Whether the frame lies on the camera's grid; as `estimate`.
+     * @param {number} fx
+     * @param {number} fy
+     * @param {number} cx
+     * @param {number} cy
+     * @returns {number}
+     */
+    check(fx, fy, cx, cy) {
+        const ret = wasm.organisedencoder_check(this.__wbg_ptr, fx, fy, cx, cy);
+        return ret >>> 0;
+    }
+    /**
+     * 4 bytes a pixel, made at the first call.
+     * @returns {number}
+     */
+    colour_ptr() {
+        const ret = wasm.organisedencoder_colour_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * For frames of `width` × `height` pixels; a packet begins `data_offset` bytes into each `stride` bytes. `undefined`
+     * where a packet does not fit into a slot or an image has no pixels.
+     * @param {number} width
+     * @param {number} height
+     * @param {number} stride
+     * @param {number} data_offset
+     * @returns {OrganisedEncoder | undefined}
+     */
+    static create(width, height, stride, data_offset) {
+        const ret = wasm.organisedencoder_create(width, height, stride, data_offset);
+        return ret === 0 ? undefined : OrganisedEncoder.__wrap(ret);
+    }
+    /**
+     * A float a pixel, made at the first call.
+     * @returns {number}
+     */
+    depth_ptr() {
+        const ret = wasm.organisedencoder_depth_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Codes the frame with fixed settings. `mode`: 0 no colour, 1 chroma subsampled, 2 full chroma, 3 palette. `density`: of
+     * the nearest points' pixels, 1 or more to keep all of those; 0 for no thinning. False before `begin`.
+     * @param {boolean} images
+     * @param {number} depth_level
+     * @param {number} mode
+     * @param {number} quality
+     * @param {number} density
+     * @param {number} lambda
+     * @param {number} epsilon
+     * @param {number} near_distance
+     * @returns {boolean}
+     */
+    encode(images, depth_level, mode, quality, density, lambda, epsilon, near_distance) {
+        const ret = wasm.organisedencoder_encode(this.__wbg_ptr, images, depth_level, mode, quality, density, lambda, epsilon, near_distance);
+        return ret !== 0;
+    }
+    /**
+     * Codes the frame in at most so many bytes. False before `begin`.
+     * @param {boolean} images
+     * @param {number} bytes
+     * @param {boolean} latency_test
+     * @param {boolean} palette
+     * @param {number} lambda
+     * @param {number} epsilon
+     * @param {number} near_distance
+     * @returns {boolean}
+     */
+    encode_within(images, bytes, latency_test, palette, lambda, epsilon, near_distance) {
+        const ret = wasm.organisedencoder_encode_within(this.__wbg_ptr, images, bytes, latency_test, palette, lambda, epsilon, near_distance);
+        return ret !== 0;
+    }
+    /**
+     * Finds the camera by the frame: 0, or 1 shape, 2 too few points, 3 no camera's focal length, 4 off the grid.
+     * @returns {number}
+     */
+    estimate() {
+        const ret = wasm.organisedencoder_estimate(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * 4 floats a point.
+     * @returns {number}
+     */
+    frame_ptr() {
+        const ret = wasm.organisedencoder_frame_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Bytes and points of each packet of the last frame, two numbers a packet.
+     * @returns {number}
+     */
+    lengths_ptr() {
+        const ret = wasm.organisedencoder_lengths_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * After `encode` and `encode_within`: packets, bytes, points; not finite, depth not positive, out of range, thinned,
+     * too dense, dropped; depth level, quality, mode, passes. After `estimate` and `check`, from 16 on: fx, fy, cx, cy;
+     * or pixels off the grid.
+     * @returns {number}
+     */
+    report_ptr() {
+        const ret = wasm.organisedencoder_report_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * The slots of the last frame.
+     * @returns {number}
+     */
+    slots_ptr() {
+        const ret = wasm.organisedencoder_slots_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+}
+if (Symbol.dispose) OrganisedEncoder.prototype[Symbol.dispose] = OrganisedEncoder.prototype.free;
+
+/**
  * One packet and the points of all that were decoded since the last `clear`.
  */
 export class UnorganisedDecoder {
@@ -394,12 +678,23 @@ const DecoderFinalization = (typeof FinalizationRegistry === 'undefined')
 const EncoderFinalization = (typeof FinalizationRegistry === 'undefined')
     ? { register: () => {}, unregister: () => {} }
     : new FinalizationRegistry(ptr => wasm.__wbg_encoder_free(ptr, 1));
+const OrganisedDecoderFinalization = (typeof FinalizationRegistry === 'undefined')
+    ? { register: () => {}, unregister: () => {} }
+    : new FinalizationRegistry(ptr => wasm.__wbg_organiseddecoder_free(ptr, 1));
+const OrganisedEncoderFinalization = (typeof FinalizationRegistry === 'undefined')
+    ? { register: () => {}, unregister: () => {} }
+    : new FinalizationRegistry(ptr => wasm.__wbg_organisedencoder_free(ptr, 1));
 const UnorganisedDecoderFinalization = (typeof FinalizationRegistry === 'undefined')
     ? { register: () => {}, unregister: () => {} }
     : new FinalizationRegistry(ptr => wasm.__wbg_unorganiseddecoder_free(ptr, 1));
 const UnorganisedEncoderFinalization = (typeof FinalizationRegistry === 'undefined')
     ? { register: () => {}, unregister: () => {} }
     : new FinalizationRegistry(ptr => wasm.__wbg_unorganisedencoder_free(ptr, 1));
+
+function getArrayU8FromWasm0(ptr, len) {
+    ptr = ptr >>> 0;
+    return getUint8ArrayMemory0().subarray(ptr / 1, ptr / 1 + len);
+}
 
 function getStringFromWasm0(ptr, len) {
     ptr = ptr >>> 0;
@@ -412,6 +707,13 @@ function getUint8ArrayMemory0() {
         cachedUint8ArrayMemory0 = new Uint8Array(wasm.memory.buffer);
     }
     return cachedUint8ArrayMemory0;
+}
+
+function passArray8ToWasm0(arg, malloc) {
+    const ptr = malloc(arg.length * 1, 1) >>> 0;
+    getUint8ArrayMemory0().set(arg, ptr / 1);
+    WASM_VECTOR_LEN = arg.length;
+    return ptr;
 }
 
 let cachedTextDecoder = new TextDecoder('utf-8', { ignoreBOM: true });
@@ -427,6 +729,8 @@ function decodeText(bytes) {
     }
     return cachedTextDecoder.decode(bytes);
 }
+
+let WASM_VECTOR_LEN = 0;
 
 let wasmModule, wasmInstance, wasm;
 function __wbg_finalize_init(instance, module) {

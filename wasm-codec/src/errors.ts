@@ -6,6 +6,9 @@ export type CodecErrorCode =
   | 'too-many-points' // more points than the encoder's capacity
   | 'too-many-packets' // more packets than the decoder's capacity
   | 'bad-count' // a number of points that is not a whole number, or over 150 for one packet
+  | 'bad-stream-header' // a stream header that is damaged, of another version, or senseless
+  | 'no-stream' // nothing can be coded before a stream is begun
+  | 'too-many-colours' // more than a palette holds
   | 'bad-parameter'; // a sampling parameter outside its range
 
 /** Thrown by this package for every call it refuses; after it the object can be used as before. */

@@ -10,6 +10,18 @@ export {
 export { type Codec, type CodecSource, loadCodec, loadCodecSync } from './codec.ts';
 export { CodecError, type CodecErrorCode } from './errors.ts';
 export { maxPoints, type PointBudget } from './max-points.ts';
+export { OrganisedDecoder, type PacketFault, type PutResult } from './organised-decoder.ts';
+export {
+  type GridResult,
+  type Misfit,
+  type OrganisedColour,
+  OrganisedEncoder,
+  type OrganisedOptions,
+  type OrganisedReasons,
+  type OrganisedReport,
+  type Pinhole,
+  type Thinning,
+} from './organised-encoder.ts';
 export {
   BYTES_PER_POINT,
   DEFAULT_SLOT_LAYOUT,

@@ -81,6 +81,12 @@ impl Decoder {
         })
     }
 
+    /// The stream's header.
+    #[must_use]
+    pub fn header(&self) -> &StreamHeader {
+        &self.header
+    }
+
     /// Begins a frame: no points, empty images.
     pub fn begin(&mut self) {
         self.count = 0;

@@ -1,11 +1,14 @@
 //! Frames to packets.
 
-use crate::palette::Palette;
+use crate::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, SYMBOLS};
 use crate::load::{Left, Loaded, MAX_COORDINATE, Quantiser, Source};
+use crate::palette::Palette;
 use crate::rans::{self, Counter, Tokens};
+use crate::rate::RateState;
 use crate::stream::{MAX_PACKET_BYTES, PACKET_HEADER_BYTES, PacketHeader, StreamHeader};
 use crate::syntax::{Neighbours, code_tile};
-use crate::tables::Tables;
+use crate::tables::{COLOUR_SETS, GEOMETRY_SETS, Tables};
+use crate::thinning::{Validity, halvings, pattern};
 use crate::tile::{ColourMode, Grid, Kind, LAST_TRANSFORMED, Pattern, TILE, Tile};
 use crate::transform::{forward, plane_step, point_step, quantise, to_ycocg};
 
@@ -75,6 +78,9 @@ pub struct Encoder {
     packets: Vec<Packet>,
     scratch: Box<[u8; MAX_PACKET_BYTES]>,
     palette: Palette,
+    rate: RateState,
+    geometry_counts: Vec<u32>,
+    colour_counts: Vec<u32>,
 }
 
 /// The packet being filled.
@@ -119,6 +125,9 @@ impl Encoder {
             packets: Vec::with_capacity(grid.tiles()),
             scratch: Box::new([0; MAX_PACKET_BYTES]),
             palette: Palette::new(&header.palette),
+            rate: RateState::default(),
+            geometry_counts: vec![0; GEOMETRY_CONTEXTS * SYMBOLS],
+            colour_counts: vec![0; COLOUR_CONTEXTS * SYMBOLS],
             header,
         })
     }
@@ -218,6 +227,8 @@ impl Encoder {
         if let Some(last) = open.take() {
             self.close(last, settings, &mut frame);
         }
+        // Near packets first: what is sent first is lost last.
+        self.packets.sort_by_key(|packet| (core::cmp::Reverse(packet.nearest), packet.start));
         frame.packets = self.packets.len();
         frame.bytes = self.bytes.len();
         Some(frame)
@@ -249,30 +260,30 @@ impl Encoder {
         frame.points += packet.points;
     }
 
-    /// Counts the symbols of every `step`-th column of tiles, as packets of `per_packet` tiles would code them.
-    pub fn count(&mut self, source: Source<'_>, settings: &Settings, per_packet: usize, step: usize, counter: &mut Counter<'_>) {
+    /// Counts the symbols of one run of `per_packet` tiles in `step`, each as a packet would code it, and returns how many
+    /// times as many tiles there are.
+    pub fn count(&mut self, source: Source<'_>, settings: &Settings, per_packet: usize, step: usize, counter: &mut Counter<'_>) -> f32 {
         self.quantiser.scale = 1.0 / self.header.depth_step(settings.depth_level);
         let mut near = Neighbours::new();
         let mut left = Left::default();
-        let mut in_packet = 0;
-        for index in 0..self.grid.tiles() {
-            if step > 1 && index / per_packet % step != 0 {
-                in_packet = per_packet;
+        let tiles = self.grid.tiles();
+        let mut seen = 0;
+        for index in 0..tiles {
+            // Every column of the image has its turn.
+            let run = index / per_packet;
+            if step > 1 && (run + run / step) % step != 0 {
                 continue;
             }
-            if in_packet >= per_packet {
-                in_packet = 0;
+            if index % per_packet == 0 {
                 near = Neighbours::new();
             }
+            seen += 1;
             let place = self.grid.place(index);
             self.quantiser.load(source, self.grid, place, &mut self.loaded, &mut left);
             prepare(&self.loaded, &mut self.tile, self.patterns[index], settings, &self.palette);
-            if self.tile.kind == Kind::Empty && in_packet == 0 {
-                continue;
-            }
-            in_packet += 1;
             code_tile(counter, &mut self.tile, &mut near, place.row_in_strip, place.column == 0, settings.mode);
         }
+        if seen == 0 { 0.0 } else { tiles as f32 / seen as f32 }
     }
 }
 
@@ -389,7 +400,7 @@ fn fill(rgba: &mut [u32; TILE * TILE], rows: &[u16; TILE], width: usize, height:
 fn transform_blocks(rgba: &[u32; TILE * TILE], tile: &mut Tile, settings: &Settings) {
     use wide::{f32x8, i32x8};
     let subsampled = settings.mode == ColourMode::Subsampled;
-    let (width, height) = (tile.pattern.width(), tile.pattern.height());
+    let width = tile.pattern.width();
     let mut planes = [[0_i32; TILE * TILE]; 3];
     {
         let [luma, orange, green] = &mut planes;
@@ -402,7 +413,6 @@ fn transform_blocks(rgba: &[u32; TILE * TILE], tile: &mut Tile, settings: &Setti
             halve(plane, width == TILE);
         }
     }
-    let _ = height;
     let mut index = 0;
     for plane in 0..3 {
         let (columns, rows) = settings.mode.blocks(tile.pattern, plane);
@@ -437,23 +447,70 @@ fn halve(plane: &mut [i32; TILE * TILE], wide: bool) {
 }
 
 impl Encoder {
+    pub(crate) fn rate(&mut self) -> &mut RateState {
+        &mut self.rate
+    }
+
+    /// Thins by validity alone: the nearest tiles keep `density` of their points, farther ones less.
+    pub fn thin_to(&mut self, source: Source<'_>, validity: &Validity, density: f32) {
+        if source.len() != self.grid.width * self.grid.height {
+            return;
+        }
+        let mut depths = core::mem::take(self.rate.halvings_buffer());
+        halvings(source, self.grid, validity, &mut depths);
+        let shift = -density.clamp(1e-3, 1e6).log2();
+        for (tile, (own, halvings)) in self.patterns.iter_mut().zip(&depths).enumerate() {
+            *own = pattern(tile, *halvings, shift);
+        }
+        *self.rate.halvings_buffer() = depths;
+    }
+
     /// Sets the table sets that code a sample of the frame in the fewest bits.
     pub fn choose_tables(&mut self, source: Source<'_>, settings: &mut Settings) {
-        use crate::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, SYMBOLS};
-        use crate::tables::{COLOUR_SETS, GEOMETRY_SETS};
-        let mut geometry = vec![0; GEOMETRY_CONTEXTS * SYMBOLS];
-        let mut colour = vec![0; COLOUR_CONTEXTS * SYMBOLS];
+        self.estimate(source, settings);
+    }
+
+    /// What a frame would cost with the best table sets, bytes, by a sample of it; the sets are put into `settings`.
+    pub(crate) fn estimate(&mut self, source: Source<'_>, settings: &mut Settings) -> f32 {
+        let mut geometry = core::mem::take(&mut self.geometry_counts);
+        let mut colour = core::mem::take(&mut self.colour_counts);
+        geometry.fill(0);
+        colour.fill(0);
         let mut counter = Counter { geometry: &mut geometry, colour: &mut colour, raw_bits: 0 };
-        self.count(source, settings, 12, 8, &mut counter);
+        let share = self.count(source, settings, SAMPLE_TILES, SAMPLE_STEP, &mut counter);
+        let raw_bits = counter.raw_bits;
         let cost = |counts: &[u32], base: usize| -> u64 {
             let costs = &self.tables.costs()[base..base + counts.len()];
             counts.iter().zip(costs).map(|(count, cost)| u64::from(*count) * u64::from(*cost)).sum()
         };
-        settings.geometry_set = (0..GEOMETRY_SETS)
-            .min_by_key(|set| cost(&geometry, Tables::geometry_base(*set)))
-            .unwrap_or(0) as u8;
-        settings.colour_set = (0..COLOUR_SETS)
-            .min_by_key(|set| cost(&colour, Tables::colour_base(*set)))
-            .unwrap_or(0) as u8;
+        let best = |sets: usize, counts: &[u32], base: &dyn Fn(usize) -> usize| {
+            (0..sets).map(|set| (cost(counts, base(set)), set)).min().unwrap_or((0, 0))
+        };
+        let (geometry_cost, geometry_set) = best(GEOMETRY_SETS, &geometry, &Tables::geometry_base);
+        let (colour_cost, colour_set) = best(COLOUR_SETS, &colour, &Tables::colour_base);
+        settings.geometry_set = geometry_set as u8;
+        settings.colour_set = colour_set as u8;
+        self.geometry_counts = geometry;
+        self.colour_counts = colour;
+        let bytes = ((geometry_cost + colour_cost) as f32 / 256.0 + raw_bits as f32) / 8.0;
+        // Headers and what the states waste.
+        bytes * share * (1.0 + 14.0 / MAX_PACKET_BYTES as f32)
+    }
+
+    /// Drops packets, the farthest first, until no more than `limit` bytes are left; the number of points lost.
+    pub(crate) fn drop_far(&mut self, limit: usize, frame: &mut Frame) -> usize {
+        let mut dropped = 0;
+        while frame.bytes > limit {
+            let Some(packet) = self.packets.pop() else { break };
+            frame.bytes -= packet.length;
+            frame.points -= packet.points;
+            frame.packets -= 1;
+            dropped += packet.points;
+        }
+        dropped
     }
 }
+
+/// Tiles in a row of which one run in so many is counted.
+const SAMPLE_TILES: usize = 12;
+const SAMPLE_STEP: usize = 8;

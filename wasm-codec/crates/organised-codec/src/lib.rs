@@ -11,18 +11,22 @@ mod grid;
 pub mod load;
 mod palette;
 pub mod rans;
+mod rate;
 pub mod stream;
 pub mod syntax;
 pub mod tables;
+mod thinning;
 pub mod tile;
 pub mod transform;
 
 pub use decoder::{Decoder, Put};
-pub use encoder::{Encoder, Frame, Settings};
-pub use grid::Intrinsics;
+pub use encoder::{Encoder, Frame, Packet, Settings};
+pub use grid::{Intrinsics, Misfit, check_grid, estimate_intrinsics};
 pub use load::{Left, Source};
 pub use palette::find_palette;
+pub use rate::{Budget, Spent};
 pub use stream::{HeaderError, PacketError, StreamHeader};
+pub use thinning::Validity;
 pub use tile::ColourMode;
 
 /// x, y, z in metres and the colour, whose bit pattern is the bytes R, G, B, A (R lowest).

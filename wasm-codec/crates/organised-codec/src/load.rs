@@ -58,6 +58,15 @@ impl Source<'_> {
         }
     }
 
+    /// Depth of a pixel.
+    #[inline(always)]
+    pub(crate) fn depth(&self, at: usize) -> f32 {
+        match self {
+            Self::Points(points) => points[at][2],
+            Self::Images { depth, .. } => depth[at],
+        }
+    }
+
     pub(crate) fn one(&self, at: usize) -> (f32, u32) {
         match self {
             Self::Points(points) => {

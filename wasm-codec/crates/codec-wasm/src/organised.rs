@@ -1,0 +1,348 @@
+//! Bindings of the organised codec. As in `lib.rs`, frames and packets lie in the module's memory and calls pass numbers.
+
+use farpoint_organised_codec::stream::{DEPTH_UNIT, MAX_PACKET_BYTES};
+use farpoint_organised_codec::{
+    Budget, ColourMode, Decoder, Encoder, Frame, HeaderError, Intrinsics, Misfit, PacketError, Point, Settings,
+    Source, StreamHeader, Validity, check_grid, estimate_intrinsics, find_palette,
+};
+use wasm_bindgen::prelude::*;
+use wide::f32x4;
+
+/// How many numbers [`OrganisedEncoder::report_ptr`] points to.
+const REPORT_LENGTH: usize = 20;
+
+/// A frame, its coder and the packet slots it is coded into.
+#[wasm_bindgen]
+pub struct OrganisedEncoder {
+    width: usize,
+    height: usize,
+    frame: Vec<f32x4>,
+    depth: Vec<f32>,
+    colour: Vec<u32>,
+    encoder: Option<Encoder>,
+    stride: usize,
+    data_offset: usize,
+    slots: Vec<u8>,
+    /// Bytes and points of each packet.
+    lengths: Vec<u32>,
+    report: Box<[f64; REPORT_LENGTH]>,
+}
+
+#[wasm_bindgen]
+impl OrganisedEncoder {
+    /// For frames of `width` × `height` pixels; a packet begins `data_offset` bytes into each `stride` bytes. `undefined`
+    /// where a packet does not fit into a slot or an image has no pixels.
+    pub fn create(width: usize, height: usize, stride: usize, data_offset: usize) -> Option<OrganisedEncoder> {
+        let fits = data_offset.checked_add(MAX_PACKET_BYTES).is_some_and(|end| end <= stride);
+        if !fits || width == 0 || height == 0 || width > 4080 || height > 4080 {
+            return None;
+        }
+        Some(Self {
+            width,
+            height,
+            frame: vec![f32x4::ZERO; width * height],
+            depth: Vec::new(),
+            colour: Vec::new(),
+            encoder: None,
+            stride,
+            data_offset,
+            slots: Vec::new(),
+            lengths: Vec::new(),
+            report: Box::default(),
+        })
+    }
+
+    /// 4 floats a point.
+    pub fn frame_ptr(&self) -> *const f32 {
+        self.frame.as_ptr().cast()
+    }
+
+    /// A float a pixel, made at the first call.
+    pub fn depth_ptr(&mut self) -> *const f32 {
+        self.depth.resize(self.width * self.height, 0.0);
+        self.depth.as_ptr()
+    }
+
+    /// 4 bytes a pixel, made at the first call.
+    pub fn colour_ptr(&mut self) -> *const u32 {
+        self.colour.resize(self.width * self.height, 0);
+        self.colour.as_ptr()
+    }
+
+    /// The slots of the last frame.
+    pub fn slots_ptr(&self) -> *const u8 {
+        self.slots.as_ptr()
+    }
+
+    /// Bytes and points of each packet of the last frame, two numbers a packet.
+    pub fn lengths_ptr(&self) -> *const u32 {
+        self.lengths.as_ptr()
+    }
+
+    /// After `encode` and `encode_within`: packets, bytes, points; not finite, depth not positive, out of range, thinned,
+    /// too dense, dropped; depth level, quality, mode, passes. After `estimate` and `check`, from 16 on: fx, fy, cx, cy;
+    /// or pixels off the grid.
+    pub fn report_ptr(&self) -> *const f64 {
+        self.report.as_ptr()
+    }
+
+    fn points(&self) -> &[Point] {
+        bytemuck::must_cast_slice(&self.frame)
+    }
+
+    fn misfit(&mut self, misfit: Misfit) -> u32 {
+        match misfit {
+            Misfit::Shape => 1,
+            Misfit::TooFew => 2,
+            Misfit::Focal => 3,
+            Misfit::OffGrid { pixels } => {
+                self.report[16] = f64::from(pixels);
+                4
+            }
+        }
+    }
+
+    /// Finds the camera by the frame: 0, or 1 shape, 2 too few points, 3 no camera's focal length, 4 off the grid.
+    pub fn estimate(&mut self) -> u32 {
+        match estimate_intrinsics(self.points(), self.width, self.height) {
+            Ok(Intrinsics { fx, fy, cx, cy }) => {
+                self.report[16..].copy_from_slice(&[fx, fy, cx, cy].map(f64::from));
+                0
+            }
+            Err(misfit) => self.misfit(misfit),
+        }
+    }
+
+    /// Whether the frame lies on the camera's grid; as `estimate`.
+    pub fn check(&mut self, fx: f32, fy: f32, cx: f32, cy: f32) -> u32 {
+        let result = check_grid(self.points(), self.width, self.height, &Intrinsics { fx, fy, cx, cy });
+        result.map_or_else(|misfit| self.misfit(misfit), |()| 0)
+    }
+
+    /// Begins a stream and returns its header: empty where a value is outside its range. With `palette`, the frame's colours
+    /// become the palette; empty where they are too many.
+    #[allow(clippy::too_many_arguments, reason = "numbers cross this border without an allocation, objects do not")]
+    pub fn begin(&mut self, id: u8, fx: f32, fy: f32, cx: f32, cy: f32, palette: bool, images: bool) -> Vec<u8> {
+        let mut colours = Vec::new();
+        if palette {
+            match find_palette(self.source(images)) {
+                Some(found) if !found.is_empty() => colours = found,
+                _ => return Vec::new(),
+            }
+        }
+        let header = StreamHeader {
+            id,
+            width: self.width as u16,
+            height: self.height as u16,
+            intrinsics: Intrinsics { fx, fy, cx, cy },
+            depth_unit: DEPTH_UNIT,
+            palette: colours,
+        };
+        let bytes = header.to_bytes();
+        match Encoder::new(header) {
+            Some(encoder) => {
+                self.encoder = Some(encoder);
+                bytes
+            }
+            None => Vec::new(),
+        }
+    }
+
+    fn source(&self, images: bool) -> Source<'_> {
+        if images && self.depth.len() == self.frame.len() && self.colour.len() == self.frame.len() {
+            Source::Images { depth: &self.depth, colour: &self.colour }
+        } else {
+            Source::Points(self.points())
+        }
+    }
+
+    /// Codes the frame with fixed settings. `mode`: 0 no colour, 1 chroma subsampled, 2 full chroma, 3 palette. `density`: of
+    /// the nearest points' pixels, 1 or more to keep all of those; 0 for no thinning. False before `begin`.
+    #[allow(clippy::too_many_arguments, reason = "numbers cross this border without an allocation, objects do not")]
+    pub fn encode(
+        &mut self,
+        images: bool,
+        depth_level: u8,
+        mode: u8,
+        quality: u8,
+        density: f32,
+        lambda: f32,
+        epsilon: f32,
+        near_distance: f32,
+    ) -> bool {
+        let Some(mut encoder) = self.encoder.take() else { return false };
+        let mode = match mode {
+            0 => ColourMode::None,
+            1 => ColourMode::Subsampled,
+            2 => ColourMode::Full,
+            _ => ColourMode::Palette,
+        };
+        let mut settings = Settings {
+            depth_level: depth_level.min(7),
+            mode,
+            quality: quality.min(31),
+            geometry_set: 0,
+            colour_set: 0,
+        };
+        let source = self.source(images);
+        if density > 0.0 {
+            encoder.thin_to(source, &Validity { lambda, epsilon, near_distance }, density);
+        } else {
+            encoder.patterns().fill_with(Default::default);
+        }
+        encoder.choose_tables(source, &mut settings);
+        let frame = encoder.encode(source, &settings).unwrap_or_default();
+        self.finish(encoder, &frame, &settings, 0, 1);
+        true
+    }
+
+    /// Codes the frame in at most so many bytes. False before `begin`.
+    #[allow(clippy::too_many_arguments, reason = "numbers cross this border without an allocation, objects do not")]
+    pub fn encode_within(
+        &mut self,
+        images: bool,
+        bytes: usize,
+        latency_test: bool,
+        palette: bool,
+        lambda: f32,
+        epsilon: f32,
+        near_distance: f32,
+    ) -> bool {
+        let Some(mut encoder) = self.encoder.take() else { return false };
+        let validity = Validity { lambda, epsilon, near_distance };
+        let budget = Budget { bytes, validity, latency_test, palette };
+        let spent = encoder.encode_within(self.source(images), &budget);
+        match spent {
+            Some(spent) => self.finish(encoder, &spent.frame, &spent.settings, spent.dropped, spent.passes),
+            None => self.encoder = Some(encoder),
+        }
+        spent.is_some()
+    }
+
+    fn finish(&mut self, encoder: Encoder, frame: &Frame, settings: &Settings, dropped: usize, passes: usize) {
+        let packets = encoder.packets();
+        if self.slots.len() < packets.len() * self.stride {
+            self.slots.resize(packets.len() * self.stride, 0);
+        }
+        self.lengths.clear();
+        for (index, (packet, slot)) in packets.iter().zip(self.slots.chunks_exact_mut(self.stride)).enumerate() {
+            slot[self.data_offset..][..packet.length].copy_from_slice(encoder.packet(index));
+            self.lengths.extend([packet.length as u32, packet.points as u32]);
+        }
+        let numbers = [
+            frame.packets,
+            frame.bytes,
+            frame.points,
+            frame.left.not_finite as usize,
+            frame.left.non_positive_depth as usize,
+            frame.left.out_of_range as usize,
+            frame.thinned,
+            frame.too_dense,
+            dropped,
+            settings.depth_level.into(),
+            settings.quality.into(),
+            settings.mode as usize,
+            passes,
+        ];
+        for (place, number) in self.report.iter_mut().zip(numbers) {
+            *place = number as f64;
+        }
+        self.encoder = Some(encoder);
+    }
+}
+
+/// Packets of one stream into points.
+#[wasm_bindgen]
+pub struct OrganisedDecoder {
+    decoder: Decoder,
+    packet: Box<[u8; MAX_PACKET_BYTES + 1]>,
+    latency_test: bool,
+}
+
+#[wasm_bindgen]
+impl OrganisedDecoder {
+    /// For the stream of a header; with `images`, depth and colour images too. Check the header before: `undefined` tells
+    /// nothing.
+    pub fn create(header: &[u8], images: bool) -> Option<OrganisedDecoder> {
+        let decoder = Decoder::new(StreamHeader::parse(header).ok()?, images)?;
+        Some(Self { decoder, packet: Box::new([0; MAX_PACKET_BYTES + 1]), latency_test: false })
+    }
+
+    /// 0, or what is wrong with a header: 1 length, 2 magic, 3 version, 4 check value, 5 a value.
+    pub fn fault_of(header: &[u8]) -> u32 {
+        match StreamHeader::parse(header) {
+            Ok(_) => 0,
+            Err(HeaderError::Length) => 1,
+            Err(HeaderError::Magic) => 2,
+            Err(HeaderError::Version) => 3,
+            Err(HeaderError::Check) => 4,
+            Err(HeaderError::Value) => 5,
+        }
+    }
+
+    /// Where to write a packet: 1201 bytes.
+    pub fn packet_ptr(&self) -> *const u8 {
+        self.packet.as_ptr()
+    }
+
+    /// Points of the frame, 8 bytes each.
+    pub fn points_ptr(&self) -> *const u64 {
+        self.decoder.point_buffer().as_ptr()
+    }
+
+    /// Depth in metres, a float a pixel.
+    pub fn depth_ptr(&self) -> *const f32 {
+        self.decoder.depth().as_ptr()
+    }
+
+    /// Colour, 4 bytes a pixel.
+    pub fn colour_ptr(&self) -> *const u32 {
+        self.decoder.colour().as_ptr()
+    }
+
+    /// Image width, pixels.
+    pub fn width(&self) -> usize {
+        self.decoder.header().width.into()
+    }
+
+    /// Image height, pixels.
+    pub fn height(&self) -> usize {
+        self.decoder.header().height.into()
+    }
+
+    /// Begins a frame.
+    pub fn begin(&mut self) {
+        self.decoder.begin();
+        self.latency_test = false;
+    }
+
+    /// True where a packet of the frame was one of a latency test.
+    pub fn latency_test(&self) -> bool {
+        self.latency_test
+    }
+
+    /// Points of the frame so far.
+    pub fn count(&self) -> usize {
+        self.decoder.points().len()
+    }
+
+    /// Decodes the first `length` bytes at `packet_ptr`: the number of points, or −1 too short, −2 too long, −3 check value,
+    /// −4 reserved, −5 unknown stream, −6 tiles, −7 duplicate, −8 corrupt.
+    pub fn put(&mut self, length: usize) -> i32 {
+        let packet = &self.packet[..length.min(MAX_PACKET_BYTES + 1)];
+        match self.decoder.put(packet) {
+            Ok(put) => {
+                self.latency_test |= put.latency_test;
+                put.points as i32
+            }
+            Err(PacketError::TooShort) => -1,
+            Err(PacketError::TooLong) => -2,
+            Err(PacketError::Check) => -3,
+            Err(PacketError::Reserved) => -4,
+            Err(PacketError::UnknownStream) => -5,
+            Err(PacketError::Tiles) => -6,
+            Err(PacketError::Duplicate) => -7,
+            Err(PacketError::Corrupt) => -8,
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Which pattern each tile gets: the paper's validity of its depth (equations 4 and 5), far tiles thinned first.
+
+use crate::load::Source;
+use crate::tile::{Grid, Pattern, TILE};
+
+/// The paper's parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Validity {
+    /// λ: how fast validity falls with depth.
+    pub lambda: f32,
+    /// ε: keeps the nearest from weighing infinitely much.
+    pub epsilon: f32,
+    /// D: nearer points weigh as much as the nearest, metres.
+    pub near_distance: f32,
+}
+
+impl Default for Validity {
+    fn default() -> Self {
+        Self { lambda: 3.0, epsilon: 1e-6, near_distance: 3.85 }
+    }
+}
+
+impl Validity {
+    /// True where the weights are finite and positive.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        (0.0..=64.0).contains(&self.lambda)
+            && (1e-12..=1.0).contains(&self.epsilon)
+            && self.near_distance >= 0.0
+            && self.near_distance.is_finite()
+    }
+}
+
+/// Of every tile: −log2 of its validity's share of the largest, or NaN where it is empty.
+pub(crate) fn halvings(source: Source<'_>, grid: Grid, validity: &Validity, depths: &mut Vec<f32>) {
+    depths.clear();
+    let (mut nearest, mut deepest) = (f32::INFINITY, 0.0_f32);
+    for tile in 0..grid.tiles() {
+        let place = grid.place(tile);
+        let (mut sum, mut count) = (0.0, 0.0);
+        for y in (1..TILE).step_by(4) {
+            let v = place.row * TILE + y;
+            if v >= grid.height {
+                break;
+            }
+            for x in (1..TILE).step_by(4) {
+                let u = place.column * TILE + x;
+                if u < grid.width {
+                    let depth = source.depth(v * grid.width + u);
+                    if depth > 0.0 && depth < f32::INFINITY {
+                        sum += depth;
+                        count += 1.0;
+                    }
+                }
+            }
+        }
+        // A tile of which the sample saw nothing is thinned with the nearest.
+        let depth = if count > 0.0 { sum / count } else { 0.0 };
+        if depth > 0.0 {
+            nearest = nearest.min(depth);
+            deepest = deepest.max(depth);
+        }
+        depths.push(depth);
+    }
+    let cost = |depth: f32| (depth / deepest.max(1e-6)).powf(validity.lambda) + validity.epsilon;
+    let least = cost(nearest.min(deepest));
+    for depth in depths {
+        *depth = if *depth < validity.near_distance { 0.0 } else { (cost(*depth) / least).log2() };
+    }
+}
+
+/// The pattern of a tile whose validity is 2^−`halvings` of the largest, where the largest has 2^−`shift` of its points
+/// kept. Between two patterns a fixed mixture of both.
+pub(crate) fn pattern(tile: usize, halvings: f32, shift: f32) -> Pattern {
+    // Low-discrepancy, so that any run of tiles holds its share of either.
+    let dither = (tile as u32).wrapping_mul(0x9e37_79b9) as f32 / 4_294_967_296.0;
+    let wanted = (halvings + shift + dither.min(0.999)).max(0.0);
+    Pattern((wanted as u8).min(Pattern::COUNT - 1))
+}

@@ -1,0 +1,109 @@
+import { OrganisedDecoder as Binding } from '../pkg/farpoint_codec.js';
+import type { Codec } from './codec.ts';
+import { CodecError } from './errors.ts';
+
+/** Why a packet is refused; nothing of it is kept. */
+export type PacketFault =
+  | 'too-short'
+  | 'too-long'
+  | 'bad-check' // the check value does not fit the bytes
+  | 'reserved' // a reserved bit is set
+  | 'unknown-stream' // its header has not come, or is another's
+  | 'bad-tiles' // tiles that the image has not
+  | 'duplicate' // of tiles that have come before in this frame
+  | 'corrupt'; // coded as no encoder codes
+
+export type PutResult = { points: number } | { fault: PacketFault };
+
+const FAULTS: readonly PacketFault[] = [
+  'too-short',
+  'too-long',
+  'bad-check',
+  'reserved',
+  'unknown-stream',
+  'bad-tiles',
+  'duplicate',
+  'corrupt',
+];
+const HEADER_FAULTS = ['its length', 'its first bytes', 'its version', 'its check value', 'a value'];
+const PACKET_ROOM = 1201;
+
+/** Decodes one stream's packets, in any order and each alone. */
+export class OrganisedDecoder implements Disposable {
+  readonly width: number;
+  readonly height: number;
+  readonly #memory: Codec['memory'];
+  readonly #binding: Binding;
+  readonly #images: boolean;
+  #buffer: ArrayBuffer | undefined;
+  #packet = new Uint8Array(0);
+
+  /**
+   * @param options.images also makes depth and colour images
+   * @throws CodecError `bad-stream-header`
+   */
+  constructor(codec: Codec, streamHeader: Uint8Array, options: { images?: boolean } = {}) {
+    this.#images = options.images ?? false;
+    const fault = Binding.fault_of(streamHeader);
+    const binding = fault === 0 ? Binding.create(streamHeader, this.#images) : undefined;
+    if (binding === undefined) {
+      throw new CodecError('bad-stream-header', `stream header: ${HEADER_FAULTS[fault - 1] ?? 'a value'}`);
+    }
+    this.#memory = codec.memory;
+    this.#binding = binding;
+    this.width = binding.width();
+    this.height = binding.height();
+  }
+
+  /** Begins a frame: no points, empty images. */
+  begin(): void {
+    this.#binding.begin();
+  }
+
+  /** Decodes a packet and adds its points to {@link points}. */
+  put(packet: Uint8Array): PutResult {
+    if (packet.length >= PACKET_ROOM) return { fault: 'too-long' };
+    if (this.#memory.buffer !== this.#buffer) {
+      this.#buffer = this.#memory.buffer;
+      this.#packet = new Uint8Array(this.#buffer, this.#binding.packet_ptr(), PACKET_ROOM);
+    }
+    this.#packet.set(packet);
+    const points = this.#binding.put(packet.length);
+    return points >= 0 ? { points } : { fault: FAULTS[-1 - points] ?? 'corrupt' };
+  }
+
+  /** Points of the frame so far. */
+  get count(): number {
+    return this.#binding.count();
+  }
+
+  /** True where a packet of the frame was a latency test's: all its points are pure green. */
+  get latencyTest(): boolean {
+    return this.#binding.latency_test();
+  }
+
+  /**
+   * A view of the frame's points so far, in the order of their packets: int16 x, y, z in millimetres and 6-6-4 colour, the
+   * vertex layout of `points64`.
+   */
+  unpack(): Uint8Array {
+    return new Uint8Array(this.#memory.buffer, this.#binding.points_ptr(), this.count * 8);
+  }
+
+  /** Depth along z in metres, 0 where nothing has come; empty without `images`. */
+  get depth(): Float32Array {
+    const length = this.#images ? this.width * this.height : 0;
+    return new Float32Array(this.#memory.buffer, this.#binding.depth_ptr(), length);
+  }
+
+  /** R, G, B, 255 of each pixel, R lowest, 0 where nothing has come; empty without `images`. */
+  get colour(): Uint32Array {
+    const length = this.#images ? this.width * this.height : 0;
+    return new Uint32Array(this.#memory.buffer, this.#binding.colour_ptr(), length);
+  }
+
+  /** Gives the memory back; the decoder and its views must not be used any more. */
+  [Symbol.dispose](): void {
+    this.#binding.free();
+  }
+}
