@@ -35,6 +35,8 @@ export interface CodecRun extends Disposable {
   setting: string;
   /** True where one lost packet loses the frame. */
   blob: boolean;
+  /** Default true; false where the setting sends no colour. */
+  hasColour?: boolean;
   /** Timed. */
   encode(): void;
   /** What must follow {@link encode} here but would not in a program. Not timed. */

@@ -50,7 +50,7 @@ export function measureCodec(cloud: BenchCloud, run: CodecRun, rounds: number): 
     bitsPerPoint: round((bytes * 8) / decoded.points, 3),
     depthErrorMmPerZ2: round(depthErrorMmPerZ2, 4),
     depthErrorMm: round(depthErrorMm, 3),
-    colorPsnrDb: colorPsnrDb === null ? null : round(colorPsnrDb, 2),
+    colorPsnrDb: colorPsnrDb === null || run.hasColour === false ? null : round(colorPsnrDb, 2),
     encodeMs: round(encodeMs, 3),
     decodeMs: round(decodeMs, 3),
     packets: packetBytes.length,

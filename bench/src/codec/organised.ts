@@ -1,0 +1,97 @@
+import {
+  type Codec,
+  CodecError,
+  OrganisedDecoder,
+  OrganisedEncoder,
+  type OrganisedOptions,
+} from '@farpoint/wasm-codec';
+import type { BenchCloud, CodecRun } from './adapter.ts';
+
+/** A point of the rate–distortion curve. */
+export interface OrganisedSetting {
+  name: string;
+  options: OrganisedOptions;
+}
+
+/** Depth errors of 0.0625 · 2^level mm · z², colours by transform. */
+export const ORGANISED_SETTINGS: readonly OrganisedSetting[] = [
+  {
+    name: 'level 2 (0.25 mm·z²), quality 10, full chroma',
+    options: { depthLevel: 2, colour: { quality: 10, chroma: 'full' } },
+  },
+  { name: 'level 3 (0.5 mm·z²), quality 18', options: {} },
+  { name: 'level 5 (2 mm·z²), quality 24', options: { depthLevel: 5, colour: { quality: 24 } } },
+  { name: 'level 3, palette', options: { depthLevel: 3, colour: 'palette' } },
+  { name: 'level 3, no colour', options: { depthLevel: 3, colour: 'none' } },
+];
+
+/** @returns the run, or why the cloud is not one for this codec */
+export function organised(
+  codec: Codec,
+  cloud: BenchCloud,
+  { name, options }: OrganisedSetting,
+): CodecRun | string {
+  const { width, height, frame } = cloud;
+  if (height === 1 || cloud.depth === 'range') return 'the cloud has no grid';
+  const encoder = new OrganisedEncoder(codec, { width, height });
+  encoder.frameBits.set(new Uint32Array(frame.buffer, frame.byteOffset, frame.length));
+  const fit = cloud.intrinsics === null ? encoder.estimateCamera() : encoder.checkCamera(cloud.intrinsics);
+  if (!fit.fits) {
+    encoder[Symbol.dispose]();
+    return `the grid is not a camera's (${fit.reason}${fit.pixels === undefined ? '' : `, ${fit.pixels.toFixed(2)} pixels`})`;
+  }
+  const { camera } = fit;
+  let header: Uint8Array;
+  try {
+    header = encoder.begin(camera, { palette: options.colour === 'palette' });
+  } catch (error) {
+    encoder[Symbol.dispose]();
+    if (error instanceof CodecError && error.code === 'too-many-colours')
+      return 'too many colours for a palette';
+    throw error;
+  }
+  const decoder = new OrganisedDecoder(codec, header);
+  // Says which pixel each point is of; the other one is timed.
+  const witness = new OrganisedDecoder(codec, header, { images: true });
+  let packets = 0;
+  let wanted: readonly number[] = [];
+  const put = (into: OrganisedDecoder, indices: readonly number[]) => {
+    into.begin();
+    for (const index of indices) {
+      const result = into.put(encoder.packet(index));
+      if ('fault' in result) throw new Error(`packet ${index}: ${result.fault}`);
+    }
+  };
+  return {
+    codec: 'organised',
+    setting: name,
+    blob: false,
+    hasColour: options.colour !== 'none',
+    encode() {
+      ({ packets } = encoder.encode(options));
+    },
+    packetBytes: () => Array.from({ length: packets }, (_, i) => encoder.packet(i).length),
+    decode(indices) {
+      wanted = indices;
+      put(decoder, indices);
+    },
+    decoded() {
+      put(witness, wanted);
+      const { depth, colour } = witness;
+      const source = Uint32Array.from(depth.keys()).filter((pixel) => (depth[pixel] as number) > 0);
+      const metres = new Float64Array(source.length * 3);
+      const rgb = new Uint8Array(source.length * 3);
+      source.forEach((pixel, i) => {
+        const z = depth[pixel] as number;
+        const [u, v] = [pixel % width, Math.floor(pixel / width)];
+        metres.set([((u - camera.cx) / camera.fx) * z, ((v - camera.cy) / camera.fy) * z, z], i * 3);
+        const word = colour[pixel] as number;
+        rgb.set([word & 0xff, (word >> 8) & 0xff, (word >> 16) & 0xff], i * 3);
+      });
+      return { points: source.length, metres, rgb, source };
+    },
+    [Symbol.dispose]() {
+      for (const object of [encoder, decoder, witness]) object[Symbol.dispose]();
+    },
+  };
+}
