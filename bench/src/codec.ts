@@ -13,14 +13,15 @@ import { points64, zstd } from './codec/points64.ts';
 import { unorganised, unorganisedSteps } from './codec/unorganised.ts';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 
-const USAGE = `pnpm bench codec [--cloud FILE.pcd]… [--rgbd DIR] [--codec NAME]… [--rounds 15] [--plot FILE.svg] [--json]
+const USAGE = `pnpm bench codec [--cloud FILE.pcd]… [--rgbd DIR] [--codec NAME]… [--rounds 15] [--native] [--plot FILE.svg] [--json]
 
 Kernel benchmark, in one process. Encodes and decodes each cloud (default: frames of the simulated camera) with every
 codec, compares what comes out with what went in, point by point, and drops 1, 5 and 20 % of the packets.
 
-Times are medians in WASM (zstd: native). depthErrorMmPerZ2 is the worst error of depth (range, for a cloud without a
-grid) over its square. pointsLost and pointsWrong are shares, 0-1; a codec whose output is one blob loses the frame with
-any of its packets of 1200 bytes. What \`organised\` decodes is compared as depth, before points are rounded to millimetres.`;
+Times are medians in WASM (zstd: native); with --native also of the Rust code itself, where Cargo is installed.
+depthErrorMmPerZ2 is the worst error of depth (range, for a cloud without a grid) over its square. pointsLost and
+pointsWrong are shares, 0-1; a codec whose output is one blob loses the frame with any of its packets of 1200 bytes. What
+\`organised\` decodes is compared as depth, before points are rounded to millimetres.`;
 
 export const bench: Bench = {
   name: 'codec',
@@ -34,6 +35,7 @@ export const bench: Bench = {
         rgbd: { type: 'string' },
         codec: { type: 'string', multiple: true, default: [] },
         rounds: { type: 'string', default: '15' },
+        native: { type: 'boolean', default: false },
         plot: { type: 'string' },
         json: { type: 'boolean' },
         help: { type: 'boolean' },
@@ -65,7 +67,7 @@ export const bench: Bench = {
             continue;
           }
           using run = made;
-          rows.push(measureCodec(cloud, run, rounds));
+          rows.push(measureCodec(cloud, run, rounds, values.native));
         }
       }
     }

@@ -37,6 +37,8 @@ export interface CodecRun extends Disposable {
   blob: boolean;
   /** Default true; false where the setting sends no colour. */
   hasColour?: boolean;
+  /** The times of the same code outside WASM. */
+  native?(rounds: number): { encodeMs: number; decodeMs: number };
   /** Timed. */
   encode(): void;
   /** What must follow {@link encode} here but would not in a program. Not timed. */

@@ -19,6 +19,9 @@ export interface CodecRow {
   colorPsnrDb: number | null;
   encodeMs: number;
   decodeMs: number;
+  /** Outside WASM; only where asked for and the codec has it. */
+  nativeEncodeMs?: number;
+  nativeDecodeMs?: number;
   packets: number;
   maxPacketBytes: number;
   /** One lost packet loses the frame. */
@@ -28,7 +31,7 @@ export interface CodecRow {
 
 const WARM_UP = 3;
 
-export function measureCodec(cloud: BenchCloud, run: CodecRun, rounds: number): CodecRow {
+export function measureCodec(cloud: BenchCloud, run: CodecRun, rounds: number, native = false): CodecRow {
   run.encode();
   run.settle?.();
   const packetBytes = run.packetBytes();
@@ -40,6 +43,7 @@ export function measureCodec(cloud: BenchCloud, run: CodecRun, rounds: number): 
   const median = (call: () => void) => distribution(timeCalls(call, rounds, WARM_UP)).p50;
   const encodeMs = median(() => run.encode());
   const decodeMs = median(() => run.decode(all));
+  const outside = native ? run.native?.(rounds) : undefined;
   const bytes = packetBytes.reduce((sum, size) => sum + size, 0);
   return {
     cloud: cloud.name,
@@ -53,6 +57,9 @@ export function measureCodec(cloud: BenchCloud, run: CodecRun, rounds: number): 
     colorPsnrDb: colorPsnrDb === null || run.hasColour === false ? null : round(colorPsnrDb, 2),
     encodeMs: round(encodeMs, 3),
     decodeMs: round(decodeMs, 3),
+    ...(outside === undefined
+      ? {}
+      : { nativeEncodeMs: round(outside.encodeMs, 3), nativeDecodeMs: round(outside.decodeMs, 3) }),
     packets: packetBytes.length,
     maxPacketBytes: Math.max(0, ...packetBytes),
     blob: run.blob,

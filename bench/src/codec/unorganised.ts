@@ -1,5 +1,6 @@
 import { type Codec, UnorganisedDecoder, UnorganisedEncoder } from '@farpoint/wasm-codec';
 import { type BenchCloud, type CodecRun, write565 } from './adapter.ts';
+import { nativeUnorganised } from './native.ts';
 
 /** Grid steps that make sense for the sensor, millimetres. */
 export function unorganisedSteps(cloud: BenchCloud): readonly number[] {
@@ -22,6 +23,7 @@ export function unorganised(codec: Codec, cloud: BenchCloud, stepMm: number): Co
     codec: 'unorganised',
     setting: `${stepMm} mm, ${intensity ? '8-bit intensity' : '5-6-5'}`,
     blob: false,
+    native: (rounds) => nativeUnorganised(cloud, stepMm, rounds),
     encode() {
       ({ packets } = encoder.encode({
         points: total,
