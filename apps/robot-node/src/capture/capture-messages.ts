@@ -24,8 +24,11 @@ export interface CaptureBudget {
   overheadBytes: number;
   /** With nobody watching nothing is captured. */
   streaming: boolean;
-  /** The next frame alone is to have at least so many bytes on the wire: the rate control tries the link. */
-  probeBytes: number;
+  /**
+   * The rate control wants to try the link: one frame, the next, is to have at least so many bytes on the wire. Each
+   * `clusterId` is one such wish.
+   */
+  probe: { clusterId: number; bytes: number } | null;
 }
 
 export type CaptureRequest =

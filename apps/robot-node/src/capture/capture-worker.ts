@@ -46,7 +46,9 @@ const SMOOTHING = 0.1;
 let twist: Twist = zeroTwist();
 let twistAtMs = monotonicMs();
 let standing = true;
-let budget: CaptureBudget = { targetBitsPerSecond: 0, overheadBytes: 0, streaming: false, probeBytes: 0 };
+let budget: CaptureBudget = { targetBitsPerSecond: 0, overheadBytes: 0, streaming: false, probe: null };
+/** The probe that the last enlarged frame was made for. */
+let probeCluster = 0;
 let workMs = 0;
 let latencyTest = false;
 let nextFrameMs = monotonicMs();
@@ -119,8 +121,10 @@ function captureFrame(now: number): number {
   const { captureMs: capturedAtMs } = frame;
   const captureMs = monotonicMs() - now;
   const captureCpuMs = threadCpuMs() - cpuBefore;
-  const { points, framesPerSecond } = planner.plan({ ...budget, rawPoints: frame.count, workMs });
-  budget.probeBytes = 0;
+  const { probe } = budget;
+  const probeBytes = probe === null || probe.clusterId === probeCluster ? 0 : probe.bytes;
+  if (probe !== null) probeCluster = probe.clusterId;
+  const { points, framesPerSecond } = planner.plan({ ...budget, probeBytes, rawPoints: frame.count, workMs });
   const intervalMs = 1000 / framesPerSecond;
   const encoded = encoder.encode(frame, points, latencyTest);
   encoder.copyPackets(new Uint8Array(buffer), encoded.packets);

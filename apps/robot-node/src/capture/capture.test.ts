@@ -62,7 +62,7 @@ function checkPayloads(frame: CapturedFrame): void {
 describe('capture thread', () => {
   it('gives frames that can be sent as they are, numbered, on the robot’s clock', async () => {
     const capture = await start(sim);
-    capture.setBudget({ targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true, probeBytes: 0 });
+    capture.setBudget({ targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true, probe: null });
     const [a, b] = (await frames(capture, 2)) as [CapturedFrame, CapturedFrame];
     for (const frame of [a, b]) {
       expect(frame.points).toBeGreaterThan(0);
@@ -74,7 +74,7 @@ describe('capture thread', () => {
 
   it('keeps to the point budget', async () => {
     const capture = await start(sim, { mostPoints: 450 });
-    capture.setBudget({ targetBitsPerSecond: 1e9, overheadBytes: 68, streaming: true, probeBytes: 0 });
+    capture.setBudget({ targetBitsPerSecond: 1e9, overheadBytes: 68, streaming: true, probe: null });
     const [frame] = await frames(capture, 1);
     expect(frame?.points).toBe(450);
   });
@@ -91,7 +91,7 @@ describe('capture thread', () => {
 
   it('holds no more frames than it has buffers, and goes on when one comes back', async () => {
     const capture = await start(sim);
-    capture.setBudget({ targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true, probeBytes: 0 });
+    capture.setBudget({ targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true, probe: null });
     const held = await frames(capture, 3, false);
     await stateWhere(capture, () => capture.framesWithoutBuffer > 0);
     const next = frames(capture, 1);
@@ -102,7 +102,7 @@ describe('capture thread', () => {
 
   it('makes the next captured frame green when asked', async () => {
     const capture = await start(sim);
-    capture.setBudget({ targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true, probeBytes: 0 });
+    capture.setBudget({ targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true, probe: null });
     capture.requestLatencyTest();
     const got = await frames(capture, 3);
     expect(got.filter((frame) => frame.latencyTest)).toHaveLength(1);
@@ -138,7 +138,7 @@ describe.skipIf(!existsSync(clouds))('recorded sources (skipped without ../share
   ])('plays %j', async (source, width, height) => {
     const capture = await start(source);
     expect(capture.description).toMatchObject({ width, height, drives: false });
-    capture.setBudget({ targetBitsPerSecond: 200e6, overheadBytes: 68, streaming: true, probeBytes: 0 });
+    capture.setBudget({ targetBitsPerSecond: 200e6, overheadBytes: 68, streaming: true, probe: null });
     const got = await frames(capture, 6);
     for (const frame of got) {
       expect(frame.points).toBeGreaterThan(10_000);

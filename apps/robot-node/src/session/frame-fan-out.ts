@@ -23,9 +23,7 @@ export interface FanOutOptions {
 /** One encode for all: each captured frame goes to every operator who wants it, and their paths decide its size. */
 export class FrameFanOut {
   readonly #options: FanOutOptions;
-  #budget: CaptureBudget = { targetBitsPerSecond: -1, overheadBytes: 0, streaming: false, probeBytes: 0 };
-  /** Of the probe that was last passed on. */
-  #probeCluster = 0;
+  #budget: CaptureBudget = { targetBitsPerSecond: -1, overheadBytes: 0, streaming: false, probe: null };
 
   constructor(options: FanOutOptions) {
     this.#options = options;
@@ -44,17 +42,15 @@ export class FrameFanOut {
     const rates = deciding.map((operator) => operator.cloudBitsPerSecond);
     // One path at a time can be tried with larger frames: they go to everyone.
     const probe = deciding.length === 1 ? (deciding[0]?.sender?.probeWish ?? null) : null;
-    const isNewProbe = probe !== null && probe.clusterId !== this.#probeCluster;
-    if (isNewProbe) this.#probeCluster = probe.clusterId;
     const next: CaptureBudget = {
       targetBitsPerSecond: rates.length === 0 ? 0 : Math.min(...rates),
-      probeBytes: isNewProbe ? probe.bytes : 0,
+      probe: probe === null ? null : { clusterId: probe.clusterId, bytes: probe.bytes },
       overheadBytes: Math.max(0, ...streaming.map((operator) => operator.sender?.overheadBytes ?? 0)),
       streaming: streaming.length > 0,
     };
     const last = this.#budget;
     if (
-      !isNewProbe &&
+      next.probe?.clusterId === last.probe?.clusterId &&
       next.targetBitsPerSecond === last.targetBitsPerSecond &&
       next.overheadBytes === last.overheadBytes &&
       next.streaming === last.streaming

@@ -4,7 +4,7 @@ const WINDOW_FRAMES = 15;
 const CUT = 0.8;
 /** … but not without end; and grow again by this much with each that could. */
 const LEAST = 0.25;
-const GROWTH = 1.02;
+const GROWTH = 1.04;
 
 /**
  * How much of what the path carries is planned for: all of it, unless frames are not over when the next ones come. That

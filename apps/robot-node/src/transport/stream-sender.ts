@@ -137,7 +137,8 @@ export class StreamSender {
       this.#probeBytesLeft = wish.bytes;
     }
     for (const { frame, reason } of this.#pacer.enqueue(shared.hold(), this.#now())) {
-      this.#fit.onCut();
+      // What waits for the window is not late by our own doing.
+      if (!this.#windowFull) this.#fit.onCut();
       this.onFrameDropped?.(frame, reason);
       frame.release();
     }
