@@ -1,7 +1,7 @@
 //! Trains the organised codec's tables: counts symbols over synthetic frames, groups the frames into as many sets as
 //! there are (each frame joins the set that codes it best), and writes the frequencies.
 
-use farpoint_organised_codec::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, SYMBOLS};
+use farpoint_organised_codec::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, INDEX_CONTEXTS, SYMBOLS};
 use farpoint_organised_codec::rans::Counter;
 use farpoint_organised_codec::tables::{COLOUR_SETS, GEOMETRY_SETS, normalise};
 use farpoint_organised_codec::tile::Pattern;
@@ -98,6 +98,7 @@ fn count(points: &[Point], sensor: &Sensor, settings: &Settings, pattern: u8) ->
             intrinsics,
             depth_unit: stream::DEPTH_UNIT,
             palette: (0..=255).map(|level| [level; 3]).collect(),
+            index_frequencies: vec![[256; SYMBOLS]; INDEX_CONTEXTS],
         };
     let mut encoder = Encoder::new(header).expect("a camera");
     encoder.patterns().fill(Pattern(pattern));

@@ -3,7 +3,7 @@
 use farpoint_organised_codec::stream::{DEPTH_UNIT, MAX_PACKET_BYTES};
 use farpoint_organised_codec::{
     Budget, ColourMode, Decoder, Encoder, Frame, HeaderError, Intrinsics, Misfit, PacketError, Point, Settings,
-    Source, StreamHeader, Validity, check_grid, estimate_intrinsics, find_palette,
+    Source, StreamHeader, Validity, check_grid, estimate_intrinsics, with_palette,
 };
 use wasm_bindgen::prelude::*;
 use wide::f32x4;
@@ -123,21 +123,21 @@ impl OrganisedEncoder {
     /// become the palette; empty where they are too many.
     #[allow(clippy::too_many_arguments, reason = "numbers cross this border without an allocation, objects do not")]
     pub fn begin(&mut self, id: u8, fx: f32, fy: f32, cx: f32, cy: f32, palette: bool, images: bool) -> Vec<u8> {
-        let mut colours = Vec::new();
-        if palette {
-            match find_palette(self.source(images)) {
-                Some(found) if !found.is_empty() => colours = found,
-                _ => return Vec::new(),
-            }
-        }
-        let header = StreamHeader {
+        let mut header = StreamHeader {
             id,
             width: self.width as u16,
             height: self.height as u16,
             intrinsics: Intrinsics { fx, fy, cx, cy },
             depth_unit: DEPTH_UNIT,
-            palette: colours,
+            palette: Vec::new(),
+            index_frequencies: Vec::new(),
         };
+        if palette {
+            match with_palette(header, self.source(images)) {
+                Some(found) => header = found,
+                None => return Vec::new(),
+            }
+        }
         let bytes = header.to_bytes();
         match Encoder::new(header) {
             Some(encoder) => {

@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use farpoint_organised_codec::{
-    ColourMode, Decoder, Encoder, Intrinsics, Settings, Source, StreamHeader, find_palette, stream,
+    ColourMode, Decoder, Encoder, Intrinsics, Settings, Source, StreamHeader, stream, with_palette,
 };
 
 fn main() {
@@ -34,7 +34,7 @@ fn main() {
     for file in files {
         let (mut header, points) = read(&file);
         if settings.mode == ColourMode::Palette {
-            header.palette = find_palette(Source::Points(&points)).expect("few colours");
+            header = with_palette(header, Source::Points(&points)).expect("few colours");
         }
         let mut encoder = Encoder::new(header.clone()).expect("a camera");
         let mut decoder = Decoder::new(header.clone(), true).expect("a camera");
@@ -119,6 +119,7 @@ fn read(file: &str) -> (StreamHeader, Vec<[f32; 4]>) {
         intrinsics,
         depth_unit: stream::DEPTH_UNIT,
         palette: Vec::new(),
+        index_frequencies: Vec::new(),
     };
     let points = (0..word(0) as usize * word(1) as usize)
         .map(|i| core::array::from_fn(|c| float(6 + 4 * i + c)))

@@ -27,5 +27,7 @@ pub const COEFFICIENT: usize = LEAD + 16;
 pub const POINT: usize = COEFFICIENT + 80;
 /// Residual of a palette index, as [`DEPTH`].
 pub const INDEX: usize = POINT + 12;
+/// How many.
+pub const INDEX_CONTEXTS: usize = 44;
 /// Contexts of a colour table set.
-pub const COLOUR_CONTEXTS: usize = INDEX + 44;
+pub const COLOUR_CONTEXTS: usize = INDEX + INDEX_CONTEXTS;

@@ -64,12 +64,13 @@ impl Decoder {
         let mut columns: Vec<f32> = header.intrinsics.columns(grid.width).collect();
         columns.resize(grid.columns * TILE, 0.0);
         let palette = header.palette.iter().map(|[r, g, b]| u32::from_le_bytes([*r, *g, *b, 255])).collect();
+        let tables = Tables::new(&header.index_frequencies);
         let rows = header.intrinsics.rows(grid.height).collect();
         Some(Self {
             header,
             palette,
             grid,
-            tables: Tables::new(),
+            tables,
             columns,
             rows,
             points: vec![0; pixels],

@@ -1,13 +1,13 @@
 //! Frames to packets.
 
-use crate::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, SYMBOLS};
+use crate::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, INDEX, INDEX_CONTEXTS, SYMBOLS};
 use crate::load::{Left, Loaded, MAX_COORDINATE, Quantiser, Source};
-use crate::palette::Palette;
+use crate::palette::{Palette, find_palette};
 use crate::rans::{self, Counter, Tokens};
 use crate::rate::RateState;
 use crate::stream::{MAX_PACKET_BYTES, PACKET_HEADER_BYTES, PacketHeader, StreamHeader};
 use crate::syntax::{Neighbours, code_tile};
-use crate::tables::{COLOUR_SETS, GEOMETRY_SETS, Tables};
+use crate::tables::{COLOUR_SETS, GEOMETRY_SETS, Tables, normalise};
 use crate::thinning::{Validity, halvings, pattern};
 use crate::tile::{ColourMode, Grid, Kind, LAST_TRANSFORMED, Pattern, TILE, Tile};
 use crate::transform::{forward, plane_step, point_step, quantise, to_ycocg};
@@ -115,7 +115,7 @@ impl Encoder {
         };
         Some(Self {
             grid,
-            tables: Tables::new(),
+            tables: Tables::new(&header.index_frequencies),
             quantiser,
             patterns: vec![Pattern(0); grid.tiles()],
             loaded: Loaded::new(),
@@ -514,3 +514,38 @@ impl Encoder {
 /// Tiles in a row of which one run in so many is counted.
 const SAMPLE_TILES: usize = 12;
 const SAMPLE_STEP: usize = 8;
+
+/// A header with the palette of a frame of few colours, and with frequencies that suit it. `None` where there are more than
+/// 256, or none.
+#[must_use]
+pub fn with_palette(header: StreamHeader, source: Source<'_>) -> Option<StreamHeader> {
+    let palette = find_palette(source).filter(|palette| !palette.is_empty())?;
+    // Some cameras' brightest pixels come out black: there the darkest colour is best put after the brightest.
+    let mut wrapped = palette.clone();
+    wrapped.rotate_left(1);
+    let plain = trained(&header, palette, source)?;
+    let wrapped = trained(&header, wrapped, source)?;
+    Some(if plain.1 <= wrapped.1 { plain.0 } else { wrapped.0 })
+}
+
+/// With frequencies for a palette, and what the frame then costs.
+fn trained(header: &StreamHeader, palette: Vec<[u8; 3]>, source: Source<'_>) -> Option<(StreamHeader, f32)> {
+    let mut header =
+        StreamHeader { palette, index_frequencies: vec![[256; SYMBOLS]; INDEX_CONTEXTS], ..header.clone() };
+    let mut encoder = Encoder::new(header.clone())?;
+    if source.len() != encoder.grid.width * encoder.grid.height {
+        return None;
+    }
+    let mut geometry = vec![0; GEOMETRY_CONTEXTS * SYMBOLS];
+    let mut colour = vec![0; COLOUR_CONTEXTS * SYMBOLS];
+    let mut counter = Counter { geometry: &mut geometry, colour: &mut colour, raw_bits: 0 };
+    let mut settings = Settings { mode: ColourMode::Palette, ..Settings::default() };
+    encoder.count(source, &settings, SAMPLE_TILES, 1, &mut counter);
+    let (contexts, _) = colour[INDEX * SYMBOLS..].as_chunks::<SYMBOLS>();
+    for (own, counts) in header.index_frequencies.iter_mut().zip(contexts) {
+        // What did not occur may yet, in the next frames.
+        *own = normalise(&counts.map(|count| f64::from(count) + 0.5));
+    }
+    let cost = Encoder::new(header.clone())?.estimate(source, &mut settings);
+    Some((header, cost))
+}

@@ -20,10 +20,9 @@ pub mod tile;
 pub mod transform;
 
 pub use decoder::{Decoder, Put};
-pub use encoder::{Encoder, Frame, Packet, Settings};
+pub use encoder::{Encoder, Frame, Packet, Settings, with_palette};
 pub use grid::{Intrinsics, Misfit, check_grid, estimate_intrinsics};
 pub use load::{Left, Source};
-pub use palette::find_palette;
 pub use rate::{Budget, Spent};
 pub use stream::{HeaderError, PacketError, StreamHeader};
 pub use thinning::Validity;

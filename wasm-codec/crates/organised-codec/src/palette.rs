@@ -57,8 +57,7 @@ impl Palette {
 }
 
 /// The colours of a frame's pixels with a finite positive depth, dark to bright, where there are no more than 256.
-#[must_use]
-pub fn find_palette(source: Source<'_>) -> Option<Vec<[u8; 3]>> {
+pub(crate) fn find_palette(source: Source<'_>) -> Option<Vec<[u8; 3]>> {
     let mut slots = [NONE; SLOTS];
     let mut colours = Vec::new();
     for pixel in 0..source.len() {

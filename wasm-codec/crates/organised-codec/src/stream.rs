@@ -1,5 +1,6 @@
 //! The stream header, which goes reliably, and the header of a packet.
 
+use crate::contexts::{INDEX_CONTEXTS, SYMBOLS};
 use crate::grid::Intrinsics;
 use crate::tables::TABLE_VERSION;
 use crate::tile::{ColourMode, Grid};
@@ -36,6 +37,9 @@ pub struct StreamHeader {
     pub depth_unit: f32,
     /// R, G, B of each colour, for [`ColourMode::Palette`]; neighbours should be alike. Mostly empty.
     pub palette: Vec<[u8; 3]>,
+    /// Frequencies of the contexts of palette indices, which differ from picture to picture: [`INDEX_CONTEXTS`] where there
+    /// is a palette, else none. Each context's sum is 4096 and none is 0.
+    pub index_frequencies: Vec<[u16; SYMBOLS]>,
 }
 
 /// Why a stream header is refused.
@@ -67,6 +71,7 @@ impl StreamHeader {
         }
         bytes.extend((self.palette.len() as u16).to_le_bytes());
         bytes.extend(self.palette.iter().flatten());
+        bytes.extend(self.index_frequencies.iter().flatten().flat_map(|frequency| frequency.to_le_bytes()));
         let check = crc16(&[&bytes]);
         bytes.extend(check.to_le_bytes());
         bytes
@@ -82,9 +87,12 @@ impl StreamHeader {
         if bytes[..4] != *b"FPOC" {
             return Err(HeaderError::Magic);
         }
-        if palette.len() != 3 * usize::from(u16::from_le_bytes([fixed[32], fixed[33]])) {
+        let colours = usize::from(u16::from_le_bytes([fixed[32], fixed[33]]));
+        let (palette, frequencies) = palette.split_at_checked(3 * colours).ok_or(HeaderError::Length)?;
+        if frequencies.len() != if colours > 0 { INDEX_CONTEXTS * SYMBOLS * 2 } else { 0 } {
             return Err(HeaderError::Length);
         }
+        let (frequencies, _) = frequencies.as_chunks::<{ 2 * SYMBOLS }>();
         if u16::from_le_bytes(*check) != crc16(&[bytes]) {
             return Err(HeaderError::Check);
         }
@@ -99,6 +107,10 @@ impl StreamHeader {
             intrinsics: Intrinsics { fx: float(12), fy: float(16), cx: float(20), cy: float(24) },
             depth_unit: float(28),
             palette: palette.as_chunks::<3>().0.to_vec(),
+            index_frequencies: frequencies
+                .iter()
+                .map(|bytes| core::array::from_fn(|i| u16::from_le_bytes([bytes[2 * i], bytes[2 * i + 1]])))
+                .collect(),
         };
         if bytes[7] == 0 && header.is_valid() { Ok(header) } else { Err(HeaderError::Value) }
     }
@@ -112,6 +124,10 @@ impl StreamHeader {
             && self.intrinsics.is_valid()
             && (1e-6..=0.1).contains(&self.depth_unit)
             && self.palette.len() <= MAX_PALETTE
+            && self.index_frequencies.len() == if self.palette.is_empty() { 0 } else { INDEX_CONTEXTS }
+            && self.index_frequencies.iter().all(|context| {
+                context.iter().map(|frequency| u32::from(*frequency)).sum::<u32>() == 4096 && !context.contains(&0)
+            })
     }
 
     /// The image's tiles.
@@ -279,6 +295,7 @@ mod tests {
             intrinsics: Intrinsics { fx: 240.0, fy: 241.0, cx: 239.5, cy: 240.0 },
             depth_unit: DEPTH_UNIT,
             palette: vec![[1, 2, 3], [4, 5, 6]],
+            index_frequencies: vec![[256; SYMBOLS]; INDEX_CONTEXTS],
         }
     }
 
@@ -291,7 +308,7 @@ mod tests {
             damaged[bit / 8] ^= 1 << (bit % 8);
             assert!(StreamHeader::parse(&damaged).is_err(), "bit {bit}");
         }
-        assert_eq!(StreamHeader::parse(&bytes[1..]), Err(HeaderError::Length));
+        assert_eq!(StreamHeader::parse(&bytes[..bytes.len() - 1]), Err(HeaderError::Length));
     }
 
     #[test]

@@ -201,7 +201,8 @@ fn unzigzag(value: u32) -> i32 {
     (value >> 1) as i32 ^ -((value & 1) as i32)
 }
 
-/// A number up to 2¹⁷: 13 direct symbols, then three with 3, 6 or 17 further bits; `shift` low bits are not modelled.
+/// A number up to 2¹⁷: 13 direct symbols, then three with 3, 6 or 17 further bits (9 for palette
+/// indices); `shift` low bits are not modelled.
 #[inline(always)]
 fn code_number<C: Coder>(coder: &mut C, family: Family, context: usize, shift: u32, value: u32) -> u32 {
     let high = value >> shift;
@@ -218,20 +219,23 @@ fn code_number<C: Coder>(coder: &mut C, family: Family, context: usize, shift: u
     let high = if token < 13 {
         token
     } else {
-        code_large(coder, token, high)
+        code_large(coder, token, high, context >= INDEX && family == Family::Colour)
     };
     high << shift | coder.raw(shift, value & ((1 << shift) - 1))
 }
 
 #[cold]
 #[inline(never)]
-fn code_large<C: Coder>(coder: &mut C, token: u32, high: u32) -> u32 {
+fn code_large<C: Coder>(coder: &mut C, token: u32, high: u32, index: bool) -> u32 {
     match token {
         13 => 13 + coder.raw(3, high.wrapping_sub(13) & 7),
         14 => 21 + coder.raw(6, high.wrapping_sub(21) & 63),
         _ => {
             let rest = high.wrapping_sub(85) & 0x1ffff;
             let low = coder.raw(9, rest & 511);
+            if index {
+                return 85 + low;
+            }
             85 + (coder.raw(8, rest >> 9) << 9 | low)
         }
     }

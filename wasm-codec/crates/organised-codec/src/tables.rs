@@ -1,10 +1,10 @@
-//! The static probability tables: eight-odd sets of geometry and colour tables, of which a packet names one each.
+//! The static probability tables: sets of geometry and colour tables, of which a packet names one each.
 //!
 //! They are kept as frequencies out of 4096 in `tables.bin`, little-endian u16: [`GEOMETRY_SETS`] sets of
 //! [`GEOMETRY_CONTEXTS`] contexts of 16 symbols, then [`COLOUR_SETS`] sets of [`COLOUR_CONTEXTS`] contexts. They are made by
-//! `cargo run --release -p farpoint-organised-codec --example train-tables`, from synthetic scenes alone.
+//! `cargo run --release -p xtask -- train-tables`, from synthetic scenes alone.
 
-use crate::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, SYMBOLS};
+use crate::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, INDEX, SYMBOLS};
 use crate::rans::{EncoderSymbol, PROBABILITY_BITS};
 
 /// Which tables a stream is coded with; part of the stream header.
@@ -26,16 +26,21 @@ pub struct Tables {
 
 impl Default for Tables {
     fn default() -> Self {
-        Self::new()
+        Self::new(&[])
     }
 }
 
 impl Tables {
-    /// The tables of [`TABLE_VERSION`].
+    /// The tables of [`TABLE_VERSION`], with a stream's own frequencies of palette indices where it has some.
     #[must_use]
-    pub fn new() -> Self {
+    pub fn new(index_frequencies: &[[u16; SYMBOLS]]) -> Self {
         let (frequencies, _) = BYTES.as_chunks::<2>();
-        let frequencies: Vec<u16> = frequencies.iter().map(|bytes| u16::from_le_bytes(*bytes)).collect();
+        let mut frequencies: Vec<u16> = frequencies.iter().map(|bytes| u16::from_le_bytes(*bytes)).collect();
+        for set in 0..COLOUR_SETS {
+            let start = Self::colour_base(set) + INDEX * SYMBOLS;
+            let own = index_frequencies.as_flattened();
+            frequencies[start..start + own.len()].copy_from_slice(own);
+        }
         Self::from_frequencies(&frequencies)
     }
 

@@ -1,0 +1,227 @@
+//! What goes in comes out, whole or in part, in any order.
+
+mod common;
+
+use common::{Random, frame, header};
+use farpoint_organised_codec::{
+    Budget, ColourMode, Decoder, Encoder, PacketError, Point, Settings, Source, StreamHeader, Validity, with_palette,
+};
+use proptest::prelude::*;
+
+fn valid(point: &Point) -> bool {
+    let [x, y, z, _] = *point;
+    z > 0.0 && z.is_finite() && x.abs() <= 32.767 && y.abs() <= 32.767 && z <= 32.767
+}
+
+fn packets(encoder: &Encoder) -> Vec<Vec<u8>> {
+    (0..encoder.packets().len()).map(|index| encoder.packet(index).to_vec()).collect()
+}
+
+fn decode(header: &StreamHeader, packets: &[Vec<u8>]) -> Decoder {
+    let mut decoder = Decoder::new(header.clone(), true).expect("a stream");
+    for packet in packets {
+        decoder.put(packet).expect("a packet");
+    }
+    decoder
+}
+
+fn settings() -> impl Strategy<Value = Settings> {
+    (0_u8..8, 0_u8..4, 0_u8..32, 0_u8..8, 0_u8..4).prop_map(|(depth_level, mode, quality, geometry_set, colour_set)| {
+        let mode =
+            [ColourMode::None, ColourMode::Subsampled, ColourMode::Full, ColourMode::Palette][usize::from(mode)];
+        Settings { depth_level, mode, quality, geometry_set, colour_set }
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn every_valid_point_comes_back_within_its_error(
+        (width, height) in (1_u16..70, 1_u16..70),
+        seed: u64,
+        holes in prop_oneof![Just(0.0_f32), 0.0_f32..1.0],
+        noise in prop_oneof![Just(0.0_f32), 0.0_f32..0.2],
+        settings in settings(),
+    ) {
+        let mut header = header(width, height);
+        let palette = settings.mode == ColourMode::Palette;
+        let points = frame(&header, seed, holes, noise, palette);
+        if palette {
+            let Some(with) = with_palette(header.clone(), Source::Points(&points)) else { return Ok(()) };
+            header = with;
+        }
+        let mut encoder = Encoder::new(header.clone()).expect("a stream");
+        let report = encoder.encode(Source::Points(&points), &settings).expect("a frame");
+        let packets = packets(&encoder);
+        prop_assert!(packets.iter().all(|packet| packet.len() <= 1200));
+        let decoder = decode(&header, &packets);
+        prop_assert_eq!(decoder.points().len(), report.points);
+        let there = points.iter().filter(|point| valid(point)).count();
+        prop_assert_eq!(report.points + report.thinned, there);
+        prop_assert_eq!(report.thinned, report.too_dense);
+        let left = report.left.not_finite + report.left.non_positive_depth + report.left.out_of_range;
+        prop_assert_eq!(left as usize, points.len() - there);
+        let step = f64::from(header.depth_step(settings.depth_level));
+        for (point, (depth, colour)) in points.iter().zip(decoder.depth().iter().zip(decoder.colour())) {
+            if *depth == 0.0 {
+                continue;
+            }
+            prop_assert!(valid(point));
+            let error = (1.0 / f64::from(*depth) - 1.0 / f64::from(point[2])).abs();
+            prop_assert!(error <= step * 0.5 + 1e-6, "{} for {}", depth, point[2]);
+            match settings.mode {
+                ColourMode::None => prop_assert_eq!(*colour, 0xff00_ff00),
+                ColourMode::Palette => prop_assert_eq!(*colour, point[3].to_bits()),
+                _ => {}
+            }
+        }
+    }
+
+    #[test]
+    fn images_and_points_give_the_same_packets(seed: u64, holes in 0.0_f32..0.5) {
+        let header = header(50, 37);
+        let points = frame(&header, seed, holes, 0.01, false);
+        let depth: Vec<f32> = points.iter().map(|point| point[2]).collect();
+        let colour: Vec<u32> = points.iter().map(|point| point[3].to_bits()).collect();
+        let mut encoder = Encoder::new(header).expect("a stream");
+        encoder.encode(Source::Points(&points), &Settings::default());
+        let expected = packets(&encoder);
+        encoder.encode(Source::Images { depth: &depth, colour: &colour }, &Settings::default());
+        prop_assert_eq!(packets(&encoder), expected);
+    }
+
+    #[test]
+    fn lost_and_shuffled_packets_cost_their_own_points_alone(seed: u64, density in 0.05_f32..2.0) {
+        let header = header(200, 150);
+        let points = frame(&header, seed, 0.1, 0.02, false);
+        let mut encoder = Encoder::new(header.clone()).expect("a stream");
+        encoder.thin_to(Source::Points(&points), &Validity { near_distance: 1.0, ..Validity::default() }, density);
+        encoder.encode(Source::Points(&points), &Settings::default()).expect("a frame");
+        let whole = decode(&header, &packets(&encoder));
+        let mut random = Random(seed);
+        let mut some: Vec<(usize, Vec<u8>)> = packets(&encoder).into_iter().enumerate().collect();
+        some.retain(|_| random.uniform() < 0.7);
+        some.sort_by_key(|_| random.next());
+        let expected: usize = some.iter().map(|(index, _)| encoder.packets()[*index].points).sum();
+        let some: Vec<Vec<u8>> = some.into_iter().map(|(_, packet)| packet).collect();
+        let part = decode(&header, &some);
+        prop_assert_eq!(part.points().len(), expected);
+        let mut all: Vec<u64> = whole.points().to_vec();
+        all.sort_unstable();
+        prop_assert!(part.points().iter().all(|point| all.binary_search(point).is_ok()));
+        for (depth, exact) in part.depth().iter().zip(whole.depth()) {
+            prop_assert!(*depth == 0.0 || depth == exact);
+        }
+        // Near packets first.
+        prop_assert!(encoder.packets().is_sorted_by(|a, b| a.nearest >= b.nearest));
+    }
+
+    #[test]
+    fn a_budget_is_kept(seed: u64, bytes in 1500_usize..60_000, noise in 0.0_f32..0.05) {
+        let header = header(240, 200);
+        let points = frame(&header, seed, 0.05, noise, false);
+        let mut encoder = Encoder::new(header.clone()).expect("a stream");
+        let validity = Validity { near_distance: 1.0, ..Validity::default() };
+        let budget = Budget { bytes, validity, latency_test: false, palette: false };
+        for _ in 0..3 {
+            let spent = encoder.encode_within(Source::Points(&points), &budget).expect("a frame");
+            prop_assert!(spent.frame.bytes <= bytes + 1200, "{} of {bytes}", spent.frame.bytes);
+            let there = points.iter().filter(|point| valid(point)).count();
+            prop_assert_eq!(spent.frame.points + spent.frame.thinned + spent.dropped, there);
+            let decoder = decode(&header, &packets(&encoder));
+            prop_assert_eq!(decoder.points().len(), spent.frame.points);
+        }
+    }
+}
+
+#[test]
+fn the_points_lie_where_the_depth_says() {
+    let header = header(64, 48);
+    let points = frame(&header, 3, 0.0, 0.0, false);
+    let mut encoder = Encoder::new(header.clone()).expect("a stream");
+    let settings = Settings { depth_level: 0, mode: ColourMode::Full, quality: 0, ..Settings::default() };
+    encoder.encode(Source::Points(&points), &settings).expect("a frame");
+    let decoder = decode(&header, &packets(&encoder));
+    let mut exact: Vec<[i32; 3]> =
+        points.iter().map(|p| core::array::from_fn(|i| (p[i] * 1000.0).round() as i32)).collect();
+    let mut got: Vec<[i32; 3]> = decoder
+        .points()
+        .iter()
+        .map(|bits| core::array::from_fn(|i| i32::from((bits >> (16 * i)) as u16 as i16)))
+        .collect();
+    exact.sort_unstable_by_key(|p| (p[0], p[1], p[2]));
+    got.sort_unstable_by_key(|p| (p[0], p[1], p[2]));
+    assert_eq!(got.len(), exact.len());
+    // Each point has its own within 3 mm: 0.06 mm · z² and the rounding of both.
+    for point in &got {
+        let near = exact.iter().any(|own| own.iter().zip(point).all(|(a, b)| (a - b).abs() <= 3));
+        assert!(near, "{point:?}");
+    }
+}
+
+#[test]
+fn damaged_packets_are_told() {
+    let header = header(90, 60);
+    let points = frame(&header, 1, 0.1, 0.01, false);
+    let mut encoder = Encoder::new(header.clone()).expect("a stream");
+    encoder.encode(Source::Points(&points), &Settings::default()).expect("a frame");
+    let packet = encoder.packet(0).to_vec();
+    let mut decoder = Decoder::new(header.clone(), false).expect("a stream");
+    for bit in 0..packet.len() * 8 {
+        let mut damaged = packet.clone();
+        damaged[bit / 8] ^= 1 << (bit % 8);
+        assert_eq!(decoder.put(&damaged), Err(PacketError::Check), "bit {bit}");
+    }
+    for length in 0..packet.len() {
+        assert!(decoder.put(&packet[..length]).is_err());
+    }
+    assert_eq!(decoder.put(&[0; 1201]), Err(PacketError::TooLong));
+    assert_eq!(decoder.points().len(), 0);
+    assert!(decoder.put(&packet).is_ok());
+    assert_eq!(decoder.put(&packet), Err(PacketError::Duplicate));
+    let mut other = Decoder::new(StreamHeader { id: 8, ..header }, false).expect("a stream");
+    assert_eq!(other.put(&packet), Err(PacketError::UnknownStream));
+}
+
+/// Packets that pass the check value and are wrong all the same: points or an error, and never more points than pixels.
+#[test]
+fn forged_packets_do_no_harm() {
+    let mut random = Random(7);
+    let header = with_palette(header(90, 60), Source::Points(&frame(&header(90, 60), 1, 0.1, 0.01, true)));
+    let header = header.expect("few colours");
+    let points = frame(&header, 1, 0.1, 0.01, true);
+    let mut encoder = Encoder::new(header.clone()).expect("a stream");
+    let mut decoder = Decoder::new(header, true).expect("a stream");
+    let mut accepted = 0;
+    for round in 0..3000_u32 {
+        if round % 100 == 0 {
+            let mode = [ColourMode::Subsampled, ColourMode::Full, ColourMode::Palette][round as usize / 100 % 3];
+            encoder.encode(Source::Points(&points), &Settings { mode, ..Settings::default() }).expect("a frame");
+        }
+        let mut packet = if round % 3 == 0 {
+            let length = 17 + random.next() as usize % 1184;
+            let mut bytes: Vec<u8> = (0..length).map(|_| random.next() as u8).collect();
+            bytes[0] = 9;
+            bytes[3..7].copy_from_slice(&[(random.next() % 24) as u8, 0, (random.next() % 20) as u8, 0]);
+            // States within their interval get farther.
+            bytes[12] &= 0x7f;
+            bytes[16] &= 0x7f;
+            bytes
+        } else {
+            let mut packet = encoder.packet(random.next() as usize % encoder.packets().len()).to_vec();
+            for _ in 0..1 + random.next() % 3 {
+                let at = random.next() as usize % packet.len();
+                packet[at] = random.next() as u8;
+            }
+            packet
+        };
+        let check = farpoint_organised_codec::stream::crc16(&[&packet[..7], &packet[9..]]);
+        packet[7..9].copy_from_slice(&check.to_le_bytes());
+        decoder.begin();
+        accepted += u32::from(decoder.put(&packet).is_ok());
+        assert!(decoder.points().len() <= 90 * 60);
+    }
+    // The states' end tells nearly all that the check value was made to fit.
+    assert!(accepted < 300, "{accepted}");
+}
