@@ -20,8 +20,9 @@ codec, compares what comes out with what went in, point by point, and drops 1, 5
 
 Times are medians in WASM (zstd: native); with --native also of the Rust code itself, where Cargo is installed.
 depthErrorMmPerZ2 is the worst error of depth (range, for a cloud without a grid) over its square. pointsLost and
-pointsWrong are shares, 0-1; a codec whose output is one blob loses the frame with any of its packets of 1200 bytes. What
-\`organised\` decodes is compared as depth, before points are rounded to millimetres.`;
+pointsWrong are shares, 0-1; a codec whose output is one blob loses the frame with any of its packets of 1200 bytes.
+Where a codec reorders points, each is compared with the nearest one, and colours are not. What \`organised\` decodes is
+compared as depth, before points are rounded to millimetres.`;
 
 export const bench: Bench = {
   name: 'codec',

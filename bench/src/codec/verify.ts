@@ -8,7 +8,7 @@ export interface Verified {
   depthErrorMm: number;
   /** Largest distance of a point from where it was, metres. */
   worstM: number;
-  /** Over all points that came; null where they carry nothing. Exact ones count as 99 dB. */
+  /** Over all points that came; null where it is not known which is which. Exact ones count as 99 dB. */
   colorPsnrDb: number | null;
   /** Points further from their source than allowed. */
   wrong: number;
@@ -44,7 +44,7 @@ export function verify(cloud: BenchCloud, decoded: DecodedCloud, allowedM = Infi
     depthErrorMmPerZ2: perZ2,
     depthErrorMm: depthError,
     worstM: worst,
-    colorPsnrDb: decoded.points === 0 ? null : psnr,
+    colorPsnrDb: decoded.points === 0 || decoded.source === null ? null : psnr,
     wrong,
   };
 }
