@@ -1,0 +1,166 @@
+import { readFileSync } from 'node:fs';
+import { describe, expect, test } from 'vitest';
+import { CodecError } from './errors.ts';
+import { loadCodecFromDisk } from './load-node.ts';
+import { OrganisedDecoder } from './organised-decoder.ts';
+import { OrganisedEncoder, type Pinhole } from './organised-encoder.ts';
+
+const codec = await loadCodecFromDisk();
+const size = { width: 120, height: 90 };
+const camera: Pinhole = { fx: 100, fy: 101, cx: 59.5, cy: 44 };
+
+/** A sloping plane with a hole and a checked pattern. */
+function fill(frame: Float32Array, bits: Uint32Array, depthAt: (u: number, v: number) => number): void {
+  for (let v = 0; v < size.height; v++) {
+    for (let u = 0; u < size.width; u++) {
+      const i = (v * size.width + u) * 4;
+      const z = depthAt(u, v);
+      frame[i] = ((u - camera.cx) * z) / camera.fx;
+      frame[i + 1] = ((v - camera.cy) * z) / camera.fy;
+      frame[i + 2] = z;
+      bits[i + 3] = ((u >> 3) + (v >> 3)) % 2 === 0 ? 0xff20_4060 : 0xff60_a0c0;
+    }
+  }
+}
+
+const plane = (u: number, v: number): number => (u > 20 && u < 40 && v > 30 ? Number.NaN : 6 - v * 0.04);
+
+function encoded(options: Parameters<OrganisedEncoder['encode']>[0], palette = false) {
+  const encoder = new OrganisedEncoder(codec, size);
+  fill(encoder.frame, encoder.frameBits, plane);
+  const header = encoder.begin(camera, { palette });
+  const report = encoder.encode(options);
+  const packets = Array.from({ length: report.packets }, (_, i) => encoder.packet(i).slice());
+  return { encoder, header, report, packets };
+}
+
+describe('OrganisedEncoder and OrganisedDecoder', () => {
+  test('give back every valid point, whatever the order of the packets', () => {
+    const { header, report, packets } = encoded({ depthLevel: 2, colour: { quality: 6, chroma: 'full' } });
+    expect(report.points).toBe(size.width * size.height - 19 * 59);
+    expect(report.reasons.notFinite).toBe(19 * 59);
+    expect(report.bytes).toBe(packets.reduce((sum, packet) => sum + packet.length, 0));
+    const decoder = new OrganisedDecoder(codec, header, { images: true });
+    for (const packet of packets.toReversed()) expect(decoder.put(packet)).toHaveProperty('points');
+    expect(decoder.count).toBe(report.points);
+    decoder.depth.forEach((z, i) => {
+      const exact = plane(i % size.width, Math.floor(i / size.width));
+      if (Number.isNaN(exact)) expect(z).toBe(0);
+      else expect(Math.abs(z - exact)).toBeLessThanOrEqual(0.000_25 * exact * exact);
+    });
+    const points = new Int16Array(decoder.unpack().slice().buffer);
+    expect(points).toHaveLength(report.points * 4);
+    decoder.begin();
+    expect(decoder.count).toBe(0);
+    expect(decoder.depth.every((z) => z === 0)).toBe(true);
+  });
+
+  test('keep a budget and thin the far first', () => {
+    const whole = encoded({}).report;
+    const budgetBytes = Math.round(whole.bytes / 6);
+    const { report, header, packets } = encoded({ budgetBytes, thinning: { nearDistance: 3 } });
+    expect(report.bytes).toBeLessThanOrEqual(budgetBytes + 1200);
+    const decoder = new OrganisedDecoder(codec, header, { images: true });
+    for (const packet of packets) decoder.put(packet);
+    const kept = (from: number, to: number): number =>
+      decoder.depth.subarray(from * size.width, to * size.width).filter((z) => z > 0).length;
+    expect(kept(80, 90)).toBeGreaterThanOrEqual(kept(0, 10));
+    expect(report.points + report.reasons.thinned + report.reasons.dropped).toBe(whole.points);
+  });
+
+  test('a latency test is pure green and costs less', () => {
+    const { report, header, packets } = encoded({ latencyTest: true });
+    expect(report.bytes).toBeLessThan(encoded({}).report.bytes);
+    const decoder = new OrganisedDecoder(codec, header);
+    for (const packet of packets) decoder.put(packet);
+    expect(decoder.latencyTest).toBe(true);
+    const words = new Uint16Array(decoder.unpack().slice().buffer);
+    expect(words.filter((_, i) => i % 4 === 3).every((colour) => colour === 0x03f0)).toBe(true);
+  });
+
+  test('few colours go without loss by a palette', () => {
+    const { header, packets } = encoded({ colour: 'palette' }, true);
+    const decoder = new OrganisedDecoder(codec, header, { images: true });
+    for (const packet of packets) decoder.put(packet);
+    const seen = new Set(decoder.colour.filter((colour) => colour !== 0));
+    expect(seen).toEqual(new Set([0xff20_4060, 0xff60_a0c0]));
+  });
+
+  test('the camera is found, and what does not fit it is refused', () => {
+    const encoder = new OrganisedEncoder(codec, size);
+    fill(encoder.frame, encoder.frameBits, plane);
+    const found = encoder.estimateCamera();
+    if (!found.fits) throw new Error(found.reason);
+    expect(found.camera.fx).toBeCloseTo(camera.fx, 2);
+    expect(found.camera.cy).toBeCloseTo(camera.cy, 2);
+    expect(encoder.checkCamera(camera)).toEqual({ fits: true, camera });
+    expect(encoder.checkCamera({ ...camera, fx: 110 })).toMatchObject({ fits: false, reason: 'off-grid' });
+    encoder.frame.fill(Number.NaN);
+    expect(encoder.estimateCamera()).toEqual({ fits: false, reason: 'too-few-points' });
+  });
+
+  test('images do as well as points', () => {
+    const { packets } = encoded({});
+    const encoder = new OrganisedEncoder(codec, size);
+    const { depth, colour } = encoder;
+    for (let i = 0; i < depth.length; i++) {
+      const [u, v] = [i % size.width, Math.floor(i / size.width)];
+      depth[i] = plane(u, v);
+      colour[i] = ((u >> 3) + (v >> 3)) % 2 === 0 ? 0xff20_4060 : 0xff60_a0c0;
+    }
+    encoder.begin(camera, { fromImages: true });
+    const report = encoder.encode({ fromImages: true });
+    expect(report.packets).toBe(packets.length);
+    packets.forEach((packet, i) => {
+      expect(encoder.packet(i)).toEqual(packet);
+    });
+  });
+
+  test('refusals are typed', () => {
+    const { encoder, header, packets } = encoded({});
+    const packet = packets[0] ?? new Uint8Array();
+    const decoder = new OrganisedDecoder(codec, header);
+    expect(decoder.put(packet.subarray(0, 5))).toEqual({ fault: 'too-short' });
+    expect(decoder.put(new Uint8Array(5000))).toEqual({ fault: 'too-long' });
+    expect(decoder.put(packet.map((byte, i) => (i === 30 ? byte ^ 1 : byte)))).toEqual({
+      fault: 'bad-check',
+    });
+    decoder.put(packet);
+    expect(decoder.put(packet)).toEqual({ fault: 'duplicate' });
+    const next = new OrganisedDecoder(codec, encoder.begin(camera));
+    expect(next.put(packet)).toEqual({ fault: 'unknown-stream' });
+    expect(() => new OrganisedDecoder(codec, header.subarray(1))).toThrow(CodecError);
+    expect(() => encoder.begin({ ...camera, fx: 0 })).toThrow(
+      expect.objectContaining({ code: 'bad-parameter' }),
+    );
+    expect(() => encoder.encode({ depthLevel: 8 })).toThrow(
+      expect.objectContaining({ code: 'bad-parameter' }),
+    );
+    const fresh = new OrganisedEncoder(codec, size);
+    expect(() => fresh.encode()).toThrow(expect.objectContaining({ code: 'no-stream' }));
+    expect(() => new OrganisedEncoder(codec, { width: 0, height: 4 })).toThrow(
+      expect.objectContaining({ code: 'bad-capacity' }),
+    );
+  });
+});
+
+test('the conformance vectors give their points here too', () => {
+  const file = new URL('../vectors/organised.json', import.meta.url);
+  const vectors = JSON.parse(readFileSync(file, 'utf8')) as {
+    streamHeader: string;
+    packets: { data: string; points: number[][] }[];
+  }[];
+  expect(vectors).toHaveLength(5);
+  for (const { streamHeader, packets } of vectors) {
+    const decoder = new OrganisedDecoder(codec, Buffer.from(streamHeader, 'hex'));
+    for (const { data, points } of packets) {
+      const start = decoder.count * 4;
+      expect(decoder.put(Buffer.from(data, 'hex'))).toEqual({ points: points.length });
+      const bytes = decoder.unpack().slice();
+      const signed = new Int16Array(bytes.buffer).subarray(start);
+      const colours = new Uint16Array(bytes.buffer).subarray(start);
+      const got = points.map((_, i) => [...signed.subarray(4 * i, 4 * i + 3), colours[4 * i + 3]]);
+      expect(got).toEqual(points);
+    }
+  }
+});
