@@ -284,7 +284,7 @@ describe('decodePcd', () => {
   });
 });
 
-const clouds = new URL('../../../../../shared/data/clouds/', import.meta.url);
+const clouds = new URL('../../../../shared/data/clouds/', import.meta.url);
 describe.skipIf(!existsSync(clouds))('recorded clouds (skipped without ../shared/data)', () => {
   it.each([
     ['kinect-room.pcd', 640, 480, 0.85],
