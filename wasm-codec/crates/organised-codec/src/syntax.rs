@@ -102,7 +102,7 @@ pub fn code_tile<C: Coder>(
     tile.pattern = Pattern(pattern as u8 & 7);
     near.pattern = usize::from(tile.pattern.0);
     code_mask(coder, tile);
-    let mut right = Edge { kind: kind as usize & 3, known: true, ..left };
+    let mut right = Edge { kind: tile.kind as usize, known: true, ..left };
     let mut bottom = Edge { kind: right.kind, known: true, ..top };
     let shape = Shape { width: tile.pattern.width(), height: tile.pattern.height(), rows: tile.rows, full: tile.kind == Kind::Full };
     let (beside, above) = (left.known.then_some(left.depth), top.known.then_some(top.depth));
@@ -274,11 +274,13 @@ fn code_plane<C: Coder, const INDICES: bool>(
         let start = left.map_or_else(|| code_anchor(coder, plane, shape), |left| left[0]);
         plane[..STRIDE].fill(start);
     }
-    if shape.full {
-        code_rows::<C, INDICES, true>(coder, plane, shape, left.is_some(), top.is_some());
-    } else {
-        code_rows::<C, INDICES, false>(coder, plane, shape, left.is_some(), top.is_some());
-    }
+    // Most tiles keep all their pixels: for those the compiler knows the width.
+    let code = match (shape.full, width) {
+        (true, TILE) => code_rows::<C, INDICES, true, TILE>,
+        (true, _) => code_rows::<C, INDICES, true, 0>,
+        (false, _) => code_rows::<C, INDICES, false, 0>,
+    };
+    code(coder, plane, shape, left.is_some(), top.is_some());
     let right = core::array::from_fn(|i| plane[Tile::at(width - 1, i * height / TILE)]);
     let bottom = core::array::from_fn(|i| plane[Tile::at(i * width / TILE, height - 1)]);
     (right, bottom)
@@ -296,8 +298,7 @@ fn code_anchor<C: Coder>(coder: &mut C, plane: &Plane, shape: &Shape) -> i32 {
     ((coder.raw(8, value >> 8) << 8 | low) as i32).max(1)
 }
 
-#[inline(always)]
-fn code_rows<C: Coder, const INDICES: bool, const FULL: bool>(
+fn code_rows<C: Coder, const INDICES: bool, const FULL: bool, const WIDTH: usize>(
     coder: &mut C,
     plane: &mut Plane,
     shape: &Shape,
@@ -305,7 +306,7 @@ fn code_rows<C: Coder, const INDICES: bool, const FULL: bool>(
     top_known: bool,
 ) {
     let (family, base) = if INDICES { (Family::Colour, INDEX) } else { (Family::Geometry, DEPTH) };
-    let width = shape.width;
+    let width = if WIDTH > 0 { WIDTH } else { shape.width.min(TILE) };
     let mut before = 0;
     for y in 0..shape.height {
         let valid = shape.rows[y];
