@@ -85,8 +85,7 @@ fn value_noise(p: [f32; 3], seed: u32) -> f32 {
     let mut sum = 0.0;
     for corner in 0..8 {
         let d = [corner & 1, corner >> 1 & 1, corner >> 2];
-        let weight: f32 =
-            (0..3).map(|i| if d[i] == 1 { f[i] } else { 1.0 - f[i] }).product();
+        let weight: f32 = (0..3).map(|i| if d[i] == 1 { f[i] } else { 1.0 - f[i] }).product();
         sum += weight * hash(c[0] + d[0], c[1] + d[1], c[2] + d[2], seed);
     }
     sum - 0.5
@@ -121,9 +120,7 @@ impl Texture {
             let c = p.map(|v| (v * self.cells).floor() as i32);
             mix = (0.3 * mix + hash(c[0], c[1], c[2], self.seed) * 0.7).round() * 0.8 + 0.2 * mix;
         }
-        core::array::from_fn(|i| {
-            self.base[i] + (self.other[i] - self.base[i]) * mix + noise * self.contrast
-        })
+        core::array::from_fn(|i| self.base[i] + (self.other[i] - self.base[i]) * mix + noise * self.contrast)
     }
 }
 
@@ -190,7 +187,9 @@ pub fn frame(seed: u64, sensor: &Sensor) -> Vec<Point> {
                 random.between(-0.8, 1.1),
                 random.between(0.35, 1.2) * size,
             ],
-            half: core::array::from_fn(|i| if ball && i > 0 { scale } else { scale * random.between(0.3, 1.5) }),
+            half: core::array::from_fn(
+                |i| if ball && i > 0 { scale } else { scale * random.between(0.3, 1.5) },
+            ),
             yaw: random.between(-3.0, 3.0).sin_cos(),
             ball,
             texture: Texture::random(&mut random),
@@ -234,7 +233,8 @@ pub fn frame(seed: u64, sensor: &Sensor) -> Vec<Point> {
             let at = v * w + u;
             let mut depth = inverse[at];
             // The far side of an edge is hidden from the second eye.
-            let hidden = (1..12.min(u + 1)).any(|i| (inverse[at - i] - depth) * sensor.focal * 0.06 > i as f32 + 0.5);
+            let hidden =
+                (1..12.min(u + 1)).any(|i| (inverse[at - i] - depth) * sensor.focal * 0.06 > i as f32 + 0.5);
             depth += random.normal() * sensor.white + blobs[at][0] * 4.0 * sensor.smooth;
             if sensor.lattice > 0.0 {
                 depth = (depth / sensor.lattice).round() * sensor.lattice;
@@ -246,7 +246,8 @@ pub fn frame(seed: u64, sensor: &Sensor) -> Vec<Point> {
             if hidden || random.uniform() < sensor.speckle || !(0.3..12.0).contains(&z) {
                 z = f32::NAN;
             }
-            let level = |i: usize| (picture[at][i] + colour_noise[at][i] * 1.5).round().clamp(0.0, 255.0) as u32;
+            let level =
+                |i: usize| (picture[at][i] + colour_noise[at][i] * 1.5).round().clamp(0.0, 255.0) as u32;
             let rgba = level(0) | level(1) << 8 | level(2) << 16 | 0xff00_0000;
             let x = (u as f32 - (w as f32 - 1.0) / 2.0) / sensor.focal * z;
             let y = (v as f32 - (h as f32 - 1.0) / 2.0) / sensor.focal * z;

@@ -5,7 +5,9 @@ use farpoint_organised_codec::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, IND
 use farpoint_organised_codec::rans::Counter;
 use farpoint_organised_codec::tables::{COLOUR_SETS, GEOMETRY_SETS, normalise};
 use farpoint_organised_codec::tile::Pattern;
-use farpoint_organised_codec::{ColourMode, Encoder, Intrinsics, Point, Settings, Source, StreamHeader, stream};
+use farpoint_organised_codec::{
+    ColourMode, Encoder, Intrinsics, Point, Settings, Source, StreamHeader, stream,
+};
 
 use crate::scenes::{Random, Sensor, frame};
 
@@ -55,7 +57,8 @@ pub fn train(seed: u64) -> Vec<u8> {
 
 fn sensor(random: &mut Random) -> Sensor {
     let wide = random.uniform() < 0.4;
-    let (width, height, focal) = if wide { (480, 480, 240.0) } else { (640, 480, random.between(500.0, 950.0)) };
+    let (width, height, focal) =
+        if wide { (480, 480, 240.0) } else { (640, 480, random.between(500.0, 950.0)) };
     let kind = (random.uniform() * 4.0) as u32;
     let lattice = match kind {
         // No matcher's steps to be seen.
@@ -90,16 +93,15 @@ fn count(points: &[Point], sensor: &Sensor, settings: &Settings, pattern: u8) ->
         cx: (width as f32 - 1.0) / 2.0,
         cy: (height as f32 - 1.0) / 2.0,
     };
-    let header =
-        StreamHeader {
-            id: 0,
-            width: width as u16,
-            height: height as u16,
-            intrinsics,
-            depth_unit: stream::DEPTH_UNIT,
-            palette: (0..=255).map(|level| [level; 3]).collect(),
-            index_frequencies: vec![[256; SYMBOLS]; INDEX_CONTEXTS],
-        };
+    let header = StreamHeader {
+        id: 0,
+        width: width as u16,
+        height: height as u16,
+        intrinsics,
+        depth_unit: stream::DEPTH_UNIT,
+        palette: (0..=255).map(|level| [level; 3]).collect(),
+        index_frequencies: vec![[256; SYMBOLS]; INDEX_CONTEXTS],
+    };
     let mut encoder = Encoder::new(header).expect("a camera");
     encoder.patterns().fill(Pattern(pattern));
     let mut geometry = vec![0; GEOMETRY_CONTEXTS * SYMBOLS];
@@ -120,7 +122,8 @@ fn cluster(name: &str, samples: &[Counts], sets: usize, contexts: usize) -> Vec<
     // Begin with samples sorted by bits a symbol under the common table, in equal parts.
     let common = frequencies(&all, &all);
     let mut order: Vec<usize> = (0..samples.len()).collect();
-    let per_symbol = |sample: &Counts| cost(sample, &common) / sample.iter().map(|c| f64::from(*c)).sum::<f64>();
+    let per_symbol =
+        |sample: &Counts| cost(sample, &common) / sample.iter().map(|c| f64::from(*c)).sum::<f64>();
     order.sort_by(|a, b| per_symbol(&samples[*a]).total_cmp(&per_symbol(&samples[*b])));
     let mut member = vec![0; samples.len()];
     for (rank, sample) in order.iter().enumerate() {

@@ -140,7 +140,11 @@ fn one_packet(encoder: &mut Encoder, points: &[[f32; 4]], settings: &Settings) -
     let raw_bits = counter.raw_bits as f64;
     let tables = Tables::new(&encoder.header().index_frequencies);
     let cost = |counts: &[u32], base: usize| -> f64 {
-        counts.iter().zip(&tables.costs()[base..]).map(|(n, cost)| f64::from(*n) * f64::from(*cost) / 256.0).sum()
+        counts
+            .iter()
+            .zip(&tables.costs()[base..])
+            .map(|(n, cost)| f64::from(*n) * f64::from(*cost) / 256.0)
+            .sum()
     };
     let bits = cost(&geometry, Tables::geometry_base(settings.geometry_set.into()))
         + cost(&colour, Tables::colour_base(settings.colour_set.into()))

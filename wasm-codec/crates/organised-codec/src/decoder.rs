@@ -154,7 +154,12 @@ impl Decoder {
     }
 
     /// The number of points with those of these tiles; `None` where the data is not what an encoder writes.
-    fn decode(&mut self, header: &PacketHeader, tiles: core::ops::Range<usize>, data: &[u8]) -> Option<usize> {
+    fn decode(
+        &mut self,
+        header: &PacketHeader,
+        tiles: core::ops::Range<usize>,
+        data: &[u8],
+    ) -> Option<usize> {
         const { assert!(GEOMETRY_SETS == 8 && COLOUR_SETS == 4) };
         let geometry = self.tables.geometry(header.geometry_set.into());
         let colour = self.tables.colour(header.colour_set.into());
@@ -164,7 +169,14 @@ impl Decoder {
         let mut count = self.count;
         for index in tiles {
             let place = self.grid.place(index);
-            code_tile(&mut coder, &mut self.tile, &mut near, place.row_in_strip, place.column == 0, header.mode);
+            code_tile(
+                &mut coder,
+                &mut self.tile,
+                &mut near,
+                place.row_in_strip,
+                place.column == 0,
+                header.mode,
+            );
             if coder.overrun() {
                 return None;
             }
@@ -237,9 +249,13 @@ fn paint(tile: &Tile, header: &PacketHeader, palette: &[u32], rgba: &mut [u32; T
                 orange[row..row + 8].first_chunk().expect("eight pixels"),
                 green[row..row + 8].first_chunk().expect("eight pixels"),
             );
-            for x in 0..width {
-                let chroma = (x >> across) & 7;
-                rgba[y * TILE + x] = to_rgba(luma[y * TILE + x], orange[chroma], green[chroma]);
+            // Whole rows of 16, so that the compiler makes vectors of them.
+            let co: [i32; TILE] = core::array::from_fn(|x| orange[x >> across & 7]);
+            let cg: [i32; TILE] = core::array::from_fn(|x| green[x >> across & 7]);
+            let luma: &[i32; TILE] = luma[y * TILE..][..TILE].first_chunk().expect("a row");
+            let pixels: &mut [u32; TILE] = rgba[y * TILE..][..TILE].first_chunk_mut().expect("a row");
+            for x in 0..TILE {
+                pixels[x] = to_rgba(luma[x], co[x], cg[x]);
             }
         }
     } else {

@@ -103,8 +103,7 @@ impl Encoder {
         }
         let grid = header.grid();
         let limits = |rays: &mut dyn Iterator<Item = f32>, length: usize| {
-            let mut limits: Vec<f32> =
-                rays.map(|ray| MAX_COORDINATE / ray.abs().max(1.0)).collect();
+            let mut limits: Vec<f32> = rays.map(|ray| MAX_COORDINATE / ray.abs().max(1.0)).collect();
             limits.resize(length, 0.0);
             limits
         };
@@ -262,7 +261,14 @@ impl Encoder {
 
     /// Counts the symbols of one run of `per_packet` tiles in `step`, each as a packet would code it, and returns how many
     /// times as many tiles there are.
-    pub fn count(&mut self, source: Source<'_>, settings: &Settings, per_packet: usize, step: usize, counter: &mut Counter<'_>) -> f32 {
+    pub fn count(
+        &mut self,
+        source: Source<'_>,
+        settings: &Settings,
+        per_packet: usize,
+        step: usize,
+        counter: &mut Counter<'_>,
+    ) -> f32 {
         self.quantiser.scale = 1.0 / self.header.depth_step(settings.depth_level);
         let mut near = Neighbours::new();
         let mut left = Left::default();
@@ -281,7 +287,14 @@ impl Encoder {
             let place = self.grid.place(index);
             self.quantiser.load(source, self.grid, place, &mut self.loaded, &mut left);
             prepare(&self.loaded, &mut self.tile, self.patterns[index], settings, &self.palette);
-            code_tile(counter, &mut self.tile, &mut near, place.row_in_strip, place.column == 0, settings.mode);
+            code_tile(
+                counter,
+                &mut self.tile,
+                &mut near,
+                place.row_in_strip,
+                place.column == 0,
+                settings.mode,
+            );
         }
         if seen == 0 { 0.0 } else { tiles as f32 / seen as f32 }
     }
@@ -438,7 +451,12 @@ fn halve(plane: &mut [i32; TILE * TILE], wide: bool) {
             let upper = 2 * y * TILE;
             let lower = upper + TILE;
             plane[y * TILE + x] = if wide {
-                (plane[upper + 2 * x] + plane[upper + 2 * x + 1] + plane[lower + 2 * x] + plane[lower + 2 * x + 1] + 2) >> 2
+                (plane[upper + 2 * x]
+                    + plane[upper + 2 * x + 1]
+                    + plane[lower + 2 * x]
+                    + plane[lower + 2 * x + 1]
+                    + 2)
+                    >> 2
             } else {
                 (plane[upper + x] + plane[lower + x] + 1) >> 1
             };

@@ -175,11 +175,7 @@ mod tests {
         (0..width * height)
             .map(|i| {
                 let z = 0.6 + (i % 37) as f32 * 0.05 + (i % 11) as f32 * 0.2;
-                if i % 7 == 0 {
-                    [f32::NAN; 4]
-                } else {
-                    [columns[i % width] * z, rows[i / width] * z, z, 0.0]
-                }
+                if i % 7 == 0 { [f32::NAN; 4] } else { [columns[i % width] * z, rows[i / width] * z, z, 0.0] }
             })
             .collect()
     }
@@ -200,7 +196,9 @@ mod tests {
         assert_eq!(estimate_intrinsics(&points, 64, 47), Err(Misfit::Shape));
         // One point out of its place; the camera is still found by the others.
         points[1000][0] += 0.02;
-        let Err(Misfit::OffGrid { pixels }) = estimate_intrinsics(&points, 64, 48) else { panic!("on the grid") };
+        let Err(Misfit::OffGrid { pixels }) = estimate_intrinsics(&points, 64, 48) else {
+            panic!("on the grid")
+        };
         assert!(pixels > 1.0 && pixels < 40.0, "{pixels}");
         assert!(matches!(check_grid(&points, 64, 48, &CAMERA), Err(Misfit::OffGrid { .. })));
         for point in &mut points {

@@ -51,7 +51,12 @@ impl EncoderSymbol {
         }
         let shift = 32 - (frequency - 1).leading_zeros();
         let reciprocal = ((1u64 << (shift + 31)) + u64::from(frequency) - 1) / u64::from(frequency);
-        Self { reciprocal: reciprocal as u32, bias: start as u16, frequency: frequency as u16, shift: shift - 1 }
+        Self {
+            reciprocal: reciprocal as u32,
+            bias: start as u16,
+            frequency: frequency as u16,
+            shift: shift - 1,
+        }
     }
 }
 
@@ -207,7 +212,11 @@ impl<'a> Decoder<'a> {
     /// `bytes` are the states and the words; the tables hold, for each symbol, where its share ends less 1. `None` where there is not room for the
     /// states, a state is outside its interval, or half a word is left over.
     #[must_use]
-    pub fn new(bytes: &'a [u8], geometry: &'a [[u16; SYMBOLS]], colour: &'a [[u16; SYMBOLS]]) -> Option<Self> {
+    pub fn new(
+        bytes: &'a [u8],
+        geometry: &'a [[u16; SYMBOLS]],
+        colour: &'a [[u16; SYMBOLS]],
+    ) -> Option<Self> {
         let (states, words) = bytes.split_at_checked(8)?;
         let x = u32::from_le_bytes([states[0], states[1], states[2], states[3]]);
         let y = u32::from_le_bytes([states[4], states[5], states[6], states[7]]);

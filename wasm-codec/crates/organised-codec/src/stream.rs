@@ -126,7 +126,8 @@ impl StreamHeader {
             && self.palette.len() <= MAX_PALETTE
             && self.index_frequencies.len() == if self.palette.is_empty() { 0 } else { INDEX_CONTEXTS }
             && self.index_frequencies.iter().all(|context| {
-                context.iter().map(|frequency| u32::from(*frequency)).sum::<u32>() == 4096 && !context.contains(&0)
+                context.iter().map(|frequency| u32::from(*frequency)).sum::<u32>() == 4096
+                    && !context.contains(&0)
             })
     }
 

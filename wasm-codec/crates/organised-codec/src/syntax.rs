@@ -104,7 +104,12 @@ pub fn code_tile<C: Coder>(
     code_mask(coder, tile);
     let mut right = Edge { kind: tile.kind as usize, known: true, ..left };
     let mut bottom = Edge { kind: right.kind, known: true, ..top };
-    let shape = Shape { width: tile.pattern.width(), height: tile.pattern.height(), rows: tile.rows, full: tile.kind == Kind::Full };
+    let shape = Shape {
+        width: tile.pattern.width(),
+        height: tile.pattern.height(),
+        rows: tile.rows,
+        full: tile.kind == Kind::Full,
+    };
     let (beside, above) = (left.known.then_some(left.depth), top.known.then_some(top.depth));
     (right.depth, bottom.depth) =
         code_plane::<C, false>(coder, &mut tile.depth, &shape, beside, above, diagonal[0]);
@@ -327,7 +332,8 @@ fn code_rows<C: Coder, const INDICES: bool, const FULL: bool, const WIDTH: usize
                 let (context, shift) = if first {
                     (base + 40 + residual_bin(before), 0)
                 } else {
-                    let gradient = (left - diagonal).abs() + (top - diagonal).abs() + (upper[x + 2] - top).abs();
+                    let gradient =
+                        (left - diagonal).abs() + (top - diagonal).abs() + (upper[x + 2] - top).abs();
                     let bin = gradient_bin(gradient);
                     (base + 4 * bin + residual_bin(before), GRADIENT_SHIFT[bin])
                 };

@@ -11,8 +11,8 @@ pub const QUALITIES: usize = 32;
 
 /// Quantiser steps in 1/16 of a level of 255 (of the orthonormal transform): 32 · 2^(i/5).
 pub const STEPS: [i32; QUALITIES] = [
-    32, 37, 42, 49, 56, 64, 74, 84, 97, 111, 128, 147, 169, 194, 223, 256, 294, 338, 388, 446, 512, 588, 676, 776,
-    891, 1024, 1176, 1351, 1552, 1783, 2048, 2353,
+    32, 37, 42, 49, 56, 64, 74, 84, 97, 111, 128, 147, 169, 194, 223, 256, 294, 338, 388, 446, 512, 588, 676,
+    776, 891, 1024, 1176, 1351, 1552, 1783, 2048, 2353,
 ];
 
 /// Step of a plane's coefficients, in 1/16: chroma has its own.
@@ -84,9 +84,8 @@ pub fn to_rgba(y: i32, co: i32, cg: i32) -> u32 {
     clamp(y + co - cg) | clamp(y + cg) << 8 | clamp(y - co - cg) << 16 | 0xff00_0000
 }
 
-const C: [f32; 7] = [
-    0.490_392_64, 0.461_939_77, 0.415_734_8, 0.353_553_38, 0.277_785_12, 0.191_341_71, 0.097_545_16,
-];
+const C: [f32; 7] =
+    [0.490_392_64, 0.461_939_77, 0.415_734_8, 0.353_553_38, 0.277_785_12, 0.191_341_71, 0.097_545_16];
 
 /// The orthonormal 8-point DCT-II of eight rows, lane by lane.
 #[inline(always)]

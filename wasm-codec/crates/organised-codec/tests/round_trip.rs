@@ -4,7 +4,8 @@ mod common;
 
 use common::{Random, frame, header};
 use farpoint_organised_codec::{
-    Budget, ColourMode, Decoder, Encoder, PacketError, Point, Settings, Source, StreamHeader, Validity, with_palette,
+    Budget, ColourMode, Decoder, Encoder, PacketError, Point, Settings, Source, StreamHeader, Validity,
+    with_palette,
 };
 use proptest::prelude::*;
 
@@ -26,11 +27,13 @@ fn decode(header: &StreamHeader, packets: &[Vec<u8>]) -> Decoder {
 }
 
 fn settings() -> impl Strategy<Value = Settings> {
-    (0_u8..8, 0_u8..4, 0_u8..32, 0_u8..8, 0_u8..4).prop_map(|(depth_level, mode, quality, geometry_set, colour_set)| {
-        let mode =
-            [ColourMode::None, ColourMode::Subsampled, ColourMode::Full, ColourMode::Palette][usize::from(mode)];
-        Settings { depth_level, mode, quality, geometry_set, colour_set }
-    })
+    (0_u8..8, 0_u8..4, 0_u8..32, 0_u8..8, 0_u8..4).prop_map(
+        |(depth_level, mode, quality, geometry_set, colour_set)| {
+            let mode = [ColourMode::None, ColourMode::Subsampled, ColourMode::Full, ColourMode::Palette]
+                [usize::from(mode)];
+            Settings { depth_level, mode, quality, geometry_set, colour_set }
+        },
+    )
 }
 
 proptest! {
@@ -196,8 +199,11 @@ fn forged_packets_do_no_harm() {
     let mut accepted = 0;
     for round in 0..3000_u32 {
         if round % 100 == 0 {
-            let mode = [ColourMode::Subsampled, ColourMode::Full, ColourMode::Palette][round as usize / 100 % 3];
-            encoder.encode(Source::Points(&points), &Settings { mode, ..Settings::default() }).expect("a frame");
+            let mode =
+                [ColourMode::Subsampled, ColourMode::Full, ColourMode::Palette][round as usize / 100 % 3];
+            encoder
+                .encode(Source::Points(&points), &Settings { mode, ..Settings::default() })
+                .expect("a frame");
         }
         let mut packet = if round % 3 == 0 {
             let length = 17 + random.next() as usize % 1184;

@@ -4,7 +4,9 @@
 mod common;
 
 use common::{frame, header};
-use farpoint_organised_codec::{ColourMode, Decoder, Encoder, Settings, Source, StreamHeader, Validity, with_palette};
+use farpoint_organised_codec::{
+    ColourMode, Decoder, Encoder, Settings, Source, StreamHeader, Validity, with_palette,
+};
 use serde::{Deserialize, Serialize};
 
 #[derive(Serialize, Deserialize)]
@@ -30,7 +32,10 @@ fn hex(bytes: &[u8]) -> String {
 }
 
 fn unhex(text: &str) -> Vec<u8> {
-    (0..text.len()).step_by(2).map(|at| u8::from_str_radix(&text[at..at + 2], 16).expect("hexadecimal")).collect()
+    (0..text.len())
+        .step_by(2)
+        .map(|at| u8::from_str_radix(&text[at..at + 2], 16).expect("hexadecimal"))
+        .collect()
 }
 
 fn points(decoder: &Decoder, start: usize) -> Vec<[i32; 4]> {
