@@ -1,0 +1,139 @@
+/** The bridge against the real signaling service and robots that speak as the reference system's do. */
+import { LocalStack } from '@farpoint/local-stack';
+import { writePointPacketHeader } from '@farpoint/protocol';
+import { silentLogger } from '@farpoint/service';
+import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
+import { WebSocket } from 'ws';
+import { Bridge } from './bridge.ts';
+import { ReferenceRobot } from './testing/reference-robot.ts';
+
+const cleanups: (() => unknown)[] = [];
+let stack: LocalStack;
+beforeAll(async () => {
+  stack = await LocalStack.start({ robots: [] });
+}, 30_000);
+afterAll(() => stack.stop());
+afterEach(async () => {
+  for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
+});
+
+async function robot(name: string): Promise<ReferenceRobot> {
+  const made = await ReferenceRobot.register(`ws://127.0.0.1:${stack.ports.referenceRobot}`, name);
+  cleanups.push(() => made.close());
+  return made;
+}
+
+async function bridge(): Promise<Bridge> {
+  const made = await Bridge.open(
+    {
+      signaling: `ws://127.0.0.1:${stack.ports.referenceClient}/`,
+      host: '127.0.0.1',
+      controlPort: 0,
+      telemetryPort: 0,
+      streamingPort: 0,
+      allowedOrigins: [],
+      maxRobots: 100,
+      maxPoints: 10_000,
+      reorderMs: 20,
+      startBitsPerSecond: 10e6,
+      maxBitsPerSecond: 100e6,
+    },
+    silentLogger(),
+    () => performance.now(),
+  );
+  cleanups.push(() => made.close());
+  return made;
+}
+
+async function page(port: number, origin?: string) {
+  const socket = new WebSocket(`ws://127.0.0.1:${port}/any`, origin === undefined ? {} : { origin });
+  const inbox: (string | Buffer)[] = [];
+  let wake = () => {};
+  socket.on('message', (data: Buffer, binary: boolean) => {
+    inbox.push(binary ? data : data.toString('utf8'));
+    wake();
+  });
+  await new Promise((resolve, reject) => {
+    socket.once('open', resolve);
+    socket.once('error', reject);
+  });
+  cleanups.push(() => socket.terminate());
+  const next = async (is: (data: string | Buffer) => boolean) => {
+    for (;;) {
+      const data = inbox.shift();
+      if (data === undefined) await new Promise<void>((resolve) => (wake = resolve));
+      else if (is(data)) return data;
+    }
+  };
+  return { socket, next, send: (message: unknown) => socket.send(JSON.stringify(message)) };
+}
+
+/** A frame of 200 points, each with its robot's mark as x, in two packets of the reference profile. */
+function frame(number: number, mark: number): Buffer[] {
+  return [0, 150].map((first) => {
+    const count = Math.min(150, 200 - first);
+    const bytes = Buffer.alloc(1216);
+    const view = new DataView(bytes.buffer, bytes.byteOffset);
+    writePointPacketHeader(view, 0, {
+      frameNumber: number,
+      frameLength: 1600,
+      sequenceOffset: first * 8,
+      sequenceLength: count * 8,
+    });
+    for (let i = 0; i < count; i++) view.setInt16(16 + 6 * i, mark, true);
+    return bytes;
+  });
+}
+
+const markOf = (data: string | Buffer) => (typeof data === 'string' ? null : data.readInt16LE(0));
+
+it('shows one robot, switches, passes commands on, reports bandwidth; garbage hurts nobody', async () => {
+  const first = await robot('first');
+  const made = await bridge();
+  const control = await page(made.ports.control);
+  const telemetry = await page(made.ports.telemetry);
+  const streaming = await page(made.ports.streaming);
+  const command = { linear: { x: 0.25, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -0.5 } };
+  // Before any channel is open: dropped.
+  telemetry.send({ type: 'command', command });
+  await first.heard('start');
+  const second = await robot('second');
+  await second.heard('stop');
+  // What cannot be answered, and what is no message.
+  const bad = await robot('bad');
+  bad.signal({ type: 'offer', robotId: bad.id, sdpOffer: 'v=0\r\nm=nonsense' });
+  for (const { socket } of [control, telemetry, streaming]) {
+    for (const text of ['null', '{', '{"type":"switchRobot","robotId":"x"}', '\u0000']) socket.send(text);
+    socket.send(Buffer.from([0xff, 0xfe]));
+  }
+  first.sendFrame([Buffer.from([1, 2, 3]), ...frame(0, 1)]);
+  const shown = await streaming.next((data) => markOf(data) === 1);
+  expect(shown.length).toBe(1600);
+  expect(await first.report()).toBeGreaterThan(0);
+
+  telemetry.send({ type: 'command', command });
+  expect(await first.command()).toEqual(command);
+
+  control.send({ type: 'switchRobot', robotId: second.id });
+  await control.next((data) => data === `{"type":"switchedRobot","robotId":${second.id}}`);
+  await first.heard('stop');
+  await second.heard('start');
+  // Who does not heed the word is not shown either.
+  first.sendFrame(frame(1, 1));
+  second.sendFrame(frame(0, 2));
+  expect(markOf(await streaming.next(() => true))).toBe(2);
+
+  // It comes back under another id.
+  await second.close();
+  const again = await robot('second');
+  expect(again.id).not.toBe(second.id);
+  await again.heard('start');
+  again.sendFrame(frame(0, 3));
+  expect(markOf(await streaming.next(() => true))).toBe(3);
+}, 30_000);
+
+it('refuses pages of other origins', async () => {
+  const made = await bridge();
+  await expect(page(made.ports.telemetry, 'https://evil.example')).rejects.toThrow('401');
+  await page(made.ports.telemetry, 'http://localhost:5173');
+});

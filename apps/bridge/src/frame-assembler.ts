@@ -1,0 +1,197 @@
+/**
+ * Frames from packets, by frame number and offset: whatever is lost, doubled or out of order, a point lands in its own
+ * frame and place or nowhere. Pure: bytes and time are arguments.
+ */
+import {
+  BYTES_PER_POINT,
+  emptyPointPacketHeader,
+  POINT_PACKET_HEADER_BYTES,
+  type PointPacketFault,
+  readPointPacketHeader,
+  sequenceDelta32,
+} from '@farpoint/protocol';
+
+/** Why a packet adds nothing. */
+export type AssemblyDrop =
+  | PointPacketFault
+  | 'too-many-points' // its frame is larger than this bridge takes
+  | 'inconsistent' // it says another length of its frame than the packets before
+  | 'duplicate' // some of its points have come already
+  | 'late'; // its frame has been given out
+
+export interface AssembledFrame {
+  frameNumber: number;
+  /** N × 3 int16 coordinates, then N × u16 colours, little-endian: the bridge's streaming message. Given away. */
+  bytes: Uint8Array;
+  points: number;
+  /** Points that the whole frame has. */
+  expectedPoints: number;
+}
+
+export interface AssemblerOptions {
+  /** Larger frames are refused. */
+  maxPoints: number;
+  /** How long an overtaken frame may wait for packets that overtook each other, ms. */
+  reorderMs: number;
+}
+
+interface OpenFrame {
+  readonly number: number;
+  readonly total: number;
+  readonly bytes: Uint8Array;
+  readonly seen: Uint8Array;
+  points: number;
+  /** When its last packet, or one of a later frame, was seen; null before that. */
+  overtakenMs: number | null;
+}
+
+/** Frames under way at once; more and the oldest is given out as it is. */
+const MAX_OPEN = 3;
+/** A frame number this far back is not late: the robot counts anew. */
+const RESTART_FRAMES = 300;
+
+/**
+ * A frame is given out in the moment it is complete. An incomplete one is given out when a later frame is complete, or
+ * `reorderMs` after its last packet or any of a later frame has come.
+ */
+export class FrameAssembler {
+  readonly drops: Partial<Record<AssemblyDrop, number>> = {};
+  framesComplete = 0;
+  framesPartial = 0;
+  readonly #options: AssemblerOptions;
+  readonly #emit: (frame: AssembledFrame) => void;
+  readonly #header = emptyPointPacketHeader();
+  /** In order of their numbers. */
+  readonly #open: OpenFrame[] = [];
+  #lastGiven: number | null = null;
+
+  constructor(options: AssemblerOptions, emit: (frame: AssembledFrame) => void) {
+    this.#options = options;
+    this.#emit = emit;
+  }
+
+  /** @param payload an RTP payload: header, block, anything after it @returns why it adds nothing, or `null` */
+  accept(payload: Uint8Array, nowMs: number): AssemblyDrop | null {
+    const drop = this.#accept(payload, nowMs);
+    if (drop !== null) this.drops[drop] = (this.drops[drop] ?? 0) + 1;
+    return drop;
+  }
+
+  /** When {@link expire} has something to do, or `null`. */
+  get nextDueMs(): number | null {
+    let due: number | null = null;
+    for (const { overtakenMs } of this.#open) {
+      if (overtakenMs !== null && (due === null || overtakenMs < due)) due = overtakenMs;
+    }
+    return due === null ? null : due + this.#options.reorderMs;
+  }
+
+  /** Gives out what has waited long enough. */
+  expire(nowMs: number): void {
+    const last = this.#open.findLastIndex(
+      ({ overtakenMs }) => overtakenMs !== null && nowMs - overtakenMs >= this.#options.reorderMs,
+    );
+    this.#giveOut(last + 1);
+  }
+
+  /** Forgets frames under way, as when another robot is chosen. */
+  clear(): void {
+    this.#open.length = 0;
+  }
+
+  #accept(payload: Uint8Array, nowMs: number): AssemblyDrop | null {
+    const header = this.#header;
+    const fault = readPointPacketHeader(
+      new DataView(payload.buffer, payload.byteOffset, payload.byteLength),
+      header,
+    );
+    if (fault !== null) return fault;
+    const total = header.frameLength / BYTES_PER_POINT;
+    if (total > this.#options.maxPoints) return 'too-many-points';
+    const number = header.frameNumber;
+    if (this.#lastGiven !== null) {
+      const ahead = sequenceDelta32(number, this.#lastGiven);
+      if (ahead <= -RESTART_FRAMES) {
+        this.#open.length = 0;
+        this.#lastGiven = null;
+      } else if (ahead <= 0) return 'late';
+    }
+    const frame = this.#frame(number, total);
+    if (frame === null) return 'inconsistent';
+    const first = header.sequenceOffset / BYTES_PER_POINT;
+    const count = header.sequenceLength / BYTES_PER_POINT;
+    const { seen, bytes } = frame;
+    for (let i = first; i < first + count; i++) if (seen[i] !== 0) return 'duplicate';
+    seen.fill(1, first, first + count);
+    const from = POINT_PACKET_HEADER_BYTES;
+    bytes.set(payload.subarray(from, from + 6 * count), 6 * first);
+    bytes.set(payload.subarray(from + 6 * count, from + 8 * count), 6 * total + 2 * first);
+    frame.points += count;
+    const isLast = first + count === total;
+    for (const other of this.#open) {
+      const overtaken = other === frame ? isLast : sequenceDelta32(number, other.number) > 0;
+      if (overtaken) other.overtakenMs ??= nowMs;
+    }
+    if (frame.points === total) this.#giveOut(this.#open.indexOf(frame) + 1);
+    else if (this.#open.length > MAX_OPEN) this.#giveOut(this.#open.length - MAX_OPEN);
+    return null;
+  }
+
+  /** @returns `null` where the frame has another length */
+  #frame(number: number, total: number): OpenFrame | null {
+    let at = this.#open.length;
+    while (at > 0) {
+      const before = this.#open[at - 1] as OpenFrame;
+      const ahead = sequenceDelta32(number, before.number);
+      if (ahead === 0) return before.total === total ? before : null;
+      if (ahead > 0) break;
+      at--;
+    }
+    const frame: OpenFrame = {
+      number,
+      total,
+      bytes: new Uint8Array(total * BYTES_PER_POINT),
+      seen: new Uint8Array(total),
+      points: 0,
+      overtakenMs: null,
+    };
+    this.#open.splice(at, 0, frame);
+    return frame;
+  }
+
+  #giveOut(count: number): void {
+    for (const frame of this.#open.splice(0, count)) {
+      this.#lastGiven = frame.number;
+      // Nothing came but what was refused.
+      if (frame.points === 0) continue;
+      const isWhole = frame.points === frame.total;
+      if (isWhole) this.framesComplete++;
+      else this.framesPartial++;
+      this.#emit({
+        frameNumber: frame.number,
+        bytes: isWhole ? frame.bytes : compact(frame),
+        points: frame.points,
+        expectedPoints: frame.total,
+      });
+    }
+  }
+}
+
+/** The points that came, without gaps, in their order. */
+function compact({ bytes, seen, points, total }: OpenFrame): Uint8Array {
+  const out = new Uint8Array(points * BYTES_PER_POINT);
+  let to = 0;
+  for (let from = 0; from < total; ) {
+    if (seen[from] === 0) {
+      from++;
+      continue;
+    }
+    let end = from;
+    while (end < total && seen[end] !== 0) end++;
+    out.set(bytes.subarray(6 * from, 6 * end), 6 * to);
+    out.set(bytes.subarray(6 * total + 2 * from, 6 * total + 2 * end), 6 * points + 2 * to);
+    to += end - from;
+    from = end;
+  }
+  return out;
+}

@@ -1,0 +1,15 @@
+#!/usr/bin/env node
+import { runProgram } from '@farpoint/service';
+import { Bridge } from './bridge.ts';
+import { registerBridgeMetrics } from './metrics.ts';
+import { program, toBridgeOptions } from './options.ts';
+
+await runProgram(program, async ({ options, log, health, metrics, shutdown, serveAdmin }) => {
+  const bridge = await Bridge.open(toBridgeOptions(options), log, () => performance.now());
+  shutdown.onClose('bridge', () => bridge.close());
+  log.info({ host: options.host, ...bridge.ports }, 'listening for a page');
+  registerBridgeMetrics(metrics, bridge);
+  health.add('signaling', () => ({ ok: true, detail: { connected: bridge.signalingOpen } }));
+  health.add('robots', () => ({ ok: true, detail: { known: bridge.robots } }));
+  await serveAdmin({ host: options.adminHost, port: options.adminPort });
+});

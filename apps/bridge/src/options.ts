@@ -1,0 +1,80 @@
+import { adminOptions, defineOption, defineProgram, type OptionValues, schema } from '@farpoint/service';
+import * as z from 'zod';
+import type { BridgeOptions } from './bridge.ts';
+
+const bits = schema.number({ min: 10_000, max: 2_000_000_000 });
+
+function port(usual: number, help: string) {
+  return defineOption({
+    schema: schema.port(),
+    default: usual,
+    argument: 'PORT',
+    help: `${help}; 0 takes a free one`,
+  });
+}
+
+export const program = defineProgram({
+  name: 'farpoint-bridge',
+  summary:
+    "The reference system's headset-side bridge: its robots by WebRTC, its web page by local WebSockets.",
+  version: '0.1.0',
+  section: 'bridge',
+  options: {
+    signaling: defineOption({
+      schema: z.url({ protocol: /^wss?$/, error: 'must be a ws:// or wss:// address' }),
+      default: 'ws://127.0.0.1:3002',
+      argument: 'URL',
+      help: 'client port of the signaling service; a page may name another',
+    }),
+    host: defineOption({
+      schema: schema.text(),
+      default: '127.0.0.1',
+      argument: 'ADDRESS',
+      help: "address for the page's sockets; other than loopback lets others drive",
+    }),
+    controlPort: port(8085, 'choice of robots'),
+    telemetryPort: port(8090, 'commands'),
+    streamingPort: port(8095, 'frames'),
+    allowedOrigins: defineOption({
+      schema: schema.list(schema.text()),
+      default: [],
+      argument: 'ORIGIN,…',
+      help: 'web pages that may connect, besides those served from this machine',
+    }),
+    maxRobots: defineOption({
+      schema: schema.integer({ min: 1, max: 1000 }),
+      default: 100,
+      argument: 'N',
+      help: 'robots connected at once',
+    }),
+    maxPoints: defineOption({
+      schema: schema.integer({ min: 150, max: 4_194_304 }),
+      default: 500_000,
+      argument: 'N',
+      help: 'larger frames are refused',
+    }),
+    reorderMs: defineOption({
+      schema: schema.number({ min: 0, max: 1000 }),
+      default: 20,
+      argument: 'MS',
+      help: 'how long an incomplete frame waits for packets that were overtaken',
+    }),
+    startBitsPerSecond: defineOption({
+      schema: bits,
+      default: 10_000_000,
+      argument: 'BPS',
+      help: 'what a robot is first told it may send',
+    }),
+    maxBitsPerSecond: defineOption({
+      schema: bits,
+      default: 100_000_000,
+      argument: 'BPS',
+      help: 'the most it is ever told',
+    }),
+    ...adminOptions(9600),
+  },
+});
+
+export function toBridgeOptions(options: OptionValues<typeof program.options>): BridgeOptions {
+  return options;
+}

@@ -1,0 +1,213 @@
+/** One robot's WebRTC connection. Whatever it sends or fails at concerns nobody but itself. */
+import { Buffer } from 'node:buffer';
+import { RateMeter } from '@farpoint/congestion';
+import { encodeBandwidth, encodeJsonBytes, referenceControlCodec, type Twist } from '@farpoint/protocol';
+import {
+  type RTCDataChannel,
+  RTCPeerConnection,
+  RTCRtpCodecParameters,
+  useTransportWideCC,
+  useTWCC,
+} from 'werift';
+import { type AssembledFrame, FrameAssembler } from './frame-assembler.ts';
+import { ReceiverLimit } from './receiver-limit.ts';
+
+export interface RobotConnectionOptions {
+  maxPoints: number;
+  reorderMs: number;
+  startBitsPerSecond: number;
+  maxBitsPerSecond: number;
+  now: () => number;
+}
+
+export interface RobotConnectionEvents {
+  onCandidate: (candidate: string) => void;
+  /** @param lastPacketMs when the last of its packets came */
+  onFrame: (frame: AssembledFrame, lastPacketMs: number) => void;
+  /** The word channel is open: it may be told whether to stream. */
+  onReady: () => void;
+  onFailed: (detail: string) => void;
+}
+
+/** Why a command was not passed on. */
+export type CommandDrop = 'channel-not-open' | 'backlog';
+
+/** A command that would wait behind others is worse than none. */
+const MAX_COMMAND_BACKLOG = 4096;
+const MAX_REPORT_BACKLOG = 4096;
+const MAX_PENDING_CANDIDATES = 64;
+/** IP, UDP, RTP and SRTP of one packet, bytes. */
+const OVERHEAD_BYTES = 64;
+
+export class RobotConnection {
+  readonly assembler: FrameAssembler;
+  packets = 0;
+  /** Packets of a robot that is not shown. */
+  packetsIgnored = 0;
+  candidatesRefused = 0;
+  /** Frames are put together only while it is shown. */
+  shown = false;
+  readonly #options: RobotConnectionOptions;
+  readonly #events: RobotConnectionEvents;
+  readonly #connection: RTCPeerConnection;
+  readonly #limit: ReceiverLimit;
+  readonly #received = new RateMeter();
+  readonly #words: RTCDataChannel;
+  readonly #bandwidth: RTCDataChannel;
+  #control: RTCDataChannel | null = null;
+  #described = false;
+  #closed = false;
+  #candidates: string[] = [];
+  #bytes = 0;
+  #lastPacketMs = 0;
+  #timer: NodeJS.Timeout | null = null;
+
+  constructor(options: RobotConnectionOptions, events: RobotConnectionEvents) {
+    this.#options = options;
+    this.#events = events;
+    this.#limit = new ReceiverLimit(options);
+    this.assembler = new FrameAssembler(options, (frame) => this.#onFrame(frame));
+    const connection = new RTCPeerConnection({
+      iceServers: [],
+      bundlePolicy: 'max-bundle',
+      codecs: {
+        video: [
+          new RTCRtpCodecParameters({
+            mimeType: 'video/pcm',
+            clockRate: 90_000,
+            payloadType: 5,
+            rtcpFeedback: [useTWCC()],
+          }),
+        ],
+      },
+      headerExtensions: { video: [useTransportWideCC()] },
+    });
+    this.#connection = connection;
+    connection.onIceCandidate.subscribe((candidate) => {
+      if (candidate !== undefined && !this.#closed) events.onCandidate(candidate.toJSON().candidate);
+    });
+    connection.connectionStateChange.subscribe((state) => {
+      if (state === 'failed') this.#fail('the connection failed');
+    });
+    connection.onTrack.subscribe((track) => {
+      track.onReceiveRtp.subscribe(({ payload }) => this.#onPayload(payload));
+    });
+    connection.onDataChannel.subscribe((channel) => {
+      if (channel.label === 'controltrack' && this.#control === null) this.#control = channel;
+    });
+    this.#bandwidth = connection.createDataChannel('bandwidth', { ordered: true });
+    this.#words = connection.createDataChannel('controltrack', { ordered: true, maxRetransmits: 30 });
+    this.#words.stateChanged.subscribe((state) => {
+      if (state === 'open' && !this.#closed) events.onReady();
+    });
+  }
+
+  /** Also for a renegotiation. @returns the SDP answer, or `null` where the offer cannot be used: it has failed then */
+  async answer(offer: string): Promise<string | null> {
+    try {
+      await this.#connection.setRemoteDescription({ type: 'offer', sdp: offer });
+      const answer = await this.#connection.createAnswer();
+      // Resolves only when every candidate is gathered; they follow one by one.
+      this.#connection.setLocalDescription(answer).catch((error: unknown) => this.#fail(textOf(error)));
+      this.#described = true;
+      for (const candidate of this.#candidates.splice(0)) void this.addCandidate(candidate);
+      return this.#closed ? null : answer.sdp;
+    } catch (error) {
+      this.#fail(textOf(error));
+      return null;
+    }
+  }
+
+  /** Never throws: one that cannot be used is counted, others may do. */
+  async addCandidate(candidate: string): Promise<void> {
+    if (this.#closed) return;
+    if (!this.#described) {
+      this.#candidates.push(candidate);
+      if (this.#candidates.length > MAX_PENDING_CANDIDATES) this.#candidates.shift();
+      return;
+    }
+    try {
+      await this.#connection.addIceCandidate({ candidate, sdpMLineIndex: 0 });
+    } catch {
+      this.candidatesRefused++;
+    }
+  }
+
+  /** Does nothing before the channel is open: `onReady` tells when. */
+  tell(word: 'start' | 'stop'): void {
+    this.#send(this.#words, word);
+  }
+
+  /** @returns why it was dropped, or `null` */
+  command(twist: Twist): CommandDrop | null {
+    const channel = this.#control;
+    if (channel === null || channel.readyState !== 'open') return 'channel-not-open';
+    if (channel.bufferedAmount > MAX_COMMAND_BACKLOG) return 'backlog';
+    this.#send(channel, Buffer.from(encodeJsonBytes(referenceControlCodec, twist)));
+    return null;
+  }
+
+  close(): void {
+    if (this.#closed) return;
+    this.#closed = true;
+    if (this.#timer !== null) clearTimeout(this.#timer);
+    this.assembler.clear();
+    this.#connection.close().catch(() => undefined);
+  }
+
+  #onPayload(payload: Uint8Array): void {
+    if (this.#closed) return;
+    this.packets++;
+    if (!this.shown) {
+      this.packetsIgnored++;
+      return;
+    }
+    const nowMs = this.#options.now();
+    this.#bytes += payload.byteLength + OVERHEAD_BYTES;
+    this.#lastPacketMs = nowMs;
+    this.assembler.accept(payload, nowMs);
+    this.#arm();
+  }
+
+  #arm(): void {
+    const due = this.assembler.nextDueMs;
+    if (due === null || this.#timer !== null) return;
+    this.#timer = setTimeout(
+      () => {
+        this.#timer = null;
+        this.assembler.expire(this.#options.now());
+        this.#arm();
+      },
+      Math.max(0, due - this.#options.now()),
+    );
+  }
+
+  #onFrame(frame: AssembledFrame): void {
+    this.#events.onFrame(frame, this.#lastPacketMs);
+    this.#received.update(this.#bytes, this.#options.now());
+    const lossRate = 1 - frame.points / frame.expectedPoints;
+    const limit = this.#limit.onFrame(lossRate, this.#received.perSecond * 8);
+    if (this.#bandwidth.bufferedAmount <= MAX_REPORT_BACKLOG) {
+      this.#send(this.#bandwidth, Buffer.from(encodeBandwidth(limit)));
+    }
+  }
+
+  #send(channel: RTCDataChannel, data: string | Buffer): void {
+    if (this.#closed || channel.readyState !== 'open') return;
+    try {
+      channel.send(data);
+    } catch (error) {
+      this.#fail(textOf(error));
+    }
+  }
+
+  #fail(detail: string): void {
+    if (this.#closed) return;
+    this.close();
+    this.#events.onFailed(detail);
+  }
+}
+
+function textOf(error: unknown): string {
+  return (error instanceof Error ? error.message : String(error)).slice(0, 300);
+}
