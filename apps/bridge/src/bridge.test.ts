@@ -137,3 +137,33 @@ it('refuses pages of other origins', async () => {
   await expect(page(made.ports.telemetry, 'https://evil.example')).rejects.toThrow('401');
   await page(made.ports.telemetry, 'http://localhost:5173');
 });
+
+it('keeps showing its robot while 50 others come at once, half of them with offers that are none, and go', async () => {
+  const shown = await robot('shown');
+  const made = await bridge();
+  const streaming = await page(made.ports.streaming);
+  await shown.heard('start');
+  const others = Array.from({ length: 50 }, (_, i) => {
+    const socket = new WebSocket(`ws://127.0.0.1:${stack.ports.referenceRobot}`);
+    cleanups.push(() => socket.terminate());
+    const sdpOffer = i % 2 === 0 ? 'v=0\r\nm=nonsense' : shown.offer;
+    socket.on('open', () => socket.send(JSON.stringify({ type: 'register', name: `other ${i}`, sdpOffer })));
+    return socket;
+  });
+  const control = await page(made.ports.control);
+  const until = async (count: number) => {
+    control.send({ type: 'updateRobots' });
+    await control.next((data) => {
+      const message = JSON.parse(data.toString());
+      return message.type === 'updateRobots' && message.robots?.length === count && made.robotsFailed >= 25;
+    });
+  };
+  await until(26);
+  shown.sendFrame(frame(0, 7));
+  expect(markOf(await streaming.next(() => true))).toBe(7);
+  for (const socket of others) socket.terminate();
+  await until(1);
+  shown.sendFrame(frame(1, 8));
+  expect(markOf(await streaming.next(() => true))).toBe(8);
+  expect(made.robots).toBe(1);
+}, 30_000);

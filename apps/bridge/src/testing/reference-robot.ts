@@ -56,6 +56,11 @@ export class ReferenceRobot {
     });
   }
 
+  /** Its offer, for others to claim. */
+  get offer(): string {
+    return this.#connection.localDescription?.sdp ?? '';
+  }
+
   static async register(url: string, name: string): Promise<ReferenceRobot> {
     const robot = new ReferenceRobot(url);
     const connection = robot.#connection;
