@@ -10,6 +10,7 @@ import {
   useTWCC,
 } from 'werift';
 import { type AssembledFrame, FrameAssembler } from './frame-assembler.ts';
+import { prepareSockets } from './ice-sockets.ts';
 import { ReceiverLimit } from './receiver-limit.ts';
 
 export interface RobotConnectionOptions {
@@ -84,7 +85,9 @@ export class RobotConnection {
     });
     this.#connection = connection;
     connection.onIceCandidate.subscribe((candidate) => {
-      if (candidate !== undefined && !this.#closed) events.onCandidate(candidate.toJSON().candidate);
+      if (candidate === undefined || this.#closed) return;
+      prepareSockets(connection);
+      events.onCandidate(candidate.toJSON().candidate);
     });
     connection.connectionStateChange.subscribe((state) => {
       if (state === 'failed') this.#fail('the connection failed');

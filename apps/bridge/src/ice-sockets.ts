@@ -1,0 +1,37 @@
+/** The UDP sockets below a werift connection, which it keeps to itself. */
+import type { RTCPeerConnection } from 'werift';
+
+interface UdpSocketShape {
+  on(event: 'error', listener: () => void): unknown;
+  setRecvBufferSize(bytes: number): void;
+}
+
+interface IceShape {
+  protocols?: { transport?: { socket?: Partial<UdpSocketShape> } }[];
+}
+
+/** As a browser has it; the system may give less. A frame of 100,000 points is 0.8 MB. */
+const RECEIVE_BUFFER_BYTES = 2 * 1024 * 1024;
+
+const prepared = new WeakSet<object>();
+
+/**
+ * Gives each socket room for bursts, and a listener for errors: without one a network that goes away would end the
+ * process. Call it whenever there may be new ones.
+ */
+export function prepareSockets(connection: RTCPeerConnection): void {
+  for (const transport of connection.iceTransports) {
+    const { protocols = [] } = transport.connection as unknown as IceShape;
+    for (const { transport: udp } of protocols) {
+      const socket = udp?.socket;
+      if (socket === undefined || typeof socket.on !== 'function' || prepared.has(socket)) continue;
+      prepared.add(socket);
+      socket.on('error', () => undefined);
+      try {
+        socket.setRecvBufferSize?.(RECEIVE_BUFFER_BYTES);
+      } catch {
+        // Not bound yet, or TCP: it does without.
+      }
+    }
+  }
+}
