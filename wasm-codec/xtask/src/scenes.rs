@@ -24,6 +24,7 @@ impl Random {
     }
 
     /// Mean 0, deviation 1, near enough normal.
+    #[allow(clippy::approx_constant, reason = "another last digit would train other tables")]
     pub fn normal(&mut self) -> f32 {
         (0..6).map(|_| self.uniform()).sum::<f32>() * 1.414_2 - 4.242_6
     }
@@ -207,10 +208,10 @@ pub fn frame(seed: u64, sensor: &Sensor) -> Vec<Point> {
             let ray = [x, c * y + s, -s * y + c];
             let mut best: Option<(f32, [f32; 3], usize)> = None;
             for (i, shape) in shapes.iter().enumerate() {
-                if let Some((t, normal)) = shape.hit([0.0, -0.2, 0.0], ray, i == 0) {
-                    if best.is_none_or(|(nearest, ..)| t < nearest) {
-                        best = Some((t, normal, i));
-                    }
+                if let Some((t, normal)) = shape.hit([0.0, -0.2, 0.0], ray, i == 0)
+                    && best.is_none_or(|(nearest, ..)| t < nearest)
+                {
+                    best = Some((t, normal, i));
                 }
             }
             let Some((t, normal, shape)) = best else { continue };

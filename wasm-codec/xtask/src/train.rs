@@ -44,7 +44,7 @@ pub fn train(seed: u64) -> Vec<u8> {
             dots = 0.6 * dots + 0.4 * random.normal();
             let light = if index % 2 == 0 { (1.0 + 1.6 * dots).clamp(0.1, 3.0) } else { 1.0 };
             let level = (((point[3].to_bits() >> 8 & 255) as f32 * light) as u32).min(255);
-            point[3] = f32::from_bits(level * 0x01_0101 | 0xff00_0000);
+            point[3] = f32::from_bits((level * 0x01_0101) | 0xff00_0000);
         }
         let settings = Settings { mode: ColourMode::Palette, ..Settings::default() };
         colour_samples.push(count(&grey, &sensor, &settings, 0).1);

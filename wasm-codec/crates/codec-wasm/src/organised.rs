@@ -2,8 +2,8 @@
 
 use farpoint_organised_codec::stream::{DEPTH_UNIT, MAX_PACKET_BYTES};
 use farpoint_organised_codec::{
-    Budget, ColourMode, Decoder, Encoder, Frame, HeaderError, Intrinsics, Misfit, PacketError, Point, Settings,
-    Source, StreamHeader, Validity, check_grid, estimate_intrinsics, with_palette,
+    Budget, ColourMode, Decoder, Encoder, Frame, HeaderError, Intrinsics, Misfit, PacketError, Point,
+    Settings, Source, StreamHeader, Validity, check_grid, estimate_intrinsics, with_palette,
 };
 use wasm_bindgen::prelude::*;
 use wide::f32x4;
@@ -32,7 +32,12 @@ pub struct OrganisedEncoder {
 impl OrganisedEncoder {
     /// For frames of `width` × `height` pixels; a packet begins `data_offset` bytes into each `stride` bytes. `undefined`
     /// where a packet does not fit into a slot or an image has no pixels.
-    pub fn create(width: usize, height: usize, stride: usize, data_offset: usize) -> Option<OrganisedEncoder> {
+    pub fn create(
+        width: usize,
+        height: usize,
+        stride: usize,
+        data_offset: usize,
+    ) -> Option<OrganisedEncoder> {
         let fits = data_offset.checked_add(MAX_PACKET_BYTES).is_some_and(|end| end <= stride);
         if !fits || width == 0 || height == 0 || width > 4080 || height > 4080 {
             return None;
@@ -121,8 +126,20 @@ impl OrganisedEncoder {
 
     /// Begins a stream and returns its header: empty where a value is outside its range. With `palette`, the frame's colours
     /// become the palette; empty where they are too many.
-    #[allow(clippy::too_many_arguments, reason = "numbers cross this border without an allocation, objects do not")]
-    pub fn begin(&mut self, id: u8, fx: f32, fy: f32, cx: f32, cy: f32, palette: bool, images: bool) -> Vec<u8> {
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "numbers cross this border without an allocation, objects do not"
+    )]
+    pub fn begin(
+        &mut self,
+        id: u8,
+        fx: f32,
+        fy: f32,
+        cx: f32,
+        cy: f32,
+        palette: bool,
+        images: bool,
+    ) -> Vec<u8> {
         let mut header = StreamHeader {
             id,
             width: self.width as u16,
@@ -158,7 +175,10 @@ impl OrganisedEncoder {
 
     /// Codes the frame with fixed settings. `mode`: 0 no colour, 1 chroma subsampled, 2 full chroma, 3 palette. `density`: of
     /// the nearest points' pixels, 1 or more to keep all of those; 0 for no thinning. False before `begin`.
-    #[allow(clippy::too_many_arguments, reason = "numbers cross this border without an allocation, objects do not")]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "numbers cross this border without an allocation, objects do not"
+    )]
     pub fn encode(
         &mut self,
         images: bool,
@@ -197,7 +217,10 @@ impl OrganisedEncoder {
     }
 
     /// Codes the frame in at most so many bytes. False before `begin`.
-    #[allow(clippy::too_many_arguments, reason = "numbers cross this border without an allocation, objects do not")]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "numbers cross this border without an allocation, objects do not"
+    )]
     pub fn encode_within(
         &mut self,
         images: bool,
@@ -219,13 +242,22 @@ impl OrganisedEncoder {
         spent.is_some()
     }
 
-    fn finish(&mut self, encoder: Encoder, frame: &Frame, settings: &Settings, dropped: usize, passes: usize) {
+    fn finish(
+        &mut self,
+        encoder: Encoder,
+        frame: &Frame,
+        settings: &Settings,
+        dropped: usize,
+        passes: usize,
+    ) {
         let packets = encoder.packets();
         if self.slots.len() < packets.len() * self.stride {
             self.slots.resize(packets.len() * self.stride, 0);
         }
         self.lengths.clear();
-        for (index, (packet, slot)) in packets.iter().zip(self.slots.chunks_exact_mut(self.stride)).enumerate() {
+        for (index, (packet, slot)) in
+            packets.iter().zip(self.slots.chunks_exact_mut(self.stride)).enumerate()
+        {
             slot[self.data_offset..][..packet.length].copy_from_slice(encoder.packet(index));
             self.lengths.extend([packet.length as u32, packet.points as u32]);
         }

@@ -277,7 +277,7 @@ impl Encoder {
         for index in 0..tiles {
             // Every column of the image has its turn.
             let run = index / per_packet;
-            if step > 1 && (run + run / step) % step != 0 {
+            if step > 1 && !(run + run / step).is_multiple_of(step) {
                 continue;
             }
             if index % per_packet == 0 {
@@ -427,14 +427,14 @@ fn transform_blocks(rgba: &[u32; TILE * TILE], tile: &mut Tile, settings: &Setti
         }
     }
     let mut index = 0;
-    for plane in 0..3 {
+    for (plane, pixels) in planes.iter().enumerate() {
         let (columns, rows) = settings.mode.blocks(tile.pattern, plane);
         let step = plane_step(settings.quality.into(), plane, subsampled);
         for by in 0..rows {
             for bx in 0..columns {
                 let block: [f32x8; 8] = core::array::from_fn(|y| {
                     let at = (by * 8 + y) * TILE + bx * 8;
-                    let row: [i32; 8] = *planes[plane][at..at + 8].first_chunk().expect("eight pixels");
+                    let row: [i32; 8] = *pixels[at..at + 8].first_chunk().expect("eight pixels");
                     f32x8::from_i32x8(i32x8::from(row))
                 });
                 quantise(&forward(&block), step, &mut tile.blocks[index]);

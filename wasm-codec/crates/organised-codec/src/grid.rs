@@ -120,10 +120,10 @@ fn fit(points: &[Point], pixel: impl Fn(usize) -> usize, axis: usize) -> Result<
         let mut count = 0_usize;
         for (i, point) in points.iter().enumerate().filter(|(_, point)| is_seen(point)) {
             let (at, ray) = (pixel(i) as f64, f64::from(point[axis]) / f64::from(point[2]));
-            if let Some((slope, start)) = line {
-                if beside(ray, at, slope, start) > limit {
-                    continue;
-                }
+            if let Some((slope, start)) = line
+                && beside(ray, at, slope, start) > limit
+            {
+                continue;
             }
             let weight = f64::from(point[2].min(10.0)).powi(2);
             count += 1;

@@ -47,8 +47,8 @@ impl Source<'_> {
             Self::Points(points) => {
                 let four: &[Point; 4] = points[at..at + 4].first_chunk().expect("four points");
                 let [x, y, z, c] = f32x4::transpose(four.map(f32x4::from));
-                // 0 where both are finite, NaN otherwise.
-                let doubt = (x - x) + (y - y);
+                // Zero where both are finite, NaN otherwise.
+                let doubt = x * 0.0 + y * 0.0;
                 (z + doubt, must_cast(c))
             }
             Self::Images { depth, colour } => {
@@ -71,7 +71,7 @@ impl Source<'_> {
         match self {
             Self::Points(points) => {
                 let [x, y, z, c] = points[at];
-                let doubt = (x - x) + (y - y);
+                let doubt = x * 0.0 + y * 0.0;
                 (z + doubt, c.to_bits())
             }
             Self::Images { depth, colour } => (depth[at], colour[at]),

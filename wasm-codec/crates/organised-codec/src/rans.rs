@@ -50,7 +50,7 @@ impl EncoderSymbol {
             return Self { reciprocal: u32::MAX, bias, frequency: frequency as u16, shift: 0 };
         }
         let shift = 32 - (frequency - 1).leading_zeros();
-        let reciprocal = ((1u64 << (shift + 31)) + u64::from(frequency) - 1) / u64::from(frequency);
+        let reciprocal = (1u64 << (shift + 31)).div_ceil(u64::from(frequency));
         Self {
             reciprocal: reciprocal as u32,
             bias: start as u16,

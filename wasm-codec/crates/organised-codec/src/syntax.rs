@@ -294,10 +294,10 @@ fn code_plane<C: Coder, const INDICES: bool>(
 /// The first valid pixel's value where there is no neighbour to predict it from.
 fn code_anchor<C: Coder>(coder: &mut C, plane: &Plane, shape: &Shape) -> i32 {
     let mut value = 1;
-    if !C::DECODES {
-        if let Some(y) = shape.rows.iter().position(|row| *row != 0) {
-            value = plane[Tile::at(shape.rows[y].trailing_zeros() as usize, y)] as u32;
-        }
+    if !C::DECODES
+        && let Some(y) = shape.rows.iter().position(|row| *row != 0)
+    {
+        value = plane[Tile::at(shape.rows[y].trailing_zeros() as usize, y)] as u32;
     }
     let low = coder.raw(8, value & 255);
     ((coder.raw(8, value >> 8) << 8 | low) as i32).max(1)

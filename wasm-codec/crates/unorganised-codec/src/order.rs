@@ -39,14 +39,15 @@ pub fn is_ordered(points: &[GridPoint]) -> bool {
 
 /// Least and greatest coordinates.
 pub fn bounds(points: &[GridPoint]) -> [[i32; 3]; 2] {
-    let mut bounds = [[i32::MAX; 3], [i32::MIN; 3]];
+    let mut least = [i32::MAX; 3];
+    let mut greatest = [i32::MIN; 3];
     for point in points {
-        for axis in 0..3 {
-            bounds[0][axis] = bounds[0][axis].min(point.at[axis]);
-            bounds[1][axis] = bounds[1][axis].max(point.at[axis]);
+        for ((least, greatest), at) in least.iter_mut().zip(&mut greatest).zip(point.at) {
+            *least = at.min(*least);
+            *greatest = at.max(*greatest);
         }
     }
-    bounds
+    [least, greatest]
 }
 
 /// Sorts and their memory.

@@ -79,7 +79,7 @@ fn cost(frequency: u16) -> u16 {
     let mut mantissa = u64::from(frequency) << (30 - exponent);
     let mut logarithm = exponent * 256;
     for bit in (0..8).rev() {
-        mantissa = mantissa * mantissa >> 30;
+        mantissa = (mantissa * mantissa) >> 30;
         if mantissa >= 1 << 31 {
             mantissa >>= 1;
             logarithm += 1 << bit;

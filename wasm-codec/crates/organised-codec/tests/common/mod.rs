@@ -51,7 +51,7 @@ pub fn frame(header: &StreamHeader, seed: u64, holes: f32, noise: f32, grey: boo
             }
             let level = ((x * 9.0).sin() * 60.0 + 120.0 + random.uniform() * 12.0) as u32;
             let rgba = if grey {
-                (level & 0xfc) * 0x01_0101 | 0xff00_0000
+                ((level & 0xfc) * 0x01_0101) | 0xff00_0000
             } else {
                 level | (level / 2 + 40) << 8 | (200 - level / 2) << 16 | 0xff00_0000
             };
