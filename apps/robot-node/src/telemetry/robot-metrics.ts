@@ -1,6 +1,7 @@
 import type { RateSnapshot } from '@farpoint/congestion';
 import { Counter, Gauge, type Registry } from '@farpoint/service';
 import type { Robot } from '../robot.ts';
+import type { StreamSender } from '../transport/stream-sender.ts';
 import type { ReasonCounts } from './robot-counters.ts';
 
 /** Puts the robot's counters on `/metrics`; they are read when somebody asks. */
@@ -40,11 +41,11 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
     });
   };
   /** Of every operator now or ever connected. */
-  const overOperators = (read: (sender: NonNullable<ReturnType<typeof senderOf>>) => number) => () =>
-    [...robot.operators.values()].reduce((total, operator) => {
-      const sender = senderOf(operator);
-      return sender === null ? total : total + read(sender);
-    }, 0);
+  const overOperators = (read: (sender: StreamSender) => number) => () =>
+    [...robot.operators.values()].reduce(
+      (total, { sender }) => (sender === null ? total : total + read(sender)),
+      0,
+    );
 
   sum('sessions_opened', 'Sessions that operators asked for', () => counters.sessionsOpened);
   sum('sessions_refused', 'Sessions refused: too many operators', () => counters.sessionsRefused);
@@ -124,12 +125,42 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
     },
   });
   gauge(
+    'packets_resent',
+    'Packets sent again because an operator connected now missed them',
+    overOperators((s) => s.counters.packetsResent),
+  );
+  const gaugeBy = (
+    name: string,
+    help: string,
+    read: (sender: StreamSender) => Readonly<Record<string, number>>,
+  ) => {
+    new Gauge({
+      name: `farpoint_robot_${name}`,
+      help,
+      labelNames: ['reason'],
+      registers: [registry],
+      collect() {
+        this.reset();
+        for (const { sender } of robot.operators.values()) {
+          if (sender === null) continue;
+          for (const [reason, count] of Object.entries(read(sender))) this.inc({ reason }, count);
+        }
+      },
+    });
+  };
+  gaugeBy(
+    'resends_refused',
+    'Missed packets that were not sent again, by reason, operators connected now',
+    (sender) => sender.resendRefusals,
+  );
+  gaugeBy(
+    'frames_dropped',
+    'Frames that were not sent, or not to their end, by reason, operators connected now',
+    (sender) => sender.droppedFrames,
+  );
+  gauge(
     'frames_superseded',
     'Frames not sent because a newer one came first, operators connected now',
     overOperators((s) => s.droppedFrames.superseded + s.droppedFrames.overdue),
   );
-}
-
-function senderOf(operator: { sender: import('../transport/stream-sender.ts').StreamSender | null }) {
-  return operator.sender;
 }

@@ -7,6 +7,7 @@ import {
   parseTransportFeedback,
   type RateController,
   type RateSnapshot,
+  type ResendRefusal,
   RTCP_TRANSPORT_FEEDBACK,
   readNack,
   TokenBucket,
@@ -120,6 +121,11 @@ export class StreamSender {
 
   get droppedFrames(): Readonly<Record<FrameDropReason, number>> {
     return this.#pacer.drops;
+  }
+
+  /** How often a missed packet was not sent again, by reason. */
+  get resendRefusals(): Readonly<Record<ResendRefusal, number>> {
+    return this.#transport.resendRefusals;
   }
 
   /** `null` also where too much is on its way already: feedback, or the next tick, will change that. */

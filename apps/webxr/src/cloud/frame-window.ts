@@ -47,8 +47,7 @@ export class FrameWindow {
   previousFrame: number | null = null;
   /** Which pose (0 or 1) the newest frame has; the previous frame has the other. */
   newestSlot = 0;
-  /** Points of the newest frame: arrived, and in the whole frame. */
-  newestArrived = 0;
+  /** Points of the newest frame, when it is whole. */
   newestTotal = 0;
   /** How far the newest frame has come, 0–1: the end of its furthest packet. */
   progress = 0;
@@ -84,7 +83,6 @@ export class FrameWindow {
     this.runCount = 0;
     this.newestFrame = null;
     this.previousFrame = null;
-    this.newestArrived = 0;
     this.newestTotal = 0;
     this.progress = 0;
     this.#firstEntry = 0;
@@ -151,7 +149,6 @@ export class FrameWindow {
     const end = (sequenceOffset + points * 8) / frameLength;
     this.#runPlace[this.runCount - 1] = end;
     if (!isPrevious) {
-      this.newestArrived += points;
       if (end > this.progress) {
         this.progress = end;
         this.#hideReplaced();
@@ -178,7 +175,6 @@ export class FrameWindow {
     this.previousFrame = this.newestFrame;
     this.newestFrame = frameNumber;
     this.newestSlot = oldSlot;
-    this.newestArrived = 0;
     this.newestTotal = frameLength / 8;
     this.progress = 0;
     this.#dropHiddenFront();
