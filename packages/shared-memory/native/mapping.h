@@ -1,0 +1,59 @@
+/* A file mapped into memory, shared by JavaScript's handle and the threads that watch or write it. */
+#ifndef FARPOINT_MAPPING_H
+#define FARPOINT_MAPPING_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "guard.h"
+
+struct mapping {
+  atomic_int references;
+  atomic_bool closed;
+  int fd;
+  bool writable;
+  uint8_t *base;
+  size_t bytes;
+};
+
+enum open_fault {
+  OPEN_OK,
+  /* `detail` is errno. */
+  OPEN_ERRNO,
+  OPEN_NOT_A_FILE,
+  /* Anybody may write it. */
+  OPEN_WORLD_WRITABLE,
+  /* `detail` is the size found. */
+  OPEN_WRONG_SIZE,
+};
+
+struct open_request {
+  const char *path;
+  bool writable;
+  /* Made where it is missing, and where `resize`, brought to `bytes`. */
+  bool create;
+  /* It must not be there yet. */
+  bool exclusive;
+  bool resize;
+  /* The size it must have; 0 takes any but 0. */
+  size_t bytes;
+  unsigned mode;
+};
+
+enum open_fault mapping_open(const struct open_request *request, struct mapping **out, int64_t *detail);
+struct mapping *mapping_retain(struct mapping *mapping);
+void mapping_release(struct mapping *mapping);
+
+/* Single aligned loads and stores; -1 or the offset of the fault. */
+int64_t mapping_load8(struct mapping *mapping, size_t offset, uint32_t *value);
+int64_t mapping_load32(struct mapping *mapping, size_t offset, uint32_t *value);
+int64_t mapping_store8(struct mapping *mapping, size_t offset, uint8_t value);
+int64_t mapping_store32(struct mapping *mapping, size_t offset, uint32_t value);
+int64_t mapping_copy_out(struct mapping *mapping, size_t offset, void *to, size_t bytes);
+int64_t mapping_copy_in(struct mapping *mapping, size_t offset, const void *from, size_t bytes);
+/* Wakes everybody who waits for the word to change. */
+void mapping_wake(struct mapping *mapping, size_t offset);
+
+#endif
