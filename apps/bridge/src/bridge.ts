@@ -6,17 +6,20 @@ import {
   ProtocolError,
   type ReferenceBridgeTelemetry,
   type ReferenceBridgeToPage,
+  type ReferenceClientToService,
   type ReferencePageToBridge,
   type ReferenceServiceToClient,
   referenceBridgeTelemetryCodec,
   referenceBridgeToPageCodec,
+  referenceClientToServiceCodec,
   referencePageToBridgeCodec,
+  referenceServiceToClientCodec,
 } from '@farpoint/protocol';
+import { MessageLine } from '@farpoint/reference-profile';
 import type { Logger } from '@farpoint/service';
 import { LocalSocketServer } from './local-socket-server.ts';
 import { RobotConnection, type RobotConnectionOptions } from './robot-connection.ts';
 import { RobotSelection } from './robot-selection.ts';
-import { SignalingLine } from './signaling-line.ts';
 
 export interface BridgeOptions extends Omit<RobotConnectionOptions, 'now'> {
   /** Client port of the signaling service; a page's initBridge names another. */
@@ -34,6 +37,8 @@ interface Robot {
   offer: string;
   connection: RobotConnection;
 }
+
+type SignalingLine = MessageLine<ReferenceServiceToClient, ReferenceClientToService>;
 
 const CONTROL_BACKLOG_BYTES = 1_048_576;
 /** A page that has not read the frame before is not sent another. */
@@ -137,10 +142,19 @@ export class Bridge {
   // Signaling
 
   #openLine(): SignalingLine {
-    return new SignalingLine(this.#url, {
-      onMessage: (message) => this.#onSignaling(message),
-      onDown: (detail) => this.#log.warn({ url: this.#url, detail }, 'no line to signaling'),
-    });
+    const line: SignalingLine = new MessageLine(
+      {
+        url: this.#url,
+        incoming: referenceServiceToClientCodec,
+        outgoing: referenceClientToServiceCodec,
+      },
+      {
+        onOpen: () => line.send({ type: 'getRobots' }),
+        onMessage: (message) => this.#onSignaling(message),
+        onDown: (detail) => this.#log.warn({ url: this.#url, detail }, 'no line to signaling'),
+      },
+    );
+    return line;
   }
 
   #onSignaling(message: ReferenceServiceToClient): void {

@@ -3,14 +3,12 @@ import { Buffer } from 'node:buffer';
 import { RateMeter } from '@farpoint/congestion';
 import { encodeBandwidth, encodeJsonBytes, referenceControlCodec, type Twist } from '@farpoint/protocol';
 import {
-  type RTCDataChannel,
-  RTCPeerConnection,
-  RTCRtpCodecParameters,
-  useTransportWideCC,
-  useTWCC,
-} from 'werift';
+  createReferencePeerConnection,
+  prepareSockets,
+  referenceChannels,
+} from '@farpoint/reference-profile';
+import type { RTCDataChannel, RTCPeerConnection } from 'werift';
 import { type AssembledFrame, FrameAssembler } from './frame-assembler.ts';
-import { prepareSockets } from './ice-sockets.ts';
 import { ReceiverLimit } from './receiver-limit.ts';
 
 export interface RobotConnectionOptions {
@@ -68,21 +66,7 @@ export class RobotConnection {
     this.#events = events;
     this.#limit = new ReceiverLimit(options);
     this.assembler = new FrameAssembler(options, (frame) => this.#onFrame(frame));
-    const connection = new RTCPeerConnection({
-      iceServers: [],
-      bundlePolicy: 'max-bundle',
-      codecs: {
-        video: [
-          new RTCRtpCodecParameters({
-            mimeType: 'video/pcm',
-            clockRate: 90_000,
-            payloadType: 5,
-            rtcpFeedback: [useTWCC()],
-          }),
-        ],
-      },
-      headerExtensions: { video: [useTransportWideCC()] },
-    });
+    const connection = createReferencePeerConnection();
     this.#connection = connection;
     connection.onIceCandidate.subscribe((candidate) => {
       if (candidate === undefined || this.#closed) return;
@@ -96,10 +80,15 @@ export class RobotConnection {
       track.onReceiveRtp.subscribe(({ payload }) => this.#onPayload(payload));
     });
     connection.onDataChannel.subscribe((channel) => {
-      if (channel.label === 'controltrack' && this.#control === null) this.#control = channel;
+      if (channel.label === referenceChannels.control.label && this.#control === null)
+        this.#control = channel;
     });
-    this.#bandwidth = connection.createDataChannel('bandwidth', { ordered: true });
-    this.#words = connection.createDataChannel('controltrack', { ordered: true, maxRetransmits: 30 });
+    const { bandwidth, words } = referenceChannels;
+    this.#bandwidth = connection.createDataChannel(bandwidth.label, { ordered: bandwidth.ordered });
+    this.#words = connection.createDataChannel(words.label, {
+      ordered: words.ordered,
+      maxRetransmits: words.maxRetransmits,
+    });
     this.#words.stateChanged.subscribe((state) => {
       if (state === 'open' && !this.#closed) events.onReady();
     });

@@ -182,6 +182,12 @@ const options = {
     argument: 'POLICY',
     help: 'may another operator take over: never, idle (where nothing has moved for 5 s), always',
   }),
+  referenceSignaling: defineOption({
+    schema: schema.optional(signalingUrlSchema),
+    default: null,
+    argument: 'URL',
+    help: 'also register at this robots’ port of the reference system’s signaling; who connects there may watch and drive without proving who it is',
+  }),
   maxOperators: defineOption({
     schema: schema.integer({ min: 1, max: 32 }),
     default: 4,
@@ -280,6 +286,7 @@ export function toRobotOptions(values: RobotOptionValues): RobotOptions {
     },
     limits,
     takePolicy: values.takePolicy,
+    referenceSignaling: values.referenceSignaling ?? undefined,
     bitsPerSecond: values.bitrateMbps * 1e6,
     rateControl: values.rateControl,
     startBitsPerSecond: values.startMbps * 1e6,

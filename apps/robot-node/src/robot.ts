@@ -14,6 +14,7 @@ import { Capture, type CaptureError, type CaptureState } from './capture/capture
 import type { CaptureOptions } from './capture/capture-messages.ts';
 import { monotonicMs, threadCpuMs } from './clock.ts';
 import { DriveStation } from './drive/drive-station.ts';
+import { ReferenceProfile } from './reference/reference-profile.ts';
 import { ConnectedOperator } from './session/connected-operator.ts';
 import { FrameFanOut } from './session/frame-fan-out.ts';
 import type { OperatorSession, SessionHost } from './session/operator-session.ts';
@@ -35,6 +36,8 @@ export interface RobotOptions {
   capture: CaptureOptions;
   limits: DriveLimits;
   takePolicy: TakePolicy;
+  /** Robots' port of a reference signaling service; its operators prove nothing of themselves. */
+  referenceSignaling?: string | undefined;
   /** The most a stream may take on the wire, bit/s. */
   bitsPerSecond: number;
   /** How the rate of a stream is found: `adaptive`, or always the most, halved on sustained loss. */
@@ -66,6 +69,8 @@ export class Robot implements SessionHost {
   readonly signaling: SignalingClient;
   readonly operators = new Map<string, ConnectedOperator>();
   readonly counters = new RobotCounters();
+  /** Its other face, to the reference system's operators; `null` where it has none. */
+  reference: ReferenceProfile | null = null;
   /** Called once, where the robot cannot go on. */
   onFailure: ((error: CaptureError) => void) | null = null;
   readonly #options: RobotOptions;
@@ -95,7 +100,7 @@ export class Robot implements SessionHost {
     this.#telemetry = new TelemetrySender(this.operators, guard, stages);
     this.#fanOut = new FrameFanOut({
       capture,
-      operators: this.operators,
+      targets: () => [...this.operators.values(), ...(this.reference?.targets ?? [])],
       sendLoop: this.#sendLoop,
       driver: () => guard.leaseHolder,
       counters: this.counters,
@@ -149,6 +154,7 @@ export class Robot implements SessionHost {
     log.info({ source: capture.description }, 'source open');
     const robot = new Robot(capture, options, log);
     robot.signaling.start();
+    if (options.referenceSignaling !== undefined) robot.#startReference(options.referenceSignaling);
     return robot;
   }
 
@@ -161,6 +167,7 @@ export class Robot implements SessionHost {
       this.signaling.send({ type: 'session.close', session: operator.session.id });
       operator.peer.close('closed', 'the robot is shutting down');
     }
+    this.reference?.close();
     this.drive.close();
     this.#sendLoop.close();
     await this.signaling.close();
@@ -189,6 +196,10 @@ export class Robot implements SessionHost {
   latencyTestRequested(session: OperatorSession, id: number, commandMs: number): void {
     const isNew = this.operators.get(session.id)?.askLatencyTest({ id, commandMs }) ?? false;
     if (isNew) this.capture.requestLatencyTest();
+  }
+
+  requestLatencyFrame(): void {
+    this.capture.requestLatencyTest();
   }
 
   commandAccepted(): void {
@@ -296,6 +307,24 @@ export class Robot implements SessionHost {
     }
   }
 
+  #startReference(url: string): void {
+    const { name, signaling, connectTimeoutMs, portRange, icePolicy, iceServers } = this.#options;
+    this.reference = new ReferenceProfile(
+      {
+        url,
+        ca: signaling.ca,
+        name,
+        peer: { iceServers, portRange, icePolicy, connectTimeoutMs },
+        makeController: () => this.#makeController(),
+        packetLog: this.#packetLog,
+        sendLoop: this.#sendLoop,
+        onBudgetChanged: () => this.#fanOut.updateBudget(),
+      },
+      this,
+      this.#log,
+    );
+  }
+
   #makeController(): RateController {
     const { bitsPerSecond, rateControl, startBitsPerSecond } = this.#options;
     return rateControl === 'fixed'
@@ -337,6 +366,7 @@ export class Robot implements SessionHost {
 
   #tick(): void {
     this.#paths.tick();
+    this.reference?.tick();
     this.#fanOut.updateBudget();
     this.#sendLoop.run();
   }

@@ -1,15 +1,8 @@
 /** A robot for tests that speaks as the reference system's does: signaling, channels, payload type 5. */
 import { once } from 'node:events';
 import { decodeBandwidth, decodeJson, referenceControlCodec, type Twist } from '@farpoint/protocol';
-import {
-  MediaStreamTrack,
-  RTCPeerConnection,
-  RTCRtpCodecParameters,
-  RtpHeader,
-  RtpPacket,
-  useTransportWideCC,
-  useTWCC,
-} from 'werift';
+import { createReferencePeerConnection, referenceChannels } from '@farpoint/reference-profile';
+import { MediaStreamTrack, type RTCPeerConnection, RtpHeader, RtpPacket } from 'werift';
 import { WebSocket } from 'ws';
 
 export class ReferenceRobot {
@@ -25,24 +18,10 @@ export class ReferenceRobot {
 
   private constructor(url: string) {
     this.#socket = new WebSocket(url);
-    this.#connection = new RTCPeerConnection({
-      iceServers: [],
-      bundlePolicy: 'max-bundle',
-      codecs: {
-        video: [
-          new RTCRtpCodecParameters({
-            mimeType: 'video/pcm',
-            clockRate: 90_000,
-            payloadType: 5,
-            rtcpFeedback: [useTWCC()],
-          }),
-        ],
-      },
-      headerExtensions: { video: [useTransportWideCC()] },
-    });
+    this.#connection = createReferencePeerConnection();
     const connection = this.#connection;
     connection.addTransceiver(this.#track, { direction: 'sendonly' });
-    const control = connection.createDataChannel('controltrack', { ordered: true });
+    const control = connection.createDataChannel(referenceChannels.control.label, { ordered: true });
     control.onMessage.subscribe((data) => {
       this.#commands.push(decodeJson(referenceControlCodec, data));
       this.#wake();

@@ -7,6 +7,7 @@ import type { PacketLog } from '../transport/packet-log.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
 import type { SharedFrame } from '../transport/shared-frame.ts';
 import { StreamSender } from '../transport/stream-sender.ts';
+import type { FrameTarget } from './frame-fan-out.ts';
 import { OperatorSession, type SessionHost } from './operator-session.ts';
 import { PathBudget } from './path-budget.ts';
 import { RestartPolicy } from './restart-policy.ts';
@@ -40,7 +41,7 @@ export interface ConnectedOperatorEvents {
 const MAX_LATENCY_TESTS = 16;
 
 /** One operator: connection, session and stream. */
-export class ConnectedOperator {
+export class ConnectedOperator implements FrameTarget {
   readonly session: OperatorSession;
   readonly peer: OperatorPeer;
   readonly restarts = new RestartPolicy();
@@ -97,6 +98,11 @@ export class ConnectedOperator {
   async answer(sdp: string): Promise<void> {
     this.restarts.onAnswer();
     await this.peer.answer(sdp);
+  }
+
+  /** As the guard knows it. */
+  get id(): string {
+    return this.session.id;
   }
 
   /** Connected, not paused, and heard of. */

@@ -4,14 +4,25 @@ import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { StageTimer } from '../telemetry/stage-timer.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
 import { SharedFrame } from '../transport/shared-frame.ts';
-import type { ConnectedOperator } from './connected-operator.ts';
+import type { StreamSender } from '../transport/stream-sender.ts';
 
 /** A frame that is older than this when it comes out of the worker is not worth sending. */
 const MAX_FRAME_AGE_MS = 250;
 
+/** Whom frames go to, whatever protocol it speaks. */
+export interface FrameTarget {
+  /** As the guard knows it. */
+  readonly id: string;
+  readonly streaming: boolean;
+  /** What points may take of its path, bit/s on the wire. */
+  readonly cloudBitsPerSecond: number;
+  readonly sender: Pick<StreamSender, 'probeWish' | 'overheadBytes'> | null;
+  enqueue(shared: SharedFrame): void;
+}
+
 export interface FanOutOptions {
   capture: Capture;
-  operators: ReadonlyMap<string, ConnectedOperator>;
+  targets: () => Iterable<FrameTarget>;
   sendLoop: SendLoop;
   /** Whose path decides how much is captured; `null` where nobody drives. */
   driver: () => string | null;
@@ -35,9 +46,9 @@ export class FrameFanOut {
    * does. Operators with slower paths skip frames.
    */
   updateBudget(): void {
-    const { capture, operators, driver } = this.#options;
-    const streaming = [...operators.values()].filter((operator) => operator.streaming);
-    const driving = streaming.find((operator) => operator.session.id === driver());
+    const { capture, targets, driver } = this.#options;
+    const streaming = [...targets()].filter((operator) => operator.streaming);
+    const driving = streaming.find((operator) => operator.id === driver());
     const deciding = driving === undefined ? streaming : [driving];
     const rates = deciding.map((operator) => operator.cloudBitsPerSecond);
     // One path at a time can be tried with larger frames: they go to everyone.
@@ -62,7 +73,7 @@ export class FrameFanOut {
   }
 
   #onFrame(frame: CapturedFrame): void {
-    const { capture, operators, sendLoop, counters, stages, now } = this.#options;
+    const { capture, targets, sendLoop, counters, stages, now } = this.#options;
     counters.frame(frame);
     stages.add('captureMs', frame.captureMs);
     stages.add('sampleMs', frame.sampleMs);
@@ -72,7 +83,7 @@ export class FrameFanOut {
       counters.framesStale++;
       if (frame.latencyTest) capture.requestLatencyTest();
     } else {
-      for (const operator of operators.values()) operator.enqueue(shared);
+      for (const target of targets()) target.enqueue(shared);
     }
     shared.release();
     sendLoop.run();

@@ -320,7 +320,7 @@ export class OperatorPeer {
   }
 }
 
-function toWeriftServers(servers: readonly IceServer[]) {
+export function toWeriftServers(servers: readonly IceServer[]) {
   return servers.flatMap(({ urls, username, credential }) =>
     [urls].flat().map((url) => ({
       urls: url,
@@ -330,6 +330,6 @@ function toWeriftServers(servers: readonly IceServer[]) {
   );
 }
 
-function errorText(error: unknown): string {
+export function errorText(error: unknown): string {
   return (error instanceof Error ? error.message : String(error)).slice(0, 300);
 }

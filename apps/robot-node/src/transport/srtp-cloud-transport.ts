@@ -33,9 +33,10 @@ export class SrtpCloudTransport implements CloudTransport {
 
   /**
    * @param transceiver negotiated, on a connected DTLS transport
+   * @param transportSequenceExtensionId of the transport-wide sequence number, whatever was negotiated
    * @throws {CloudTransportError} where the answer refused the codec or AES-128-GCM
    */
-  constructor(transceiver: RTCRtpTransceiver) {
+  constructor(transceiver: RTCRtpTransceiver, transportSequenceExtensionId?: number) {
     const { sender, mid } = transceiver;
     const codec = sender.codec;
     if (codec === undefined || mid === null)
@@ -49,7 +50,8 @@ export class SrtpCloudTransport implements CloudTransport {
       ssrc: sender.ssrc,
       mid,
       midExtensionId: extensionId(RTP_EXTENSION_URI.sdesMid),
-      transportSequenceExtensionId: extensionId(RTP_EXTENSION_URI.transportWideCC),
+      transportSequenceExtensionId:
+        transportSequenceExtensionId ?? extensionId(RTP_EXTENSION_URI.transportWideCC),
     });
     this.#sealer = new SrtpSealer(keys.key, keys.salt, sender.ssrc, randomInt(0x8000));
     this.#dtls = dtls;

@@ -1,0 +1,211 @@
+import type { RateController } from '@farpoint/congestion';
+import {
+  decodeBandwidth,
+  decodeJson,
+  decodeStreamSwitch,
+  FULL_POINT_PACKET_BYTES,
+  ProtocolError,
+  referenceControlCodec,
+} from '@farpoint/protocol';
+import type { FrameTarget } from '../session/frame-fan-out.ts';
+import type { SessionHost } from '../session/operator-session.ts';
+import type { PeerEnd } from '../transport/operator-peer.ts';
+import type { PacketLog } from '../transport/packet-log.ts';
+import type { SendLoop } from '../transport/send-loop.ts';
+import type { SharedFrame } from '../transport/shared-frame.ts';
+import type { SrtpCloudTransport } from '../transport/srtp-cloud-transport.ts';
+import { StreamSender } from '../transport/stream-sender.ts';
+import { ReferenceDriver } from './reference-driver.ts';
+import { toReferenceFrame } from './reference-frame.ts';
+import { ReferencePeer, type ReferencePeerOptions } from './reference-peer.ts';
+import { ReferenceTransport } from './reference-transport.ts';
+import { ReportedLimit } from './reported-limit.ts';
+
+/** What it asks of the robot. */
+export type ReferenceHost = Pick<
+  SessionHost,
+  'drive' | 'now' | 'leaseChanged' | 'commandAccepted' | 'commandRejected' | 'messageRefused'
+> & { requestLatencyFrame(): void };
+
+export interface ReferenceOperatorOptions {
+  /** Its name towards the guard; of no Farpoint session. */
+  id: string;
+  peer: ReferencePeerOptions;
+  controller: RateController;
+  packetLog?: PacketLog | undefined;
+}
+
+export interface ReferenceOperatorEvents {
+  onCandidate(candidate: string): void;
+  onConnected(): void;
+  /** Streaming began, paused, or may go at another rate. */
+  onBudgetChanged(): void;
+  onEnded(end: PeerEnd, detail: string): void;
+}
+
+/** Nothing heard for so long: points would go nowhere; does not drive; is gone, ms. */
+const QUIET_MS = 2000;
+const LEASE_MS = 1000;
+const GONE_MS = 5000;
+
+/** One operator of the reference system: connection, commands and stream. */
+export class ReferenceOperator implements FrameTarget {
+  readonly id: string;
+  readonly peer: ReferencePeer;
+  readonly driver: ReferenceDriver;
+  sender: StreamSender | null = null;
+  readonly #host: ReferenceHost;
+  readonly #sendLoop: SendLoop;
+  readonly #options: ReferenceOperatorOptions;
+  readonly #events: ReferenceOperatorEvents;
+  #limit: ReportedLimit | null = null;
+  /** As the reference system's robot: nothing before it is told to. */
+  #started = false;
+  #quiet = false;
+  #heardMs = 0;
+  #greenWanted = false;
+
+  constructor(
+    options: ReferenceOperatorOptions,
+    host: ReferenceHost,
+    sendLoop: SendLoop,
+    events: ReferenceOperatorEvents,
+  ) {
+    this.id = options.id;
+    this.#options = options;
+    this.#host = host;
+    this.#sendLoop = sendLoop;
+    this.#events = events;
+    this.driver = new ReferenceDriver(options.id, host.drive.guard);
+    this.peer = new ReferencePeer(options.peer, {
+      onCandidate: (candidate) => events.onCandidate(candidate),
+      onConnected: (transport) => this.#onConnected(transport),
+      onMessage: (channel, data) => this.#onMessage(channel, data),
+      onEnded: (end, detail) => this.#onEnded(end, detail),
+    });
+  }
+
+  get streaming(): boolean {
+    return this.sender !== null && this.#started && !this.#quiet;
+  }
+
+  get cloudBitsPerSecond(): number {
+    const { sender } = this;
+    return sender === null ? 0 : sender.targetBitsPerSecond * sender.fit;
+  }
+
+  silentMs(nowMs: number): number {
+    return nowMs - Math.max(this.#heardMs, this.sender?.heardMs ?? 0);
+  }
+
+  enqueue(shared: SharedFrame): void {
+    const { sender } = this;
+    if (sender === null || !this.streaming) return;
+    const frame = toReferenceFrame(shared, sender.overheadBytes);
+    if (frame === null) return;
+    sender.enqueue(frame);
+    frame.release();
+  }
+
+  /** Every 25 ms. */
+  tick(): void {
+    const now = this.#host.now();
+    if (this.peer.heardSinceLast()) this.#heardMs = now;
+    this.sender?.tick();
+    if (this.sender === null) return;
+    const silentMs = this.silentMs(now);
+    this.#quiet = silentMs > QUIET_MS;
+    if (this.driver.tick(now, silentMs < LEASE_MS)) {
+      this.#host.drive.apply();
+      this.#host.leaseChanged();
+    }
+    if (silentMs > GONE_MS) this.peer.close('silent', `nothing heard for ${GONE_MS / 1000} s`);
+  }
+
+  #onMessage(channel: 'control' | 'bandwidth' | 'words', data: string | Uint8Array): void {
+    this.#heardMs = this.#host.now();
+    try {
+      if (channel === 'control') this.#onControl(data);
+      else if (channel === 'bandwidth') this.#onBandwidth(data);
+      else this.#onWord(data);
+    } catch (error) {
+      if (!(error instanceof ProtocolError)) throw error;
+      this.#host.messageRefused(`reference-${channel}`, error);
+      if (channel !== 'control') return;
+      this.#host.commandRejected(
+        this.#host.drive.guard.onMalformed(this.id, error.message.slice(0, 200), this.#heardMs),
+      );
+    }
+  }
+
+  #onControl(data: string | Uint8Array): void {
+    const { drive } = this.#host;
+    const hadLease = this.driver.holdsLease;
+    const verdict = this.driver.onTwist(decodeJson(referenceControlCodec, data), this.#heardMs);
+    drive.apply();
+    if (this.driver.holdsLease !== hadLease) this.#host.leaseChanged();
+    if (verdict === 'latency-test') {
+      this.#greenWanted = true;
+      this.#host.requestLatencyFrame();
+    } else if (typeof verdict === 'object') {
+      if (verdict.accepted) this.#host.commandAccepted();
+      else this.#host.commandRejected(verdict);
+    }
+  }
+
+  #onBandwidth(data: string | Uint8Array): void {
+    if (typeof data === 'string')
+      throw new ProtocolError('invalid', 'bandwidth message', '', 'text, not bytes');
+    const limit = this.#limit?.add(decodeBandwidth(data)) ?? null;
+    if (limit === null) return;
+    this.sender?.onReceiverLimit(limit);
+    this.#events.onBudgetChanged();
+  }
+
+  /** Text or the same bytes: the reference system's robot does not tell them apart. */
+  #onWord(data: string | Uint8Array): void {
+    const word = typeof data === 'string' ? data : new TextDecoder().decode(data.subarray(0, 16));
+    const started = decodeStreamSwitch(word) === 'start';
+    if (started === this.#started) return;
+    this.#started = started;
+    if (!started) this.sender?.clear();
+    this.#events.onBudgetChanged();
+  }
+
+  #onConnected(inner: SrtpCloudTransport): void {
+    const transport = new ReferenceTransport(inner, () => this.#host.now());
+    const sender = new StreamSender(transport, this.#options.controller, () => this.#host.now());
+    const { packetLog } = this.#options;
+    if (packetLog !== undefined)
+      sender.onPacketSent = (_frame, offset, sentMs) => packetLog.add(transport.frameNumber, offset, sentMs);
+    sender.onFrameSent = ({ shared }) => {
+      if (shared.frame.latencyTest) this.#greenWanted = false;
+    };
+    sender.onFrameDropped = (shared) => {
+      if (shared.frame.latencyTest && this.#greenWanted) this.#host.requestLatencyFrame();
+    };
+    sender.onRateChanged = () => {
+      this.#events.onBudgetChanged();
+      this.#sendLoop.run();
+    };
+    this.#limit = new ReportedLimit(FULL_POINT_PACKET_BYTES + inner.overheadBytes);
+    this.#heardMs = this.#host.now();
+    this.sender = sender;
+    this.#sendLoop.add(sender);
+    this.#events.onConnected();
+  }
+
+  #onEnded(end: PeerEnd, detail: string): void {
+    const { sender } = this;
+    const { drive } = this.#host;
+    this.sender = null;
+    if (sender !== null) {
+      this.#sendLoop.remove(sender);
+      sender.clear();
+    }
+    const leaseFreed = drive.guard.operatorGone(this.id);
+    drive.apply();
+    if (leaseFreed) this.#host.leaseChanged();
+    this.#events.onEnded(end, detail);
+  }
+}

@@ -1,0 +1,175 @@
+/** The WebRTC connection with one operator of the reference system: the robot offers, the operator answers, ICE trickles. */
+import type { IceServer } from '@farpoint/protocol';
+import {
+  createReferencePeerConnection,
+  prepareSockets,
+  REFERENCE_EXTENSION_ID,
+  referenceChannels,
+} from '@farpoint/reference-profile';
+import type { RTCDataChannel, RTCPeerConnection, RTCRtpTransceiver } from 'werift';
+import { dropDefaultStun, pairLateCandidates } from '../transport/ice-restart.ts';
+import { errorText, type PeerEnd, toWeriftServers } from '../transport/operator-peer.ts';
+import { SrtpCloudTransport } from '../transport/srtp-cloud-transport.ts';
+
+export interface ReferencePeerOptions {
+  iceServers: readonly IceServer[];
+  portRange?: readonly [number, number] | undefined;
+  icePolicy: 'all' | 'relay';
+  /** From the answer on. */
+  connectTimeoutMs: number;
+}
+
+export interface ReferencePeerEvents {
+  /** Kept from its first to its last, to be told again after the answer. */
+  onCandidate(candidate: string): void;
+  onConnected(transport: SrtpCloudTransport): void;
+  onMessage(channel: 'control' | 'bandwidth' | 'words', data: string | Uint8Array): void;
+  /** The last event. `detail` is for people. */
+  onEnded(end: PeerEnd, detail: string): void;
+}
+
+/** Of an operator that is not here yet. */
+const MAX_PENDING_CANDIDATES = 64;
+
+export class ReferencePeer {
+  /** What was found so far: the reference system's bridge hears only those that are told after its answer. */
+  readonly candidates: string[] = [];
+  candidatesRefused = 0;
+  /** Channels that the operator opened and the profile does not know. */
+  unknownChannels = 0;
+  readonly #options: ReferencePeerOptions;
+  readonly #events: ReferencePeerEvents;
+  readonly #connection: RTCPeerConnection;
+  readonly #cloud: RTCRtpTransceiver;
+  #transport: SrtpCloudTransport | null = null;
+  #pending: string[] = [];
+  #timer: NodeJS.Timeout | null = null;
+  #state: 'offering' | 'answered' | 'connected' | 'ended' = 'offering';
+  #hasBandwidth = false;
+  #hasWords = false;
+
+  constructor(options: ReferencePeerOptions, events: ReferencePeerEvents) {
+    this.#options = options;
+    this.#events = events;
+    const connection = createReferencePeerConnection({
+      iceServers: toWeriftServers(options.iceServers),
+      portRange: options.portRange,
+      icePolicy: options.icePolicy,
+    });
+    this.#connection = connection;
+    this.#cloud = connection.addTransceiver('video', { direction: 'sendonly' });
+    const { control } = referenceChannels;
+    const commands = connection.createDataChannel(control.label, { ordered: control.ordered });
+    commands.onMessage.subscribe((data) => this.#events.onMessage('control', data));
+    connection.onDataChannel.subscribe((channel) => this.#adopt(channel));
+    connection.onIceCandidate.subscribe((candidate) => {
+      if (candidate === undefined || this.#state === 'ended') return;
+      prepareSockets(connection);
+      this.#checkPairs();
+      const text = candidate.toJSON().candidate;
+      this.candidates.push(text);
+      events.onCandidate(text);
+    });
+    connection.connectionStateChange.subscribe((state) => {
+      if (state === 'connected') this.#onConnected();
+      else if (state === 'failed' || state === 'closed') {
+        this.close(this.#state === 'connected' ? 'connection-lost' : 'not-connected', `connection ${state}`);
+      }
+    });
+  }
+
+  get state(): 'offering' | 'answered' | 'connected' | 'ended' {
+    return this.#state;
+  }
+
+  /** Whether the operator was heard on the path since the last call, be it by a connectivity check. */
+  heardSinceLast(): boolean {
+    return this.#transport?.heardSinceLast() ?? false;
+  }
+
+  async offer(): Promise<string> {
+    const description = await this.#connection.createOffer();
+    dropDefaultStun(this.#cloud.dtlsTransport);
+    // Resolves only when every candidate is gathered.
+    this.#connection.setLocalDescription(description).catch((error: unknown) => {
+      this.close('not-connected', `no local description: ${errorText(error)}`);
+    });
+    return description.sdp;
+  }
+
+  /** The first answer counts. Never throws: a bad one ends the connection. */
+  async answer(sdp: string): Promise<void> {
+    if (this.#state !== 'offering') return;
+    this.#state = 'answered';
+    const { connectTimeoutMs } = this.#options;
+    this.#timer = setTimeout(
+      () => this.close('not-connected', `no connection within ${connectTimeoutMs / 1000} s`),
+      connectTimeoutMs,
+    );
+    try {
+      await this.#connection.setRemoteDescription({ type: 'answer', sdp });
+      for (const candidate of this.#pending.splice(0)) await this.addCandidate(candidate);
+      this.#checkPairs();
+    } catch (error) {
+      this.close('bad-answer', errorText(error));
+    }
+  }
+
+  /** Never throws: one that cannot be used is counted, others may do. */
+  async addCandidate(candidate: string): Promise<void> {
+    if (this.#state === 'ended') return;
+    if (this.#connection.remoteDescription === undefined) {
+      this.#pending.push(candidate);
+      if (this.#pending.length > MAX_PENDING_CANDIDATES) this.#pending.shift();
+      return;
+    }
+    try {
+      await this.#connection.addIceCandidate({ candidate, sdpMLineIndex: 0 });
+    } catch {
+      this.candidatesRefused++;
+    }
+  }
+
+  close(end: PeerEnd, detail: string): void {
+    if (this.#state === 'ended') return;
+    this.#state = 'ended';
+    if (this.#timer !== null) clearTimeout(this.#timer);
+    this.#transport?.close();
+    this.#connection.close().catch(() => undefined);
+    this.#events.onEnded(end, detail);
+  }
+
+  #checkPairs(): void {
+    if (this.#connection.remoteDescription !== undefined) pairLateCandidates(this.#cloud.dtlsTransport);
+  }
+
+  #adopt(channel: RTCDataChannel): void {
+    const { bandwidth, words } = referenceChannels;
+    if (channel.label === bandwidth.label && !this.#hasBandwidth) {
+      this.#hasBandwidth = true;
+      channel.onMessage.subscribe((data) => this.#events.onMessage('bandwidth', data));
+    } else if (channel.label === words.label && !this.#hasWords) {
+      this.#hasWords = true;
+      channel.onMessage.subscribe((data) => this.#events.onMessage('words', data));
+    } else {
+      this.unknownChannels++;
+      channel.close();
+    }
+  }
+
+  #onConnected(): void {
+    if (this.#state !== 'answered') return;
+    let transport: SrtpCloudTransport;
+    try {
+      // Whatever the answer says of it: the reference system's bridge takes the header to be 20 bytes long.
+      transport = new SrtpCloudTransport(this.#cloud, REFERENCE_EXTENSION_ID);
+    } catch (error) {
+      this.close('bad-answer', errorText(error));
+      return;
+    }
+    if (this.#timer !== null) clearTimeout(this.#timer);
+    this.#state = 'connected';
+    this.#transport = transport;
+    this.#events.onConnected(transport);
+  }
+}

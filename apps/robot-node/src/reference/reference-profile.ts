@@ -1,0 +1,205 @@
+/**
+ * The robot at the reference system's signaling: registered with an offer of its own whenever nobody has taken it, so that
+ * the reference system's bridge, or ours, can show it. One such operator at a time, beside any number of Farpoint's.
+ */
+import type { RateController } from '@farpoint/congestion';
+import {
+  type ReferenceRobotToService,
+  type ReferenceServiceToRobot,
+  referenceRobotToServiceCodec,
+  referenceServiceToRobotCodec,
+} from '@farpoint/protocol';
+import { MessageLine } from '@farpoint/reference-profile';
+import type { Logger } from '@farpoint/service';
+import type { FrameTarget } from '../session/frame-fan-out.ts';
+import type { PacketLog } from '../transport/packet-log.ts';
+import type { SendLoop } from '../transport/send-loop.ts';
+import { type ReferenceHost, ReferenceOperator } from './reference-operator.ts';
+import type { ReferencePeerOptions } from './reference-peer.ts';
+
+export interface ReferenceProfileOptions {
+  /** Robots' port of the reference signaling. */
+  url: string;
+  ca: string | null;
+  name: string;
+  peer: ReferencePeerOptions;
+  makeController: () => RateController;
+  packetLog?: PacketLog | undefined;
+  sendLoop: SendLoop;
+  onBudgetChanged: () => void;
+}
+
+/** The first try after a connection that came to nothing, and the longest wait between two, ms. */
+const FIRST_RETRY_MS = 250;
+const MOST_RETRY_MS = 5000;
+/** Another operator may take the place of one of whom nothing was heard for so long, ms. */
+const REPLACE_AFTER_MS = 1000;
+
+export class ReferenceProfile {
+  /** Offers made, operators that connected, and those that ended, since the start. */
+  offers = 0;
+  connected = 0;
+  ended = 0;
+  readonly #options: ReferenceProfileOptions;
+  readonly #host: ReferenceHost;
+  readonly #log: Logger;
+  readonly #line: MessageLine<ReferenceServiceToRobot, ReferenceRobotToService>;
+  #robotId: number | null = null;
+  /** Offered, perhaps answered, not connected. */
+  #offered: ReferenceOperator | null = null;
+  #current: ReferenceOperator | null = null;
+  #retry: NodeJS.Timeout | null = null;
+  #failures = 0;
+  #made = 0;
+  #closed = false;
+
+  constructor(options: ReferenceProfileOptions, host: ReferenceHost, log: Logger) {
+    this.#options = options;
+    this.#host = host;
+    this.#log = log.child({ profile: 'reference' });
+    this.#line = new MessageLine(
+      {
+        url: options.url,
+        incoming: referenceServiceToRobotCodec,
+        outgoing: referenceRobotToServiceCodec,
+        ca: options.ca,
+      },
+      {
+        onOpen: () => void this.#offer(),
+        onMessage: (message) => this.#onMessage(message),
+        onDown: (detail) => {
+          this.#robotId = null;
+          this.#log.debug({ detail }, 'no line to the reference signaling');
+        },
+      },
+    );
+  }
+
+  get registered(): boolean {
+    return this.#robotId !== null && this.#line.open;
+  }
+
+  get operator(): ReferenceOperator | null {
+    return this.#current;
+  }
+
+  /** For the fan-out: none or one. */
+  get targets(): readonly FrameTarget[] {
+    return this.#current === null ? [] : [this.#current];
+  }
+
+  /** Every 25 ms. */
+  tick(): void {
+    this.#current?.tick();
+  }
+
+  close(): void {
+    this.#closed = true;
+    if (this.#retry !== null) clearTimeout(this.#retry);
+    this.#offered?.peer.close('closed', 'the robot is shutting down');
+    this.#current?.peer.close('closed', 'the robot is shutting down');
+    this.#line.close(this.#robotId === null ? undefined : { type: 'deregister', robotId: this.#robotId });
+  }
+
+  #onMessage(message: ReferenceServiceToRobot): void {
+    const offered = this.#offered;
+    switch (message.type) {
+      case 'registered':
+        this.#robotId = message.robotId;
+        this.#log.info({ robotId: message.robotId }, 'registered');
+        for (const candidate of offered?.peer.candidates ?? []) this.#tell(candidate);
+        break;
+      case 'sdpAnswer':
+        void this.#onAnswer(message.sdpAnswer);
+        break;
+      case 'candidate':
+        void offered?.peer.addCandidate(message.candidate);
+        void this.#current?.peer.addCandidate(message.candidate);
+        break;
+    }
+  }
+
+  async #onAnswer(sdp: string): Promise<void> {
+    const offered = this.#offered;
+    if (offered?.peer.state === 'offering') {
+      await offered.peer.answer(sdp);
+      for (const candidate of offered.peer.candidates) this.#tell(candidate);
+      return;
+    }
+    // Somebody else answers the offer that is taken. Where who took it seems to be gone, there is a new one.
+    const current = this.#current;
+    if (current !== null && current.silentMs(this.#host.now()) > REPLACE_AFTER_MS) {
+      current.peer.close('closed', 'another operator is here');
+    }
+  }
+
+  /** Registers, anew where need be: the service then knows the robot by another id. */
+  async #offer(): Promise<void> {
+    if (this.#closed || !this.#line.open) return;
+    if (this.#retry !== null) clearTimeout(this.#retry);
+    this.#retry = null;
+    const before = this.#offered;
+    this.#offered = null;
+    before?.peer.close('closed', 'offered anew');
+    const operator = this.#makeOperator();
+    this.#offered = operator;
+    this.offers++;
+    try {
+      const sdpOffer = await operator.peer.offer();
+      if (this.#offered !== operator || this.#closed) return;
+      if (this.#robotId !== null) this.#line.send({ type: 'deregister', robotId: this.#robotId });
+      this.#robotId = null;
+      this.#line.send({ type: 'register', name: this.#options.name, sdpOffer });
+    } catch (error) {
+      this.#log.error({ err: error }, 'no offer');
+      operator.peer.close('not-connected', 'no offer could be made');
+    }
+  }
+
+  #makeOperator(): ReferenceOperator {
+    const { peer, makeController, packetLog, sendLoop, onBudgetChanged } = this.#options;
+    // No Farpoint session has a colon in its name.
+    const id = `reference:${++this.#made}`;
+    const operator: ReferenceOperator = new ReferenceOperator(
+      { id, peer, controller: makeController(), packetLog },
+      this.#host,
+      sendLoop,
+      {
+        onCandidate: (candidate) => {
+          if (operator === this.#offered) this.#tell(candidate);
+        },
+        onConnected: () => this.#onConnected(operator),
+        onBudgetChanged,
+        onEnded: (end, detail) => this.#onEnded(operator, end, detail),
+      },
+    );
+    return operator;
+  }
+
+  #onConnected(operator: ReferenceOperator): void {
+    this.#log.info({ operator: operator.id }, 'reference operator connected');
+    this.connected++;
+    this.#failures = 0;
+    const before = this.#current;
+    this.#current = operator;
+    if (this.#offered === operator) this.#offered = null;
+    before?.peer.close('closed', 'another operator has connected');
+    this.#options.onBudgetChanged();
+  }
+
+  #onEnded(operator: ReferenceOperator, end: string, detail: string): void {
+    this.ended++;
+    this.#log.info({ operator: operator.id, end, detail }, 'reference operator ended');
+    const wasOurs = operator === this.#current || operator === this.#offered;
+    if (operator === this.#current) this.#current = null;
+    if (operator === this.#offered) this.#offered = null;
+    this.#options.onBudgetChanged();
+    if (this.#closed || !wasOurs || this.#offered !== null || this.#current !== null) return;
+    const waitMs = Math.min(FIRST_RETRY_MS * 2 ** this.#failures++, MOST_RETRY_MS);
+    this.#retry ??= setTimeout(() => void this.#offer(), waitMs);
+  }
+
+  #tell(candidate: string): void {
+    if (this.#robotId !== null) this.#line.send({ type: 'candidate', robotId: this.#robotId, candidate });
+  }
+}

@@ -1,0 +1,76 @@
+import type { ResendRefusal } from '@farpoint/congestion';
+import { FULL_POINT_PACKET_BYTES, MAX_POINT_DATA_BYTES, PLACEMENT_BYTES } from '@farpoint/protocol';
+import type { CloudTransport } from '../transport/cloud-transport.ts';
+
+/** The RTP header, extension included, that the reference system's bridge cuts off without looking. */
+export const REFERENCE_RTP_HEADER_BYTES = 20;
+
+/**
+ * Sends Farpoint's payloads as the reference profile has them: the same points, without the placement, always 1216 bytes,
+ * frames counted from 0 for this connection.
+ */
+export class ReferenceTransport implements CloudTransport {
+  /** Of the frame that was sent last; −1 before the first. */
+  frameNumber = -1;
+  readonly overheadBytes: number;
+  readonly #inner: CloudTransport;
+  readonly #now: () => number;
+  readonly #payload = new Uint8Array(FULL_POINT_PACKET_BYTES);
+  readonly #view = new DataView(this.#payload.buffer);
+  #source: number | null = null;
+  #rtpTimestamp = 0;
+
+  /** @param now robot's clock, ms */
+  constructor(inner: CloudTransport, now: () => number) {
+    this.#inner = inner;
+    this.#now = now;
+    this.overheadBytes = inner.overheadBytes - PLACEMENT_BYTES;
+  }
+
+  get ready(): boolean {
+    return this.#inner.ready;
+  }
+
+  get resendRefusals(): Readonly<Record<ResendRefusal, number>> {
+    return this.#inner.resendRefusals;
+  }
+
+  get onRtcp(): ((compound: Uint8Array) => void) | null {
+    return this.#inner.onRtcp;
+  }
+
+  set onRtcp(handler: ((compound: Uint8Array) => void) | null) {
+    this.#inner.onRtcp = handler;
+  }
+
+  /** @param payload a full packet of a frame that has whole packets only; `timestamp` is not used, its clock is another */
+  send(
+    payload: Uint8Array,
+    _timestamp: number,
+    marker: boolean,
+    nowMs: number,
+    usefulMs: number,
+  ): number | null {
+    this.#payload.set(payload.subarray(0, FULL_POINT_PACKET_BYTES));
+    this.#beginFrame(this.#view.getUint32(0, true));
+    this.#view.setUint32(0, this.frameNumber, true);
+    // The frame may have a last, partial packet in Farpoint's profile; here it ends with its last whole one.
+    const length = this.#view.getUint32(4, true);
+    this.#view.setUint32(4, length - (length % MAX_POINT_DATA_BYTES), true);
+    this.#view.setUint32(12, MAX_POINT_DATA_BYTES, true);
+    return this.#inner.send(this.#payload, this.#rtpTimestamp, marker, nowMs, usefulMs);
+  }
+
+  resend(sequence: number, nowMs: number): number {
+    return this.#inner.resend(sequence, nowMs);
+  }
+
+  #beginFrame(source: number): void {
+    if (source === this.#source) return;
+    this.#source = source;
+    this.frameNumber = (this.frameNumber + 1) >>> 0;
+    const timestamp = Math.floor((this.#now() * 90) % 0x1_0000_0000) >>> 0;
+    // It advances with every frame, were two to begin at once.
+    this.#rtpTimestamp = timestamp === this.#rtpTimestamp ? (timestamp + 1) >>> 0 : timestamp;
+  }
+}

@@ -1,0 +1,124 @@
+/** A line to one of the reference system's signaling ports: JSON messages over a WebSocket that comes back for ever. */
+import { Reconnect } from '@farpoint/congestion';
+import { decodeJson, encodeJson, type JsonCodec, ProtocolError } from '@farpoint/protocol';
+import { WebSocket } from 'ws';
+
+const MAX_BACKLOG_BYTES = 1_048_576;
+/** A line on which nothing is heard for so long, though it was asked, is dead, ms. */
+const HEARTBEAT_MS = 5000;
+
+export interface MessageLineOptions<In, Out> {
+  /** ws:// or wss:// */
+  url: string;
+  incoming: JsonCodec<In>;
+  outgoing: JsonCodec<Out>;
+  /** PEM: certificate authorities to trust instead of the system's. */
+  ca?: string | null | undefined;
+}
+
+export interface MessageLineEvents<In> {
+  /** Connected, at first or again: say who you are. */
+  onOpen: () => void;
+  onMessage: (message: In) => void;
+  onDown: (detail: string) => void;
+}
+
+export class MessageLine<In, Out> {
+  /** Messages that could not be read. */
+  malformed = 0;
+  readonly #options: MessageLineOptions<In, Out>;
+  readonly #events: MessageLineEvents<In>;
+  readonly #reconnect = new Reconnect(Math.random);
+  #socket: WebSocket | null = null;
+  #retry: NodeJS.Timeout | null = null;
+  #heartbeat: NodeJS.Timeout | null = null;
+  #closed = false;
+
+  /** Connects at once. */
+  constructor(options: MessageLineOptions<In, Out>, events: MessageLineEvents<In>) {
+    this.#options = options;
+    this.#events = events;
+    this.#connect();
+  }
+
+  get open(): boolean {
+    return this.#socket?.readyState === WebSocket.OPEN;
+  }
+
+  /** What is sent while the line is down is dropped: with `onOpen` all begins anew. */
+  send(message: Out): void {
+    const socket = this.#socket;
+    if (socket?.readyState !== WebSocket.OPEN) return;
+    if (socket.bufferedAmount > MAX_BACKLOG_BYTES) socket.terminate();
+    else socket.send(encodeJson(this.#options.outgoing, message));
+  }
+
+  /** @param farewell sent before it closes */
+  close(farewell?: Out): void {
+    if (this.#closed) return;
+    if (farewell !== undefined) this.send(farewell);
+    this.#closed = true;
+    if (this.#retry !== null) clearTimeout(this.#retry);
+    if (farewell === undefined) this.#socket?.terminate();
+    else this.#socket?.close();
+  }
+
+  #connect(): void {
+    const { url, ca, incoming } = this.#options;
+    let socket: WebSocket;
+    try {
+      socket = new WebSocket(url, {
+        handshakeTimeout: this.#reconnect.timeoutMs,
+        maxPayload: incoming.maxBytes,
+        perMessageDeflate: false,
+        ...(ca == null ? {} : { ca }),
+      });
+    } catch (error) {
+      // An address that no socket takes: it will not become one.
+      this.#events.onDown(error instanceof Error ? error.message : String(error));
+      return;
+    }
+    this.#socket = socket;
+    let detail = '';
+    let heard = true;
+    socket.on('open', () => {
+      if (this.#closed) return;
+      this.#reconnect.reset();
+      this.#heartbeat = setInterval(() => {
+        if (!heard) socket.terminate();
+        heard = false;
+        socket.ping();
+      }, HEARTBEAT_MS);
+      this.#events.onOpen();
+    });
+    socket.on('pong', () => {
+      heard = true;
+    });
+    socket.on('message', (data: Buffer, binary: boolean) => {
+      heard = true;
+      if (!this.#closed) this.#receive(binary ? data : data.toString('utf8'));
+    });
+    socket.on('error', (error) => {
+      detail = error.message;
+    });
+    socket.on('close', () => {
+      if (this.#heartbeat !== null) clearInterval(this.#heartbeat);
+      this.#socket = null;
+      if (this.#closed) return;
+      this.#events.onDown(detail);
+      this.#retry = setTimeout(() => this.#connect(), this.#reconnect.nextMs());
+    });
+  }
+
+  #receive(data: string | Uint8Array): void {
+    let message: In;
+    try {
+      message = decodeJson(this.#options.incoming, data);
+    } catch (error) {
+      if (!(error instanceof ProtocolError)) throw error;
+      this.malformed++;
+      return;
+    }
+    this.#events.onMessage(message);
+  }
+}

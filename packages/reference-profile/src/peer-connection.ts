@@ -1,0 +1,51 @@
+import {
+  RTCPeerConnection,
+  RTCRtpCodecParameters,
+  useFIR,
+  useNACK,
+  usePLI,
+  useREMB,
+  useTransportWideCC,
+  useTWCC,
+} from 'werift';
+
+export const REFERENCE_PAYLOAD_TYPE = 5;
+/** Of the one header extension, transport-wide-cc-01. */
+export const REFERENCE_EXTENSION_ID = 1;
+export const REFERENCE_CLOCK_RATE = 90_000;
+
+export interface ReferencePeerOptions {
+  /** None where left out. */
+  iceServers?: { urls: string; username?: string; credential?: string }[] | undefined;
+  /** Local UDP ports, both ends included; any where left out. */
+  portRange?: readonly [number, number] | undefined;
+  icePolicy?: 'all' | 'relay' | undefined;
+}
+
+/**
+ * A connection that offers, or takes, the media of the reference profile: one video m-line of payload type 5, `pcm/90000`,
+ * with its feedback and its one header extension.
+ */
+export function createReferencePeerConnection(options: ReferencePeerOptions = {}): RTCPeerConnection {
+  const { portRange } = options;
+  return new RTCPeerConnection({
+    iceServers: options.iceServers ?? [],
+    bundlePolicy: 'max-bundle',
+    iceUseTcp: false,
+    iceTransportPolicy: options.icePolicy ?? 'all',
+    ...(portRange === undefined ? {} : { icePortRange: [...portRange] as [number, number] }),
+    codecs: {
+      audio: [],
+      video: [
+        new RTCRtpCodecParameters({
+          mimeType: 'video/pcm',
+          clockRate: REFERENCE_CLOCK_RATE,
+          payloadType: REFERENCE_PAYLOAD_TYPE,
+          rtcpFeedback: [useREMB(), useFIR(), useNACK(), usePLI(), useTWCC()],
+        }),
+      ],
+    },
+    // The first and only one: its id is 1.
+    headerExtensions: { video: [useTransportWideCC()] },
+  });
+}
