@@ -4,7 +4,9 @@
  */
 import { parseArgs } from 'node:util';
 import { CHROMIUM_REMEDY } from '@farpoint/local-stack';
+import { BUILD_REMEDY, buildAddon } from '../packages/shared-memory/src/build.ts';
 import { ensureChromium } from './lib/ensure-chromium.ts';
+import { ensureNumpy } from './lib/ensure-numpy.ts';
 import { ensureTurnServer } from './lib/ensure-turn-server.ts';
 import { run } from './lib/run.ts';
 import { addTallies, emptyTally, type Tally, tallyCargo, tallyPlaywright, tallyVitest } from './lib/tally.ts';
@@ -44,6 +46,16 @@ const steps: Step[] = [
     run: async () => {
       const result = await testRust(say);
       return { ...result, tally: tallyCargo(result.output) };
+    },
+  },
+  {
+    name: 'native',
+    what: 'native addons build from source (node-gyp)',
+    run: async () => {
+      const { ok, output } = buildAddon();
+      if (!ok) say(output.trim().split('\n').slice(-20).join('\n  '));
+      await ensureNumpy(say);
+      return ok ? { ok } : { ok: true, skipped: `shared memory is not tested: ${BUILD_REMEDY}` };
     },
   },
   {

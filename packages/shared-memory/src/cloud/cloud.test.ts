@@ -1,0 +1,213 @@
+import { chmodSync, readFileSync, rmSync, statSync, truncateSync, writeFileSync } from 'node:fs';
+import fc from 'fast-check';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { MappedFile } from '../mapped-file.ts';
+import { ADDON_SUITE, codeOf, errorOf, removeFolder, scratchFolder } from '../testing.ts';
+import { Watch } from '../watch.ts';
+import { CloudProducer } from './cloud-producer.ts';
+import { CloudReader } from './cloud-reader.ts';
+import { cloudFile, PUBLISHED_OFFSET } from './layout.ts';
+
+let folder: string;
+let path: string;
+const open: Disposable[] = [];
+beforeEach(() => {
+  folder = scratchFolder();
+  path = cloudFile(folder);
+});
+afterEach(() => {
+  for (const each of open.splice(0)) each[Symbol.dispose]();
+  removeFolder(folder);
+});
+
+function keep<T extends Disposable>(made: T): T {
+  open.push(made);
+  return made;
+}
+const producer = (maxPoints = 100) => keep(new CloudProducer({ folder, format: 'points', maxPoints }));
+const reader = () => keep(CloudReader.open(folder));
+
+const FRAME = { captureMs: null, height: 1, pose: null, lens: null, latencyTest: false };
+const words = new Uint32Array(400);
+
+function publish(to: CloudProducer, value: number, points = 100): void {
+  to.publish({ points: new Uint32Array(points * 4).fill(value) }, { ...FRAME, width: points });
+}
+
+describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
+  it('gives the newest frame, once, with all that is known of it', () => {
+    const [write, read] = [producer(), reader()];
+    expect(read.read(words)).toBeNull();
+    for (let i = 1; i <= 6; i++) publish(write, i);
+    const pose = { position: { x: 1, y: 2, z: 3 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
+    const lens = { fx: 5, fy: 6, cx: 2, cy: 1 };
+    const header = { captureMs: 12.5, width: 4, height: 3, pose, lens, latencyTest: true };
+    write.publish({ points: new Uint32Array(48).fill(0x7fc00001) }, header);
+    expect(read.read(words)).toEqual({ frame: 7, points: 12, ...header, depthUnit: 0 });
+    // Bit for bit, NaNs too.
+    expect(words.subarray(0, 48).every((word) => word === 0x7fc00001)).toBe(true);
+    expect(read.read(words)).toBeNull();
+    expect(read.skipped).toBe(0);
+    for (let i = 0; i < 3; i++) publish(write, i);
+    expect(read.read(words)?.frame).toBe(10);
+    expect(read.skipped).toBe(2);
+  });
+
+  it('unprojects depth by the pinhole model', () => {
+    const lens = { fx: 2, fy: 4, cx: 1, cy: 0.5 };
+    const depth = [1000, 0, 2500, 65_535, 1, 500];
+    const colours = new Uint8Array(24).map((_, i) => i * 10);
+    const expected = depth.map((mm, i) => {
+      const z = mm === 0 ? Number.NaN : mm * Math.fround(0.001);
+      return [(((i % 3) - 1) / 2) * z, ((Math.floor(i / 3) - 0.5) / 4) * z, z];
+    });
+    for (const format of ['depth16', 'depth32'] as const) {
+      const write = keep(new CloudProducer({ folder, format, maxPoints: 6 }));
+      const values =
+        format === 'depth16' ? Uint16Array.from(depth) : Float32Array.from(depth, (mm) => mm / 1000);
+      write.publish({ depth: values, colours }, { ...FRAME, width: 3, height: 2, lens, depthUnit: 0.001 });
+      expect(reader().read(words)).toMatchObject({ points: 6, width: 3, height: 2, lens });
+      const floats = new Float32Array(words.buffer);
+      expected.forEach((point, i) => {
+        point.forEach((value, axis) => {
+          const got = floats[i * 4 + axis] as number;
+          if (Number.isNaN(value)) expect(got).toBeNaN();
+          else expect(got).toBeCloseTo(value, 4);
+        });
+        expect([...new Uint8Array(words.buffer, i * 16 + 12, 4)]).toEqual([
+          ...colours.subarray(i * 4, i * 4 + 4),
+        ]);
+      });
+      write.close();
+    }
+  });
+
+  it('reads no frame that is being written, nor one that a killed producer has left half', () => {
+    const [write, read] = [producer(), reader()];
+    publish(write, 1);
+    expect(read.read(words)?.frame).toBe(1);
+    using other = MappedFile.open(path, { writable: true });
+    const slot = 4096 + 2 * write.header.slotBytes;
+    other.store32(slot, 3);
+    expect(read.read(words)).toBeNull();
+    // Announced although the slot was not finished: as good as never.
+    other.store32(PUBLISHED_OFFSET, 2);
+    expect(read.read(words)).toBeNull();
+    expect(read.overtaken).toBe(8);
+    publish(write, 2);
+    expect(read.read(words)?.frame).toBe(2);
+  });
+
+  it('takes what is announced and impossible for what it is, once', () => {
+    const [write, read] = [producer(), reader()];
+    publish(write, 1);
+    using other = MappedFile.open(path, { writable: true });
+    const slot = 4096 + write.header.slotBytes;
+    other.store32(slot + 16, 0xffffffff);
+    expect(errorOf(() => read.read(words))).toMatchObject({
+      code: 'bad-frame',
+      file: path,
+      offset: slot + 16,
+    });
+    expect(read.read(words)).toBeNull();
+    publish(write, 2);
+    expect(read.read(words)?.frame).toBe(2);
+    publish(write, 3);
+    expect(codeOf(() => read.read(words.subarray(0, 399)))).toBe('too-large');
+  });
+
+  it('is never harmed by bytes that anybody has written into it', () => {
+    const [write, read] = [producer(20), reader()];
+    using other = MappedFile.open(path, { writable: true });
+    const { slotBytes } = write.header;
+    const edit = fc.tuple(fc.nat({ max: 32 }), fc.nat({ max: 0xffffffff }));
+    fc.assert(
+      fc.property(fc.array(edit, { minLength: 1, maxLength: 5 }), (edits) => {
+        publish(write, 1, 20);
+        const slot = 4096 + (other.load32(PUBLISHED_OFFSET) % 4) * slotBytes;
+        for (const [index, value] of edits) other.store32(slot + (index % 32) * 4, value);
+        try {
+          const frame = read.read(words);
+          expect(frame?.points ?? 0).toBeLessThanOrEqual(20);
+        } catch (error) {
+          expect(error).toMatchObject({ name: 'SharedMemoryError', code: 'bad-frame' });
+        }
+      }),
+      { numRuns: 300, seed: 3 },
+    );
+  });
+
+  it('has one producer; the next takes over once that is gone, and readers notice', () => {
+    const first = producer();
+    publish(first, 1);
+    const read = reader();
+    expect(codeOf(() => producer())).toBe('in-use');
+    first.close();
+    const second = producer(50);
+    expect(read.current).toBe(false);
+    publish(second, 9, 50);
+    expect(reader().read(words)).toMatchObject({ frame: 1, points: 50 });
+    expect(words[0]).toBe(9);
+    // What is mapped stays readable.
+    expect(read.read(words)?.points).toBe(100);
+  });
+
+  it('begins anew over what a killed producer left at its very start, or what is no such file', () => {
+    writeFileSync(path, 'something else');
+    writeFileSync(`${path}.new`, 'half a header');
+    publish(producer(), 3);
+    expect(reader().read(words)?.frame).toBe(1);
+    expect(statSync(path).mode & 0o777).toBe(0o600);
+  });
+
+  it('a producer whose file was removed does not write on in vain', () => {
+    const write = producer();
+    rmSync(path);
+    expect(codeOf(() => publish(write, 1))).toBe('in-use');
+  });
+
+  it('refuses files that are absent, cut short, too long, of another kind or open to everybody', () => {
+    expect(errorOf(() => reader())).toMatchObject({ code: 'absent', file: path });
+    producer();
+    const whole = readFileSync(path);
+    truncateSync(path, whole.length + 1);
+    expect(codeOf(() => reader())).toBe('bad-header');
+    truncateSync(path, 100);
+    expect(codeOf(() => reader())).toBe('truncated');
+    writeFileSync(path, new Uint8Array(whole.length));
+    expect(codeOf(() => reader())).toBe('bad-magic');
+    chmodSync(path, 0o602);
+    expect(codeOf(() => reader())).toBe('unsafe-permissions');
+  });
+
+  it('survives being cut short while it is read', () => {
+    const [write, read] = [producer(), reader()];
+    publish(write, 1);
+    truncateSync(path, 4096);
+    expect(errorOf(() => read.read(words))).toMatchObject({ code: 'truncated', file: path });
+    expect(read.current).toBe(false);
+    expect(codeOf(() => publish(write, 2))).toBe('in-use');
+  });
+
+  it('takes no content that does not fit', () => {
+    const write = producer();
+    expect(() => write.publish({ points: new Uint32Array(404) }, { ...FRAME, width: 100 })).toThrow(
+      RangeError,
+    );
+    expect(codeOf(() => write.publish({ points: new Uint32Array(404) }, { ...FRAME, width: 101 }))).toBe(
+      'bad-frame',
+    );
+    expect(codeOf(() => new CloudProducer({ folder, format: 'points', maxPoints: 0 }))).toBe('bad-header');
+  });
+
+  it('wakes who waits for a frame', async () => {
+    const [write, read] = [producer(), reader()];
+    const outcome = await new Promise((resolve) => {
+      const watch = keep(new Watch(read.file, { offset: PUBLISHED_OFFSET, futex: true }, resolve));
+      watch.arm({ value: read.last, timeoutMs: 60_000 });
+      setImmediate(() => publish(write, 5));
+    });
+    expect(outcome).toBe('changed');
+    expect(read.read(words)?.frame).toBe(1);
+  });
+});

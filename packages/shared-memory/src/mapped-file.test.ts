@@ -1,0 +1,154 @@
+import {
+  chmodSync,
+  mkdirSync,
+  renameSync,
+  statSync,
+  symlinkSync,
+  truncateSync,
+  writeFileSync,
+} from 'node:fs';
+import { join } from 'node:path';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { MappedFile } from './mapped-file.ts';
+import { ADDON_SUITE, codeOf, errorOf, removeFolder, scratchFolder } from './testing.ts';
+
+let folder: string;
+let path: string;
+beforeEach(() => {
+  folder = scratchFolder();
+  path = join(folder, 'file');
+});
+afterEach(() => removeFolder(folder));
+
+describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
+  it('is shared by all who map it', () => {
+    using writer = MappedFile.open(path, { bytes: 100, create: true });
+    using reader = MappedFile.open(path, { bytes: 100 });
+    writer.copyIn(3, Uint8Array.of(1, 2, 3));
+    writer.store32(96, 0xdeadbeef);
+    writer.store8(0, 255);
+    const bytes = new Uint8Array(4);
+    reader.copyOut(2, bytes);
+    expect([...bytes]).toEqual([0, 1, 2, 3]);
+    expect(reader.load32(96)).toBe(0xdeadbeef);
+    expect(reader.load8(0)).toBe(255);
+  });
+
+  it('is made for its owner alone, or for a group, never for everybody, whatever the umask', () => {
+    const before = process.umask(0);
+    try {
+      MappedFile.open(path, { bytes: 1, create: true }).close();
+      expect(statSync(path).mode & 0o777).toBe(0o600);
+      MappedFile.open(`${path}2`, { bytes: 1, create: true, mode: 0o660 }).close();
+      expect(statSync(`${path}2`).mode & 0o777).toBe(0o660);
+      MappedFile.open(`${path}3`, { bytes: 1, create: true, mode: 0o666 }).close();
+      expect(statSync(`${path}3`).mode & 0o777).toBe(0o660);
+      process.umask(0o077);
+      MappedFile.open(`${path}4`, { bytes: 1, create: true, mode: 0o660 }).close();
+      expect(statSync(`${path}4`).mode & 0o777).toBe(0o660);
+    } finally {
+      process.umask(before);
+    }
+  });
+
+  it.each<[string, (path: string) => void, string]>([
+    ['nothing', () => undefined, 'absent'],
+    ['a folder', (path) => mkdirSync(path), 'not-a-file'],
+    [
+      'a symbolic link',
+      (path) => {
+        writeFileSync(`${path}-real`, 'x');
+        symlinkSync(`${path}-real`, path);
+      },
+      'not-a-file',
+    ],
+    ['an empty file', (path) => writeFileSync(path, ''), 'wrong-size'],
+    ['a file of another size', (path) => writeFileSync(path, 'x'.repeat(11)), 'wrong-size'],
+    [
+      'a file that everybody may write',
+      (path) => {
+        writeFileSync(path, 'x'.repeat(10));
+        chmodSync(path, 0o666);
+      },
+      'unsafe-permissions',
+    ],
+  ])('refuses %s', (_, make, code) => {
+    make(path);
+    const error = errorOf(() => MappedFile.open(path, { bytes: 10 }));
+    expect(error.code).toBe(code);
+    expect(error.file).toBe(path);
+    expect(error.message).toContain(path);
+  });
+
+  it('survives a file that is cut short, and names the byte', () => {
+    using file = MappedFile.open(path, { bytes: 20_000, create: true });
+    truncateSync(path, 5000);
+    const bytes = new Uint8Array(20_000);
+    for (const access of [
+      () => file.load8(16_384),
+      () => file.load32(16_384),
+      () => file.store8(16_384, 1),
+      () => file.store32(16_384, 1),
+      () => file.copyIn(16_384, bytes.subarray(0, 100)),
+      () => file.unpackPoints64(16_384, 1200, new Uint32Array(600)),
+      () => file.unproject(16_384, 16_384, 10, 10, 0, Float64Array.of(1, 1, 0, 0), new Uint32Array(400)),
+    ]) {
+      expect(errorOf(access)).toMatchObject({ code: 'truncated', file: path, offset: 16_384 });
+    }
+    // What is read first is what memcpy happens to touch first, within the missing pages.
+    const error = errorOf(() => file.copyOut(0, bytes));
+    expect(error.code).toBe('truncated');
+    expect(error.offset).toBeGreaterThanOrEqual(8192);
+    expect(file.current).toBe(false);
+    truncateSync(path, 20_000);
+    expect(file.current).toBe(true);
+    expect(file.load32(16_384)).toBe(0);
+  });
+
+  it('notices that another file has taken its place', () => {
+    using file = MappedFile.open(path, { bytes: 10, create: true });
+    expect(file.current).toBe(true);
+    writeFileSync(`${path}2`, 'x'.repeat(10));
+    renameSync(`${path}2`, path);
+    expect(file.current).toBe(false);
+    expect(file.load8(0)).toBe(0);
+  });
+
+  it('can be locked once', () => {
+    using first = MappedFile.open(path, { bytes: 10, create: true });
+    expect(first.lock()).toBe(true);
+    {
+      using second = MappedFile.open(path);
+      expect(second.lock()).toBe(false);
+    }
+    first.close();
+    using third = MappedFile.open(path);
+    expect(third.lock()).toBe(true);
+  });
+
+  it('takes no access beyond its end, none that is not aligned, none to write what is only read, none once closed', () => {
+    MappedFile.open(path, { bytes: 10, create: true }).close();
+    const file = MappedFile.open(path);
+    const bytes = new Uint8Array(11);
+    for (const access of [
+      () => file.load8(10),
+      () => file.load8(-1),
+      () => file.load8(Number.NaN),
+      () => file.load32(8),
+      () => file.load32(2),
+      () => file.copyOut(0, bytes),
+      () => file.copyOut(2 ** 53, bytes.subarray(1)),
+      () => file.unpackPoints64(0, 8, new Uint32Array(3)),
+      () => file.unpackPoints64(0, 7, new Uint32Array(400)),
+      () => file.unproject(0, 0, 0xffffffff, 0xffffffff, 0, Float64Array.of(1, 1, 0, 0), new Uint32Array(4)),
+      () => file.store8(0, 1),
+      () => file.copyIn(0, bytes.subarray(1)),
+    ]) {
+      expect(access).toThrow();
+    }
+    expect(codeOf(() => MappedFile.open(join(path, 'below')))).toBe('absent');
+    file.close();
+    expect(() => file.load8(0)).toThrow('0');
+    expect(() => file.close()).not.toThrow();
+  });
+});

@@ -1,0 +1,183 @@
+import { type Addon, type ByteView, loadAddon, type MappingHandle } from './addon.ts';
+import { SharedMemoryError, type SharedMemoryErrorCode } from './errors.ts';
+
+export interface MapOptions {
+  /** Bytes that the file must have; left out, whatever it has. */
+  bytes?: number;
+  writable?: boolean;
+  /** Made where it is missing, with `bytes` zeros. A file that is there with another size gets `bytes`. */
+  create?: boolean;
+  /** With `create`: it must not be there yet. */
+  exclusive?: boolean;
+  /** Permissions of a file that is made; nobody but owner and group ever gets any. Default 0600. */
+  mode?: number;
+}
+
+/** A file in shared memory, mapped. Every access is safe whatever another process does to the file meanwhile. */
+export class MappedFile implements Disposable {
+  readonly path: string;
+  readonly bytes: number;
+  readonly handle: MappingHandle;
+  readonly #addon: Addon;
+
+  private constructor(addon: Addon, path: string, handle: MappingHandle) {
+    this.#addon = addon;
+    this.path = path;
+    this.handle = handle;
+    this.bytes = addon.size(handle);
+  }
+
+  /** @throws {SharedMemoryError} */
+  static open(path: string, options: MapOptions = {}): MappedFile {
+    const { bytes = 0, writable = false, create = false, exclusive = false, mode = 0o600 } = options;
+    const addon = loadAddon();
+    try {
+      return new MappedFile(
+        addon,
+        path,
+        addon.open(path, writable || create, create, exclusive, create, bytes, mode),
+      );
+    } catch (error) {
+      throw translated(error, path, bytes);
+    }
+  }
+
+  /** False once the file was removed, replaced or changed its size: open it anew. */
+  get current(): boolean {
+    return this.#addon.current(this.handle);
+  }
+
+  /** Takes the file's lock for as long as it is mapped; false where another process has it. */
+  lock(): boolean {
+    return this.#addon.lock(this.handle);
+  }
+
+  /** A byte, with everything that was stored before it. @throws {SharedMemoryError} as every access: `truncated` */
+  load8(offset: number): number {
+    return this.#do(() => this.#addon.load8(this.handle, offset));
+  }
+
+  /** An aligned word, with everything that was stored before it. */
+  load32(offset: number): number {
+    return this.#do(() => this.#addon.load32(this.handle, offset));
+  }
+
+  /** Seen by others after everything that was stored before. */
+  store8(offset: number, value: number): void {
+    this.#do(() => this.#addon.store8(this.handle, offset, value));
+  }
+
+  store32(offset: number, value: number): void {
+    this.#do(() => this.#addon.store32(this.handle, offset, value));
+  }
+
+  /** Nothing is moved past it, in either direction. */
+  fence(): void {
+    this.#addon.fence();
+  }
+
+  copyOut(offset: number, to: ByteView): void {
+    this.#do(() => this.#addon.copyOut(this.handle, offset, to));
+  }
+
+  copyIn(offset: number, from: ByteView): void {
+    this.#do(() => this.#addon.copyIn(this.handle, offset, from));
+  }
+
+  /** Wakes those who wait for the word at `offset` to change. */
+  wake(offset: number): void {
+    this.#addon.wake(this.handle, offset);
+  }
+
+  /**
+   * The reference system's packed points, as points of 16 bytes, in one pass.
+   *
+   * @param bytes 8 for each point
+   * @returns whether every point has the latency test's colour
+   */
+  unpackPoints64(offset: number, bytes: number, to: ByteView): boolean {
+    return this.#do(() => this.#addon.unpackPoints64(this.handle, offset, bytes, to));
+  }
+
+  /**
+   * Depth and colour to points of 16 bytes, in one pass; NaN where there is no depth.
+   *
+   * @param unit metres a unit of 16-bit depth; 0 for float32 metres
+   * @param lens fx, fy, cx, cy in pixels
+   */
+  unproject(
+    depthOffset: number,
+    colourOffset: number,
+    width: number,
+    height: number,
+    unit: number,
+    lens: Float64Array,
+    to: ByteView,
+  ): void {
+    this.#do(() =>
+      this.#addon.unproject(this.handle, depthOffset, colourOffset, width, height, unit, lens, to),
+    );
+  }
+
+  close(): void {
+    this.#addon.close(this.handle);
+  }
+
+  [Symbol.dispose](): void {
+    this.close();
+  }
+
+  #do<T>(access: () => T): T {
+    try {
+      return access();
+    } catch (error) {
+      throw translated(error, this.path, this.bytes);
+    }
+  }
+}
+
+const SYSTEM_CODES: Readonly<Record<string, readonly [SharedMemoryErrorCode, string]>> = {
+  ENOENT: ['absent', 'there is no such file'],
+  ENOTDIR: ['absent', 'there is no such folder'],
+  EACCES: ['not-permitted', 'the system does not permit it'],
+  EPERM: ['not-permitted', 'the system does not permit it'],
+  EROFS: ['not-permitted', 'the file system is read-only'],
+  EEXIST: ['in-use', 'it is there already'],
+  ELOOP: ['not-a-file', 'a symbolic link is not followed'],
+  EISDIR: ['not-a-file', 'it is a folder'],
+  FILE: ['not-a-file', 'it is no regular file'],
+  ENOSPC: ['out-of-memory', 'the shared memory is full'],
+  ENOMEM: ['out-of-memory', 'there is no memory left'],
+};
+
+/** The addon's error in this package's terms; mistakes of the caller stay what they are. */
+export function translated(error: unknown, path: string, wantedBytes: number): unknown {
+  if (!(error instanceof Error)) return error;
+  const { code = '' } = error as NodeJS.ErrnoException;
+  const number = Number(error.message);
+  const known = SYSTEM_CODES[code];
+  if (known !== undefined) return new SharedMemoryError(known[0], path, null, known[1]);
+  switch (code) {
+    case 'UNSAFE':
+      return new SharedMemoryError(
+        'unsafe-permissions',
+        path,
+        null,
+        `everybody may write it (mode ${number.toString(8)}): \`chmod o-w\` it`,
+      );
+    case 'SIZE':
+      return new SharedMemoryError(
+        'wrong-size',
+        path,
+        number,
+        wantedBytes === 0 ? 'it is empty' : `it has ${number} bytes, not ${wantedBytes}`,
+      );
+    case 'FAULT':
+      return new SharedMemoryError('truncated', path, number, 'the file was cut short while it was used');
+    case 'EMFILE':
+    case 'EIO':
+      return new SharedMemoryError('io', path, null, `the system refuses it (${code})`);
+    default:
+      return error;
+  }
+}

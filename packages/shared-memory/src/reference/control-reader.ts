@@ -1,0 +1,69 @@
+import type { Twist } from '@farpoint/protocol';
+import { SharedMemoryError } from '../errors.ts';
+import { MappedFile } from '../mapped-file.ts';
+import { BUSY_BYTES, CONTROL_BYTES, referenceFiles } from './layout.ts';
+
+export interface ControlBlock {
+  counter: number;
+  twist: Twist;
+}
+
+/** Reads `shared_control`, as whatever moves the wheels does. */
+export class ReferenceControlReader implements Disposable {
+  readonly #block: MappedFile;
+  readonly #busy: MappedFile;
+  readonly #bytes = new Uint8Array(CONTROL_BYTES);
+
+  /** @throws {SharedMemoryError} */
+  constructor(folder?: string) {
+    const paths = referenceFiles(folder);
+    this.#block = MappedFile.open(paths.control, { bytes: CONTROL_BYTES });
+    try {
+      this.#busy = MappedFile.open(paths.busy, { bytes: BUSY_BYTES });
+    } catch (error) {
+      this.#block.close();
+      throw error;
+    }
+  }
+
+  get current(): boolean {
+    return this.#block.current && this.#busy.current;
+  }
+
+  /**
+   * The block, or `null` while it is being written: ask again.
+   *
+   * @throws {SharedMemoryError} `bad-frame` for velocities that are no finite numbers; `truncated`
+   */
+  read(): ControlBlock | null {
+    if (this.#busy.load8(0) !== 0) return null;
+    this.#block.copyOut(0, this.#bytes);
+    this.#block.fence();
+    const view = new DataView(this.#bytes.buffer);
+    // A whole write may have gone by meanwhile: then the counter is another one.
+    if (this.#busy.load8(0) !== 0 || this.#block.load32(0) !== view.getUint32(0, true)) return null;
+    const value = (index: number): number => {
+      const offset = 4 + index * 8;
+      const number = view.getFloat64(offset, true);
+      if (!Number.isFinite(number))
+        throw new SharedMemoryError('bad-frame', this.#block.path, offset, `a velocity of ${number}`);
+      return number;
+    };
+    return {
+      counter: view.getInt32(0, true),
+      twist: {
+        linear: { x: value(0), y: value(1), z: value(2) },
+        angular: { x: value(3), y: value(4), z: value(5) },
+      },
+    };
+  }
+
+  close(): void {
+    this.#block.close();
+    this.#busy.close();
+  }
+
+  [Symbol.dispose](): void {
+    this.close();
+  }
+}

@@ -1,0 +1,89 @@
+import type { Twist } from '@farpoint/protocol';
+import { type Addon, type ControlHandle, loadAddon } from '../addon.ts';
+import { MappedFile, translated } from '../mapped-file.ts';
+import { BUSY_BYTES, CONTROL_BYTES, referenceFiles } from './layout.ts';
+
+export interface ControlWriterOptions {
+  folder?: string | undefined;
+  /** Permissions of files that are made. Default 0600. */
+  mode?: number | undefined;
+  /** Without a write for this long a native thread writes zero velocity, ms. */
+  silenceMs: number;
+}
+
+/**
+ * Writes the velocity into `shared_control`, with a counter that grows by one each time. What reads it makes the velocity
+ * zero once the counter stands still.
+ */
+export class ReferenceControlWriter implements Disposable {
+  readonly #options: ControlWriterOptions;
+  readonly #addon: Addon = loadAddon();
+  readonly #values = new Float64Array(6);
+  #files: { block: MappedFile; busy: MappedFile; control: ControlHandle } | null;
+  #silencesBefore = 0;
+
+  /** @throws {SharedMemoryError} */
+  constructor(options: ControlWriterOptions) {
+    this.#options = options;
+    this.#files = this.#open();
+  }
+
+  /**
+   * Writes a velocity. Files that the reader has removed or made anew are opened again.
+   *
+   * @returns the counter
+   * @throws {SharedMemoryError} where it could not be written; the next write tries again
+   */
+  write({ linear, angular }: Twist): number {
+    if (this.#files !== null && !(this.#files.block.current && this.#files.busy.current)) this.#close();
+    this.#files ??= this.#open();
+    this.#values.set([linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]);
+    try {
+      return this.#addon.controlWrite(this.#files.control, this.#values);
+    } catch (error) {
+      throw translated(error, this.#files.block.path, CONTROL_BYTES);
+    }
+  }
+
+  /** How often silence has made the velocity zero. */
+  get silences(): number {
+    return (
+      this.#silencesBefore + (this.#files === null ? 0 : this.#addon.controlSilences(this.#files.control))
+    );
+  }
+
+  /** Writes zero velocity and lets go. */
+  close(): void {
+    this.#close();
+  }
+
+  [Symbol.dispose](): void {
+    this.close();
+  }
+
+  #open(): { block: MappedFile; busy: MappedFile; control: ControlHandle } {
+    const { folder, mode, silenceMs } = this.#options;
+    const paths = referenceFiles(folder);
+    const create = { create: true, ...(mode === undefined ? {} : { mode }) };
+    const block = MappedFile.open(paths.control, { bytes: CONTROL_BYTES, ...create });
+    let busy: MappedFile | null = null;
+    try {
+      busy = MappedFile.open(paths.busy, { bytes: BUSY_BYTES, ...create });
+      return { block, busy, control: this.#addon.control(block.handle, busy.handle, silenceMs) };
+    } catch (error) {
+      block.close();
+      busy?.close();
+      throw error;
+    }
+  }
+
+  #close(): void {
+    if (this.#files === null) return;
+    this.#silencesBefore = this.silences;
+    const { block, busy, control } = this.#files;
+    this.#files = null;
+    this.#addon.controlClose(control);
+    block.close();
+    busy.close();
+  }
+}

@@ -1,0 +1,157 @@
+import { readFileSync, rmSync, statSync, truncateSync, writeFileSync } from 'node:fs';
+import { type Twist, zeroTwist } from '@farpoint/protocol';
+import fc from 'fast-check';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import {
+  ADDON_SUITE,
+  errorOf,
+  fromHex,
+  readVectors,
+  removeFolder,
+  scratchFolder,
+  toHex,
+  until,
+} from '../testing.ts';
+import { ReferenceControlReader } from './control-reader.ts';
+import { ReferenceControlWriter } from './control-writer.ts';
+import { type ReferenceFiles, referenceFiles } from './layout.ts';
+
+interface ControlVector {
+  counter: number;
+  linear: [number, number, number];
+  angular: [number, number, number];
+  hex: string;
+}
+const vectors = readVectors<{ control: ControlVector[] }>('reference.json').control;
+
+let folder: string;
+let files: ReferenceFiles;
+const open: Disposable[] = [];
+beforeEach(() => {
+  folder = scratchFolder();
+  files = referenceFiles(folder);
+});
+afterEach(() => {
+  for (const each of open.splice(0)) each[Symbol.dispose]();
+  removeFolder(folder);
+});
+
+/** No test waits for this silence but the one that is about it. */
+function writer(silenceMs = 60_000): ReferenceControlWriter {
+  const made = new ReferenceControlWriter({ folder, silenceMs });
+  open.push(made);
+  return made;
+}
+
+function reader(): ReferenceControlReader {
+  const made = new ReferenceControlReader(folder);
+  open.push(made);
+  return made;
+}
+
+const twistOf = ([x, y, z]: number[], [ax, ay, az]: number[]): Twist =>
+  ({ linear: { x, y, z }, angular: { x: ax, y: ay, z: az } }) as Twist;
+const forward = twistOf([0.5, 0, 0], [0, 0, 0.1]);
+
+describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
+  it('makes the files as they must be, for their owner', () => {
+    writer();
+    expect(statSync(files.control)).toMatchObject({ size: 52 });
+    expect(statSync(files.busy)).toMatchObject({ size: 5 });
+    expect(statSync(files.control).mode & 0o777).toBe(0o600);
+  });
+
+  it.each(vectors)('reads and writes $hex', ({ counter, linear, angular, hex }) => {
+    const before = new Uint8Array(52);
+    new DataView(before.buffer).setInt32(0, counter - 1, true);
+    writeFileSync(files.control, before, { mode: 0o600 });
+    expect(writer().write(twistOf(linear, angular))).toBe(counter);
+    expect(toHex(readFileSync(files.control))).toBe(hex);
+    expect(readFileSync(files.busy)[0]).toBe(0);
+    writeFileSync(files.control, fromHex(hex));
+    expect(reader().read()).toEqual({ counter, twist: twistOf(linear, angular) });
+  });
+
+  it('carries any velocity, its counter growing by one', () => {
+    const value = fc.double({ noNaN: true, noDefaultInfinity: true });
+    const [write, read] = [writer(), reader()];
+    let last = 0;
+    fc.assert(
+      fc.property(fc.array(value, { minLength: 6, maxLength: 6 }), (v) => {
+        const twist = twistOf(v.slice(0, 3), v.slice(3));
+        const counter = write.write(twist);
+        expect(counter).toBe(last + 1);
+        last = counter;
+        expect(read.read()).toEqual({ counter, twist });
+      }),
+      { numRuns: 100, seed: 1 },
+    );
+  });
+
+  it('is not read while it is written, and a velocity that is no number is refused', () => {
+    writer().write(forward);
+    const read = reader();
+    writeFileSync(files.busy, Uint8Array.of(1, 0, 0, 0, 0));
+    expect(read.read()).toBeNull();
+    writeFileSync(files.busy, Uint8Array.of(0, 0, 0, 0, 0));
+    const bytes = readFileSync(files.control);
+    bytes.writeDoubleLE(Number.NaN, 12);
+    writeFileSync(files.control, bytes);
+    expect(errorOf(() => read.read())).toMatchObject({ code: 'bad-frame', file: files.control, offset: 12 });
+  });
+
+  it('a busy flag left by a killed writer is cleared by the next', () => {
+    const first = writer();
+    first.write(forward);
+    writeFileSync(files.busy, Uint8Array.of(1, 0, 0, 0, 0));
+    writer().write(zeroTwist());
+    expect(reader().read()?.twist).toEqual(zeroTwist());
+  });
+
+  it('becomes zero by itself where nothing is written, with a counter that shows it', async () => {
+    const write = writer(5);
+    const read = reader();
+    const counter = write.write(forward);
+    // Nothing in this thread writes.
+    await until(() => (read.read()?.counter ?? counter) > counter);
+    expect(read.read()).toEqual({ counter: counter + 1, twist: zeroTwist() });
+    expect(write.silences).toBe(1);
+    expect(write.write(zeroTwist())).toBe(counter + 2);
+  });
+
+  it('becomes zero even while this thread hangs', () => {
+    const write = writer(5);
+    const read = reader();
+    const counter = write.write(forward);
+    const deadline = performance.now() + 10_000;
+    while ((read.read()?.counter ?? counter) === counter && performance.now() < deadline);
+    expect(read.read()?.twist).toEqual(zeroTwist());
+  });
+
+  it('becomes zero when it is closed', () => {
+    const write = writer();
+    const counter = write.write(forward);
+    const read = reader();
+    write.close();
+    expect(read.read()).toEqual({ counter: counter + 1, twist: zeroTwist() });
+  });
+
+  it('goes on when whoever reads it makes the files anew, or cuts them short and long again', () => {
+    const write = writer();
+    const counter = write.write(forward);
+    truncateSync(files.control, 0);
+    truncateSync(files.busy, 0);
+    expect(write.write(forward)).toBeGreaterThan(0);
+    expect(reader().read()?.twist).toEqual(forward);
+    rmSync(files.control);
+    rmSync(files.busy);
+    expect(write.write(forward)).toBeGreaterThan(0);
+    expect(reader().read()?.twist).toEqual(forward);
+    expect(counter).toBe(1);
+  });
+
+  it('says which file cannot be had', () => {
+    rmSync(folder, { recursive: true });
+    expect(errorOf(() => writer())).toMatchObject({ code: 'absent', file: files.control });
+  });
+});

@@ -1,0 +1,50 @@
+/** Helpers of this package's tests. */
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { isAvailable } from './addon.ts';
+import { SharedMemoryError, type SharedMemoryErrorCode } from './errors.ts';
+
+/** Tests that need the addon name the command that builds it where they are left out. */
+export const ADDON_SUITE = { skip: !isAvailable(), note: 'needs the addon: pnpm build:native' };
+
+/** A folder of its own, in shared memory where there is any. */
+export function scratchFolder(): string {
+  return mkdtempSync(join(existsSync('/dev/shm') ? '/dev/shm' : tmpdir(), 'farpoint-test-'));
+}
+
+export function removeFolder(folder: string): void {
+  rmSync(folder, { recursive: true, force: true });
+}
+
+export function fromHex(hex: string): Uint8Array {
+  return new Uint8Array(Buffer.from(hex, 'hex'));
+}
+
+export function toHex(bytes: Uint8Array): string {
+  return Buffer.from(bytes).toString('hex');
+}
+
+export function readVectors<T>(name: string): T {
+  return JSON.parse(readFileSync(join(import.meta.dirname, '..', 'vectors', name), 'utf8')) as T;
+}
+
+/** What an action is refused with. */
+export function errorOf(action: () => unknown): SharedMemoryError {
+  try {
+    action();
+  } catch (error) {
+    if (error instanceof SharedMemoryError) return error;
+    throw error;
+  }
+  throw new Error('it was accepted');
+}
+
+export function codeOf(action: () => unknown): SharedMemoryErrorCode {
+  return errorOf(action).code;
+}
+
+/** Resolves once `is` holds; what changes it is another thread or process. */
+export async function until(is: () => boolean): Promise<void> {
+  while (!is()) await new Promise((resolve) => setTimeout(resolve, 1));
+}

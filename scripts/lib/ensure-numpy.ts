@@ -1,0 +1,24 @@
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
+import { root, run } from './run.ts';
+
+/** Where the tests' own Python lives; `FARPOINT_PYTHON` names another. */
+const FOLDER = join(root, '.farpoint', 'python');
+
+/** Finds a Python with numpy, or makes one. The tests that need it say so where it is missing. */
+export async function ensureNumpy(say: (line: string) => void): Promise<void> {
+  const candidates = [process.env.FARPOINT_PYTHON, join(FOLDER, 'bin', 'python3'), 'python3'];
+  for (const python of candidates) if (python !== undefined && (await hasNumpy(python))) return;
+  if (!existsSync(FOLDER)) {
+    say('no numpy here; fetching it for the tests of the Python producer');
+    await run('python3', ['-m', 'venv', FOLDER], { timeoutMs: 60_000 });
+    const pip = join(FOLDER, 'bin', 'pip');
+    await run(pip, ['install', '--quiet', '--disable-pip-version-check', 'numpy'], { timeoutMs: 180_000 });
+  }
+  if (!(await hasNumpy(join(FOLDER, 'bin', 'python3'))))
+    say('no numpy: the tests of the Python producer are left out (apt-get install python3-numpy)');
+}
+
+async function hasNumpy(python: string): Promise<boolean> {
+  return (await run(python, ['-c', 'import numpy'])).code === 0;
+}
