@@ -5,7 +5,7 @@ import { silentLogger } from '@farpoint/service';
 import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
 import { WebSocket } from 'ws';
 import { Bridge } from './bridge.ts';
-import { ReferenceRobot } from './testing/reference-robot.ts';
+import { ReferenceRobot } from '@farpoint/conformance';
 
 const cleanups: (() => unknown)[] = [];
 let stack: LocalStack;

@@ -61,6 +61,9 @@ export class ReferencePeer {
     const { control } = referenceChannels;
     const commands = connection.createDataChannel(control.label, { ordered: control.ordered });
     commands.onMessage.subscribe((data) => this.#events.onMessage('control', data));
+    commands.stateChanged.subscribe((state) => {
+      if (state === 'closed') this.close('connection-lost', 'the control channel closed');
+    });
     connection.onDataChannel.subscribe((channel) => this.#adopt(channel));
     connection.onIceCandidate.subscribe((candidate) => {
       if (candidate === undefined || this.#state === 'ended') return;

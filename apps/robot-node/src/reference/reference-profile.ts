@@ -48,6 +48,8 @@ export class ReferenceProfile {
   /** Offered, perhaps answered, not connected. */
   #offered: ReferenceOperator | null = null;
   #current: ReferenceOperator | null = null;
+  /** Another operator has answered the offer that this one took. */
+  #rival = false;
   #retry: NodeJS.Timeout | null = null;
   #failures = 0;
   #made = 0;
@@ -90,7 +92,12 @@ export class ReferenceProfile {
 
   /** Every 25 ms. */
   tick(): void {
-    this.#current?.tick();
+    const current = this.#current;
+    current?.tick();
+    // Where who took the offer seems to be gone, there is a new one for who came after.
+    if (this.#rival && current !== null && current.silentMs(this.#host.now()) > REPLACE_AFTER_MS) {
+      current.peer.close('closed', 'another operator is here');
+    }
   }
 
   close(): void {
@@ -126,11 +133,8 @@ export class ReferenceProfile {
       for (const candidate of offered.peer.candidates) this.#tell(candidate);
       return;
     }
-    // Somebody else answers the offer that is taken. Where who took it seems to be gone, there is a new one.
-    const current = this.#current;
-    if (current !== null && current.silentMs(this.#host.now()) > REPLACE_AFTER_MS) {
-      current.peer.close('closed', 'another operator is here');
-    }
+    // Somebody else answers the offer that is taken.
+    this.#rival = this.#current !== null;
   }
 
   /** Registers, anew where need be: the service then knows the robot by another id. */
@@ -182,6 +186,7 @@ export class ReferenceProfile {
     this.#failures = 0;
     const before = this.#current;
     this.#current = operator;
+    this.#rival = false;
     if (this.#offered === operator) this.#offered = null;
     before?.peer.close('closed', 'another operator has connected');
     this.#options.onBudgetChanged();

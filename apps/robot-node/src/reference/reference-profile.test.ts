@@ -1,0 +1,218 @@
+/** The robot program to an operator of the reference system: processes, sockets, WebRTC. */
+import { checkOffer, ReferenceOperator, RtpStreamRules, SocketPeer } from '@farpoint/conformance';
+import { LocalStack } from '@farpoint/local-stack';
+import { LATENCY_TEST_COLOUR, type LeaseState, type Twist, zeroTwist } from '@farpoint/protocol';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { SignaledOperator } from '../testing/signaled-operator.ts';
+
+const ROBOT = 'sim-1';
+const NAME = 'Simulated robot';
+const ARGS = ['--sim-size', '64', '--max-points', '650'];
+
+let stack: LocalStack;
+const cleanups: (() => Promise<void>)[] = [];
+
+beforeAll(async () => {
+  stack = await LocalStack.start({ robots: [] });
+  const reference = ['--reference-signaling', `ws://127.0.0.1:${stack.ports.referenceRobot}`];
+  await stack.startRobot({ id: ROBOT, name: NAME, args: [...ARGS, ...reference] });
+}, 60_000);
+afterAll(() => stack.stop(), 30_000);
+afterEach(async () => {
+  for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
+});
+
+function clientUrl(): string {
+  return `ws://127.0.0.1:${stack.ports.referenceClient}/`;
+}
+
+async function referenceOperator(): Promise<ReferenceOperator> {
+  const operator = await ReferenceOperator.connect(clientUrl(), NAME);
+  cleanups.push(() => operator.close());
+  return operator;
+}
+
+async function farpointOperator(): Promise<SignaledOperator> {
+  const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+  cleanups.push(() => operator.close());
+  await operator.client.until(() => operator.client.telemetry !== null);
+  return operator;
+}
+
+function forward(metresPerSecond: number): Twist {
+  const twist = zeroTwist();
+  twist.linear.x = metresPerSecond;
+  return twist;
+}
+
+/** Who drives, as the robot told this operator last. */
+async function untilHolder({ client }: SignaledOperator, holder: LeaseState['holder']): Promise<void> {
+  await client.until(() => client.session.findLast((message) => message.type === 'lease')?.holder === holder);
+}
+
+/** Says the same at 50 Hz until the returned function is called. */
+function repeat(operator: ReferenceOperator, twist: Twist): () => void {
+  const timer = setInterval(() => operator.command(twist), 20);
+  return () => clearInterval(timer);
+}
+
+describe('reference profile of the robot process', { timeout: 30_000 }, () => {
+  it('offers and sends exactly what the reference system does, from "start" to "stop"', async () => {
+    const operator = await referenceOperator();
+    expect(checkOffer(operator.offer)).toEqual([]);
+    expect(operator.robotChannels).toEqual([{ label: 'controltrack', ordered: true, reliable: true }]);
+    const rules = new RtpStreamRules();
+    const points: number[] = [];
+    operator.onPacket = (packet) => {
+      rules.add(packet);
+      points.push(new DataView(packet.buffer).getUint32(24, true) / 8);
+    };
+    operator.say('start');
+    await operator.packets.next(() => rules.frames >= 20);
+    expect(rules.findings).toEqual([]);
+    // 650 were asked for: a multiple of 150.
+    expect(new Set(points)).toEqual(new Set([600]));
+    operator.say(new TextEncoder().encode('stop'));
+    // The last of the old stream and the first of the new one: nothing came in between, and frames count on.
+    operator.say('start');
+    const { frames } = rules;
+    await operator.packets.next(() => rules.frames >= frames + 5);
+    expect(rules.findings).toEqual([]);
+  });
+
+  it('serves both kinds of operators at once', async () => {
+    const [own, reference] = [await farpointOperator(), await referenceOperator()];
+    reference.say('start');
+    const rules = new RtpStreamRules();
+    reference.onPacket = (packet) => rules.add(packet);
+    const before = own.client.completeFrames.length;
+    await reference.packets.next(() => rules.frames >= 10);
+    await own.client.until(() => own.client.completeFrames.length >= before + 10);
+    expect(own.client.malformedPackets).toBe(0);
+    expect(rules.findings).toEqual([]);
+  });
+
+  it('obeys within the robot’s own limits, one operator at a time, and stops without commands', async () => {
+    const [own, reference] = [await farpointOperator(), await referenceOperator()];
+    const { client } = own;
+    const start = client.telemetry!.pose.position.x;
+    const stop = repeat(reference, forward(0.3));
+    await client.until(() => (client.telemetry?.pose.position.x ?? 0) > start + 0.1);
+    expect(client.telemetry?.drive).toBe('driving');
+    // Not for whoever asks while another drives.
+    await untilHolder(own, 'other');
+    stop();
+    await client.until(() => client.telemetry?.drive === 'watchdog');
+    await client.until(() => client.telemetry?.twist.linear.x === 0);
+    // Given back by itself, so that others may.
+    await untilHolder(own, 'nobody');
+    await client.takeLease();
+    const still = repeat(reference, forward(0.3));
+    const stamp = client.telemetry!.sequence;
+    await client.until(() => client.telemetry!.sequence > stamp + 10);
+    expect(client.telemetry?.twist.linear.x).toBe(0);
+    still();
+    client.sendSession({ type: 'leaseRelease' });
+    await untilHolder(own, 'nobody');
+    // Beyond the limit it is refused, not cut off.
+    const fast = repeat(reference, forward(5));
+    const later = client.telemetry!.sequence;
+    await client.until(() => client.telemetry!.sequence > later + 10);
+    expect(client.telemetry?.twist.linear.x).toBe(0);
+    fast();
+  });
+
+  it('makes a green frame where linear.z asks for it, and does not move for it', async () => {
+    const operator = await referenceOperator();
+    operator.say('start');
+    await operator.packets.next();
+    const twist = forward(0.5);
+    twist.linear.z = 1;
+    operator.command(twist);
+    const green = await operator.packets.next((packet) =>
+      coloursOf(packet).every((c) => c === LATENCY_TEST_COLOUR),
+    );
+    expect(coloursOf(green).length).toBe(150);
+  });
+
+  it('keeps below what the operator reports', async () => {
+    const operator = await referenceOperator();
+    operator.say('start');
+    const rateOver = async (packets: number): Promise<number> => {
+      let first: Uint8Array | null = null;
+      let count = 0;
+      let last = new Uint8Array();
+      await operator.packets.next((packet) => {
+        first ??= packet;
+        last = packet as Uint8Array<ArrayBuffer>;
+        return ++count > packets;
+      });
+      const seconds = ((timestampOf(last) - timestampOf(first as unknown as Uint8Array)) >>> 0) / 90_000;
+      return (packets * 1200 * 8) / seconds;
+    };
+    await operator.packets.next();
+    for (let i = 0; i < 16; i++) operator.report(400_000);
+    // What was on its way already is let pass.
+    await rateOver(40);
+    expect(await rateOver(40)).toBeLessThan(440_000);
+  });
+
+  it('is not moved by garbage, nor by answers that are none, and offers itself anew', async () => {
+    const first = await referenceOperator();
+    for (const bytes of [new Uint8Array([0xff, 0xfe, 0]), new TextEncoder().encode('{"linear":')]) {
+      first.sendControl(bytes);
+      first.sendBandwidth(bytes);
+      first.say(bytes);
+    }
+    first.sendControl('null');
+    first.sendBandwidth('text');
+    first.sendBandwidth(new Uint8Array([0xff, 0xff, 0xff, 0xff]));
+    first.say('start');
+    await first.packets.next();
+    await first.close();
+    const line = await SocketPeer.open(clientUrl());
+    cleanups.push(() => line.close());
+    for (let i = 0; i < 3; i++) {
+      const { robot } = await line.message<{ robot: { id: number } }>({ type: 'register' });
+      line.send({ type: 'candidate', robotId: robot.id, candidate: 'candidate:nonsense' });
+      line.send({ type: 'answer', robotId: robot.id, sdpAnswer: 'v=0\r\nm=nonsense' });
+    }
+    const again = await referenceOperator();
+    again.say('start');
+    const rules = new RtpStreamRules();
+    again.onPacket = (packet) => rules.add(packet);
+    await again.packets.next(() => rules.frames >= 3);
+    // Frames count from 0 for each connection.
+    expect(rules.findings).toEqual([]);
+  });
+
+  it('comes back when signaling does, and while it is away keeps streaming', async () => {
+    const operator = await referenceOperator();
+    operator.say('start');
+    await operator.packets.next();
+    await stack.signaling.kill();
+    let count = 0;
+    await operator.packets.next(() => ++count > 50);
+    await stack.startSignaling();
+    const again = await referenceOperator();
+    again.say('start');
+    await again.packets.next();
+  });
+
+  it('has no such face where it is not asked for', async () => {
+    const other = await LocalStack.start({ robots: [{ id: ROBOT, name: NAME, args: ARGS }] });
+    cleanups.push(() => other.stop());
+    const line = await SocketPeer.open(`ws://127.0.0.1:${other.ports.referenceClient}/`);
+    cleanups.push(() => line.close());
+    line.send({ type: 'getRobots' });
+    expect(await line.message({ type: 'robots' })).toEqual({ type: 'robots', robots: [] });
+  });
+});
+
+function coloursOf(packet: Uint8Array): Uint16Array {
+  return new Uint16Array(packet.slice(20 + 16 + 900, 20 + 16 + 1200).buffer);
+}
+
+function timestampOf(packet: Uint8Array): number {
+  return new DataView(packet.buffer, packet.byteOffset).getUint32(4);
+}

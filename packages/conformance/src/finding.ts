@@ -1,0 +1,7 @@
+/** Where an implementation departs from the reference profile. */
+export interface Finding {
+  /** Short name of the rule, for lists. */
+  rule: string;
+  /** For people: what was seen. */
+  detail: string;
+}
