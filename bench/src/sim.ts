@@ -50,7 +50,7 @@ export const bench: Bench = {
       const begin = performance.now();
       simulation.step(1 / fps);
       const stepped = performance.now();
-      const { depth } = simulation.renderFrame();
+      const { depth } = simulation.renderFrame({ points: false });
       const end = performance.now();
       if (frame < 0) continue;
       stepTimes.push(stepped - begin);

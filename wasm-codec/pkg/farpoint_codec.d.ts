@@ -32,7 +32,7 @@ export class Decoder {
 }
 
 /**
- * A frame, the sampler and the packet slots it is packed into.
+ * A frame of points or a camera's images, the sampler and the packet slots it is packed into.
  */
 export class Encoder {
     private constructor();
@@ -43,10 +43,18 @@ export class Encoder {
      */
     chosen_ptr(): number;
     /**
+     * 4 bytes a pixel.
+     */
+    colour_ptr(): number;
+    /**
      * Room for frames of `capacity` points; a block begins `data_offset` bytes into each `stride` bytes. `undefined` where
      * a full block does not fit into a slot.
      */
     static create(capacity: number, stride: number, data_offset: number): Encoder | undefined;
+    /**
+     * A float a pixel.
+     */
+    depth_ptr(): number;
     /**
      * 4 floats a point.
      */
@@ -62,9 +70,14 @@ export class Encoder {
      */
     report_ptr(): number;
     /**
-     * 0, or what was wrong: 1 lambda, 2 epsilon, 3 near distance, 4 more points than the capacity.
+     * Of the frame's first `points` points, or with `images` of the images. 0, or what was wrong: 1 lambda, 2 epsilon,
+     * 3 near distance, 4 more points than the capacity, 5 no camera was set.
      */
-    sample(points: number, count: number, lambda: number, epsilon: number, near_distance: number, range: boolean, keep_out_of_range: boolean, seed: bigint): number;
+    sample(images: boolean, points: number, count: number, lambda: number, epsilon: number, near_distance: number, range: boolean, keep_out_of_range: boolean, seed: bigint): number;
+    /**
+     * Makes the images, for this camera; false where there is none with such numbers or more pixels than the capacity.
+     */
+    set_camera(width: number, height: number, fx: number, fy: number, cx: number, cy: number): boolean;
     /**
      * The slots, one after another.
      */
@@ -304,11 +317,14 @@ export interface InitOutput {
     readonly decoder_slots_ptr: (a: number) => number;
     readonly decoder_unpack: (a: number, b: number) => number;
     readonly encoder_chosen_ptr: (a: number) => number;
+    readonly encoder_colour_ptr: (a: number) => number;
     readonly encoder_create: (a: number, b: number, c: number) => number;
+    readonly encoder_depth_ptr: (a: number) => number;
     readonly encoder_frame_ptr: (a: number) => number;
     readonly encoder_pack: (a: number, b: number, c: number) => void;
     readonly encoder_report_ptr: (a: number) => number;
-    readonly encoder_sample: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number, i: bigint) => number;
+    readonly encoder_sample: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number, i: number, j: bigint) => number;
+    readonly encoder_set_camera: (a: number, b: number, c: number, d: number, e: number, f: number, g: number) => number;
     readonly encoder_slots_ptr: (a: number) => number;
     readonly organiseddecoder_begin: (a: number) => void;
     readonly organiseddecoder_colour_ptr: (a: number) => number;

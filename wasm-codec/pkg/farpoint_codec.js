@@ -69,7 +69,7 @@ export class Decoder {
 if (Symbol.dispose) Decoder.prototype[Symbol.dispose] = Decoder.prototype.free;
 
 /**
- * A frame, the sampler and the packet slots it is packed into.
+ * A frame of points or a camera's images, the sampler and the packet slots it is packed into.
  */
 export class Encoder {
     static __wrap(ptr) {
@@ -97,6 +97,14 @@ export class Encoder {
         return ret >>> 0;
     }
     /**
+     * 4 bytes a pixel.
+     * @returns {number}
+     */
+    colour_ptr() {
+        const ret = wasm.encoder_colour_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
      * Room for frames of `capacity` points; a block begins `data_offset` bytes into each `stride` bytes. `undefined` where
      * a full block does not fit into a slot.
      * @param {number} capacity
@@ -107,6 +115,14 @@ export class Encoder {
     static create(capacity, stride, data_offset) {
         const ret = wasm.encoder_create(capacity, stride, data_offset);
         return ret === 0 ? undefined : Encoder.__wrap(ret);
+    }
+    /**
+     * A float a pixel.
+     * @returns {number}
+     */
+    depth_ptr() {
+        const ret = wasm.encoder_depth_ptr(this.__wbg_ptr);
+        return ret >>> 0;
     }
     /**
      * 4 floats a point.
@@ -135,7 +151,9 @@ export class Encoder {
         return ret >>> 0;
     }
     /**
-     * 0, or what was wrong: 1 lambda, 2 epsilon, 3 near distance, 4 more points than the capacity.
+     * Of the frame's first `points` points, or with `images` of the images. 0, or what was wrong: 1 lambda, 2 epsilon,
+     * 3 near distance, 4 more points than the capacity, 5 no camera was set.
+     * @param {boolean} images
      * @param {number} points
      * @param {number} count
      * @param {number} lambda
@@ -146,9 +164,23 @@ export class Encoder {
      * @param {bigint} seed
      * @returns {number}
      */
-    sample(points, count, lambda, epsilon, near_distance, range, keep_out_of_range, seed) {
-        const ret = wasm.encoder_sample(this.__wbg_ptr, points, count, lambda, epsilon, near_distance, range, keep_out_of_range, seed);
+    sample(images, points, count, lambda, epsilon, near_distance, range, keep_out_of_range, seed) {
+        const ret = wasm.encoder_sample(this.__wbg_ptr, images, points, count, lambda, epsilon, near_distance, range, keep_out_of_range, seed);
         return ret >>> 0;
+    }
+    /**
+     * Makes the images, for this camera; false where there is none with such numbers or more pixels than the capacity.
+     * @param {number} width
+     * @param {number} height
+     * @param {number} fx
+     * @param {number} fy
+     * @param {number} cx
+     * @param {number} cy
+     * @returns {boolean}
+     */
+    set_camera(width, height, fx, fy, cx, cy) {
+        const ret = wasm.encoder_set_camera(this.__wbg_ptr, width, height, fx, fy, cx, cy);
+        return ret !== 0;
     }
     /**
      * The slots, one after another.

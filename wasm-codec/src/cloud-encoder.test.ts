@@ -159,6 +159,44 @@ describe('CloudEncoder', () => {
     expect(packets.subarray(1300 + 40 + 50 * 8).every((byte) => byte === 0xaa)).toBe(true);
   });
 
+  test('gives of images the very packets that it gives of their points', () => {
+    const [width, height, fx, fy, cx, cy] = [20, 30, 12, 13, 9.5, 14.5];
+    const byPoints = new CloudEncoder(codec, width * height);
+    const byImages = new CloudEncoder(codec, width * height);
+    byImages.setCamera({ width, height, fx, fy, cx, cy });
+    for (let i = 0; i < width * height; i++) {
+      const depth = i % 11 === 0 ? 0 : Math.fround(0.5 + ((i * 7919) % 1000) / 100);
+      const x = Math.fround(((i % width) - cx) / fx) * depth;
+      const y = Math.fround((Math.floor(i / width) - cy) / fy) * depth;
+      byPoints.frame.set([x, y, depth], i * 4);
+      byPoints.frameBits[i * 4 + 3] = (i * 2_654_435_761) >>> 0;
+      byImages.depth[i] = depth;
+      byImages.colour[i] = (i * 2_654_435_761) >>> 0;
+    }
+    for (const count of [0, 17, 300, 600]) {
+      const sampled = byPoints.sample({ points: width * height, count, seed: 5 });
+      expect(byImages.sampleImages({ count, seed: 5 })).toEqual(sampled);
+      const packed = byPoints.pack({ order: 'near-first' });
+      expect(byImages.pack({ order: 'near-first' })).toEqual(packed);
+      expect(byImages.packets).toEqual(byPoints.packets);
+    }
+  });
+
+  test('wants a camera that it has room for, before images', () => {
+    const encoder = new CloudEncoder(codec, 100);
+    const camera = { width: 10, height: 10, fx: 5, fy: 5, cx: 4.5, cy: 4.5 };
+    expect(() => encoder.sampleImages({ count: 1, seed: 0 })).toThrow(
+      expect.objectContaining({ code: 'no-stream' }),
+    );
+    for (const wrong of [{ height: 11 }, { width: 0 }, { width: 2.5 }, { fx: 0 }, { cy: Number.NaN }]) {
+      expect(() => encoder.setCamera({ ...camera, ...wrong })).toThrow(
+        expect.objectContaining({ code: 'bad-parameter' }),
+      );
+    }
+    encoder.setCamera(camera);
+    expect(encoder.sampleImages({ count: 1, seed: 0 })).toMatchObject({ kept: 0 });
+  });
+
   test('keeps working when the memory grows, and each encoder has its own frame', () => {
     using first = new CloudEncoder(codec, 1000);
     const before = first.frame;

@@ -2,6 +2,7 @@
 import { Encoder } from '../pkg/farpoint_codec.js';
 import type { Codec } from './codec.ts';
 import { CodecError, type CodecErrorCode } from './errors.ts';
+import type { Pinhole } from './organised-encoder.ts';
 import {
   checkCapacity,
   checkSlotLayout,
@@ -10,10 +11,8 @@ import {
   type SlotLayout,
 } from './slot-layout.ts';
 
-/** The paper's sampling (equations 4 and 5); the defaults are the paper's. */
-export interface SamplingParameters {
-  /** How many points of the frame are filled, from its beginning. */
-  points: number;
+/** The paper's sampling (equations 4 and 5) of a camera's images; the defaults are the paper's. */
+export interface ImageSamplingParameters {
   /** How many to choose (the paper's N_max, see `maxPoints`); all that can be sent where those are fewer. */
   count: number;
   /** The same frame, parameters and seed give the same choice. 0 to 2⁶⁴ − 1. */
@@ -24,10 +23,16 @@ export interface SamplingParameters {
   epsilon?: number;
   /** D: points nearer than this weigh as much as the nearest, metres; default 3.85. */
   nearDistance?: number;
-  /** `z` (default): the z coordinate, a camera. `range`: the distance from the sensor, a LiDAR. */
-  depthMeasure?: 'z' | 'range';
   /** Points with a coordinate beyond ±32.767 m: left out (default), or kept and saturated. */
   outOfRange?: 'reject' | 'saturate';
+}
+
+/** The same of a frame of points. */
+export interface SamplingParameters extends ImageSamplingParameters {
+  /** How many points of the frame are filled, from its beginning. */
+  points: number;
+  /** `z` (default): the z coordinate, a camera. `range`: the distance from the sensor, a LiDAR. */
+  depthMeasure?: 'z' | 'range';
 }
 
 /** Why points of a frame are not sent; each counts once, under the first reason that holds. */
@@ -72,12 +77,14 @@ const FAULTS: readonly (readonly [CodecErrorCode, string])[] = [
   ['bad-parameter', 'epsilon is not between 1e-12 and 1'],
   ['bad-parameter', 'nearDistance is negative or not finite'],
   ['too-many-points', 'more points than the capacity'],
+  ['no-stream', 'no camera was set'],
 ];
 const MAX_SEED = 2n ** 64n - 1n;
 
 /**
  * Samples frames and packs them. Its buffers lie in the module's memory and are made once: fill {@link frame}, call
- * {@link sample} and {@link pack}, send from {@link packets}.
+ * {@link sample} and {@link pack}, send from {@link packets}. For a depth camera: {@link setCamera} once, fill {@link depth}
+ * and {@link colour}, call {@link sampleImages}; a third of the bytes, and the same packets as of the images' points.
  *
  * The views are made anew when the module's memory has grown (because another encoder or decoder was made): take them
  * from the encoder for each frame and do not keep them.
@@ -88,8 +95,9 @@ export class CloudEncoder implements Disposable {
   readonly #memory: Codec['memory'];
   readonly #encoder: Encoder;
   #buffer: ArrayBuffer | undefined;
-  #frame = new Float32Array(0);
-  #frameBits = new Uint32Array(0);
+  #pixels = 0;
+  #depth = new Float32Array(0);
+  #colour = new Uint32Array(0);
   #packets = new Uint8Array(0);
   #report = new Float64Array(0);
   #kept = 0;
@@ -111,14 +119,40 @@ export class CloudEncoder implements Disposable {
    * the fourth. Write the colours through {@link frameBits}: JavaScript may change the bits of a NaN.
    */
   get frame(): Float32Array {
-    this.#refresh();
-    return this.#frame;
+    const pointer = this.#encoder.frame_ptr();
+    return new Float32Array(this.#memory.buffer, pointer, this.capacityPoints * 4);
   }
 
   /** The same memory as {@link frame}, as 32-bit words. */
   get frameBits(): Uint32Array {
+    const pointer = this.#encoder.frame_ptr();
+    return new Uint32Array(this.#memory.buffer, pointer, this.capacityPoints * 4);
+  }
+
+  /**
+   * The camera of {@link depth} and {@link colour}, which are made now.
+   *
+   * @throws CodecError `bad-parameter` for numbers that no camera has, or more pixels than the capacity
+   */
+  setCamera({ width, height, fx, fy, cx, cy }: { width: number; height: number } & Pinhole): void {
+    const whole = Number.isInteger(width) && Number.isInteger(height) && width > 0 && height > 0;
+    if (!whole || !this.#encoder.set_camera(width, height, fx, fy, cx, cy)) {
+      throw new CodecError('bad-parameter', `no camera of at most ${this.capacityPoints} pixels`);
+    }
+    this.#pixels = width * height;
+    this.#buffer = undefined;
+  }
+
+  /** Depth along z, metres, a float a pixel, row by row; not valid: NaN, infinite, zero or negative. */
+  get depth(): Float32Array {
     this.#refresh();
-    return this.#frameBits;
+    return this.#depth;
+  }
+
+  /** R, G, B, A of each pixel, R lowest. */
+  get colour(): Uint32Array {
+    this.#refresh();
+    return this.#colour;
   }
 
   /** The packet slots, one after another, laid out as {@link layout} says. */
@@ -127,7 +161,7 @@ export class CloudEncoder implements Disposable {
     return this.#packets;
   }
 
-  /** The points that the last {@link sample} chose: indices into its frame, ascending. */
+  /** The points that the last sampling chose: indices into its frame, ascending. */
   get chosen(): Uint32Array {
     return new Uint32Array(this.#memory.buffer, this.#encoder.chosen_ptr(), this.#kept);
   }
@@ -138,11 +172,25 @@ export class CloudEncoder implements Disposable {
    * @throws CodecError `bad-count`, `too-many-points`, `bad-parameter`
    */
   sample(parameters: SamplingParameters): SampleReport {
+    checkCount('points', parameters.points);
+    return this.#sample(false, parameters);
+  }
+
+  /**
+   * The same of the images.
+   *
+   * @throws CodecError `bad-count`, `bad-parameter`, `no-stream` without a camera
+   */
+  sampleImages(parameters: ImageSamplingParameters): SampleReport {
+    return this.#sample(true, { ...parameters, points: this.#pixels });
+  }
+
+  #sample(images: boolean, parameters: SamplingParameters): SampleReport {
     const { points, count, seed } = parameters;
-    checkCount('points', points);
     checkCount('count', count);
     this.#kept = 0;
     const fault = this.#encoder.sample(
+      images,
       points,
       Math.min(count, points),
       parameters.lambda ?? 3,
@@ -194,8 +242,8 @@ export class CloudEncoder implements Disposable {
     if (buffer === this.#buffer) return;
     this.#buffer = buffer;
     const encoder = this.#encoder;
-    this.#frame = new Float32Array(buffer, encoder.frame_ptr(), this.capacityPoints * 4);
-    this.#frameBits = new Uint32Array(buffer, encoder.frame_ptr(), this.capacityPoints * 4);
+    this.#depth = new Float32Array(buffer, encoder.depth_ptr(), this.#pixels);
+    this.#colour = new Uint32Array(buffer, encoder.colour_ptr(), this.#pixels);
     const bytes = packetsFor(this.capacityPoints) * this.layout.stride;
     this.#packets = new Uint8Array(buffer, encoder.slots_ptr(), bytes);
     this.#report = new Float64Array(buffer, encoder.report_ptr(), 10);

@@ -1,6 +1,7 @@
 export { CloudDecoder } from './cloud-decoder.ts';
 export {
   CloudEncoder,
+  type ImageSamplingParameters,
   type PackOptions,
   type PackReport,
   type RejectedPoints,

@@ -47,7 +47,10 @@ export const DEFAULT_CAMERA: Readonly<Required<CameraOptions>> = {
 
 /** Views into the camera's memory, row by row; the next frame overwrites them. */
 export interface Images {
-  /** x, y, z in metres in the optical frame, NaN where invalid; the fourth float's bits are R, G, B, 255. */
+  /**
+   * x, y, z in metres in the optical frame, NaN where invalid; the fourth float's bits are R, G, B, 255. Empty where only
+   * the images were asked for.
+   */
   points: Float32Array;
   /** R, G, B, 255: the plain picture of the same view. */
   colour: Uint8Array;
@@ -105,7 +108,7 @@ export class StereoCamera {
     this.intrinsics = intrinsics;
     this.options = options;
     this.#poses = this.#viewPoses();
-    this.#images = this.#viewImages();
+    this.#images = this.#viewImages(false);
   }
 
   /** @throws SimulationError `bad-camera` when the rasteriser refuses the scene or the options */
@@ -170,16 +173,12 @@ export class StereoCamera {
   }
 
   /** Draws. The same poses and number give the same bits. Ground truth has neither noise nor holes. */
-  render(frameNumber: number, groundTruth: boolean): Images {
-    this.#rasteriser.render(frameNumber, groundTruth);
-    // Another camera's start may have grown the memory, which detaches older views.
-    if (this.#images.points.buffer !== this.#memory.buffer) this.#images = this.#viewImages();
-    return this.#images;
-  }
-
-  /** The images of the last frame. */
-  get images(): Images {
-    if (this.#images.points.buffer !== this.#memory.buffer) this.#images = this.#viewImages();
+  render(frameNumber: number, groundTruth: boolean, points: boolean): Images {
+    this.#rasteriser.render(frameNumber, groundTruth, points);
+    // What makes the memory grow (the first points, another camera) detaches older views.
+    const hasPoints = this.#images.points.length > 0;
+    if (this.#images.depth.buffer !== this.#memory.buffer || hasPoints !== points)
+      this.#images = this.#viewImages(points);
     return this.#images;
   }
 
@@ -202,11 +201,13 @@ export class StereoCamera {
     return new Float64Array(buffer, this.#rasteriser.posesPointer(), this.#rasteriser.posesLength());
   }
 
-  #viewImages(): Images {
+  #viewImages(points: boolean): Images {
     const { buffer } = this.#memory;
     const pixels = this.intrinsics.width * this.intrinsics.height;
     return {
-      points: new Float32Array(buffer, this.#rasteriser.pointsPointer(), 4 * pixels),
+      points: points
+        ? new Float32Array(buffer, this.#rasteriser.pointsPointer(), 4 * pixels)
+        : new Float32Array(0),
       colour: new Uint8Array(buffer, this.#rasteriser.colourPointer(), 4 * pixels),
       depth: new Float32Array(buffer, this.#rasteriser.depthPointer(), pixels),
     };

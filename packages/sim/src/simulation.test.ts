@@ -166,6 +166,15 @@ describe('camera', () => {
     }
   });
 
+  test('images without points are the same images', async () => {
+    const [whole, images] = [await simulate({}), await simulate({})].map((simulation, i) =>
+      simulation.renderFrame({ points: i === 0 }),
+    );
+    expect(images!.points.length).toBe(0);
+    expect(images!.depth).toEqual(whole!.depth);
+    expect(images!.colour).toEqual(whole!.colour);
+  });
+
   test('points carry the colours of the picture', async () => {
     const simulation = await simulate();
     const { points, colour } = simulation.renderFrame();

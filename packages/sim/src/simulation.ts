@@ -240,8 +240,8 @@ export class Simulation {
     }));
   }
 
-  /** Takes a picture now. With `groundTruth` it has neither noise nor holes. */
-  renderFrame({ groundTruth = false }: { groundTruth?: boolean } = {}): CloudFrame {
+  /** Takes a picture now. With `groundTruth` it has neither noise nor holes; without `points` it is images only, which is quicker. */
+  renderFrame({ groundTruth = false, points = true } = {}): CloudFrame {
     const { cameraPose, time } = this.state;
     this.#camera.setCameraPose(cameraPose);
     this.#movers.forEach((body, i) => {
@@ -262,7 +262,7 @@ export class Simulation {
       });
     });
     const frameNumber = this.#frames++;
-    const images = this.#camera.render(frameNumber, groundTruth);
+    const images = this.#camera.render(frameNumber, groundTruth, points);
     const { width, height } = this.intrinsics;
     return {
       ...images,

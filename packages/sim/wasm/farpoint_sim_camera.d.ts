@@ -21,7 +21,8 @@ export class DepthCamera {
      */
     constructor(scene: Float32Array | number[], config: Float64Array | number[]);
     /**
-     * Four words a pixel: x, y, z as floats and the colour's bytes.
+     * Four words a pixel: x, y, z as floats and the colour's bytes. To be read after each `render` with points: they are
+     * made at the first.
      */
     pointsPointer(): number;
     /**
@@ -35,7 +36,7 @@ export class DepthCamera {
     /**
      * Draws one frame; the same number gives the same noise. Without faults it is the ground truth.
      */
-    render(frame_number: number, without_faults: boolean): void;
+    render(frame_number: number, without_faults: boolean, with_points: boolean): void;
 }
 
 export type InitInput = RequestInfo | URL | Response | BufferSource | WebAssembly.Module;
@@ -49,7 +50,7 @@ export interface InitOutput {
     readonly depthcamera_pointsPointer: (a: number) => number;
     readonly depthcamera_posesLength: (a: number) => number;
     readonly depthcamera_posesPointer: (a: number) => number;
-    readonly depthcamera_render: (a: number, b: number, c: number) => void;
+    readonly depthcamera_render: (a: number, b: number, c: number, d: number) => void;
     readonly __wbindgen_externrefs: WebAssembly.Table;
     readonly __wbindgen_malloc: (a: number, b: number) => number;
     readonly __wbindgen_free: (a: number, b: number, c: number) => void;

@@ -57,7 +57,8 @@ export class DepthCamera {
         return this;
     }
     /**
-     * Four words a pixel: x, y, z as floats and the colour's bytes.
+     * Four words a pixel: x, y, z as floats and the colour's bytes. To be read after each `render` with points: they are
+     * made at the first.
      * @returns {number}
      */
     pointsPointer() {
@@ -84,9 +85,10 @@ export class DepthCamera {
      * Draws one frame; the same number gives the same noise. Without faults it is the ground truth.
      * @param {number} frame_number
      * @param {boolean} without_faults
+     * @param {boolean} with_points
      */
-    render(frame_number, without_faults) {
-        wasm.depthcamera_render(this.__wbg_ptr, frame_number, without_faults);
+    render(frame_number, without_faults, with_points) {
+        wasm.depthcamera_render(this.__wbg_ptr, frame_number, without_faults, with_points);
     }
 }
 if (Symbol.dispose) DepthCamera.prototype[Symbol.dispose] = DepthCamera.prototype.free;

@@ -8,7 +8,7 @@ export const depthcamera_new: (a: number, b: number, c: number, d: number) => [n
 export const depthcamera_pointsPointer: (a: number) => number;
 export const depthcamera_posesLength: (a: number) => number;
 export const depthcamera_posesPointer: (a: number) => number;
-export const depthcamera_render: (a: number, b: number, c: number) => void;
+export const depthcamera_render: (a: number, b: number, c: number, d: number) => void;
 export const __wbindgen_externrefs: WebAssembly.Table;
 export const __wbindgen_malloc: (a: number, b: number) => number;
 export const __wbindgen_free: (a: number, b: number, c: number) => void;

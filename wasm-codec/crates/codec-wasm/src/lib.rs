@@ -6,7 +6,8 @@ mod unorganised;
 
 use farpoint_point_codec::points64::{InvalidCount, POINTS_PER_PACKET, SlotLayout, pack, unpack};
 use farpoint_point_codec::{
-    DepthMeasure, InvalidParameter, OutOfRange, Point, SampleReport, Sampler, SamplingParameters, near_first,
+    DepthMeasure, InvalidParameter, OutOfRange, PixelGrid, Point, SampleReport, Sampler, SamplingParameters,
+    near_first,
 };
 use wasm_bindgen::prelude::*;
 use wide::f32x4;
@@ -14,15 +15,29 @@ use wide::f32x4;
 /// How many numbers [`Encoder::report_ptr`] points to.
 const REPORT_LENGTH: usize = 10;
 
-/// A frame, the sampler and the packet slots it is packed into.
+/// What the last `sample` looked at.
+#[derive(Clone, Copy)]
+enum Sampled {
+    Nothing,
+    Frame { points: usize, depth_measure: DepthMeasure },
+    Images,
+}
+
+/// A frame of points or a camera's images, the sampler and the packet slots it is packed into.
 #[wasm_bindgen]
 pub struct Encoder {
-    // Vectors and not points: aligned to 16 bytes.
+    capacity: usize,
+    // Vectors and not points: aligned to 16 bytes. Made when first asked for, as the images are.
     frame: Vec<f32x4>,
+    grid: Option<PixelGrid>,
+    depth: Vec<f32>,
+    colour: Vec<u32>,
+    /// The chosen points of images, and their own numbers.
+    gathered: Vec<Point>,
+    numbers: Vec<u32>,
     sampler: Sampler,
     ordered: Vec<u32>,
-    sampled_points: usize,
-    depth_measure: DepthMeasure,
+    sampled: Sampled,
     layout: SlotLayout,
     slots: Vec<u8>,
     report: Box<[f64; REPORT_LENGTH]>,
@@ -35,11 +50,16 @@ impl Encoder {
     pub fn create(capacity: usize, stride: usize, data_offset: usize) -> Option<Encoder> {
         let layout = SlotLayout::new(stride, data_offset)?;
         Some(Self {
-            frame: vec![f32x4::ZERO; capacity],
+            capacity,
+            frame: Vec::new(),
+            grid: None,
+            depth: Vec::new(),
+            colour: Vec::new(),
+            gathered: Vec::new(),
+            numbers: Vec::new(),
             sampler: Sampler::new(capacity),
             ordered: Vec::with_capacity(capacity),
-            sampled_points: 0,
-            depth_measure: DepthMeasure::Z,
+            sampled: Sampled::Nothing,
             layout,
             slots: vec![0; capacity.div_ceil(POINTS_PER_PACKET) * stride],
             report: Box::default(),
@@ -47,8 +67,32 @@ impl Encoder {
     }
 
     /// 4 floats a point.
-    pub fn frame_ptr(&self) -> *const f32 {
+    pub fn frame_ptr(&mut self) -> *const f32 {
+        self.frame.resize(self.capacity, f32x4::ZERO);
         self.frame.as_ptr().cast()
+    }
+
+    /// Makes the images, for this camera; false where there is none with such numbers or more pixels than the capacity.
+    pub fn set_camera(&mut self, width: usize, height: usize, fx: f64, fy: f64, cx: f64, cy: f64) -> bool {
+        let grid = PixelGrid::new(width, height, [fx, fy, cx, cy]);
+        let pixels = grid.as_ref().map_or(0, PixelGrid::pixels);
+        if pixels == 0 || pixels > self.capacity {
+            return false;
+        }
+        self.grid = grid;
+        self.depth.resize(pixels, 0.0);
+        self.colour.resize(pixels, 0);
+        true
+    }
+
+    /// A float a pixel.
+    pub fn depth_ptr(&self) -> *const f32 {
+        self.depth.as_ptr()
+    }
+
+    /// 4 bytes a pixel.
+    pub fn colour_ptr(&self) -> *const u32 {
+        self.colour.as_ptr()
     }
 
     /// The slots, one after another.
@@ -67,13 +111,15 @@ impl Encoder {
         self.report.as_ptr()
     }
 
-    /// 0, or what was wrong: 1 lambda, 2 epsilon, 3 near distance, 4 more points than the capacity.
+    /// Of the frame's first `points` points, or with `images` of the images. 0, or what was wrong: 1 lambda, 2 epsilon,
+    /// 3 near distance, 4 more points than the capacity, 5 no camera was set.
     #[allow(
         clippy::too_many_arguments,
         reason = "numbers cross this border without an allocation, objects do not"
     )]
     pub fn sample(
         &mut self,
+        images: bool,
         points: usize,
         count: usize,
         lambda: f32,
@@ -83,8 +129,7 @@ impl Encoder {
         keep_out_of_range: bool,
         seed: u64,
     ) -> u32 {
-        self.sampled_points = 0;
-        let Some(frame) = self.frame.get(..points) else { return 4 };
+        self.sampled = Sampled::Nothing;
         let depth_measure = if range { DepthMeasure::Range } else { DepthMeasure::Z };
         let parameters = SamplingParameters {
             count,
@@ -95,11 +140,20 @@ impl Encoder {
             out_of_range: if keep_out_of_range { OutOfRange::Keep } else { OutOfRange::Reject },
             seed,
         };
-        let frame: &[Point] = bytemuck::must_cast_slice(frame);
-        match self.sampler.sample(frame, &parameters) {
+        let outcome = if images {
+            let Some(grid) = &self.grid else { return 5 };
+            self.sampler.sample_depth(&self.depth, grid, &parameters)
+        } else {
+            if points > self.capacity {
+                return 4;
+            }
+            self.frame.resize(self.capacity, f32x4::ZERO);
+            self.sampler.sample(bytemuck::must_cast_slice(&self.frame[..points]), &parameters)
+        };
+        match outcome {
             Ok(SampleReport { kept, rejected, min_depth, max_depth }) => {
-                self.sampled_points = points;
-                self.depth_measure = depth_measure;
+                self.sampled =
+                    if images { Sampled::Images } else { Sampled::Frame { points, depth_measure } };
                 self.report[..7].copy_from_slice(&[
                     kept as f64,
                     rejected.not_finite as f64,
@@ -120,10 +174,21 @@ impl Encoder {
     /// Packs what the last `sample` chose, nearest bands of depth first where asked; nothing where it failed or there was
     /// none.
     pub fn pack(&mut self, near_points_first: bool, latency_test: bool) {
-        let frame: &[Point] = bytemuck::must_cast_slice(&self.frame[..self.sampled_points]);
-        let mut chosen = if self.sampled_points == 0 { &[] } else { self.sampler.chosen() };
+        let (frame, mut chosen, depth_measure): (&[Point], &[u32], _) = match (self.sampled, &self.grid) {
+            (Sampled::Frame { points, depth_measure }, _) => {
+                (bytemuck::must_cast_slice(&self.frame[..points]), self.sampler.chosen(), depth_measure)
+            }
+            (Sampled::Images, Some(grid)) => {
+                let chosen = self.sampler.chosen();
+                grid.gather(&self.depth, &self.colour, chosen, &mut self.gathered);
+                self.numbers.clear();
+                self.numbers.extend(0..chosen.len() as u32);
+                (&self.gathered, &self.numbers, DepthMeasure::Z)
+            }
+            _ => (&[], &[], DepthMeasure::Z),
+        };
         if near_points_first {
-            near_first(frame, chosen, self.depth_measure, &mut self.ordered);
+            near_first(frame, chosen, depth_measure, &mut self.ordered);
             chosen = &self.ordered;
         }
         let packed = pack(frame, chosen, self.layout, latency_test, &mut self.slots);

@@ -5,6 +5,7 @@
 //! back. Everything is deterministic, works in buffers made once, and gives the same bits natively and in WASM.
 #![forbid(unsafe_code)]
 
+mod depth_image;
 pub mod exponential;
 mod measure;
 mod order;
@@ -13,6 +14,7 @@ mod sampler;
 mod selection;
 mod weight;
 
+pub use depth_image::PixelGrid;
 pub use measure::{DepthMeasure, MAX_COORDINATE, MIN_DEPTH, OutOfRange};
 pub use order::near_first;
 pub use sampler::{InvalidParameter, Rejected, SampleReport, Sampler, SamplingParameters};

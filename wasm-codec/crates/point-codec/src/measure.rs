@@ -68,40 +68,21 @@ fn pass<const RANGE: bool>(frame: &[Point], out_of_range: OutOfRange, depths: &m
         OutOfRange::Reject => MAX_COORDINATE.to_bits() as i32,
         OutOfRange::Keep => INFINITY_BITS - 1,
     });
-    let mut totals = Totals {
-        finite: i32x4::ZERO,
-        positive: i32x4::ZERO,
-        valid: i32x4::ZERO,
-        min_depth: f32x4::splat(f32::INFINITY),
-        max_depth: f32x4::ZERO,
-    };
+    let mut totals = Totals::new();
     let (quads, rest) = frame.as_chunks::<4>();
     for (quad, depth) in quads.iter().zip(depths.iter_mut()) {
         *depth = totals.add::<RANGE>(quad, limit);
     }
-    let mut padding = 0;
     if !rest.is_empty() {
         let mut quad = [[f32::NAN; 4]; 4];
         quad[..rest.len()].copy_from_slice(rest);
-        padding = 4 - rest.len();
         depths[quads.len()] = totals.add::<RANGE>(&quad, limit);
     }
-    let finite = lane_sum(totals.finite);
-    let positive = lane_sum(totals.positive);
-    let valid = lane_sum(totals.valid);
-    let all = frame.len() + padding;
-    let lowest = totals.min_depth.to_array().into_iter().fold(f32::INFINITY, f32::min);
-    Measured {
-        valid,
-        not_finite: all - padding - finite,
-        non_positive_depth: finite - positive,
-        out_of_range: positive - valid,
-        min_depth: if valid == 0 { 0.0 } else { lowest },
-        max_depth: totals.max_depth.to_array().into_iter().fold(0.0, f32::max),
-    }
+    totals.measured(frame.len())
 }
 
-struct Totals {
+/// What a pass has found so far.
+pub(crate) struct Totals {
     finite: i32x4,
     positive: i32x4,
     valid: i32x4,
@@ -110,6 +91,32 @@ struct Totals {
 }
 
 impl Totals {
+    pub fn new() -> Self {
+        Self {
+            finite: i32x4::ZERO,
+            positive: i32x4::ZERO,
+            valid: i32x4::ZERO,
+            min_depth: f32x4::splat(f32::INFINITY),
+            max_depth: f32x4::ZERO,
+        }
+    }
+
+    /// Of `points` points; padding was added as NaN.
+    pub fn measured(&self, points: usize) -> Measured {
+        let finite = lane_sum(self.finite);
+        let positive = lane_sum(self.positive);
+        let valid = lane_sum(self.valid);
+        let lowest = self.min_depth.to_array().into_iter().fold(f32::INFINITY, f32::min);
+        Measured {
+            valid,
+            not_finite: points - finite,
+            non_positive_depth: finite - positive,
+            out_of_range: positive - valid,
+            min_depth: if valid == 0 { 0.0 } else { lowest },
+            max_depth: self.max_depth.to_array().into_iter().fold(0.0, f32::max),
+        }
+    }
+
     #[inline(always)]
     fn add<const RANGE: bool>(&mut self, quad: &[Point; 4], limit: i32x4) -> f32x4 {
         let [x, y, z, _colour] = f32x4::transpose(quad.map(f32x4::from));
@@ -128,6 +135,12 @@ impl Totals {
         };
         let positive = finite & must_cast::<f32x4, i32x4>(depth.simd_ge(f32x4::splat(MIN_DEPTH)));
         let valid = positive & !largest.simd_gt(limit);
+        self.count(depth, finite, positive, valid)
+    }
+
+    /// Counts four points by their masks; NaN where one is not valid.
+    #[inline(always)]
+    pub fn count(&mut self, depth: f32x4, finite: i32x4, positive: i32x4, valid: i32x4) -> f32x4 {
         // A mask is −1 in its lanes.
         self.finite -= finite;
         self.positive -= positive;

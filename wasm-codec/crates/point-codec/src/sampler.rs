@@ -3,6 +3,7 @@
 use wide::f32x4;
 
 use crate::Point;
+use crate::depth_image::PixelGrid;
 use crate::exponential::Generator;
 use crate::measure::{DepthMeasure, Measured, OutOfRange, measure};
 use crate::selection::{Candidates, NO_LIMIT};
@@ -168,13 +169,39 @@ impl Sampler {
         let quads = frame.len().div_ceil(4);
         let measured =
             measure(frame, parameters.depth_measure, parameters.out_of_range, &mut self.depths[..quads]);
+        Ok(self.choose(quads, parameters, &measured))
+    }
+
+    /// As [`Sampler::sample`], of a depth image (along z, metres; not valid: NaN, infinite, zero or negative): the very
+    /// same choice as of the image's points. The depth measure is z.
+    ///
+    /// # Errors
+    /// A parameter is outside its range; nothing is chosen then.
+    ///
+    /// # Panics
+    /// If the image is not as large as the grid.
+    pub fn sample_depth(
+        &mut self,
+        depth: &[f32],
+        grid: &PixelGrid,
+        parameters: &SamplingParameters,
+    ) -> Result<SampleReport, InvalidParameter> {
+        self.kept = 0;
+        parameters.check()?;
+        self.reserve(depth.len());
+        let quads = depth.len().div_ceil(4);
+        let measured = grid.measure(depth, parameters.out_of_range, &mut self.depths[..quads]);
+        Ok(self.choose(quads, parameters, &measured))
+    }
+
+    fn choose(&mut self, quads: usize, parameters: &SamplingParameters, measured: &Measured) -> SampleReport {
         self.kept = parameters.count.min(measured.valid);
         if self.kept == measured.valid {
             self.take_all_valid(quads);
         } else if self.kept > 0 {
-            self.draw(quads, parameters, &measured);
+            self.draw(quads, parameters, measured);
         }
-        Ok(SampleReport {
+        SampleReport {
             kept: self.kept,
             rejected: Rejected {
                 not_finite: measured.not_finite,
@@ -184,7 +211,7 @@ impl Sampler {
             },
             min_depth: measured.min_depth,
             max_depth: measured.max_depth,
-        })
+        }
     }
 
     fn take_all_valid(&mut self, quads: usize) {

@@ -4,7 +4,7 @@ use crate::config::Config;
 use crate::pose::{POSE_LENGTH, Pose};
 use crate::raster::Raster;
 use crate::scene::{Scene, SceneError};
-use crate::shade::shade;
+use crate::shade::Shader;
 use crate::stereo::{Frame, ground_truth, measure};
 
 pub struct Camera {
@@ -36,19 +36,25 @@ impl Camera {
         })
     }
 
-    /// Draws a frame from `poses`. The same number gives the same noise. Ground truth has no faults at all.
-    pub fn render(&mut self, frame_number: u32, without_faults: bool) {
+    /// Draws a frame from `poses`: the images, and `with_points` the points too. The same number gives the same noise. Ground
+    /// truth has no faults at all.
+    pub fn render(&mut self, frame_number: u32, without_faults: bool, with_points: bool) {
         let camera = Pose::read(&self.poses);
         for (body, numbers) in self.bodies.iter_mut().zip(self.poses[POSE_LENGTH..].chunks_exact(POSE_LENGTH))
         {
             *body = Pose::read(numbers);
         }
         self.raster.draw(&self.config, &self.scene, &camera, &self.bodies);
-        shade(&self.config, &self.scene, &camera, &self.raster, &mut self.frame.colour);
-        if without_faults {
-            ground_truth(&self.config, &self.raster, &mut self.frame);
-        } else {
-            measure(&self.config, &self.raster, frame_number, &mut self.frame, &mut self.occluded);
+        let Self { config, scene, raster, frame, occluded, .. } = self;
+        let shader = Shader::new(config, scene, &camera, raster);
+        if with_points {
+            frame.points.resize(4 * config.width * config.height, 0);
+        }
+        match (without_faults, with_points) {
+            (false, false) => measure::<false>(config, raster, &shader, frame_number, frame, occluded),
+            (false, true) => measure::<true>(config, raster, &shader, frame_number, frame, occluded),
+            (true, false) => ground_truth::<false>(config, raster, &shader, frame),
+            (true, true) => ground_truth::<true>(config, raster, &shader, frame),
         }
     }
 }
@@ -95,7 +101,7 @@ mod tests {
     #[test]
     fn ground_truth_of_a_wall_is_exact_and_unprojects() {
         let mut camera = Camera::new(&scene(&[wall(2.0)]), &CONFIG).unwrap();
-        camera.render(0, true);
+        camera.render(0, true, true);
         for (pixel, point) in camera.frame.points.chunks_exact(4).enumerate() {
             let [x, y, z] = [0, 1, 2].map(|i| f32::from_bits(point[i]));
             let (column, row) = ((pixel % WIDTH) as f32, (pixel / WIDTH) as f32);
@@ -111,7 +117,7 @@ mod tests {
         let at = |pixel: f32| (pixel - 239.5) / 240.0 * 2.0;
         let quad = [at(143.5), at(335.5), at(191.5), at(287.5), 2.0];
         let mut camera = Camera::new(&scene(&[quad]), &CONFIG).unwrap();
-        camera.render(0, true);
+        camera.render(0, true, true);
         for (pixel, depth) in depths(&camera).into_iter().enumerate() {
             let (column, row) = (pixel % WIDTH, pixel / WIDTH);
             let inside = (144..=335).contains(&column) && (192..=287).contains(&row);
@@ -123,7 +129,7 @@ mod tests {
     fn noise_grows_with_the_square_of_depth() {
         for depth in [1.0f32, 2.0, 4.0, 8.0] {
             let mut camera = Camera::new(&scene(&[wall(depth)]), &CONFIG).unwrap();
-            camera.render(3, false);
+            camera.render(3, false, true);
             let measured: Vec<f32> = depths(&camera).into_iter().filter(|&z| z > 0.0).collect();
             assert!(measured.len() > 200_000);
             let count = measured.len() as f64;
@@ -142,7 +148,7 @@ mod tests {
     fn what_the_right_imager_cannot_see_is_a_hole_left_of_the_object() {
         let box_front = [-0.3, 0.3, -0.3, 0.3, 1.0];
         let mut camera = Camera::new(&scene(&[wall(4.0), box_front]), &CONFIG).unwrap();
-        camera.render(0, false);
+        camera.render(0, false, true);
         // Disparities: 18 px at 1 m, 4.5 px at 4 m; the object begins at column 168.
         let row = &depths(&camera)[240 * WIDTH..241 * WIDTH];
         assert!(row[155..165].iter().all(|&z| z == 0.0), "{:?}", &row[150..172]);
@@ -152,10 +158,23 @@ mod tests {
     }
 
     #[test]
+    fn images_without_points_are_the_same_images() {
+        let scene = scene(&[wall(4.0), [-0.3, 0.3, -0.3, 0.3, 1.0]]);
+        for truth in [false, true] {
+            let [mut with, mut without] = [(); 2].map(|()| Camera::new(&scene, &CONFIG).unwrap());
+            with.render(7, truth, true);
+            without.render(7, truth, false);
+            assert!(without.frame.points.is_empty());
+            assert!(with.frame.depth == without.frame.depth);
+            assert!(with.frame.colour[..WIDTH * WIDTH] == without.frame.colour[..WIDTH * WIDTH]);
+        }
+    }
+
+    #[test]
     fn out_of_range_is_invalid() {
         for depth in [0.2f32, 25.0] {
             let mut camera = Camera::new(&scene(&[wall(depth)]), &CONFIG).unwrap();
-            camera.render(0, false);
+            camera.render(0, false, true);
             assert!(depths(&camera).iter().all(|&z| z == 0.0));
             assert!(camera.frame.points.chunks_exact(4).all(|p| p[..3] == [0x7fc0_0000; 3]));
         }
@@ -167,8 +186,8 @@ mod tests {
             let mut config = CONFIG;
             config[13] = seed;
             let mut camera = Camera::new(&scene(&[wall(2.0)]), &config).unwrap();
-            camera.render(number ^ 1, false);
-            camera.render(number, false);
+            camera.render(number ^ 1, false, true);
+            camera.render(number, false, true);
             camera.frame.points
         };
         assert!(frame(1.0, 5) == frame(1.0, 5));
@@ -183,7 +202,7 @@ mod tests {
         let corners = [-9.0, 0.5, -50.0, 9.0, 0.5, -50.0, 9.0, 0.5, 50.0, -9.0, 0.5, 50.0];
         numbers[HEADER_LENGTH + MATERIAL_LENGTH + 3..][..12].copy_from_slice(&corners);
         let mut camera = Camera::new(&numbers, &CONFIG).unwrap();
-        camera.render(0, true);
+        camera.render(0, true, true);
         for (row, z) in depths(&camera).iter().skip(240).step_by(WIDTH).enumerate() {
             let expected = 0.5 * 240.0 / (row as f32 - 239.5);
             let visible = expected > 0.0 && expected <= 50.0;

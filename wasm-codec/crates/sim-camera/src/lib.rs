@@ -42,7 +42,8 @@ impl DepthCamera {
         self.0.poses.len()
     }
 
-    /// Four words a pixel: x, y, z as floats and the colour's bytes.
+    /// Four words a pixel: x, y, z as floats and the colour's bytes. To be read after each `render` with points: they are
+    /// made at the first.
     #[wasm_bindgen(js_name = pointsPointer)]
     pub fn points_pointer(&self) -> *const u32 {
         self.0.frame.points.as_ptr()
@@ -61,7 +62,7 @@ impl DepthCamera {
     }
 
     /// Draws one frame; the same number gives the same noise. Without faults it is the ground truth.
-    pub fn render(&mut self, frame_number: u32, without_faults: bool) {
-        self.0.render(frame_number, without_faults);
+    pub fn render(&mut self, frame_number: u32, without_faults: bool, with_points: bool) {
+        self.0.render(frame_number, without_faults, with_points);
     }
 }

@@ -10,14 +10,27 @@ use crate::scene::{Material, Scene, TextureKind};
 use crate::simd::{F32x4, I32x4, byte_bits, ramp};
 use crate::texture::{Colour, Sample, books, checker, grain, patches, picture, stripes, text, tile, wood};
 
-/// Fills `colour` (R, G, B, matching failure; one word a pixel) from the visibility buffer.
-pub fn shade(config: &Config, scene: &Scene, camera: &Pose, raster: &Raster, colour: &mut [u32]) {
-    let width = raster.width;
-    let view = View::new(config, scene, camera);
-    for row in 0..raster.height {
+/// Shades a frame's rows, one at a time.
+pub struct Shader<'a> {
+    view: View,
+    scene: &'a Scene,
+    raster: &'a Raster,
+}
+
+impl<'a> Shader<'a> {
+    pub fn new(config: &Config, scene: &'a Scene, camera: &Pose, raster: &'a Raster) -> Self {
+        Self { view: View::new(config, scene, camera), scene, raster }
+    }
+
+    /// Fills a row of `colour`, the whole picture's (R, G, B, matching failure; one word a pixel). Up to three words after
+    /// the row are overwritten too.
+    #[inline(never)]
+    pub fn shade(&self, row: usize, colour: &mut [u32]) {
+        let raster = self.raster;
+        let width = raster.width;
         let start = row * width;
         let ids = &raster.index[start..start + width];
-        let line = Line::new(&view, row);
+        let line = Line::new(&self.view, row);
         let mut x = 0;
         while x < width {
             let id = ids[x];
@@ -29,8 +42,8 @@ pub fn shade(config: &Config, scene: &Scene, camera: &Pose, raster: &Raster, col
                 colour[start + x..start + end].fill(0);
             } else {
                 let surface = &raster.surfaces[id as usize];
-                let material = &scene.materials[surface.material];
-                let run = Run { row: row as f32, first: x, end, focal: view.focal };
+                let material = &self.scene.materials[surface.material];
+                let run = Run { row: row as f32, first: x, end, focal: self.view.focal };
                 let depths = &raster.inverse_depth[start..start + end + 4];
                 let colour = &mut colour[start..start + end + 4];
                 shade_run(&line, surface, material, run, depths, colour);

@@ -7,6 +7,7 @@
 
 use crate::config::Config;
 use crate::raster::Raster;
+use crate::shade::Shader;
 use crate::simd::{F32x4, I32x4, hash, hash_one, ramp, store_interleaved};
 
 /// Quiet NaN with no payload, so that invalid points are the same bits everywhere.
@@ -17,7 +18,8 @@ const BLOCK_SPREAD: i32 = 0x1656_67b1;
 
 /// The camera's three pictures, row by row.
 pub struct Frame {
-    /// x, y, z in metres in the optical frame and the colour's bits; x, y, z are NaN where invalid.
+    /// x, y, z in metres in the optical frame and the colour's bits; x, y, z are NaN where invalid. Empty until asked for,
+    /// and only written where asked for: the images say the same in a third of the bytes.
     pub points: Vec<u32>,
     /// R, G, B, 255.
     pub colour: Vec<u32>,
@@ -29,7 +31,7 @@ impl Frame {
     pub fn new(config: &Config) -> Self {
         let pixels = config.width * config.height;
         Self {
-            points: vec![0; 4 * pixels],
+            points: Vec::new(),
             // Four spare words for the shader's last vector.
             colour: vec![0; pixels + 4],
             depth: vec![0; pixels],
@@ -37,9 +39,17 @@ impl Frame {
     }
 }
 
-/// Measures the drawn scene as the camera would; `frame_number` selects the noise.
+/// Measures the drawn scene as the camera would; `frame_number` selects the noise. Each row is shaded just before it is
+/// measured: it is still in the processor's cache then.
 #[inline(never)]
-pub fn measure(config: &Config, raster: &Raster, frame_number: u32, frame: &mut Frame, occluded: &mut [u32]) {
+pub fn measure<const POINTS: bool>(
+    config: &Config,
+    raster: &Raster,
+    shader: &Shader,
+    frame_number: u32,
+    frame: &mut Frame,
+    occluded: &mut [u32],
+) {
     let splat = F32x4::splat;
     let width = raster.width;
     let last_row = raster.height - 1;
@@ -66,6 +76,7 @@ pub fn measure(config: &Config, raster: &Raster, frame_number: u32, frame: &mut 
         let above = &raster.inverse_depth[row.saturating_sub(2) * width..][..width];
         let below = &raster.inverse_depth[(row + 2).min(last_row) * width..][..width];
         hidden_from_right(depths, focal_baseline, occluded);
+        shader.shade(row, &mut frame.colour);
         let ray_y = rays.y(row);
         let mut spread_pixel =
             (I32x4::splat(start as i32) + I32x4::new(0, 1, 2, 3)) * I32x4::splat(PIXEL_SPREAD);
@@ -117,10 +128,11 @@ pub fn measure(config: &Config, raster: &Raster, frame_number: u32, frame: &mut 
             rgba.store(&mut frame.colour[pixel..pixel + 4]);
 
             let depth = one / measured;
-            let point = rays.points(x, ray_y, depth);
-            let nan = I32x4::splat(NAN);
-            let [px, py, pz] = point.map(|c| nan.select(c.bits(), invalid));
-            store_interleaved(px, py, pz, rgba, &mut frame.points[4 * pixel..4 * pixel + 16]);
+            if POINTS {
+                let nan = I32x4::splat(NAN);
+                let [px, py, pz] = rays.points(x, ray_y, depth).map(|c| nan.select(c.bits(), invalid));
+                store_interleaved(px, py, pz, rgba, &mut frame.points[4 * pixel..4 * pixel + 16]);
+            }
             I32x4::splat(0).select(depth.bits(), invalid).store(&mut frame.depth[pixel..pixel + 4]);
             x += 4;
         }
@@ -129,11 +141,17 @@ pub fn measure(config: &Config, raster: &Raster, frame_number: u32, frame: &mut 
 
 /// The scene as it is: no noise, no holes but where there is nothing at all.
 #[inline(never)]
-pub fn ground_truth(config: &Config, raster: &Raster, frame: &mut Frame) {
+pub fn ground_truth<const POINTS: bool>(
+    config: &Config,
+    raster: &Raster,
+    shader: &Shader,
+    frame: &mut Frame,
+) {
     let rays = Rays::new(config);
     let one = F32x4::splat(1.0);
     for row in 0..raster.height {
         let ray_y = rays.y(row);
+        shader.shade(row, &mut frame.colour);
         for x in (0..raster.width).step_by(4) {
             let pixel = row * raster.width + x;
             let inverse = F32x4::load(&raster.inverse_depth[pixel..]);
@@ -141,9 +159,11 @@ pub fn ground_truth(config: &Config, raster: &Raster, frame: &mut Frame) {
             let depth = one / inverse.max(F32x4::splat(1e-6));
             let rgba = I32x4::load(&frame.colour[pixel..]) | I32x4::splat(0xff00_0000_u32 as i32);
             rgba.store(&mut frame.colour[pixel..pixel + 4]);
-            let nan = I32x4::splat(NAN);
-            let [px, py, pz] = rays.points(x, ray_y, depth).map(|c| nan.select(c.bits(), nothing));
-            store_interleaved(px, py, pz, rgba, &mut frame.points[4 * pixel..4 * pixel + 16]);
+            if POINTS {
+                let nan = I32x4::splat(NAN);
+                let [px, py, pz] = rays.points(x, ray_y, depth).map(|c| nan.select(c.bits(), nothing));
+                store_interleaved(px, py, pz, rgba, &mut frame.points[4 * pixel..4 * pixel + 16]);
+            }
             I32x4::splat(0).select(depth.bits(), nothing).store(&mut frame.depth[pixel..pixel + 4]);
         }
     }
