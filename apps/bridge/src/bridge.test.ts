@@ -1,11 +1,12 @@
 /** The bridge against the real signaling service and robots that speak as the reference system's do. */
+
+import { ReferenceRobot } from '@farpoint/conformance';
 import { LocalStack } from '@farpoint/local-stack';
 import { writePointPacketHeader } from '@farpoint/protocol';
 import { silentLogger } from '@farpoint/service';
 import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
 import { WebSocket } from 'ws';
 import { Bridge } from './bridge.ts';
-import { ReferenceRobot } from '@farpoint/conformance';
 
 const cleanups: (() => unknown)[] = [];
 let stack: LocalStack;

@@ -13,6 +13,7 @@ export {
   type DepthImage,
   decodeColourJpeg,
   decodeDepthPng,
+  imagesOfRgbd,
   parseIntrinsics,
   pointsOfRgbd,
   RgbdError,

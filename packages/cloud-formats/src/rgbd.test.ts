@@ -2,7 +2,14 @@ import fc from 'fast-check';
 import { encode as encodePng } from 'fast-png';
 import jpeg from 'jpeg-js';
 import { describe, expect, it } from 'vitest';
-import { decodeColourJpeg, decodeDepthPng, parseIntrinsics, pointsOfRgbd, RgbdError } from './rgbd.ts';
+import {
+  decodeColourJpeg,
+  decodeDepthPng,
+  imagesOfRgbd,
+  parseIntrinsics,
+  pointsOfRgbd,
+  RgbdError,
+} from './rgbd.ts';
 
 const camera = { width: 2, height: 2, fx: 2, fy: 4, cx: 0.5, cy: 0.5 };
 const png = (data: Uint16Array | Uint8Array, depth: 8 | 16) =>
@@ -25,6 +32,16 @@ describe('RGB-D', () => {
     expect(points.subarray(4, 7).every(Number.isNaN)).toBe(true);
     expect([...points.subarray(12, 15)]).toEqual([1, 0.5, 4]);
     expect([...new Uint8Array(points.buffer, 3 * 16 + 12, 4)]).toEqual([12, 13, 14, 15]);
+  });
+
+  it('makes images of metres and words', () => {
+    const { depth, colour } = imagesOfRgbd(
+      { width: 2, height: 2, millimetres: Uint16Array.of(2000, 0, 1000, 65_535) },
+      { width: 2, height: 2, rgba: Uint8Array.from({ length: 16 }, (_, i) => i) },
+      camera,
+    );
+    expect(depth).toEqual(Float32Array.of(2, 0, 1, 65.535));
+    expect([...colour]).toEqual([0x0302_0100, 0x0706_0504, 0x0b0a_0908, 0x0f0e_0d0c]);
   });
 
   it('reads JPEG colours', () => {

@@ -82,13 +82,17 @@ export function decodeColourJpeg(file: Uint8Array): ColourImage {
 }
 
 /**
- * Every pixel's point in the optical frame, metres; NaN where no depth was measured.
+ * Depth in metres and colour as words, of one size.
  *
- * @returns 4 words a point: x, y, z and the bytes R, G, B, 255
+ * @returns depth along z, 0 where none was measured; R, G, B, 255 of each pixel, R lowest
  * @throws {RgbdError} where the sizes differ
  */
-export function pointsOfRgbd(depth: DepthImage, colour: ColourImage, camera: CameraIntrinsics): Float32Array {
-  const { width, height, fx, fy, cx, cy } = camera;
+export function imagesOfRgbd(
+  depth: DepthImage,
+  colour: ColourImage,
+  camera: CameraIntrinsics,
+): { depth: Float32Array; colour: Uint32Array } {
+  const { width, height } = camera;
   for (const [what, image] of [
     ['depth', depth],
     ['colour', colour],
@@ -99,18 +103,31 @@ export function pointsOfRgbd(depth: DepthImage, colour: ColourImage, camera: Cam
       );
     }
   }
+  const metres = Float32Array.from(depth.millimetres, (millimetres) => millimetres / 1000);
+  const words = new Uint32Array(width * height);
+  new Uint8Array(words.buffer).set(colour.rgba.subarray(0, words.byteLength));
+  return { depth: metres, colour: words };
+}
+
+/**
+ * Every pixel's point in the optical frame, metres; NaN where no depth was measured.
+ *
+ * @returns 4 words a point: x, y, z and the bytes R, G, B, 255
+ * @throws {RgbdError} where the sizes differ
+ */
+export function pointsOfRgbd(depth: DepthImage, colour: ColourImage, camera: CameraIntrinsics): Float32Array {
+  const { width, height, fx, fy, cx, cy } = camera;
+  const images = imagesOfRgbd(depth, colour, camera);
   const points = new Float32Array(width * height * 4);
-  const bytes = new Uint8Array(points.buffer);
+  const words = new Uint32Array(points.buffer);
   for (let v = 0; v < height; v++) {
     for (let u = 0; u < width; u++) {
       const i = v * width + u;
-      const z = (depth.millimetres[i] as number) / 1000;
+      const z = images.depth[i] as number;
       points[i * 4] = z > 0 ? ((u - cx) / fx) * z : Number.NaN;
       points[i * 4 + 1] = z > 0 ? ((v - cy) / fy) * z : Number.NaN;
       points[i * 4 + 2] = z > 0 ? z : Number.NaN;
-      for (let channel = 0; channel < 4; channel++) {
-        bytes[i * 16 + 12 + channel] = colour.rgba[i * 4 + channel] as number;
-      }
+      words[i * 4 + 3] = images.colour[i] as number;
     }
   }
   return points;

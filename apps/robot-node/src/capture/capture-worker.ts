@@ -29,7 +29,7 @@ const { description } = source;
 const codec = await loadCodecFromDisk();
 const encoder = new FrameEncoder(
   codec,
-  description.capacity,
+  description,
   { ...options.sampling, depthMeasure: description.depthMeasure },
   monotonicMs,
 );
@@ -124,7 +124,8 @@ function captureFrame(now: number): number {
   const { probe } = budget;
   const probeBytes = probe === null || probe.clusterId === probeCluster ? 0 : probe.bytes;
   if (probe !== null) probeCluster = probe.clusterId;
-  const { points, framesPerSecond } = planner.plan({ ...budget, probeBytes, rawPoints: frame.count, workMs });
+  const rawPoints = frame.form === 'points' ? frame.count : frame.depth.length;
+  const { points, framesPerSecond } = planner.plan({ ...budget, probeBytes, rawPoints, workMs });
   const intervalMs = 1000 / framesPerSecond;
   const encoded = encoder.encode(frame, points, latencyTest);
   encoder.copyPackets(new Uint8Array(buffer), encoded.packets);

@@ -1,5 +1,6 @@
 /** Where clouds come from. A source lives in the capture worker; it is driven by the robot's clock, ms. */
 import type { Battery, Pose, Twist } from '@farpoint/protocol';
+import type { Pinhole } from '@farpoint/wasm-codec';
 
 export interface SourceDescription {
   /** What it is, for people, e.g. `sim`. */
@@ -9,22 +10,40 @@ export interface SourceDescription {
   height: number;
   /** Most points of a frame. */
   capacity: number;
+  /** The camera of frames that come as images, `null` where they come as points. */
+  camera: Pinhole | null;
   /** What the sampler takes as depth: `range` for sensors that look all around. */
   depthMeasure: 'z' | 'range';
   /** False where there are no wheels: drive commands are accepted and change nothing. */
   drives: boolean;
 }
 
-/** One cloud. The points are a view that the next capture may overwrite. */
-export interface SourceFrame {
-  /** x, y, z in metres in the optical frame; the fourth word's bytes are R, G, B, A. */
-  points: Float32Array;
-  /** How many are filled. */
-  count: number;
+/** What every cloud carries. */
+interface FrameStamp {
   /** The optical frame in the world. */
   cameraPose: Pose;
   captureMs: number;
 }
+
+/** A cloud as points. They are a view that the next capture may overwrite. */
+export interface PointFrame extends FrameStamp {
+  form: 'points';
+  /** x, y, z in metres in the optical frame; the fourth word's bytes are R, G, B, A. */
+  points: Float32Array;
+  /** How many are filled. */
+  count: number;
+}
+
+/** A cloud as a depth camera's pictures, of the size and camera that the description says. Views, as above. */
+export interface ImageFrame extends FrameStamp {
+  form: 'images';
+  /** Along z, metres; not valid: 0, negative, NaN or infinite. */
+  depth: Float32Array;
+  /** R, G, B, A of each pixel, R lowest. */
+  colour: Uint32Array;
+}
+
+export type SourceFrame = PointFrame | ImageFrame;
 
 export interface SourceState {
   /** base_link in the world. */

@@ -34,6 +34,7 @@ export function openPcdSource({ path, frame }: PcdSourceOptions): FrameSource {
       width: sameGrid ? Math.max(first.width, 1) : capacity,
       height: sameGrid ? Math.max(first.height, 1) : 1,
       capacity,
+      camera: null,
       depthMeasure: axes === 'body' ? 'range' : 'z',
     },
     files.map((file) => ({
@@ -41,7 +42,7 @@ export function openPcdSource({ path, frame }: PcdSourceOptions): FrameSource {
       load: () => {
         const { points } = decodePcd(readFileSync(file));
         if (axes === 'body') bodyToOptical(points);
-        return points;
+        return { form: 'points', points, count: points.length / 4 };
       },
       cameraPose: STATIC_CAMERA_POSE,
     })),

@@ -1,12 +1,24 @@
 import { type Pose, type Twist, zeroTwist } from '@farpoint/protocol';
-import type { FrameSource, SourceDescription, SourceFrame, SourceState } from './frame-source.ts';
+import type {
+  FrameSource,
+  ImageFrame,
+  PointFrame,
+  SourceDescription,
+  SourceFrame,
+  SourceState,
+} from './frame-source.ts';
+
+/** A decoded cloud: points or images, as the source describes. */
+export type RecordedCloud =
+  | Pick<PointFrame, 'form' | 'points' | 'count'>
+  | Pick<ImageFrame, 'form' | 'depth' | 'colour'>;
 
 /** One recorded cloud, decoded when it is needed. */
 export interface RecordedFrame {
   /** What it is read from, for errors. */
   name: string;
   /** @throws {Error} where it cannot be read */
-  load(): Float32Array;
+  load(): RecordedCloud;
   cameraPose: Pose;
 }
 
@@ -34,7 +46,7 @@ export class PlaybackSource implements FrameSource {
   readonly description: SourceDescription;
   readonly state = STANDING;
   readonly #frames: readonly RecordedFrame[];
-  readonly #cache = new Map<number, Float32Array>();
+  readonly #cache = new Map<number, RecordedCloud>();
   #cachedBytes = 0;
   #next = 0;
 
@@ -43,7 +55,7 @@ export class PlaybackSource implements FrameSource {
     if (frames.length === 0) throw new Error(`${description.kind}: no frames`);
     this.description = { ...description, drives: false };
     this.#frames = frames;
-    for (let i = 0; i < frames.length && this.#cachedBytes < CACHE_BYTES; i++) this.#points(i);
+    for (let i = 0; i < frames.length && this.#cachedBytes < CACHE_BYTES; i++) this.#cloud(i);
   }
 
   advance(_nowMs: number, _twist: Twist): void {}
@@ -51,34 +63,35 @@ export class PlaybackSource implements FrameSource {
   capture(nowMs: number): SourceFrame {
     const index = this.#next;
     this.#next = (index + 1) % this.#frames.length;
-    const points = this.#points(index);
     const { cameraPose } = this.#frames[index] as RecordedFrame;
-    return { points, count: points.length / 4, cameraPose, captureMs: nowMs };
+    return { ...this.#cloud(index), cameraPose, captureMs: nowMs };
   }
 
   close(): void {
     this.#cache.clear();
   }
 
-  #points(index: number): Float32Array {
+  #cloud(index: number): RecordedCloud {
     const cached = this.#cache.get(index);
     if (cached !== undefined) return cached;
     const frame = this.#frames[index] as RecordedFrame;
-    let points: Float32Array;
+    let cloud: RecordedCloud;
     try {
-      points = frame.load();
+      cloud = frame.load();
     } catch (error) {
       throw new Error(`${frame.name}: ${error instanceof Error ? error.message : String(error)}`, {
         cause: error,
       });
     }
-    if (points.length / 4 > this.description.capacity) {
-      throw new Error(`${frame.name}: ${points.length / 4} points, ${this.description.capacity} expected`);
+    const count = cloud.form === 'points' ? cloud.count : cloud.depth.length;
+    if (count > this.description.capacity) {
+      throw new Error(`${frame.name}: ${count} points, ${this.description.capacity} expected`);
     }
-    if (this.#cachedBytes + points.byteLength <= CACHE_BYTES) {
-      this.#cache.set(index, points);
-      this.#cachedBytes += points.byteLength;
+    const bytes = count * (cloud.form === 'points' ? 16 : 8);
+    if (this.#cachedBytes + bytes <= CACHE_BYTES) {
+      this.#cache.set(index, cloud);
+      this.#cachedBytes += bytes;
     }
-    return points;
+    return cloud;
   }
 }

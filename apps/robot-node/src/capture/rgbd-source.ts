@@ -3,9 +3,9 @@ import { join } from 'node:path';
 import {
   decodeColourJpeg,
   decodeDepthPng,
+  imagesOfRgbd,
   parseIntrinsics,
   parseTrajectoryLog,
-  pointsOfRgbd,
 } from '@farpoint/cloud-formats';
 import { compose, inverse, type Pose } from '@farpoint/protocol';
 import type { FrameSource } from './frame-source.ts';
@@ -30,6 +30,7 @@ export function openRgbdSource({ path }: RgbdSourceOptions): FrameSource {
   const cameraFile = names.find((name) => /^camera.*\.json$/i.test(name));
   if (cameraFile === undefined) throw new Error(`${path}: no camera*.json with the intrinsics`);
   const camera = naming(join(path, cameraFile), parseIntrinsics);
+  const { fx, fy, cx, cy } = camera;
   const poses = cameraPoses(path, depths.length);
   return new PlaybackSource(
     {
@@ -37,16 +38,19 @@ export function openRgbdSource({ path }: RgbdSourceOptions): FrameSource {
       width: camera.width,
       height: camera.height,
       capacity: camera.width * camera.height,
+      camera: { fx, fy, cx, cy },
       depthMeasure: 'z',
     },
     depths.map((depth, i) => ({
       name: join(path, depth),
-      load: () =>
-        pointsOfRgbd(
+      load: () => ({
+        form: 'images',
+        ...imagesOfRgbd(
           decodeDepthPng(readFileSync(join(path, depth))),
           decodeColourJpeg(readFileSync(join(path, colours[i] as string))),
           camera,
         ),
+      }),
       cameraPose: poses[i] as Pose,
     })),
   );

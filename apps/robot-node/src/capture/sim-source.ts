@@ -18,13 +18,14 @@ export class SimSource implements FrameSource {
   #lastMs: number | null = null;
 
   private constructor(simulation: Simulation) {
-    const { width, height } = simulation.intrinsics;
+    const { width, height, fx, fy, cx, cy } = simulation.intrinsics;
     this.#simulation = simulation;
     this.description = {
       kind: 'sim',
       width,
       height,
       capacity: width * height,
+      camera: { fx, fy, cx, cy },
       depthMeasure: 'z',
       drives: true,
     };
@@ -42,8 +43,9 @@ export class SimSource implements FrameSource {
   }
 
   capture(nowMs: number): SourceFrame {
-    const { points, width, height, cameraPose } = this.#simulation.renderFrame();
-    return { points, count: width * height, cameraPose, captureMs: nowMs };
+    const { depth, colour, cameraPose } = this.#simulation.renderFrame({ points: false });
+    const words = new Uint32Array(colour.buffer, colour.byteOffset, depth.length);
+    return { form: 'images', depth, colour: words, cameraPose, captureMs: nowMs };
   }
 
   get state(): SourceState {

@@ -11,7 +11,7 @@ import {
 } from '@farpoint/protocol';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { describe, expect, it } from 'vitest';
-import type { SourceFrame } from '../capture/frame-source.ts';
+import type { PointFrame } from '../capture/frame-source.ts';
 import { FrameEncoder } from './frame-encoder.ts';
 import { framePayloadBytes, payloadBytes, SLOT_BYTES } from './packetiser.ts';
 
@@ -19,7 +19,9 @@ const codec = await loadCodecFromDisk();
 const sampling = { lambda: 3, epsilon: 1e-6, nearDistance: 3.85, depthMeasure: 'z' } as const;
 const CAPACITY = 1000;
 
-function cloud(count: number): SourceFrame {
+const SOURCE = { capacity: CAPACITY, width: CAPACITY, height: 1, camera: null };
+
+function cloud(count: number): PointFrame {
   const points = new Float32Array(count * 4);
   const words = new Uint32Array(points.buffer);
   for (let i = 0; i < count; i++) {
@@ -30,6 +32,7 @@ function cloud(count: number): SourceFrame {
     words[i * 4 + 3] = (i * 2_654_435_761) >>> 0;
   }
   return {
+    form: 'points',
     points,
     count,
     cameraPose: { position: { x: 1, y: -2, z: 0.5 }, orientation: { x: 0, y: 0, z: 0.6, w: 0.8 } },
@@ -39,7 +42,7 @@ function cloud(count: number): SourceFrame {
 }
 
 /** The format's plain statement: what the packets of a frame of which every point is sent must be. */
-function expectedPayload(frame: SourceFrame, frameNumber: number, index: number): Uint8Array {
+function expectedPayload(frame: PointFrame, frameNumber: number, index: number): Uint8Array {
   const first = index * 150;
   const count = Math.min(150, frame.count - first);
   const payload = new Uint8Array(16 + count * 8 + 28);
@@ -68,7 +71,7 @@ function expectedPayload(frame: SourceFrame, frameNumber: number, index: number)
 
 describe('FrameEncoder', () => {
   it.each([1, 149, 150, 151, 450, 701])('makes the very bytes of the protocol for %i points', (count) => {
-    const encoder = new FrameEncoder(codec, CAPACITY, sampling, () => 0);
+    const encoder = new FrameEncoder(codec, SOURCE, sampling, () => 0);
     const frame = cloud(count);
     for (const frameNumber of [0, 1]) {
       const encoded = encoder.encode(frame, CAPACITY, false);
@@ -87,8 +90,31 @@ describe('FrameEncoder', () => {
     }
   });
 
+  it('makes of a camera’s images what it makes of their points', () => {
+    const [width, height, camera] = [40, 25, { fx: 30, fy: 31, cx: 19.5, cy: 12.5 }];
+    const { points, ...stamp } = cloud(width * height);
+    const depth = Float32Array.from({ length: width * height }, (_, i) => (i % 9 === 0 ? 0 : 1 + i / 200));
+    const colour = new Uint32Array(points.buffer).filter((_, i) => i % 4 === 3);
+    for (let i = 0; i < depth.length; i++) {
+      const z = depth[i] as number;
+      points[i * 4] = Math.fround(((i % width) - camera.cx) / camera.fx) * z;
+      points[i * 4 + 1] = Math.fround((Math.floor(i / width) - camera.cy) / camera.fy) * z;
+      points[i * 4 + 2] = z;
+    }
+    const byPoints = new FrameEncoder(codec, SOURCE, sampling, () => 0);
+    const byImages = new FrameEncoder(codec, { ...SOURCE, width, height, camera }, sampling, () => 0);
+    const encoded = byPoints.encode({ ...stamp, points }, 300, false);
+    expect(byImages.encode({ ...stamp, form: 'images', depth, colour }, 300, false)).toEqual(encoded);
+    const packets = [byPoints, byImages].map((encoder) => {
+      const slots = new Uint8Array(encoded.packets * SLOT_BYTES);
+      encoder.copyPackets(slots, encoded.packets);
+      return slots;
+    });
+    expect(packets[1]).toEqual(packets[0]);
+  });
+
   it('counts what it leaves out, and marks a latency-test frame green', () => {
-    const encoder = new FrameEncoder(codec, CAPACITY, sampling, () => 0);
+    const encoder = new FrameEncoder(codec, SOURCE, sampling, () => 0);
     const frame = cloud(600);
     frame.points[0] = Number.NaN;
     frame.points[6] = -1;
@@ -108,7 +134,7 @@ describe('FrameEncoder', () => {
   });
 
   it('sends nothing of a frame without a valid point', () => {
-    const encoder = new FrameEncoder(codec, CAPACITY, sampling, () => 0);
+    const encoder = new FrameEncoder(codec, SOURCE, sampling, () => 0);
     const frame = cloud(10);
     frame.points.fill(Number.NaN);
     expect(encoder.encode(frame, 10, false)).toMatchObject({ points: 0, packets: 0, validPoints: 0 });

@@ -1,6 +1,6 @@
 import type { Placement } from '@farpoint/protocol';
-import { CloudEncoder, type Codec, type RejectedPoints } from '@farpoint/wasm-codec';
-import type { SourceFrame } from '../capture/frame-source.ts';
+import { CloudEncoder, type Codec, type RejectedPoints, type SampleReport } from '@farpoint/wasm-codec';
+import type { SourceDescription, SourceFrame } from '../capture/frame-source.ts';
 import { completePackets, SLOT_BYTES } from './packetiser.ts';
 
 /** The paper's weights (equations 4 and 5). */
@@ -31,8 +31,15 @@ export class FrameEncoder {
   readonly #now: () => number;
   #frameNumber = 0;
 
-  constructor(codec: Codec, capacity: number, sampling: SamplingOptions, now: () => number) {
+  constructor(
+    codec: Codec,
+    source: Pick<SourceDescription, 'capacity' | 'width' | 'height' | 'camera'>,
+    sampling: SamplingOptions,
+    now: () => number,
+  ) {
+    const { capacity, width, height, camera } = source;
     this.#encoder = new CloudEncoder(codec, capacity, { stride: SLOT_BYTES, dataOffset: 16 });
+    if (camera !== null) this.#encoder.setCamera({ width, height, ...camera });
     this.#sampling = sampling;
     this.#now = now;
   }
@@ -45,11 +52,19 @@ export class FrameEncoder {
   encode(frame: SourceFrame, count: number, latencyTest: boolean): EncodedFrame {
     const encoder = this.#encoder;
     const begin = this.#now();
-    // As words: copying a colour as a float may change the bits of a NaN.
-    const words = new Uint32Array(frame.points.buffer, frame.points.byteOffset, frame.count * 4);
-    encoder.frameBits.set(words);
     const frameNumber = this.#frameNumber;
-    const sampled = encoder.sample({ ...this.#sampling, points: frame.count, count, seed: frameNumber });
+    const parameters = { ...this.#sampling, count, seed: frameNumber };
+    let sampled: SampleReport;
+    if (frame.form === 'images') {
+      encoder.depth.set(frame.depth);
+      encoder.colour.set(frame.colour);
+      sampled = encoder.sampleImages(parameters);
+    } else {
+      // As words: copying a colour as a float may change the bits of a NaN.
+      const words = new Uint32Array(frame.points.buffer, frame.points.byteOffset, frame.count * 4);
+      encoder.frameBits.set(words);
+      sampled = encoder.sample({ ...parameters, points: frame.count });
+    }
     const middle = this.#now();
     const packed = encoder.pack({ order: 'near-first', latencyTest });
     const placement: Placement = {
