@@ -32,6 +32,19 @@ describe('robot options', () => {
     });
   });
 
+  it('take a source and a sink in shared memory', () => {
+    const options = robot(
+      ...['--source', 'shm', '--shm-layout', 'reference', '--shm-folder', '/x', '--sink', 'shm'],
+    );
+    expect(options.capture).toMatchObject({
+      source: { kind: 'shm', layout: 'reference', folder: '/x', waitMs: 10_000 },
+      framesPerSecond: 30,
+    });
+    expect(options.sink).toEqual({ kind: 'shm', folder: '/x', mode: 0o600, silenceMs: 150 });
+    expect(robot('--sink', 'shm', '--shm-access', 'group').sink).toMatchObject({ mode: 0o660 });
+    expect(robot().sink).toEqual({ kind: 'source' });
+  });
+
   it('give UDP ports as a range', () => {
     expect(robot('--udp-ports', '40000-40010').portRange).toEqual([40_000, 40_010]);
   });

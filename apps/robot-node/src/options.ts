@@ -13,6 +13,7 @@ import {
   type OptionValues,
   schema,
 } from '@farpoint/service';
+import { DEFAULT_FOLDER } from '@farpoint/shared-memory';
 import * as z from 'zod';
 import type { SourceOptions } from './capture/open-source.ts';
 import { PLAN_POLICIES } from './encode/plan.ts';
@@ -62,10 +63,40 @@ const options = {
     help: 'proves to signaling, also after a restart, that this is the same robot; random where left out',
   }),
   source: defineOption({
-    schema: schema.choice(['sim', 'pcd', 'rgbd']),
+    schema: schema.choice(['sim', 'pcd', 'rgbd', 'shm']),
     default: 'sim',
     argument: 'KIND',
-    help: 'where the points come from: sim (a simulated robot), pcd (recorded clouds), rgbd (recorded colour and depth pictures)',
+    help: 'where the points come from: sim (a simulated robot), pcd (recorded clouds), rgbd (recorded colour and depth pictures), shm (a camera’s producer, through shared memory)',
+  }),
+  shmLayout: defineOption({
+    schema: schema.choice(['farpoint', 'reference']),
+    default: 'farpoint',
+    argument: 'LAYOUT',
+    help: 'shm: farpoint (frames as the camera gives them), or reference (the reference system’s packed points)',
+  }),
+  shmFolder: defineOption({
+    schema: schema.text(),
+    default: DEFAULT_FOLDER,
+    argument: 'FOLDER',
+    help: 'where the files of shared memory are, of source and sink',
+  }),
+  shmWaitS: defineOption({
+    schema: schema.number({ min: 0, max: 3600 }),
+    default: 10,
+    argument: 'SECONDS',
+    help: 'shm: how long to wait for the producer at the start',
+  }),
+  shmAccess: defineOption({
+    schema: schema.choice(['owner', 'group']),
+    default: 'owner',
+    argument: 'WHO',
+    help: 'who may read and write the files that --sink shm makes: owner (0600), or group (0660)',
+  }),
+  sink: defineOption({
+    schema: schema.choice(['source', 'shm']),
+    default: 'source',
+    argument: 'KIND',
+    help: 'where velocities go: source (the simulator’s wheels), shm (the reference system’s command block)',
   }),
   path: defineOption({
     schema: schema.optional(schema.text()),
@@ -232,6 +263,12 @@ const options = {
     argument: 'FILE',
     help: 'for measurements: when each packet was sent, as CSV, written when the robot stops',
   }),
+  frameLog: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'FILE',
+    help: 'for measurements: when each frame was captured and ready, as CSV, written when the robot stops',
+  }),
   stats: defineOption({
     schema: schema.optional(schema.text()),
     default: null,
@@ -284,6 +321,15 @@ export function toRobotOptions(values: RobotOptionValues): RobotOptions {
       mostPoints: values.maxPoints,
       watchdogMs: values.watchdogMs,
     },
+    sink:
+      values.sink === 'shm'
+        ? {
+            kind: 'shm',
+            folder: values.shmFolder,
+            mode: values.shmAccess === 'group' ? 0o660 : 0o600,
+            silenceMs: values.watchdogMs,
+          }
+        : { kind: 'source' },
     limits,
     takePolicy: values.takePolicy,
     referenceSignaling: values.referenceSignaling ?? undefined,
@@ -297,12 +343,17 @@ export function toRobotOptions(values: RobotOptionValues): RobotOptions {
     icePolicy: values.icePolicy,
     portRange: values.udpPorts === null ? undefined : [low as number, high as number],
     packetLog: values.packetLog ?? undefined,
+    frameLog: values.frameLog ?? undefined,
     statisticsFile: values.stats ?? undefined,
   };
 }
 
 function toSource(values: RobotOptionValues): SourceOptions {
   const { source, path } = values;
+  if (source === 'shm') {
+    const { shmLayout: layout, shmFolder: folder } = values;
+    return { kind: source, layout, folder, waitMs: values.shmWaitS * 1000 };
+  }
   if (source !== 'sim') {
     if (path === null) throw new OptionsError('--path', `is needed for --source ${source}`);
     return source === 'pcd' ? { kind: source, path, frame: values.pcdFrame } : { kind: source, path };

@@ -14,6 +14,7 @@ import { Capture, type CaptureError, type CaptureState } from './capture/capture
 import type { CaptureOptions } from './capture/capture-messages.ts';
 import { monotonicMs, threadCpuMs } from './clock.ts';
 import { DriveStation } from './drive/drive-station.ts';
+import { openSink, type SinkOptions, type VelocitySink } from './drive/velocity-sink.ts';
 import { ReferenceProfile } from './reference/reference-profile.ts';
 import { ConnectedOperator } from './session/connected-operator.ts';
 import { FrameFanOut } from './session/frame-fan-out.ts';
@@ -21,6 +22,7 @@ import type { OperatorSession, SessionHost } from './session/operator-session.ts
 import { PathKeeper } from './session/path-keeper.ts';
 import { silenceLimits } from './session/silence.ts';
 import { SignalingClient, type SignalingOptions } from './signaling/signaling-client.ts';
+import { FrameLog } from './telemetry/frame-log.ts';
 import { RobotCounters } from './telemetry/robot-counters.ts';
 import { StageTimer } from './telemetry/stage-timer.ts';
 import { streamStatistics } from './telemetry/stream-statistics.ts';
@@ -34,6 +36,8 @@ export interface RobotOptions {
   name: string;
   signaling: Pick<SignalingOptions, 'url' | 'key' | 'token' | 'ca'>;
   capture: CaptureOptions;
+  /** What moves the wheels. */
+  sink: SinkOptions;
   limits: DriveLimits;
   takePolicy: TakePolicy;
   /** Robots' port of a reference signaling service; its operators prove nothing of themselves. */
@@ -55,6 +59,8 @@ export interface RobotOptions {
   icePolicy: 'all' | 'relay';
   /** File for a log of every packet sent, written when the robot closes. */
   packetLog?: string | undefined;
+  /** File for a log of every frame, written when the robot closes. */
+  frameLog?: string | undefined;
   /** File for what each stream does in each 100 ms, one JSON object a line. */
   statisticsFile?: string | undefined;
 }
@@ -76,6 +82,8 @@ export class Robot implements SessionHost {
   readonly #options: RobotOptions;
   readonly #log: Logger;
   readonly #packetLog: PacketLog | undefined;
+  readonly #frameLog: FrameLog | undefined;
+  readonly #sink: VelocitySink;
   readonly #sendLoop = new SendLoop(monotonicMs, threadCpuMs);
   readonly #fanOut: FrameFanOut;
   readonly #telemetry: TelemetrySender;
@@ -85,17 +93,19 @@ export class Robot implements SessionHost {
   #iceServers: readonly IceServer[] = [];
   #state: CaptureState | null = null;
 
-  private constructor(capture: Capture, options: RobotOptions, log: Logger) {
+  private constructor(capture: Capture, sink: VelocitySink, options: RobotOptions, log: Logger) {
     this.#options = options;
     this.#log = log;
     this.#packetLog = options.packetLog === undefined ? undefined : new PacketLog(options.packetLog);
+    this.#frameLog = options.frameLog === undefined ? undefined : new FrameLog(options.frameLog);
+    this.#sink = sink;
     this.capture = capture;
     const guard = new DriveGuard({
       limits: options.limits,
       takePolicy: options.takePolicy,
       randomBytes: (count) => randomBytes(count),
     });
-    this.drive = new DriveStation(guard, (twist) => capture.setTwist(twist), monotonicMs);
+    this.drive = new DriveStation(guard, (twist) => sink.apply(twist), monotonicMs);
     const stages = new StageTimer();
     this.#telemetry = new TelemetrySender(this.operators, guard, stages);
     this.#fanOut = new FrameFanOut({
@@ -104,6 +114,7 @@ export class Robot implements SessionHost {
       sendLoop: this.#sendLoop,
       driver: () => guard.leaseHolder,
       counters: this.counters,
+      frameLog: this.#frameLog,
       stages,
       now: monotonicMs,
     });
@@ -123,6 +134,7 @@ export class Robot implements SessionHost {
       this.#state = state;
     };
     capture.onFailure = (error) => this.onFailure?.(error);
+    capture.onFault = (detail) => log.warn({ detail }, 'the source has a fault');
     this.#timers.push(setInterval(() => this.#tick(), TICK_MS));
     if (options.statisticsFile !== undefined) {
       const file = new JsonLinesFile(options.statisticsFile, (error) =>
@@ -152,7 +164,14 @@ export class Robot implements SessionHost {
   static async start(options: RobotOptions, log: Logger): Promise<Robot> {
     const capture = await Capture.start(options.capture);
     log.info({ source: capture.description }, 'source open');
-    const robot = new Robot(capture, options, log);
+    let sink: VelocitySink;
+    try {
+      sink = openSink(options.sink, capture, log);
+    } catch (error) {
+      await capture.close();
+      throw error;
+    }
+    const robot = new Robot(capture, sink, options, log);
     robot.signaling.start();
     if (options.referenceSignaling !== undefined) robot.#startReference(options.referenceSignaling);
     return robot;
@@ -169,10 +188,12 @@ export class Robot implements SessionHost {
     }
     this.reference?.close();
     this.drive.close();
+    this.#sink.close();
     this.#sendLoop.close();
     await this.signaling.close();
     await this.capture.close();
     this.#packetLog?.write();
+    this.#frameLog?.write();
     await this.#statistics?.close();
   }
 

@@ -379,7 +379,11 @@ static void call_js(napi_env env, napi_value callback, void *context, void *data
   napi_value self, argument;
   napi_get_undefined(env, &self);
   napi_create_int32(env, (int32_t)(intptr_t)data, &argument);
-  napi_call_function(env, self, callback, 1, &argument, NULL);
+  if (napi_call_function(env, self, callback, 1, &argument, NULL) != napi_pending_exception) return;
+  /* As of any callback: an error that nobody catches ends the process. */
+  napi_value error;
+  napi_get_and_clear_last_exception(env, &error);
+  napi_fatal_exception(env, error);
 }
 
 static void stop_watch(void *data) {

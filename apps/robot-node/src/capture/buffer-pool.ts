@@ -11,6 +11,11 @@ export class BufferPool {
     this.#free = Array.from({ length: count }, () => new ArrayBuffer(bytes));
   }
 
+  /** How many are here. */
+  get free(): number {
+    return this.#free.length;
+  }
+
   /** How often `take` found none. */
   get refused(): number {
     return this.#refused;

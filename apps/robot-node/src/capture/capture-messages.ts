@@ -54,6 +54,8 @@ export interface CapturedFrame extends EncodedFrame {
   captureMs: number;
   /** Of that, the thread's own processor time. */
   captureCpuMs: number;
+  /** Robot's clock when its packets were made, ms. */
+  readyMs: number;
 }
 
 export type CaptureReport =
@@ -61,4 +63,6 @@ export type CaptureReport =
   | CapturedFrame
   /** The robot's state, and frames that found no free buffer so far. */
   | { type: 'state'; timeMs: number; state: SourceState; framesWithoutBuffer: number; watchdogStops: number }
+  /** Something is wrong with the source that may pass. */
+  | { type: 'fault'; detail: string }
   | { type: 'closed' };

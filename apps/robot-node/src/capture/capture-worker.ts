@@ -11,6 +11,7 @@ import { SLOT_BYTES } from '../encode/packetiser.ts';
 import { FramePlanner } from '../encode/plan.ts';
 import { BufferPool } from './buffer-pool.ts';
 import type { CaptureBudget, CaptureOptions, CaptureReport, CaptureRequest } from './capture-messages.ts';
+import type { CaptureWishes } from './frame-source.ts';
 import { openSource } from './open-source.ts';
 
 /** One frame being sent, one waiting, one being filled. */
@@ -18,6 +19,10 @@ const BUFFERS = 3;
 const STATE_INTERVAL_MS = 20;
 /** Longest time between two looks at the source, ms. */
 const MAX_WAIT_MS = 10;
+/** Of a source with a rhythm of its own: a cloud that waited longer for someone to watch is let go, ms. */
+const MAX_READY_AGE_MS = 50;
+/** How much earlier than planned its cloud may be, as a share of the interval. */
+const EARLY_SHARE = 0.25;
 
 const port = parentPort;
 if (port === null) throw new Error('capture-worker.ts runs as a worker only');
@@ -36,7 +41,10 @@ const encoder = new FrameEncoder(
 const pool = new BufferPool(BUFFERS, Math.ceil(description.capacity / 150) * SLOT_BYTES);
 const planner = new FramePlanner({
   policy: options.plan,
-  mostFramesPerSecond: options.framesPerSecond,
+  mostFramesPerSecond: Math.min(
+    options.framesPerSecond,
+    description.framesPerSecond ?? options.framesPerSecond,
+  ),
   floorFraction: options.floorFraction,
   mostPoints: options.mostPoints,
 });
@@ -50,7 +58,12 @@ let budget: CaptureBudget = { targetBitsPerSecond: 0, overheadBytes: 0, streamin
 /** The probe that the last enlarged frame was made for. */
 let probeCluster = 0;
 let workMs = 0;
+/** Between two frames, as planned last. */
+let plannedMs = 1000 / options.framesPerSecond;
 let latencyTest = false;
+/** Since when a source with a rhythm of its own has a cloud ready. */
+let readySinceMs: number | null = null;
+let lastFault = '';
 let nextFrameMs = monotonicMs();
 let nextStateMs = 0;
 let watchdogStops = 0;
@@ -94,7 +107,9 @@ function tick(): void {
     standing = true;
   }
   source.advance(now, twist);
-  if (now >= nextFrameMs) {
+  if (source.onReady !== undefined) {
+    takeReady();
+  } else if (now >= nextFrameMs) {
     nextFrameMs += budget.streaming ? captureFrame(now) : 1000 / options.framesPerSecond;
     // After a stall the rhythm starts anew; frames are not made up for.
     if (nextFrameMs < monotonicMs()) nextFrameMs = monotonicMs();
@@ -109,7 +124,27 @@ function tick(): void {
       watchdogStops,
     });
   }
-  setTimeout(tick, Math.min(Math.max(nextFrameMs - monotonicMs(), 0), MAX_WAIT_MS));
+  const waitMs = source.onReady === undefined ? nextFrameMs - monotonicMs() : MAX_WAIT_MS;
+  setTimeout(tick, Math.min(Math.max(waitMs, 0), MAX_WAIT_MS));
+}
+
+/** The cloud that a source with a rhythm of its own has ready: now, or never. With nobody watching it stays where it is. */
+function takeReady(): void {
+  if (readySinceMs === null || closed || !budget.streaming) return;
+  const now = monotonicMs();
+  const aged = now - readySinceMs > MAX_READY_AGE_MS;
+  readySinceMs = null;
+  // A camera's clouds do not come to the millisecond: one that is a little early is not the one too many.
+  if (aged || pool.free === 0 || now < nextFrameMs - plannedMs * EARLY_SHARE) {
+    source.skip?.(now, wishes());
+    return;
+  }
+  plannedMs = captureFrame(now);
+  nextFrameMs = Math.max(nextFrameMs + plannedMs, now);
+}
+
+function wishes(): CaptureWishes {
+  return { bitsPerSecond: budget.targetBitsPerSecond, latencyTest };
 }
 
 /** @returns the time until the next one, ms */
@@ -117,7 +152,12 @@ function captureFrame(now: number): number {
   const buffer = pool.take();
   if (buffer === null) return 1000 / options.framesPerSecond;
   const cpuBefore = threadCpuMs();
-  const frame = source.capture(now);
+  const frame = source.capture(now, wishes());
+  if (frame === null) {
+    pool.release(buffer);
+    return plannedMs;
+  }
+  lastFault = '';
   const { captureMs: capturedAtMs } = frame;
   const captureMs = monotonicMs() - now;
   const captureCpuMs = threadCpuMs() - cpuBefore;
@@ -127,14 +167,28 @@ function captureFrame(now: number): number {
   const rawPoints = frame.form === 'points' ? frame.count : frame.depth.length;
   const { points, framesPerSecond } = planner.plan({ ...budget, probeBytes, rawPoints, workMs });
   const intervalMs = 1000 / framesPerSecond;
-  const encoded = encoder.encode(frame, points, latencyTest);
+  const green = latencyTest && frame.latencyTest !== false;
+  const encoded = encoder.encode(frame, points, green);
   encoder.copyPackets(new Uint8Array(buffer), encoded.packets);
-  const times = { intervalMs, capturedAtMs, captureMs, captureCpuMs };
-  send({ type: 'frame', ...encoded, buffer, latencyTest, ...times }, [buffer]);
-  latencyTest = false;
+  const times = { intervalMs, capturedAtMs, captureMs, captureCpuMs, readyMs: monotonicMs() };
+  send({ type: 'frame', ...encoded, buffer, latencyTest: green, ...times }, [buffer]);
+  if (green) latencyTest = false;
   workMs += (threadCpuMs() - cpuBefore - workMs) * (workMs === 0 ? 1 : SMOOTHING);
   return intervalMs;
 }
 
+if (source.onReady !== undefined) {
+  source.onReady = () => {
+    readySinceMs = monotonicMs();
+    takeReady();
+  };
+}
+if (source.onFault !== undefined) {
+  source.onFault = ({ message }) => {
+    // While it is tried again and again it is said once.
+    if (message !== lastFault) send({ type: 'fault', detail: message });
+    lastFault = message;
+  };
+}
 send({ type: 'ready', description });
 tick();

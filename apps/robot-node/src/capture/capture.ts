@@ -27,6 +27,10 @@ export class Capture {
   onState: ((state: CaptureState) => void) | null = null;
   /** Called once, if the thread ends without having been asked to. */
   onFailure: ((error: CaptureError) => void) | null = null;
+  /** Called at each new thing that is wrong with the source and may pass. */
+  onFault: ((detail: string) => void) | null = null;
+  /** How often that was. */
+  faults = 0;
   /** Frames not captured because all buffers were out. */
   framesWithoutBuffer = 0;
   /** How often the worker's own watchdog stopped the robot. */
@@ -45,6 +49,9 @@ export class Capture {
         this.framesWithoutBuffer = report.framesWithoutBuffer;
         this.watchdogStops = report.watchdogStops;
         this.onState?.({ ...report.state, timeMs: report.timeMs });
+      } else if (report.type === 'fault') {
+        this.faults++;
+        this.onFault?.(report.detail);
       }
     });
     worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));

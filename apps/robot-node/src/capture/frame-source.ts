@@ -16,6 +16,16 @@ export interface SourceDescription {
   depthMeasure: 'z' | 'range';
   /** False where there are no wheels: drive commands are accepted and change nothing. */
   drives: boolean;
+  /** What it gives at most, frames a second, where it says so itself. */
+  framesPerSecond?: number;
+}
+
+/** What a source that makes its clouds to measure is told. */
+export interface CaptureWishes {
+  /** The rate that clouds should fit, bit/s. */
+  bitsPerSecond: number;
+  /** Make the next cloud green. */
+  latencyTest: boolean;
 }
 
 /** What every cloud carries. */
@@ -23,6 +33,8 @@ interface FrameStamp {
   /** The optical frame in the world. */
   cameraPose: Pose;
   captureMs: number;
+  /** Whether this is the cloud that answers a latency test; left out, any may be. */
+  latencyTest?: boolean;
 }
 
 /** A cloud as points. They are a view that the next capture may overwrite. */
@@ -58,8 +70,21 @@ export interface FrameSource {
   readonly description: SourceDescription;
   /** Lets time pass until `nowMs`; the velocity wanted in the meantime is `twist`. */
   advance(nowMs: number, twist: Twist): void;
-  /** Takes one cloud now. @throws {Error} where the source is broken for good */
-  capture(nowMs: number): SourceFrame;
+  /**
+   * Takes one cloud now; `null` where there is none.
+   *
+   * @throws {Error} where the source is broken for good
+   */
+  capture(nowMs: number, wishes: CaptureWishes): SourceFrame | null;
+  /**
+   * Of a source with a rhythm of its own: called at each new cloud. It is called again once that was taken or let go.
+   * Where there is no such member, the worker asks at its own rhythm.
+   */
+  onReady?: (() => void) | null;
+  /** Lets the cloud go that is ready. */
+  skip?(nowMs: number, wishes: CaptureWishes): void;
+  /** Called for what may pass: a producer that is gone, a cloud that cannot be read. */
+  onFault?: ((error: Error) => void) | null;
   readonly state: SourceState;
   close(): void;
 }

@@ -1,5 +1,8 @@
+import { monotonicMs } from '../clock.ts';
+import { type CloudShmOptions, CloudShmSource } from './cloud-shm-source.ts';
 import type { FrameSource } from './frame-source.ts';
 import { openPcdSource, type PcdSourceOptions } from './pcd-source.ts';
+import { type ReferenceShmOptions, ReferenceShmSource } from './reference-shm-source.ts';
 import { openRgbdSource, type RgbdSourceOptions } from './rgbd-source.ts';
 import { SimSource, type SimSourceOptions } from './sim-source.ts';
 
@@ -7,7 +10,9 @@ import { SimSource, type SimSourceOptions } from './sim-source.ts';
 export type SourceOptions =
   | ({ kind: 'sim' } & SimSourceOptions)
   | ({ kind: 'pcd' } & PcdSourceOptions)
-  | ({ kind: 'rgbd' } & RgbdSourceOptions);
+  | ({ kind: 'rgbd' } & RgbdSourceOptions)
+  | ({ kind: 'shm'; layout: 'farpoint' } & CloudShmOptions)
+  | ({ kind: 'shm'; layout: 'reference' } & ReferenceShmOptions);
 
 /** @throws {Error} naming what could not be opened and why */
 export async function openSource(options: SourceOptions): Promise<FrameSource> {
@@ -18,5 +23,9 @@ export async function openSource(options: SourceOptions): Promise<FrameSource> {
       return openPcdSource(options);
     case 'rgbd':
       return openRgbdSource(options);
+    case 'shm':
+      return options.layout === 'reference'
+        ? ReferenceShmSource.open(options, monotonicMs)
+        : CloudShmSource.open(options, monotonicMs);
   }
 }

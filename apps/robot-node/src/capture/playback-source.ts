@@ -34,7 +34,8 @@ export const STATIC_CAMERA_POSE: Pose = {
   orientation: LOOKING_AHEAD,
 };
 
-const STANDING: SourceState = {
+/** The state of what has no wheels and knows no place. */
+export const STANDING: SourceState = {
   pose: { position: { x: 0, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } },
   twist: zeroTwist(),
   battery: null,

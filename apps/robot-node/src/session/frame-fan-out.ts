@@ -1,5 +1,6 @@
 import type { Capture } from '../capture/capture.ts';
 import type { CaptureBudget, CapturedFrame } from '../capture/capture-messages.ts';
+import type { FrameLog } from '../telemetry/frame-log.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { StageTimer } from '../telemetry/stage-timer.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
@@ -28,6 +29,7 @@ export interface FanOutOptions {
   driver: () => string | null;
   counters: RobotCounters;
   stages: StageTimer;
+  frameLog?: FrameLog | undefined;
   now: () => number;
 }
 
@@ -75,6 +77,7 @@ export class FrameFanOut {
   #onFrame(frame: CapturedFrame): void {
     const { capture, targets, sendLoop, counters, stages, now } = this.#options;
     counters.frame(frame);
+    this.#options.frameLog?.add(frame);
     stages.add('captureMs', frame.captureMs);
     stages.add('sampleMs', frame.sampleMs);
     stages.add('packMs', frame.packMs);

@@ -59,6 +59,7 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   sumBy('messages_refused', 'Unreadable messages, by channel and error', 'reason', counters.messagesRefused);
   sum('frames_captured', 'Clouds captured', () => counters.framesCaptured);
   sum('frames_without_buffer', 'Clouds not captured: all buffers out', () => capture.framesWithoutBuffer);
+  sum('source_faults', 'Faults of the source that may pass: no producer, bad clouds', () => capture.faults);
   sum('frames_stale', 'Clouds dropped: too old when ready', () => counters.framesStale);
   sum('points_sent_per_frame_sum', 'Points of all captured frames', () => counters.pointsCaptured);
   sumBy('points_rejected', 'Points not sent, by reason', 'reason', counters.pointsRejected);

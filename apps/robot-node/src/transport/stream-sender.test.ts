@@ -67,6 +67,7 @@ function frame(points: number, capturedAtMs = 1000): CapturedFrame {
     capturedAtMs,
     captureMs: 0,
     captureCpuMs: 0,
+    readyMs: capturedAtMs,
   };
 }
 

@@ -95,6 +95,11 @@ export class CloudReader implements Disposable {
     return null;
   }
 
+  /** The newest frame counts as read. @throws {SharedMemoryError} `truncated` */
+  skip(): void {
+    this.#last = this.published;
+  }
+
   close(): void {
     this.file.close();
   }

@@ -1,0 +1,124 @@
+import type { Twist } from '@farpoint/protocol';
+import {
+  READY_OFFSET,
+  REFERENCE_MAX_POINTS,
+  ReferenceFrameConsumer,
+  type WatchOrder,
+} from '@farpoint/shared-memory';
+import type { CaptureWishes, FrameSource, SourceDescription, SourceFrame } from './frame-source.ts';
+import { STANDING, STATIC_CAMERA_POSE } from './playback-source.ts';
+import { openWhenThere, ProducerLink } from './producer-link.ts';
+
+export interface ReferenceShmOptions {
+  folder: string;
+  /** How long to wait for the producer's files, ms. */
+  waitMs: number;
+}
+
+const LOOK_MS = 0.5;
+/** Looks are made more rarely the longer nothing has come: after so long, every so often, ms. */
+const IDLE_LOOKS: readonly (readonly [number, number])[] = [
+  [10_000, 20],
+  [1000, 5],
+];
+const WATCH_TIMEOUT_MS = 100;
+/** Share of the usual time between two frames in which none is looked for. */
+const QUIET_SHARE = 0.6;
+const SMOOTHING = 0.2;
+/** A producer that does not know the latency flag: then a frame is made green here, ms. */
+const LATENCY_ANSWER_MS = 500;
+
+/** The reference system's producer: packed points, taken when its flag is up. It says neither pose nor capture time. */
+export class ReferenceShmSource implements FrameSource {
+  readonly description: SourceDescription = {
+    kind: 'shm (reference layout)',
+    width: REFERENCE_MAX_POINTS,
+    height: 1,
+    capacity: REFERENCE_MAX_POINTS,
+    depthMeasure: 'z',
+    drives: false,
+  };
+  readonly state = STANDING;
+  onReady: (() => void) | null = null;
+  onFault: ((error: Error) => void) | null = null;
+  readonly #link: ProducerLink<ReferenceFrameConsumer>;
+  readonly #now: () => number;
+  readonly #points = new Float32Array(REFERENCE_MAX_POINTS * 4);
+  #readyMs: number;
+  #intervalMs = 0;
+  #askedMs: number | null = null;
+
+  private constructor(consumer: ReferenceFrameConsumer, folder: string, now: () => number) {
+    this.#now = now;
+    this.#readyMs = now();
+    this.#link = new ProducerLink(consumer, {
+      open: () => ReferenceFrameConsumer.open(folder),
+      place: ({ flags }) => ({ file: flags, offset: READY_OFFSET, futex: false }),
+      order: () => this.#order(),
+      onReady: () => {
+        const at = this.#now();
+        const interval = at - this.#readyMs;
+        this.#intervalMs += (interval - this.#intervalMs) * SMOOTHING;
+        this.#readyMs = at;
+        this.onReady?.();
+      },
+      onFault: (error) => this.onFault?.(error),
+    });
+  }
+
+  /** @throws {SharedMemoryError} where there is no producer in time */
+  static async open({ folder, waitMs }: ReferenceShmOptions, now: () => number): Promise<ReferenceShmSource> {
+    const consumer = await openWhenThere(() => ReferenceFrameConsumer.open(folder), waitMs);
+    return new ReferenceShmSource(consumer, folder, now);
+  }
+
+  advance(_nowMs: number, _twist: Twist): void {}
+
+  capture(nowMs: number, wishes: CaptureWishes): SourceFrame | null {
+    try {
+      const frame = this.#link.files?.take(this.#points, this.#tell(nowMs, wishes)) ?? null;
+      this.#link.waitForNext();
+      if (frame === null || frame.points === 0) return null;
+      const unanswered = this.#askedMs !== null && nowMs - this.#askedMs > LATENCY_ANSWER_MS;
+      const latencyTest = this.#askedMs !== null && (frame.green || unanswered);
+      if (latencyTest) this.#askedMs = null;
+      return {
+        points: this.#points,
+        count: frame.points,
+        cameraPose: STATIC_CAMERA_POSE,
+        captureMs: this.#readyMs,
+        latencyTest,
+      };
+    } catch (error) {
+      this.#link.lost(error);
+      return null;
+    }
+  }
+
+  skip(nowMs: number, wishes: CaptureWishes): void {
+    try {
+      this.#link.files?.release(this.#tell(nowMs, wishes));
+      this.#link.waitForNext();
+    } catch (error) {
+      this.#link.lost(error);
+    }
+  }
+
+  close(): void {
+    this.#link.close();
+  }
+
+  /** The producer is asked for one green frame, not for green frames until one has come. */
+  #tell(nowMs: number, { bitsPerSecond, latencyTest }: CaptureWishes): CaptureWishes {
+    const ask = latencyTest && this.#askedMs === null;
+    if (ask) this.#askedMs = nowMs;
+    return { bitsPerSecond, latencyTest: ask };
+  }
+
+  #order(): WatchOrder {
+    const sinceMs = this.#now() - this.#readyMs;
+    const pollMs = IDLE_LOOKS.find(([after]) => sinceMs > after)?.[1] ?? LOOK_MS;
+    const quietMs = Math.min(Math.max(this.#intervalMs * QUIET_SHARE - sinceMs, 0), WATCH_TIMEOUT_MS / 2);
+    return { value: 0, quietMs, pollMs, timeoutMs: WATCH_TIMEOUT_MS };
+  }
+}

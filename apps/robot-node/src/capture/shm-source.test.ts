@@ -1,0 +1,257 @@
+/** Producers in shared memory, through the real capture thread. */
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { emptyPlacement, emptyPointPacketHeader, type Pose, readCloudPayload } from '@farpoint/protocol';
+import {
+  CloudProducer,
+  type FrameHeader,
+  isAvailable,
+  ReferenceFrameProducer,
+  referenceFiles,
+} from '@farpoint/shared-memory';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { monotonicMs } from '../clock.ts';
+import { payloadBytes } from '../encode/packetiser.ts';
+import { Capture } from './capture.ts';
+import type { CapturedFrame } from './capture-messages.ts';
+
+let folder: string;
+const open: { close(): unknown }[] = [];
+beforeEach(() => {
+  folder = mkdtempSync(join(tmpdir(), 'farpoint-shm-'));
+});
+afterEach(async () => {
+  for (const each of open.splice(0).reverse()) await each.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+function keep<T extends { close(): unknown }>(made: T): T {
+  open.push(made);
+  return made;
+}
+
+async function start(layout: 'farpoint' | 'reference', waitMs = 10_000): Promise<Capture> {
+  const capture = await Capture.start({
+    source: { kind: 'shm', layout, folder, waitMs },
+    framesPerSecond: 30,
+    plan: 'paper',
+    sampling: { lambda: 1, epsilon: 1e-6, nearDistance: 3.85 },
+    floorFraction: 0.1,
+    mostPoints: 1_000_000,
+    watchdogMs: 150,
+  });
+  return keep(capture);
+}
+
+const BUDGET = { targetBitsPerSecond: 123_000_000, overheadBytes: 68, streaming: true, probe: null };
+
+/** Calls `produce` again and again until such a frame comes out; what came before is no matter. */
+async function frameWhere(
+  capture: Capture,
+  produce: () => void,
+  is: (frame: CapturedFrame, mm: number[]) => boolean,
+): Promise<CapturedFrame> {
+  const timer = setInterval(produce, 5);
+  try {
+    return await new Promise((resolve) => {
+      capture.onFrame = (frame) => {
+        const copy = { ...frame, buffer: frame.buffer.slice(0) };
+        capture.recycle(frame.buffer);
+        if (is(copy, firstPoint(copy))) resolve(copy);
+      };
+    });
+  } finally {
+    clearInterval(timer);
+    capture.onFrame = null;
+  }
+}
+
+function firstPoint({ buffer }: CapturedFrame): number[] {
+  return [...new Int16Array(buffer, 16, 3)];
+}
+
+function placementOf(frame: CapturedFrame) {
+  const placement = emptyPlacement();
+  const view = new DataView(frame.buffer, 0, payloadBytes(frame.points, 0));
+  expect(readCloudPayload(view, emptyPointPacketHeader(), placement)).toBeNull();
+  return placement;
+}
+
+function cloud(z: number, points: number): Float32Array {
+  return Float32Array.from({ length: points * 4 }, (_, i) => (i % 4 === 2 ? z : i % 4 === 3 ? 0 : 0.5));
+}
+
+/** One block of the reference's packed points, all at (1, 2, depth) mm. */
+function packed(depth: number, colour: number): Uint8Array {
+  const block = new DataView(new ArrayBuffer(1200));
+  for (let i = 0; i < 150; i++) {
+    block.setInt16(i * 6, 1, true);
+    block.setInt16(i * 6 + 2, 2, true);
+    block.setInt16(i * 6 + 4, depth, true);
+    block.setUint16(900 + i * 2, colour, true);
+  }
+  return new Uint8Array(block.buffer);
+}
+
+const GRID: Omit<FrameHeader, 'depthUnit'> = {
+  ...{ captureMs: null, width: 20, height: 15, pose: null, lens: null, latencyTest: false },
+};
+
+describe.skipIf(!isAvailable())('sources in shared memory (need the addon: pnpm build:native)', () => {
+  it('farpoint: frames with grid, pose and capture time come out as packets', async () => {
+    const producer = keep(
+      new CloudProducer({ folder, format: 'points', maxPoints: 300, framesPerSecond: 30 }),
+    );
+    producer.publish({ points: cloud(1, 300) }, GRID);
+    const capture = await start('farpoint');
+    expect(capture.description).toMatchObject({ width: 20, height: 15, capacity: 300, framesPerSecond: 30 });
+    capture.setBudget(BUDGET);
+    const pose: Pose = { position: { x: 4, y: 5, z: 6 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
+    let stamp = 0;
+    const produce = () => {
+      stamp = monotonicMs() - 7;
+      producer.publish({ points: cloud(2, 300) }, { ...GRID, captureMs: stamp, pose });
+    };
+    const frame = await frameWhere(capture, produce, (_, [, , z]) => z === 2000);
+    expect(frame.points).toBe(300);
+    expect(placementOf(frame).pose.position).toEqual({ x: 4, y: 5, z: 6 });
+    expect(frame.capturedAtMs).toBeLessThanOrEqual(stamp);
+    expect(frame.readyMs - frame.capturedAtMs).toBeGreaterThanOrEqual(7);
+    const state = await new Promise<{ x: number }>((resolve) => {
+      capture.onState = ({ pose: { position } }) => resolve(position);
+    });
+    expect(state.x).not.toBe(0);
+  });
+
+  it('farpoint: heals when the producer is followed by another, and says what is wrong meanwhile', async () => {
+    const first = keep(new CloudProducer({ folder, format: 'points', maxPoints: 300 }));
+    first.publish({ points: cloud(1, 300) }, GRID);
+    const capture = await start('farpoint');
+    capture.setBudget(BUDGET);
+    first.close();
+    const fault = new Promise<string>((resolve) => {
+      capture.onFault = resolve;
+    });
+    rmSync(join(folder, 'farpoint_cloud'));
+    expect(await fault).toContain(join(folder, 'farpoint_cloud'));
+    const second = keep(new CloudProducer({ folder, format: 'points', maxPoints: 150 }));
+    const small = { ...GRID, width: 150, height: 1 };
+    const produce = () => second.publish({ points: cloud(3, 150) }, small);
+    const frame = await frameWhere(capture, produce, (_, [, , z]) => z === 3000);
+    expect(frame.points).toBe(150);
+    expect(capture.faults).toBeGreaterThanOrEqual(1);
+  });
+
+  it('farpoint: ends, saying why, where another producer’s frames are too large', async () => {
+    const first = keep(new CloudProducer({ folder, format: 'points', maxPoints: 100 }));
+    first.publish({ points: cloud(1, 100) }, { ...GRID, width: 100, height: 1 });
+    const capture = await start('farpoint');
+    capture.setBudget(BUDGET);
+    const failure = new Promise<Error>((resolve) => {
+      capture.onFailure = resolve;
+    });
+    first.close();
+    const second = keep(new CloudProducer({ folder, format: 'points', maxPoints: 300 }));
+    second.publish({ points: cloud(1, 300) }, GRID);
+    expect((await failure).message).toContain('room for 100');
+  });
+
+  it('reference: packed points come out as packets, and the producer learns the rate', async () => {
+    const producer = keep(new ReferenceFrameProducer(folder));
+    const capture = await start('reference');
+    expect(capture.description).toMatchObject({ capacity: 230_400, height: 1 });
+    capture.setBudget(BUDGET);
+    const frame = await frameWhere(
+      capture,
+      () => producer.publish(packed(1234, 0xffff)),
+      () => true,
+    );
+    expect(frame.points).toBe(150);
+    expect(firstPoint(frame)).toEqual([1, 2, 1234]);
+    expect(new Uint16Array(frame.buffer, 16 + 900, 1)[0]).toBe(0xffff);
+    expect(producer.wishes).toEqual({ bitsPerSecond: 123_000_000, latencyTest: false });
+  });
+
+  it('reference: a latency test asks the producer for a green frame, and that is the one', async () => {
+    const producer = keep(new ReferenceFrameProducer(folder));
+    const capture = await start('reference');
+    capture.setBudget(BUDGET);
+    capture.requestLatencyTest();
+    const asked: boolean[] = [];
+    const produce = () => {
+      const { latencyTest } = producer.wishes;
+      if (producer.publish(packed(1, latencyTest ? 0x03f0 : 0xffff))) asked.push(latencyTest);
+    };
+    const frame = await frameWhere(capture, produce, ({ latencyTest }) => latencyTest);
+    expect(placementOf(frame).latencyTest).toBe(true);
+    expect(asked.filter(Boolean)).toHaveLength(1);
+  });
+
+  it('reference: a producer that knows no latency test is helped out', async () => {
+    const producer = keep(new ReferenceFrameProducer(folder));
+    const capture = await start('reference');
+    capture.setBudget(BUDGET);
+    capture.requestLatencyTest();
+    const frame = await frameWhere(
+      capture,
+      () => producer.publish(packed(1, 0xffff)),
+      ({ latencyTest }) => latencyTest,
+    );
+    expect(new Uint16Array(frame.buffer, 16 + 900, 1)[0]).toBe(0x03f0);
+  });
+
+  it('reference: with nobody watching the producer waits; then what is old is let go', async () => {
+    const producer = keep(new ReferenceFrameProducer(folder));
+    const capture = await start('reference');
+    expect(producer.publish(packed(1, 0))).toBe(true);
+    let reports = 0;
+    await new Promise<void>((resolve) => {
+      capture.onState = () => {
+        if (++reports === 10) resolve();
+      };
+    });
+    expect(producer.free).toBe(false);
+    capture.setBudget(BUDGET);
+    const frame = await frameWhere(
+      capture,
+      () => producer.publish(packed(2, 0)),
+      () => true,
+    );
+    expect(firstPoint(frame)[2]).toBe(2);
+  });
+
+  it('reference: an impossible length is a fault that passes', async () => {
+    const producer = keep(new ReferenceFrameProducer(folder));
+    const capture = await start('reference');
+    capture.setBudget(BUDGET);
+    const fault = new Promise<string>((resolve) => {
+      capture.onFault = resolve;
+    });
+    const files = referenceFiles(folder);
+    const bad = new Uint8Array(1_843_203).fill(255, 0, 3);
+    writeFileSync(files.cloud, bad);
+    writeFileSync(files.flags, Uint8Array.of(1, 0, 0, 0, 0, 0));
+    expect(await fault).toContain('shared_pc, byte 0');
+    const frame = await frameWhere(
+      capture,
+      () => producer.publish(packed(5, 0)),
+      () => true,
+    );
+    expect(firstPoint(frame)[2]).toBe(5);
+  });
+
+  it.each(['farpoint', 'reference'] as const)(
+    '%s: says which file is missing where no producer comes',
+    async (layout) => {
+      const file = layout === 'farpoint' ? 'farpoint_cloud' : 'shared_pc';
+      await expect(start(layout, 0)).rejects.toThrow(`${join(folder, file)}: there is no such file`);
+    },
+  );
+});
+
+describe.skipIf(isAvailable())('sources in shared memory, without the addon', () => {
+  it('say in one sentence what to do', async () => {
+    await expect(start('farpoint')).rejects.toThrow('pnpm build:native');
+  });
+});
