@@ -32,6 +32,18 @@ export interface BridgeOptions extends Omit<RobotConnectionOptions, 'now'> {
   maxRobots: number;
 }
 
+/** A frame that was given to pages. Times are the clock's that the bridge was opened with, ms. */
+export interface FrameRecord {
+  frameNumber: number;
+  points: number;
+  expectedPoints: number;
+  lastPacketMs: number;
+  /** Handed to the sockets. */
+  emittedMs: number;
+  /** Pages it went to. */
+  pages: number;
+}
+
 interface Robot {
   readonly name: string;
   offer: string;
@@ -52,6 +64,7 @@ export class Bridge {
   robotsRefused = 0;
   messagesRefused = 0;
   commandsDropped = 0;
+  onFrame: ((record: FrameRecord) => void) | null = null;
   readonly #options: BridgeOptions;
   readonly #log: Logger;
   readonly #now: () => number;
@@ -211,9 +224,12 @@ export class Bridge {
         onCandidate: (candidate) => this.#line.send({ type: 'candidate', robotId: id, candidate }),
         onReady: () => connection.tell(this.#selection.wordFor(id)),
         onFrame: (frame, lastPacketMs) => {
-          this.#streaming.broadcast(frame.bytes, STREAMING_BACKLOG_BYTES);
+          const pages = this.#streaming.broadcast(frame.bytes, STREAMING_BACKLOG_BYTES);
+          const emittedMs = this.#now();
           this.frames++;
-          this.lastEmitMs = this.#now() - lastPacketMs;
+          this.lastEmitMs = emittedMs - lastPacketMs;
+          const { frameNumber, points, expectedPoints } = frame;
+          this.onFrame?.({ frameNumber, points, expectedPoints, lastPacketMs, emittedMs, pages });
         },
         onFailed: (detail) => {
           this.robotsFailed++;

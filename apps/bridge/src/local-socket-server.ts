@@ -77,13 +77,19 @@ export class LocalSocketServer {
     return this.#server.clients.size;
   }
 
-  /** To every page that has read all but so many bytes of what was sent before. */
-  broadcast(data: string | Uint8Array, maxBacklogBytes: number): void {
+  /** To every page that has read all but so many bytes of what was sent before. @returns how many those are */
+  broadcast(data: string | Uint8Array, maxBacklogBytes: number): number {
+    let reached = 0;
     for (const socket of this.#server.clients) {
       if (socket.readyState !== WebSocket.OPEN) continue;
-      if (socket.bufferedAmount > maxBacklogBytes) this.unsent++;
-      else socket.send(data);
+      if (socket.bufferedAmount > maxBacklogBytes) {
+        this.unsent++;
+        continue;
+      }
+      socket.send(data);
+      reached++;
     }
+    return reached;
   }
 
   async close(): Promise<void> {

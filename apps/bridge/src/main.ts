@@ -1,12 +1,20 @@
 #!/usr/bin/env node
-import { runProgram } from '@farpoint/service';
+import { JsonLinesFile, runProgram } from '@farpoint/service';
 import { Bridge } from './bridge.ts';
+import { monotonicMs } from './clock.ts';
 import { registerBridgeMetrics } from './metrics.ts';
 import { program, toBridgeOptions } from './options.ts';
 
 await runProgram(program, async ({ options, log, health, metrics, shutdown, serveAdmin }) => {
-  const bridge = await Bridge.open(toBridgeOptions(options), log, () => performance.now());
+  const bridge = await Bridge.open(toBridgeOptions(options), log, monotonicMs);
   shutdown.onClose('bridge', () => bridge.close());
+  if (options.stats !== null) {
+    const file = new JsonLinesFile(options.stats, (error) =>
+      log.error({ err: error }, 'statistics are not written'),
+    );
+    shutdown.onClose('statistics', () => file.close());
+    bridge.onFrame = (record) => file.write(record);
+  }
   log.info({ host: options.host, ...bridge.ports }, 'listening for a page');
   registerBridgeMetrics(metrics, bridge);
   health.add('signaling', () => ({ ok: true, detail: { connected: bridge.signalingOpen } }));

@@ -71,6 +71,12 @@ export const program = defineProgram({
       argument: 'BPS',
       help: 'the most it is ever told',
     }),
+    stats: defineOption({
+      schema: schema.optional(schema.text()),
+      default: null,
+      argument: 'FILE',
+      help: 'for measurements: each frame given to pages, one JSON object a line',
+    }),
     ...adminOptions(9600),
   },
 });

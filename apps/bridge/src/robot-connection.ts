@@ -10,6 +10,7 @@ import {
 import type { RTCDataChannel, RTCPeerConnection } from 'werift';
 import { type AssembledFrame, FrameAssembler } from './frame-assembler.ts';
 import { ReceiverLimit } from './receiver-limit.ts';
+import { RtpReceiver } from './rtp/rtp-receiver.ts';
 
 export interface RobotConnectionOptions {
   maxPoints: number;
@@ -54,6 +55,7 @@ export class RobotConnection {
   readonly #words: RTCDataChannel;
   readonly #bandwidth: RTCDataChannel;
   #control: RTCDataChannel | null = null;
+  #receiver: RtpReceiver | null = null;
   #described = false;
   #closed = false;
   #candidates: string[] = [];
@@ -75,9 +77,7 @@ export class RobotConnection {
     });
     connection.connectionStateChange.subscribe((state) => {
       if (state === 'failed') this.#fail('the connection failed');
-    });
-    connection.onTrack.subscribe((track) => {
-      track.onReceiveRtp.subscribe(({ payload }) => this.#onPayload(payload));
+      else if (state === 'connected') this.#receive();
     });
     connection.onDataChannel.subscribe((channel) => {
       if (channel.label === referenceChannels.control.label && this.#control === null)
@@ -143,8 +143,20 @@ export class RobotConnection {
     if (this.#closed) return;
     this.#closed = true;
     if (this.#timer !== null) clearTimeout(this.#timer);
+    this.#receiver?.close();
     this.assembler.clear();
     this.#connection.close().catch(() => undefined);
+  }
+
+  /** Takes the stream over from werift. */
+  #receive(): void {
+    const dtls = this.#connection.dtlsTransports[0];
+    if (dtls === undefined || this.#receiver !== null || this.#closed) return;
+    try {
+      this.#receiver = new RtpReceiver(dtls, this.#options, (payload) => this.#onPayload(payload));
+    } catch (error) {
+      this.#fail(textOf(error));
+    }
   }
 
   #onPayload(payload: Uint8Array): void {

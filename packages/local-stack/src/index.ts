@@ -1,3 +1,4 @@
+export * from './bridge-process.ts';
 export * from './chromium.ts';
 export * from './emulated-link.ts';
 export * from './free-port.ts';

@@ -14,6 +14,8 @@ export interface StackPorts {
 export interface RobotSpec {
   id: string;
   name: string;
+  /** Also register it with the reference system's signaling. */
+  reference?: boolean;
   /** More flags of the robot program, e.g. `['--source', 'pcd', '--path', file]`; a simulated robot where empty. */
   args?: string[];
   adminPort?: number;
@@ -109,7 +111,12 @@ export class LocalStack {
   async startRobot(robot: RobotSpec): Promise<void> {
     const adminPort =
       robot.adminPort ?? this.#robots.get(robot.id)?.spec.adminPort ?? (await freePorts(1))[0];
-    const spec: Required<RobotSpec> = { ...robot, args: robot.args ?? [], adminPort: adminPort as number };
+    const spec: Required<RobotSpec> = {
+      reference: false,
+      ...robot,
+      args: robot.args ?? [],
+      adminPort: adminPort as number,
+    };
     const started = await ManagedProcess.start({
       name: spec.id,
       command: [
@@ -119,6 +126,7 @@ export class LocalStack {
         ...['--id', spec.id],
         ...['--name', spec.name],
         ...['--admin-port', String(spec.adminPort)],
+        ...(spec.reference ? ['--reference-signaling', `ws://127.0.0.1:${this.ports.referenceRobot}`] : []),
         ...spec.args,
       ],
       cwd: repositoryRoot,

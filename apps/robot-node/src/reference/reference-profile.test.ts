@@ -13,9 +13,7 @@ let stack: LocalStack;
 const cleanups: (() => Promise<void>)[] = [];
 
 beforeAll(async () => {
-  stack = await LocalStack.start({ robots: [] });
-  const reference = ['--reference-signaling', `ws://127.0.0.1:${stack.ports.referenceRobot}`];
-  await stack.startRobot({ id: ROBOT, name: NAME, args: [...ARGS, ...reference] });
+  stack = await LocalStack.start({ robots: [{ id: ROBOT, name: NAME, args: ARGS, reference: true }] });
 }, 60_000);
 afterAll(() => stack.stop(), 30_000);
 afterEach(async () => {

@@ -1,0 +1,276 @@
+/** `pnpm bench bridge`: the robot in the reference profile, through the bridge, to a page's streaming socket. */
+import { type ChildProcess, fork } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { parseArgs } from 'node:util';
+import { BridgeProcess, LocalStack } from '@farpoint/local-stack';
+import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
+import { readPacketLog, type SentTimes } from './packet-log.ts';
+import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Distribution, distribution, rounded } from './stats.ts';
+
+const USAGE = `pnpm bench bridge [--points 100000] [--fps 10] [--seconds 60] [--mbps 100] [--json]
+
+Real robot (simulated office) in the reference profile, signaling, bridge, and a reader of the streaming socket, each in its
+own process, no network between. Two runs of --seconds each: --points at --fps (rounded up to whole packets), then as many
+points at --fps as --mbps (10^6 bit/s on the wire, all headers counted) carry; --mbps 0 leaves that one out.
+
+emitMs: from the arrival of a frame's last packet in the bridge to its whole message in the reader. sendToReadMs: from the
+robot's send call of that packet to the same. Frames that are not whole count in neither; see framesPartial.`;
+
+const WARM_UP_MS = 6000;
+const POINTS_PER_PACKET = 150;
+/** On the wire: IP 20, UDP 8, RTP 12, extension 8, payload 1216, SRTP tag 16. */
+const WIRE_BYTES_PER_PACKET = 1280;
+const RSS_EVERY_MS = 250;
+
+interface FrameRecord {
+  frameNumber: number;
+  points: number;
+  expectedPoints: number;
+  lastPacketMs: number;
+  pages: number;
+}
+
+interface RunResult {
+  mbps: number;
+  seconds: number;
+  pointsPerFrame: number;
+  framesPerSecond: number;
+  emitMs: Distribution;
+  sendToReadMs: Distribution;
+  frames: number;
+  framesPartial: number;
+  framesUnsent: number;
+  lossRate: number;
+  robotCpu: number | null;
+  bridgeCpu: number | null;
+  robotCpuPerMbps: number | null;
+  bridgeCpuPerMbps: number | null;
+  bridgeRssMbStart: number;
+  bridgeRssMbMax: number;
+  bridgeRssMbEnd: number;
+}
+
+export const bench: Bench = {
+  name: 'bridge',
+  summary: 'the reference profile through the bridge to a page’s streaming socket',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        points: { type: 'string', default: '100000' },
+        fps: { type: 'string', default: '10' },
+        seconds: { type: 'string', default: '60' },
+        mbps: { type: 'string', default: '100' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const points = numberOption('points', values.points, POINTS_PER_PACKET);
+    const fps = numberOption('fps', values.fps, 1);
+    const seconds = numberOption('seconds', values.seconds, 1);
+    const mbps = numberOption('mbps', values.mbps, 0);
+
+    const first = await run(Math.ceil(points / POINTS_PER_PACKET), fps, seconds);
+    const packets = Math.floor((mbps * 1e6) / 8 / WIRE_BYTES_PER_PACKET / fps);
+    const sustained = packets === 0 ? null : await run(packets, fps, seconds);
+    const runs = sustained === null ? [first] : [first, sustained];
+    printTable(
+      ['', 'p50', 'p95', 'p99', 'max'],
+      runs.flatMap((r) => [
+        [`emit at ${r.mbps} Mbit/s, ms`, ...distributionCells(r.emitMs)],
+        [`send to read at ${r.mbps} Mbit/s, ms`, ...distributionCells(r.sendToReadMs)],
+      ]),
+    );
+    printTable(
+      [
+        'wire Mbit/s',
+        'frames/s',
+        'points',
+        'loss',
+        'partial',
+        'robot, cores',
+        'bridge, cores',
+        'RSS max, MB',
+      ],
+      runs.map((r) => [
+        r.mbps,
+        r.framesPerSecond,
+        r.pointsPerFrame,
+        r.lossRate,
+        r.framesPartial,
+        r.robotCpu,
+        r.bridgeCpu,
+        r.bridgeRssMbMax,
+      ]),
+    );
+    if (values.json) {
+      const bridgeRssMbMax = Math.max(...runs.map((r) => r.bridgeRssMbMax));
+      printJson({ bench: 'bridge', ...first, bridgeRssMbMax, sustained });
+    }
+  },
+};
+
+async function run(packets: number, fps: number, seconds: number): Promise<RunResult> {
+  const folder = mkdtempSync(join(tmpdir(), 'farpoint-bridge-'));
+  const [sentFile, frameFile] = [join(folder, 'sent.csv'), join(folder, 'frames.jsonl')];
+  const env = { FARPOINT_LOG_LEVEL: 'warn' };
+  const mbps = (packets * WIRE_BYTES_PER_PACKET * 8 * fps) / 1e6;
+  console.error(`${packets * POINTS_PER_PACKET} points at ${fps} frames/s: ${mbps.toFixed(1)} Mbit/s`);
+  const stack = await LocalStack.start({ robots: [], env });
+  let bridge: BridgeProcess | null = null;
+  let reader: ChildProcess | null = null;
+  let memory: NodeJS.Timeout | undefined;
+  try {
+    await stack.startRobot({
+      id: 'sim-1',
+      name: 'Simulated robot',
+      reference: true,
+      args: [
+        ...[
+          '--fps',
+          String(fps),
+          '--packet-log',
+          sentFile,
+          '--max-points',
+          String(packets * POINTS_PER_PACKET),
+        ],
+        // A little more than the frames need: the pace leaves a pause before the next.
+        ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', (mbps * 1.05).toFixed(2)],
+      ],
+    });
+    bridge = await BridgeProcess.start(stack, {
+      env,
+      args: ['--stats', frameFile, '--start-bits-per-second', '200e6', '--max-bits-per-second', '200e6'],
+    });
+    reader = fork(new URL('./bridge-reader.ts', import.meta.url), [
+      `ws://127.0.0.1:${bridge.ports.streaming}/`,
+    ]);
+    await nextMessage(reader);
+    await wait(WARM_UP_MS);
+    const [robotPid, bridgePid] = [stack.robot('sim-1').pid, bridge.process.pid];
+    const cpu = () => ({ robot: cpuSecondsOfTree(robotPid), bridge: cpuSecondsOfTree(bridgePid) });
+    const rss: number[] = [rssMb(bridgePid)];
+    memory = setInterval(() => rss.push(rssMb(bridgePid)), RSS_EVERY_MS);
+    const [beganMs, before] = [nowMs(), cpu()];
+    await wait(seconds * 1000);
+    const [endedMs, after] = [nowMs(), cpu()];
+    clearInterval(memory);
+    const arrivals = nextMessage<{ arrivals: { atMs: number; bytes: number }[] }>(reader);
+    reader.send('end');
+    const read = (await arrivals).arrivals;
+    await bridge.stop();
+    await stack.robot('sim-1').stop();
+    const records = readFileSync(frameFile, 'utf8')
+      .trimEnd()
+      .split('\n')
+      .map((line) => JSON.parse(line) as FrameRecord);
+    const times = join3(records, read, readPacketLog(sentFile), beganMs, endedMs);
+    const elapsedMs = endedMs - beganMs;
+    const received = times.points / POINTS_PER_PACKET;
+    const wireMbps = (received * WIRE_BYTES_PER_PACKET * 8) / elapsedMs / 1000;
+    const robotCpu = coresBetween(before.robot, after.robot, elapsedMs);
+    const bridgeCpu = coresBetween(before.bridge, after.bridge, elapsedMs);
+    const perMbps = (cores: number | null) => (cores === null ? null : Number((cores / wireMbps).toFixed(5)));
+    return {
+      mbps: Number(wireMbps.toFixed(2)),
+      seconds: Number((elapsedMs / 1000).toFixed(2)),
+      pointsPerFrame: Math.round(times.points / times.frames),
+      framesPerSecond: Number(((times.frames * 1000) / elapsedMs).toFixed(2)),
+      emitMs: rounded(distribution(times.emitMs), 2),
+      sendToReadMs: rounded(distribution(times.sendToReadMs), 2),
+      frames: times.frames,
+      framesPartial: times.partial,
+      framesUnsent: times.unsent,
+      lossRate: Number((1 - times.points / times.expectedPoints).toFixed(6)),
+      robotCpu,
+      bridgeCpu,
+      robotCpuPerMbps: perMbps(robotCpu),
+      bridgeCpuPerMbps: perMbps(bridgeCpu),
+      bridgeRssMbStart: rss[0] as number,
+      bridgeRssMbMax: Math.max(...rss),
+      bridgeRssMbEnd: rss.at(-1) as number,
+    };
+  } finally {
+    clearInterval(memory);
+    reader?.kill();
+    await bridge?.stop();
+    await stack.stop();
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+interface Joined {
+  emitMs: number[];
+  sendToReadMs: number[];
+  frames: number;
+  partial: number;
+  unsent: number;
+  points: number;
+  expectedPoints: number;
+}
+
+/** The bridge's frames, the reader's messages (one for each frame that went to a page, in order), the robot's packets. */
+function join3(
+  records: readonly FrameRecord[],
+  read: readonly { atMs: number; bytes: number }[],
+  sent: SentTimes,
+  fromMs: number,
+  toMs: number,
+): Joined {
+  const joined: Joined = {
+    emitMs: [],
+    sendToReadMs: [],
+    frames: 0,
+    partial: 0,
+    unsent: 0,
+    points: 0,
+    expectedPoints: 0,
+  };
+  const delivered = records.filter(({ pages }) => pages > 0);
+  // Those before the reader came went to nobody.
+  const arrivalOf = new Map(delivered.map((record, i) => [record, read[i]]));
+  for (const record of records) {
+    if (record.lastPacketMs < fromMs || record.lastPacketMs >= toMs) continue;
+    joined.frames++;
+    joined.points += record.points;
+    joined.expectedPoints += record.expectedPoints;
+    if (record.pages === 0) joined.unsent++;
+    const arrival = arrivalOf.get(record);
+    if (record.points < record.expectedPoints) {
+      joined.partial++;
+      continue;
+    }
+    if (arrival === undefined) continue;
+    if (arrival.bytes !== record.points * 8)
+      throw new Error('the reader’s messages are not the bridge’s frames');
+    joined.emitMs.push(arrival.atMs - record.lastPacketMs);
+    const sentMs = sent.get(`${record.frameNumber}:${record.expectedPoints * 8 - 1200}`);
+    if (sentMs !== undefined) joined.sendToReadMs.push(arrival.atMs - sentMs);
+  }
+  return joined;
+}
+
+function nowMs(): number {
+  const [seconds, nanoseconds] = process.hrtime();
+  return seconds * 1000 + nanoseconds / 1e6;
+}
+
+function rssMb(pid: number): number {
+  const pages = Number(readFileSync(`/proc/${pid}/statm`, 'utf8').split(' ')[1]);
+  return Number(((pages * 4096) / 1e6).toFixed(1));
+}
+
+function nextMessage<T>(child: ChildProcess): Promise<T> {
+  return new Promise((resolve, reject) => {
+    child.once('message', (message) => resolve(message as T));
+    child.once('exit', (code) => reject(new Error(`the reader ended with code ${code}`)));
+  });
+}
+
+function wait(ms: number): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve, ms));
+}
