@@ -331,34 +331,33 @@ static napi_value js_unpack_points64(napi_env env, napi_callback_info info) {
   return result;
 }
 
-/* unproject(handle, depthOffset, colourOffset, width, height, unit, [fx, fy, cx, cy], to) */
-static napi_value js_unproject(napi_env env, napi_callback_info info) {
+/* images(handle, kind, depthOffset, colourOffset, pixels, unit, depth, colour) */
+static napi_value js_images(napi_env env, napi_callback_info info) {
   napi_value values[MOST_ARGUMENTS];
   struct mapping *mapping;
-  struct bytes to, camera;
+  struct bytes depth, colour;
   struct depth_frame frame;
+  uint32_t kind;
   double unit;
-  if (!arguments(env, info, 8, values) || !mapping_of(env, values[0], &mapping) ||
-      !word(env, values[3], &frame.width) || !word(env, values[4], &frame.height) || !number(env, values[5], &unit) ||
-      !bytes_of(env, values[6], &camera) || !bytes_of(env, values[7], &to)) {
+  if (!arguments(env, info, 8, values) || !mapping_of(env, values[0], &mapping) || !word(env, values[1], &kind) ||
+      !offset_of(env, values[4], &frame.pixels) || !number(env, values[5], &unit) ||
+      !bytes_of(env, values[6], &depth) || !bytes_of(env, values[7], &colour)) {
     return NULL;
   }
-  const size_t pixels = (size_t)frame.width * frame.height;
-  if (camera.count != 4 * sizeof(double) || to.count / 16 < pixels || (uintptr_t)to.at % 4 != 0) {
-    return fail(env, "RANGE", (int64_t)pixels);
+  /* More pixels than there is room for are refused before they are multiplied. */
+  if (kind > DEPTH_32 || depth.count / 4 < frame.pixels || colour.count / 4 < frame.pixels ||
+      (uintptr_t)depth.at % 4 != 0 || (uintptr_t)colour.at % 4 != 0) {
+    return fail(env, "RANGE", (int64_t)frame.pixels);
   }
-  if (!range_of(env, mapping, values[1], 1, pixels * (unit > 0 ? 2 : 4), &frame.depth) ||
-      !range_of(env, mapping, values[2], 1, pixels * 4, &frame.colour)) {
-    return NULL;
-  }
-  double lens[4];
-  memcpy(lens, camera.at, sizeof lens);
+  frame.kind = (enum depth_kind)kind;
   frame.unit = (float)unit;
-  frame.fx = (float)lens[0];
-  frame.fy = (float)lens[1];
-  frame.cx = (float)lens[2];
-  frame.cy = (float)lens[3];
-  return nothing(env, decode_depth(mapping, &frame, (uint32_t *)(void *)to.at));
+  const size_t depth_bytes = frame.pixels * (frame.kind == DEPTH_OF_POINTS ? 16 : frame.kind == DEPTH_16 ? 2 : 4);
+  const size_t colour_bytes = frame.kind == DEPTH_OF_POINTS ? 0 : frame.pixels * 4;
+  if (!range_of(env, mapping, values[2], 1, depth_bytes, &frame.depth) ||
+      !range_of(env, mapping, values[3], 1, colour_bytes, &frame.colour)) {
+    return NULL;
+  }
+  return nothing(env, decode_images(mapping, &frame, (float *)(void *)depth.at, (uint32_t *)(void *)colour.at));
 }
 
 /* Watches */
@@ -584,7 +583,7 @@ NAPI_MODULE_INIT() {
       {"copyIn", js_copy_in},
       {"wake", js_wake},
       {"unpackPoints64", js_unpack_points64},
-      {"unproject", js_unproject},
+      {"images", js_images},
       {"watch", js_watch},
       {"arm", js_arm},
       {"unwatch", js_unwatch},

@@ -1,6 +1,5 @@
 #include "decode.h"
 
-#include <math.h>
 #include <string.h>
 
 #if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
@@ -54,35 +53,31 @@ int64_t decode_points64(struct mapping *mapping, size_t offset, size_t bytes, ui
   return at;
 }
 
-static void unproject(const uint8_t *base, const struct depth_frame *frame, uint32_t *to) {
-  const uint8_t *depths = base + frame->depth;
-  const uint8_t *colours = base + frame->colour;
-  const float over_fx = 1.0f / frame->fx;
-  const float over_fy = 1.0f / frame->fy;
-  for (uint32_t v = 0; v < frame->height; v++) {
-    const float slope_y = ((float)v - frame->cy) * over_fy;
-    for (uint32_t u = 0; u < frame->width; u++) {
-      const size_t pixel = (size_t)v * frame->width + u;
-      float depth;
-      if (frame->unit > 0.0f) {
-        uint16_t raw;
-        memcpy(&raw, depths + pixel * 2, sizeof raw);
-        depth = (float)raw * frame->unit;
-      } else {
-        memcpy(&depth, depths + pixel * 4, sizeof depth);
+static void split(const uint8_t *base, const struct depth_frame *frame, float *depth, uint32_t *colour) {
+  const uint8_t *from = base + frame->depth;
+  switch (frame->kind) {
+    case DEPTH_OF_POINTS:
+      for (size_t i = 0; i < frame->pixels; i++) {
+        memcpy(&depth[i], from + i * 16 + 8, 4);
+        memcpy(&colour[i], from + i * 16 + 12, 4);
       }
-      /* Also false for NaN. */
-      if (!(depth > 0.0f)) depth = NAN;
-      to[pixel * 4] = bits_of(((float)u - frame->cx) * over_fx * depth);
-      to[pixel * 4 + 1] = bits_of(slope_y * depth);
-      to[pixel * 4 + 2] = bits_of(depth);
-      memcpy(&to[pixel * 4 + 3], colours + pixel * 4, 4);
-    }
+      return;
+    case DEPTH_16:
+      for (size_t i = 0; i < frame->pixels; i++) {
+        uint16_t raw;
+        memcpy(&raw, from + i * 2, sizeof raw);
+        depth[i] = (float)raw * frame->unit;
+      }
+      break;
+    case DEPTH_32:
+      memcpy(depth, from, frame->pixels * 4);
+      break;
   }
+  memcpy(colour, base + frame->colour, frame->pixels * 4);
 }
 
-int64_t decode_depth(struct mapping *mapping, const struct depth_frame *frame, uint32_t *to) {
+int64_t decode_images(struct mapping *mapping, const struct depth_frame *frame, float *depth, uint32_t *colour) {
   int64_t at;
-  GUARDED(mapping->base, mapping->bytes, at, unproject(mapping->base, frame, to));
+  GUARDED(mapping->base, mapping->bytes, at, split(mapping->base, frame, depth, colour));
   return at;
 }

@@ -1,4 +1,4 @@
-/* From the bytes in a mapping to points of 16 bytes (x, y, z as float32 metres, then R, G, B, A), in one pass. */
+/* From the bytes in a mapping to what a sampler takes, in one pass. Points have 16 bytes: x, y, z as float32 metres, then R, G, B, A. */
 #ifndef FARPOINT_DECODE_H
 #define FARPOINT_DECODE_H
 
@@ -13,18 +13,27 @@
  */
 int64_t decode_points64(struct mapping *mapping, size_t offset, size_t bytes, uint32_t *to, bool *green);
 
-struct depth_frame {
-  /* Offsets in the mapping. */
-  size_t depth;
-  size_t colour;
-  uint32_t width;
-  uint32_t height;
-  /* Metres a unit for 16-bit depth; 0 where the depth is float32 metres. */
-  float unit;
-  float fx, fy, cx, cy;
+/* How the depth of each pixel is stored. */
+enum depth_kind {
+  /* In points of 16 bytes: z and then R, G, B, A are their last 8. */
+  DEPTH_OF_POINTS,
+  /* u16 in units; the colours lie elsewhere. */
+  DEPTH_16,
+  /* float32 metres; the colours lie elsewhere. */
+  DEPTH_32,
 };
 
-/* Unprojects depth by the pinhole model; what has no depth becomes NaN. */
-int64_t decode_depth(struct mapping *mapping, const struct depth_frame *frame, uint32_t *to);
+struct depth_frame {
+  enum depth_kind kind;
+  size_t pixels;
+  /* Offsets in the mapping; the colours' counts for DEPTH_16 and DEPTH_32. */
+  size_t depth;
+  size_t colour;
+  /* Metres a unit of DEPTH_16. */
+  float unit;
+};
+
+/* Depth in metres along z, and R, G, B, A of each pixel. */
+int64_t decode_images(struct mapping *mapping, const struct depth_frame *frame, float *depth, uint32_t *colour);
 
 #endif

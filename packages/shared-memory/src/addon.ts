@@ -42,15 +42,15 @@ export interface Addon {
   copyIn(mapping: MappingHandle, offset: number, from: ByteView): void;
   wake(mapping: MappingHandle, offset: number): void;
   unpackPoints64(mapping: MappingHandle, offset: number, bytes: number, to: ByteView): boolean;
-  unproject(
+  images(
     mapping: MappingHandle,
+    kind: number,
     depthOffset: number,
     colourOffset: number,
-    width: number,
-    height: number,
+    pixels: number,
     unit: number,
-    lens: Float64Array,
-    to: ByteView,
+    depth: Float32Array,
+    colour: Uint32Array,
   ): void;
   watch(
     mapping: MappingHandle,

@@ -1,6 +1,6 @@
 export { isAvailable } from './addon.ts';
 export { CloudProducer, type CloudProducerOptions, type FrameContent } from './cloud/cloud-producer.ts';
-export { type CloudFrame, CloudReader } from './cloud/cloud-reader.ts';
+export { type CloudFrame, CloudReader, type FrameRoom } from './cloud/cloud-reader.ts';
 export {
   CLOUD_FORMATS,
   type CloudFormat,

@@ -20,6 +20,8 @@ beforeEach(() => {
 });
 afterEach(() => removeFolder(folder));
 
+const room = (pixels: number) => ({ depth: new Float32Array(pixels), colour: new Uint32Array(pixels) });
+
 describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
   it('is shared by all who map it', () => {
     using writer = MappedFile.open(path, { bytes: 100, create: true });
@@ -91,7 +93,7 @@ describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
       () => file.store32(16_384, 1),
       () => file.copyIn(16_384, bytes.subarray(0, 100)),
       () => file.unpackPoints64(16_384, 1200, new Uint32Array(600)),
-      () => file.unproject(16_384, 16_384, 10, 10, 0, Float64Array.of(1, 1, 0, 0), new Uint32Array(400)),
+      () => file.images('depth32', { depth: 16_384, colour: 16_384, pixels: 9, unit: 0 }, room(9)),
     ]) {
       expect(errorOf(access)).toMatchObject({ code: 'truncated', file: path, offset: 16_384 });
     }
@@ -140,7 +142,8 @@ describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
       () => file.copyOut(2 ** 53, bytes.subarray(1)),
       () => file.unpackPoints64(0, 8, new Uint32Array(3)),
       () => file.unpackPoints64(0, 7, new Uint32Array(400)),
-      () => file.unproject(0, 0, 0xffffffff, 0xffffffff, 0, Float64Array.of(1, 1, 0, 0), new Uint32Array(4)),
+      () => file.images('depth32', { depth: 0, colour: 0, pixels: 2 ** 52, unit: 0 }, room(4)),
+      () => file.images('points', { depth: 0, colour: 0, pixels: 1, unit: 0 }, room(4)),
       () => file.store8(0, 1),
       () => file.copyIn(0, bytes.subarray(1)),
     ]) {

@@ -13,6 +13,8 @@ export interface MapOptions {
   mode?: number;
 }
 
+const IMAGE_KINDS = ['points', 'depth16', 'depth32'] as const;
+
 /** A file in shared memory, mapped. Every access is safe whatever another process does to the file meanwhile. */
 export class MappedFile implements Disposable {
   readonly path: string;
@@ -100,23 +102,18 @@ export class MappedFile implements Disposable {
   }
 
   /**
-   * Depth and colour to points of 16 bytes, in one pass; NaN where there is no depth.
+   * Depth and colour of each pixel, in one pass.
    *
-   * @param unit metres a unit of 16-bit depth; 0 for float32 metres
-   * @param lens fx, fy, cx, cy in pixels
+   * @param kind points of 16 bytes, of which z and colour are taken; 16-bit depth in `unit` metres; or float32 metres
    */
-  unproject(
-    depthOffset: number,
-    colourOffset: number,
-    width: number,
-    height: number,
-    unit: number,
-    lens: Float64Array,
-    to: ByteView,
+  images(
+    kind: 'points' | 'depth16' | 'depth32',
+    where: { depth: number; colour: number; pixels: number; unit: number },
+    to: { depth: Float32Array; colour: Uint32Array },
   ): void {
-    this.#do(() =>
-      this.#addon.unproject(this.handle, depthOffset, colourOffset, width, height, unit, lens, to),
-    );
+    const { depth, colour, pixels, unit } = where;
+    const index = IMAGE_KINDS.indexOf(kind);
+    this.#do(() => this.#addon.images(this.handle, index, depth, colour, pixels, unit, to.depth, to.colour));
   }
 
   close(): void {

@@ -152,7 +152,7 @@ function captureFrame(now: number): number {
   const buffer = pool.take();
   if (buffer === null) return 1000 / options.framesPerSecond;
   const cpuBefore = threadCpuMs();
-  const frame = source.capture(now, wishes());
+  const frame = source.capture(now, wishes(), encoder.room);
   if (frame === null) {
     pool.release(buffer);
     return plannedMs;

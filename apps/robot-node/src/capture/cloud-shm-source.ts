@@ -1,6 +1,19 @@
-import { compose, inverse, type Pose, type Twist } from '@farpoint/protocol';
-import { type CloudFrame, CloudReader, PUBLISHED_OFFSET, SharedMemoryError } from '@farpoint/shared-memory';
-import type { FrameSource, SourceDescription, SourceFrame, SourceState } from './frame-source.ts';
+import { compose, inverse, type Twist } from '@farpoint/protocol';
+import {
+  type CloudFrame,
+  CloudReader,
+  type FrameRoom,
+  PUBLISHED_OFFSET,
+  SharedMemoryError,
+} from '@farpoint/shared-memory';
+import type {
+  CaptureRoom,
+  CaptureWishes,
+  FrameSource,
+  SourceDescription,
+  SourceFrame,
+  SourceState,
+} from './frame-source.ts';
 import { STANDING, STATIC_CAMERA_POSE } from './playback-source.ts';
 import { openWhenThere, ProducerLink } from './producer-link.ts';
 
@@ -18,7 +31,6 @@ export class CloudShmSource implements FrameSource {
   onReady: (() => void) | null = null;
   onFault: ((error: Error) => void) | null = null;
   readonly #link: ProducerLink<CloudReader>;
-  readonly #points: Float32Array;
   #state: SourceState = STANDING;
   #readyMs: number;
 
@@ -29,11 +41,11 @@ export class CloudShmSource implements FrameSource {
       width: first?.width ?? maxPoints,
       height: first?.height ?? 1,
       capacity: maxPoints,
+      camera: first?.lens ?? null,
       depthMeasure: 'z',
       drives: false,
       ...(framesPerSecond > 0 ? { framesPerSecond } : {}),
     };
-    this.#points = new Float32Array(maxPoints * 4);
     this.#readyMs = now();
     this.#link = new ProducerLink(reader, {
       open: () => CloudReader.open(folder),
@@ -51,12 +63,12 @@ export class CloudShmSource implements FrameSource {
   static async open({ folder, waitMs }: CloudShmOptions, now: () => number): Promise<CloudShmSource> {
     const begin = now();
     const reader = await openWhenThere(() => CloudReader.open(folder), waitMs);
-    // The first frame says whether there is a grid; a slow camera's is not waited for beyond the time given.
-    const points = new Uint32Array(reader.header.maxPoints * 4);
-    let first = reader.read(points);
+    // The first frame says whether there are a grid and a lens; a slow camera's is not waited for beyond the time given.
+    const room = roomFor(reader.header.maxPoints);
+    let first = reader.read(room);
     while (first === null && now() - begin < waitMs) {
       await new Promise((resolve) => setTimeout(resolve, 10));
-      first = reader.read(points);
+      first = reader.read(room);
     }
     return new CloudShmSource(reader, first, folder, now);
   }
@@ -67,17 +79,20 @@ export class CloudShmSource implements FrameSource {
 
   advance(_nowMs: number, _twist: Twist): void {}
 
-  /** @throws {SharedMemoryError} `too-large`: a producer with larger frames has taken over */
-  capture(nowMs: number): SourceFrame | null {
+  /** @throws {Error} where a producer with another camera or larger frames has taken over */
+  capture(nowMs: number, _wishes: CaptureWishes, room: CaptureRoom): SourceFrame | null {
+    let frame: CloudFrame | null;
     try {
-      const frame = this.#link.files?.read(this.#points) ?? null;
+      frame = this.#link.files?.read(room) ?? null;
       this.#link.waitForNext();
-      return frame === null ? null : this.#sourceFrame(frame, nowMs);
     } catch (error) {
       if (error instanceof SharedMemoryError && error.code === 'too-large') throw error;
       this.#link.lost(error);
       return null;
     }
+    if (frame === null) return null;
+    this.#checkCamera(frame);
+    return this.#sourceFrame(frame, nowMs, room);
   }
 
   skip(): void {
@@ -93,16 +108,35 @@ export class CloudShmSource implements FrameSource {
     this.#link.close();
   }
 
-  #sourceFrame(frame: CloudFrame, nowMs: number): SourceFrame {
-    const { points, pose, captureMs } = frame;
-    const cameraPose: Pose = pose ?? STATIC_CAMERA_POSE;
+  /** The encoder was made for one camera: with another one the robot is started anew. */
+  #checkCamera({ lens, width, height }: CloudFrame): void {
+    const { camera } = this.description;
+    const same =
+      camera === null || lens === null
+        ? camera === lens
+        : width === this.description.width &&
+          height === this.description.height &&
+          (['fx', 'fy', 'cx', 'cy'] as const).every((key) => camera[key] === lens[key]);
+    if (!same) throw new Error('the camera in shared memory is another one: start the robot again');
+  }
+
+  #sourceFrame(frame: CloudFrame, nowMs: number, room: CaptureRoom): SourceFrame {
+    const { form, points: count, pose, captureMs } = frame;
     // The body is where it would be with the camera a camera without poses has: level, looking ahead, 1 m up.
     if (pose !== null) this.#state = { ...STANDING, pose: compose(pose, inverse(STATIC_CAMERA_POSE)) };
-    return {
-      points: this.#points,
-      count: points,
-      cameraPose,
+    const stamp = {
+      cameraPose: pose ?? STATIC_CAMERA_POSE,
       captureMs: Math.min(captureMs ?? this.#readyMs, nowMs),
     };
+    const { points, depth, colour } = room;
+    return form === 'images' ? { form, depth, colour, ...stamp } : { form, points, count, ...stamp };
   }
+}
+
+function roomFor(points: number): FrameRoom {
+  return {
+    points: new Float32Array(points * 4),
+    depth: new Float32Array(points),
+    colour: new Uint32Array(points),
+  };
 }

@@ -28,6 +28,15 @@ export interface CaptureWishes {
   latencyTest: boolean;
 }
 
+/** Where a source may put its cloud, to spare a copy: the encoder's own memory, good until the next cloud. */
+export interface CaptureRoom {
+  /** As in {@link PointFrame}, for as many points as the description's capacity. */
+  points: Float32Array;
+  /** As in {@link ImageFrame}; empty without a camera. */
+  depth: Float32Array;
+  colour: Uint32Array;
+}
+
 /** What every cloud carries. */
 interface FrameStamp {
   /** The optical frame in the world. */
@@ -75,7 +84,7 @@ export interface FrameSource {
    *
    * @throws {Error} where the source is broken for good
    */
-  capture(nowMs: number, wishes: CaptureWishes): SourceFrame | null;
+  capture(nowMs: number, wishes: CaptureWishes, room: CaptureRoom): SourceFrame | null;
   /**
    * Of a source with a rhythm of its own: called at each new cloud. It is called again once that was taken or let go.
    * Where there is no such member, the worker asks at its own rhythm.

@@ -5,7 +5,13 @@ import {
   ReferenceFrameConsumer,
   type WatchOrder,
 } from '@farpoint/shared-memory';
-import type { CaptureWishes, FrameSource, SourceDescription, SourceFrame } from './frame-source.ts';
+import type {
+  CaptureRoom,
+  CaptureWishes,
+  FrameSource,
+  SourceDescription,
+  SourceFrame,
+} from './frame-source.ts';
 import { STANDING, STATIC_CAMERA_POSE } from './playback-source.ts';
 import { openWhenThere, ProducerLink } from './producer-link.ts';
 
@@ -35,6 +41,7 @@ export class ReferenceShmSource implements FrameSource {
     width: REFERENCE_MAX_POINTS,
     height: 1,
     capacity: REFERENCE_MAX_POINTS,
+    camera: null,
     depthMeasure: 'z',
     drives: false,
   };
@@ -43,7 +50,6 @@ export class ReferenceShmSource implements FrameSource {
   onFault: ((error: Error) => void) | null = null;
   readonly #link: ProducerLink<ReferenceFrameConsumer>;
   readonly #now: () => number;
-  readonly #points = new Float32Array(REFERENCE_MAX_POINTS * 4);
   #readyMs: number;
   #intervalMs = 0;
   #askedMs: number | null = null;
@@ -74,16 +80,17 @@ export class ReferenceShmSource implements FrameSource {
 
   advance(_nowMs: number, _twist: Twist): void {}
 
-  capture(nowMs: number, wishes: CaptureWishes): SourceFrame | null {
+  capture(nowMs: number, wishes: CaptureWishes, { points }: CaptureRoom): SourceFrame | null {
     try {
-      const frame = this.#link.files?.take(this.#points, this.#tell(nowMs, wishes)) ?? null;
+      const frame = this.#link.files?.take(points, this.#tell(nowMs, wishes)) ?? null;
       this.#link.waitForNext();
       if (frame === null || frame.points === 0) return null;
       const unanswered = this.#askedMs !== null && nowMs - this.#askedMs > LATENCY_ANSWER_MS;
       const latencyTest = this.#askedMs !== null && (frame.green || unanswered);
       if (latencyTest) this.#askedMs = null;
       return {
-        points: this.#points,
+        form: 'points',
+        points,
         count: frame.points,
         cameraPose: STATIC_CAMERA_POSE,
         captureMs: this.#readyMs,

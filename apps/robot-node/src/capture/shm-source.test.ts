@@ -124,6 +124,27 @@ describe.skipIf(!isAvailable())('sources in shared memory (need the addon: pnpm 
     expect(state.x).not.toBe(0);
   });
 
+  it('farpoint: a camera’s grid comes out as images’ points', async () => {
+    const lens = { fx: 10, fy: 10, cx: 9.5, cy: 7 };
+    const producer = keep(new CloudProducer({ folder, format: 'depth16', maxPoints: 300 }));
+    const content = { depth: new Uint16Array(300).fill(2000), colours: new Uint8Array(1200) };
+    const publish = () => producer.publish(content, { ...GRID, lens, depthUnit: 0.001 });
+    publish();
+    const capture = await start('farpoint');
+    expect(capture.description).toMatchObject({ width: 20, height: 15, camera: lens });
+    capture.setBudget(BUDGET);
+    const frame = await frameWhere(capture, publish, () => true);
+    expect(frame.points).toBe(300);
+    expect(firstPoint(frame)).toEqual([-1900, -1400, 2000]);
+    const failure = new Promise<Error>((resolve) => {
+      capture.onFailure = resolve;
+    });
+    const other = { ...GRID, lens: { ...lens, fx: 11 }, depthUnit: 0.001 };
+    const timer = setInterval(() => producer.publish(content, other), 5);
+    expect((await failure).message).toContain('camera');
+    clearInterval(timer);
+  });
+
   it('farpoint: heals when the producer is followed by another, and says what is wrong meanwhile', async () => {
     const first = keep(new CloudProducer({ folder, format: 'points', maxPoints: 300 }));
     first.publish({ points: cloud(1, 300) }, GRID);

@@ -1,6 +1,6 @@
 import type { Placement } from '@farpoint/protocol';
 import { CloudEncoder, type Codec, type RejectedPoints, type SampleReport } from '@farpoint/wasm-codec';
-import type { SourceDescription, SourceFrame } from '../capture/frame-source.ts';
+import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/frame-source.ts';
 import { completePackets, SLOT_BYTES } from './packetiser.ts';
 
 /** The paper's weights (equations 4 and 5). */
@@ -56,13 +56,13 @@ export class FrameEncoder {
     const parameters = { ...this.#sampling, count, seed: frameNumber };
     let sampled: SampleReport;
     if (frame.form === 'images') {
-      encoder.depth.set(frame.depth);
-      encoder.colour.set(frame.colour);
+      if (!isSame(frame.depth, encoder.depth)) encoder.depth.set(frame.depth);
+      if (!isSame(frame.colour, encoder.colour)) encoder.colour.set(frame.colour);
       sampled = encoder.sampleImages(parameters);
     } else {
       // As words: copying a colour as a float may change the bits of a NaN.
       const words = new Uint32Array(frame.points.buffer, frame.points.byteOffset, frame.count * 4);
-      encoder.frameBits.set(words);
+      if (!isSame(words, encoder.frameBits)) encoder.frameBits.set(words);
       sampled = encoder.sample({ ...parameters, points: frame.count });
     }
     const middle = this.#now();
@@ -88,8 +88,18 @@ export class FrameEncoder {
     };
   }
 
+  /** The codec's own memory: a frame that lies there already is not copied. */
+  get room(): CaptureRoom {
+    const { frame, depth, colour } = this.#encoder;
+    return { points: frame, depth, colour };
+  }
+
   /** Copies the packets of the last encoded frame out of the codec's memory. */
   copyPackets(into: Uint8Array, packets: number): void {
     into.set(this.#encoder.packets.subarray(0, packets * SLOT_BYTES));
   }
+}
+
+function isSame(frame: ArrayBufferView, memory: ArrayBufferView): boolean {
+  return frame.buffer === memory.buffer && frame.byteOffset === memory.byteOffset;
 }

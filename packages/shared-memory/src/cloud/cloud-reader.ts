@@ -1,4 +1,3 @@
-import type { ByteView } from '../addon.ts';
 import { SharedMemoryError } from '../errors.ts';
 import { MappedFile } from '../mapped-file.ts';
 import {
@@ -14,10 +13,22 @@ import {
   slotOffset,
 } from './layout.ts';
 
+/** Where a frame is put; what does not concern its form is left alone. */
+export interface FrameRoom {
+  /** 4 floats a point: x, y, z in metres, and the bytes R, G, B, A. */
+  points: Float32Array;
+  /** Metres along z, each pixel. */
+  depth: Float32Array;
+  /** R, G, B, A of each pixel, R lowest. */
+  colour: Uint32Array;
+}
+
 export interface CloudFrame extends FrameHeader {
   /** Counts from 1; it wraps at 2³². */
   frame: number;
-  /** width × height, as points of 16 bytes. */
+  /** What it was read as: a camera's `images` where there is a lens, else `points`. */
+  form: 'points' | 'images';
+  /** width × height. */
   points: number;
 }
 
@@ -33,7 +44,6 @@ export class CloudReader implements Disposable {
   /** Frames that were never looked at because a newer one was there. */
   skipped = 0;
   readonly #slotHeader = new Uint8Array(SLOT_HEADER_BYTES);
-  readonly #lens = new Float64Array(4);
   #last = 0;
 
   private constructor(file: MappedFile, header: CloudHeader) {
@@ -72,11 +82,11 @@ export class CloudReader implements Disposable {
   /**
    * The newest frame, where it is newer than the one read last.
    *
-   * @param to 16 bytes a point: x, y, z as float32, then R, G, B, A. After an error it holds no frame.
+   * @param to after an error, or where there is no frame, what is in it means nothing
    * @returns `null` where there is no newer one, or the producer has overtaken every attempt
    * @throws {SharedMemoryError} `bad-frame`, `too-large`, `truncated`; the frame then counts as read
    */
-  read(to: ByteView): CloudFrame | null {
+  read(to: FrameRoom): CloudFrame | null {
     for (let attempt = 0; attempt < MOST_ATTEMPTS; attempt++) {
       const frame = this.published;
       if (frame === this.#last) return null;
@@ -109,7 +119,7 @@ export class CloudReader implements Disposable {
   }
 
   /** `null` where the slot was written to meanwhile. */
-  #copy(frame: number, at: number, whole: number, to: ByteView): CloudFrame | null {
+  #copy(frame: number, at: number, whole: number, to: FrameRoom): CloudFrame | null {
     const { file } = this;
     let header: FrameHeader;
     try {
@@ -125,29 +135,31 @@ export class CloudReader implements Disposable {
     }
     file.fence();
     if (file.load32(at) !== whole) return null;
-    return { frame, points: header.width * header.height, ...header };
+    return { frame, form: formOf(header), points: header.width * header.height, ...header };
   }
 
-  #copyPoints({ width, height, lens, depthUnit }: FrameHeader, at: number, to: ByteView): void {
+  #copyPoints(header: FrameHeader, at: number, to: FrameRoom): void {
     const { file } = this;
     const { format } = this.header;
-    const points = width * height;
-    if (points * 16 > to.byteLength) {
-      const room = Math.floor(to.byteLength / 16);
-      throw new SharedMemoryError(
-        'too-large',
-        file.path,
-        at + 16,
-        `${width} × ${height} points, room for ${room}`,
-      );
+    const { width, height, depthUnit } = header;
+    const pixels = width * height;
+    const images = formOf(header) === 'images';
+    const room = images ? Math.min(to.depth.length, to.colour.length) : Math.floor(to.points.length / 4);
+    if (pixels > room) {
+      const detail = `${width} × ${height} points, room for ${room}`;
+      throw new SharedMemoryError('too-large', file.path, at + 16, detail);
     }
-    const payload = at + SLOT_HEADER_BYTES;
-    if (lens === null || format === 'points') {
-      file.copyOut(payload, new Uint8Array(to.buffer, to.byteOffset, points * 16));
-      return;
+    const depth = at + SLOT_HEADER_BYTES;
+    if (images) {
+      const colour = format === 'points' ? depth : depth + colourOffset(format, pixels);
+      file.images(format, { depth, colour, pixels, unit: depthUnit }, to);
+    } else {
+      file.copyOut(depth, to.points.subarray(0, pixels * 4));
     }
-    this.#lens.set([lens.fx, lens.fy, lens.cx, lens.cy]);
-    const colours = payload + colourOffset(format, points);
-    file.unproject(payload, colours, width, height, depthUnit, this.#lens, to);
   }
+}
+
+/** Points on a camera's grid are its pixels: depth and colour say all. */
+function formOf({ lens }: FrameHeader): 'points' | 'images' {
+  return lens === null ? 'points' : 'images';
 }

@@ -5,7 +5,7 @@ import { MappedFile } from '../mapped-file.ts';
 import { ADDON_SUITE, codeOf, errorOf, removeFolder, scratchFolder } from '../testing.ts';
 import { Watch } from '../watch.ts';
 import { CloudProducer } from './cloud-producer.ts';
-import { CloudReader } from './cloud-reader.ts';
+import { CloudReader, type FrameRoom } from './cloud-reader.ts';
 import { cloudFile, PUBLISHED_OFFSET } from './layout.ts';
 
 let folder: string;
@@ -29,6 +29,11 @@ const reader = () => keep(CloudReader.open(folder));
 
 const FRAME = { captureMs: null, height: 1, pose: null, lens: null, latencyTest: false };
 const words = new Uint32Array(400);
+const room: FrameRoom = {
+  points: new Float32Array(words.buffer),
+  depth: new Float32Array(100),
+  colour: new Uint32Array(100),
+};
 
 function publish(to: CloudProducer, value: number, points = 100): void {
   to.publish({ points: new Uint32Array(points * 4).fill(value) }, { ...FRAME, width: points });
@@ -37,47 +42,46 @@ function publish(to: CloudProducer, value: number, points = 100): void {
 describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
   it('gives the newest frame, once, with all that is known of it', () => {
     const [write, read] = [producer(), reader()];
-    expect(read.read(words)).toBeNull();
+    expect(read.read(room)).toBeNull();
     for (let i = 1; i <= 6; i++) publish(write, i);
     const pose = { position: { x: 1, y: 2, z: 3 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
-    const lens = { fx: 5, fy: 6, cx: 2, cy: 1 };
-    const header = { captureMs: 12.5, width: 4, height: 3, pose, lens, latencyTest: true };
+    const header = { captureMs: 12.5, width: 4, height: 3, pose, lens: null, latencyTest: true };
     write.publish({ points: new Uint32Array(48).fill(0x7fc00001) }, header);
-    expect(read.read(words)).toEqual({ frame: 7, points: 12, ...header, depthUnit: 0 });
+    expect(read.read(room)).toEqual({ frame: 7, form: 'points', points: 12, ...header, depthUnit: 0 });
     // Bit for bit, NaNs too.
     expect(words.subarray(0, 48).every((word) => word === 0x7fc00001)).toBe(true);
-    expect(read.read(words)).toBeNull();
+    expect(read.read(room)).toBeNull();
     expect(read.skipped).toBe(0);
     for (let i = 0; i < 3; i++) publish(write, i);
-    expect(read.read(words)?.frame).toBe(10);
+    expect(read.read(room)?.frame).toBe(10);
     expect(read.skipped).toBe(2);
   });
 
-  it('unprojects depth by the pinhole model', () => {
+  it('gives a camera’s frames as images, whatever they are made of', () => {
     const lens = { fx: 2, fy: 4, cx: 1, cy: 0.5 };
-    const depth = [1000, 0, 2500, 65_535, 1, 500];
+    const metres = [1, 0, 2.5, 65.535, 0.001, 0.5].map(Math.fround);
     const colours = new Uint8Array(24).map((_, i) => i * 10);
-    const expected = depth.map((mm, i) => {
-      const z = mm === 0 ? Number.NaN : mm * Math.fround(0.001);
-      return [(((i % 3) - 1) / 2) * z, ((Math.floor(i / 3) - 0.5) / 4) * z, z];
+    const contents = {
+      depth16: { depth: Uint16Array.from(metres, (value) => Math.round(value * 1000)), colours },
+      depth32: { depth: Float32Array.from(metres), colours },
+      points: { points: new Float32Array(24) },
+    };
+    const bytes = new Uint8Array(contents.points.points.buffer);
+    metres.forEach((value, i) => {
+      contents.points.points.set([-1, -1, value], i * 4);
+      bytes.set(colours.subarray(i * 4, i * 4 + 4), i * 16 + 12);
     });
-    for (const format of ['depth16', 'depth32'] as const) {
+    for (const format of ['depth16', 'depth32', 'points'] as const) {
       const write = keep(new CloudProducer({ folder, format, maxPoints: 6 }));
-      const values =
-        format === 'depth16' ? Uint16Array.from(depth) : Float32Array.from(depth, (mm) => mm / 1000);
-      write.publish({ depth: values, colours }, { ...FRAME, width: 3, height: 2, lens, depthUnit: 0.001 });
-      expect(reader().read(words)).toMatchObject({ points: 6, width: 3, height: 2, lens });
-      const floats = new Float32Array(words.buffer);
-      expected.forEach((point, i) => {
-        point.forEach((value, axis) => {
-          const got = floats[i * 4 + axis] as number;
-          if (Number.isNaN(value)) expect(got).toBeNaN();
-          else expect(got).toBeCloseTo(value, 4);
-        });
-        expect([...new Uint8Array(words.buffer, i * 16 + 12, 4)]).toEqual([
-          ...colours.subarray(i * 4, i * 4 + 4),
-        ]);
+      write.publish(contents[format], { ...FRAME, width: 3, height: 2, lens, depthUnit: 0.001 });
+      room.depth.fill(7);
+      room.colour.fill(7);
+      expect(reader().read(room)).toMatchObject({ form: 'images', points: 6, width: 3, height: 2, lens });
+      metres.forEach((value, i) => {
+        expect(room.depth[i]).toBeCloseTo(value, 5);
       });
+      expect([...new Uint8Array(room.colour.buffer, 0, 24)]).toEqual([...colours]);
+      expect([room.depth[6], room.colour[6]]).toEqual([7, 7]);
       write.close();
     }
   });
@@ -85,17 +89,17 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
   it('reads no frame that is being written, nor one that a killed producer has left half', () => {
     const [write, read] = [producer(), reader()];
     publish(write, 1);
-    expect(read.read(words)?.frame).toBe(1);
+    expect(read.read(room)?.frame).toBe(1);
     using other = MappedFile.open(path, { writable: true });
     const slot = 4096 + 2 * write.header.slotBytes;
     other.store32(slot, 3);
-    expect(read.read(words)).toBeNull();
+    expect(read.read(room)).toBeNull();
     // Announced although the slot was not finished: as good as never.
     other.store32(PUBLISHED_OFFSET, 2);
-    expect(read.read(words)).toBeNull();
+    expect(read.read(room)).toBeNull();
     expect(read.overtaken).toBe(8);
     publish(write, 2);
-    expect(read.read(words)?.frame).toBe(2);
+    expect(read.read(room)?.frame).toBe(2);
   });
 
   it('takes what is announced and impossible for what it is, once', () => {
@@ -104,16 +108,16 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     using other = MappedFile.open(path, { writable: true });
     const slot = 4096 + write.header.slotBytes;
     other.store32(slot + 16, 0xffffffff);
-    expect(errorOf(() => read.read(words))).toMatchObject({
+    expect(errorOf(() => read.read(room))).toMatchObject({
       code: 'bad-frame',
       file: path,
       offset: slot + 16,
     });
-    expect(read.read(words)).toBeNull();
+    expect(read.read(room)).toBeNull();
     publish(write, 2);
-    expect(read.read(words)?.frame).toBe(2);
+    expect(read.read(room)?.frame).toBe(2);
     publish(write, 3);
-    expect(codeOf(() => read.read(words.subarray(0, 399)))).toBe('too-large');
+    expect(codeOf(() => read.read({ ...room, points: room.points.subarray(0, 399) }))).toBe('too-large');
   });
 
   it('is never harmed by bytes that anybody has written into it', () => {
@@ -127,7 +131,7 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
         const slot = 4096 + (other.load32(PUBLISHED_OFFSET) % 4) * slotBytes;
         for (const [index, value] of edits) other.store32(slot + (index % 32) * 4, value);
         try {
-          const frame = read.read(words);
+          const frame = read.read(room);
           expect(frame?.points ?? 0).toBeLessThanOrEqual(20);
         } catch (error) {
           expect(error).toMatchObject({ name: 'SharedMemoryError', code: 'bad-frame' });
@@ -146,17 +150,17 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     const second = producer(50);
     expect(read.current).toBe(false);
     publish(second, 9, 50);
-    expect(reader().read(words)).toMatchObject({ frame: 1, points: 50 });
+    expect(reader().read(room)).toMatchObject({ frame: 1, points: 50 });
     expect(words[0]).toBe(9);
     // What is mapped stays readable.
-    expect(read.read(words)?.points).toBe(100);
+    expect(read.read(room)?.points).toBe(100);
   });
 
   it('begins anew over what a killed producer left at its very start, or what is no such file', () => {
     writeFileSync(path, 'something else');
     writeFileSync(`${path}.new`, 'half a header');
     publish(producer(), 3);
-    expect(reader().read(words)?.frame).toBe(1);
+    expect(reader().read(room)?.frame).toBe(1);
     expect(statSync(path).mode & 0o777).toBe(0o600);
   });
 
@@ -184,7 +188,7 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     const [write, read] = [producer(), reader()];
     publish(write, 1);
     truncateSync(path, 4096);
-    expect(errorOf(() => read.read(words))).toMatchObject({ code: 'truncated', file: path });
+    expect(errorOf(() => read.read(room))).toMatchObject({ code: 'truncated', file: path });
     expect(read.current).toBe(false);
     expect(codeOf(() => publish(write, 2))).toBe('in-use');
   });
@@ -208,6 +212,6 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
       setImmediate(() => publish(write, 5));
     });
     expect(outcome).toBe('changed');
-    expect(read.read(words)?.frame).toBe(1);
+    expect(read.read(room)?.frame).toBe(1);
   });
 });
