@@ -10,7 +10,7 @@ import {
 import { join } from 'node:path';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { MappedFile } from './mapped-file.ts';
-import { ADDON_SUITE, codeOf, errorOf, removeFolder, scratchFolder } from './testing.ts';
+import { ADDON_SUITE, codeOf, errorOf, removeFolder, scratchFolder } from './testing/helpers.ts';
 
 let folder: string;
 let path: string;

@@ -2,7 +2,7 @@ import { truncateSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { MappedFile } from './mapped-file.ts';
-import { ADDON_SUITE, removeFolder, scratchFolder } from './testing.ts';
+import { ADDON_SUITE, removeFolder, scratchFolder } from './testing/helpers.ts';
 import { Watch, type WatchOutcome } from './watch.ts';
 
 let folder: string;

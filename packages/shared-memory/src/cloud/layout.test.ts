@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { SharedMemoryError } from '../errors.ts';
-import { errorOf, fromHex, readVectors, toHex } from '../testing.ts';
+import { errorOf, fromHex, readVectors, toHex } from '../testing/helpers.ts';
 import {
   type CloudFormat,
   type CloudHeader,

@@ -11,7 +11,7 @@ import {
   scratchFolder,
   toHex,
   until,
-} from '../testing.ts';
+} from '../testing/helpers.ts';
 import { ReferenceControlReader } from './control-reader.ts';
 import { ReferenceControlWriter } from './control-writer.ts';
 import { type ReferenceFiles, referenceFiles } from './layout.ts';

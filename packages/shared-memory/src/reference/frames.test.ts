@@ -11,7 +11,7 @@ import {
   removeFolder,
   scratchFolder,
   toHex,
-} from '../testing.ts';
+} from '../testing/helpers.ts';
 import { ReferenceFrameConsumer } from './frame-consumer.ts';
 import { ReferenceFrameProducer } from './frame-producer.ts';
 import { CLOUD_BYTES, MAX_PAYLOAD_BYTES, MAX_POINTS, type ReferenceFiles, referenceFiles } from './layout.ts';

@@ -2,8 +2,8 @@
 import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { isAvailable } from './addon.ts';
-import { SharedMemoryError, type SharedMemoryErrorCode } from './errors.ts';
+import { isAvailable } from '../addon.ts';
+import { SharedMemoryError, type SharedMemoryErrorCode } from '../errors.ts';
 
 /** Tests that need the addon name the command that builds it where they are left out. */
 export const ADDON_SUITE = { skip: !isAvailable(), note: 'needs the addon: pnpm build:native' };
@@ -26,7 +26,7 @@ export function toHex(bytes: Uint8Array): string {
 }
 
 export function readVectors<T>(name: string): T {
-  return JSON.parse(readFileSync(join(import.meta.dirname, '..', 'vectors', name), 'utf8')) as T;
+  return JSON.parse(readFileSync(join(import.meta.dirname, '..', '..', 'vectors', name), 'utf8')) as T;
 }
 
 /** What an action is refused with. */

@@ -1,0 +1,37 @@
+/**
+ * A process that produces marked frames until it is killed:
+ * `node marked-producer.ts --layout … --folder … --points N`.
+ */
+import { CloudProducer } from '../cloud/cloud-producer.ts';
+import { ReferenceFrameProducer } from '../reference/frame-producer.ts';
+import { readArguments } from './arguments.ts';
+import { fillPacked, fillWords } from './marked-frames.ts';
+
+const { layout, folder, points } = readArguments();
+// Producers that follow each other are told apart.
+let mark = process.pid * 1000;
+
+if (layout === 'farpoint') {
+  const producer = new CloudProducer({ folder, format: 'points', maxPoints: points });
+  const words = new Uint32Array(points * 4);
+  const header = { captureMs: null, width: points, height: 1, pose: null, lens: null, latencyTest: false };
+  setInterval(() => undefined, 1000);
+  const produce = () => {
+    fillWords(words, mark++);
+    producer.publish({ points: words }, header);
+    setImmediate(produce);
+  };
+  produce();
+} else {
+  const producer = new ReferenceFrameProducer(folder);
+  const packed = new Uint8Array(points * 8);
+  const produce = () => {
+    fillPacked(packed, mark++);
+    const offer = () => {
+      if (producer.publish(packed)) setImmediate(produce);
+      else setTimeout(offer, 0);
+    };
+    offer();
+  };
+  produce();
+}
