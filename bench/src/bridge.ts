@@ -16,8 +16,8 @@ Real robot (simulated office) in the reference profile, signaling, bridge, and a
 own process, no network between. Two runs of --seconds each: --points at --fps (rounded up to whole packets), then as many
 points at --fps as --mbps (10^6 bit/s on the wire, all headers counted) carry; --mbps 0 leaves that one out.
 
-emitMs: from the arrival of a frame's last packet in the bridge to its whole message in the reader. sendToReadMs: from the
-robot's send call of that packet to the same. Frames that are not whole count in neither; see framesPartial.`;
+emitMs: from the arrival of a frame's last packet in the bridge to its whole message in the reader; of that, handOverMs until
+the bridge has handed it to the socket. sendToReadMs: from the robot's send call of that packet to the reader. Frames that are not whole count in neither; see framesPartial.`;
 
 const WARM_UP_MS = 6000;
 const POINTS_PER_PACKET = 150;
@@ -30,6 +30,7 @@ interface FrameRecord {
   points: number;
   expectedPoints: number;
   lastPacketMs: number;
+  emittedMs: number;
   pages: number;
 }
 
@@ -39,6 +40,7 @@ interface RunResult {
   pointsPerFrame: number;
   framesPerSecond: number;
   emitMs: Distribution;
+  handOverMs: Distribution;
   sendToReadMs: Distribution;
   frames: number;
   framesPartial: number;
@@ -146,9 +148,10 @@ async function run(packets: number, fps: number, seconds: number): Promise<RunRe
       env,
       args: ['--stats', frameFile, '--start-bits-per-second', '200e6', '--max-bits-per-second', '200e6'],
     });
-    reader = fork(new URL('./bridge-reader.ts', import.meta.url), [
-      `ws://127.0.0.1:${bridge.ports.streaming}/`,
-    ]);
+    // A session of its own, so that its priority counts (sched(7), autogroup).
+    reader = fork(new URL('./bridge-reader.ts', import.meta.url), [String(bridge.ports.streaming)], {
+      detached: true,
+    });
     await nextMessage(reader);
     await wait(WARM_UP_MS);
     const [robotPid, bridgePid] = [stack.robot('sim-1').pid, bridge.process.pid];
@@ -181,6 +184,7 @@ async function run(packets: number, fps: number, seconds: number): Promise<RunRe
       pointsPerFrame: Math.round(times.points / times.frames),
       framesPerSecond: Number(((times.frames * 1000) / elapsedMs).toFixed(2)),
       emitMs: rounded(distribution(times.emitMs), 2),
+      handOverMs: rounded(distribution(times.handOverMs), 2),
       sendToReadMs: rounded(distribution(times.sendToReadMs), 2),
       frames: times.frames,
       framesPartial: times.partial,
@@ -205,6 +209,7 @@ async function run(packets: number, fps: number, seconds: number): Promise<RunRe
 
 interface Joined {
   emitMs: number[];
+  handOverMs: number[];
   sendToReadMs: number[];
   frames: number;
   partial: number;
@@ -223,6 +228,7 @@ function join3(
 ): Joined {
   const joined: Joined = {
     emitMs: [],
+    handOverMs: [],
     sendToReadMs: [],
     frames: 0,
     partial: 0,
@@ -248,6 +254,7 @@ function join3(
     if (arrival.bytes !== record.points * 8)
       throw new Error('the reader’s messages are not the bridge’s frames');
     joined.emitMs.push(arrival.atMs - record.lastPacketMs);
+    joined.handOverMs.push(record.emittedMs - record.lastPacketMs);
     const sentMs = sent.get(`${record.frameNumber}:${record.expectedPoints * 8 - 1200}`);
     if (sentMs !== undefined) joined.sendToReadMs.push(arrival.atMs - sentMs);
   }

@@ -224,7 +224,7 @@ export class Bridge {
         onCandidate: (candidate) => this.#line.send({ type: 'candidate', robotId: id, candidate }),
         onReady: () => connection.tell(this.#selection.wordFor(id)),
         onFrame: (frame, lastPacketMs) => {
-          const pages = this.#streaming.broadcast(frame.bytes, STREAMING_BACKLOG_BYTES);
+          const pages = this.#streaming.broadcast(frame.bytes, STREAMING_BACKLOG_BYTES, frame.release);
           const emittedMs = this.#now();
           this.frames++;
           this.lastEmitMs = emittedMs - lastPacketMs;

@@ -10,6 +10,7 @@ import {
   readPointPacketHeader,
   sequenceDelta32,
 } from '@farpoint/protocol';
+import { type FrameBuffer, FrameBuffers } from './frame-buffers.ts';
 
 /** Why a packet adds nothing. */
 export type AssemblyDrop =
@@ -21,8 +22,10 @@ export type AssemblyDrop =
 
 export interface AssembledFrame {
   frameNumber: number;
-  /** N × 3 int16 coordinates, then N × u16 colours, little-endian: the bridge's streaming message. Given away. */
+  /** N × 3 int16 coordinates, then N × u16 colours, little-endian: the bridge's streaming message. */
   bytes: Uint8Array;
+  /** The bytes are no longer looked at: to be called once. Who never calls it keeps them. */
+  release: () => void;
   points: number;
   /** Points that the whole frame has. */
   expectedPoints: number;
@@ -38,8 +41,7 @@ export interface AssemblerOptions {
 interface OpenFrame {
   readonly number: number;
   readonly total: number;
-  readonly bytes: Uint8Array;
-  readonly seen: Uint8Array;
+  readonly buffer: FrameBuffer;
   points: number;
   /** When its last packet, or one of a later frame, was seen; null before that. */
   overtakenMs: number | null;
@@ -61,6 +63,7 @@ export class FrameAssembler {
   readonly #options: AssemblerOptions;
   readonly #emit: (frame: AssembledFrame) => void;
   readonly #header = emptyPointPacketHeader();
+  readonly #buffers = new FrameBuffers(MAX_OPEN + 1);
   /** In order of their numbers. */
   readonly #open: OpenFrame[] = [];
   #lastGiven: number | null = null;
@@ -96,7 +99,7 @@ export class FrameAssembler {
 
   /** Forgets frames under way, as when another robot is chosen. */
   clear(): void {
-    this.#open.length = 0;
+    for (const { buffer } of this.#open.splice(0)) this.#buffers.giveBack(buffer);
   }
 
   #accept(payload: Uint8Array, nowMs: number): AssemblyDrop | null {
@@ -112,7 +115,7 @@ export class FrameAssembler {
     if (this.#lastGiven !== null) {
       const ahead = sequenceDelta32(number, this.#lastGiven);
       if (ahead <= -RESTART_FRAMES) {
-        this.#open.length = 0;
+        this.clear();
         this.#lastGiven = null;
       } else if (ahead <= 0) return 'late';
     }
@@ -120,7 +123,7 @@ export class FrameAssembler {
     if (frame === null) return 'inconsistent';
     const first = header.sequenceOffset / BYTES_PER_POINT;
     const count = header.sequenceLength / BYTES_PER_POINT;
-    const { seen, bytes } = frame;
+    const { seen, bytes } = frame.buffer;
     for (let i = first; i < first + count; i++) if (seen[i] !== 0) return 'duplicate';
     seen.fill(1, first, first + count);
     const from = POINT_PACKET_HEADER_BYTES;
@@ -150,8 +153,7 @@ export class FrameAssembler {
     const frame: OpenFrame = {
       number,
       total,
-      bytes: new Uint8Array(total * BYTES_PER_POINT),
-      seen: new Uint8Array(total),
+      buffer: this.#buffers.take(total),
       points: 0,
       overtakenMs: null,
     };
@@ -162,14 +164,19 @@ export class FrameAssembler {
   #giveOut(count: number): void {
     for (const frame of this.#open.splice(0, count)) {
       this.#lastGiven = frame.number;
+      const giveBack = () => this.#buffers.giveBack(frame.buffer);
       // Nothing came but what was refused.
-      if (frame.points === 0) continue;
+      if (frame.points === 0) {
+        giveBack();
+        continue;
+      }
       const isWhole = frame.points === frame.total;
       if (isWhole) this.framesComplete++;
       else this.framesPartial++;
       this.#emit({
         frameNumber: frame.number,
-        bytes: isWhole ? frame.bytes : compact(frame),
+        bytes: isWhole ? frame.buffer.bytes : compact(frame),
+        release: giveBack,
         points: frame.points,
         expectedPoints: frame.total,
       });
@@ -177,8 +184,8 @@ export class FrameAssembler {
   }
 }
 
-/** The points that came, without gaps, in their order. */
-function compact({ bytes, seen, points, total }: OpenFrame): Uint8Array {
+/** The points that came, without gaps, in their order; memory of its own. */
+function compact({ buffer: { bytes, seen }, points, total }: OpenFrame): Uint8Array {
   const out = new Uint8Array(points * BYTES_PER_POINT);
   let to = 0;
   for (let from = 0; from < total; ) {

@@ -77,18 +77,34 @@ export class LocalSocketServer {
     return this.#server.clients.size;
   }
 
-  /** To every page that has read all but so many bytes of what was sent before. @returns how many those are */
-  broadcast(data: string | Uint8Array, maxBacklogBytes: number): number {
+  /**
+   * To every page that has read all but so many bytes of what was sent before.
+   *
+   * @param onDone called once, when no socket looks at the data any more
+   * @returns how many pages those are
+   */
+  broadcast(
+    data: string | Uint8Array,
+    maxBacklogBytes: number,
+    onDone: () => void = () => undefined,
+  ): number {
     let reached = 0;
+    let holders = 1;
+    const letGo = () => {
+      if (--holders === 0) onDone();
+    };
     for (const socket of this.#server.clients) {
       if (socket.readyState !== WebSocket.OPEN) continue;
       if (socket.bufferedAmount > maxBacklogBytes) {
         this.unsent++;
         continue;
       }
-      socket.send(data);
+      holders++;
+      // Called once, be it with an error.
+      socket.send(data, letGo);
       reached++;
     }
+    letGo();
     return reached;
   }
 

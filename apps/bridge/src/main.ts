@@ -1,11 +1,16 @@
 #!/usr/bin/env node
-import { JsonLinesFile, runProgram } from '@farpoint/service';
+import { JsonLinesFile, runProgram, setNiceness } from '@farpoint/service';
 import { Bridge } from './bridge.ts';
 import { monotonicMs } from './clock.ts';
 import { registerBridgeMetrics } from './metrics.ts';
 import { program, toBridgeOptions } from './options.ts';
 
 await runProgram(program, async ({ options, log, health, metrics, shutdown, serveAdmin }) => {
+  try {
+    setNiceness(options.niceness);
+  } catch (error) {
+    log.info({ niceness: options.niceness, err: error }, 'the system keeps the priority');
+  }
   const bridge = await Bridge.open(toBridgeOptions(options), log, monotonicMs);
   shutdown.onClose('bridge', () => bridge.close());
   if (options.stats !== null) {

@@ -71,6 +71,12 @@ export const program = defineProgram({
       argument: 'BPS',
       help: 'the most it is ever told',
     }),
+    niceness: defineOption({
+      schema: schema.integer({ min: -20, max: 19 }),
+      default: -5,
+      argument: 'N',
+      help: 'of this process, where the system lets it: packets and commands should not wait for the processor',
+    }),
     stats: defineOption({
       schema: schema.optional(schema.text()),
       default: null,
