@@ -110,7 +110,7 @@ function tick(): void {
   if (source.onReady !== undefined) {
     takeReady();
   } else if (now >= nextFrameMs) {
-    nextFrameMs += budget.streaming ? captureFrame(now) : 1000 / options.framesPerSecond;
+    nextFrameMs += (budget.streaming ? captureFrame(now) : null) ?? 1000 / options.framesPerSecond;
     // After a stall the rhythm starts anew; frames are not made up for.
     if (nextFrameMs < monotonicMs()) nextFrameMs = monotonicMs();
   }
@@ -139,7 +139,9 @@ function takeReady(): void {
     source.skip?.(now, wishes());
     return;
   }
-  plannedMs = captureFrame(now);
+  const interval = captureFrame(now);
+  if (interval === null) return;
+  plannedMs = interval;
   nextFrameMs = Math.max(nextFrameMs + plannedMs, now);
 }
 
@@ -147,15 +149,15 @@ function wishes(): CaptureWishes {
   return { bitsPerSecond: budget.targetBitsPerSecond, latencyTest };
 }
 
-/** @returns the time until the next one, ms */
-function captureFrame(now: number): number {
+/** @returns the time until the next one, ms; `null` where there was none */
+function captureFrame(now: number): number | null {
   const buffer = pool.take();
-  if (buffer === null) return 1000 / options.framesPerSecond;
+  if (buffer === null) return null;
   const cpuBefore = threadCpuMs();
   const frame = source.capture(now, wishes(), encoder.room);
   if (frame === null) {
     pool.release(buffer);
-    return plannedMs;
+    return null;
   }
   lastFault = '';
   const { captureMs: capturedAtMs } = frame;
@@ -178,6 +180,8 @@ function captureFrame(now: number): number {
 }
 
 if (source.onReady !== undefined) {
+  // One may have come before anybody listened.
+  readySinceMs = monotonicMs();
   source.onReady = () => {
     readySinceMs = monotonicMs();
     takeReady();

@@ -178,6 +178,27 @@ describe.skipIf(!isAvailable())('sources in shared memory (need the addon: pnpm 
     expect((await failure).message).toContain('room for 100');
   });
 
+  it.each(['reference', 'farpoint'] as const)(
+    '%s: goes on after a frame that was there first',
+    async (layout) => {
+      const mine = layout === 'reference' ? keep(new ReferenceFrameProducer(folder)) : null;
+      const ours =
+        layout === 'farpoint' ? keep(new CloudProducer({ folder, format: 'points', maxPoints: 300 })) : null;
+      const produce = () => {
+        mine?.publish(packed(3, 0));
+        ours?.publish({ points: cloud(0.003, 300) }, GRID);
+      };
+      produce();
+      const opening = start(layout);
+      const timer = setInterval(produce, 1);
+      const capture = await opening;
+      clearInterval(timer);
+      capture.setBudget(BUDGET);
+      const frame = await frameWhere(capture, produce, () => true);
+      expect(firstPoint(frame)[2]).toBe(3);
+    },
+  );
+
   it('reference: packed points come out as packets, and the producer learns the rate', async () => {
     const producer = keep(new ReferenceFrameProducer(folder));
     const capture = await start('reference');

@@ -39,6 +39,8 @@ export class OperatorClient {
   readonly control: RTCDataChannel;
   readonly frames = new Map<number, ReceivedFrame>();
   onCandidate: ((candidate: IceCandidate) => void) | null = null;
+  /** Gets each readable packet of a cloud. */
+  onCloudPacket: ((payload: Buffer) => void) | null = null;
   telemetry: Telemetry | null = null;
   packets = 0;
   malformedPackets = 0;
@@ -191,6 +193,7 @@ export class OperatorClient {
       this.#changed();
       return;
     }
+    this.onCloudPacket?.(payload);
     const { frameNumber, frameLength, sequenceLength } = header;
     const frame = this.frames.get(frameNumber) ?? {
       frameNumber,

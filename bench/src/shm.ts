@@ -1,0 +1,290 @@
+/** `pnpm bench shm`: clouds through shared memory, from a producer's process to the robot's first packet. */
+import { type ChildProcess, spawn } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { join } from 'node:path';
+import { parseArgs } from 'node:util';
+import { LocalStack } from '@farpoint/local-stack';
+import { emptyPointPacketHeader, readPointPacketHeader } from '@farpoint/protocol';
+import { SignaledOperator } from '@farpoint/robot-node/testing';
+import { buildAddon } from '@farpoint/shared-memory/build';
+import { type KillTestResult, runKillTest } from '@farpoint/shared-memory/kill-test';
+import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
+import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Distribution, distribution, rounded } from './stats.ts';
+
+const USAGE = `pnpm bench shm [--layout both|reference|farpoint] [--size 480] [--fps 30] [--seconds 20] [--mbps 20] [--kill N [--seed 1]] [--json]
+
+A producer's process writes size × size points --fps times a second; the real robot process takes them, samples them for
+--mbps (10^6 bit/s) and sends them to an operator in this process. Latency: from the producer's beginning to write a frame
+to the robot's having that frame's packets made. Every frame has a colour of its own: torn counts frames that came with two.
+--kill N instead kills producer and reader at random, each a process, until N frames have been read and checked in full.`;
+
+const LAYOUTS = ['reference', 'farpoint'] as const;
+type Layout = (typeof LAYOUTS)[number];
+const WARM_UP_MS = 2000;
+const ROBOT = 'shm-1';
+
+interface LayoutResult {
+  latencyMs: Distribution;
+  framesPerSecond: number;
+  framesProduced: number;
+  frames: number;
+  torn: number;
+  /** Packets in which that was looked for. */
+  packetsChecked: number;
+  rssMbMax: number;
+  robotCpu: number | null;
+  producerCpu: number | null;
+  pointsPerFrame: number;
+}
+
+export const bench: Bench = {
+  name: 'shm',
+  summary: 'clouds through shared memory: latency to the first packet, torn frames, kills',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        layout: { type: 'string', default: 'both' },
+        size: { type: 'string', default: '480' },
+        fps: { type: 'string', default: '30' },
+        seconds: { type: 'string', default: '20' },
+        mbps: { type: 'string', default: '20' },
+        kill: { type: 'string' },
+        seed: { type: 'string', default: '1' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const layouts = LAYOUTS.filter((layout) => values.layout === 'both' || values.layout === layout);
+    if (layouts.length === 0)
+      throw new Error(`--layout is \`${values.layout}\`, not both, reference or farpoint`);
+    const size = numberOption('size', values.size, 16);
+    if (size > 480 && layouts.includes('reference'))
+      throw new Error('--size: the reference layout ends at 480');
+    const { ok, output } = buildAddon();
+    if (!ok) throw new Error(`the addon does not build:\n${output}`);
+
+    if (values.kill !== undefined) {
+      const frames = numberOption('kill', values.kill, 1);
+      const results = await killAll(layouts, frames, size * size, numberOption('seed', values.seed));
+      if (values.json)
+        printJson({ bench: 'shm', points: size * size, ...summedKills(results), kill: results });
+      return;
+    }
+    const [fps, seconds] = [numberOption('fps', values.fps, 1), numberOption('seconds', values.seconds, 1)];
+    const mbps = numberOption('mbps', values.mbps, 1);
+    const results: Partial<Record<Layout, LayoutResult>> = {};
+    for (const layout of layouts) {
+      console.error(`${layout}: ${size * size} points at ${fps} frames/s for ${seconds} s`);
+      results[layout] = await measure(layout, { size, fps, seconds, mbps });
+    }
+    const rows = Object.entries(results);
+    printTable(
+      ['latency, ms', 'p50', 'p95', 'p99', 'max'],
+      rows.map(([layout, { latencyMs }]) => [layout, ...distributionCells(latencyMs)]),
+    );
+    printTable(
+      ['', 'frames/s', 'torn', 'robot, MB', 'robot, cores', 'producer, cores', 'points sent'],
+      rows.map(([layout, result]) => [
+        ...[layout, result.framesPerSecond, result.torn, result.rssMbMax],
+        ...[result.robotCpu, result.producerCpu, result.pointsPerFrame],
+      ]),
+    );
+    if (!values.json) return;
+    const all = rows.map(([, result]) => result);
+    const worst = all.reduce((a, b) => (b.latencyMs.p99 > a.latencyMs.p99 ? b : a));
+    printJson({
+      bench: 'shm',
+      ...{ points: size * size, fps, seconds, mbps },
+      // Of the layouts that were measured, the worst.
+      latencyMs: worst.latencyMs,
+      framesPerSecond: Math.min(...all.map((result) => result.framesPerSecond)),
+      torn: all.reduce((sum, result) => sum + result.torn, 0),
+      rssMbMax: Math.max(...all.map((result) => result.rssMbMax)),
+      layouts: results,
+    });
+  },
+};
+
+async function measure(
+  layout: Layout,
+  { size, fps, seconds, mbps }: { size: number; fps: number; seconds: number; mbps: number },
+): Promise<LayoutResult> {
+  const folder = mkdtempSync('/dev/shm/farpoint-bench-');
+  const [frameLog, producerLog] = [join(folder, 'frames.csv'), join(folder, 'producer.txt')];
+  const producer = spawn(
+    process.execPath,
+    [
+      ...[join(import.meta.dirname, 'shm-producer.ts'), '--layout', layout, '--folder', folder],
+      ...['--size', String(size), '--fps', String(fps), '--log', producerLog],
+    ],
+    { stdio: ['ignore', 'inherit', 'inherit'] },
+  );
+  let stack: LocalStack | null = null;
+  try {
+    stack = await LocalStack.start({
+      robots: [
+        {
+          id: ROBOT,
+          name: 'Robot with a camera in shared memory',
+          args: [
+            ...['--source', 'shm', '--shm-layout', layout, '--shm-folder', folder, '--fps', String(fps)],
+            ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)],
+            ...['--frame-log', frameLog],
+          ],
+        },
+      ],
+      env: { FARPOINT_LOG_LEVEL: 'warn' },
+    });
+    const robotPid = stack.robot(ROBOT).pid;
+    const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+    const colours = new FrameColours();
+    await sleep(WARM_UP_MS);
+    operator.client.onCloudPacket = (payload) => colours.add(payload);
+    const cpu = () => [cpuSecondsOfTree(robotPid), cpuSecondsOfTree(producer.pid as number)] as const;
+    const [beginMs, cpuBefore] = [nowMs(), cpu()];
+    await sleep(seconds * 1000);
+    const [endMs, cpuAfter] = [nowMs(), cpu()];
+    const rssMbMax = residentPeakMb(robotPid);
+    operator.client.onCloudPacket = null;
+    await operator.close();
+    await stack.stop();
+    await stop(producer);
+
+    const within = (ms: number) => ms >= beginMs && ms < endMs;
+    const begun = readFileSync(producerLog, 'utf8').split('\n').map(Number);
+    const frames = readFrameLog(frameLog).filter(({ readyMs }) => within(readyMs));
+    // The reference layout carries no time: its frame is the last one that was begun before it was noticed.
+    const latencies = frames.map(
+      ({ capturedMs, readyMs }) => readyMs - (lastBefore(begun, capturedMs + 0.001) ?? Number.NaN),
+    );
+    const elapsedMs = endMs - beginMs;
+    return {
+      latencyMs: rounded(distribution(latencies), 2),
+      framesPerSecond: Number(((frames.length * 1000) / elapsedMs).toFixed(2)),
+      framesProduced: begun.filter(within).length,
+      frames: frames.length,
+      torn: colours.torn,
+      packetsChecked: colours.packets,
+      rssMbMax,
+      robotCpu: coresBetween(cpuBefore[0], cpuAfter[0], elapsedMs),
+      producerCpu: coresBetween(cpuBefore[1], cpuAfter[1], elapsedMs),
+      pointsPerFrame: Math.round(frames.reduce((sum, { points }) => sum + points, 0) / frames.length),
+    };
+  } finally {
+    await stack?.stop();
+    await stop(producer);
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+/** The colours in which frames arrived: one each, or it was torn. */
+class FrameColours {
+  torn = 0;
+  packets = 0;
+  readonly #header = emptyPointPacketHeader();
+  readonly #colours = new Map<number, number>();
+
+  add(payload: Buffer): void {
+    const view = new DataView(payload.buffer, payload.byteOffset, payload.byteLength);
+    if (readPointPacketHeader(view, this.#header) !== null) return;
+    this.packets++;
+    const { frameNumber, sequenceLength } = this.#header;
+    const points = sequenceLength / 8;
+    for (let i = 0; i < points; i++) this.#see(frameNumber, view.getUint16(16 + points * 6 + i * 2, true));
+    if (this.#colours.size > 100) this.#colours.delete(this.#colours.keys().next().value as number);
+  }
+
+  #see(frame: number, colour: number): void {
+    const first = this.#colours.get(frame);
+    if (first === undefined) {
+      this.#colours.set(frame, colour);
+    } else if (first !== colour && first >= 0) {
+      this.torn++;
+      this.#colours.set(frame, -1);
+    }
+  }
+}
+
+async function killAll(
+  layouts: readonly Layout[],
+  frames: number,
+  points: number,
+  seed: number,
+): Promise<Partial<Record<Layout, KillTestResult>>> {
+  const results: Partial<Record<Layout, KillTestResult>> = {};
+  for (const layout of layouts) {
+    const folder = mkdtempSync('/dev/shm/farpoint-bench-');
+    console.error(`${layout}: ${frames} frames of ${points} points, both sides killed at random`);
+    try {
+      results[layout] = await runKillTest({
+        ...{ layout, folder, frames, points, leastKills: 10, seed, lifeMs: [200, 2000] },
+      });
+    } finally {
+      rmSync(folder, { recursive: true, force: true });
+    }
+  }
+  printTable(
+    ['', 'frames', 'torn', 'producer kills', 'reader kills', 'longest pause, ms', 'frames/s'],
+    Object.entries(results).map(([layout, result]) => [
+      ...[layout, result.frames, result.torn, result.producerKills, result.readerKills],
+      ...[result.longestPauseMs, result.frames / result.seconds],
+    ]),
+  );
+  return results;
+}
+
+function summedKills(results: Partial<Record<Layout, KillTestResult>>): { frames: number; torn: number } {
+  const all = Object.values(results);
+  const sum = (of: (result: KillTestResult) => number) => all.reduce((total, each) => total + of(each), 0);
+  return { frames: sum(({ frames }) => frames), torn: sum(({ torn }) => torn) };
+}
+
+interface LoggedFrame {
+  capturedMs: number;
+  readyMs: number;
+  points: number;
+}
+
+function readFrameLog(path: string): LoggedFrame[] {
+  const [header, ...lines] = readFileSync(path, 'utf8').trimEnd().split('\n');
+  if (header !== 'frameNumber,capturedMs,readyMs,points') throw new Error(`${path}: not a frame log`);
+  return lines.map((line) => {
+    const [, capturedMs, readyMs, points] = line.split(',').map(Number) as [number, number, number, number];
+    return { capturedMs, readyMs, points };
+  });
+}
+
+/** The last of ascending times that is not after `limit`. */
+function lastBefore(times: readonly number[], limit: number): number | undefined {
+  let [low, high] = [0, times.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((times[middle] as number) <= limit) low = middle + 1;
+    else high = middle;
+  }
+  return times[low - 1];
+}
+
+/** The most memory a process has had, 10^6 bytes (Linux). */
+function residentPeakMb(pid: number): number {
+  const line = /^VmHWM:\s+(\d+) kB$/m.exec(readFileSync(`/proc/${pid}/status`, 'utf8'));
+  return Math.round((Number(line?.[1] ?? Number.NaN) * 1024) / 1e6);
+}
+
+async function stop(child: ChildProcess): Promise<void> {
+  if (child.exitCode !== null || child.signalCode !== null) return;
+  const ended = new Promise((resolve) => child.once('exit', resolve));
+  child.kill('SIGTERM');
+  await ended;
+}
+
+function nowMs(): number {
+  return Number(process.hrtime.bigint()) / 1e6;
+}
+
+function sleep(ms: number): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve, ms));
+}
