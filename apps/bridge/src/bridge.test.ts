@@ -156,7 +156,7 @@ it('keeps showing its robot while 50 others come at once, half of them with offe
     control.send({ type: 'updateRobots' });
     await control.next((data) => {
       const message = JSON.parse(data.toString());
-      return message.type === 'updateRobots' && message.robots?.length === count && made.robotsFailed >= 25;
+      return message.type === 'updateRobots' && message.robots?.length === count && made.roster.failed >= 25;
     });
   };
   await until(26);
@@ -166,5 +166,5 @@ it('keeps showing its robot while 50 others come at once, half of them with offe
   await until(1);
   shown.sendFrame(frame(1, 8));
   expect(markOf(await streaming.next(() => true))).toBe(8);
-  expect(made.robots).toBe(1);
+  expect(made.roster.size).toBe(1);
 }, 30_000);

@@ -17,11 +17,11 @@ import {
 } from '@farpoint/protocol';
 import { MessageLine } from '@farpoint/reference-profile';
 import type { Logger } from '@farpoint/service';
+import type { AssembledFrame } from './frame-assembler.ts';
 import { LocalSocketServer } from './local-socket-server.ts';
-import { RobotConnection, type RobotConnectionOptions } from './robot-connection.ts';
-import { RobotSelection } from './robot-selection.ts';
+import { RobotRoster, type RosterOptions } from './robot-roster.ts';
 
-export interface BridgeOptions extends Omit<RobotConnectionOptions, 'now'> {
+export interface BridgeOptions extends Omit<RosterOptions, 'now'> {
   /** Client port of the signaling service; a page's initBridge names another. */
   signaling: string;
   host: string;
@@ -29,7 +29,6 @@ export interface BridgeOptions extends Omit<RobotConnectionOptions, 'now'> {
   telemetryPort: number;
   streamingPort: number;
   allowedOrigins: readonly string[];
-  maxRobots: number;
 }
 
 /** A frame that was given to pages. Times are the clock's that the bridge was opened with, ms. */
@@ -44,14 +43,9 @@ export interface FrameRecord {
   pages: number;
 }
 
-interface Robot {
-  readonly name: string;
-  offer: string;
-  connection: RobotConnection;
-}
-
 type SignalingLine = MessageLine<ReferenceServiceToClient, ReferenceClientToService>;
 
+const TICK_MS = 250;
 const CONTROL_BACKLOG_BYTES = 1_048_576;
 /** A page that has not read the frame before is not sent another. */
 const STREAMING_BACKLOG_BYTES = 65_536;
@@ -60,16 +54,13 @@ export class Bridge {
   /** Frames given to pages, and for how long the last one was held after its last packet, ms. */
   frames = 0;
   lastEmitMs = 0;
-  robotsFailed = 0;
-  robotsRefused = 0;
   messagesRefused = 0;
   commandsDropped = 0;
   onFrame: ((record: FrameRecord) => void) | null = null;
-  readonly #options: BridgeOptions;
   readonly #log: Logger;
   readonly #now: () => number;
-  readonly #robots = new Map<number, Robot>();
-  readonly #selection: RobotSelection;
+  readonly roster: RobotRoster;
+  readonly #tick: NodeJS.Timeout;
   #control!: LocalSocketServer;
   #telemetry!: LocalSocketServer;
   #streaming!: LocalSocketServer;
@@ -77,22 +68,22 @@ export class Bridge {
   #url: string;
 
   private constructor(options: BridgeOptions, log: Logger, now: () => number) {
-    this.#options = options;
     this.#log = log;
     this.#now = now;
-    this.#selection = new RobotSelection({
-      onSwitch: (id, word) => {
-        const connection = this.#robots.get(id)?.connection;
-        if (connection === undefined) return;
-        connection.shown = word === 'start';
-        if (word === 'stop') connection.assembler.clear();
-        connection.tell(word);
+    this.roster = new RobotRoster(
+      { ...options, now },
+      {
+        send: (message) => this.#line.send(message),
+        onFrame: (frame, lastPacketMs) => this.#toStreaming(frame, lastPacketMs),
+        onRobotsChanged: () => this.#toPagesRobots(),
+        onSelected: (id) => {
+          log.info({ robot: id }, 'robot shown');
+          if (id !== null) this.#toPages({ type: 'switchedRobot', robotId: id });
+        },
+        onRobotFailed: (robot, detail) => log.warn({ robot, detail }, 'robot failed'),
       },
-      onSelected: (id) => {
-        log.info({ robot: id }, 'robot shown');
-        if (id !== null) this.#toPages({ type: 'switchedRobot', robotId: id });
-      },
-    });
+    );
+    this.#tick = setInterval(() => this.roster.tick(now()), TICK_MS);
     this.#url = options.signaling;
     this.#line = this.#openLine();
   }
@@ -127,10 +118,6 @@ export class Bridge {
     };
   }
 
-  get robots(): number {
-    return this.#robots.size;
-  }
-
   get signalingOpen(): boolean {
     return this.#line.open;
   }
@@ -142,8 +129,8 @@ export class Bridge {
 
   async close(): Promise<void> {
     this.#line.close();
-    for (const { connection } of this.#robots.values()) connection.close();
-    this.#robots.clear();
+    clearInterval(this.#tick);
+    this.roster.close();
     // Where a port was taken the later ones were never opened.
     for (const server of [this.#control, this.#telemetry, this.#streaming] as (
       | LocalSocketServer
@@ -163,104 +150,23 @@ export class Bridge {
       },
       {
         onOpen: () => line.send({ type: 'getRobots' }),
-        onMessage: (message) => this.#onSignaling(message),
+        onMessage: (message) => this.roster.onSignaling(message),
         onDown: (detail) => this.#log.warn({ url: this.#url, detail }, 'no line to signaling'),
       },
     );
     return line;
   }
 
-  #onSignaling(message: ReferenceServiceToClient): void {
-    switch (message.type) {
-      case 'robots': {
-        const offers = new Map(message.robots.map(({ id, sdpOffer }) => [id, sdpOffer]));
-        // After a restart of the service the same id may be another robot.
-        for (const [id, robot] of [...this.#robots]) if (offers.get(id) !== robot.offer) this.#remove(id);
-        for (const robot of message.robots)
-          this.#add(robot.id, robot.name, robot.sdpOffer, robot.robotCandidates);
-        break;
-      }
-      case 'register':
-        this.#remove(message.robot.id);
-        this.#add(
-          message.robot.id,
-          message.robot.name,
-          message.robot.sdpOffer,
-          message.robot.robotCandidates,
-        );
-        break;
-      case 'offer': {
-        const robot = this.#robots.get(message.robotId);
-        if (robot === undefined) {
-          // It has failed, or came without an offer: the list says its name.
-          this.#line.send({ type: 'getRobots' });
-          break;
-        }
-        robot.offer = message.sdpOffer;
-        void this.#answer(message.robotId, robot);
-        break;
-      }
-      case 'candidate':
-        void this.#robots.get(message.robotId)?.connection.addCandidate(message.candidate);
-        break;
-      case 'deregister':
-        if (message.robotId !== undefined) this.#remove(message.robotId);
-        break;
-      case 'deregistered':
-        this.#remove(message.robotId);
-        break;
-    }
-  }
-
-  #add(id: number, name: string, offer: string | null, candidates: readonly string[]): void {
-    if (offer === null || this.#robots.has(id)) return;
-    if (this.#robots.size >= this.#options.maxRobots) {
-      this.robotsRefused++;
-      return;
-    }
-    const connection = new RobotConnection(
-      { ...this.#options, now: this.#now },
-      {
-        onCandidate: (candidate) => this.#line.send({ type: 'candidate', robotId: id, candidate }),
-        onReady: () => connection.tell(this.#selection.wordFor(id)),
-        onFrame: (frame, lastPacketMs) => {
-          const pages = this.#streaming.broadcast(frame.bytes, STREAMING_BACKLOG_BYTES, frame.release);
-          const emittedMs = this.#now();
-          this.frames++;
-          this.lastEmitMs = emittedMs - lastPacketMs;
-          const { frameNumber, points, expectedPoints } = frame;
-          this.onFrame?.({ frameNumber, points, expectedPoints, lastPacketMs, emittedMs, pages });
-        },
-        onFailed: (detail) => {
-          this.robotsFailed++;
-          this.#log.warn({ robot: id, detail }, 'robot failed');
-          if (this.#robots.get(id)?.connection === connection) this.#remove(id);
-        },
-      },
-    );
-    const robot: Robot = { name, offer, connection };
-    this.#robots.set(id, robot);
-    this.#selection.add(id, name);
-    this.#toPagesRobots();
-    void this.#answer(id, robot);
-    for (const candidate of candidates) void connection.addCandidate(candidate);
-  }
-
-  async #answer(id: number, robot: Robot): Promise<void> {
-    const sdpAnswer = await robot.connection.answer(robot.offer);
-    if (sdpAnswer !== null) this.#line.send({ type: 'answer', robotId: id, sdpAnswer });
-  }
-
-  #remove(id: number): void {
-    const robot = this.#robots.get(id);
-    if (robot === undefined) return;
-    this.#robots.delete(id);
-    robot.connection.close();
-    this.#selection.remove(id);
-    this.#toPagesRobots();
-  }
-
   // Pages
+
+  #toStreaming(frame: AssembledFrame, lastPacketMs: number): void {
+    const pages = this.#streaming.broadcast(frame.bytes, STREAMING_BACKLOG_BYTES, frame.release);
+    const emittedMs = this.#now();
+    this.frames++;
+    this.lastEmitMs = emittedMs - lastPacketMs;
+    const { frameNumber, points, expectedPoints } = frame;
+    this.onFrame?.({ frameNumber, points, expectedPoints, lastPacketMs, emittedMs, pages });
+  }
 
   #onControl(data: string | Uint8Array): void {
     const message = this.#decode<ReferencePageToBridge>(referencePageToBridgeCodec, data);
@@ -273,9 +179,9 @@ export class Bridge {
         break;
       case 'switchRobot':
         // Told again where it is shown already: the page may be a new one.
-        if (this.#selection.selected === message.robotId)
+        if (this.roster.selected === message.robotId)
           this.#toPages({ type: 'switchedRobot', robotId: message.robotId });
-        else this.#selection.select(message.robotId);
+        else this.roster.select(message.robotId);
         break;
     }
   }
@@ -284,7 +190,7 @@ export class Bridge {
     if (url === this.#url || !/^wss?:$/.test(URL.parse(url)?.protocol ?? '')) return;
     this.#log.info({ url }, 'page names another signaling service');
     this.#line.close();
-    for (const id of [...this.#robots.keys()]) this.#remove(id);
+    this.roster.clear();
     this.#url = url;
     this.#line = this.#openLine();
   }
@@ -292,8 +198,7 @@ export class Bridge {
   #onTelemetry(data: string | Uint8Array): void {
     const message = this.#decode<ReferenceBridgeTelemetry>(referenceBridgeTelemetryCodec, data);
     if (message === null) return;
-    const robot = this.#robots.get(this.#selection.selected ?? -1);
-    if (robot === undefined || robot.connection.command(message.command) !== null) this.commandsDropped++;
+    if (this.roster.shown?.command(message.command) !== null) this.commandsDropped++;
   }
 
   #decode<T>(codec: JsonCodec<T>, data: string | Uint8Array): T | null {
@@ -307,7 +212,7 @@ export class Bridge {
   }
 
   #toPagesRobots(): void {
-    const { robots } = this.#selection;
+    const { robots } = this.roster;
     this.#toPages({ type: 'updateRobots', robots: robots.length === 0 ? null : robots });
   }
 

@@ -23,6 +23,6 @@ await runProgram(program, async ({ options, log, health, metrics, shutdown, serv
   log.info({ host: options.host, ...bridge.ports }, 'listening for a page');
   registerBridgeMetrics(metrics, bridge);
   health.add('signaling', () => ({ ok: true, detail: { connected: bridge.signalingOpen } }));
-  health.add('robots', () => ({ ok: true, detail: { known: bridge.robots } }));
+  health.add('robots', () => ({ ok: true, detail: { known: bridge.roster.size } }));
   await serveAdmin({ host: options.adminHost, port: options.adminPort });
 });

@@ -9,9 +9,25 @@ export function registerBridgeMetrics(registry: Registry, bridge: Bridge): void 
       'from the last packet of the latest frame to its message',
       () => bridge.lastEmitMs,
     ],
-    robots: ['robots known', () => bridge.robots],
-    robots_failed_total: ['connections to robots that failed', () => bridge.robotsFailed],
-    robots_refused_total: ['robots there was no room for', () => bridge.robotsRefused],
+    robots: ['robots known', () => bridge.roster.size],
+    frames_complete: [
+      'frames of the robots here that came whole',
+      () => bridge.roster.sum((c) => c.assembler.framesComplete),
+    ],
+    frames_partial: [
+      'frames of the robots here that lacked points',
+      () => bridge.roster.sum((c) => c.assembler.framesPartial),
+    ],
+    packets_lost: [
+      'packets of the robots here that never came',
+      () => bridge.roster.sum((c) => c.packetsLost),
+    ],
+    packets_recovered: [
+      'packets of the robots here that came when asked for',
+      () => bridge.roster.sum((c) => c.packetsRecovered),
+    ],
+    robots_failed_total: ['connections to robots that failed', () => bridge.roster.failed],
+    robots_refused_total: ['robots there was no room for', () => bridge.roster.refused],
     messages_refused_total: ['messages of pages that could not be read', () => bridge.messagesRefused],
     commands_dropped_total: ['commands for a robot that could not take them', () => bridge.commandsDropped],
   };

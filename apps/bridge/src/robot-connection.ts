@@ -36,17 +36,15 @@ export type CommandDrop = 'channel-not-open' | 'backlog';
 const MAX_COMMAND_BACKLOG = 4096;
 const MAX_REPORT_BACKLOG = 4096;
 const MAX_PENDING_CANDIDATES = 64;
+/** In all: more are not meant to connect anything. */
+const MAX_CANDIDATES = 256;
 /** IP, UDP, RTP and SRTP of one packet, bytes. */
 const OVERHEAD_BYTES = 64;
 
 export class RobotConnection {
   readonly assembler: FrameAssembler;
   packets = 0;
-  /** Packets of a robot that is not shown. */
-  packetsIgnored = 0;
   candidatesRefused = 0;
-  /** Frames are put together only while it is shown. */
-  shown = false;
   readonly #options: RobotConnectionOptions;
   readonly #events: RobotConnectionEvents;
   readonly #connection: RTCPeerConnection;
@@ -59,8 +57,10 @@ export class RobotConnection {
   #described = false;
   #closed = false;
   #candidates: string[] = [];
+  #candidateCount = 0;
+  #shown = false;
   #bytes = 0;
-  #lastPacketMs = 0;
+  #lastPacketMs = Number.NEGATIVE_INFINITY;
   #timer: NodeJS.Timeout | null = null;
 
   constructor(options: RobotConnectionOptions, events: RobotConnectionEvents) {
@@ -80,8 +80,12 @@ export class RobotConnection {
       else if (state === 'connected') this.#receive();
     });
     connection.onDataChannel.subscribe((channel) => {
-      if (channel.label === referenceChannels.control.label && this.#control === null)
+      if (channel.label === referenceChannels.control.label && this.#control === null) {
         this.#control = channel;
+        channel.stateChanged.subscribe((state) => {
+          if (state === 'closed') this.#fail('the robot closed its control channel');
+        });
+      }
     });
     const { bandwidth, words } = referenceChannels;
     this.#bandwidth = connection.createDataChannel(bandwidth.label, { ordered: bandwidth.ordered });
@@ -92,6 +96,39 @@ export class RobotConnection {
     this.#words.stateChanged.subscribe((state) => {
       if (state === 'open' && !this.#closed) events.onReady();
     });
+  }
+
+  /** Frames are put together only while it is shown; its packets are not even opened otherwise. */
+  get shown(): boolean {
+    return this.#shown;
+  }
+
+  set shown(shown: boolean) {
+    this.#shown = shown;
+    if (this.#receiver !== null) this.#receiver.paused = !shown;
+  }
+
+  /** The path stood when it was last looked at. */
+  get connected(): boolean {
+    return !this.#closed && this.#connection.connectionState === 'connected';
+  }
+
+  /** When points last came of it while it was shown, ms. */
+  get lastPacketMs(): number {
+    return this.#lastPacketMs;
+  }
+
+  /** Packets that came while it was not shown, or were none. */
+  get packetsRefused(): number {
+    return this.#receiver?.refused ?? 0;
+  }
+
+  get packetsLost(): number {
+    return this.#receiver?.requests.lost ?? 0;
+  }
+
+  get packetsRecovered(): number {
+    return this.#receiver?.requests.recovered ?? 0;
   }
 
   /** Also for a renegotiation. @returns the SDP answer, or `null` where the offer cannot be used: it has failed then */
@@ -113,6 +150,10 @@ export class RobotConnection {
   /** Never throws: one that cannot be used is counted, others may do. */
   async addCandidate(candidate: string): Promise<void> {
     if (this.#closed) return;
+    if (++this.#candidateCount > MAX_CANDIDATES) {
+      this.candidatesRefused++;
+      return;
+    }
     if (!this.#described) {
       this.#candidates.push(candidate);
       if (this.#candidates.length > MAX_PENDING_CANDIDATES) this.#candidates.shift();
@@ -154,18 +195,14 @@ export class RobotConnection {
     if (dtls === undefined || this.#receiver !== null || this.#closed) return;
     try {
       this.#receiver = new RtpReceiver(dtls, this.#options, (payload) => this.#onPayload(payload));
+      this.#receiver.paused = !this.#shown;
     } catch (error) {
       this.#fail(textOf(error));
     }
   }
 
   #onPayload(payload: Uint8Array): void {
-    if (this.#closed) return;
     this.packets++;
-    if (!this.shown) {
-      this.packetsIgnored++;
-      return;
-    }
     const nowMs = this.#options.now();
     this.#bytes += payload.byteLength + OVERHEAD_BYTES;
     this.#lastPacketMs = nowMs;

@@ -41,6 +41,17 @@ export class RobotSelection {
     else this.select(same.id);
   }
 
+  /** The same robot is known by another id from now on; the first is free. */
+  rekey(from: number, to: number): void {
+    const name = this.#names.get(from);
+    if (name === undefined) return;
+    this.#names.delete(from);
+    this.#names.set(to, name);
+    if (this.selected !== from) return;
+    this.selected = to;
+    this.#events.onSelected(to);
+  }
+
   /** @returns false where there is no such robot: nothing changes then */
   select(id: number): boolean {
     const name = this.#names.get(id);

@@ -1,4 +1,5 @@
 export * from './finding.ts';
+export * from './frames.ts';
 export * from './offer-rules.ts';
 export * from './peers/inbox.ts';
 export * from './peers/reference-operator.ts';

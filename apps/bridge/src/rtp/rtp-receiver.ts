@@ -29,8 +29,10 @@ const NOTHING = Buffer.from([0x80, 0x7f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
 
 export class RtpReceiver {
   packets = 0;
-  /** No RTP, of another payload type, or not to be opened. */
+  /** No RTP, of another payload type, not to be opened, or while paused. */
   refused = 0;
+  /** Packets are left unopened: nothing of them is wanted. */
+  paused = false;
   readonly requests: LossRequests;
   readonly #options: RtpReceiverOptions;
   readonly #dtls: RTCDtlsTransport;
@@ -76,6 +78,7 @@ export class RtpReceiver {
     if (this.#closed) return;
     const header = this.#header;
     if (
+      this.paused ||
       !readRtpHeader(packet, REFERENCE_EXTENSION_ID, header) ||
       header.payloadType !== REFERENCE_PAYLOAD_TYPE
     ) {

@@ -1,0 +1,234 @@
+/**
+ * The robots that the bridge knows: who is here as signaling tells it, a connection to each, and which of them is shown. A
+ * robot whose registration ends while its points still come is kept until they end, or until it is here again by its name:
+ * signaling introduces, it does not carry.
+ */
+import type { ReferenceClientToService, ReferenceServiceToClient } from '@farpoint/protocol';
+import type { AssembledFrame } from './frame-assembler.ts';
+import { RobotConnection, type RobotConnectionOptions } from './robot-connection.ts';
+import { RobotSelection } from './robot-selection.ts';
+
+export interface RosterOptions extends RobotConnectionOptions {
+  maxRobots: number;
+}
+
+export interface RosterEvents {
+  /** To signaling. */
+  send(message: ReferenceClientToService): void;
+  onFrame(frame: AssembledFrame, lastPacketMs: number): void;
+  onRobotsChanged(): void;
+  onSelected(robotId: number | null): void;
+  onRobotFailed(robotId: number, detail: string): void;
+}
+
+interface Robot {
+  readonly name: string;
+  offer: string;
+  readonly connection: RobotConnection;
+  /** Its registration has ended. */
+  orphan: boolean;
+}
+
+/** An orphan of which no points come for so long is let go, ms. */
+const ORPHAN_SILENCE_MS = 3000;
+/** Ids of orphans whose own id another robot has now; the service counts up from 0. */
+const FIRST_ORPHAN_ID = 0x8000_0000;
+
+export class RobotRoster {
+  failed = 0;
+  refused = 0;
+  readonly #options: RosterOptions;
+  readonly #events: RosterEvents;
+  readonly #robots = new Map<number, Robot>();
+  readonly #selection: RobotSelection;
+  #nextOrphanId = FIRST_ORPHAN_ID;
+
+  constructor(options: RosterOptions, events: RosterEvents) {
+    this.#options = options;
+    this.#events = events;
+    this.#selection = new RobotSelection({
+      onSwitch: (id, word) => {
+        const connection = this.#robots.get(id)?.connection;
+        if (connection === undefined) return;
+        connection.shown = word === 'start';
+        if (word === 'stop') connection.assembler.clear();
+        connection.tell(word);
+      },
+      onSelected: (id) => events.onSelected(id),
+    });
+  }
+
+  get size(): number {
+    return this.#robots.size;
+  }
+
+  get robots(): { id: number; name: string }[] {
+    return this.#selection.robots;
+  }
+
+  get selected(): number | null {
+    return this.#selection.selected;
+  }
+
+  /** The connection to the robot that is shown. */
+  get shown(): RobotConnection | null {
+    return this.#robots.get(this.#selection.selected ?? -1)?.connection ?? null;
+  }
+
+  /** Of all robots now. */
+  sum(read: (connection: RobotConnection) => number): number {
+    let total = 0;
+    for (const { connection } of this.#robots.values()) total += read(connection);
+    return total;
+  }
+
+  select(robotId: number): void {
+    this.#selection.select(robotId);
+  }
+
+  onSignaling(message: ReferenceServiceToClient): void {
+    switch (message.type) {
+      case 'robots': {
+        const offers = new Map(message.robots.map(({ id, sdpOffer }) => [id, sdpOffer]));
+        // After a restart of the service the same id may be another robot, and none may be here yet.
+        for (const [id, robot] of [...this.#robots]) if (offers.get(id) !== robot.offer) this.#leave(id);
+        for (const { id, name, sdpOffer, robotCandidates } of message.robots)
+          this.#add(id, name, sdpOffer, robotCandidates);
+        break;
+      }
+      case 'register': {
+        const { id, name, sdpOffer, robotCandidates } = message.robot;
+        this.#leave(id);
+        this.#add(id, name, sdpOffer, robotCandidates);
+        break;
+      }
+      case 'offer':
+        this.#onOffer(message.robotId, message.sdpOffer);
+        break;
+      case 'candidate': {
+        const robot = this.#robots.get(message.robotId);
+        if (robot?.orphan === false) void robot.connection.addCandidate(message.candidate);
+        break;
+      }
+      case 'deregister':
+        // It took leave.
+        if (message.robotId !== undefined) this.#remove(message.robotId);
+        break;
+      case 'deregistered':
+        this.#leave(message.robotId);
+        break;
+    }
+  }
+
+  /** A few times a second. */
+  tick(nowMs: number): void {
+    for (const [id, { orphan, connection }] of [...this.#robots]) {
+      if (orphan && !(connection.connected && nowMs - connection.lastPacketMs < ORPHAN_SILENCE_MS))
+        this.#remove(id);
+    }
+  }
+
+  /** Forgets all, as where another service is named. */
+  clear(): void {
+    for (const id of [...this.#robots.keys()]) this.#remove(id);
+  }
+
+  close(): void {
+    for (const { connection } of this.#robots.values()) connection.close();
+    this.#robots.clear();
+  }
+
+  #onOffer(id: number, offer: string): void {
+    const robot = this.#robots.get(id);
+    if (robot === undefined || robot.orphan) {
+      // It has failed, or came without an offer: the list says its name.
+      this.#events.send({ type: 'getRobots' });
+    } else if (sessionOf(offer) === sessionOf(robot.offer)) {
+      robot.offer = offer;
+      void this.#answer(id, robot);
+    } else {
+      // Not a change of the connection that stands, but another.
+      this.#remove(id);
+      this.#add(id, robot.name, offer, []);
+    }
+  }
+
+  #add(id: number, name: string, offer: string | null, candidates: readonly string[]): void {
+    if (offer === null) return;
+    const present = this.#robots.get(id);
+    if (present?.orphan === false) return;
+    if (present !== undefined) this.#rekey(id, present);
+    if (this.#robots.size >= this.#options.maxRobots) {
+      this.refused++;
+      return;
+    }
+    const connection = new RobotConnection(this.#options, {
+      onCandidate: (candidate) => this.#events.send({ type: 'candidate', robotId: id, candidate }),
+      onReady: () => this.#onReady(connection),
+      onFrame: (frame, lastPacketMs) => this.#events.onFrame(frame, lastPacketMs),
+      onFailed: (detail) => {
+        this.failed++;
+        const now = this.#idOf(connection);
+        this.#events.onRobotFailed(now ?? id, detail);
+        if (now !== null) this.#remove(now);
+      },
+    });
+    const robot: Robot = { name, offer, connection, orphan: false };
+    this.#robots.set(id, robot);
+    this.#selection.add(id, name);
+    this.#events.onRobotsChanged();
+    void this.#answer(id, robot);
+    for (const candidate of candidates) void connection.addCandidate(candidate);
+  }
+
+  #onReady(connection: RobotConnection): void {
+    const id = this.#idOf(connection);
+    if (id === null) return;
+    const { name } = this.#robots.get(id) as Robot;
+    // The same robot is here again: its old connection has done its duty.
+    for (const [other, robot] of [...this.#robots])
+      if (other !== id && robot.orphan && robot.name === name) this.#remove(other);
+    connection.tell(this.#selection.wordFor(id));
+  }
+
+  async #answer(id: number, robot: Robot): Promise<void> {
+    const sdpAnswer = await robot.connection.answer(robot.offer);
+    if (sdpAnswer !== null) this.#events.send({ type: 'answer', robotId: id, sdpAnswer });
+  }
+
+  /** Its registration has ended. */
+  #leave(id: number): void {
+    const robot = this.#robots.get(id);
+    if (robot === undefined || robot.orphan) return;
+    if (robot.connection.connected && robot.connection.shown) robot.orphan = true;
+    else this.#remove(id);
+  }
+
+  #rekey(id: number, robot: Robot): void {
+    this.#robots.delete(id);
+    const to = this.#nextOrphanId++;
+    this.#robots.set(to, robot);
+    this.#selection.rekey(id, to);
+  }
+
+  #remove(id: number): void {
+    const robot = this.#robots.get(id);
+    if (robot === undefined) return;
+    this.#robots.delete(id);
+    robot.connection.close();
+    this.#selection.remove(id);
+    this.#events.onRobotsChanged();
+  }
+
+  #idOf(connection: RobotConnection): number | null {
+    for (const [id, robot] of this.#robots) if (robot.connection === connection) return id;
+    return null;
+  }
+}
+
+/** What stays the same while a peer connection is negotiated anew: the session's id (RFC 8866 §5.2) and the certificate. */
+function sessionOf(sdp: string): string {
+  const session = /^o=\S+ (\S+)/m.exec(sdp)?.[1] ?? '';
+  const fingerprint = /^a=fingerprint:(.*)$/m.exec(sdp)?.[1]?.trim() ?? '';
+  return `${session} ${fingerprint}`;
+}
