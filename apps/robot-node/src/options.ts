@@ -17,6 +17,7 @@ import { DEFAULT_FOLDER } from '@farpoint/shared-memory';
 import * as z from 'zod';
 import type { SourceOptions } from './capture/open-source.ts';
 import { PLAN_POLICIES } from './encode/plan.ts';
+import { STREAM_MODES } from './encode/stream-mode.ts';
 import type { RobotOptions } from './robot.ts';
 
 const signalingUrlSchema = z
@@ -146,6 +147,12 @@ const options = {
     argument: 'MBPS',
     help: 'rate of the first moments, before anything is known of the link, 10^6 bit/s',
   }),
+  mode: defineOption({
+    schema: schema.choice(STREAM_MODES),
+    default: 'auto',
+    argument: 'MODE',
+    help: 'auto: the best format that the operator reads, the whole cloud where the rate allows; points64: the reference format, a sample of the cloud',
+  }),
   plan: defineOption({
     schema: schema.choice(PLAN_POLICIES),
     default: 'latency',
@@ -156,7 +163,7 @@ const options = {
     schema: schema.integer({ min: 150, max: 4_194_304 }),
     default: 4_194_304,
     argument: 'N',
-    help: 'most points of a frame, whatever the rate allows',
+    help: 'most points of a points64 frame, whatever the rate allows',
   }),
   lambda: defineOption({
     schema: schema.number({ min: 0, max: 64 }),
@@ -334,6 +341,7 @@ export function toRobotOptions(values: RobotOptionValues): RobotOptions {
     takePolicy: values.takePolicy,
     referenceSignaling: values.referenceSignaling ?? undefined,
     bitsPerSecond: values.bitrateMbps * 1e6,
+    mode: values.mode,
     rateControl: values.rateControl,
     startBitsPerSecond: values.startMbps * 1e6,
     maxOperators: values.maxOperators,

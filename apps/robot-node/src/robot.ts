@@ -15,6 +15,7 @@ import type { CaptureOptions } from './capture/capture-messages.ts';
 import { monotonicMs, threadCpuMs } from './clock.ts';
 import { DriveStation } from './drive/drive-station.ts';
 import { openSink, type SinkOptions, type VelocitySink } from './drive/velocity-sink.ts';
+import type { StreamMode } from './encode/stream-mode.ts';
 import { ReferenceProfile } from './reference/reference-profile.ts';
 import { ConnectedOperator } from './session/connected-operator.ts';
 import { FrameFanOut } from './session/frame-fan-out.ts';
@@ -42,6 +43,8 @@ export interface RobotOptions {
   takePolicy: TakePolicy;
   /** Robots' port of a reference signaling service; its operators prove nothing of themselves. */
   referenceSignaling?: string | undefined;
+  /** `auto`: our own coded formats to whoever reads them; `points64`: that to everyone. */
+  mode: StreamMode;
   /** The most a stream may take on the wire, bit/s. */
   bitsPerSecond: number;
   /** How the rate of a stream is found: `adaptive`, or always the most, halved on sustained loss. */
@@ -117,6 +120,7 @@ export class Robot implements SessionHost {
       frameLog: this.#frameLog,
       stages,
       now: monotonicMs,
+      mayCode: options.mode === 'auto',
     });
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
     this.#paths = new PathKeeper({
@@ -311,6 +315,7 @@ export class Robot implements SessionHost {
           this.#welcome(operator);
         },
         onBudgetChanged: () => this.#fanOut.updateBudget(),
+        onTakesCoded: () => this.#fanOut.announceTo(operator),
         onLatencyFrameLost: () => this.capture.requestLatencyTest(),
         onEnded: (end, detail) => this.#sessionEnded(operator, end, detail, log),
       },

@@ -55,9 +55,12 @@ test('a good payload with any byte changed, cut or grown gives a fault or a bloc
         const bytes = new Uint8Array(Math.max(source.length + (resize ? grow : 0), 0));
         bytes.set(source.subarray(0, bytes.length));
         if (at < bytes.length) bytes[at] = byte;
-        const { fault, header } = read(bytes);
+        const { fault, header, placement } = read(bytes);
         faults.add(fault);
-        if (fault === null) expect(16 + header.sequenceLength + 28).toBe(bytes.length);
+        if (fault !== null) return;
+        expect(header.sequenceOffset + header.sequenceLength).toBeLessThanOrEqual(header.frameLength);
+        if (placement.format === 'points64') expect(16 + header.sequenceLength + 28).toBe(bytes.length);
+        else expect(bytes.length).toBeGreaterThan(16 + 28);
       },
     ),
     { seed: 1, numRuns: 5000 },

@@ -1,4 +1,10 @@
-/** The payload of our own profile: a point packet and its placement, nothing before, between or after. */
+/**
+ * The payload of our own profile: a point packet and its placement, nothing before, between or after.
+ *
+ * Where the data are not `points64` but coded, the header tells of the points that come out: frameLength, sequenceOffset and
+ * sequenceLength count 8 bytes a point, as if they were `points64`, and a packet may hold more than 150. So a receiver knows
+ * a packet's place in the frame whatever the format.
+ */
 import { PLACEMENT_BYTES, type Placement, type PlacementFault, readPlacement } from './placement.ts';
 import {
   MAX_POINT_DATA_BYTES,
@@ -6,6 +12,7 @@ import {
   type PointPacketFault,
   type PointPacketHeader,
   readPointPacketHeader,
+  readPointPlace,
 } from './point-packet.ts';
 
 export const MAX_CLOUD_PAYLOAD_BYTES = POINT_PACKET_HEADER_BYTES + MAX_POINT_DATA_BYTES + PLACEMENT_BYTES;
@@ -16,15 +23,23 @@ export type CloudPayloadFault = PointPacketFault | PlacementFault | 'trailing-by
 /**
  * Reads and checks header and placement into the given objects (nothing is allocated).
  *
- * @returns what is wrong, or `null`; on `null` the data block is `header.sequenceLength` bytes from byte 16
+ * @returns what is wrong, or `null`; on `null` the data lie from byte 16 to the placement, 28 bytes before the end
  */
 export function readCloudPayload(
   view: DataView,
   header: PointPacketHeader,
   placement: Placement,
 ): CloudPayloadFault | null {
-  // The format byte first: data of another format need not have our header.
-  const fault = readPlacement(view, placement) ?? readPointPacketHeader(view, header);
+  // The format byte first: data of an unknown format need not have our header.
+  const trailerFault = readPlacement(view, placement);
+  if (trailerFault !== null) return trailerFault;
+  if (placement.format !== 'points64') {
+    const dataBytes = view.byteLength - POINT_PACKET_HEADER_BYTES - PLACEMENT_BYTES;
+    if (dataBytes <= 0) return 'too-short';
+    if (dataBytes > MAX_POINT_DATA_BYTES) return 'trailing-bytes';
+    return readPointPlace(view, header);
+  }
+  const fault = readPointPacketHeader(view, header);
   if (fault !== null) return fault;
   const expected = POINT_PACKET_HEADER_BYTES + header.sequenceLength + PLACEMENT_BYTES;
   if (view.byteLength < expected) return 'too-short';

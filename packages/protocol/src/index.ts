@@ -1,6 +1,7 @@
 export * from './bandwidth.ts';
 export * from './channels.ts';
 export * from './clock-offset.ts';
+export * from './cloud-format.ts';
 export * from './cloud-payload.ts';
 export * from './colour664.ts';
 export * from './control.ts';
@@ -21,3 +22,4 @@ export * from './signaling/reference.ts';
 export * from './signaling/robot-list.ts';
 export * from './stream-switch.ts';
 export * from './telemetry.ts';
+export * from './unorganised-stream.ts';

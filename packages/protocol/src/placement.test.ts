@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { CLOUD_FORMATS } from './cloud-format.ts';
 import type { Quaternion, Vector3 } from './geometry.ts';
 import {
   emptyPlacement,
@@ -58,15 +59,16 @@ test('the pose that the writer keeps is within a float32 and half a quaternion s
       fc.boolean(),
       fc.boolean(),
       fc.nat(255),
-      ([x, y, z], q, captureTimeUs, latencyTest, saturated, sensor) => {
+      fc.constantFrom(...CLOUD_FORMATS),
+      ([x, y, z], q, captureTimeUs, latencyTest, saturated, sensor, format) => {
         const norm = Math.hypot(...q);
         const [qx, qy, qz, qw] = q.map((c) => c / norm) as [number, number, number, number];
         const pose = { position: { x, y, z }, orientation: { x: qx, y: qy, z: qz, w: qw } };
         const bytes = new Uint8Array(28);
-        writePlacement(viewOf(bytes), 0, { pose, captureTimeUs, latencyTest, saturated, sensor });
+        writePlacement(viewOf(bytes), 0, { pose, captureTimeUs, latencyTest, saturated, sensor, format });
         const into = emptyPlacement();
         expect(readPlacement(viewOf(bytes), into)).toBeNull();
-        expect(into).toMatchObject({ captureTimeUs, latencyTest, saturated, sensor });
+        expect(into).toMatchObject({ captureTimeUs, latencyTest, saturated, sensor, format });
         expect(into.pose.position).toEqual({ x: Math.fround(x), y: Math.fround(y), z: Math.fround(z) });
         for (const axis of ['x', 'y', 'z', 'w'] as const) {
           const error = Math.abs(into.pose.orientation[axis] - pose.orientation[axis]);

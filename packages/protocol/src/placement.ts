@@ -8,12 +8,12 @@
  *    24  u8      flags: bit 0 latency-test frame, bit 1 some coordinate of the frame was saturated
  *    25  u8      sensor index
  *    26  u8      reserved, 0
- *    27  u8      format of the point data: 1 = points64
+ *    27  u8      format of the point data: 1 points64, 2 organised, 3 unorganised (cloud-format.ts)
  */
+import { type CloudFormat, cloudFormatNumber, cloudFormatOf } from './cloud-format.ts';
 import type { Pose } from './geometry.ts';
 
 export const PLACEMENT_BYTES = 28;
-export const FORMAT_POINTS64 = 1;
 export const FLAG_LATENCY_TEST = 1;
 export const FLAG_SATURATED = 2;
 
@@ -25,6 +25,7 @@ export interface Placement {
   latencyTest: boolean;
   saturated: boolean;
   sensor: number;
+  format: CloudFormat;
 }
 
 /** Why a trailer is refused. */
@@ -40,6 +41,7 @@ export function emptyPlacement(): Placement {
     latencyTest: false,
     saturated: false,
     sensor: 0,
+    format: 'points64',
   };
 }
 
@@ -60,7 +62,7 @@ export function writePlacement(view: DataView, offset: number, placement: Placem
   );
   view.setUint8(offset + 25, placement.sensor);
   view.setUint8(offset + 26, 0);
-  view.setUint8(offset + 27, FORMAT_POINTS64);
+  view.setUint8(offset + 27, cloudFormatNumber(placement.format));
 }
 
 /** A pose may be off unit length by a little: saturates, as a component over 1 would wrap to the other side. */
@@ -73,7 +75,8 @@ function toInt16(component: number): number {
 export function readPlacement(view: DataView, into: Placement): PlacementFault | null {
   if (view.byteLength < PLACEMENT_BYTES) return 'too-short';
   const offset = view.byteLength - PLACEMENT_BYTES;
-  if (view.getUint8(offset + 27) !== FORMAT_POINTS64) return 'unknown-format';
+  const format = cloudFormatOf(view.getUint8(offset + 27));
+  if (format === undefined) return 'unknown-format';
   const { position, orientation } = into.pose;
   position.x = view.getFloat32(offset, true);
   position.y = view.getFloat32(offset + 4, true);
@@ -90,5 +93,6 @@ export function readPlacement(view: DataView, into: Placement): PlacementFault |
   into.latencyTest = (flags & FLAG_LATENCY_TEST) !== 0;
   into.saturated = (flags & FLAG_SATURATED) !== 0;
   into.sensor = view.getUint8(offset + 25);
+  into.format = format;
   return null;
 }

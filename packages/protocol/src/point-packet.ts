@@ -53,26 +53,29 @@ export function writePointPacketHeader(view: DataView, offset: number, header: P
  * @param view the whole payload
  */
 export function readPointPacketHeader(view: DataView, into: PointPacketHeader): PointPacketFault | null {
+  const fault = readPointPlace(view, into);
+  if (fault === 'too-short') return fault;
+  if (into.sequenceLength > MAX_POINT_DATA_BYTES) return 'bad-length';
+  if (fault !== null) return fault;
+  if (view.byteLength < POINT_PACKET_HEADER_BYTES + into.sequenceLength) return 'too-short';
+  return null;
+}
+
+/** The same, of a header whose data are coded: there may be any number of points, in any number of bytes. */
+export function readPointPlace(view: DataView, into: PointPacketHeader): PointPacketFault | null {
   if (view.byteLength < POINT_PACKET_HEADER_BYTES) return 'too-short';
   into.frameNumber = view.getUint32(0, true);
   into.frameLength = view.getUint32(4, true);
   into.sequenceOffset = view.getUint32(8, true);
   into.sequenceLength = view.getUint32(12, true);
   const { frameLength, sequenceOffset, sequenceLength } = into;
-  if (
-    sequenceLength === 0 ||
-    sequenceLength > MAX_POINT_DATA_BYTES ||
-    sequenceLength % BYTES_PER_POINT !== 0
-  ) {
-    return 'bad-length';
-  }
+  if (sequenceLength === 0 || sequenceLength % BYTES_PER_POINT !== 0) return 'bad-length';
   if (frameLength % BYTES_PER_POINT !== 0 || frameLength > MAX_POINTS_PER_FRAME * BYTES_PER_POINT) {
     return 'bad-frame-length';
   }
   if (sequenceOffset % BYTES_PER_POINT !== 0 || sequenceOffset + sequenceLength > frameLength) {
     return 'bad-offset';
   }
-  if (view.byteLength < POINT_PACKET_HEADER_BYTES + sequenceLength) return 'too-short';
   return null;
 }
 

@@ -2,6 +2,7 @@
  * The `session` channel, opened by the robot, ordered and reliable: who drives, what the stream is, what was refused.
  */
 import * as z from 'zod';
+import { CLOUD_FORMATS, type CloudFormat } from './cloud-format.ts';
 import { type CommandRejection, commandRejections } from './control.ts';
 import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
@@ -64,6 +65,17 @@ export interface LatencyFrame {
   captureMs: number;
 }
 
+/**
+ * What packets of a coded format are decoded with: it comes before the first of them, and anew where it changes. A receiver
+ * that cannot use it says so by `cloudFormats` without that format.
+ */
+export interface CloudStream {
+  type: 'cloudStream';
+  format: Exclude<CloudFormat, 'points64'>;
+  /** The format's own stream header, base64. */
+  header: string;
+}
+
 /** A message of the operator that the robot could not use, other than a command. */
 export interface SessionFault {
   type: 'fault';
@@ -76,6 +88,7 @@ export type RobotSessionMessage =
   | CommandRejected
   | EstopState
   | LatencyFrame
+  | CloudStream
   | SessionFault;
 
 /** Asks to drive. `take` asks to take over from another operator; the robot's policy decides. */
@@ -97,11 +110,24 @@ export interface StreamRequest {
   running: boolean;
 }
 
-export type OperatorSessionMessage = LeaseRequest | LeaseRelease | EstopRequest | StreamRequest;
+/** The formats that the operator reads. Until it has said so it gets `points64`, and it always may. */
+export interface CloudFormats {
+  type: 'cloudFormats';
+  formats: CloudFormat[];
+}
+
+export type OperatorSessionMessage =
+  | LeaseRequest
+  | LeaseRelease
+  | EstopRequest
+  | StreamRequest
+  | CloudFormats;
 
 export const PROTOCOL_VERSION = 1;
 
 const positive = z.number().positive();
+/** A palette of 256 colours with its tables is 2,210 bytes. */
+const MAX_STREAM_HEADER_BASE64 = 3200;
 
 export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
   what: 'robot session message',
@@ -149,6 +175,11 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
       commandMs: z.number(),
       captureMs: z.number(),
     }),
+    z.strictObject({
+      type: z.literal('cloudStream'),
+      format: z.enum(['organised', 'unorganised']),
+      header: z.base64().min(1).max(MAX_STREAM_HEADER_BASE64),
+    }),
     z.strictObject({ type: z.literal('fault'), message: z.string().max(512) }),
   ]),
   maxBytes: 4096,
@@ -161,6 +192,10 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
     z.strictObject({ type: z.literal('leaseRelease') }),
     z.strictObject({ type: z.literal('estop'), latch: z.boolean() }),
     z.strictObject({ type: z.literal('stream'), running: z.boolean() }),
+    z.strictObject({
+      type: z.literal('cloudFormats'),
+      formats: z.array(z.enum(CLOUD_FORMATS)).max(CLOUD_FORMATS.length),
+    }),
   ]),
   maxBytes: 1024,
 };

@@ -148,18 +148,22 @@ def trailer(position=(0.0, 0.0, 0.0), quaternion=(0, 0, 0, 32767), stamp=0, flag
     return struct.pack("<fff4hIBBBB", *position, *quaternion, stamp, flags, sensor, reserved, fmt)
 
 
-def placed(position, quaternion, stamp, flags, sensor):
+FORMATS = ["points64", "organised", "unorganised"]
+
+
+def placed(position, quaternion, stamp, flags, sensor, fmt=1):
     names = "xyzw"
     return {
         "position": {k: f32(v) for k, v in zip(names, position)},
         "orientation": {k: v / 32767 for k, v in zip(names, quaternion)},
         "captureTimeUs": stamp, "latencyTest": bool(flags & 1), "saturated": bool(flags & 2), "sensor": sensor,
+        "format": FORMATS[fmt - 1],
     }
 
 
 def placement_case(name, position=(0.0, 0.0, 0.0), quaternion=(0, 0, 0, 32767), stamp=0, flags=0, sensor=0, **more):
     return {"name": name, "hex": trailer(position, quaternion, stamp, flags, sensor, **more).hex(),
-            "placement": placed(position, quaternion, stamp, flags, sensor)}
+            "placement": placed(position, quaternion, stamp, flags, sensor, more.get("fmt", 1))}
 
 
 def refused(name, data, fault):
@@ -176,6 +180,8 @@ write("placement.json", {
         placement_case("both flags, last stamp, last sensor", stamp=2 ** 32 - 1, flags=3, sensor=255),
         placement_case("flags of a later version are passed over", flags=0xFC),
         placement_case("the reserved byte is passed over", reserved=9),
+        placement_case("organised", fmt=2),
+        placement_case("unorganised", fmt=3),
         placement_case("negative quaternion", quaternion=(0, 0, 0, -32767)),
         placement_case("a float that no decimal gives", (f32(0.1), f32(-1e-20), f32(3e8))),
         {"name": "read from the end of what comes before", "hex": "ffffffffff" + trailer(stamp=5).hex(),
@@ -183,7 +189,7 @@ write("placement.json", {
         refused("nothing", b"", "too-short"),
         refused("a byte short", trailer()[1:], "too-short"),
         refused("format 0", trailer(fmt=0), "unknown-format"),
-        refused("format 2", trailer(fmt=2), "unknown-format"),
+        refused("format 4", trailer(fmt=4), "unknown-format"),
         refused("position not a number", trailer((float("nan"), 0.0, 0.0)), "bad-pose"),
         refused("position infinite", trailer((0.0, float("inf"), 0.0)), "bad-pose"),
         refused("infinities that cancel", trailer((float("inf"), float("-inf"), 0.0)), "bad-pose"),
@@ -196,6 +202,7 @@ write("placement.json", {
         {"name": "at the origin", "placement": placed((0, 0, 0), (0, 0, 0, 32767), 0, 0, 0), "hex": trailer().hex()},
         {"name": "everything", "placement": placed((1.5, -2.25, 0.75), (half, 0, -half, 0), 2 ** 32 - 1, 3, 7),
          "hex": trailer((1.5, -2.25, 0.75), (half, 0, -half, 0), 2 ** 32 - 1, 3, 7).hex()},
+        {"name": "organised", "placement": placed((0, 0, 0), (0, 0, 0, 32767), 0, 0, 0, 2), "hex": trailer(fmt=2).hex()},
         {"name": "components beyond one", "placement": {**placed((0, 0, 0), (0, 0, 0, 0), 0, 0, 0),
                                                          "orientation": {"x": 0, "y": 0, "z": 0, "w": 1.005}},
          "hex": trailer().hex()},
@@ -214,16 +221,29 @@ def payload(n, frame=None, **more):
     return header(9, 8 * n if frame is None else frame, 0, 8 * n) + points(n) + trailer(stamp=77, **more)
 
 
-def payload_case(name, data, frame, length):
+def coded(n, data, frame=None, fmt=2):
+    """A packet of n points in a coded format."""
+    return header(9, 8 * n if frame is None else frame, 0, 8 * n) + points(150)[:data] + trailer(stamp=77, fmt=fmt)
+
+
+def payload_case(name, data, frame, length, fmt=1):
     return {"name": name, "hex": data.hex(),
             "header": {"frameNumber": 9, "frameLength": frame, "sequenceOffset": 0, "sequenceLength": length},
-            "placement": placed((0, 0, 0), (0, 0, 0, 32767), 77, 0, 0)}
+            "placement": placed((0, 0, 0), (0, 0, 0, 32767), 77, 0, 0, fmt)}
 
 
 write("cloud-payload.json", {"payloads": [
     payload_case("full", payload(150, 240000), 240000, 1200),
     payload_case("partial", payload(3), 24, 24),
     payload_case("one point", payload(1), 8, 8),
+    payload_case("coded: more points than bytes", coded(4000, 1199, 240000), 240000, 32000, 2),
+    payload_case("coded: full", coded(900, 1200, fmt=3), 7200, 7200, 3),
+    payload_case("coded: one byte", coded(1, 1), 8, 8, 2),
+    refused("coded: no data", coded(1, 0), "too-short"),
+    refused("coded: a byte too many", (lambda d: d[:40] + b"\0" + d[40:])(coded(900, 1200)), "trailing-bytes"),
+    refused("coded: no points", header(9, 8, 0, 0) + points(1) + trailer(fmt=2), "bad-length"),
+    refused("coded: more points than the frame", coded(4, 20, 24), "bad-offset"),
+    refused("coded: frame over the limit", coded(4, 20, 4194304 * 8 + 8), "bad-frame-length"),
     refused("nothing", b"", "too-short"),
     refused("a placement alone", trailer(), "bad-length"),
     refused("a byte of data missing", (lambda d: d[:20] + d[21:])(payload(3)), "too-short"),
@@ -353,6 +373,7 @@ estop = robot_session.good({"type": "estop", "latched": True, "by": "operator"})
 robot_session.good({"type": "estop", "latched": True, "by": "robot"}, "estop by the robot")
 robot_session.good({"type": "estop", "latched": False}, "estop released")
 latency = robot_session.good({"type": "latencyFrame", "id": 4, "frameNumber": 901, "points": 30000, "commandMs": 88120.5, "captureMs": 88131})
+cloud_stream = robot_session.good({"type": "cloudStream", "format": "organised", "header": "RlBPQwEBAAA="})
 fault = robot_session.good({"type": "fault", "message": "operator session message: latch: expected boolean"})
 robot_session.common(fault, 4096)
 robot_session.spoil(welcome, ("protocol", 0), ("protocol", 1.5), ("robotId", "Sim"), ("robotId", "-sim"), ("robotId", "x" * 65), ("name", ""),
@@ -363,6 +384,7 @@ robot_session.spoil(lease, ("holder", "me"), ("lease", "a b"), ("lease", 7))
 robot_session.spoil(rejected, ("reason", "because"), ("detail", "x" * 513), ("count", 0), ("sequence", -1))
 robot_session.spoil(estop, ("latched", "yes"), ("by", "me"))
 robot_session.spoil(latency, ("id", -1), ("frameNumber", 2 ** 32), ("points", -1), ("commandMs", ABSENT))
+robot_session.spoil(cloud_stream, ("format", "points64"), ("format", "draco"), ("header", ""), ("header", "a b"), ("header", "A" * 3204))
 robot_session.spoil(fault, ("message", "x" * 513), ("message", 1))
 write("robot-session.json", robot_session.lists())
 
@@ -373,6 +395,9 @@ operator_session.good({"type": "leaseRelease"})
 stop = operator_session.good({"type": "estop", "latch": True})
 operator_session.good({"type": "estop", "latch": False}, "estop release")
 stream = operator_session.good({"type": "stream", "running": False})
+formats = operator_session.good({"type": "cloudFormats", "formats": ["points64", "organised", "unorganised"]})
+operator_session.good({"type": "cloudFormats", "formats": []}, "cloudFormats: none")
+operator_session.spoil(formats, ("formats", ABSENT), ("formats", ["draco"], "formats.0"), ("formats", ["points64"] * 4))
 operator_session.common(stop, 1024)
 operator_session.spoil(request, ("take", ABSENT), ("take", 0), ("limits", limits, ""))
 operator_session.spoil(stop, ("latch", "true"), ("latch", ABSENT), ("type", "eStop"))

@@ -1,6 +1,8 @@
 /** What the main thread and the capture worker say to each other. */
 import type { Twist } from '@farpoint/protocol';
-import type { EncodedFrame, SamplingOptions } from '../encode/frame-encoder.ts';
+import type { CodedStream } from '../encode/coded-frame-encoder.ts';
+import type { EncodedFrame, SamplingOptions } from '../encode/encoded-frame.ts';
+import type { FrameAudience } from '../encode/frame-formats.ts';
 import type { PlanPolicy } from '../encode/plan.ts';
 import type { SourceDescription, SourceState } from './frame-source.ts';
 import type { SourceOptions } from './open-source.ts';
@@ -29,7 +31,21 @@ export interface CaptureBudget {
    * `clusterId` is one such wish.
    */
   probe: { clusterId: number; bytes: number } | null;
+  /** Those who watch read coded formats: the rate is theirs. */
+  coded: boolean;
+  /** Beside a coded stream: what those may be sent who read `points64` only, bit/s; `null` where there are none. */
+  plainBitsPerSecond: number | null;
 }
+
+/** Nobody watches. */
+export const NO_BUDGET: CaptureBudget = {
+  targetBitsPerSecond: 0,
+  overheadBytes: 0,
+  streaming: false,
+  probe: null,
+  coded: false,
+  plainBitsPerSecond: null,
+};
 
 export type CaptureRequest =
   /** The velocity from now on; repeated at least every watchdog time while it is not zero. */
@@ -44,6 +60,7 @@ export type CaptureRequest =
 /** One frame, ready to send; `buffer` is transferred. */
 export interface CapturedFrame extends EncodedFrame {
   type: 'frame';
+  audience: FrameAudience;
   /** Packets in slots of 1248 bytes. */
   buffer: ArrayBuffer;
   latencyTest: boolean;
@@ -61,6 +78,8 @@ export interface CapturedFrame extends EncodedFrame {
 export type CaptureReport =
   | { type: 'ready'; description: SourceDescription }
   | CapturedFrame
+  /** What receivers of the coded frames that follow need. */
+  | { type: 'stream'; stream: CodedStream }
   /** The robot's state, and frames that found no free buffer so far. */
   | { type: 'state'; timeMs: number; state: SourceState; framesWithoutBuffer: number; watchdogStops: number }
   /** Something is wrong with the source that may pass. */

@@ -6,16 +6,23 @@ import { parentPort, workerData } from 'node:worker_threads';
 import { type Twist, zeroTwist } from '@farpoint/protocol';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { monotonicMs, threadCpuMs } from '../clock.ts';
-import { FrameEncoder } from '../encode/frame-encoder.ts';
+import type { CodedStream } from '../encode/coded-frame-encoder.ts';
+import { FrameFormats } from '../encode/frame-formats.ts';
 import { SLOT_BYTES } from '../encode/packetiser.ts';
 import { FramePlanner } from '../encode/plan.ts';
 import { BufferPool } from './buffer-pool.ts';
-import type { CaptureBudget, CaptureOptions, CaptureReport, CaptureRequest } from './capture-messages.ts';
+import {
+  type CaptureBudget,
+  type CaptureOptions,
+  type CaptureReport,
+  type CaptureRequest,
+  NO_BUDGET,
+} from './capture-messages.ts';
 import type { CaptureWishes } from './frame-source.ts';
 import { openSource } from './open-source.ts';
 
-/** One frame being sent, one waiting, one being filled. */
-const BUFFERS = 3;
+/** One frame being sent, one waiting, one being filled; and one more, as some frames go out in two formats. */
+const BUFFERS = 4;
 const STATE_INTERVAL_MS = 20;
 /** Longest time between two looks at the source, ms. */
 const MAX_WAIT_MS = 10;
@@ -32,12 +39,6 @@ const send = (report: CaptureReport, transfer: ArrayBuffer[] = []) => port.postM
 const source = await openSource(options.source);
 const { description } = source;
 const codec = await loadCodecFromDisk();
-const encoder = new FrameEncoder(
-  codec,
-  description,
-  { ...options.sampling, depthMeasure: description.depthMeasure },
-  monotonicMs,
-);
 const pool = new BufferPool(BUFFERS, Math.ceil(description.capacity / 150) * SLOT_BYTES);
 const planner = new FramePlanner({
   policy: options.plan,
@@ -48,13 +49,17 @@ const planner = new FramePlanner({
   floorFraction: options.floorFraction,
   mostPoints: options.mostPoints,
 });
+const formats = new FrameFormats(codec, description, options.sampling, planner, monotonicMs);
 /** Weight of the latest frame in the mean of what a frame costs. */
 const SMOOTHING = 0.1;
 
 let twist: Twist = zeroTwist();
 let twistAtMs = monotonicMs();
 let standing = true;
-let budget: CaptureBudget = { targetBitsPerSecond: 0, overheadBytes: 0, streaming: false, probe: null };
+let budget: CaptureBudget = NO_BUDGET;
+let frameNumber = 0;
+/** The stream that the main thread knows. */
+let stream: CodedStream | null = null;
 /** The probe that the last enlarged frame was made for. */
 let probeCluster = 0;
 let workMs = 0;
@@ -153,12 +158,10 @@ function wishes(): CaptureWishes {
 function captureFrame(now: number): number | null {
   const buffer = pool.take();
   if (buffer === null) return null;
+  pool.release(buffer);
   const cpuBefore = threadCpuMs();
-  const frame = source.capture(now, wishes(), encoder.room);
-  if (frame === null) {
-    pool.release(buffer);
-    return null;
-  }
+  const frame = source.capture(now, wishes(), formats.room(budget.coded));
+  if (frame === null) return null;
   lastFault = '';
   const { captureMs: capturedAtMs } = frame;
   const captureMs = monotonicMs() - now;
@@ -166,14 +169,21 @@ function captureFrame(now: number): number | null {
   const { probe } = budget;
   const probeBytes = probe === null || probe.clusterId === probeCluster ? 0 : probe.bytes;
   if (probe !== null) probeCluster = probe.clusterId;
-  const rawPoints = frame.form === 'points' ? frame.count : frame.depth.length;
-  const { points, framesPerSecond } = planner.plan({ ...budget, probeBytes, rawPoints, workMs });
-  const intervalMs = 1000 / framesPerSecond;
   const green = latencyTest && frame.latencyTest !== false;
-  const encoded = encoder.encode(frame, points, green);
-  encoder.copyPackets(new Uint8Array(buffer), encoded.packets);
-  const times = { intervalMs, capturedAtMs, captureMs, captureCpuMs, readyMs: monotonicMs() };
-  send({ type: 'frame', ...encoded, buffer, latencyTest: green, ...times }, [buffer]);
+  const request = { frameNumber, budget, probeBytes, workMs, latencyTest: green };
+  const { intervalMs, frames } = formats.encode(frame, request);
+  frameNumber = (frameNumber + 1) >>> 0;
+  if (formats.stream !== null && formats.stream !== stream) {
+    stream = formats.stream;
+    send({ type: 'stream', stream });
+  }
+  const times = { intervalMs, capturedAtMs, captureMs, captureCpuMs, latencyTest: green };
+  for (const { encoded, audience, packets } of frames) {
+    const buffer = pool.take();
+    if (buffer === null) break;
+    packets.copyPackets(new Uint8Array(buffer), encoded.packets);
+    send({ type: 'frame', ...encoded, audience, buffer, ...times, readyMs: monotonicMs() }, [buffer]);
+  }
   if (green) latencyTest = false;
   workMs += (threadCpuMs() - cpuBefore - workMs) * (workMs === 0 ? 1 : SMOOTHING);
   return intervalMs;

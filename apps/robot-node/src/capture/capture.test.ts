@@ -2,9 +2,10 @@ import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { emptyPlacement, emptyPointPacketHeader, readCloudPayload, zeroTwist } from '@farpoint/protocol';
 import { afterEach, describe, expect, it } from 'vitest';
-import { payloadBytes, SLOT_BYTES } from '../encode/packetiser.ts';
+import { SLOT_BYTES, slotPayloadBytes } from '../encode/packetiser.ts';
 import { Capture, CaptureError, type CaptureState } from './capture.ts';
 import type { CapturedFrame, CaptureOptions } from './capture-messages.ts';
+import { NO_BUDGET } from './capture-messages.ts';
 import type { SourceOptions } from './open-source.ts';
 
 const open: Capture[] = [];
@@ -53,7 +54,11 @@ function checkPayloads(frame: CapturedFrame): void {
   const header = emptyPointPacketHeader();
   const placement = emptyPlacement();
   for (let i = 0; i < frame.packets; i++) {
-    const view = new DataView(frame.buffer, i * SLOT_BYTES, payloadBytes(frame.points, i));
+    const view = new DataView(
+      frame.buffer,
+      i * SLOT_BYTES,
+      slotPayloadBytes(new Uint8Array(frame.buffer), i),
+    );
     expect(readCloudPayload(view, header, placement)).toBeNull();
     expect(header.frameNumber).toBe(frame.frameNumber);
   }
@@ -62,7 +67,7 @@ function checkPayloads(frame: CapturedFrame): void {
 describe('capture thread', () => {
   it('gives frames that can be sent as they are, numbered, on the robot’s clock', async () => {
     const capture = await start(sim);
-    capture.setBudget({ targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true, probe: null });
+    capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true });
     const [a, b] = (await frames(capture, 2)) as [CapturedFrame, CapturedFrame];
     for (const frame of [a, b]) {
       expect(frame.points).toBeGreaterThan(0);
@@ -74,7 +79,7 @@ describe('capture thread', () => {
 
   it('keeps to the point budget', async () => {
     const capture = await start(sim, { mostPoints: 450 });
-    capture.setBudget({ targetBitsPerSecond: 1e9, overheadBytes: 68, streaming: true, probe: null });
+    capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 1e9, overheadBytes: 68, streaming: true });
     const [frame] = await frames(capture, 1);
     expect(frame?.points).toBe(450);
   });
@@ -91,18 +96,18 @@ describe('capture thread', () => {
 
   it('holds no more frames than it has buffers, and goes on when one comes back', async () => {
     const capture = await start(sim);
-    capture.setBudget({ targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true, probe: null });
-    const held = await frames(capture, 3, false);
+    capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true });
+    const held = await frames(capture, 4, false);
     await stateWhere(capture, () => capture.framesWithoutBuffer > 0);
     const next = frames(capture, 1);
     capture.recycle((held[0] as CapturedFrame).buffer);
     const [frame] = await next;
-    expect(frame?.frameNumber).toBe(3);
+    expect(frame?.frameNumber).toBe(4);
   });
 
   it('makes the next captured frame green when asked', async () => {
     const capture = await start(sim);
-    capture.setBudget({ targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true, probe: null });
+    capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true });
     capture.requestLatencyTest();
     const got = await frames(capture, 3);
     expect(got.filter((frame) => frame.latencyTest)).toHaveLength(1);
@@ -138,7 +143,7 @@ describe.skipIf(!existsSync(clouds))('recorded sources (skipped without ../share
   ])('plays %j', async (source, width, height) => {
     const capture = await start(source);
     expect(capture.description).toMatchObject({ width, height, drives: false });
-    capture.setBudget({ targetBitsPerSecond: 200e6, overheadBytes: 68, streaming: true, probe: null });
+    capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 200e6, overheadBytes: 68, streaming: true });
     const got = await frames(capture, 6);
     for (const frame of got) {
       expect(frame.points).toBeGreaterThan(10_000);

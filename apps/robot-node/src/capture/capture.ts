@@ -1,5 +1,6 @@
 import { Worker } from 'node:worker_threads';
 import type { Twist } from '@farpoint/protocol';
+import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type {
   CaptureBudget,
   CapturedFrame,
@@ -24,6 +25,8 @@ export class Capture {
   readonly description: SourceDescription;
   /** Gets each frame; it must give the buffer back with `recycle`. */
   onFrame: ((frame: CapturedFrame) => void) | null = null;
+  /** Gets what receivers of coded frames need, before the first of them and at each change. */
+  onStream: ((stream: CodedStream) => void) | null = null;
   onState: ((state: CaptureState) => void) | null = null;
   /** Called once, if the thread ends without having been asked to. */
   onFailure: ((error: CaptureError) => void) | null = null;
@@ -45,6 +48,8 @@ export class Capture {
       if (report.type === 'frame') {
         if (this.onFrame === null) this.recycle(report.buffer);
         else this.onFrame(report);
+      } else if (report.type === 'stream') {
+        this.onStream?.(report.stream);
       } else if (report.type === 'state') {
         this.framesWithoutBuffer = report.framesWithoutBuffer;
         this.watchdogStops = report.watchdogStops;

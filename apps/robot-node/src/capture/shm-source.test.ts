@@ -12,9 +12,10 @@ import {
 } from '@farpoint/shared-memory';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { monotonicMs } from '../clock.ts';
-import { payloadBytes } from '../encode/packetiser.ts';
+import { slotPayloadBytes } from '../encode/packetiser.ts';
 import { Capture } from './capture.ts';
 import type { CapturedFrame } from './capture-messages.ts';
+import { NO_BUDGET } from './capture-messages.ts';
 
 let folder: string;
 const open: { close(): unknown }[] = [];
@@ -44,7 +45,7 @@ async function start(layout: 'farpoint' | 'reference', waitMs = 10_000): Promise
   return keep(capture);
 }
 
-const BUDGET = { targetBitsPerSecond: 123_000_000, overheadBytes: 68, streaming: true, probe: null };
+const BUDGET = { ...NO_BUDGET, targetBitsPerSecond: 123_000_000, overheadBytes: 68, streaming: true };
 
 /** Calls `produce` again and again until such a frame comes out; what came before is no matter. */
 async function frameWhere(
@@ -73,7 +74,7 @@ function firstPoint({ buffer }: CapturedFrame): number[] {
 
 function placementOf(frame: CapturedFrame) {
   const placement = emptyPlacement();
-  const view = new DataView(frame.buffer, 0, payloadBytes(frame.points, 0));
+  const view = new DataView(frame.buffer, 0, slotPayloadBytes(new Uint8Array(frame.buffer), 0));
   expect(readCloudPayload(view, emptyPointPacketHeader(), placement)).toBeNull();
   return placement;
 }

@@ -1,4 +1,4 @@
-/** Puts header and placement around the data blocks that the codec has left in a frame's slots. */
+/** Puts header and placement around the data that a codec has left in a frame's slots. */
 import {
   BYTES_PER_POINT,
   MAX_POINT_DATA_BYTES,
@@ -10,27 +10,66 @@ import {
   writePointPacketHeader,
 } from '@farpoint/protocol';
 
-/** One packet's room: header, block and placement (1244 bytes), rounded up to a multiple of 8. */
+/** One packet's room: header, data and placement (at most 1244 bytes), and in the last two bytes the payload's length. */
 export const SLOT_BYTES = 1248;
-const FULL_PAYLOAD_BYTES = POINT_PACKET_HEADER_BYTES + MAX_POINT_DATA_BYTES + PLACEMENT_BYTES;
+/** Where a codec puts a slot's data. */
+export const SLOT_DATA_OFFSET = POINT_PACKET_HEADER_BYTES;
+const LENGTH_OFFSET = SLOT_BYTES - 2;
 
-/** Bytes of a frame's packet `index` of `packets`, the frame having `points` points. */
-export function payloadBytes(points: number, index: number): number {
-  const rest = points * BYTES_PER_POINT - index * MAX_POINT_DATA_BYTES;
-  return rest >= MAX_POINT_DATA_BYTES
-    ? FULL_PAYLOAD_BYTES
-    : POINT_PACKET_HEADER_BYTES + rest + PLACEMENT_BYTES;
+/** The payload of a slot, without a copy. */
+export function slotPayload(slots: Uint8Array, index: number): Uint8Array {
+  const at = index * SLOT_BYTES;
+  return slots.subarray(at, at + slotPayloadBytes(slots, index));
 }
 
-/** Bytes of all of a frame's payloads together. */
-export function framePayloadBytes(points: number): number {
-  return points * BYTES_PER_POINT + packetCountOf(points) * (POINT_PACKET_HEADER_BYTES + PLACEMENT_BYTES);
+export function slotPayloadBytes(slots: Uint8Array, index: number): number {
+  const at = index * SLOT_BYTES + LENGTH_OFFSET;
+  return (slots[at] as number) | ((slots[at + 1] as number) << 8);
+}
+
+/** Where in its frame a slot's packet lies, as its header says. */
+export function slotSequenceOffset(slots: Uint8Array, index: number): number {
+  return new DataView(slots.buffer, slots.byteOffset + index * SLOT_BYTES).getUint32(8, true);
+}
+
+/** Completes the packets of one frame in place: tell it how many points and bytes of data each slot holds. */
+export class Packetiser {
+  readonly #header = { frameNumber: 0, frameLength: 0, sequenceOffset: 0, sequenceLength: 0 };
+  #view: DataView = new DataView(new ArrayBuffer(0));
+  #placement: Placement | null = null;
+  #count = 0;
+  #point = 0;
+
+  /**
+   * @param slots packet i at byte i × SLOT_BYTES, its data already at SLOT_DATA_OFFSET of it
+   * @param points of the whole frame
+   */
+  begin(slots: Uint8Array, frameNumber: number, points: number, placement: Placement): void {
+    this.#view = new DataView(slots.buffer, slots.byteOffset, slots.byteLength);
+    this.#header.frameNumber = frameNumber;
+    this.#header.frameLength = points * BYTES_PER_POINT;
+    this.#placement = placement;
+    this.#count = 0;
+    this.#point = 0;
+  }
+
+  /** The next slot. */
+  add(points: number, dataBytes: number): void {
+    const at = this.#count * SLOT_BYTES;
+    const header = this.#header;
+    header.sequenceOffset = this.#point * BYTES_PER_POINT;
+    header.sequenceLength = points * BYTES_PER_POINT;
+    writePointPacketHeader(this.#view, at, header);
+    writePlacement(this.#view, at + SLOT_DATA_OFFSET + dataBytes, this.#placement as Placement);
+    this.#view.setUint16(at + LENGTH_OFFSET, SLOT_DATA_OFFSET + dataBytes + PLACEMENT_BYTES, true);
+    this.#point += points;
+    this.#count++;
+  }
 }
 
 /**
- * Completes the packets of one frame in place.
+ * A whole frame of `points64`.
  *
- * @param slots packet i at byte i × SLOT_BYTES, its data block already at byte 16 of it
  * @returns the number of packets
  */
 export function completePackets(
@@ -38,17 +77,13 @@ export function completePackets(
   frameNumber: number,
   points: number,
   placement: Placement,
+  packetiser = new Packetiser(),
 ): number {
-  const view = new DataView(slots.buffer, slots.byteOffset, slots.byteLength);
-  const frameLength = points * BYTES_PER_POINT;
+  packetiser.begin(slots, frameNumber, points, placement);
   const packets = packetCountOf(points);
-  const header = { frameNumber, frameLength, sequenceOffset: 0, sequenceLength: 0 };
   for (let i = 0; i < packets; i++) {
-    const at = i * SLOT_BYTES;
-    header.sequenceOffset = i * MAX_POINT_DATA_BYTES;
-    header.sequenceLength = Math.min(MAX_POINT_DATA_BYTES, frameLength - header.sequenceOffset);
-    writePointPacketHeader(view, at, header);
-    writePlacement(view, at + POINT_PACKET_HEADER_BYTES + header.sequenceLength, placement);
+    const bytes = Math.min(MAX_POINT_DATA_BYTES, points * BYTES_PER_POINT - i * MAX_POINT_DATA_BYTES);
+    packetiser.add(bytes / BYTES_PER_POINT, bytes);
   }
   return packets;
 }

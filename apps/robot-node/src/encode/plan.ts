@@ -46,14 +46,26 @@ export interface FramePlan {
   points: number;
 }
 
+/** The same for a coded format, whose bits a point depend on the frame. */
+export interface CodedPlan {
+  framesPerSecond: number;
+  /** For the data of all packets. */
+  budgetBytes: number;
+}
+
 /** Fewer points do not make a picture of a room: rather fewer frames. */
 const LEAST_POINTS = 3000;
+const LEAST_BYTES = LEAST_POINTS;
 /** … but the world must still move, frames a second. */
 const LEAST_FRAMES_PER_SECOND = 10;
 /** A higher frame rate is chosen only where it can be kept when the link gives a little less. */
 const UPWARD_MARGIN = 1.25;
 /** The capture thread also reads commands, moves the robot and must not fall behind: share of its time for frames. */
 const MOST_LOAD = 0.7;
+/** With so many bits for each point of the raw cloud a coded frame is whole, if coarse: below, rather fewer frames. */
+const WHOLE_BITS = 1.6;
+/** With so many nothing is gained that could be seen: what the link has beyond them makes it quicker, not finer. */
+const ENOUGH_BITS = 3.2;
 /** A probe may make a frame so much larger than planned, at most. */
 const MOST_PROBE_FACTOR = 8;
 
@@ -85,10 +97,17 @@ export class FramePlanner {
       return { framesPerSecond, points: Math.min(planned, most) };
     }
     const framesPerSecond = this.#chooseFrameRate(pointBitsPerSecond / 64, Math.min(most, rawPoints), input);
+    return { framesPerSecond, points: this.pointsAt(framesPerSecond, input) };
+  }
+
+  /** Points of a frame at this frame rate: what the rate allows, or the train that the rate control waits for. */
+  pointsAt(framesPerSecond: number, input: PlanInput): number {
+    const wireBytes = wireBytesOfPacket(input.overheadBytes);
+    const most = Math.floor(this.#options.mostPoints / POINTS_PER_PACKET) * POINTS_PER_PACKET;
     const points = maxPoints({
-      bitsPerSecond: pointBitsPerSecond,
+      bitsPerSecond: (input.targetBitsPerSecond * MAX_POINT_DATA_BYTES) / wireBytes,
       framesPerSecond,
-      points: rawPoints,
+      points: input.rawPoints,
       floorFraction: 0,
     });
     const probePackets = Math.min(
@@ -96,13 +115,39 @@ export class FramePlanner {
       (MOST_PROBE_FACTOR * Math.max(points, LEAST_POINTS)) / POINTS_PER_PACKET,
     );
     const wanted = Math.max(points, Math.floor(probePackets) * POINTS_PER_PACKET, POINTS_PER_PACKET);
-    return { framesPerSecond, points: Math.min(wanted, most) };
+    return Math.min(wanted, most);
+  }
+
+  /**
+   * The plan for a frame in a coded format: as many frames a second as are whole, each as fine as the rate allows.
+   */
+  planCoded(input: PlanInput): CodedPlan {
+    const { rawPoints } = input;
+    const wireBytes = wireBytesOfPacket(input.overheadBytes);
+    const dataShare = MAX_POINT_DATA_BYTES / wireBytes;
+    const bitsPerSecond = input.targetBitsPerSecond * dataShare;
+    const framesPerSecond = this.#chooseFrameRate(bitsPerSecond / WHOLE_BITS, rawPoints, input, rawPoints);
+    const enough = (rawPoints * ENOUGH_BITS) / 8;
+    const afforded = Math.min(bitsPerSecond / 8 / framesPerSecond, enough);
+    const probed = Math.min(
+      input.probeBytes * dataShare,
+      MOST_PROBE_FACTOR * Math.max(afforded, LEAST_BYTES),
+    );
+    return {
+      framesPerSecond,
+      budgetBytes: Math.floor(Math.max(afforded, probed, MAX_POINT_DATA_BYTES)),
+    };
   }
 
   /** The source's rate, or a whole fraction of it: cameras can be asked for every second picture, not for every 1.3rd. */
-  #chooseFrameRate(pointsPerSecond: number, mostPoints: number, { workMs }: PlanInput): number {
+  #chooseFrameRate(
+    pointsPerSecond: number,
+    mostPoints: number,
+    { workMs }: PlanInput,
+    wanted = LEAST_POINTS,
+  ): number {
     const { mostFramesPerSecond } = this.#options;
-    const least = Math.min(LEAST_POINTS, mostPoints);
+    const least = Math.min(wanted, mostPoints);
     const affordable = workMs > 0 ? (1000 * MOST_LOAD) / workMs : Number.POSITIVE_INFINITY;
     for (let divisor = 1; ; divisor++) {
       const candidate = mostFramesPerSecond / divisor;

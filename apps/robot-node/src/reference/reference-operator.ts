@@ -53,6 +53,8 @@ export class ReferenceOperator implements FrameTarget {
   readonly id: string;
   readonly peer: ReferencePeer;
   readonly driver: ReferenceDriver;
+  /** The reference profile has one format. */
+  readonly takesCoded = false;
   sender: StreamSender | null = null;
   readonly #host: ReferenceHost;
   readonly #sendLoop: SendLoop;

@@ -34,6 +34,7 @@ function capturedFrame(frameNumber: number, points: number): CapturedFrame {
     latencyTest: false,
     saturated: false,
     sensor: 0,
+    format: 'points64',
   });
   return {
     buffer: slots.buffer,

@@ -1,5 +1,6 @@
 import { type RateController, RateMeter } from '@farpoint/congestion';
-import type { IceCandidate, StageTimings, StreamStatus } from '@farpoint/protocol';
+import { CLOUD_FORMATS, type IceCandidate, type StageTimings, type StreamStatus } from '@farpoint/protocol';
+import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import { StageTimer } from '../telemetry/stage-timer.ts';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
 import { OperatorPeer, type OperatorPeerOptions, type PeerEnd } from '../transport/operator-peer.ts';
@@ -30,8 +31,10 @@ export interface ConnectedOperatorOptions {
 export interface ConnectedOperatorEvents {
   onCandidate(candidate: IceCandidate): void;
   onConnected(): void;
-  /** Streaming began, paused, or may go at another rate. */
+  /** Streaming began, paused, or may go at another rate or in another format. */
   onBudgetChanged(): void;
+  /** The operator reads coded formats now: it needs to know the stream. */
+  onTakesCoded(): void;
   /** A green frame did not get through: another is needed. */
   onLatencyFrameLost(): void;
   onEnded(end: PeerEnd, detail: string): void;
@@ -46,6 +49,8 @@ export class ConnectedOperator implements FrameTarget {
   readonly peer: OperatorPeer;
   readonly restarts = new RestartPolicy();
   sender: StreamSender | null = null;
+  /** The operator has said that it reads all our formats. */
+  takesCoded = false;
   /** Nothing is heard: points would go nowhere. */
   quiet = false;
   readonly #host: SessionHost;
@@ -90,6 +95,11 @@ export class ConnectedOperator implements FrameTarget {
     };
     this.session.onStreamSwitch = (running) => {
       if (!running) this.sender?.clear();
+      events.onBudgetChanged();
+    };
+    this.session.onCloudFormats = (formats) => {
+      this.takesCoded = CLOUD_FORMATS.every((format) => formats.includes(format));
+      if (this.takesCoded) events.onTakesCoded();
       events.onBudgetChanged();
     };
   }
@@ -160,6 +170,10 @@ export class ConnectedOperator implements FrameTarget {
     }
     this.#lastValidPoints = frame.validPoints;
     this.sender.enqueue(shared);
+  }
+
+  announce({ format, header }: CodedStream): void {
+    this.session.send({ type: 'cloudStream', format, header: Buffer.from(header).toString('base64') });
   }
 
   /** Every 25 ms. */

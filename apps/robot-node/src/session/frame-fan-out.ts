@@ -1,5 +1,6 @@
 import type { Capture } from '../capture/capture.ts';
-import type { CaptureBudget, CapturedFrame } from '../capture/capture-messages.ts';
+import { type CaptureBudget, type CapturedFrame, NO_BUDGET } from '../capture/capture-messages.ts';
+import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { FrameLog } from '../telemetry/frame-log.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { StageTimer } from '../telemetry/stage-timer.ts';
@@ -17,8 +18,12 @@ export interface FrameTarget {
   readonly streaming: boolean;
   /** What points may take of its path, bit/s on the wire. */
   readonly cloudBitsPerSecond: number;
+  /** Reads coded formats. */
+  readonly takesCoded: boolean;
   readonly sender: Pick<StreamSender, 'probeWish' | 'overheadBytes'> | null;
   enqueue(shared: SharedFrame): void;
+  /** What coded frames are decoded with; told to those who read them. */
+  announce?(stream: CodedStream): void;
 }
 
 export interface FanOutOptions {
@@ -31,16 +36,28 @@ export interface FanOutOptions {
   stages: StageTimer;
   frameLog?: FrameLog | undefined;
   now: () => number;
+  /** Coded formats may be used. */
+  mayCode: boolean;
 }
 
 /** One encode for all: each captured frame goes to every operator who wants it, and their paths decide its size. */
 export class FrameFanOut {
   readonly #options: FanOutOptions;
-  #budget: CaptureBudget = { targetBitsPerSecond: -1, overheadBytes: 0, streaming: false, probe: null };
+  #budget: CaptureBudget = NO_BUDGET;
+  #stream: CodedStream | null = null;
 
   constructor(options: FanOutOptions) {
     this.#options = options;
     options.capture.onFrame = (frame) => this.#onFrame(frame);
+    options.capture.onStream = (stream) => {
+      this.#stream = stream;
+      for (const target of options.targets()) this.announceTo(target);
+    };
+  }
+
+  /** Tells what coded frames are decoded with, where there are any and the target reads them. */
+  announceTo(target: FrameTarget): void {
+    if (this.#stream !== null && target.takesCoded) target.announce?.(this.#stream);
   }
 
   /**
@@ -48,14 +65,19 @@ export class FrameFanOut {
    * does. Operators with slower paths skip frames.
    */
   updateBudget(): void {
-    const { capture, targets, driver } = this.#options;
+    const { capture, targets, driver, mayCode } = this.#options;
     const streaming = [...targets()].filter((operator) => operator.streaming);
     const driving = streaming.find((operator) => operator.id === driver());
     const deciding = driving === undefined ? streaming : [driving];
     const rates = deciding.map((operator) => operator.cloudBitsPerSecond);
     // One path at a time can be tried with larger frames: they go to everyone.
     const probe = deciding.length === 1 ? (deciding[0]?.sender?.probeWish ?? null) : null;
+    const coded = mayCode && deciding.length > 0 && deciding.every(({ takesCoded }) => takesCoded);
+    const plain = coded ? streaming.filter(({ takesCoded }) => !takesCoded) : [];
     const next: CaptureBudget = {
+      coded,
+      plainBitsPerSecond:
+        plain.length === 0 ? null : Math.min(...plain.map((operator) => operator.cloudBitsPerSecond)),
       targetBitsPerSecond: rates.length === 0 ? 0 : Math.min(...rates),
       probe: probe === null ? null : { clusterId: probe.clusterId, bytes: probe.bytes },
       overheadBytes: Math.max(0, ...streaming.map((operator) => operator.sender?.overheadBytes ?? 0)),
@@ -66,6 +88,8 @@ export class FrameFanOut {
       next.probe?.clusterId === last.probe?.clusterId &&
       next.targetBitsPerSecond === last.targetBitsPerSecond &&
       next.overheadBytes === last.overheadBytes &&
+      next.coded === last.coded &&
+      next.plainBitsPerSecond === last.plainBitsPerSecond &&
       next.streaming === last.streaming
     ) {
       return;
@@ -86,7 +110,10 @@ export class FrameFanOut {
       counters.framesStale++;
       if (frame.latencyTest) capture.requestLatencyTest();
     } else {
-      for (const target of targets()) target.enqueue(shared);
+      const { audience } = frame;
+      for (const target of targets()) {
+        if (audience === 'everyone' || (audience === 'coded') === target.takesCoded) target.enqueue(shared);
+      }
     }
     shared.release();
     sendLoop.run();

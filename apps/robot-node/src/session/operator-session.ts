@@ -1,5 +1,6 @@
 /** What one operator's messages mean, and what it is told. */
 import {
+  type CloudFormat,
   type Command,
   clockAnswerCodec,
   decodeBandwidth,
@@ -51,6 +52,7 @@ export class OperatorSession {
   onReceiverReport: ((report: ReceiverReport) => void) | null = null;
   onReceiverLimit: ((bitsPerSecond: number) => void) | null = null;
   onStreamSwitch: ((running: boolean) => void) | null = null;
+  onCloudFormats: ((formats: readonly CloudFormat[]) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #rejections = new RejectionReporter();
@@ -191,6 +193,9 @@ export class OperatorSession {
         break;
       case 'stream':
         this.#switchStream(message.running);
+        break;
+      case 'cloudFormats':
+        this.onCloudFormats?.(message.formats);
         break;
     }
   }

@@ -1,6 +1,6 @@
 import type { PacedFrame } from '@farpoint/congestion';
 import type { CapturedFrame } from '../capture/capture-messages.ts';
-import { framePayloadBytes } from '../encode/packetiser.ts';
+import { slotPayloadBytes } from '../encode/packetiser.ts';
 
 /** A frame takes one interval to send; the farthest points of one that takes so many are not waited for. */
 const MOST_INTERVALS = 2;
@@ -24,7 +24,9 @@ export class SharedFrame implements PacedFrame {
     this.frame = frame;
     this.slots = new Uint8Array(frame.buffer);
     this.packets = frame.packets;
-    this.bytes = framePayloadBytes(frame.points) + frame.packets * overheadBytes;
+    let bytes = frame.packets * overheadBytes;
+    for (let i = 0; i < frame.packets; i++) bytes += slotPayloadBytes(this.slots, i);
+    this.bytes = bytes;
     this.rtpTimestamp = Math.floor((frame.capturedAtMs * 48) % 0x1_0000_0000) >>> 0;
     this.maxSpanMs = frame.intervalMs * MOST_INTERVALS;
     this.#recycle = recycle;

@@ -1,7 +1,8 @@
 import { FixedRateController, type RateController, type RateDecision } from '@farpoint/congestion';
+import { emptyPlacement } from '@farpoint/protocol';
 import { describe, expect, it } from 'vitest';
 import type { CapturedFrame } from '../capture/capture-messages.ts';
-import { payloadBytes, SLOT_BYTES } from '../encode/packetiser.ts';
+import { completePackets, SLOT_BYTES } from '../encode/packetiser.ts';
 import type { CloudTransport } from './cloud-transport.ts';
 import { SharedFrame } from './shared-frame.ts';
 import { StreamSender } from './stream-sender.ts';
@@ -50,9 +51,12 @@ function frame(points: number, capturedAtMs = 1000): CapturedFrame {
   const packets = Math.ceil(points / 150);
   const buffer = new ArrayBuffer(packets * SLOT_BYTES);
   const slots = new Uint8Array(buffer);
+  completePackets(slots, 0, points, emptyPlacement());
   for (let i = 0; i < packets; i++) slots[i * SLOT_BYTES] = i;
   return {
     type: 'frame',
+    audience: 'everyone',
+    format: 'points64',
     frameNumber: 0,
     points,
     packets,
@@ -124,7 +128,7 @@ describe('StreamSender', () => {
     runUntil(1000);
     expect(transport.sent.map((packet) => packet.first)).toEqual([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
     expect(transport.sent.map((packet) => packet.bytes)).toEqual(
-      Array.from({ length: 11 }, (_, i) => payloadBytes(1510, i)),
+      Array.from({ length: 11 }, (_, i) => (i < 10 ? 1244 : 16 + 80 + 28)),
     );
     expect(transport.sent.map((packet) => packet.marker)).toEqual([...Array<boolean>(10).fill(false), true]);
     expect(transport.sent.every((packet) => packet.timestamp === 96_000)).toBe(true);

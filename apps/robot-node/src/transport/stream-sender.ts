@@ -15,8 +15,7 @@ import {
   TransportFeedbackError,
   walkRtcp,
 } from '@farpoint/congestion';
-import { MAX_POINT_DATA_BYTES } from '@farpoint/protocol';
-import { payloadBytes, SLOT_BYTES } from '../encode/packetiser.ts';
+import { slotPayload, slotSequenceOffset } from '../encode/packetiser.ts';
 import type { CloudTransport } from './cloud-transport.ts';
 import { FrameFit } from './frame-fit.ts';
 import type { SharedFrame } from './shared-frame.ts';
@@ -163,15 +162,14 @@ export class StreamSender {
       if (first === 0) this.#beganMs = now;
       const { points } = shared.frame;
       for (let i = first; i < first + count; i++) {
-        const bytes = payloadBytes(points, i);
-        const payload = shared.slots.subarray(i * SLOT_BYTES, i * SLOT_BYTES + bytes);
+        const payload = slotPayload(shared.slots, i);
         const marker = i === shared.packets - 1;
         const sequence = transport.send(payload, shared.rtpTimestamp, marker, now, shared.frame.intervalMs);
         if (sequence === null) {
           this.counters.packetsUnsent++;
           continue;
         }
-        const wireBytes = bytes + transport.overheadBytes;
+        const wireBytes = payload.length + transport.overheadBytes;
         this.#feedback.onPacketSent(sequence, wireBytes, now);
         this.#controller.onPacketSent(
           sequence,
@@ -180,7 +178,7 @@ export class StreamSender {
           this.#probeBytesLeft > 0 ? this.#probeCluster : 0,
         );
         this.#probeBytesLeft -= wireBytes;
-        this.onPacketSent?.(shared.frame.frameNumber, i * MAX_POINT_DATA_BYTES, this.#now());
+        this.onPacketSent?.(shared.frame.frameNumber, slotSequenceOffset(shared.slots, i), this.#now());
         this.counters.packetsSent++;
         this.counters.bytesSent += wireBytes;
       }

@@ -1,0 +1,91 @@
+import type { CloudStream } from '@farpoint/protocol';
+import { type Codec, CodecError } from '@farpoint/wasm-codec';
+import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/frame-source.ts';
+import type { EncodedFrame, PacketSource, SamplingOptions } from './encoded-frame.ts';
+import { OrganisedFrameEncoder } from './organised-frame-encoder.ts';
+import { UnorganisedFrameEncoder } from './unorganised-frame-encoder.ts';
+
+/** What receivers need before a format's packets. */
+export interface CodedStream {
+  format: CloudStream['format'];
+  header: Uint8Array;
+}
+
+/** The best of our own formats for a frame: `organised` where it lies on a camera's grid, else `unorganised`. */
+export class CodedFrameEncoder {
+  readonly #codec: Codec;
+  readonly #source: SourceDescription;
+  readonly #sampling: SamplingOptions;
+  readonly #now: () => number;
+  readonly #organised: OrganisedFrameEncoder | null;
+  #unorganised: UnorganisedFrameEncoder | null = null;
+  #last: (PacketSource & { header: Uint8Array | null }) | null = null;
+  #stream: CodedStream | null = null;
+
+  constructor(codec: Codec, source: SourceDescription, sampling: SamplingOptions, now: () => number) {
+    this.#codec = codec;
+    this.#source = source;
+    this.#sampling = sampling;
+    this.#now = now;
+    this.#organised = source.height > 1 ? this.#makeOrganised() : null;
+  }
+
+  /** Where the next frame is best put: into the memory of the encoder of the last. */
+  get room(): CaptureRoom | null {
+    return (this.#last ?? this.#organised)?.room ?? null;
+  }
+
+  /** Of the last frame; another object where it changed. */
+  get stream(): CodedStream | null {
+    return this.#stream;
+  }
+
+  /**
+   * @param budgetBytes for the data of all packets
+   * @param latencyTest makes the whole frame green
+   * @returns `null` where there is no format for this frame but `points64`
+   * @throws {CodecError} for a frame beyond the capacity
+   */
+  encode(
+    frame: SourceFrame,
+    frameNumber: number,
+    budgetBytes: number,
+    latencyTest: boolean,
+  ): EncodedFrame | null {
+    const encoder = this.#encoderFor(frame);
+    if (encoder === null) return null;
+    const encoded = encoder.encode(frame as never, frameNumber, budgetBytes, latencyTest);
+    this.#last = encoder;
+    const { header } = encoder;
+    if (header !== null && header !== this.#stream?.header) {
+      this.#stream = { format: encoded.format as CloudStream['format'], header };
+    }
+    return encoded;
+  }
+
+  copyPackets(into: Uint8Array, packets: number): void {
+    this.#last?.copyPackets(into, packets);
+  }
+
+  #encoderFor(frame: SourceFrame): OrganisedFrameEncoder | UnorganisedFrameEncoder | null {
+    if (this.#organised?.take(frame, this.#source.camera) === true) return this.#organised;
+    if (frame.form === 'images') return null;
+    this.#unorganised ??= new UnorganisedFrameEncoder(
+      this.#codec,
+      this.#source.capacity,
+      this.#sampling,
+      this.#now,
+    );
+    return this.#unorganised;
+  }
+
+  /** `null` for a grid that is larger than the format's. */
+  #makeOrganised(): OrganisedFrameEncoder | null {
+    try {
+      return new OrganisedFrameEncoder(this.#codec, this.#source, this.#sampling, this.#now);
+    } catch (error) {
+      if (error instanceof CodecError) return null;
+      throw error;
+    }
+  }
+}

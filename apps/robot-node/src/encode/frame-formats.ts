@@ -1,0 +1,95 @@
+import type { Codec } from '@farpoint/wasm-codec';
+import type { CaptureBudget } from '../capture/capture-messages.ts';
+import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/frame-source.ts';
+import { CodedFrameEncoder, type CodedStream } from './coded-frame-encoder.ts';
+import type { EncodedFrame, PacketSource, SamplingOptions } from './encoded-frame.ts';
+import type { FramePlanner } from './plan.ts';
+import { Points64FrameEncoder } from './points64-frame-encoder.ts';
+
+/** Whom a frame is for: those who read coded formats, those who do not, or everyone. */
+export type FrameAudience = 'coded' | 'plain' | 'everyone';
+
+export interface FormattedFrame {
+  encoded: EncodedFrame;
+  audience: FrameAudience;
+  packets: Pick<PacketSource, 'copyPackets'>;
+}
+
+export interface FormatRequest {
+  frameNumber: number;
+  budget: CaptureBudget;
+  /** Bytes of a train of packets that the rate control waits for; 0 for none. */
+  probeBytes: number;
+  /** Processor time that a frame takes, ms. */
+  workMs: number;
+  latencyTest: boolean;
+}
+
+/** Encodes a frame once for each format that somebody reads. */
+export class FrameFormats {
+  readonly #planner: FramePlanner;
+  readonly #points64: Points64FrameEncoder;
+  readonly #makeCoded: () => CodedFrameEncoder;
+  /** Made when first wanted: it is megabytes of memory. */
+  #coded: CodedFrameEncoder | null = null;
+
+  constructor(
+    codec: Codec,
+    source: SourceDescription,
+    sampling: Omit<SamplingOptions, 'depthMeasure'>,
+    planner: FramePlanner,
+    now: () => number,
+  ) {
+    const options = { ...sampling, depthMeasure: source.depthMeasure };
+    this.#planner = planner;
+    this.#points64 = new Points64FrameEncoder(codec, source, options, now);
+    this.#makeCoded = () => new CodedFrameEncoder(codec, source, options, now);
+  }
+
+  /** What receivers of coded frames need; another object where it changed. */
+  get stream(): CodedStream | null {
+    return this.#coded?.stream ?? null;
+  }
+
+  /** Memory of the codec's own for the next frame. @param coded it will be encoded in a coded format */
+  room(coded: boolean): CaptureRoom {
+    return (coded ? this.#coded?.room : null) ?? this.#points64.room;
+  }
+
+  /**
+   * The packets of each of `frames` lie in its encoder until the next call.
+   *
+   * @throws {CodecError} for a frame beyond the source's capacity
+   */
+  encode(frame: SourceFrame, request: FormatRequest): { intervalMs: number; frames: FormattedFrame[] } {
+    const { frameNumber, budget, probeBytes, workMs, latencyTest } = request;
+    const rawPoints = frame.form === 'points' ? frame.count : frame.depth.length;
+    const input = { ...budget, probeBytes, rawPoints, workMs };
+    const frames: FormattedFrame[] = [];
+    let framesPerSecond: number | null = null;
+    if (budget.coded) {
+      this.#coded ??= this.#makeCoded();
+      const plan = this.#planner.planCoded(input);
+      const encoded = this.#coded.encode(frame, frameNumber, plan.budgetBytes, latencyTest);
+      if (encoded !== null) {
+        framesPerSecond = plan.framesPerSecond;
+        frames.push({ encoded, audience: 'coded', packets: this.#coded });
+      }
+    }
+    if (framesPerSecond === null) {
+      const plan = this.#planner.plan(input);
+      framesPerSecond = plan.framesPerSecond;
+      const encoded = this.#points64.encode(frame, frameNumber, plan.points, latencyTest);
+      frames.push({ encoded, audience: 'everyone', packets: this.#points64 });
+    } else if (budget.plainBitsPerSecond !== null) {
+      // At the frame rate of the others: whoever reads only this has a stream that is wasteful enough.
+      const points = this.#planner.pointsAt(framesPerSecond, {
+        ...input,
+        targetBitsPerSecond: budget.plainBitsPerSecond,
+      });
+      const encoded = this.#points64.encode(frame, frameNumber, points, latencyTest);
+      frames.push({ encoded, audience: 'plain', packets: this.#points64 });
+    }
+    return { intervalMs: 1000 / framesPerSecond, frames };
+  }
+}

@@ -1,0 +1,17 @@
+/**
+ * The formats of a packet's point data. Every peer sends and reads `points64`; the others are used where the operator has
+ * said that it reads them.
+ */
+
+export const CLOUD_FORMATS = ['points64', 'organised', 'unorganised'] as const;
+export type CloudFormat = (typeof CLOUD_FORMATS)[number];
+
+/** The number on the wire (placement.ts). */
+export function cloudFormatNumber(format: CloudFormat): number {
+  return CLOUD_FORMATS.indexOf(format) + 1;
+}
+
+/** `undefined` for a number that names none. */
+export function cloudFormatOf(number: number): CloudFormat | undefined {
+  return CLOUD_FORMATS[number - 1];
+}
