@@ -1,0 +1,208 @@
+/** The bridge on a bad day: lossy links, a service that restarts, robots that come again, flood or lie. */
+import {
+  knownFrame,
+  type ReadFrame,
+  ReferenceRobot,
+  readKnownFrame,
+  SocketPeer,
+} from '@farpoint/conformance';
+import { idealProfile, readCandidate, standIn, UdpLink } from '@farpoint/link-emulator';
+import { LocalStack } from '@farpoint/local-stack';
+import { silentLogger } from '@farpoint/service';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { Bridge } from './bridge.ts';
+import { monotonicMs } from './clock.ts';
+
+const cleanups: (() => unknown)[] = [];
+let stack: LocalStack;
+beforeEach(async () => {
+  stack = await LocalStack.start({ robots: [] });
+  cleanups.push(() => stack.stop());
+}, 30_000);
+afterEach(async () => {
+  for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
+}, 30_000);
+
+async function robot(
+  name: string,
+  lead?: (side: 'robot' | 'operator', candidate: string) => Promise<string>,
+) {
+  const url = `ws://127.0.0.1:${stack.ports.referenceRobot}`;
+  const made = await ReferenceRobot.register(url, name, lead === undefined ? {} : { lead });
+  cleanups.push(() => made.close());
+  return made;
+}
+
+async function bridge(reorderMs = 20): Promise<{ made: Bridge; streaming: SocketPeer; control: SocketPeer }> {
+  const made = await Bridge.open(
+    {
+      signaling: `ws://127.0.0.1:${stack.ports.referenceClient}/`,
+      host: '127.0.0.1',
+      controlPort: 0,
+      telemetryPort: 0,
+      streamingPort: 0,
+      allowedOrigins: [],
+      maxRobots: 100,
+      maxPoints: 200_000,
+      reorderMs,
+      startBitsPerSecond: 100e6,
+      maxBitsPerSecond: 100e6,
+    },
+    silentLogger(),
+    monotonicMs,
+  );
+  cleanups.push(() => made.close());
+  const open = async (port: number) => {
+    const peer = await SocketPeer.open(`ws://127.0.0.1:${port}/`);
+    cleanups.push(() => peer.close());
+    return peer;
+  };
+  return { made, streaming: await open(made.ports.streaming), control: await open(made.ports.control) };
+}
+
+/** Sends frames from `from` on, 50 a second, until the returned function is called. */
+function stream(sender: ReferenceRobot, from: number, points = 600): () => number {
+  let frame = from;
+  const timer = setInterval(() => sender.sendFrame(knownFrame(frame++, points)), 20);
+  cleanups.push(() => clearInterval(timer));
+  return () => {
+    clearInterval(timer);
+    return frame;
+  };
+}
+
+/** The next frame of these numbers. */
+async function nextFrame(streaming: SocketPeer, from: number, to = from + 10_000): Promise<ReadFrame> {
+  for (;;) {
+    const read = readKnownFrame(await streaming.bytes());
+    if (read.frame >= from && read.frame < to) return read;
+  }
+}
+
+describe('bridge', { timeout: 30_000 }, () => {
+  it('on a link that loses, reorders and doubles packets: no point in a wrong frame or place, none twice', async () => {
+    const profile = {
+      ...idealProfile,
+      delayMs: 2,
+      loss: 0.02,
+      reorder: { probability: 0.05, extraMs: 3 },
+      duplicate: 0.05,
+    };
+    const link = new UdpLink({ up: { profile }, down: { profile: idealProfile }, seed: 5 });
+    cleanups.push(() => link.close());
+    const lead = async (side: 'robot' | 'operator', candidate: string) => {
+      const read = readCandidate(candidate);
+      return typeof read === 'string' ? candidate : standIn(read, await link.standInFor(side, read.endpoint));
+    };
+    const shown = await robot('shown', lead);
+    const { made, streaming } = await bridge();
+    await shown.heard('start');
+    const points = 12_000;
+    const frames: ReadFrame[] = [];
+    const stop = stream(shown, 0, points);
+    while (frames.length < 60) frames.push(readKnownFrame(await streaming.bytes()));
+    stop();
+    expect(link.packets).toBeGreaterThan(60 * 80);
+    for (const [i, { frame, places, strays }] of frames.entries()) {
+      expect(strays).toBe(0);
+      expect(new Set(places).size).toBe(places.length);
+      // In their own order, and frame after frame.
+      expect(places.every((place, at) => at === 0 || place > (places[at - 1] as number))).toBe(true);
+      if (i > 0) expect(frame).toBe((frames[i - 1] as ReadFrame).frame + 1);
+    }
+    const received = frames.reduce((sum, { places }) => sum + places.length, 0);
+    // Two in a hundred were lost; what was asked for again came in time but for few.
+    expect(received / (frames.length * points)).toBeGreaterThan(0.97);
+    const { shown: connection } = made.roster;
+    expect(connection?.packetsRecovered).toBeGreaterThan(0);
+    // Every point that came, in time, was given out.
+    const { drops } = connection!.assembler;
+    expect(Object.keys(drops).filter((reason) => reason !== 'duplicate' && reason !== 'late')).toEqual([]);
+  });
+
+  it('goes on showing its robot while signaling is away, and finds it again by its name', async () => {
+    const shown = await robot('shown');
+    const { made, streaming } = await bridge();
+    await shown.heard('start');
+    const stop = stream(shown, 0);
+    await nextFrame(streaming, 0);
+    await stack.signaling.kill();
+    await stack.startSignaling();
+    // A robot of another name has its old id now.
+    const other = await robot('other');
+    expect(other.id).toBe(shown.id);
+    await other.heard('stop');
+    const reached = stop();
+    shown.sendFrame(knownFrame(reached, 600));
+    expect((await nextFrame(streaming, reached)).strays).toBe(0);
+    // It comes back as another registration: one connection is enough.
+    const again = await robot('shown');
+    await again.heard('start');
+    again.sendFrame(knownFrame(20_000, 600));
+    expect((await nextFrame(streaming, 20_000)).frame).toBe(20_000);
+    expect(made.roster.size).toBe(2);
+  });
+
+  it('lets a robot go whose registration and points have both ended', async () => {
+    const shown = await robot('shown');
+    const { made, control } = await bridge();
+    await shown.heard('start');
+    await shown.close();
+    await control.message({ type: 'updateRobots', robots: null });
+    expect(made.roster.size).toBe(0);
+  });
+
+  it('takes another connection that its robot offers under the same id', async () => {
+    const shown = await robot('shown');
+    const { streaming } = await bridge();
+    await shown.heard('start');
+    shown.sendFrame(knownFrame(0, 600));
+    await nextFrame(streaming, 0);
+    await shown.reconnect();
+    await shown.heard('start');
+    // Its frames count from 0 again.
+    shown.sendFrame(knownFrame(0, 300));
+    expect((await nextFrame(streaming, 0)).places.length).toBe(300);
+  });
+
+  it('shows its robot while another floods it and heeds no word, and a third registers over and over', async () => {
+    const shown = await robot('shown');
+    const { made, streaming } = await bridge();
+    await shown.heard('start');
+    const flooder = await robot('flooder');
+    await flooder.heard('stop');
+    const flood = setInterval(() => {
+      flooder.sendFrame(knownFrame(9, 60_000));
+      flooder.signal({ type: 'candidate', robotId: flooder.id, candidate: 'candidate:nonsense' });
+    }, 10);
+    cleanups.push(() => clearInterval(flood));
+    const restless = await SocketPeer.open(`ws://127.0.0.1:${stack.ports.referenceRobot}`);
+    cleanups.push(() => restless.close());
+    for (let i = 0; i < 20; i++) restless.send({ type: 'register', name: 'restless', sdpOffer: shown.offer });
+    const stop = stream(shown, 100);
+    let last = 99;
+    for (let i = 0; i < 30; i++) {
+      const { frame, places, strays } = await nextFrame(streaming, 100);
+      expect([frame > last, places.length, strays]).toEqual([true, 600, 0]);
+      last = frame;
+    }
+    stop();
+    expect(made.roster.selected).toBe(shown.id);
+    expect(made.roster.shown?.packetsRefused).toBe(0);
+  });
+
+  it('does not break off where a page stops reading: it misses frames, others do not', async () => {
+    const shown = await robot('shown');
+    const { made, streaming } = await bridge();
+    const asleep = await SocketPeer.open(`ws://127.0.0.1:${made.ports.streaming}/`);
+    cleanups.push(() => asleep.close());
+    asleep.pause();
+    await shown.heard('start');
+    const before = process.memoryUsage().arrayBuffers;
+    const stop = stream(shown, 0, 30_000);
+    for (let i = 0; i < 100; i++) await nextFrame(streaming, 0);
+    stop();
+    expect(made.framesUnsent).toBeGreaterThan(0);
+    expect(process.memoryUsage().arrayBuffers - before).toBeLessThan(64e6);
+  });
+});
