@@ -1,4 +1,5 @@
 /** The page: what comes from the robot to the screen, what comes from the hands to the robot. */
+import { BridgeLink } from './bridge/bridge-link.ts';
 import { Batch } from './cloud/batch.ts';
 import { CloudView } from './cloud/cloud-view.ts';
 import type { FromCloudWorker, ToCloudWorker } from './cloud/worker-messages.ts';
@@ -7,7 +8,8 @@ import { type PresentRobot, RobotSwitch } from './drive/robot-switch.ts';
 import { ScriptInput } from './drive/script-input.ts';
 import { LatencyProbe } from './latency/latency-probe.ts';
 import type { PacketRecord } from './latency/packet-record.ts';
-import { RobotLink } from './link/robot-link.ts';
+import type { PageLink } from './link/page-link.ts';
+import { RobotLink, type RobotLinkEvents } from './link/robot-link.ts';
 import type { PageParts } from './page-parts.ts';
 import type { TransformSupport } from './peer/encoded-transform.ts';
 import type { Settings } from './settings.ts';
@@ -36,7 +38,7 @@ export class App implements PageParts {
   readonly settings: Settings;
   readonly stage: Stage;
   readonly cloud: CloudView;
-  readonly link: RobotLink;
+  readonly link: PageLink;
   readonly driver: Driver;
   readonly inputs: OperatorInputs;
   readonly script = new ScriptInput();
@@ -190,10 +192,9 @@ export class App implements PageParts {
     return document.hidden || !document.hasFocus();
   }
 
-  #makeLink(transform: TransformSupport): RobotLink {
-    const { signalingUrl, name, token, icePolicy } = this.settings;
-    const options = { signalingUrl, name, token, icePolicy, worker: this.#worker, transform };
-    return new RobotLink(options, {
+  #makeLink(transform: TransformSupport): PageLink {
+    const { signalingUrl, name, token, icePolicy, bridge } = this.settings;
+    const events: RobotLinkEvents = {
       onSignaling: () => this.#status.update(performance.now()),
       onRobots: (robots) => showRobots(robots, (robotId) => this.choose(robotId)),
       onPhase: (phase) => {
@@ -237,7 +238,10 @@ export class App implements PageParts {
       onLatencyFrame: (frame) => this.latency.onRobotFrame(frame),
       onTelemetry: (telemetry) => this.stage.setBody(telemetry.pose),
       onRobotFault: (message) => notify(`The robot says: ${message}`, 'warning'),
-    });
+    };
+    if (bridge !== null) return new BridgeLink(bridge, this.#worker, events);
+    const options = { signalingUrl, name, token, icePolicy, worker: this.#worker, transform };
+    return new RobotLink(options, events);
   }
 
   #listenToWorker(): void {

@@ -17,11 +17,12 @@ const settings = readSettings(new URLSearchParams(search), loadStored(), {
 
 function start(): void {
   const transform = transformSupport();
-  if (typeof RTCPeerConnection === 'undefined') {
+  const isDirect = settings.bridge === null;
+  if (isDirect && typeof RTCPeerConnection === 'undefined') {
     showFailure(failureWords.noWebRtc);
     return;
   }
-  if (transform === 'none') {
+  if (isDirect && transform === 'none') {
     showFailure(failureWords.noTransform);
     return;
   }

@@ -2,7 +2,7 @@
 import type { CloudView } from './cloud/cloud-view.ts';
 import type { Driver } from './drive/driver.ts';
 import type { LatencyProbe } from './latency/latency-probe.ts';
-import type { RobotLink } from './link/robot-link.ts';
+import type { PageLink } from './link/page-link.ts';
 import type { Settings } from './settings.ts';
 import type { PageStatistics } from './status/page-stats.ts';
 import type { Stage } from './view/stage.ts';
@@ -12,7 +12,7 @@ export interface PageParts {
   readonly settings: Settings;
   readonly stage: Stage;
   readonly cloud: CloudView;
-  readonly link: RobotLink;
+  readonly link: PageLink;
   readonly driver: Driver;
   readonly stats: PageStatistics;
   readonly latency: LatencyProbe;

@@ -1,5 +1,7 @@
 /** What the page is told by its address and what it remembers: checked here, trusted elsewhere. */
+
 import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
+import { type BridgeAddress, parseBridge } from './bridge/bridge-settings.ts';
 
 /** What the browser keeps between visits. */
 export interface StoredSettings {
@@ -16,6 +18,8 @@ export interface Settings {
   signalingFault: string | null;
   token: string | undefined;
   name: string;
+  /** Take the stream from a bridge instead of from the robots themselves. */
+  bridge: BridgeAddress | null;
   /** Connect to it as soon as it is there. */
   robot: string | null;
   /** `relay`: by TURN servers only. */
@@ -52,6 +56,7 @@ export function readSettings(
     signalingFault: given !== null && 'fault' in given ? given.fault : null,
     token: token !== undefined && tokenSchema.safeParse(token).success ? token : undefined,
     name: displayNameSchema.safeParse(name).success ? name : 'Operator',
+    bridge: parseBridge(query.get('bridge') ?? ''),
     robot: robot !== undefined && robotIdSchema.safeParse(robot).success ? robot : null,
     icePolicy: query.get('ice') === 'relay' ? 'relay' : 'all',
     canvas: parseCanvas(query.get('canvas')),

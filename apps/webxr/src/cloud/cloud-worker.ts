@@ -4,6 +4,7 @@
  * points and hands them to the page by transfer.
  */
 import { CloudDecoder, loadCodec } from '@farpoint/wasm-codec';
+import { BridgeStream } from '../bridge/bridge-stream.ts';
 import { BATCH_PACKETS, type Batch } from './batch.ts';
 import { BatchPool } from './batch-pool.ts';
 import { ImageExtent } from './image-extent.ts';
@@ -34,6 +35,7 @@ let generation = -1;
 let intake = new PacketIntake();
 let extent = new ImageExtent();
 let batch: Batch | null = null;
+let bridge: BridgeStream | null = null;
 let flushTimer: ReturnType<typeof setTimeout> | undefined;
 let busyMs = 0;
 let busyPackets = 0;
@@ -48,10 +50,25 @@ self.onmessage = (event: MessageEvent<ToCloudWorker>) => {
   if (message.type === 'return') {
     pool.giveBack(message.buffer);
     if (batch !== null && flushTimer === undefined && pool.out < BATCHES_AHEAD) scheduleFlush();
+  } else if (message.type === 'bridge') {
+    takeFromBridge(message.url, message.generation);
   } else {
     void consume(message.readable, message.generation);
   }
 };
+
+function takeFromBridge(url: string, of: number): void {
+  generation = of;
+  bridge ??= new BridgeStream(url, pool, {
+    flush: ({ buffer, packets, pointCount: points }) => {
+      pool.sent();
+      post({ type: 'batch', generation, packets, points, buffer }, [buffer]);
+    },
+  });
+  bridge.restart();
+  intake = bridge.intake;
+  reportedPackets = -1;
+}
 
 self.onrtctransform = (event: RTCTransformEvent) => {
   const { generation } = event.transformer.options as CloudTransformOptions;

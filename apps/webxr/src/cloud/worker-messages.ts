@@ -4,6 +4,8 @@ import type { DropCounts } from './packet-intake.ts';
 export type ToCloudWorker =
   /** A buffer of an earlier batch, empty again. */
   | { type: 'return'; buffer: ArrayBuffer }
+  /** Take frames from a bridge's streaming socket; another generation is another robot. */
+  | { type: 'bridge'; url: string; generation: number }
   /** Where the browser lacks `RTCRtpScriptTransform`: the receiver's stream of encoded frames. */
   | { type: 'stream'; readable: ReadableStream<RTCEncodedAudioFrame>; generation: number };
 

@@ -2,7 +2,7 @@
 import type { LatencyFrame } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 import type { Driver } from '../drive/driver.ts';
-import type { RobotLink } from '../link/robot-link.ts';
+import type { PageLink } from '../link/page-link.ts';
 import { type LatencyFailure, type LatencyResult, LatencyTest } from './latency-test.ts';
 
 export type LatencyReport = LatencyResult & { robot: LatencyFrame | null };
@@ -33,13 +33,13 @@ const TIMEOUT_MS = 3000;
 const REPEAT_MS = 50;
 
 export class LatencyProbe {
-  readonly #link: RobotLink;
+  readonly #link: PageLink;
   readonly #driver: Driver;
   readonly #onResult: (result: LatencyResult) => void;
   readonly #test = new LatencyTest();
   #waiting: Waiting | null = null;
 
-  constructor(link: RobotLink, driver: Driver, onResult: (result: LatencyResult) => void) {
+  constructor(link: PageLink, driver: Driver, onResult: (result: LatencyResult) => void) {
     this.#link = link;
     this.#driver = driver;
     this.#onResult = onResult;

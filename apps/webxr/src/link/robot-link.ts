@@ -20,6 +20,7 @@ import {
   type SignalingState,
 } from '../signaling/operator-signaling.ts';
 import { WebSocketPort } from '../signaling/web-socket-port.ts';
+import type { PageLink } from './page-link.ts';
 
 export interface RobotLinkOptions {
   signalingUrl: string;
@@ -47,7 +48,7 @@ export interface RobotLinkEvents extends RobotSessionEvents {
 const TICK_MS = 250;
 const PROBE_MS = 500;
 
-export class RobotLink {
+export class RobotLink implements PageLink {
   readonly #options: RobotLinkOptions;
   readonly #events: RobotLinkEvents;
   readonly #signaling: OperatorSignaling;

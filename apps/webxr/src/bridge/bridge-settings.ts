@@ -1,0 +1,28 @@
+/** Where the bridge's three sockets are. */
+export interface BridgeAddress {
+  control: string;
+  telemetry: string;
+  streaming: string;
+}
+
+const PORTS = { control: 8085, telemetry: 8090, streaming: 8095 };
+
+/**
+ * `ws://localhost`, or with other ports than usual `ws://localhost:8085,8090,8095` (control, telemetry, streaming).
+ *
+ * @returns `null` where it is no such address
+ */
+export function parseBridge(text: string): BridgeAddress | null {
+  const match =
+    /^(?<scheme>wss?:\/\/)?(?<host>[a-z0-9.-]+|\[[0-9a-f:]+\])(?::(?<ports>\d{1,5},\d{1,5},\d{1,5}))?\/?$/i.exec(
+      text.trim(),
+    );
+  const { scheme = 'ws://', host, ports } = match?.groups ?? {};
+  if (host === undefined) return null;
+  const [control, telemetry, streaming] =
+    ports === undefined ? [PORTS.control, PORTS.telemetry, PORTS.streaming] : ports.split(',').map(Number);
+  if ([control, telemetry, streaming].some((port) => port === undefined || port < 1 || port > 65_535))
+    return null;
+  const at = (port: number | undefined) => `${scheme.toLowerCase()}${host}:${port}/`;
+  return { control: at(control), telemetry: at(telemetry), streaming: at(streaming) };
+}
