@@ -1,4 +1,5 @@
 /** Helpers of this package's tests. */
+import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -47,4 +48,22 @@ export function codeOf(action: () => unknown): SharedMemoryErrorCode {
 /** Resolves once `is` holds; what changes it is another thread or process. */
 export async function until(is: () => boolean): Promise<void> {
   while (!is()) await new Promise((resolve) => setTimeout(resolve, 1));
+}
+
+const root = join(import.meta.dirname, '..', '..', '..', '..');
+export const EXAMPLES = join(root, 'examples');
+
+/** A Python with numpy, as `pnpm test` finds or makes it, or `null`. */
+export function findPython(): string | null {
+  const candidates = [
+    process.env.FARPOINT_PYTHON,
+    join(root, '.farpoint', 'python', 'bin', 'python3'),
+    'python3',
+  ];
+  return candidates.find((python) => python !== undefined && runs(python, '-c', 'import numpy')) ?? null;
+}
+
+/** Whether a program is there and ends well. */
+export function runs(program: string, ...args: string[]): boolean {
+  return spawnSync(program, args, { stdio: 'ignore' }).status === 0;
 }
