@@ -1,0 +1,74 @@
+/** The robot program with a camera and wheels in shared memory, as it runs: processes, signaling, WebRTC. */
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { LocalStack } from '@farpoint/local-stack';
+import { CloudProducer, isAvailable, ReferenceControlReader } from '@farpoint/shared-memory';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { SignaledOperator } from './testing/signaled-operator.ts';
+
+const ROBOT = 'shm-1';
+const POINTS = 1500;
+
+describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon: pnpm build:native)', () => {
+  let folder: string;
+  let stack: LocalStack;
+  let producing: NodeJS.Timeout;
+  let producer: CloudProducer;
+  let operator: SignaledOperator;
+  let wheels: ReferenceControlReader;
+
+  beforeAll(async () => {
+    folder = mkdtempSync(join(tmpdir(), 'farpoint-shm-robot-'));
+    producer = new CloudProducer({ folder, format: 'points', maxPoints: POINTS });
+    const points = Float32Array.from({ length: POINTS * 4 }, (_, i) => (i % 4 === 2 ? 2 : 0.5));
+    const header = { captureMs: null, width: 50, height: 30, pose: null, lens: null, latencyTest: false };
+    producing = setInterval(() => producer.publish({ points }, header), 20);
+    const args = ['--source', 'shm', '--shm-folder', folder, '--sink', 'shm'];
+    stack = await LocalStack.start({ robots: [{ id: ROBOT, name: 'Robot', args }] });
+    operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+    wheels = new ReferenceControlReader(folder);
+  }, 60_000);
+
+  afterAll(async () => {
+    clearInterval(producing);
+    wheels?.close();
+    producer?.close();
+    await operator?.close();
+    await stack?.stop();
+    rmSync(folder, { recursive: true, force: true });
+  }, 30_000);
+
+  const speed = () => wheels.read()?.twist.linear.x ?? null;
+  const until = async (is: () => boolean) => {
+    while (!is()) await new Promise((resolve) => setTimeout(resolve, 2));
+  };
+
+  /** Commands at 50 Hz, as a page sends them, until `is` holds. */
+  async function driveUntil(lease: string, linear: number, is: () => boolean): Promise<void> {
+    const timer = setInterval(() => operator.client.drive(lease, linear), 20);
+    await until(is);
+    clearInterval(timer);
+  }
+
+  it('streams the camera’s clouds', { timeout: 30_000 }, async () => {
+    const { client } = operator;
+    await client.until(() => client.completeFrames.some((frame) => frame.points === POINTS));
+    expect(client.malformedPackets).toBe(0);
+  });
+
+  it('writes what the operator commands, zero on silence, and zero when it ends', {
+    timeout: 30_000,
+  }, async () => {
+    const lease = await operator.client.takeLease();
+    expect(speed()).toBe(0);
+    await driveUntil(lease, 0.25, () => speed() === 0.25);
+    await until(() => speed() === 0);
+    // It is alive: the counter goes on, and the next command is obeyed.
+    const counter = wheels.read()?.counter ?? 0;
+    await until(() => (wheels.read()?.counter ?? 0) > counter + 2);
+    await driveUntil(lease, 0.25, () => speed() === 0.25);
+    await stack.robot(ROBOT).stop();
+    expect(speed()).toBe(0);
+  });
+});
