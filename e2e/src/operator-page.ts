@@ -9,6 +9,8 @@ export interface OpenOptions {
   signaling?: string;
   /** `relay`: by TURN servers only. */
   ice?: 'relay';
+  /** Take the stream from this bridge. */
+  bridge?: string;
 }
 
 /** The operator's page as a test uses it: real keys and buttons, and `window.farpoint` to look inside. */
@@ -22,7 +24,7 @@ export class OperatorPage {
   static async open(page: Page, stack: LocalStack, options: OpenOptions = {}): Promise<OperatorPage> {
     const url = new URL(stack.webUrl);
     if (options.robot !== undefined) url.searchParams.set('robot', options.robot);
-    for (const name of ['token', 'signaling', 'ice'] as const) {
+    for (const name of ['token', 'signaling', 'ice', 'bridge'] as const) {
       const value = options[name];
       if (value !== undefined) url.searchParams.set(name, value);
     }

@@ -3,6 +3,8 @@ import { ManagedProcess } from './managed-process.ts';
 import { type LocalStack, repositoryRoot } from './stack.ts';
 
 export interface BridgeSpec {
+  /** Free ones where left out. */
+  ports?: BridgeProcess['ports'];
   /** More flags of the bridge program. */
   args?: string[];
   env?: Record<string, string>;
@@ -23,7 +25,12 @@ export class BridgeProcess {
 
   /** @throws {Error} with the program's last lines where it does not come up */
   static async start(stack: LocalStack, spec: BridgeSpec = {}): Promise<BridgeProcess> {
-    const [control, telemetry, streaming, admin] = (await freePorts(4)) as [number, number, number, number];
+    const [admin, ...free] = (await freePorts(4)) as [number, number, number, number];
+    const { control, telemetry, streaming } = spec.ports ?? {
+      control: free[0],
+      telemetry: free[1],
+      streaming: free[2],
+    };
     const adminUrl = `http://127.0.0.1:${admin}`;
     const started = await ManagedProcess.start({
       name: 'bridge',
@@ -43,6 +50,12 @@ export class BridgeProcess {
       onLine: spec.onLine,
     });
     return new BridgeProcess({ control, telemetry, streaming }, adminUrl, started);
+  }
+
+  /** As the page is told of it. */
+  get address(): string {
+    const { control, telemetry, streaming } = this.ports;
+    return `ws://localhost:${control},${telemetry},${streaming}`;
   }
 
   async stop(): Promise<void> {

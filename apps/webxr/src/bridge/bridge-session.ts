@@ -48,6 +48,8 @@ export class BridgeSession {
   readonly #actions: BridgeSessionActions;
   #phase: SessionPhase = 'none';
   #wanted: string | null = null;
+  /** The same robot is known by another id each time it registers. */
+  #wantedName: string | null = null;
   #robots: RobotListing[] = [];
   #open = false;
   #holdsLease = false;
@@ -85,6 +87,7 @@ export class BridgeSession {
     if (robotId === this.#wanted) return;
     if (this.#phase === 'live') this.#sayStop();
     this.#wanted = robotId;
+    this.#wantedName = this.#nameOf(robotId);
     this.#enter(robotId === null ? 'none' : 'waiting');
     this.#choose();
   }
@@ -95,7 +98,11 @@ export class BridgeSession {
     if (open) {
       this.#control({ type: 'updateRobots' });
       this.#choose();
-    } else if (this.#phase !== 'none') this.#enter('waiting');
+      return;
+    }
+    // Another bridge may come back in its place, with other ids.
+    this.#setRobots([]);
+    if (this.#phase !== 'none') this.#enter('waiting');
   }
 
   onControl(text: string, nowMs: number): void {
@@ -107,17 +114,25 @@ export class BridgeSession {
       throw error;
     }
     if (message.type === 'updateRobots') {
-      this.#robots = (message.robots ?? []).map(({ id, name }) => ({
-        id: String(id),
-        name: name.slice(0, 64) || 'Robot',
-      }));
-      this.#actions.onRobots(this.#robots);
-      if (this.#phase !== 'none' && !this.robotListed) this.#enter('waiting');
-      else if (this.#phase === 'waiting') this.#choose();
+      this.#setRobots(
+        (message.robots ?? []).map(({ id, name }) => ({
+          id: String(id),
+          name: name.slice(0, 64) || 'Robot',
+        })),
+      );
+      this.#wantedName ??= this.#nameOf(this.#wanted);
+      const again = this.#robots.find(({ name }) => name === this.#wantedName);
+      const isRenumbered = !this.robotListed && again !== undefined;
+      if (isRenumbered) this.#wanted = again.id;
+      if (this.#phase !== 'none' && (isRenumbered || !this.robotListed)) this.#enter('waiting');
+      if (this.#phase === 'waiting') this.#choose();
     } else if (String(message.robotId) === this.#wanted) {
       if (this.#phase !== 'live') this.#begin(nowMs);
+    } else if (this.#wantedName !== null && this.#nameOf(String(message.robotId)) === this.#wantedName) {
+      this.#wanted = String(message.robotId);
+      this.#begin(nowMs);
     } else if (this.#phase === 'live') {
-      // Another page chose another robot, or ours is known by another id now.
+      // Another page chose another robot.
       this.#enter('waiting');
     }
   }
@@ -165,6 +180,15 @@ export class BridgeSession {
       case 'stream':
         break;
     }
+  }
+
+  #setRobots(robots: RobotListing[]): void {
+    this.#robots = robots;
+    this.#actions.onRobots(robots);
+  }
+
+  #nameOf(robotId: string | null): string | null {
+    return this.#robots.find(({ id }) => id === robotId)?.name ?? null;
   }
 
   #choose(): void {

@@ -1,0 +1,132 @@
+import { type Command, type RobotSessionMessage, zeroTwist } from '@farpoint/protocol';
+import { describe, expect, it } from 'vitest';
+import { BridgeSession } from './bridge-session.ts';
+
+function setUp() {
+  const control: object[] = [];
+  const said: { linear: { x: number; z: number } }[] = [];
+  const told: RobotSessionMessage[] = [];
+  const phases: string[] = [];
+  const paths: boolean[] = [];
+  const session = new BridgeSession({
+    sendControl: (text) => control.push(JSON.parse(text)),
+    sendTelemetry: (text) => said.push(JSON.parse(text).command),
+    onRobots: () => undefined,
+    onPhase: (phase) => phases.push(phase),
+    onBegin: () => phases.push('begin'),
+    onRobotMessage: (text) => told.push(JSON.parse(text)),
+    onPath: (up) => paths.push(up),
+  });
+  const robots = (...listed: [number, string][]) =>
+    session.onControl(
+      JSON.stringify({ type: 'updateRobots', robots: listed.map(([id, name]) => ({ id, name })) }),
+      0,
+    );
+  const switched = (robotId: number, nowMs = 0) =>
+    session.onControl(JSON.stringify({ type: 'switchedRobot', robotId }), nowMs);
+  const live = () => {
+    session.onSockets(true);
+    robots([0, 'first'], [1, 'second']);
+    session.want('1');
+    switched(1);
+    session.session({ type: 'leaseRequest', take: false });
+  };
+  return { session, control, said, told, phases, paths, robots, switched, live };
+}
+
+function forward(x: number, more: Partial<Command> = {}): Command {
+  const twist = { ...zeroTwist(), linear: { x, y: 0, z: 0 } };
+  return { type: 'command', sequence: 1, timeMs: 0, lease: 'bridge', deadMan: x !== 0, twist, ...more };
+}
+
+describe('BridgeSession', () => {
+  it('chooses the wanted robot once it is listed, and is live when the bridge shows it', () => {
+    const { session, control, told, phases, robots, switched } = setUp();
+    session.want('1');
+    session.onSockets(true);
+    expect(control).toEqual([{ type: 'updateRobots' }]);
+    robots([0, 'first']);
+    expect(session.phase).toBe('waiting');
+    robots([0, 'first'], [1, 'second']);
+    expect(control[1]).toEqual({ type: 'switchRobot', robotId: 1 });
+    switched(0);
+    expect(session.phase).toBe('opening');
+    switched(1);
+    expect(phases).toEqual(['waiting', 'opening', 'begin', 'live']);
+    expect(told.map(({ type }) => type)).toEqual(['welcome', 'lease', 'estop']);
+  });
+
+  it('finds its robot again by its name', () => {
+    const { session, control, robots, switched, live } = setUp();
+    live();
+    session.onSockets(false);
+    expect(session.phase).toBe('waiting');
+    session.onSockets(true);
+    robots([4, 'second'], [5, 'first']);
+    expect(control.at(-1)).toEqual({ type: 'switchRobot', robotId: 4 });
+    switched(4);
+    expect([session.phase, session.robotId]).toEqual(['live', '4']);
+    // The bridge itself goes over to its next registration.
+    robots([4, 'second'], [7, 'second']);
+    switched(7);
+    expect([session.phase, session.robotId]).toEqual(['live', '7']);
+    // Another page chose.
+    switched(5);
+    expect(session.phase).toBe('waiting');
+  });
+
+  it('passes motion on only with the grip, the page’s lease, no stop, and points that come', () => {
+    const { session, said, paths, live } = setUp();
+    live();
+    session.command(forward(0.4), 0);
+    expect(said.at(-1)?.linear.x).toBe(0.4);
+    session.command(forward(0.4, { deadMan: false }), 0);
+    expect(said.at(-1)?.linear.x).toBe(0);
+    session.session({ type: 'leaseRelease' });
+    session.command(forward(0.4), 0);
+    expect(said.at(-1)?.linear.x).toBe(0);
+    session.session({ type: 'leaseRequest', take: false });
+    session.session({ type: 'estop', latch: true });
+    session.command(forward(0.4), 0);
+    expect(said.at(-1)?.linear.x).toBe(0);
+    // Released with the stick held: not before it was let go.
+    session.session({ type: 'estop', latch: false });
+    session.command(forward(0.4), 0);
+    expect(said.at(-1)?.linear.x).toBe(0);
+    session.command(forward(0), 0);
+    session.command(forward(0.4), 0);
+    expect(said.at(-1)?.linear.x).toBe(0.4);
+    // Blind: told to stop, then silent.
+    session.tick(1001);
+    expect(said.at(-1)?.linear.x).toBe(0);
+    const { length } = said;
+    session.command(forward(0.4), 1010);
+    expect([said.length, session.interrupted]).toEqual([length, true]);
+    session.onPoints(1020);
+    session.command(forward(0.4), 1030);
+    expect([said.at(-1)?.linear.x, paths]).toEqual([0.4, [false, true]]);
+  });
+
+  it('asks for a green frame by linear.z, not with every repetition', () => {
+    const { session, said, live } = setUp();
+    live();
+    const greens = () => said.filter(({ linear }) => linear.z !== 0).length;
+    for (const at of [0, 50, 100, 450]) session.command(forward(0, { latencyTest: 3 }), at);
+    expect(greens()).toBe(1);
+    session.command(forward(0, { latencyTest: 3 }), 500);
+    session.command(forward(0, { latencyTest: 4 }), 501);
+    expect(greens()).toBe(3);
+  });
+
+  it('says stop to the robot that it leaves, and passes garbage over', () => {
+    const { session, said, live } = setUp();
+    live();
+    session.command(forward(0.4), 0);
+    for (const text of ['', 'null', '{"type":"switchedRobot","robotId":-1}']) session.onControl(text, 0);
+    session.want('0');
+    expect(said.slice(-4).map(({ linear }) => linear.x)).toEqual([0, 0, 0, 0]);
+    const { length } = said;
+    session.command(forward(0.4), 0);
+    expect(said.length).toBe(length);
+  });
+});

@@ -1,0 +1,84 @@
+import { BridgeProcess } from '@farpoint/local-stack';
+import { OperatorPage } from '../src/operator-page.ts';
+import { readPicture } from '../src/picture.ts';
+import { expect, simulatedRobot, test, twoRobots } from '../src/stack-test.ts';
+
+/** Robots also in the reference profile, and the bridge between them and the page. */
+const inReferenceProfile = <T extends object>(robot: T) => ({ ...robot, reference: true });
+
+test('through the bridge: see the robot’s world, drive it, stop it, measure; beside an operator of Farpoint’s', async ({
+  page,
+  context,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [inReferenceProfile(simulatedRobot)] });
+  const bridge = await BridgeProcess.start(stack);
+  try {
+    const operator = await OperatorPage.open(page, stack, { bridge: bridge.address });
+    await page.getByRole('button', { name: /Simulated robot 1/ }).click();
+    await operator.expectPoints(5000);
+    const picture = await operator.screenshot(testInfo, 'through-the-bridge');
+    const [room] = await readPicture(page, picture, [{ left: 0, top: 0, width: 1, height: 1 }]);
+    expect(room?.drawnShare).toBeGreaterThan(0.3);
+    expect(room?.colours).toBeGreaterThan(20);
+
+    // Directly and through the bridge at once. What this one is told of is where the robot is.
+    const watcher = await OperatorPage.open(await context.newPage(), stack, { robot: simulatedRobot.id });
+    await watcher.expectPoints();
+    const start = await watcher.body();
+    await page.bringToFront();
+    await operator.holdForward();
+    await operator.expectState('holder', 'you');
+    await watcher.expectState('holder', 'other');
+    await watcher.expectMovedFrom(start, 0.3);
+    await operator.releaseKeys();
+    await watcher.expectStanding();
+
+    // The page's own stop: nothing that is held moves the robot, until it is released and the hand was open.
+    await page.keyboard.press('KeyX');
+    await operator.expectState('estop', true);
+    const stopped = await watcher.body();
+    await operator.holdForward();
+    await operator.expectFrames(20);
+    expect(await watcher.body()).toEqual(stopped);
+    await operator.releaseKeys();
+    await page.evaluate(() => window.farpoint.estop(false));
+    await operator.expectState('estop', false);
+    await operator.holdForward();
+    await watcher.expectMovedFrom(stopped, 0.2);
+    await operator.releaseKeys();
+    await watcher.expectStanding();
+
+    const result = await page.evaluate(() => window.farpoint.latencyTest());
+    expect(result.points).toBe(result.totalPoints);
+    expect(result.mtpMs).toBeGreaterThan(0);
+  } finally {
+    await bridge.stop();
+  }
+});
+
+test('through the bridge: from one robot to another, and back when the bridge was away', async ({
+  page,
+  startStack,
+}) => {
+  const stack = await startStack({ robots: twoRobots.map(inReferenceProfile) });
+  let bridge = await BridgeProcess.start(stack);
+  try {
+    const operator = await OperatorPage.open(page, stack, { bridge: bridge.address });
+    await page.getByRole('button', { name: /Simulated robot 2/ }).click();
+    await operator.expectPoints();
+    const listed = await page.evaluate(() => window.farpoint.robots());
+    expect(listed.map(({ name }) => name).sort()).toEqual(['Simulated robot 1', 'Simulated robot 2']);
+    const first = listed.find(({ name }) => name === 'Simulated robot 1');
+    await page.evaluate((id) => window.farpoint.connect(id), first?.id ?? '');
+    await operator.expectPoints();
+
+    const { ports } = bridge;
+    await bridge.process.kill();
+    await expect.poll(async () => (await operator.state()).session).toBe('waiting');
+    bridge = await BridgeProcess.start(stack, { ports });
+    await operator.expectPoints();
+  } finally {
+    await bridge.stop();
+  }
+});
