@@ -43,7 +43,8 @@ that shows the whole green cloud (mtpMs), or its first points (mtpFirstMs). Figu
   --cross KIND        a competing flow from the robot's side: cubic, reno
   --robots 1          so many robots stream over the same link, each to a page of its own; the first one is measured
   --seconds 30        how long; a trace begins anew when the measurement begins
-  --mode points64     points64, or auto: the best format that both sides know
+  --mode points64     points64, or auto: the best format that both sides know, the whole cloud where the rate allows
+  --draw-every 12     of coded clouds only every so many-th point is drawn, all are decoded: the GPU is an emulated one here
   --fps 60            most frames a second that the camera is asked for
   --plan latency      or paper: every frame, points by the paper's equations 2 and 3
   --rate-control adaptive   or fixed
@@ -77,6 +78,7 @@ export const bench: Bench = {
         robots: { type: 'string', default: '1' },
         seconds: { type: 'string', default: '30' },
         mode: { type: 'string', default: 'points64' },
+        'draw-every': { type: 'string', default: '12' },
         fps: { type: 'string', default: '60' },
         plan: { type: 'string', default: 'latency' },
         'rate-control': { type: 'string', default: 'adaptive' },
@@ -94,6 +96,7 @@ export const bench: Bench = {
       throw new Error(`--mode is \`${values.mode}\`, not points64 or auto`);
     const rateMbps = numberOption('rate-mbps', values['rate-mbps'] ?? '41.44', 0.1);
     const seconds = numberOption('seconds', values.seconds, 6);
+    const drawEvery = numberOption('draw-every', values['draw-every'], 1);
     const robots = numberOption('robots', values.robots, 1);
     const fps = numberOption('fps', values.fps, 1);
 
@@ -105,6 +108,7 @@ export const bench: Bench = {
       name: `Simulated robot ${i + 1}`,
       args: [
         ...['--fps', String(fps), '--plan', values.plan, '--rate-control', values['rate-control']],
+        ...['--mode', values.mode],
         ...['--bitrate-mbps', '200', '--stats', robotFiles[i] as string],
       ],
     });
@@ -119,6 +123,7 @@ export const bench: Bench = {
       robot: robot(0),
       otherRobots: Array.from({ length: robots - 1 }, (_, i) => robot(i + 1)),
       canvas: values.canvas,
+      query: `every=${drawEvery}`,
       ...(values.trace === undefined ? {} : { connectAtMbps: CONNECT_MBPS }),
       link: {
         args: [
@@ -209,7 +214,8 @@ export const bench: Bench = {
           queueLimitMs: Number(values['queue-ms']),
           loss: Number(values.loss),
         },
-        mode: 'points64',
+        mode: values.mode,
+        drawnShare: values.mode === 'auto' ? Number((1 / drawEvery).toFixed(4)) : 1,
         plan: values.plan,
         seconds: Number(((endMs - zeroMs) / 1000).toFixed(1)),
         utilisation: Number(utilisationOf(served).toFixed(3)),

@@ -16,6 +16,8 @@ export interface LiveStackOptions {
   robot: RobotSpec;
   /** Pixels of the page's canvas. Small: there is no GPU here, and it is the stream that is measured. */
   canvas: string;
+  /** More settings of the page's address. */
+  query?: string;
   /** A bad network between the robots and everybody else. */
   link?: EmulatedLinkSpec;
   /** What the link carries until it is told otherwise (`reset`), Mbit/s; as its options say where left out. */
@@ -72,7 +74,7 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
       const page = await browser.newPage({
         viewport: { width: Math.max(width, 320), height: Math.max(height, 180) },
       });
-      await page.goto(`${stack.webUrl}?canvas=${options.canvas}`);
+      await page.goto(`${stack.webUrl}?canvas=${options.canvas}&${options.query ?? ''}`);
       await page.waitForFunction(() => window.farpoint !== undefined);
       await page.waitForFunction(
         (id) => window.farpoint.robots().some((listed) => listed.id === id),

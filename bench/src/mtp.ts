@@ -37,7 +37,7 @@ export const bench: Bench = {
         id: 'sim-1',
         name: 'Simulated robot',
         args: [
-          ...['--fps', String(fps), '--max-points', String(points)],
+          ...['--mode', 'points64', '--fps', String(fps), '--max-points', String(points)],
           ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)],
         ],
       },

@@ -46,7 +46,7 @@ export const bench: Bench = {
         id: 'sim-1',
         name: 'Simulated robot',
         args: [
-          ...['--fps', String(fps), '--packet-log', logFile],
+          ...['--mode', 'points64', '--fps', String(fps), '--packet-log', logFile],
           ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)],
         ],
       },

@@ -20,14 +20,25 @@ export interface StackFixtures {
 export const simulatedRobot = {
   id: 'sim-1',
   name: 'Simulated robot 1',
-  args: ['--source', 'sim', '--sim-seed', '1', '--max-points', '15000'],
+  args: ['--source', 'sim', '--sim-seed', '1', '--mode', 'points64', '--max-points', '15000'],
 };
 
 /** Two of them, light enough to stream one after the other. */
 export const twoRobots = [1, 2].map((n) => ({
   id: `sim-${n}`,
   name: `Simulated robot ${n}`,
-  args: ['--source', 'sim', '--sim-seed', String(n), '--max-points', '6000', '--fps', '15'],
+  args: [
+    '--source',
+    'sim',
+    '--sim-seed',
+    String(n),
+    '--mode',
+    'points64',
+    '--max-points',
+    '6000',
+    '--fps',
+    '15',
+  ],
 }));
 
 export const test = base.extend<StackFixtures>({

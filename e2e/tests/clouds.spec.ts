@@ -17,7 +17,7 @@ for (const { name, args } of recordings) {
     const robot = {
       id: name,
       name,
-      args: [...args, '--fps', '5', '--bitrate-mbps', '40', '--lambda', '0'],
+      args: [...args, '--mode', 'points64', '--fps', '5', '--bitrate-mbps', '40', '--lambda', '0'],
     };
     const stack = await startStack({ robots: [robot] });
     const operator = await OperatorPage.open(page, stack, { robot: name });

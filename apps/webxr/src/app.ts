@@ -1,4 +1,5 @@
 /** The page: what comes from the robot to the screen, what comes from the hands to the robot. */
+import { CLOUD_FORMATS, type CloudFormat } from '@farpoint/protocol';
 import { BridgeLink } from './bridge/bridge-link.ts';
 import { Batch } from './cloud/batch.ts';
 import { CloudView } from './cloud/cloud-view.ts';
@@ -22,12 +23,13 @@ import { OperatorInputs } from './ui/operator-inputs.ts';
 import { showRobots } from './ui/robot-list.ts';
 import { StatusUi } from './ui/status-ui.ts';
 import { DrawGate } from './view/draw-gate.ts';
+import { DrawingGovernor } from './view/drawing-governor.ts';
 import { GpuCompletion } from './view/gpu-completion.ts';
-import { ResolutionGovernor } from './view/resolution-governor.ts';
 import { Stage } from './view/stage.ts';
 import { VrSession } from './view/vr-session.ts';
 import { WristPanel } from './view/wrist-panel.ts';
 
+const POINTS64_ONLY: readonly CloudFormat[] = ['points64'];
 const DRIVE_TICK_MS = 25;
 const STATUS_TICK_MS = 250;
 /** Without points for so long the picture begins to turn grey, and so much later it is. */
@@ -49,12 +51,14 @@ export class App implements PageParts {
   readonly #completion: GpuCompletion;
   readonly #gate = new DrawGate();
   readonly #status: StatusUi;
-  readonly #resolution = new ResolutionGovernor();
+  readonly #drawing = new DrawingGovernor();
   readonly #switch = new RobotSwitch({
     letGo: () => this.driver.letGo(performance.now()),
     connect: (robotId) => this.link.connect(robotId),
   });
   #generation = 0;
+  /** A coded stream came that this page cannot decode: it asks for none any more. */
+  #formatRefused = false;
   lastPointsMs = 0;
   /** Filled while a measurement asks for it. */
   packetRecord: PacketRecord | null = null;
@@ -95,6 +99,7 @@ export class App implements PageParts {
 
   start(): void {
     this.#listenToWorker();
+    if (this.settings.drawEvery !== null) this.#drawEvery(this.settings.drawEvery);
     this.#listenToCanvas();
     const controls = new ControlsUi(this);
     controls.start();
@@ -112,7 +117,7 @@ export class App implements PageParts {
       const nowMs = performance.now();
       this.stats.tick(this.cloud, nowMs);
       this.#status.update(nowMs);
-      this.#governResolution(nowMs);
+      this.#governDrawing(nowMs);
     }, STATUS_TICK_MS);
     this.stage.renderer.setAnimationLoop((nowMs) => this.#frame(nowMs));
   }
@@ -179,11 +184,24 @@ export class App implements PageParts {
     }
   }
 
-  #governResolution(nowMs: number): void {
-    if (this.vr.active || document.hidden || this.link.phase !== 'live') this.#resolution.pause();
-    else if (this.#resolution.update(this.stats.displayFramesPerSecond, nowMs)) {
-      this.stage.resolution = this.#resolution.scale;
+  #governDrawing(nowMs: number): void {
+    if (document.hidden || this.link.phase !== 'live') this.#drawing.pause();
+    else if (this.#drawing.update(this.stats.displayFramesPerSecond, nowMs)) {
+      const { scale, every } = this.#drawing.step;
+      this.stage.resolution = scale;
+      if (this.settings.drawEvery === null) this.#drawEvery(every);
     }
+  }
+
+  #drawEvery(every: number): void {
+    const message: ToCloudWorker = { type: 'drawEvery', every };
+    this.#worker.postMessage(message);
+  }
+
+  /** Which of our formats we read; the robot chooses. */
+  #tellFormats(): void {
+    const formats = this.#formatRefused || this.settings.mode === 'points64' ? POINTS64_ONLY : CLOUD_FORMATS;
+    this.link.sendSession({ type: 'cloudFormats', formats: [...formats] });
   }
 
   /** Commands may only come from hands that see what they do. */
@@ -222,6 +240,7 @@ export class App implements PageParts {
       },
       onRefusal: (message) => notify(message, 'warning'),
       onWelcome: (welcome) => {
+        this.#tellFormats();
         this.driver.onLimits(welcome.limits);
         notify(`Connected to ${welcome.name}`, 'good');
       },
@@ -236,6 +255,16 @@ export class App implements PageParts {
       },
       onEstop: () => this.#status.update(performance.now()),
       onLatencyFrame: (frame) => this.latency.onRobotFrame(frame),
+      onCloudStream: ({ format, header }) => {
+        const bytes = Uint8Array.from(atob(header), (character) => character.charCodeAt(0));
+        const message: ToCloudWorker = {
+          type: 'cloudStream',
+          generation: this.#generation,
+          format,
+          header: bytes,
+        };
+        this.#worker.postMessage(message, [bytes.buffer]);
+      },
       onTelemetry: (telemetry) => this.stage.setBody(telemetry.pose),
       onRobotFault: (message) => notify(`The robot says: ${message}`, 'warning'),
     };
@@ -268,6 +297,12 @@ export class App implements PageParts {
           if (message.generation !== this.#generation) return;
           this.stats.onReport(message);
           this.link.sendReport(message);
+          return;
+        case 'streamRefused':
+          if (message.generation !== this.#generation) return;
+          console.warn('cloud stream:', message.message);
+          this.#formatRefused = true;
+          this.#tellFormats();
           return;
         case 'failed':
           console.error('cloud worker:', message.message);

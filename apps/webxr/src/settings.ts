@@ -26,6 +26,10 @@ export interface Settings {
   icePolicy: 'all' | 'relay';
   /** Fixed size of the canvas in pixels, for benchmarks. */
   canvas: { width: number; height: number } | null;
+  /** `points64`: refuse the coded formats. */
+  mode: 'auto' | 'points64';
+  /** Draw every so many-th point of coded clouds only, for benchmarks where the GPU is an emulated one; `null`: as many as can be drawn. */
+  drawEvery: number | null;
   pointScale: number;
 }
 
@@ -60,8 +64,15 @@ export function readSettings(
     robot: robot !== undefined && robotIdSchema.safeParse(robot).success ? robot : null,
     icePolicy: query.get('ice') === 'relay' ? 'relay' : 'all',
     canvas: parseCanvas(query.get('canvas')),
+    mode: query.get('mode') === 'points64' ? 'points64' : 'auto',
+    drawEvery: parseEvery(query.get('every')),
     pointScale: clampScale(stored.pointScale),
   };
+}
+
+function parseEvery(text: string | null): number | null {
+  const every = Number(text);
+  return text !== null && Number.isInteger(every) && every >= 1 && every <= 1024 ? every : null;
 }
 
 /** Accepts `host`, `host:port`, http, https, ws and wss addresses; adds what is missing. */

@@ -89,8 +89,9 @@ export function installTestApi(app: App): void {
 function probe({ cloud }: App): DrawnProbe {
   const { points, slots } = cloud.readBack();
   const poses = [0, 1].map((slot) => {
-    const { position, orientation } = cloud.pose(slot);
+    const { unit, position, orientation } = cloud.pose(slot);
     return {
+      unit,
       position: new Vector3(position.x, position.y, position.z),
       orientation: new Quaternion(orientation.x, orientation.y, orientation.z, orientation.w),
     };
@@ -104,7 +105,7 @@ function probe({ cloud }: App): DrawnProbe {
     if (slot === null) continue;
     count++;
     if ((points[index * 4 + 3] as number) === LATENCY_TEST_COLOUR) green++;
-    point.fromArray(points, index * 4).multiplyScalar(0.001);
+    point.fromArray(points, index * 4).multiplyScalar(poses[slot]!.unit);
     point.applyQuaternion(poses[slot]!.orientation).add(poses[slot]!.position);
     min.min(point);
     max.max(point);

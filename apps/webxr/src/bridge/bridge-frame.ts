@@ -7,7 +7,7 @@ import {
   POINTS_PER_PACKET,
   type PointPacketHeader,
 } from '@farpoint/protocol';
-import type { Batch } from '../cloud/batch.ts';
+import { type Batch, SAMPLED_COVER } from '../cloud/batch.ts';
 import type { ImageExtent } from '../cloud/image-extent.ts';
 
 /**
@@ -71,7 +71,8 @@ export function splitFrame(
     header.sequenceLength = Math.min(count * BYTES_PER_POINT, MAX_POINT_DATA_BYTES);
     extent.add(frameNumber, view, first * 6, count);
     interleave(coordinates, colours, first, count, batch.points, batch.pointCount);
-    batch.add(header, placement, receivedMs, extent.value);
+    const look = { imageExtent: extent.value, unit: 0.001, cover: SAMPLED_COVER };
+    batch.add(header, placement, count, receivedMs, look);
   }
   return { points: total, dropped: 0 };
 }

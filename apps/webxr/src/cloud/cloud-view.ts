@@ -27,7 +27,7 @@ export class CloudView {
   readonly object: Points;
   readonly window = new FrameWindow(FIRST_CAPACITY, MAX_CAPACITY);
   readonly drops: DropCounts = {};
-  /** Frames of which some point was drawn, and packets drawn, since the session began. */
+  /** Frames of which some point was drawn, packets drawn and points that came in them, since the session began. */
   frames = 0;
   packets = 0;
   points = 0;
@@ -127,12 +127,14 @@ export class CloudView {
     return { points, slots };
   }
 
-  /** Pose of slot 0 or 1. */
+  /** Pose of slot 0 or 1, and metres of one step of its coordinates. */
   pose(slot: number): {
+    unit: number;
     position: { x: number; y: number; z: number };
     orientation: { x: number; y: number; z: number; w: number };
   } {
     return {
+      unit: this.#uniforms.frameUnit.value[slot]!,
       position: this.#uniforms.framePosition.value[slot]!,
       orientation: this.#uniforms.frameOrientation.value[slot]!,
     };
@@ -151,12 +153,18 @@ export class CloudView {
       const points = batch.pointsOf(packet);
       const frame = batch.frameNumber(packet);
       const before = window.newestFrame;
-      const drop = window.accept(frame, batch.frameLength(packet), batch.sequenceOffset(packet), points);
+      const drop = window.accept(
+        frame,
+        batch.frameLength(packet),
+        batch.sequenceOffset(packet),
+        batch.sequenceLength(packet),
+        points,
+      );
       if (drop === null) {
         if (window.newestFrame !== before) this.#beginFrame(batch, packet);
         count += points;
         this.packets++;
-        this.points += points;
+        this.points += batch.pointsCame(packet);
         this.#events.onPacket(batch, packet);
       } else {
         countDrop(this.drops, drop);
@@ -174,11 +182,12 @@ export class CloudView {
     this.frames++;
     this.imageExtent = batch.imageExtent(packet);
     const slot = this.window.newestSlot;
+    this.#uniforms.frameUnit.value[slot] = batch.unit(packet);
     this.#uniforms.framePosition.value[slot]!.set(
       batch.poseComponent(packet, 0),
       batch.poseComponent(packet, 1),
       batch.poseComponent(packet, 2),
-      spacingPerMetre(this.window.newestTotal, this.imageExtent),
+      spacingPerMetre(this.window.newestTotal, this.imageExtent, batch.cover(packet)),
     );
     this.#uniforms.frameOrientation.value[slot]!.set(
       batch.poseComponent(packet, 3),

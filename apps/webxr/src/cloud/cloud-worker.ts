@@ -3,12 +3,16 @@
  * The cloud's worker: takes encoded frames from the receiver, one RTP payload each, never forwards them, unpacks the
  * points and hands them to the page by transfer.
  */
-import { CloudDecoder, loadCodec } from '@farpoint/wasm-codec';
+import { type CloudFormat, PLACEMENT_BYTES } from '@farpoint/protocol';
+import { type Codec, loadCodec } from '@farpoint/wasm-codec';
 import { BridgeStream } from '../bridge/bridge-stream.ts';
-import { BATCH_PACKETS, type Batch } from './batch.ts';
+import type { Batch } from './batch.ts';
 import { BatchPool } from './batch-pool.ts';
-import { ImageExtent } from './image-extent.ts';
+import { OrganisedPacketDecoder } from './organised-packet-decoder.ts';
+import type { BatchWriter, PacketDecoder } from './packet-decoder.ts';
 import { countDrop, PacketIntake } from './packet-intake.ts';
+import { Points64PacketDecoder } from './points64-packet-decoder.ts';
+import { UnorganisedPacketDecoder } from './unorganised-packet-decoder.ts';
 import type { CloudTransformOptions, FromCloudWorker, ToCloudWorker } from './worker-messages.ts';
 
 declare const self: DedicatedWorkerGlobalScope & {
@@ -24,7 +28,7 @@ const REPORT_EVERY_MS = 100;
 const HEADER_BYTES = 16;
 
 const pool = new BatchPool(MAX_BATCHES);
-const codecReady = loadCodec().then((codec) => new CloudDecoder(codec, BATCH_PACKETS));
+const codecReady = loadCodec();
 codecReady.then(
   () => post({ type: 'ready' }),
   (error: unknown) =>
@@ -33,9 +37,13 @@ codecReady.then(
 
 let generation = -1;
 let intake = new PacketIntake();
-let extent = new ImageExtent();
+/** Of coded formats, once their stream header has come. */
+const decoders: Partial<Record<CloudFormat, PacketDecoder & Partial<Disposable>>> = {};
 let batch: Batch | null = null;
 let bridge: BridgeStream | null = null;
+/** Whose packets are in the batch. */
+let filling: PacketDecoder | null = null;
+let every = 1;
 let flushTimer: ReturnType<typeof setTimeout> | undefined;
 let busyMs = 0;
 let busyPackets = 0;
@@ -47,13 +55,22 @@ function post(message: FromCloudWorker, transfer: Transferable[] = []): void {
 
 self.onmessage = (event: MessageEvent<ToCloudWorker>) => {
   const message = event.data;
-  if (message.type === 'return') {
-    pool.giveBack(message.buffer);
-    if (batch !== null && flushTimer === undefined && pool.out < BATCHES_AHEAD) scheduleFlush();
-  } else if (message.type === 'bridge') {
-    takeFromBridge(message.url, message.generation);
-  } else {
-    void consume(message.readable, message.generation);
+  switch (message.type) {
+    case 'return':
+      pool.giveBack(message.buffer);
+      if (batch !== null && flushTimer === undefined && pool.out < BATCHES_AHEAD) scheduleFlush();
+      return;
+    case 'stream':
+      void consume(message.readable, message.generation);
+      return;
+    case 'cloudStream':
+      void beginCodedStream(message);
+      return;
+    case 'bridge':
+      takeFromBridge(message.url, message.generation);
+      return;
+    case 'drawEvery':
+      every = message.every;
   }
 };
 
@@ -70,76 +87,116 @@ function takeFromBridge(url: string, of: number): void {
   reportedPackets = -1;
 }
 
+async function beginCodedStream(message: ToCloudWorker & { type: 'cloudStream' }): Promise<void> {
+  const codec = await codecReady.catch(() => null);
+  if (codec === null || message.generation < generation) return;
+  if (message.generation > generation) beginGeneration(message.generation, codec);
+  const { format, header } = message;
+  try {
+    const Decoder = format === 'organised' ? OrganisedPacketDecoder : UnorganisedPacketDecoder;
+    const decoder = new Decoder(codec, header);
+    if (filling === decoders[format]) flush();
+    decoders[format]?.[Symbol.dispose]?.();
+    decoders[format] = decoder;
+  } catch (error) {
+    const text = error instanceof Error ? error.message : String(error);
+    post({ type: 'streamRefused', generation, message: `${format}: ${text}` });
+  }
+}
+
 self.onrtctransform = (event: RTCTransformEvent) => {
   const { generation } = event.transformer.options as CloudTransformOptions;
   void consume(event.transformer.readable as ReadableStream<RTCEncodedAudioFrame>, generation);
 };
 
 async function consume(stream: ReadableStream<RTCEncodedAudioFrame>, of: number): Promise<void> {
-  const decoder = await codecReady.catch(() => null);
-  if (decoder === null || of < generation) return;
-  generation = of;
-  intake = new PacketIntake();
-  extent = new ImageExtent();
-  reportedPackets = -1;
-  abandonBatch(decoder);
+  const codec = await codecReady.catch(() => null);
+  if (codec === null || of < generation) return;
+  if (of > generation) beginGeneration(of, codec);
   const reader = stream.getReader();
   for (;;) {
     const { value: frame, done } = await reader.read().catch(() => ({ value: undefined, done: true }));
     // A new session has begun, or this one is over.
     if (done || frame === undefined || generation !== of) break;
-    receive(frame, decoder);
+    receive(frame);
   }
   reader.cancel().catch(() => undefined);
 }
 
-function receive(frame: RTCEncodedAudioFrame, decoder: CloudDecoder): void {
+/** A session's packets and its stream header come on different ways: whichever is first begins it. */
+function beginGeneration(of: number, codec: Codec): void {
+  generation = of;
+  intake = new PacketIntake();
+  reportedPackets = -1;
+  filling?.abandon();
+  filling = null;
+  batch?.clear();
+  for (const format of ['organised', 'unorganised'] as const) {
+    decoders[format]?.[Symbol.dispose]?.();
+    delete decoders[format];
+  }
+  decoders.points64 = new Points64PacketDecoder(codec);
+}
+
+const writer: BatchWriter = {
+  get every() {
+    return every;
+  },
+  batchFor(wanted) {
+    if (batch !== null && (batch.full || (batch.pointCount > 0 && wanted > batch.room))) flush();
+    batch ??= pool.take();
+    return batch;
+  },
+};
+
+function receive(frame: RTCEncodedAudioFrame): void {
   const began = performance.now();
   const { data } = frame;
-  const payload = new DataView(data);
-  const fault = intake.take(payload, frame.getMetadata().sequenceNumber);
-  if (fault === null) {
-    batch ??= pool.take();
-    if (batch === null) {
-      countDrop(intake.drops, 'no-buffer');
-    } else {
-      const { header } = intake;
-      decoder.put(new Uint8Array(data, HEADER_BYTES, header.sequenceLength));
-      extent.add(header.frameNumber, payload, HEADER_BYTES, header.sequenceLength / 8);
-      batch.add(header, intake.placement, performance.timeOrigin + began, extent.value);
-      const lastOfFrame = header.sequenceOffset + header.sequenceLength === header.frameLength;
-      if (batch.full || (lastOfFrame && pool.out < BATCHES_AHEAD)) flush(decoder);
-      else scheduleFlush();
-    }
-  }
+  const fault = intake.take(new DataView(data), frame.getMetadata().sequenceNumber);
+  if (fault === null) decode(data, performance.timeOrigin + began);
   busyMs += performance.now() - began;
   busyPackets++;
+}
+
+function decode(data: ArrayBuffer, receivedMs: number): void {
+  const { header, placement, drops } = intake;
+  const decoder = decoders[placement.format];
+  if (decoder === undefined) {
+    countDrop(drops, 'no-stream');
+    return;
+  }
+  if (filling !== decoder) {
+    flush();
+    filling = decoder;
+  }
+  const bytes = new Uint8Array(data, HEADER_BYTES, data.byteLength - HEADER_BYTES - PLACEMENT_BYTES);
+  const fault = decoder.add(header, placement, bytes, receivedMs, writer);
+  if (fault !== null) {
+    countDrop(drops, fault);
+    return;
+  }
+  const lastOfFrame = header.sequenceOffset + header.sequenceLength === header.frameLength;
+  if (lastOfFrame && pool.out < BATCHES_AHEAD) flush();
+  else scheduleFlush();
 }
 
 function scheduleFlush(): void {
   flushTimer ??= setTimeout(() => {
     flushTimer = undefined;
     // Otherwise the next buffer that comes back, or a full one, brings it on its way.
-    if (pool.out < BATCHES_AHEAD) void codecReady.then(flush);
+    if (pool.out < BATCHES_AHEAD) flush();
   }, FLUSH_AFTER_MS);
 }
 
-function flush(decoder: CloudDecoder): void {
+function flush(): void {
   clearTimeout(flushTimer);
   flushTimer = undefined;
-  if (batch === null) return;
-  batch.points.set(decoder.unpack());
+  if (batch === null || batch.packets === 0) return;
+  filling?.finish(batch);
   const { buffer, packets, pointCount: points } = batch;
   batch = null;
   pool.sent();
   post({ type: 'batch', generation, packets, points, buffer }, [buffer]);
-}
-
-/** What an earlier session left undecoded. */
-function abandonBatch(decoder: CloudDecoder): void {
-  if (batch === null) return;
-  decoder.unpack();
-  batch.clear();
 }
 
 setInterval(() => {

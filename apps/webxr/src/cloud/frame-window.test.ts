@@ -20,7 +20,7 @@ class Ring {
       expect(this.window.tail + points).toBeLessThanOrEqual(move.capacity);
     }
     const at = this.window.tail;
-    const drop = this.window.accept(frame, packets * points * 8, index * points * 8, points);
+    const drop = this.window.accept(frame, packets * points * 8, index * points * 8, points * 8);
     if (drop === null) {
       expect(this.window.tail).toBe(at + points);
       for (let i = 0; i < points; i++) this.#cells[at + i] = `${frame}:${index}`;

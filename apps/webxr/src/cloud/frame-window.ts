@@ -123,13 +123,15 @@ export class FrameWindow {
   /**
    * Takes one packet whose `points` vertices will be written at {@link tail} (as it is before the call).
    *
+   * @param sequenceLength bytes of the frame that it carries, 8 a point; there may be fewer vertices
    * @returns why it is not drawn, or `null`: the tail has moved on
    */
   accept(
     frameNumber: number,
     frameLength: number,
     sequenceOffset: number,
-    points: number,
+    sequenceLength: number,
+    points = sequenceLength / 8,
   ): WindowDrop | null {
     const place = sequenceOffset / frameLength;
     const isPrevious = this.newestFrame !== null && sequenceDelta32(frameNumber, this.newestFrame) < 0;
@@ -146,7 +148,7 @@ export class FrameWindow {
     this.#entryStart[i] = this.tail;
     this.#entryPlace[i] = place;
     this.tail += points;
-    const end = (sequenceOffset + points * 8) / frameLength;
+    const end = (sequenceOffset + sequenceLength) / frameLength;
     this.#runPlace[this.runCount - 1] = end;
     if (!isPrevious) {
       if (end > this.progress) {

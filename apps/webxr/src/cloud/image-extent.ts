@@ -24,22 +24,33 @@ export class ImageExtent {
   #sumXx = 0;
   #sumYy = 0;
 
+  /** The same of a decoded packet: `points` from point `first` on, 4 int16 each. */
+  addVertices(frameNumber: number, points: Int16Array, first: number, count: number): void {
+    if (frameNumber !== this.#frame) this.#close(frameNumber);
+    const step = Math.max(1, Math.floor(count / SAMPLES_PER_PACKET));
+    for (let i = first; i < first + count; i += step) {
+      this.#add(points[i * 4] as number, points[i * 4 + 1] as number, points[i * 4 + 2] as number);
+    }
+  }
+
   /** @param payload from byte `offset`: x, y, z as int16 mm of `count` points (points64) */
   add(frameNumber: number, payload: DataView, offset: number, count: number): void {
     if (frameNumber !== this.#frame) this.#close(frameNumber);
     const step = Math.max(1, Math.floor(count / SAMPLES_PER_PACKET));
     for (let i = 0; i < count; i += step) {
       const at = offset + i * 6;
-      const z = payload.getInt16(at + 4, true);
-      if (z <= 0) continue;
-      const x = clamp(payload.getInt16(at, true) / z);
-      const y = clamp(payload.getInt16(at + 2, true) / z);
-      this.#count++;
-      this.#sumX += x;
-      this.#sumY += y;
-      this.#sumXx += x * x;
-      this.#sumYy += y * y;
+      this.#add(payload.getInt16(at, true), payload.getInt16(at + 2, true), payload.getInt16(at + 4, true));
     }
+  }
+
+  #add(x: number, y: number, z: number): void {
+    if (z <= 0) return;
+    const [u, v] = [clamp(x / z), clamp(y / z)];
+    this.#count++;
+    this.#sumX += u;
+    this.#sumY += v;
+    this.#sumXx += u * u;
+    this.#sumYy += v * v;
   }
 
   #close(nextFrame: number): void {

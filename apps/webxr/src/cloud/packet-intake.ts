@@ -8,10 +8,15 @@ import {
   readCloudPayload,
   SequenceUnwrapper16,
 } from '@farpoint/protocol';
+import type { PacketFault, UnorganisedFault } from '@farpoint/wasm-codec';
 
-/** Why a packet is not drawn. The first five are the wire format's. */
+/** Why a packet is not drawn. The first are the wire format's and its codecs'. */
 export type DropReason =
   | CloudPayloadFault
+  | PacketFault
+  | UnorganisedFault
+  | 'no-stream' // of a coded format whose stream header has not come
+  | 'bad-count' // decoded, but not into as many points as its header says
   | 'no-buffer' // the page has not given buffers back: it draws too slowly
   | 'page-behind' // handed to the page, but newer points came before it could draw
   | 'late' // its frame was replaced on the screen already

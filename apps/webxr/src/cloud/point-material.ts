@@ -1,5 +1,5 @@
 /**
- * The point shader: int16 millimetres and 6-6-4 colour as they came, the pose of the point's frame, the paper's size
+ * The point shader: int16 coordinates and 6-6-4 colour as they came, the pose of the point's frame, the paper's size
  * equation.
  *
  * Size (diameter, pixels): `s0 · (1/w) · (m + |z|·k)`, z the depth in the capturing camera, w the clip coordinate. With
@@ -24,6 +24,8 @@ uniform int runCount;
 // Position of the camera in the world, metres; w: the size equation's k.
 uniform vec4 framePosition[2];
 uniform vec4 frameOrientation[2];
+// Metres of one step of a coordinate.
+uniform float frameUnit[2];
 uniform float viewportHeight;
 uniform float sizeScale;
 uniform float freshness;
@@ -44,7 +46,7 @@ void main() {
     return;
   }
   int slot = runs[run].z;
-  vec3 camera = vec3(position.xyz) * 0.001;
+  vec3 camera = vec3(position.xyz) * frameUnit[slot];
   vec3 world = rotate(frameOrientation[slot], camera) + framePosition[slot].xyz;
   gl_Position = projectionMatrix * (modelViewMatrix * vec4(world, 1.0));
 
@@ -87,6 +89,7 @@ export interface PointUniforms {
   runCount: { value: number };
   framePosition: { value: Vector4[] };
   frameOrientation: { value: Vector4[] };
+  frameUnit: { value: number[] };
   /** Of one eye, pixels of the drawing buffer. */
   viewportHeight: { value: number };
   /** The operator's taste, 1 = as computed. */
@@ -101,6 +104,7 @@ export function createPointMaterial(): { material: RawShaderMaterial; uniforms: 
     runCount: { value: 0 },
     framePosition: { value: [new Vector4(), new Vector4()] },
     frameOrientation: { value: [new Vector4(0, 0, 0, 1), new Vector4(0, 0, 0, 1)] },
+    frameUnit: { value: [0.001, 0.001] },
     viewportHeight: { value: 1 },
     sizeScale: { value: 1 },
     freshness: { value: 1 },
@@ -115,17 +119,12 @@ export function createPointMaterial(): { material: RawShaderMaterial; uniforms: 
 }
 
 /**
- * Diameter in mean distances. Samples are drawn at random, so that circles of c mean distances cover 1 − exp(−π·c²/4) of a
- * surface: 96 % at 2.
- */
-const COVER = 2;
-
-/**
  * k of the size equation: the distance of neighbours at 1 m of depth, metres.
  *
  * @param points of the frame
  * @param imageExtent side of the camera's picture at 1 m, metres (image-extent.ts)
+ * @param cover diameter of a point in mean distances
  */
-export function spacingPerMetre(points: number, imageExtent: number): number {
-  return points > 0 ? (COVER * imageExtent) / Math.sqrt(points) : 0;
+export function spacingPerMetre(points: number, imageExtent: number, cover: number): number {
+  return points > 0 ? (cover * imageExtent) / Math.sqrt(points) : 0;
 }

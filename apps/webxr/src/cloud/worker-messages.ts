@@ -1,4 +1,5 @@
 /** What the page and the cloud worker say to each other. */
+import type { CloudStream } from '@farpoint/protocol';
 import type { DropCounts } from './packet-intake.ts';
 
 export type ToCloudWorker =
@@ -7,7 +8,11 @@ export type ToCloudWorker =
   /** Take frames from a bridge's streaming socket; another generation is another robot. */
   | { type: 'bridge'; url: string; generation: number }
   /** Where the browser lacks `RTCRtpScriptTransform`: the receiver's stream of encoded frames. */
-  | { type: 'stream'; readable: ReadableStream<RTCEncodedAudioFrame>; generation: number };
+  | { type: 'stream'; readable: ReadableStream<RTCEncodedAudioFrame>; generation: number }
+  /** What packets of a coded format are decoded with from now on. */
+  | { type: 'cloudStream'; generation: number; format: CloudStream['format']; header: Uint8Array }
+  /** Of a coded frame only every so many-th point is handed on: the machine draws too slowly for more. */
+  | { type: 'drawEvery'; every: number };
 
 /** Options of the `RTCRtpScriptTransform`. */
 export interface CloudTransformOptions {
@@ -18,6 +23,8 @@ export interface CloudTransformOptions {
 export type FromCloudWorker =
   | { type: 'ready' }
   | { type: 'failed'; message: string }
+  /** A coded stream that cannot be decoded here. */
+  | { type: 'streamRefused'; generation: number; message: string }
   | { type: 'batch'; generation: number; packets: number; points: number; buffer: ArrayBuffer }
   | ({ type: 'report' } & IntakeReport);
 

@@ -83,7 +83,7 @@ export class LatencyProbe {
     this.#test.onPacket(
       batch.isLatencyTest(packet),
       batch.frameNumber(packet),
-      batch.pointsOf(packet),
+      batch.pointsCame(packet),
       batch.frameLength(packet) / 8,
       batch.receivedMs(packet) - performance.timeOrigin,
     );

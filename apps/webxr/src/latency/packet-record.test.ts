@@ -7,7 +7,11 @@ function batchOf(offsets: number[]): Batch {
   const batch = new Batch(new ArrayBuffer(BATCH_BYTES));
   for (const sequenceOffset of offsets) {
     const header = { frameNumber: 7, frameLength: 9600, sequenceOffset, sequenceLength: 1200 };
-    batch.add(header, emptyPlacement(), 1000.5 + sequenceOffset, 2);
+    batch.add(header, emptyPlacement(), 150, 1000.5 + sequenceOffset, {
+      imageExtent: 2,
+      unit: 0.001,
+      cover: 2,
+    });
   }
   return batch;
 }

@@ -13,6 +13,7 @@ function bench(): { session: RobotSession; told: string[] } {
     onRejected: tell('rejected'),
     onEstop: tell('estop'),
     onLatencyFrame: tell('latencyFrame'),
+    onCloudStream: tell('cloudStream'),
     onTelemetry: tell('telemetry'),
     onRobotFault: tell('fault'),
   });

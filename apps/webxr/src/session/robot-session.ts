@@ -2,6 +2,7 @@
 import {
   ageOfStampMs,
   ClockOffset,
+  type CloudStream,
   type CommandRejected,
   clockAnswerCodec,
   decodeJson,
@@ -24,6 +25,8 @@ export interface RobotSessionEvents {
   onEstop(estop: EstopState): void;
   onLatencyFrame(frame: LatencyFrame): void;
   onTelemetry(telemetry: Telemetry): void;
+  /** What coded packets are decoded with. */
+  onCloudStream(stream: CloudStream): void;
   /** The robot could not use a message of ours. */
   onRobotFault(message: string): void;
 }
@@ -85,6 +88,9 @@ export class RobotSession {
         return;
       case 'latencyFrame':
         this.#events.onLatencyFrame(message);
+        return;
+      case 'cloudStream':
+        this.#events.onCloudStream(message);
         return;
       case 'fault':
         this.#events.onRobotFault(message.message);

@@ -62,7 +62,7 @@ export class PageStatistics {
     this.#frameLatency.onPacket(
       batch.frameNumber(packet),
       captureUs,
-      batch.pointsOf(packet),
+      batch.pointsCame(packet),
       batch.frameLength(packet) / 8,
     );
   }

@@ -1,8 +1,21 @@
 /**
- * How finely a flat screen is drawn: fewer pixels where the machine cannot keep up, since a late picture is worse than a
- * coarse one. No clock here.
+ * How much is drawn: fewer points of a whole cloud, and on a flat screen fewer pixels, where the machine cannot keep up. A
+ * late picture is worse than a coarse one. No clock here.
  */
-export const RESOLUTION_STEPS: readonly number[] = [1, 0.75, 0.5];
+export interface DrawingStep {
+  /** Share of the screen's own resolution. */
+  scale: number;
+  /** Of coded clouds every so many-th point. */
+  every: number;
+}
+
+export const DRAWING_STEPS: readonly DrawingStep[] = [
+  { scale: 1, every: 1 },
+  { scale: 0.75, every: 2 },
+  { scale: 0.5, every: 4 },
+  { scale: 0.5, every: 8 },
+  { scale: 0.5, every: 16 },
+];
 
 const SLOW_FPS = 24;
 const FAST_FPS = 50;
@@ -11,28 +24,27 @@ const FAST_FOR_MS = 6000;
 /** After a step up that was too much, the next is tried only after so long. */
 const PATIENCE_MS = 60_000;
 
-export class ResolutionGovernor {
+export class DrawingGovernor {
   #step = 0;
   #slowSinceMs: number | null = null;
   #fastSinceMs: number | null = null;
   #steppedUpMs = Number.NEGATIVE_INFINITY;
   #noUpBeforeMs = Number.NEGATIVE_INFINITY;
 
-  /** Share of the screen's own resolution. */
-  get scale(): number {
-    return RESOLUTION_STEPS[this.#step] as number;
+  get step(): DrawingStep {
+    return DRAWING_STEPS[this.#step] as DrawingStep;
   }
 
   /**
    * @param displayFps display frames a second over the last second
-   * @returns whether {@link scale} has changed
+   * @returns whether {@link step} has changed
    */
   update(displayFps: number, nowMs: number): boolean {
     this.#slowSinceMs = displayFps < SLOW_FPS ? (this.#slowSinceMs ?? nowMs) : null;
     this.#fastSinceMs = displayFps > FAST_FPS ? (this.#fastSinceMs ?? nowMs) : null;
     const isSlow = this.#slowSinceMs !== null && nowMs - this.#slowSinceMs >= SLOW_FOR_MS;
     const isFast = this.#fastSinceMs !== null && nowMs - this.#fastSinceMs >= FAST_FOR_MS;
-    if (isSlow && this.#step < RESOLUTION_STEPS.length - 1) {
+    if (isSlow && this.#step < DRAWING_STEPS.length - 1) {
       this.#step++;
       this.#slowSinceMs = null;
       if (nowMs - this.#steppedUpMs < PATIENCE_MS) this.#noUpBeforeMs = nowMs + PATIENCE_MS;

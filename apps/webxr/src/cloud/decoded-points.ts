@@ -1,0 +1,65 @@
+import type { Placement, PointPacketHeader } from '@farpoint/protocol';
+import { BATCH_POINTS, type PointLook } from './batch.ts';
+import type { BatchWriter } from './packet-decoder.ts';
+import type { DropReason } from './packet-intake.ts';
+
+/**
+ * Hands a decoded packet's points on, every `writer.every`-th of them. A packet that holds more than a batch goes on in the
+ * next ones: each part has its own place in the frame, as if it were a packet of its own.
+ */
+export class DecodedPoints {
+  readonly #part: PointPacketHeader = {
+    frameNumber: 0,
+    frameLength: 0,
+    sequenceOffset: 0,
+    sequenceLength: 0,
+  };
+
+  /** @param points 4 int16 each, the packet's points only */
+  write(
+    points: Int16Array,
+    header: PointPacketHeader,
+    placement: Placement,
+    receivedMs: number,
+    look: PointLook,
+    writer: BatchWriter,
+  ): DropReason | null {
+    const { every } = writer;
+    const total = points.length / 4;
+    const part = this.#part;
+    part.frameNumber = header.frameNumber;
+    part.frameLength = header.frameLength;
+    for (let first = 0; first < total; ) {
+      const came = Math.min(total - first, BATCH_POINTS * every);
+      const drawn = Math.ceil(came / every);
+      const batch = writer.batchFor(drawn);
+      if (batch === null) return 'no-buffer';
+      const at = batch.pointCount * 4;
+      if (every === 1) batch.points.set(points.subarray(first * 4, (first + came) * 4), at);
+      else thin(points, first, drawn, every, batch.points, at);
+      part.sequenceOffset = header.sequenceOffset + first * 8;
+      part.sequenceLength = came * 8;
+      batch.add(part, placement, drawn, receivedMs, look);
+      first += came;
+    }
+    return null;
+  }
+}
+
+function thin(
+  from: Int16Array,
+  first: number,
+  count: number,
+  every: number,
+  into: Int16Array,
+  at: number,
+): void {
+  for (let i = 0; i < count; i++) {
+    const source = (first + i * every) * 4;
+    const target = at + i * 4;
+    into[target] = from[source] as number;
+    into[target + 1] = from[source + 1] as number;
+    into[target + 2] = from[source + 2] as number;
+    into[target + 3] = from[source + 3] as number;
+  }
+}

@@ -1,0 +1,33 @@
+/** From a packet's data to points in the layout of the GPU. One class a format; the worker picks by the placement. */
+import type { Placement, PointPacketHeader } from '@farpoint/protocol';
+import type { Batch } from './batch.ts';
+import type { DropReason } from './packet-intake.ts';
+
+/** Where decoders put points. */
+export interface BatchWriter {
+  /** The batch being filled; with `wanted` points it has room for them, or is empty. `null`: all buffers are out. */
+  batchFor(wanted: number): Batch | null;
+  /** Of a coded frame only every so many-th point is handed on. */
+  readonly every: number;
+}
+
+export interface PacketDecoder {
+  /**
+   * Decodes one packet and adds its points to the writer's batch.
+   *
+   * @param data the codec's own bytes, without header and placement
+   * @param receivedMs since the epoch
+   * @returns why it gave no points, or `null`
+   */
+  add(
+    header: PointPacketHeader,
+    placement: Placement,
+    data: Uint8Array,
+    receivedMs: number,
+    writer: BatchWriter,
+  ): DropReason | null;
+  /** The batch is about to be handed over: what is not yet in it must come now. */
+  finish(batch: Batch): void;
+  /** The batch will not be handed over. */
+  abandon(): void;
+}
