@@ -46,7 +46,7 @@ export class MappedFile implements Disposable {
 
   /** False once the file was removed, replaced or changed its size: open it anew. */
   get current(): boolean {
-    return this.#addon.current(this.handle);
+    return this.#do(() => this.#addon.current(this.handle));
   }
 
   /** Takes the file's lock for as long as it is mapped; false where another process has it. */
@@ -174,6 +174,10 @@ export function translated(error: unknown, path: string, wantedBytes: number): u
     case 'EMFILE':
     case 'EIO':
       return new SharedMemoryError('io', path, null, `the system refuses it (${code})`);
+    case 'CLOSED':
+      return new Error(`${path}: it was closed`);
+    case 'RANGE':
+      return Number.isNaN(number) ? error : new RangeError(`${path}: not within the file: ${number}`);
     default:
       return error;
   }

@@ -19,13 +19,22 @@ import { NO_BUDGET } from './capture-messages.ts';
 
 let folder: string;
 const open: { close(): unknown }[] = [];
+const timers: NodeJS.Timeout[] = [];
 beforeEach(() => {
   folder = mkdtempSync(join(tmpdir(), 'farpoint-shm-'));
 });
 afterEach(async () => {
+  for (const timer of timers.splice(0)) clearInterval(timer);
   for (const each of open.splice(0).reverse()) await each.close();
   rmSync(folder, { recursive: true, force: true });
 });
+
+/** Until the test ends, at the latest. */
+function every(ms: number, produce: () => void): NodeJS.Timeout {
+  const timer = setInterval(produce, ms);
+  timers.push(timer);
+  return timer;
+}
 
 function keep<T extends { close(): unknown }>(made: T): T {
   open.push(made);
@@ -53,7 +62,7 @@ async function frameWhere(
   produce: () => void,
   is: (frame: CapturedFrame, mm: number[]) => boolean,
 ): Promise<CapturedFrame> {
-  const timer = setInterval(produce, 5);
+  const timer = every(5, produce);
   try {
     return await new Promise((resolve) => {
       capture.onFrame = (frame) => {
@@ -99,199 +108,210 @@ const GRID: Omit<FrameHeader, 'depthUnit'> = {
   ...{ captureMs: null, width: 20, height: 15, pose: null, lens: null, latencyTest: false },
 };
 
-describe.skipIf(!isAvailable())('sources in shared memory (need the addon: pnpm build:native)', () => {
-  it('farpoint: frames with grid, pose and capture time come out as packets', async () => {
-    const producer = keep(
-      new CloudProducer({ folder, format: 'points', maxPoints: 300, framesPerSecond: 30 }),
-    );
-    producer.publish({ points: cloud(1, 300) }, GRID);
-    const capture = await start('farpoint');
-    expect(capture.description).toMatchObject({ width: 20, height: 15, capacity: 300, framesPerSecond: 30 });
-    capture.setBudget(BUDGET);
-    const pose: Pose = { position: { x: 4, y: 5, z: 6 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
-    let stamp = 0;
-    const produce = () => {
-      stamp = monotonicMs() - 7;
-      producer.publish({ points: cloud(2, 300) }, { ...GRID, captureMs: stamp, pose });
-    };
-    const frame = await frameWhere(capture, produce, (_, [, , z]) => z === 2000);
-    expect(frame.points).toBe(300);
-    expect(placementOf(frame).pose.position).toEqual({ x: 4, y: 5, z: 6 });
-    expect(frame.capturedAtMs).toBeLessThanOrEqual(stamp);
-    expect(frame.readyMs - frame.capturedAtMs).toBeGreaterThanOrEqual(7);
-    const state = await new Promise<{ x: number }>((resolve) => {
-      capture.onState = ({ pose: { position } }) => resolve(position);
-    });
-    expect(state.x).not.toBe(0);
-  });
-
-  it('farpoint: a camera’s grid comes out as images’ points', async () => {
-    const lens = { fx: 10, fy: 10, cx: 9.5, cy: 7 };
-    const producer = keep(new CloudProducer({ folder, format: 'depth16', maxPoints: 300 }));
-    const content = { depth: new Uint16Array(300).fill(2000), colours: new Uint8Array(1200) };
-    const publish = () => producer.publish(content, { ...GRID, lens, depthUnit: 0.001 });
-    publish();
-    const capture = await start('farpoint');
-    expect(capture.description).toMatchObject({ width: 20, height: 15, camera: lens });
-    capture.setBudget(BUDGET);
-    const frame = await frameWhere(capture, publish, () => true);
-    expect(frame.points).toBe(300);
-    expect(firstPoint(frame)).toEqual([-1900, -1400, 2000]);
-    const failure = new Promise<Error>((resolve) => {
-      capture.onFailure = resolve;
-    });
-    const other = { ...GRID, lens: { ...lens, fx: 11 }, depthUnit: 0.001 };
-    const timer = setInterval(() => producer.publish(content, other), 5);
-    expect((await failure).message).toContain('camera');
-    clearInterval(timer);
-  });
-
-  it('farpoint: heals when the producer is followed by another, and says what is wrong meanwhile', async () => {
-    const first = keep(new CloudProducer({ folder, format: 'points', maxPoints: 300 }));
-    first.publish({ points: cloud(1, 300) }, GRID);
-    const capture = await start('farpoint');
-    capture.setBudget(BUDGET);
-    first.close();
-    const fault = new Promise<string>((resolve) => {
-      capture.onFault = resolve;
-    });
-    rmSync(join(folder, 'farpoint_cloud'));
-    expect(await fault).toContain(join(folder, 'farpoint_cloud'));
-    const second = keep(new CloudProducer({ folder, format: 'points', maxPoints: 150 }));
-    const small = { ...GRID, width: 150, height: 1 };
-    const produce = () => second.publish({ points: cloud(3, 150) }, small);
-    const frame = await frameWhere(capture, produce, (_, [, , z]) => z === 3000);
-    expect(frame.points).toBe(150);
-    expect(capture.faults).toBeGreaterThanOrEqual(1);
-  });
-
-  it('farpoint: ends, saying why, where another producer’s frames are too large', async () => {
-    const first = keep(new CloudProducer({ folder, format: 'points', maxPoints: 100 }));
-    first.publish({ points: cloud(1, 100) }, { ...GRID, width: 100, height: 1 });
-    const capture = await start('farpoint');
-    capture.setBudget(BUDGET);
-    const failure = new Promise<Error>((resolve) => {
-      capture.onFailure = resolve;
-    });
-    first.close();
-    const second = keep(new CloudProducer({ folder, format: 'points', maxPoints: 300 }));
-    second.publish({ points: cloud(1, 300) }, GRID);
-    expect((await failure).message).toContain('room for 100');
-  });
-
-  it.each(['reference', 'farpoint'] as const)(
-    '%s: goes on after a frame that was there first',
-    async (layout) => {
-      const mine = layout === 'reference' ? keep(new ReferenceFrameProducer(folder)) : null;
-      const ours =
-        layout === 'farpoint' ? keep(new CloudProducer({ folder, format: 'points', maxPoints: 300 })) : null;
-      const produce = () => {
-        mine?.publish(packed(3, 0));
-        ours?.publish({ points: cloud(0.003, 300) }, GRID);
-      };
-      produce();
-      const opening = start(layout);
-      const timer = setInterval(produce, 1);
-      const capture = await opening;
-      clearInterval(timer);
+describe.skipIf(!isAvailable())(
+  'sources in shared memory (need the addon: pnpm build:native)',
+  { timeout: 30_000 },
+  () => {
+    it('farpoint: frames with grid, pose and capture time come out as packets', async () => {
+      const producer = keep(
+        new CloudProducer({ folder, format: 'points', maxPoints: 300, framesPerSecond: 30 }),
+      );
+      producer.publish({ points: cloud(1, 300) }, GRID);
+      const capture = await start('farpoint');
+      expect(capture.description).toMatchObject({
+        width: 20,
+        height: 15,
+        capacity: 300,
+        framesPerSecond: 30,
+      });
       capture.setBudget(BUDGET);
-      const frame = await frameWhere(capture, produce, () => true);
-      expect(firstPoint(frame)[2]).toBe(3);
-    },
-  );
-
-  it('reference: packed points come out as packets, and the producer learns the rate', async () => {
-    const producer = keep(new ReferenceFrameProducer(folder));
-    const capture = await start('reference');
-    expect(capture.description).toMatchObject({ capacity: 230_400, height: 1 });
-    capture.setBudget(BUDGET);
-    const frame = await frameWhere(
-      capture,
-      () => producer.publish(packed(1234, 0xffff)),
-      () => true,
-    );
-    expect(frame.points).toBe(150);
-    expect(firstPoint(frame)).toEqual([1, 2, 1234]);
-    expect(new Uint16Array(frame.buffer, 16 + 900, 1)[0]).toBe(0xffff);
-    expect(producer.wishes).toEqual({ bitsPerSecond: 123_000_000, latencyTest: false });
-  });
-
-  it('reference: a latency test asks the producer for a green frame, and that is the one', async () => {
-    const producer = keep(new ReferenceFrameProducer(folder));
-    const capture = await start('reference');
-    capture.setBudget(BUDGET);
-    capture.requestLatencyTest();
-    const asked: boolean[] = [];
-    const produce = () => {
-      const { latencyTest } = producer.wishes;
-      if (producer.publish(packed(1, latencyTest ? 0x03f0 : 0xffff))) asked.push(latencyTest);
-    };
-    const frame = await frameWhere(capture, produce, ({ latencyTest }) => latencyTest);
-    expect(placementOf(frame).latencyTest).toBe(true);
-    expect(asked.filter(Boolean)).toHaveLength(1);
-  });
-
-  it('reference: a producer that knows no latency test is helped out', async () => {
-    const producer = keep(new ReferenceFrameProducer(folder));
-    const capture = await start('reference');
-    capture.setBudget(BUDGET);
-    capture.requestLatencyTest();
-    const frame = await frameWhere(
-      capture,
-      () => producer.publish(packed(1, 0xffff)),
-      ({ latencyTest }) => latencyTest,
-    );
-    expect(new Uint16Array(frame.buffer, 16 + 900, 1)[0]).toBe(0x03f0);
-  });
-
-  it('reference: with nobody watching the producer waits; then what is old is let go', async () => {
-    const producer = keep(new ReferenceFrameProducer(folder));
-    const capture = await start('reference');
-    expect(producer.publish(packed(1, 0))).toBe(true);
-    let reports = 0;
-    await new Promise<void>((resolve) => {
-      capture.onState = () => {
-        if (++reports === 10) resolve();
+      const pose: Pose = { position: { x: 4, y: 5, z: 6 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
+      let stamp = 0;
+      const produce = () => {
+        stamp = monotonicMs() - 7;
+        producer.publish({ points: cloud(2, 300) }, { ...GRID, captureMs: stamp, pose });
       };
+      const frame = await frameWhere(capture, produce, (_, [, , z]) => z === 2000);
+      expect(frame.points).toBe(300);
+      expect(placementOf(frame).pose.position).toEqual({ x: 4, y: 5, z: 6 });
+      expect(frame.capturedAtMs).toBeLessThanOrEqual(stamp);
+      expect(frame.readyMs - frame.capturedAtMs).toBeGreaterThanOrEqual(7);
+      const state = await new Promise<{ x: number }>((resolve) => {
+        capture.onState = ({ pose: { position } }) => resolve(position);
+      });
+      expect(state.x).not.toBe(0);
     });
-    expect(producer.free).toBe(false);
-    capture.setBudget(BUDGET);
-    const frame = await frameWhere(
-      capture,
-      () => producer.publish(packed(2, 0)),
-      () => true,
-    );
-    expect(firstPoint(frame)[2]).toBe(2);
-  });
 
-  it('reference: an impossible length is a fault that passes', async () => {
-    const producer = keep(new ReferenceFrameProducer(folder));
-    const capture = await start('reference');
-    capture.setBudget(BUDGET);
-    const fault = new Promise<string>((resolve) => {
-      capture.onFault = resolve;
+    it('farpoint: a camera’s grid comes out as images’ points', async () => {
+      const lens = { fx: 10, fy: 10, cx: 9.5, cy: 7 };
+      const producer = keep(new CloudProducer({ folder, format: 'depth16', maxPoints: 300 }));
+      const content = { depth: new Uint16Array(300).fill(2000), colours: new Uint8Array(1200) };
+      const publish = () => producer.publish(content, { ...GRID, lens, depthUnit: 0.001 });
+      publish();
+      const capture = await start('farpoint');
+      expect(capture.description).toMatchObject({ width: 20, height: 15, camera: lens });
+      capture.setBudget(BUDGET);
+      const frame = await frameWhere(capture, publish, () => true);
+      expect(frame.points).toBe(300);
+      expect(firstPoint(frame)).toEqual([-1900, -1400, 2000]);
+      const failure = new Promise<Error>((resolve) => {
+        capture.onFailure = resolve;
+      });
+      const other = { ...GRID, lens: { ...lens, fx: 11 }, depthUnit: 0.001 };
+      const timer = every(5, () => producer.publish(content, other));
+      expect((await failure).message).toContain('camera');
+      clearInterval(timer);
     });
-    const files = referenceFiles(folder);
-    const bad = new Uint8Array(1_843_203).fill(255, 0, 3);
-    writeFileSync(files.cloud, bad);
-    writeFileSync(files.flags, Uint8Array.of(1, 0, 0, 0, 0, 0));
-    expect(await fault).toContain('shared_pc, byte 0');
-    const frame = await frameWhere(
-      capture,
-      () => producer.publish(packed(5, 0)),
-      () => true,
-    );
-    expect(firstPoint(frame)[2]).toBe(5);
-  });
 
-  it.each(['farpoint', 'reference'] as const)(
-    '%s: says which file is missing where no producer comes',
-    async (layout) => {
-      const file = layout === 'farpoint' ? 'farpoint_cloud' : 'shared_pc';
-      await expect(start(layout, 0)).rejects.toThrow(`${join(folder, file)}: there is no such file`);
-    },
-  );
-});
+    it('farpoint: heals when the producer is followed by another, and says what is wrong meanwhile', async () => {
+      const first = keep(new CloudProducer({ folder, format: 'points', maxPoints: 300 }));
+      first.publish({ points: cloud(1, 300) }, GRID);
+      const capture = await start('farpoint');
+      capture.setBudget(BUDGET);
+      first.close();
+      const fault = new Promise<string>((resolve) => {
+        capture.onFault = resolve;
+      });
+      rmSync(join(folder, 'farpoint_cloud'));
+      expect(await fault).toContain(join(folder, 'farpoint_cloud'));
+      const second = keep(new CloudProducer({ folder, format: 'points', maxPoints: 150 }));
+      const small = { ...GRID, width: 150, height: 1 };
+      const produce = () => second.publish({ points: cloud(3, 150) }, small);
+      const frame = await frameWhere(capture, produce, (_, [, , z]) => z === 3000);
+      expect(frame.points).toBe(150);
+      expect(capture.faults).toBeGreaterThanOrEqual(1);
+    });
+
+    it('farpoint: ends, saying why, where another producer’s frames are too large', async () => {
+      const first = keep(new CloudProducer({ folder, format: 'points', maxPoints: 100 }));
+      first.publish({ points: cloud(1, 100) }, { ...GRID, width: 100, height: 1 });
+      const capture = await start('farpoint');
+      capture.setBudget(BUDGET);
+      const failure = new Promise<Error>((resolve) => {
+        capture.onFailure = resolve;
+      });
+      first.close();
+      const second = keep(new CloudProducer({ folder, format: 'points', maxPoints: 300 }));
+      second.publish({ points: cloud(1, 300) }, GRID);
+      expect((await failure).message).toContain('room for 100');
+    });
+
+    it.each(['reference', 'farpoint'] as const)(
+      '%s: goes on after a frame that was there first',
+      async (layout) => {
+        const mine = layout === 'reference' ? keep(new ReferenceFrameProducer(folder)) : null;
+        const ours =
+          layout === 'farpoint'
+            ? keep(new CloudProducer({ folder, format: 'points', maxPoints: 300 }))
+            : null;
+        const produce = () => {
+          mine?.publish(packed(3, 0));
+          ours?.publish({ points: cloud(0.003, 300) }, GRID);
+        };
+        produce();
+        const opening = start(layout);
+        const timer = every(1, produce);
+        const capture = await opening;
+        clearInterval(timer);
+        capture.setBudget(BUDGET);
+        const frame = await frameWhere(capture, produce, () => true);
+        expect(firstPoint(frame)[2]).toBe(3);
+      },
+    );
+
+    it('reference: packed points come out as packets, and the producer learns the rate', async () => {
+      const producer = keep(new ReferenceFrameProducer(folder));
+      const capture = await start('reference');
+      expect(capture.description).toMatchObject({ capacity: 230_400, height: 1 });
+      capture.setBudget(BUDGET);
+      const frame = await frameWhere(
+        capture,
+        () => producer.publish(packed(1234, 0xffff)),
+        () => true,
+      );
+      expect(frame.points).toBe(150);
+      expect(firstPoint(frame)).toEqual([1, 2, 1234]);
+      expect(new Uint16Array(frame.buffer, 16 + 900, 1)[0]).toBe(0xffff);
+      expect(producer.wishes).toEqual({ bitsPerSecond: 123_000_000, latencyTest: false });
+    });
+
+    it('reference: a latency test asks the producer for a green frame, and that is the one', async () => {
+      const producer = keep(new ReferenceFrameProducer(folder));
+      const capture = await start('reference');
+      capture.setBudget(BUDGET);
+      capture.requestLatencyTest();
+      const asked: boolean[] = [];
+      const produce = () => {
+        const { latencyTest } = producer.wishes;
+        if (producer.publish(packed(1, latencyTest ? 0x03f0 : 0xffff))) asked.push(latencyTest);
+      };
+      const frame = await frameWhere(capture, produce, ({ latencyTest }) => latencyTest);
+      expect(placementOf(frame).latencyTest).toBe(true);
+      expect(asked.filter(Boolean)).toHaveLength(1);
+    });
+
+    it('reference: a producer that knows no latency test is helped out', async () => {
+      const producer = keep(new ReferenceFrameProducer(folder));
+      const capture = await start('reference');
+      capture.setBudget(BUDGET);
+      capture.requestLatencyTest();
+      const frame = await frameWhere(
+        capture,
+        () => producer.publish(packed(1, 0xffff)),
+        ({ latencyTest }) => latencyTest,
+      );
+      expect(new Uint16Array(frame.buffer, 16 + 900, 1)[0]).toBe(0x03f0);
+    });
+
+    it('reference: with nobody watching the producer waits; then what is old is let go', async () => {
+      const producer = keep(new ReferenceFrameProducer(folder));
+      const capture = await start('reference');
+      expect(producer.publish(packed(1, 0))).toBe(true);
+      let reports = 0;
+      await new Promise<void>((resolve) => {
+        capture.onState = () => {
+          if (++reports === 10) resolve();
+        };
+      });
+      expect(producer.free).toBe(false);
+      capture.setBudget(BUDGET);
+      const frame = await frameWhere(
+        capture,
+        () => producer.publish(packed(2, 0)),
+        () => true,
+      );
+      expect(firstPoint(frame)[2]).toBe(2);
+    });
+
+    it('reference: an impossible length is a fault that passes', async () => {
+      const producer = keep(new ReferenceFrameProducer(folder));
+      const capture = await start('reference');
+      capture.setBudget(BUDGET);
+      const fault = new Promise<string>((resolve) => {
+        capture.onFault = resolve;
+      });
+      const files = referenceFiles(folder);
+      const bad = new Uint8Array(1_843_203).fill(255, 0, 3);
+      writeFileSync(files.cloud, bad);
+      writeFileSync(files.flags, Uint8Array.of(1, 0, 0, 0, 0, 0));
+      expect(await fault).toContain('shared_pc, byte 0');
+      const frame = await frameWhere(
+        capture,
+        () => producer.publish(packed(5, 0)),
+        () => true,
+      );
+      expect(firstPoint(frame)[2]).toBe(5);
+    });
+
+    it.each(['farpoint', 'reference'] as const)(
+      '%s: says which file is missing where no producer comes',
+      async (layout) => {
+        const file = layout === 'farpoint' ? 'farpoint_cloud' : 'shared_pc';
+        await expect(start(layout, 0)).rejects.toThrow(`${join(folder, file)}: there is no such file`);
+      },
+    );
+  },
+);
 
 describe.skipIf(isAvailable())('sources in shared memory, without the addon', () => {
   it('say in one sentence what to do', async () => {
