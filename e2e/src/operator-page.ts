@@ -9,6 +9,8 @@ export interface OpenOptions {
   signaling?: string;
   /** `relay`: by TURN servers only. */
   ice?: 'relay';
+  /** Fixed size of its canvas, `WIDTHxHEIGHT`: a small one leaves the processor to others. */
+  canvas?: string;
   /** Take the stream from this bridge. */
   bridge?: string;
 }
@@ -24,7 +26,7 @@ export class OperatorPage {
   static async open(page: Page, stack: LocalStack, options: OpenOptions = {}): Promise<OperatorPage> {
     const url = new URL(stack.webUrl);
     if (options.robot !== undefined) url.searchParams.set('robot', options.robot);
-    for (const name of ['token', 'signaling', 'ice', 'bridge'] as const) {
+    for (const name of ['token', 'signaling', 'ice', 'bridge', 'canvas'] as const) {
       const value = options[name];
       if (value !== undefined) url.searchParams.set(name, value);
     }
