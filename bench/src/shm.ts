@@ -220,7 +220,7 @@ async function killAll(
     console.error(`${layout}: ${frames} frames of ${points} points, both sides killed at random`);
     try {
       results[layout] = await runKillTest({
-        ...{ layout, folder, frames, points, leastKills: 10, seed, lifeMs: [200, 2000] },
+        ...{ layout, folder, frames, points, leastKills: 10, seed, lifeMs: [20, 1500] },
       });
     } finally {
       rmSync(folder, { recursive: true, force: true });

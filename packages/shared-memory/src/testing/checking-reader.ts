@@ -61,6 +61,7 @@ function open(): Reading {
   };
 }
 
+console.log('working');
 for (;;) {
   let reading: Reading | null = null;
   try {

@@ -15,7 +15,7 @@ if (layout === 'farpoint') {
   const producer = new CloudProducer({ folder, format: 'points', maxPoints: points });
   const words = new Uint32Array(points * 4);
   const header = { captureMs: null, width: points, height: 1, pose: null, lens: null, latencyTest: false };
-  setInterval(() => undefined, 1000);
+  console.log('working');
   const produce = () => {
     fillWords(words, mark++);
     producer.publish({ points: words }, header);
@@ -25,6 +25,7 @@ if (layout === 'farpoint') {
 } else {
   const producer = new ReferenceFrameProducer(folder);
   const packed = new Uint8Array(points * 8);
+  console.log('working');
   const produce = () => {
     fillPacked(packed, mark++);
     const offer = () => {
