@@ -1,13 +1,13 @@
-import type { CloudStream } from '@farpoint/protocol';
 import { type Codec, CodecError } from '@farpoint/wasm-codec';
 import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/frame-source.ts';
 import type { EncodedFrame, PacketSource, SamplingOptions } from './encoded-frame.ts';
 import { OrganisedFrameEncoder } from './organised-frame-encoder.ts';
+import type { CodedFormat } from './plan.ts';
 import { UnorganisedFrameEncoder } from './unorganised-frame-encoder.ts';
 
 /** What receivers need before a format's packets. */
 export interface CodedStream {
-  format: CloudStream['format'];
+  format: CodedFormat;
   header: Uint8Array;
 }
 
@@ -35,6 +35,11 @@ export class CodedFrameEncoder {
     return (this.#last ?? this.#organised)?.room ?? null;
   }
 
+  /** What the next frame will most likely be coded in. */
+  get format(): CodedFormat {
+    return this.#stream?.format ?? (this.#organised === null ? 'unorganised' : 'organised');
+  }
+
   /** Of the last frame; another object where it changed. */
   get stream(): CodedStream | null {
     return this.#stream;
@@ -58,7 +63,7 @@ export class CodedFrameEncoder {
     this.#last = encoder;
     const { header } = encoder;
     if (header !== null && header !== this.#stream?.header) {
-      this.#stream = { format: encoded.format as CloudStream['format'], header };
+      this.#stream = { format: encoded.format as CodedFormat, header };
     }
     return encoded;
   }

@@ -69,7 +69,7 @@ export class FrameFormats {
     let framesPerSecond: number | null = null;
     if (budget.coded) {
       this.#coded ??= this.#makeCoded();
-      const plan = this.#planner.planCoded(input);
+      const plan = this.#planner.planCoded(this.#coded.format, input);
       const encoded = this.#coded.encode(frame, frameNumber, plan.budgetBytes, latencyTest);
       if (encoded !== null) {
         framesPerSecond = plan.framesPerSecond;

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { FramePlanner, type PlanInput, type PlanOptions, wireBytesOfPacket } from './plan.ts';
+import { type CodedPlan, FramePlanner, type PlanInput, type PlanOptions, wireBytesOfPacket } from './plan.ts';
 
 const OPTIONS: PlanOptions = {
   policy: 'latency',
@@ -106,5 +106,48 @@ describe('FramePlanner, for latency', () => {
         }
       }),
     );
+  });
+});
+
+describe('FramePlanner, coded', () => {
+  const dataBits = ({ framesPerSecond, budgetBytes }: CodedPlan) => framesPerSecond * budgetBytes * 8;
+
+  it('sends whole frames, finer before more often, and no finer than can be seen', () => {
+    const at = (mbps: number, workMs = 5) =>
+      planner().planCoded('organised', { ...INPUT, targetBitsPerSecond: mbps * 1e6, workMs });
+    expect(at(100)).toEqual({ framesPerSecond: 60, budgetBytes: Math.floor((230_400 * 3.2) / 8) });
+    expect(at(8).framesPerSecond).toBe(15);
+    // What is left of the rate then is less than a frame's share of it.
+    expect(dataBits(at(8))).toBeGreaterThan(7e6);
+    expect(dataBits(at(8))).toBeLessThan(8e6);
+    expect(at(1).framesPerSecond).toBe(10);
+    expect(at(100, 20).framesPerSecond).toBe(30);
+  });
+
+  it('leaves more bits to clouds without a grid', () => {
+    const input = { ...INPUT, rawPoints: 60_000, targetBitsPerSecond: 20e6 };
+    const { framesPerSecond, budgetBytes } = planner({ mostFramesPerSecond: 10 }).planCoded(
+      'unorganised',
+      input,
+    );
+    expect(framesPerSecond).toBe(10);
+    expect((budgetBytes * 8) / 60_000).toBeGreaterThan(30);
+  });
+
+  it('never plans more than the rate but one packet a frame, and makes room for a probe', () => {
+    fc.assert(
+      fc.property(
+        fc.integer({ min: 0, max: 300_000_000 }),
+        fc.integer({ min: 0, max: 400_000 }),
+        fc.constantFrom('organised' as const, 'unorganised' as const),
+        (targetBitsPerSecond, rawPoints, format) => {
+          const plan = planner().planCoded(format, { ...INPUT, targetBitsPerSecond, rawPoints });
+          expect(plan.budgetBytes).toBeGreaterThanOrEqual(1200);
+          if (plan.budgetBytes > 1200) expect(dataBits(plan)).toBeLessThanOrEqual(targetBitsPerSecond);
+        },
+      ),
+    );
+    const probing = { ...INPUT, targetBitsPerSecond: 1e6, probeBytes: 20_000 };
+    expect(planner().planCoded('organised', probing).budgetBytes).toBeGreaterThan(17_000);
   });
 });

@@ -7,6 +7,7 @@
  *   packet a frame: on a link that carries nothing, commands and telemetry matter more than the paper's floor of points.
  */
 import {
+  type CloudFormat,
   MAX_POINT_DATA_BYTES,
   PLACEMENT_BYTES,
   POINT_PACKET_HEADER_BYTES,
@@ -40,6 +41,8 @@ export interface PlanInput {
   workMs: number;
 }
 
+export type CodedFormat = Exclude<CloudFormat, 'points64'>;
+
 export interface FramePlan {
   framesPerSecond: number;
   /** Whole packets' worth. */
@@ -62,10 +65,18 @@ const LEAST_FRAMES_PER_SECOND = 10;
 const UPWARD_MARGIN = 1.25;
 /** The capture thread also reads commands, moves the robot and must not fall behind: share of its time for frames. */
 const MOST_LOAD = 0.7;
-/** With so many bits for each point of the raw cloud a coded frame is whole, if coarse: below, rather fewer frames. */
-const WHOLE_BITS = 1.6;
-/** With so many nothing is gained that could be seen: what the link has beyond them makes it quicker, not finer. */
-const ENOUGH_BITS = 3.2;
+/** What a coded frame needs, bits for each point of the raw cloud. */
+interface CodedNeed {
+  /** The frame is whole, if coarse: below, rather fewer frames. */
+  whole: number;
+  /** Nothing is gained beyond that could be seen: what the link has more makes the stream quicker, not finer. */
+  enough: number;
+}
+const CODED_NEEDS: Readonly<Record<CodedFormat, CodedNeed>> = {
+  organised: { whole: 1.6, enough: 3.2 },
+  // Its step is fixed, so that only the number of points can change.
+  unorganised: { whole: 16, enough: 64 },
+};
 /** A probe may make a frame so much larger than planned, at most. */
 const MOST_PROBE_FACTOR = 8;
 
@@ -121,13 +132,14 @@ export class FramePlanner {
   /**
    * The plan for a frame in a coded format: as many frames a second as are whole, each as fine as the rate allows.
    */
-  planCoded(input: PlanInput): CodedPlan {
+  planCoded(format: CodedFormat, input: PlanInput): CodedPlan {
     const { rawPoints } = input;
+    const need = CODED_NEEDS[format];
     const wireBytes = wireBytesOfPacket(input.overheadBytes);
     const dataShare = MAX_POINT_DATA_BYTES / wireBytes;
     const bitsPerSecond = input.targetBitsPerSecond * dataShare;
-    const framesPerSecond = this.#chooseFrameRate(bitsPerSecond / WHOLE_BITS, rawPoints, input, rawPoints);
-    const enough = (rawPoints * ENOUGH_BITS) / 8;
+    const framesPerSecond = this.#chooseFrameRate(bitsPerSecond / need.whole, rawPoints, input, rawPoints);
+    const enough = (rawPoints * need.enough) / 8;
     const afforded = Math.min(bitsPerSecond / 8 / framesPerSecond, enough);
     const probed = Math.min(
       input.probeBytes * dataShare,

@@ -1,0 +1,84 @@
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
+import { OperatorPage } from '../src/operator-page.ts';
+import { cloudsFolder, expect, test } from '../src/stack-test.ts';
+
+const SMALL = '320x180';
+
+/** The whole of what its camera sees, at a rate that a software renderer can follow. */
+const wholeRobot = {
+  id: 'whole',
+  name: 'Whole cloud',
+  args: ['--source', 'sim', '--sim-seed', '1', '--fps', '8', '--start-mbps', '20', '--bitrate-mbps', '30'],
+};
+
+test('the whole cloud comes by itself, stands where it was captured, and answers a latency test', async ({
+  page,
+  startStack,
+}) => {
+  const stack = await startStack({ robots: [wholeRobot] });
+  const operator = await OperatorPage.open(page, stack, { robot: wholeRobot.id, canvas: SMALL });
+  await operator.expectPoints(10_000);
+  // 480 × 480 pixels, about 15 % of which a stereo camera does not see.
+  await expect.poll(async () => (await operator.stats()).pointsPerFrame).toBeGreaterThan(170_000);
+  const { drops, packetsLost } = await operator.stats();
+  expect(packetsLost).toBe(0);
+  // Before the stream's header came, some packets may have.
+  const { 'no-stream': _, ...others } = drops;
+  expect(others).toEqual({});
+
+  // A room of 20 m at most, with the robot in it.
+  const { bounds, camera } = await operator.probe();
+  if (bounds === null || camera === null) throw new Error('nothing is drawn');
+  for (const axis of [0, 1, 2] as const) {
+    expect(bounds.max[axis] - bounds.min[axis]).toBeLessThan(40);
+    const at = [camera.x, camera.y, camera.z][axis] as number;
+    expect(bounds.min[axis]).toBeLessThan(at + 1);
+    expect(bounds.max[axis]).toBeGreaterThan(at - 1);
+  }
+  expect(bounds.min[2]).toBeGreaterThan(-0.5);
+
+  const result = await page.evaluate(() => window.farpoint.latencyTest());
+  expect(result.totalPoints).toBeGreaterThan(100_000);
+  expect(result.points).toBe(result.totalPoints);
+});
+
+test('who reads points64 only gets that, beside one who gets everything', async ({ page, startStack }) => {
+  const stack = await startStack({ robots: [wholeRobot] });
+  const whole = await OperatorPage.open(page, stack, { robot: wholeRobot.id, canvas: SMALL, every: '8' });
+  await whole.expectPoints(10_000);
+  const other = await page.context().newPage();
+  const plain = await OperatorPage.open(other, stack, {
+    robot: wholeRobot.id,
+    canvas: SMALL,
+    mode: 'points64',
+  });
+  await plain.expectPoints();
+  await expect.poll(async () => (await plain.stats()).pointsPerFrame).toBeLessThan(80_000);
+  // The page that is not looked at draws nothing; the robot goes on sending it everything.
+  await page.bringToFront();
+  await whole.expectFrames(5);
+  await expect.poll(async () => (await whole.stats()).pointsPerFrame).toBeGreaterThan(170_000);
+  // Who drives decides: now everyone gets points64.
+  await other.bringToFront();
+  await plain.holdForward();
+  await expect.poll(async () => (await plain.state()).holder).toBe('you');
+  await plain.expectFrames(5);
+  await plain.releaseKeys();
+});
+
+for (const { name, least } of [
+  { name: 'kinect-room', least: 150_000 },
+  { name: 'lidar-street', least: 60_000 },
+]) {
+  test(`a real cloud comes whole: ${name}`, async ({ page, startStack }, testInfo) => {
+    test.skip(!existsSync(cloudsFolder), `no recordings at ${cloudsFolder}`);
+    const source = ['--source', 'pcd', '--path', join(cloudsFolder, `${name}.pcd`)];
+    const rates = ['--fps', '5', '--start-mbps', '30', '--bitrate-mbps', '60'];
+    const stack = await startStack({ robots: [{ id: name, name, args: [...source, ...rates] }] });
+    const operator = await OperatorPage.open(page, stack, { robot: name });
+    await operator.expectPoints(5000);
+    await expect.poll(async () => (await operator.stats()).pointsPerFrame).toBeGreaterThan(least);
+    await operator.screenshot(testInfo, name);
+  });
+}
