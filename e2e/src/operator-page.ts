@@ -11,6 +11,10 @@ export interface OpenOptions {
   ice?: 'relay';
   /** Fixed size of its canvas, `WIDTHxHEIGHT`: a small one leaves the processor to others. */
   canvas?: string;
+  /** Refuse coded clouds. */
+  mode?: 'points64';
+  /** Draw every so many-th point of coded clouds. */
+  every?: string;
   /** Take the stream from this bridge. */
   bridge?: string;
 }
@@ -26,7 +30,7 @@ export class OperatorPage {
   static async open(page: Page, stack: LocalStack, options: OpenOptions = {}): Promise<OperatorPage> {
     const url = new URL(stack.webUrl);
     if (options.robot !== undefined) url.searchParams.set('robot', options.robot);
-    for (const name of ['token', 'signaling', 'ice', 'bridge', 'canvas'] as const) {
+    for (const name of ['token', 'signaling', 'ice', 'bridge', 'canvas', 'mode', 'every'] as const) {
       const value = options[name];
       if (value !== undefined) url.searchParams.set(name, value);
     }

@@ -61,24 +61,24 @@ export class FrameFanOut {
   }
 
   /**
-   * Tells the worker how much to capture, where that changed. The driver's path decides; without a driver the narrowest
-   * does. Operators with slower paths skip frames.
+   * Tells the worker how much to capture and in which format, where that changed. The driver's path decides; without a
+   * driver the narrowest does. Operators with slower paths skip frames. Those who do not read what the driver reads get
+   * `points64` beside it.
    */
   updateBudget(): void {
     const { capture, targets, driver, mayCode } = this.#options;
     const streaming = [...targets()].filter((operator) => operator.streaming);
     const driving = streaming.find((operator) => operator.id === driver());
-    const deciding = driving === undefined ? streaming : [driving];
-    const rates = deciding.map((operator) => operator.cloudBitsPerSecond);
+    const driven = driving === undefined ? streaming : [driving];
+    const coded = mayCode && driven.some(({ takesCoded }) => takesCoded);
+    const deciding = coded ? driven.filter(({ takesCoded }) => takesCoded) : driven;
+    const plain = coded ? streaming.filter(({ takesCoded }) => !takesCoded) : [];
     // One path at a time can be tried with larger frames: they go to everyone.
     const probe = deciding.length === 1 ? (deciding[0]?.sender?.probeWish ?? null) : null;
-    const coded = mayCode && deciding.length > 0 && deciding.every(({ takesCoded }) => takesCoded);
-    const plain = coded ? streaming.filter(({ takesCoded }) => !takesCoded) : [];
     const next: CaptureBudget = {
       coded,
-      plainBitsPerSecond:
-        plain.length === 0 ? null : Math.min(...plain.map((operator) => operator.cloudBitsPerSecond)),
-      targetBitsPerSecond: rates.length === 0 ? 0 : Math.min(...rates),
+      plainBitsPerSecond: plain.length === 0 ? null : narrowest(plain),
+      targetBitsPerSecond: deciding.length === 0 ? 0 : narrowest(deciding),
       probe: probe === null ? null : { clusterId: probe.clusterId, bytes: probe.bytes },
       overheadBytes: Math.max(0, ...streaming.map((operator) => operator.sender?.overheadBytes ?? 0)),
       streaming: streaming.length > 0,
@@ -118,4 +118,8 @@ export class FrameFanOut {
     shared.release();
     sendLoop.run();
   }
+}
+
+function narrowest(targets: readonly FrameTarget[]): number {
+  return Math.min(...targets.map((target) => target.cloudBitsPerSecond));
 }
