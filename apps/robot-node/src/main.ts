@@ -1,6 +1,7 @@
 #!/usr/bin/env node
 import { runProgram, setNiceness } from '@farpoint/service';
 import { robotProgram, toRobotOptions } from './options.ts';
+import { registerReferenceMetrics } from './reference/reference-metrics.ts';
 import { Robot } from './robot.ts';
 import { registerRobotMetrics } from './telemetry/robot-metrics.ts';
 
@@ -17,6 +18,7 @@ await runProgram(robotProgram, async ({ options, log, health, metrics, shutdown,
     void shutdown.end('the source failed', 1);
   };
   registerRobotMetrics(metrics, robot);
+  registerReferenceMetrics(metrics, robot);
   // Without signaling those who are connected go on: that is no failure of the robot.
   health.add('signaling', () => ({ ok: true, detail: { registered: robot.signaling.registered } }));
   health.add('operators', () => ({ ok: true, detail: { connected: robot.operators.size } }));

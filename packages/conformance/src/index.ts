@@ -1,3 +1,4 @@
+export * from './exchange.ts';
 export * from './finding.ts';
 export * from './frames.ts';
 export * from './offer-rules.ts';
@@ -6,3 +7,7 @@ export * from './peers/reference-operator.ts';
 export * from './peers/reference-robot.ts';
 export * from './peers/socket-peer.ts';
 export * from './rtp-rules.ts';
+export * from './suites/bridge-suite.ts';
+export * from './suites/robot-suite.ts';
+export * from './suites/signaling-suite.ts';
+export * from './suites/suite.ts';

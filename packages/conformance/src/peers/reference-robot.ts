@@ -23,7 +23,11 @@ export class ReferenceRobot {
   #sequence = 0;
   #timestamp = 0;
 
-  private constructor(line: SocketPeer, options: ReferenceRobotOptions) {
+  /** The robots' port at which it is registered. */
+  readonly url: string;
+
+  private constructor(url: string, line: SocketPeer, options: ReferenceRobotOptions) {
+    this.url = url;
     this.#line = line;
     this.#lead = options.lead ?? (async (_side, candidate) => candidate);
     void this.#followClient();
@@ -35,7 +39,7 @@ export class ReferenceRobot {
     name: string,
     options: ReferenceRobotOptions = {},
   ): Promise<ReferenceRobot> {
-    const robot = new ReferenceRobot(await SocketPeer.open(url), options);
+    const robot = new ReferenceRobot(url, await SocketPeer.open(url), options);
     await robot.#offer((sdpOffer) => ({ type: 'register', name, sdpOffer }));
     return robot;
   }
