@@ -8,8 +8,8 @@ use crate::rate::RateState;
 use crate::stream::{MAX_PACKET_BYTES, PACKET_HEADER_BYTES, PacketHeader, StreamHeader};
 use crate::syntax::{Neighbours, code_tile};
 use crate::tables::{COLOUR_SETS, GEOMETRY_SETS, Tables, normalise};
-use crate::thinning::{Validity, halvings, pattern};
-use crate::tile::{ColourMode, Grid, Kind, LAST_TRANSFORMED, Pattern, TILE, Tile};
+use crate::thinning::{Validity, halvings, pattern, tile_depths};
+use crate::tile::{ColourMode, Grid, Kind, LAST_TRANSFORMED, Pattern, Place, TILE, Tile};
 use crate::transform::{forward, plane_step, point_step, quantise, to_ycocg};
 
 /// How a frame is coded.
@@ -42,7 +42,7 @@ pub struct Packet {
     pub length: usize,
     /// Points in it.
     pub points: usize,
-    /// The nearest quantised inverse depth in it.
+    /// The nearest inverse depth in it, in steps of the finest level.
     pub nearest: i32,
 }
 
@@ -79,12 +79,22 @@ pub struct Encoder {
     scratch: Box<[u8; MAX_PACKET_BYTES]>,
     palette: Palette,
     rate: RateState,
+    /// Tiles that the finer of two settings is for; empty where there is one only.
+    finer_tiles: Vec<bool>,
     geometry_counts: Vec<u32>,
     colour_counts: Vec<u32>,
 }
 
+/// How the tiles of a frame are coded: a packet is coded as its first tile should be.
+#[derive(Clone, Copy)]
+pub(crate) struct Mix {
+    pub finer: Settings,
+    pub coarser: Settings,
+}
+
 /// The packet being filled.
 struct Open {
+    settings: Settings,
     first: usize,
     /// Tiles up to the last that is not empty, and the tokens for them.
     count: usize,
@@ -125,6 +135,7 @@ impl Encoder {
             scratch: Box::new([0; MAX_PACKET_BYTES]),
             palette: Palette::new(&header.palette),
             rate: RateState::default(),
+            finer_tiles: Vec::new(),
             geometry_counts: vec![0; GEOMETRY_CONTEXTS * SYMBOLS],
             colour_counts: vec![0; COLOUR_CONTEXTS * SYMBOLS],
             header,
@@ -157,27 +168,40 @@ impl Encoder {
 
     /// Codes a frame. `None` where it has not the header's number of pixels.
     pub fn encode(&mut self, source: Source<'_>, settings: &Settings) -> Option<Frame> {
+        self.finer_tiles.clear();
+        self.encode_mixed(source, &Mix { finer: *settings, coarser: *settings })
+    }
+
+    /// Which tiles [`Mix::finer`] is for: one flag a tile.
+    pub(crate) fn finer_tiles(&mut self) -> &mut Vec<bool> {
+        &mut self.finer_tiles
+    }
+
+    pub(crate) fn encode_mixed(&mut self, source: Source<'_>, mix: &Mix) -> Option<Frame> {
         if source.len() != self.grid.width * self.grid.height {
             return None;
         }
         self.bytes.clear();
         self.packets.clear();
-        self.quantiser.scale = 1.0 / self.header.depth_step(settings.depth_level);
         let mut frame = Frame::default();
         let mut open: Option<Open> = None;
         for index in 0..self.grid.tiles() {
             let place = self.grid.place(index);
-            self.quantiser.load(source, self.grid, place, &mut self.loaded, &mut frame.left);
+            let wanted =
+                if self.finer_tiles.get(index).copied().unwrap_or(true) { mix.finer } else { mix.coarser };
+            let mut settings = open.as_ref().map_or(wanted, |packet| packet.settings);
+            let before = frame.left;
+            self.load(source, place, &settings, &mut frame.left);
             if self.loaded.valid == 0 && open.is_none() {
                 continue;
             }
             let mut pattern = self.patterns[index];
-            let valid = self.loaded.valid as usize;
-            prepare(&self.loaded, &mut self.tile, pattern, settings, &self.palette);
+            prepare(&self.loaded, &mut self.tile, pattern, &settings, &self.palette);
             loop {
                 let packet = open.get_or_insert_with(|| {
                     self.tokens.clear();
                     Open {
+                        settings,
                         first: index,
                         count: 0,
                         mark: (0, 0),
@@ -195,11 +219,12 @@ impl Encoder {
                 let (row, edge) = (place.row_in_strip, place.column == 0);
                 code_tile(&mut coder, &mut self.tile, &mut packet.near, row, edge, settings.mode);
                 if self.tokens.cost() <= COST_LIMIT {
+                    let valid = self.loaded.valid as usize;
                     if self.tile.kind != Kind::Empty {
                         packet.count = index + 1 - packet.first;
                         packet.mark = self.tokens.mark();
                         packet.points += self.tile.valid();
-                        packet.nearest = packet.nearest.max(nearest(&self.tile));
+                        packet.nearest = packet.nearest.max(nearest(&self.tile, settings.depth_level));
                         frame.thinned += valid - self.tile.valid();
                         if pattern != self.patterns[index] {
                             frame.too_dense += valid - self.tile.valid();
@@ -211,7 +236,13 @@ impl Encoder {
                 }
                 if packet.count > 0 {
                     let full = open.take().expect("a packet");
-                    self.close(full, settings, &mut frame);
+                    self.close(full, &mut frame);
+                    if settings != wanted {
+                        settings = wanted;
+                        frame.left = before;
+                        self.load(source, place, &settings, &mut frame.left);
+                        prepare(&self.loaded, &mut self.tile, pattern, &settings, &self.palette);
+                    }
                     if self.loaded.valid == 0 {
                         break;
                     }
@@ -219,12 +250,12 @@ impl Encoder {
                     // A tile that no packet can hold: half of its points, and so on.
                     open = None;
                     pattern = Pattern((pattern.0 + 1).min(Pattern::COUNT - 1));
-                    prepare(&self.loaded, &mut self.tile, pattern, settings, &self.palette);
+                    prepare(&self.loaded, &mut self.tile, pattern, &settings, &self.palette);
                 }
             }
         }
         if let Some(last) = open.take() {
-            self.close(last, settings, &mut frame);
+            self.close(last, &mut frame);
         }
         // Near packets first: what is sent first is lost last.
         self.packets.sort_by_key(|packet| (core::cmp::Reverse(packet.nearest), packet.start));
@@ -233,10 +264,16 @@ impl Encoder {
         Some(frame)
     }
 
-    fn close(&mut self, packet: Open, settings: &Settings, frame: &mut Frame) {
+    fn load(&mut self, source: Source<'_>, place: Place, settings: &Settings, left: &mut Left) {
+        self.quantiser.scale = 1.0 / self.header.depth_step(settings.depth_level);
+        self.quantiser.load(source, self.grid, place, &mut self.loaded, left);
+    }
+
+    fn close(&mut self, packet: Open, frame: &mut Frame) {
         if packet.count == 0 {
             return;
         }
+        let settings = &packet.settings;
         self.tokens.rewind(packet.mark);
         // The limit leaves room for what the estimate may be wrong by.
         let at = self.tokens.write(&self.tables, &mut self.scratch[..]).expect("a packet within its limit");
@@ -304,11 +341,11 @@ impl Encoder {
 /// fraction of a bit in a hundred.
 const COST_LIMIT: u32 = ((MAX_PACKET_BYTES - PACKET_HEADER_BYTES - 8) * 8) as u32 * 256;
 
-fn nearest(tile: &Tile) -> i32 {
+fn nearest(tile: &Tile, depth_level: u8) -> i32 {
     let (width, height) = (tile.pattern.width(), tile.pattern.height());
     // Pixels that are not valid hold predictions from valid ones.
     let rows = (0..height).flat_map(|y| &tile.depth[Tile::at(0, y)..Tile::at(width, y)]);
-    rows.copied().max().unwrap_or(0)
+    rows.copied().max().unwrap_or(0) << depth_level
 }
 
 /// Makes of a loaded tile what the syntax codes.
@@ -474,13 +511,13 @@ impl Encoder {
         if source.len() != self.grid.width * self.grid.height {
             return;
         }
-        let mut depths = core::mem::take(self.rate.halvings_buffer());
-        halvings(source, self.grid, validity, &mut depths);
+        let mut depths = Vec::new();
+        tile_depths(source, self.grid, &mut depths);
+        halvings(validity, &mut depths);
         let shift = -density.clamp(1e-3, 1e6).log2();
         for (tile, (own, halvings)) in self.patterns.iter_mut().zip(&depths).enumerate() {
             *own = pattern(tile, *halvings, shift);
         }
-        *self.rate.halvings_buffer() = depths;
     }
 
     /// Sets the table sets that code a sample of the frame in the fewest bits.

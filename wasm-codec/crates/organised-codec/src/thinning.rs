@@ -31,10 +31,9 @@ impl Validity {
     }
 }
 
-/// Of every tile: −log2 of its validity's share of the largest, or NaN where it is empty.
-pub(crate) fn halvings(source: Source<'_>, grid: Grid, validity: &Validity, depths: &mut Vec<f32>) {
+/// Of every tile: its mean depth by a sample, metres, or 0 where that saw nothing.
+pub(crate) fn tile_depths(source: Source<'_>, grid: Grid, depths: &mut Vec<f32>) {
     depths.clear();
-    let (mut nearest, mut deepest) = (f32::INFINITY, 0.0_f32);
     for tile in 0..grid.tiles() {
         let place = grid.place(tile);
         let (mut sum, mut count) = (0.0, 0.0);
@@ -54,13 +53,17 @@ pub(crate) fn halvings(source: Source<'_>, grid: Grid, validity: &Validity, dept
                 }
             }
         }
-        // A tile of which the sample saw nothing is thinned with the nearest.
-        let depth = if count > 0.0 { sum / count } else { 0.0 };
-        if depth > 0.0 {
-            nearest = nearest.min(depth);
-            deepest = deepest.max(depth);
-        }
-        depths.push(depth);
+        depths.push(if count > 0.0 { sum / count } else { 0.0 });
+    }
+}
+
+/// Turns tiles' depths into −log2 of their validity's share of the largest. A tile of which the sample saw nothing is
+/// thinned with the nearest.
+pub(crate) fn halvings(validity: &Validity, depths: &mut [f32]) {
+    let (mut nearest, mut deepest) = (f32::INFINITY, 0.0_f32);
+    for depth in depths.iter().filter(|depth| **depth > 0.0) {
+        nearest = nearest.min(*depth);
+        deepest = deepest.max(*depth);
     }
     let cost = |depth: f32| (depth / deepest.max(1e-6)).powf(validity.lambda) + validity.epsilon;
     let least = cost(nearest.min(deepest));

@@ -231,3 +231,46 @@ fn forged_packets_do_no_harm() {
     // The states' end tells nearly all that the check value was made to fit.
     assert!(accepted < 300, "{accepted}");
 }
+
+/// A budget is met to 5 % from below where the frame has so much to tell, and to one packet from above.
+#[test]
+fn a_budget_is_met_and_a_steady_stream_takes_one_pass() {
+    let header = header(320, 240);
+    let mut steady = 0;
+    for bytes in [3_000, 8_000, 15_000, 25_000, 40_000, 60_000, 90_000] {
+        for latency_test in [false, true] {
+            let mut encoder = Encoder::new(header.clone()).expect("a stream");
+            let validity = Validity { near_distance: 1.0, ..Validity::default() };
+            let budget = Budget { bytes, validity, latency_test, palette: false };
+            for number in 0..6 {
+                let points = frame(&header, number, 0.05, 0.01, false);
+                let spent = encoder.encode_within(Source::Points(&points), &budget).expect("a frame");
+                let got = spent.frame.bytes;
+                assert!(got <= bytes + 1200, "frame {number}: {got} of {bytes}");
+                // Without colour a frame may not have so much to tell.
+                let everything = latency_test && bytes >= 40_000;
+                assert!(everything || got * 100 >= bytes * 95, "frame {number}: {got} of {bytes}");
+                if number >= 2 {
+                    assert!(spent.passes <= 2, "frame {number} of {bytes}: {} passes", spent.passes);
+                    steady += usize::from(spent.passes == 1);
+                }
+            }
+        }
+    }
+    assert!(steady >= 50, "{steady} of 56 frames in one pass");
+}
+
+/// Points are left out only where the whole frame at the coarsest rung is too dear.
+#[test]
+fn points_are_left_out_only_where_the_coarsest_frame_is_too_dear() {
+    let header = header(320, 240);
+    let mut encoder = Encoder::new(header.clone()).expect("a stream");
+    let mut thinned = Vec::new();
+    for bytes in [60_000, 30_000, 20_000, 8_000, 2_000] {
+        let budget = Budget { bytes, validity: Validity::default(), latency_test: false, palette: false };
+        let points = frame(&header, 1, 0.05, 0.01, false);
+        let spent = encoder.encode_within(Source::Points(&points), &budget).expect("a frame");
+        thinned.push(spent.frame.thinned > 0);
+    }
+    assert_eq!(thinned, [false, false, false, true, true]);
+}
