@@ -47,6 +47,8 @@ export class ReferenceProfile {
   #robotId: number | null = null;
   /** Offered, perhaps answered, not connected. */
   #offered: ReferenceOperator | null = null;
+  /** The one whose offer the service has. What came before it did was meant for the offer before. */
+  #listed: ReferenceOperator | null = null;
   #current: ReferenceOperator | null = null;
   /** Another operator has answered the offer that this one took. */
   #rival = false;
@@ -71,6 +73,7 @@ export class ReferenceProfile {
         onMessage: (message) => this.#onMessage(message),
         onDown: (detail) => {
           this.#robotId = null;
+          this.#listed = null;
           this.#log.debug({ detail }, 'no line to the reference signaling');
         },
       },
@@ -109,32 +112,32 @@ export class ReferenceProfile {
   }
 
   #onMessage(message: ReferenceServiceToRobot): void {
-    const offered = this.#offered;
     switch (message.type) {
       case 'registered':
         this.#robotId = message.robotId;
+        this.#listed = this.#offered;
         this.#log.info({ robotId: message.robotId }, 'registered');
-        for (const candidate of offered?.peer.candidates ?? []) this.#tell(candidate);
+        for (const candidate of this.#listed?.peer.candidates ?? []) this.#tell(candidate);
         break;
       case 'sdpAnswer':
         void this.#onAnswer(message.sdpAnswer);
         break;
       case 'candidate':
-        void offered?.peer.addCandidate(message.candidate);
-        void this.#current?.peer.addCandidate(message.candidate);
+        // Also once it is connected: a better path may be found.
+        void this.#listed?.peer.addCandidate(message.candidate);
         break;
     }
   }
 
   async #onAnswer(sdp: string): Promise<void> {
-    const offered = this.#offered;
-    if (offered?.peer.state === 'offering') {
-      await offered.peer.answer(sdp);
-      for (const candidate of offered.peer.candidates) this.#tell(candidate);
-      return;
+    const listed = this.#listed;
+    if (listed?.peer.state === 'offering') {
+      await listed.peer.answer(sdp);
+      for (const candidate of listed.peer.candidates) this.#tell(candidate);
+    } else if (listed !== null && listed === this.#current) {
+      // Somebody else answers the offer that is taken.
+      this.#rival = true;
     }
-    // Somebody else answers the offer that is taken.
-    this.#rival = this.#current !== null;
   }
 
   /** Registers, anew where need be: the service then knows the robot by another id. */
@@ -144,6 +147,7 @@ export class ReferenceProfile {
     this.#retry = null;
     const before = this.#offered;
     this.#offered = null;
+    this.#listed = null;
     before?.peer.close('closed', 'offered anew');
     const operator = this.#makeOperator();
     this.#offered = operator;
