@@ -3,10 +3,10 @@
 import { ReferenceRobot } from '@farpoint/conformance';
 import { LocalStack } from '@farpoint/local-stack';
 import { writePointPacketHeader } from '@farpoint/protocol';
-import { silentLogger } from '@farpoint/service';
 import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
 import { WebSocket } from 'ws';
-import { Bridge } from './bridge.ts';
+import type { Bridge } from './bridge.ts';
+import { openBridge } from './testing/open-bridge.ts';
 
 const cleanups: (() => unknown)[] = [];
 let stack: LocalStack;
@@ -25,23 +25,7 @@ async function robot(name: string): Promise<ReferenceRobot> {
 }
 
 async function bridge(): Promise<Bridge> {
-  const made = await Bridge.open(
-    {
-      signaling: `ws://127.0.0.1:${stack.ports.referenceClient}/`,
-      host: '127.0.0.1',
-      controlPort: 0,
-      telemetryPort: 0,
-      streamingPort: 0,
-      allowedOrigins: [],
-      maxRobots: 100,
-      maxPoints: 10_000,
-      reorderMs: 20,
-      startBitsPerSecond: 10e6,
-      maxBitsPerSecond: 100e6,
-    },
-    silentLogger(),
-    () => performance.now(),
-  );
+  const made = await openBridge(stack.ports.referenceClient);
   cleanups.push(() => made.close());
   return made;
 }

@@ -8,10 +8,9 @@ import {
 } from '@farpoint/conformance';
 import { idealProfile, readCandidate, standIn, UdpLink } from '@farpoint/link-emulator';
 import { LocalStack } from '@farpoint/local-stack';
-import { silentLogger } from '@farpoint/service';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
-import { Bridge } from './bridge.ts';
-import { monotonicMs } from './clock.ts';
+import type { Bridge } from './bridge.ts';
+import { openBridge } from './testing/open-bridge.ts';
 
 const cleanups: (() => unknown)[] = [];
 let stack: LocalStack;
@@ -33,24 +32,8 @@ async function robot(
   return made;
 }
 
-async function bridge(reorderMs = 20): Promise<{ made: Bridge; streaming: SocketPeer; control: SocketPeer }> {
-  const made = await Bridge.open(
-    {
-      signaling: `ws://127.0.0.1:${stack.ports.referenceClient}/`,
-      host: '127.0.0.1',
-      controlPort: 0,
-      telemetryPort: 0,
-      streamingPort: 0,
-      allowedOrigins: [],
-      maxRobots: 100,
-      maxPoints: 200_000,
-      reorderMs,
-      startBitsPerSecond: 100e6,
-      maxBitsPerSecond: 100e6,
-    },
-    silentLogger(),
-    monotonicMs,
-  );
+async function bridge(): Promise<{ made: Bridge; streaming: SocketPeer; control: SocketPeer }> {
+  const made = await openBridge(stack.ports.referenceClient);
   cleanups.push(() => made.close());
   const open = async (port: number) => {
     const peer = await SocketPeer.open(`ws://127.0.0.1:${port}/`);
