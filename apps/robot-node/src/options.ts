@@ -64,10 +64,10 @@ const options = {
     help: 'proves to signaling, also after a restart, that this is the same robot; random where left out',
   }),
   source: defineOption({
-    schema: schema.choice(['sim', 'pcd', 'rgbd', 'shm']),
+    schema: schema.choice(['sim', 'pcd', 'rgbd', 'shm', 'recording']),
     default: 'sim',
     argument: 'KIND',
-    help: 'where the points come from: sim (a simulated robot), pcd (recorded clouds), rgbd (recorded colour and depth pictures), shm (a camera’s producer, through shared memory)',
+    help: 'where the points come from: sim (a simulated robot), pcd (recorded clouds), rgbd (recorded colour and depth pictures), shm (a camera’s producer, through shared memory), recording (an MCAP file or a ROS 1 bag)',
   }),
   shmLayout: defineOption({
     schema: schema.choice(['farpoint', 'reference']),
@@ -103,13 +103,43 @@ const options = {
     schema: schema.optional(schema.text()),
     default: null,
     argument: 'PATH',
-    help: 'pcd: a .pcd file or a folder of them; rgbd: a folder as Open3D lays it out',
+    help: 'pcd: a .pcd file or a folder of them; rgbd: a folder as Open3D lays it out; recording: an MCAP file or a ROS 1 bag',
   }),
   pcdFrame: defineOption({
     schema: schema.choice(['auto', 'optical', 'body']),
     default: 'auto',
     argument: 'FRAME',
     help: 'axes of PCD points: optical (z forward), body (x forward, z up), or auto: optical for grids, else body',
+  }),
+  topic: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'TOPIC',
+    help: 'recording: which clouds; left out, the topic with most of them',
+  }),
+  playRate: defineOption({
+    schema: schema.number({ min: 0.01, max: 100 }),
+    default: 1,
+    argument: 'FACTOR',
+    help: 'recording: how much faster than it was recorded',
+  }),
+  playFromS: defineOption({
+    schema: schema.number({ min: 0 }),
+    default: 0,
+    argument: 'SECONDS',
+    help: 'recording: where to begin',
+  }),
+  playEnd: defineOption({
+    schema: schema.choice(['repeat', 'stop']),
+    default: 'repeat',
+    argument: 'WHAT',
+    help: 'recording: at its end repeat, or stop with the last cloud',
+  }),
+  playAxes: defineOption({
+    schema: schema.choice(['auto', 'optical', 'body']),
+    default: 'auto',
+    argument: 'AXES',
+    help: 'recording: axes of the clouds’ frame: optical (z forward), body (x forward, z up), or auto: optical where its name says so',
   }),
   fps: defineOption({
     schema: schema.optional(schema.number({ min: 0.1, max: 120 })),
@@ -364,6 +394,12 @@ function toSource(values: RobotOptionValues): SourceOptions {
   }
   if (source !== 'sim') {
     if (path === null) throw new OptionsError('--path', `is needed for --source ${source}`);
+    if (source === 'recording') {
+      return {
+        ...{ kind: source, path, topic: values.topic, rate: values.playRate, fromS: values.playFromS },
+        ...{ atEnd: values.playEnd, axes: values.playAxes },
+      };
+    }
     return source === 'pcd' ? { kind: source, path, frame: values.pcdFrame } : { kind: source, path };
   }
   if (values.simSize % 4 !== 0) throw new OptionsError('--sim-size', 'must be a multiple of 4');

@@ -2,6 +2,7 @@ import { monotonicMs } from '../clock.ts';
 import { type CloudShmOptions, CloudShmSource } from './cloud-shm-source.ts';
 import type { FrameSource } from './frame-source.ts';
 import { openPcdSource, type PcdSourceOptions } from './pcd-source.ts';
+import { RecordingSource, type RecordingSourceOptions } from './recording-source.ts';
 import { type ReferenceShmOptions, ReferenceShmSource } from './reference-shm-source.ts';
 import { openRgbdSource, type RgbdSourceOptions } from './rgbd-source.ts';
 import { SimSource, type SimSourceOptions } from './sim-source.ts';
@@ -11,6 +12,7 @@ export type SourceOptions =
   | ({ kind: 'sim' } & SimSourceOptions)
   | ({ kind: 'pcd' } & PcdSourceOptions)
   | ({ kind: 'rgbd' } & RgbdSourceOptions)
+  | ({ kind: 'recording' } & RecordingSourceOptions)
   | ({ kind: 'shm'; layout: 'farpoint' } & CloudShmOptions)
   | ({ kind: 'shm'; layout: 'reference' } & ReferenceShmOptions);
 
@@ -23,6 +25,8 @@ export async function openSource(options: SourceOptions): Promise<FrameSource> {
       return openPcdSource(options);
     case 'rgbd':
       return openRgbdSource(options);
+    case 'recording':
+      return RecordingSource.open(options, monotonicMs);
     case 'shm':
       return options.layout === 'reference'
         ? ReferenceShmSource.open(options, monotonicMs)

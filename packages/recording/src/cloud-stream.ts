@@ -1,0 +1,113 @@
+import { detailOf, RecordingError } from './errors.ts';
+import { type CloudAxes, checkedCount } from './point-cloud2.ts';
+import type { RecordedTopic, Recording } from './recording.ts';
+import { POINT_CLOUD_TYPES, type PointCloud2, pointCloud2Schema } from './ros-messages.ts';
+
+/** Topics of our own recordings that are played rather than others. */
+const OWN_TOPIC = '/farpoint/captured';
+/** Places of the recording, as parts of its length, at which clouds are looked at to know how large they are. */
+const SAMPLE_PLACES = [0, 0.25, 0.5, 0.75];
+const SAMPLES_AT_EACH = 3;
+/** Clouds of a LiDAR differ in size: how much larger others may be than the largest that was looked at. */
+const HEADROOM = 1.5;
+
+/** The clouds of one topic. */
+export interface CloudStream {
+  topic: RecordedTopic;
+  axes: CloudAxes;
+  /** Of the first cloud. */
+  frameId: string;
+  /** The grid that all have, height 1 where there is none. */
+  width: number;
+  height: number;
+  /** Most points of one. */
+  capacity: number;
+  /** As played; `null` where the file does not say. */
+  framesPerSecond: number | null;
+}
+
+/** @throws {RecordingError} `no-topic`, or what is wrong with its clouds where none can be read */
+export async function describeClouds(
+  recording: Recording,
+  options: { topic: string | null; rate: number; axes: CloudAxes | 'auto' },
+): Promise<CloudStream> {
+  const topic = chooseTopic(recording, options.topic);
+  const clouds = await sampleClouds(recording, topic);
+  const first = clouds[0] as PointCloud2;
+  const sameGrid =
+    first.height > 1 && clouds.every(({ width, height }) => width === first.width && height === first.height);
+  const largest = Math.max(1, ...clouds.map(({ width, height }) => width * height));
+  const capacity = sameGrid ? largest : Math.ceil(largest * HEADROOM);
+  const seconds = Number(recording.endNs - recording.startNs) / 1e9;
+  const { messages } = topic;
+  return {
+    topic,
+    axes: options.axes === 'auto' ? axesOf(first.header.frame_id) : options.axes,
+    frameId: first.header.frame_id,
+    width: sameGrid ? first.width : capacity,
+    height: sameGrid ? first.height : 1,
+    capacity,
+    framesPerSecond:
+      messages === null || messages < 2 || seconds <= 0 ? null : ((messages - 1) / seconds) * options.rate,
+  };
+}
+
+function chooseTopic({ file, topics }: Recording, wanted: string | null): RecordedTopic {
+  const clouds = topics.filter(({ type }) => POINT_CLOUD_TYPES.includes(type));
+  const names = clouds.map(({ name }) => name).join(', ') || 'none';
+  if (wanted !== null) {
+    const named = clouds.find(({ name }) => name === wanted);
+    if (named !== undefined) return named;
+    const other = topics.find(({ name }) => name === wanted);
+    const detail =
+      other === undefined
+        ? `no such topic; with clouds: ${names}`
+        : `its type is ${other.type || 'unknown'}, not clouds; with clouds: ${names}`;
+    throw new RecordingError('no-topic', detail, { file, topic: wanted });
+  }
+  const best =
+    clouds.find(({ name }) => name === OWN_TOPIC) ??
+    clouds.reduce<RecordedTopic | undefined>(
+      (most, each) => (most === undefined || (each.messages ?? 0) > (most.messages ?? 0) ? each : most),
+      undefined,
+    );
+  if (best === undefined)
+    throw new RecordingError('no-topic', 'no topic with sensor_msgs/PointCloud2', { file });
+  return best;
+}
+
+async function sampleClouds(recording: Recording, topic: RecordedTopic): Promise<PointCloud2[]> {
+  const clouds: PointCloud2[] = [];
+  let fault: RecordingError | null = null;
+  const length = recording.endNs - recording.startNs;
+  for (const part of SAMPLE_PLACES) {
+    const fromNs = recording.startNs + BigInt(Math.floor(Number(length) * part));
+    let count = 0;
+    try {
+      for await (const { data, offset } of recording.messages([topic.name], fromNs)) {
+        const where = { file: recording.file, topic: topic.name, offset };
+        try {
+          const cloud = pointCloud2Schema.parse(topic.decode(data));
+          checkedCount(cloud);
+          // What is kept of it is its header: not its points.
+          clouds.push({ ...cloud, data: new Uint8Array(0) });
+        } catch (error) {
+          const code = error instanceof RecordingError ? error.code : 'bad-message';
+          fault = new RecordingError(code, detailOf(error), { ...where, cause: error });
+        }
+        if (++count >= SAMPLES_AT_EACH) break;
+      }
+    } catch (error) {
+      if (!(error instanceof RecordingError)) throw error;
+      fault = error;
+    }
+  }
+  if (clouds.length > 0) return clouds;
+  throw (
+    fault ?? new RecordingError('no-topic', 'no cloud in it', { file: recording.file, topic: topic.name })
+  );
+}
+
+function axesOf(frameId: string): CloudAxes {
+  return frameId.includes('optical') ? 'optical' : 'body';
+}

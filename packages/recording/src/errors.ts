@@ -1,0 +1,40 @@
+export type RecordingErrorCode =
+  | 'not-a-recording' // neither MCAP nor a ROS 1 bag of version 2.0
+  | 'unreadable' // the system refuses the file
+  | 'truncated' // the file ends too early
+  | 'damaged' // bytes that the format does not allow, or a check value that is not theirs
+  | 'too-large' // a record beyond what is kept in memory
+  | 'not-indexed' // a bag whose writer was killed
+  | 'unsupported' // a compression, an encoding or a schema that nobody here reads
+  | 'no-topic' // no such topic, or none with clouds
+  | 'bad-message' // a message that is not what its schema says
+  | 'bad-cloud'; // a PointCloud2 whose fields and sizes do not agree
+
+/** What is wrong with a recording, and where. */
+export class RecordingError extends Error {
+  override readonly name = 'RecordingError';
+  readonly code: RecordingErrorCode;
+  readonly topic: string | undefined;
+  /** Byte of the file at or after which it was found. */
+  readonly offset: number | undefined;
+
+  constructor(
+    code: RecordingErrorCode,
+    detail: string,
+    where: { file?: string; topic?: string; offset?: number; cause?: unknown } = {},
+  ) {
+    const { file, topic, offset, cause } = where;
+    const place = [file, topic, offset === undefined ? undefined : `byte ${offset}`].filter(
+      (part) => part !== undefined,
+    );
+    super([...place, detail].join(': '), { cause });
+    this.code = code;
+    this.topic = topic;
+    this.offset = offset;
+  }
+}
+
+/** Of anything thrown, what it says. */
+export function detailOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}

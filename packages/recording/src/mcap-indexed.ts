@@ -1,0 +1,94 @@
+import { McapIndexedReader, type McapTypes } from '@mcap/core';
+import { type Decompress, decompressors } from './decompress.ts';
+import { detailOf, RecordingError } from './errors.ts';
+import type { FileBytes } from './file-bytes.ts';
+import { topicsOf } from './mcap-topics.ts';
+import type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
+
+/** Index entries kept, so that a seek does not read them again. */
+const INDEX_CACHE_BYTES = 16 * 1024 * 1024;
+
+export function mcapHandlers({ lz4, zstd }: { lz4: Decompress; zstd: Decompress }) {
+  return { lz4, zstd } satisfies McapTypes.DecompressHandlers;
+}
+
+/** An MCAP file that was closed: read by its index, chunk by chunk. */
+export class IndexedMcap implements Recording {
+  readonly file: string;
+  readonly topics: readonly RecordedTopic[];
+  readonly startNs: bigint;
+  readonly endNs: bigint;
+  readonly warning = null;
+  readonly #bytes: FileBytes;
+  readonly #reader: McapIndexedReader;
+  readonly #topicOfChannel: ReadonlyMap<number, RecordedTopic>;
+
+  private constructor(bytes: FileBytes, reader: McapIndexedReader) {
+    this.file = bytes.path;
+    this.#bytes = bytes;
+    this.#reader = reader;
+    const counts = reader.statistics?.channelMessageCounts;
+    const { topics, byChannel } = topicsOf(
+      reader.channelsById.values(),
+      reader.schemasById,
+      counts === undefined ? null : (id) => Number(counts.get(id) ?? 0n),
+    );
+    this.topics = topics;
+    this.#topicOfChannel = byChannel;
+    const chunks = reader.chunkIndexes;
+    const ofChunks = range(chunks.flatMap((chunk) => [chunk.messageStartTime, chunk.messageEndTime]));
+    this.startNs = reader.statistics?.messageStartTime ?? ofChunks.first;
+    this.endNs = reader.statistics?.messageEndTime ?? ofChunks.last;
+  }
+
+  /** @throws {RecordingError} where there is no index, or it cannot be read */
+  static async open(bytes: FileBytes): Promise<IndexedMcap> {
+    const handlers = await decompressors();
+    try {
+      const reader = await McapIndexedReader.Initialize({
+        readable: {
+          size: async () => BigInt(bytes.size),
+          read: (offset, size) => bytes.read(Number(offset), Number(size)),
+        },
+        decompressHandlers: mcapHandlers(handlers),
+        messageIndexCacheSizeBytes: INDEX_CACHE_BYTES,
+      });
+      const { chunkIndexes, statistics } = reader;
+      if (chunkIndexes.length === 0 && statistics?.messageCount !== 0n) {
+        throw new RecordingError('not-indexed', 'no index of chunks', { file: bytes.path });
+      }
+      return new IndexedMcap(bytes, reader);
+    } catch (error) {
+      throw asRecordingError(error, bytes);
+    }
+  }
+
+  async *messages(topics: readonly string[], fromNs: bigint): AsyncGenerator<RecordedMessage, void, void> {
+    try {
+      for await (const message of this.#reader.readMessages({ topics, startTime: fromNs })) {
+        const topic = this.#topicOfChannel.get(message.channelId);
+        if (topic === undefined) continue;
+        yield { topic, logNs: message.logTime, data: message.data, offset: this.#bytes.lastOffset };
+      }
+    } catch (error) {
+      throw asRecordingError(error, this.#bytes);
+    }
+  }
+
+  close(): Promise<void> {
+    return this.#bytes.close();
+  }
+}
+
+/** What a library threw, with the place in the file. */
+export function asRecordingError(error: unknown, { path, lastOffset }: FileBytes): RecordingError {
+  if (error instanceof RecordingError && error.offset !== undefined) return error;
+  const code = error instanceof RecordingError ? error.code : 'damaged';
+  return new RecordingError(code, detailOf(error), { file: path, offset: lastOffset, cause: error });
+}
+
+/** The earliest and the latest; bigint has no `Math.min`. */
+function range(times: Iterable<bigint>): { first: bigint; last: bigint } {
+  const sorted = [...times].sort((a, b) => (a < b ? -1 : a > b ? 1 : 0));
+  return { first: sorted[0] ?? 0n, last: sorted.at(-1) ?? 0n };
+}

@@ -1,0 +1,30 @@
+import type { McapTypes } from '@mcap/core';
+import { lazyDecoder } from './message-decoder.ts';
+import { type RecordedTopic, ros2TypeOf } from './recording.ts';
+
+/**
+ * A topic for each channel. Two channels may have one topic (two publishers): each keeps its own schema.
+ *
+ * @param count messages of a channel; `null` where nobody has counted
+ */
+export function topicsOf(
+  channels: Iterable<McapTypes.Channel>,
+  schemas: ReadonlyMap<number, McapTypes.Schema>,
+  count: ((channel: number) => number) | null,
+): { topics: RecordedTopic[]; byChannel: Map<number, RecordedTopic> } {
+  const byChannel = new Map<number, RecordedTopic>();
+  for (const { id, topic, schemaId, messageEncoding } of channels) {
+    const schema = schemas.get(schemaId);
+    byChannel.set(id, {
+      name: topic,
+      type: ros2TypeOf(schema?.name ?? ''),
+      messages: count?.(id) ?? null,
+      decode: lazyDecoder({
+        messageEncoding,
+        schemaEncoding: schema?.encoding ?? '',
+        schema: schema?.data ?? new Uint8Array(0),
+      }),
+    });
+  }
+  return { topics: [...byChannel.values()], byChannel };
+}

@@ -1,0 +1,41 @@
+import { parse } from '@foxglove/rosmsg';
+import { MessageReader as Ros1Reader } from '@foxglove/rosmsg-serialization';
+import { MessageReader as Ros2Reader } from '@foxglove/rosmsg2-serialization';
+import { RecordingError } from './errors.ts';
+
+export interface MessageSchema {
+  /** How messages are written: `cdr`, `ros1` or `json`. */
+  messageEncoding: string;
+  /** How the schema is written: `ros2msg` or `ros1msg`. */
+  schemaEncoding: string;
+  schema: Uint8Array;
+}
+
+/** The decoder is made when the first message wants it: most topics are never read. */
+export function lazyDecoder(schema: MessageSchema): (data: Uint8Array) => unknown {
+  let decode: ((data: Uint8Array) => unknown) | null = null;
+  return (data) => {
+    decode ??= makeDecoder(schema);
+    return decode(data);
+  };
+}
+
+/** @throws {RecordingError} `unsupported`, or `bad-message` where the schema cannot be read */
+function makeDecoder({ messageEncoding, schemaEncoding, schema }: MessageSchema) {
+  if (messageEncoding === 'json') {
+    return (data: Uint8Array) => JSON.parse(new TextDecoder().decode(data)) as unknown;
+  }
+  const text = new TextDecoder().decode(schema);
+  if (messageEncoding === 'cdr' && schemaEncoding === 'ros2msg') {
+    const reader = new Ros2Reader(parse(text, { ros2: true }));
+    return (data: Uint8Array) => reader.readMessage(data);
+  }
+  if (messageEncoding === 'ros1' && schemaEncoding === 'ros1msg') {
+    const reader = new Ros1Reader(parse(text));
+    return (data: Uint8Array) => reader.readMessage(data);
+  }
+  throw new RecordingError(
+    'unsupported',
+    `messages in ${messageEncoding} with a ${schemaEncoding || 'missing'} schema`,
+  );
+}

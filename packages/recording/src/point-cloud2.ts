@@ -1,0 +1,232 @@
+import { intensityColour, intensityScale } from '@farpoint/cloud-formats';
+import { RecordingError } from './errors.ts';
+import type { PointCloud2, PointField } from './ros-messages.ts';
+
+/** Axes of a cloud's frame (REP-103): optical (z forward, x right, y down) or body (x forward, y left, z up). */
+export type CloudAxes = 'optical' | 'body';
+
+/** Points that have no colour and no intensity: light grey, opaque. */
+const GREY = 0xffc8_c8c8;
+const LEVELS = 256;
+
+type Reader = (view: DataView, at: number, little: boolean) => number;
+/** By `datatype`, from 1: INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64. */
+const TYPES: readonly { bytes: number; read: Reader }[] = [
+  { bytes: 1, read: (view, at) => view.getInt8(at) },
+  { bytes: 1, read: (view, at) => view.getUint8(at) },
+  { bytes: 2, read: (view, at, little) => view.getInt16(at, little) },
+  { bytes: 2, read: (view, at, little) => view.getUint16(at, little) },
+  { bytes: 4, read: (view, at, little) => view.getInt32(at, little) },
+  { bytes: 4, read: (view, at, little) => view.getUint32(at, little) },
+  { bytes: 4, read: (view, at, little) => view.getFloat32(at, little) },
+  { bytes: 8, read: (view, at, little) => view.getFloat64(at, little) },
+];
+const UINT8 = 2;
+const FLOAT32 = 7;
+
+/** Decodes the clouds of one topic. */
+export class PointCloud2Decoder {
+  readonly #palette = Uint32Array.from({ length: LEVELS }, (_, i) => intensityColour(i / (LEVELS - 1)));
+  /** Of the first cloud with intensities: a scale that changed would make everything flicker. */
+  #intensityScale: number | null = null;
+
+  /**
+   * Fields of any layout, type and endianness: x, y and z; colour from `rgb`, `rgba`, or `r`, `g`, `b`; else from
+   * `intensity`; else grey.
+   *
+   * @param into four words a point: x, y, z in metres in the optical frame, then the bytes R, G, B, A
+   * @returns how many points there are
+   * @throws {RecordingError} `bad-cloud`, `too-large`
+   */
+  decode(cloud: PointCloud2, axes: CloudAxes, into: Float32Array): number {
+    const { width, height } = cloud;
+    const count = checkedCount(cloud);
+    if (count * 4 > into.length) {
+      throw new RecordingError('too-large', `a cloud of ${count} points, room for ${into.length / 4}`);
+    }
+    if (count === 0) return 0;
+    const [x, y, z] = ['x', 'y', 'z'].map((name) => fieldOf(cloud, name)) as [
+      PointField,
+      PointField,
+      PointField,
+    ];
+    const rowBytes = height > 1 ? cloud.row_step : width * cloud.point_step;
+    const rows: Rows = { width, height, rowBytes, step: cloud.point_step };
+    if (isPlain(cloud, [x, y, z], rowBytes)) copyWords(alignedWords(cloud.data), rows, [x, y, z], axes, into);
+    else readCoordinates(cloud, rows, [x, y, z], axes, into);
+    this.#colour(cloud, rows, new Uint32Array(into.buffer, into.byteOffset, into.length));
+    return count;
+  }
+
+  #colour(cloud: PointCloud2, rows: Rows, words: Uint32Array): void {
+    const { fields, data } = cloud;
+    const little = !cloud.is_bigendian;
+    const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
+    const named = (...names: string[]) =>
+      fields.find((field) => names.includes(field.name) && field.count !== 0);
+    const packed = named('rgb', 'rgba');
+    if (packed !== undefined) {
+      requireFit(cloud, packed, 4);
+      forEachPoint(rows, (at, i) => {
+        const argb = view.getUint32(at + packed.offset, little);
+        words[i * 4 + 3] = ((argb >> 16) & 0xff) | (argb & 0xff00) | ((argb & 0xff) << 16) | 0xff00_0000;
+      });
+      return;
+    }
+    const [red, green, blue] = [named('r', 'red'), named('g', 'green'), named('b', 'blue')];
+    if ([red, green, blue].every((field) => field?.datatype === UINT8)) {
+      const [r, g, b] = [red, green, blue].map((field) => (field as PointField).offset) as [
+        number,
+        number,
+        number,
+      ];
+      forEachPoint(rows, (at, i) => {
+        words[i * 4 + 3] =
+          view.getUint8(at + r) | (view.getUint8(at + g) << 8) | (view.getUint8(at + b) << 16) | 0xff00_0000;
+      });
+      return;
+    }
+    const intensity = named('intensity', 'intensities', 'reflectivity');
+    if (intensity === undefined) {
+      forEachPoint(rows, (_, i) => {
+        words[i * 4 + 3] = GREY;
+      });
+      return;
+    }
+    requireFit(cloud, intensity, typeOf(intensity).bytes);
+    const { read } = typeOf(intensity);
+    const { width, rowBytes, step } = rows;
+    const intensityAt = (i: number) =>
+      read(view, Math.floor(i / width) * rowBytes + (i % width) * step + intensity.offset, little);
+    this.#intensityScale ??= intensityScale(intensityAt, width * rows.height);
+    const scale = this.#intensityScale * (LEVELS - 1);
+    const palette = this.#palette;
+    forEachPoint(rows, (at, i) => {
+      const level = read(view, at + intensity.offset, little) * scale;
+      // NaN fails the comparison.
+      const index = level > 0 ? Math.min(Math.round(level), LEVELS - 1) : 0;
+      words[i * 4 + 3] = palette[index] as number;
+    });
+  }
+}
+
+/** How the points lie in the data. */
+interface Rows {
+  width: number;
+  height: number;
+  rowBytes: number;
+  step: number;
+}
+
+/** Checks that what the cloud says of its size is there. @returns width × height */
+export function checkedCount({ width, height, point_step, row_step, data, fields }: PointCloud2): number {
+  const count = width * height;
+  if (count === 0) return 0;
+  const wrong = (detail: string) => new RecordingError('bad-cloud', detail);
+  for (const { name, offset, datatype } of fields) {
+    if (offset + (TYPES[datatype - 1]?.bytes ?? 0) > point_step) {
+      throw wrong(`field ${name} at ${offset} is outside its point of ${point_step} bytes`);
+    }
+  }
+  if (height > 1 && row_step < width * point_step) {
+    throw wrong(`a row of ${row_step} bytes for ${width} points of ${point_step}`);
+  }
+  const needed = (height > 1 ? (height - 1) * row_step : 0) + width * point_step;
+  if (data.length < needed) throw wrong(`${data.length} bytes of data, ${needed} expected`);
+  return count;
+}
+
+function typeOf(field: PointField): { bytes: number; read: Reader } {
+  return TYPES[field.datatype - 1] as { bytes: number; read: Reader };
+}
+
+function fieldOf({ fields }: PointCloud2, name: string): PointField {
+  const field = fields.find((each) => each.name === name);
+  if (field === undefined) {
+    throw new RecordingError(
+      'bad-cloud',
+      `no field ${name}, but ${fields.map((each) => each.name).join(', ')}`,
+    );
+  }
+  return field;
+}
+
+function requireFit({ point_step }: PointCloud2, { name, offset }: PointField, bytes: number): void {
+  if (offset + bytes <= point_step) return;
+  throw new RecordingError(
+    'bad-cloud',
+    `field ${name} at ${offset} is outside its point of ${point_step} bytes`,
+  );
+}
+
+/** Little-endian floats at multiples of four, as nearly every driver has them. */
+function isPlain(cloud: PointCloud2, xyz: readonly PointField[], rowBytes: number): boolean {
+  return (
+    !cloud.is_bigendian &&
+    cloud.point_step % 4 === 0 &&
+    rowBytes % 4 === 0 &&
+    xyz.every((field) => field.datatype === FLOAT32 && field.offset % 4 === 0)
+  );
+}
+
+function alignedWords(data: Uint8Array): Float32Array {
+  const bytes = data.byteOffset % 4 === 0 ? data : data.slice();
+  return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.length >> 2);
+}
+
+function copyWords(
+  words: Float32Array,
+  { width, height, rowBytes, step }: Rows,
+  fields: readonly [PointField, PointField, PointField],
+  axes: CloudAxes,
+  into: Float32Array,
+): void {
+  const [x, y, z] = fields.map((field) => field.offset >> 2) as [number, number, number];
+  const stride = step >> 2;
+  let to = 0;
+  for (let row = 0; row < height; row++) {
+    let at = (row * rowBytes) >> 2;
+    for (let i = 0; i < width; i++, at += stride, to += 4) {
+      if (axes === 'optical') {
+        into[to] = words[at + x] as number;
+        into[to + 1] = words[at + y] as number;
+        into[to + 2] = words[at + z] as number;
+      } else {
+        into[to] = -(words[at + y] as number);
+        into[to + 1] = -(words[at + z] as number);
+        into[to + 2] = words[at + x] as number;
+      }
+    }
+  }
+}
+
+function readCoordinates(
+  { data, is_bigendian }: PointCloud2,
+  rows: Rows,
+  [x, y, z]: readonly [PointField, PointField, PointField],
+  axes: CloudAxes,
+  into: Float32Array,
+): void {
+  const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
+  const [readX, readY, readZ] = [typeOf(x).read, typeOf(y).read, typeOf(z).read];
+  const little = !is_bigendian;
+  forEachPoint(rows, (at, i) => {
+    const forward = readX(view, at + x.offset, little);
+    const left = readY(view, at + y.offset, little);
+    const up = readZ(view, at + z.offset, little);
+    into[i * 4] = axes === 'optical' ? forward : -left;
+    into[i * 4 + 1] = axes === 'optical' ? left : -up;
+    into[i * 4 + 2] = axes === 'optical' ? up : forward;
+  });
+}
+
+function forEachPoint(
+  { width, height, rowBytes, step }: Rows,
+  visit: (at: number, index: number) => void,
+): void {
+  let index = 0;
+  for (let row = 0; row < height; row++) {
+    let at = row * rowBytes;
+    for (let i = 0; i < width; i++, at += step) visit(at, index++);
+  }
+}

@@ -1,0 +1,87 @@
+/** The ROS messages that are read, as far as they are used. They come from a file: each is checked. */
+import type { Quaternion, Vector3 } from '@farpoint/protocol';
+import * as z from 'zod';
+
+const finite = z.number();
+const vector3 = z.object({ x: finite, y: finite, z: finite });
+const quaternion = z.object({ x: finite, y: finite, z: finite, w: finite });
+/** ROS 2 says `nanosec`, ROS 1 `nsec`. */
+const stamp = z.union([
+  z.object({ sec: z.number(), nanosec: z.number() }),
+  z.object({ sec: z.number(), nsec: z.number() }),
+]);
+const frameId = z.string().max(512);
+const header = z.object({ stamp, frame_id: frameId });
+const twist = z.object({ linear: vector3, angular: vector3 });
+
+export const pointFieldSchema = z.object({
+  name: z.string().max(128),
+  offset: z.int().min(0),
+  datatype: z.int().min(1).max(8),
+  count: z.int().min(0),
+});
+export type PointField = z.infer<typeof pointFieldSchema>;
+
+export const pointCloud2Schema = z.object({
+  header,
+  height: z.int().min(0),
+  width: z.int().min(0),
+  fields: z.array(pointFieldSchema).max(256),
+  is_bigendian: z.boolean(),
+  point_step: z.int().min(0),
+  row_step: z.int().min(0),
+  data: z.instanceof(Uint8Array),
+});
+export type PointCloud2 = z.infer<typeof pointCloud2Schema>;
+
+export const tfMessageSchema = z.object({
+  transforms: z
+    .array(
+      z.object({
+        header,
+        child_frame_id: frameId,
+        transform: z.object({ translation: vector3, rotation: quaternion }),
+      }),
+    )
+    .max(4096),
+});
+
+export const odometrySchema = z.object({
+  header,
+  child_frame_id: frameId,
+  pose: z.object({ pose: z.object({ position: vector3, orientation: quaternion }) }),
+  twist: z.object({ twist }),
+});
+
+/** Voltage and charge may be NaN: not known. */
+export const batteryStateSchema = z.object({
+  voltage: z.union([z.number(), z.nan()]),
+  percentage: z.union([z.number(), z.nan()]),
+});
+
+/** Types by the part that they play. */
+export const POINT_CLOUD_TYPES: readonly string[] = ['sensor_msgs/msg/PointCloud2'];
+export const TF_TYPES: readonly string[] = ['tf2_msgs/msg/TFMessage', 'tf/msg/tfMessage'];
+export const ODOMETRY_TYPES: readonly string[] = ['nav_msgs/msg/Odometry'];
+export const BATTERY_TYPES: readonly string[] = ['sensor_msgs/msg/BatteryState'];
+
+/** Nanoseconds since 1970, or whatever the robot's clock counts from. */
+export function stampNs(time: z.infer<typeof stamp>): bigint {
+  return BigInt(time.sec) * 1_000_000_000n + BigInt('nanosec' in time ? time.nanosec : time.nsec);
+}
+
+/** tf names are the same with and without ROS 1's leading slash. */
+export function frameName(id: string): string {
+  return id.startsWith('/') ? id.slice(1) : id;
+}
+
+/** @returns `null` for what is no rotation */
+export function unitQuaternion({ x, y, z, w }: Quaternion): Quaternion | null {
+  const norm = Math.hypot(x, y, z, w);
+  if (!(Math.abs(norm - 1) < 0.01)) return null;
+  return { x: x / norm, y: y / norm, z: z / norm, w: w / norm };
+}
+
+export function isFiniteVector({ x, y, z }: Vector3): boolean {
+  return Number.isFinite(x + y + z);
+}
