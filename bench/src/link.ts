@@ -44,7 +44,7 @@ that shows the whole green cloud (mtpMs), or its first points (mtpFirstMs). Figu
   --robots 1          so many robots stream over the same link, each to a page of its own; the first one is measured
   --seconds 30        how long; a trace begins anew when the measurement begins
   --mode points64     points64, or auto: the best format that both sides know, the whole cloud where the rate allows
-  --draw-every 12     of coded clouds only every so many-th point is drawn, all are decoded: the GPU is an emulated one here
+  --draw-every 24     of coded clouds only every so many-th point is drawn, all are decoded: the GPU is an emulated one here
   --fps 60            most frames a second that the camera is asked for
   --plan latency      or paper: every frame, points by the paper's equations 2 and 3
   --rate-control adaptive   or fixed
@@ -78,7 +78,7 @@ export const bench: Bench = {
         robots: { type: 'string', default: '1' },
         seconds: { type: 'string', default: '30' },
         mode: { type: 'string', default: 'points64' },
-        'draw-every': { type: 'string', default: '12' },
+        'draw-every': { type: 'string', default: '24' },
         fps: { type: 'string', default: '60' },
         plan: { type: 'string', default: 'latency' },
         'rate-control': { type: 'string', default: 'adaptive' },

@@ -1,6 +1,7 @@
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { OperatorPage } from '../src/operator-page.ts';
+import { readPicture } from '../src/picture.ts';
 import { cloudsFolder, expect, test } from '../src/stack-test.ts';
 
 const SMALL = '320x180';
@@ -15,9 +16,9 @@ const wholeRobot = {
 test('the whole cloud comes by itself, stands where it was captured, and answers a latency test', async ({
   page,
   startStack,
-}) => {
+}, testInfo) => {
   const stack = await startStack({ robots: [wholeRobot] });
-  const operator = await OperatorPage.open(page, stack, { robot: wholeRobot.id, canvas: SMALL });
+  const operator = await OperatorPage.open(page, stack, { robot: wholeRobot.id, canvas: SMALL, every: '1' });
   await operator.expectPoints(10_000);
   // 480 × 480 pixels, about 15 % of which a stereo camera does not see.
   await expect.poll(async () => (await operator.stats()).pointsPerFrame).toBeGreaterThan(170_000);
@@ -26,6 +27,14 @@ test('the whole cloud comes by itself, stands where it was captured, and answers
   // Before the stream's header came, some packets may have.
   const { 'no-stream': _, ...others } = drops;
   expect(others).toEqual({});
+
+  // The page's own buttons cover little of it; three frames fill the first ring of vertices.
+  await operator.expectFrames(5);
+  const [facts] = await readPicture(page, await operator.screenshot(testInfo, 'whole'), [
+    { left: 0, top: 0, width: 1, height: 1 },
+  ]);
+  expect(facts?.drawnShare).toBeGreaterThan(0.4);
+  expect(facts?.colours).toBeGreaterThan(50);
 
   // A room of 20 m at most, with the robot in it.
   const { bounds, camera } = await operator.probe();

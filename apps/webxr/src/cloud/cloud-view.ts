@@ -39,9 +39,10 @@ export class CloudView {
 
   constructor(gl: WebGL2RenderingContext, events: CloudEvents) {
     this.#events = events;
-    this.#ring = new PointRing(gl, FIRST_CAPACITY);
-    // three wants a BufferAttribute by its types; it draws GLBufferAttribute all the same.
-    this.#geometry.setAttribute('position', this.#ring.attribute as never);
+    this.#ring = new PointRing(gl, FIRST_CAPACITY, (attribute) => {
+      // three wants a BufferAttribute by its types; it draws GLBufferAttribute all the same.
+      this.#geometry.setAttribute('position', attribute as never);
+    });
     this.#geometry.boundingSphere = new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
     const { material, uniforms } = createPointMaterial();
     this.#uniforms = uniforms;

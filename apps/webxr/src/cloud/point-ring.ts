@@ -6,19 +6,25 @@ const VERTEX_BYTES = 8;
 const VERTEX_COMPONENTS = 4;
 
 export class PointRing {
-  /** Integer vertex attribute `ivec4`. */
-  readonly attribute: GLBufferAttribute;
+  /**
+   * Called with the integer vertex attribute `ivec4` when there is another buffer: three keeps what it bound for an
+   * attribute, so another buffer must be another attribute.
+   */
+  readonly #onAttribute: (attribute: GLBufferAttribute) => void;
   readonly #gl: WebGL2RenderingContext;
   #buffer: WebGLBuffer;
   #capacity: number;
 
-  constructor(gl: WebGL2RenderingContext, capacity: number) {
+  constructor(
+    gl: WebGL2RenderingContext,
+    capacity: number,
+    onAttribute: (attribute: GLBufferAttribute) => void,
+  ) {
     this.#gl = gl;
     this.#capacity = capacity;
+    this.#onAttribute = onAttribute;
     this.#buffer = this.#create(capacity);
-    this.attribute = new GLBufferAttribute(this.#buffer, gl.SHORT, VERTEX_COMPONENTS, 2, capacity);
-    // Read by three's vertex setup (vertexAttribIPointer), though GLBufferAttribute does not declare it.
-    Object.assign(this.attribute, { gpuType: IntType });
+    this.#publish();
   }
 
   /** Writes `count` points from `points`, beginning with point `first`, to vertex `vertex`. */
@@ -75,8 +81,11 @@ export class PointRing {
   }
 
   #publish(): void {
-    this.attribute.setBuffer(this.#buffer);
-    this.attribute.setCount(this.#capacity);
+    const { SHORT } = this.#gl;
+    const attribute = new GLBufferAttribute(this.#buffer, SHORT, VERTEX_COMPONENTS, 2, this.#capacity);
+    // Read by three's vertex setup (vertexAttribIPointer), though GLBufferAttribute does not declare it.
+    Object.assign(attribute, { gpuType: IntType });
+    this.#onAttribute(attribute);
   }
 
   #create(capacity: number): WebGLBuffer {

@@ -1,0 +1,108 @@
+/** `pnpm bench picture`: the same view over the same link, in each mode, side by side. */
+import { writeFileSync } from 'node:fs';
+import { parseArgs } from 'node:util';
+import { decode, encode } from 'fast-png';
+import { startLiveStack } from './live-stack.ts';
+import { type Bench, numberOption, printJson, printTable } from './report.ts';
+
+const USAGE = `pnpm bench picture --out FILE.png [--rate-mbps 8] [--rtt-ms 42.4] [--fps 10] [--seconds 10] [--size 640x480] [--json]
+
+Real robot (simulated office, standing), signaling and headless Chromium over an emulated link: what the operator sees after
+--seconds as points64, left, and as auto, right.`;
+
+interface Picture {
+  mode: string;
+  pixels: Uint8Array;
+  channels: number;
+  pointsPerFrame: number;
+  framesPerSecond: number;
+  mbps: number;
+}
+
+export const bench: Bench = {
+  name: 'picture',
+  summary: 'what an operator sees over a link, points64 beside the whole cloud',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        out: { type: 'string' },
+        'rate-mbps': { type: 'string', default: '8' },
+        'rtt-ms': { type: 'string', default: '42.4' },
+        fps: { type: 'string', default: '10' },
+        seconds: { type: 'string', default: '10' },
+        size: { type: 'string', default: '640x480' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    if (values.out === undefined) throw new Error('--out FILE.png is missing');
+    const rateMbps = numberOption('rate-mbps', values['rate-mbps'], 0.1);
+    const seconds = numberOption('seconds', values.seconds, 1);
+    const [width, height] = values.size.split('x').map(Number) as [number, number];
+    if (!Number.isInteger(width) || !Number.isInteger(height))
+      throw new Error(`--size is \`${values.size}\``);
+    const pictures: Picture[] = [];
+    for (const mode of ['points64', 'auto']) {
+      const live = await startLiveStack({
+        robot: { id: 'sim-1', name: 'Simulated robot', args: ['--mode', mode, '--fps', values.fps] },
+        canvas: `${width}x${height}`,
+        query: 'every=1',
+        link: {
+          args: ['--rate-mbps', String(rateMbps), '--rtt-ms', values['rtt-ms'], '--queue-ms', '100'],
+          env: { FARPOINT_LOG_LEVEL: 'warn' },
+        },
+        log: (line) => console.error(`${mode}: ${line}`),
+      });
+      try {
+        await live.page.waitForTimeout(seconds * 1000);
+        const { pointsPerFrame, framesPerSecond, bitsPerSecond } = await live.page.evaluate(() =>
+          window.farpoint.stats(),
+        );
+        const png = await live.page.locator('canvas').first().screenshot({
+          // Nothing but the cloud: the page's own elements lie over the canvas.
+          style:
+            'body > :not(canvas) { visibility: hidden !important } canvas { visibility: visible !important }',
+        });
+        const { data, channels, ...size } = decode(png);
+        if (size.width !== width || size.height !== height)
+          throw new Error(`the canvas is ${size.width}×${size.height}, not ${values.size}`);
+        pictures.push({
+          ...{ mode, pixels: Uint8Array.from(data), channels },
+          ...{ pointsPerFrame, framesPerSecond, mbps: bitsPerSecond / 1e6 },
+        });
+      } finally {
+        await live.close();
+      }
+    }
+    writeFileSync(values.out, sideBySide(pictures, width, height));
+    const rows = pictures.map(({ mode, pointsPerFrame, framesPerSecond, mbps }) => ({
+      mode,
+      pointsPerFrame: Math.round(pointsPerFrame),
+      framesPerSecond: Number(framesPerSecond.toFixed(1)),
+      mbps: Number(mbps.toFixed(2)),
+    }));
+    printTable(
+      ['mode', 'points a frame', 'frames/s', 'Mbit/s'],
+      rows.map((row) => [row.mode, row.pointsPerFrame, row.framesPerSecond, row.mbps]),
+    );
+    if (values.json) printJson({ bench: 'picture', rateMbps, out: values.out, rows });
+  },
+};
+
+const GAP = 8;
+
+function sideBySide(pictures: readonly Picture[], width: number, height: number): Uint8Array {
+  const total = pictures.length * width + (pictures.length - 1) * GAP;
+  const data = new Uint8Array(total * height * 3).fill(255);
+  for (const [i, { pixels, channels }] of pictures.entries()) {
+    for (let y = 0; y < height; y++) {
+      for (let x = 0; x < width; x++) {
+        const from = (y * width + x) * channels;
+        data.set(pixels.subarray(from, from + 3), (y * total + i * (width + GAP) + x) * 3);
+      }
+    }
+  }
+  return encode({ width: total, height, data, channels: 3, depth: 8 });
+}
