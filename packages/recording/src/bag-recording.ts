@@ -1,5 +1,5 @@
 import { Bag } from '@foxglove/rosbag';
-import { decompressors } from './decompress.ts';
+import { bagDecompressors } from './decompress.ts';
 import { RecordingError } from './errors.ts';
 import type { FileBytes } from './file-bytes.ts';
 import { asRecordingError } from './mcap-indexed.ts';
@@ -49,7 +49,7 @@ export class BagRecording implements Recording {
 
   /** @throws {RecordingError} where it cannot be read, or was not closed */
   static async open(bytes: FileBytes): Promise<BagRecording> {
-    const { lz4, bz2 } = await decompressors();
+    const { lz4, bz2 } = await bagDecompressors();
     const bag = new Bag(
       { size: () => bytes.size, read: (offset, length) => bytes.read(offset, length) },
       { parse: false, decompress: { lz4, bz2 } },

@@ -21,12 +21,21 @@ function bounded(decompress: (compressed: Uint8Array, size: number) => Uint8Arra
   };
 }
 
-/** By the name that the formats use. */
-export async function decompressors(): Promise<{ lz4: Decompress; zstd: Decompress; bz2: Decompress }> {
-  const [bzip2] = await Promise.all([Bzip2.init(), lz4.isLoaded]);
-  return {
-    lz4: bounded((compressed, size) => lz4(compressed, size)),
-    zstd: bounded((compressed, size) => zstdDecompressSync(compressed, { maxOutputLength: size })),
-    bz2: bounded((compressed, size) => bzip2.decompress(compressed, size, { small: false })),
-  };
+const lz4Decompress = bounded((compressed, size) => lz4(compressed, size));
+const zstdDecompress = bounded((compressed, size) =>
+  zstdDecompressSync(compressed, { maxOutputLength: size }),
+);
+let bzip2: Promise<Bzip2> | null = null;
+
+/** By the names that MCAP uses. */
+export async function mcapDecompressors(): Promise<{ lz4: Decompress; zstd: Decompress }> {
+  await lz4.isLoaded;
+  return { lz4: lz4Decompress, zstd: zstdDecompress };
+}
+
+/** By the names that bags use. */
+export async function bagDecompressors(): Promise<{ lz4: Decompress; bz2: Decompress }> {
+  bzip2 ??= Bzip2.init();
+  const [loaded] = await Promise.all([bzip2, lz4.isLoaded]);
+  return { lz4: lz4Decompress, bz2: bounded((compressed, size) => loaded.decompress(compressed, size)) };
 }

@@ -1,5 +1,5 @@
-import { McapIndexedReader, type McapTypes } from '@mcap/core';
-import { type Decompress, decompressors } from './decompress.ts';
+import { McapIndexedReader } from '@mcap/core';
+import { mcapDecompressors } from './decompress.ts';
 import { detailOf, RecordingError } from './errors.ts';
 import type { FileBytes } from './file-bytes.ts';
 import { topicsOf } from './mcap-topics.ts';
@@ -7,10 +7,6 @@ import type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 
 /** Index entries kept, so that a seek does not read them again. */
 const INDEX_CACHE_BYTES = 16 * 1024 * 1024;
-
-export function mcapHandlers({ lz4, zstd }: { lz4: Decompress; zstd: Decompress }) {
-  return { lz4, zstd } satisfies McapTypes.DecompressHandlers;
-}
 
 /** An MCAP file that was closed: read by its index, chunk by chunk. */
 export class IndexedMcap implements Recording {
@@ -43,14 +39,14 @@ export class IndexedMcap implements Recording {
 
   /** @throws {RecordingError} where there is no index, or it cannot be read */
   static async open(bytes: FileBytes): Promise<IndexedMcap> {
-    const handlers = await decompressors();
+    const handlers = await mcapDecompressors();
     try {
       const reader = await McapIndexedReader.Initialize({
         readable: {
           size: async () => BigInt(bytes.size),
           read: (offset, size) => bytes.read(Number(offset), Number(size)),
         },
-        decompressHandlers: mcapHandlers(handlers),
+        decompressHandlers: handlers,
         messageIndexCacheSizeBytes: INDEX_CACHE_BYTES,
       });
       const { chunkIndexes, statistics } = reader;

@@ -1,8 +1,7 @@
 import { McapRecordBuilder, McapStreamReader, type McapTypes } from '@mcap/core';
-import { type Decompress, decompressors } from './decompress.ts';
+import { mcapDecompressors } from './decompress.ts';
 import { detailOf, RecordingError } from './errors.ts';
 import { type FileBytes, MAX_RECORD_BYTES } from './file-bytes.ts';
-import { mcapHandlers } from './mcap-indexed.ts';
 import { topicsOf } from './mcap-topics.ts';
 import type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 
@@ -11,7 +10,7 @@ const PIECE_BYTES = 1024 * 1024;
 const MOST_PLACES = 4096;
 
 type Record = McapTypes.TypedMcapRecord;
-type Handlers = { lz4: Decompress; zstd: Decompress };
+type Handlers = McapTypes.DecompressHandlers;
 
 /** Where reading may begin, and the newest message before it. */
 interface Place {
@@ -57,7 +56,7 @@ export class ScannedMcap implements Recording {
    * @throws {RecordingError} where not even one message can be read
    */
   static async open(bytes: FileBytes): Promise<ScannedMcap> {
-    const handlers = await decompressors();
+    const handlers = await mcapDecompressors();
     const scan = new Scan();
     try {
       for await (const record of recordsOf(bytes, handlers, 0, null)) scan.add(record);
@@ -158,7 +157,7 @@ async function* recordsOf(
 ): AsyncGenerator<PlacedRecord, void, void> {
   const reader = new McapStreamReader({
     includeChunks: true,
-    decompressHandlers: mcapHandlers(handlers),
+    decompressHandlers: handlers,
     noMagicPrefix: known !== null,
   });
   if (known !== null) {

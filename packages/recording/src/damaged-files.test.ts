@@ -1,0 +1,191 @@
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import fc from 'fast-check';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { CloudPlayer, type PlayOptions } from './cloud-player.ts';
+import { RecordingError } from './errors.ts';
+import { openRecording } from './open-recording.ts';
+import type { Recording } from './recording.ts';
+import { FakeClock } from './testing/fake-clock.ts';
+import { cloudMessage, mcapOf, writeFile } from './testing/files.ts';
+
+const CLOUDS = 40;
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-damaged-'));
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+let whole: Uint8Array;
+beforeAll(async () => {
+  whole = await mcapOf(CLOUDS, (k) => cloudMessage(k, 100));
+});
+
+async function count(recording: Recording, fromNs = recording.startNs): Promise<number[]> {
+  const seen: number[] = [];
+  for await (const { logNs } of recording.messages(['/points'], fromNs)) {
+    seen.push(Number((logNs - 1_000_000_000n) / 100_000_000n));
+  }
+  return seen;
+}
+
+/** Plays it once and takes everything. */
+async function play(path: string, most = 1000): Promise<{ shown: number; faults: RecordingError[] }> {
+  const options: PlayOptions = { path, topic: null, rate: 1, fromS: 0, atEnd: 'stop', axes: 'auto' };
+  const player = await CloudPlayer.open(options, new FakeClock());
+  const into = new Float32Array(player.stream.capacity * 4);
+  const faults: RecordingError[] = [];
+  let shown = 0;
+  player.onFault = (error) => faults.push(error);
+  player.onCloud = () => {
+    if (player.take(into) !== null) shown++;
+    if (shown >= most) void player.close();
+  };
+  await player.run();
+  await player.close();
+  return { shown, faults };
+}
+
+describe('files that are damaged', () => {
+  it('an MCAP file cut short anywhere is played up to its last whole chunk, and says where that is', async () => {
+    let partly = 0;
+    await fc.assert(
+      fc.asyncProperty(fc.integer({ min: 0, max: whole.length - 1 }), async (length) => {
+        const path = writeFile(join(folder, 'cut.mcap'), whole.subarray(0, length));
+        let recording: Recording;
+        try {
+          recording = await openRecording(path);
+        } catch (error) {
+          expect(error).toBeInstanceOf(RecordingError);
+          expect((error as RecordingError).offset).toBeLessThanOrEqual(length);
+          return;
+        }
+        expect(recording.warning).toMatch(/cut\.mcap: byte \d+: .*played up to there/);
+        const seen = await count(recording);
+        await recording.close();
+        // The first ones, without a gap.
+        expect(seen).toEqual(Array.from({ length: seen.length }, (_, k) => k));
+        // All chunks that were whole: four clouds of 1.3 kB lie in each.
+        expect(seen.length).toBeGreaterThanOrEqual(
+          Math.floor(((length / whole.length) * CLOUDS) / 4) * 4 - 8,
+        );
+        if (seen.length > 0 && seen.length < CLOUDS) partly++;
+      }),
+      { numRuns: 150 },
+    );
+    expect(partly).toBeGreaterThan(50);
+  });
+
+  it('a file without its index is sought like one that has it', async () => {
+    const path = writeFile(join(folder, 'cut.mcap'), whole.subarray(0, Math.floor(whole.length * 0.8)));
+    const recording = await openRecording(path);
+    const all = await count(recording);
+    for (const k of [0, 3, 7, 13, 20]) {
+      expect(await count(recording, 1_000_000_000n + BigInt(k) * 100_000_000n)).toEqual(all.slice(k));
+    }
+    await recording.close();
+  });
+
+  it('bytes changed anywhere give typed errors with file and offset, or another picture, and nothing else', async () => {
+    const outcomes = new Map<string, number>();
+    const change = fc.record({
+      at: fc.integer({ min: 0, max: 100_000 }),
+      bytes: fc.uint8Array({ minLength: 1, maxLength: 9 }),
+    });
+    await fc.assert(
+      fc.asyncProperty(change, async ({ at, bytes }) => {
+        const damaged = whole.slice();
+        damaged.set(bytes, at % (whole.length - 10));
+        const path = writeFile(join(folder, 'damaged.mcap'), damaged);
+        let outcome: string;
+        try {
+          const { faults } = await play(path, 2 * CLOUDS);
+          for (const fault of faults) {
+            expect(fault).toBeInstanceOf(RecordingError);
+            expect(fault.message).toContain('damaged.mcap');
+            expect(fault.offset).toBeGreaterThanOrEqual(0);
+          }
+          outcome = faults.length > 0 ? 'fault' : 'played';
+        } catch (error) {
+          expect(error).toBeInstanceOf(RecordingError);
+          outcome = 'refused';
+        }
+        outcomes.set(outcome, (outcomes.get(outcome) ?? 0) + 1);
+      }),
+      { numRuns: 200 },
+    );
+    expect((outcomes.get('fault') ?? 0) + (outcomes.get('refused') ?? 0)).toBeGreaterThan(100);
+  }, 30_000);
+
+  it('messages changed anywhere are played or told of, one by one', async () => {
+    const original = cloudMessage(1, 50);
+    const outcomes = { shown: 0, faults: 0 };
+    const change = fc.record({
+      at: fc.nat(original.length - 1),
+      bytes: fc.uint8Array({ minLength: 1, maxLength: 6 }),
+    });
+    await fc.assert(
+      fc.asyncProperty(fc.array(change, { minLength: 8, maxLength: 8 }), async (changes) => {
+        // The first few are looked at when it is opened: they stay as they are.
+        const bytes = await mcapOf(20, (k) => {
+          const message = original.slice();
+          const { at, bytes: other } = changes[k - 12] ?? { at: 0, bytes: [] };
+          message.set(Uint8Array.from(other).subarray(0, message.length - at), at);
+          return message;
+        });
+        const { shown, faults } = await play(writeFile(join(folder, 'messages.mcap'), bytes));
+        expect(shown + faults.length).toBe(20);
+        for (const fault of faults) {
+          expect(fault).toBeInstanceOf(RecordingError);
+          expect(fault.topic).toBe('/points');
+          expect(fault.offset).toBeGreaterThan(0);
+        }
+        outcomes.shown += shown;
+        outcomes.faults += faults.length;
+      }),
+      { numRuns: 60 },
+    );
+    expect(outcomes.faults).toBeGreaterThan(20);
+    expect(outcomes.shown).toBeGreaterThan(12 * 60);
+  }, 30_000);
+
+  it('clouds that cannot be read are left out, each with topic and offset; the others play', async () => {
+    const bytes = await mcapOf(
+      10,
+      (k) => {
+        if (k === 4) return cloudMessage(k, 100).subarray(0, 300);
+        if (k === 5) return new Uint8Array(0);
+        // A cloud far larger than those at the beginning.
+        return cloudMessage(k, k === 6 ? 5000 : 100);
+      },
+      { chunkSize: 1_000_000 },
+    );
+    const { shown, faults } = await play(writeFile(join(folder, 'some.mcap'), bytes));
+    expect(shown).toBeGreaterThanOrEqual(7);
+    expect(faults.length + shown).toBe(10);
+    for (const fault of faults) {
+      expect(fault.topic).toBe('/points');
+      expect(fault.offset).toBeGreaterThan(0);
+    }
+  });
+
+  it('a file with nothing but unreadable clouds is refused by topic', async () => {
+    const bytes = await mcapOf(3, () => Uint8Array.of(0, 1, 0, 0, 9, 9));
+    await expect(play(writeFile(join(folder, 'none.mcap'), bytes))).rejects.toMatchObject({
+      code: 'bad-message',
+      topic: '/points',
+    });
+  });
+
+  it.each([
+    ['empty', new Uint8Array(0), 'not-a-recording'],
+    ['text', new TextEncoder().encode('hello, this is no recording'), 'not-a-recording'],
+    ['only magic', Uint8Array.of(0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a), 'truncated'],
+    ['a bag without a header', new TextEncoder().encode('#ROSBAG V2.0\n'), 'truncated'],
+  ])('%s', async (name, bytes, code) => {
+    const path = writeFile(join(folder, `${name}.bin`), bytes);
+    await expect(openRecording(path)).rejects.toMatchObject({ code, message: expect.stringContaining(path) });
+  });
+
+  it('a file that is not there, and a folder', async () => {
+    await expect(openRecording(join(folder, 'nothing.mcap'))).rejects.toMatchObject({ code: 'unreadable' });
+    await expect(openRecording(folder)).rejects.toMatchObject({ code: 'unreadable' });
+  });
+});

@@ -1,0 +1,134 @@
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Pose } from '@farpoint/protocol';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { CloudPlayer, type PlayOptions } from './cloud-player.ts';
+import { openRecording } from './open-recording.ts';
+import { FakeClock } from './testing/fake-clock.ts';
+import { Peers } from './testing/peers.ts';
+
+const FILES = [
+  'bag-none.bag',
+  'bag-lz4.bag',
+  'bag-bz2.bag',
+  'mcap-ros2-none.mcap',
+  'mcap-ros2-lz4.mcap',
+  'mcap-ros2-zstd.mcap',
+  'mcap-ros1-zstd.mcap',
+  'rosbag2/rosbag2.mcap',
+];
+const PLAY: Omit<PlayOptions, 'path'> = { topic: null, rate: 1, fromS: 0, atEnd: 'stop', axes: 'auto' };
+const INSTALL_MS = 400_000;
+
+interface Shown {
+  atMs: number;
+  count: number;
+  first: number[];
+  pose: Pose;
+}
+
+/** Plays to the end and takes every cloud. */
+async function playAll(options: PlayOptions, most = Number.POSITIVE_INFINITY) {
+  const clock = new FakeClock();
+  const player = await CloudPlayer.open(options, clock);
+  const points = new Float32Array(player.stream.capacity * 4);
+  const shown: Shown[] = [];
+  const faults: string[] = [];
+  player.onFault = (error) => faults.push(error.message);
+  player.onCloud = () => {
+    const cloud = player.take(points);
+    if (cloud === null) return;
+    shown.push({
+      atMs: clock.ms,
+      count: cloud.count,
+      first: [...points.subarray(0, 3)],
+      pose: cloud.cameraPose,
+    });
+    if (shown.length >= most) void player.close();
+  };
+  await player.run();
+  await player.close();
+  return { shown, faults, player };
+}
+
+const peers = Peers.install();
+describe.skipIf(typeof peers === 'string')(
+  `recordings of PyPI’s mcap and rosbags ${typeof peers === 'string' ? `(${peers})` : ''}`,
+  () => {
+    const folder = mkdtempSync(join(tmpdir(), 'farpoint-recordings-'));
+    beforeAll(() => (peers as Peers).write(folder), INSTALL_MS);
+    afterAll(() => rmSync(folder, { recursive: true, force: true }));
+
+    it.each(FILES)('%s: every message is there, in order', async (file) => {
+      const recording = await openRecording(join(folder, file));
+      expect(Object.fromEntries(recording.topics.map(({ name, messages }) => [name, messages]))).toEqual({
+        '/points': 20,
+        '/tf': 100,
+        '/odom': 100,
+        '/tf_static': 1,
+      });
+      const names = recording.topics.map(({ name }) => name);
+      const seen = new Map<string, number>();
+      let lastNs = 0n;
+      for await (const { topic, logNs, data } of recording.messages(names, recording.startNs)) {
+        expect(logNs).toBeGreaterThanOrEqual(lastNs);
+        lastNs = logNs;
+        expect(topic.decode(data)).toBeDefined();
+        seen.set(topic.name, (seen.get(topic.name) ?? 0) + 1);
+      }
+      expect(Object.fromEntries(seen)).toEqual({ '/points': 20, '/tf': 100, '/odom': 100, '/tf_static': 1 });
+      expect(lastNs).toBe(recording.endNs);
+      await recording.close();
+    });
+
+    it.each(FILES)('%s: plays at its times, from the poses of tf', async (file) => {
+      const { shown, faults, player } = await playAll({ ...PLAY, path: join(folder, file) });
+      expect(faults).toEqual([]);
+      expect(shown).toHaveLength(20);
+      expect(player.stream).toMatchObject({ axes: 'body', frameId: 'lidar', height: 1, capacity: 750 });
+      shown.forEach(({ atMs, count, first, pose }, k) => {
+        expect(atMs).toBeCloseTo(k * 100, 3);
+        expect(count).toBe(500);
+        // x forward, y left, z up became x right, y down, z forward.
+        expect(first[0]).toBeCloseTo(0, 5);
+        expect(first[1]).toBeCloseTo(-0.5, 5);
+        expect(first[2]).toBeCloseTo(k, 4);
+        // The body stands at (k / 10, 0, 0), turned left by 90°; the LiDAR 0.5 m ahead of it and 1 m above.
+        expect(pose.position.x).toBeCloseTo(k / 10, 5);
+        expect(pose.position.y).toBeCloseTo(0.5, 5);
+        expect(pose.position.z).toBeCloseTo(1, 5);
+        // Its optical z axis therefore looks along +y of the world.
+        const { x, y, z, w } = pose.orientation;
+        expect([2 * (x * z + y * w), 2 * (y * z - x * w)].map((c) => Math.round(c * 1e6) / 1e6 + 0)).toEqual([
+          0, 1,
+        ]);
+      });
+    });
+
+    it.each(['bag-lz4.bag', 'mcap-ros2-zstd.mcap'])('%s: seeks, plays faster, repeats', async (file) => {
+      const path = join(folder, file);
+      const { shown, faults } = await playAll({ ...PLAY, path, rate: 2, fromS: 1.05, atEnd: 'repeat' }, 12);
+      expect(faults).toEqual([]);
+      expect(shown.map(({ first }) => Math.round(first[2] as number))).toEqual([
+        11, 12, 13, 14, 15, 16, 17, 18, 19, 11, 12, 13,
+      ]);
+      expect((shown[8] as Shown).atMs).toBeCloseTo(400, 3);
+      // The pose of the first cloud is known from what was said before it.
+      expect(shown[0]?.pose.position.x).toBeCloseTo(1.1, 5);
+      expect(shown[9]?.pose.position.x).toBeCloseTo(1.1, 5);
+    });
+
+    it('a topic that is not there or has no clouds is refused with the names of those that do', async () => {
+      const path = join(folder, 'mcap-ros2-none.mcap');
+      await expect(playAll({ ...PLAY, path, topic: '/nothing' })).rejects.toMatchObject({
+        code: 'no-topic',
+        topic: '/nothing',
+        message: expect.stringContaining('with clouds: /points'),
+      });
+      await expect(playAll({ ...PLAY, path, topic: '/odom' })).rejects.toMatchObject({
+        message: expect.stringContaining('nav_msgs/msg/Odometry'),
+      });
+    });
+  },
+);

@@ -1,0 +1,65 @@
+/** Definitions of the ROS 2 messages that recordings of ours hold, as `ros2msg` schemas: one text with all that they need. */
+
+const SEPARATOR = `\n${'='.repeat(80)}\n`;
+const TIME = 'MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec';
+const HEADER = 'MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id';
+const VECTOR3 = 'MSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z';
+const QUATERNION = 'MSG: geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w';
+const TWIST = 'MSG: geometry_msgs/Twist\nVector3 linear\nVector3 angular';
+
+function schema(...definitions: string[]): string {
+  return definitions.join(SEPARATOR);
+}
+
+export const POINT_CLOUD2_SCHEMA = schema(
+  [
+    'std_msgs/Header header',
+    'uint32 height',
+    'uint32 width',
+    'PointField[] fields',
+    'bool is_bigendian',
+    'uint32 point_step',
+    'uint32 row_step',
+    'uint8[] data',
+    'bool is_dense',
+  ].join('\n'),
+  'MSG: sensor_msgs/PointField\nstring name\nuint32 offset\nuint8 datatype\nuint32 count',
+  HEADER,
+  TIME,
+);
+
+export const TF_MESSAGE_SCHEMA = schema(
+  'geometry_msgs/TransformStamped[] transforms',
+  'MSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\nTransform transform',
+  'MSG: geometry_msgs/Transform\nVector3 translation\nQuaternion rotation',
+  VECTOR3,
+  QUATERNION,
+  HEADER,
+  TIME,
+);
+
+export const TWIST_STAMPED_SCHEMA = schema(
+  'std_msgs/Header header\nTwist twist',
+  TWIST,
+  VECTOR3,
+  HEADER,
+  TIME,
+);
+
+export const ODOMETRY_SCHEMA = schema(
+  [
+    'std_msgs/Header header',
+    'string child_frame_id',
+    'geometry_msgs/PoseWithCovariance pose',
+    'geometry_msgs/TwistWithCovariance twist',
+  ].join('\n'),
+  'MSG: geometry_msgs/PoseWithCovariance\nPose pose\nfloat64[36] covariance',
+  'MSG: geometry_msgs/Pose\nPoint position\nQuaternion orientation',
+  'MSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z',
+  'MSG: geometry_msgs/TwistWithCovariance\nTwist twist\nfloat64[36] covariance',
+  TWIST,
+  VECTOR3,
+  QUATERNION,
+  HEADER,
+  TIME,
+);

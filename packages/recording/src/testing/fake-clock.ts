@@ -1,0 +1,16 @@
+import type { PlayClock } from '../cloud-player.ts';
+
+/** A clock that jumps to whatever is waited for. */
+export class FakeClock implements PlayClock {
+  ms = 0;
+  readonly waits: number[] = [];
+
+  now(): number {
+    return this.ms;
+  }
+
+  async wait(ms: number): Promise<void> {
+    this.waits.push(ms);
+    this.ms += ms;
+  }
+}

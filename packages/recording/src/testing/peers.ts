@@ -1,0 +1,75 @@
+/** Runs PyPI's readers and writers of recordings, in an environment of their own that is made once. */
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdirSync, mkdtempSync, renameSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import * as z from 'zod';
+
+const PACKAGES = ['mcap==1.6.0', 'mcap-ros2-support==0.6.0', 'rosbags==0.11.9', 'numpy==2.4.6', 'lz4==4.4.5'];
+const SCRIPT = join(import.meta.dirname, 'peers.py');
+
+const contentSchema = z.object({
+  topics: z.record(
+    z.string(),
+    z.object({
+      type: z.string(),
+      count: z.int(),
+      sequence: z.int(),
+      /** Of each cloud: points, and the sums of x, y and z. */
+      sums: z.array(z.tuple([z.number(), z.number(), z.number(), z.number()])),
+      last: z.unknown().optional(),
+    }),
+  ),
+  messages: z.int(),
+  chunks: z.int(),
+  profile: z.string(),
+});
+export type PeerContent = z.infer<typeof contentSchema>;
+
+export class Peers {
+  readonly #python: string;
+
+  private constructor(python: string) {
+    this.#python = python;
+  }
+
+  /** @returns why there are none, where they cannot be installed: no Python 3, no package index */
+  static install(): Peers | string {
+    const folder = join(
+      tmpdir(),
+      `farpoint-recording-peers-${PACKAGES.join('-').replace(/[^a-z0-9.]+/g, '-')}`,
+    );
+    const python = join(folder, 'bin', 'python');
+    if (existsSync(python)) return new Peers(python);
+    const making = mkdtempSync(join(tmpdir(), 'farpoint-recording-making-'));
+    try {
+      // Made beside it and renamed: tests that run at the same time see all of it or nothing.
+      execFileSync('python3', ['-m', 'venv', making], { stdio: 'pipe', timeout: 120_000 });
+      execFileSync(
+        join(making, 'bin', 'python'),
+        ['-m', 'pip', '-q', '--retries', '1', '--timeout', '10', 'install', ...PACKAGES],
+        {
+          stdio: 'pipe',
+          timeout: 300_000,
+        },
+      );
+      if (!existsSync(folder)) renameSync(making, folder);
+      return new Peers(python);
+    } catch (error) {
+      return `PyPI’s mcap and rosbags cannot be installed: ${error instanceof Error ? error.message.split('\n')[0] : error}`;
+    } finally {
+      rmSync(making, { recursive: true, force: true });
+    }
+  }
+
+  /** The same drive in every format. */
+  write(folder: string): void {
+    mkdirSync(folder, { recursive: true });
+    execFileSync(this.#python, [SCRIPT, 'write', folder], { stdio: ['ignore', 'pipe', 'inherit'] });
+  }
+
+  read(file: string): PeerContent {
+    const text = execFileSync(this.#python, [SCRIPT, 'read', file], { stdio: ['ignore', 'pipe', 'inherit'] });
+    return contentSchema.parse(JSON.parse(text.toString()));
+  }
+}
