@@ -1,7 +1,13 @@
 /** The robot program to an operator of the reference system: processes, sockets, WebRTC. */
 import { checkOffer, ReferenceOperator, RtpStreamRules, SocketPeer } from '@farpoint/conformance';
 import { LocalStack } from '@farpoint/local-stack';
-import { LATENCY_TEST_COLOUR, type LeaseState, type Twist, zeroTwist } from '@farpoint/protocol';
+import {
+  CLOUD_FORMATS,
+  LATENCY_TEST_COLOUR,
+  type LeaseState,
+  type Twist,
+  zeroTwist,
+} from '@farpoint/protocol';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { SignaledOperator } from '../testing/signaled-operator.ts';
 
@@ -87,6 +93,20 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     await reference.packets.next(() => rules.frames >= 10);
     await own.client.until(() => own.client.completeFrames.length >= before + 10);
     expect(own.client.malformedPackets).toBe(0);
+    expect(rules.findings).toEqual([]);
+  });
+
+  it('gets points64 also while Farpoint’s operator reads a coded format', async () => {
+    const [own, reference] = [await farpointOperator(), await referenceOperator()];
+    const { client } = own;
+    client.sendSession({ type: 'cloudFormats', formats: [...CLOUD_FORMATS] });
+    await client.message('cloudStream');
+    const rules = new RtpStreamRules();
+    reference.onPacket = (packet) => rules.add(packet);
+    reference.say('start');
+    const before = client.packets;
+    await reference.packets.next(() => rules.frames >= 10);
+    await client.until(() => client.packets > before);
     expect(rules.findings).toEqual([]);
   });
 
