@@ -210,6 +210,7 @@ impl Encoder {
                         near: Neighbours::new(),
                     }
                 });
+                self.tokens.reserve_tile();
                 let mut coder = rans::Encoder {
                     tokens: &mut self.tokens,
                     costs: self.tables.costs(),

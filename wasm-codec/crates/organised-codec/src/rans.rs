@@ -27,6 +27,13 @@ pub trait Coder {
     const DECODES: bool;
     /// A symbol 0..16 of a context.
     fn symbol(&mut self, family: Family, context: usize, value: u32) -> u32;
+    /// Where the values are known: a symbol, but only where it is `coded`.
+    #[inline(always)]
+    fn symbol_if(&mut self, family: Family, context: usize, value: u32, coded: bool) {
+        if coded {
+            self.symbol(family, context, value);
+        }
+    }
     /// `bits` ≤ 12 bits of equal probability.
     fn raw(&mut self, bits: u32, value: u32) -> u32;
 }
@@ -63,22 +70,27 @@ impl EncoderSymbol {
 /// The symbols of a packet in the order of decoding, and what they will cost.
 #[derive(Default)]
 pub struct Tokens {
+    /// Those in use are the first `length`: what follows is room.
     tokens: Vec<u32>,
+    length: usize,
     /// In 1/256 bit.
     cost: u32,
 }
 
 const RAW: u32 = 1 << 31;
 
+/// More than a tile has: of 256 pixels 4 numbers each, of at most 3 tokens and the shift's, and the mask.
+const TILE_TOKENS: usize = 256 * 4 * 4 + 128;
+
 impl Tokens {
     /// Room for `capacity` symbols before the first reallocation.
     pub fn with_capacity(capacity: usize) -> Self {
-        Self { tokens: Vec::with_capacity(capacity), cost: 0 }
+        Self { tokens: vec![0; capacity], length: 0, cost: 0 }
     }
 
     /// Forgets all.
     pub fn clear(&mut self) {
-        self.tokens.clear();
+        self.length = 0;
         self.cost = 0;
     }
 
@@ -89,13 +101,28 @@ impl Tokens {
 
     /// Where to go back to.
     pub fn mark(&self) -> (usize, u32) {
-        (self.tokens.len(), self.cost)
+        (self.length, self.cost)
     }
 
     /// Back to a mark.
     pub fn rewind(&mut self, (length, cost): (usize, u32)) {
-        self.tokens.truncate(length);
+        self.length = self.length.min(length);
         self.cost = cost;
+    }
+
+    /// Makes room for a tile's tokens.
+    pub fn reserve_tile(&mut self) {
+        if self.tokens.len() < self.length + TILE_TOKENS {
+            self.tokens.resize((self.length + TILE_TOKENS).next_power_of_two(), 0);
+        }
+    }
+
+    /// Adds a token where `coded`, and what it costs. Without a branch: whether a pixel is valid cannot be foreseen.
+    #[inline(always)]
+    fn push_if(&mut self, token: u32, cost: u32, coded: bool) {
+        self.tokens[self.length] = token;
+        self.length += usize::from(coded);
+        self.cost += if coded { cost } else { 0 };
     }
 
     /// Writes the two states and the words to the end of `bytes`, and returns where they begin; `None` where they do
@@ -106,7 +133,7 @@ impl Tokens {
         let mut at = bytes.len();
         // `x` codes the next symbol, `y` the one after.
         let (mut x, mut y) = (LOW, LOW);
-        for &token in self.tokens.iter().rev() {
+        for &token in self.tokens[..self.length].iter().rev() {
             let coded = if token & RAW == 0 {
                 let symbol = symbols[token as usize];
                 let frequency = u32::from(symbol.frequency);
@@ -156,16 +183,21 @@ impl Coder for Encoder<'_> {
     fn symbol(&mut self, family: Family, context: usize, value: u32) -> u32 {
         let base = if family == Family::Geometry { self.geometry } else { self.colour };
         let index = base + context * SYMBOLS + value as usize;
-        self.tokens.tokens.push(index as u32);
-        self.tokens.cost += u32::from(self.costs[index]);
+        self.tokens.push_if(index as u32, u32::from(self.costs[index]), true);
         value
+    }
+
+    #[inline(always)]
+    fn symbol_if(&mut self, family: Family, context: usize, value: u32, coded: bool) {
+        let base = if family == Family::Geometry { self.geometry } else { self.colour };
+        let index = base + context * SYMBOLS + value as usize;
+        self.tokens.push_if(index as u32, u32::from(self.costs[index]), coded);
     }
 
     #[inline(always)]
     fn raw(&mut self, bits: u32, value: u32) -> u32 {
         if bits > 0 {
-            self.tokens.tokens.push(RAW | bits << 16 | value);
-            self.tokens.cost += bits << 8;
+            self.tokens.push_if(RAW | bits << 16 | value, bits << 8, true);
         }
         value
     }

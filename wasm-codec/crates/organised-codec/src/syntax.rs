@@ -229,6 +229,27 @@ fn code_number<C: Coder>(coder: &mut C, family: Family, context: usize, shift: u
     high << shift | coder.raw(shift, value & ((1 << shift) - 1))
 }
 
+/// The same where it is known, and only where it is `coded`.
+#[inline(always)]
+fn code_number_if<C: Coder>(
+    coder: &mut C,
+    family: Family,
+    context: usize,
+    shift: u32,
+    value: u32,
+    coded: bool,
+) {
+    let high = value >> shift;
+    let token = high.min(13) + u32::from(high >= 21) + u32::from(high >= 85);
+    coder.symbol_if(family, context, token, coded);
+    if coded && (shift > 0 || high >= 13) {
+        if high >= 13 {
+            code_large(coder, token, high, context >= INDEX && family == Family::Colour);
+        }
+        coder.raw(shift, value & ((1 << shift) - 1));
+    }
+}
+
 #[cold]
 #[inline(never)]
 fn code_large<C: Coder>(coder: &mut C, token: u32, high: u32, index: bool) -> u32 {
@@ -327,24 +348,27 @@ fn code_rows<C: Coder, const INDICES: bool, const FULL: bool, const WIDTH: usize
         for x in 0..width {
             let top = upper[x + 1];
             let predicted = if first { left } else { median(left, top, diagonal) };
-            let mut value = predicted;
-            if FULL || valid >> x & 1 == 1 {
-                let (context, shift) = if first {
-                    (base + 40 + residual_bin(before), 0)
+            let coded = FULL || valid >> x & 1 == 1;
+            let (context, shift) = if first {
+                (base + 40 + residual_bin(before), 0)
+            } else {
+                let gradient = (left - diagonal).abs() + (top - diagonal).abs() + (upper[x + 2] - top).abs();
+                let bin = gradient_bin(gradient);
+                (base + 4 * bin + residual_bin(before), GRADIENT_SHIFT[bin])
+            };
+            let value = if C::DECODES {
+                if coded {
+                    before = code_number(coder, family, context, shift, 0);
+                    (predicted + unzigzag(before)).clamp(1, MAX_DEPTH)
                 } else {
-                    let gradient =
-                        (left - diagonal).abs() + (top - diagonal).abs() + (upper[x + 2] - top).abs();
-                    let bin = gradient_bin(gradient);
-                    (base + 4 * bin + residual_bin(before), GRADIENT_SHIFT[bin])
-                };
-                let residual = zigzag(current[x + 1] - predicted);
-                let residual = code_number(coder, family, context, shift, residual);
-                before = residual;
-                value = predicted + unzigzag(residual);
-                if C::DECODES {
-                    value = value.clamp(1, MAX_DEPTH);
+                    predicted
                 }
-            }
+            } else {
+                let residual = zigzag(current[x + 1] - predicted);
+                code_number_if(coder, family, context, shift, residual, coded);
+                before = if coded { residual } else { before };
+                if coded { current[x + 1] } else { predicted }
+            };
             current[x + 1] = value;
             diagonal = top;
             left = value;
