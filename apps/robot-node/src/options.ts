@@ -312,6 +312,24 @@ const options = {
     argument: 'FILE',
     help: 'for measurements: what each stream does in each 100 ms, one JSON object a line',
   }),
+  record: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'FILE',
+    help: 'record clouds, commands, telemetry, rate estimates and latencies to this MCAP file; there must be none yet',
+  }),
+  recordCapturedFps: defineOption({
+    schema: schema.number({ min: 0.1, max: 120 }),
+    default: 5,
+    argument: 'RATE',
+    help: 'record: most clouds a second as captured, 16 bytes a point; those sent are all recorded as sent, too',
+  }),
+  recordCompression: defineOption({
+    schema: schema.choice(['none', 'zstd']),
+    default: 'none',
+    argument: 'KIND',
+    help: 'record: none, or zstd (smaller, and more work for the processor)',
+  }),
   niceness: defineOption({
     schema: schema.integer({ min: -20, max: 19 }),
     default: -5,
@@ -383,6 +401,14 @@ export function toRobotOptions(values: RobotOptionValues): RobotOptions {
     packetLog: values.packetLog ?? undefined,
     frameLog: values.frameLog ?? undefined,
     statisticsFile: values.stats ?? undefined,
+    record:
+      values.record === null
+        ? undefined
+        : {
+            path: values.record,
+            compression: values.recordCompression,
+            capturedPerSecond: values.recordCapturedFps,
+          },
   };
 }
 

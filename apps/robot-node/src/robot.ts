@@ -2,13 +2,14 @@
 import { randomBytes } from 'node:crypto';
 import { AdaptiveRateController, FixedRateController, type RateController } from '@farpoint/congestion';
 import {
+  type Command,
   type DriveLimits,
   type IceServer,
   PROTOCOL_VERSION,
   type ProtocolError,
   type ServiceToRobot,
 } from '@farpoint/protocol';
-import { DriveGuard, type RejectedCommand, type TakePolicy } from '@farpoint/safety';
+import { type CommandVerdict, DriveGuard, type RejectedCommand, type TakePolicy } from '@farpoint/safety';
 import { JsonLinesFile, type Logger } from '@farpoint/service';
 import { Capture, type CaptureError, type CaptureState } from './capture/capture.ts';
 import type { CaptureOptions } from './capture/capture-messages.ts';
@@ -25,6 +26,7 @@ import { silenceLimits } from './session/silence.ts';
 import { SignalingClient, type SignalingOptions } from './signaling/signaling-client.ts';
 import { FrameLog } from './telemetry/frame-log.ts';
 import { RobotCounters } from './telemetry/robot-counters.ts';
+import { type RecordingOptions, SessionRecording } from './telemetry/session-recording.ts';
 import { StageTimer } from './telemetry/stage-timer.ts';
 import { streamStatistics } from './telemetry/stream-statistics.ts';
 import { TelemetrySender } from './telemetry/telemetry-sender.ts';
@@ -66,6 +68,8 @@ export interface RobotOptions {
   frameLog?: string | undefined;
   /** File for what each stream does in each 100 ms, one JSON object a line. */
   statisticsFile?: string | undefined;
+  /** What everything is recorded in; left out, nothing is. */
+  record?: RecordingOptions | undefined;
 }
 
 const TELEMETRY_MS = 50;
@@ -82,6 +86,8 @@ export class Robot implements SessionHost {
   reference: ReferenceProfile | null = null;
   /** Called once, where the robot cannot go on. */
   onFailure: ((error: CaptureError) => void) | null = null;
+  /** `null` where nothing is recorded. */
+  readonly recording: SessionRecording | null;
   readonly #options: RobotOptions;
   readonly #log: Logger;
   readonly #packetLog: PacketLog | undefined;
@@ -96,7 +102,14 @@ export class Robot implements SessionHost {
   #iceServers: readonly IceServer[] = [];
   #state: CaptureState | null = null;
 
-  private constructor(capture: Capture, sink: VelocitySink, options: RobotOptions, log: Logger) {
+  private constructor(
+    capture: Capture,
+    sink: VelocitySink,
+    recording: SessionRecording | null,
+    options: RobotOptions,
+    log: Logger,
+  ) {
+    this.recording = recording;
     this.#options = options;
     this.#log = log;
     this.#packetLog = options.packetLog === undefined ? undefined : new PacketLog(options.packetLog);
@@ -108,7 +121,14 @@ export class Robot implements SessionHost {
       takePolicy: options.takePolicy,
       randomBytes: (count) => randomBytes(count),
     });
-    this.drive = new DriveStation(guard, (twist) => sink.apply(twist), monotonicMs);
+    this.drive = new DriveStation(
+      guard,
+      (twist) => {
+        sink.apply(twist);
+        recording?.velocity(twist);
+      },
+      monotonicMs,
+    );
     const stages = new StageTimer();
     this.#telemetry = new TelemetrySender(this.operators, guard, stages);
     this.#fanOut = new FrameFanOut({
@@ -117,7 +137,12 @@ export class Robot implements SessionHost {
       sendLoop: this.#sendLoop,
       driver: () => guard.leaseHolder,
       counters: this.counters,
-      frameLog: this.#frameLog,
+      frameLog: {
+        add: (frame) => {
+          this.#frameLog?.add(frame);
+          recording?.frame(frame);
+        },
+      },
       stages,
       now: monotonicMs,
       mayCode: options.mode === 'auto',
@@ -141,41 +166,43 @@ export class Robot implements SessionHost {
     capture.onFault = (detail) => log.warn({ detail }, 'the source has a fault');
     this.#timers.push(setInterval(() => this.#tick(), TICK_MS));
     if (options.statisticsFile !== undefined) {
-      const file = new JsonLinesFile(options.statisticsFile, (error) =>
+      this.#statistics = new JsonLinesFile(options.statisticsFile, (error) =>
         log.error({ err: error }, 'statistics are not written'),
       );
-      this.#statistics = file;
-      this.#timers.push(
-        setInterval(() => {
-          for (const line of streamStatistics(
-            this.operators.values(),
-            this.#state,
-            this.counters,
-            monotonicMs(),
-          ))
-            file.write(line);
-        }, STATISTICS_MS),
-      );
+    }
+    if (this.#statistics !== null || recording !== null) {
+      this.#timers.push(setInterval(() => this.#writeStatistics(), STATISTICS_MS));
     }
     this.#timers.push(
       setInterval(() => {
-        if (this.#state !== null) this.#telemetry.send(this.#state, monotonicMs());
+        if (this.#state === null) return;
+        this.#telemetry.send(this.#state, monotonicMs());
+        recording?.telemetry(this.#state, guard, this.operators.size);
       }, TELEMETRY_MS),
     );
   }
 
   /** Opens the source and begins to call the signaling service. @throws {CaptureError} */
   static async start(options: RobotOptions, log: Logger): Promise<Robot> {
-    const capture = await Capture.start(options.capture);
+    const recording =
+      options.record === undefined ? null : await SessionRecording.open(options.record, options.id, log);
+    let capture: Capture;
+    try {
+      capture = await Capture.start(options.capture, recording?.capture);
+    } catch (error) {
+      await recording?.close();
+      throw error;
+    }
     log.info({ source: capture.description }, 'source open');
     let sink: VelocitySink;
     try {
       sink = openSink(options.sink, capture, log);
     } catch (error) {
       await capture.close();
+      await recording?.close();
       throw error;
     }
-    const robot = new Robot(capture, sink, options, log);
+    const robot = new Robot(capture, sink, recording, options, log);
     robot.signaling.start();
     if (options.referenceSignaling !== undefined) robot.#startReference(options.referenceSignaling);
     return robot;
@@ -196,6 +223,7 @@ export class Robot implements SessionHost {
     this.#sendLoop.close();
     await this.signaling.close();
     await this.capture.close();
+    await this.recording?.close();
     this.#packetLog?.write();
     this.#frameLog?.write();
     await this.#statistics?.close();
@@ -233,6 +261,10 @@ export class Robot implements SessionHost {
 
   commandRejected(rejection: RejectedCommand): void {
     this.counters.commandsRejected.add(rejection.reason);
+  }
+
+  commandJudged(session: OperatorSession, command: Command, verdict: CommandVerdict): void {
+    this.recording?.command(session.id, command, verdict);
   }
 
   messageRefused(channel: string, error: ProtocolError): void {
@@ -349,6 +381,12 @@ export class Robot implements SessionHost {
       this,
       this.#log,
     );
+  }
+
+  #writeStatistics(): void {
+    const lines = streamStatistics(this.operators.values(), this.#state, this.counters, monotonicMs());
+    for (const line of lines) this.#statistics?.write(line);
+    this.recording?.estimates(lines);
   }
 
   #makeController(): RateController {

@@ -4,6 +4,7 @@ import { detailOf, RecordingError } from './errors.ts';
 import type { FileBytes } from './file-bytes.ts';
 import { topicsOf } from './mcap-topics.ts';
 import type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
+import { timeRange } from './time-range.ts';
 
 /** Index entries kept, so that a seek does not read them again. */
 const INDEX_CACHE_BYTES = 16 * 1024 * 1024;
@@ -32,7 +33,7 @@ export class IndexedMcap implements Recording {
     this.topics = topics;
     this.#topicOfChannel = byChannel;
     const chunks = reader.chunkIndexes;
-    const ofChunks = range(chunks.flatMap((chunk) => [chunk.messageStartTime, chunk.messageEndTime]));
+    const ofChunks = timeRange(chunks.flatMap((chunk) => [chunk.messageStartTime, chunk.messageEndTime]));
     this.startNs = reader.statistics?.messageStartTime ?? ofChunks.first;
     this.endNs = reader.statistics?.messageEndTime ?? ofChunks.last;
   }
@@ -81,10 +82,4 @@ export function asRecordingError(error: unknown, { path, lastOffset }: FileBytes
   if (error instanceof RecordingError && error.offset !== undefined) return error;
   const code = error instanceof RecordingError ? error.code : 'damaged';
   return new RecordingError(code, detailOf(error), { file: path, offset: lastOffset, cause: error });
-}
-
-/** The earliest and the latest; bigint has no `Math.min`. */
-function range(times: Iterable<bigint>): { first: bigint; last: bigint } {
-  const sorted = [...times].sort((a, b) => (a < b ? -1 : a > b ? 1 : 0));
-  return { first: sorted[0] ?? 0n, last: sorted.at(-1) ?? 0n };
 }

@@ -4,13 +4,15 @@
  */
 import { parentPort, workerData } from 'node:worker_threads';
 import { type Twist, zeroTwist } from '@farpoint/protocol';
+import { CloudTap } from '@farpoint/recording';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { monotonicMs, threadCpuMs } from '../clock.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
-import { FrameFormats } from '../encode/frame-formats.ts';
+import { type FormattedFrame, FrameFormats } from '../encode/frame-formats.ts';
 import { SLOT_BYTES } from '../encode/packetiser.ts';
 import { FramePlanner } from '../encode/plan.ts';
 import { BufferPool } from './buffer-pool.ts';
+import type { CaptureRecording } from './capture.ts';
 import {
   type CaptureBudget,
   type CaptureOptions,
@@ -18,7 +20,7 @@ import {
   type CaptureRequest,
   NO_BUDGET,
 } from './capture-messages.ts';
-import type { CaptureWishes } from './frame-source.ts';
+import type { CaptureWishes, SourceFrame } from './frame-source.ts';
 import { openSource } from './open-source.ts';
 
 /** One frame being sent, one waiting, one being filled; and one more, as some frames go out in two formats. */
@@ -33,11 +35,13 @@ const EARLY_SHARE = 0.25;
 
 const port = parentPort;
 if (port === null) throw new Error('capture-worker.ts runs as a worker only');
-const options = workerData as CaptureOptions;
+const options = workerData as CaptureOptions & { recording: CaptureRecording | null };
 const send = (report: CaptureReport, transfer: ArrayBuffer[] = []) => port.postMessage(report, transfer);
 
 const source = await openSource(options.source);
 const { description } = source;
+const { recording } = options;
+const tap = recording === null ? null : new CloudTap(recording.clouds, recording.capturedPerSecond);
 const codec = await loadCodecFromDisk();
 const pool = new BufferPool(BUFFERS, Math.ceil(description.capacity / 150) * SLOT_BYTES);
 const planner = new FramePlanner({
@@ -95,6 +99,7 @@ port.on('message', (request: CaptureRequest) => {
     case 'close':
       closed = true;
       source.close();
+      tap?.close();
       send({ type: 'closed' });
       port.close();
       break;
@@ -184,9 +189,23 @@ function captureFrame(now: number): number | null {
     packets.copyPackets(new Uint8Array(buffer), encoded.packets);
     send({ type: 'frame', ...encoded, audience, buffer, ...times, readyMs: monotonicMs() }, [buffer]);
   }
+  if (tap !== null) record(tap, frame, frames);
   if (green) latencyTest = false;
   workMs += (threadCpuMs() - cpuBefore - workMs) * (workMs === 0 ? 1 : SMOOTHING);
   return intervalMs;
+}
+
+/** Once its packets are on their way: recording delays nothing but the next look at the source. */
+function record(into: CloudTap, frame: SourceFrame, formatted: readonly FormattedFrame[]): void {
+  into.captured(frame, description);
+  for (const { encoded, packets } of formatted) {
+    const { format, points, packets: count } = encoded;
+    into.sent(frame, {
+      ...{ format, points, packets: count, slotBytes: SLOT_BYTES },
+      streamHeader: format === 'points64' ? null : (stream?.header ?? null),
+      copyPackets: (buffer, n) => packets.copyPackets(buffer, n),
+    });
+  }
 }
 
 if (source.onReady !== undefined) {

@@ -1,4 +1,4 @@
-import { Worker } from 'node:worker_threads';
+import { type MessagePort, Worker } from 'node:worker_threads';
 import type { Twist } from '@farpoint/protocol';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type {
@@ -13,6 +13,14 @@ import type { SourceDescription, SourceState } from './frame-source.ts';
 /** The capture thread ended by itself. */
 export class CaptureError extends Error {
   override readonly name = 'CaptureError';
+}
+
+/** Where clouds are recorded. */
+export interface CaptureRecording {
+  /** Of a `SessionRecorder`; it goes to the capture thread. */
+  clouds: MessagePort;
+  /** Captured clouds recorded a second at most; of those sent all are. */
+  capturedPerSecond: number;
 }
 
 export interface CaptureState extends SourceState {
@@ -64,8 +72,11 @@ export class Capture {
   }
 
   /** @throws {CaptureError} where the source cannot be opened, saying why */
-  static async start(options: CaptureOptions): Promise<Capture> {
-    const worker = new Worker(new URL('./capture-worker.ts', import.meta.url), { workerData: options });
+  static async start(options: CaptureOptions, recording: CaptureRecording | null = null): Promise<Capture> {
+    const worker = new Worker(new URL('./capture-worker.ts', import.meta.url), {
+      workerData: { ...options, recording },
+      transferList: recording === null ? [] : [recording.clouds],
+    });
     const description = await new Promise<SourceDescription>((resolve, reject) => {
       const onError = (error: unknown) =>
         reject(new CaptureError(error instanceof Error ? error.message : String(error), { cause: error }));

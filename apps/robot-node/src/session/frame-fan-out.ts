@@ -34,7 +34,7 @@ export interface FanOutOptions {
   driver: () => string | null;
   counters: RobotCounters;
   stages: StageTimer;
-  frameLog?: FrameLog | undefined;
+  frameLog?: Pick<FrameLog, 'add'> | undefined;
   now: () => number;
   /** Coded formats may be used. */
   mayCode: boolean;

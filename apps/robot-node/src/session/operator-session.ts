@@ -16,7 +16,7 @@ import {
   robotSessionCodec,
   sequenceDelta32,
 } from '@farpoint/protocol';
-import { type RejectedCommand, RejectionReporter } from '@farpoint/safety';
+import { type CommandVerdict, type RejectedCommand, RejectionReporter } from '@farpoint/safety';
 import type { DriveStation } from '../drive/drive-station.ts';
 
 /** Where a session's messages go. */
@@ -36,6 +36,8 @@ export interface SessionHost {
   /** For the counters. */
   commandAccepted(): void;
   commandRejected(rejection: RejectedCommand): void;
+  /** For a recording: each command, and what the guard said. */
+  commandJudged?(session: OperatorSession, command: Command, verdict: CommandVerdict): void;
   messageRefused(channel: string, error: ProtocolError): void;
 }
 
@@ -132,6 +134,7 @@ export class OperatorSession {
   #onCommand(command: Command, now: number): void {
     const { drive } = this.#host;
     const verdict = drive.guard.onCommand(this.id, command, now);
+    this.#host.commandJudged?.(this, command, verdict);
     // Also after a refusal: letting go of the grip stops the robot.
     drive.apply();
     if (!verdict.accepted) {

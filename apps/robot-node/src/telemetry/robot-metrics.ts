@@ -48,6 +48,12 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
     );
 
   sum('sessions_opened', 'Sessions that operators asked for', () => counters.sessionsOpened);
+  const { recording } = robot;
+  if (recording !== null) {
+    sum('recording_messages', 'Messages recorded', () => recording.counts.messages);
+    sum('recording_bytes', 'Bytes of the recording', () => recording.counts.bytes);
+    sum('recording_dropped', 'Not recorded: the writer did not keep up', () => recording.counts.dropped);
+  }
   sum('sessions_refused', 'Sessions refused: too many operators', () => counters.sessionsRefused);
   sumBy('sessions_ended', 'Sessions that ended, by reason', 'reason', counters.sessionsEnded);
   sum('ice_candidates_refused', 'ICE candidates that could not be used', () => counters.candidatesRefused);

@@ -144,7 +144,7 @@ def read(path: Path) -> None:
     topics: dict = {}
     with open(path, "rb") as file:
         reader = make_reader(file, decoder_factories=[DecoderFactory()], validate_crcs=True)
-        summary = reader.get_summary()
+        summary, profile = reader.get_summary(), reader.get_header().profile
         for schema, channel, message in reader.iter_messages():
             entry = topics.setdefault(channel.topic, {"type": schema.name, "count": 0, "sums": []})
             entry["count"] += 1
@@ -161,7 +161,7 @@ def read(path: Path) -> None:
         "topics": topics,
         "messages": statistics.message_count,
         "chunks": statistics.chunk_count,
-        "profile": reader.get_header().profile,
+        "profile": profile,
     }))
 
 

@@ -1,0 +1,93 @@
+/** The robot program that records, and the one that plays it: processes, signaling, WebRTC. */
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { LocalStack } from '@farpoint/local-stack';
+import { openRecording } from '@farpoint/recording';
+import { afterAll, describe, expect, it } from 'vitest';
+import * as z from 'zod';
+import { SignaledOperator } from './testing/signaled-operator.ts';
+
+const RECORDED = 'recorded-1';
+const PLAYED = 'played-1';
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-recording-robot-'));
+const path = join(folder, 'drive.mcap');
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+
+const cloudSchema = z.object({ width: z.int(), height: z.int(), point_step: z.literal(16) });
+
+async function withRobot(id: string, args: string[], use: (operator: SignaledOperator) => Promise<void>) {
+  const stack = await LocalStack.start({ robots: [{ id, name: 'Robot', args }] });
+  try {
+    const operator = await SignaledOperator.connect(stack.signalingUrl, id);
+    await use(operator);
+    await operator.close();
+  } finally {
+    await stack.stop();
+  }
+}
+
+describe('robot process that records', { timeout: 60_000 }, () => {
+  it('records clouds as captured and as sent, commands, telemetry, estimates and latencies', async () => {
+    const args = ['--sim-size', '64', '--max-points', '600', '--record', path, '--record-captured-fps', '10'];
+    await withRobot(RECORDED, args, async ({ client }) => {
+      const lease = await client.takeLease();
+      await client.until(() => client.telemetry !== null);
+      const start = client.telemetry?.pose.position.x ?? 0;
+      const timer = setInterval(() => client.drive(lease, 0.3), 20);
+      await client.until(() => (client.telemetry?.pose.position.x ?? 0) > start + 0.3);
+      clearInterval(timer);
+      // Without its lease: refused.
+      client.drive('0'.repeat(32), 0.3);
+      await client.until(() => client.telemetry?.drive === 'watchdog');
+    });
+    const recording = await openRecording(path);
+    expect(recording.warning).toBeNull();
+    const topics = new Map(recording.topics.map((topic) => [topic.name, topic]));
+    const messagesOf = (name: string) => topics.get(name)?.messages ?? 0;
+    const [captured, sent] = [messagesOf('/farpoint/captured'), messagesOf('/farpoint/sent')];
+    expect(captured).toBeGreaterThan(5);
+    expect(sent).toBeGreaterThan(captured);
+    expect(messagesOf('/farpoint/latencies')).toBe(sent);
+    for (const name of ['/farpoint/telemetry', '/farpoint/estimates', '/farpoint/cmd_vel', '/odom', '/tf'])
+      expect(messagesOf(name), name).toBeGreaterThan(5);
+
+    // Every point that was sent is there.
+    const [sentPoints, toldPoints]: [number[], number[]] = [[], []];
+    const verdicts = { accepted: 0, refused: 0 };
+    for await (const { topic, data } of recording.messages([...topics.keys()], recording.startNs)) {
+      const message = topic.decode(data);
+      if (topic.name === '/farpoint/captured') {
+        expect(cloudSchema.parse(message)).toMatchObject({ width: 64, height: 64 });
+      } else if (topic.name === '/farpoint/sent') {
+        sentPoints.push(cloudSchema.parse(message).width);
+      } else if (topic.name === '/farpoint/latencies') {
+        toldPoints.push(z.object({ points: z.int() }).parse(message).points);
+      } else if (topic.name === '/farpoint/commands') {
+        const { accepted } = z.object({ accepted: z.boolean() }).parse(message);
+        verdicts[accepted ? 'accepted' : 'refused']++;
+      }
+    }
+    expect(sentPoints).toEqual(toldPoints);
+    expect(sentPoints).toContain(600);
+    expect(verdicts.accepted).toBeGreaterThan(10);
+    expect(verdicts.refused).toBeGreaterThan(0);
+    await recording.close();
+  });
+
+  it('plays what was recorded, from where it was', async () => {
+    const args = ['--source', 'recording', '--path', path, '--play-rate', '2', '--max-points', '300'];
+    await withRobot(PLAYED, args, async ({ client }) => {
+      await client.until(() => client.completeFrames.length >= 10);
+      expect(client.malformedPackets).toBe(0);
+      expect(client.completeFrames.every((frame) => frame.points === 300)).toBe(true);
+      // The robot’s pose is the recorded one: it moves without anybody driving.
+      await client.until(() => (client.telemetry?.twist.linear.x ?? 0) > 0.2);
+    });
+  });
+
+  it('does not start over a recording that is there, and says so', async () => {
+    const args = ['--sim-size', '64', '--record', path];
+    await expect(withRobot(RECORDED, args, async () => {})).rejects.toThrow();
+  });
+});

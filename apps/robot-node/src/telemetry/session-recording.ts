@@ -1,0 +1,84 @@
+import type { Command, Twist } from '@farpoint/protocol';
+import { SessionRecorder } from '@farpoint/recording';
+import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
+import type { Logger } from '@farpoint/service';
+import type { CaptureRecording, CaptureState } from '../capture/capture.ts';
+import type { CapturedFrame } from '../capture/capture-messages.ts';
+import { monotonicMs } from '../clock.ts';
+import type { StreamStatistics } from './stream-statistics.ts';
+
+export interface RecordingOptions {
+  /** The MCAP file; there must be none yet. */
+  path: string;
+  compression: 'none' | 'zstd';
+  /** Captured clouds a second at most; of those sent all are recorded. */
+  capturedPerSecond: number;
+}
+
+/** What the main thread tells a recording. The clouds come from the capture thread. */
+export class SessionRecording {
+  readonly capture: CaptureRecording;
+  readonly #recorder: SessionRecorder;
+
+  private constructor(recorder: SessionRecorder, capturedPerSecond: number) {
+    this.#recorder = recorder;
+    this.capture = { clouds: recorder.clouds, capturedPerSecond };
+  }
+
+  /** @throws {RecordingError} where the file exists already, or cannot be made */
+  static async open(options: RecordingOptions, robotId: string, log: Logger): Promise<SessionRecording> {
+    const { path, compression, capturedPerSecond } = options;
+    // The robot's clock is monotonic; recordings are in the time of day.
+    const epochNs = BigInt(Math.round((Date.now() - monotonicMs()) * 1000)) * 1000n;
+    const recorder = await SessionRecorder.open({ path, compression, robotId, epochNs });
+    recorder.onFailure = (error) => log.error({ err: error }, 'the recording ends; the robot goes on');
+    log.info({ path }, 'recording');
+    return new SessionRecording(recorder, capturedPerSecond);
+  }
+
+  /** For `/metrics`: written, and not written because the disk or the processor did not keep up. */
+  get counts(): { messages: number; bytes: number; dropped: number } {
+    const { messages, bytes, dropped, cloudsDropped } = this.#recorder;
+    return { messages, bytes, dropped: dropped + cloudsDropped };
+  }
+
+  /** What the wheels are given. */
+  velocity(twist: Twist): void {
+    this.#recorder.velocity(monotonicMs(), twist);
+  }
+
+  command(session: string, { sequence, timeMs, twist }: Command, verdict: CommandVerdict): void {
+    const outcome = verdict.accepted
+      ? { accepted: true, applied: verdict.twist }
+      : { accepted: false, reason: verdict.reason, detail: verdict.detail };
+    this.#recorder.json('command', monotonicMs(), { session, sequence, timeMs, twist, ...outcome });
+  }
+
+  telemetry(state: CaptureState, guard: DriveGuard, operators: number): void {
+    const { timeMs, pose, twist, battery, contact } = state;
+    const drive = guard.state(monotonicMs(), contact);
+    this.#recorder.state(timeMs, pose, twist);
+    this.#recorder.json('telemetry', timeMs, { pose, twist, battery, contact, drive, operators });
+  }
+
+  estimates(lines: readonly StreamStatistics[]): void {
+    for (const line of lines) this.#recorder.json('estimate', line.timeMs, line);
+  }
+
+  /** From a frame's capture to its packets, and to the thread that sends them. */
+  frame(frame: CapturedFrame): void {
+    const { frameNumber, format, points, packets, validPoints, latencyTest } = frame;
+    const { capturedAtMs, readyMs, captureMs, sampleMs, packMs } = frame;
+    const now = monotonicMs();
+    this.#recorder.json('latency', now, {
+      ...{ frameNumber, format, points, packets, validPoints, latencyTest },
+      ...{ capturedAtMs, captureMs, sampleMs, packMs },
+      readyAfterMs: readyMs - capturedAtMs,
+      sendingAfterMs: now - capturedAtMs,
+    });
+  }
+
+  close(): Promise<void> {
+    return this.#recorder.close();
+  }
+}

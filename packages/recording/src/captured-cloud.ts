@@ -1,0 +1,36 @@
+import type { CapturedRecord } from './recorder-messages.ts';
+
+/** What PointCloud2 has of one point: x, y, z as float32 in metres, then a packed colour (0x00RRGGBB). */
+export const RECORDED_POINT_BYTES = 16;
+
+/** A captured cloud in that layout: in its own memory where it came as points. Pixels without depth are NaN. */
+export function recordedPoints(record: CapturedRecord): Uint8Array {
+  if (record.type === 'points') {
+    const words = new Uint32Array(record.buffer, 0, record.count * 4);
+    for (let i = 3; i < words.length; i += 4) words[i] = rgbOf(words[i] as number);
+    return new Uint8Array(record.buffer, 0, words.byteLength);
+  }
+  const { width, height, lens } = record;
+  const pixels = width * height;
+  const depth = new Float32Array(record.buffer, 0, pixels);
+  const colour = new Uint32Array(record.buffer, pixels * 4, pixels);
+  const points = new Float32Array(pixels * 4);
+  const words = new Uint32Array(points.buffer);
+  for (let v = 0, i = 0; v < height; v++) {
+    const y = (v - lens.cy) / lens.fy;
+    for (let u = 0; u < width; u++, i++) {
+      const metres = depth[i] as number;
+      const z = metres > 0 && metres < Number.POSITIVE_INFINITY ? metres : Number.NaN;
+      points[i * 4] = ((u - lens.cx) / lens.fx) * z;
+      points[i * 4 + 1] = y * z;
+      points[i * 4 + 2] = z;
+      words[i * 4 + 3] = rgbOf(colour[i] as number);
+    }
+  }
+  return new Uint8Array(points.buffer);
+}
+
+/** From R in the lowest byte to ROS's packed colour. */
+function rgbOf(rgba: number): number {
+  return ((rgba & 0xff) << 16) | (rgba & 0xff00) | ((rgba >> 16) & 0xff);
+}

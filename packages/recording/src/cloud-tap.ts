@@ -1,0 +1,170 @@
+import type { MessagePort } from 'node:worker_threads';
+import type { CloudFormat, Pose } from '@farpoint/protocol';
+import { CreditQueue } from './credit-queue.ts';
+import type { CloudDone, CloudKind, CloudRecord, Lens } from './recorder-messages.ts';
+
+/** Clouds of each kind that the writer has, and that wait for it. */
+const LIMITS = { underWay: 2, waiting: 4 };
+/** A cloud may be so much of its interval early. */
+const EARLY_SHARE = 0.25;
+
+/** A captured cloud: as points, or as a depth camera's pictures. */
+export type TappedCloud = { cameraPose: Pose; captureMs: number } & (
+  | { form: 'points'; points: Float32Array; count: number }
+  | { form: 'images'; depth: Float32Array; colour: Uint32Array }
+);
+
+export interface TapGrid {
+  width: number;
+  height: number;
+  camera: Lens | null;
+}
+
+/** A frame's packets as they are sent. */
+export interface TappedPackets {
+  format: CloudFormat;
+  points: number;
+  packets: number;
+  slotBytes: number;
+  streamHeader: Uint8Array | null;
+  copyPackets: (into: Uint8Array, packets: number) => void;
+}
+
+/**
+ * The capture thread's end of a recording: copies each cloud into memory that goes to the writing thread and comes back.
+ * Bounded: where the writer does not keep up, the oldest cloud that waits is dropped.
+ */
+export class CloudTap {
+  readonly #port: MessagePort;
+  readonly #lanes: Record<CloudKind, Lane>;
+  readonly #intervalMs: number;
+  #nextMs = Number.NEGATIVE_INFINITY;
+
+  /** @param capturedPerSecond captured clouds recorded a second at most; of those sent all are */
+  constructor(port: MessagePort, capturedPerSecond: number) {
+    this.#port = port;
+    this.#lanes = { captured: new Lane(port), sent: new Lane(port) };
+    this.#intervalMs = 1000 / capturedPerSecond;
+    port.on('message', ({ kind, buffer }: CloudDone) => this.#lanes[kind].done(buffer));
+  }
+
+  /** Clouds that were not recorded because the writer did not keep up. */
+  get dropped(): number {
+    return this.#lanes.captured.dropped + this.#lanes.sent.dropped;
+  }
+
+  captured(cloud: TappedCloud, { width, height, camera }: TapGrid): void {
+    const { captureMs, cameraPose: pose } = cloud;
+    if (captureMs < this.#nextMs - this.#intervalMs * EARLY_SHARE) return;
+    const late = captureMs - this.#nextMs > this.#intervalMs;
+    this.#nextMs = (late ? captureMs : this.#nextMs) + this.#intervalMs;
+    const lane = this.#lanes.captured;
+    if (cloud.form === 'points') {
+      const { points, count } = cloud;
+      if (points.length < count * 4) {
+        lane.miss();
+        return;
+      }
+      lane.push(
+        count * 16,
+        (buffer) => new Float32Array(buffer).set(points.subarray(0, count * 4)),
+        (stamp) => ({ type: 'points', ...stamp, captureMs, pose, count, width, height }),
+      );
+    } else if (camera !== null) {
+      const { depth, colour } = cloud;
+      if (depth.length !== width * height || colour.length !== width * height) {
+        lane.miss();
+        return;
+      }
+      const lens = { fx: camera.fx, fy: camera.fy, cx: camera.cx, cy: camera.cy };
+      lane.push(
+        width * height * 8,
+        (buffer) => {
+          new Float32Array(buffer).set(depth);
+          new Uint32Array(buffer).set(colour, width * height);
+        },
+        (stamp) => ({ type: 'images', ...stamp, captureMs, pose, lens, width, height }),
+      );
+    }
+  }
+
+  sent(
+    { captureMs, cameraPose: pose }: Pick<TappedCloud, 'captureMs' | 'cameraPose'>,
+    frame: TappedPackets,
+  ): void {
+    const { format, points, packets, slotBytes, streamHeader, copyPackets } = frame;
+    this.#lanes.sent.push(
+      packets * slotBytes,
+      (buffer) => copyPackets(new Uint8Array(buffer), packets),
+      (stamp) => ({
+        ...{ type: 'sent', ...stamp, captureMs, pose },
+        ...{ format, points, packets, slotBytes, streamHeader },
+      }),
+    );
+  }
+
+  /** What waits is written, too. */
+  close(): void {
+    this.#lanes.captured.drain();
+    this.#lanes.sent.drain();
+    this.#port.close();
+  }
+}
+
+type Stamp = Pick<CloudRecord, 'sequence' | 'dropped' | 'buffer'>;
+
+/** Clouds of one kind, and the memory that they travel in. */
+class Lane {
+  readonly #queue: CreditQueue<CloudRecord>;
+  readonly #free: ArrayBuffer[] = [];
+  #made = 0;
+  #sequence = 0;
+  #unmade = 0;
+
+  constructor(port: MessagePort) {
+    this.#queue = new CreditQueue(LIMITS, (record) => port.postMessage(record, [record.buffer]));
+    this.#queue.onDrop = ({ buffer }) => this.#free.push(buffer);
+  }
+
+  get dropped(): number {
+    return this.#queue.dropped + this.#unmade;
+  }
+
+  push(bytes: number, fill: (buffer: ArrayBuffer) => void, make: (stamp: Stamp) => CloudRecord): void {
+    const sequence = this.#sequence++;
+    const buffer = this.#take(bytes);
+    if (buffer === null) {
+      this.#unmade++;
+      return;
+    }
+    fill(buffer);
+    this.#queue.push(make({ sequence, dropped: this.dropped, buffer }));
+  }
+
+  /** One whose memory is gone. */
+  miss(): void {
+    this.#sequence++;
+    this.#unmade++;
+  }
+
+  done(buffer: ArrayBuffer): void {
+    this.#free.push(buffer);
+    this.#queue.done();
+  }
+
+  drain(): void {
+    this.#queue.drain();
+  }
+
+  #take(bytes: number): ArrayBuffer | null {
+    if (this.#free.length === 0) {
+      if (this.#made < LIMITS.underWay + LIMITS.waiting) this.#made++;
+      else if (!this.#queue.dropOldest()) return null;
+    }
+    const buffer = this.#free.pop();
+    // Slightly larger than asked for: clouds differ in size, and memory is used again.
+    return buffer !== undefined && buffer.byteLength >= bytes
+      ? buffer
+      : new ArrayBuffer(Math.ceil(bytes * 0.3) * 4);
+  }
+}

@@ -1,0 +1,225 @@
+import { type FileHandle, open } from 'node:fs/promises';
+import { crc32, constants as zlib, zstdCompressSync } from 'node:zlib';
+import { McapRecordBuilder, type McapTypes } from '@mcap/core';
+import { timeRange } from './time-range.ts';
+
+/** A chunk is written once it has so many bytes. */
+const CHUNK_BYTES = 1024 * 1024;
+/** A larger message is not copied but written at once: its memory is the caller's. */
+const COPY_BELOW_BYTES = 256 * 1024;
+const MESSAGE_OPCODE = 5;
+const CHUNK_OPCODE = 6;
+/** Opcode and length, and a message's own fields. */
+const MESSAGE_HEAD_BYTES = 1 + 8 + 2 + 4 + 8 + 8;
+
+export interface ChannelSpec {
+  topic: string;
+  messageEncoding: 'cdr' | 'json';
+  schema: { name: string; encoding: 'ros2msg' | 'jsonschema'; text: string };
+}
+
+/**
+ * Writes an MCAP file chunk by chunk. What was written of a file whose writer was killed can be read up to the last chunk;
+ * the index comes at the end. A large message is not copied. Wait for each call before the next.
+ */
+export class McapFileWriter {
+  messages = 0;
+  bytes = 0;
+  readonly #file: FileHandle;
+  readonly #compression: 'none' | 'zstd';
+  readonly #builder = new McapRecordBuilder();
+  readonly #schemas: McapTypes.Schema[] = [];
+  readonly #channels: McapTypes.Channel[] = [];
+  readonly #counts = new Map<number, bigint>();
+  readonly #chunks: McapTypes.ChunkIndex[] = [];
+  readonly #metadata: McapTypes.MetadataIndex[] = [];
+  /** Of the chunk that is being filled. */
+  #parts: Uint8Array[] = [];
+  #chunkBytes = 0;
+  #index = new Map<number, [bigint, bigint][]>();
+  #firstNs = 0n;
+  #lastNs = 0n;
+
+  private constructor(file: FileHandle, compression: 'none' | 'zstd') {
+    this.#file = file;
+    this.#compression = compression;
+  }
+
+  /** @throws {Error} where the file exists already, or cannot be made */
+  static async create(path: string, compression: 'none' | 'zstd', library: string): Promise<McapFileWriter> {
+    const writer = new McapFileWriter(await open(path, 'wx', 0o640), compression);
+    writer.#builder.writeMagic();
+    writer.#builder.writeHeader({ profile: 'ros2', library });
+    await writer.#writeBuilder();
+    return writer;
+  }
+
+  /** @returns its number */
+  addChannel({ topic, messageEncoding, schema }: ChannelSpec): number {
+    const schemaId = this.#schemas.length + 1;
+    const id = this.#channels.length;
+    const data = new TextEncoder().encode(schema.text);
+    this.#schemas.push({ id: schemaId, name: schema.name, encoding: schema.encoding, data });
+    this.#channels.push({ id, schemaId, topic, messageEncoding, metadata: new Map() });
+    const before = this.#builder.length;
+    this.#builder.writeSchema(this.#schemas.at(-1) as McapTypes.Schema);
+    this.#builder.writeChannel(this.#channels.at(-1) as McapTypes.Channel);
+    this.#addPart(this.#builder.buffer.slice(before));
+    this.#builder.reset();
+    return id;
+  }
+
+  /** @param data one message in parts, which must stay as they are until the promise is kept */
+  async add(channelId: number, sequence: number, logNs: bigint, data: readonly Uint8Array[]): Promise<void> {
+    const dataBytes = data.reduce((sum, part) => sum + part.length, 0);
+    const head = new DataView(new ArrayBuffer(MESSAGE_HEAD_BYTES));
+    head.setUint8(0, MESSAGE_OPCODE);
+    head.setBigUint64(1, BigInt(MESSAGE_HEAD_BYTES - 9 + dataBytes), true);
+    head.setUint16(9, channelId, true);
+    head.setUint32(11, sequence, true);
+    head.setBigUint64(15, logNs, true);
+    head.setBigUint64(23, logNs, true);
+    const entries = this.#index.get(channelId) ?? [];
+    this.#index.set(channelId, entries);
+    if (this.#index.size === 1 && entries.length === 0) {
+      this.#firstNs = logNs;
+      this.#lastNs = logNs;
+    }
+    if (logNs < this.#firstNs) this.#firstNs = logNs;
+    if (logNs > this.#lastNs) this.#lastNs = logNs;
+    entries.push([logNs, BigInt(this.#chunkBytes)]);
+    this.#addPart(new Uint8Array(head.buffer));
+    const large = dataBytes >= COPY_BELOW_BYTES;
+    for (const part of data) this.#addPart(large ? part : part.slice());
+    this.#counts.set(channelId, (this.#counts.get(channelId) ?? 0n) + 1n);
+    this.messages++;
+    if (large || this.#chunkBytes >= CHUNK_BYTES) await this.flush();
+  }
+
+  /** Writes the chunk that is being filled: from now on it survives this process. */
+  async flush(): Promise<void> {
+    if (this.#index.size === 0) return;
+    const parts = this.#parts;
+    const crc = parts.reduce((sum, part) => crc32(part, sum), 0);
+    const packed = this.#compression === 'zstd' ? [packZstd(parts)] : parts;
+    const compression = this.#compression === 'zstd' ? 'zstd' : '';
+    const packedBytes = packed.reduce((sum, part) => sum + part.length, 0);
+    const chunkStartOffset = BigInt(this.bytes);
+    const head = chunkHead(
+      { first: this.#firstNs, last: this.#lastNs, bytes: this.#chunkBytes, crc },
+      compression,
+      packedBytes,
+    );
+    const chunkLength = head.length + packedBytes;
+    const messageIndexOffsets = new Map<number, bigint>();
+    for (const [channelId, records] of this.#index) {
+      messageIndexOffsets.set(channelId, chunkStartOffset + BigInt(chunkLength + this.#builder.length));
+      this.#builder.writeMessageIndex({ channelId, records });
+    }
+    this.#chunks.push({
+      messageStartTime: this.#firstNs,
+      messageEndTime: this.#lastNs,
+      chunkStartOffset,
+      chunkLength: BigInt(chunkLength),
+      messageIndexOffsets,
+      messageIndexLength: BigInt(this.#builder.length),
+      compression,
+      compressedSize: BigInt(packedBytes),
+      uncompressedSize: BigInt(this.#chunkBytes),
+    });
+    await this.#write([head, ...packed, this.#builder.buffer]);
+    this.#builder.reset();
+    this.#parts = [];
+    this.#chunkBytes = 0;
+    this.#index = new Map();
+  }
+
+  /** Words about the recording. */
+  async addMetadata(name: string, values: Record<string, string>): Promise<void> {
+    await this.flush();
+    const offset = BigInt(this.bytes);
+    const length = this.#builder.writeMetadata({ name, metadata: new Map(Object.entries(values)) });
+    this.#metadata.push({ offset, length, name });
+    await this.#writeBuilder();
+  }
+
+  /** Everything that was flushed survives the machine, too. */
+  sync(): Promise<void> {
+    return this.#file.datasync();
+  }
+
+  /** The index, and the end. */
+  async close(): Promise<void> {
+    await this.flush();
+    const builder = this.#builder;
+    builder.writeDataEnd({ dataSectionCrc: 0 });
+    await this.#writeBuilder();
+    const summaryStart = BigInt(this.bytes);
+    for (const schema of this.#schemas) builder.writeSchema(schema);
+    for (const channel of this.#channels) builder.writeChannel(channel);
+    const { first, last } = timeRange(
+      this.#chunks.flatMap((chunk) => [chunk.messageStartTime, chunk.messageEndTime]),
+    );
+    builder.writeStatistics({
+      messageCount: BigInt(this.messages),
+      schemaCount: this.#schemas.length,
+      channelCount: this.#channels.length,
+      attachmentCount: 0,
+      metadataCount: this.#metadata.length,
+      chunkCount: this.#chunks.length,
+      messageStartTime: first,
+      messageEndTime: last,
+      channelMessageCounts: this.#counts,
+    });
+    for (const chunk of this.#chunks) builder.writeChunkIndex(chunk);
+    for (const metadata of this.#metadata) builder.writeMetadataIndex(metadata);
+    builder.writeFooter({ summaryStart, summaryOffsetStart: 0n, summaryCrc: 0 });
+    builder.writeMagic();
+    await this.#writeBuilder();
+    await this.#file.sync();
+    await this.#file.close();
+  }
+
+  #addPart(part: Uint8Array): void {
+    this.#parts.push(part);
+    this.#chunkBytes += part.length;
+  }
+
+  async #writeBuilder(): Promise<void> {
+    await this.#write([this.#builder.buffer]);
+    this.#builder.reset();
+  }
+
+  async #write(parts: readonly Uint8Array[]): Promise<void> {
+    const total = parts.reduce((sum, part) => sum + part.length, 0);
+    const { bytesWritten } = await this.#file.writev(parts as Uint8Array[]);
+    if (bytesWritten !== total)
+      throw new Error(`only ${bytesWritten} of ${total} bytes were written: disk full?`);
+    this.bytes += total;
+  }
+}
+
+/** Everything of a chunk before its records. */
+function chunkHead(
+  chunk: { first: bigint; last: bigint; bytes: number; crc: number },
+  compression: string,
+  packedBytes: number,
+): Uint8Array {
+  const name = new TextEncoder().encode(compression);
+  const head = new Uint8Array(9 + 8 + 8 + 8 + 4 + 4 + name.length + 8);
+  const view = new DataView(head.buffer);
+  view.setUint8(0, CHUNK_OPCODE);
+  view.setBigUint64(1, BigInt(head.length - 9 + packedBytes), true);
+  view.setBigUint64(9, chunk.first, true);
+  view.setBigUint64(17, chunk.last, true);
+  view.setBigUint64(25, BigInt(chunk.bytes), true);
+  view.setUint32(33, chunk.crc, true);
+  view.setUint32(37, name.length, true);
+  head.set(name, 41);
+  view.setBigUint64(41 + name.length, BigInt(packedBytes), true);
+  return head;
+}
+
+function packZstd(parts: readonly Uint8Array[]): Uint8Array {
+  return zstdCompressSync(Buffer.concat(parts), { params: { [zlib.ZSTD_c_compressionLevel]: 1 } });
+}

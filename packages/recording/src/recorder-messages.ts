@@ -1,0 +1,89 @@
+/** What the threads of a recorded robot say to the one that writes. Times are of the robot's clock, ms. */
+import type { CloudFormat, Pose, Twist } from '@farpoint/protocol';
+
+export interface RecorderOptions {
+  /** The MCAP file to write; there must be none yet. */
+  path: string;
+  /** Its chunks: as they are, or packed. */
+  compression: 'none' | 'zstd';
+  /** The time since 1970 at the robot's clock's 0, ns. */
+  epochNs: bigint;
+  /** For people: what is recorded. */
+  robotId: string;
+}
+
+/** A depth camera's lens, pixels. */
+export interface Lens {
+  fx: number;
+  fy: number;
+  cx: number;
+  cy: number;
+}
+
+interface RecordedStamp {
+  captureMs: number;
+  /** The optical frame in the world. */
+  pose: Pose;
+  /** Counts all there were: a gap is what was dropped. */
+  sequence: number;
+  /** How many of its kind were, so far. */
+  dropped: number;
+  /** Transferred; it comes back with the answer. */
+  buffer: ArrayBuffer;
+}
+
+/** A cloud as the source gave it. */
+export type CapturedRecord = RecordedStamp &
+  (
+    | { type: 'points'; count: number; width: number; height: number }
+    /** Depth (float32, metres), then colours (R, G, B, A), of each pixel. */
+    | { type: 'images'; lens: Lens; width: number; height: number }
+  );
+
+/** A cloud as it was sent: packets in slots, each with its payload's length in its last two bytes. */
+export type SentRecord = RecordedStamp & {
+  type: 'sent';
+  format: CloudFormat;
+  points: number;
+  packets: number;
+  slotBytes: number;
+  /** What the packets of a coded format are decoded with. */
+  streamHeader: Uint8Array | null;
+};
+
+export type CloudRecord = CapturedRecord | SentRecord;
+export type CloudKind = 'captured' | 'sent';
+
+/** A cloud's memory, free again. */
+export interface CloudDone {
+  kind: CloudKind;
+  buffer: ArrayBuffer;
+}
+
+/** Topics of what is written as JSON. */
+export const JSON_TOPICS = {
+  command: { topic: '/farpoint/commands', schema: 'farpoint.Command' },
+  telemetry: { topic: '/farpoint/telemetry', schema: 'farpoint.Telemetry' },
+  estimate: { topic: '/farpoint/estimates', schema: 'farpoint.StreamStatistics' },
+  latency: { topic: '/farpoint/latencies', schema: 'farpoint.FrameLatency' },
+  recorder: { topic: '/farpoint/recorder', schema: 'farpoint.RecorderState' },
+} as const;
+export type JsonKind = keyof typeof JSON_TOPICS;
+
+export type EventRecord =
+  | { type: 'json'; kind: JsonKind; timeMs: number; sequence: number; value: object }
+  /** The velocity that the wheels were given. */
+  | { type: 'velocity'; timeMs: number; sequence: number; twist: Twist }
+  /** base_link in the world. */
+  | { type: 'state'; timeMs: number; sequence: number; pose: Pose; twist: Twist };
+
+export type RecorderRequest = EventRecord | { type: 'close' };
+
+export type RecorderReport =
+  | { type: 'ready' }
+  /** An event was taken. */
+  | { type: 'done' }
+  /** Nothing more is written. */
+  | { type: 'failed'; detail: string }
+  | { type: 'written'; messages: number; bytes: number; faults: number; cloudsDropped: number }
+  | { type: 'closed' };

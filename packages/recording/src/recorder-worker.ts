@@ -1,0 +1,96 @@
+/** The thread that writes a recording: converting and writing megabytes a frame must delay nothing else. */
+import { type MessagePort, parentPort, workerData } from 'node:worker_threads';
+import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { detailOf } from './errors.ts';
+import type {
+  CloudDone,
+  CloudRecord,
+  RecorderOptions,
+  RecorderReport,
+  RecorderRequest,
+} from './recorder-messages.ts';
+import { RecordingWriter } from './recording-writer.ts';
+import { SentCloudDecoder } from './sent-cloud.ts';
+
+/** What was recorded survives the end of the process after this long, ms; so often the recording tells of itself. */
+const FLUSH_MS = 500;
+/** How long the capture thread has for its last clouds after the others have said all, ms. */
+const LINGER_MS = 2000;
+/** … and the end of the machine, each so many times. */
+const SYNC_EVERY = 10;
+
+const port = parentPort;
+if (port === null) throw new Error('recorder-worker.ts runs as a worker only');
+const { clouds, ...options } = workerData as RecorderOptions & { clouds: MessagePort };
+const send = (report: RecorderReport) => port.postMessage(report);
+
+const writer = await RecordingWriter.create(options, new SentCloudDecoder(await loadCodecFromDisk()));
+let failed = false;
+let flushes = 0;
+let syncing = false;
+/** One thing after the other. */
+let tail: Promise<void> = Promise.resolve();
+
+function tell(): void {
+  const { faults, dropped } = writer;
+  const { messages, bytes } = writer.file;
+  send({ type: 'written', messages, bytes, faults, cloudsDropped: dropped.captured + dropped.sent });
+}
+
+function inTurn(work: () => Promise<void>): Promise<void> {
+  tail = tail.then(async () => {
+    if (failed) return;
+    try {
+      await work();
+    } catch (error) {
+      failed = true;
+      send({ type: 'failed', detail: detailOf(error) });
+    }
+  });
+  return tail;
+}
+
+clouds.on('message', (record: CloudRecord) => {
+  const { buffer } = record;
+  const done: CloudDone = { kind: record.type === 'sent' ? 'sent' : 'captured', buffer };
+  // Its memory goes back once the chunk that refers to it is written; also after a failure.
+  void inTurn(() => writer.addCloud(record)).then(() => clouds.postMessage(done, [buffer]));
+});
+
+/** The capture thread has said all. */
+const cloudsEnd = new Promise<void>((resolve) => clouds.once('close', resolve));
+
+const flushing = setInterval(() => {
+  void inTurn(async () => {
+    if (writer.file.messages > 0) await writer.addOwnState();
+    await writer.file.flush();
+    tell();
+    if (++flushes % SYNC_EVERY !== 0 || syncing) return;
+    syncing = true;
+    // Nothing waits for it: a slow disk shows in what is dropped.
+    void writer.file
+      .sync()
+      .catch(() => {})
+      .finally(() => {
+        syncing = false;
+      });
+  });
+}, FLUSH_MS);
+
+port.on('message', (request: RecorderRequest) => {
+  if (request.type !== 'close') {
+    void inTurn(() => writer.addEvent(request)).then(() => send({ type: 'done' }));
+    return;
+  }
+  clearInterval(flushing);
+  setTimeout(() => clouds.close(), LINGER_MS).unref();
+  void cloudsEnd
+    .then(() => inTurn(() => writer.file.close()))
+    .then(() => {
+      tell();
+      send({ type: 'closed' });
+      clouds.close();
+      port.close();
+    });
+});
+send({ type: 'ready' });

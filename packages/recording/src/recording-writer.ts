@@ -1,0 +1,136 @@
+import { recordedPoints } from './captured-cloud.ts';
+import { McapFileWriter } from './mcap-file-writer.ts';
+import {
+  type CloudKind,
+  type CloudRecord,
+  type EventRecord,
+  JSON_TOPICS,
+  type JsonKind,
+  type RecorderOptions,
+} from './recorder-messages.ts';
+import {
+  ODOMETRY_SCHEMA,
+  POINT_CLOUD2_SCHEMA,
+  TF_MESSAGE_SCHEMA,
+  TWIST_STAMPED_SCHEMA,
+} from './ros-schemas.ts';
+import { CAMERA_FRAME, odometryOf, pointCloud2, transformOf, twistStamped } from './ros-writer.ts';
+import type { SentCloudDecoder } from './sent-cloud.ts';
+
+const ROS_TOPICS = {
+  captured: ['/farpoint/captured', 'sensor_msgs/msg/PointCloud2', POINT_CLOUD2_SCHEMA],
+  sent: ['/farpoint/sent', 'sensor_msgs/msg/PointCloud2', POINT_CLOUD2_SCHEMA],
+  tf: ['/tf', 'tf2_msgs/msg/TFMessage', TF_MESSAGE_SCHEMA],
+  velocity: ['/farpoint/cmd_vel', 'geometry_msgs/msg/TwistStamped', TWIST_STAMPED_SCHEMA],
+  odometry: ['/odom', 'nav_msgs/msg/Odometry', ODOMETRY_SCHEMA],
+} as const;
+type RosKind = keyof typeof ROS_TOPICS;
+
+/** Turns what a robot's threads tell into messages of an MCAP file. Wait for each call before the next. */
+export class RecordingWriter {
+  /** Records that could not be turned into messages. */
+  faults = 0;
+  /** Clouds that never came here: the writer had not kept up. */
+  readonly dropped: Record<CloudKind, number> = { captured: 0, sent: 0 };
+  readonly file: McapFileWriter;
+  readonly #epochNs: bigint;
+  readonly #decoder: SentCloudDecoder;
+  readonly #channels = new Map<RosKind | JsonKind, number>();
+  #transforms = 0;
+  #ownStates = 0;
+  #newestNs = 0n;
+  #lastTransformNs = 0n;
+
+  private constructor(file: McapFileWriter, epochNs: bigint, decoder: SentCloudDecoder) {
+    this.file = file;
+    this.#epochNs = epochNs;
+    this.#decoder = decoder;
+    for (const [kind, [topic, name, text]] of Object.entries(ROS_TOPICS)) {
+      const schema = { name, encoding: 'ros2msg' as const, text };
+      this.#channels.set(kind as RosKind, file.addChannel({ topic, messageEncoding: 'cdr', schema }));
+    }
+    for (const [kind, { topic, schema: name }] of Object.entries(JSON_TOPICS)) {
+      const schema = { name, encoding: 'jsonschema' as const, text: '{"type":"object"}' };
+      this.#channels.set(kind as JsonKind, file.addChannel({ topic, messageEncoding: 'json', schema }));
+    }
+  }
+
+  /** @throws {Error} where the file exists already, or cannot be made */
+  static async create(options: RecorderOptions, decoder: SentCloudDecoder): Promise<RecordingWriter> {
+    const file = await McapFileWriter.create(options.path, options.compression, 'farpoint');
+    const writer = new RecordingWriter(file, options.epochNs, decoder);
+    await file.addMetadata('farpoint', { robot: options.robotId, epochNs: String(options.epochNs) });
+    return writer;
+  }
+
+  /** @throws {Error} where nothing more can be written */
+  async addCloud(record: CloudRecord): Promise<void> {
+    const ns = this.#nsOf(record.captureMs);
+    const kind: CloudKind = record.type === 'sent' ? 'sent' : 'captured';
+    this.dropped[kind] = record.dropped;
+    this.#newestNs = ns;
+    let cloud: Uint8Array[];
+    try {
+      cloud = this.#cloudOf(record, ns);
+    } catch {
+      // A cloud that no longer decodes is no reason to lose the rest.
+      this.faults++;
+      return;
+    }
+    // One capture may be here twice, as it was and as it was sent.
+    if (ns !== this.#lastTransformNs) {
+      this.#lastTransformNs = ns;
+      await this.#add('tf', this.#transforms++, ns, [transformOf(ns, CAMERA_FRAME, record.pose)]);
+    }
+    await this.#add(kind, record.sequence, ns, cloud);
+  }
+
+  /** @throws {Error} where nothing more can be written */
+  async addEvent(record: EventRecord): Promise<void> {
+    const ns = this.#nsOf(record.timeMs);
+    this.#newestNs = ns;
+    const { sequence } = record;
+    switch (record.type) {
+      case 'json':
+        await this.addJson(record.kind, sequence, ns, record.value);
+        break;
+      case 'velocity':
+        await this.#add('velocity', sequence, ns, [twistStamped(ns, record.twist)]);
+        break;
+      case 'state':
+        await this.#add('odometry', sequence, ns, [odometryOf(ns, record.pose, record.twist)]);
+        break;
+    }
+  }
+
+  /** What became of the recording so far, into the recording. */
+  async addOwnState(): Promise<void> {
+    const { messages, bytes } = this.file;
+    const value = { messages, bytes, faults: this.faults, dropped: this.dropped };
+    await this.addJson('recorder', this.#ownStates++, this.#newestNs, value);
+  }
+
+  addJson(kind: JsonKind, sequence: number, ns: bigint, value: object): Promise<void> {
+    return this.#add(kind, sequence, ns, [new TextEncoder().encode(JSON.stringify(value))]);
+  }
+
+  #add(kind: RosKind | JsonKind, sequence: number, ns: bigint, data: readonly Uint8Array[]): Promise<void> {
+    return this.file.add(this.#channels.get(kind) as number, sequence >>> 0, ns, data);
+  }
+
+  #cloudOf(record: CloudRecord, ns: bigint): Uint8Array[] {
+    if (record.type === 'sent') {
+      const words = this.#decoder.decode(record);
+      const points = new Uint8Array(words.buffer, words.byteOffset, words.byteLength);
+      return pointCloud2(ns, words.length / 4, 1, points);
+    }
+    const points = recordedPoints(record);
+    const count = points.length / 16;
+    const isGrid = record.width * record.height === count;
+    return pointCloud2(ns, isGrid ? record.width : count, isGrid ? record.height : 1, points);
+  }
+
+  #nsOf(ms: number): bigint {
+    return this.#epochNs + BigInt(Math.round(ms * 1000)) * 1000n;
+  }
+}

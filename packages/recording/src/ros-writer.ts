@@ -1,0 +1,84 @@
+/** ROS 2 messages in CDR, as recordings of ours hold them. */
+import type { Pose, Twist } from '@farpoint/protocol';
+import { parse } from '@foxglove/rosmsg';
+import { MessageWriter } from '@foxglove/rosmsg2-serialization';
+import { RECORDED_POINT_BYTES } from './captured-cloud.ts';
+import {
+  ODOMETRY_SCHEMA,
+  POINT_CLOUD2_SCHEMA,
+  TF_MESSAGE_SCHEMA,
+  TWIST_STAMPED_SCHEMA,
+} from './ros-schemas.ts';
+
+export const WORLD_FRAME = 'world';
+export const BASE_FRAME = 'base_link';
+export const CAMERA_FRAME = 'camera_optical_frame';
+
+const writerOf = (schema: string) => new MessageWriter(parse(schema, { ros2: true }));
+const clouds = writerOf(POINT_CLOUD2_SCHEMA);
+const transforms = writerOf(TF_MESSAGE_SCHEMA);
+const twists = writerOf(TWIST_STAMPED_SCHEMA);
+const odometry = writerOf(ODOMETRY_SCHEMA);
+
+const FLOAT32 = 7;
+const FIELDS = ['x', 'y', 'z', 'rgb'].map((name, i) => ({
+  name,
+  offset: i * 4,
+  datatype: FLOAT32,
+  count: 1,
+}));
+const NO_COVARIANCE = new Float64Array(36);
+/** What follows a cloud's points: `is_dense`. */
+const TAIL = Uint8Array.of(0);
+
+function headerOf(stampNs: bigint, frame_id: string) {
+  return {
+    stamp: { sec: Number(stampNs / 1_000_000_000n), nanosec: Number(stampNs % 1_000_000_000n) },
+    frame_id,
+  };
+}
+
+/** In parts: the points are not copied. @param points 16 bytes each, x, y, z, rgb */
+export function pointCloud2(
+  stampNs: bigint,
+  width: number,
+  height: number,
+  points: Uint8Array,
+): Uint8Array[] {
+  const head = clouds.writeMessage({
+    header: headerOf(stampNs, CAMERA_FRAME),
+    ...{ height, width, fields: FIELDS, is_bigendian: false },
+    ...{ point_step: RECORDED_POINT_BYTES, row_step: RECORDED_POINT_BYTES * width },
+    data: new Uint8Array(0),
+    is_dense: false,
+  });
+  // An empty cloud ends with the length of its points, 0, and one byte more: the length is put right.
+  const lengthAt = head.length - TAIL.length - 4;
+  new DataView(head.buffer, head.byteOffset).setUint32(lengthAt, points.length, true);
+  return [head.subarray(0, lengthAt + 4), points, TAIL];
+}
+
+export function transformOf(stampNs: bigint, child: string, { position, orientation }: Pose): Uint8Array {
+  return transforms.writeMessage({
+    transforms: [
+      {
+        header: headerOf(stampNs, WORLD_FRAME),
+        child_frame_id: child,
+        transform: { translation: position, rotation: orientation },
+      },
+    ],
+  });
+}
+
+export function twistStamped(stampNs: bigint, twist: Twist): Uint8Array {
+  return twists.writeMessage({ header: headerOf(stampNs, BASE_FRAME), twist });
+}
+
+export function odometryOf(stampNs: bigint, pose: Pose, twist: Twist): Uint8Array {
+  return odometry.writeMessage({
+    header: headerOf(stampNs, WORLD_FRAME),
+    child_frame_id: BASE_FRAME,
+    pose: { pose, covariance: NO_COVARIANCE },
+    twist: { twist, covariance: NO_COVARIANCE },
+  });
+}

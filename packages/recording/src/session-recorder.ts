@@ -1,0 +1,125 @@
+import { MessageChannel, type MessagePort, Worker } from 'node:worker_threads';
+import type { Pose, Twist } from '@farpoint/protocol';
+import { CreditQueue } from './credit-queue.ts';
+import { RecordingError } from './errors.ts';
+import type {
+  EventRecord,
+  JsonKind,
+  RecorderOptions,
+  RecorderReport,
+  RecorderRequest,
+} from './recorder-messages.ts';
+
+/** Events that the writer has, and that wait for it. */
+const LIMITS = { underWay: 256, waiting: 4096 };
+
+/** The main thread's end of a recording. The capture thread has one of its own, {@link clouds}. */
+export class SessionRecorder {
+  /** For the capture thread, which makes a `CloudTap` of it. */
+  readonly clouds: MessagePort;
+  /** Called once, where nothing more can be written. The robot goes on. */
+  onFailure: ((error: RecordingError) => void) | null = null;
+  /** So far. */
+  messages = 0;
+  bytes = 0;
+  /** Clouds that could not be turned into messages. */
+  faults = 0;
+  /** … and those that were not recorded because the writer did not keep up. */
+  cloudsDropped = 0;
+  readonly #worker: Worker;
+  readonly #path: string;
+  readonly #events: CreditQueue<EventRecord>;
+  readonly #sequences = new Map<string, number>();
+  #closing = false;
+  #failed = false;
+
+  private constructor(worker: Worker, clouds: MessagePort, path: string) {
+    this.#worker = worker;
+    this.#path = path;
+    this.clouds = clouds;
+    this.#events = new CreditQueue(LIMITS, (event) => this.#post(event));
+    worker.on('message', (report: RecorderReport) => {
+      if (report.type === 'done') this.#events.done();
+      else if (report.type === 'written') {
+        this.messages = report.messages;
+        this.bytes = report.bytes;
+        this.faults = report.faults;
+        this.cloudsDropped = report.cloudsDropped;
+      } else if (report.type === 'failed') this.#fail(report.detail);
+    });
+    worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));
+  }
+
+  /** @throws {RecordingError} where the file exists already, or cannot be made */
+  static async open(options: RecorderOptions): Promise<SessionRecorder> {
+    const { port1, port2 } = new MessageChannel();
+    const worker = new Worker(new URL('./recorder-worker.ts', import.meta.url), {
+      workerData: { ...options, clouds: port2 },
+      transferList: [port2],
+    });
+    await new Promise<void>((resolve, reject) => {
+      worker.once('error', (error) =>
+        reject(
+          new RecordingError('unreadable', error instanceof Error ? error.message : String(error), {
+            file: options.path,
+            cause: error,
+          }),
+        ),
+      );
+      worker.once('message', () => resolve());
+    });
+    worker.removeAllListeners('error');
+    return new SessionRecorder(worker, port1, options.path);
+  }
+
+  /** Events that were not recorded because the writer did not keep up. */
+  get dropped(): number {
+    return this.#events.dropped;
+  }
+
+  json(kind: JsonKind, timeMs: number, value: object): void {
+    this.#push({ type: 'json', kind, timeMs, value, sequence: this.#next(kind) });
+  }
+
+  /** What the wheels were given. */
+  velocity(timeMs: number, twist: Twist): void {
+    this.#push({ type: 'velocity', timeMs, twist, sequence: this.#next('velocity') });
+  }
+
+  /** Where the robot is. */
+  state(timeMs: number, pose: Pose, twist: Twist): void {
+    this.#push({ type: 'state', timeMs, pose, twist, sequence: this.#next('state') });
+  }
+
+  /** Writes what waits, and the index. Close the capture thread first. */
+  async close(): Promise<void> {
+    if (this.#closing) return;
+    this.#closing = true;
+    this.#events.drain();
+    const ended = new Promise((resolve) => this.#worker.once('exit', resolve));
+    this.#post({ type: 'close' });
+    await ended;
+  }
+
+  #push(event: EventRecord): void {
+    if (!this.#closing && !this.#failed) this.#events.push(event);
+  }
+
+  #post(request: RecorderRequest): void {
+    this.#worker.postMessage(request);
+  }
+
+  #next(kind: string): number {
+    const sequence = this.#sequences.get(kind) ?? 0;
+    this.#sequences.set(kind, sequence + 1);
+    return sequence;
+  }
+
+  #fail(detail: string): void {
+    if (this.#failed) return;
+    this.#failed = true;
+    this.onFailure?.(
+      new RecordingError('unreadable', `not recorded any further: ${detail}`, { file: this.#path }),
+    );
+  }
+}
