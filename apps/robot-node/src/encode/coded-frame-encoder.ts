@@ -31,8 +31,8 @@ export class CodedFrameEncoder {
   }
 
   /** Where the next frame is best put: into the memory of the encoder of the last. */
-  get room(): CaptureRoom | null {
-    return (this.#last ?? this.#organised)?.room ?? null;
+  get room(): CaptureRoom {
+    return (this.#last ?? this.#organised ?? this.#makeUnorganised()).room;
   }
 
   /** What the next frame will most likely be coded in. */
@@ -57,9 +57,15 @@ export class CodedFrameEncoder {
     budgetBytes: number,
     latencyTest: boolean,
   ): EncodedFrame | null {
-    const encoder = this.#encoderFor(frame);
+    const fits = this.#organised?.take(frame, this.#source.camera) === true;
+    // Making the other encoder may move the codec's memory, and with it a frame that lies there.
+    const kept =
+      !fits && frame.form === 'points' && this.#unorganised === null
+        ? { ...frame, points: frame.points.slice(0, frame.count * 4) }
+        : frame;
+    const encoder = fits ? this.#organised : frame.form === 'images' ? null : this.#makeUnorganised();
     if (encoder === null) return null;
-    const encoded = encoder.encode(frame as never, frameNumber, budgetBytes, latencyTest);
+    const encoded = encoder.encode(kept as never, frameNumber, budgetBytes, latencyTest);
     this.#last = encoder;
     const { header } = encoder;
     if (header !== null && header !== this.#stream?.header) {
@@ -72,9 +78,7 @@ export class CodedFrameEncoder {
     this.#last?.copyPackets(into, packets);
   }
 
-  #encoderFor(frame: SourceFrame): OrganisedFrameEncoder | UnorganisedFrameEncoder | null {
-    if (this.#organised?.take(frame, this.#source.camera) === true) return this.#organised;
-    if (frame.form === 'images') return null;
+  #makeUnorganised(): UnorganisedFrameEncoder {
     this.#unorganised ??= new UnorganisedFrameEncoder(
       this.#codec,
       this.#source.capacity,

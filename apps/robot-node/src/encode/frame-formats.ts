@@ -53,7 +53,9 @@ export class FrameFormats {
 
   /** Memory of the codec's own for the next frame. @param coded it will be encoded in a coded format */
   room(coded: boolean): CaptureRoom {
-    return (coded ? this.#coded?.room : null) ?? this.#points64.room;
+    // Made before a frame lies in the codec's memory: making it may move that memory.
+    if (coded) this.#coded ??= this.#makeCoded();
+    return (coded ? this.#coded : null)?.room ?? this.#points64.room;
   }
 
   /**

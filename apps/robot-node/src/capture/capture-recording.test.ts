@@ -1,0 +1,131 @@
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { openRecording, SessionRecorder } from '@farpoint/recording';
+import { cloudMessage, mcapOf, writeFile } from '@farpoint/recording/testing';
+import { afterAll, describe, expect, it } from 'vitest';
+import * as z from 'zod';
+import { Capture } from './capture.ts';
+import { type CapturedFrame, type CaptureOptions, NO_BUDGET } from './capture-messages.ts';
+import type { SourceOptions } from './open-source.ts';
+
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-capture-recording-'));
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+
+const cloudSchema = z.object({ header: z.object({ stamp: z.unknown() }), data: z.instanceof(Uint8Array) });
+const OPTIONS: Omit<CaptureOptions, 'source'> = {
+  framesPerSecond: 20,
+  plan: 'paper',
+  sampling: { lambda: 0, epsilon: 1e-6, nearDistance: 3.85 },
+  floorFraction: 0.1,
+  mostPoints: 1_000_000,
+  watchdogMs: 150,
+};
+
+interface Recorded {
+  points: number;
+  /** Of x, y and z: least and most, over points that are some. */
+  least: number[];
+  most: number[];
+  stamp: string;
+}
+
+function measure(message: unknown): Recorded {
+  const { header, data } = cloudSchema.parse(message);
+  const words = new Float32Array(data.slice().buffer);
+  const [least, most] = [[0, 0, 0].fill(Number.POSITIVE_INFINITY), [0, 0, 0].fill(Number.NEGATIVE_INFINITY)];
+  let points = 0;
+  for (let i = 0; i < words.length; i += 4) {
+    if (!Number.isFinite(words[i + 2])) continue;
+    points++;
+    for (let axis = 0; axis < 3; axis++) {
+      least[axis] = Math.min(least[axis] as number, words[i + axis] as number);
+      most[axis] = Math.max(most[axis] as number, words[i + axis] as number);
+    }
+  }
+  return { points, least, most, stamp: JSON.stringify(header.stamp) };
+}
+
+/** Captures `count` frames while recording; gives them and what was recorded of them. */
+async function recordFrames(source: SourceOptions, coded: boolean, count: number) {
+  const path = join(folder, `${source.kind}-${coded}.mcap`);
+  const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
+  const capture = await Capture.start(
+    { source, ...OPTIONS },
+    { clouds: recorder.clouds, capturedPerSecond: 1000 },
+  );
+  const frames: CapturedFrame[] = [];
+  await new Promise<void>((resolve) => {
+    capture.onFrame = (frame) => {
+      frames.push({ ...frame });
+      capture.recycle(frame.buffer);
+      if (frames.length === count) resolve();
+    };
+    capture.setBudget({
+      ...NO_BUDGET,
+      targetBitsPerSecond: 200e6,
+      overheadBytes: 68,
+      streaming: true,
+      coded,
+    });
+  });
+  await capture.close();
+  await recorder.close();
+  const { cloudsDropped, faults } = recorder;
+  expect({ cloudsDropped, faults }).toEqual({ cloudsDropped: 0, faults: 0 });
+  const recording = await openRecording(path);
+  const [captured, sent]: [Recorded[], Recorded[]] = [[], []];
+  for await (const { topic, data } of recording.messages(['/farpoint/captured', '/farpoint/sent'], 0n)) {
+    (topic.name === '/farpoint/sent' ? sent : captured).push(measure(topic.decode(data)));
+  }
+  await recording.close();
+  return { frames, captured, sent };
+}
+
+describe('capture thread that is recorded', { timeout: 30_000 }, () => {
+  const lidar = join(folder, 'lidar.mcap');
+
+  it.each([
+    ['points64', { kind: 'sim', seed: 1, size: 64 } as const, false, 0.002],
+    ['organised', { kind: 'sim', seed: 1, size: 64 } as const, true, 0.05],
+    [
+      'unorganised',
+      {
+        kind: 'recording',
+        path: lidar,
+        topic: null,
+        rate: 1,
+        fromS: 0,
+        atEnd: 'repeat',
+        axes: 'auto',
+      } as const,
+      true,
+      0.011,
+    ],
+  ])(
+    '%s: what was sent is what was captured, but for the format’s step',
+    async (format, source, coded, step) => {
+      if (source.kind === 'recording') {
+        writeFile(lidar, await mcapOf(20, (k) => cloudMessage(k, 20 + k)));
+      }
+      const { frames, captured, sent } = await recordFrames(source, coded, 6);
+      expect(frames.every((frame) => frame.format === format)).toBe(true);
+      expect(sent.length).toBeGreaterThanOrEqual(6);
+      frames.forEach((frame, i) => {
+        const [asSent, asCaptured] = [sent[i], captured[i]] as [Recorded, Recorded];
+        expect(asSent.points).toBe(frame.points);
+        expect(asSent.stamp).toBe(asCaptured.stamp);
+        // All points went out, so the clouds reach as far.
+        if (frame.points !== asCaptured.points) return;
+        for (const end of ['least', 'most'] as const) {
+          asSent[end].forEach((sentMetres, axis) => {
+            const metres = asCaptured[end][axis] as number;
+            // Of the organised format the step grows with the distance.
+            expect(Math.abs(sentMetres - metres)).toBeLessThan(step + (coded ? 0.1 * Math.abs(metres) : 0));
+          });
+        }
+      });
+      expect(frames.filter((frame, i) => frame.points === captured[i]?.points).length).toBeGreaterThan(0);
+    },
+  );
+});
