@@ -24,7 +24,7 @@ type Layout = (typeof LAYOUTS)[number];
 const WARM_UP_MS = 2000;
 const ROBOT = 'shm-1';
 
-interface LayoutResult {
+export interface LayoutResult {
   latencyMs: Distribution;
   framesPerSecond: number;
   framesProduced: number;
@@ -108,9 +108,20 @@ export const bench: Bench = {
   },
 };
 
-async function measure(
+export interface ShmRun {
+  size: number;
+  fps: number;
+  seconds: number;
+  mbps: number;
+  /** More options of the robot's. */
+  robotArgs?: string[];
+  /** Called each second. */
+  onSecond?: (robotPid: number) => void;
+}
+
+export async function measure(
   layout: Layout,
-  { size, fps, seconds, mbps }: { size: number; fps: number; seconds: number; mbps: number },
+  { size, fps, seconds, mbps, robotArgs = [], onSecond }: ShmRun,
 ): Promise<LayoutResult> {
   const folder = mkdtempSync('/dev/shm/farpoint-bench-');
   const [frameLog, producerLog] = [join(folder, 'frames.csv'), join(folder, 'producer.txt')];
@@ -133,6 +144,7 @@ async function measure(
             ...['--source', 'shm', '--shm-layout', layout, '--shm-folder', folder, '--fps', String(fps)],
             ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)],
             ...['--frame-log', frameLog],
+            ...robotArgs,
           ],
         },
       ],
@@ -145,7 +157,9 @@ async function measure(
     operator.client.onCloudPacket = (payload) => colours.add(payload);
     const cpu = () => [cpuSecondsOfTree(robotPid), cpuSecondsOfTree(producer.pid as number)] as const;
     const [beginMs, cpuBefore] = [nowMs(), cpu()];
+    const ticking = setInterval(() => onSecond?.(robotPid), 1000);
     await sleep(seconds * 1000);
+    clearInterval(ticking);
     const [endMs, cpuAfter] = [nowMs(), cpu()];
     const rssMbMax = residentPeakMb(robotPid);
     operator.client.onCloudPacket = null;

@@ -1,0 +1,157 @@
+/** `pnpm bench recording`: what recording costs the robot, whether its memory stays flat, whether everything is there. */
+import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { parseArgs } from 'node:util';
+import { openRecording } from '@farpoint/recording';
+import { buildAddon } from '@farpoint/shared-memory/build';
+import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type LayoutResult, measure } from './shm.ts';
+
+const USAGE = `pnpm bench recording [--size 480] [--fps 30] [--captured-fps 30] [--seconds 60] [--mbps 20] [--compression none] [--folder FOLDER] [--json]
+
+A camera's process gives size × size points --fps times a second through shared memory; the robot sends them to an operator,
+first without a recording and then with one of everything: --captured-fps clouds a second as captured (16 bytes a point), all
+as sent, and the rest. Latency: from the camera's beginning to write a frame to the robot's having its packets made. Memory:
+of the robot's process, in the first and in the last fifth of the time. Then the file is read back: every message is counted.`;
+
+export const bench: Bench = {
+  name: 'recording',
+  summary: 'recording a session: latency it adds, memory over time, every message accounted for',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        size: { type: 'string', default: '480' },
+        fps: { type: 'string', default: '30' },
+        'captured-fps': { type: 'string', default: '30' },
+        seconds: { type: 'string', default: '60' },
+        mbps: { type: 'string', default: '20' },
+        compression: { type: 'string', default: 'none' },
+        folder: { type: 'string' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const [size, fps] = [numberOption('size', values.size, 16), numberOption('fps', values.fps, 1)];
+    const [seconds, mbps] = [
+      numberOption('seconds', values.seconds, 5),
+      numberOption('mbps', values.mbps, 1),
+    ];
+    const { compression } = values;
+    const { ok, output } = buildAddon();
+    if (!ok) throw new Error(`the addon does not build:\n${output}`);
+    const folder = mkdtempSync(join(values.folder ?? tmpdir(), 'farpoint-bench-recording-'));
+    const path = join(folder, 'session.mcap');
+    try {
+      console.error('without a recording');
+      const plain = await measure('farpoint', { size, fps, mbps, seconds: Math.min(seconds, 20) });
+      console.error(`with one, ${seconds} s`);
+      const memoryMb: number[] = [];
+      const recorded = await measure('farpoint', {
+        ...{ size, fps, mbps, seconds },
+        robotArgs: [
+          ...['--record', path, '--record-captured-fps', values['captured-fps']],
+          ...['--record-compression', compression],
+        ],
+        onSecond: (pid) => memoryMb.push(residentMb(pid)),
+      });
+      const file = await readBack(path);
+      const fifth = Math.max(1, Math.floor(memoryMb.length / 5));
+      const result = {
+        bench: 'recording',
+        ...{
+          points: size * size,
+          fps,
+          seconds,
+          mbps,
+          compression,
+          capturedFps: Number(values['captured-fps']),
+        },
+        latencyMs: recorded.latencyMs,
+        latencyMsWithout: plain.latencyMs,
+        addedMs: {
+          p50: difference(recorded, plain, 'p50'),
+          p95: difference(recorded, plain, 'p95'),
+          p99: difference(recorded, plain, 'p99'),
+        },
+        framesPerSecond: recorded.framesPerSecond,
+        framesPerSecondWithout: plain.framesPerSecond,
+        torn: recorded.torn,
+        rssMbMax: recorded.rssMbMax,
+        rssMbBegin: mean(memoryMb.slice(0, fifth)),
+        rssMbEnd: mean(memoryMb.slice(-fifth)),
+        robotCpu: recorded.robotCpu,
+        robotCpuWithout: plain.robotCpu,
+        fileMbPerSecond: Math.round(statSync(path).size / 1e6 / (file.recordedSeconds || 1)),
+        ...file,
+      };
+      printTable(
+        ['latency, ms', 'p50', 'p95', 'p99', 'max'],
+        [
+          ['without', ...distributionCells(plain.latencyMs)],
+          ['recorded', ...distributionCells(recorded.latencyMs)],
+        ],
+      );
+      printTable(
+        ['frames/s', 'robot, cores', 'without', 'MB at begin', 'MB at end', 'MB most', 'file, MB/s'],
+        [
+          [
+            ...[result.framesPerSecond, result.robotCpu, result.robotCpuWithout, result.rssMbBegin],
+            ...[result.rssMbEnd, result.rssMbMax, result.fileMbPerSecond],
+          ],
+        ],
+      );
+      printTable(
+        ['topic', 'recorded', 'dropped'],
+        Object.entries(file.topics).map(([name, { messages, dropped }]) => [name, messages, dropped]),
+      );
+      if (values.json) printJson(result);
+    } finally {
+      rmSync(folder, { recursive: true, force: true });
+    }
+  },
+};
+
+/** Reads every message; what is missing shows in the recorder's own words of itself. */
+async function readBack(path: string) {
+  const recording = await openRecording(path);
+  const counts = new Map<string, number>();
+  let dropped: Record<string, number> = {};
+  const begin = performance.now();
+  for await (const { topic, data } of recording.messages(
+    recording.topics.map(({ name }) => name),
+    recording.startNs,
+  )) {
+    counts.set(topic.name, (counts.get(topic.name) ?? 0) + 1);
+    if (topic.name !== '/farpoint/recorder') continue;
+    const state = topic.decode(data) as { dropped: Record<string, number> };
+    dropped = state.dropped;
+  }
+  const readSeconds = (performance.now() - begin) / 1000;
+  const topics = Object.fromEntries(
+    recording.topics.map(({ name, messages }) => {
+      const read = counts.get(name) ?? 0;
+      if (read !== messages) throw new Error(`${name}: ${read} of ${messages} messages can be read`);
+      return [name, { messages: read, dropped: dropped[name.replace('/farpoint/', '')] ?? 0 }];
+    }),
+  );
+  const seconds = Number(recording.endNs - recording.startNs) / 1e9;
+  await recording.close();
+  return { recordedSeconds: Number(seconds.toFixed(1)), topics, readSeconds: Number(readSeconds.toFixed(1)) };
+}
+
+function difference(a: LayoutResult, b: LayoutResult, key: 'p50' | 'p95' | 'p99'): number {
+  return Number((a.latencyMs[key] - b.latencyMs[key]).toFixed(2));
+}
+
+function mean(values: readonly number[]): number {
+  return Math.round(values.reduce((sum, value) => sum + value, 0) / values.length);
+}
+
+/** Memory that a process has now, 10^6 bytes (Linux). */
+function residentMb(pid: number): number {
+  const line = /^VmRSS:\s+(\d+) kB$/m.exec(readFileSync(`/proc/${pid}/status`, 'utf8'));
+  return (Number(line?.[1] ?? Number.NaN) * 1024) / 1e6;
+}
