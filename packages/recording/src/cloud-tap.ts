@@ -53,6 +53,11 @@ export class CloudTap {
     return this.#lanes.captured.dropped + this.#lanes.sent.dropped;
   }
 
+  /** Clouds that the writer has or that wait for it. */
+  get pending(): number {
+    return this.#lanes.captured.pending + this.#lanes.sent.pending;
+  }
+
   captured(cloud: TappedCloud, { width, height, camera }: TapGrid): void {
     const { captureMs, cameraPose: pose } = cloud;
     if (captureMs < this.#nextMs - this.#intervalMs * EARLY_SHARE) return;
@@ -128,6 +133,11 @@ class Lane {
 
   get dropped(): number {
     return this.#queue.dropped + this.#unmade;
+  }
+
+  /** All memory that is not free travels or waits. */
+  get pending(): number {
+    return this.#made - this.#free.length;
   }
 
   push(bytes: number, fill: (buffer: ArrayBuffer) => void, make: (stamp: Stamp) => CloudRecord): void {

@@ -15,7 +15,8 @@ const MESSAGE_HEAD_BYTES = 1 + 8 + 2 + 4 + 8 + 8;
 export interface ChannelSpec {
   topic: string;
   messageEncoding: 'cdr' | 'json';
-  schema: { name: string; encoding: 'ros2msg' | 'jsonschema'; text: string };
+  /** `null` for JSON, which says itself what it holds: some readers refuse a file for a schema that they do not know. */
+  schema: { name: string; encoding: 'ros2msg'; text: string } | null;
 }
 
 /**
@@ -56,14 +57,19 @@ export class McapFileWriter {
 
   /** @returns its number */
   addChannel({ topic, messageEncoding, schema }: ChannelSpec): number {
-    const schemaId = this.#schemas.length + 1;
     const id = this.#channels.length;
-    const data = new TextEncoder().encode(schema.text);
-    this.#schemas.push({ id: schemaId, name: schema.name, encoding: schema.encoding, data });
-    this.#channels.push({ id, schemaId, topic, messageEncoding, metadata: new Map() });
     const before = this.#builder.length;
-    this.#builder.writeSchema(this.#schemas.at(-1) as McapTypes.Schema);
-    this.#builder.writeChannel(this.#channels.at(-1) as McapTypes.Channel);
+    let schemaId = 0;
+    if (schema !== null) {
+      schemaId = this.#schemas.length + 1;
+      const data = new TextEncoder().encode(schema.text);
+      const record = { id: schemaId, name: schema.name, encoding: schema.encoding, data };
+      this.#schemas.push(record);
+      this.#builder.writeSchema(record);
+    }
+    const channel = { id, schemaId, topic, messageEncoding, metadata: new Map<string, string>() };
+    this.#channels.push(channel);
+    this.#builder.writeChannel(channel);
     this.#addPart(this.#builder.buffer.slice(before));
     this.#builder.reset();
     return id;

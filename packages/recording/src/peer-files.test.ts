@@ -55,6 +55,7 @@ async function playAll(options: PlayOptions, most = Number.POSITIVE_INFINITY) {
 const peers = Peers.install();
 describe.skipIf(typeof peers === 'string')(
   `recordings of PyPI’s mcap and rosbags ${typeof peers === 'string' ? `(${peers})` : ''}`,
+  { timeout: 60_000 },
   () => {
     const folder = mkdtempSync(join(tmpdir(), 'farpoint-recordings-'));
     beforeAll(() => (peers as Peers).write(folder), INSTALL_MS);

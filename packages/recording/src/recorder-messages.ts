@@ -62,11 +62,11 @@ export interface CloudDone {
 
 /** Topics of what is written as JSON. */
 export const JSON_TOPICS = {
-  command: { topic: '/farpoint/commands', schema: 'farpoint.Command' },
-  telemetry: { topic: '/farpoint/telemetry', schema: 'farpoint.Telemetry' },
-  estimate: { topic: '/farpoint/estimates', schema: 'farpoint.StreamStatistics' },
-  latency: { topic: '/farpoint/latencies', schema: 'farpoint.FrameLatency' },
-  recorder: { topic: '/farpoint/recorder', schema: 'farpoint.RecorderState' },
+  command: '/farpoint/commands',
+  telemetry: '/farpoint/telemetry',
+  estimate: '/farpoint/estimates',
+  latency: '/farpoint/latencies',
+  recorder: '/farpoint/recorder',
 } as const;
 export type JsonKind = keyof typeof JSON_TOPICS;
 

@@ -49,9 +49,8 @@ export class RecordingWriter {
       const schema = { name, encoding: 'ros2msg' as const, text };
       this.#channels.set(kind as RosKind, file.addChannel({ topic, messageEncoding: 'cdr', schema }));
     }
-    for (const [kind, { topic, schema: name }] of Object.entries(JSON_TOPICS)) {
-      const schema = { name, encoding: 'jsonschema' as const, text: '{"type":"object"}' };
-      this.#channels.set(kind as JsonKind, file.addChannel({ topic, messageEncoding: 'json', schema }));
+    for (const [kind, topic] of Object.entries(JSON_TOPICS)) {
+      this.#channels.set(kind as JsonKind, file.addChannel({ topic, messageEncoding: 'json', schema: null }));
     }
   }
 

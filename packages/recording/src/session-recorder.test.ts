@@ -22,6 +22,11 @@ const poseAt = (k: number): Pose => ({
   orientation: { x: -0.5, y: 0.5, z: -0.5, w: 0.5 },
 });
 
+/** The writer has its turn, as between two frames of a camera. */
+async function written(tap: CloudTap): Promise<void> {
+  while (tap.pending > 0) await new Promise((resolve) => setTimeout(resolve, 1));
+}
+
 async function record(path: string, compression: 'none' | 'zstd' = 'none'): Promise<SessionRecorder> {
   const recorder = await SessionRecorder.open({
     ...{ path, compression, robotId: 'test', epochNs: 1_700_000_000_000_000_000n },
@@ -44,8 +49,7 @@ async function record(path: string, compression: 'none' | 'zstd' = 'none'): Prom
         angular: { x: 0, y: 0, z: 0 },
       },
     );
-    // The writer gets its turn, as between two frames of a camera.
-    await new Promise((resolve) => setTimeout(resolve, 2));
+    await written(tap);
   }
   expect(tap.dropped).toBe(0);
   tap.close();
@@ -55,7 +59,7 @@ async function record(path: string, compression: 'none' | 'zstd' = 'none'): Prom
   return recorder;
 }
 
-describe('SessionRecorder', () => {
+describe('SessionRecorder', { timeout: 60_000 }, () => {
   it.each(['none', 'zstd'] as const)('what it records (%s) is played again', async (compression) => {
     const path = join(folder, `${compression}.mcap`);
     const recorder = await record(path, compression);
@@ -104,7 +108,7 @@ describe('SessionRecorder', () => {
         { ...cloud, cameraPose: poseAt(0), captureMs: k * (1000 / 30) },
         { ...GRID, camera: null },
       );
-      await new Promise((resolve) => setTimeout(resolve, 1));
+      await written(tap);
     }
     tap.close();
     await recorder.close();
@@ -184,7 +188,8 @@ describe('SessionRecorder', () => {
 
 const peers = Peers.install();
 describe.skipIf(typeof peers === 'string')(
-  `recordings read by PyPI’s mcap ${typeof peers === 'string' ? `(${peers})` : ''}`,
+  `recordings read by PyPI’s mcap and rosbags ${typeof peers === 'string' ? `(${peers})` : ''}`,
+  { timeout: 60_000 },
   () => {
     it.each(['none', 'zstd'] as const)(
       'every message is there (%s), with its check values and schemas',
@@ -203,6 +208,9 @@ describe.skipIf(typeof peers === 'string')(
         ]) {
           expect(topics[topic]).toMatchObject({ count: FRAMES, sequence: FRAMES - 1 });
         }
+        expect((peers as Peers).count(path)).toEqual(
+          Object.fromEntries(Object.entries(topics).map(([name, { count }]) => [name, count])),
+        );
         const clouds = topics['/farpoint/captured']?.sums ?? [];
         clouds.forEach(([points, x, , z], k) => {
           expect(points).toBe(192);

@@ -2,6 +2,7 @@
 
     peers.py write FOLDER      the same drive in every format
     peers.py read FILE         what is in an MCAP file, as JSON
+    peers.py count FILE        the same as rosbags sees it: messages of each topic, deserialised
 """
 
 import json
@@ -146,7 +147,7 @@ def read(path: Path) -> None:
         reader = make_reader(file, decoder_factories=[DecoderFactory()], validate_crcs=True)
         summary, profile = reader.get_summary(), reader.get_header().profile
         for schema, channel, message in reader.iter_messages():
-            entry = topics.setdefault(channel.topic, {"type": schema.name, "count": 0, "sums": []})
+            entry = topics.setdefault(channel.topic, {"type": schema.name if schema else "", "count": 0, "sums": []})
             entry["count"] += 1
             if channel.message_encoding == "cdr":
                 decoded = DecoderFactory().decoder_for("cdr", schema)(message.data)
@@ -165,6 +166,21 @@ def read(path: Path) -> None:
     }))
 
 
+def count(path: Path) -> None:
+    from rosbags.highlevel import AnyReader
+    from rosbags.typesys import Stores, get_typestore
+
+    counts: dict = {}
+    with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as reader:
+        for connection, _, data in reader.messages():
+            if connection.ext.serialization_format == "cdr":
+                reader.deserialize(data, connection.msgtype)
+            else:
+                json.loads(bytes(data))
+            counts[connection.topic] = counts.get(connection.topic, 0) + 1
+    print(json.dumps(counts))
+
+
 def sum_of(cloud) -> list:
     """Points, and the sums of x, y, z and of the packed colours."""
     layout = np.dtype({
@@ -178,4 +194,4 @@ def sum_of(cloud) -> list:
 
 
 if __name__ == "__main__":
-    {"write": write, "read": read}[sys.argv[1]](Path(sys.argv[2]))
+    {"write": write, "read": read, "count": count}[sys.argv[1]](Path(sys.argv[2]))

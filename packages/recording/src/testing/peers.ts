@@ -68,6 +68,14 @@ export class Peers {
     execFileSync(this.#python, [SCRIPT, 'write', folder], { stdio: ['ignore', 'pipe', 'inherit'] });
   }
 
+  /** Messages of each topic, as rosbags reads them. */
+  count(file: string): Record<string, number> {
+    const text = execFileSync(this.#python, [SCRIPT, 'count', file], {
+      stdio: ['ignore', 'pipe', 'inherit'],
+    });
+    return z.record(z.string(), z.int()).parse(JSON.parse(text.toString()));
+  }
+
   read(file: string): PeerContent {
     const text = execFileSync(this.#python, [SCRIPT, 'read', file], { stdio: ['ignore', 'pipe', 'inherit'] });
     return contentSchema.parse(JSON.parse(text.toString()));
