@@ -1,9 +1,9 @@
 /** The compressions of MCAP and of ROS 1 bags. */
 import { zstdDecompressSync } from 'node:zlib';
 import Bzip2 from '@foxglove/wasm-bz2';
-import lz4 from '@foxglove/wasm-lz4';
 import { RecordingError } from './errors.ts';
 import { MAX_RECORD_BYTES } from './file-bytes.ts';
+import { decompressLz4 } from './lz4.ts';
 
 export type Decompress = (compressed: Uint8Array, size: number | bigint) => Uint8Array;
 
@@ -21,21 +21,16 @@ function bounded(decompress: (compressed: Uint8Array, size: number) => Uint8Arra
   };
 }
 
-const lz4Decompress = bounded((compressed, size) => lz4(compressed, size));
-const zstdDecompress = bounded((compressed, size) =>
-  zstdDecompressSync(compressed, { maxOutputLength: size }),
-);
+const lz4 = bounded(decompressLz4);
+const zstd = bounded((compressed, size) => zstdDecompressSync(compressed, { maxOutputLength: size }));
 let bzip2: Promise<Bzip2> | null = null;
 
 /** By the names that MCAP uses. */
-export async function mcapDecompressors(): Promise<{ lz4: Decompress; zstd: Decompress }> {
-  await lz4.isLoaded;
-  return { lz4: lz4Decompress, zstd: zstdDecompress };
-}
+export const mcapDecompressors: { lz4: Decompress; zstd: Decompress } = { lz4, zstd };
 
 /** By the names that bags use. */
 export async function bagDecompressors(): Promise<{ lz4: Decompress; bz2: Decompress }> {
   bzip2 ??= Bzip2.init();
-  const [loaded] = await Promise.all([bzip2, lz4.isLoaded]);
-  return { lz4: lz4Decompress, bz2: bounded((compressed, size) => loaded.decompress(compressed, size)) };
+  const loaded = await bzip2;
+  return { lz4, bz2: bounded((compressed, size) => loaded.decompress(compressed, size)) };
 }

@@ -32,7 +32,10 @@ export class McapFileWriter {
   readonly #schemas: McapTypes.Schema[] = [];
   readonly #channels: McapTypes.Channel[] = [];
   readonly #counts = new Map<number, bigint>();
-  readonly #chunks: McapTypes.ChunkIndex[] = [];
+  /** The index of chunks as it will be written: 100 bytes each, and there are hundreds of thousands. */
+  readonly #chunkIndex = new McapRecordBuilder();
+  #chunkCount = 0;
+  #times: { first: bigint; last: bigint } | null = null;
   readonly #metadata: McapTypes.MetadataIndex[] = [];
   /** Of the chunk that is being filled. */
   #parts: Uint8Array[] = [];
@@ -122,7 +125,13 @@ export class McapFileWriter {
       messageIndexOffsets.set(channelId, chunkStartOffset + BigInt(chunkLength + this.#builder.length));
       this.#builder.writeMessageIndex({ channelId, records });
     }
-    this.#chunks.push({
+    const times = { first: this.#firstNs, last: this.#lastNs };
+    this.#times =
+      this.#times === null
+        ? times
+        : timeRange([this.#times.first, this.#times.last, times.first, times.last]);
+    this.#chunkCount++;
+    this.#chunkIndex.writeChunkIndex({
       messageStartTime: this.#firstNs,
       messageEndTime: this.#lastNs,
       chunkStartOffset,
@@ -163,21 +172,19 @@ export class McapFileWriter {
     const summaryStart = BigInt(this.bytes);
     for (const schema of this.#schemas) builder.writeSchema(schema);
     for (const channel of this.#channels) builder.writeChannel(channel);
-    const { first, last } = timeRange(
-      this.#chunks.flatMap((chunk) => [chunk.messageStartTime, chunk.messageEndTime]),
-    );
     builder.writeStatistics({
       messageCount: BigInt(this.messages),
       schemaCount: this.#schemas.length,
       channelCount: this.#channels.length,
       attachmentCount: 0,
       metadataCount: this.#metadata.length,
-      chunkCount: this.#chunks.length,
-      messageStartTime: first,
-      messageEndTime: last,
+      chunkCount: this.#chunkCount,
+      messageStartTime: this.#times?.first ?? 0n,
+      messageEndTime: this.#times?.last ?? 0n,
       channelMessageCounts: this.#counts,
     });
-    for (const chunk of this.#chunks) builder.writeChunkIndex(chunk);
+    await this.#writeBuilder();
+    await this.#write([this.#chunkIndex.buffer]);
     for (const metadata of this.#metadata) builder.writeMetadataIndex(metadata);
     builder.writeFooter({ summaryStart, summaryOffsetStart: 0n, summaryCrc: 0 });
     builder.writeMagic();

@@ -40,14 +40,13 @@ export class IndexedMcap implements Recording {
 
   /** @throws {RecordingError} where there is no index, or it cannot be read */
   static async open(bytes: FileBytes): Promise<IndexedMcap> {
-    const handlers = await mcapDecompressors();
     try {
       const reader = await McapIndexedReader.Initialize({
         readable: {
           size: async () => BigInt(bytes.size),
           read: (offset, size) => bytes.read(Number(offset), Number(size)),
         },
-        decompressHandlers: handlers,
+        decompressHandlers: mcapDecompressors,
         messageIndexCacheSizeBytes: INDEX_CACHE_BYTES,
       });
       const { chunkIndexes, statistics } = reader;

@@ -10,7 +10,6 @@ const PIECE_BYTES = 1024 * 1024;
 const MOST_PLACES = 4096;
 
 type Record = McapTypes.TypedMcapRecord;
-type Handlers = McapTypes.DecompressHandlers;
 
 /** Where reading may begin, and the newest message before it. */
 interface Place {
@@ -28,14 +27,12 @@ export class ScannedMcap implements Recording {
   /** Where what can be read ends. */
   readonly wholeBytes: number;
   readonly #bytes: FileBytes;
-  readonly #handlers: Handlers;
   readonly #scan: Scan;
   readonly #topicOfChannel: ReadonlyMap<number, RecordedTopic>;
 
-  private constructor(bytes: FileBytes, handlers: Handlers, scan: Scan) {
+  private constructor(bytes: FileBytes, scan: Scan) {
     this.file = bytes.path;
     this.#bytes = bytes;
-    this.#handlers = handlers;
     this.#scan = scan;
     const { topics, byChannel } = topicsOf(
       scan.channels.values(),
@@ -56,22 +53,21 @@ export class ScannedMcap implements Recording {
    * @throws {RecordingError} where not even one message can be read
    */
   static async open(bytes: FileBytes): Promise<ScannedMcap> {
-    const handlers = await mcapDecompressors();
     const scan = new Scan();
     try {
-      for await (const record of recordsOf(bytes, handlers, 0, null)) scan.add(record);
+      for await (const record of recordsOf(bytes, 0, null)) scan.add(record);
     } catch (error) {
       if (scan.startNs === null || !(error instanceof RecordingError)) throw error;
       scan.fault = `${error.message}; it is played up to there`;
     }
-    return new ScannedMcap(bytes, handlers, scan);
+    return new ScannedMcap(bytes, scan);
   }
 
   async *messages(topics: readonly string[], fromNs: bigint): AsyncGenerator<RecordedMessage, void, void> {
     const place = this.#scan.placeBefore(fromNs);
     const known = place.offset === 0 ? null : this.#scan;
     try {
-      for await (const { record, offset } of recordsOf(this.#bytes, this.#handlers, place.offset, known)) {
+      for await (const { record, offset } of recordsOf(this.#bytes, place.offset, known)) {
         if (offset > this.wholeBytes) return;
         if (record.type !== 'Message' || record.logTime < fromNs) continue;
         const topic = this.#topicOfChannel.get(record.channelId);
@@ -151,13 +147,12 @@ interface PlacedRecord {
  */
 async function* recordsOf(
   bytes: FileBytes,
-  handlers: Handlers,
   from: number,
   known: Pick<Scan, 'schemas' | 'channels'> | null,
 ): AsyncGenerator<PlacedRecord, void, void> {
   const reader = new McapStreamReader({
     includeChunks: true,
-    decompressHandlers: handlers,
+    decompressHandlers: mcapDecompressors,
     noMagicPrefix: known !== null,
   });
   if (known !== null) {

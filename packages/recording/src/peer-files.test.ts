@@ -1,10 +1,13 @@
-import { mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Pose } from '@farpoint/protocol';
+import fc from 'fast-check';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { CloudPlayer, type PlayOptions } from './cloud-player.ts';
+import { RecordingError } from './errors.ts';
 import { openRecording } from './open-recording.ts';
+import type { Recording } from './recording.ts';
 import { FakeClock } from './testing/fake-clock.ts';
 import { Peers } from './testing/peers.ts';
 
@@ -119,6 +122,44 @@ describe.skipIf(typeof peers === 'string')(
       expect(shown[0]?.pose.position.x).toBeCloseTo(1.1, 5);
       expect(shown[9]?.pose.position.x).toBeCloseTo(1.1, 5);
     });
+
+    it.each(['bag-none.bag', 'bag-lz4.bag', 'bag-bz2.bag'])(
+      '%s, cut short or changed anywhere: typed errors with file and byte, or messages',
+      async (file) => {
+        const whole = readFileSync(join(folder, file));
+        const change = fc.record({
+          cut: fc.boolean(),
+          at: fc.nat(whole.length - 1),
+          bytes: fc.uint8Array({ minLength: 1, maxLength: 8 }),
+        });
+        const outcomes = { errors: 0, messages: 0 };
+        await fc.assert(
+          fc.asyncProperty(change, async ({ cut, at, bytes }) => {
+            const damaged = cut ? whole.subarray(0, at) : Buffer.from(whole);
+            if (!cut) damaged.set(bytes.subarray(0, whole.length - at), at);
+            const path = join(folder, `damaged-${file}`);
+            writeFileSync(path, damaged);
+            let recording: Recording | null = null;
+            try {
+              recording = await openRecording(path);
+              for await (const message of recording.messages(['/points', '/tf'], recording.startNs)) {
+                if (message.data.length > 0) outcomes.messages++;
+              }
+            } catch (error) {
+              expect(error).toBeInstanceOf(RecordingError);
+              expect((error as RecordingError).message).toContain(path);
+              expect((error as RecordingError).offset).toBeGreaterThanOrEqual(0);
+              outcomes.errors++;
+            } finally {
+              await recording?.close();
+            }
+          }),
+          { numRuns: 100 },
+        );
+        expect(outcomes.errors).toBeGreaterThan(20);
+        expect(outcomes.messages).toBeGreaterThan(0);
+      },
+    );
 
     it('a topic that is not there or has no clouds is refused with the names of those that do', async () => {
       const path = join(folder, 'mcap-ros2-none.mcap');
