@@ -3,8 +3,19 @@ import type { CapturedRecord } from './recorder-messages.ts';
 /** What PointCloud2 has of one point: x, y, z as float32 in metres, then a packed colour (0x00RRGGBB). */
 export const RECORDED_POINT_BYTES = 16;
 
-/** A captured cloud in that layout: in its own memory where it came as points. Pixels without depth are NaN. */
-export function recordedPoints(record: CapturedRecord): Uint8Array {
+/** Memory for clouds that is used again: megabytes a frame are too much to leave to the collector. */
+export class PointRoom {
+  #words = new Uint32Array(0);
+
+  /** Room for so many points, four words each, good until the next call. */
+  take(points: number): Uint32Array {
+    if (this.#words.length < points * 4) this.#words = new Uint32Array(Math.ceil(points * 1.25) * 4);
+    return this.#words.subarray(0, points * 4);
+  }
+}
+
+/** A captured cloud in that layout: in its own memory where it came as points, else in `room`. Pixels without depth are NaN. */
+export function recordedPoints(record: CapturedRecord, room: PointRoom): Uint8Array {
   if (record.type === 'points') {
     const words = new Uint32Array(record.buffer, 0, record.count * 4);
     for (let i = 3; i < words.length; i += 4) words[i] = rgbOf(words[i] as number);
@@ -14,8 +25,8 @@ export function recordedPoints(record: CapturedRecord): Uint8Array {
   const pixels = width * height;
   const depth = new Float32Array(record.buffer, 0, pixels);
   const colour = new Uint32Array(record.buffer, pixels * 4, pixels);
-  const points = new Float32Array(pixels * 4);
-  const words = new Uint32Array(points.buffer);
+  const words = room.take(pixels);
+  const points = new Float32Array(words.buffer, words.byteOffset, words.length);
   for (let v = 0, i = 0; v < height; v++) {
     const y = (v - lens.cy) / lens.fy;
     for (let u = 0; u < width; u++, i++) {
@@ -27,7 +38,7 @@ export function recordedPoints(record: CapturedRecord): Uint8Array {
       words[i * 4 + 3] = rgbOf(colour[i] as number);
     }
   }
-  return new Uint8Array(points.buffer);
+  return new Uint8Array(words.buffer, words.byteOffset, words.byteLength);
 }
 
 /** From R in the lowest byte to ROS's packed colour. */

@@ -1,4 +1,4 @@
-import { recordedPoints } from './captured-cloud.ts';
+import { PointRoom, recordedPoints } from './captured-cloud.ts';
 import { McapFileWriter } from './mcap-file-writer.ts';
 import {
   type CloudKind,
@@ -36,6 +36,8 @@ export class RecordingWriter {
   readonly #epochNs: bigint;
   readonly #decoder: SentCloudDecoder;
   readonly #channels = new Map<RosKind | JsonKind, number>();
+  /** What lies in it is written, or copied, before the next cloud. */
+  readonly #room = new PointRoom();
   #transforms = 0;
   #ownStates = 0;
   #newestNs = 0n;
@@ -123,7 +125,7 @@ export class RecordingWriter {
       const points = new Uint8Array(words.buffer, words.byteOffset, words.byteLength);
       return pointCloud2(ns, words.length / 4, 1, points);
     }
-    const points = recordedPoints(record);
+    const points = recordedPoints(record, this.#room);
     const count = points.length / 16;
     const isGrid = record.width * record.height === count;
     return pointCloud2(ns, isGrid ? record.width : count, isGrid ? record.height : 1, points);

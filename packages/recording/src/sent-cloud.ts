@@ -10,6 +10,7 @@ import {
   unpackRed664,
 } from '@farpoint/protocol';
 import { type Codec, OrganisedDecoder, UnorganisedDecoder } from '@farpoint/wasm-codec';
+import { PointRoom } from './captured-cloud.ts';
 import type { SentRecord } from './recorder-messages.ts';
 
 /** Points of a packet at most, whatever its format. */
@@ -19,6 +20,7 @@ const MOST_PACKET_POINTS = 4096;
 export class SentCloudDecoder {
   readonly #codec: Codec;
   readonly #header = emptyPointPacketHeader();
+  readonly #room = new PointRoom();
   readonly #block = new Int16Array(MOST_PACKET_POINTS * 4);
   #organised: { header: Uint8Array; decoder: OrganisedDecoder } | null = null;
   #unorganised: UnorganisedDecoder | null = null;
@@ -28,7 +30,8 @@ export class SentCloudDecoder {
   }
 
   /**
-   * @returns x, y, z in metres and a packed colour (0x00RRGGBB) for each point that could be decoded: four words each
+   * @returns x, y, z in metres and a packed colour (0x00RRGGBB) for each point that could be decoded: four words each, good
+   *   until the next call
    */
   decode(record: SentRecord): Uint32Array {
     const packets = [...payloads(record)];
@@ -41,7 +44,7 @@ export class SentCloudDecoder {
   }
 
   #points64(packets: readonly Uint8Array[], points: number): Uint32Array {
-    const words = new Uint32Array(points * 4);
+    const words = this.#room.take(points);
     let count = 0;
     for (const packet of packets) {
       const view = new DataView(packet.buffer, packet.byteOffset, packet.byteLength);
@@ -64,7 +67,7 @@ export class SentCloudDecoder {
     decoder.begin();
     for (const packet of packets) decoder.put(dataOf(packet));
     const bytes = decoder.unpack();
-    const words = new Uint32Array(decoder.count * 4);
+    const words = this.#room.take(decoder.count);
     fromMillimetres(
       new Int16Array(bytes.buffer, bytes.byteOffset, decoder.count * 4),
       decoder.count,
@@ -87,8 +90,8 @@ export class SentCloudDecoder {
     const metres = decoder.metres();
     const raw = decoder.points;
     const count = metres.length / 3;
-    const words = new Uint32Array(count * 4);
-    const floats = new Float32Array(words.buffer);
+    const words = this.#room.take(count);
+    const floats = new Float32Array(words.buffer, words.byteOffset, words.length);
     for (let i = 0; i < count; i++) {
       floats[i * 4] = metres[i * 3] as number;
       floats[i * 4 + 1] = metres[i * 3 + 1] as number;
