@@ -315,7 +315,7 @@ export const bench: Bench = {
       if (values.plot !== undefined) {
         const svg = plotLink({
           title: `Farpoint over ${result.link}, RTT ${values['rtt-ms']} ms`,
-          subtitle: `points64, ${values.plan} plan, ${values['rate-control']} rate; motion to photon p50 ${mtpMs.p50} ms, p95 ${mtpMs.p95} ms; utilisation ${(result.utilisation * 100).toFixed(0)} %`,
+          subtitle: `${values.mode === 'auto' ? 'the whole cloud' : 'points64'}, ${values.plan} plan, ${values['rate-control']} rate; motion to photon p50 ${mtpMs.p50} ms, p95 ${mtpMs.p95} ms; utilisation ${(result.utilisation * 100).toFixed(0)} %`,
           ...{ zeroMs, bins: allBins, robot: allRobot, latencies: within(latencies, zeroMs), outages },
         });
         writeFileSync(values.plot, svg);
