@@ -87,7 +87,8 @@ export function buildWasm(options: BuildOptions = {}): BuiltModule[] {
   log(`toolchain: ${toolchain.version} (${toolchain.kind})`);
 
   const crates = options.crates ?? WASM_CRATES;
-  const packages = crates.flatMap((crate) => ['-p', crate.package]);
+  // All of them whichever are wanted: what is compiled together shares its features, and other features are other bytes.
+  const packages = WASM_CRATES.flatMap((crate) => ['-p', crate.package]);
   // Its own folder: another compiler's leftovers would make Cargo start anew each time.
   const target = join(workspace, 'target', 'wasm');
   // A check must not change the lock file; a developer's build may, after a change of the dependencies.
