@@ -156,6 +156,10 @@ export class OrganisedEncoder {
      */
     begin(id: number, fx: number, fy: number, cx: number, cy: number, palette: boolean, images: boolean): Uint8Array;
     /**
+     * What the last frame would take in one packet of any length, bits, coded as most of it was; 0 before `begin`.
+     */
+    bits_in_one_packet(images: boolean): number;
+    /**
      * Whether the frame lies on the camera's grid; as `estimate`.
      */
     check(fx: number, fy: number, cx: number, cy: number): number;
@@ -339,6 +343,7 @@ export interface InitOutput {
     readonly organiseddecoder_put: (a: number, b: number) => number;
     readonly organiseddecoder_width: (a: number) => number;
     readonly organisedencoder_begin: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number) => [number, number];
+    readonly organisedencoder_bits_in_one_packet: (a: number, b: number) => number;
     readonly organisedencoder_check: (a: number, b: number, c: number, d: number, e: number) => number;
     readonly organisedencoder_colour_ptr: (a: number) => number;
     readonly organisedencoder_create: (a: number, b: number, c: number, d: number) => number;

@@ -360,6 +360,15 @@ export class OrganisedEncoder {
         return v1;
     }
     /**
+     * What the last frame would take in one packet of any length, bits, coded as most of it was; 0 before `begin`.
+     * @param {boolean} images
+     * @returns {number}
+     */
+    bits_in_one_packet(images) {
+        const ret = wasm.organisedencoder_bits_in_one_packet(this.__wbg_ptr, images);
+        return ret;
+    }
+    /**
      * Whether the frame lies on the camera's grid; as `estimate`.
      * @param {number} fx
      * @param {number} fy

@@ -35,6 +35,7 @@ export const organiseddecoder_points_ptr: (a: number) => number;
 export const organiseddecoder_put: (a: number, b: number) => number;
 export const organiseddecoder_width: (a: number) => number;
 export const organisedencoder_begin: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number) => [number, number];
+export const organisedencoder_bits_in_one_packet: (a: number, b: number) => number;
 export const organisedencoder_check: (a: number, b: number, c: number, d: number, e: number) => number;
 export const organisedencoder_colour_ptr: (a: number) => number;
 export const organisedencoder_create: (a: number, b: number, c: number, d: number) => number;

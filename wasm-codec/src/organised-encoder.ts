@@ -251,6 +251,14 @@ export class OrganisedEncoder implements Disposable {
     };
   }
 
+  /**
+   * What the last frame would take in one packet of any length, bits: what packets that need no other are measured against.
+   * It takes as long as coding a frame.
+   */
+  bitsInOnePacket(options: { fromImages?: boolean } = {}): number {
+    return this.#binding.bits_in_one_packet(options.fromImages ?? false);
+  }
+
   /** The last frame's slots, one after another, laid out as {@link layout} says. */
   get slots(): Uint8Array {
     const bytes = this.#packets * this.layout.stride;

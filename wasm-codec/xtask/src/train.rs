@@ -2,11 +2,10 @@
 //! there are (each frame joins the set that codes it best), and writes the frequencies.
 
 use farpoint_organised_codec::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, INDEX_CONTEXTS, SYMBOLS};
-use farpoint_organised_codec::rans::Counter;
 use farpoint_organised_codec::tables::{COLOUR_SETS, GEOMETRY_SETS, normalise};
 use farpoint_organised_codec::tile::Pattern;
 use farpoint_organised_codec::{
-    ColourMode, Encoder, Intrinsics, Point, Settings, Source, StreamHeader, stream,
+    ColourMode, Encoder, Histogram, Intrinsics, Point, Settings, Source, StreamHeader, stream,
 };
 
 use crate::scenes::{Random, Sensor, frame};
@@ -104,11 +103,10 @@ fn count(points: &[Point], sensor: &Sensor, settings: &Settings, pattern: u8) ->
     };
     let mut encoder = Encoder::new(header).expect("a camera");
     encoder.patterns().fill(Pattern(pattern));
-    let mut geometry = vec![0; GEOMETRY_CONTEXTS * SYMBOLS];
-    let mut colour = vec![0; COLOUR_CONTEXTS * SYMBOLS];
-    let mut counter = Counter { geometry: &mut geometry, colour: &mut colour, raw_bits: 0 };
-    encoder.count(Source::Points(points), settings, 12, 1, &mut counter);
-    (geometry, colour)
+    let mut histogram = Histogram::default();
+    encoder.count(Source::Points(points), settings, 12, 1, &mut histogram);
+    let colour = histogram.counts.split_off(GEOMETRY_CONTEXTS * SYMBOLS);
+    (histogram.counts, colour)
 }
 
 /// k-means with coding cost as the distance.

@@ -1,7 +1,8 @@
 //! The point codec's bindings for JavaScript: objects whose buffers lie in the module's memory and are read and written
 //! there through views, so that a call passes numbers only. The checked interface is the TypeScript package around it.
 
-mod organised;
+mod organised_decoder;
+mod organised_encoder;
 mod unorganised;
 
 use farpoint_point_codec::points64::{InvalidCount, POINTS_PER_PACKET, SlotLayout, pack, unpack};

@@ -85,7 +85,7 @@ fn main() {
             if psnr_wanted.is_some_and(|wanted| psnr < wanted) {
                 continue;
             }
-            let whole = one_packet(&mut encoder, &points, &settings);
+            let whole = encoder.bits_in_one_packet(Source::Points(&points), &settings) / 8.0;
             println!(
                 "{:22} q{:2} sets {},{} points {:6} packets {:3} bits/pt {:5.3} max {:.3} rms {:.3} mm·z² PSNR {:.2} enc {:.2} dec {:.2} ms left {:?} thinned {} packets cost {:+.2} %",
                 file.rsplit('/').next().unwrap_or(""),
@@ -127,27 +127,4 @@ fn read(file: &str) -> (StreamHeader, Vec<[f32; 4]>) {
         .map(|i| core::array::from_fn(|c| float(6 + 4 * i + c)))
         .collect();
     (header, points)
-}
-
-/// Bytes if the whole frame were one packet with one header.
-fn one_packet(encoder: &mut Encoder, points: &[[f32; 4]], settings: &Settings) -> f64 {
-    use farpoint_organised_codec::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, SYMBOLS};
-    use farpoint_organised_codec::{rans::Counter, tables::Tables};
-    let mut geometry = vec![0; GEOMETRY_CONTEXTS * SYMBOLS];
-    let mut colour = vec![0; COLOUR_CONTEXTS * SYMBOLS];
-    let mut counter = Counter { geometry: &mut geometry, colour: &mut colour, raw_bits: 0 };
-    encoder.count(Source::Points(points), settings, usize::MAX, 1, &mut counter);
-    let raw_bits = counter.raw_bits as f64;
-    let tables = Tables::new(&encoder.header().index_frequencies);
-    let cost = |counts: &[u32], base: usize| -> f64 {
-        counts
-            .iter()
-            .zip(&tables.costs()[base..])
-            .map(|(n, cost)| f64::from(*n) * f64::from(*cost) / 256.0)
-            .sum()
-    };
-    let bits = cost(&geometry, Tables::geometry_base(settings.geometry_set.into()))
-        + cost(&colour, Tables::colour_base(settings.colour_set.into()))
-        + raw_bits;
-    bits / 8.0 + 17.0
 }

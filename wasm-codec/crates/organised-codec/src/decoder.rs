@@ -1,17 +1,13 @@
 //! Packets to points.
 
-use bytemuck::must_cast;
-use wide::{f32x4, i32x4};
-
+use crate::emit::{Images, View, emit};
+use crate::packet::{PACKET_HEADER_BYTES, PacketError, PacketHeader, Span};
+use crate::paint::Colours;
 use crate::rans;
-use crate::stream::{PACKET_HEADER_BYTES, PacketError, PacketHeader, StreamHeader};
+use crate::stream::StreamHeader;
 use crate::syntax::{Neighbours, code_tile};
-use crate::tables::{COLOUR_SETS, GEOMETRY_SETS, Tables};
-use crate::tile::{ColourMode, Grid, Kind, LAST_TRANSFORMED, Place, TILE, Tile};
-use crate::transform::{inverse, plane_step, point_step, to_rgba};
-
-/// Pure green, R lowest.
-const GREEN: u32 = 0xff00_ff00;
+use crate::tables::{COLOUR_SETS, DecoderTables, GEOMETRY_SETS};
+use crate::tile::{ColourMode, Grid, Kind, TILE, Tile};
 
 /// What a packet brought.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -24,19 +20,12 @@ pub struct Put {
     pub latency_test: bool,
 }
 
-/// Depth and colour images beside the points.
-struct Images {
-    /// Metres, 0 where there is no point.
-    depth: Vec<f32>,
-    /// R lowest.
-    colour: Vec<u32>,
-}
-
 /// Decodes the packets of one stream, frame by frame.
 pub struct Decoder {
     header: StreamHeader,
     grid: Grid,
-    tables: Tables,
+    tables: DecoderTables,
+    body: rans::Body,
     /// x at 1 m of each column, padded to whole tiles.
     columns: Vec<f32>,
     /// y at 1 m of each row.
@@ -49,7 +38,7 @@ pub struct Decoder {
     come: Vec<u64>,
     images: Option<Images>,
     tile: Tile,
-    rgba: [u32; TILE * TILE],
+    colours: Box<Colours>,
 }
 
 impl Decoder {
@@ -64,13 +53,14 @@ impl Decoder {
         let mut columns: Vec<f32> = header.intrinsics.columns(grid.width).collect();
         columns.resize(grid.columns * TILE, 0.0);
         let palette = header.palette.iter().map(|[r, g, b]| u32::from_le_bytes([*r, *g, *b, 255])).collect();
-        let tables = Tables::new(&header.index_frequencies);
+        let tables = DecoderTables::new(&header.index_frequencies);
         let rows = header.intrinsics.rows(grid.height).collect();
         Some(Self {
             header,
             palette,
             grid,
             tables,
+            body: rans::Body::default(),
             columns,
             rows,
             points: vec![0; pixels],
@@ -78,7 +68,7 @@ impl Decoder {
             come: vec![0; grid.tiles().div_ceil(64)],
             images: images.then(|| Images { depth: vec![0.0; pixels], colour: vec![0; pixels] }),
             tile: Tile::new(),
-            rgba: [0; TILE * TILE],
+            colours: Box::new(Colours::new(images)),
         })
     }
 
@@ -131,16 +121,18 @@ impl Decoder {
         if header.id != self.header.id {
             return Err(PacketError::UnknownStream);
         }
-        let first = usize::from(header.first);
-        let end = first + usize::from(header.count);
-        if header.count == 0 || end > self.grid.tiles() {
+        self.body.load(&packet[PACKET_HEADER_BYTES..]);
+        let mut raw = rans::RawReader::new(&self.body);
+        let Span { first, count } = Span::from_raw(self.grid, |bits| raw.take(bits));
+        let end = first + count;
+        if end > self.grid.tiles() {
             return Err(PacketError::Tiles);
         }
         if (first..end).any(|tile| self.come[tile / 64] >> (tile % 64) & 1 == 1) {
             return Err(PacketError::Duplicate);
         }
         let start = self.count;
-        match self.decode(&header, first..end, &packet[PACKET_HEADER_BYTES..]) {
+        match self.decode(&header, first..end) {
             Some(count) => {
                 for tile in first..end {
                     self.come[tile / 64] |= 1 << (tile % 64);
@@ -154,218 +146,30 @@ impl Decoder {
     }
 
     /// The number of points with those of these tiles; `None` where the data is not what an encoder writes.
-    fn decode(
-        &mut self,
-        header: &PacketHeader,
-        tiles: core::ops::Range<usize>,
-        data: &[u8],
-    ) -> Option<usize> {
+    fn decode(&mut self, header: &PacketHeader, tiles: core::ops::Range<usize>) -> Option<usize> {
         const { assert!(GEOMETRY_SETS == 8 && COLOUR_SETS == 4) };
-        let geometry = self.tables.geometry(header.geometry_set.into());
-        let colour = self.tables.colour(header.colour_set.into());
-        let mut coder = rans::Decoder::new(data, geometry, colour)?;
+        self.tables.choose((header.geometry_set, header.colour_set));
+        let mut raw = rans::RawReader::new(&self.body);
+        let _ = Span::from_raw(self.grid, |bits| raw.take(bits));
+        let mut coder = rans::Decoder::new(&self.body, raw, &self.tables);
         let mut near = Neighbours::new();
+        let end = tiles.end;
         let scale = 1.0 / self.header.depth_step(header.depth_level);
         let mut count = self.count;
         for index in tiles {
             let place = self.grid.place(index);
-            code_tile(
-                &mut coder,
-                &mut self.tile,
-                &mut near,
-                place.row_in_strip,
-                place.column == 0,
-                header.mode,
-            );
+            let last = index + 1 == end;
+            code_tile(&mut coder, &mut self.tile, &mut near, place, header.mode, last);
             if coder.overrun() {
                 return None;
             }
             if self.tile.kind == Kind::Empty {
                 continue;
             }
-            paint(&self.tile, header, &self.palette, &mut self.rgba)?;
+            self.colours.paint(&self.tile, header, &self.palette)?;
             let view = View { grid: self.grid, columns: &self.columns, rows: &self.rows, place, scale };
-            count = emit(&self.tile, &self.rgba, &view, &mut self.points, count, self.images.as_mut())?;
+            count = emit(&self.tile, &self.colours, &view, &mut self.points, count, self.images.as_mut())?;
         }
         coder.finished().then_some(count)
     }
-}
-
-/// The colours of a tile's pixels, `None` where one is not in the palette; pixel x, y of the pattern at `y * TILE + x`.
-fn paint(tile: &Tile, header: &PacketHeader, palette: &[u32], rgba: &mut [u32; TILE * TILE]) -> Option<()> {
-    let (width, height) = (tile.pattern.width(), tile.pattern.height());
-    let quality = usize::from(header.quality);
-    if header.mode == ColourMode::None {
-        rgba.fill(GREEN);
-        return Some(());
-    }
-    if header.mode == ColourMode::Palette {
-        for y in 0..height {
-            for x in 0..width {
-                rgba[y * TILE + x] = *palette.get(tile.index[Tile::at(x, y)] as usize - 1)?;
-            }
-        }
-        return Some(());
-    }
-    if tile.pattern > LAST_TRANSFORMED {
-        let step = point_step(quality);
-        let mut points = tile.points.iter();
-        for y in 0..height {
-            for x in 0..width {
-                if tile.rows[y] >> x & 1 == 1 {
-                    let [y4, co, cg] = points.next().map_or([0; 3], |point| point.map(|c| (c * step) >> 2));
-                    rgba[y * TILE + x] = to_rgba(y4, co, cg);
-                }
-            }
-        }
-        return Some(());
-    }
-    let subsampled = header.mode == ColourMode::Subsampled;
-    let mut index = 0;
-    let mut planes = [[0_i32; TILE * TILE]; 3];
-    for (plane, pixels) in planes.iter_mut().enumerate() {
-        let (columns, rows) = header.mode.blocks(tile.pattern, plane);
-        let luma = header.mode.blocks(tile.pattern, 0);
-        let step = plane_step(quality, plane, subsampled);
-        for by in 0..rows {
-            for bx in 0..columns {
-                if (columns, rows) != luma || tile.block_is_seen(bx, by) {
-                    let block = inverse(&tile.blocks[index], step);
-                    for (y, row) in block.iter().enumerate() {
-                        let at = (by * 8 + y) * TILE + bx * 8;
-                        pixels[at..at + 8].copy_from_slice(&row.to_array());
-                    }
-                }
-                index += 1;
-            }
-        }
-    }
-    let [luma, orange, green] = &planes;
-    if subsampled && tile.pattern.0 < 2 {
-        let across = usize::from(tile.pattern.0 == 0);
-        for y in 0..height {
-            let row = y / 2 * TILE;
-            let (orange, green): (&[i32; 8], &[i32; 8]) = (
-                orange[row..row + 8].first_chunk().expect("eight pixels"),
-                green[row..row + 8].first_chunk().expect("eight pixels"),
-            );
-            // Whole rows of 16, so that the compiler makes vectors of them.
-            let co: [i32; TILE] = core::array::from_fn(|x| orange[x >> across & 7]);
-            let cg: [i32; TILE] = core::array::from_fn(|x| green[x >> across & 7]);
-            let luma: &[i32; TILE] = luma[y * TILE..][..TILE].first_chunk().expect("a row");
-            let pixels: &mut [u32; TILE] = rgba[y * TILE..][..TILE].first_chunk_mut().expect("a row");
-            for x in 0..TILE {
-                pixels[x] = to_rgba(luma[x], co[x], cg[x]);
-            }
-        }
-    } else {
-        for (((pixel, y), co), cg) in rgba.iter_mut().zip(luma).zip(orange).zip(green) {
-            *pixel = to_rgba(*y, *co, *cg);
-        }
-    }
-    Some(())
-}
-
-struct View<'a> {
-    grid: Grid,
-    columns: &'a [f32],
-    rows: &'a [f32],
-    place: Place,
-    /// 1 / step of inverse depth.
-    scale: f32,
-}
-
-/// Millimetres, rounded half away from zero; never beyond ±32767.
-#[inline(always)]
-fn round4(mm: f32x4) -> i32x4 {
-    const LIMIT: f32x4 = f32x4::splat(32_767.0);
-    let sign: i32x4 = must_cast::<f32x4, i32x4>(mm) & i32x4::splat(i32::MIN);
-    let half: f32x4 = must_cast(sign | i32x4::splat(0x3f00_0000));
-    let limited = (mm + half).fast_min(LIMIT).fast_max(-LIMIT);
-    limited.fast_trunc_int()
-}
-
-#[inline(always)]
-fn colour_664(rgba: i32x4) -> i32x4 {
-    let red = (rgba & i32x4::splat(0xfc)) << 24;
-    let green = (rgba & i32x4::splat(0xfc00)) << 10;
-    let blue = (rgba >> 4) & i32x4::splat(0xf_0000);
-    red | green | blue
-}
-
-/// Writes a tile's points from `count` on; `None` where a pixel outside the image is said to be valid, or there are more
-/// points than pixels.
-fn emit(
-    tile: &Tile,
-    rgba: &[u32; TILE * TILE],
-    view: &View<'_>,
-    points: &mut [u64],
-    mut count: usize,
-    mut images: Option<&mut Images>,
-) -> Option<usize> {
-    let View { grid, columns, rows, place, scale } = *view;
-    let (width, height) = (tile.pattern.width(), tile.pattern.height());
-    let shift = tile.pattern.0 >> 1;
-    let odd = usize::from(tile.pattern.0 & 1);
-    let (x0, y0) = (place.column * TILE, place.row * TILE);
-    for y in 0..height {
-        let valid = tile.rows[y];
-        if valid == 0 {
-            continue;
-        }
-        let v = y0 + (y << shift);
-        let first = x0 + ((odd & y) << shift);
-        let step = 1 << (usize::from(shift) + odd);
-        let last = first + (15 - valid.leading_zeros() as usize) * step;
-        if v >= grid.height || last >= grid.width {
-            return None;
-        }
-        let ray_y = f32x4::splat(rows[v]);
-        let mut packed = [0_u64; TILE];
-        for x in (0..width).step_by(4) {
-            let depth: [i32; 4] = *tile.depth[Tile::at(x, y)..].first_chunk().expect("four pixels");
-            let ray_x = if step == 1 {
-                f32x4::from(*columns[first + x..].first_chunk::<4>().expect("four columns"))
-            } else {
-                let ray = |i: usize| columns[(first + (x + i) * step).min(columns.len() - 1)];
-                f32x4::from([ray(0), ray(1), ray(2), ray(3)])
-            };
-            let z = f32x4::splat(scale) / f32x4::from_i32x4(i32x4::from(depth));
-            let thousand = f32x4::splat(1000.0);
-            let px = round4(z * ray_x * thousand);
-            let py = round4(z * ray_y * thousand);
-            let pz = round4(z * thousand);
-            let colours: [u32; 4] = *rgba[y * TILE + x..].first_chunk().expect("four colours");
-            let low: i32x4 = (px & i32x4::splat(0xffff)) | (py << 16);
-            let high: i32x4 = (pz & i32x4::splat(0xffff)) | colour_664(must_cast(colours));
-            let (low, high) = (low.to_array(), high.to_array());
-            for i in 0..4 {
-                packed[x + i] = u64::from(low[i] as u32) | u64::from(high[i] as u32) << 32;
-            }
-            if let Some(images) = images.as_deref_mut() {
-                let depths = z.to_array();
-                for i in 0..4 {
-                    if valid >> (x + i) & 1 == 1 {
-                        let pixel = v * grid.width + first + (x + i) * step;
-                        images.depth[pixel] = depths[i];
-                        images.colour[pixel] = colours[i];
-                    }
-                }
-            }
-        }
-        let target = &mut points[count..];
-        if valid == u16::MAX {
-            *target.first_chunk_mut::<TILE>()? = packed;
-            count += TILE;
-        } else {
-            let mut rest = valid;
-            let needed = valid.count_ones() as usize;
-            for place in target.get_mut(..needed)? {
-                *place = packed[rest.trailing_zeros() as usize & 15];
-                rest &= rest - 1;
-            }
-            count += needed;
-        }
-    }
-    Some(count)
 }

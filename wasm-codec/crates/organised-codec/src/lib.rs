@@ -2,16 +2,24 @@
 //! bytes, each decodable alone and in any order. The format is specified in `docs/organised-codec.md`.
 //!
 //! Without I/O; works in buffers made once; packets decode to the same bits natively and in WASM.
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 pub mod contexts;
+mod crc16;
 mod decoder;
+mod emit;
 mod encoder;
 mod grid;
+mod lanes;
 pub mod load;
+pub mod packet;
+mod paint;
 mod palette;
+mod plan;
+mod prepare;
 pub mod rans;
 mod rate;
+mod sampling;
 pub mod stream;
 pub mod syntax;
 pub mod tables;
@@ -20,11 +28,14 @@ pub mod tile;
 pub mod transform;
 
 pub use decoder::{Decoder, Put};
-pub use encoder::{Encoder, Frame, Packet, Settings, with_palette};
+pub use encoder::{Encoder, Frame, Packet, Settings};
 pub use grid::{Intrinsics, Misfit, check_grid, estimate_intrinsics};
 pub use load::{Left, Source};
+pub use packet::{PacketError, seal};
+pub use palette::with_palette;
 pub use rate::{Budget, Spent};
-pub use stream::{HeaderError, PacketError, StreamHeader};
+pub use sampling::Histogram;
+pub use stream::{HeaderError, StreamHeader};
 pub use thinning::Validity;
 pub use tile::ColourMode;
 

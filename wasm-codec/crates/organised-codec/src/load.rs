@@ -1,11 +1,12 @@
 //! Where a frame's depth and colour come from, tile by tile, and their quantisation.
 
 use bytemuck::must_cast;
-use wide::{f32x4, i32x4};
+use wide::{f32x4, i16x8, i32x4};
 
 use crate::Point;
+use crate::lanes::{narrow, round};
 use crate::syntax::MAX_DEPTH;
-use crate::tile::{Grid, Place, TILE};
+use crate::tile::{Grid, TILE};
 
 /// Beyond this int16 millimetres cannot follow, metres.
 pub const MAX_COORDINATE: f32 = 32.767;
@@ -90,23 +91,35 @@ pub struct Left {
     pub out_of_range: u32,
 }
 
+impl Left {
+    /// Adds others.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.not_finite += other.not_finite;
+        self.non_positive_depth += other.non_positive_depth;
+        self.out_of_range += other.out_of_range;
+    }
+}
+
 /// A tile at full resolution.
+#[derive(Clone)]
 pub struct Loaded {
     /// Quantised inverse depth, meaningless where not valid.
-    pub depth: [i32; TILE * TILE],
+    pub depth: [i16; TILE * TILE],
     /// Colours.
     pub rgba: [u32; TILE * TILE],
     /// Valid pixels of each row.
     pub rows: [u16; TILE],
     /// Number of them.
     pub valid: u32,
+    /// The largest depth value of a valid one.
+    pub nearest: i16,
 }
 
 impl Loaded {
     /// Nothing valid.
     #[must_use]
     pub const fn new() -> Self {
-        Self { depth: [0; TILE * TILE], rgba: [0; TILE * TILE], rows: [0; TILE], valid: 0 }
+        Self { depth: [0; TILE * TILE], rgba: [0; TILE * TILE], rows: [0; TILE], valid: 0, nearest: 0 }
     }
 }
 
@@ -127,59 +140,81 @@ pub struct Quantiser {
 }
 
 impl Quantiser {
-    /// Loads a tile; what is not valid is added to `left`.
-    #[inline]
-    pub fn load(&self, source: Source<'_>, grid: Grid, place: Place, tile: &mut Loaded, left: &mut Left) {
-        let (x0, y0) = (place.column * TILE, place.row * TILE);
-        let columns = TILE.min(grid.width - x0);
-        let rows = TILE.min(grid.height - y0);
-        tile.rows = [0; TILE];
-        let (mut finite, mut positive, mut valid) = (0, 0, 0);
-        for y in 0..rows {
-            let start = (y0 + y) * grid.width + x0;
-            let row_limit = self.row_limits[y0 + y];
-            let mut bits = 0;
-            for x in (0..columns).step_by(4) {
-                let (depth, colours) = if x + 4 <= columns {
-                    source.four(start + x)
-                } else {
-                    let mut depth = [f32::NAN; 4];
-                    let mut colours = [0; 4];
-                    for i in 0..columns - x {
-                        (depth[i], colours[i]) = source.one(start + x + i);
-                    }
-                    (f32x4::from(depth), colours)
-                };
-                let limits = self.column_limits[x0 + x..].first_chunk::<4>().expect("padded to whole tiles");
-                let limit = f32x4::from(*limits).fast_min(f32x4::splat(row_limit));
-                let is_finite = depth.abs().simd_lt(f32x4::splat(f32::INFINITY));
-                let is_positive = is_finite & depth.simd_gt(f32x4::ZERO);
-                let scaled = f32x4::splat(self.scale) / depth + f32x4::splat(0.5);
-                let is_valid = is_positive
-                    & depth.simd_le(limit)
-                    & scaled.simd_lt(f32x4::splat(MAX_DEPTH as f32 + 1.0))
-                    & scaled.simd_ge(f32x4::ONE);
-                let safe: f32x4 = scaled & is_valid;
-                let quantised: i32x4 = safe.fast_trunc_int();
-                let at = y * TILE + x;
-                tile.depth[at..at + 4].copy_from_slice(&quantised.to_array());
-                tile.rgba[at..at + 4].copy_from_slice(&colours);
-                let mask = is_valid.to_bitmask();
-                bits |= (mask as u16) << x;
-                if mask != 15 {
-                    finite += is_finite.to_bitmask().count_ones();
-                    positive += is_positive.to_bitmask().count_ones();
-                } else {
-                    finite += 4;
-                    positive += 4;
-                }
-            }
-            tile.rows[y] = bits;
-            valid += bits.count_ones();
+    /// Loads tiles of a row of tiles, into places by column, and returns what is not valid. Row by row over all of them:
+    /// memory is read in its order.
+    pub fn load(
+        &self,
+        source: Source<'_>,
+        grid: Grid,
+        row: usize,
+        columns: core::ops::Range<usize>,
+        tiles: &mut [Loaded],
+    ) -> Left {
+        for tile in &mut tiles[columns.clone()] {
+            (tile.rows, tile.valid, tile.nearest) = ([0; TILE], 0, 0);
         }
-        tile.valid = valid;
-        left.not_finite += (rows * columns) as u32 - finite;
-        left.non_positive_depth += finite - positive;
-        left.out_of_range += positive - valid;
+        let mut left = Left::default();
+        for v in row * TILE..grid.height.min((row + 1) * TILE) {
+            for column in columns.clone() {
+                self.load_row(source, grid, (column, v), v % TILE, &mut tiles[column], &mut left);
+            }
+        }
+        left
+    }
+
+    #[inline(always)]
+    fn load_row(
+        &self,
+        source: Source<'_>,
+        grid: Grid,
+        (column, v): (usize, usize),
+        y: usize,
+        tile: &mut Loaded,
+        left: &mut Left,
+    ) {
+        let x0 = column * TILE;
+        let start = v * grid.width + x0;
+        let columns = TILE.min(grid.width - x0);
+        let row_limit = f32x4::splat(self.row_limits[v]);
+        let limits: &[f32; TILE] = self.column_limits[x0..][..TILE].first_chunk().expect("whole tiles");
+        let colours: &mut [u32; TILE] = tile.rgba[y * TILE..][..TILE].first_chunk_mut().expect("a row");
+        let mut quantised = [i32x4::ZERO; 4];
+        let mut bits = 0;
+        for (quarter, place) in quantised.iter_mut().enumerate() {
+            let x = 4 * quarter;
+            let (depth, rgba) = if x + 4 <= columns {
+                source.four(start + x)
+            } else {
+                let mut depth = [f32::NAN; 4];
+                let mut rgba = [0; 4];
+                for i in 0..columns.saturating_sub(x) {
+                    (depth[i], rgba[i]) = source.one(start + x + i);
+                }
+                (f32x4::from(depth), rgba)
+            };
+            colours[x..x + 4].copy_from_slice(&rgba);
+            let limit = f32x4::from(*limits[x..].first_chunk::<4>().expect("four")).fast_min(row_limit);
+            let scaled = f32x4::splat(self.scale) / depth;
+            // What is not finite or not positive fails one of these.
+            let is_valid = depth.simd_le(limit)
+                & scaled.simd_lt(f32x4::splat(MAX_DEPTH as f32 + 0.5))
+                & scaled.simd_gt(f32x4::splat(0.5));
+            *place = round(scaled & is_valid);
+            let mask = is_valid.to_bitmask() & 15;
+            bits |= mask << x;
+            if mask != 15 {
+                let there = (1 << columns.saturating_sub(x).min(4)) - 1;
+                let finite = depth.abs().simd_lt(f32x4::splat(f32::INFINITY)).to_bitmask() & there;
+                let positive = depth.simd_gt(f32x4::ZERO).to_bitmask() & finite;
+                left.not_finite += (there & !finite).count_ones();
+                left.non_positive_depth += (finite & !positive).count_ones();
+                left.out_of_range += (positive & !mask).count_ones();
+            }
+        }
+        let halves = [narrow(quantised[0], quantised[1]), narrow(quantised[2], quantised[3])];
+        tile.depth[y * TILE..][..TILE].copy_from_slice(&must_cast::<[i16x8; 2], [i16; TILE]>(halves));
+        tile.rows[y] = bits as u16;
+        tile.valid += bits.count_ones();
+        tile.nearest = tile.nearest.max(halves[0].max(halves[1]).reduce_max());
     }
 }

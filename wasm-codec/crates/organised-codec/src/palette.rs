@@ -1,7 +1,12 @@
 //! Pictures of few colours: which they are, and the place of a colour among them.
 
+use crate::contexts::{INDEX, INDEX_CONTEXTS, SYMBOLS};
+use crate::encoder::{Encoder, Settings};
 use crate::load::Source;
-use crate::stream::MAX_PALETTE;
+use crate::sampling::{Histogram, SAMPLE_TILES};
+use crate::stream::{MAX_PALETTE, StreamHeader};
+use crate::tables::normalise;
+use crate::tile::ColourMode;
 
 const SLOTS: usize = 1024;
 const NONE: u32 = u32::MAX;
@@ -81,4 +86,37 @@ pub(crate) fn find_palette(source: Source<'_>) -> Option<Vec<[u8; 3]>> {
     }
     colours.sort_by_key(|[r, g, b]| (u32::from(*r) + 2 * u32::from(*g), *b));
     Some(colours)
+}
+
+/// A header with the palette of a frame of few colours, and with frequencies that suit it. `None` where there are more than
+/// 256, or none.
+#[must_use]
+pub fn with_palette(header: StreamHeader, source: Source<'_>) -> Option<StreamHeader> {
+    let palette = find_palette(source).filter(|palette| !palette.is_empty())?;
+    // Some cameras' brightest pixels come out black: there the darkest colour is best put after the brightest.
+    let mut wrapped = palette.clone();
+    wrapped.rotate_left(1);
+    let plain = trained(&header, palette, source)?;
+    let wrapped = trained(&header, wrapped, source)?;
+    Some(if plain.1 <= wrapped.1 { plain.0 } else { wrapped.0 })
+}
+
+/// With frequencies for a palette, and what the frame then costs.
+fn trained(header: &StreamHeader, palette: Vec<[u8; 3]>, source: Source<'_>) -> Option<(StreamHeader, f32)> {
+    let mut header =
+        StreamHeader { palette, index_frequencies: vec![[256; SYMBOLS]; INDEX_CONTEXTS], ..header.clone() };
+    let mut encoder = Encoder::new(header.clone())?;
+    if source.len() != encoder.grid.width * encoder.grid.height {
+        return None;
+    }
+    let mut histogram = Histogram::default();
+    let mut settings = Settings { mode: ColourMode::Palette, ..Settings::default() };
+    encoder.count(source, &settings, SAMPLE_TILES, 1, &mut histogram);
+    let (contexts, _) = histogram.counts[INDEX * SYMBOLS..].as_chunks::<SYMBOLS>();
+    for (own, counts) in header.index_frequencies.iter_mut().zip(contexts) {
+        // What did not occur may yet, in the next frames.
+        *own = normalise(&counts.map(|count| f64::from(count) + 0.5));
+    }
+    let cost = Encoder::new(header.clone())?.estimate(source, &mut settings);
+    Some((header, cost))
 }

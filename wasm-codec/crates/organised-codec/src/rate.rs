@@ -1,56 +1,73 @@
 //! A frame in so many bytes: the mix of depth step, colour quality and thinning.
 //!
-//! What a frame costs at each rung of a ladder is estimated from an eighth of its tiles, and corrected by what the frames
-//! before cost. Between two rungs the nearer tiles get the finer one, so that the budget is met without leaving a point out;
-//! only below the last rung far tiles are thinned. A steady stream takes one pass a frame.
+//! Between two rungs of a ladder the nearer tiles get the finer one, so that the budget is met without leaving a point out;
+//! only below the last rung far tiles are thinned. What frames cost is learnt from frame to frame, so that a steady stream
+//! takes one pass a frame.
 
-use crate::encoder::{Encoder, Frame, Mix, Settings};
+use crate::encoder::{Encoder, Frame, Mix, PACKET_OVERHEAD_BITS, Settings};
 use crate::load::Source;
-use crate::stream::MAX_PACKET_BYTES;
-use crate::thinning::{Validity, halvings, pattern, tile_depths};
+use crate::packet::MAX_PACKET_BYTES;
+use crate::plan::{Means, Plan};
+use crate::thinning::{Validity, halvings, tile_depths};
 use crate::tile::{ColourMode, Pattern};
 
-/// What a budget buys, the dearest first: depth level, quality, chroma as fine as luma.
-const LADDER: [(u8, u8, bool); 26] = [
-    (0, 2, true),
-    (1, 4, true),
-    (2, 6, true),
-    (2, 7, true),
-    (3, 7, true),
-    (3, 8, true),
-    (3, 9, true),
-    (3, 10, true),
-    (3, 11, true),
-    (3, 11, false),
-    (3, 12, false),
-    (3, 13, false),
-    (3, 14, false),
-    (3, 15, false),
-    (3, 16, false),
-    (3, 17, false),
-    (3, 18, false),
-    (4, 18, false),
-    (4, 19, false),
-    (4, 20, false),
-    (5, 20, false),
-    (5, 21, false),
-    (5, 22, false),
-    (5, 24, false),
-    (6, 25, false),
-    (6, 26, false),
+/// What a budget buys.
+struct Rung {
+    depth_level: u8,
+    quality: u8,
+    /// Chroma as fine as luma.
+    full: bool,
+    /// Of the bits at other rungs, as a first guess; what frames cost corrects it.
+    share: f32,
+}
+
+const fn rung(depth_level: u8, quality: u8, full: bool, share: f32) -> Rung {
+    Rung { depth_level, quality, full, share }
+}
+
+/// The dearest first.
+const LADDER: [Rung; RUNGS] = [
+    rung(0, 2, true, 3.18),
+    rung(1, 4, true, 2.43),
+    rung(2, 6, true, 1.83),
+    rung(2, 7, true, 1.76),
+    rung(3, 7, true, 1.53),
+    rung(3, 8, true, 1.46),
+    rung(3, 9, true, 1.4),
+    rung(3, 10, true, 1.33),
+    rung(3, 11, true, 1.28),
+    rung(3, 11, false, 1.19),
+    rung(3, 12, false, 1.15),
+    rung(3, 13, false, 1.12),
+    rung(3, 14, false, 1.09),
+    rung(3, 15, false, 1.06),
+    rung(3, 16, false, 1.04),
+    rung(3, 17, false, 1.02),
+    rung(3, 18, false, 1.0),
+    rung(4, 18, false, 0.853),
+    rung(4, 19, false, 0.836),
+    rung(4, 20, false, 0.82),
+    rung(5, 20, false, 0.619),
+    rung(5, 21, false, 0.607),
+    rung(5, 22, false, 0.595),
+    rung(5, 24, false, 0.578),
+    rung(6, 25, false, 0.39),
+    rung(6, 26, false, 0.384),
 ];
-/// The rung that a stream begins with.
+const RUNGS: usize = 26;
+/// What geometry costs by depth level, as a first guess.
+const LEVELS: [f32; 7] = [2.36, 1.75, 1.25, 1.0, 0.83, 0.6, 0.395];
+/// The rung that a stream's first estimate is for.
 const FIRST_RUNG: usize = 16;
 
-/// Bits of a thinned tile by pattern, as a share of the full one's: a first guess, corrected by what frames cost.
-const SHARES: [f32; Pattern::COUNT as usize] = [1.0, 0.66, 0.4, 0.25, 0.14, 0.08, 0.045, 0.025];
 /// Passes over a frame at most.
-const PASSES: usize = 4;
-/// What is aimed at, and what is accepted, as shares of the budget.
+const PASSES: usize = 5;
+/// What is aimed at, and what is taken without another pass: shares of the budget.
 const AIM: f32 = 0.985;
 const LEAST: f32 = 0.955;
-/// After so many frames a rung's cost is estimated anew.
-const KEEP_FRAMES: u32 = 60;
+const MOST: f32 = 1.045;
+/// Over by so little no frame is coded again.
+const SLACK_BYTES: usize = 24;
 
 /// A limit for a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,28 +88,18 @@ pub(crate) struct RateState {
     coloured: Costs,
     /// Of frames without colour: latency tests.
     plain: Costs,
-    depths: Vec<f32>,
-    sorted: Vec<f32>,
-    halvings: Vec<f32>,
-    frame: u32,
 }
 
-/// What frames of one kind cost at each rung.
+/// What frames of one kind cost.
 #[derive(Default)]
 struct Costs {
-    rungs: [Option<Rung>; LADDER.len()],
-    rung: Option<usize>,
-    /// What frames cost of what the estimates said, whole and thinned.
-    whole: f32,
-    thinned: f32,
-}
-
-#[derive(Clone, Copy)]
-struct Rung {
-    settings: Settings,
-    bytes: f32,
-    /// When it was estimated.
-    frame: u32,
+    /// At every rung, as shares of the plan's costs.
+    shares: [f32; RUNGS],
+    /// Rungs whose share was found with a frame, not guessed.
+    found: [bool; RUNGS],
+    /// The coarser rung of the last frame.
+    rung: usize,
+    plan: Plan,
 }
 
 /// What a budget was spent on.
@@ -108,154 +115,145 @@ pub struct Spent {
     pub passes: usize,
 }
 
-/// How a pass is coded, and what it should cost uncorrected.
-struct Plan {
-    mix: Mix,
-    /// Share of the tiles that the finer settings are for.
-    finer: f32,
-    thinned: bool,
-    bytes: f32,
-}
-
 impl Encoder {
-    /// Codes a frame in at most a packet more than the budget's bytes and, where the frame has enough to tell, in at least
-    /// 95 % of them. `None` where the frame has not the header's number of pixels.
+    /// Codes a frame within 5 % of the budget, or as far below it as the frame is smaller in the best quality. It is not over
+    /// by more than a packet. `None` where the frame has not the header's number of pixels.
     pub fn encode_within(&mut self, source: Source<'_>, budget: &Budget) -> Option<Spent> {
         let grid = self.header().grid();
         if source.len() != grid.width * grid.height {
             return None;
         }
-        let mut rate = core::mem::take(self.rate());
-        rate.frame = rate.frame.wrapping_add(1);
-        tile_depths(source, grid, &mut rate.depths);
-        rate.sorted.clone_from(&rate.depths);
-        rate.sorted.sort_unstable_by(f32::total_cmp);
-        rate.halvings.clone_from(&rate.depths);
-        halvings(&budget.validity, &mut rate.halvings);
-        let mut costs =
-            core::mem::take(if budget.latency_test { &mut rate.plain } else { &mut rate.coloured });
-        if costs.rung.is_none() {
-            (costs.whole, costs.thinned) = (1.0, 1.0);
+        let mut costs = core::mem::take(self.rate.of(budget));
+        tile_depths(source, grid, &mut costs.plan.depths);
+        costs.plan.halvings.clone_from(&costs.plan.depths);
+        halvings(&budget.validity, &mut costs.plan.halvings);
+        if !costs.plan.is_known() {
+            let mut settings = settings_of(FIRST_RUNG, budget);
+            self.patterns.fill(Pattern(0));
+            let bytes = self.estimate(source, &mut settings);
+            costs.shares = first_shares(budget);
+            costs.found = core::array::from_fn(|rung| rung == FIRST_RUNG);
+            costs.rung = FIRST_RUNG;
+            costs.plan.guess(bytes * 8.0 / costs.shares[FIRST_RUNG]);
         }
-        let wanted = budget.bytes as f32 * AIM;
-        let mut passes = 0;
-        let (frame, plan) = loop {
-            let plan = self.plan(source, budget, wanted, &mut costs, &rate);
-            let Some(frame) = self.encode_mixed(source, &plan.mix) else { break (Frame::default(), plan) };
+        // The last packet is rarely full: half a packet's header and states come on top.
+        let wanted = ((budget.bytes as f32 * 8.0 - PACKET_OVERHEAD_BITS / 2.0) * AIM).max(1.0);
+        let (mut passes, mut before) = (0, usize::MAX);
+        let (mut frame, mut settings): (Frame, Settings);
+        loop {
+            let (finer, coarser, means) = self.find_rungs(source, budget, wanted, &mut costs);
+            let mut mix = Mix { finer: settings_of(finer, budget), coarser: settings_of(coarser, budget) };
+            // The same tables for both: they differ little.
+            self.choose_tables(source, &mut mix.coarser);
+            mix.finer.geometry_set = mix.coarser.geometry_set;
+            mix.finer.colour_set = mix.coarser.colour_set;
+            costs.plan.begin(wanted, means);
+            frame = self.encode_mixed(source, &mix, Some(&mut costs.plan))?;
             passes += 1;
-            let spent = frame.bytes as f32;
-            let correction = if plan.thinned { &mut costs.thinned } else { &mut costs.whole };
-            *correction = (*correction * spent / plan.bytes.max(1.0)).clamp(0.2, 5.0);
+            costs.learn(finer, coarser);
+            let mostly_finer = 2 * costs.plan.finer_tiles >= grid.tiles();
+            settings = if mostly_finer { mix.finer } else { mix.coarser };
+            let spent = frame.bytes as f32 / budget.bytes.max(1) as f32;
+            let over = frame.bytes.saturating_sub(budget.bytes);
             // The dearest rung for the whole frame: it has no more to tell.
-            let all = costs.rung == Some(0) && plan.finer >= 1.0 && !plan.thinned;
-            let fits = frame.bytes <= budget.bytes + MAX_PACKET_BYTES / 2;
-            if passes == PASSES || (fits && (all || spent >= LEAST * budget.bytes as f32)) {
-                break (frame, plan);
+            let all = coarser == 0;
+            let fits = over <= SLACK_BYTES || (spent <= MOST && over <= MAX_PACKET_BYTES / 2);
+            // Where the costs were far off, what was coded last got too much or too little.
+            let even = passes > 1 || (0.75..1.35).contains(&costs.plan.dearer);
+            let good = fits && even && (spent >= LEAST || all);
+            let stuck = frame.bytes == before;
+            before = frame.bytes;
+            if good || stuck || passes == PASSES {
+                break;
             }
-        };
-        let mut frame = frame;
-        *(if budget.latency_test { &mut rate.plain } else { &mut rate.coloured }) = costs;
-        *self.rate() = rate;
+        }
         let dropped = self.drop_far(budget.bytes + MAX_PACKET_BYTES / 2, &mut frame);
-        let settings = if plan.finer >= 0.5 { plan.mix.finer } else { plan.mix.coarser };
+        *self.rate.of(budget) = costs;
         Some(Spent { frame, settings, dropped, passes })
     }
 
-    /// Finds the rungs between which `wanted` bytes lie, and tells the tiles their patterns and rungs.
-    fn plan(
+    /// The rungs between which so many bits lie. Where a rung's cost has only been guessed, a sample of the frame tells it.
+    fn find_rungs(
         &mut self,
         source: Source<'_>,
         budget: &Budget,
         wanted: f32,
         costs: &mut Costs,
-        rate: &RateState,
-    ) -> Plan {
-        self.patterns().fill(Pattern(0));
-        self.finer_tiles().clear();
-        let mut rung = costs.rung.unwrap_or(FIRST_RUNG);
-        let mut upper = self.cost(source, budget, rung, costs, rate.frame);
-        // Up to the first that is too dear for the whole frame, down to the last that is not: `upper` over `wanted`.
-        while rung > 0 && upper.bytes * costs.whole < wanted {
-            rung -= 1;
-            upper = self.cost(source, budget, rung, costs, rate.frame);
+    ) -> (usize, usize, Means) {
+        let mut known = None;
+        loop {
+            let (finer, coarser, means) = costs.rungs(wanted);
+            let Some(rung) = [coarser, finer].into_iter().find(|rung| !costs.found[*rung]) else {
+                costs.rung = coarser;
+                return (finer, coarser, means);
+            };
+            self.patterns.fill(Pattern(0));
+            let mut bytes = |rung: usize| self.estimate(source, &mut settings_of(rung, budget)).max(1.0);
+            let known = *known.get_or_insert_with(|| bytes(costs.rung));
+            costs.find(rung, bytes(rung) / known);
         }
-        let mut lower = upper;
-        while upper.bytes * costs.whole >= wanted && rung + 1 < LADDER.len() {
-            lower = self.cost(source, budget, rung + 1, costs, rate.frame);
-            if lower.bytes * costs.whole < wanted {
-                break;
-            }
-            (rung, upper) = (rung + 1, lower);
-        }
-        costs.rung = Some(rung);
-        let (finer_bytes, coarser_bytes) = (upper.bytes * costs.whole, lower.bytes * costs.whole);
-        let mix = Mix { finer: upper.settings, coarser: lower.settings };
-        if finer_bytes <= wanted {
-            return Plan { mix, finer: 1.0, thinned: false, bytes: finer_bytes };
-        }
-        if coarser_bytes < wanted {
-            let finer = (wanted - coarser_bytes) / (finer_bytes - coarser_bytes).max(1.0);
-            let nearest = ((rate.sorted.len() as f32 * finer) as usize).min(rate.sorted.len() - 1);
-            let limit = rate.sorted[nearest];
-            self.finer_tiles().extend(rate.depths.iter().map(|depth| *depth < limit));
-            return Plan { mix, finer, thinned: false, bytes: wanted };
-        }
-        let modelled = self.thin(&rate.halvings, finer_bytes * costs.thinned, wanted);
-        Plan { mix, finer: 1.0, thinned: true, bytes: modelled }
-    }
-
-    /// What the frame costs whole at a rung, uncorrected.
-    fn cost(
-        &mut self,
-        source: Source<'_>,
-        budget: &Budget,
-        rung: usize,
-        costs: &mut Costs,
-        frame: u32,
-    ) -> Rung {
-        if let Some(known) = costs.rungs[rung]
-            && frame.wrapping_sub(known.frame) < KEEP_FRAMES
-        {
-            return known;
-        }
-        let mut settings = settings_of(rung, budget);
-        let bytes = self.estimate(source, &mut settings);
-        let known = Rung { settings, bytes, frame };
-        costs.rungs[rung] = Some(known);
-        known
-    }
-
-    /// Thins far tiles until the model says `wanted` of `full` bytes; what it says then.
-    fn thin(&mut self, halvings: &[f32], full: f32, wanted: f32) -> f32 {
-        let tiles = halvings.len() as f32;
-        let cost = |shift: f32| -> f32 {
-            let sum: f32 = halvings
-                .iter()
-                .enumerate()
-                .map(|(tile, halvings)| SHARES[usize::from(pattern(tile, *halvings, shift).0)])
-                .sum();
-            full * sum / tiles
-        };
-        // From nothing thinned to nothing but corners left.
-        let deepest = halvings.iter().fold(0.0_f32, |most, halvings| most.max(*halvings));
-        let (mut low, mut high) = (-deepest - 1.0, 8.0);
-        for _ in 0..18 {
-            let middle = (low + high) / 2.0;
-            if cost(middle) > wanted {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        for (tile, (own, halvings)) in self.patterns().iter_mut().zip(halvings).enumerate() {
-            *own = pattern(tile, *halvings, high);
-        }
-        cost(high)
     }
 }
 
+impl RateState {
+    fn of(&mut self, budget: &Budget) -> &mut Costs {
+        if budget.latency_test { &mut self.plain } else { &mut self.coloured }
+    }
+}
+
+impl Costs {
+    /// The rungs between which so many bits lie, and how to meet them.
+    fn rungs(&self, wanted: f32) -> (usize, usize, Means) {
+        let full = self.plan.full();
+        // The first that is not too dear for the whole frame.
+        match (0..RUNGS).find(|rung| full * self.shares[*rung] <= wanted) {
+            Some(0) => (0, 0, Means::Mixed { finer: self.shares[0], coarser: self.shares[0] }),
+            Some(rung) => {
+                let (finer, coarser) = (self.shares[rung - 1], self.shares[rung]);
+                (rung - 1, rung, Means::Mixed { finer, coarser })
+            }
+            None => (RUNGS - 1, RUNGS - 1, Means::Thinned { share: self.shares[RUNGS - 1] }),
+        }
+    }
+
+    /// A rung costs so many times what the last frame's coarser one does. Rungs beyond it that have not been found are dearer or
+    /// cheaper in the same measure.
+    fn find(&mut self, rung: usize, times: f32) {
+        let share = self.shares[self.rung] * times;
+        let ratio = share / self.shares[rung];
+        let beyond = if rung < self.rung { 0..=rung } else { rung..=RUNGS - 1 };
+        for other in beyond {
+            if !self.found[other] {
+                self.shares[other] *= ratio;
+            }
+        }
+        (self.shares[rung], self.found[rung]) = (share, true);
+    }
+
+    /// Corrects what the rungs cost beside one another, by the tiles that changed theirs.
+    fn learn(&mut self, finer: usize, coarser: usize) {
+        let [to_finer, to_coarser] = self.plan.learn_shares();
+        self.shares[finer] *= to_finer;
+        self.shares[coarser] *= to_coarser;
+    }
+}
+
+/// Of every rung.
+fn first_shares(budget: &Budget) -> [f32; RUNGS] {
+    core::array::from_fn(|rung| {
+        let Rung { depth_level, share, .. } = LADDER[rung];
+        let level = LEVELS[usize::from(depth_level)];
+        match (budget.latency_test, budget.palette) {
+            (true, _) => level,
+            // Indices cost about as much as depth at level 3, at any rung.
+            (false, true) => (1.0 + level) / 2.0,
+            (false, false) => share,
+        }
+    })
+}
+
 fn settings_of(rung: usize, budget: &Budget) -> Settings {
-    let (depth_level, quality, full) = LADDER[rung];
+    let Rung { depth_level, quality, full, .. } = LADDER[rung];
     let mode = match full {
         _ if budget.latency_test => ColourMode::None,
         _ if budget.palette => ColourMode::Palette,

@@ -1,18 +1,15 @@
-//! The stream header, which goes reliably, and the header of a packet.
+//! The stream header, which goes reliably.
 
 use crate::contexts::{INDEX_CONTEXTS, SYMBOLS};
+use crate::crc16::crc16;
 use crate::grid::Intrinsics;
 use crate::tables::TABLE_VERSION;
-use crate::tile::{ColourMode, Grid};
+use crate::tile::Grid;
 
 /// Bytes of a stream header before its palette and its check value.
 pub const STREAM_HEADER_BYTES: usize = 34;
 /// Colours of a palette.
 pub const MAX_PALETTE: usize = 256;
-/// Bytes of a packet before the states of the entropy coder.
-pub const PACKET_HEADER_BYTES: usize = 9;
-/// A packet is never longer.
-pub const MAX_PACKET_BYTES: usize = 1200;
 /// Version of the format.
 pub const VERSION: u8 = 1;
 /// The finest step of inverse depth, 1/m: an error of 0.0625 mm · z² at most, with something in hand for the far end.
@@ -144,149 +141,9 @@ impl StreamHeader {
     }
 }
 
-/// The first bytes of a packet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PacketHeader {
-    /// Of the stream.
-    pub id: u8,
-    /// Table set for geometry.
-    pub geometry_set: u8,
-    /// Table set for colour.
-    pub colour_set: u8,
-    /// How colour is coded.
-    pub mode: ColourMode,
-    /// Level of the depth step.
-    pub depth_level: u8,
-    /// Quality of colour, 0 the finest.
-    pub quality: u8,
-    /// First tile.
-    pub first: u16,
-    /// Tiles, at least 1.
-    pub count: u16,
-}
-
-impl PacketHeader {
-    /// Writes the header before the rest of the packet, and the check value over all.
-    pub fn write(&self, packet: &mut [u8]) {
-        packet[0] = self.id;
-        packet[1] = self.geometry_set | self.colour_set << 3 | (self.mode as u8) << 5;
-        packet[2] = self.depth_level | self.quality << 3;
-        packet[3..5].copy_from_slice(&self.first.to_le_bytes());
-        packet[5..7].copy_from_slice(&self.count.to_le_bytes());
-        let check = crc16(&[&packet[..7], &packet[9..]]);
-        packet[7..9].copy_from_slice(&check.to_le_bytes());
-    }
-
-    /// Reads the header; the check value is compared.
-    ///
-    /// # Errors
-    /// `TooShort`, `TooLong`, `Check`, `Reserved`.
-    pub fn parse(packet: &[u8]) -> Result<Self, PacketError> {
-        if packet.len() > MAX_PACKET_BYTES {
-            return Err(PacketError::TooLong);
-        }
-        if packet.len() < PACKET_HEADER_BYTES + 8 {
-            return Err(PacketError::TooShort);
-        }
-        if u16::from_le_bytes([packet[7], packet[8]]) != crc16(&[&packet[..7], &packet[9..]]) {
-            return Err(PacketError::Check);
-        }
-        let mode = match packet[1] >> 5 {
-            0 => ColourMode::None,
-            1 => ColourMode::Subsampled,
-            2 => ColourMode::Full,
-            3 => ColourMode::Palette,
-            _ => return Err(PacketError::Reserved),
-        };
-        Ok(Self {
-            id: packet[0],
-            geometry_set: packet[1] & 7,
-            colour_set: packet[1] >> 3 & 3,
-            mode,
-            depth_level: packet[2] & 7,
-            quality: packet[2] >> 3,
-            first: u16::from_le_bytes([packet[3], packet[4]]),
-            count: u16::from_le_bytes([packet[5], packet[6]]),
-        })
-    }
-}
-
-/// Why a packet is refused. Nothing of it is kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PacketError {
-    /// Shorter than its header and the coder's states.
-    TooShort,
-    /// Longer than [`MAX_PACKET_BYTES`].
-    TooLong,
-    /// The check value does not fit the bytes.
-    Check,
-    /// A reserved bit is set.
-    Reserved,
-    /// Of another stream, or one whose header has not come.
-    UnknownStream,
-    /// No tiles, or tiles beyond the image's last.
-    Tiles,
-    /// A tile that has come before in this frame.
-    Duplicate,
-    /// The coded data does not end where it should, or says what no encoder says.
-    Corrupt,
-}
-
-/// CRC-16/CCITT-FALSE (polynomial 0x1021, first 0xFFFF) over parts that belong together.
-#[must_use]
-pub fn crc16(parts: &[&[u8]]) -> u16 {
-    const TABLE: [[u16; 256]; 4] = {
-        let mut table = [[0; 256]; 4];
-        let mut i = 0;
-        while i < 256 {
-            let mut crc = (i as u16) << 8;
-            let mut bit = 0;
-            while bit < 8 {
-                crc = if crc & 0x8000 == 0 { crc << 1 } else { crc << 1 ^ 0x1021 };
-                bit += 1;
-            }
-            table[0][i] = crc;
-            i += 1;
-        }
-        // table[n]: the byte with n zero bytes after it.
-        let mut n = 1;
-        while n < 4 {
-            let mut i = 0;
-            while i < 256 {
-                let crc: u16 = table[n - 1][i];
-                table[n][i] = crc << 8 ^ table[0][(crc >> 8) as usize];
-                i += 1;
-            }
-            n += 1;
-        }
-        table
-    };
-    let mut crc = 0xffff_u16;
-    for part in parts {
-        let (fours, rest) = part.as_chunks::<4>();
-        for four in fours {
-            crc = TABLE[3][usize::from((crc >> 8) as u8 ^ four[0])]
-                ^ TABLE[2][usize::from(crc as u8 ^ four[1])]
-                ^ TABLE[1][usize::from(four[2])]
-                ^ TABLE[0][usize::from(four[3])];
-        }
-        for byte in rest {
-            crc = crc << 8 ^ TABLE[0][usize::from((crc >> 8) as u8 ^ byte)];
-        }
-    }
-    crc
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_check_value_is_the_standards() {
-        assert_eq!(crc16(&[b"123456789"]), 0x29b1);
-        assert_eq!(crc16(&[b"1234", b"56789"]), 0x29b1);
-        assert_eq!(crc16(&[b"1", b"23456789"]), 0x29b1);
-    }
 
     fn header() -> StreamHeader {
         StreamHeader {

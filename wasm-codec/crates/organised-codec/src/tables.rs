@@ -4,7 +4,12 @@
 //! [`GEOMETRY_CONTEXTS`] contexts of 16 symbols, then [`COLOUR_SETS`] sets of [`COLOUR_CONTEXTS`] contexts. They are made by
 //! `cargo run --release -p xtask -- train-tables`, from synthetic scenes alone.
 
-use crate::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, INDEX, SYMBOLS};
+use bytemuck::must_cast;
+use wide::{i8x16, i16x16};
+
+use crate::contexts::{
+    CERTAIN, COLOUR_CONTEXTS, CONTEXTS, DEPTH, GEOMETRY_CONTEXTS, INDEX, PLANE_CONTEXTS, SYMBOLS,
+};
 use crate::rans::{EncoderSymbol, PROBABILITY_BITS};
 
 /// Which tables a stream is coded with; part of the stream header.
@@ -13,99 +18,201 @@ pub const TABLE_VERSION: u8 = 1;
 pub const GEOMETRY_SETS: usize = 8;
 /// Colour sets to choose from.
 pub const COLOUR_SETS: usize = 4;
+/// Places for contexts: a power of two, so that a place is within with no more than a mask.
+pub const CONTEXT_SLOTS: usize = 512;
 
 const BYTES: &[u8] = include_bytes!("tables.bin");
 const ENTRIES: usize = (GEOMETRY_SETS * GEOMETRY_CONTEXTS + COLOUR_SETS * COLOUR_CONTEXTS) * SYMBOLS;
+const PLACES: usize = CONTEXT_SLOTS * SYMBOLS;
 
-/// All sets, ready for use.
-pub struct Tables {
-    encoder: Vec<EncoderSymbol>,
-    costs: Vec<u16>,
-    ends: Vec<[u16; SYMBOLS]>,
+/// First entry of a geometry set.
+#[must_use]
+pub const fn geometry_base(set: usize) -> usize {
+    set * GEOMETRY_CONTEXTS * SYMBOLS
 }
 
-impl Default for Tables {
-    fn default() -> Self {
-        Self::new(&[])
+/// First entry of a colour set.
+#[must_use]
+pub const fn colour_base(set: usize) -> usize {
+    (GEOMETRY_SETS * GEOMETRY_CONTEXTS + set * COLOUR_CONTEXTS) * SYMBOLS
+}
+
+/// The frequencies of all sets, with a stream's own ones of palette indices where it has some.
+fn frequencies(index_frequencies: &[[u16; SYMBOLS]]) -> Vec<u16> {
+    let (frequencies, _) = BYTES.as_chunks::<2>();
+    let mut frequencies: Vec<u16> = frequencies.iter().map(|bytes| u16::from_le_bytes(*bytes)).collect();
+    assert_eq!(frequencies.len(), ENTRIES);
+    for set in 0..COLOUR_SETS {
+        let start = colour_base(set) + (INDEX - GEOMETRY_CONTEXTS) * SYMBOLS;
+        let own = index_frequencies.as_flattened();
+        frequencies[start..start + own.len()].copy_from_slice(own);
     }
+    frequencies
 }
 
-impl Tables {
+/// Of two chosen sets, one after the other, what belongs to them of what all sets have.
+fn chosen<T: Copy>(all: &[T], (geometry, colour): Sets, into: &mut [T; PLACES]) {
+    let (own_geometry, rest) = into.split_at_mut(GEOMETRY_CONTEXTS * SYMBOLS);
+    own_geometry.copy_from_slice(&all[geometry_base(geometry.into())..][..GEOMETRY_CONTEXTS * SYMBOLS]);
+    let own_colour = &mut rest[..COLOUR_CONTEXTS * SYMBOLS];
+    own_colour.copy_from_slice(&all[colour_base(colour.into())..][..COLOUR_CONTEXTS * SYMBOLS]);
+}
+
+/// A geometry and a colour set.
+pub type Sets = (u8, u8);
+
+fn places<T: Copy + core::fmt::Debug>(fill: T) -> Box<[T; PLACES]> {
+    vec![fill; PLACES].into_boxed_slice().try_into().expect("as many")
+}
+
+/// What an encoder needs of all sets, and those of the two that it uses.
+pub struct EncoderTables {
+    all_symbols: Vec<EncoderSymbol>,
+    all_costs: Vec<u16>,
+    sets: Option<Sets>,
+    symbols: Box<[EncoderSymbol; PLACES]>,
+    costs: Box<[u16; PLACES]>,
+}
+
+impl EncoderTables {
     /// The tables of [`TABLE_VERSION`], with a stream's own frequencies of palette indices where it has some.
     #[must_use]
     pub fn new(index_frequencies: &[[u16; SYMBOLS]]) -> Self {
-        let (frequencies, _) = BYTES.as_chunks::<2>();
-        let mut frequencies: Vec<u16> = frequencies.iter().map(|bytes| u16::from_le_bytes(*bytes)).collect();
-        for set in 0..COLOUR_SETS {
-            let start = Self::colour_base(set) + INDEX * SYMBOLS;
-            let own = index_frequencies.as_flattened();
-            frequencies[start..start + own.len()].copy_from_slice(own);
-        }
-        Self::from_frequencies(&frequencies)
-    }
-
-    /// From frequencies in the order of the file; each context's sum is 4096 and none is 0.
-    ///
-    /// # Panics
-    /// If they are not.
-    #[must_use]
-    pub fn from_frequencies(frequencies: &[u16]) -> Self {
-        assert_eq!(frequencies.len(), ENTRIES);
-        let mut tables = Self {
-            encoder: Vec::with_capacity(ENTRIES),
-            costs: Vec::with_capacity(ENTRIES),
-            ends: Vec::with_capacity(ENTRIES / SYMBOLS),
-        };
+        let frequencies = frequencies(index_frequencies);
+        let mut all_symbols = Vec::with_capacity(ENTRIES);
+        let mut all_costs = Vec::with_capacity(ENTRIES);
         for context in frequencies.as_chunks::<SYMBOLS>().0 {
             let mut start = 0;
-            let mut ends = [0; SYMBOLS];
-            for (end, frequency) in ends.iter_mut().zip(context) {
+            for frequency in context {
                 assert!(*frequency > 0);
                 let frequency = u32::from(*frequency);
-                tables.encoder.push(EncoderSymbol::new(start, frequency));
+                all_symbols.push(EncoderSymbol::new(start, frequency));
                 let bits = PROBABILITY_BITS as f32 - (frequency as f32).log2();
-                tables.costs.push((bits * 256.0 + 0.5) as u16);
+                all_costs.push((bits * 256.0 + 0.5) as u16);
                 start += frequency;
-                *end = (start - 1) as u16;
             }
             assert_eq!(start, 1 << PROBABILITY_BITS);
-            tables.ends.push(ends);
         }
+        let mut tables = Self {
+            all_symbols,
+            all_costs,
+            sets: None,
+            symbols: places(EncoderSymbol::default()),
+            costs: places(0),
+        };
+        tables.choose((0, 0));
         tables
     }
 
-    pub(crate) fn encoder_symbols(&self) -> &[EncoderSymbol] {
-        &self.encoder
+    /// Takes the sets for the next packets.
+    pub fn choose(&mut self, sets: Sets) {
+        if self.sets != Some(sets) {
+            self.sets = Some(sets);
+            chosen(&self.all_symbols, sets, &mut self.symbols);
+            chosen(&self.all_costs, sets, &mut self.costs);
+        }
     }
 
-    /// Cost of each symbol in 1/256 bit.
+    /// Of the chosen sets, by context and symbol.
+    #[inline(always)]
+    pub(crate) fn symbols(&self) -> &[EncoderSymbol; PLACES] {
+        &self.symbols
+    }
+
+    /// Cost of each symbol in 1/256 bit, of the chosen sets.
+    #[inline(always)]
     #[must_use]
-    pub fn costs(&self) -> &[u16] {
+    pub fn costs(&self) -> &[u16; PLACES] {
         &self.costs
     }
 
-    /// First entry of a geometry set.
+    /// Costs of all sets: see [`geometry_base`], [`colour_base`].
     #[must_use]
-    pub const fn geometry_base(set: usize) -> usize {
-        set * GEOMETRY_CONTEXTS * SYMBOLS
+    pub fn all_costs(&self) -> &[u16] {
+        &self.all_costs
+    }
+}
+
+/// What a decoder needs of the two sets that a packet uses.
+pub struct DecoderTables {
+    frequencies: Vec<u16>,
+    sets: Option<Sets>,
+    /// The symbol of every slot, for the contexts of planes: there a look is faster than a search.
+    symbols: Box<[u8; CONTEXT_SLOTS << PROBABILITY_BITS]>,
+    /// Where the shares end, less 1.
+    ends: Box<[[u16; SYMBOLS]; CONTEXT_SLOTS]>,
+    /// Where each share begins << 16 | how long it is.
+    shares: Box<[u32; PLACES]>,
+}
+
+impl DecoderTables {
+    /// As [`EncoderTables::new`].
+    #[must_use]
+    pub fn new(index_frequencies: &[[u16; SYMBOLS]]) -> Self {
+        let mut shares = places(0);
+        // The certain symbol is the first.
+        shares[CERTAIN * SYMBOLS] = 1 << PROBABILITY_BITS;
+        let symbols = vec![0; CONTEXT_SLOTS << PROBABILITY_BITS];
+        let ends = vec![[0; SYMBOLS]; CONTEXT_SLOTS];
+        Self {
+            frequencies: frequencies(index_frequencies),
+            sets: None,
+            symbols: symbols.into_boxed_slice().try_into().expect("as many"),
+            ends: ends.into_boxed_slice().try_into().expect("as many"),
+            shares,
+        }
     }
 
-    /// First entry of a colour set.
-    #[must_use]
-    pub const fn colour_base(set: usize) -> usize {
-        (GEOMETRY_SETS * GEOMETRY_CONTEXTS + set * COLOUR_CONTEXTS) * SYMBOLS
+    /// Takes the sets for the next packet.
+    pub fn choose(&mut self, sets: Sets) {
+        let (geometry, colour) = sets;
+        let before = self.sets.replace(sets);
+        if before.is_none_or(|(own, _)| own != geometry) {
+            self.fill(0..GEOMETRY_CONTEXTS, geometry_base(geometry.into()));
+        }
+        if before.is_none_or(|(_, own)| own != colour) {
+            self.fill(GEOMETRY_CONTEXTS..CONTEXTS, colour_base(colour.into()));
+        }
     }
 
-    /// Where the shares of a geometry set end, less 1.
-    #[must_use]
-    pub fn geometry(&self, set: usize) -> &[[u16; SYMBOLS]] {
-        &self.ends[set * GEOMETRY_CONTEXTS..][..GEOMETRY_CONTEXTS]
+    fn fill(&mut self, contexts: core::ops::Range<usize>, base: usize) {
+        let (own, _) = self.frequencies[base..].as_chunks::<SYMBOLS>();
+        let (shares, _) = self.shares.as_chunks_mut::<SYMBOLS>();
+        let (symbols, _) = self.symbols.as_chunks_mut::<{ 1 << PROBABILITY_BITS }>();
+        for (context, frequencies) in contexts.zip(own) {
+            let of_plane =
+                [DEPTH, INDEX].iter().any(|base| (*base..base + PLANE_CONTEXTS).contains(&context));
+            let mut start = 0;
+            for (symbol, frequency) in frequencies.iter().enumerate() {
+                let end = start + usize::from(*frequency);
+                shares[context][symbol] = (start as u32) << 16 | u32::from(*frequency);
+                self.ends[context][symbol] = (end - 1) as u16;
+                if of_plane {
+                    symbols[context][start..end].fill(symbol as u8);
+                }
+                start = end;
+            }
+        }
     }
 
-    /// Where the shares of a colour set end, less 1.
-    #[must_use]
-    pub fn colour(&self, set: usize) -> &[[u16; SYMBOLS]] {
-        &self.ends[GEOMETRY_SETS * GEOMETRY_CONTEXTS + set * COLOUR_CONTEXTS..][..COLOUR_CONTEXTS]
+    /// The symbol whose share of 4096 holds `slot`, by a look: of a plane's context, or the certain one.
+    #[inline(always)]
+    pub(crate) fn look(&self, context: usize, slot: u32) -> u32 {
+        self.symbols[(context << PROBABILITY_BITS | slot as usize) % (CONTEXT_SLOTS << PROBABILITY_BITS)]
+            .into()
+    }
+
+    /// The same by a search, which touches less memory: how many shares end before it.
+    #[inline(always)]
+    pub(crate) fn search(&self, context: usize, slot: u32) -> u32 {
+        let ends: i16x16 = must_cast(self.ends[context % CONTEXT_SLOTS]);
+        let before = i16x16::splat(slot as i16).simd_gt(ends);
+        (!i8x16::from_i16x16_saturate(before).to_bitmask()).trailing_zeros()
+    }
+
+    #[inline(always)]
+    pub(crate) fn share(&self, context: usize, symbol: u32) -> u32 {
+        self.shares[(context * SYMBOLS + symbol as usize) % PLACES]
     }
 }
 

@@ -1,5 +1,6 @@
 //! Which pattern each tile gets: the paper's validity of its depth (equations 4 and 5), far tiles thinned first.
 
+use crate::encoder::Encoder;
 use crate::load::Source;
 use crate::tile::{Grid, Pattern, TILE};
 
@@ -75,8 +76,28 @@ pub(crate) fn halvings(validity: &Validity, depths: &mut [f32]) {
 /// The pattern of a tile whose validity is 2^−`halvings` of the largest, where the largest has 2^−`shift` of its points
 /// kept. Between two patterns a fixed mixture of both.
 pub(crate) fn pattern(tile: usize, halvings: f32, shift: f32) -> Pattern {
-    // Low-discrepancy, so that any run of tiles holds its share of either.
-    let dither = (tile as u32).wrapping_mul(0x9e37_79b9) as f32 / 4_294_967_296.0;
-    let wanted = (halvings + shift + dither.min(0.999)).max(0.0);
+    let wanted = (halvings + shift + dither(tile)).max(0.0);
     Pattern((wanted as u8).min(Pattern::COUNT - 1))
+}
+
+/// 0 to 1 of each tile, low-discrepancy, so that any run of tiles holds its share of either of two patterns.
+pub(crate) fn dither(tile: usize) -> f32 {
+    let hash = (tile as u32).wrapping_mul(0x9e37_79b9);
+    (hash as f32 / 4_294_967_296.0).min(0.999)
+}
+
+impl Encoder {
+    /// Thins by validity alone: the nearest tiles keep `density` of their points, farther ones less.
+    pub fn thin_to(&mut self, source: Source<'_>, validity: &Validity, density: f32) {
+        if source.len() != self.grid.width * self.grid.height {
+            return;
+        }
+        let mut depths = Vec::new();
+        tile_depths(source, self.grid, &mut depths);
+        halvings(validity, &mut depths);
+        let shift = -density.clamp(1e-3, 1e6).log2();
+        for (tile, (own, halvings)) in self.patterns.iter_mut().zip(&depths).enumerate() {
+            *own = pattern(tile, *halvings, shift);
+        }
+    }
 }

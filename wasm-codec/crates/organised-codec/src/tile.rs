@@ -1,11 +1,9 @@
 //! A tile of 16 × 16 pixels, as the syntax sees it.
 
+use crate::lanes::LANES;
+
 /// Pixels along a tile's side.
 pub const TILE: usize = 16;
-/// Tile rows of a strip: tiles are numbered downwards within a strip's columns.
-pub const STRIP: usize = 3;
-/// From one row of [`Tile::depth`] to the next: a column on the left, up to 16 pixels, one on the right.
-pub const STRIDE: usize = 18;
 /// Blocks of a tile: 4 for each plane at most.
 pub const MAX_BLOCKS: usize = 12;
 
@@ -35,16 +33,10 @@ impl Grid {
         self.columns * self.rows
     }
 
-    /// Column and row of a tile, and its row in its strip.
+    /// Column and row of a tile: they are numbered row by row.
     #[must_use]
     pub const fn place(&self, tile: usize) -> Place {
-        let strip = tile / (STRIP * self.columns);
-        let first_row = strip * STRIP;
-        let left = self.rows - first_row;
-        let height = if left < STRIP { left } else { STRIP };
-        let within = tile - first_row * self.columns;
-        let row_in_strip = within % height;
-        Place { column: within / height, row: first_row + row_in_strip, row_in_strip }
+        Place { column: tile % self.columns, row: tile / self.columns }
     }
 }
 
@@ -55,8 +47,6 @@ pub struct Place {
     pub column: usize,
     /// Tile row.
     pub row: usize,
-    /// Tile row within the strip.
-    pub row_in_strip: usize,
 }
 
 /// Which pixels of a tile are kept: 0 all, 1 every second (quincunx), 2 a quarter, … 7 two, each half of those before.
@@ -144,8 +134,43 @@ pub struct Block {
     pub levels: [i16; 63],
 }
 
-/// Numbers above 0 for the pixels of a tile; pixel x, y at `(y + 1) * STRIDE + x + 1`, the borders hold the neighbours'.
-pub type Plane = [i32; STRIDE * (TILE + 1)];
+/// Numbers above 0 for the pixels of a tile, laid out for the wavefront: row y lies in line y mod 8, each line begins two
+/// places farther to the right than the one before, and rows 8 to 15 follow rows 0 to 7. What a wavefront handles at once
+/// stands in one column.
+#[derive(Clone)]
+pub struct Plane {
+    /// Columns 0 to 45 of each line are used.
+    pub lines: [[i16; LINE]; LANES],
+}
+
+/// Places of a line of a [`Plane`].
+pub const LINE: usize = 64;
+
+impl Plane {
+    const fn new() -> Self {
+        Self { lines: [[1; LINE]; LANES] }
+    }
+
+    /// A row of 16 pixels; those beyond the pattern's width mean nothing.
+    #[inline(always)]
+    #[must_use]
+    pub fn row(&self, y: usize) -> &[i16; TILE] {
+        let (lane, start) = Self::place(y);
+        self.lines[lane][start..start + TILE].first_chunk().expect("16 pixels")
+    }
+
+    /// As [`Plane::row`].
+    #[inline(always)]
+    pub fn row_mut(&mut self, y: usize) -> &mut [i16; TILE] {
+        let (lane, start) = Self::place(y);
+        self.lines[lane][start..start + TILE].first_chunk_mut().expect("16 pixels")
+    }
+
+    #[inline(always)]
+    const fn place(y: usize) -> (usize, usize) {
+        (y % LANES, 2 * (y % LANES) + 2 * LANES * (y / LANES % 2))
+    }
+}
 
 /// A tile's content: coordinates are those of the pattern, not of the image.
 pub struct Tile {
@@ -173,18 +198,11 @@ impl Tile {
             pattern: Pattern(0),
             kind: Kind::Empty,
             rows: [0; TILE],
-            depth: [0; STRIDE * (TILE + 1)],
-            index: [0; STRIDE * (TILE + 1)],
+            depth: Plane::new(),
+            index: Plane::new(),
             blocks: [Block { dc: 0, count: 0, levels: [0; 63] }; MAX_BLOCKS],
             points: [[0; 3]; 32],
         }
-    }
-
-    /// Where pixel x, y of the pattern lies in [`Tile::depth`].
-    #[inline(always)]
-    #[must_use]
-    pub const fn at(x: usize, y: usize) -> usize {
-        (y + 1) * STRIDE + x + 1
     }
 
     /// Number of valid pixels.
