@@ -49,6 +49,10 @@ export interface CodecRun extends Disposable {
   decode(packets: readonly number[]): void;
   /** What the last {@link decode} gave. */
   decoded(): DecodedCloud;
+  /** Bits that packets which need no other take more than one packet of any length, as a share of that; where the codec tells. */
+  independenceCost?(): number;
+  /** Passes over the frame that the last {@link encode} took, where there is a budget. */
+  passes?(): number;
 }
 
 /** Bytes of a packet's block. */

@@ -12,9 +12,10 @@ export interface LossResult {
   pointsWrong: number;
 }
 
-const SEEDS = 3;
-/** Frames of a blob, which need no decoding. */
-const BLOB_SEEDS = 500;
+/** Frames that are decoded, to see whether a point is wrong. */
+const DECODED_SEEDS = 3;
+/** Frames over which the points that come are counted, packet by packet. */
+const COUNTED_SEEDS = 1000;
 
 /** @param worstM how far off a point may be: the most without loss */
 export function measureLoss(
@@ -24,24 +25,44 @@ export function measureLoss(
   worstM: number,
 ): Record<LossRate, LossResult> {
   const packets = run.packetBytes().length;
+  const points = run.blob ? [] : pointsOfPackets(run, packets);
   const results = RATES.map((rate): [LossRate, LossResult] => {
     const share = Number(rate) / 100;
     if (run.blob) {
       let lost = 0;
-      for (let seed = 1; seed <= BLOB_SEEDS; seed++)
+      for (let seed = 1; seed <= COUNTED_SEEDS; seed++)
         if (survivors(packets, share, seed).length < packets) lost++;
-      return [rate, { pointsLost: lost / BLOB_SEEDS, pointsWrong: 0 }];
+      return [rate, { pointsLost: lost / COUNTED_SEEDS, pointsWrong: 0 }];
     }
     let [came, wrong] = [0, 0];
-    for (let seed = 1; seed <= SEEDS; seed++) {
-      run.decode(survivors(packets, share, seed));
+    for (let seed = 1; seed <= DECODED_SEEDS; seed++) {
+      const present = survivors(packets, share, seed);
+      run.decode(present);
       const decoded = run.decoded();
+      const expected = present.reduce((sum, packet) => sum + (points[packet] as number), 0);
+      // A packet that gives other points among others than alone would not be decodable alone.
+      if (decoded.points !== expected) throw new Error(`${decoded.points} points in place of ${expected}`);
       came += decoded.points;
       wrong += verify(cloud, decoded, worstM * 1.001 + 1e-6).wrong;
     }
-    return [rate, { pointsLost: 1 - came / (sent * SEEDS), pointsWrong: came === 0 ? 0 : wrong / came }];
+    let counted = 0;
+    for (let seed = 1; seed <= COUNTED_SEEDS; seed++) {
+      for (const packet of survivors(packets, share, seed)) counted += points[packet] as number;
+    }
+    return [
+      rate,
+      { pointsLost: 1 - counted / (sent * COUNTED_SEEDS), pointsWrong: came === 0 ? 0 : wrong / came },
+    ];
   });
   return Object.fromEntries(results) as Record<LossRate, LossResult>;
+}
+
+/** Each packet's points, decoded alone. */
+function pointsOfPackets(run: CodecRun, packets: number): number[] {
+  return Array.from({ length: packets }, (_, packet) => {
+    run.decode([packet]);
+    return run.decoded().points;
+  });
 }
 
 /** The packets that come, in a random order. */

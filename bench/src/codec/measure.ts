@@ -24,6 +24,10 @@ export interface CodecRow {
   nativeDecodeMs?: number;
   packets: number;
   maxPacketBytes: number;
+  /** What it costs in bits that each packet is decodable alone, as a share; where the codec tells. */
+  independenceCost?: number;
+  /** Passes over a frame that a budget took, in a steady stream. */
+  passes?: number;
   /** One lost packet loses the frame. */
   blob: boolean;
   loss: Record<LossRate, LossResult>;
@@ -62,6 +66,8 @@ export function measureCodec(cloud: BenchCloud, run: CodecRun, rounds: number, n
       : { nativeEncodeMs: round(outside.encodeMs, 3), nativeDecodeMs: round(outside.decodeMs, 3) }),
     packets: packetBytes.length,
     maxPacketBytes: Math.max(0, ...packetBytes),
+    ...(run.independenceCost === undefined ? {} : { independenceCost: round(run.independenceCost(), 4) }),
+    ...(run.passes === undefined ? {} : { passes: run.passes() }),
     blob: run.blob,
     loss,
   };

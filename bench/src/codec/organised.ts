@@ -6,31 +6,44 @@ import {
   type OrganisedOptions,
 } from '@farpoint/wasm-codec';
 import type { BenchCloud, CodecRun } from './adapter.ts';
+import { nativeOrganised } from './native.ts';
+import { verify } from './verify.ts';
 
 /** A point of the rate–distortion curve. */
 export interface OrganisedSetting {
   name: string;
   options: OrganisedOptions;
+  /** In place of a quality: the coarsest with which the colours are as good as this, dB. */
+  psnrDb?: number;
 }
 
 /** Depth errors of 0.0625 · 2^level mm · z², colours by transform. */
 export const ORGANISED_SETTINGS: readonly OrganisedSetting[] = [
+  { name: '0.5 mm·z², default', options: {} },
+  { name: '0.5 mm·z², 33 dB', options: { depthLevel: 3 }, psnrDb: 33 },
   {
-    name: 'level 2 (0.25 mm·z²), quality 10, full chroma',
-    options: { depthLevel: 2, colour: { quality: 10, chroma: 'full' } },
+    name: '0.5 mm·z², 40 dB',
+    options: { depthLevel: 3, colour: { quality: 0, chroma: 'full' } },
+    psnrDb: 40,
   },
-  { name: 'level 3 (0.5 mm·z²), quality 18', options: {} },
-  { name: 'level 5 (2 mm·z²), quality 24', options: { depthLevel: 5, colour: { quality: 24 } } },
-  { name: 'level 3, palette', options: { depthLevel: 3, colour: 'palette' } },
-  { name: 'level 3, no colour', options: { depthLevel: 3, colour: 'none' } },
+  {
+    name: '0.25 mm·z², quality 6, full chroma',
+    options: { depthLevel: 2, colour: { quality: 6, chroma: 'full' } },
+  },
+  { name: '2 mm·z², quality 24', options: { depthLevel: 5, colour: { quality: 24 } } },
+  { name: '0.5 mm·z², palette', options: { depthLevel: 3, colour: 'palette' } },
+  { name: '0.5 mm·z², no colour', options: { depthLevel: 3, colour: 'none' } },
+  { name: 'budget of 50,000 bytes', options: { budgetBytes: 50_000 } },
+  { name: 'budget of 125,000 bytes', options: { budgetBytes: 125_000 } },
 ];
 
 /** @returns the run, or why the cloud is not one for this codec */
 export function organised(
   codec: Codec,
   cloud: BenchCloud,
-  { name, options }: OrganisedSetting,
+  { name, options: wished, psnrDb }: OrganisedSetting,
 ): CodecRun | string {
+  let options = wished;
   const { width, height, frame } = cloud;
   if (height === 1 || cloud.depth === 'range') return 'the cloud has no grid';
   const encoder = new OrganisedEncoder(codec, { width, height });
@@ -53,7 +66,7 @@ export function organised(
   const decoder = new OrganisedDecoder(codec, header);
   // Says which pixel each point is of; the other one is timed.
   const witness = new OrganisedDecoder(codec, header, { images: true });
-  let packets = 0;
+  let [packets, passes] = [0, 0];
   let wanted: readonly number[] = [];
   const put = (into: OrganisedDecoder, indices: readonly number[]) => {
     into.begin();
@@ -62,14 +75,20 @@ export function organised(
       if ('fault' in result) throw new Error(`packet ${index}: ${result.fault}`);
     }
   };
-  return {
+  const run: CodecRun = {
     codec: 'organised',
     setting: name,
     blob: false,
     hasColour: options.colour !== 'none',
+    ...(options.budgetBytes === undefined ? {} : { passes: () => passes }),
     encode() {
-      ({ packets } = encoder.encode(options));
+      ({ packets, passes } = encoder.encode(options));
     },
+    independenceCost() {
+      const bytes = run.packetBytes().reduce((sum, size) => sum + size, 0);
+      return (bytes * 8) / encoder.bitsInOnePacket() - 1;
+    },
+    native: (rounds) => nativeOrganised(cloud, camera, options, rounds),
     packetBytes: () => Array.from({ length: packets }, (_, i) => encoder.packet(i).length),
     decode(indices) {
       wanted = indices;
@@ -94,4 +113,20 @@ export function organised(
       for (const object of [encoder, decoder, witness]) object[Symbol.dispose]();
     },
   };
+  if (psnrDb !== undefined) {
+    const chroma = typeof options.colour === 'object' ? (options.colour.chroma ?? 'half') : 'half';
+    // Colours get better from quality to quality: the coarsest that is good enough, by halving.
+    let [good, bad] = [0, 32];
+    while (bad - good > 1) {
+      const quality = (good + bad) >> 1;
+      options = { ...wished, colour: { quality, chroma } };
+      run.encode();
+      run.decode(run.packetBytes().map((_, i) => i));
+      if ((verify(cloud, run.decoded()).colorPsnrDb ?? 0) >= psnrDb) good = quality;
+      else bad = quality;
+    }
+    options = { ...wished, colour: { quality: good, chroma } };
+    run.setting = `${name} (quality ${good})`;
+  }
+  return run;
 }

@@ -1,112 +1,159 @@
-//! `measure FRAME.raw… [--level L] [--quality Q] [--mode none|420|444] [--sets G,C]`: bits a valid point, error, PSNR and
-//! time for frames kept as u32 width, height, f32 fx, fy, cx, cy and 16 bytes a point.
+//! `measure FRAME… [--level L] [--quality Q | --psnr DB] [--mode none|palette|420|444] [--budget BYTES] [--rounds N] [--json]`:
+//! bits a valid point, errors and median times, for frames kept as u32 width, height, f32 fx, fy, cx, cy and 16 bytes a
+//! point. With `--json` the times alone, as one JSON object a frame.
 
 use std::time::Instant;
 
 use farpoint_organised_codec::{
-    ColourMode, Decoder, Encoder, Intrinsics, Settings, Source, StreamHeader, stream, with_palette,
+    Budget, ColourMode, Decoder, Encoder, Frame, Intrinsics, Point, Settings, Source, StreamHeader, Validity,
+    stream, with_palette,
 };
 
+struct Wanted {
+    settings: Settings,
+    /// The coarsest quality with colours as good as this, dB.
+    psnr: Option<f64>,
+    budget: Option<usize>,
+    rounds: usize,
+    json: bool,
+    files: Vec<String>,
+}
+
 fn main() {
-    let mut settings = Settings::default();
-    let mut files = Vec::new();
+    let wanted = arguments();
+    for file in &wanted.files {
+        let (mut header, points) = read(file);
+        if wanted.settings.mode == ColourMode::Palette {
+            header = with_palette(header, Source::Points(&points)).expect("few colours");
+        }
+        let qualities = match wanted.psnr {
+            Some(_) => (0..32).rev().collect(),
+            None => vec![wanted.settings.quality],
+        };
+        for quality in qualities {
+            let settings = Settings { quality, ..wanted.settings };
+            if measure(file, &header, &points, settings, &wanted) {
+                break;
+            }
+        }
+    }
+}
+
+fn arguments() -> Wanted {
+    let mut wanted = Wanted {
+        settings: Settings { quality: 18, ..Settings::default() },
+        psnr: None,
+        budget: None,
+        rounds: 10,
+        json: false,
+        files: Vec::new(),
+    };
     let mut arguments = std::env::args().skip(1);
-    let mut psnr_wanted = None;
-    let mut rounds = 10;
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().expect("a value");
         match argument.as_str() {
-            "--level" => settings.depth_level = value().parse().expect("a level"),
-            "--quality" => settings.quality = value().parse().expect("a quality"),
-            "--psnr" => psnr_wanted = Some(value().parse::<f64>().expect("decibels")),
-            "--rounds" => rounds = value().parse().expect("a number"),
+            "--level" => wanted.settings.depth_level = value().parse().expect("a level"),
+            "--quality" => wanted.settings.quality = value().parse().expect("a quality"),
+            "--psnr" => wanted.psnr = Some(value().parse().expect("decibels")),
+            "--budget" => wanted.budget = Some(value().parse().expect("bytes")),
+            "--rounds" => wanted.rounds = value().parse().expect("a number"),
+            "--json" => wanted.json = true,
             "--mode" => {
-                settings.mode = match value().as_str() {
+                wanted.settings.mode = match value().as_str() {
                     "none" => ColourMode::None,
                     "palette" => ColourMode::Palette,
-                    "420" => ColourMode::Subsampled,
-                    _ => ColourMode::Full,
+                    "444" => ColourMode::Full,
+                    _ => ColourMode::Subsampled,
                 }
             }
-            _ => files.push(argument),
+            _ => wanted.files.push(argument),
         }
     }
-    for file in files {
-        let (mut header, points) = read(&file);
-        if settings.mode == ColourMode::Palette {
-            header = with_palette(header, Source::Points(&points)).expect("few colours");
+    wanted
+}
+
+/// False where the colours are not good enough.
+fn measure(
+    file: &str,
+    header: &StreamHeader,
+    points: &[Point],
+    mut settings: Settings,
+    wanted: &Wanted,
+) -> bool {
+    let source = Source::Points(points);
+    let mut encoder = Encoder::new(header.clone()).expect("a camera");
+    let mut decoder = Decoder::new(header.clone(), false).expect("a camera");
+    let (mut encode, mut decode) = (Vec::new(), Vec::new());
+    let mut frame = Frame::default();
+    for _ in 0..wanted.rounds.max(1) {
+        let start = Instant::now();
+        if let Some(bytes) = wanted.budget {
+            let palette = settings.mode == ColourMode::Palette;
+            let budget = Budget { bytes, validity: Validity::default(), latency_test: false, palette };
+            let spent = encoder.encode_within(source, &budget).expect("a frame");
+            (frame, settings) = (spent.frame, spent.settings);
+        } else {
+            encoder.choose_tables(source, &mut settings);
+            frame = encoder.encode(source, &settings).expect("a frame");
         }
-        let mut encoder = Encoder::new(header.clone()).expect("a camera");
-        let mut decoder = Decoder::new(header.clone(), true).expect("a camera");
-        let mut fast = Decoder::new(header, false).expect("a camera");
-        let qualities = match psnr_wanted {
-            Some(_) => (0..32).rev().collect(),
-            None => vec![settings.quality],
-        };
-        for quality in qualities {
-            settings.quality = quality;
-            encoder.choose_tables(Source::Points(&points), &mut settings);
-            let (mut encode_ms, mut decode_ms) = (f64::MAX, f64::MAX);
-            let mut frame = None;
-            for _ in 0..rounds {
-                let start = Instant::now();
-                frame = encoder.encode(Source::Points(&points), &settings);
-                encode_ms = encode_ms.min(start.elapsed().as_secs_f64() * 1e3);
-                let start = Instant::now();
-                fast.begin();
-                for packet in 0..encoder.packets().len() {
-                    fast.put(encoder.packet(packet)).expect("a packet");
-                }
-                decode_ms = decode_ms.min(start.elapsed().as_secs_f64() * 1e3);
-            }
-            let frame = frame.expect("a frame");
-            decoder.begin();
-            for packet in 0..encoder.packets().len() {
-                decoder.put(encoder.packet(packet)).expect("a packet");
-            }
-            let (mut worst, mut squares, mut depth_squares, mut valid) = (0.0_f64, 0.0, 0.0, 0_usize);
-            for (i, point) in points.iter().enumerate() {
-                let z = f64::from(decoder.depth()[i]);
-                if z == 0.0 {
-                    continue;
-                }
-                valid += 1;
-                let exact = f64::from(point[2]);
-                let error = (z - exact).abs() * 1000.0 / (exact * exact);
-                worst = worst.max(error);
-                depth_squares += error * error;
-                let (a, b) = (point[3].to_bits().to_le_bytes(), decoder.colour()[i].to_le_bytes());
-                for c in 0..3 {
-                    squares += (f64::from(a[c]) - f64::from(b[c])).powi(2);
-                }
-            }
-            assert_eq!(valid, frame.points);
-            let psnr = 10.0 * (255.0 * 255.0 / (squares / (3 * valid) as f64)).log10();
-            if psnr_wanted.is_some_and(|wanted| psnr < wanted) {
-                continue;
-            }
-            let whole = encoder.bits_in_one_packet(Source::Points(&points), &settings) / 8.0;
-            println!(
-                "{:22} q{:2} sets {},{} points {:6} packets {:3} bits/pt {:5.3} max {:.3} rms {:.3} mm·z² PSNR {:.2} enc {:.2} dec {:.2} ms left {:?} thinned {} packets cost {:+.2} %",
-                file.rsplit('/').next().unwrap_or(""),
-                quality,
-                settings.geometry_set,
-                settings.colour_set,
-                frame.points,
-                frame.packets,
-                frame.bytes as f64 * 8.0 / frame.points as f64,
-                worst,
-                (depth_squares / valid as f64).sqrt(),
-                psnr,
-                encode_ms,
-                decode_ms,
-                (frame.left.non_positive_depth, frame.left.out_of_range),
-                frame.thinned,
-                (frame.bytes as f64 / whole - 1.0) * 100.0,
-            );
-            break;
-        }
+        encode.push(start.elapsed().as_secs_f64() * 1e3);
+        let start = Instant::now();
+        put_all(&encoder, &mut decoder);
+        decode.push(start.elapsed().as_secs_f64() * 1e3);
     }
+    let (encode_ms, decode_ms) = (median(encode), median(decode));
+    if wanted.json {
+        println!("{{\"encodeMs\":{encode_ms:.3},\"decodeMs\":{decode_ms:.3}}}");
+        return true;
+    }
+    let mut witness = Decoder::new(header.clone(), true).expect("a camera");
+    put_all(&encoder, &mut witness);
+    let (mut worst, mut squares, mut valid) = (0.0_f64, 0.0, 0_usize);
+    for ((point, depth), colour) in points.iter().zip(witness.depth()).zip(witness.colour()) {
+        if *depth == 0.0 {
+            continue;
+        }
+        valid += 1;
+        let exact = f64::from(point[2]);
+        worst = worst.max((f64::from(*depth) - exact).abs() * 1000.0 / (exact * exact));
+        let bytes = point[3].to_bits().to_le_bytes().into_iter().zip(colour.to_le_bytes());
+        squares += bytes.take(3).map(|(a, b)| (f64::from(a) - f64::from(b)).powi(2)).sum::<f64>();
+    }
+    assert_eq!(valid, frame.points);
+    let psnr = 10.0 * (255.0 * 255.0 / (squares / (3 * valid) as f64)).log10();
+    if wanted.psnr.is_some_and(|least| psnr < least) {
+        return false;
+    }
+    let alone = frame.bytes as f64 * 8.0 / encoder.bits_in_one_packet(source, &settings) - 1.0;
+    println!(
+        "{:24} quality {:2} sets {},{} points {:6} thinned {} packets {:3} bits/pt {:5.3} worst {:.3} mm·z² PSNR {:.2} encode {:.2} decode {:.2} ms packets cost {:+.2} %",
+        file.rsplit('/').next().unwrap_or(""),
+        settings.quality,
+        settings.geometry_set,
+        settings.colour_set,
+        frame.points,
+        frame.thinned,
+        frame.packets,
+        frame.bytes as f64 * 8.0 / frame.points as f64,
+        worst,
+        psnr,
+        encode_ms,
+        decode_ms,
+        alone * 100.0,
+    );
+    true
+}
+
+fn put_all(encoder: &Encoder, decoder: &mut Decoder) {
+    decoder.begin();
+    for packet in 0..encoder.packets().len() {
+        decoder.put(encoder.packet(packet)).expect("a packet");
+    }
+}
+
+fn median(mut times: Vec<f64>) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
 }
 
 fn read(file: &str) -> (StreamHeader, Vec<[f32; 4]>) {

@@ -5,10 +5,11 @@
 #![deny(unsafe_code)]
 
 pub mod contexts;
-mod crc16;
+pub mod crc16;
 mod decoder;
 mod emit;
 mod encoder;
+mod frame;
 mod grid;
 mod lanes;
 pub mod load;
@@ -28,7 +29,8 @@ pub mod tile;
 pub mod transform;
 
 pub use decoder::{Decoder, Put};
-pub use encoder::{Encoder, Frame, Packet, Settings};
+pub use encoder::Encoder;
+pub use frame::{Frame, Packet, Settings};
 pub use grid::{Intrinsics, Misfit, check_grid, estimate_intrinsics};
 pub use load::{Left, Source};
 pub use packet::{PacketError, seal};

@@ -1,7 +1,8 @@
 //! Pictures of few colours: which they are, and the place of a colour among them.
 
 use crate::contexts::{INDEX, INDEX_CONTEXTS, SYMBOLS};
-use crate::encoder::{Encoder, Settings};
+use crate::encoder::Encoder;
+use crate::frame::Settings;
 use crate::load::Source;
 use crate::sampling::{Histogram, SAMPLE_TILES};
 use crate::stream::{MAX_PALETTE, StreamHeader};

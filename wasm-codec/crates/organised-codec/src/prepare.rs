@@ -3,7 +3,7 @@
 use bytemuck::must_cast;
 use wide::{f32x4, f32x8, i16x8, i32x4};
 
-use crate::encoder::Settings;
+use crate::frame::Settings;
 use crate::lanes::narrow;
 use crate::load::Loaded;
 use crate::palette::Palette;

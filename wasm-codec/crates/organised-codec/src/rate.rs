@@ -4,7 +4,8 @@
 //! only below the last rung far tiles are thinned. What frames cost is learnt from frame to frame, so that a steady stream
 //! takes one pass a frame.
 
-use crate::encoder::{Encoder, Frame, Mix, PACKET_OVERHEAD_BITS, Settings};
+use crate::encoder::{Encoder, PACKET_OVERHEAD_BITS};
+use crate::frame::{Frame, Mix, Settings};
 use crate::load::Source;
 use crate::packet::MAX_PACKET_BYTES;
 use crate::plan::{Means, Plan};

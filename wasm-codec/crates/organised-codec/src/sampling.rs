@@ -1,7 +1,8 @@
 //! Which table sets suit a frame, by a sample of it, and what it would cost.
 
 use crate::contexts::{COLOUR_CONTEXTS, CONTEXTS, GEOMETRY_CONTEXTS, SYMBOLS};
-use crate::encoder::{Encoder, PACKET_OVERHEAD, Settings};
+use crate::encoder::{Encoder, PACKET_OVERHEAD};
+use crate::frame::Settings;
 use crate::load::Source;
 use crate::prepare::prepare;
 use crate::rans::TileTokens;

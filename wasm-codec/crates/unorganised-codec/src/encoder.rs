@@ -1,98 +1,40 @@
 //! A frame of points into packets.
 
 use crate::Point;
-use crate::model::{Model, Port, Start};
+use crate::model::{Model, Start};
 use crate::order::{Order, Sorter, bounds, is_ordered};
-use crate::packet::{
-    AttributeKind, CHECK_BYTES, HEADER_BYTES, Header, MAX_PACKET_BYTES, MAX_POINTS_PER_PACKET,
-    MIN_PACKET_BYTES,
-};
+use crate::packet::AttributeKind;
+use crate::packing::Plan;
+use crate::ports::{Counter, Estimate, Writer};
 use crate::predictor::Mode;
-use crate::quantise::{Attribute, GridPoint, Rejected, find_levels, quantise};
-use crate::rans;
-use crate::tables::{MAX_VALUE, Table, all, split};
-use crate::thinning::{Weights, thin};
+use crate::quantise::{Attribute, GridPoint, find_levels, quantise};
+use crate::settings::{EncodeReport, InvalidSettings, Settings, check};
+use crate::tables::{Table, all};
+use crate::thinning::Weights;
 
-/// How a frame is encoded.
-#[derive(Clone, Copy, Debug)]
-pub struct Settings {
-    /// Grid step, 1 to 100 mm; a coordinate is wrong by half of it at most.
-    pub step_mm: u8,
-    /// What the fourth word holds.
-    pub attribute: Attribute,
-    /// The order of the points.
-    pub order: Order,
-    /// 128 to 1200.
-    pub max_packet_bytes: usize,
-    /// Points are left out until all packets together have no more bytes.
-    pub budget_bytes: Option<usize>,
-    /// How fast the share of kept points falls with range where there is a budget; 0 is even. 0 to 8.
-    pub lambda: f32,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            step_mm: 10,
-            attribute: Attribute::Colour,
-            order: Order::Auto,
-            max_packet_bytes: MAX_PACKET_BYTES,
-            budget_bytes: None,
-            lambda: 0.0,
-        }
-    }
-}
-
-/// A setting outside its range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InvalidSettings {
-    /// Not 1 to 100 mm.
-    Step,
-    /// Not 128 to 1200 bytes.
-    PacketBytes,
-    /// Not 0 to 8.
-    Lambda,
-    /// More than 2²⁴ points.
-    TooManyPoints,
-}
-
-/// What became of a frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct EncodeReport {
-    /// Points in the packets.
-    pub kept: usize,
-    /// Points left out for the budget.
-    pub thinned: usize,
-    /// Points that cannot be sent.
-    pub rejected: Rejected,
-    /// Packets.
-    pub packets: usize,
-    /// Bytes of all packets together.
-    pub bytes: usize,
-}
-
+/// A packet.
 #[derive(Clone, Copy)]
-struct Written {
-    offset: usize,
-    length: usize,
-    count: usize,
+pub(crate) struct Written {
+    pub offset: usize,
+    pub length: usize,
+    pub count: usize,
     /// Mean square of the distance from the origin.
-    distance: f32,
+    pub distance: f32,
 }
 
 /// Encodes frames; its memory is kept from one to the next.
 pub struct Encoder {
-    tables: Vec<Table>,
-    points: Vec<GridPoint>,
+    pub(crate) tables: Vec<Table>,
+    pub(crate) points: Vec<GridPoint>,
     order: Vec<u32>,
     other_order: Vec<u32>,
     sorter: Sorter,
-    weights: Weights,
-    kept: Vec<u32>,
-    writer: Writer,
-    words: Vec<u16>,
-    bytes: Vec<u8>,
-    written: Vec<Written>,
+    pub(crate) weights: Weights,
+    pub(crate) kept: Vec<u32>,
+    pub(crate) writer: Writer,
+    pub(crate) words: Vec<u16>,
+    pub(crate) bytes: Vec<u8>,
+    pub(crate) written: Vec<Written>,
 }
 
 impl Default for Encoder {
@@ -100,13 +42,6 @@ impl Default for Encoder {
         Self::new()
     }
 }
-
-/// Far above any sensor's frame.
-const MAX_POINTS: usize = 1 << 24;
-/// What rANS may waste in a packet, and the rounding of costs, 1/256 bit.
-const SLACK: u32 = 64 * 256;
-/// Trials of how many points fit a budget.
-const TRIALS: usize = 8;
 
 impl Encoder {
     /// An encoder without packets.
@@ -275,204 +210,5 @@ impl Encoder {
         };
         let costs = Mode::ALL.map(|mode| (mode, cost_of(mode)));
         costs.into_iter().min_by_key(|(_, cost)| *cost).unwrap_or((Mode::Step, 0))
-    }
-
-    /// Tries how many points fit.
-    fn fit(&mut self, order: &[u32], plan: Plan, budget: usize, lambda: f32) {
-        let mut weights = std::mem::take(&mut self.weights);
-        let mut kept = std::mem::take(&mut self.kept);
-        weights.fill(&self.points, plan.step_mm, lambda);
-        // `low` points fit, `high` do not.
-        let (mut low, mut high) = (0.0, self.points.len() as f32);
-        let mut count = high;
-        for trial in 0..TRIALS {
-            let size = self.bytes.len().max(1);
-            // A little under the budget; points far apart take more bits.
-            let aimed = count * (0.98 * budget as f32 / size as f32).powf(if trial == 0 { 1.3 } else { 1.1 });
-            count = if aimed > low && aimed < high { aimed } else { (low + high) / 2.0 };
-            thin(order, &weights.each, weights.scale_for(count), &mut kept);
-            self.pack(&kept, plan);
-            if self.bytes.len() > budget {
-                high = count;
-            } else {
-                low = count;
-                if self.bytes.len() * 100 >= budget * 96 {
-                    break;
-                }
-            }
-        }
-        if self.bytes.len() > budget {
-            thin(order, &weights.each, weights.scale_for(low), &mut kept);
-            self.pack(&kept, plan);
-        }
-        (self.weights, self.kept) = (weights, kept);
-    }
-
-    /// Writes the points of `order` as packets.
-    fn pack(&mut self, order: &[u32], plan: Plan) {
-        self.bytes.clear();
-        self.written.clear();
-        let mut rest = order;
-        while let Some((first, others)) = rest.split_first() {
-            let first = self.points[*first as usize];
-            let Plan { mode, kind, top, step_mm, max_bytes } = plan;
-            let start = Start { mode, kind, top, first };
-            let limit = ((max_bytes - HEADER_BYTES - CHECK_BYTES) * 8 * 256) as u32 - SLACK;
-            let mut model = Model::new(start);
-            let mut distance = square(first);
-            self.writer.clear();
-            let mut port = Emit { tables: &self.tables, writer: &mut self.writer };
-            for index in others.iter().take(MAX_POINTS_PER_PACKET - 1) {
-                let point = self.points[*index as usize];
-                if model.code(&mut port, point).is_err() || port.writer.cost > limit {
-                    break;
-                }
-                port.writer.ends.push(port.writer.operations.len());
-                distance += square(point);
-            }
-            let offset = self.bytes.len();
-            // The first end is the first point's, which takes no operations.
-            loop {
-                let count = self.writer.ends.len();
-                let operations = &self.writer.operations[..self.writer.ends[count - 1]];
-                let state = rans::encode(operations, &mut self.words);
-                let length = HEADER_BYTES + CHECK_BYTES + self.words.len() * 2;
-                // The slack makes a second turn all but impossible.
-                if length <= max_bytes || count == 1 {
-                    Header { start, step_mm, count, state }.write(&self.words, &mut self.bytes);
-                    break;
-                }
-                self.writer.ends.pop();
-            }
-            let count = self.writer.ends.len();
-            let length = self.bytes.len() - offset;
-            self.written.push(Written { offset, length, count, distance: distance / count as f32 });
-            rest = &rest[count..];
-        }
-    }
-}
-
-fn check(frame: &[Point], settings: &Settings) -> Result<(), InvalidSettings> {
-    if !(1..=100).contains(&settings.step_mm) {
-        return Err(InvalidSettings::Step);
-    }
-    if !(MIN_PACKET_BYTES..=MAX_PACKET_BYTES).contains(&settings.max_packet_bytes) {
-        return Err(InvalidSettings::PacketBytes);
-    }
-    if !(0.0..=8.0).contains(&settings.lambda) {
-        return Err(InvalidSettings::Lambda);
-    }
-    if frame.len() > MAX_POINTS {
-        return Err(InvalidSettings::TooManyPoints);
-    }
-    Ok(())
-}
-
-/// What is the same for all packets of a frame.
-#[derive(Clone, Copy)]
-struct Plan {
-    mode: Mode,
-    kind: AttributeKind,
-    top: u8,
-    step_mm: u8,
-    max_bytes: usize,
-}
-
-#[inline]
-fn square(point: GridPoint) -> f32 {
-    let [x, y, z] = point.at.map(|coordinate| coordinate as f32);
-    x * x + y * y + z * z
-}
-
-/// The symbols of the packet in hand.
-#[derive(Default)]
-struct Writer {
-    operations: Vec<u32>,
-    /// Where each point's operations end.
-    ends: Vec<usize>,
-    /// In 1/256 bit.
-    cost: u32,
-}
-
-impl Writer {
-    fn clear(&mut self) {
-        self.operations.clear();
-        self.ends.clear();
-        self.ends.push(0);
-        self.cost = 0;
-    }
-}
-
-/// The point lies too far from the packet's first one.
-struct TooFar;
-
-struct Emit<'a> {
-    tables: &'a [Table],
-    writer: &'a mut Writer,
-}
-
-impl Port for Emit<'_> {
-    type Error = TooFar;
-
-    #[inline]
-    fn code(&mut self, table: usize, value: u32) -> Result<u32, TooFar> {
-        if value > MAX_VALUE {
-            return Err(TooFar);
-        }
-        let (symbol, bits, rest) = split(value);
-        let table = &self.tables[table];
-        let start = table.starts[symbol];
-        self.writer.operations.push(rans::symbol(start, table.starts[symbol + 1] - start));
-        if bits > 0 {
-            self.writer.operations.push(rans::raw(rest, bits));
-        }
-        self.writer.cost += u32::from(table.costs[symbol]);
-        Ok(value)
-    }
-
-    fn impossible(&self) -> TooFar {
-        TooFar
-    }
-}
-
-struct Estimate<'a> {
-    tables: &'a [Table],
-    cost: u64,
-}
-
-impl Port for Estimate<'_> {
-    type Error = TooFar;
-
-    #[inline]
-    fn code(&mut self, table: usize, value: u32) -> Result<u32, TooFar> {
-        if value > MAX_VALUE {
-            return Err(TooFar);
-        }
-        self.cost += u64::from(self.tables[table].costs[split(value).0]);
-        Ok(value)
-    }
-
-    fn impossible(&self) -> TooFar {
-        TooFar
-    }
-}
-
-struct Counter<'a> {
-    counts: &'a mut [[u64; crate::SYMBOLS]],
-}
-
-impl Port for Counter<'_> {
-    type Error = TooFar;
-
-    fn code(&mut self, table: usize, value: u32) -> Result<u32, TooFar> {
-        if value > MAX_VALUE {
-            return Err(TooFar);
-        }
-        self.counts[table][split(value).0] += 1;
-        Ok(value)
-    }
-
-    fn impossible(&self) -> TooFar {
-        TooFar
     }
 }

@@ -11,19 +11,23 @@ mod encoder;
 mod model;
 mod order;
 mod packet;
+mod packing;
+mod ports;
 mod predictor;
 mod quantise;
 mod rans;
+mod settings;
 mod tables;
 mod tables_data;
 mod thinning;
 
 pub use decoder::{DecodedPacket, Decoder, Fault};
-pub use encoder::{EncodeReport, Encoder, InvalidSettings, Settings};
+pub use encoder::Encoder;
 pub use model::TABLE_COUNT;
 pub use order::Order;
-pub use packet::{MAX_PACKET_BYTES, MAX_POINTS_PER_PACKET, MIN_PACKET_BYTES};
+pub use packet::{MAX_PACKET_BYTES, MAX_POINTS_PER_PACKET, MIN_PACKET_BYTES, seal};
 pub use quantise::{Attribute, MAX_RANGE_M, Rejected};
+pub use settings::{EncodeReport, InvalidSettings, Settings};
 pub use tables::{SYMBOLS, normalise};
 
 /// x, y, z in metres and the word that holds the colour (R, G, B, A from the lowest byte) or the intensity.

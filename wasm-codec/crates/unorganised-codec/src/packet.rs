@@ -108,3 +108,10 @@ impl Header {
         Ok((Header { start, step_mm, count, state }, words))
     }
 }
+
+/// Writes the check value over a packet's last four bytes; false where it has not that many.
+pub fn seal(packet: &mut [u8]) -> bool {
+    let Some((body, check)) = packet.split_last_chunk_mut::<4>() else { return false };
+    *check = crc32(body).to_le_bytes();
+    true
+}

@@ -1,0 +1,177 @@
+//! A packet's symbols and raw bits, and how they become bytes.
+
+use super::{
+    LOW, LOW_BITS, PROBABILITY_BITS, SPARE_BITS, STATE_SHIFT, STATES, TOKEN_MASK, TileTokens, WORDS,
+};
+use crate::tables::EncoderTables;
+
+/// What coding a symbol takes: a reciprocal in place of the division.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct EncoderSymbol {
+    /// 2⁴³ / frequency, rounded up: exact for states below frequency · 2¹⁹.
+    reciprocal: u64,
+    /// The state from which on a word must go first.
+    limit: u32,
+    start: u16,
+    /// 4096 − frequency.
+    rest: u16,
+}
+
+const RECIPROCAL_BITS: u32 = 43;
+
+impl EncoderSymbol {
+    /// For a symbol whose share of 4096 begins at `start`.
+    #[must_use]
+    pub fn new(start: u32, frequency: u32) -> Self {
+        Self {
+            reciprocal: (1u64 << RECIPROCAL_BITS).div_ceil(u64::from(frequency)),
+            limit: frequency << (16 + LOW_BITS - PROBABILITY_BITS),
+            start: start as u16,
+            rest: ((1 << PROBABILITY_BITS) - frequency) as u16,
+        }
+    }
+}
+
+/// The symbols and raw bits of a packet.
+#[derive(Default)]
+pub struct PacketTokens {
+    tokens: Vec<u16>,
+    raw: Vec<u32>,
+    /// Where among the raw bits the last tile's signs begin.
+    signs: usize,
+}
+
+/// A place in a packet's tokens to go back to.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Mark {
+    tokens: usize,
+    raw: usize,
+    signs: usize,
+}
+
+impl PacketTokens {
+    /// Forgets all.
+    pub fn clear(&mut self) {
+        self.tokens.clear();
+        self.raw.clear();
+    }
+
+    /// Adds a tile.
+    pub fn push(&mut self, tile: &TileTokens) {
+        let (raw, signs) = tile.raw_entries();
+        self.signs = self.raw.len() + signs;
+        self.tokens.extend_from_slice(tile.tokens());
+        self.raw.extend_from_slice(raw);
+    }
+
+    /// Where to go back to.
+    #[must_use]
+    pub fn mark(&self) -> Mark {
+        Mark { tokens: self.tokens.len(), raw: self.raw.len(), signs: self.signs }
+    }
+
+    /// Back to a mark.
+    pub fn rewind(&mut self, mark: Mark) {
+        self.tokens.truncate(mark.tokens);
+        self.raw.truncate(mark.raw);
+        self.signs = mark.signs;
+    }
+
+    /// Adds the packet's body to `bytes`: words, then the raw bits (`head` first) from the end backwards. False, and
+    /// nothing added, where it would have more than `limit` bytes.
+    #[must_use]
+    pub fn write(
+        &self,
+        tables: &EncoderTables,
+        head: &[(u32, u32)],
+        words: &mut [u16; WORDS],
+        limit: usize,
+        bytes: &mut Vec<u8>,
+    ) -> bool {
+        let symbols = tables.symbols();
+        let (raw_bits, signs) = self.raw.split_at(self.signs);
+        // What the states begin with the decoder finds in them at the end: room for the last tile's first signs.
+        let mut left = 0_u64;
+        let mut held = 0;
+        let mut beyond = [0_u32; 1];
+        let mut rest = signs;
+        while let Some((first, others)) = rest.split_first() {
+            let (bits, value) = (first >> 16, first & 0xffff);
+            left |= u64::from(value) << held & SPARE_MASK;
+            if held + bits > SPARE_BITS {
+                let fit = SPARE_BITS - held;
+                beyond[0] = (bits - fit) << 16 | value >> fit;
+                rest = others;
+                break;
+            }
+            held += bits;
+            rest = others;
+        }
+        let mut states: [u32; STATES] =
+            core::array::from_fn(|i| LOW | (left >> (LOW_BITS * i as u32)) as u32 & (LOW - 1));
+        let mut at = 0;
+        for &token in self.tokens.iter().rev() {
+            let symbol = &symbols[usize::from(token) & TOKEN_MASK];
+            let own = usize::from(token >> STATE_SHIFT) % STATES;
+            let x = states[own];
+            // The last word comes first.
+            words[at % WORDS] = x as u16;
+            let over = u32::from(x >= symbol.limit);
+            at += over as usize;
+            let x = x >> (16 * over);
+            let quotient = ((u64::from(x) * symbol.reciprocal) >> RECIPROCAL_BITS) as u32;
+            states[own] = x + u32::from(symbol.start) + quotient * u32::from(symbol.rest);
+        }
+        if at > limit / 2 {
+            return false;
+        }
+        let start = bytes.len();
+        bytes.extend(words[..at].iter().rev().flat_map(|word| word.to_le_bytes()));
+        let mut raw = RawWriter { bytes, buffer: 0, filled: 0 };
+        for (bits, value) in head {
+            raw.put(*bits, *value);
+        }
+        for state in states {
+            let more = 31 - LOW_BITS - state.leading_zeros();
+            raw.put(4, more);
+            raw.put(LOW_BITS + more, state ^ 1 << (LOW_BITS + more));
+        }
+        for bits in raw_bits.iter().chain(&beyond).chain(rest) {
+            raw.put(bits >> 16, bits & 0xffff);
+        }
+        raw.finish();
+        bytes[start + 2 * at..].reverse();
+        if bytes.len() - start > limit {
+            bytes.truncate(start);
+            return false;
+        }
+        true
+    }
+}
+
+const SPARE_MASK: u64 = (1 << SPARE_BITS) - 1;
+
+/// Bits to bytes, the lowest first.
+struct RawWriter<'a> {
+    bytes: &'a mut Vec<u8>,
+    buffer: u64,
+    filled: u32,
+}
+
+impl RawWriter<'_> {
+    #[inline(always)]
+    fn put(&mut self, bits: u32, value: u32) {
+        self.buffer |= u64::from(value) << self.filled;
+        self.filled += bits;
+        if self.filled >= 32 {
+            self.bytes.extend_from_slice(&(self.buffer as u32).to_le_bytes());
+            self.buffer >>= 32;
+            self.filled -= 32;
+        }
+    }
+
+    fn finish(self) {
+        let rest = self.filled.div_ceil(8) as usize;
+        self.bytes.extend_from_slice(&self.buffer.to_le_bytes()[..rest]);
+    }
+}
