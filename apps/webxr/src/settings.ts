@@ -28,7 +28,7 @@ export interface Settings {
   canvas: { width: number; height: number } | null;
   /** `points64`: refuse the coded formats. */
   mode: 'auto' | 'points64';
-  /** Draw every so many-th point of coded clouds only, for benchmarks where the GPU is an emulated one; `null`: as many as can be drawn. */
+  /** Draw every so many-th point only, for benchmarks where the GPU is an emulated one; `null`: as many as can be drawn. */
   drawEvery: number | null;
   pointScale: number;
 }

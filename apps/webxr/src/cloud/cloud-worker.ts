@@ -70,6 +70,7 @@ self.onmessage = (event: MessageEvent<ToCloudWorker>) => {
       takeFromBridge(message.url, message.generation);
       return;
     case 'drawEvery':
+      flush();
       every = message.every;
   }
 };

@@ -36,7 +36,7 @@ export class DecodedPoints {
       if (batch === null) return 'no-buffer';
       const at = batch.pointCount * 4;
       if (every === 1) batch.points.set(points.subarray(first * 4, (first + came) * 4), at);
-      else thin(points, first, drawn, every, batch.points, at);
+      else copyThinned(points, first, drawn, every, batch.points, at);
       part.sequenceOffset = header.sequenceOffset + first * 8;
       part.sequenceLength = came * 8;
       batch.add(part, placement, drawn, receivedMs, look);
@@ -46,7 +46,8 @@ export class DecodedPoints {
   }
 }
 
-function thin(
+/** Copies `count` points, every so many-th from point `first` on, to index `at`. */
+export function copyThinned(
   from: Int16Array,
   first: number,
   count: number,

@@ -7,7 +7,7 @@ import type { DropReason } from './packet-intake.ts';
 export interface BatchWriter {
   /** The batch being filled; with `wanted` points it has room for them, or is empty. `null`: all buffers are out. */
   batchFor(wanted: number): Batch | null;
-  /** Of a coded frame only every so many-th point is handed on. */
+  /** Only every so many-th point is handed on. Changes between batches only. */
   readonly every: number;
 }
 

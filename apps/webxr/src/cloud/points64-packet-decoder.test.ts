@@ -1,0 +1,81 @@
+import { emptyPlacement } from '@farpoint/protocol';
+import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { describe, expect, it } from 'vitest';
+import { BATCH_BYTES, Batch } from './batch.ts';
+import type { BatchWriter } from './packet-decoder.ts';
+import { Points64PacketDecoder } from './points64-packet-decoder.ts';
+
+const codec = await loadCodecFromDisk();
+const placement = emptyPlacement();
+
+/** One batch, without end of room. */
+function writer(every: number): BatchWriter & { batch: Batch } {
+  const batch = new Batch(new ArrayBuffer(BATCH_BYTES));
+  return { every, batch, batchFor: () => batch };
+}
+
+/** Blocks of a frame: x, y, z differ from point to point. */
+function blocks(counts: readonly number[]): { data: Uint8Array; offset: number }[] {
+  let [seed, offset] = [1, 0];
+  return counts.map((count) => {
+    const data = new Uint8Array(count * 8).map(() => {
+      seed = (Math.imul(seed, 1_103_515_245) + 12_345) >>> 0;
+      return seed >>> 16;
+    });
+    const block = { data, offset };
+    offset += data.length;
+    return block;
+  });
+}
+
+function decode(every: number, counts: readonly number[]): Batch {
+  const decoder = new Points64PacketDecoder(codec);
+  const into = writer(every);
+  const frameLength = counts.reduce((sum, count) => sum + count * 8, 0);
+  for (const { data, offset } of blocks(counts)) {
+    const header = { frameNumber: 7, frameLength, sequenceOffset: offset, sequenceLength: data.length };
+    expect(decoder.add(header, placement, data, 5, into)).toBeNull();
+  }
+  decoder.finish(into.batch);
+  return into.batch;
+}
+
+/** Packed as four int16: the first value of each point tells them apart well enough. */
+const pointsOf = (batch: Batch) =>
+  Array.from({ length: batch.pointCount }, (_, i) => [...batch.points.subarray(i * 4, i * 4 + 4)]);
+
+describe('Points64PacketDecoder', () => {
+  const counts = [144, 144, 37, 1];
+
+  it('hands on every point', () => {
+    const batch = decode(1, counts);
+    expect(batch.pointCount).toBe(326);
+    expect(counts.map((_, i) => batch.pointsOf(i))).toEqual(counts);
+  });
+
+  it('hands on every so many-th point of each packet, larger, and tells what came', () => {
+    const [whole, thin] = [decode(1, counts), decode(5, counts)];
+    const wanted = pointsOf(whole).filter((_, i) => {
+      const packet = counts.findIndex((_, p) => i < counts.slice(0, p + 1).reduce((a, b) => a + b, 0));
+      return (i - counts.slice(0, packet).reduce((a, b) => a + b, 0)) % 5 === 0;
+    });
+    expect(pointsOf(thin)).toEqual(wanted);
+    expect(counts.map((_, i) => thin.pointsOf(i))).toEqual([29, 29, 8, 1]);
+    expect(counts.map((_, i) => thin.pointsCame(i))).toEqual(counts);
+    expect(thin.cover(0) / whole.cover(0)).toBeCloseTo(Math.sqrt(5), 5);
+  });
+
+  it('gives up a batch that is not handed over', () => {
+    const decoder = new Points64PacketDecoder(codec);
+    const [block] = blocks([10]);
+    const data = (block as { data: Uint8Array }).data;
+    const header = { frameNumber: 7, frameLength: 80, sequenceOffset: 0, sequenceLength: 80 };
+    decoder.add(header, placement, data, 5, writer(1));
+    decoder.abandon();
+    const into = writer(1);
+    decoder.add(header, placement, data, 5, into);
+    decoder.finish(into.batch);
+    expect(into.batch.pointCount).toBe(10);
+    expect(decoder.add(header, placement, data, 5, { every: 1, batchFor: () => null })).toBe('no-buffer');
+  });
+});
