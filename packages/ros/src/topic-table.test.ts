@@ -1,0 +1,67 @@
+import { describe, expect, it } from 'vitest';
+import { ros1TypeOf, topicTableSchema } from './topic-table.ts';
+
+/** `path: message` of each issue. */
+function faults(table: unknown): string[] {
+  const { error } = topicTableSchema.safeParse(table);
+  return error?.issues.map(({ path, message }) => `${path.join('.')}: ${message}`) ?? [];
+}
+
+describe('topic table', () => {
+  it('knows the type and the rate of each role, and takes names of both ROS versions', () => {
+    const table = topicTableSchema.parse([
+      { topic: '/camera/points', as: 'cloud' },
+      { topic: '/bms', type: 'std_msgs/Float32', as: 'text', most: 0.5, label: 'Cells' },
+      { topic: '/cmd_vel', type: 'geometry_msgs/TwistStamped', as: 'velocity' },
+    ]);
+    expect(table).toEqual([
+      { topic: '/camera/points', type: 'sensor_msgs/msg/PointCloud2', as: 'cloud', most: 120 },
+      { topic: '/bms', type: 'std_msgs/msg/Float32', as: 'text', most: 0.5, label: 'Cells' },
+      { topic: '/cmd_vel', type: 'geometry_msgs/msg/TwistStamped', as: 'velocity', most: 100 },
+    ]);
+    expect(table.map(({ type }) => ros1TypeOf(type))).toContain('std_msgs/Float32');
+  });
+
+  it.each([
+    ['no list', {}, ': must be a list of topics'],
+    ['no mapping', ['/points'], '0: must be a mapping with topic and as'],
+    ['a key nobody knows', [{ topic: '/a', as: 'cloud', rate: 3 }], '0: has what nobody knows: rate'],
+    ['no role', [{ topic: '/a' }], /^0.as: must be one of cloud, depth/],
+    ['a relative name', [{ topic: 'points', as: 'cloud' }], /^0.topic: must be a whole topic name/],
+    ['a wildcard', [{ topic: '/camera/*', as: 'cloud' }], /^0.topic: must be a whole topic name/],
+    ['text of no type', [{ topic: '/a', as: 'text' }], '0.type: is needed where as is text'],
+    [
+      'a type that cannot be it',
+      [{ topic: '/a', type: 'sensor_msgs/LaserScan', as: 'cloud' }],
+      '0.type: must be sensor_msgs/msg/PointCloud2 for cloud',
+    ],
+    ['too fast', [{ topic: '/a', as: 'fix', most: 1e9 }], '0.most: must be at most 1000 messages a second'],
+    [
+      'a QoS nobody knows',
+      [{ topic: '/a', as: 'cloud', qos: { reliability: 'maybe' } }],
+      '0.qos.reliability: must be reliable or best-effort',
+    ],
+    [
+      'two clouds',
+      [
+        { topic: '/a', as: 'cloud' },
+        { topic: '/b', as: 'cloud' },
+      ],
+      '1.as: there can be only one cloud',
+    ],
+    [
+      'one topic twice',
+      [
+        { topic: '/a', as: 'fix' },
+        { topic: '/a', as: 'fix' },
+      ],
+      '1.topic: /a is there twice',
+    ],
+    ['depth without a camera', [{ topic: '/d', as: 'depth' }], '0.as: depth needs an entry cameraInfo'],
+    ['colour alone', [{ topic: '/c', as: 'colour' }], '0.as: colour needs an entry depth'],
+  ])('refuses %s, naming the key', (_, table, fault) => {
+    const [first] = faults(table);
+    if (typeof fault === 'string') expect(first).toBe(fault);
+    else expect(first).toMatch(fault);
+  });
+});

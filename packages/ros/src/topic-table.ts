@@ -1,0 +1,178 @@
+/**
+ * Which topics the robot may touch, and as what. What is not in the table is neither subscribed nor published, whatever
+ * discovery sees.
+ */
+import * as z from 'zod';
+import type { Qos } from './graph.ts';
+
+/** What a topic is to the robot, and the types that can be it; the first is taken where none is named. */
+export const TOPIC_ROLES = {
+  /** Points: with a `cameraInfo` beside it, of a depth camera's grid. */
+  cloud: ['sensor_msgs/msg/PointCloud2'],
+  /** A depth picture; it needs a `cameraInfo`. */
+  depth: ['sensor_msgs/msg/Image'],
+  /** The colour picture of `depth`, registered to it. */
+  colour: ['sensor_msgs/msg/Image'],
+  cameraInfo: ['sensor_msgs/msg/CameraInfo'],
+  pose: [
+    'nav_msgs/msg/Odometry',
+    'geometry_msgs/msg/PoseStamped',
+    'geometry_msgs/msg/PoseWithCovarianceStamped',
+  ],
+  tf: ['tf2_msgs/msg/TFMessage', 'tf/msg/tfMessage'],
+  battery: ['sensor_msgs/msg/BatteryState'],
+  fix: ['sensor_msgs/msg/NavSatFix'],
+  diagnostics: ['diagnostic_msgs/msg/DiagnosticArray'],
+  /** Any type: its values as text. */
+  text: [],
+  /** Published: what the wheels are to do. */
+  velocity: ['geometry_msgs/msg/Twist', 'geometry_msgs/msg/TwistStamped'],
+} as const satisfies Record<string, readonly string[]>;
+
+export type TopicRole = keyof typeof TOPIC_ROLES;
+const roles = Object.keys(TOPIC_ROLES) as [TopicRole, ...TopicRole[]];
+
+/** Most messages a second where the table does not say; of clouds and pictures as many as come. */
+const MOST: Record<TopicRole, number> = {
+  ...{ cloud: 120, depth: 120, colour: 120, cameraInfo: 5 },
+  ...{ pose: 100, tf: 1000, velocity: 100 },
+  ...{ battery: 1, fix: 1, diagnostics: 1, text: 1 },
+};
+const MOST_TOPICS = 64;
+
+/** Names as both ROS 1 and ROS 2 allow them, with the leading slash. */
+const topicName = z
+  .string('must be a topic’s name')
+  .max(255, 'must be at most 255 characters long')
+  .regex(/^(\/[A-Za-z_][A-Za-z0-9_]*)+$/, 'must be a whole topic name such as /camera/points');
+
+/** `sensor_msgs/PointCloud2` or `sensor_msgs/msg/PointCloud2`; the latter is kept. */
+const typeName = z
+  .string('must be a message type')
+  .max(255, 'must be at most 255 characters long')
+  .regex(
+    /^[A-Za-z][A-Za-z0-9_]*\/(msg\/)?[A-Za-z][A-Za-z0-9_]*$/,
+    'must be a message type such as sensor_msgs/msg/PointCloud2',
+  )
+  .transform(ros2TypeOf);
+
+const qos = z.strictObject(
+  {
+    reliability: z.enum(['reliable', 'best-effort'], 'must be reliable or best-effort'),
+    durability: z
+      .enum(['volatile', 'transient-local'], 'must be volatile or transient-local')
+      .default('volatile'),
+    depth: z
+      .int('must be a whole number')
+      .min(1, 'must be at least 1')
+      .max(1000, 'must be at most 1000')
+      .default(5),
+  },
+  { error: unknownKeys('must be reliability, durability and depth') },
+);
+
+export interface TopicEntry {
+  topic: string;
+  /** As ROS 2 writes it. */
+  type: string;
+  as: TopicRole;
+  /** Messages a second that are looked at. */
+  most: number;
+  /** What people read beside its values; the topic where left out. */
+  label?: string | undefined;
+  /** Left out: what the role usually needs. ROS 2 only. */
+  qos?: Qos | undefined;
+}
+
+const entry = z
+  .strictObject(
+    {
+      topic: topicName,
+      type: typeName.optional(),
+      as: z.enum(roles, `must be one of ${roles.join(', ')}`),
+      most: z
+        .number('must be a number')
+        .min(0.01, 'must be at least 0.01 messages a second')
+        .max(1000, 'must be at most 1000 messages a second')
+        .optional(),
+      label: z
+        .string('must be text')
+        .min(1, 'must not be empty')
+        .max(40, 'must be at most 40 characters')
+        .optional(),
+      qos: qos.optional(),
+    },
+    { error: unknownKeys('must be a mapping with topic and as') },
+  )
+  .transform((given, context): TopicEntry => {
+    const types: readonly string[] = TOPIC_ROLES[given.as];
+    const type = given.type ?? types[0];
+    if (type === undefined) {
+      context.addIssue({ code: 'custom', path: ['type'], message: `is needed where as is ${given.as}` });
+      return z.NEVER;
+    }
+    if (types.length > 0 && !types.includes(type)) {
+      context.addIssue({
+        code: 'custom',
+        path: ['type'],
+        message: `must be ${types.join(' or ')} for ${given.as}`,
+      });
+      return z.NEVER;
+    }
+    return { ...given, type, most: given.most ?? MOST[given.as] };
+  });
+
+/** Roles that one topic at most can have. */
+const SINGLE: readonly TopicRole[] = [
+  'cloud',
+  'depth',
+  'colour',
+  'cameraInfo',
+  'pose',
+  'battery',
+  'velocity',
+];
+
+/** The table as a configuration file has it: a list of entries. */
+export const topicTableSchema = z
+  .array(entry, 'must be a list of topics')
+  .max(MOST_TOPICS, `must be at most ${MOST_TOPICS} topics`)
+  .superRefine((entries, context) => {
+    const fault = (index: number, key: string, message: string) =>
+      context.addIssue({ code: 'custom', path: [index, key], message });
+    const first = (role: TopicRole) => entries.findIndex(({ as }) => as === role);
+    entries.forEach(({ topic, as }, index) => {
+      if (SINGLE.includes(as) && first(as) !== index) fault(index, 'as', `there can be only one ${as}`);
+      if (entries.findIndex((each) => each.topic === topic) !== index)
+        fault(index, 'topic', `${topic} is there twice`);
+    });
+    const depth = first('depth');
+    if (depth >= 0 && first('cloud') >= 0) fault(depth, 'as', 'depth and cloud cannot both be there');
+    if (depth >= 0 && first('cameraInfo') < 0) fault(depth, 'as', 'depth needs an entry cameraInfo');
+    const colour = first('colour');
+    if (colour >= 0 && depth < 0) fault(colour, 'as', 'colour needs an entry depth');
+  });
+
+export type TopicTable = TopicEntry[];
+
+/** ROS 1 says `sensor_msgs/PointCloud2`, ROS 2 `sensor_msgs/msg/PointCloud2`: the latter. */
+export function ros2TypeOf(type: string): string {
+  const parts = type.split('/');
+  return parts.length === 2 ? `${parts[0]}/msg/${parts[1]}` : type;
+}
+
+/** The former. */
+export function ros1TypeOf(type: string): string {
+  const parts = type.split('/');
+  return parts.length === 3 ? `${parts[0]}/${parts[2]}` : type;
+}
+
+/** The one topic of a role, where there is one. */
+export function topicAs(table: readonly TopicEntry[], role: TopicRole): TopicEntry | undefined {
+  return table.find(({ as }) => as === role);
+}
+
+function unknownKeys(otherwise: string): z.core.$ZodErrorMap {
+  return (issue) =>
+    issue.code === 'unrecognized_keys' ? `has what nobody knows: ${issue.keys.join(', ')}` : otherwise;
+}
