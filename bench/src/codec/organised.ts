@@ -84,6 +84,10 @@ export function organised(
     encode() {
       ({ packets, passes } = encoder.encode(options));
     },
+    // A budget is met by what the frames before have taught: as in a stream.
+    settle() {
+      if (options.budgetBytes !== undefined) for (let frame = 0; frame < 8; frame++) run.encode();
+    },
     independenceCost() {
       const bytes = run.packetBytes().reduce((sum, size) => sum + size, 0);
       return (bytes * 8) / encoder.bitsInOnePacket() - 1;
