@@ -1,10 +1,10 @@
+import { lazyDecoder, ros2TypeOf } from '@farpoint/ros';
 import { Bag } from '@foxglove/rosbag';
 import { bagDecompressors } from './decompress.ts';
 import { RecordingError } from './errors.ts';
 import type { FileBytes } from './file-bytes.ts';
 import { asRecordingError } from './mcap-indexed.ts';
-import { lazyDecoder } from './message-decoder.ts';
-import { type RecordedMessage, type RecordedTopic, type Recording, ros2TypeOf } from './recording.ts';
+import type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 
 interface Time {
   sec: number;

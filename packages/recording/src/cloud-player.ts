@@ -1,11 +1,9 @@
 import type { Battery, Pose, Twist } from '@farpoint/protocol';
+import { type CloudAxes, PointCloud2Decoder, pointCloud2Schema, stampNs, WorldState } from '@farpoint/ros';
 import { type CloudStream, describeClouds } from './cloud-stream.ts';
-import { detailOf, RecordingError } from './errors.ts';
+import { codeOf, detailOf, RecordingError } from './errors.ts';
 import { openRecording } from './open-recording.ts';
-import { PlaybackState } from './playback-state.ts';
-import { type CloudAxes, PointCloud2Decoder } from './point-cloud2.ts';
 import type { RecordedMessage, Recording } from './recording.ts';
-import { pointCloud2Schema, stampNs } from './ros-messages.ts';
 
 export interface PlayOptions {
   /** An MCAP file or a ROS 1 bag. */
@@ -60,7 +58,7 @@ export class CloudPlayer {
   readonly #recording: Recording;
   readonly #options: PlayOptions;
   readonly #clock: PlayClock;
-  readonly #state = new PlaybackState();
+  readonly #state = new WorldState();
   readonly #decoder = new PointCloud2Decoder();
   readonly #ended = new AbortController();
   #passEnd = new AbortController();
@@ -198,7 +196,7 @@ export class CloudPlayer {
     const fromNs = this.#fromNs;
     this.#state.forgetMoving();
     this.#anchor = null;
-    const names = [topic.name, ...PlaybackState.topicsOf(this.#recording.topics).map(({ name }) => name)];
+    const names = [topic.name, ...WorldState.topicsOf(this.#recording.topics).map(({ name }) => name)];
     let pending: RecordedMessage | null = null;
     for await (const message of this.#recording.messages(names, fromNs - PREROLL_NS)) {
       if (signal.aborted) return;
@@ -243,14 +241,14 @@ export class CloudPlayer {
 
   #takeState(message: RecordedMessage): void {
     try {
-      this.#state.take(message);
+      this.#state.take(message.topic, message.topic.decode(message.data));
     } catch (error) {
       this.#fault(error, message);
     }
   }
 
   async #readStatic(): Promise<void> {
-    const names = PlaybackState.staticTopicsOf(this.#recording.topics).map(({ name }) => name);
+    const names = WorldState.staticTopicsOf(this.#recording.topics).map(({ name }) => name);
     if (names.length === 0) return;
     let count = 0;
     try {
@@ -268,7 +266,7 @@ export class CloudPlayer {
     this.onFault?.(
       known !== null && known.offset !== undefined
         ? known
-        : new RecordingError(known?.code ?? 'bad-message', detailOf(error), {
+        : new RecordingError(codeOf(error), detailOf(error), {
             file: this.#recording.file,
             ...(where.topic === undefined ? {} : { topic: where.topic.name }),
             ...(where.offset === undefined ? {} : { offset: where.offset }),

@@ -1,7 +1,13 @@
-import { detailOf, RecordingError } from './errors.ts';
-import { type CloudAxes, checkedCount } from './point-cloud2.ts';
+import {
+  axesOf,
+  type CloudAxes,
+  checkedCount,
+  POINT_CLOUD_TYPES,
+  type PointCloud2,
+  pointCloud2Schema,
+} from '@farpoint/ros';
+import { codeOf, detailOf, RecordingError } from './errors.ts';
 import type { RecordedTopic, Recording } from './recording.ts';
-import { POINT_CLOUD_TYPES, type PointCloud2, pointCloud2Schema } from './ros-messages.ts';
 
 /** Topics of our own recordings that are played rather than others. */
 const OWN_TOPIC = '/farpoint/captured';
@@ -92,8 +98,7 @@ async function sampleClouds(recording: Recording, topic: RecordedTopic): Promise
           // What is kept of it is its header: not its points.
           clouds.push({ ...cloud, data: new Uint8Array(0) });
         } catch (error) {
-          const code = error instanceof RecordingError ? error.code : 'bad-message';
-          fault = new RecordingError(code, detailOf(error), { ...where, cause: error });
+          fault = new RecordingError(codeOf(error), detailOf(error), { ...where, cause: error });
         }
         if (++count >= SAMPLES_AT_EACH) break;
       }
@@ -106,8 +111,4 @@ async function sampleClouds(recording: Recording, topic: RecordedTopic): Promise
   throw (
     fault ?? new RecordingError('no-topic', 'no cloud in it', { file: recording.file, topic: topic.name })
   );
-}
-
-function axesOf(frameId: string): CloudAxes {
-  return frameId.includes('optical') ? 'optical' : 'body';
 }

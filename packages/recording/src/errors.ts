@@ -1,3 +1,5 @@
+import { RosFault } from '@farpoint/ros';
+
 export type RecordingErrorCode =
   | 'not-a-recording' // neither MCAP nor a ROS 1 bag of version 2.0
   | 'unreadable' // the system refuses the file
@@ -37,4 +39,18 @@ export class RecordingError extends Error {
 /** Of anything thrown, what it says. */
 export function detailOf(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
+}
+
+const OF_MESSAGES: readonly string[] = [
+  'bad-message',
+  'bad-cloud',
+  'too-large',
+  'unsupported',
+] satisfies RecordingErrorCode[];
+
+/** Of anything thrown while a message was read. */
+export function codeOf(error: unknown): RecordingErrorCode {
+  if (error instanceof RecordingError) return error.code;
+  const code = error instanceof RosFault ? error.code : '';
+  return OF_MESSAGES.includes(code) ? (code as RecordingErrorCode) : 'bad-message';
 }

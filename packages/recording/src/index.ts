@@ -2,7 +2,6 @@ export { CloudPlayer, type PlayClock, type PlayedCloud, type PlayOptions } from 
 export { CloudTap, type TapGrid, type TappedCloud, type TappedPackets } from './cloud-tap.ts';
 export { RecordingError, type RecordingErrorCode } from './errors.ts';
 export { openRecording } from './open-recording.ts';
-export type { CloudAxes } from './point-cloud2.ts';
 export type { RecorderOptions } from './recorder-messages.ts';
 export type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 export { SessionRecorder } from './session-recorder.ts';

@@ -1,6 +1,6 @@
+import { lazyDecoder, ros2TypeOf } from '@farpoint/ros';
 import type { McapTypes } from '@mcap/core';
-import { lazyDecoder } from './message-decoder.ts';
-import { type RecordedTopic, ros2TypeOf } from './recording.ts';
+import type { RecordedTopic } from './recording.ts';
 
 /**
  * A topic for each channel. Two channels may have one topic (two publishers): each keeps its own schema.

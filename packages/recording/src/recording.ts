@@ -36,9 +36,3 @@ export interface Recording {
   messages(topics: readonly string[], fromNs: bigint): AsyncGenerator<RecordedMessage, void, void>;
   close(): Promise<void>;
 }
-
-/** ROS 1 says `sensor_msgs/PointCloud2`, ROS 2 `sensor_msgs/msg/PointCloud2`: the latter. */
-export function ros2TypeOf(type: string): string {
-  const parts = type.split('/');
-  return parts.length === 2 ? `${parts[0]}/msg/${parts[1]}` : type;
-}

@@ -1,6 +1,6 @@
 import { intensityColour, intensityScale } from '@farpoint/cloud-formats';
-import { RecordingError } from './errors.ts';
-import type { PointCloud2, PointField } from './ros-messages.ts';
+import { RosFault } from './fault.ts';
+import type { PointCloud2, PointField } from './messages.ts';
 
 /** Axes of a cloud's frame (REP-103): optical (z forward, x right, y down) or body (x forward, y left, z up). */
 export type CloudAxes = 'optical' | 'body';
@@ -36,13 +36,13 @@ export class PointCloud2Decoder {
    *
    * @param into four words a point: x, y, z in metres in the optical frame, then the bytes R, G, B, A
    * @returns how many points there are
-   * @throws {RecordingError} `bad-cloud`, `too-large`
+   * @throws {RosFault} `bad-cloud`, `too-large`
    */
   decode(cloud: PointCloud2, axes: CloudAxes, into: Float32Array): number {
     const { width, height } = cloud;
     const count = checkedCount(cloud);
     if (count * 4 > into.length) {
-      throw new RecordingError('too-large', `a cloud of ${count} points, room for ${into.length / 4}`);
+      throw new RosFault('too-large', `a cloud of ${count} points, room for ${into.length / 4}`);
     }
     if (count === 0) return 0;
     const [x, y, z] = ['x', 'y', 'z'].map((name) => fieldOf(cloud, name)) as [
@@ -122,7 +122,7 @@ interface Rows {
 export function checkedCount({ width, height, point_step, row_step, data, fields }: PointCloud2): number {
   const count = width * height;
   if (count === 0) return 0;
-  const wrong = (detail: string) => new RecordingError('bad-cloud', detail);
+  const wrong = (detail: string) => new RosFault('bad-cloud', detail);
   for (const { name, offset, datatype } of fields) {
     if (offset + (TYPES[datatype - 1]?.bytes ?? 0) > point_step) {
       throw wrong(`field ${name} at ${offset} is outside its point of ${point_step} bytes`);
@@ -143,20 +143,14 @@ function typeOf(field: PointField): { bytes: number; read: Reader } {
 function fieldOf({ fields }: PointCloud2, name: string): PointField {
   const field = fields.find((each) => each.name === name);
   if (field === undefined) {
-    throw new RecordingError(
-      'bad-cloud',
-      `no field ${name}, but ${fields.map((each) => each.name).join(', ')}`,
-    );
+    throw new RosFault('bad-cloud', `no field ${name}, but ${fields.map((each) => each.name).join(', ')}`);
   }
   return field;
 }
 
 function requireFit({ point_step }: PointCloud2, { name, offset }: PointField, bytes: number): void {
   if (offset + bytes <= point_step) return;
-  throw new RecordingError(
-    'bad-cloud',
-    `field ${name} at ${offset} is outside its point of ${point_step} bytes`,
-  );
+  throw new RosFault('bad-cloud', `field ${name} at ${offset} is outside its point of ${point_step} bytes`);
 }
 
 /** Little-endian floats at multiples of four, as nearly every driver has them. */
@@ -229,4 +223,9 @@ function forEachPoint(
     let at = row * rowBytes;
     for (let i = 0; i < width; i++, at += step) visit(at, index++);
   }
+}
+
+/** As REP-103 has it: optical frames are named so. */
+export function axesOf(frameId: string): CloudAxes {
+  return frameId.includes('optical') ? 'optical' : 'body';
 }

@@ -1,8 +1,8 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { RecordingError } from './errors.ts';
+import { RosFault } from './fault.ts';
+import type { PointCloud2, PointField } from './messages.ts';
 import { PointCloud2Decoder } from './point-cloud2.ts';
-import type { PointCloud2, PointField } from './ros-messages.ts';
 
 const SIZES = [1, 1, 2, 2, 4, 4, 4, 8];
 
@@ -160,7 +160,7 @@ describe('PointCloud2Decoder', () => {
           new PointCloud2Decoder().decode(cloud, 'body', new Float32Array(400));
           decoded++;
         } catch (error) {
-          expect(error).toBeInstanceOf(RecordingError);
+          expect(error).toBeInstanceOf(RosFault);
         }
       }),
       { numRuns: 2000 },

@@ -1,7 +1,7 @@
 import { parse } from '@foxglove/rosmsg';
 import { MessageReader as Ros1Reader } from '@foxglove/rosmsg-serialization';
 import { MessageReader as Ros2Reader } from '@foxglove/rosmsg2-serialization';
-import { RecordingError } from './errors.ts';
+import { RosFault } from './fault.ts';
 
 export interface MessageSchema {
   /** How messages are written: `cdr`, `ros1` or `json`. */
@@ -20,7 +20,7 @@ export function lazyDecoder(schema: MessageSchema): (data: Uint8Array) => unknow
   };
 }
 
-/** @throws {RecordingError} `unsupported`, or `bad-message` where the schema cannot be read */
+/** @throws {RosFault} `unsupported`, or `bad-message` where the schema cannot be read */
 function makeDecoder({ messageEncoding, schemaEncoding, schema }: MessageSchema) {
   if (messageEncoding === 'json') {
     return (data: Uint8Array) => JSON.parse(new TextDecoder().decode(data)) as unknown;
@@ -34,7 +34,7 @@ function makeDecoder({ messageEncoding, schemaEncoding, schema }: MessageSchema)
     const reader = new Ros1Reader(parse(text));
     return (data: Uint8Array) => reader.readMessage(data);
   }
-  throw new RecordingError(
+  throw new RosFault(
     'unsupported',
     `messages in ${messageEncoding} with a ${schemaEncoding || 'missing'} schema`,
   );

@@ -1,6 +1,4 @@
 import { type Battery, compose, type Pose, type Quaternion, type Twist, zeroTwist } from '@farpoint/protocol';
-import type { CloudAxes } from './point-cloud2.ts';
-import type { RecordedMessage, RecordedTopic } from './recording.ts';
 import {
   BATTERY_TYPES,
   batteryStateSchema,
@@ -8,11 +6,13 @@ import {
   isFiniteVector,
   ODOMETRY_TYPES,
   odometrySchema,
+  poseStampedSchema,
   stampNs,
   TF_TYPES,
   tfMessageSchema,
   unitQuaternion,
-} from './ros-messages.ts';
+} from './messages.ts';
+import type { CloudAxes } from './point-cloud2.ts';
 import { TransformTree } from './transform-tree.ts';
 
 /** Optical axes (z forward, x right, y down) in a body whose axes are x forward, y left, z up. */
@@ -24,8 +24,14 @@ const UNKNOWN_MOUNT: Pose = { position: { x: 0, y: 0, z: 1 }, orientation: OPTIC
 const BASE_FRAMES = ['base_link', 'base_footprint'];
 const STATIC_SUFFIX = '/tf_static';
 
-/** What a recording has said so far of where things are: from tf, odometry and the battery. */
-export class PlaybackState {
+/** A topic and the type of its messages, as ROS 2 writes it. */
+export interface TypedTopic {
+  name: string;
+  type: string;
+}
+
+/** What was said so far of where things are, live or in a recording: from tf, odometry and the battery. */
+export class WorldState {
   twist: Twist = zeroTwist();
   battery: Battery | null = null;
   readonly #tree = new TransformTree();
@@ -34,23 +40,23 @@ export class PlaybackState {
   #base: string | null = null;
   #newestNs = 0n;
 
-  /** Of a recording's topics those that are needed. */
-  static topicsOf(topics: readonly RecordedTopic[]): RecordedTopic[] {
+  /** Of those topics the ones that say something of it. */
+  static topicsOf<T extends TypedTopic>(topics: readonly T[]): T[] {
     const types = [...TF_TYPES, ...ODOMETRY_TYPES, ...BATTERY_TYPES];
     return topics.filter(({ type }) => types.includes(type));
   }
 
   /** Topics whose transforms hold from before they are said. */
-  static staticTopicsOf(topics: readonly RecordedTopic[]): RecordedTopic[] {
+  static staticTopicsOf<T extends TypedTopic>(topics: readonly T[]): T[] {
     return topics.filter(({ name, type }) => TF_TYPES.includes(type) && name.endsWith(STATIC_SUFFIX));
   }
 
   /** @throws {Error} where the message is not what its type says */
-  take({ topic, data }: Pick<RecordedMessage, 'topic' | 'data'>): void {
-    const message = topic.decode(data);
-    if (TF_TYPES.includes(topic.type)) this.#takeTransforms(message, topic.name.endsWith(STATIC_SUFFIX));
-    else if (ODOMETRY_TYPES.includes(topic.type)) this.#takeOdometry(message);
-    else this.#takeBattery(message);
+  take({ name, type }: TypedTopic, message: unknown): void {
+    if (TF_TYPES.includes(type)) this.#takeTransforms(message, name.endsWith(STATIC_SUFFIX));
+    else if (ODOMETRY_TYPES.includes(type)) this.#takeOdometry(message);
+    else if (BATTERY_TYPES.includes(type)) this.#takeBattery(message);
+    else this.#takePose(message);
   }
 
   /** Of a cloud's frame, its optical axes in the world at the time of its stamp. */
@@ -102,6 +108,17 @@ export class PlaybackState {
     this.#byOdometry.add(child);
     const { position, orientation } = pose.pose;
     this.#place(header.frame_id, child, stampNs(header.stamp), position, orientation, false);
+  }
+
+  /** Of `base_link`: the message names only the frame that it is in. */
+  #takePose(message: unknown): void {
+    const { header, pose } = poseStampedSchema.parse(message);
+    const { position, orientation } = 'pose' in pose ? pose.pose : pose;
+    const base = BASE_FRAMES[0] as string;
+    this.#base = base;
+    if (this.#tree.has(base) && !this.#byOdometry.has(base)) return;
+    this.#byOdometry.add(base);
+    this.#place(header.frame_id, base, stampNs(header.stamp), position, orientation, false);
   }
 
   #place(

@@ -1,4 +1,4 @@
-/** The ROS messages that are read, as far as they are used. They come from a file: each is checked. */
+/** The ROS messages that are read, as far as they are used. They come from a file or from others' nodes: each is checked. */
 import type { Quaternion, Vector3 } from '@farpoint/protocol';
 import * as z from 'zod';
 
@@ -52,6 +52,28 @@ export const odometrySchema = z.object({
   pose: z.object({ pose: z.object({ position: vector3, orientation: quaternion }) }),
   twist: z.object({ twist }),
 });
+
+const pose = z.object({ position: vector3, orientation: quaternion });
+/** PoseStamped, or PoseWithCovarianceStamped. */
+export const poseStampedSchema = z.object({ header, pose: z.union([pose, z.object({ pose })]) });
+
+export const imageSchema = z.object({
+  header,
+  height: z.int().min(0),
+  width: z.int().min(0),
+  encoding: z.string().max(128),
+  is_bigendian: z.union([z.int(), z.boolean()]),
+  step: z.int().min(0),
+  data: z.instanceof(Uint8Array),
+});
+export type Image = z.infer<typeof imageSchema>;
+
+const nine = z.union([z.array(z.number()), z.instanceof(Float64Array)]).refine((k) => k.length === 9);
+/** ROS 1 says `K`, ROS 2 `k`: the matrix of the pictures as they are. */
+export const cameraInfoSchema = z
+  .object({ header, height: z.int().min(0), width: z.int().min(0), k: nine.optional(), K: nine.optional() })
+  .transform(({ header, height, width, k, K }) => ({ header, height, width, k: k ?? K }));
+export type CameraInfo = z.infer<typeof cameraInfoSchema>;
 
 /** Voltage and charge may be NaN: not known. */
 export const batteryStateSchema = z.object({
