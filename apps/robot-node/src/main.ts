@@ -1,17 +1,18 @@
 #!/usr/bin/env node
 import { runProgram, setNiceness } from '@farpoint/service';
-import { robotProgram, toRobotOptions } from './options.ts';
+import { toRobotOptions } from './options/robot-options.ts';
+import { robotProgram } from './options/robot-program.ts';
 import { registerReferenceMetrics } from './reference/reference-metrics.ts';
 import { Robot } from './robot.ts';
 import { registerRobotMetrics } from './telemetry/robot-metrics.ts';
 
-await runProgram(robotProgram, async ({ options, log, health, metrics, shutdown, serveAdmin }) => {
+await runProgram(robotProgram, async ({ options, where, log, health, metrics, shutdown, serveAdmin }) => {
   try {
     setNiceness(options.niceness);
   } catch (error) {
     log.info({ niceness: options.niceness, err: error }, 'the system keeps the priority');
   }
-  const robot = await Robot.start(toRobotOptions(options), log);
+  const robot = await Robot.start(toRobotOptions(options, where), log);
   shutdown.onClose('robot', () => robot.close());
   robot.onFailure = (error) => {
     log.fatal({ err: error }, 'the source failed');

@@ -1,5 +1,36 @@
 /** ` (did you mean x?)` where one of the known names is close to a mistyped one, else nothing. */
 export function closest(name: string, known: readonly string[]): string {
+  return didYouMean(nearest(name, known));
+}
+
+/**
+ * As {@link closest}, of dotted keys of a file: a key mistyped, one in the wrong group (`robot.maxLinear` for
+ * `robot.limits.maxLinear`), or both.
+ *
+ * @param parent the mapping that the key was found in, dotted; empty at the top
+ * @param known every key, dotted
+ */
+export function closestKey(parent: string, name: string, known: readonly string[]): string {
+  const inside = parent === '' ? '' : `${parent}.`;
+  const siblings = new Set(
+    known.filter((key) => key.startsWith(inside)).map((key) => key.slice(inside.length).split('.')[0]!),
+  );
+  const sibling = nearest(name, [...siblings]);
+  if (sibling !== null) return didYouMean(`${inside}${sibling}`);
+  const leaf = (key: string) => key.slice(key.lastIndexOf('.') + 1);
+  // A key that had no group before: adminPort is admin.port now.
+  const joined = known.find((key) => key.replaceAll('.', '').toLowerCase() === name.toLowerCase());
+  const moved = joined ?? known.find((key) => leaf(key).toLowerCase() === name.toLowerCase());
+  if (moved !== undefined) return didYouMean(moved);
+  const near = nearest(name, known.map(leaf));
+  return didYouMean(near === null ? null : (known.find((key) => leaf(key) === near) ?? null));
+}
+
+function didYouMean(name: string | null): string {
+  return name === null ? '' : ` (did you mean ${name}?)`;
+}
+
+function nearest(name: string, known: readonly string[]): string | null {
   let best: string | null = null;
   // Two swapped letters are a distance of 2.
   let bestDistance = Math.max(name.length < 4 ? 1 : 2, Math.floor(name.length / 3)) + 1;
@@ -10,7 +41,7 @@ export function closest(name: string, known: readonly string[]): string {
       bestDistance = distance;
     }
   }
-  return best === null ? '' : ` (did you mean ${best}?)`;
+  return best;
 }
 
 /** Levenshtein distance, row by row. */

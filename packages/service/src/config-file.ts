@@ -1,16 +1,23 @@
 import { readFileSync } from 'node:fs';
-import { parseDocument } from 'yaml';
-import { closest } from './closest.ts';
-import { configSections, OptionsError } from './option-table.ts';
+import { type Document, isAlias, isMap, isScalar, LineCounter, type Node, parseDocument } from 'yaml';
+import { closest, closestKey } from './closest.ts';
+import { type OptionMistake, OptionsError } from './option-errors.ts';
+import { configSections } from './option-table.ts';
+
+type Path = readonly (string | number)[];
 
 /** One program's section of the configuration file. */
 export interface ConfigFile {
   readonly path: string;
-  readonly section: Readonly<Record<string, unknown>>;
+  /** Values by dotted key within the section. */
+  readonly values: ReadonlyMap<string, unknown>;
+  /** Where a key is, or something inside its value: for mistakes. */
+  place(key: string, inside?: Path): { where: string; file: string; line: number; key: string };
 }
 
 interface Expected {
   section: string;
+  /** Dotted, e.g. `limits.maxLinear`. */
   keys: readonly string[];
   mustExist: boolean;
   /** Which flag or variable named the file. */
@@ -18,14 +25,16 @@ interface Expected {
 }
 
 /**
- * Reads one program's section of a configuration file: a YAML mapping from program to a mapping from key to value.
+ * Reads one program's section of a configuration file: YAML, a mapping from program to its options, in groups.
  *
+ * @param mistakes gets a sentence for every section or key that nobody knows; the rest is read all the same
  * @returns null where there is no such file and none was asked for
- * @throws {OptionsError} where the file is missing, not YAML, or has a section or key that nobody knows
+ * @throws {OptionsError} where the file is missing, or is not YAML
  */
 export function readConfigFile(
   path: string,
   expected: Expected,
+  mistakes: OptionMistake[],
   readFile: (path: string) => string | null = readFromDisk,
 ): ConfigFile | null {
   const content = readFile(path);
@@ -33,43 +42,100 @@ export function readConfigFile(
     if (!expected.mustExist) return null;
     throw new OptionsError(expected.source, `names a file that does not exist: ${path}`);
   }
-  const root = parseYaml(path, content);
-  if (root === null) return { path, section: {} };
-  if (!isMapping(root)) throw new OptionsError(path, 'must be a mapping from program to options');
+  const source = parseYaml(path, content);
+  const values = new Map<string, unknown>();
+  const file: ConfigFile = {
+    path,
+    values,
+    place: (key, inside = []) => source.place([expected.section, ...key.split('.'), ...inside]),
+  };
+  const { root } = source;
+  if (root === null || root === undefined) return file;
+  if (!isMapping(root)) {
+    mistakes.push({ ...source.place([]), detail: 'must be a mapping from program to options' });
+    return file;
+  }
   for (const name of Object.keys(root)) {
-    if (!(configSections as readonly string[]).includes(name)) {
-      throw new OptionsError(
-        `${path}: ${name}`,
-        `is not a section${closest(name, configSections)}; the sections are ${configSections.join(', ')}`,
-      );
+    if ((configSections as readonly string[]).includes(name)) continue;
+    const detail = `is not a section${closest(name, configSections)}; the sections are ${configSections.join(', ')}`;
+    mistakes.push({ ...source.place([name]), detail });
+  }
+  collect(root[expected.section], '');
+  return file;
+
+  function collect(node: unknown, group: string): void {
+    if (node === null || node === undefined) return;
+    if (!isMapping(node)) {
+      const path = group === '' ? [expected.section] : [expected.section, ...group.split('.')];
+      mistakes.push({ ...source.place(path), detail: 'must be a mapping from option to value' });
+      return;
+    }
+    for (const [name, value] of Object.entries(node)) {
+      const key = group === '' ? name : `${group}.${name}`;
+      if (expected.keys.includes(key)) values.set(key, value);
+      else if (expected.keys.some((known) => known.startsWith(`${key}.`))) collect(value, key);
+      else {
+        const place = source.place([expected.section, ...(group === '' ? [] : group.split('.')), name]);
+        const hint = closestKey(group, name, expected.keys).replace('mean ', `mean ${expected.section}.`);
+        mistakes.push({ ...place, detail: `is not an option${hint}` });
+      }
     }
   }
-  const section = root[expected.section] ?? {};
-  if (!isMapping(section)) {
-    throw new OptionsError(`${path}: ${expected.section}`, 'must be a mapping from option to value');
-  }
-  for (const key of Object.keys(section)) {
-    if (!expected.keys.includes(key)) {
-      throw new OptionsError(
-        `${path}: ${expected.section}.${key}`,
-        `is not an option${closest(key, expected.keys)}`,
-      );
-    }
-  }
-  return { path, section };
 }
 
-function parseYaml(path: string, content: string): unknown {
-  const document = parseDocument(content, { prettyErrors: true });
-  const fault = document.errors[0];
+interface ParsedYaml {
+  readonly root: unknown;
+  place(path: Path): { where: string; file: string; line: number; key: string };
+}
+
+function parseYaml(file: string, content: string): ParsedYaml {
+  const lines = new LineCounter();
+  const document = parseDocument(content, { prettyErrors: false, lineCounter: lines });
+  const mistakes = document.errors.map((error): OptionMistake => {
+    const { line } = lines.linePos(error.pos[0]);
+    return { where: `${file}:${line}:`, detail: `not valid YAML: ${firstLine(error)}`, file, line };
+  });
+  if (mistakes.length > 0) throw new OptionsError(mistakes);
+  let root: unknown;
   try {
-    if (fault !== undefined) throw fault;
-    return document.toJS();
+    root = document.toJS();
   } catch (error) {
     // Aliases are resolved only by toJS: one that points nowhere, or too many of them, throw there.
-    const reason = (error as Error).message.split('\n')[0]?.replace(/:$/, '') ?? '';
-    throw new OptionsError(path, `is not valid YAML: ${reason}`);
+    throw new OptionsError([{ where: `${file}:`, detail: `not valid YAML: ${firstLine(error)}`, file }]);
   }
+  return {
+    root,
+    place(path) {
+      const { line } = lines.linePos(offsetOf(document, path));
+      const key = path.join('.');
+      return { where: `${file}:${line}:${key === '' ? '' : ` ${key}`}`, file, line: Math.max(1, line), key };
+    },
+  };
+}
+
+/** Where a key begins, or the innermost one that there is on the way to it. */
+function offsetOf(document: Document.Parsed, path: Path): number {
+  let node: unknown = document.contents;
+  let offset = document.contents?.range[0] ?? 0;
+  for (const step of path) {
+    if (isAlias(node)) node = node.resolve(document);
+    let next: unknown;
+    if (isMap(node)) {
+      const pair = node.items.find(({ key }) => String(isScalar(key) ? key.value : key) === String(step));
+      if (pair === undefined) break;
+      offset = (pair.key as Node).range?.[0] ?? offset;
+      next = pair.value;
+    } else if (typeof step === 'number' && typeof node === 'object' && node !== null && 'items' in node) {
+      next = (node.items as unknown[])[step];
+      offset = (next as Node | undefined)?.range?.[0] ?? offset;
+    } else break;
+    node = next;
+  }
+  return offset;
+}
+
+function firstLine(error: unknown): string {
+  return (error as Error).message.split('\n')[0]?.replace(/:$/, '') ?? '';
 }
 
 function readFromDisk(path: string): string | null {

@@ -1,5 +1,6 @@
 import { Command, CommanderError, Option } from 'commander';
-import { type OptionPlace, OptionsError, type OptionTable, type ProgramDefinition } from './option-table.ts';
+import { OptionsError } from './option-errors.ts';
+import type { OptionPlace, OptionTable, ProgramDefinition } from './option-table.ts';
 
 export type ParsedFlags =
   | { action: 'help' }
@@ -39,7 +40,10 @@ export function parseFlags(
 /** What `--help` prints: every option with its default and its environment variable. */
 export function helpText(definition: ProgramDefinition<OptionTable>, places: readonly OptionPlace[]): string {
   const { command } = buildCommand(definition, places);
-  return command.helpInformation();
+  const commands = Object.entries(definition.commands ?? {});
+  if (commands.length === 0) return command.helpInformation();
+  const lines = commands.map(([name, what]) => `  ${`${definition.name} ${name}`.padEnd(26)} ${what}\n`);
+  return `${command.helpInformation()}\nCommands, each with --help of its own:\n${lines.join('')}`;
 }
 
 function buildCommand(
@@ -50,7 +54,8 @@ function buildCommand(
   const command = new Command(definition.name)
     .description(
       `${definition.summary}\n\nEach option may be given as a flag, an environment variable, or a key of the ` +
-        `section "${definition.section}" of the configuration file; the first of these that has it counts.`,
+        `section "${definition.section}" of the configuration file; the first of these that has it counts. ` +
+        'Keys of the file are named only where they differ from the flag.',
     )
     .usage('[options]')
     .version(definition.version, '--version', 'print the version')
@@ -78,7 +83,7 @@ function buildCommand(
 }
 
 function origins(place: OptionPlace): string {
-  const { spec, env } = place;
+  const { spec, env, file, key } = place;
   const parts: string[] = [];
   // Of a boolean, help shows only the flag that changes something: that says it.
   if (
@@ -91,5 +96,6 @@ function origins(place: OptionPlace): string {
     parts.push(`default: ${shown}`);
   }
   if (env !== null) parts.push(`env: ${env}`);
+  if (file !== null && file !== key) parts.push(`file: ${file}`);
   return parts.length === 0 ? '' : `(${parts.join(', ')})`;
 }

@@ -3,6 +3,7 @@ export * from './health.ts';
 export * from './json-lines-file.ts';
 export * from './logger.ts';
 export * from './niceness.ts';
+export * from './option-errors.ts';
 export * as schema from './option-schemas.ts';
 export * from './option-table.ts';
 export * from './options.ts';

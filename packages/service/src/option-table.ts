@@ -1,7 +1,7 @@
 import type * as z from 'zod';
 import { choice, optional, text } from './option-schemas.ts';
 
-/** One option of a program. Its key in the table is its key in the configuration file. */
+/** One option of a program. */
 export interface OptionSpec<T = unknown> {
   /** From text or YAML to the value; see option-schemas.ts. */
   readonly schema: z.ZodType<T>;
@@ -14,6 +14,8 @@ export interface OptionSpec<T = unknown> {
   readonly flag?: `--${string}` | false;
   /** Default: `FARPOINT_<SECTION>_<KEY>`. `false`: not from the environment. */
   readonly env?: string | false;
+  /** Its place in the program's section of the configuration file, dotted. Default: the key. `false`: not from the file. */
+  readonly file?: string | false;
   /** Its value is never shown, neither in errors nor in help. */
   readonly secret?: boolean;
 }
@@ -32,6 +34,8 @@ export interface ProgramDefinition<Table extends OptionTable> {
   /** Its section of the configuration file and the second word of its environment variables. */
   readonly section: ConfigSection;
   readonly options: Table;
+  /** Its other commands, as `--help` lists them: name to what it does. */
+  readonly commands?: Readonly<Record<string, string>>;
 }
 
 /** Every program's section: a section that is none of these is a typing mistake and refused. */
@@ -50,6 +54,7 @@ export const commonOptions = {
     default: null,
     argument: 'FILE',
     env: 'FARPOINT_CONFIG',
+    file: false,
     help: `configuration file (YAML); ./${DEFAULT_CONFIG_PATH} is read where there is one`,
   }),
   logLevel: defineOption({
@@ -57,6 +62,7 @@ export const commonOptions = {
     default: 'info',
     argument: 'LEVEL',
     env: 'FARPOINT_LOG_LEVEL',
+    file: 'log.level',
     help: `least level that is logged: ${logLevels.join(', ')}`,
   }),
   logFormat: defineOption({
@@ -64,26 +70,24 @@ export const commonOptions = {
     default: 'auto',
     argument: 'FORMAT',
     env: 'FARPOINT_LOG_FORMAT',
+    file: 'log.format',
     help: 'json, text, or auto: text on a terminal, JSON elsewhere',
   }),
 } satisfies OptionTable;
 export type CommonValues = OptionValues<typeof commonOptions>;
 
-/** A mistake in flags, environment or configuration file: one sentence that names the place. Exit code 2. */
-export class OptionsError extends Error {
-  override readonly name = 'OptionsError';
-  /** `--port`, `FARPOINT_SIGNALING_PORT` or `farpoint.yaml: signaling.port`. */
-  readonly where: string;
-
-  constructor(where: string, detail: string) {
-    super(`${where} ${detail}`);
-    this.where = where;
-  }
-}
-
 /** Gives one option its type: `default` must be what the schema puts out. */
 export function defineOption<T>(spec: OptionSpec<T>): OptionSpec<T> {
   return spec;
+}
+
+/** Puts options into a group of the configuration file: the key of each follows the group's name and a dot. */
+export function optionGroup<const Table extends OptionTable>(group: string, table: Table): Table {
+  const grouped = Object.entries(table).map(([key, spec]) => [
+    key,
+    spec.file === false ? spec : { ...spec, file: `${group}.${spec.file ?? key}` },
+  ]);
+  return Object.fromEntries(grouped) as Table;
 }
 
 /** Gives a program's table its types. */
@@ -99,6 +103,8 @@ export interface OptionPlace {
   readonly spec: OptionSpec;
   readonly flag: string | null;
   readonly env: string | null;
+  /** Dotted, within the program's section of the configuration file. */
+  readonly file: string | null;
 }
 
 /** Every option of a program, its own before the common ones. */
@@ -109,6 +115,7 @@ export function optionPlaces<Table extends OptionTable>(definition: ProgramDefin
     spec,
     flag: spec.flag === false ? null : (spec.flag ?? `--${words(key).join('-').toLowerCase()}`),
     env: spec.env === false ? null : (spec.env ?? environmentName(definition.section, key)),
+    file: spec.file === false ? null : (spec.file ?? key),
   }));
 }
 

@@ -1,7 +1,9 @@
 import fc from 'fast-check';
 import { describe, expect, expectTypeOf, test } from 'vitest';
+import * as z from 'zod';
+import { OptionsError } from './option-errors.ts';
 import * as schema from './option-schemas.ts';
-import { defineOption, defineProgram, OptionsError } from './option-table.ts';
+import { defineOption, defineProgram, optionGroup } from './option-table.ts';
 import { type OptionInput, resolveOptions } from './options.ts';
 
 const program = defineProgram({
@@ -38,6 +40,16 @@ const program = defineProgram({
       default: 'sim',
       argument: 'KIND',
       help: 'source',
+    }),
+    ...optionGroup('limits', {
+      turn: defineOption({ schema: schema.number({ min: 0 }), default: 1, argument: 'R', help: 'turn' }),
+    }),
+    topics: defineOption({
+      schema: z.array(z.strictObject({ topic: z.string(), most: z.number().max(100).optional() })),
+      default: [],
+      flag: false,
+      env: false,
+      help: 'topics',
     }),
   },
 });
@@ -81,6 +93,8 @@ describe('where a value comes from', () => {
       cameras: [],
       token: null,
       source: 'sim',
+      turn: 1,
+      topics: [],
       config: null,
       logLevel: 'info',
       logFormat: 'auto',
@@ -139,6 +153,91 @@ describe('where a value comes from', () => {
   });
 });
 
+describe('groups of the file', () => {
+  test('give a key a place; flag and variable keep their names', () => {
+    expect(run({ files: { 'farpoint.yaml': 'robot:\n  limits:\n    turn: 2\n' } }).values.turn).toBe(2);
+    expect(run({ argv: ['--turn', '3'], env: { FARPOINT_ROBOT_TURN: '4' } }).values.turn).toBe(3);
+    expect(run({ files: { 'farpoint.yaml': 'robot: {log: {level: debug}}' } }).values.logLevel).toBe('debug');
+    expect(run({ files: { 'farpoint.yaml': 'robot:\n  limits:\n' } }).values.turn).toBe(1);
+  });
+
+  test('say where a value is from', () => {
+    const files = { 'farpoint.yaml': 'robot:\n  limits:\n    turn: 2\n' };
+    const { where } = run({ files, argv: ['--port', '1'], env: { FARPOINT_TOKEN: 'long enough' } });
+    expect([where('turn'), where('port'), where('token'), where('source'), where('topics')]).toEqual([
+      'farpoint.yaml:3: robot.limits.turn',
+      '--port',
+      'FARPOINT_TOKEN',
+      '--source (or robot.source in farpoint.yaml)',
+      'farpoint.yaml: robot.topics',
+    ]);
+    expect(run({}).where('source')).toBe('--source');
+  });
+
+  test.each([
+    ['robot: {turn: 1}', 'farpoint.yaml:1: robot.turn is not an option (did you mean robot.limits.turn?)'],
+    [
+      'robot: {limits: {trun: 1}}',
+      'farpoint.yaml:1: robot.limits.trun is not an option (did you mean robot.limits.turn?)',
+    ],
+    [
+      'robot: {limist: {turn: 1}}',
+      'farpoint.yaml:1: robot.limist is not an option (did you mean robot.limits?)',
+    ],
+    [
+      'robot: {logLevel: info}',
+      'farpoint.yaml:1: robot.logLevel is not an option (did you mean robot.log.level?)',
+    ],
+    ['robot: {limits: 3}', 'farpoint.yaml:1: robot.limits must be a mapping from option to value'],
+    [
+      'robot:\n  topics:\n    - topic: /a\n      moist: 1\n',
+      'farpoint.yaml:4: robot.topics.0.moist is not a key here (did you mean most?), not 1',
+    ],
+    [
+      'robot:\n  topics:\n    - topic: /a\n      most: fast\n',
+      'farpoint.yaml:4: robot.topics.0.most must be a number, not "fast"',
+    ],
+    ['robot:\n  topics:\n    - most: 1\n', 'farpoint.yaml:3: robot.topics.0.topic is missing: must be text'],
+    [
+      'robot:\n  topics: [&a {topic: x, most: 900}, *a]',
+      /2: robot.topics.0.most must be at most 100, not 900\n.*2: robot.topics.1.most/,
+    ],
+    ['robot: {port: 1, port: 2}', /^farpoint.yaml:1: not valid YAML: Map keys must be unique/],
+  ])('%j is refused by name', (file, message) => {
+    if (typeof message === 'string') expect(mistake({ files: { 'farpoint.yaml': file } })).toBe(message);
+    else expect(mistake({ files: { 'farpoint.yaml': file } })).toMatch(message);
+  });
+
+  test('every mistake of flags, environment and file is told at once, typed', () => {
+    const file = 'robto: {}\nrobot:\n  port: no\n  brake: true\n  limits:\n    turn: -1\n';
+    try {
+      resolve({
+        argv: ['--max-speed', '9'],
+        env: { FARPOINT_ROBOT_SOURCE: 'bag', FARPOINT_TOKEN: 'short' },
+        files: { 'farpoint.yaml': file },
+      });
+      expect.unreachable();
+    } catch (error) {
+      expect(error).toBeInstanceOf(OptionsError);
+      expect((error as OptionsError).mistakes).toMatchObject([
+        { file: 'farpoint.yaml', line: 1, key: 'robto' },
+        {
+          file: 'farpoint.yaml',
+          line: 4,
+          key: 'robot.brake',
+          detail: 'is not an option (did you mean robot.brakes?)',
+        },
+        { file: 'farpoint.yaml', line: 3, key: 'robot.port', found: '"no"' },
+        { key: '--max-speed', found: '"9"', detail: 'must be a number from 0 to 2' },
+        { key: 'FARPOINT_TOKEN' },
+        { key: 'FARPOINT_ROBOT_SOURCE', found: '"bag"', detail: 'must be one of sim, shm' },
+        { file: 'farpoint.yaml', line: 6, key: 'robot.limits.turn', found: '-1' },
+      ]);
+      expect((error as OptionsError).message).not.toContain('short');
+    }
+  });
+});
+
 describe('mistakes name their place', () => {
   test.each([
     [{ argv: ['--port', '70000'] }, '--port must be a whole number from 0 to 65535, not "70000"'],
@@ -149,24 +248,24 @@ describe('mistakes name their place', () => {
     ],
     [
       { files: { 'farpoint.yaml': 'robot: {source: rosbag}' } },
-      'farpoint.yaml: robot.source must be one of sim, shm, not "rosbag"',
+      'farpoint.yaml:1: robot.source must be one of sim, shm, not "rosbag"',
     ],
     [
       { files: { 'farpoint.yaml': 'robot: {cameras: [a, []]}' } },
-      'farpoint.yaml: robot.cameras.1 must be text, not ["a",[]]',
+      'farpoint.yaml:1: robot.cameras.1 must be text, not []',
     ],
     [
       { files: { 'farpoint.yaml': 'robot: {prot: 1}' } },
-      'farpoint.yaml: robot.prot is not an option (did you mean port?)',
+      'farpoint.yaml:1: robot.prot is not an option (did you mean robot.port?)',
     ],
     [
       { files: { 'farpoint.yaml': 'robto: {}' } },
-      'farpoint.yaml: robto is not a section (did you mean robot?); the sections are robot, signaling, bridge, web, link',
+      'farpoint.yaml:1: robto is not a section (did you mean robot?); the sections are robot, signaling, bridge, web, link',
     ],
-    [{ files: { 'farpoint.yaml': '[1]' } }, 'farpoint.yaml must be a mapping from program to options'],
+    [{ files: { 'farpoint.yaml': '[1]' } }, 'farpoint.yaml:1: must be a mapping from program to options'],
     [
       { files: { 'farpoint.yaml': 'robot: 7' } },
-      'farpoint.yaml: robot must be a mapping from option to value',
+      'farpoint.yaml:1: robot must be a mapping from option to value',
     ],
     [{ argv: ['--config', 'nix.yaml'] }, '--config names a file that does not exist: nix.yaml'],
     [{ env: { FARPOINT_CONFIG: 'n' } }, 'FARPOINT_CONFIG names a file that does not exist: n'],
@@ -183,7 +282,7 @@ describe('mistakes name their place', () => {
 
   test('a file that is not YAML is refused with its line', () => {
     expect(mistake({ files: { 'farpoint.yaml': 'robot:\n  a: [\n' } })).toMatch(
-      /^farpoint\.yaml is not valid YAML: .* at line 3/,
+      /^farpoint\.yaml:3: not valid YAML: /,
     );
   });
 
@@ -220,6 +319,7 @@ test('--help shows every flag with its default and its variable, secrets without
     expect(text).toContain(flag);
   }
   expect(text).toContain('(default: 0.5, env: FARPOINT_ROBOT_MAX_SPEED)');
+  expect(text).toContain('env: FARPOINT_ROBOT_TURN, file: limits.turn)');
   expect(text).toContain('token (env: FARPOINT_TOKEN)');
   expect(resolve({ argv: ['--version'] })).toEqual({ action: 'print', text: 'farpoint-robot 1.2.3\n' });
 });

@@ -1,12 +1,13 @@
+import type * as z from 'zod';
 import { type ConfigFile, readConfigFile } from './config-file.ts';
 import { helpText, parseFlags } from './flags.ts';
+import { type OptionMistake, throwMistakes } from './option-errors.ts';
+import { valueIssues } from './option-issues.ts';
 import {
   type CommonValues,
   DEFAULT_CONFIG_PATH,
   environmentName,
   type OptionPlace,
-  type OptionSpec,
-  OptionsError,
   type OptionTable,
   type OptionValues,
   optionPlaces,
@@ -31,6 +32,8 @@ export type ResolvedOptions<Table extends OptionTable> =
       readonly action: 'run';
       readonly values: OptionValues<Table> & CommonValues;
       readonly sources: Readonly<Record<string, OptionSource>>;
+      /** How messages name the place of a value: its flag, variable, or line of the file. */
+      readonly where: (key: keyof Table & string) => string;
       /** The configuration file that was read, if any. */
       readonly configPath: string | null;
       /** Set variables that begin like this program's own and are none of them: typing mistakes, worth a warning. */
@@ -41,7 +44,7 @@ export type ResolvedOptions<Table extends OptionTable> =
  * Takes each option from the first place that has it: flags, environment, configuration file, default.
  * An empty environment variable counts as unset.
  *
- * @throws {OptionsError} for an unknown flag, section or key, and for a value its schema refuses
+ * @throws {OptionsError} with every unknown section or key, and every value that its schema refuses; for an unknown flag alone
  */
 export function resolveOptions<Table extends OptionTable>(
   definition: ProgramDefinition<Table>,
@@ -53,38 +56,38 @@ export function resolveOptions<Table extends OptionTable>(
   if (flags.action === 'version')
     return { action: 'print', text: `${definition.name} ${definition.version}\n` };
 
+  const mistakes: OptionMistake[] = [];
   const values: Record<string, unknown> = {};
   const sources: Record<string, OptionSource> = {};
   const take = (place: OptionPlace, file: ConfigFile | null): void => {
     const { key, spec } = place;
-    const fromEnv = place.env === null ? undefined : input.env[place.env];
-    let source: OptionSource = 'default';
-    let where = '';
-    let raw: unknown;
-    if (flags.values.has(key)) {
-      [source, where, raw] = ['flag', place.flag ?? key, flags.values.get(key)];
-    } else if (fromEnv !== undefined && fromEnv !== '') {
-      [source, where, raw] = ['environment', place.env ?? key, fromEnv];
-    } else if (file !== null && Object.hasOwn(file.section, key)) {
-      [source, where, raw] = ['config', `${file.path}: ${definition.section}.${key}`, file.section[key]];
+    const given = findValue(place, flags.values, input.env, file);
+    sources[key] = given?.source ?? 'default';
+    if (given === null) {
+      values[key] = spec.default;
+      return;
     }
-    sources[key] = source;
-    values[key] = source === 'default' ? spec.default : check(spec, where, raw);
+    const parsed = spec.schema.safeParse(given.raw);
+    if (parsed.success) values[key] = parsed.data;
+    else mistakes.push(...valueMistakes(place, given, parsed.error, file));
   };
 
   const config = places.find((place) => place.key === 'config')!;
   take(config, null);
+  throwMistakes(mistakes);
   const file = readConfigFile(
     (values.config as string | null) ?? DEFAULT_CONFIG_PATH,
     {
       section: definition.section,
-      keys: places.filter((place) => place !== config).map((place) => place.key),
+      keys: places.map((place) => place.file).filter((key) => key !== null),
       mustExist: values.config !== null,
       source: sources.config === 'flag' ? config.flag! : config.env!,
     },
+    mistakes,
     input.readFile,
   );
   for (const place of places) if (place !== config) take(place, file);
+  throwMistakes(mistakes);
 
   const prefix = environmentName(definition.section, '');
   const known = new Set(places.map((place) => place.env));
@@ -92,17 +95,58 @@ export function resolveOptions<Table extends OptionTable>(
     action: 'run',
     values: values as OptionValues<Table> & CommonValues,
     sources,
+    where: (key) =>
+      whereIs(places.find((place) => place.key === key)!, sources[key]!, file, definition.section),
     configPath: file?.path ?? null,
     unknownEnvironment: Object.keys(input.env).filter((name) => name.startsWith(prefix) && !known.has(name)),
   };
 }
 
-function check(spec: OptionSpec, where: string, raw: unknown): unknown {
-  const parsed = spec.schema.safeParse(raw);
-  if (parsed.success) return parsed.data;
-  const issue = parsed.error.issues[0]!;
-  const path = issue.path.length === 0 ? '' : `.${issue.path.map(String).join('.')}`;
-  throw new OptionsError(`${where}${path}`, `${issue.message}${spec.secret ? '' : `, not ${shown(raw)}`}`);
+interface GivenValue {
+  source: Exclude<OptionSource, 'default'>;
+  raw: unknown;
+}
+
+function findValue(
+  place: OptionPlace,
+  flags: ReadonlyMap<string, unknown>,
+  environment: OptionInput['env'],
+  file: ConfigFile | null,
+): GivenValue | null {
+  if (flags.has(place.key)) return { source: 'flag', raw: flags.get(place.key) };
+  const variable = place.env === null ? undefined : environment[place.env];
+  if (variable !== undefined && variable !== '') return { source: 'environment', raw: variable };
+  if (place.file !== null && file?.values.has(place.file))
+    return { source: 'config', raw: file.values.get(place.file) };
+  return null;
+}
+
+function valueMistakes(
+  place: OptionPlace,
+  { source, raw }: GivenValue,
+  error: z.ZodError,
+  file: ConfigFile | null,
+): OptionMistake[] {
+  return valueIssues(place.spec.schema, error, raw).map(({ inside, detail, found }) => {
+    const name = (source === 'flag' ? place.flag : place.env) ?? place.key;
+    const key = [name, ...inside].join('.');
+    return {
+      ...(source === 'config' && file !== null && place.file !== null
+        ? file.place(place.file, inside)
+        : { where: key, key }),
+      detail,
+      ...(place.spec.secret || found === undefined ? {} : { found: shown(found) }),
+    };
+  });
+}
+
+function whereIs(place: OptionPlace, source: OptionSource, file: ConfigFile | null, section: string): string {
+  const { flag, env, file: key } = place;
+  if (source === 'environment') return env!;
+  if (source === 'config') return file!.place(key!).where;
+  if (source === 'flag' || file === null || key === null) return flag ?? `${section}.${key}`;
+  // Nothing was given: both ways to give it.
+  return flag === null ? `${file.path}: ${section}.${key}` : `${flag} (or ${section}.${key} in ${file.path})`;
 }
 
 function shown(value: unknown): string {

@@ -2,11 +2,11 @@ import type { Registry } from 'prom-client';
 import { type AdminServer, createAdminHandler, createMetrics, startAdminServer } from './admin-server.ts';
 import { Health } from './health.ts';
 import { createLogger, type Logger } from './logger.ts';
+import { OptionsError } from './option-errors.ts';
 import { port, text } from './option-schemas.ts';
 import {
   type CommonValues,
   defineOption,
-  OptionsError,
   type OptionTable,
   type OptionValues,
   type ProgramDefinition,
@@ -17,6 +17,8 @@ import { Shutdown } from './shutdown.ts';
 /** What a running program gets from its rim. */
 export interface ProgramContext<Table extends OptionTable> {
   readonly options: OptionValues<Table> & CommonValues;
+  /** How messages name the place of an option's value. */
+  readonly where: (key: keyof Table & string) => string;
   readonly log: Logger;
   readonly health: Health;
   readonly metrics: Registry;
@@ -32,12 +34,14 @@ export function adminOptions(defaultPort: number) {
       schema: text(),
       default: '127.0.0.1',
       argument: 'ADDRESS',
+      file: 'admin.host',
       help: 'address for /healthz and /metrics',
     }),
     adminPort: defineOption({
       schema: port(),
       default: defaultPort,
       argument: 'PORT',
+      file: 'admin.port',
       help: 'port for /healthz and /metrics; 0 takes a free one',
     }),
   } satisfies OptionTable;
@@ -58,7 +62,7 @@ export async function runProgram<const Table extends OptionTable>(
     resolved = resolveOptions(definition, { argv: process.argv.slice(2), env: process.env });
   } catch (error) {
     if (!(error instanceof OptionsError)) throw error;
-    process.stderr.write(`${definition.name}: ${error.message}\n`);
+    process.stderr.write(mistakesText(definition.name, error));
     process.exitCode = 2;
     return;
   }
@@ -86,6 +90,7 @@ export async function runProgram<const Table extends OptionTable>(
   try {
     await main({
       options,
+      where: resolved.where,
       log,
       health,
       metrics,
@@ -99,8 +104,15 @@ export async function runProgram<const Table extends OptionTable>(
     });
   } catch (error) {
     const mistake = error instanceof OptionsError;
-    if (mistake) process.stderr.write(`${definition.name}: ${error.message}\n`);
+    if (mistake) process.stderr.write(mistakesText(definition.name, error));
     else log.fatal({ err: error }, 'could not start');
     await shutdown.end('could not start', mistake ? 2 : 1);
   }
+}
+
+/** For standard error: one sentence, or a list of them. */
+export function mistakesText(program: string, { message, mistakes }: OptionsError): string {
+  if (mistakes.length === 1) return `${program}: ${message}\n`;
+  const lines = message.split('\n').map((line) => `  ${line}\n`);
+  return `${program}: ${mistakes.length} mistakes in the options:\n${lines.join('')}`;
 }

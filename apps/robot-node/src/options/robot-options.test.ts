@@ -1,11 +1,12 @@
 import { OptionsError, resolveOptions } from '@farpoint/service';
 import { describe, expect, it } from 'vitest';
-import { robotProgram, toRobotOptions } from './options.ts';
+import { toRobotOptions } from './robot-options.ts';
+import { robotProgram } from './robot-program.ts';
 
 function robot(...argv: string[]) {
   const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => null });
   if (resolved.action !== 'run') throw new Error('printed');
-  return toRobotOptions(resolved.values);
+  return toRobotOptions(resolved.values, resolved.where);
 }
 
 describe('robot options', () => {

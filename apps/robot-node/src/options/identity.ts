@@ -1,0 +1,24 @@
+/** Who the robot is, and what it is to the system it runs on. */
+import { displayNameSchema, robotIdSchema } from '@farpoint/protocol';
+import { defineOption, type OptionTable, schema } from '@farpoint/service';
+
+export const identityOptions = {
+  id: defineOption({
+    schema: robotIdSchema,
+    default: 'robot-1',
+    argument: 'ID',
+    help: 'the robot’s identity: a–z 0–9 . _ -',
+  }),
+  name: defineOption({
+    schema: displayNameSchema,
+    default: 'Robot',
+    argument: 'NAME',
+    help: 'what operators read',
+  }),
+  niceness: defineOption({
+    schema: schema.integer({ min: -20, max: 19 }),
+    default: -5,
+    argument: 'N',
+    help: 'of this process, where the system lets it: commands and packets should not wait for the processor',
+  }),
+} satisfies OptionTable;

@@ -1,0 +1,120 @@
+/** From values that are right one by one to what the robot is made of. */
+import { randomBytes } from 'node:crypto';
+import { readFileSync } from 'node:fs';
+import { type OptionMistake, OptionsError } from '@farpoint/service';
+import type { SourceOptions } from '../capture/open-source.ts';
+import type { SinkOptions } from '../drive/velocity-sink.ts';
+import type { RobotOptions } from '../robot.ts';
+import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
+
+/** How messages name the place of an option's value. */
+export type Where = (key: RobotOptionKey) => string;
+
+/** @throws {OptionsError} with all that only shows when options are seen together, and files that cannot be read */
+export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOptions {
+  const mistakes: OptionMistake[] = [];
+  const refuse = (key: RobotOptionKey, detail: string) => mistakes.push({ where: where(key), detail });
+  checkSource(values, refuse);
+  const ca = values.tlsCa === null ? null : readText(values.tlsCa, (detail) => refuse('tlsCa', detail));
+  if (mistakes.length > 0) throw new OptionsError(mistakes);
+  const [low, high] = (values.udpPorts ?? '').split('-').map(Number);
+  return {
+    id: values.id,
+    name: values.name,
+    signaling: {
+      url: values.signaling,
+      key: values.key ?? randomBytes(16).toString('hex'),
+      token: values.token,
+      ca,
+    },
+    capture: {
+      source: toSource(values),
+      framesPerSecond: values.fps ?? (values.source === 'sim' ? 60 : 30),
+      plan: values.plan,
+      sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
+      floorFraction: values.floor,
+      mostPoints: values.maxPoints,
+      watchdogMs: values.watchdogMs,
+    },
+    sink: toSink(values),
+    limits: {
+      maxLinear: values.maxLinear,
+      maxAngular: values.maxAngular,
+      watchdogMs: values.watchdogMs,
+      maxCommandsPerSecond: values.maxCommandsPerSecond,
+    },
+    takePolicy: values.takePolicy,
+    referenceSignaling: values.referenceSignaling ?? undefined,
+    bitsPerSecond: values.bitrateMbps * 1e6,
+    mode: values.mode,
+    rateControl: values.rateControl,
+    startBitsPerSecond: values.startMbps * 1e6,
+    maxOperators: values.maxOperators,
+    silenceMs: values.silenceS * 1000,
+    connectTimeoutMs: 20_000,
+    iceServers: values.iceServers.map((urls) => ({ urls })),
+    icePolicy: values.icePolicy,
+    portRange: values.udpPorts === null ? undefined : [low as number, high as number],
+    packetLog: values.packetLog ?? undefined,
+    frameLog: values.frameLog ?? undefined,
+    statisticsFile: values.stats ?? undefined,
+    record:
+      values.record === null
+        ? undefined
+        : {
+            path: values.record,
+            compression: values.recordCompression,
+            capturedPerSecond: values.recordCapturedFps,
+          },
+  };
+}
+
+function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, detail: string) => void): void {
+  const { source, path } = values;
+  const played = source === 'recording' || source === 'pcd' || source === 'rgbd';
+  if (played && path === null) refuse('path', `is needed for the source ${source}`);
+  if (source === 'sim' && values.simSize % 4 !== 0) refuse('simSize', 'must be a multiple of 4');
+}
+
+function toSource(values: RobotOptionValues): SourceOptions {
+  const path = values.path ?? '';
+  switch (values.source) {
+    case 'sim':
+      return { kind: 'sim', seed: values.simSeed, size: values.simSize };
+    case 'shm':
+      return {
+        kind: 'shm',
+        layout: values.shmLayout,
+        folder: values.shmFolder,
+        waitMs: values.shmWaitS * 1000,
+      };
+    case 'recording':
+      return {
+        ...{ kind: 'recording', path, topic: values.topic, rate: values.playRate, fromS: values.playFromS },
+        ...{ atEnd: values.playEnd, axes: values.playAxes },
+      };
+    case 'pcd':
+      return { kind: 'pcd', path, frame: values.pcdFrame };
+    case 'rgbd':
+      return { kind: 'rgbd', path };
+  }
+}
+
+function toSink(values: RobotOptionValues): SinkOptions {
+  if (values.sink === 'source') return { kind: 'source' };
+  return {
+    kind: 'shm',
+    folder: values.shmFolder,
+    mode: values.shmAccess === 'group' ? 0o660 : 0o600,
+    silenceMs: values.watchdogMs,
+  };
+}
+
+function readText(path: string, refuse: (detail: string) => void): string {
+  try {
+    return readFileSync(path, 'utf8');
+  } catch (error) {
+    refuse(`cannot be read: ${error instanceof Error ? error.message : String(error)}`);
+    return '';
+  }
+}

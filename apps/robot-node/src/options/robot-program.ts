@@ -1,0 +1,41 @@
+/** The robot program's options, put together: see the file of each group. */
+import { adminOptions, defineProgram, type OptionTable, type OptionValues } from '@farpoint/service';
+import { identityOptions } from './identity.ts';
+import { limitsOptions } from './limits.ts';
+import { measurementOptions } from './measurement.ts';
+import { networkOptions } from './network.ts';
+import { playbackOptions } from './playback.ts';
+import { recordingOptions } from './recording.ts';
+import { shmOptions } from './shm.ts';
+import { signalingOptions } from './signaling.ts';
+import { simOptions } from './sim.ts';
+import { sinkOptions } from './sink.ts';
+import { sourceOptions } from './source.ts';
+import { streamOptions } from './stream.ts';
+
+const options = {
+  ...identityOptions,
+  ...signalingOptions,
+  ...sourceOptions,
+  ...shmOptions,
+  ...playbackOptions,
+  ...simOptions,
+  ...sinkOptions,
+  ...limitsOptions,
+  ...streamOptions,
+  ...networkOptions,
+  ...recordingOptions,
+  ...adminOptions(9400),
+  ...measurementOptions,
+} satisfies OptionTable;
+
+export const robotProgram = defineProgram({
+  name: 'farpoint-robot',
+  summary: 'The robot peer: captures point clouds, fits them to the link, streams them, obeys safe commands.',
+  version: '0.1.0',
+  section: 'robot',
+  options,
+});
+
+export type RobotOptionValues = OptionValues<typeof options>;
+export type RobotOptionKey = keyof typeof options & string;

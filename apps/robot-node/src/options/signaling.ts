@@ -1,0 +1,45 @@
+/** The line to the signaling service. */
+import { handleSchema, tokenSchema } from '@farpoint/protocol';
+import { defineOption, optionGroup, schema } from '@farpoint/service';
+import * as z from 'zod';
+
+const signalingUrlSchema = z
+  .url({ protocol: /^wss?$/, error: 'must be a ws:// or wss:// address' })
+  .refine((url) => new URL(url).search === '', 'must have no query');
+
+export const signalingOptions = optionGroup('signaling', {
+  signaling: defineOption({
+    schema: signalingUrlSchema,
+    default: 'ws://127.0.0.1:3000',
+    argument: 'URL',
+    file: 'url',
+    help: 'signaling service, ws:// or wss://',
+  }),
+  tlsCa: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'FILE',
+    help: 'PEM file of certificate authorities to trust for wss://, instead of the system’s',
+  }),
+  token: defineOption({
+    schema: schema.optional(tokenSchema),
+    default: null,
+    argument: 'TOKEN',
+    secret: true,
+    help: 'token that the signaling service asks for',
+  }),
+  key: defineOption({
+    schema: schema.optional(handleSchema),
+    default: null,
+    argument: 'KEY',
+    secret: true,
+    help: 'proves to signaling, also after a restart, that this is the same robot; random where left out',
+  }),
+  referenceSignaling: defineOption({
+    schema: schema.optional(signalingUrlSchema),
+    default: null,
+    argument: 'URL',
+    file: 'referenceUrl',
+    help: 'also register at this robots’ port of the reference system’s signaling; who connects there may watch and drive without proving who it is',
+  }),
+});

@@ -1,0 +1,18 @@
+/** Where velocities go. */
+import { defineOption, optionGroup, schema } from '@farpoint/service';
+
+export const sinkOptions = optionGroup('sink', {
+  sink: defineOption({
+    schema: schema.choice(['source', 'shm']),
+    default: 'source',
+    argument: 'KIND',
+    file: 'kind',
+    help: 'where velocities go: source (the simulator’s wheels), shm (the reference system’s command block)',
+  }),
+  shmAccess: defineOption({
+    schema: schema.choice(['owner', 'group']),
+    default: 'owner',
+    argument: 'WHO',
+    help: 'who may read and write the files that --sink shm makes: owner (0600), or group (0660)',
+  }),
+});
