@@ -1,6 +1,50 @@
 /** Ways to the operators. */
+import { type IceServer, iceServerSchema } from '@farpoint/protocol';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';
+
+const iceUrlSchema = z
+  .string('must be an address')
+  .regex(/^(stun|turns?):\S+$/, 'must begin with stun:, turn: or turns:');
+
+/** An address alone, or with credentials: an RTCIceServer. */
+const iceServer = z.preprocess(
+  (value) => (typeof value === 'string' ? { urls: value } : value),
+  iceServerSchema.extend({
+    urls: z.union([iceUrlSchema, z.array(iceUrlSchema)], 'must begin with stun:, turn: or turns:'),
+  }),
+) as z.ZodType<IceServer>;
+
+/** A list of a file; text is addresses with commas between them, or the list as JSON. */
+const iceServers = z.preprocess(
+  (value, context) => {
+    if (typeof value !== 'string') return value;
+    if (!value.trimStart().startsWith('['))
+      return value
+        .split(',')
+        .map((part) => part.trim())
+        .filter((part) => part !== '');
+    try {
+      return JSON.parse(value) as unknown;
+    } catch {
+      context.addIssue({ code: 'custom', message: 'must be addresses, or a list of RTCIceServer as JSON' });
+      return z.NEVER;
+    }
+  },
+  z.array(iceServer, 'must be a list'),
+) as z.ZodType<IceServer[]>;
+
+/** `40000-40100`: from the first to the last. */
+const portRange = z.preprocess(
+  (value, context) => {
+    const match = /^(\d{1,5})-(\d{1,5})$/.exec(String(value));
+    const [low, high] = [Number(match?.[1]), Number(match?.[2])];
+    if (match !== null && low >= 1 && low <= high && high <= 65_535) return [low, high];
+    context.addIssue({ code: 'custom', message: 'must be two ports, the lower first, e.g. 40000-40100' });
+    return z.NEVER;
+  },
+  z.tuple([z.number(), z.number()]),
+) as z.ZodType<[number, number]>;
 
 export const networkOptions = optionGroup('network', {
   icePolicy: defineOption({
@@ -10,21 +54,14 @@ export const networkOptions = optionGroup('network', {
     help: 'relay: reach operators by TURN servers only',
   }),
   iceServers: defineOption({
-    schema: schema.list(z.string().regex(/^(stun|turns?):/, 'must begin with stun:, turn: or turns:')),
+    schema: iceServers,
     default: [],
     argument: 'URLS',
-    help: 'STUN or TURN servers besides those of the signaling service',
+    secret: true,
+    help: 'STUN or TURN servers besides those of the signaling service: addresses, or {urls, username, credential}',
   }),
   udpPorts: defineOption({
-    schema: schema.optional(
-      z
-        .string()
-        .regex(/^\d{1,5}-\d{1,5}$/, 'must be two ports, e.g. 40000-40100')
-        .refine((text) => {
-          const [low, high] = text.split('-').map(Number) as [number, number];
-          return low >= 1 && low <= high && high <= 65_535;
-        }, 'must be two ports, the lower first'),
-    ),
+    schema: schema.optional(portRange),
     default: null,
     argument: 'LOW-HIGH',
     help: 'local UDP ports for operators’ connections; any where left out',

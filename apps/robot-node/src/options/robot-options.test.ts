@@ -3,8 +3,11 @@ import { describe, expect, it } from 'vitest';
 import { toRobotOptions } from './robot-options.ts';
 import { robotProgram } from './robot-program.ts';
 
-function robot(...argv: string[]) {
-  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => null });
+const robot = (...argv: string[]) => resolve(argv, null);
+const file = (text: string) => resolve([], text);
+
+function resolve(argv: string[], text: string | null) {
+  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => text });
   if (resolved.action !== 'run') throw new Error('printed');
   return toRobotOptions(resolved.values, resolved.where);
 }
@@ -48,6 +51,43 @@ describe('robot options', () => {
 
   it('give UDP ports as a range', () => {
     expect(robot('--udp-ports', '40000-40010').portRange).toEqual([40_000, 40_010]);
+  });
+
+  it('take servers by address, as JSON, and with credentials from the file', () => {
+    const urls = 'turn:turn.example.org?transport=tcp';
+    expect(robot('--ice-servers', `stun:a:3478, ${urls}`).iceServers).toEqual([
+      { urls: 'stun:a:3478' },
+      { urls },
+    ]);
+    const server = { urls: [urls], username: 'u', credential: 'c' };
+    expect(robot('--ice-servers', JSON.stringify([server])).iceServers).toEqual([server]);
+    expect(file(`robot: {network: {iceServers: ["stun:a", ${JSON.stringify(server)}]}}`).iceServers).toEqual([
+      { urls: 'stun:a' },
+      server,
+    ]);
+  });
+
+  it('take everything from groups of the file, naming what is wrong together by its line', () => {
+    expect(
+      file('robot: {limits: {maxLinear: 0.2}, stream: {bitrateMbps: 20}, network: {udpPorts: 5-9}}'),
+    ).toMatchObject({
+      limits: { maxLinear: 0.2 },
+      bitsPerSecond: 20e6,
+      portRange: [5, 9],
+    });
+    const bad = 'robot:\n  signaling: {tlsCa: /nowhere.pem}\n  source:\n    kind: recording\n';
+    expect(() => file(bad)).toThrow(
+      /^--path \(or robot\.source\.path in farpoint\.yaml\) is needed for the source recording\nfarpoint\.yaml:2: robot\.signaling\.tlsCa cannot be read/,
+    );
+    expect(() => file('robot:\n  topics:\n    - {topic: points, as: cloud}\n')).toThrow(
+      'farpoint.yaml:3: robot.topics.0.topic must be a whole topic name such as /camera/points, not "points"',
+    );
+  });
+
+  it('hide credentials where they are wrong', () => {
+    expect(() => robot('--ice-servers', '[{"urls":"turn:a","credential":5,"secret":"x"}]')).toThrow(
+      /^--ice-servers\.0\.\w+ .*text$/m,
+    );
   });
 
   it.each([

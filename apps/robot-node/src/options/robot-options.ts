@@ -17,7 +17,6 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   checkSource(values, refuse);
   const ca = values.tlsCa === null ? null : readText(values.tlsCa, (detail) => refuse('tlsCa', detail));
   if (mistakes.length > 0) throw new OptionsError(mistakes);
-  const [low, high] = (values.udpPorts ?? '').split('-').map(Number);
   return {
     id: values.id,
     name: values.name,
@@ -52,9 +51,9 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     maxOperators: values.maxOperators,
     silenceMs: values.silenceS * 1000,
     connectTimeoutMs: 20_000,
-    iceServers: values.iceServers.map((urls) => ({ urls })),
+    iceServers: values.iceServers,
     icePolicy: values.icePolicy,
-    portRange: values.udpPorts === null ? undefined : [low as number, high as number],
+    portRange: values.udpPorts ?? undefined,
     packetLog: values.packetLog ?? undefined,
     frameLog: values.frameLog ?? undefined,
     statisticsFile: values.stats ?? undefined,

@@ -12,6 +12,7 @@ import { simOptions } from './sim.ts';
 import { sinkOptions } from './sink.ts';
 import { sourceOptions } from './source.ts';
 import { streamOptions } from './stream.ts';
+import { topicsOptions } from './topics.ts';
 
 const options = {
   ...identityOptions,
@@ -21,6 +22,7 @@ const options = {
   ...playbackOptions,
   ...simOptions,
   ...sinkOptions,
+  ...topicsOptions,
   ...limitsOptions,
   ...streamOptions,
   ...networkOptions,

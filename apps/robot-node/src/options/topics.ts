@@ -1,0 +1,13 @@
+/** The topics of ROS that the robot may touch: only the file has them. */
+import { topicTableSchema } from '@farpoint/ros';
+import { defineOption } from '@farpoint/service';
+
+export const topicsOptions = {
+  topics: defineOption({
+    schema: topicTableSchema,
+    default: [],
+    flag: false,
+    env: false,
+    help: 'ros1, ros2: the topics that the robot subscribes and publishes, and no others',
+  }),
+};
