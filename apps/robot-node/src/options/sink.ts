@@ -1,9 +1,11 @@
 /** Where velocities go. */
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 
+export const SINK_KINDS = ['source', 'shm'] as const;
+
 export const sinkOptions = optionGroup('sink', {
   sink: defineOption({
-    schema: schema.choice(['source', 'shm']),
+    schema: schema.choice(SINK_KINDS),
     default: 'source',
     argument: 'KIND',
     file: 'kind',

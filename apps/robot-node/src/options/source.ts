@@ -1,9 +1,11 @@
 /** Where the clouds come from. */
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 
+export const SOURCE_KINDS = ['sim', 'pcd', 'rgbd', 'shm', 'recording'] as const;
+
 export const sourceOptions = optionGroup('source', {
   source: defineOption({
-    schema: schema.choice(['sim', 'pcd', 'rgbd', 'shm', 'recording']),
+    schema: schema.choice(SOURCE_KINDS),
     default: 'sim',
     argument: 'KIND',
     file: 'kind',
