@@ -115,7 +115,7 @@ describe('FramePlanner, coded', () => {
   it('sends whole frames, finer before more often, and no finer than can be seen', () => {
     const at = (mbps: number, workMs = 5) =>
       planner().planCoded('organised', { ...INPUT, targetBitsPerSecond: mbps * 1e6, workMs });
-    expect(at(100)).toEqual({ framesPerSecond: 60, budgetBytes: Math.floor((230_400 * 3.2) / 8) });
+    expect(at(100)).toEqual({ framesPerSecond: 60, budgetBytes: Math.floor((230_400 * 2.4) / 8) });
     expect(at(8).framesPerSecond).toBe(15);
     // What is left of the rate then is less than a frame's share of it.
     expect(dataBits(at(8))).toBeGreaterThan(7e6);
