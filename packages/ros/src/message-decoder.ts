@@ -1,6 +1,7 @@
 import { parse } from '@foxglove/rosmsg';
 import { MessageReader as Ros1Reader } from '@foxglove/rosmsg-serialization';
 import { MessageReader as Ros2Reader } from '@foxglove/rosmsg2-serialization';
+import { definitionsOf } from './definitions.ts';
 import { RosFault } from './fault.ts';
 
 export interface MessageSchema {
@@ -38,4 +39,23 @@ function makeDecoder({ messageEncoding, schemaEncoding, schema }: MessageSchema)
     'unsupported',
     `messages in ${messageEncoding} with a ${schemaEncoding || 'missing'} schema`,
   );
+}
+
+/**
+ * Decodes the messages of a live topic.
+ *
+ * @param definition as its publisher tells it, for types that are not ROS’s own
+ * @throws {RosFault} `unsupported` where nobody says what its messages hold
+ */
+export function decoderOf(
+  version: 1 | 2,
+  type: string,
+  definition: string | null,
+): (bytes: Uint8Array) => unknown {
+  const definitions = definitionsOf(version, type) ?? (definition === null ? null : parse(definition));
+  if (definitions === null) {
+    throw new RosFault('unsupported', `messages of the type ${type} are not known`);
+  }
+  const reader = version === 1 ? new Ros1Reader(definitions) : new Ros2Reader(definitions);
+  return (bytes) => reader.readMessage(bytes);
 }

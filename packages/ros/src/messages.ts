@@ -68,11 +68,17 @@ export const imageSchema = z.object({
 });
 export type Image = z.infer<typeof imageSchema>;
 
-const nine = z.union([z.array(z.number()), z.instanceof(Float64Array)]).refine((k) => k.length === 9);
-/** ROS 1 says `K`, ROS 2 `k`: the matrix of the pictures as they are. */
+const matrix = (length: number) =>
+  z.union([z.array(z.number()), z.instanceof(Float64Array)]).refine((m) => m.length === length);
+/** ROS 1 says `K` and `P`, ROS 2 `k` and `p`. */
 export const cameraInfoSchema = z
-  .object({ header, height: z.int().min(0), width: z.int().min(0), k: nine.optional(), K: nine.optional() })
-  .transform(({ header, height, width, k, K }) => ({ header, height, width, k: k ?? K }));
+  .object({
+    header,
+    ...{ height: z.int().min(0), width: z.int().min(0) },
+    ...{ k: matrix(9).optional(), K: matrix(9).optional() },
+    ...{ p: matrix(12).optional(), P: matrix(12).optional() },
+  })
+  .transform(({ K, P, k, p, ...rest }) => ({ ...rest, k: k ?? K, p: p ?? P }));
 export type CameraInfo = z.infer<typeof cameraInfoSchema>;
 
 /** Voltage and charge may be NaN: not known. */

@@ -122,6 +122,22 @@ describe('PointCloud2Decoder', () => {
     expect(brightness.at(-1)).toBeGreaterThan(brightness[0] as number);
   });
 
+  it('gives a depth camera’s cloud as pictures: the same depth and colours', () => {
+    fc.assert(
+      fc.property(layout, (spec) => {
+        const cloud = cloudOf({ ...spec, value: (field, i) => (field === 'z' ? i % 90 : i + 7) });
+        const count = spec.width * spec.height;
+        const points = new Float32Array(count * 4);
+        const [depth, colour] = [new Float32Array(count), new Uint32Array(count)];
+        new PointCloud2Decoder().decode(cloud, 'optical', points);
+        expect(new PointCloud2Decoder().decodeImages(cloud, depth, colour)).toBe(count);
+        expect([...depth]).toEqual(Array.from(depth, (_, i) => points[i * 4 + 2]));
+        const words = new Uint32Array(points.buffer);
+        expect([...colour]).toEqual(Array.from(colour, (_, i) => words[i * 4 + 3]));
+      }),
+    );
+  });
+
   it('reads r, g and b by themselves', () => {
     const cloud = cloudOf({
       ...{ width: 1, height: 1, bigEndian: true, gap: 0, rowPadding: 0 },
@@ -154,10 +170,12 @@ describe('PointCloud2Decoder', () => {
     });
     let decoded = 0;
     fc.assert(
-      fc.property(wild, (fields) => {
+      fc.property(wild, fc.boolean(), (fields, asImages) => {
         const cloud = { header: { stamp: { sec: 0, nanosec: 0 }, frame_id: '' }, ...fields };
         try {
-          new PointCloud2Decoder().decode(cloud, 'body', new Float32Array(400));
+          if (asImages)
+            new PointCloud2Decoder().decodeImages(cloud, new Float32Array(100), new Uint32Array(100));
+          else new PointCloud2Decoder().decode(cloud, 'body', new Float32Array(400));
           decoded++;
         } catch (error) {
           expect(error).toBeInstanceOf(RosFault);

@@ -1,12 +1,11 @@
 import { intensityColour, intensityScale } from '@farpoint/cloud-formats';
 import { RosFault } from './fault.ts';
+import { GREY } from './image.ts';
 import type { PointCloud2, PointField } from './messages.ts';
 
 /** Axes of a cloud's frame (REP-103): optical (z forward, x right, y down) or body (x forward, y left, z up). */
 export type CloudAxes = 'optical' | 'body';
 
-/** Points that have no colour and no intensity: light grey, opaque. */
-const GREY = 0xffc8_c8c8;
 const LEVELS = 256;
 
 type Reader = (view: DataView, at: number, little: boolean) => number;
@@ -54,11 +53,40 @@ export class PointCloud2Decoder {
     const rows: Rows = { width, height, rowBytes, step: cloud.point_step };
     if (isPlain(cloud, [x, y, z], rowBytes)) copyWords(alignedWords(cloud.data), rows, [x, y, z], axes, into);
     else readCoordinates(cloud, rows, [x, y, z], axes, into);
-    this.#colour(cloud, rows, new Uint32Array(into.buffer, into.byteOffset, into.length));
+    this.#colour(cloud, rows, new Uint32Array(into.buffer, into.byteOffset, into.length), 4, 3);
     return count;
   }
 
-  #colour(cloud: PointCloud2, rows: Rows, words: Uint32Array): void {
+  /**
+   * A depth camera's cloud as its pictures: what lies at a pixel is its depth; x and y follow from the camera. The
+   * cloud's axes are optical.
+   *
+   * @param depth along z, metres @param colour R, G, B, A, R lowest @returns how many pixels there are
+   * @throws {RosFault} `bad-cloud`, `too-large`
+   */
+  decodeImages(cloud: PointCloud2, depth: Float32Array, colour: Uint32Array): number {
+    const count = checkedCount(cloud);
+    if (count > depth.length) {
+      throw new RosFault('too-large', `a cloud of ${count} points, room for ${depth.length}`);
+    }
+    if (count === 0) return 0;
+    const { width, height } = cloud;
+    const rowBytes = height > 1 ? cloud.row_step : width * cloud.point_step;
+    const rows: Rows = { width, height, rowBytes, step: cloud.point_step };
+    const z = fieldOf(cloud, 'z');
+    const { data } = cloud;
+    const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
+    const little = !cloud.is_bigendian;
+    const { read } = typeOf(z);
+    forEachPoint(rows, (at, i) => {
+      depth[i] = read(view, at + z.offset, little);
+    });
+    this.#colour(cloud, rows, colour, 1, 0);
+    return count;
+  }
+
+  /** @param stride words from one point's colour to the next, the first at `first` */
+  #colour(cloud: PointCloud2, rows: Rows, words: Uint32Array, stride: number, first: number): void {
     const { fields, data } = cloud;
     const little = !cloud.is_bigendian;
     const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
@@ -69,7 +97,8 @@ export class PointCloud2Decoder {
       requireFit(cloud, packed, 4);
       forEachPoint(rows, (at, i) => {
         const argb = view.getUint32(at + packed.offset, little);
-        words[i * 4 + 3] = ((argb >> 16) & 0xff) | (argb & 0xff00) | ((argb & 0xff) << 16) | 0xff00_0000;
+        words[i * stride + first] =
+          ((argb >> 16) & 0xff) | (argb & 0xff00) | ((argb & 0xff) << 16) | 0xff00_0000;
       });
       return;
     }
@@ -81,7 +110,7 @@ export class PointCloud2Decoder {
         number,
       ];
       forEachPoint(rows, (at, i) => {
-        words[i * 4 + 3] =
+        words[i * stride + first] =
           view.getUint8(at + r) | (view.getUint8(at + g) << 8) | (view.getUint8(at + b) << 16) | 0xff00_0000;
       });
       return;
@@ -89,7 +118,7 @@ export class PointCloud2Decoder {
     const intensity = named('intensity', 'intensities', 'reflectivity');
     if (intensity === undefined) {
       forEachPoint(rows, (_, i) => {
-        words[i * 4 + 3] = GREY;
+        words[i * stride + first] = GREY;
       });
       return;
     }
@@ -105,7 +134,7 @@ export class PointCloud2Decoder {
       const level = read(view, at + intensity.offset, little) * scale;
       // NaN fails the comparison.
       const index = level > 0 ? Math.min(Math.round(level), LEVELS - 1) : 0;
-      words[i * 4 + 3] = palette[index] as number;
+      words[i * stride + first] = palette[index] as number;
     });
   }
 }

@@ -1,0 +1,35 @@
+/** A velocity as the messages that bases, twist_mux and Nav2 take: geometry_msgs Twist and TwistStamped. */
+import type { Twist } from '@farpoint/protocol';
+import { MessageWriter as Ros1Writer } from '@foxglove/rosmsg-serialization';
+import { MessageWriter as Ros2Writer } from '@foxglove/rosmsg2-serialization';
+import { definitionsOf } from './definitions.ts';
+import { RosFault } from './fault.ts';
+import type { Qos } from './graph.ts';
+
+/** As Nav2 publishes velocities and twist_mux takes them: an old one is worth nothing. */
+export const VELOCITY_QOS: Qos = { reliability: 'reliable', durability: 'volatile', depth: 1 };
+
+export type VelocityWriter = (twist: Twist, stampNs: bigint, frameId: string) => Uint8Array;
+
+/**
+ * @param type `geometry_msgs/msg/Twist` or `geometry_msgs/msg/TwistStamped`
+ * @throws {RosFault} `unsupported` for any other
+ */
+export function velocityWriter(version: 1 | 2, type: string): VelocityWriter {
+  const stamped = type === 'geometry_msgs/msg/TwistStamped';
+  const definitions = definitionsOf(version, type);
+  if (definitions === null || !(stamped || type === 'geometry_msgs/msg/Twist')) {
+    throw new RosFault('unsupported', `velocities as ${type}`);
+  }
+  const writer = version === 1 ? new Ros1Writer(definitions) : new Ros2Writer(definitions);
+  if (!stamped) return (twist) => writer.writeMessage(twist);
+  let seq = 0;
+  return (twist, stampNs, frame_id) => {
+    const sec = Number(stampNs / 1_000_000_000n);
+    const nsec = Number(stampNs % 1_000_000_000n);
+    // Each writer takes the names of its own version.
+    const stamp = { sec, nsec, nanosec: nsec };
+    seq = (seq + 1) >>> 0;
+    return writer.writeMessage({ header: { seq, stamp, frame_id }, twist });
+  };
+}
