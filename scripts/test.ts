@@ -4,8 +4,10 @@
  */
 import { parseArgs } from 'node:util';
 import { CHROMIUM_REMEDY } from '@farpoint/local-stack';
-import { BUILD_REMEDY, buildAddon } from '../packages/shared-memory/src/build.ts';
+import * as dds from '../packages/dds/src/build.ts';
+import * as sharedMemory from '../packages/shared-memory/src/build.ts';
 import { ensureChromium } from './lib/ensure-chromium.ts';
+import { ensureCycloneDds, ensureDdsPeers } from './lib/ensure-dds.ts';
 import { ensureNumpy } from './lib/ensure-numpy.ts';
 import { ensureTurnServer } from './lib/ensure-turn-server.ts';
 import { run } from './lib/run.ts';
@@ -52,10 +54,20 @@ const steps: Step[] = [
     name: 'native',
     what: 'native addons build from source (node-gyp)',
     run: async () => {
-      const { ok, output } = buildAddon();
-      if (!ok) say(output.trim().split('\n').slice(-20).join('\n  '));
+      await ensureCycloneDds(say);
+      const left: string[] = [];
+      for (const [what, { buildAddon, BUILD_REMEDY }] of [
+        ['shared memory', sharedMemory],
+        ['ROS 2', dds],
+      ] as const) {
+        const { ok, output } = buildAddon();
+        if (ok) continue;
+        say(output.trim().split('\n').slice(-20).join('\n  '));
+        left.push(`${what} is not tested: ${BUILD_REMEDY}`);
+      }
       await ensureNumpy(say);
-      return ok ? { ok } : { ok: true, skipped: `shared memory is not tested: ${BUILD_REMEDY}` };
+      if (dds.buildAddon().ok) await ensureDdsPeers(say);
+      return left.length === 0 ? { ok: true } : { ok: true, skipped: left.join('; ') };
     },
   },
   {

@@ -1,0 +1,21 @@
+{
+  "variables": {
+    "cyclonedds%": "<!(node -p \"process.env.CYCLONEDDS_HOME || ''\")"
+  },
+  "targets": [
+    {
+      "target_name": "farpoint_dds",
+      "sources": ["addon.c", "values.c", "raw_type.c", "domain.c", "graph.c", "reader.c", "writer.c"],
+      "defines": ["NAPI_VERSION=8", "_GNU_SOURCE", "DDS_NDEBUG"],
+      "cflags": ["-std=gnu11", "-Wall", "-Wextra", "-Wno-unused-parameter", "-O2", "-fvisibility=hidden"],
+      "cflags_c": ["-std=gnu11"],
+      "libraries": ["-lddsc"],
+      "conditions": [
+        ["cyclonedds != ''", {
+          "include_dirs": ["<(cyclonedds)/include"],
+          "ldflags": ["-L<(cyclonedds)/lib", "-Wl,-rpath,<(cyclonedds)/lib"]
+        }]
+      ]
+    }
+  ]
+}

@@ -1,0 +1,48 @@
+/* One participant of a domain, and what it sees of the others. */
+#ifndef FARPOINT_GRAPH_H
+#define FARPOINT_GRAPH_H
+
+#include <dds/dds.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "raw_type.h"
+
+struct graph;
+
+/* `changed` is called from a thread of CycloneDDS whenever a publisher or subscriber comes or goes. */
+dds_return_t graph_open(dds_domainid_t id, const char *configuration, void (*changed)(void *), void *context,
+                        struct graph **to);
+/* No call of `changed` comes after it. The participant goes with the last of its readers and writers. */
+void graph_close(struct graph *graph);
+
+struct topic_quality {
+  bool reliable;
+  bool transient_local;
+  int32_t depth;
+};
+
+/* What a reader and a writer have in common; the type is referenced. */
+struct endpoint {
+  struct graph *graph;
+  dds_entity_t topic;
+  dds_entity_t entity;
+  struct ddsi_sertype *type;
+};
+
+dds_return_t graph_reader(struct graph *graph, const char *topic, const char *type, struct topic_quality quality,
+                          dds_listener_t *listener, struct endpoint *to);
+dds_return_t graph_writer(struct graph *graph, const char *topic, const char *type, struct topic_quality quality,
+                          struct endpoint *to);
+/* Waits for listeners at work; none is called after it. */
+void endpoint_delete(struct endpoint *endpoint);
+
+/*
+ * Calls `visit` for each publisher (or subscriber) that other participants have, within bounds; `reliable` and
+ * `transient_local` as it offers (or asks for) them.
+ */
+dds_return_t graph_others(struct graph *graph, bool publishers,
+                          void (*visit)(void *, const char *topic, const char *type, bool reliable, bool transient_local),
+                          void *context);
+
+#endif

@@ -1,0 +1,21 @@
+/* A writer of samples that are bytes already. */
+#ifndef FARPOINT_WRITER_H
+#define FARPOINT_WRITER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "graph.h"
+
+struct writer;
+
+dds_return_t writer_open(struct graph *graph, const char *topic, const char *type, struct topic_quality quality,
+                         struct writer **to);
+void writer_close(struct writer *writer);
+
+/* Never waits: DDS_RETCODE_TIMEOUT where a reliable subscriber has not confirmed enough of what it got. */
+dds_return_t writer_write(struct writer *writer, const uint8_t *bytes, size_t count);
+
+uint32_t writer_subscribers(struct writer *writer);
+
+#endif

@@ -1,0 +1,154 @@
+/** A ROS 2 graph over DDS. */
+import {
+  type AdvertiseAs,
+  type GraphTopic,
+  type OnMessage,
+  type Publisher,
+  type Qos,
+  RELIABLE_QOS,
+  RosFault,
+  type RosGraph,
+  SENSOR_QOS,
+  type SubscribeTo,
+  type Subscription,
+} from '@farpoint/ros';
+import { type Addon, type GraphHandle, loadAddon } from './addon.ts';
+import { cycloneConfiguration, type DdsOptions, ddsOptionsFrom } from './configuration.ts';
+import { DdsPublisher } from './dds-publisher.ts';
+import { DdsSubscription } from './dds-subscription.ts';
+import {
+  type OtherEndpoint,
+  type OwnEndpoint,
+  publisherFaults,
+  readOthers,
+  subscriptionFaults,
+  topicsOf,
+} from './discovery.ts';
+import { toDdsTopic, toDdsType } from './ros-names.ts';
+
+export interface DdsGraphOptions extends DdsOptions {
+  /** Of `receivedMs`, ms; CLOCK_MONOTONIC where left out. */
+  now?: () => number;
+  /** Where ROS's and CycloneDDS's variables are read; the process's where left out. */
+  env?: Readonly<Record<string, string | undefined>>;
+}
+
+export class DdsGraph implements RosGraph {
+  readonly version = 2;
+  onFault: ((fault: RosFault) => void) | null = null;
+  readonly #addon: Addon;
+  readonly #handle: GraphHandle;
+  readonly #now: () => number;
+  readonly #subscriptions = new Map<DdsSubscription, OwnEndpoint>();
+  readonly #publishers = new Map<DdsPublisher, OwnEndpoint>();
+  /** What is wrong as far as discovery knows, by its text: each is told once, and again when it has gone and come back. */
+  #standing: ReadonlySet<string> = new Set();
+  #closed = false;
+
+  /** @throws {RosFault} `unavailable`: the addon or its library is not there, an option cannot be, no such interface */
+  constructor({ now = monotonicMs, env = process.env, ...options }: DdsGraphOptions = {}) {
+    const checked = ddsOptionsFrom(options, env);
+    this.#addon = loadAddon();
+    this.#now = now;
+    try {
+      const configuration = cycloneConfiguration(checked, env.CYCLONEDDS_URI);
+      this.#handle = this.#addon.open(checked.domain ?? 0, configuration, () => this.#look());
+    } catch (error) {
+      throw openingFault(error, checked);
+    }
+  }
+
+  subscribe(to: SubscribeTo, onMessage: OnMessage): Subscription {
+    const own = { topic: to.topic, type: to.type, qos: to.qos ?? SENSOR_QOS };
+    const subscription = new DdsSubscription(
+      this.#addon,
+      this.#handle,
+      { ...own, ...namesOf(own), queue: to.queue },
+      {
+        onMessage,
+        onFault: (fault) => this.onFault?.(fault),
+        onClose: (closed) => this.#subscriptions.delete(closed),
+        now: this.#now,
+      },
+    );
+    this.#subscriptions.set(subscription, own);
+    this.#lookSoon();
+    return subscription;
+  }
+
+  advertise(as: AdvertiseAs): Publisher {
+    const own = { topic: as.topic, type: as.type, qos: as.qos ?? RELIABLE_QOS };
+    const publisher = new DdsPublisher(this.#addon, this.#handle, { ...own, ...namesOf(own) }, (closed) =>
+      this.#publishers.delete(closed),
+    );
+    this.#publishers.set(publisher, own);
+    this.#lookSoon();
+    return publisher;
+  }
+
+  /** Of other participants: our own publishers and subscriptions do not count. */
+  topics(): readonly GraphTopic[] {
+    return this.#closed ? [] : topicsOf(this.#others('publishers'), this.#others('subscribers'));
+  }
+
+  close(): Promise<void> {
+    if (this.#closed) return Promise.resolve();
+    this.#closed = true;
+    for (const each of [...this.#subscriptions.keys(), ...this.#publishers.keys()]) each.close();
+    this.#addon.closeGraph(this.#handle);
+    return Promise.resolve();
+  }
+
+  #others(side: 'publishers' | 'subscribers'): OtherEndpoint[] {
+    return readOthers(this.#addon.others(this.#handle, side === 'publishers'));
+  }
+
+  /** After the caller has set its {@link onFault}. */
+  #lookSoon(): void {
+    queueMicrotask(() => this.#look());
+  }
+
+  /** Tells what discovery has that does not fit, as far as it has not been told. */
+  #look(): void {
+    if (this.#closed || this.#subscriptions.size + this.#publishers.size === 0) return;
+    const [publishers, subscribers] = [this.#others('publishers'), this.#others('subscribers')];
+    const faults = [
+      ...[...this.#subscriptions.values()].flatMap((own) => subscriptionFaults(own, publishers)),
+      ...[...this.#publishers.values()].flatMap((own) => publisherFaults(own, subscribers)),
+    ];
+    const told = new Set(this.#standing);
+    this.#standing = new Set(faults.map(({ message }) => message));
+    for (const fault of faults) {
+      if (!told.has(fault.message)) this.onFault?.(fault);
+      told.add(fault.message);
+    }
+  }
+}
+
+/** @throws {RosFault} where they are no names of ROS */
+function namesOf({ topic, type }: { topic: string; type: string; qos: Qos }): {
+  ddsTopic: string;
+  ddsType: string;
+} {
+  const [ddsTopic, ddsType] = [toDdsTopic(topic), toDdsType(type)];
+  if (ddsTopic === null) throw new RosFault('unsupported', `${topic} is not a whole topic name`, { topic });
+  if (ddsType === null) throw new RosFault('unsupported', `${type} is not a message type`, { topic });
+  return { ddsTopic, ddsType };
+}
+
+function openingFault(error: unknown, { domain, interface: network }: DdsOptions): RosFault {
+  const { code, message } = error as NodeJS.ErrnoException;
+  if (code === 'CONFIGURATION') {
+    const what = `DDS domain ${domain} is in use in this process with another configuration`;
+    return new RosFault('unavailable', what, { cause: error, remedy: 'give both the same options' });
+  }
+  const at = network === undefined ? '' : ` on interface ${network}`;
+  return new RosFault('unavailable', `DDS domain ${domain} could not be joined${at} (${message})`, {
+    cause: error,
+    remedy: 'see that the network interface is there and that CYCLONEDDS_URI is right',
+  });
+}
+
+function monotonicMs(): number {
+  return Number(process.hrtime.bigint()) / 1e6;
+}

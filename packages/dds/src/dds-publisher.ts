@@ -1,0 +1,64 @@
+import type { Publisher, Qos } from '@farpoint/ros';
+import type { Addon, GraphHandle, WriterHandle } from './addon.ts';
+import { encapsulationFault } from './encapsulation.ts';
+
+export interface WriterOptions {
+  topic: string;
+  ddsTopic: string;
+  ddsType: string;
+  qos: Qos;
+}
+
+export class DdsPublisher implements Publisher {
+  readonly topic: string;
+  readonly #addon: Addon;
+  readonly #writer: WriterHandle;
+  readonly #onClose: (publisher: DdsPublisher) => void;
+  #refused = 0;
+  #closed = false;
+
+  constructor(
+    addon: Addon,
+    graph: GraphHandle,
+    { topic, ddsTopic, ddsType, qos }: WriterOptions,
+    onClose: (publisher: DdsPublisher) => void,
+  ) {
+    this.topic = topic;
+    this.#addon = addon;
+    this.#onClose = onClose;
+    this.#writer = addon.advertise(
+      ...([
+        graph,
+        ddsTopic,
+        ddsType,
+        qos.reliability === 'reliable',
+        qos.durability === 'transient-local',
+      ] as const),
+      qos.depth,
+    );
+  }
+
+  get subscribers(): number {
+    return this.#closed ? 0 : this.#addon.subscribers(this.#writer);
+  }
+
+  /** Messages that a reliable subscriber was too slow for. */
+  get refused(): number {
+    return this.#refused;
+  }
+
+  /** @throws {RosFault} `bad-message`: no CDR */
+  publish(bytes: Uint8Array): void {
+    if (this.#closed) return;
+    const fault = encapsulationFault(this.topic, bytes);
+    if (fault !== null) throw fault;
+    if (!this.#addon.write(this.#writer, bytes)) this.#refused++;
+  }
+
+  close(): void {
+    if (this.#closed) return;
+    this.#closed = true;
+    this.#addon.closeWriter(this.#writer);
+    this.#onClose(this);
+  }
+}

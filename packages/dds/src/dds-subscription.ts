@@ -1,0 +1,116 @@
+import type { OnMessage, Qos, RosFault, Subscription } from '@farpoint/ros';
+import type { Addon, GraphHandle, ReaderHandle } from './addon.ts';
+import { encapsulationFault } from './encapsulation.ts';
+
+/** Room for small messages; grows to the largest that came. */
+const FIRST_ROOM_BYTES = 4096;
+
+export interface ReaderOptions {
+  topic: string;
+  ddsTopic: string;
+  ddsType: string;
+  qos: Qos;
+  queue: number;
+}
+
+export interface SubscriptionEvents {
+  onMessage: OnMessage;
+  onFault: (fault: RosFault) => void;
+  onClose: (subscription: DdsSubscription) => void;
+  now: () => number;
+}
+
+/** Hands messages over from one buffer that is used again for each: one copy, made outside of the queue's lock's reach. */
+export class DdsSubscription implements Subscription {
+  readonly topic: string;
+  readonly definition = null;
+  readonly #addon: Addon;
+  readonly #events: SubscriptionEvents;
+  readonly #reader: ReaderHandle;
+  readonly #receivedMs = new Float64Array(1);
+  readonly #counts = new Float64Array(4);
+  #room = new Uint8Array(FIRST_ROOM_BYTES);
+  /** Bad messages in a row with the same fault are told once. */
+  #toldFault: string | null = null;
+  #closed = false;
+
+  constructor(addon: Addon, graph: GraphHandle, options: ReaderOptions, events: SubscriptionEvents) {
+    const { topic, ddsTopic, ddsType, qos, queue } = options;
+    this.topic = topic;
+    this.#addon = addon;
+    this.#events = events;
+    this.#reader = addon.subscribe(
+      ...([
+        graph,
+        ddsTopic,
+        ddsType,
+        qos.reliability === 'reliable',
+        qos.durability === 'transient-local',
+      ] as const),
+      ...([qos.depth, queue, () => this.#drain()] as const),
+    );
+  }
+
+  get received(): number {
+    return this.#count(0);
+  }
+
+  get dropped(): number {
+    return this.#count(1);
+  }
+
+  /** That never came, as gaps in the publishers' numbers tell. */
+  get lost(): number {
+    return this.#count(2);
+  }
+
+  get publishers(): number {
+    return this.#closed ? 0 : this.#count(3);
+  }
+
+  close(): void {
+    if (this.#closed) return;
+    this.#count(0);
+    this.#closed = true;
+    this.#addon.closeReader(this.#reader);
+    this.#events.onClose(this);
+  }
+
+  /** What waits now; what comes meanwhile has its own call, so that nobody else starves. */
+  #drain(): void {
+    if (this.#closed) return;
+    for (let left = this.#addon.rest(this.#reader); left > 0 && !this.#closed; left--) {
+      const bytes = this.#take();
+      if (bytes === null) return;
+      const fault = encapsulationFault(this.topic, bytes);
+      if (fault === null) {
+        this.#toldFault = null;
+        this.#events.onMessage(bytes, this.#whenReceived());
+      } else if (fault.message !== this.#toldFault) {
+        this.#toldFault = fault.message;
+        this.#events.onFault(fault);
+      }
+    }
+  }
+
+  #take(): Uint8Array | null {
+    for (;;) {
+      const size = this.#addon.take(this.#reader, this.#room, this.#receivedMs);
+      if (size < 0) return null;
+      if (size <= this.#room.length) return this.#room.subarray(0, size);
+      // Later ones are about as large, and often a little larger.
+      this.#room = new Uint8Array(Math.ceil(size * 1.25));
+    }
+  }
+
+  /** By the clock that was given. */
+  #whenReceived(): number {
+    const ageMs = Number(process.hrtime.bigint()) / 1e6 - (this.#receivedMs[0] as number);
+    return this.#events.now() - Math.max(0, ageMs);
+  }
+
+  #count(index: number): number {
+    if (!this.#closed) this.#addon.readerCounts(this.#reader, this.#counts);
+    return this.#counts[index] as number;
+  }
+}

@@ -1,0 +1,76 @@
+/**
+ * Builds a Node-API addon with node-gyp where its sources have changed. Node's headers are taken from the Node that runs
+ * this where it carries them, or from the system; only where there are none does node-gyp fetch them.
+ */
+import { spawnSync } from 'node:child_process';
+import { createHash } from 'node:crypto';
+import { existsSync, readdirSync, readFileSync, realpathSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { dirname, join } from 'node:path';
+
+export interface BuildResult {
+  ok: boolean;
+  /** What the tools said, where it failed. */
+  output: string;
+}
+
+export interface NativeAddon {
+  /** Where its `binding.gyp` and its sources are. */
+  folder: string;
+  /** The target's name in `binding.gyp`. */
+  name: string;
+  /** What else the build depends on: environment, versions of libraries. */
+  depends?: string;
+}
+
+/** Where the addon is once it is built. */
+export function addonFile({ folder, name }: NativeAddon): string {
+  return join(folder, 'build', 'Release', `${name}.node`);
+}
+
+/** Builds it where its sources have changed since the last time, or it is not there. */
+export function buildNativeAddon(addon: NativeAddon): BuildResult {
+  const { folder } = addon;
+  const stampFile = join(folder, 'build', 'sources.sha256');
+  const stamp = sourcesHash(addon);
+  if (existsSync(addonFile(addon)) && existsSync(stampFile) && readFileSync(stampFile, 'utf8') === stamp)
+    return { ok: true, output: '' };
+  const gyp = createRequire(import.meta.url).resolve('node-gyp/bin/node-gyp.js');
+  const headers = findNodeHeaders();
+  const { status, stdout, stderr, error } = spawnSync(
+    process.execPath,
+    [gyp, 'rebuild', '--release', ...(headers === null ? [] : [`--nodedir=${headers}`])],
+    { cwd: folder, encoding: 'utf8' },
+  );
+  if (status !== 0) return { ok: false, output: `${stdout}${stderr}${error?.message ?? ''}` };
+  writeFileSync(stampFile, stamp);
+  return { ok: true, output: '' };
+}
+
+/** A folder with `include/node/node_api.h`, or `null`. Node-API is stable: headers of another Node serve as well. */
+function findNodeHeaders(): string | null {
+  const program = dirname(dirname(realpathSync(process.execPath)));
+  const carried = join(program, 'node_modules');
+  const candidates = [
+    process.env.npm_config_nodedir,
+    program,
+    // The npm package `node` keeps the distribution for this machine in a package of its own.
+    ...(existsSync(carried) ? readdirSync(carried).map((name) => join(carried, name)) : []),
+    '/usr',
+    '/usr/local',
+  ];
+  return (
+    candidates.find(
+      (folder): folder is string =>
+        folder !== undefined && existsSync(join(folder, 'include', 'node', 'node_api.h')),
+    ) ?? null
+  );
+}
+
+function sourcesHash({ folder, depends = '' }: NativeAddon): string {
+  const hash = createHash('sha256').update(`${process.platform} ${process.arch}\n${depends}\n`);
+  for (const name of readdirSync(folder).sort()) {
+    if (/\.(c|h|gyp)$/.test(name)) hash.update(name).update(readFileSync(join(folder, name)));
+  }
+  return hash.digest('hex');
+}

@@ -1,0 +1,30 @@
+/**
+ * `pnpm build:native [shared-memory] [dds]`: builds the native addons. Without a name both; then DDS, which needs a library
+ * that not every robot has, may be missing.
+ */
+import * as dds from '../packages/dds/src/build.ts';
+import * as sharedMemory from '../packages/shared-memory/src/build.ts';
+
+const addons = {
+  'shared-memory': { ...sharedMemory, what: 'shared memory', optional: false },
+  dds: { ...dds, what: 'ROS 2 (--source ros2, --sink ros2)', optional: true },
+};
+
+const asked = process.argv.slice(2);
+const unknown = asked.find((name) => !(name in addons));
+if (unknown !== undefined) {
+  console.error(`there is no addon ${unknown}; there are ${Object.keys(addons).join(' and ')}`);
+  process.exit(2);
+}
+for (const [name, { buildAddon, ADDON_FILE, BUILD_REMEDY, what, optional }] of Object.entries(addons)) {
+  if (asked.length > 0 && !asked.includes(name)) continue;
+  const { ok, output } = buildAddon();
+  if (ok) {
+    console.log(`built ${ADDON_FILE}`);
+    continue;
+  }
+  const needed = asked.includes(name) || !optional;
+  if (needed) console.error(output.trimEnd());
+  console.error(`${what} cannot be used here: ${BUILD_REMEDY}`);
+  if (needed) process.exitCode = 1;
+}
