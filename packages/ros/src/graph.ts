@@ -18,6 +18,8 @@ export const SENSOR_QOS: Qos = { reliability: 'best-effort', durability: 'volati
 export const RELIABLE_QOS: Qos = { reliability: 'reliable', durability: 'volatile', depth: 10 };
 /** As static transforms are published. */
 export const LATCHED_QOS: Qos = { reliability: 'reliable', durability: 'transient-local', depth: 100 };
+/** As Nav2 publishes velocities and twist_mux takes them: an old one is worth nothing. */
+export const VELOCITY_QOS: Qos = { reliability: 'reliable', durability: 'volatile', depth: 1 };
 
 export interface SubscribeTo {
   /** With its leading slash. */

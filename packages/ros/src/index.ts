@@ -1,3 +1,4 @@
+export { DiagnosticBoard } from './diagnostic-board.ts';
 export { RosFault, type RosFaultCode } from './fault.ts';
 export {
   type AdvertiseAs,
@@ -11,8 +12,12 @@ export {
   SENSOR_QOS,
   type SubscribeTo,
   type Subscription,
+  VELOCITY_QOS,
 } from './graph.ts';
-export { lazyDecoder, type MessageSchema } from './message-decoder.ts';
+export { colourOf, depthOf, GREY, type Pinhole, pinholeOf } from './image.ts';
+export { type ImagePair, ImagePairs } from './image-pairs.ts';
+export { decoderOf, lazyDecoder, type MessageSchema } from './message-decoder.ts';
+export { type MessageSlot, MessageSlots } from './message-slots.ts';
 export {
   BATTERY_TYPES,
   type CameraInfo,
@@ -28,9 +33,13 @@ export {
   TF_TYPES,
 } from './messages.ts';
 export { axesOf, type CloudAxes, checkedCount, PointCloud2Decoder } from './point-cloud2.ts';
+export { RateLimit } from './rate-limit.ts';
+export { type Reading, type ReadingLevel, readingOf } from './reading.ts';
 export {
+  qosOf,
   ros1TypeOf,
   ros2TypeOf,
+  STATIC_SUFFIX,
   TOPIC_ROLES,
   type TopicEntry,
   type TopicRole,
@@ -39,4 +48,5 @@ export {
   topicTableSchema,
 } from './topic-table.ts';
 export { TransformTree } from './transform-tree.ts';
+export { type VelocityWriter, velocityWriter } from './velocity.ts';
 export { type TypedTopic, WorldState } from './world-state.ts';

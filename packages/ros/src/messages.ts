@@ -3,6 +3,12 @@ import type { Quaternion, Vector3 } from '@farpoint/protocol';
 import * as z from 'zod';
 
 const finite = z.number();
+/** As sensors say it: NaN where they do not know. */
+const number = z.union([
+  z.number(),
+  z.nan(),
+  z.literal([Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY]),
+]);
 const vector3 = z.object({ x: finite, y: finite, z: finite });
 const quaternion = z.object({ x: finite, y: finite, z: finite, w: finite });
 /** ROS 2 says `nanosec`, ROS 1 `nsec`. */
@@ -83,8 +89,30 @@ export type CameraInfo = z.infer<typeof cameraInfoSchema>;
 
 /** Voltage and charge may be NaN: not known. */
 export const batteryStateSchema = z.object({
-  voltage: z.union([z.number(), z.nan()]),
-  percentage: z.union([z.number(), z.nan()]),
+  voltage: number,
+  percentage: number,
+});
+
+/** As people read it; a battery that is not as it should be counts as a fault. */
+export const batteryDetailsSchema = batteryStateSchema.extend({
+  current: number.optional(),
+  power_supply_status: z.int().optional(),
+  power_supply_health: z.int().optional(),
+});
+
+export const navSatFixSchema = z.object({
+  header,
+  status: z.object({ status: z.int(), service: z.int() }),
+  ...{ latitude: number, longitude: number, altitude: number },
+  position_covariance: z.union([z.array(number), z.instanceof(Float64Array)]),
+  position_covariance_type: z.int(),
+});
+
+export const diagnosticArraySchema = z.object({
+  header,
+  status: z
+    .array(z.object({ level: z.union([z.int(), z.string()]), name: z.string(), message: z.string() }))
+    .max(4096),
 });
 
 /** Types by the part that they play. */

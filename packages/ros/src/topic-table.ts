@@ -3,7 +3,7 @@
  * discovery sees.
  */
 import * as z from 'zod';
-import type { Qos } from './graph.ts';
+import { LATCHED_QOS, type Qos, RELIABLE_QOS, SENSOR_QOS, VELOCITY_QOS } from './graph.ts';
 
 /** What a topic is to the robot, and the types that can be it; the first is taken where none is named. */
 export const TOPIC_ROLES = {
@@ -39,6 +39,8 @@ const MOST: Record<TopicRole, number> = {
   ...{ battery: 1, fix: 1, diagnostics: 1, text: 1 },
 };
 const MOST_TOPICS = 64;
+/** Transforms that hold from before they are said. */
+export const STATIC_SUFFIX = '/tf_static';
 
 /** Names as both ROS 1 and ROS 2 allow them, with the leading slash. */
 const topicName = z
@@ -170,6 +172,14 @@ export function ros1TypeOf(type: string): string {
 /** The one topic of a role, where there is one. */
 export function topicAs(table: readonly TopicEntry[], role: TopicRole): TopicEntry | undefined {
   return table.find(({ as }) => as === role);
+}
+
+/** What a topic is subscribed or published with: as the table says, else as its role needs. */
+export function qosOf({ topic, as, qos }: TopicEntry): Qos {
+  if (qos !== undefined) return qos;
+  if (as === 'velocity') return VELOCITY_QOS;
+  if (as !== 'tf') return SENSOR_QOS;
+  return topic.endsWith(STATIC_SUFFIX) ? LATCHED_QOS : { ...RELIABLE_QOS, depth: 100 };
 }
 
 function unknownKeys(otherwise: string): z.core.$ZodErrorMap {

@@ -4,10 +4,6 @@ import { MessageWriter as Ros1Writer } from '@foxglove/rosmsg-serialization';
 import { MessageWriter as Ros2Writer } from '@foxglove/rosmsg2-serialization';
 import { definitionsOf } from './definitions.ts';
 import { RosFault } from './fault.ts';
-import type { Qos } from './graph.ts';
-
-/** As Nav2 publishes velocities and twist_mux takes them: an old one is worth nothing. */
-export const VELOCITY_QOS: Qos = { reliability: 'reliable', durability: 'volatile', depth: 1 };
 
 export type VelocityWriter = (twist: Twist, stampNs: bigint, frameId: string) => Uint8Array;
 

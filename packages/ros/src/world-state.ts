@@ -13,6 +13,7 @@ import {
   unitQuaternion,
 } from './messages.ts';
 import type { CloudAxes } from './point-cloud2.ts';
+import { STATIC_SUFFIX } from './topic-table.ts';
 import { TransformTree } from './transform-tree.ts';
 
 /** Optical axes (z forward, x right, y down) in a body whose axes are x forward, y left, z up. */
@@ -22,7 +23,6 @@ const ORIGIN: Pose = { position: { x: 0, y: 0, z: 0 }, orientation: NO_TURN };
 /** Where a camera is taken to be of which nobody says where: 1 m above the ground, looking ahead. */
 const UNKNOWN_MOUNT: Pose = { position: { x: 0, y: 0, z: 1 }, orientation: OPTICAL_IN_BODY };
 const BASE_FRAMES = ['base_link', 'base_footprint'];
-const STATIC_SUFFIX = '/tf_static';
 
 /** A topic and the type of its messages, as ROS 2 writes it. */
 export interface TypedTopic {
@@ -59,8 +59,9 @@ export class WorldState {
     else this.#takePose(message);
   }
 
-  /** Of a cloud's frame, its optical axes in the world at the time of its stamp. */
-  opticalPose(frameId: string, stamp: bigint, axes: CloudAxes): Pose {
+  /** Of a cloud's frame, its optical axes in the world at the time of its stamp; without one (0), as last said. */
+  opticalPose(frameId: string, stampOrNone: bigint, axes: CloudAxes): Pose {
+    const stamp = stampOrNone === 0n ? this.#newestNs : stampOrNone;
     const placed = this.#tree.poseInRoot(frameName(frameId), stamp);
     if (placed !== null) {
       return axes === 'optical'

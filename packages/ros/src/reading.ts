@@ -1,0 +1,177 @@
+/** What a topic says, as short text for people: bounded, whatever the message holds. */
+import { batteryDetailsSchema, diagnosticArraySchema, navSatFixSchema } from './messages.ts';
+import type { TopicEntry } from './topic-table.ts';
+
+export type ReadingLevel = 'ok' | 'warn' | 'error';
+
+export interface Reading {
+  topic: string;
+  label: string;
+  level: ReadingLevel;
+  /** Name and value, most telling first; a name may be empty. */
+  values: [string, string][];
+}
+
+export const MOST_VALUES = 12;
+export const MOST_LABEL = 40;
+export const MOST_NAME = 40;
+export const MOST_TEXT = 80;
+/** How deep a message of unknown kind is looked into, and how many of an array are shown. */
+const MOST_DEPTH = 4;
+const MOST_ITEMS = 8;
+/** Fields that say nothing of the robot. */
+const SKIPPED = ['header', 'covariance'];
+
+/** sensor_msgs/BatteryState. */
+const SUPPLY = ['', 'charging', 'discharging', 'not charging', 'full'];
+const HEALTH = [
+  '',
+  '',
+  'overheated',
+  'dead',
+  'overvoltage',
+  'failed',
+  'cold',
+  'watchdog expired',
+  'safety timer expired',
+];
+const LOW_CHARGE = 0.2;
+const EMPTY_CHARGE = 0.1;
+/** sensor_msgs/NavSatStatus, from -1. */
+const FIXES = ['no fix', 'fix', 'satellite augmented', 'ground augmented'];
+const LEVELS: readonly ReadingLevel[] = ['ok', 'warn', 'error', 'error'];
+
+/** @throws {Error} where the message is not what its type says */
+export function readingOf({ topic, as, label }: TopicEntry, message: unknown): Reading {
+  const { level, values } =
+    as === 'battery'
+      ? battery(message)
+      : as === 'fix'
+        ? fix(message)
+        : as === 'diagnostics'
+          ? diagnostics(message)
+          : text(message);
+  return {
+    topic,
+    label: shortened(label ?? topic, MOST_LABEL),
+    level,
+    values: values
+      .slice(0, MOST_VALUES)
+      .map(([name, value]) => [shortened(name, MOST_NAME), shortened(value, MOST_TEXT)]),
+  };
+}
+
+type Body = Pick<Reading, 'level' | 'values'>;
+
+function battery(message: unknown): Body {
+  const { voltage, percentage, current, power_supply_status, power_supply_health } =
+    batteryDetailsSchema.parse(message);
+  const health = HEALTH[power_supply_health ?? 0] ?? '';
+  const values: [string, string][] = [];
+  if (percentage >= 0) values.push(['', `${Math.round(percentage * 100)} %`]);
+  if (voltage >= 0) values.push(['', `${voltage.toFixed(1)} V`]);
+  if (current !== undefined && Number.isFinite(current)) values.push(['', `${current.toFixed(1)} A`]);
+  const supply = SUPPLY[power_supply_status ?? 0] ?? '';
+  if (supply !== '') values.push(['', supply]);
+  if (health !== '') values.push(['', health]);
+  const level =
+    health !== '' || percentage < EMPTY_CHARGE ? 'error' : percentage < LOW_CHARGE ? 'warn' : 'ok';
+  return { level, values };
+}
+
+function fix(message: unknown): Body {
+  const { status, latitude, longitude, altitude, position_covariance, position_covariance_type } =
+    navSatFixSchema.parse(message);
+  const kind = FIXES[status.status + 1] ?? `status ${status.status}`;
+  if (status.status < 0 || !Number.isFinite(latitude + longitude))
+    return { level: 'warn', values: [['', kind]] };
+  // A ten-millionth of a degree is a centimetre.
+  const values: [string, string][] = [
+    ['', `${latitude.toFixed(7)}, ${longitude.toFixed(7)}`],
+    ['', kind],
+  ];
+  const [east, , , , north] = position_covariance;
+  const deviation = Math.sqrt(Math.max(east ?? Number.NaN, north ?? Number.NaN));
+  if (position_covariance_type !== 0 && Number.isFinite(deviation))
+    values.push(['', `± ${deviation.toFixed(2)} m`]);
+  if (Number.isFinite(altitude)) values.push(['altitude', `${altitude.toFixed(1)} m`]);
+  return { level: 'ok', values };
+}
+
+/** The worst first; of those that are well only how many there are. */
+function diagnostics(message: unknown): Body {
+  const { status } = diagnosticArraySchema.parse(message);
+  const judged = status.map(({ level, name, message }) => ({ level: levelOf(level), name, message }));
+  const worst = Math.max(0, ...judged.map(({ level }) => level));
+  const ill = judged.filter(({ level }) => level > 0).sort((a, b) => b.level - a.level);
+  const values: [string, string][] = ill
+    .slice(0, MOST_VALUES - 1)
+    .map(({ level, name, message }) => [name, level === 3 && message === '' ? 'stale' : message]);
+  const well = judged.length - ill.length;
+  const shown = values.length < ill.length ? `, ${ill.length - values.length} more are not` : '';
+  values.push(['', `${well} of ${judged.length} OK${shown}`]);
+  return { level: LEVELS[worst] ?? 'error', values };
+}
+
+/** ROS 2 has it as a byte, and some libraries bytes as text. */
+function levelOf(level: number | string): number {
+  const value = typeof level === 'number' ? level : (level.codePointAt(0) ?? 0);
+  return Math.min(Math.max(value, 0), 3);
+}
+
+function text(message: unknown): Body {
+  const values: [string, string][] = [];
+  flatten('', message, 0, values);
+  // The one value of a std_msgs message needs no name.
+  const [only] = values;
+  if (values.length === 1 && only?.[0] === 'data') values[0] = ['', only[1]];
+  return { level: 'ok', values };
+}
+
+function flatten(name: string, value: unknown, depth: number, into: [string, string][]): void {
+  if (into.length >= MOST_VALUES) return;
+  const plain = plainText(value);
+  if (plain !== null) {
+    into.push([name, plain]);
+  } else if (Array.isArray(value) || ArrayBuffer.isView(value)) {
+    into.push([name, listText(value as ArrayLike<unknown>)]);
+  } else if (typeof value === 'object' && value !== null && depth < MOST_DEPTH) {
+    for (const [key, each] of Object.entries(value)) {
+      if (!SKIPPED.includes(key)) flatten(name === '' ? key : `${name}.${key}`, each, depth + 1, into);
+    }
+  } else {
+    into.push([name, '…']);
+  }
+}
+
+function listText(list: ArrayLike<unknown>): string {
+  const items = Array.from(
+    { length: Math.min(list.length, MOST_ITEMS) },
+    (_, i) => plainText(list[i]) ?? '{…}',
+  );
+  return `[${items.join(', ')}${list.length > MOST_ITEMS ? `, … ${list.length}` : ''}]`;
+}
+
+/** @returns `null` for what has parts */
+function plainText(value: unknown): string | null {
+  switch (typeof value) {
+    case 'number':
+      return Number.isInteger(value) ? String(value) : String(Number(value.toPrecision(6)));
+    case 'bigint':
+    case 'boolean':
+      return String(value);
+    case 'string':
+      return value.slice(0, MOST_TEXT + 1);
+    default:
+      return null;
+  }
+}
+
+/** At most so many characters, no control characters among them. */
+function shortened(text: string, most: number): string {
+  const clean = text
+    .slice(0, most + 1)
+    .replace(/\p{Cc}+/gu, ' ')
+    .trim();
+  return clean.length > most ? `${clean.slice(0, most - 1)}…` : clean;
+}
