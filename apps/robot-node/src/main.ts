@@ -1,27 +1,10 @@
 #!/usr/bin/env node
-import { runProgram, setNiceness } from '@farpoint/service';
-import { toRobotOptions } from './options/robot-options.ts';
-import { robotProgram } from './options/robot-program.ts';
-import { registerReferenceMetrics } from './reference/reference-metrics.ts';
-import { Robot } from './robot.ts';
-import { registerRobotMetrics } from './telemetry/robot-metrics.ts';
+/** `farpoint-robot`: runs the robot; `init` writes a configuration, `doctor` checks everything. */
+const [, , command] = process.argv;
+const rest = process.argv.slice(3);
 
-await runProgram(robotProgram, async ({ options, where, log, health, metrics, shutdown, serveAdmin }) => {
-  try {
-    setNiceness(options.niceness);
-  } catch (error) {
-    log.info({ niceness: options.niceness, err: error }, 'the system keeps the priority');
-  }
-  const robot = await Robot.start(toRobotOptions(options, where), log);
-  shutdown.onClose('robot', () => robot.close());
-  robot.onFailure = (error) => {
-    log.fatal({ err: error }, 'the source failed');
-    void shutdown.end('the source failed', 1);
-  };
-  registerRobotMetrics(metrics, robot);
-  registerReferenceMetrics(metrics, robot);
-  // Without signaling those who are connected go on: that is no failure of the robot.
-  health.add('signaling', () => ({ ok: true, detail: { registered: robot.signaling.registered } }));
-  health.add('operators', () => ({ ok: true, detail: { connected: robot.operators.size } }));
-  await serveAdmin({ host: options.adminHost, port: options.adminPort });
-});
+// What a command does not need it does not load. What hangs when the doctor is done ends with it.
+if (command === 'init') process.exitCode = (await import('./commands/init.ts')).init(rest, process);
+else if (command === 'doctor')
+  process.exit(await (await import('./commands/doctor.ts')).doctor(rest, process));
+else await (await import('./run.ts')).run();

@@ -36,6 +36,10 @@ export const robotProgram = defineProgram({
   summary: 'The robot peer: captures point clouds, fits them to the link, streams them, obeys safe commands.',
   version: '0.1.0',
   section: 'robot',
+  commands: {
+    init: 'writes a commented configuration file',
+    doctor: 'checks everything, and says what to do',
+  },
   options,
 });
 

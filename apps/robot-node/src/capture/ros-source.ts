@@ -1,0 +1,229 @@
+/** Clouds, places and readings of a live ROS graph, as its topic table allows. */
+import type { Twist } from '@farpoint/protocol';
+import {
+  type CloudAxes,
+  DiagnosticBoard,
+  RateLimit,
+  type Reading,
+  RosFault,
+  type RosGraph,
+  readingOf,
+  type TopicEntry,
+  type TopicTable,
+  topicAs,
+  WorldState,
+} from '@farpoint/ros';
+import type {
+  CaptureRoom,
+  CaptureWishes,
+  FrameSource,
+  SourceDescription,
+  SourceFrame,
+  SourceState,
+} from './frame-source.ts';
+import { RosCloudFeed } from './ros-cloud-feed.ts';
+import type { FeedShape, RosFeed } from './ros-feed.ts';
+import { RosImageFeed } from './ros-image-feed.ts';
+import { type Listener, listen } from './ros-listener.ts';
+
+export interface RosSourceOptions {
+  topics: TopicTable;
+  /** Axes of the clouds’ frame; `auto`: optical where its name says so (REP-103), else body. */
+  axes: CloudAxes | 'auto';
+  /** How long to wait for the first frame, ms. */
+  waitMs: number;
+}
+
+export interface RosClock {
+  /** Robot’s clock, ms. */
+  now(): number;
+  /** Time of day, ns since 1970, as stamps have it. */
+  wallNs(): bigint;
+}
+
+/** A stamp older than this is of another clock, or of a picture that waited: then the time of its coming counts, ms. */
+const MOST_AGE_MS = 500;
+/** Messages of state that may wait in the graph. */
+const STATE_QUEUE = 100;
+const STATE_ROLES = ['pose', 'tf', 'battery'];
+const READING_ROLES = ['battery', 'fix', 'diagnostics', 'text'];
+
+export class RosSource implements FrameSource {
+  readonly description: SourceDescription;
+  onReady: (() => void) | null = null;
+  onFault: ((error: Error) => void) | null = null;
+  onReading: ((reading: Reading) => void) | null = null;
+  readonly #graph: RosGraph;
+  readonly #feed: RosFeed;
+  readonly #axes: CloudAxes;
+  readonly #world: WorldState;
+  readonly #state: StateTopics;
+  readonly #clock: RosClock;
+
+  private constructor(graph: RosGraph, feed: RosFeed, shape: FeedShape, state: StateTopics, clock: RosClock) {
+    this.#graph = graph;
+    this.#feed = feed;
+    this.#axes = shape.axes;
+    this.#world = state.world;
+    this.#state = state;
+    this.#clock = clock;
+    const { width, height, capacity, camera, axes } = shape;
+    const names = feed.listeners.map(({ entry }) => entry.topic).join(', ');
+    this.description = {
+      kind: `ros${graph.version} (${names}, ${axes} frame)`,
+      ...{ width, height, capacity, camera },
+      depthMeasure: axes === 'body' ? 'range' : 'z',
+      drives: false,
+    };
+    feed.onFrame = () => this.onReady?.();
+    feed.onFault = (fault) => this.onFault?.(fault);
+    state.onFault = (fault) => this.onFault?.(fault);
+    state.onReading = (reading) => this.onReading?.(reading);
+    graph.onFault = (fault) => this.onFault?.(fault);
+  }
+
+  /**
+   * Subscribes the table’s topics and waits for the first frame. The graph is the source’s from then on.
+   *
+   * @throws {RosFault} saying what did not come and what may be wrong
+   */
+  static async open(graph: RosGraph, options: RosSourceOptions, clock: RosClock): Promise<RosSource> {
+    const { topics, axes, waitMs } = options;
+    let last: RosFault | null = null;
+    const onFault = (fault: RosFault) => {
+      last = fault;
+    };
+    graph.onFault = onFault;
+    const state = new StateTopics(graph, topics, clock);
+    state.onFault = onFault;
+    let feed: RosFeed | null = null;
+    try {
+      feed = openFeed(graph, topics, axes);
+      feed.onFault = onFault;
+      await firstFrame(feed, waitMs);
+      if (feed.shape === null) throw whyNothing(graph, feed, waitMs, last);
+      return new RosSource(graph, feed, feed.shape, state, clock);
+    } catch (error) {
+      feed?.close();
+      state.close();
+      await graph.close();
+      throw error;
+    }
+  }
+
+  get state(): SourceState {
+    const { basePose: pose, twist, battery } = this.#world;
+    return { pose, twist, battery, contact: false };
+  }
+
+  advance(_nowMs: number, _twist: Twist): void {}
+
+  capture(nowMs: number, _wishes: CaptureWishes, room: CaptureRoom): SourceFrame | null {
+    let fed: ReturnType<RosFeed['take']>;
+    try {
+      fed = this.#feed.take(room);
+    } catch (error) {
+      this.onFault?.(error as Error);
+      return null;
+    }
+    if (fed === null) return null;
+    const { count, frameId, stampNs, receivedMs } = fed;
+    const ageMs = Number(this.#clock.wallNs() - stampNs) / 1e6;
+    const stamp = {
+      cameraPose: this.#world.opticalPose(frameId, stampNs, this.#axes),
+      captureMs: Math.min(ageMs >= 0 && ageMs <= MOST_AGE_MS ? this.#clock.now() - ageMs : receivedMs, nowMs),
+    };
+    const { points, depth, colour } = room;
+    return this.description.camera === null
+      ? { form: 'points', points, count, ...stamp }
+      : { form: 'images', depth, colour, ...stamp };
+  }
+
+  skip(): void {
+    this.#feed.skip();
+  }
+
+  close(): void {
+    this.#feed.close();
+    this.#state.close();
+    void this.#graph.close();
+  }
+}
+
+/** The topics that say where the robot is and how it does. */
+class StateTopics {
+  readonly world = new WorldState();
+  onFault: ((fault: RosFault) => void) | null = null;
+  onReading: ((reading: Reading) => void) | null = null;
+  readonly #listeners: Listener[];
+
+  constructor(graph: RosGraph, topics: TopicTable, clock: RosClock) {
+    this.#listeners = topics
+      .filter(({ as }) => STATE_ROLES.includes(as) || READING_ROLES.includes(as))
+      .map((entry) => this.#listen(graph, entry, clock));
+  }
+
+  close(): void {
+    for (const listener of this.#listeners) listener.close();
+  }
+
+  #listen(graph: RosGraph, entry: TopicEntry, clock: RosClock): Listener {
+    const { topic: name, type, as } = entry;
+    const onFault = (fault: RosFault) => this.onFault?.(fault);
+    const board = as === 'diagnostics' ? new DiagnosticBoard() : null;
+    const limit = new RateLimit(entry.most);
+    // Diagnostics come from many nodes, each with its part: all are read, and together they are told as often as allowed.
+    return listen(graph, entry, { queue: STATE_QUEUE, limited: board === null, onFault }, (message) => {
+      if (STATE_ROLES.includes(as)) this.world.take({ name, type }, message);
+      if (!READING_ROLES.includes(as)) return;
+      const told = board === null ? message : board.take(message, clock.now());
+      if (board === null || limit.admits(clock.now())) this.onReading?.(readingOf(entry, told));
+    });
+  }
+}
+
+/** @throws {RosFault} where the table has no clouds */
+function openFeed(graph: RosGraph, topics: TopicTable, axes: CloudAxes | 'auto'): RosFeed {
+  const [cloud, depth, colour, cameraInfo] = [
+    topicAs(topics, 'cloud'),
+    topicAs(topics, 'depth'),
+    topicAs(topics, 'colour'),
+    topicAs(topics, 'cameraInfo'),
+  ];
+  if (cloud !== undefined) return new RosCloudFeed(graph, { cloud, cameraInfo, axes });
+  if (depth !== undefined && cameraInfo !== undefined)
+    return new RosImageFeed(graph, { depth, colour, cameraInfo });
+  throw new RosFault('unavailable', 'no topic has clouds', { remedy: 'name one as cloud, or one as depth' });
+}
+
+async function firstFrame(feed: RosFeed, waitMs: number): Promise<void> {
+  if (feed.shape !== null) return;
+  await new Promise<void>((resolve) => {
+    const timer = setTimeout(resolve, waitMs);
+    feed.onFrame = () => {
+      clearTimeout(timer);
+      resolve();
+    };
+  });
+}
+
+/** What did not come, and why as far as it shows. */
+function whyNothing(graph: RosGraph, feed: RosFeed, waitMs: number, last: RosFault | null): RosFault {
+  if (last !== null) return last;
+  const silent = feed.listeners.find(({ received }) => received === 0) ?? feed.listeners[0];
+  const { topic, type } = silent?.entry ?? { topic: '', type: '' };
+  const seen = graph.topics().find((each) => each.topic === topic);
+  const others = graph.topics().filter((each) => each.type === type && each.publishers > 0);
+  const named = others.map((each) => each.topic).join(', ');
+  const within = `within ${waitMs / 1000} s`;
+  if (seen !== undefined && seen.publishers > 0 && seen.type !== type) {
+    return new RosFault('wrong-type', `it has ${seen.type}, not ${type}`, { topic });
+  }
+  if ((seen?.publishers ?? silent?.publishers ?? 0) > 0) {
+    return new RosFault('unavailable', `no message came ${within}, though it is published`, { topic });
+  }
+  return new RosFault('unavailable', `nobody publishes it (${within})`, {
+    topic,
+    remedy: named === '' ? `nobody publishes ${type} at all` : `with ${type} there is ${named}`,
+  });
+}

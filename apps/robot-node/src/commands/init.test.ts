@@ -1,0 +1,98 @@
+import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { resolveOptions } from '@farpoint/service';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { robotProgram } from '../options/robot-program.ts';
+import { SOURCE_KINDS } from '../options/source.ts';
+import { init } from './init.ts';
+import { robotTemplate } from './robot-template.ts';
+
+let folder = '';
+beforeAll(() => {
+  folder = mkdtempSync(join(tmpdir(), 'farpoint-init-'));
+});
+afterAll(() => rmSync(folder, { recursive: true }));
+
+/** Runs it; what it wrote, and its exit code. */
+function run(...argv: string[]) {
+  let out = '';
+  let errors = '';
+  const code = init(argv, {
+    stdout: { write: (text) => (out += text) },
+    stderr: { write: (text) => (errors += text) },
+  });
+  return { code, out, errors };
+}
+
+/** What the robot takes from a file of this text. */
+function values(text: string | null): Record<string, unknown> {
+  const resolved = resolveOptions(robotProgram, { argv: [], env: {}, readFile: () => text });
+  if (resolved.action !== 'run') throw new Error('printed');
+  return resolved.values;
+}
+
+/** Every `#key:` line in force. */
+const uncommented = (text: string) => text.replaceAll(/^( *)#(\w+:)/gm, '$1$2');
+const defaults = values(null);
+
+describe('the file that init writes', () => {
+  it('is the defaults, as it is and with every line in force', () => {
+    const text = robotTemplate('sim');
+    expect(values(text)).toEqual(defaults);
+    expect(uncommented(text)).not.toBe(text);
+    expect(values(uncommented(text))).toEqual(defaults);
+  });
+
+  it.each(SOURCE_KINDS)('is accepted for the source %s', (source) => {
+    const text = robotTemplate(source);
+    expect(values(text)).toMatchObject({ source });
+    expect(values(uncommented(text))).toEqual(values(text));
+  });
+
+  it('has every option that its source has, each explained', () => {
+    const lines = robotTemplate('shm').split('\n');
+    for (const key of ['url', 'token', 'shmWaitS', 'maxLinear', 'iceServers', 'topics', 'port', 'level']) {
+      const index = lines.findIndex((line) => new RegExp(`^ +#?${key}:`).test(line));
+      expect(lines[index - 1], key).toMatch(/^ +# \S/);
+    }
+    expect(Math.max(...lines.map((line) => line.length))).toBeLessThan(125);
+  });
+});
+
+describe('init', () => {
+  it('writes a file once, and again where it is forced', () => {
+    const path = join(folder, 'robot.yaml');
+    expect(run('--output', path)).toMatchObject({ code: 0, errors: '' });
+    expect(readFileSync(path, 'utf8')).toBe(robotTemplate('sim'));
+    expect(statSync(path).mode & 0o007).toBe(0);
+    writeFileSync(path, 'mine');
+    expect(run('--output', path)).toEqual({
+      code: 1,
+      out: '',
+      errors: `farpoint-robot init: ${path} is there already; --force replaces it\n`,
+    });
+    expect(readFileSync(path, 'utf8')).toBe('mine');
+    expect(run('--output', path, '--force', '--source', 'shm').out).toContain(`doctor --config ${path}`);
+    expect(readFileSync(path, 'utf8')).toBe(robotTemplate('shm'));
+  });
+
+  it('writes to standard output', () => {
+    expect(run('--output', '-', '--source', 'recording')).toEqual({
+      code: 0,
+      out: robotTemplate('recording'),
+      errors: '',
+    });
+  });
+
+  it.each([
+    [['--source', 'kinect'], 2, /--source must be one of sim, .*, not "kinect"/],
+    [['--froce'], 2, /froce/],
+    [['extra'], 2, /extra/],
+    [['--output', '/nowhere/at/all.yaml'], 1, /cannot be written: ENOENT/],
+  ])('refuses %j', (argv, code, message) => {
+    const refused = run(...argv);
+    expect(refused.code).toBe(code);
+    expect(refused.errors).toMatch(message);
+  });
+});

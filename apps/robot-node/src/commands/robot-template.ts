@@ -1,0 +1,64 @@
+/** The configuration files that `init` writes: one for each kind of source. */
+import { configTemplate } from '@farpoint/service';
+import { measurementOptions } from '../options/measurement.ts';
+import { playbackOptions } from '../options/playback.ts';
+import { robotProgram } from '../options/robot-program.ts';
+import { shmOptions } from '../options/shm.ts';
+import { simOptions } from '../options/sim.ts';
+import type { SOURCE_KINDS } from '../options/source.ts';
+
+export type SourceKind = (typeof SOURCE_KINDS)[number];
+
+const HEAD = [
+  'Farpoint robot: its configuration.',
+  '',
+  'An option is taken from the command line, else from the environment, else from this file, else it has its default.',
+  'Lines that begin with "#" and a key show options at their defaults: take the "#" away to change them.',
+  'A key that is not known, or a value that is not allowed, is an error; `farpoint-robot doctor` checks the whole robot.',
+  'Secrets (signaling.token, signaling.key) are better given by the environment: FARPOINT_ROBOT_TOKEN, FARPOINT_ROBOT_KEY.',
+];
+
+/** What everyone decides, at its default. */
+const ALWAYS = [
+  'id',
+  'name',
+  'signaling',
+  'source',
+  'sink',
+  'maxLinear',
+  'maxAngular',
+  'watchdogMs',
+  'bitrateMbps',
+] as const;
+
+/** Values of a template that differ from the defaults. */
+const SET: Record<SourceKind, Readonly<Record<string, unknown>>> = {
+  sim: {},
+  pcd: {},
+  rgbd: {},
+  recording: {},
+  shm: { shmLayout: 'farpoint', sink: 'shm' },
+};
+
+/** Options that only some kinds of sources have. */
+const ONLY: readonly { kinds: readonly SourceKind[]; options: object }[] = [
+  { kinds: ['sim'], options: simOptions },
+  { kinds: ['shm'], options: shmOptions },
+  { kinds: ['pcd', 'rgbd', 'recording'], options: playbackOptions },
+  { kinds: [], options: measurementOptions },
+];
+
+export function robotTemplate(source: SourceKind): string {
+  const { options } = robotProgram;
+  return configTemplate(robotProgram, {
+    head: HEAD,
+    values: {
+      ...Object.fromEntries(ALWAYS.map((key) => [key, options[key].default])),
+      source,
+      ...SET[source],
+    },
+    leftOut: ONLY.filter(({ kinds }) => !kinds.includes(source)).flatMap(({ options: table }) =>
+      Object.keys(table),
+    ),
+  });
+}

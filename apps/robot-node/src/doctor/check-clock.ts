@@ -1,0 +1,57 @@
+/** The clocks: one that never goes back for everything that is timed, and the time of day for certificates and logs. */
+import { ok, type Result, warn } from './finding.ts';
+import type { Host } from './host.ts';
+
+/** Reading them takes a trip to slow hardware, thousands of times a second. */
+const SLOW_SOURCES = ['hpet', 'acpi_pm', 'jiffies', 'refined-jiffies', 'pit'];
+const READINGS = 20_000;
+
+export function checkMonotonicClock(host: Host, now: () => number): Result[] {
+  const begin = now();
+  let last = begin;
+  let backwards = 0;
+  for (let i = 0; i < READINGS; i++) {
+    const reading = now();
+    if (reading < last) backwards++;
+    last = reading;
+  }
+  const source = host.read('/sys/devices/system/clocksource/clocksource0/current_clocksource');
+  const nanoseconds = ((last - begin) / READINGS) * 1e6;
+  const what = `monotonic clock${source === null ? '' : ` (${source})`}, ${nanoseconds.toFixed(0)} ns a reading`;
+  if (backwards > 0) return [warn(`${what}, went back ${backwards} times`, 'another kernel or clocksource')];
+  if (source !== null && SLOW_SOURCES.includes(source))
+    return [
+      warn(
+        what,
+        'start the kernel with clocksource=tsc, or find out why it was given up: `dmesg | grep -i tsc`',
+      ),
+    ];
+  return [ok(what)];
+}
+
+export interface ServerTime {
+  /** `Date` of its answer: whole seconds, ms since 1970. */
+  dateMs: number;
+  /** Our time of day when we asked and when it answered, ms since 1970. */
+  askedMs: number;
+  answeredMs: number;
+}
+
+const MOST_OFFSET_MS = 2000;
+
+/** @param time `null` where no server told it */
+export function checkTimeOfDay(time: ServerTime | null): Result[] {
+  if (time === null)
+    return [
+      warn('the time of day was not compared with anyone’s', 'it is once the signaling service answers'),
+    ];
+  const { dateMs, askedMs, answeredMs } = time;
+  // The server's second has begun somewhere in [date, date + 1 s).
+  const offset = (askedMs + answeredMs) / 2 - (dateMs + 500);
+  const uncertainty = 500 + (answeredMs - askedMs) / 2;
+  const seconds = `${Math.abs(offset / 1000).toFixed(1)} s ${offset > 0 ? 'ahead of' : 'behind'}`;
+  const what = `time of day ${seconds} the signaling service, ± ${(uncertainty / 1000).toFixed(1)} s`;
+  if (Math.abs(offset) > MOST_OFFSET_MS + uncertainty)
+    return [warn(what, '`timedatectl set-ntp true`: certificates and recordings need the right time')];
+  return [ok(what)];
+}

@@ -1,0 +1,111 @@
+/** Files that robot and camera, wheels or recording share: may we, and is there room? */
+import { accessSync, constants, type Stats, statfsSync, statSync } from 'node:fs';
+import { dirname } from 'node:path';
+import { cloudFile, isAvailable, referenceFiles } from '@farpoint/shared-memory';
+import type { SourceOptions } from '../capture/open-source.ts';
+import type { SinkOptions } from '../drive/velocity-sink.ts';
+import { fail, ok, type Result, warn } from './finding.ts';
+import { megabytes } from './host.ts';
+
+const EASY_SHARED_BYTES = 64e6;
+const EASY_RECORDING_BYTES = 5e9;
+
+/** The addon, the folder, and the files of those who are there already. */
+export function checkSharedMemory(source: SourceOptions, sink: SinkOptions): Result[] {
+  const folder = source.kind === 'shm' ? source.folder : sink.kind === 'shm' ? sink.folder : null;
+  if (folder === null) return [];
+  if (!isAvailable())
+    return [
+      fail(
+        'the addon is not there',
+        'a C compiler, make and Python 3, then `pnpm build:native` (Linux only)',
+      ),
+    ];
+  const folderStats = stats(folder);
+  if (folderStats === null || !folderStats.isDirectory())
+    return [
+      fail(
+        `${folder} is no folder`,
+        'set source.shmFolder; /dev/shm is the usual one, in a container `--ipc=host` or a volume',
+      ),
+    ];
+  const results = [
+    checkRoom(
+      folder,
+      EASY_SHARED_BYTES,
+      'a container has 64 MB unless told otherwise: `--ipc=host` or `--shm-size`',
+    ),
+  ];
+  const files = referenceFiles(folder);
+  if (source.kind === 'shm') {
+    const wanted = source.layout === 'reference' ? [files.cloud, files.flags] : [cloudFile(folder)];
+    results.push(...wanted.flatMap((file) => checkFile(file, source.layout === 'reference')));
+  }
+  if (sink.kind === 'shm') {
+    results.push(...[files.control, files.busy].flatMap((file) => checkFile(file, true)));
+    if (stats(files.control) === null && !may(folder, constants.W_OK))
+      results.push(fail(`${folder} may not be written`, 'run the robot as a user who may make files there'));
+  }
+  return results;
+}
+
+/** What is made once the robot starts: there is nothing wrong with a file that is not there yet. */
+function checkFile(path: string, write: boolean): Result[] {
+  const found = stats(path);
+  if (found === null) return [];
+  const owner = `of user ${found.uid}, mode ${(found.mode & 0o777).toString(8).padStart(4, '0')}`;
+  if (!found.isFile()) return [fail(`${path} is no file`, 'remove it')];
+  if ((found.mode & 0o002) !== 0)
+    return [
+      fail(
+        `${path} (${owner}) may be written by anybody and is refused`,
+        'its program should make it with mode 0600, or 0660 for a group',
+      ),
+    ];
+  if (!may(path, constants.R_OK | (write ? constants.W_OK : 0)))
+    return [
+      fail(
+        `${path} (${owner}) may not be ${write ? 'written' : 'read'} by user ${process.getuid?.()}`,
+        'run both programs as one user, or give it to a group that both are in (0660)',
+      ),
+    ];
+  return [ok(`${path}, ${owner}`)];
+}
+
+/** @param path the file to be written, `undefined` where nothing is recorded */
+export function checkRecording(path: string | undefined): Result[] {
+  if (path === undefined) return [];
+  if (stats(path) !== null)
+    return [fail(`${path} is there already`, 'name another file: recordings are never written over')];
+  const folder = dirname(path);
+  if (!(stats(folder)?.isDirectory() ?? false))
+    return [fail(`${folder} is no folder`, 'make it, or set recording.file')];
+  if (!may(folder, constants.W_OK))
+    return [fail(`${folder} may not be written`, 'give it to the robot’s user')];
+  return [
+    checkRoom(
+      folder,
+      EASY_RECORDING_BYTES,
+      'clouds as captured take some 20 MB a second: make room, or set recording.capturedFps',
+    ),
+  ];
+}
+
+function checkRoom(folder: string, easyBytes: number, remedy: string): Result {
+  const { bavail, bsize } = statfsSync(folder);
+  const what = `${megabytes(bavail * bsize)} free in ${folder}`;
+  return bavail * bsize < easyBytes ? warn(what, remedy) : ok(what);
+}
+
+function stats(path: string): Stats | null {
+  return statSync(path, { throwIfNoEntry: false }) ?? null;
+}
+
+function may(path: string, mode: number): boolean {
+  try {
+    accessSync(path, mode);
+    return true;
+  } catch {
+    return false;
+  }
+}

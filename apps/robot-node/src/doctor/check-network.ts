@@ -1,0 +1,55 @@
+/** What this machine can offer operators by itself: addresses, and ports to listen on. */
+import { createSocket } from 'node:dgram';
+import { fail, ok, type Result, warn } from './finding.ts';
+
+export interface OwnAddress {
+  name: string;
+  address: string;
+  family: string;
+  internal: boolean;
+}
+
+export function checkAddresses(addresses: readonly OwnAddress[]): Result[] {
+  const usable = addresses.filter(({ internal, address }) => !internal && !address.startsWith('fe80:'));
+  if (usable.length === 0)
+    return [warn('no network but this machine’s own', 'connect it: operators elsewhere cannot reach it')];
+  return [ok(`candidates ${usable.map(({ name, address }) => `${address} (${name})`).join(', ')}`)];
+}
+
+/** Ports that an operator's connection may take. */
+const PORTS_AN_OPERATOR = 4;
+
+/** @param range `null`: any */
+export async function checkUdpPorts(
+  range: readonly [number, number] | null,
+  operators: number,
+): Promise<Result[]> {
+  if (range === null) return [];
+  const [low, high] = range;
+  const count = high - low + 1;
+  const wanted = operators * PORTS_AN_OPERATOR;
+  if (count < wanted)
+    return [warn(`${count} UDP ports for ${operators} operators`, `give network.udpPorts ${wanted} or more`)];
+  const probes = [low, Math.floor((low + high) / 2), high];
+  const taken = (await Promise.all(probes.map(async (port) => ((await isFree(port)) ? [] : [port])))).flat();
+  const what = `UDP ports ${low}–${high}`;
+  if (taken.length === probes.length)
+    return [
+      fail(
+        `${what}: ${taken.join(', ')} cannot be bound`,
+        'choose ports above 1023 that no other program has',
+      ),
+    ];
+  return [ok(`${what} for operators; let them through this machine’s firewall`)];
+}
+
+function isFree(port: number): Promise<boolean> {
+  return new Promise((resolve) => {
+    const socket = createSocket('udp4');
+    socket.on('error', () => {
+      socket.close();
+      resolve(false);
+    });
+    socket.bind(port, () => socket.close(() => resolve(true)));
+  });
+}

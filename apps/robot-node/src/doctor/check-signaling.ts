@@ -1,0 +1,90 @@
+/** What the signaling service's answer means, and what to do about it. */
+import type { SignalingErrorCode } from '@farpoint/protocol';
+import { fail, ok, type Result, warn } from './finding.ts';
+import type { SignalingAnswer } from './signaling-probe.ts';
+
+/** @param robotRuns whether a robot runs on this machine: it has the id then */
+export function judgeSignaling(
+  url: string,
+  id: string,
+  answer: SignalingAnswer,
+  robotRuns: boolean,
+): Result[] {
+  switch (answer.outcome) {
+    case 'welcome': {
+      const results = [ok(`${url} takes robot ${id}, after ${answer.milliseconds.toFixed(0)} ms`)];
+      const { protocol, hostname } = new URL(url);
+      const local = /^(localhost|127\.|\[::1\])/.test(hostname);
+      if (protocol === 'ws:' && !local)
+        results.push(
+          warn(
+            'the line to it is not encrypted: token and offers can be read',
+            'wss:// and TLS at the service',
+          ),
+        );
+      return results;
+    }
+    case 'refused':
+      return [judgeRefusal(url, id, answer.code, answer.detail, robotRuns)];
+    case 'silent':
+      return [
+        fail(`${url} is connected and says nothing`, 'is it Farpoint’s signaling service? Look into its log'),
+      ];
+    case 'unreadable':
+      return [
+        fail(
+          `${url} does not speak our protocol: ${answer.detail}`,
+          'set signaling.url to Farpoint’s signaling service; its version must fit',
+        ),
+      ];
+    case 'unreachable':
+      return [
+        fail(`${url} cannot be reached: ${answer.detail}`, unreachableRemedy(answer.code, answer.detail)),
+      ];
+  }
+}
+
+function judgeRefusal(
+  url: string,
+  id: string,
+  code: SignalingErrorCode,
+  detail: string,
+  robotRuns: boolean,
+): Result {
+  switch (code) {
+    case 'robot-id-taken':
+      return robotRuns
+        ? ok(`${url}: robot ${id} is registered`)
+        : fail(
+            `${url}: a robot ${id} is registered already`,
+            'stop it where it runs, or give this one another id',
+          );
+    case 'unauthorized':
+      return fail(
+        `${url} refuses robot ${id}: ${detail}`,
+        'set the token that the service has for this id: FARPOINT_ROBOT_TOKEN',
+      );
+    case 'unsupported-protocol':
+      return fail(`${url} refuses: ${detail}`, 'bring robot and signaling service to the same version');
+    default:
+      return fail(`${url} refuses: ${code}: ${detail}`, 'look into the log of the signaling service');
+  }
+}
+
+function unreachableRemedy(code: string, detail: string): string {
+  if (/^(ENOTFOUND|EAI_AGAIN)$/.test(code))
+    return 'check the name in signaling.url, and name resolution on this machine';
+  if (code === 'ECONNREFUSED')
+    return 'nothing listens there: check host and port in signaling.url, and start the service';
+  if (/^(EHOSTUNREACH|ENETUNREACH|ETIMEDOUT)$/.test(code) || /timed out/.test(detail))
+    return 'check the way there: cable or radio, routes, firewalls';
+  if (code === 'CERT_HAS_EXPIRED' || code === 'CERT_NOT_YET_VALID')
+    return 'renew the service’s certificate, or set this machine’s time';
+  if (/CERT|SIGNED|SIGNATURE|ISSUER/.test(code))
+    return 'name the authority that signed its certificate with signaling.tlsCa, or the host that it is for';
+  if (/EPROTO|SSL|TLS|hang up|ECONNRESET/.test(`${code} ${detail}`))
+    return 'does the service speak TLS there? wss:// does, ws:// does not';
+  if (/server response/.test(detail))
+    return 'something else answers there: check host and port in signaling.url';
+  return 'check signaling.url';
+}

@@ -1,0 +1,65 @@
+/** What came of trying the source. */
+import type { SourceOptions } from '../capture/open-source.ts';
+import { fail, ok, type Result, warn } from './finding.ts';
+import type { SourceTrial } from './source-trial.ts';
+
+const FEW_FRAMES_PER_SECOND = 5;
+/** Longest that the doctor waits for a camera's program, ms. */
+const MOST_WAIT_MS = 3000;
+
+/** The source as it is tried: nobody waits long for a producer. */
+export function trialSource(source: SourceOptions): SourceOptions {
+  return source.kind === 'shm' ? { ...source, waitMs: Math.min(source.waitMs, MOST_WAIT_MS) } : source;
+}
+
+/** @param drives whether velocities go anywhere but to the source */
+export function judgeSource(trial: SourceTrial, ownSink: boolean): Result[] {
+  const { description, frames, seconds, validPoints, workMs, faults } = trial;
+  const { kind, width, height } = description;
+  const grid = height > 1 ? `${width} × ${height}` : `up to ${description.capacity} points`;
+  const results: Result[] = [];
+  if (frames === 0) {
+    results.push(
+      fail(
+        `${kind} (${grid}) opens and gives no frame`,
+        'does the camera’s program run, or its topic get messages?',
+      ),
+    );
+  } else {
+    const rate = frames > 1 ? (frames - 1) / seconds : 0;
+    const what = `${kind}, ${grid}: ${rate.toFixed(1)} frames/s, ${validPoints} valid points, ${workMs.toFixed(1)} ms of work each`;
+    if (validPoints === 0) results.push(warn(what, 'is the lens covered, or everything out of range?'));
+    else if (rate < FEW_FRAMES_PER_SECOND)
+      results.push(warn(what, 'that is few to drive by: check the camera’s rate, and the processor'));
+    else results.push(ok(what));
+  }
+  for (const fault of faults)
+    results.push(warn(`${kind}: ${fault}`, 'look into the log of the camera’s program'));
+  if (ownSink && !description.drives)
+    results.push(
+      warn(
+        'nobody can drive: this source has no wheels and sink.kind is source',
+        'set sink.kind, unless it is only to be watched',
+      ),
+    );
+  return results;
+}
+
+/** Of one that does not open. */
+export function judgeClosedSource(source: SourceOptions, error: Error): Result[] {
+  return [fail(`${source.kind}: ${error.message}`, closedRemedy(source, error.message))];
+}
+
+function closedRemedy(source: SourceOptions, message: string): string {
+  if (source.kind === 'shm') {
+    if (/build:native|Linux/.test(message)) return 'build the addon: `pnpm build:native`';
+    if (/ENOENT|no such file/i.test(message))
+      return 'start the camera’s program, e.g. examples/zed_camera.py, and see that both name the same folder';
+    if (/permi|EACCES/i.test(message))
+      return 'run both as one user, or give the file to a group that both are in';
+    return 'start the camera’s program anew; docs/shared-memory.md has the layouts';
+  }
+  if (source.kind === 'sim') return 'report this';
+  if (/ENOENT|no such file/i.test(message)) return 'set source.path to a file that is there';
+  return 'docs/real-robot.md says what each source needs';
+}

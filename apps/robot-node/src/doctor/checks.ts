@@ -1,0 +1,131 @@
+/** Every check of the doctor, in the order in which a fault is cheapest to understand. */
+import { cpus, loadavg, networkInterfaces } from 'node:os';
+import type { IceServer } from '@farpoint/protocol';
+import type { RobotOptionValues } from '../options/robot-program.ts';
+import type { RobotOptions } from '../robot.ts';
+import { checkMonotonicClock, checkTimeOfDay, type ServerTime } from './check-clock.ts';
+import type { Configuration } from './check-configuration.ts';
+import { checkRecording, checkSharedMemory } from './check-files.ts';
+import { judgeIce } from './check-ice.ts';
+import { checkMemory, checkNode, checkSocketBuffers } from './check-machine.ts';
+import { checkAddresses, checkUdpPorts } from './check-network.ts';
+import { checkProcessor, judgeCodec, timeCodec } from './check-processor.ts';
+import { judgeSignaling } from './check-signaling.ts';
+import { judgeClosedSource, judgeSource, trialSource } from './check-source.ts';
+import { type Check, type Result, warn } from './finding.ts';
+import type { Host } from './host.ts';
+import { iceTargets, probeIce } from './ice-probe.ts';
+import { findRunningRobot, judgeRunning, type RunningRobot } from './running-robot.ts';
+import { askTime, probeSignaling } from './signaling-probe.ts';
+import { trySource } from './source-trial.ts';
+
+/** Longest wait for a server, ms. */
+const ANSWER_MS = 5000;
+const WATCH_MS = 2000;
+/** What a check may take beyond the waits inside it, ms. */
+const SLACK_MS = 2000;
+
+const now = () => performance.now();
+
+/** Those that need no configuration. */
+export function machineChecks(host: Host, dds: boolean): Check[] {
+  const quick = (name: string, run: Check['run']): Check => ({ name, withinMs: SLACK_MS, run });
+  return [
+    quick('node', () => checkNode(process.versions.node, process.platform, process.arch)),
+    quick('processor', () => {
+      const all = cpus();
+      const load = { cores: all.length, model: all[0]?.model.trim() ?? 'unknown', load: loadavg()[0] ?? 0 };
+      return checkProcessor(host, load);
+    }),
+    { name: 'codec', withinMs: 20_000, run: async () => judgeCodec(await timeCodec(now)) },
+    quick('memory', () => checkMemory(host)),
+    quick('socket buffers', () => checkSocketBuffers(host, dds)),
+    quick('clock', () => checkMonotonicClock(host, now)),
+    quick('network', () => checkAddresses(ownAddresses())),
+  ];
+}
+
+export function configurationCheck({ results }: Configuration): Check {
+  return { name: 'configuration', withinMs: SLACK_MS, run: () => results };
+}
+
+/** Those of a robot that is configured. What one learns the later ones use: they run in this order. */
+export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Check[] {
+  let running: RunningRobot = { state: 'stands' };
+  let serviceServers: readonly IceServer[] = [];
+  let time: ServerTime | null = null;
+  const { adminHost, adminPort } = values;
+  return [
+    {
+      name: 'robot',
+      withinMs: ANSWER_MS + SLACK_MS,
+      run: async () => {
+        running = await findRunningRobot(adminHost, adminPort, ANSWER_MS);
+        return judgeRunning(running, adminHost, adminPort);
+      },
+    },
+    {
+      name: 'signaling',
+      withinMs: 2 * ANSWER_MS + SLACK_MS,
+      run: async () => {
+        const target = { id: robot.id, name: robot.name, ...robot.signaling };
+        const answer = await probeSignaling(target, ANSWER_MS, now);
+        if (answer.outcome === 'welcome') serviceServers = answer.iceServers;
+        if (answer.outcome === 'welcome' || answer.outcome === 'refused')
+          time = await askTime(target, ANSWER_MS, Date.now);
+        return judgeSignaling(target.url, robot.id, answer, running.state === 'runs');
+      },
+    },
+    { name: 'clock', withinMs: SLACK_MS, run: () => checkTimeOfDay(time) },
+    {
+      name: 'STUN and TURN',
+      withinMs: ANSWER_MS + SLACK_MS,
+      run: async () => {
+        const targets = iceTargets([...serviceServers, ...robot.iceServers]);
+        const probed = await Promise.all(
+          targets.map(async (target) => ({ target, answer: await probeIce(target, ANSWER_MS, now) })),
+        );
+        return judgeIce(probed, robot.icePolicy);
+      },
+    },
+    {
+      name: 'network',
+      withinMs: SLACK_MS,
+      run: () => (running.state === 'runs' ? [] : checkUdpPorts(robot.portRange ?? null, robot.maxOperators)),
+    },
+    {
+      name: 'shared memory',
+      withinMs: SLACK_MS,
+      run: () => checkSharedMemory(robot.capture.source, robot.sink),
+    },
+    { name: 'source', withinMs: 20_000, run: () => checkSource(robot, running.state === 'runs') },
+    {
+      name: 'recording',
+      withinMs: SLACK_MS,
+      run: () => (running.state === 'runs' ? [] : checkRecording(robot.record?.path)),
+    },
+  ];
+}
+
+async function checkSource({ capture, sink }: RobotOptions, robotRuns: boolean): Promise<Result[]> {
+  const { source } = capture;
+  if (robotRuns && source.kind === 'shm' && source.layout === 'reference')
+    return [
+      warn(
+        'not tried: the robot that runs would lose frames',
+        'stop it and ask again, or see source_faults on its /metrics',
+      ),
+    ];
+  try {
+    const trial = await trySource({ ...capture, source: trialSource(source) }, WATCH_MS);
+    return judgeSource(trial, sink.kind === 'source');
+  } catch (error) {
+    return judgeClosedSource(source, error as Error);
+  }
+}
+
+function ownAddresses() {
+  return Object.entries(networkInterfaces()).flatMap(([name, addresses]) =>
+    (addresses ?? []).map(({ address, family, internal }) => ({ name, address, family, internal })),
+  );
+}

@@ -1,0 +1,30 @@
+/** The doctor's findings as people and as programs read them. */
+import type { Finding, Verdict } from './finding.ts';
+
+const SIGNS: Record<Verdict, string> = { ok: '✓', warn: '!', fail: '✗' };
+const NAME_WIDTH = 15;
+
+/** One line, and the remedy in the same line. */
+export function findingLine({ check, verdict, detail, remedy }: Finding): string {
+  const what = remedy === undefined ? detail : `${detail} → ${remedy}`;
+  // A message from elsewhere may have lines of its own.
+  return `${SIGNS[verdict]} ${check.padEnd(NAME_WIDTH)} ${what.replaceAll(/\s*\n\s*/g, '; ')}\n`;
+}
+
+export function summaryLine(findings: readonly Finding[]): string {
+  const { fail, warn } = countVerdicts(findings);
+  if (fail > 0) return `${fail} to mend${warn > 0 ? `, ${warn} to look at` : ''}.\n`;
+  return warn > 0 ? `Ready; ${warn} to look at.\n` : 'Ready.\n';
+}
+
+/** `--json`: one object. */
+export function jsonReport(findings: readonly Finding[]): string {
+  const { fail } = countVerdicts(findings);
+  return `${JSON.stringify({ ready: fail === 0, findings }, null, 2)}\n`;
+}
+
+export function countVerdicts(findings: readonly Finding[]): Record<Verdict, number> {
+  const counts = { ok: 0, warn: 0, fail: 0 };
+  for (const { verdict } of findings) counts[verdict]++;
+  return counts;
+}

@@ -1,0 +1,112 @@
+/** Registers with the signaling service as the robot would, for a moment, and hears what it says. */
+import { randomBytes } from 'node:crypto';
+import { request as httpRequest } from 'node:http';
+import { request as httpsRequest } from 'node:https';
+import {
+  decodeJson,
+  encodeJson,
+  type IceServer,
+  MAX_SIGNALING_BYTES,
+  PROTOCOL_VERSION,
+  robotToServiceCodec,
+  type SignalingErrorCode,
+  serviceToRobotCodec,
+} from '@farpoint/protocol';
+import { WebSocket } from 'ws';
+import type { SignalingOptions } from '../signaling/signaling-client.ts';
+import type { ServerTime } from './check-clock.ts';
+
+export type SignalingTarget = Pick<SignalingOptions, 'url' | 'id' | 'name' | 'token' | 'ca'>;
+
+/** What came of it. */
+export type SignalingAnswer =
+  | { outcome: 'welcome'; iceServers: readonly IceServer[]; milliseconds: number }
+  | { outcome: 'refused'; code: SignalingErrorCode; detail: string }
+  /** No WebSocket came about; `code` as the system or TLS names it, `''` where neither does. */
+  | { outcome: 'unreachable'; code: string; detail: string }
+  /** One came about, and nothing was said in time. */
+  | { outcome: 'silent' }
+  /** What was said is no message of ours. */
+  | { outcome: 'unreadable'; detail: string };
+
+/**
+ * A random key makes sure that a robot that is registered under this id stays so: we are refused, not it.
+ *
+ * @param withinMs for all of it
+ */
+export function probeSignaling(
+  target: SignalingTarget,
+  withinMs: number,
+  now: () => number,
+): Promise<SignalingAnswer> {
+  const { url, id, name, token, ca } = target;
+  const begin = now();
+  const socket = new WebSocket(new URL('/robot', url), {
+    handshakeTimeout: withinMs,
+    maxPayload: MAX_SIGNALING_BYTES,
+    perMessageDeflate: false,
+    ...(ca === null ? {} : { ca }),
+  });
+  return new Promise((resolve) => {
+    const end = (answer: SignalingAnswer) => {
+      clearTimeout(timer);
+      resolve(answer);
+      socket.close();
+      // Who does not answer the closing is left alone.
+      setTimeout(() => socket.terminate(), 200).unref();
+    };
+    const timer = setTimeout(() => end({ outcome: 'silent' }), withinMs);
+    socket.on('open', () => {
+      const key = randomBytes(16).toString('hex');
+      const hello = { type: 'robot.hello', protocol: PROTOCOL_VERSION, id, name, key } as const;
+      socket.send(encodeJson(robotToServiceCodec, { ...hello, ...(token === null ? {} : { token }) }));
+    });
+    socket.on('message', (data: Buffer, binary: boolean) => {
+      try {
+        const message = decodeJson(serviceToRobotCodec, binary ? data : data.toString('utf8'));
+        if (message.type === 'robot.welcome')
+          end({ outcome: 'welcome', iceServers: message.iceServers, milliseconds: now() - begin });
+        else if (message.type === 'error')
+          end({ outcome: 'refused', code: message.code, detail: message.message });
+      } catch (error) {
+        end({ outcome: 'unreadable', detail: (error as Error).message });
+      }
+    });
+    socket.on('error', (error) => {
+      const { code = '', message } = error as NodeJS.ErrnoException;
+      // With several addresses only the code says what each of them had.
+      end({ outcome: 'unreachable', code, detail: message || code });
+    });
+    socket.on('close', (code) => end({ outcome: 'unreadable', detail: `closed with code ${code}` }));
+  });
+}
+
+/** The service's `Date`, or `null`. */
+export function askTime(
+  target: SignalingTarget,
+  withinMs: number,
+  nowMs: () => number,
+): Promise<ServerTime | null> {
+  const url = new URL('/healthz', target.url.replace(/^ws/, 'http'));
+  const request = url.protocol === 'https:' ? httpsRequest : httpRequest;
+  return new Promise((resolve) => {
+    const askedMs = nowMs();
+    const asking = request(url, {
+      method: 'GET',
+      agent: false,
+      ...(target.ca === null ? {} : { ca: target.ca }),
+    });
+    const end = (time: ServerTime | null) => {
+      clearTimeout(timer);
+      resolve(time);
+      asking.destroy();
+    };
+    const timer = setTimeout(() => end(null), withinMs);
+    asking.on('response', ({ headers }) => {
+      const dateMs = Date.parse(headers.date ?? '');
+      end(Number.isNaN(dateMs) ? null : { dateMs, askedMs, answeredMs: nowMs() });
+    });
+    asking.on('error', () => end(null));
+    asking.end();
+  });
+}

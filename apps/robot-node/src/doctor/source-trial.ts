@@ -1,0 +1,64 @@
+/** Opens the source as the robot would, in a thread of its own, and watches what it gives. */
+import { Capture } from '../capture/capture.ts';
+import type { CaptureOptions } from '../capture/capture-messages.ts';
+import type { SourceDescription } from '../capture/frame-source.ts';
+
+export interface SourceTrial {
+  description: SourceDescription;
+  frames: number;
+  /** Between the first and the last frame, s. */
+  seconds: number;
+  /** Of the last frame: points that could be sent. */
+  validPoints: number;
+  /** How long it took to take and to encode a frame, ms, mean. */
+  workMs: number;
+  faults: readonly string[];
+}
+
+/** More than any camera takes: the trial is of the source, not of a link. */
+const BITS_PER_SECOND = 200e6;
+const PACKET_OVERHEAD_BYTES = 60;
+
+/**
+ * @param watchMs how long to watch once it is open
+ * @throws {CaptureError} where it cannot be opened, saying why
+ */
+export async function trySource(options: CaptureOptions, watchMs: number): Promise<SourceTrial> {
+  const capture = await Capture.start(options);
+  const faults: string[] = [];
+  const trial = { frames: 0, validPoints: 0, workMs: 0 };
+  let firstMs = 0;
+  let lastMs = 0;
+  capture.onFault = (detail) => faults.push(detail);
+  const broken = new Promise<never>((_, reject) => {
+    capture.onFailure = reject;
+  });
+  capture.onFrame = (frame) => {
+    if (trial.frames === 0) firstMs = frame.readyMs;
+    lastMs = frame.readyMs;
+    trial.frames++;
+    trial.validPoints = frame.validPoints;
+    trial.workMs += (frame.captureMs + frame.sampleMs + frame.packMs - trial.workMs) / trial.frames;
+    capture.recycle(frame.buffer);
+  };
+  capture.setBudget({
+    targetBitsPerSecond: BITS_PER_SECOND,
+    overheadBytes: PACKET_OVERHEAD_BYTES,
+    streaming: true,
+    probe: null,
+    coded: true,
+    plainBitsPerSecond: null,
+  });
+  let timer: NodeJS.Timeout | undefined;
+  const watched = new Promise<void>((resolve) => {
+    timer = setTimeout(resolve, watchMs);
+  });
+  try {
+    await Promise.race([watched, broken]);
+  } finally {
+    clearTimeout(timer);
+    // A source that hangs at its end is not waited for: the program ends anyhow.
+    void capture.close();
+  }
+  return { description: capture.description, ...trial, seconds: (lastMs - firstMs) / 1000, faults };
+}

@@ -1,0 +1,29 @@
+import { runProgram, setNiceness } from '@farpoint/service';
+import { toRobotOptions } from './options/robot-options.ts';
+import { robotProgram } from './options/robot-program.ts';
+import { registerReferenceMetrics } from './reference/reference-metrics.ts';
+import { Robot } from './robot.ts';
+import { registerRobotMetrics } from './telemetry/robot-metrics.ts';
+
+/** Runs the robot until a signal. */
+export async function run(): Promise<void> {
+  await runProgram(robotProgram, async ({ options, where, log, health, metrics, shutdown, serveAdmin }) => {
+    try {
+      setNiceness(options.niceness);
+    } catch (error) {
+      log.info({ niceness: options.niceness, err: error }, 'the system keeps the priority');
+    }
+    const robot = await Robot.start(toRobotOptions(options, where), log);
+    shutdown.onClose('robot', () => robot.close());
+    robot.onFailure = (error) => {
+      log.fatal({ err: error }, 'the source failed');
+      void shutdown.end('the source failed', 1);
+    };
+    registerRobotMetrics(metrics, robot);
+    registerReferenceMetrics(metrics, robot);
+    // Without signaling those who are connected go on: that is no failure of the robot.
+    health.add('signaling', () => ({ ok: true, detail: { registered: robot.signaling.registered } }));
+    health.add('operators', () => ({ ok: true, detail: { connected: robot.operators.size } }));
+    await serveAdmin({ host: options.adminHost, port: options.adminPort });
+  });
+}

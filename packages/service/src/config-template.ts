@@ -1,0 +1,74 @@
+/** A commented configuration file, written from a program's own options: it cannot say other than what is read. */
+import { stringify } from 'yaml';
+import { type OptionPlace, type OptionTable, optionPlaces, type ProgramDefinition } from './option-table.ts';
+
+export interface ConfigTemplate {
+  /** Comment at the top; one line an entry. */
+  readonly head: readonly string[];
+  /** Values in force by option; the others stand behind a `#`, at their defaults. */
+  readonly values: Readonly<Record<string, unknown>>;
+  /** Options that are not shown. */
+  readonly leftOut?: readonly string[];
+}
+
+/** Columns that a comment may take. */
+const WIDTH = 110;
+
+/** @returns YAML that the program accepts as it is, also with every `#key:` line in force */
+export function configTemplate<Table extends OptionTable>(
+  definition: ProgramDefinition<Table>,
+  { head, values, leftOut = [] }: ConfigTemplate,
+): string {
+  const lines = [...head.map((line) => `# ${line}`.trimEnd()), `${definition.section}:`];
+  for (const [group, places] of byGroup(optionPlaces(definition), leftOut)) {
+    if (group !== '') lines.push('', `  ${group}:`);
+    const indent = group === '' ? '  ' : '    ';
+    for (const { key, spec, file } of places) {
+      lines.push(...comment(spec.help, indent));
+      const name = group === '' ? file : file.slice(group.length + 1);
+      const given = Object.hasOwn(values, key);
+      const value = given ? values[key] : spec.default;
+      lines.push(...entry(name, value, given ? indent : `${indent}#`, spec.argument));
+    }
+  }
+  return `${lines.join('\n')}\n`;
+}
+
+type FilePlace = OptionPlace & { file: string };
+
+/** In the order of the table; what has no group first. */
+function byGroup(places: readonly OptionPlace[], leftOut: readonly string[]): Map<string, FilePlace[]> {
+  const groups = new Map<string, FilePlace[]>([['', []]]);
+  for (const place of places) {
+    if (place.file === null || leftOut.includes(place.key)) continue;
+    const group = place.file.includes('.') ? place.file.slice(0, place.file.indexOf('.')) : '';
+    const list = groups.get(group) ?? [];
+    list.push(place as FilePlace);
+    groups.set(group, list);
+  }
+  return groups;
+}
+
+function entry(name: string, value: unknown, indent: string, argument: string | undefined): string[] {
+  // Nothing after the colon is YAML's null: as good as left out.
+  if (value === null) return [`${indent}${name}:${argument === undefined ? '' : ` # ${argument}`}`];
+  if (!Array.isArray(value) || value.length === 0) return [`${indent}${name}: ${flow(value)}`];
+  return [`${indent}${name}:`, ...value.map((item) => `${indent}  - ${flow(item)}`)];
+}
+
+function flow(value: unknown): string {
+  return stringify(value, { collectionStyle: 'flow', lineWidth: 0 }).trim();
+}
+
+function comment(text: string, indent: string): string[] {
+  const lines: string[] = [];
+  let line = `${indent}#`;
+  for (const word of text.split(' ')) {
+    if (line.length + word.length >= WIDTH) {
+      lines.push(line);
+      line = `${indent}#`;
+    }
+    line += ` ${word}`;
+  }
+  return [...lines, line];
+}
