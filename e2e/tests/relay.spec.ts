@@ -1,7 +1,6 @@
-import { freePorts } from '@farpoint/local-stack';
+import { freePorts, hasTurnServer, TURN_REMEDY, TurnServer } from '@farpoint/local-stack';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
-import { hasTurnServer, TURN_REMEDY, TurnServer } from '../src/turn-server.ts';
 
 test('by a TURN relay alone: points flow, commands arrive; a relay that is restarted is found again', async ({
   page,

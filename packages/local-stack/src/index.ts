@@ -4,3 +4,4 @@ export * from './emulated-link.ts';
 export * from './free-port.ts';
 export * from './managed-process.ts';
 export * from './stack.ts';
+export * from './turn-server.ts';

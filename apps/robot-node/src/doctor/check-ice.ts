@@ -50,10 +50,7 @@ function judgeOne({ target, answer }: ProbedTarget): Result {
           : `${url} lends ${answer.relayed}, after ${answer.milliseconds.toFixed(0)} ms`,
       );
     case 'silent':
-      return fail(
-        `${url} does not answer`,
-        `is the ${kind} server up, and may ${transport(url)} go there? Check name, port and firewalls`,
-      );
+      return fail(`${url} does not answer`, silentRemedy(kind, url));
     case 'unusable':
       return fail(
         `${url}: ${answer.detail}`,
@@ -62,6 +59,12 @@ function judgeOne({ target, answer }: ProbedTarget): Result {
     case 'refused':
       return fail(`${url} refuses: ${answer.detail}`, refusedRemedy(answer.status));
   }
+}
+
+function silentRemedy(kind: string, url: string): string {
+  const stream = /transport=tcp/.test(url) || url.startsWith('turns:');
+  const remedy = `is the ${kind} server up, and may ${stream ? 'TCP' : 'UDP'} go there? Check name, port and firewalls`;
+  return stream ? `${remedy}, then user name and credential` : remedy;
 }
 
 function refusedRemedy(status: number | null): string {
@@ -74,7 +77,3 @@ function refusedRemedy(status: number | null): string {
 
 const isTurn = ({ url }: IceTarget) => url.startsWith('turn');
 const host = (address: string) => address.slice(0, address.lastIndexOf(':'));
-
-function transport(url: string): string {
-  return /transport=tcp/.test(url) || url.startsWith('turns:') ? 'TCP' : 'UDP';
-}

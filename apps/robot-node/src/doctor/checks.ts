@@ -79,7 +79,7 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
     { name: 'clock', withinMs: SLACK_MS, run: () => checkTimeOfDay(time) },
     {
       name: 'STUN and TURN',
-      withinMs: ANSWER_MS + SLACK_MS,
+      withinMs: 2 * ANSWER_MS + SLACK_MS,
       run: async () => {
         const targets = iceTargets([...serviceServers, ...robot.iceServers]);
         const probed = await Promise.all(

@@ -27,45 +27,69 @@ export function iceTargets(servers: readonly IceServer[]): IceTarget[] {
 
 /** A binding of a STUN server, an allocation of a TURN server, by the robot's own means. Never throws. */
 export async function probeIce(target: IceTarget, withinMs: number, now: () => number): Promise<IceAnswer> {
+  const { url, username, credential } = target;
+  const {
+    stunServer,
+    turnServer,
+    turnTransport = 'udp',
+  } = parseIceServers([{ urls: url, username, credential }]);
+  const begin = now();
+  if (turnServer !== undefined) {
+    // The stack drops a server's second refusal, which no key has signed: whether it lives is asked for by itself.
+    const greeted =
+      turnTransport === 'udp' ? await within(withinMs, request(turnServer, methods.ALLOCATE)) : null;
+    if (greeted?.outcome === 'silent') return greeted;
+    if (greeted?.outcome === 'refused' && greeted.status !== 401) return greeted;
+    const answer = await within(withinMs, allocate(turnServer, turnTransport, target, withinMs));
+    if (answer.outcome === 'silent' && greeted !== null)
+      return { outcome: 'refused', status: 401, detail: 'it does not take user name and credential' };
+    return answer.outcome === 'answered' ? { ...answer, milliseconds: now() - begin } : answer;
+  }
+  if (stunServer === undefined)
+    return { outcome: 'unusable', detail: 'it is no address of a STUN or TURN server' };
+  const answer = await within(withinMs, request(stunServer, methods.BINDING));
+  return answer.outcome === 'answered' ? { ...answer, milliseconds: now() - begin } : answer;
+}
+
+async function within(milliseconds: number, asked: Promise<IceAnswer>): Promise<IceAnswer> {
   let timer: NodeJS.Timeout | undefined;
   const late = new Promise<IceAnswer>((resolve) => {
-    timer = setTimeout(() => resolve({ outcome: 'silent' }), withinMs);
+    timer = setTimeout(() => resolve({ outcome: 'silent' }), milliseconds);
   });
-  const asked = ask(target, withinMs, now).catch(refusal);
-  const answer = await Promise.race([asked, late]);
+  const answer = await Promise.race([asked.catch(refusal), late]);
   clearTimeout(timer);
   return answer;
 }
 
-async function ask(
-  { url, username, credential }: IceTarget,
-  withinMs: number,
-  now: () => number,
+async function allocate(
+  address: Address,
+  transport: 'udp' | 'tcp' | 'tls',
+  { username, credential: password }: IceTarget,
+  connectTimeoutMs: number,
 ): Promise<IceAnswer> {
-  const { stunServer, turnServer, turnTransport } = parseIceServers([{ urls: url, username, credential }]);
-  const begin = now();
-  if (turnServer !== undefined) {
-    const client = await createTurnClient(
-      { address: turnServer, username, password: credential },
-      { transport: turnTransport ?? 'udp', connectTimeoutMs: withinMs },
-    );
-    const { mappedAddress, relayedAddress } = client;
-    const milliseconds = now() - begin;
-    void client.close().catch(() => undefined);
-    return { outcome: 'answered', mapped: text(mappedAddress), relayed: text(relayedAddress), milliseconds };
-  }
-  if (stunServer === undefined)
-    return { outcome: 'unusable', detail: 'it is no address of a STUN or TURN server' };
+  const client = await createTurnClient({ address, username, password }, { transport, connectTimeoutMs });
+  const { mappedAddress, relayedAddress } = client;
+  void client.close().catch(() => undefined);
+  return { outcome: 'answered', mapped: text(mappedAddress), relayed: text(relayedAddress), milliseconds: 0 };
+}
+
+/** One request over UDP, without credentials. */
+async function request(server: Address, method: methods): Promise<IceAnswer> {
   const stun = new StunProtocol();
   await stun.connectionMade(true);
   try {
-    const [response] = await stun.request(new Message(methods.BINDING, classes.REQUEST), stunServer);
+    const message = new Message(method, classes.REQUEST);
+    if (method === methods.ALLOCATE) message.setAttribute('REQUESTED-TRANSPORT', UDP_TRANSPORT);
+    const [response] = await stun.request(message, server);
     const mapped = response.getAttributeValue('XOR-MAPPED-ADDRESS') as Address | undefined;
-    return { outcome: 'answered', mapped: text(mapped), relayed: null, milliseconds: now() - begin };
+    return { outcome: 'answered', mapped: text(mapped), relayed: null, milliseconds: 0 };
   } finally {
     void stun.close().catch(() => undefined);
   }
 }
+
+/** Protocol 17 in the first byte, as the attribute has it. */
+const UDP_TRANSPORT = 0x11000000;
 
 type Address = readonly [host: string, port: number];
 
