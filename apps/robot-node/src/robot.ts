@@ -124,7 +124,7 @@ export class Robot implements SessionHost {
     this.drive = new DriveStation(
       guard,
       (twist) => {
-        sink.apply(twist);
+        sink.apply(twist, guard.estopState().latched);
         recording?.velocity(twist);
       },
       monotonicMs,
@@ -219,7 +219,7 @@ export class Robot implements SessionHost {
     }
     this.reference?.close();
     this.drive.close();
-    this.#sink.close();
+    await this.#sink.close();
     this.#sendLoop.close();
     await this.signaling.close();
     await this.capture.close();

@@ -1,5 +1,6 @@
 /** What the main thread and the capture worker say to each other. */
 import type { Twist } from '@farpoint/protocol';
+import type { Reading } from '@farpoint/ros';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { EncodedFrame, SamplingOptions } from '../encode/encoded-frame.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
@@ -84,4 +85,6 @@ export type CaptureReport =
   | { type: 'state'; timeMs: number; state: SourceState; framesWithoutBuffer: number; watchdogStops: number }
   /** Something is wrong with the source that may pass. */
   | { type: 'fault'; detail: string }
+  /** What a topic says, for people. */
+  | { type: 'reading'; reading: Reading }
   | { type: 'closed' };

@@ -223,5 +223,6 @@ if (source.onFault !== undefined) {
     lastFault = message;
   };
 }
+if (source.onReading !== undefined) source.onReading = (reading) => send({ type: 'reading', reading });
 send({ type: 'ready', description });
 tick();

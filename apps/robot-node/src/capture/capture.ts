@@ -1,5 +1,6 @@
 import { type MessagePort, Worker } from 'node:worker_threads';
 import type { Twist } from '@farpoint/protocol';
+import type { Reading } from '@farpoint/ros';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type {
   CaptureBudget,
@@ -42,6 +43,8 @@ export class Capture {
   onFault: ((detail: string) => void) | null = null;
   /** How often that was. */
   faults = 0;
+  /** Gets what the robot's topics say, for people. */
+  onReading: ((reading: Reading) => void) | null = null;
   /** Frames not captured because all buffers were out. */
   framesWithoutBuffer = 0;
   /** How often the worker's own watchdog stopped the robot. */
@@ -65,6 +68,8 @@ export class Capture {
       } else if (report.type === 'fault') {
         this.faults++;
         this.onFault?.(report.detail);
+      } else if (report.type === 'reading') {
+        this.onReading?.(report.reading);
       }
     });
     worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));

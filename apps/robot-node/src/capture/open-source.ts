@@ -1,10 +1,13 @@
 import { monotonicMs } from '../clock.ts';
+import { type GraphOptions, openGraph } from '../ros/open-graph.ts';
+import { wallNs } from '../ros/wall-clock.ts';
 import { type CloudShmOptions, CloudShmSource } from './cloud-shm-source.ts';
 import type { FrameSource } from './frame-source.ts';
 import { openPcdSource, type PcdSourceOptions } from './pcd-source.ts';
 import { RecordingSource, type RecordingSourceOptions } from './recording-source.ts';
 import { type ReferenceShmOptions, ReferenceShmSource } from './reference-shm-source.ts';
 import { openRgbdSource, type RgbdSourceOptions } from './rgbd-source.ts';
+import { RosSource, type RosSourceOptions } from './ros-source.ts';
 import { SimSource, type SimSourceOptions } from './sim-source.ts';
 
 /** Which source to open; plain data, so that it can be handed to the worker. */
@@ -13,6 +16,7 @@ export type SourceOptions =
   | ({ kind: 'pcd' } & PcdSourceOptions)
   | ({ kind: 'rgbd' } & RgbdSourceOptions)
   | ({ kind: 'recording' } & RecordingSourceOptions)
+  | ({ kind: 'ros'; graph: GraphOptions } & RosSourceOptions)
   | ({ kind: 'shm'; layout: 'farpoint' } & CloudShmOptions)
   | ({ kind: 'shm'; layout: 'reference' } & ReferenceShmOptions);
 
@@ -27,6 +31,8 @@ export async function openSource(options: SourceOptions): Promise<FrameSource> {
       return openRgbdSource(options);
     case 'recording':
       return RecordingSource.open(options, monotonicMs);
+    case 'ros':
+      return RosSource.open(await openGraph(options.graph, 'capture'), options, { now: monotonicMs, wallNs });
     case 'shm':
       return options.layout === 'reference'
         ? ReferenceShmSource.open(options, monotonicMs)

@@ -95,7 +95,6 @@ export class RosSource implements FrameSource {
     };
     graph.onFault = onFault;
     const state = new StateTopics(graph, topics, clock);
-    state.onFault = onFault;
     let feed: RosFeed | null = null;
     try {
       feed = openFeed(graph, topics, axes);

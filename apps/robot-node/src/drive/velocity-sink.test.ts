@@ -15,7 +15,7 @@ beforeEach(() => {
   folder = mkdtempSync(join(tmpdir(), 'farpoint-sink-'));
 });
 afterEach(() => {
-  for (const each of open.splice(0)) each.close();
+  for (const each of open.splice(0)) void each.close();
   rmSync(folder, { recursive: true, force: true });
 });
 
@@ -28,7 +28,7 @@ function setUp(silenceMs = 60_000) {
   let nowMs = 1000;
   const station = new DriveStation(
     guard,
-    (twist) => sink.apply(twist),
+    (twist) => sink.apply(twist, false),
     () => nowMs,
   );
   const reader = new ReferenceControlReader(folder);
@@ -78,7 +78,7 @@ describe.skipIf(!isAvailable())('velocity into shared memory (needs the addon: p
     guard.latchEstop('operator');
     station.apply();
     expect(reader.read()?.twist).toEqual(zeroTwist());
-    sink.apply({ ...zeroTwist(), linear: { x: 0.1, y: 0, z: 0 } });
+    sink.apply({ ...zeroTwist(), linear: { x: 0.1, y: 0, z: 0 } }, false);
     sink.close();
     expect(reader.read()?.twist).toEqual(zeroTwist());
   });
@@ -106,7 +106,7 @@ describe('velocity to the source', () => {
     const got: unknown[] = [];
     const sink = openSink({ kind: 'source' }, { setTwist: (twist) => got.push(twist) }, log);
     const twist = { ...zeroTwist(), linear: { x: 0.1, y: 0, z: 0 } };
-    sink.apply(twist);
+    sink.apply(twist, false);
     sink.close();
     expect(got).toEqual([twist]);
   });

@@ -1,6 +1,8 @@
 import type { Twist } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import { ReferenceControlWriter } from '@farpoint/shared-memory';
+import type { RosDriveOptions } from './ros-drive-messages.ts';
+import { RosSink } from './ros-sink.ts';
 
 /**
  * What moves the wheels. It gets what the drive guard has let through: within the limits, and zero on silence. The same
@@ -8,16 +10,19 @@ import { ReferenceControlWriter } from '@farpoint/shared-memory';
  */
 export interface VelocitySink {
   readonly kind: string;
-  apply(twist: Twist): void;
+  /** @param estop whether the emergency stop is latched: others who drive the same wheels are to stand still, too */
+  apply(twist: Twist, estop: boolean): void;
   /** Stops and lets go. */
-  close(): void;
+  close(): void | Promise<void>;
 }
 
 export type SinkOptions =
   /** The source's own wheels: the simulator's. */
   | { kind: 'source' }
   /** The reference system's command block in shared memory. */
-  | { kind: 'shm'; folder: string; mode: number; silenceMs: number };
+  | { kind: 'shm'; folder: string; mode: number; silenceMs: number }
+  /** A topic of a ROS graph. */
+  | ({ kind: 'ros' } & RosDriveOptions);
 
 /** @throws {Error} saying what is missing */
 export function openSink(
@@ -30,6 +35,8 @@ export function openSink(
       return { kind: 'source', apply: (twist) => source.setTwist(twist), close: () => undefined };
     case 'shm':
       return new SharedMemorySink(new ReferenceControlWriter(options), log);
+    case 'ros':
+      return new RosSink(options, log);
   }
 }
 

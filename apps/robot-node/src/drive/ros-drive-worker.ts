@@ -1,0 +1,42 @@
+/**
+ * The thread that publishes velocities: by itself it makes them zero when the main thread hangs, which no timer of the
+ * main thread could do.
+ */
+import { parentPort, workerData } from 'node:worker_threads';
+import { monotonicMs } from '../clock.ts';
+import { openGraph } from '../ros/open-graph.ts';
+import { wallNs } from '../ros/wall-clock.ts';
+import type { RosDriveOptions, RosDriveReport, RosDriveRequest } from './ros-drive-messages.ts';
+import { RosVelocity } from './ros-velocity.ts';
+
+const TICK_MS = 10;
+
+const port = parentPort;
+if (port === null) throw new Error('ros-drive-worker.ts runs as a worker only');
+const options = workerData as RosDriveOptions;
+const send = (report: RosDriveReport) => port.postMessage(report);
+
+try {
+  const graph = await openGraph(options.graph, 'drive');
+  let lastFault = '';
+  graph.onFault = ({ message }) => {
+    // While it is tried again and again it is said once.
+    if (message !== lastFault) send({ type: 'fault', detail: message });
+    lastFault = message;
+  };
+  const { entry, silenceMs } = options;
+  const velocity = new RosVelocity(graph, { entry, silenceMs, now: monotonicMs, wallNs });
+  const ticking = setInterval(() => velocity.tick(), TICK_MS);
+  port.on('message', (request: RosDriveRequest) => {
+    if (request.type === 'twist') {
+      velocity.apply(request.twist, request.hold);
+      return;
+    }
+    clearInterval(ticking);
+    velocity.close();
+    void graph.close().finally(() => port.close());
+  });
+} catch (error) {
+  send({ type: 'failed', detail: error instanceof Error ? error.message : String(error) });
+  port.close();
+}

@@ -1,0 +1,17 @@
+import type { RosGraph } from '@farpoint/ros';
+import { openRos1Graph, type Ros1Options } from '@farpoint/ros/ros1';
+import { monotonicMs } from '../clock.ts';
+
+/** Which graph to take part in; plain data, so that it can be handed to a worker. */
+export type GraphOptions = { kind: 'ros1' } & Ros1Options;
+
+/**
+ * @param part what of the robot takes part: it makes the node’s name
+ * @throws {RosFault} saying what is missing and what helps
+ */
+export async function openGraph(options: GraphOptions, part: 'capture' | 'drive'): Promise<RosGraph> {
+  switch (options.kind) {
+    case 'ros1':
+      return openRos1Graph({ ...options, name: `${options.name}_${part}` }, monotonicMs);
+  }
+}

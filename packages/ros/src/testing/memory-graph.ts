@@ -1,0 +1,86 @@
+/** A graph within one process, for tests of what is built on graphs: bytes go from publisher to subscriber at once. */
+import { MessageWriter as Ros1Writer } from '@foxglove/rosmsg-serialization';
+import { MessageWriter as Ros2Writer } from '@foxglove/rosmsg2-serialization';
+import { definitionsOf } from '../definitions.ts';
+import type { RosFault } from '../fault.ts';
+import type {
+  AdvertiseAs,
+  GraphTopic,
+  OnMessage,
+  Publisher,
+  RosGraph,
+  SubscribeTo,
+  Subscription,
+} from '../graph.ts';
+
+export class MemoryGraph implements RosGraph {
+  readonly version: 1 | 2;
+  onFault: ((fault: RosFault) => void) | null = null;
+  closed = false;
+  /** Everything that was asked for, in order. */
+  readonly subscribed: SubscribeTo[] = [];
+  readonly advertised: AdvertiseAs[] = [];
+  /** What was published, by topic. */
+  readonly published = new Map<string, Uint8Array[]>();
+  /** What discovery is to see beside that. */
+  others: GraphTopic[] = [];
+  readonly #receivers = new Map<string, OnMessage>();
+  readonly #now: () => number;
+
+  constructor(version: 1 | 2, now: () => number) {
+    this.version = version;
+    this.#now = now;
+  }
+
+  subscribe(to: SubscribeTo, onMessage: OnMessage): Subscription {
+    this.subscribed.push(to);
+    let received = 0;
+    this.#receivers.set(to.topic, (bytes, receivedMs) => {
+      received++;
+      onMessage(bytes, receivedMs);
+    });
+    return {
+      topic: to.topic,
+      get received() {
+        return received;
+      },
+      ...{ dropped: 0, publishers: 1, definition: null },
+      close: () => this.#receivers.delete(to.topic),
+    };
+  }
+
+  advertise(as: AdvertiseAs): Publisher {
+    this.advertised.push(as);
+    const sent: Uint8Array[] = [];
+    this.published.set(as.topic, sent);
+    return { topic: as.topic, subscribers: 1, publish: (bytes) => sent.push(bytes.slice()), close: () => {} };
+  }
+
+  topics(): readonly GraphTopic[] {
+    return this.others;
+  }
+
+  async close(): Promise<void> {
+    this.closed = true;
+  }
+
+  /** Somebody else publishes a message. @param reuse overwrites the bytes after the call, as a graph may */
+  say(topic: string, type: string, message: unknown, { reuse = true } = {}): void {
+    const bytes = messageBytes(this.version, type, message);
+    this.#receivers.get(topic)?.(bytes, this.#now());
+    if (reuse) bytes.fill(0xdd);
+  }
+
+  /** The same of bytes that may be no message at all. */
+  sayBytes(topic: string, bytes: Uint8Array): void {
+    this.#receivers.get(topic)?.(bytes, this.#now());
+  }
+}
+
+/** A message of one of ROS’s own types. */
+export function messageBytes(version: 1 | 2, type: string, message: unknown): Uint8Array {
+  const definitions = definitionsOf(version, type);
+  if (definitions === null) throw new Error(`no such type: ${type}`);
+  const writer = version === 1 ? new Ros1Writer(definitions) : new Ros2Writer(definitions);
+  return writer.writeMessage(message);
+}
