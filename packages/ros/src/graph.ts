@@ -76,7 +76,7 @@ export interface RosGraph {
   /** Nothing is published that was not asked for here. */
   advertise(as: AdvertiseAs): Publisher;
   topics(): readonly GraphTopic[];
-  /** Called for what may pass: a master that is gone, a peer that speaks another type. */
+  /** Called for what may pass: a master that is gone, a peer that speaks another type. What was wrong before is told at once. */
   onFault: ((fault: RosFault) => void) | null;
   close(): Promise<void>;
 }

@@ -3,6 +3,7 @@ import { configTemplate } from '@farpoint/service';
 import { measurementOptions } from '../options/measurement.ts';
 import { playbackOptions } from '../options/playback.ts';
 import { robotProgram } from '../options/robot-program.ts';
+import { rosOptions } from '../options/ros.ts';
 import { shmOptions } from '../options/shm.ts';
 import { simOptions } from '../options/sim.ts';
 import type { SOURCE_KINDS } from '../options/source.ts';
@@ -38,6 +39,17 @@ const SET: Record<SourceKind, Readonly<Record<string, unknown>>> = {
   rgbd: {},
   recording: {},
   shm: { shmLayout: 'farpoint', sink: 'shm' },
+  ros1: {
+    sink: 'ros1',
+    topics: [
+      { topic: '/camera/depth_registered/points', as: 'cloud' },
+      { topic: '/camera/depth_registered/camera_info', as: 'cameraInfo' },
+      { topic: '/tf', as: 'tf' },
+      { topic: '/tf_static', as: 'tf' },
+      { topic: '/odom', as: 'pose' },
+      { topic: '/cmd_vel', as: 'velocity' },
+    ],
+  },
 };
 
 /** Options that only some kinds of sources have. */
@@ -45,6 +57,7 @@ const ONLY: readonly { kinds: readonly SourceKind[]; options: object }[] = [
   { kinds: ['sim'], options: simOptions },
   { kinds: ['shm'], options: shmOptions },
   { kinds: ['pcd', 'rgbd', 'recording'], options: playbackOptions },
+  { kinds: ['ros1'], options: rosOptions },
   { kinds: [], options: measurementOptions },
 ];
 

@@ -9,7 +9,9 @@ const MOST_WAIT_MS = 3000;
 
 /** The source as it is tried: nobody waits long for a producer. */
 export function trialSource(source: SourceOptions): SourceOptions {
-  return source.kind === 'shm' ? { ...source, waitMs: Math.min(source.waitMs, MOST_WAIT_MS) } : source;
+  return source.kind === 'shm' || source.kind === 'ros'
+    ? { ...source, waitMs: Math.min(source.waitMs, MOST_WAIT_MS) }
+    : source;
 }
 
 /** @param drives whether velocities go anywhere but to the source */
@@ -59,6 +61,7 @@ function closedRemedy(source: SourceOptions, message: string): string {
       return 'run both as one user, or give the file to a group that both are in';
     return 'start the camera’s program anew; docs/shared-memory.md has the layouts';
   }
+  if (source.kind === 'ros') return 'docs/ros.md says what a graph needs';
   if (source.kind === 'sim') return 'report this';
   if (/ENOENT|no such file/i.test(message)) return 'set source.path to a file that is there';
   return 'docs/real-robot.md says what each source needs';

@@ -1,10 +1,13 @@
 /** From values that are right one by one to what the robot is made of. */
 import { randomBytes } from 'node:crypto';
 import { readFileSync } from 'node:fs';
+import { topicAs } from '@farpoint/ros';
+import { ros1Hostname } from '@farpoint/ros/ros1';
 import { type OptionMistake, OptionsError } from '@farpoint/service';
 import type { SourceOptions } from '../capture/open-source.ts';
 import type { SinkOptions } from '../drive/velocity-sink.ts';
 import type { RobotOptions } from '../robot.ts';
+import type { GraphOptions } from '../ros/open-graph.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 
 /** How messages name the place of an option's value. */
@@ -72,6 +75,13 @@ function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, de
   const { source, path } = values;
   const played = source === 'recording' || source === 'pcd' || source === 'rgbd';
   if (played && path === null) refuse('path', `is needed for the source ${source}`);
+  const { topics, sink } = values;
+  if (source === 'ros1' && topicAs(topics, 'cloud') === undefined && topicAs(topics, 'depth') === undefined) {
+    refuse('topics', `needs an entry with \`as: cloud\` or \`as: depth\` for the source ${source}`);
+  }
+  if (sink === 'ros1' && topicAs(topics, 'velocity') === undefined) {
+    refuse('topics', `needs an entry with \`as: velocity\` for the sink ${sink}`);
+  }
   if (source === 'sim' && values.simSize % 4 !== 0) refuse('simSize', 'must be a multiple of 4');
 }
 
@@ -92,6 +102,11 @@ function toSource(values: RobotOptionValues): SourceOptions {
         ...{ kind: 'recording', path, topic: values.topic, rate: values.playRate, fromS: values.playFromS },
         ...{ atEnd: values.playEnd, axes: values.playAxes },
       };
+    case 'ros1':
+      return {
+        ...{ kind: 'ros', graph: toGraph(values, values.source), topics: values.topics },
+        ...{ axes: values.rosAxes, waitMs: values.rosWaitS * 1000 },
+      };
     case 'pcd':
       return { kind: 'pcd', path, frame: values.pcdFrame };
     case 'rgbd':
@@ -101,11 +116,27 @@ function toSource(values: RobotOptionValues): SourceOptions {
 
 function toSink(values: RobotOptionValues): SinkOptions {
   if (values.sink === 'source') return { kind: 'source' };
+  if (values.sink === 'ros1') {
+    const entry = topicAs(values.topics, 'velocity');
+    if (entry === undefined) throw new Error('checked before: there is a topic for velocities');
+    return { kind: 'ros', graph: toGraph(values, values.sink), entry, silenceMs: values.watchdogMs };
+  }
   return {
     kind: 'shm',
     folder: values.shmFolder,
     mode: values.shmAccess === 'group' ? 0o660 : 0o600,
     silenceMs: values.watchdogMs,
+  };
+}
+
+function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): GraphOptions {
+  const { env } = process;
+  return {
+    kind,
+    // What a node may not be called becomes _.
+    name: values.rosName ?? `farpoint_${values.id.replaceAll(/[^A-Za-z0-9_]/g, '_')}`,
+    masterUrl: values.rosMaster ?? (env.ROS_MASTER_URI || 'http://localhost:11311'),
+    hostname: values.rosHostname ?? ros1Hostname(env),
   };
 }
 

@@ -6,6 +6,7 @@ import { measurementOptions } from './measurement.ts';
 import { networkOptions } from './network.ts';
 import { playbackOptions } from './playback.ts';
 import { recordingOptions } from './recording.ts';
+import { rosOptions } from './ros.ts';
 import { shmOptions } from './shm.ts';
 import { signalingOptions } from './signaling.ts';
 import { simOptions } from './sim.ts';
@@ -23,6 +24,7 @@ const options = {
   ...simOptions,
   ...sinkOptions,
   ...topicsOptions,
+  ...rosOptions,
   ...limitsOptions,
   ...streamOptions,
   ...networkOptions,

@@ -1,7 +1,7 @@
 /** Where the clouds come from. */
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 
-export const SOURCE_KINDS = ['sim', 'pcd', 'rgbd', 'shm', 'recording'] as const;
+export const SOURCE_KINDS = ['sim', 'pcd', 'rgbd', 'shm', 'recording', 'ros1'] as const;
 
 export const sourceOptions = optionGroup('source', {
   source: defineOption({
@@ -9,12 +9,12 @@ export const sourceOptions = optionGroup('source', {
     default: 'sim',
     argument: 'KIND',
     file: 'kind',
-    help: 'where the points come from: sim (a simulated robot), pcd (recorded clouds), rgbd (recorded colour and depth pictures), shm (a camera’s producer, through shared memory), recording (an MCAP file or a ROS 1 bag)',
+    help: 'where the points come from: sim (a simulated robot), pcd (recorded clouds), rgbd (recorded colour and depth pictures), shm (a camera’s producer, through shared memory), recording (an MCAP file or a ROS 1 bag), ros1 (topics of a ROS 1 graph)',
   }),
   fps: defineOption({
     schema: schema.optional(schema.number({ min: 0.1, max: 120 })),
     default: null,
     argument: 'RATE',
-    help: 'most frames a second that the source is asked for; left out, 60 of the simulated camera, 30 of recordings',
+    help: 'most frames a second that the source is asked for; left out, 60 of the simulated camera, 30 of others',
   }),
 });

@@ -56,7 +56,9 @@ interface OwnSubscription extends Subscription {
 
 class Ros1Graph implements RosGraph {
   readonly version = 1;
-  onFault: ((fault: RosFault) => void) | null = null;
+  #onFault: ((fault: RosFault) => void) | null = null;
+  /** What was wrong last when nobody listened. */
+  #untold: RosFault | null = null;
   readonly #options: Ros1Options;
   readonly #now: () => number;
   readonly #node: OwnNode;
@@ -116,6 +118,16 @@ class Ros1Graph implements RosGraph {
     await graph.#watch();
     graph.#timer = setInterval(() => void graph.#watch(), WATCH_MS);
     return graph;
+  }
+
+  get onFault(): ((fault: RosFault) => void) | null {
+    return this.#onFault;
+  }
+
+  set onFault(listener: ((fault: RosFault) => void) | null) {
+    this.#onFault = listener;
+    if (listener !== null && this.#untold !== null) listener(this.#untold);
+    if (listener !== null) this.#untold = null;
   }
 
   topics(): readonly GraphTopic[] {
@@ -233,6 +245,7 @@ class Ros1Graph implements RosGraph {
       const state = await this.#master.state();
       this.#topics = state.topics;
       this.#masterLost = false;
+      this.#untold = null;
       for (const [topic, { dataType }] of this.#publications) {
         if (!isIn(state.publishers, topic, this.#node.name))
           await this.#master.registerPublisher(topic, dataType);
@@ -274,7 +287,8 @@ class Ros1Graph implements RosGraph {
   }
 
   #fault(fault: RosFault): void {
-    this.onFault?.(fault);
+    if (this.#onFault === null) this.#untold = fault;
+    else this.#onFault(fault);
   }
 }
 

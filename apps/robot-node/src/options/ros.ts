@@ -1,0 +1,45 @@
+/** The robot as a node of a ROS graph: its source’s, its sink’s, or both. */
+import { defineOption, optionGroup, schema } from '@farpoint/service';
+import * as z from 'zod';
+
+export const rosOptions = optionGroup('ros', {
+  rosName: defineOption({
+    schema: schema.optional(
+      z
+        .string('must be text')
+        .regex(/^[A-Za-z][A-Za-z0-9_]{0,100}$/, 'must be letters, digits and _, a letter first'),
+    ),
+    default: null,
+    argument: 'NAME',
+    file: 'name',
+    help: 'ros1, ros2: begin of the names of its nodes; left out, made of the id',
+  }),
+  rosMaster: defineOption({
+    schema: schema.optional(z.url({ protocol: /^http$/, error: 'must be an http:// address' })),
+    default: null,
+    argument: 'URL',
+    file: 'master',
+    help: 'ros1: the master; left out, ROS_MASTER_URI, or http://localhost:11311',
+  }),
+  rosHostname: defineOption({
+    schema: schema.optional(schema.text({ max: 255 })),
+    default: null,
+    argument: 'HOST',
+    file: 'hostname',
+    help: 'ros1: how other nodes reach this machine; left out, ROS_HOSTNAME, ROS_IP, or its name. With localhost, only nodes of this machine can',
+  }),
+  rosAxes: defineOption({
+    schema: schema.choice(['auto', 'optical', 'body']),
+    default: 'auto',
+    argument: 'AXES',
+    file: 'axes',
+    help: 'ros1, ros2: axes of the clouds’ frame: optical (z forward), body (x forward, z up), or auto: optical where its name says so',
+  }),
+  rosWaitS: defineOption({
+    schema: schema.number({ min: 0, max: 3600 }),
+    default: 30,
+    argument: 'SECONDS',
+    file: 'waitS',
+    help: 'ros1, ros2: how long to wait for the first cloud at the start',
+  }),
+});
