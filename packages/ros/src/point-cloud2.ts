@@ -161,7 +161,9 @@ export function checkedCount({ width, height, point_step, row_step, data, fields
     throw wrong(`a row of ${row_step} bytes for ${width} points of ${point_step}`);
   }
   const needed = (height > 1 ? (height - 1) * row_step : 0) + width * point_step;
-  if (data.length < needed) throw wrong(`${data.length} bytes of data, ${needed} expected`);
+  if (data.length < needed) {
+    throw new RosFault('bad-cloud', `the data ends, ${needed} bytes expected`, { offset: data.length });
+  }
   return count;
 }
 

@@ -3,15 +3,18 @@ export class RateLimit {
   readonly #intervalMs: number;
   #nextMs = Number.NEGATIVE_INFINITY;
 
-  constructor(perSecond: number) {
-    this.#intervalMs = 1000 / perSecond;
+  /** @param perSecond `null`: as many as come */
+  constructor(perSecond: number | null) {
+    this.#intervalMs = perSecond === null ? 0 : 1000 / perSecond;
   }
 
   /** @returns whether the message that comes now is taken */
   admits(nowMs: number): boolean {
+    if (this.#intervalMs === 0) return true;
     // One that is a little early is not the one too many.
     if (nowMs < this.#nextMs - this.#intervalMs / 4) return false;
-    this.#nextMs = Math.max(this.#nextMs + this.#intervalMs, nowMs);
+    const rested = nowMs - this.#nextMs > this.#intervalMs;
+    this.#nextMs = (rested ? nowMs : this.#nextMs) + this.#intervalMs;
     return true;
   }
 }

@@ -15,9 +15,9 @@ describe('topic table', () => {
       { topic: '/cmd_vel', type: 'geometry_msgs/TwistStamped', as: 'velocity' },
     ]);
     expect(table).toEqual([
-      { topic: '/camera/points', type: 'sensor_msgs/msg/PointCloud2', as: 'cloud', most: 120 },
+      { topic: '/camera/points', type: 'sensor_msgs/msg/PointCloud2', as: 'cloud', most: null },
       { topic: '/bms', type: 'std_msgs/msg/Float32', as: 'text', most: 0.5, label: 'Cells' },
-      { topic: '/cmd_vel', type: 'geometry_msgs/msg/TwistStamped', as: 'velocity', most: 100 },
+      { topic: '/cmd_vel', type: 'geometry_msgs/msg/TwistStamped', as: 'velocity', most: null },
     ]);
     expect(table.map(({ type }) => ros1TypeOf(type))).toContain('std_msgs/Float32');
   });

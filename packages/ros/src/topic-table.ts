@@ -32,12 +32,9 @@ export const TOPIC_ROLES = {
 export type TopicRole = keyof typeof TOPIC_ROLES;
 const roles = Object.keys(TOPIC_ROLES) as [TopicRole, ...TopicRole[]];
 
-/** Most messages a second where the table does not say; of clouds and pictures as many as come. */
-const MOST: Record<TopicRole, number> = {
-  ...{ cloud: 120, depth: 120, colour: 120, cameraInfo: 5 },
-  ...{ pose: 100, tf: 1000, velocity: 100 },
-  ...{ battery: 1, fix: 1, diagnostics: 1, text: 1 },
-};
+/** Told to people once a second where the table does not say; of the others as many as come. */
+const MOST_TOLD = 1;
+const TOLD: readonly TopicRole[] = ['battery', 'fix', 'diagnostics', 'text'];
 const MOST_TOPICS = 64;
 /** Transforms that hold from before they are said. */
 export const STATIC_SUFFIX = '/tf_static';
@@ -78,8 +75,8 @@ export interface TopicEntry {
   /** As ROS 2 writes it. */
   type: string;
   as: TopicRole;
-  /** Messages a second that are looked at. */
-  most: number;
+  /** Messages a second that are looked at; `null`: as many as come. */
+  most: number | null;
   /** What people read beside its values; the topic where left out. */
   label?: string | undefined;
   /** Left out: what the role usually needs. ROS 2 only. */
@@ -121,7 +118,7 @@ const entry = z
       });
       return z.NEVER;
     }
-    return { ...given, type, most: given.most ?? MOST[given.as] };
+    return { ...given, type, most: given.most ?? (TOLD.includes(given.as) ? MOST_TOLD : null) };
   });
 
 /** Roles that one topic at most can have. */

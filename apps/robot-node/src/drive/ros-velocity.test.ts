@@ -11,7 +11,7 @@ const ahead = (x: number): Twist => ({ ...zeroTwist(), linear: { x, y: 0, z: 0 }
 function setUp(type = TWIST) {
   let nowMs = 1000;
   const graph = new MemoryGraph(2, () => nowMs);
-  const entry: TopicEntry = { topic: '/cmd_vel', type, as: 'velocity', most: 100 };
+  const entry: TopicEntry = { topic: '/cmd_vel', type, as: 'velocity', most: null };
   const wallNs = () => 1_700_000_000_000_000_000n + BigInt(nowMs) * 1_000_000n;
   const velocity = new RosVelocity(graph, { entry, silenceMs: 150, now: () => nowMs, wallNs });
   const decode = decoderOf(2, type, null);

@@ -44,7 +44,7 @@ export class MemoryGraph implements RosGraph {
       get received() {
         return received;
       },
-      ...{ dropped: 0, publishers: 1, definition: null },
+      ...{ dropped: 0, publishers: 0, definition: null },
       close: () => this.#receivers.delete(to.topic),
     };
   }

@@ -1,0 +1,296 @@
+import { topicTableSchema } from '@farpoint/ros';
+import { MemoryGraph } from '@farpoint/ros/testing';
+import { describe, expect, it } from 'vitest';
+import type { CaptureRoom, SourceFrame } from './frame-source.ts';
+import { RosSource } from './ros-source.ts';
+
+const CLOUD = 'sensor_msgs/msg/PointCloud2';
+const IMAGE = 'sensor_msgs/msg/Image';
+const INFO = 'sensor_msgs/msg/CameraInfo';
+const ODOMETRY = 'nav_msgs/msg/Odometry';
+const OPTICAL = 'camera_optical_frame';
+const WALL_S = 1_700_000_000;
+const wishes = { bitsPerSecond: 0, latencyTest: false };
+
+const headerAt = (ms: number, frame_id = OPTICAL) => ({
+  stamp: { sec: WALL_S + Math.floor(ms / 1000), nanosec: (ms % 1000) * 1e6, nsec: (ms % 1000) * 1e6 },
+  frame_id,
+  seq: 0,
+});
+
+/** A cloud of x, y, z: of a LiDAR as a line, of a camera as its grid at a depth of 2 m. */
+function cloudOf(ms: number, width: number, height: number, frame = OPTICAL, point = at(2)) {
+  const data = new Float32Array(width * height * 3);
+  for (let i = 0; i < width * height; i++) data.set(point(i % width, Math.floor(i / width)), i * 3);
+  return {
+    header: headerAt(ms, frame),
+    ...{ width, height, point_step: 12, row_step: width * 12, is_bigendian: false, is_dense: true },
+    fields: ['x', 'y', 'z'].map((name, i) => ({ name, offset: i * 4, datatype: 7, count: 1 })),
+    data: new Uint8Array(data.buffer),
+  };
+}
+/** Where the pixel’s point is at a depth, with the camera below. */
+function at(z: number) {
+  return (u: number, v: number) => [((u - 4) / 10) * z, ((v - 3) / 10) * z, z];
+}
+const info = (ms: number, width = 8, height = 6) => ({
+  header: headerAt(ms),
+  ...{ width, height, distortion_model: '', binning_x: 0, binning_y: 0 },
+  ...{ d: [], k: [10, 0, 4, 0, 10, 3, 0, 0, 1], r: new Array(9).fill(0), p: new Array(12).fill(0) },
+  ...{ D: [], K: [10, 0, 4, 0, 10, 3, 0, 0, 1], R: new Array(9).fill(0), P: new Array(12).fill(0) },
+  roi: { x_offset: 0, y_offset: 0, height: 0, width: 0, do_rectify: false },
+});
+function imageOf(ms: number, encoding: string, bytes: number, width = 8, height = 6) {
+  const data = new Uint8Array(width * height * bytes).fill(4);
+  return { header: headerAt(ms), ...{ width, height, encoding, is_bigendian: 0, step: width * bytes, data } };
+}
+const odometry = (ms: number, x: number) => ({
+  header: headerAt(ms, 'odom'),
+  child_frame_id: 'base_link',
+  pose: {
+    pose: { position: { x, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } },
+    covariance: new Array(36).fill(0),
+  },
+  twist: {
+    twist: { linear: { x: 0.25, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0 } },
+    covariance: new Array(36).fill(0),
+  },
+});
+
+async function setUp(
+  table: unknown,
+  first: (graph: MemoryGraph) => void,
+  { version = 2, waitMs = 1000 }: { version?: 1 | 2; waitMs?: number } = {},
+) {
+  let nowMs = 5000;
+  const graph = new MemoryGraph(version, () => nowMs);
+  const clock = {
+    now: () => nowMs,
+    wallNs: () => BigInt(WALL_S) * 1_000_000_000n + BigInt(nowMs - 5000) * 1_000_000n,
+  };
+  const opening = RosSource.open(
+    graph,
+    { topics: topicTableSchema.parse(table), axes: 'auto', waitMs },
+    clock,
+  );
+  first(graph);
+  const source = await opening;
+  const faults: string[] = [];
+  const readings: unknown[] = [];
+  let ready = 0;
+  source.onFault = ({ message }) => faults.push(message);
+  source.onReading = (reading) => readings.push(reading);
+  source.onReady = () => ready++;
+  const { capacity, camera } = source.description;
+  const pixels = camera === null ? 0 : capacity;
+  const room: CaptureRoom = {
+    points: new Float32Array(capacity * 4),
+    depth: new Float32Array(pixels),
+    colour: new Uint32Array(pixels),
+  };
+  return {
+    ...{ graph, source, faults, readings, room },
+    ready: () => ready,
+    capture: (): SourceFrame | null => source.capture(nowMs, wishes, room),
+    pass: (ms: number) => {
+      nowMs += ms;
+    },
+  };
+}
+
+describe('RosSource', () => {
+  it.each([1, 2] as const)(
+    'gives a LiDAR’s clouds of ROS %i as points, where odometry places them',
+    async (version) => {
+      const table = [
+        { topic: '/points', as: 'cloud' },
+        { topic: '/odom', as: 'pose' },
+      ];
+      const forward = () => [1, 2, 3];
+      const first = (graph: MemoryGraph) => graph.say('/points', CLOUD, cloudOf(0, 3, 1, 'lidar', forward));
+      const { graph, source, capture, pass, ready, faults } = await setUp(table, first, { version });
+      expect(source.description).toMatchObject({
+        height: 1,
+        camera: null,
+        depthMeasure: 'range',
+        drives: false,
+      });
+      expect(source.description.kind).toBe(`ros${version} (/points, body frame)`);
+      graph.say('/odom', ODOMETRY, odometry(0, 7));
+      pass(40);
+      const frame = capture();
+      expect(frame).toMatchObject({ form: 'points', count: 3, captureMs: 5000 });
+      // Body axes (x forward) come as optical ones (z forward), 1 m above a body that odometry places.
+      expect(frame?.form === 'points' && [...frame.points.subarray(0, 3)]).toEqual([-2, -3, 1]);
+      expect(frame?.cameraPose.position).toEqual({ x: 7, y: 0, z: 1 });
+      expect(source.state).toMatchObject({ pose: { position: { x: 7 } }, twist: { linear: { x: 0.25 } } });
+      expect(capture()).toBeNull();
+      graph.say('/points', CLOUD, cloudOf(100, 4, 1, 'lidar', forward));
+      expect(ready()).toBe(1);
+      expect(capture()).toMatchObject({ count: 4 });
+      expect(faults).toEqual([]);
+    },
+  );
+
+  it('subscribes what the table names and nothing else', async () => {
+    const table = [
+      { topic: '/points', as: 'cloud', most: 10 },
+      { topic: '/tf_static', as: 'tf' },
+      { topic: '/cmd_vel', as: 'velocity' },
+    ];
+    const { graph } = await setUp(table, (g) => g.say('/points', CLOUD, cloudOf(0, 3, 1)));
+    graph.others.push({ topic: '/secret', type: CLOUD, publishers: 1, subscribers: 0 });
+    expect(graph.subscribed.map(({ topic }) => topic).sort()).toEqual(['/points', '/tf_static']);
+    expect(graph.subscribed.find(({ topic }) => topic === '/tf_static')?.qos?.durability).toBe(
+      'transient-local',
+    );
+    expect(graph.advertised).toEqual([]);
+  });
+
+  it('gives a depth camera’s cloud as pictures where its camera is named', async () => {
+    const table = [
+      { topic: '/points', as: 'cloud' },
+      { topic: '/info', as: 'cameraInfo' },
+    ];
+    const { source, capture } = await setUp(table, (g) => {
+      // Before the camera is known no cloud is taken.
+      g.say('/points', CLOUD, cloudOf(0, 8, 6));
+      g.say('/info', INFO, info(0));
+      g.say('/points', CLOUD, cloudOf(30, 8, 6));
+    });
+    expect(source.description).toMatchObject({
+      width: 8,
+      height: 6,
+      camera: { fx: 10, fy: 10, cx: 4, cy: 3 },
+    });
+    const frame = capture();
+    expect(frame?.form === 'images' && [...frame.depth]).toEqual(Array(48).fill(2));
+  });
+
+  it('gives points, and says why, where a grid is not that camera’s', async () => {
+    const table = [
+      { topic: '/points', as: 'cloud' },
+      { topic: '/info', as: 'cameraInfo' },
+    ];
+    const { source, capture } = await setUp(table, (g) => {
+      g.say('/info', INFO, info(0));
+      g.say(
+        '/points',
+        CLOUD,
+        cloudOf(0, 8, 6, OPTICAL, (u, v) => [u, v, 1]),
+      );
+    });
+    expect(source.description.camera).toBeNull();
+    expect(capture()).toMatchObject({ form: 'points', count: 48 });
+  });
+
+  it('puts depth and colour of one instant together', async () => {
+    const table = [
+      { topic: '/depth', as: 'depth' },
+      { topic: '/colour', as: 'colour' },
+      { topic: '/info', as: 'cameraInfo' },
+    ];
+    const { graph, source, capture, faults, ready } = await setUp(table, (g) => {
+      g.say('/info', INFO, info(0));
+      g.say('/depth', IMAGE, imageOf(0, '16UC1', 2));
+      g.say('/colour', IMAGE, imageOf(0, 'rgb8', 3));
+    });
+    expect(source.description).toMatchObject({ width: 8, height: 6, capacity: 48 });
+    const frame = capture();
+    expect(frame).toMatchObject({ form: 'images', captureMs: 5000 });
+    expect(frame?.form === 'images' && frame.depth[0]).toBeCloseTo(1.028);
+    expect(frame?.form === 'images' && frame.colour[0]).toBe(0xff04_0404);
+    graph.say('/colour', IMAGE, imageOf(33, 'rgb8', 3));
+    expect(ready()).toBe(0);
+    graph.say('/depth', IMAGE, imageOf(33, '16UC1', 2, 4, 3));
+    expect(ready()).toBe(1);
+    expect(capture()).toBeNull();
+    expect(faults).toEqual([
+      '/depth: 4 × 3 pixels, the camera has 8 × 6; take the pictures that are registered to that camera',
+    ]);
+  });
+
+  it('goes on after messages that are none, naming topic and byte', async () => {
+    const table = [{ topic: '/points', as: 'cloud' }];
+    const { graph, capture, faults } = await setUp(table, (g) => g.say('/points', CLOUD, cloudOf(0, 3, 1)));
+    capture();
+    graph.sayBytes('/points', Uint8Array.of(0, 1, 0, 0, 1, 2, 3));
+    const cut = cloudOf(0, 3, 1);
+    graph.say('/points', CLOUD, { ...cut, data: cut.data.subarray(0, 20) });
+    expect(capture()).toBeNull();
+    expect(faults).toHaveLength(2);
+    expect(faults[0]).toMatch(/^\/points: /);
+    expect(faults[1]).toBe('/points: byte 20: the data ends, 36 bytes expected');
+    graph.say('/points', CLOUD, cloudOf(0, 3, 1));
+    expect(capture()).toMatchObject({ count: 3 });
+  });
+
+  it('tells readings at the rate that the table allows', async () => {
+    const table = [
+      { topic: '/points', as: 'cloud' },
+      { topic: '/temperature', as: 'text', type: 'std_msgs/Float32', most: 2, label: 'Temperature' },
+      { topic: '/diagnostics', as: 'diagnostics', most: 2 },
+    ];
+    const { graph, readings, pass } = await setUp(table, (g) => g.say('/points', CLOUD, cloudOf(0, 3, 1)));
+    for (let i = 0; i < 20; i++) {
+      graph.say('/temperature', 'std_msgs/msg/Float32', { data: i });
+      pass(100);
+    }
+    expect(readings).toEqual(
+      [0, 4, 9, 14, 19].map((i) => ({
+        topic: '/temperature',
+        label: 'Temperature',
+        level: 'ok',
+        values: [['', `${i}`]],
+      })),
+    );
+    // Each node tells its own part: they are put together.
+    const diagnostics = (level: number, name: string) => ({
+      header: headerAt(0),
+      status: [{ level, name, message: 'm', hardware_id: '', values: [] }],
+    });
+    graph.say('/diagnostics', 'diagnostic_msgs/msg/DiagnosticArray', diagnostics(0, 'a'));
+    graph.say('/diagnostics', 'diagnostic_msgs/msg/DiagnosticArray', diagnostics(1, 'b'));
+    pass(1000);
+    graph.say('/diagnostics', 'diagnostic_msgs/msg/DiagnosticArray', diagnostics(0, 'c'));
+    expect(readings.at(-1)).toMatchObject({
+      level: 'warn',
+      values: [
+        ['b', 'm'],
+        ['', '2 of 3 OK'],
+      ],
+    });
+  });
+
+  it('takes the time of coming where a stamp is of another clock', async () => {
+    const table = [{ topic: '/points', as: 'cloud' }];
+    const { graph, capture, pass } = await setUp(table, (g) => g.say('/points', CLOUD, cloudOf(0, 3, 1)));
+    graph.say('/points', CLOUD, { ...cloudOf(0, 3, 1), header: headerAt(-1_600_000_000_000) });
+    pass(30);
+    expect(capture()).toMatchObject({ captureMs: 5000 });
+  });
+
+  it.each([
+    [[], /^no topic has clouds/],
+    [
+      [{ topic: '/points', publishers: 1, type: 'sensor_msgs/msg/LaserScan' }],
+      '/points: it has sensor_msgs/msg/LaserScan, not sensor_msgs/msg/PointCloud2',
+    ],
+    [
+      [{ topic: '/cloud', publishers: 1, type: CLOUD }],
+      '/points: nobody publishes it (within 0 s); with sensor_msgs/msg/PointCloud2 there is /cloud',
+    ],
+    [
+      [{ topic: '/points', publishers: 1, type: CLOUD }],
+      '/points: no message came within 0 s, though it is published',
+    ],
+  ])('says what did not come, and why (%#)', async (others, message) => {
+    const topics = message instanceof RegExp ? [] : [{ topic: '/points', as: 'cloud' }];
+    const graph = new MemoryGraph(2, () => 0);
+    graph.others = others.map((each) => ({ subscribers: 0, ...each }));
+    const options = { topics: topicTableSchema.parse(topics), axes: 'auto' as const, waitMs: 0 };
+    const opening = RosSource.open(graph, options, { now: () => 0, wallNs: () => 0n });
+    await expect(opening).rejects.toThrow(message);
+    expect(graph.closed).toBe(true);
+  });
+});
