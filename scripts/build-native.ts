@@ -1,12 +1,14 @@
 /**
- * `pnpm build:native [shared-memory] [dds]`: builds the native addons. Without a name both; then DDS, which needs a library
+ * `pnpm build:native [shared-memory] [systemd] [dds]`: builds the native addons. Without a name all; then DDS, which needs a library
  * that not every robot has, may be missing.
  */
 import * as dds from '../packages/dds/src/build.ts';
 import * as sharedMemory from '../packages/shared-memory/src/build.ts';
+import * as systemd from '../packages/systemd/src/build.ts';
 
 const addons = {
   'shared-memory': { ...sharedMemory, what: 'shared memory', optional: false },
+  systemd: { ...systemd, what: 'the systemd unit', optional: false },
   dds: { ...dds, what: 'ROS 2 (--source ros2, --sink ros2)', optional: true },
 };
 

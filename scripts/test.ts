@@ -6,6 +6,7 @@ import { parseArgs } from 'node:util';
 import { CHROMIUM_REMEDY } from '@farpoint/local-stack';
 import * as dds from '../packages/dds/src/build.ts';
 import * as sharedMemory from '../packages/shared-memory/src/build.ts';
+import * as systemd from '../packages/systemd/src/build.ts';
 import { ensureChromium } from './lib/ensure-chromium.ts';
 import { ensureCycloneDds, ensureDdsPeers } from './lib/ensure-dds.ts';
 import { ensureNumpy } from './lib/ensure-numpy.ts';
@@ -58,6 +59,7 @@ const steps: Step[] = [
       const left: string[] = [];
       for (const [what, { buildAddon, BUILD_REMEDY }] of [
         ['shared memory', sharedMemory],
+        ['the systemd unit', systemd],
         ['ROS 2', dds],
       ] as const) {
         const { ok, output } = buildAddon();

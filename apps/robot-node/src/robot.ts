@@ -208,6 +208,11 @@ export class Robot implements SessionHost {
     return robot;
   }
 
+  /** Since the capture thread last gave a sign of life, ms; 0 before the first. */
+  get captureSilenceMs(): number {
+    return this.#state === null ? 0 : monotonicMs() - this.#state.timeMs;
+  }
+
   /** Stops the wheels first, then takes leave of everyone. */
   async close(): Promise<void> {
     this.drive.guard.latchEstop('robot');

@@ -1,9 +1,13 @@
 import { runProgram, setNiceness } from '@farpoint/service';
+import { Notifier, notifyOrder } from '@farpoint/systemd';
 import { toRobotOptions } from './options/robot-options.ts';
 import { robotProgram } from './options/robot-program.ts';
 import { registerReferenceMetrics } from './reference/reference-metrics.ts';
 import { Robot } from './robot.ts';
 import { registerRobotMetrics } from './telemetry/robot-metrics.ts';
+
+/** The capture thread gives a sign of life every 20 ms, unless a frame takes longer. */
+const MOST_CAPTURE_SILENCE_MS = 5000;
 
 /** Runs the robot until a signal. */
 export async function run(): Promise<void> {
@@ -13,8 +17,11 @@ export async function run(): Promise<void> {
     } catch (error) {
       log.info({ niceness: options.niceness, err: error }, 'the system keeps the priority');
     }
+    const order = notifyOrder(process.env, process.pid);
+    const systemd = order === null ? null : new Notifier(order);
     const robot = await Robot.start(toRobotOptions(options, where), log);
     shutdown.onClose('robot', () => robot.close());
+    shutdown.onClose('systemd', () => systemd?.stopping());
     robot.onFailure = (error) => {
       log.fatal({ err: error }, 'the source failed');
       void shutdown.end('the source failed', 1);
@@ -25,5 +32,11 @@ export async function run(): Promise<void> {
     health.add('signaling', () => ({ ok: true, detail: { registered: robot.signaling.registered } }));
     health.add('operators', () => ({ ok: true, detail: { connected: robot.operators.size } }));
     await serveAdmin({ host: options.adminHost, port: options.adminPort });
+    // A thread that hangs, this one or that of capture, is not spoken for: systemd starts the robot again.
+    systemd?.ready(
+      () => robot.captureSilenceMs < MOST_CAPTURE_SILENCE_MS,
+      () =>
+        `${robot.operators.size} operators; ${robot.signaling.registered ? 'registered' : 'not registered'}`,
+    );
   });
 }

@@ -1,0 +1,14 @@
+import { createRequire } from 'node:module';
+import { ADDON_FILE, BUILD_REMEDY } from './build.ts';
+
+/** Sends one datagram to a Unix socket; 0, or an errno. */
+export type Send = (socket: string, message: string) => number;
+
+/** @throws {Error} where the addon is not built, saying what to do */
+export function loadSend(): Send {
+  try {
+    return (createRequire(import.meta.url)(ADDON_FILE) as { notify: Send }).notify;
+  } catch (error) {
+    throw new Error(`the addon for systemd cannot be loaded: ${BUILD_REMEDY}`, { cause: error });
+  }
+}
