@@ -1,20 +1,10 @@
 /** Clouds to measure with. */
+import { uniformNumbers } from './random.ts';
 
 export interface SceneCloud {
   /** x, y, z in metres and colour bits for each point, as the encoder takes them. */
   frame: Float32Array;
   points: number;
-}
-
-/** A small fast generator (mulberry32): the same numbers everywhere. */
-export function uniformNumbers(seed: number): () => number {
-  let state = seed >>> 0;
-  return () => {
-    state = (state + 0x6d2b79f5) >>> 0;
-    let t = Math.imul(state ^ (state >>> 15), state | 1);
-    t ^= t + Math.imul(t ^ (t >>> 7), t | 61);
-    return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
-  };
 }
 
 /**

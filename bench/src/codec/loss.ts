@@ -1,4 +1,6 @@
 /** What is left of a frame when packets are lost. */
+
+import { uniformNumbers } from '../random.ts';
 import type { BenchCloud, CodecRun } from './adapter.ts';
 import { verify } from './verify.ts';
 
@@ -67,7 +69,7 @@ function pointsOfPackets(run: CodecRun, packets: number): number[] {
 
 /** The packets that come, in a random order. */
 function survivors(packets: number, lossRate: number, seed: number): number[] {
-  const random = generator(seed);
+  const random = uniformNumbers(seed);
   const come: number[] = [];
   for (let packet = 0; packet < packets; packet++) if (random() >= lossRate) come.push(packet);
   for (let i = come.length - 1; i > 0; i--) {
@@ -75,15 +77,4 @@ function survivors(packets: number, lossRate: number, seed: number): number[] {
     [come[i], come[j]] = [come[j] as number, come[i] as number];
   }
   return come;
-}
-
-/** mulberry32: 0 up to 1. */
-function generator(seed: number): () => number {
-  let state = seed * 0x9e37_79b9;
-  return () => {
-    state = (state + 0x6d2b_79f5) | 0;
-    let t = Math.imul(state ^ (state >>> 15), 1 | state);
-    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
-    return ((t ^ (t >>> 14)) >>> 0) / 4_294_967_296;
-  };
 }
