@@ -13,7 +13,7 @@ import { verify } from './verify.ts';
 export interface OrganisedSetting {
   name: string;
   options: OrganisedOptions;
-  /** In place of a quality: the coarsest with which the colours are as good as this, dB. */
+  /** In place of a way to code colours: the one with the fewest bits that keeps them as good as this, dB. */
   psnrDb?: number;
 }
 
@@ -21,11 +21,7 @@ export interface OrganisedSetting {
 export const ORGANISED_SETTINGS: readonly OrganisedSetting[] = [
   { name: '0.5 mm·z², default', options: {} },
   { name: '0.5 mm·z², 33 dB', options: { depthLevel: 3 }, psnrDb: 33 },
-  {
-    name: '0.5 mm·z², 40 dB',
-    options: { depthLevel: 3, colour: { quality: 0, chroma: 'full' } },
-    psnrDb: 40,
-  },
+  { name: '0.5 mm·z², 40 dB', options: { depthLevel: 3 }, psnrDb: 40 },
   {
     name: '0.25 mm·z², quality 6, full chroma',
     options: { depthLevel: 2, colour: { quality: 6, chroma: 'full' } },
@@ -37,13 +33,58 @@ export const ORGANISED_SETTINGS: readonly OrganisedSetting[] = [
   { name: 'budget of 125,000 bytes', options: { budgetBytes: 125_000 } },
 ];
 
-/** @returns the run, or why the cloud is not one for this codec */
-export function organised(
+/** @returns the run, or why the cloud is not one for this codec or this setting */
+export function organised(codec: Codec, cloud: BenchCloud, setting: OrganisedSetting): CodecRun | string {
+  return setting.psnrDb === undefined
+    ? organisedAs(codec, cloud, setting)
+    : cheapest(codec, cloud, setting, setting.psnrDb);
+}
+
+/** Of half chroma, full chroma and palette the one with the fewest bytes that is good enough. */
+function cheapest(
   codec: Codec,
   cloud: BenchCloud,
-  { name, options: wished, psnrDb }: OrganisedSetting,
+  { name, options }: OrganisedSetting,
+  psnrDb: number,
 ): CodecRun | string {
-  let options = wished;
+  let best: { run: CodecRun; bytes: number } | undefined;
+  let reason = `no colours of ${psnrDb} dB`;
+  const offer = (colour: OrganisedOptions['colour'], words: string): boolean => {
+    const run = organisedAs(codec, cloud, { name: `${name} (${words})`, options: { ...options, colour } });
+    if (typeof run === 'string') {
+      if (colour !== 'palette') reason = run;
+      return false;
+    }
+    run.encode();
+    run.decode(run.packetBytes().map((_, i) => i));
+    const good = (verify(cloud, run.decoded()).colorPsnrDb ?? 0) >= psnrDb;
+    const bytes = run.packetBytes().reduce((sum, size) => sum + size, 0);
+    if (!good || bytes >= (best?.bytes ?? Number.POSITIVE_INFINITY)) {
+      run[Symbol.dispose]();
+      return good;
+    }
+    best?.run[Symbol.dispose]();
+    best = { run, bytes };
+    return true;
+  };
+  for (const chroma of ['half', 'full'] as const) {
+    // Colours get better from quality to quality: the coarsest that is good enough, by halving.
+    let [good, bad] = [-1, 32];
+    while (bad - good > 1) {
+      const quality = (good + bad) >> 1;
+      if (offer({ quality, chroma }, `quality ${quality}, ${chroma} chroma`)) good = quality;
+      else bad = quality;
+    }
+  }
+  offer('palette', 'palette');
+  return best?.run ?? reason;
+}
+
+function organisedAs(
+  codec: Codec,
+  cloud: BenchCloud,
+  { name, options }: OrganisedSetting,
+): CodecRun | string {
   const { width, height, frame } = cloud;
   if (height === 1 || cloud.depth === 'range') return 'the cloud has no grid';
   const encoder = new OrganisedEncoder(codec, { width, height });
@@ -88,10 +129,14 @@ export function organised(
     settle() {
       if (options.budgetBytes !== undefined) for (let frame = 0; frame < 8; frame++) run.encode();
     },
-    independenceCost() {
-      const bytes = run.packetBytes().reduce((sum, size) => sum + size, 0);
-      return (bytes * 8) / encoder.bitsInOnePacket() - 1;
-    },
+    ...(options.budgetBytes === undefined
+      ? {
+          independenceCost() {
+            const bytes = run.packetBytes().reduce((sum, size) => sum + size, 0);
+            return (bytes * 8) / encoder.bitsInOnePacket() - 1;
+          },
+        }
+      : {}),
     native: (rounds) => nativeOrganised(cloud, camera, options, rounds),
     packetBytes: () => Array.from({ length: packets }, (_, i) => encoder.packet(i).length),
     decode(indices) {
@@ -117,20 +162,5 @@ export function organised(
       for (const object of [encoder, decoder, witness]) object[Symbol.dispose]();
     },
   };
-  if (psnrDb !== undefined) {
-    const chroma = typeof options.colour === 'object' ? (options.colour.chroma ?? 'half') : 'half';
-    // Colours get better from quality to quality: the coarsest that is good enough, by halving.
-    let [good, bad] = [0, 32];
-    while (bad - good > 1) {
-      const quality = (good + bad) >> 1;
-      options = { ...wished, colour: { quality, chroma } };
-      run.encode();
-      run.decode(run.packetBytes().map((_, i) => i));
-      if ((verify(cloud, run.decoded()).colorPsnrDb ?? 0) >= psnrDb) good = quality;
-      else bad = quality;
-    }
-    options = { ...wished, colour: { quality: good, chroma } };
-    run.setting = `${name} (quality ${good})`;
-  }
   return run;
 }
