@@ -1,5 +1,5 @@
 /** Rate, distortion and speed of the codecs as a picture. */
-import { type Panel, renderChart, type Series } from '../plot/chart.ts';
+import { PALETTE, type Panel, renderChart, type Series } from '../plot/chart.ts';
 import type { CodecRow } from './measure.ts';
 
 /** Where what is exact is drawn. */
@@ -7,13 +7,20 @@ const LOSSLESS_DB = 60;
 
 /** For each cloud: depth error and colour over the bits of a point, and the time of a frame. */
 export function plotCodecs(rows: readonly CodecRow[]): string {
+  const codecs = [...new Set(rows.map((row) => row.codec))];
   const clouds = [...new Set(rows.map((row) => row.cloud))];
   const panels = clouds.flatMap((cloud): Panel[] => {
     const own = rows.filter((row) => row.cloud === cloud);
     const series = (x: (row: CodecRow) => number, y: (row: CodecRow) => number): Series[] =>
       [...new Set(own.map((row) => row.codec))].map((codec) => {
         const points = own.filter((row) => row.codec === codec).sort((a, b) => x(a) - x(b));
-        return { label: codec, x: points.map(x), y: points.map(y), shape: 'points' };
+        return {
+          label: codec,
+          x: points.map(x),
+          y: points.map(y),
+          shape: 'points',
+          colour: PALETTE[codecs.indexOf(codec) % PALETTE.length],
+        };
       });
     const bits = (row: CodecRow) => row.bitsPerPoint;
     return [

@@ -9,7 +9,7 @@ export interface Series {
   y: ArrayLike<number>;
   /**
    * `line` (default); `step`: y holds until the next x; `area`: a filled step, for what the others are compared with;
-   * `points`: a dot at each, joined by a thin line.
+   * `points`: a dot at each.
    */
   shape?: 'line' | 'step' | 'area' | 'points';
   /** Default: the next of the palette; areas are grey. */
@@ -48,7 +48,7 @@ export interface Chart {
 }
 
 /** Okabe and Ito's colours, which people with any kind of colour vision can tell apart. */
-const PALETTE = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#000000'];
+export const PALETTE = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#000000'];
 const AREA_COLOUR = '#d5d9de';
 const INK = '#24292f';
 const GRID = '#e4e7eb';
@@ -204,12 +204,13 @@ function renderSeries(
     const outline = [[first, ground], ...points, [last, ground]] as [number, number][];
     return element('path', { d: `${linePath(outline)}Z`, fill: colour, stroke: 'none' });
   }
+  if (series.shape === 'points') {
+    const dots = points.filter(([, y]) => Number.isFinite(y));
+    return dots.map(([cx, cy]) => element('circle', { cx, cy, r: 3.5, fill: colour })).join('');
+  }
   const dash = series.dashed ? '5 4' : undefined;
   const line = { fill: 'none', stroke: colour, 'stroke-width': 1.8, 'stroke-linejoin': 'round' };
-  const path = element('path', { d: linePath(points), ...line, 'stroke-dasharray': dash });
-  if (series.shape !== 'points') return path;
-  const dots = points.filter(([, y]) => Number.isFinite(y));
-  return path + dots.map(([cx, cy]) => element('circle', { cx, cy, r: 3.5, fill: colour })).join('');
+  return element('path', { d: linePath(points), ...line, 'stroke-dasharray': dash });
 }
 
 /** In the upper right, where the curves of most plots are low; on a ground of its own where they are not. */
