@@ -33,7 +33,8 @@ export interface CodecRow {
   loss: Record<LossRate, LossResult>;
 }
 
-const WARM_UP = 3;
+/** Calls until WASM runs as it goes on: V8 compiles it anew while it runs. */
+const WARM_UP = 20;
 
 export function measureCodec(cloud: BenchCloud, run: CodecRun, rounds: number, native = false): CodecRow {
   run.encode();
