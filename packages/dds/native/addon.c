@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "graph.h"
+#include "log.h"
 #include "reader.h"
 #include "values.h"
 #include "writer.h"
@@ -143,6 +144,14 @@ static napi_value js_open(napi_env env, napi_callback_info info) {
   const dds_return_t result = graph_open(domain, configuration, wake, handle, &graph);
   handle->thing = graph;
   return wrap(env, handle, result, &GRAPH_TAG);
+}
+
+/* lastLog(): what CycloneDDS said last, empty where nothing */
+static napi_value js_last_log(napi_env env, napi_callback_info info) {
+  char line[MOST_NAME];
+  napi_value result;
+  log_take(line, sizeof line);
+  return napi_create_string_utf8(env, line, NAPI_AUTO_LENGTH, &result) == napi_ok ? result : NULL;
 }
 
 static napi_value js_close_graph(napi_env env, napi_callback_info info) { return js_close(env, info, &GRAPH_TAG); }
@@ -322,11 +331,13 @@ static napi_value js_subscribers(napi_env env, napi_callback_info info) {
 }
 
 NAPI_MODULE_INIT() {
+  log_install();
   const struct {
     const char *name;
     napi_callback call;
   } functions[] = {
       {"open", js_open},
+      {"lastLog", js_last_log},
       {"closeGraph", js_close_graph},
       {"others", js_others},
       {"subscribe", js_subscribe},

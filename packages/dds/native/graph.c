@@ -79,6 +79,9 @@ static dds_qos_t *quality_of(struct topic_quality quality, bool writer) {
   dds_qset_reliability(qos, quality.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
   dds_qset_durability(qos, quality.transient_local ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
   dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, quality.depth);
+  /* What is kept for who comes late is not the history but this. */
+  dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_LAST, quality.depth, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED,
+                              DDS_LENGTH_UNLIMITED);
   /* ROS 2 writes the first version of CDR; we do the same, and read both. */
   dds_qset_data_representation(qos, writer ? 1 : 2, both);
   return qos;

@@ -21,6 +21,8 @@ export interface WriterHandle {
 export interface Addon {
   /** @param onDiscovery called when publishers or subscribers have come or gone */
   open(domain: number, configuration: string, onDiscovery: () => void): GraphHandle;
+  /** What CycloneDDS said last, in this process; empty where nothing since the last call. */
+  lastLog(): string;
   closeGraph(graph: GraphHandle): void;
   /** Endpoints of other participants, four values each: topic, type, reliable, transient-local. */
   others(graph: GraphHandle, publishers: boolean): (string | boolean)[];
@@ -63,9 +65,14 @@ let loaded: Addon | null = null;
 
 /** @throws {RosFault} `unavailable`, with what to do about it */
 export function loadAddon(): Addon {
-  if (loaded !== null) return loaded;
+  loaded ??= requireAddon(ADDON_FILE);
+  return loaded;
+}
+
+/** The same, of a file. */
+export function requireAddon(file: string): Addon {
   try {
-    loaded = createRequire(import.meta.url)(ADDON_FILE) as Addon;
+    return createRequire(import.meta.url)(file) as Addon;
   } catch (error) {
     const { code } = error as NodeJS.ErrnoException;
     const what =
@@ -74,7 +81,6 @@ export function loadAddon(): Addon {
         : `the DDS addon cannot be loaded (${error instanceof Error ? error.message : String(error)})`;
     throw new RosFault('unavailable', what, { remedy: BUILD_REMEDY, cause: error });
   }
-  return loaded;
 }
 
 /** Whether DDS can be used here. */

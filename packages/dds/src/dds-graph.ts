@@ -50,11 +50,12 @@ export class DdsGraph implements RosGraph {
     const checked = ddsOptionsFrom(options, env);
     this.#addon = loadAddon();
     this.#now = now;
+    this.#addon.lastLog();
     try {
       const configuration = cycloneConfiguration(checked, env.CYCLONEDDS_URI);
       this.#handle = this.#addon.open(checked.domain ?? 0, configuration, () => this.#look());
     } catch (error) {
-      throw openingFault(error, checked);
+      throw openingFault(error, checked, this.#addon.lastLog());
     }
   }
 
@@ -136,14 +137,14 @@ function namesOf({ topic, type }: { topic: string; type: string; qos: Qos }): {
   return { ddsTopic, ddsType };
 }
 
-function openingFault(error: unknown, { domain, interface: network }: DdsOptions): RosFault {
+function openingFault(error: unknown, { domain, interface: network }: DdsOptions, said: string): RosFault {
   const { code, message } = error as NodeJS.ErrnoException;
   if (code === 'CONFIGURATION') {
     const what = `DDS domain ${domain} is in use in this process with another configuration`;
     return new RosFault('unavailable', what, { cause: error, remedy: 'give both the same options' });
   }
   const at = network === undefined ? '' : ` on interface ${network}`;
-  return new RosFault('unavailable', `DDS domain ${domain} could not be joined${at} (${message})`, {
+  return new RosFault('unavailable', `DDS domain ${domain} could not be joined${at} (${said || message})`, {
     cause: error,
     remedy: 'see that the network interface is there and that CYCLONEDDS_URI is right',
   });

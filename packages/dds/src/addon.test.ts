@@ -1,0 +1,29 @@
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { afterAll, describe, expect, it } from 'vitest';
+import { requireAddon } from './addon.ts';
+import { faultOf } from './testing/helpers.ts';
+
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-dds-'));
+afterAll(() => rmSync(folder, { recursive: true }));
+
+describe('without the addon', () => {
+  it('one sentence says what is missing and what helps', () => {
+    const fault = faultOf(() => requireAddon(join(folder, 'farpoint_dds.node')));
+    expect(fault.code).toBe('unavailable');
+    expect(fault.message).toBe(
+      'the DDS addon is not built; install CycloneDDS 0.10 and a C compiler ' +
+        '(Debian: `apt-get install cyclonedds-dev build-essential python3`) and run `pnpm build:native dds`',
+    );
+  });
+
+  it('so where it cannot be loaded', () => {
+    const file = join(folder, 'broken.node');
+    writeFileSync(file, 'no library');
+    const fault = faultOf(() => requireAddon(file));
+    expect(fault.code).toBe('unavailable');
+    expect(fault.message).toContain('cannot be loaded');
+    expect(fault.remedy).toContain('apt-get install cyclonedds-dev');
+  });
+});

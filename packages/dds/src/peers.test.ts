@@ -1,0 +1,214 @@
+/** The graph beside other makers' DDS: Fast DDS and Python's. */
+import { createSocket } from 'node:dgram';
+import { type RosFault, SENSOR_QOS, VELOCITY_QOS, velocityWriter } from '@farpoint/ros';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { isAvailable } from './addon.ts';
+import { DdsGraph } from './dds-graph.ts';
+import { ADDON_SUITE, cdr, randomOf, testDomain, until } from './testing/helpers.ts';
+import { CLOUD_QOS, type MarkedCloud, readMarkedCloud } from './testing/marked-cloud.ts';
+import { findPeer, PEER_REMEDY, Peer, type PeerKind, type PeerOptions } from './testing/peers.ts';
+
+const POINTS = 'sensor_msgs/msg/PointCloud2';
+const TWIST = 'geometry_msgs/msg/Twist';
+const STRING = 'std_msgs/msg/String';
+const domain = testDomain();
+
+const writeTwist = velocityWriter(2, TWIST);
+function twist(x: number, z: number): Uint8Array {
+  const zero = { x: 0, y: 0, z: 0 };
+  return writeTwist({ linear: { ...zero, x }, angular: { ...zero, z } }, 0n, '');
+}
+
+const kinds: PeerKind[] = ['Fast DDS', 'Python'];
+// Seconds, on a machine that does other things besides: discovery, a start of Python, clouds of 3.7 MB.
+const options = { timeout: 60_000 };
+
+for (const kind of kinds) {
+  const command = isAvailable() ? findPeer(kind) : null;
+  const note = ADDON_SUITE.skip ? ADDON_SUITE.note : `needs ${PEER_REMEDY[kind]}`;
+  describe(`beside ${kind} (${note})`, { skip: command === null, ...options }, () => {
+    let graph: DdsGraph;
+    let faults: RosFault[];
+    const peers: Peer[] = [];
+    const open = () => {
+      graph = new DdsGraph({ domain, localhostOnly: true, env: {} });
+      graph.onFault = (fault) => faults.push(fault);
+    };
+    const start = async (asked: Omit<PeerOptions, 'domain'>) => {
+      const peer = await Peer.start(command as string[], { domain, ...asked });
+      peers.push(peer);
+      return peer;
+    };
+    beforeEach(() => {
+      faults = [];
+      open();
+    });
+    afterEach(async () => {
+      await graph.close();
+      for (const peer of peers.splice(0)) await peer.kill();
+    });
+
+    function hearClouds(side: number, qos = CLOUD_QOS): (MarkedCloud | null)[] {
+      const clouds: (MarkedCloud | null)[] = [];
+      graph.subscribe({ topic: '/points', type: POINTS, queue: 5, qos }, (bytes) =>
+        clouds.push(readMarkedCloud(bytes, side)),
+      );
+      return clouds;
+    }
+
+    it('clouds of 230,400 points arrive whole, in order, none torn', async () => {
+      const clouds = hearClouds(480);
+      await start({ cloud: 'rt/points', side: 480, hz: 10 });
+      await until(() => clouds.length >= 20);
+      const first = clouds[0]?.number as number;
+      expect(clouds.map((cloud) => cloud?.number)).toEqual(clouds.map((_, i) => first + i));
+      expect(clouds.every((cloud) => cloud !== null && !cloud.torn)).toBe(true);
+      expect(faults).toEqual([]);
+      expect(graph.topics()).toEqual([{ topic: '/points', type: POINTS, publishers: 1, subscribers: 0 }]);
+    });
+
+    it('clouds of a publisher that promises nothing arrive too', async () => {
+      const clouds = hearClouds(128, SENSOR_QOS);
+      await start({ cloud: 'rt/points', side: 128, hz: 20, reliability: 'best-effort' });
+      await until(() => clouds.length >= 20);
+      expect(clouds.every((cloud) => cloud !== null && !cloud.torn)).toBe(true);
+    });
+
+    it('a Twist is heard and comes back, in less than 5 ms by the median', async () => {
+      const publisher = graph.advertise({ topic: '/cmd_vel', type: TWIST, qos: VELOCITY_QOS });
+      let [back, sentMs] = [0, 0];
+      const times: number[] = [];
+      graph.subscribe({ topic: '/echo', type: TWIST, queue: 1, qos: VELOCITY_QOS }, (bytes) => {
+        times.push(performance.now() - sentMs);
+        back = new DataView(bytes.buffer, bytes.byteOffset).getFloat64(4, true);
+      });
+      const peer = await start({ twist: 'rt/cmd_vel', echo: 'rt/echo' });
+      // Once it has come back the first time, all know of each other.
+      await until(() => {
+        publisher.publish(twist(100, 0));
+        return back === 100;
+      });
+      times.length = 0;
+      for (let i = 1; i <= 100; i++) {
+        sentMs = performance.now();
+        publisher.publish(twist(i / 8, -i / 16));
+        await until(() => back === i / 8);
+      }
+      await until(() => peer.twists.at(-1)?.x === 100 / 8);
+      expect(peer.twists.slice(-100).map(({ x, z }) => [x, z])).toEqual(
+        Array.from({ length: 100 }, (_, i) => [(i + 1) / 8, -(i + 1) / 16]),
+      );
+      expect(times.sort((a, b) => a - b)[50]).toBeLessThan(5);
+    });
+
+    it('either side may be killed and come back', async () => {
+      const listen = () => {
+        const clouds = hearClouds(64);
+        const publisher = graph.advertise({ topic: '/cmd_vel', type: TWIST, qos: VELOCITY_QOS });
+        return { clouds, publisher };
+      };
+      const sides = { cloud: 'rt/points', side: 64, hz: 20, twist: 'rt/cmd_vel' };
+      let { clouds, publisher } = listen();
+      const first = await start(sides);
+      const works = async (peer: Peer) => {
+        const [had, heard] = [clouds.length, peer.twists.length];
+        await until(() => {
+          publisher.publish(twist(1, 1));
+          return clouds.length > had && peer.twists.length > heard;
+        });
+      };
+      await works(first);
+      await first.kill();
+      const second = await start(sides);
+      await works(second);
+      await graph.close();
+      open();
+      ({ clouds, publisher } = listen());
+      await works(second);
+    });
+
+    if (kind !== 'Fast DDS') return;
+
+    /** Sends until it is heard: then both know of each other, and nothing more is under way. */
+    async function probe(peer: Peer, heard: unknown[]): Promise<void> {
+      await until(() => peer.matched);
+      let sent = 0;
+      while (heard.length === 0) {
+        peer.send(cdr(0, 0, 0, 0));
+        sent++;
+        const patience = performance.now() + 200;
+        await until(() => heard.length > 0 || performance.now() > patience);
+      }
+      await until(() => heard.length === 1 || heard.length === sent);
+      heard.length = 0;
+    }
+
+    it('a topic of another type is told by name', async () => {
+      const clouds = hearClouds(8);
+      await start({ cloud: 'rt/points', side: 8, type: 'sensor_msgs::msg::dds_::PointCloud_' });
+      await until(() => faults.length > 0);
+      expect(faults[0]).toMatchObject({ code: 'wrong-type', topic: '/points' });
+      expect(faults[0]?.message).toContain('sensor_msgs/msg/PointCloud,');
+      expect(clouds).toEqual([]);
+    });
+
+    it('a publisher that promises less than is asked is told', async () => {
+      hearClouds(8, CLOUD_QOS);
+      await start({ cloud: 'rt/points', side: 8, reliability: 'best-effort' });
+      await until(() => faults.length > 0);
+      expect(faults[0]).toMatchObject({ code: 'refused', topic: '/points' });
+    });
+
+    it('messages cut short or of bytes at random are told, or handed over as they came', async () => {
+      const random = randomOf(20261121);
+      const heard: string[] = [];
+      const subscription = graph.subscribe(
+        { topic: '/raw', type: STRING, queue: 1000, qos: { ...CLOUD_QOS, depth: 1000 } },
+        (bytes) => heard.push(Buffer.from(bytes).toString('hex')),
+      );
+      const peer = await start({ raw: 'rt/raw', rawType: 'std_msgs::msg::dds_::String_' });
+      await probe(peer, heard);
+      const before = subscription.received;
+      const sent = Array.from({ length: 400 }, (_, i) => {
+        // Small ones, and those that need fragments; all of representations that there are.
+        const size = 1 + Math.floor(random() * (i % 10 === 0 ? 200_000 : 64));
+        const bytes = Uint8Array.from({ length: size }, () => random() * 256);
+        bytes.set([0, [0, 1, 2, 3, 6, 7, 8, 9, 10, 11][Math.floor(random() * 10)] as number].slice(0, size));
+        return bytes;
+      });
+      for (const bytes of sent) peer.send(bytes);
+      await until(() => subscription.received === before + sent.length);
+      // A single byte is filled up to a whole header, of representation 0.
+      const sound = sent.filter((bytes) => [0, 1, 6, 7].includes(bytes[1] ?? 0));
+      await until(() => heard.length >= sound.length);
+      // It fills most up to a multiple of four bytes.
+      const cut = heard.map((hex, i) => hex.slice(0, 2 * (sound[i]?.length ?? 0)));
+      expect(cut).toEqual(sound.map((bytes) => Buffer.from(bytes).toString('hex')));
+      expect(heard.every((hex, i) => hex.length - (cut[i]?.length ?? 0) < 2 * 4)).toBe(true);
+      expect(faults.length).toBeGreaterThan(10);
+      for (const fault of faults) {
+        expect(fault).toMatchObject({ code: 'unsupported', topic: '/raw', offset: 0 });
+      }
+    });
+
+    it('packets of bytes at random do no harm', async () => {
+      const clouds = hearClouds(64);
+      const random = randomOf(7);
+      const socket = createSocket('udp4');
+      const port = 7400 + 250 * domain;
+      for (let i = 0; i < 3000; i++) {
+        const packet = Uint8Array.from({ length: 24 + Math.floor(random() * 300) }, () => random() * 256);
+        // A header that is right, of RTPS 2.3 and CycloneDDS, then a submessage of a kind that there is.
+        packet.set([...Buffer.from('RTPS'), 2, 3, 1, 16]);
+        packet.set([[0x06, 0x07, 0x08, 0x09, 0x0e, 0x15, 0x16][Math.floor(random() * 7)] as number, 1], 20);
+        // Discovery and data of the first participants of the domain.
+        const to = port + 10 + Math.floor(random() * 6);
+        await new Promise((resolve) => socket.send(packet, to, '127.0.0.1', resolve));
+      }
+      socket.close();
+      await start({ cloud: 'rt/points', side: 64, hz: 20 });
+      await until(() => clouds.length >= 5);
+      expect(clouds.every((cloud) => cloud !== null && !cloud.torn)).toBe(true);
+    });
+  });
+}

@@ -1,0 +1,76 @@
+import fc from 'fast-check';
+import { describe, expect, it } from 'vitest';
+import { fromDdsTopic, fromDdsType, toDdsTopic, toDdsType } from './ros-names.ts';
+
+describe('names of topics', () => {
+  it.each([
+    ['/cmd_vel', 'rt/cmd_vel'],
+    ['/robot1/camera/depth/points', 'rt/robot1/camera/depth/points'],
+  ])('%s is %s', (topic, name) => {
+    expect(toDdsTopic(topic)).toBe(name);
+    expect(fromDdsTopic(name)).toBe(topic);
+  });
+
+  it.each(['cmd_vel', '/', '', '/a//b', '/a/', '/1a', '/a b', '/a\0', '/ä', `/${'a'.repeat(253)}`])(
+    '%j is no whole topic name',
+    (topic) => {
+      expect(toDdsTopic(topic)).toBeNull();
+    },
+  );
+
+  it.each([
+    'rq/add_two_intsRequest',
+    'rr/add_two_intsReply',
+    'ros_discovery_info',
+    'DCPSTopic',
+    'rt',
+    'rt/',
+    'rtx/a',
+  ])('%s is no topic of ROS', (name) => {
+    expect(fromDdsTopic(name)).toBeNull();
+  });
+});
+
+describe('names of types', () => {
+  it.each([
+    ['geometry_msgs/msg/Twist', 'geometry_msgs::msg::dds_::Twist_'],
+    ['sensor_msgs/msg/PointCloud2', 'sensor_msgs::msg::dds_::PointCloud2_'],
+    ['tf2_msgs/msg/TFMessage', 'tf2_msgs::msg::dds_::TFMessage_'],
+  ])('%s is %s', (type, name) => {
+    expect(toDdsType(type)).toBe(name);
+    expect(fromDdsType(name)).toBe(type);
+  });
+
+  it.each([
+    'geometry_msgs/Twist',
+    'Twist',
+    'a/msg/b/c',
+    'a::msg::b',
+    '',
+    'a/msg/',
+    'a/mesg/B',
+    `a/msg/${'B'.repeat(300)}`,
+  ])('%s is no type', (type) => {
+    expect(toDdsType(type)).toBeNull();
+  });
+
+  it.each(['HelloWorld', 'a::msg::B_', 'a::msg::dds_::B', 'a::msg::dds_::_', 'DDS::String'])(
+    '%s is no type of ROS',
+    (name) => {
+      expect(fromDdsType(name)).toBeNull();
+    },
+  );
+});
+
+it('any name either survives both ways or is refused', () => {
+  fc.assert(
+    fc.property(fc.string({ unit: 'binary', maxLength: 300 }), (text) => {
+      const [topic, type] = [toDdsTopic(text), toDdsType(text)];
+      if (topic !== null) expect(fromDdsTopic(topic)).toBe(text);
+      if (type !== null) expect(fromDdsType(type)).toBe(text);
+      const [back, kind] = [fromDdsTopic(text), fromDdsType(text)];
+      if (back !== null) expect(toDdsTopic(back)).toBe(text);
+      if (kind !== null) expect(toDdsType(kind)).toBe(text);
+    }),
+  );
+});

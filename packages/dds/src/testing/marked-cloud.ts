@@ -1,0 +1,36 @@
+/** What a peer's cloud says of itself. */
+import { RELIABLE_QOS } from '@farpoint/ros';
+
+/** In order and without a gap, where the publisher is reliable too. */
+export const CLOUD_QOS = { ...RELIABLE_QOS, depth: 5 };
+
+const POINT_BYTES = 16;
+const COLOUR_OFFSET = 12;
+
+export interface MarkedCloud {
+  number: number;
+  /** When it was made, ms since 1970. */
+  madeMs: number;
+  /** Points of another frame's number are among its own. */
+  torn: boolean;
+}
+
+/**
+ * Reads a PointCloud2 of a peer without the help of any reader of messages. @param side its points, and its rows
+ * @returns `null` where it does not hold as many points
+ */
+export function readMarkedCloud(bytes: Uint8Array, side: number): MarkedCloud | null {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const dataBytes = side * side * POINT_BYTES;
+  // After the data come is_dense, one byte, and what pads it to a multiple of four at most.
+  for (let after = 1; after <= 4; after++) {
+    const begin = bytes.length - after - dataBytes;
+    if (begin < 8 || view.getUint32(begin - 4, true) !== dataBytes) continue;
+    const number = view.getUint32(begin + COLOUR_OFFSET, true);
+    let torn = false;
+    for (let at = begin + COLOUR_OFFSET; at < begin + dataBytes; at += POINT_BYTES)
+      torn ||= view.getUint32(at, true) !== number;
+    return { number, madeMs: view.getInt32(4, true) * 1000 + view.getUint32(8, true) / 1e6, torn };
+  }
+  return null;
+}
