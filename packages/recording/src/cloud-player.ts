@@ -198,7 +198,8 @@ export class CloudPlayer {
     this.#anchor = null;
     const names = [topic.name, ...WorldState.topicsOf(this.#recording.topics).map(({ name }) => name)];
     let pending: RecordedMessage | null = null;
-    for await (const message of this.#recording.messages(names, fromNs - PREROLL_NS)) {
+    const onDamage = (fault: RecordingError) => this.#fault(fault, {});
+    for await (const message of this.#recording.messages(names, fromNs - PREROLL_NS, onDamage)) {
       if (signal.aborted) return;
       const isCloud = message.topic.name === topic.name;
       if (pending !== null && (isCloud || message.logNs - pending.logNs > LOOK_AHEAD_NS)) {
@@ -252,7 +253,7 @@ export class CloudPlayer {
     if (names.length === 0) return;
     let count = 0;
     try {
-      for await (const message of this.#recording.messages(names, this.#recording.startNs)) {
+      for await (const message of this.#recording.messages(names, this.#recording.startNs, () => {})) {
         this.#takeState(message);
         if (++count >= MOST_STATIC) return;
       }

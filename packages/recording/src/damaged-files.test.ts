@@ -15,7 +15,8 @@ const folder = mkdtempSync(join(tmpdir(), 'farpoint-damaged-'));
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
 let whole: Uint8Array;
 beforeAll(async () => {
-  whole = await mcapOf(CLOUDS, (k) => cloudMessage(k, 100));
+  // No Buffer: slices of those share their memory.
+  whole = Uint8Array.from(await mcapOf(CLOUDS, (k) => cloudMessage(k, 100)));
 });
 
 async function count(recording: Recording, fromNs = recording.startNs): Promise<number[]> {
@@ -113,6 +114,37 @@ describe('files that are damaged', () => {
     );
     expect((outcomes.get('fault') ?? 0) + (outcomes.get('refused') ?? 0)).toBeGreaterThan(100);
   }, 30_000);
+
+  it('of a file with an index only the chunk that is damaged is left out', async () => {
+    const intact = await openRecording(writeFile(join(folder, 'intact.mcap'), whole));
+    const offsets: number[] = [];
+    for await (const { offset } of intact.messages(['/points'], intact.startNs)) offsets.push(offset);
+    await intact.close();
+    const chunks = [...new Set(offsets)];
+    expect(chunks.length).toBeGreaterThan(5);
+    for (const chunk of [chunks[0], chunks[3], chunks.at(-1)] as number[]) {
+      const damaged = whole.slice();
+      // The chunk's own check value is not what it should be.
+      damaged[chunk + 600] = (damaged[chunk + 600] as number) ^ 0x55;
+      const path = writeFile(join(folder, 'chunk.mcap'), damaged);
+      const recording = await openRecording(path);
+      const faults: RecordingError[] = [];
+      const seen: number[] = [];
+      for await (const { logNs } of recording.messages(['/points'], recording.startNs, (fault) =>
+        faults.push(fault),
+      ))
+        seen.push(Number((logNs - 1_000_000_000n) / 100_000_000n));
+      const lost = Array.from(offsets.keys()).filter((k) => offsets[k] === chunk);
+      expect(seen).toEqual(Array.from(offsets.keys()).filter((k) => !lost.includes(k)));
+      expect(faults).toHaveLength(1);
+      expect(faults[0]?.offset).toBe(chunk);
+      await expect(count(recording)).rejects.toMatchObject({ code: 'damaged', offset: chunk });
+      await recording.close();
+      const played = await play(path);
+      expect(played.shown).toBe(CLOUDS - lost.length);
+      expect(played.faults.length).toBeGreaterThanOrEqual(1);
+    }
+  });
 
   it('messages changed anywhere are played or told of, one by one', async () => {
     const original = cloudMessage(1, 50);

@@ -59,16 +59,38 @@ export class IndexedMcap implements Recording {
     }
   }
 
-  async *messages(topics: readonly string[], fromNs: bigint): AsyncGenerator<RecordedMessage, void, void> {
-    try {
-      for await (const message of this.#reader.readMessages({ topics, startTime: fromNs })) {
-        const topic = this.#topicOfChannel.get(message.channelId);
-        if (topic === undefined) continue;
-        yield { topic, logNs: message.logTime, data: message.data, offset: this.#bytes.lastOffset };
+  async *messages(
+    topics: readonly string[],
+    fromNs: bigint,
+    onDamage?: (fault: RecordingError) => void,
+  ): AsyncGenerator<RecordedMessage, void, void> {
+    let startTime: bigint | null = fromNs;
+    while (startTime !== null) {
+      try {
+        for await (const message of this.#reader.readMessages({ topics, startTime })) {
+          const topic = this.#topicOfChannel.get(message.channelId);
+          if (topic === undefined) continue;
+          yield { topic, logNs: message.logTime, data: message.data, offset: this.#bytes.lastOffset };
+        }
+        return;
+      } catch (error) {
+        const fault = asRecordingError(error, this.#bytes);
+        startTime = this.#timeAfter(fault.offset ?? 0, startTime);
+        if (onDamage === undefined || startTime === null) throw fault;
+        onDamage(fault);
       }
-    } catch (error) {
-      throw asRecordingError(error, this.#bytes);
     }
+  }
+
+  /** The time after the chunk that lies at this byte, where that is later than `fromNs`. */
+  #timeAfter(offset: number, fromNs: bigint): bigint | null {
+    for (const chunk of this.#reader.chunkIndexes) {
+      const start = Number(chunk.chunkStartOffset);
+      const end = start + Number(chunk.chunkLength + chunk.messageIndexLength);
+      if (offset < start || offset >= end) continue;
+      return chunk.messageEndTime >= fromNs ? chunk.messageEndTime + 1n : null;
+    }
+    return null;
   }
 
   close(): Promise<void> {

@@ -1,4 +1,5 @@
 /** What a recording is to whoever plays it, whatever its file format. */
+import type { RecordingError } from './errors.ts';
 
 export interface RecordedTopic {
   name: string;
@@ -31,8 +32,13 @@ export interface Recording {
   /**
    * In the order of their time, from `fromNs` on.
    *
-   * @throws {RecordingError} at a place that cannot be read
+   * @param onDamage told of a part that cannot be read, where the file's index says what comes after it: it goes on there
+   * @throws {RecordingError} at a place that cannot be read, and nobody wants to be told or knows what comes after it
    */
-  messages(topics: readonly string[], fromNs: bigint): AsyncGenerator<RecordedMessage, void, void>;
+  messages(
+    topics: readonly string[],
+    fromNs: bigint,
+    onDamage?: (fault: RecordingError) => void,
+  ): AsyncGenerator<RecordedMessage, void, void>;
   close(): Promise<void>;
 }
