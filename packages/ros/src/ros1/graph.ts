@@ -48,8 +48,9 @@ export async function openRos1Graph(options: Ros1Options, now: () => number): Pr
 }
 
 interface OwnSubscription extends Subscription {
-  /** Whether somebody published it at the last look. */
+  /** Whether somebody published it at the last look, and what had come by then. */
   served: boolean;
+  receivedThen: number;
   readonly type: string;
   readonly library: LibrarySubscription;
 }
@@ -159,7 +160,7 @@ class Ros1Graph implements RosGraph {
     });
     this.#node.subscriptions.set(topic, library);
     const own: OwnSubscription = {
-      ...{ topic, type: dataType, library, served: false },
+      ...{ topic, type: dataType, library, served: false, receivedThen: 0 },
       get received() {
         return received;
       },
@@ -266,8 +267,11 @@ class Ros1Graph implements RosGraph {
   /** @throws {Error} where the master does not answer */
   async #lookAfter(own: OwnSubscription, state: MasterState): Promise<void> {
     const { topic, type, library } = own;
-    if (own.served && own.publishers === 0)
+    const wasServed = own.served || own.received > own.receivedThen;
+    if (wasServed && own.publishers === 0) {
       this.#fault(new RosFault('lost', 'its publisher is gone', { topic }));
+    }
+    own.receivedThen = own.received;
     own.served = own.publishers > 0;
     for (const link of linksOf(library)) {
       if (link.connection.connected()) this.#unconnected.delete(link);

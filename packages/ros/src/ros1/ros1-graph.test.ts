@@ -1,0 +1,179 @@
+/** The graph against a real master and real rospy nodes. */
+import type { Twist } from '@farpoint/protocol';
+import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import type { RosFault } from '../fault.ts';
+import type { RosGraph } from '../graph.ts';
+import { colourOf } from '../image.ts';
+import { decoderOf } from '../message-decoder.ts';
+import { imageSchema, pointCloud2Schema } from '../messages.ts';
+import { PointCloud2Decoder } from '../point-cloud2.ts';
+import { Ros1Peers } from '../testing/ros1-peers.ts';
+import { velocityWriter } from '../velocity.ts';
+import { openRos1Graph } from './graph.ts';
+
+const { python, missing } = Ros1Peers.find();
+const CLOUD = 'sensor_msgs/msg/PointCloud2';
+const TWIST = 'geometry_msgs/msg/Twist';
+const ahead: Twist = { linear: { x: 0.5, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -0.25 } };
+const now = () => performance.now();
+
+async function until(is: () => boolean): Promise<void> {
+  while (!is()) await new Promise((resolve) => setTimeout(resolve, 5));
+}
+
+describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`, { timeout: 60_000 }, () => {
+  let peers: Ros1Peers;
+  let graph: RosGraph;
+  const faults: RosFault[] = [];
+  beforeAll(async () => {
+    peers = await Ros1Peers.open(python ?? '');
+    await peers.startCore();
+  }, 60_000);
+  afterAll(() => peers.close(), 30_000);
+
+  async function open(name = 'farpoint_test'): Promise<RosGraph> {
+    const opened = await openRos1Graph({ masterUrl: peers.masterUrl, name, hostname: '127.0.0.1' }, now);
+    opened.onFault = (fault) => faults.push(fault);
+    return opened;
+  }
+  beforeEach(async () => {
+    faults.length = 0;
+    graph = await open();
+  });
+  afterEach(() => graph.close());
+
+  /** Counts what comes, without looking into it. */
+  function counted(topic = '/points', type = CLOUD) {
+    const counter = {
+      count: 0,
+      subscription: graph.subscribe({ topic, type, queue: 1 }, () => counter.count++),
+    };
+    return counter;
+  }
+
+  it('takes 230,400 points at 10 Hz and pictures of a rospy node', async () => {
+    const node = await peers.startNode('cloud,image', 'camera');
+    let points = 0;
+    let pixel = 0;
+    const [decodeCloud, decodeImage] = [CLOUD, 'sensor_msgs/msg/Image'].map((type) =>
+      decoderOf(1, type, null),
+    ) as [(bytes: Uint8Array) => unknown, (bytes: Uint8Array) => unknown];
+    const into = new Float32Array(480 * 480 * 4);
+    const times: number[] = [];
+    graph.subscribe({ topic: '/points', type: CLOUD, queue: 1 }, (bytes, receivedMs) => {
+      points = new PointCloud2Decoder().decode(pointCloud2Schema.parse(decodeCloud(bytes)), 'optical', into);
+      times.push(receivedMs);
+    });
+    graph.subscribe({ topic: '/image', type: 'sensor_msgs/msg/Image', queue: 1 }, (bytes) => {
+      const colour = new Uint32Array(640 * 480);
+      colourOf(imageSchema.parse(decodeImage(bytes)), colour);
+      pixel = colour[1000] as number;
+    });
+    await until(() => times.length >= 21 && pixel !== 0);
+    expect(points).toBe(230_400);
+    expect(into[2]).toBe(2);
+    expect(new Uint32Array(into.buffer)[3]).toBe(0xff00_80ff);
+    expect(pixel).toBe(0xff0a_141e);
+    const seconds = ((times.at(20) ?? 0) - (times[0] ?? 0)) / 1000;
+    expect(20 / seconds).toBeGreaterThan(8);
+    expect(graph.topics()).toContainEqual({ topic: '/points', type: CLOUD, publishers: 1, subscribers: 1 });
+    expect(faults).toEqual([]);
+    await node.kill();
+  });
+
+  it('is heard by rospy, as Twist and as TwistStamped', async () => {
+    const node = await peers.startNode('velocity', 'base');
+    const send = (topic: string, type: string) => {
+      const write = velocityWriter(1, type);
+      const publisher = graph.advertise({ topic, type });
+      return { publisher, publish: () => publisher.publish(write(ahead, 1_000_000_000n, 'base_link')) };
+    };
+    const each = [send('/cmd_vel', TWIST), send('/cmd_vel_stamped', 'geometry_msgs/msg/TwistStamped')];
+    await until(() => each.every(({ publisher }) => publisher.subscribers === 1));
+    for (const { publish } of each) publish();
+    await until(() => node.heard.length === 2);
+    for (const { x, turn } of node.heard) expect([x, turn]).toEqual([0.5, -0.25]);
+    await node.kill();
+  });
+
+  it('finds a node again that was killed and comes back, and says meanwhile that it is gone', async () => {
+    const first = await peers.startNode('cloud', 'camera');
+    const counter = counted();
+    await until(() => counter.count > 2);
+    await first.kill();
+    await until(() => faults.some(({ message }) => message === '/points: its publisher is gone'));
+    const before = counter.count;
+    const second = await peers.startNode('cloud', 'camera');
+    await until(() => counter.count > before + 5);
+    // Once each: nobody is connected twice.
+    expect(counter.subscription.publishers).toBe(1);
+    await second.kill();
+  });
+
+  it('lives through a new master: both directions work again with nodes that know it', async () => {
+    const old = await peers.startNode('cloud,velocity', 'camera');
+    const counter = counted();
+    const publisher = graph.advertise({ topic: '/cmd_vel', type: TWIST });
+    await until(() => counter.count > 2 && publisher.subscribers === 1);
+    await peers.killCore();
+    await until(() =>
+      faults.some(({ code, message }) => code === 'lost' && message.includes('no ROS 1 master')),
+    );
+    // Nodes are connected to each other, not through the master.
+    const before = counter.count;
+    await until(() => counter.count > before + 3);
+    await old.kill();
+    await peers.startCore();
+    const fresh = await peers.startNode('cloud,velocity', 'camera');
+    const since = counter.count;
+    await until(() => counter.count > since + 5 && publisher.subscribers === 1);
+    publisher.publish(velocityWriter(1, TWIST)(ahead, 0n, ''));
+    await until(() => fresh.heard.length === 1);
+    expect(graph.topics().find(({ topic }) => topic === '/points')?.subscribers).toBe(1);
+    await fresh.kill();
+  });
+
+  it('waits for a master that is not there yet', async () => {
+    await graph.close();
+    await peers.killCore();
+    graph = await open();
+    expect(faults.map(({ code }) => code)).toEqual(['lost']);
+    expect(faults[0]?.message).toContain('start roscore');
+    const counter = counted();
+    await peers.startCore();
+    const node = await peers.startNode('cloud', 'camera');
+    await until(() => counter.count > 2);
+    await node.kill();
+  });
+
+  it('says where a topic has another type, and hands none of it over', async () => {
+    const node = await peers.startNode('cloud', 'camera');
+    const counter = counted('/points', 'sensor_msgs/msg/Image');
+    await until(() => faults.length > 0);
+    expect(faults[0]?.topic).toBe('/points');
+    expect(['wrong-type', 'refused']).toContain(faults[0]?.code);
+    expect(counter.count).toBe(0);
+    await node.kill();
+  });
+
+  it('leaves nothing behind at the master when it is closed', async () => {
+    const other = await open('farpoint_other');
+    other.subscribe({ topic: '/points', type: CLOUD, queue: 1 }, () => {});
+    other.advertise({ topic: '/left', type: TWIST });
+    await until(() => graph.topics().some(({ topic }) => topic === '/left'));
+    await other.close();
+    await until(() => !graph.topics().some(({ topic }) => topic === '/left'));
+  });
+
+  it('ends where the master ends it: another node of its name has come', async () => {
+    const counter = counted();
+    await until(() => graph.topics().some(({ topic }) => topic === '/points'));
+    const other = await open();
+    other.subscribe({ topic: '/points', type: CLOUD, queue: 1 }, () => {});
+    await until(() =>
+      faults.some(({ message }) => message.includes('the master has ended the node /farpoint_test')),
+    );
+    await other.close();
+    expect(counter.subscription.publishers).toBe(0);
+  });
+});

@@ -1,0 +1,94 @@
+"""A rospy node for tests: publishes clouds, pictures and small topics, and prints what velocities it hears, a line each."""
+
+import json
+import sys
+
+import rospy
+from geometry_msgs.msg import Twist, TwistStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import BatteryState, CameraInfo, Image, PointCloud2, PointField
+from std_msgs.msg import Float32
+
+CLOUD_SIDE = 480
+FOCAL = 400.0
+
+
+def cloud():
+    """A grid of 480 x 480 points, 20 bytes each, on a plane 2 m ahead; the colour is orange."""
+    import struct
+
+    message = PointCloud2(height=CLOUD_SIDE, width=CLOUD_SIDE, point_step=20, is_dense=True)
+    message.header.frame_id = "camera_optical_frame"
+    names = (("x", 0), ("y", 4), ("z", 8), ("rgb", 16))
+    message.fields = [PointField(name, offset, PointField.FLOAT32, 1) for name, offset in names]
+    message.row_step = message.point_step * CLOUD_SIDE
+    rows = []
+    for v in range(CLOUD_SIDE):
+        y = (v - CLOUD_SIDE / 2) / FOCAL * 2.0
+        for u in range(CLOUD_SIDE):
+            rows.append(struct.pack("<ffffI", (u - CLOUD_SIDE / 2) / FOCAL * 2.0, y, 2.0, 0.0, 0xFF8000))
+    message.data = b"".join(rows)
+    return message
+
+
+def camera_info():
+    message = CameraInfo(width=CLOUD_SIDE, height=CLOUD_SIDE)
+    half = CLOUD_SIDE / 2
+    message.K = [FOCAL, 0, half, 0, FOCAL, half, 0, 0, 1]
+    message.P = [FOCAL, 0, half, 0, 0, FOCAL, half, 0, 0, 0, 1, 0]
+    message.header.frame_id = "camera_optical_frame"
+    return message
+
+
+def image():
+    message = Image(width=640, height=480, encoding="bgr8", step=640 * 3)
+    message.header.frame_id = "camera_optical_frame"
+    message.data = bytes((10, 20, 30)) * (640 * 480)
+    return message
+
+
+def odometry(count):
+    message = Odometry(child_frame_id="base_link")
+    message.header.frame_id = "odom"
+    message.pose.pose.position.x = 3.0
+    message.pose.pose.orientation.w = 1.0
+    message.twist.twist.linear.x = 0.125
+    return message
+
+
+def heard(topic):
+    def on_velocity(message):
+        twist = message.twist if hasattr(message, "twist") else message
+        print(json.dumps({"topic": topic, "x": twist.linear.x, "turn": twist.angular.z}), flush=True)
+
+    return on_velocity
+
+
+def main():
+    parts = sys.argv[1].split(",")
+    rospy.init_node(sys.argv[2], disable_signals=True)
+    if "velocity" in parts:
+        rospy.Subscriber("/cmd_vel", Twist, heard("/cmd_vel"), queue_size=1, tcp_nodelay=True)
+        rospy.Subscriber("/cmd_vel_stamped", TwistStamped, heard("/cmd_vel_stamped"), queue_size=1)
+    publishers = []
+    if "cloud" in parts:
+        publishers.append((rospy.Publisher("/points", PointCloud2, queue_size=1), cloud()))
+        publishers.append((rospy.Publisher("/camera_info", CameraInfo, queue_size=1), camera_info()))
+    if "image" in parts:
+        publishers.append((rospy.Publisher("/image", Image, queue_size=1), image()))
+    if "state" in parts:
+        publishers.append((rospy.Publisher("/odom", Odometry, queue_size=1), odometry(0)))
+        battery = BatteryState(voltage=25.1, percentage=0.75)
+        publishers.append((rospy.Publisher("/battery", BatteryState, queue_size=1), battery))
+        publishers.append((rospy.Publisher("/temperature", Float32, queue_size=1), Float32(21.5)))
+    print(json.dumps({"ready": True}), flush=True)
+    rate = rospy.Rate(10)
+    while not rospy.is_shutdown():
+        for publisher, message in publishers:
+            if hasattr(message, "header"):
+                message.header.stamp = rospy.Time.now()
+            publisher.publish(message)
+        rate.sleep()
+
+
+main()
