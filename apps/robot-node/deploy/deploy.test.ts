@@ -1,0 +1,222 @@
+/** What puts the robot on a machine: unit, install script, image; as far as this machine lets it be tried. */
+import { execFileSync, spawnSync } from 'node:child_process';
+import {
+  cpSync,
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readFileSync,
+  rmSync,
+  statSync,
+  writeFileSync,
+} from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+
+const here = import.meta.dirname;
+const repository = join(here, '..', '..', '..');
+const unit = join(here, 'farpoint-robot.service');
+const has = (program: string, ...args: string[]) => spawnSync(program, args).error === undefined;
+const systemd = has('systemd-analyze', '--version');
+const compiler = has('cc', '--version') && has('make', '--version') && has('python3', '--version');
+const LONG_MS = 300_000;
+
+let folder: string;
+beforeAll(() => {
+  folder = mkdtempSync(join(tmpdir(), 'farpoint-deploy-'));
+});
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+
+/** Runs it; its exit code and all that it said. */
+function run(program: string, args: string[], options: { cwd?: string; env?: Record<string, string> } = {}) {
+  const env = { ...process.env, npm_config_prefer_offline: 'true', ...options.env };
+  const { status, stdout, stderr } = spawnSync(program, args, { ...options, env, encoding: 'utf8' });
+  return { status, output: `${stdout}${stderr}` };
+}
+
+describe.skipIf(!systemd)('the unit (needs systemd-analyze)', () => {
+  it('is one that systemd understands', () => {
+    // The program that it names is not installed here.
+    const path = join(folder, 'farpoint-robot.service');
+    writeFileSync(path, readFileSync(unit, 'utf8').replace(/^ExecStart=\S+/m, 'ExecStart=/bin/true'));
+    expect(run('systemd-analyze', ['verify', '--man=no', path])).toEqual({ status: 0, output: '' });
+  });
+
+  it('exposes little: at most 2.0 of 10 by systemd’s own measure', () => {
+    const { output } = run('systemd-analyze', ['security', '--offline=true', '--no-pager', unit]);
+    const exposure = /Overall exposure level for \S+: ([\d.]+)/.exec(output)?.[1];
+    expect(Number(exposure)).toBeLessThanOrEqual(2);
+  });
+});
+
+it('the unit keeps what the robot cannot do without', () => {
+  const text = readFileSync(unit, 'utf8');
+  // Own addresses, the machine's shared memory, files shared by group, restarts, words to systemd.
+  for (const line of [
+    'AF_NETLINK',
+    'PrivateIPC=no',
+    'RemoveIPC=no',
+    'PrivateUsers=no',
+    'Restart=on-failure',
+    'Type=notify',
+  ])
+    expect(text).toContain(line);
+  expect(text).not.toMatch(/^MemoryDenyWriteExecute=yes/m);
+});
+
+describe.skipIf(!compiler)('install.sh (needs a C compiler, make and Python 3)', () => {
+  it(
+    'installs a robot that runs, keeps what was changed at an upgrade, and goes away again',
+    () => {
+      const dest = join(folder, 'root');
+      const install = (...args: string[]) => run(join(here, 'install.sh'), ['--dest', dest, ...args]);
+      const first = install('--source', 'shm');
+      expect(first.status, first.output).toBe(0);
+      const robot = join(dest, 'usr/local/bin/farpoint-robot');
+      expect(run(robot, ['--version'], { cwd: '/' })).toEqual({
+        status: 0,
+        output: 'farpoint-robot 0.1.0\n',
+      });
+      const config = join(dest, 'etc/farpoint/robot.yaml');
+      const secrets = join(dest, 'etc/farpoint/robot.env');
+      expect(readFileSync(config, 'utf8')).toContain('kind: shm');
+      expect(statSync(secrets).mode & 0o777).toBe(0o600);
+      const doctor = run(
+        robot,
+        ['doctor', '--json', '--config', config, '--source', 'sim', '--admin-port', '0'],
+        { cwd: '/' },
+      );
+      const { findings } = JSON.parse(doctor.output) as {
+        findings: { check: string; verdict: string; detail: string }[];
+      };
+      expect(findings.find(({ check }) => check === 'source')).toMatchObject({ verdict: 'ok' });
+      // The addons came along: without that of shared memory this would be a failure of its own.
+      expect(findings.find(({ check }) => check === 'shared memory')?.detail).toContain('free in /dev/shm');
+
+      writeFileSync(config, 'robot: {id: mine}\n');
+      writeFileSync(secrets, 'FARPOINT_ROBOT_TOKEN=mine\n');
+      expect(install('--files-only').status).toBe(0);
+      expect([readFileSync(config, 'utf8'), readFileSync(secrets, 'utf8')]).toEqual([
+        'robot: {id: mine}\n',
+        'FARPOINT_ROBOT_TOKEN=mine\n',
+      ]);
+
+      const uninstall = (...args: string[]) => run(join(here, 'uninstall.sh'), ['--dest', dest, ...args]);
+      expect(uninstall().status).toBe(0);
+      expect(existsSync(join(dest, 'opt/farpoint'))).toBe(false);
+      expect(existsSync(robot)).toBe(false);
+      expect(existsSync(config)).toBe(true);
+      expect(uninstall('--purge').status).toBe(0);
+      expect(existsSync(dirname(config))).toBe(false);
+    },
+    LONG_MS,
+  );
+
+  it.each([
+    [['--sauce'], 'unknown argument --sauce'],
+    [['--source'], '--source needs a kind'],
+  ])('refuses %j', (args, message) => {
+    const refused = run(join(here, 'install.sh'), args);
+    expect(refused.status).not.toBe(0);
+    expect(refused.output).toContain(message);
+  });
+});
+
+/** The instructions of a Dockerfile, continued lines joined. */
+function instructions(path: string): { name: string; text: string }[] {
+  const lines = readFileSync(path, 'utf8')
+    .replaceAll(/^#.*\n/gm, '')
+    .replaceAll(/\\\n/g, ' ')
+    .split('\n');
+  return lines
+    .filter((line) => line.trim() !== '')
+    .map((line) => ({
+      name: line.split(' ')[0] ?? '',
+      text: line
+        .slice(line.indexOf(' ') + 1)
+        .replaceAll(/\s+/g, ' ')
+        .trim(),
+    }));
+}
+
+describe('the image', () => {
+  const dockerfile = instructions(join(here, '..', 'Dockerfile'));
+
+  it('comes from standard images alone, runs as nobody special, and says how it is', () => {
+    const images = dockerfile.filter(({ name }) => name === 'FROM').map(({ text }) => text.split(' ')[0]);
+    for (const image of images) expect(image).toMatch(/^node:\d+-[a-z]+-slim$/);
+    const last = dockerfile.slice(dockerfile.findLastIndex(({ name }) => name === 'FROM'));
+    expect(last.find(({ name }) => name === 'USER')?.text).toBe('node');
+    expect(last.find(({ name }) => name === 'HEALTHCHECK')?.text).toContain('/healthz');
+  });
+
+  it.skipIf(!compiler)(
+    'is built by steps that work on a clean copy of the tree (needs a C compiler, make and Python 3)',
+    () => {
+      const src = join(folder, 'src');
+      const app = join(folder, 'app');
+      mkdirSync(app, { recursive: true });
+      copyTree(src);
+      for (const { name, text } of dockerfile) {
+        if (name === 'RUN' && !text.startsWith('apt-get')) {
+          const env = { CI: '1', npm_config_verify_deps_before_run: 'false' };
+          const step = run('sh', ['-c', text], { cwd: src, env });
+          expect(step.status, `${text}\n${step.output}`).toBe(0);
+        }
+        const copied = /^--from=build (.+) (\S+)$/.exec(text);
+        if (name !== 'COPY' || copied === null) continue;
+        const [, sources = '', target = ''] = copied;
+        for (const source of sources.split(' ')) {
+          const from = source.replace(/^\/src/, src);
+          const to = target === './' ? join(app, source.replace(/^\/src\//, '')) : join(app, target);
+          mkdirSync(dirname(to), { recursive: true });
+          cpSync(from, to, { recursive: true, verbatimSymlinks: true });
+        }
+      }
+      rmSync(src, { recursive: true });
+      const entry = JSON.parse(
+        dockerfile.find(({ name }) => name === 'ENTRYPOINT')?.text ?? '[]',
+      ) as string[];
+      const main = (entry[1] ?? '').replace(/^\/app/, app);
+      expect(run(process.execPath, [main, '--version'], { cwd: '/' }).output).toBe('farpoint-robot 0.1.0\n');
+      const missing = run(process.execPath, [main], {
+        cwd: '/',
+        env: { FARPOINT_CONFIG: '/etc/farpoint/nothing.yaml' },
+      });
+      expect(missing).toEqual({
+        status: 2,
+        output:
+          'farpoint-robot: FARPOINT_CONFIG names a file that does not exist: /etc/farpoint/nothing.yaml\n',
+      });
+      const health = dockerfile.find(({ name }) => name === 'HEALTHCHECK')?.text ?? '';
+      const [program = '', ...args] = JSON.parse(health.slice(health.indexOf('['))) as string[];
+      expect(program).toBe('node');
+      // Nobody is there: not healthy.
+      expect(run(process.execPath, args, { env: { FARPOINT_ROBOT_ADMIN_PORT: '1' } }).status).toBe(1);
+    },
+    LONG_MS,
+  );
+});
+
+/** What the build is given: the tree as git knows it, less what is not sent. */
+function copyTree(to: string): void {
+  const ignored = readFileSync(join(here, '..', 'Dockerfile.dockerignore'), 'utf8')
+    .split('\n')
+    .filter((line) => /^[a-z]+(\/[a-z-]+)?$/.test(line));
+  const files = execFileSync('git', ['ls-files', '--cached', '--others', '--exclude-standard', '-z'], {
+    cwd: repository,
+    encoding: 'utf8',
+  });
+  for (const file of files.split('\0').filter((name) => name !== '')) {
+    if (
+      ignored.some((prefix) => file === prefix || file.startsWith(`${prefix}/`)) ||
+      file.endsWith('.test.ts')
+    )
+      continue;
+    const from = join(repository, file);
+    if (!existsSync(from)) continue;
+    mkdirSync(dirname(join(to, file)), { recursive: true });
+    cpSync(from, join(to, file));
+  }
+}

@@ -1,0 +1,26 @@
+#!/bin/sh
+# Takes away what install.sh put there. As root: uninstall.sh [--dest DIR] [--purge]
+#
+# --purge  configuration, secrets, recordings and the user too
+set -eu
+
+dest='' purge=no
+while [ $# -gt 0 ]; do
+  case $1 in
+    --dest) dest=${2:?--dest needs a folder}; shift 2 ;;
+    --purge) purge=yes; shift ;;
+    *) printf 'uninstall.sh: unknown argument %s\n' "$1" >&2; exit 1 ;;
+  esac
+done
+
+if [ -z "$dest" ]; then
+  systemctl disable --now farpoint-robot 2>/dev/null || true
+fi
+rm -rf "$dest/opt/farpoint"
+rm -f "$dest/etc/systemd/system/farpoint-robot.service" "$dest/etc/sysctl.d/60-farpoint.conf" "$dest/usr/local/bin/farpoint-robot"
+if [ "$purge" = yes ]; then
+  rm -rf "$dest/etc/farpoint" "$dest/var/lib/farpoint"
+  if [ -z "$dest" ] && id farpoint >/dev/null 2>&1; then userdel farpoint; fi
+fi
+if [ -z "$dest" ]; then systemctl daemon-reload; fi
+printf 'removed%s\n' "$([ "$purge" = yes ] && printf ', configuration and recordings too' || printf '; /etc/farpoint and /var/lib/farpoint are still there')"
