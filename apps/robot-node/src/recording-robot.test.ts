@@ -37,6 +37,7 @@ describe('robot process that records', { timeout: 60_000 }, () => {
       const timer = setInterval(() => client.drive(lease, 0.3), 20);
       await client.until(() => (client.telemetry?.pose.position.x ?? 0) > start + 0.3);
       clearInterval(timer);
+      client.sendSession({ type: 'latencyMeasured', id: 1, frameNumber: 7, mtpMs: 98.5, firstMs: 91 });
       // Without its lease: refused.
       client.drive('0'.repeat(32), 0.3);
       await client.until(() => client.telemetry?.drive === 'watchdog');
@@ -55,6 +56,7 @@ describe('robot process that records', { timeout: 60_000 }, () => {
     // Every point that was sent is there.
     const [sentPoints, toldPoints]: [number[], number[]] = [[], []];
     const verdicts = { accepted: 0, refused: 0 };
+    const measured: unknown[] = [];
     for await (const { topic, data } of recording.messages([...topics.keys()], recording.startNs)) {
       const message = topic.decode(data);
       if (topic.name === '/farpoint/captured') {
@@ -63,6 +65,8 @@ describe('robot process that records', { timeout: 60_000 }, () => {
         sentPoints.push(cloudSchema.parse(message).width);
       } else if (topic.name === '/farpoint/latencies') {
         toldPoints.push(z.object({ points: z.int() }).parse(message).points);
+      } else if (topic.name === '/farpoint/motion_to_photon') {
+        measured.push(message);
       } else if (topic.name === '/farpoint/commands') {
         const { accepted } = z.object({ accepted: z.boolean() }).parse(message);
         verdicts[accepted ? 'accepted' : 'refused']++;
@@ -72,6 +76,7 @@ describe('robot process that records', { timeout: 60_000 }, () => {
     expect(sentPoints).toContain(600);
     expect(verdicts.accepted).toBeGreaterThan(10);
     expect(verdicts.refused).toBeGreaterThan(0);
+    expect(measured).toMatchObject([{ id: 1, frameNumber: 7, mtpMs: 98.5, firstMs: 91 }]);
     await recording.close();
   });
 

@@ -5,6 +5,7 @@ import {
   type Command,
   type DriveLimits,
   type IceServer,
+  type LatencyMeasured,
   PROTOCOL_VERSION,
   type ProtocolError,
   type ServiceToRobot,
@@ -270,6 +271,10 @@ export class Robot implements SessionHost {
 
   commandJudged(session: OperatorSession, command: Command, verdict: CommandVerdict): void {
     this.recording?.command(session.id, command, verdict);
+  }
+
+  latencyMeasured(session: OperatorSession, measured: LatencyMeasured): void {
+    this.recording?.latencyMeasured(session.id, measured);
   }
 
   messageRefused(channel: string, error: ProtocolError): void {

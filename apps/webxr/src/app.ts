@@ -92,7 +92,11 @@ export class App implements PageParts {
       sendSession: (message) => this.link.sendSession(message),
       onOtherDrives: () => notify(rejectionWords['not-lease-holder'], 'warning'),
     });
-    this.latency = new LatencyProbe(this.link, this.driver, (result) => this.stats.onResult(result));
+    this.latency = new LatencyProbe(this.link, this.driver, (result) => {
+      this.stats.onResult(result);
+      const { id, frameNumber, mtpMs, firstMs } = result;
+      this.link.sendSession({ type: 'latencyMeasured', id, frameNumber, mtpMs, firstMs });
+    });
     this.vr = new VrSession(renderer, (active) => this.#onVr(active));
     this.#status = new StatusUi(this, new WristPanel(renderer, this.stage.rig));
   }

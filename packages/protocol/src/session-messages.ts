@@ -116,18 +116,32 @@ export interface CloudFormats {
   formats: CloudFormat[];
 }
 
+/** What came of a latency test, for the robot's recording. */
+export interface LatencyMeasured {
+  type: 'latencyMeasured';
+  /** The command's {@link LatencyFrame} `id`, and the frame that was drawn. */
+  id: number;
+  frameNumber: number;
+  /** From the input event to the end of the display frame with the whole green cloud, and with its first points, ms. */
+  mtpMs: number;
+  firstMs: number;
+}
+
 export type OperatorSessionMessage =
   | LeaseRequest
   | LeaseRelease
   | EstopRequest
   | StreamRequest
-  | CloudFormats;
+  | CloudFormats
+  | LatencyMeasured;
 
 export const PROTOCOL_VERSION = 1;
 
 const positive = z.number().positive();
 /** A palette of 256 colours with its tables is 2,210 bytes. */
 const MAX_STREAM_HEADER_BASE64 = 3200;
+/** A test that takes longer has failed. */
+const MAX_LATENCY_MS = 60_000;
 
 export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
   what: 'robot session message',
@@ -195,6 +209,13 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
     z.strictObject({
       type: z.literal('cloudFormats'),
       formats: z.array(z.enum(CLOUD_FORMATS)).max(CLOUD_FORMATS.length),
+    }),
+    z.strictObject({
+      type: z.literal('latencyMeasured'),
+      id: uint32Schema,
+      frameNumber: uint32Schema,
+      mtpMs: z.number().min(0).max(MAX_LATENCY_MS),
+      firstMs: z.number().min(0).max(MAX_LATENCY_MS),
     }),
   ]),
   maxBytes: 1024,

@@ -66,6 +66,7 @@ export const JSON_TOPICS = {
   telemetry: '/farpoint/telemetry',
   estimate: '/farpoint/estimates',
   latency: '/farpoint/latencies',
+  motionToPhoton: '/farpoint/motion_to_photon',
   recorder: '/farpoint/recorder',
 } as const;
 export type JsonKind = keyof typeof JSON_TOPICS;

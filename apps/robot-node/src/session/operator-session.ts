@@ -7,6 +7,7 @@ import {
   decodeJson,
   decodeStreamSwitch,
   encodeJson,
+  type LatencyMeasured,
   type OperatorSessionMessage,
   operatorControlCodec,
   operatorSessionCodec,
@@ -38,6 +39,8 @@ export interface SessionHost {
   commandRejected(rejection: RejectedCommand): void;
   /** For a recording: each command, and what the guard said. */
   commandJudged?(session: OperatorSession, command: Command, verdict: CommandVerdict): void;
+  /** For a recording: what an operator measured. */
+  latencyMeasured?(session: OperatorSession, measured: LatencyMeasured): void;
   messageRefused(channel: string, error: ProtocolError): void;
 }
 
@@ -199,6 +202,9 @@ export class OperatorSession {
         break;
       case 'cloudFormats':
         this.onCloudFormats?.(message.formats);
+        break;
+      case 'latencyMeasured':
+        this.#host.latencyMeasured?.(this, message);
         break;
     }
   }

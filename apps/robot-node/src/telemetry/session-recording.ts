@@ -1,4 +1,4 @@
-import type { Command, Twist } from '@farpoint/protocol';
+import type { Command, LatencyMeasured, Twist } from '@farpoint/protocol';
 import { SessionRecorder } from '@farpoint/recording';
 import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
@@ -76,6 +76,11 @@ export class SessionRecording {
       readyAfterMs: readyMs - capturedAtMs,
       sendingAfterMs: now - capturedAtMs,
     });
+  }
+
+  /** Motion to photon, as the operator's display showed it. */
+  latencyMeasured(session: string, { id, frameNumber, mtpMs, firstMs }: LatencyMeasured): void {
+    this.#recorder.json('motionToPhoton', monotonicMs(), { session, id, frameNumber, mtpMs, firstMs });
   }
 
   close(): Promise<void> {
