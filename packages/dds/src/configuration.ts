@@ -6,28 +6,31 @@ import { RosFault } from '@farpoint/ros';
 import * as z from 'zod';
 
 /** Port numbers of RTPS end there. */
-const MOST_DOMAIN = 232;
+export const MOST_DOMAIN = 232;
 /** Larger messages are refused unread: a cloud of 4 million points at 16 bytes. */
 export const MOST_MESSAGE_BYTES = 64 * 1024 * 1024;
 
-const domainId = z
+const domainSchema = z
   .int('must be a whole number')
   .min(0, 'must be at least 0')
   .max(MOST_DOMAIN, `must be at most ${MOST_DOMAIN}`);
-const machines = z
-  .array(z.string().regex(/^[A-Za-z0-9_.:[\]-]{1,255}$/, 'must be names or addresses of machines'))
-  .max(64, 'must be at most 64 machines');
+/** A machine to look for where multicast does not reach. */
+export const machineSchema = z
+  .string('must be text')
+  .regex(/^[A-Za-z0-9_.:[\]-]{1,255}$/, 'must be the name or the address of a machine');
+const machinesSchema = z.array(machineSchema).max(64, 'must be at most 64 machines');
+/** A network interface, by name or address. */
+export const interfaceSchema = z
+  .string('must be text')
+  .regex(/^[A-Za-z0-9_.:@-]{1,64}$/, 'must be the name or the address of a network interface');
 
 const ddsOptions = z.strictObject({
   /** DDS domain; 0 where not given. */
-  domain: domainId.optional(),
+  domain: domainSchema.optional(),
   /** Network interface, by name or address; left out: CycloneDDS chooses one. */
-  interface: z
-    .string('must be text')
-    .regex(/^[A-Za-z0-9_.:@-]{1,64}$/, 'must be the name or the address of a network interface')
-    .optional(),
+  interface: interfaceSchema.optional(),
   /** Machines to look for where multicast does not reach: names or addresses. */
-  peers: machines.optional(),
+  peers: machinesSchema.optional(),
   /** Nothing leaves this machine, and nothing comes in. */
   localhostOnly: z.boolean('must be true or false').optional(),
 });
@@ -35,7 +38,7 @@ export type DdsOptions = z.infer<typeof ddsOptions>;
 
 /** The environment variables of ROS 2 that say the same. */
 const environment = z.object({
-  ROS_DOMAIN_ID: z.coerce.number().pipe(domainId).optional(),
+  ROS_DOMAIN_ID: z.coerce.number().pipe(domainSchema).optional(),
   ROS_LOCALHOST_ONLY: z.enum(['0', '1'], 'must be 0 or 1').optional(),
   ROS_AUTOMATIC_DISCOVERY_RANGE: z
     .enum(
@@ -46,7 +49,7 @@ const environment = z.object({
   ROS_STATIC_PEERS: z
     .string()
     .transform((list) => list.split(';').filter((peer) => peer !== ''))
-    .pipe(machines)
+    .pipe(machinesSchema)
     .optional(),
 });
 

@@ -32,6 +32,16 @@ const ALWAYS = [
   'bitrateMbps',
 ] as const;
 
+/** As the drivers of cameras and bases name them. */
+const ROS_TOPICS = [
+  { topic: '/camera/depth_registered/points', as: 'cloud' },
+  { topic: '/camera/depth_registered/camera_info', as: 'cameraInfo' },
+  { topic: '/tf', as: 'tf' },
+  { topic: '/tf_static', as: 'tf' },
+  { topic: '/odom', as: 'pose' },
+  { topic: '/cmd_vel', as: 'velocity' },
+];
+
 /** Values of a template that differ from the defaults. */
 const SET: Record<SourceKind, Readonly<Record<string, unknown>>> = {
   sim: {},
@@ -39,17 +49,8 @@ const SET: Record<SourceKind, Readonly<Record<string, unknown>>> = {
   rgbd: {},
   recording: {},
   shm: { shmLayout: 'farpoint', sink: 'shm' },
-  ros1: {
-    sink: 'ros1',
-    topics: [
-      { topic: '/camera/depth_registered/points', as: 'cloud' },
-      { topic: '/camera/depth_registered/camera_info', as: 'cameraInfo' },
-      { topic: '/tf', as: 'tf' },
-      { topic: '/tf_static', as: 'tf' },
-      { topic: '/odom', as: 'pose' },
-      { topic: '/cmd_vel', as: 'velocity' },
-    ],
-  },
+  ros1: { sink: 'ros1', topics: ROS_TOPICS },
+  ros2: { sink: 'ros2', topics: ROS_TOPICS },
 };
 
 /** Options that only some kinds of sources have. */
@@ -57,7 +58,7 @@ const ONLY: readonly { kinds: readonly SourceKind[]; options: object }[] = [
   { kinds: ['sim'], options: simOptions },
   { kinds: ['shm'], options: shmOptions },
   { kinds: ['pcd', 'rgbd', 'recording'], options: playbackOptions },
-  { kinds: ['ros1'], options: rosOptions },
+  { kinds: ['ros1', 'ros2'], options: rosOptions },
   { kinds: [], options: measurementOptions },
 ];
 

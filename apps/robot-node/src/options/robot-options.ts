@@ -76,10 +76,11 @@ function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, de
   const played = source === 'recording' || source === 'pcd' || source === 'rgbd';
   if (played && path === null) refuse('path', `is needed for the source ${source}`);
   const { topics, sink } = values;
-  if (source === 'ros1' && topicAs(topics, 'cloud') === undefined && topicAs(topics, 'depth') === undefined) {
+  const ros = source === 'ros1' || source === 'ros2';
+  if (ros && topicAs(topics, 'cloud') === undefined && topicAs(topics, 'depth') === undefined) {
     refuse('topics', `needs an entry with \`as: cloud\` or \`as: depth\` for the source ${source}`);
   }
-  if (sink === 'ros1' && topicAs(topics, 'velocity') === undefined) {
+  if ((sink === 'ros1' || sink === 'ros2') && topicAs(topics, 'velocity') === undefined) {
     refuse('topics', `needs an entry with \`as: velocity\` for the sink ${sink}`);
   }
   if (source === 'sim' && values.simSize % 4 !== 0) refuse('simSize', 'must be a multiple of 4');
@@ -103,6 +104,7 @@ function toSource(values: RobotOptionValues): SourceOptions {
         ...{ atEnd: values.playEnd, axes: values.playAxes },
       };
     case 'ros1':
+    case 'ros2':
       return {
         ...{ kind: 'ros', graph: toGraph(values, values.source), topics: values.topics },
         ...{ axes: values.rosAxes, waitMs: values.rosWaitS * 1000 },
@@ -116,7 +118,7 @@ function toSource(values: RobotOptionValues): SourceOptions {
 
 function toSink(values: RobotOptionValues): SinkOptions {
   if (values.sink === 'source') return { kind: 'source' };
-  if (values.sink === 'ros1') {
+  if (values.sink === 'ros1' || values.sink === 'ros2') {
     const entry = topicAs(values.topics, 'velocity');
     if (entry === undefined) throw new Error('checked before: there is a topic for velocities');
     return { kind: 'ros', graph: toGraph(values, values.sink), entry, silenceMs: values.watchdogMs };
@@ -131,6 +133,16 @@ function toSink(values: RobotOptionValues): SinkOptions {
 
 function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): GraphOptions {
   const { env } = process;
+  if (kind === 'ros2') {
+    const { rosDomain, rosInterface, rosPeers, rosReach } = values;
+    return {
+      kind,
+      ...(rosDomain === null ? {} : { domain: rosDomain }),
+      ...(rosInterface === null ? {} : { interface: rosInterface }),
+      ...(rosPeers.length === 0 ? {} : { peers: rosPeers }),
+      ...(rosReach === null ? {} : { localhostOnly: rosReach === 'localhost' }),
+    };
+  }
   return {
     kind,
     // What a node may not be called becomes _.

@@ -1,4 +1,5 @@
 /** The robot as a node of a ROS graph: its source’s, its sink’s, or both. */
+import { interfaceSchema, MOST_DOMAIN, machineSchema } from '@farpoint/dds';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';
 
@@ -12,7 +13,7 @@ export const rosOptions = optionGroup('ros', {
     default: null,
     argument: 'NAME',
     file: 'name',
-    help: 'ros1, ros2: begin of the names of its nodes; left out, made of the id',
+    help: 'ros1: begin of the names of its nodes; left out, made of the id',
   }),
   rosMaster: defineOption({
     schema: schema.optional(z.url({ protocol: /^http$/, error: 'must be an http:// address' })),
@@ -27,6 +28,34 @@ export const rosOptions = optionGroup('ros', {
     argument: 'HOST',
     file: 'hostname',
     help: 'ros1: how other nodes reach this machine; left out, ROS_HOSTNAME, ROS_IP, or its name. With localhost, only nodes of this machine can',
+  }),
+  rosDomain: defineOption({
+    schema: schema.optional(schema.integer({ min: 0, max: MOST_DOMAIN })),
+    default: null,
+    argument: 'NUMBER',
+    file: 'domain',
+    help: 'ros2: the domain; left out, ROS_DOMAIN_ID, or 0',
+  }),
+  rosInterface: defineOption({
+    schema: schema.optional(interfaceSchema),
+    default: null,
+    argument: 'NAME',
+    file: 'interface',
+    help: 'ros2: the network interface to use, by name or address; left out, CycloneDDS chooses',
+  }),
+  rosPeers: defineOption({
+    schema: schema.list(machineSchema),
+    default: [],
+    argument: 'HOSTS',
+    file: 'peers',
+    help: 'ros2: machines to look for where multicast does not reach, with commas between them; left out, ROS_STATIC_PEERS',
+  }),
+  rosReach: defineOption({
+    schema: schema.optional(schema.choice(['subnet', 'localhost'])),
+    default: null,
+    argument: 'REACH',
+    file: 'reach',
+    help: 'ros2: localhost: nodes of this machine alone; left out, as ROS_LOCALHOST_ONLY and ROS_AUTOMATIC_DISCOVERY_RANGE say, or subnet',
   }),
   rosAxes: defineOption({
     schema: schema.choice(['auto', 'optical', 'body']),

@@ -1,7 +1,7 @@
 /** Where velocities go. */
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 
-export const SINK_KINDS = ['source', 'shm', 'ros1'] as const;
+export const SINK_KINDS = ['source', 'shm', 'ros1', 'ros2'] as const;
 
 export const sinkOptions = optionGroup('sink', {
   sink: defineOption({
@@ -9,7 +9,7 @@ export const sinkOptions = optionGroup('sink', {
     default: 'source',
     argument: 'KIND',
     file: 'kind',
-    help: 'where velocities go: source (the simulator’s wheels), shm (the reference system’s command block), ros1 (the topic with as: velocity)',
+    help: 'where velocities go: source (the simulator’s wheels), shm (the reference system’s command block), ros1, ros2 (the topic with as: velocity)',
   }),
   shmAccess: defineOption({
     schema: schema.choice(['owner', 'group']),

@@ -1,7 +1,7 @@
 /** Where the clouds come from. */
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 
-export const SOURCE_KINDS = ['sim', 'pcd', 'rgbd', 'shm', 'recording', 'ros1'] as const;
+export const SOURCE_KINDS = ['sim', 'pcd', 'rgbd', 'shm', 'recording', 'ros1', 'ros2'] as const;
 
 export const sourceOptions = optionGroup('source', {
   source: defineOption({
@@ -9,7 +9,7 @@ export const sourceOptions = optionGroup('source', {
     default: 'sim',
     argument: 'KIND',
     file: 'kind',
-    help: 'where the points come from: sim (a simulated robot), pcd (recorded clouds), rgbd (recorded colour and depth pictures), shm (a camera’s producer, through shared memory), recording (an MCAP file or a ROS 1 bag), ros1 (topics of a ROS 1 graph)',
+    help: 'where the points come from: sim (a simulated robot), pcd (recorded clouds), rgbd (recorded colour and depth pictures), shm (a camera’s producer, through shared memory), recording (an MCAP file or a ROS 1 bag), ros1, ros2 (topics of a ROS graph)',
   }),
   fps: defineOption({
     schema: schema.optional(schema.number({ min: 0.1, max: 120 })),

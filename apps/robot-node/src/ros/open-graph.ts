@@ -1,9 +1,10 @@
+import type { DdsOptions } from '@farpoint/dds';
 import type { RosGraph } from '@farpoint/ros';
 import { openRos1Graph, type Ros1Options } from '@farpoint/ros/ros1';
 import { monotonicMs } from '../clock.ts';
 
 /** Which graph to take part in; plain data, so that it can be handed to a worker. */
-export type GraphOptions = { kind: 'ros1' } & Ros1Options;
+export type GraphOptions = ({ kind: 'ros1' } & Ros1Options) | ({ kind: 'ros2' } & DdsOptions);
 
 /**
  * @param part what of the robot takes part: it makes the node’s name
@@ -13,5 +14,11 @@ export async function openGraph(options: GraphOptions, part: 'capture' | 'drive'
   switch (options.kind) {
     case 'ros1':
       return openRos1Graph({ ...options, name: `${options.name}_${part}` }, monotonicMs);
+    case 'ros2': {
+      // Its addon needs a library that not every robot has.
+      const { DdsGraph } = await import('@farpoint/dds');
+      const { kind: _, ...dds } = options;
+      return new DdsGraph({ ...dds, now: monotonicMs });
+    }
   }
 }

@@ -1,0 +1,94 @@
+/** The robot program between a ROS 2 graph of another maker and an operator, as it runs: processes, signaling, WebRTC. */
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { isAvailable } from '@farpoint/dds';
+import { findPeer, PEER_REMEDY, Peer, type PeerKind, testDomain } from '@farpoint/dds/testing';
+import { LocalStack } from '@farpoint/local-stack';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { monotonicMs } from './clock.ts';
+import { SignaledOperator } from './testing/signaled-operator.ts';
+
+const ROBOT = 'ros2-1';
+const SIDE = 48;
+const WATCHDOG_MS = 150;
+/** What the machine may be late by, busy with other tests. */
+const SLACK_MS = 250;
+const CONFIGURATION = `
+robot:
+  source: { kind: ros2 }
+  sink: { kind: ros2 }
+  ros: { domain: ${testDomain()}, reach: localhost, axes: optical }
+  topics:
+    - { topic: /points, as: cloud }
+    - { topic: /cmd_vel, as: velocity }
+`;
+
+const kinds: PeerKind[] = ['Fast DDS', 'Python'];
+for (const kind of kinds) {
+  const command = isAvailable() ? findPeer(kind) : null;
+  const note = isAvailable() ? PEER_REMEDY[kind] : 'apt-get install cyclonedds-dev; pnpm build:native dds';
+  describe(`robot process in a ROS 2 graph with ${kind} (needs ${note})`, { skip: command === null }, () => {
+    let folder: string;
+    let peer: Peer;
+    let stack: LocalStack;
+    let operator: SignaledOperator;
+
+    beforeAll(async () => {
+      folder = mkdtempSync(join(tmpdir(), 'farpoint-ros2-robot-'));
+      const config = join(folder, 'farpoint.yaml');
+      writeFileSync(config, CONFIGURATION);
+      peer = await Peer.start(command as string[], {
+        ...{ domain: testDomain(), cloud: 'rt/points', side: SIDE, hz: 20, twist: 'rt/cmd_vel' },
+      });
+      const args = ['--config', config, '--watchdog-ms', String(WATCHDOG_MS)];
+      stack = await LocalStack.start({ robots: [{ id: ROBOT, name: 'Robot', args }] });
+      operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+    }, 60_000);
+
+    afterAll(async () => {
+      await operator?.close();
+      await stack?.stop();
+      await peer?.kill();
+      rmSync(folder, { recursive: true, force: true });
+    }, 30_000);
+
+    const until = async (is: () => boolean) => {
+      while (!is()) await new Promise((resolve) => setTimeout(resolve, 2));
+    };
+    const speed = () => peer.twists.at(-1)?.x ?? null;
+
+    /** Commands at 50 Hz, as a page sends them, until `is` holds. @returns when the last one went, ms */
+    async function driveUntil(lease: string, linear: number, is: () => boolean): Promise<number> {
+      let lastMs = 0;
+      const timer = setInterval(() => {
+        operator.client.drive(lease, linear);
+        lastMs = monotonicMs();
+      }, 20);
+      await until(is);
+      clearInterval(timer);
+      return lastMs;
+    }
+
+    it('streams the topic’s clouds', { timeout: 30_000 }, async () => {
+      const { client } = operator;
+      await client.until(() => client.completeFrames.filter(({ points }) => points > 100).length > 10);
+      expect(client.malformedPackets).toBe(0);
+    });
+
+    it('publishes what the operator commands, zero within the watchdog’s time on silence, and as it ends', {
+      timeout: 30_000,
+    }, async () => {
+      const lease = await operator.client.takeLease();
+      const lastMs = await driveUntil(lease, 0.25, () => speed() === 0.25);
+      await until(() => speed() === 0);
+      const zero = peer.twists.findLast(({ x }) => x !== 0);
+      const first = peer.twists[peer.twists.indexOf(zero as (typeof peer.twists)[number]) + 1];
+      expect((first?.ms ?? Number.NaN) - lastMs).toBeLessThan(WATCHDOG_MS + SLACK_MS);
+      // It is alive: the next command is obeyed.
+      await driveUntil(lease, 0.125, () => speed() === 0.125);
+      await stack.robot(ROBOT).stop();
+      await until(() => speed() === 0);
+    });
+  });
+}
