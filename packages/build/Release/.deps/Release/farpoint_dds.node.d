@@ -1,1 +1,0 @@
-cmd_Release/farpoint_dds.node := ln -f "Release/obj.target/farpoint_dds.node" "Release/farpoint_dds.node" 2>/dev/null || (rm -rf "Release/farpoint_dds.node" && cp -af "Release/obj.target/farpoint_dds.node" "Release/farpoint_dds.node")

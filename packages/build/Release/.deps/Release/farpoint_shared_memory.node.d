@@ -1,1 +1,0 @@
-cmd_Release/farpoint_shared_memory.node := ln -f "Release/obj.target/farpoint_shared_memory.node" "Release/farpoint_shared_memory.node" 2>/dev/null || (rm -rf "Release/farpoint_shared_memory.node" && cp -af "Release/obj.target/farpoint_shared_memory.node" "Release/farpoint_shared_memory.node")

@@ -1,1 +1,0 @@
-cmd_Release/farpoint_systemd.node := ln -f "Release/obj.target/farpoint_systemd.node" "Release/farpoint_systemd.node" 2>/dev/null || (rm -rf "Release/farpoint_systemd.node" && cp -af "Release/obj.target/farpoint_systemd.node" "Release/farpoint_systemd.node")

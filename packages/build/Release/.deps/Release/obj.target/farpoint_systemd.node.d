@@ -1,1 +1,0 @@
-cmd_Release/obj.target/farpoint_systemd.node := g++ -o Release/obj.target/farpoint_systemd.node -shared -pthread -rdynamic -m64  -Wl,-soname=farpoint_systemd.node -Wl,--start-group Release/obj.target/farpoint_systemd/addon.o -Wl,--end-group 
