@@ -1,17 +1,20 @@
 /** What came of trying the source. */
 import type { SourceOptions } from '../capture/open-source.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
+import { asDoctor } from './ros-probe.ts';
 import type { SourceTrial } from './source-trial.ts';
 
 const FEW_FRAMES_PER_SECOND = 5;
 /** Longest that the doctor waits for a camera's program, ms. */
 const MOST_WAIT_MS = 3000;
+/** Discovery comes before the first message. */
+const MOST_ROS_WAIT_MS = 6000;
 
 /** The source as it is tried: nobody waits long for a producer. */
 export function trialSource(source: SourceOptions): SourceOptions {
-  return source.kind === 'shm' || source.kind === 'ros'
-    ? { ...source, waitMs: Math.min(source.waitMs, MOST_WAIT_MS) }
-    : source;
+  if (source.kind === 'shm') return { ...source, waitMs: Math.min(source.waitMs, MOST_WAIT_MS) };
+  if (source.kind !== 'ros') return source;
+  return { ...source, graph: asDoctor(source.graph), waitMs: Math.min(source.waitMs, MOST_ROS_WAIT_MS) };
 }
 
 /** @param drives whether velocities go anywhere but to the source */
@@ -61,7 +64,7 @@ function closedRemedy(source: SourceOptions, message: string): string {
       return 'run both as one user, or give the file to a group that both are in';
     return 'start the camera’s program anew; docs/shared-memory.md has the layouts';
   }
-  if (source.kind === 'ros') return 'docs/ros.md says what a graph needs';
+  if (source.kind === 'ros') return 'see the topics above; docs/ros.md has the rest';
   if (source.kind === 'sim') return 'report this';
   if (/ENOENT|no such file/i.test(message)) return 'set source.path to a file that is there';
   return 'docs/real-robot.md says what each source needs';

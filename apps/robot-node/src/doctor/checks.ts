@@ -15,6 +15,7 @@ import { judgeClosedSource, judgeSource, trialSource } from './check-source.ts';
 import { type Check, type Result, warn } from './finding.ts';
 import type { Host } from './host.ts';
 import { iceTargets, probeIce } from './ice-probe.ts';
+import { checkRos, graphOf } from './ros-probe.ts';
 import { findRunningRobot, judgeRunning, type RunningRobot } from './running-robot.ts';
 import { askTime, probeSignaling } from './signaling-probe.ts';
 import { trySource } from './source-trial.ts';
@@ -97,6 +98,15 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
       name: 'shared memory',
       withinMs: SLACK_MS,
       run: () => checkSharedMemory(robot.capture.source, robot.sink),
+    },
+    {
+      name: 'ROS',
+      withinMs: 2 * ANSWER_MS + SLACK_MS,
+      run: () => {
+        const graph = graphOf(robot);
+        const own = running.state === 'runs' && robot.sink.kind === 'ros' ? 1 : 0;
+        return graph === null ? [] : checkRos(graph, values.topics, own, ANSWER_MS);
+      },
     },
     { name: 'source', withinMs: 20_000, run: () => checkSource(robot, running.state === 'runs') },
     {

@@ -1,0 +1,108 @@
+import { topicTableSchema } from '@farpoint/ros';
+import { Ros1Peers } from '@farpoint/ros/testing/ros1';
+import { afterAll, describe, expect, it } from 'vitest';
+import { judgeHostname, judgeTopics } from './check-ros.ts';
+import { checkRos } from './ros-probe.ts';
+
+const table = topicTableSchema.parse([
+  { topic: '/camera/points', as: 'cloud' },
+  { topic: '/odom', as: 'pose' },
+  { topic: '/cmd_vel', as: 'velocity' },
+]);
+const seen = (topic: string, type: string, publishers: number, subscribers = 0) => ({
+  topic,
+  type,
+  publishers,
+  subscribers,
+});
+const cloud = 'sensor_msgs/msg/PointCloud2';
+const twist = 'geometry_msgs/msg/Twist';
+const odometry = seen('/odom', 'nav_msgs/msg/Odometry', 1);
+
+describe('topics', () => {
+  it.each([
+    ['all there', [seen('/camera/points', cloud, 1), odometry, seen('/cmd_vel', twist, 0, 1)], 'ok ok ok'],
+    ['nothing', [], 'fail warn warn'],
+    [
+      'the cloud of another type',
+      [seen('/camera/points', 'sensor_msgs/msg/LaserScan', 1), odometry],
+      'fail ok warn',
+    ],
+    [
+      'others that drive',
+      [seen('/camera/points', cloud, 2), odometry, seen('/cmd_vel', twist, 2, 1)],
+      'ok ok warn',
+    ],
+    [
+      'a base that reads another type',
+      [seen('/cmd_vel', 'geometry_msgs/msg/TwistStamped', 0, 1)],
+      'fail warn fail',
+    ],
+  ])('%s', (_, graph, verdicts) => {
+    expect(
+      judgeTopics(table, graph, 0)
+        .map(({ verdict }) => verdict)
+        .join(' '),
+    ).toBe(verdicts);
+  });
+
+  it('the robot’s own publisher is no other', () => {
+    expect(judgeTopics(table, [seen('/cmd_vel', twist, 1, 1)], 1)[2]?.verdict).toBe('ok');
+  });
+
+  it('a topic of the same last name is what was meant', () => {
+    expect(judgeTopics(table, [seen('/zed/camera/points', cloud, 1)], 0)[0]?.remedy).toContain(
+      '(there is /zed/camera/points)',
+    );
+  });
+
+  it('an address that only this machine knows', () => {
+    const ros1 = {
+      kind: 'ros1',
+      name: 'r',
+      hostname: 'localhost',
+      masterUrl: 'http://10.0.0.2:11311',
+    } as const;
+    expect(judgeHostname(ros1)[0]?.verdict).toBe('fail');
+    expect(judgeHostname({ ...ros1, masterUrl: 'http://localhost:11311' })).toEqual([]);
+    expect(judgeHostname({ ...ros1, hostname: '10.0.0.3' })).toEqual([]);
+    expect(judgeHostname({ kind: 'ros2' })).toEqual([]);
+  });
+});
+
+it('a master that is not there is a failure with a remedy', async () => {
+  const results = await checkRos(
+    { kind: 'ros1', name: 'r', hostname: 'localhost', masterUrl: 'http://127.0.0.1:1' },
+    table,
+    0,
+    1000,
+  );
+  expect(results).toMatchObject([{ verdict: 'fail', remedy: expect.stringContaining('roscore') as string }]);
+});
+
+const { python, missing } = Ros1Peers.find();
+describe.skipIf(python === null)(`a real master (${missing ?? 'found'})`, () => {
+  let peers: Ros1Peers | null = null;
+  afterAll(() => peers?.close());
+
+  it('answers, and has none of the topics', async () => {
+    peers = await Ros1Peers.open(python as string);
+    await peers.startCore();
+    const options = {
+      kind: 'ros1',
+      name: 'doctor_test',
+      hostname: 'localhost',
+      masterUrl: peers.masterUrl,
+    } as const;
+    const results = await checkRos(options, table, 0, 10_000);
+    expect(results.map(({ verdict }) => verdict).join(' ')).toBe('ok fail warn warn');
+    await peers.startNode('cloud,state', 'camera');
+    const points = topicTableSchema.parse([
+      { topic: '/points', as: 'cloud' },
+      { topic: '/odom', as: 'pose' },
+    ]);
+    expect((await checkRos(options, points, 0, 10_000)).map(({ verdict }) => verdict).join(' ')).toBe(
+      'ok ok ok',
+    );
+  }, 60_000);
+});

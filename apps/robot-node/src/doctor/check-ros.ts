@@ -1,0 +1,83 @@
+/** What a ROS graph has of the topics that the robot is to touch. */
+import type { GraphTopic, TopicEntry, TopicTable } from '@farpoint/ros';
+import type { GraphOptions } from '../ros/open-graph.ts';
+import { fail, ok, type Result, warn } from './finding.ts';
+
+/** Without these there is no cloud. */
+const NEEDED: readonly TopicEntry['as'][] = ['cloud', 'depth', 'cameraInfo'];
+
+/**
+ * @param seen what discovery has found
+ * @param own publishers of velocities that are the robot's own: one where it runs
+ */
+export function judgeTopics(table: TopicTable, seen: readonly GraphTopic[], own: number): Result[] {
+  return table.map((entry) => {
+    const { topic, type, as } = entry;
+    const found = seen.filter((each) => each.topic === topic);
+    const same = found.find((each) => each.type === type);
+    const other = found.find((each) => each.type !== type);
+    if (as === 'velocity') return judgeVelocity(entry, same, other, own);
+    const publishers = same?.publishers ?? 0;
+    if (publishers > 0)
+      return ok(`${topic} (${as}): ${publishers === 1 ? 'published' : `${publishers} publishers`}`);
+    const bad = NEEDED.includes(as) ? fail : warn;
+    if (other !== undefined)
+      return bad(
+        `${topic} (${as}) is of type ${other.type}, not ${type}`,
+        'name its type in topics, or another topic',
+      );
+    return bad(
+      `${topic} (${as}): nobody publishes it`,
+      `start its node, or correct the name${alike(topic, seen)}`,
+    );
+  });
+}
+
+function judgeVelocity(
+  { topic, type }: TopicEntry,
+  same: GraphTopic | undefined,
+  other: GraphTopic | undefined,
+  own: number,
+): Result {
+  const others = (same?.publishers ?? 0) - own;
+  if ((same?.subscribers ?? 0) === 0) {
+    return other !== undefined && other.subscribers > 0
+      ? fail(`${topic} (velocity) is read as ${other.type}, not ${type}`, `set type: ${other.type} in topics`)
+      : warn(`${topic} (velocity): nobody listens`, 'start the base’s driver: nothing will move');
+  }
+  if (others > 0)
+    return warn(
+      `${topic} (velocity) is published by ${others} others`,
+      'let twist_mux choose between them: give each a topic of its own',
+    );
+  return ok(`${topic} (velocity): listened to`);
+}
+
+/** Topics of the same last name are what is usually meant. */
+function alike(topic: string, seen: readonly GraphTopic[]): string {
+  const last = topic.slice(topic.lastIndexOf('/'));
+  const near = seen
+    .filter((each) => each.topic.endsWith(last) && each.publishers > 0)
+    .map((each) => each.topic);
+  return near.length === 0 ? '' : ` (there is ${near.slice(0, 3).join(', ')})`;
+}
+
+/** What the graph was asked to be, for people. */
+export function graphName(options: GraphOptions): string {
+  return options.kind === 'ros1'
+    ? `ROS 1, master ${options.masterUrl}`
+    : `ROS 2, domain ${options.domain ?? process.env.ROS_DOMAIN_ID ?? '0'}`;
+}
+
+/** Others connect to the address that we tell them. */
+export function judgeHostname(options: GraphOptions): Result[] {
+  if (options.kind !== 'ros1') return [];
+  const local = (host: string) => /^(localhost|127\.|\[?::1)/.test(host);
+  if (!local(options.hostname) || local(new URL(options.masterUrl).hostname)) return [];
+  return [
+    fail(
+      `nodes elsewhere are told to reach us at ${options.hostname}`,
+      'set ROS_IP or ros.hostname to an address that they know',
+    ),
+  ];
+}

@@ -1,0 +1,78 @@
+/** Joins the robot's ROS graph and looks around. */
+import { RosFault, type TopicTable } from '@farpoint/ros';
+import type { RobotOptions } from '../robot.ts';
+import { type GraphOptions, openGraph } from '../ros/open-graph.ts';
+import { graphName, judgeHostname, judgeTopics } from './check-ros.ts';
+import { fail, ok, type Result } from './finding.ts';
+
+/** Discovery is given this long to find every topic of the table, ms. */
+const DISCOVERY_MS = 3000;
+const LOOK_MS = 100;
+
+/** The graph that source or sink take part in, `null` where neither does. */
+export function graphOf({ capture, sink }: RobotOptions): GraphOptions | null {
+  if (capture.source.kind === 'ros') return capture.source.graph;
+  return sink.kind === 'ros' ? sink.graph : null;
+}
+
+/** With a name of its own: of two nodes with one name a master ends the first. */
+export function asDoctor(options: GraphOptions): GraphOptions {
+  return options.kind === 'ros1' ? { ...options, name: `${options.name}_doctor` } : options;
+}
+
+/**
+ * @param own as of {@link judgeTopics}
+ * @param masterMs for an answer of the ROS 1 master
+ */
+export async function checkRos(
+  options: GraphOptions,
+  table: TopicTable,
+  own: number,
+  masterMs: number,
+): Promise<Result[]> {
+  const name = graphName(options);
+  if (options.kind === 'ros1') {
+    const fault = await askMaster(options.masterUrl, masterMs);
+    if (fault !== null)
+      return [
+        fail(`${name}: ${fault}`, 'start it (`roscore`), or set ROS_MASTER_URI or ros.master to where it is'),
+      ];
+  }
+  try {
+    const graph = await openGraph(asDoctor(options), 'capture');
+    const deadline = performance.now() + DISCOVERY_MS;
+    const complete = () => judgeTopics(table, graph.topics(), own).every(({ verdict }) => verdict === 'ok');
+    while (!complete() && performance.now() < deadline)
+      await new Promise((resolve) => setTimeout(resolve, LOOK_MS));
+    const seen = graph.topics();
+    void graph.close();
+    return [
+      ok(`${name}: ${seen.length} topics`),
+      ...judgeHostname(options),
+      ...judgeTopics(table, seen, own),
+    ];
+  } catch (error) {
+    const { what, remedy } =
+      error instanceof RosFault ? error : { what: (error as Error).message, remedy: undefined };
+    return [fail(`${name}: ${what}`, remedy ?? 'docs/ros.md says what is needed')];
+  }
+}
+
+/** @returns what is wrong with the master, or `null` */
+async function askMaster(url: string, withinMs: number): Promise<string | null> {
+  const call =
+    '<?xml version="1.0"?><methodCall><methodName>getPid</methodName><params><param><value><string>/farpoint_doctor</string></value></param></params></methodCall>';
+  try {
+    const answer = await fetch(url, {
+      ...{ method: 'POST', body: call, headers: { 'content-type': 'text/xml' } },
+      signal: AbortSignal.timeout(withinMs),
+    });
+    return (await answer.text()).includes('<methodResponse>')
+      ? null
+      : 'something answers there that is no ROS master';
+  } catch (error) {
+    const { cause, name, message } = error as Error;
+    if (name === 'TimeoutError') return 'it does not answer';
+    return (cause as NodeJS.ErrnoException | undefined)?.code ?? message;
+  }
+}
