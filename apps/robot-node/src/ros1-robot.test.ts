@@ -1,0 +1,126 @@
+/** The robot program in a ROS 1 graph, as it runs: a real master, rospy nodes, signaling, WebRTC. */
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { LocalStack } from '@farpoint/local-stack';
+import { type Ros1Node, Ros1Peers } from '@farpoint/ros/testing/ros1';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { SignaledOperator } from './testing/signaled-operator.ts';
+
+const ROBOT = 'ros-1';
+const { python, missing } = Ros1Peers.find();
+const configuration = (master: string) => `
+robot:
+  source: { kind: ros1 }
+  sink: { kind: ros1 }
+  ros: { master: '${master}', hostname: 127.0.0.1 }
+  topics:
+    - { topic: /points, as: cloud }
+    - { topic: /camera_info, as: cameraInfo }
+    - { topic: /odom, as: pose }
+    - { topic: /battery, as: battery }
+    - { topic: /temperature, type: std_msgs/Float32, as: text, label: Temperature }
+    - { topic: /cmd_vel, as: velocity }
+`;
+
+describe.skipIf(python === null)(
+  `robot process in a ROS 1 graph (${missing ?? 'rosmaster, rospy'})`,
+  {
+    timeout: 60_000,
+  },
+  () => {
+    const folder = mkdtempSync(join(tmpdir(), 'farpoint-ros1-robot-'));
+    let peers: Ros1Peers;
+    let camera: Ros1Node;
+    let base: Ros1Node;
+    let stack: LocalStack;
+    let operator: SignaledOperator;
+
+    beforeAll(async () => {
+      peers = await Ros1Peers.open(python ?? '');
+      await peers.startCore();
+      camera = await peers.startNode('cloud,state', 'camera');
+      base = await peers.startNode('velocity', 'base');
+      const config = join(folder, 'farpoint.yaml');
+      writeFileSync(config, configuration(peers.masterUrl));
+      stack = await LocalStack.start({ robots: [{ id: ROBOT, name: 'Robot', args: ['--config', config] }] });
+      operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+    }, 60_000);
+
+    afterAll(async () => {
+      await operator?.close();
+      await stack?.stop();
+      await peers?.close();
+      rmSync(folder, { recursive: true, force: true });
+    }, 30_000);
+
+    const until = async (is: () => boolean) => {
+      while (!is()) await new Promise((resolve) => setTimeout(resolve, 2));
+    };
+    const silentFor = () => performance.now() - (base.heard.at(-1)?.atMs ?? 0);
+    /** Commands at 50 Hz, as a page sends them, until `is` holds. */
+    async function driveUntil(lease: string, linear: number, is: () => boolean): Promise<void> {
+      const timer = setInterval(() => operator.client.drive(lease, linear), 20);
+      await until(is);
+      clearInterval(timer);
+    }
+
+    /** In motion, by a hand that has just been opened. */
+    async function drive(lease: string): Promise<void> {
+      operator.client.drive(lease, 0);
+      await driveUntil(lease, 0.25, () => base.heard.at(-1)?.x === 0.25 && silentFor() < 50);
+    }
+
+    it('streams the clouds, placed by odometry, and tells its velocity and battery', async () => {
+      const { client } = operator;
+      await client.until(() => client.completeFrames.length > 5);
+      expect(client.malformedPackets).toBe(0);
+      await client.until(() => client.telemetry?.battery !== undefined);
+      expect(client.telemetry).toMatchObject({
+        pose: { position: { x: 3 } },
+        twist: { linear: { x: 0.125 } },
+        battery: { percentage: 0.75 },
+      });
+    });
+
+    it('drives: steady while commanded, zero on silence, then none, so that others may drive', async () => {
+      expect(base.heard).toEqual([]);
+      const lease = await operator.client.takeLease();
+      await driveUntil(lease, 0.25, () => base.heard.filter(({ x }) => x === 0.25).length >= 25);
+      const lastWishMs = performance.now();
+      await until(() => base.heard.at(-1)?.x === 0);
+      const stopped = base.heard.find(({ x, atMs }) => x === 0 && atMs >= lastWishMs);
+      // The watchdog's 150 ms, and what two busy processors add.
+      expect((stopped?.atMs ?? 0) - lastWishMs).toBeLessThan(400);
+      await until(() => silentFor() > 500);
+      const zeros = base.heard.filter(({ x, atMs }) => x === 0 && atMs >= lastWishMs);
+      expect(zeros.length).toBeGreaterThan(10);
+      expect(zeros.length).toBeLessThan(40);
+    });
+
+    it('goes on when the camera’s node comes back', async () => {
+      await camera.kill();
+      const { client } = operator;
+      camera = await peers.startNode('cloud,state', 'camera');
+      const before = client.frames.size;
+      await client.until(() => client.frames.size > before + 5);
+    });
+
+    it('ends with zero when it is told to end', async () => {
+      const lease = await operator.client.takeLease();
+      await drive(lease);
+      await stack.robot(ROBOT).stop();
+      await until(() => base.heard.at(-1)?.x === 0);
+    });
+
+    it('is heard no more when it is killed: then the base’s own time limit counts', async () => {
+      await operator.close();
+      await stack.restartRobot(ROBOT);
+      operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+      await drive(await operator.client.takeLease());
+      await stack.robot(ROBOT).kill();
+      await until(() => silentFor() > 500);
+      expect(base.heard.at(-1)?.x).toBe(0.25);
+    });
+  },
+);
