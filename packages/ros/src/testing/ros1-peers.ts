@@ -17,7 +17,9 @@ export interface Heard {
   topic: string;
   x: number;
   turn: number;
-  /** When the line came, ms of `performance.now()`. */
+  /** When it was heard, ms since 1970. */
+  nodeMs: number;
+  /** When the line came here, ms of `performance.now()`. */
   atMs: number;
 }
 

@@ -2,6 +2,7 @@
 
 import json
 import sys
+import time
 
 import rospy
 from geometry_msgs.msg import Twist, TwistStamped
@@ -59,7 +60,8 @@ def odometry(count):
 def heard(topic):
     def on_velocity(message):
         twist = message.twist if hasattr(message, "twist") else message
-        print(json.dumps({"topic": topic, "x": twist.linear.x, "turn": twist.angular.z}), flush=True)
+        line = {"topic": topic, "x": twist.linear.x, "turn": twist.angular.z, "nodeMs": time.time() * 1000}
+        print(json.dumps(line), flush=True)
 
     return on_velocity
 
