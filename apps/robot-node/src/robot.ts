@@ -26,6 +26,7 @@ import { PathKeeper } from './session/path-keeper.ts';
 import { silenceLimits } from './session/silence.ts';
 import { SignalingClient, type SignalingOptions } from './signaling/signaling-client.ts';
 import { FrameLog } from './telemetry/frame-log.ts';
+import { ReadingBoard } from './telemetry/reading-board.ts';
 import { RobotCounters } from './telemetry/robot-counters.ts';
 import { type RecordingOptions, SessionRecording } from './telemetry/session-recording.ts';
 import { StageTimer } from './telemetry/stage-timer.ts';
@@ -131,7 +132,9 @@ export class Robot implements SessionHost {
       monotonicMs,
     );
     const stages = new StageTimer();
-    this.#telemetry = new TelemetrySender(this.operators, guard, stages);
+    const readings = new ReadingBoard();
+    this.#telemetry = new TelemetrySender(this.operators, guard, stages, readings);
+    capture.onReading = (reading) => readings.add(reading, monotonicMs());
     this.#fanOut = new FrameFanOut({
       capture,
       targets: () => [...this.operators.values(), ...(this.reference?.targets ?? [])],

@@ -81,6 +81,18 @@ describe.skipIf(python === null)(
         twist: { linear: { x: 0.125 } },
         battery: { percentage: 0.75 },
       });
+      await client.until(() => client.readings.size === 2);
+      expect(client.readings.get('/battery')).toMatchObject({
+        label: 'Battery',
+        values: [
+          ['', '75 %'],
+          ['', '25.1 V'],
+        ],
+      });
+      expect(client.readings.get('/temperature')).toMatchObject({
+        label: 'Temperature',
+        values: [['', '21.5']],
+      });
     });
 
     it('drives: steady while commanded, zero on silence, then none, so that others may drive', async () => {

@@ -13,6 +13,7 @@ export * from './placement.ts';
 export * from './point-packet.ts';
 export * from './points64.ts';
 export * from './pose-algebra.ts';
+export * from './reading.ts';
 export * from './reference-bridge.ts';
 export * from './reference-control.ts';
 export * from './sequence.ts';

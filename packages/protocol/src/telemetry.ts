@@ -1,8 +1,9 @@
-/** The `telemetry` channel, opened by the robot, unordered, short-lived: the robot's state, 20 times a second. */
+/** The `telemetry` channel, opened by the robot, unordered, short-lived: the robot's state, 20 times a second, and readings. */
 import * as z from 'zod';
 import { type Pose, poseSchema, type Twist, twistSchema } from './geometry.ts';
 import { uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
+import { type Reading, readingSchema } from './reading.ts';
 
 /** Why the robot stands still, or that it does not. */
 export const driveStates = [
@@ -66,32 +67,36 @@ export interface Telemetry {
 const nonNegative = z.number().min(0);
 const count = z.int().min(0);
 
-export const telemetryCodec: JsonCodec<Telemetry> = {
-  what: 'telemetry message',
-  schema: z.strictObject({
-    type: z.literal('telemetry'),
-    sequence: uint32Schema,
-    timeMs: nonNegative,
-    pose: poseSchema,
-    twist: twistSchema,
-    battery: z.strictObject({ voltage: nonNegative, percentage: z.number().min(0).max(1) }).optional(),
-    drive: z.enum(driveStates),
-    stages: z.strictObject({
-      captureMs: nonNegative,
-      sampleMs: nonNegative,
-      packMs: nonNegative,
-      sendMs: nonNegative,
-    }),
-    stream: z.strictObject({
-      frameNumber: uint32Schema,
-      framesPerSecond: nonNegative,
-      pointsPerFrame: nonNegative,
-      validPoints: count,
-      bitsPerSecond: nonNegative,
-      targetBitsPerSecond: nonNegative,
-      droppedFrames: count,
-    }),
-    operators: count,
+export type TelemetryMessage = Telemetry | Reading;
+
+const telemetrySchema = z.strictObject({
+  type: z.literal('telemetry'),
+  sequence: uint32Schema,
+  timeMs: nonNegative,
+  pose: poseSchema,
+  twist: twistSchema,
+  battery: z.strictObject({ voltage: nonNegative, percentage: z.number().min(0).max(1) }).optional(),
+  drive: z.enum(driveStates),
+  stages: z.strictObject({
+    captureMs: nonNegative,
+    sampleMs: nonNegative,
+    packMs: nonNegative,
+    sendMs: nonNegative,
   }),
+  stream: z.strictObject({
+    frameNumber: uint32Schema,
+    framesPerSecond: nonNegative,
+    pointsPerFrame: nonNegative,
+    validPoints: count,
+    bitsPerSecond: nonNegative,
+    targetBitsPerSecond: nonNegative,
+    droppedFrames: count,
+  }),
+  operators: count,
+}) satisfies z.ZodType<Telemetry>;
+
+export const telemetryCodec: JsonCodec<TelemetryMessage> = {
+  what: 'telemetry message',
+  schema: z.discriminatedUnion('type', [telemetrySchema, readingSchema]),
   maxBytes: 4096,
 };

@@ -421,6 +421,14 @@ telemetry.spoil(state, ("sequence", -1), ("timeMs", -1), ("pose.position.x", Non
                 ("pose.orientation.z", ABSENT), ("twist.linear", ABSENT), ("battery.percentage", 1.01), ("battery.voltage", -1),
                 ("drive", "parked"), ("stages.sendMs", -1), ("stages.extra", 1, "stages"), ("stream.validPoints", 1.5),
                 ("stream.frameNumber", 2 ** 32), ("operators", -1), ("operators", ABSENT))
+reading = telemetry.good({"type": "reading", "topic": "/battery", "label": "Battery", "level": "ok",
+                          "values": [["", "87 %"], ["", "25.1 V"], ["cells", "[4.1, 4.2]"]], "ageMs": 120})
+telemetry.good(changed(reading, "values", []), "reading without values")
+for level in ["warn", "error"]:
+    telemetry.good(changed(reading, "level", level), "reading: " + level)
+telemetry.spoil(reading, ("topic", ""), ("topic", "/" + "a" * 255), ("label", ""), ("label", "l" * 41), ("level", "fatal"),
+                ("values", [["", "x"]] * 11), ("values", [["x"]], "values.0"), ("values", [["n" * 37, "x"]], "values.0.0"),
+                ("values", [["", "x" * 61]], "values.0.1"), ("values", [["", 7]], "values.0.1"), ("ageMs", -1), ("unit", "V", ""))
 write("telemetry.json", telemetry.lists())
 
 reference_control = Messages()

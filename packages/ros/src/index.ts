@@ -34,7 +34,7 @@ export {
 } from './messages.ts';
 export { axesOf, type CloudAxes, checkedCount, PointCloud2Decoder } from './point-cloud2.ts';
 export { RateLimit } from './rate-limit.ts';
-export { type Reading, type ReadingLevel, readingOf } from './reading.ts';
+export { readingOf, type TopicReading } from './reading.ts';
 export {
   qosOf,
   ros1TypeOf,

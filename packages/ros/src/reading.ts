@@ -1,21 +1,12 @@
 /** What a topic says, as short text for people: bounded, whatever the message holds. */
+import { READING_LIMITS, type Reading, type ReadingLevel } from '@farpoint/protocol';
 import { batteryDetailsSchema, diagnosticArraySchema, navSatFixSchema } from './messages.ts';
-import type { TopicEntry } from './topic-table.ts';
+import type { TopicEntry, TopicRole } from './topic-table.ts';
 
-export type ReadingLevel = 'ok' | 'warn' | 'error';
+/** As it is sent, but for its age. */
+export type TopicReading = Pick<Reading, 'topic' | 'label' | 'level' | 'values'>;
 
-export interface Reading {
-  topic: string;
-  label: string;
-  level: ReadingLevel;
-  /** Name and value, most telling first; a name may be empty. */
-  values: [string, string][];
-}
-
-export const MOST_VALUES = 12;
-export const MOST_LABEL = 40;
-export const MOST_NAME = 40;
-export const MOST_TEXT = 80;
+const { values: MOST_VALUES, label: MOST_LABEL, name: MOST_NAME, text: MOST_TEXT } = READING_LIMITS;
 /** How deep a message of unknown kind is looked into, and how many of an array are shown. */
 const MOST_DEPTH = 4;
 const MOST_ITEMS = 8;
@@ -41,8 +32,15 @@ const EMPTY_CHARGE = 0.1;
 const FIXES = ['no fix', 'fix', 'satellite augmented', 'ground augmented'];
 const LEVELS: readonly ReadingLevel[] = ['ok', 'warn', 'error', 'error'];
 
+/** What readings are called that the table does not name. */
+const LABELS: Partial<Record<TopicRole, string>> = {
+  battery: 'Battery',
+  fix: 'Position',
+  diagnostics: 'Diagnostics',
+};
+
 /** @throws {Error} where the message is not what its type says */
-export function readingOf({ topic, as, label }: TopicEntry, message: unknown): Reading {
+export function readingOf({ topic, as, label }: TopicEntry, message: unknown): TopicReading {
   const { level, values } =
     as === 'battery'
       ? battery(message)
@@ -53,7 +51,7 @@ export function readingOf({ topic, as, label }: TopicEntry, message: unknown): R
           : text(message);
   return {
     topic,
-    label: shortened(label ?? topic, MOST_LABEL),
+    label: shortened(label ?? LABELS[as] ?? topic, MOST_LABEL),
     level,
     values: values
       .slice(0, MOST_VALUES)

@@ -1,6 +1,6 @@
 /** What the main thread and the capture worker say to each other. */
 import type { Twist } from '@farpoint/protocol';
-import type { Reading } from '@farpoint/ros';
+import type { TopicReading } from '@farpoint/ros';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { EncodedFrame, SamplingOptions } from '../encode/encoded-frame.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
@@ -86,5 +86,5 @@ export type CaptureReport =
   /** Something is wrong with the source that may pass. */
   | { type: 'fault'; detail: string }
   /** What a topic says, for people. */
-  | { type: 'reading'; reading: Reading }
+  | { type: 'reading'; reading: TopicReading }
   | { type: 'closed' };

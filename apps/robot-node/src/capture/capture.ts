@@ -1,6 +1,6 @@
 import { type MessagePort, Worker } from 'node:worker_threads';
 import type { Twist } from '@farpoint/protocol';
-import type { Reading } from '@farpoint/ros';
+import type { TopicReading } from '@farpoint/ros';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type {
   CaptureBudget,
@@ -44,7 +44,7 @@ export class Capture {
   /** How often that was. */
   faults = 0;
   /** Gets what the robot's topics say, for people. */
-  onReading: ((reading: Reading) => void) | null = null;
+  onReading: ((reading: TopicReading) => void) | null = null;
   /** Frames not captured because all buffers were out. */
   framesWithoutBuffer = 0;
   /** How often the worker's own watchdog stopped the robot. */

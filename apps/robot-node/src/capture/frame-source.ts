@@ -1,6 +1,6 @@
 /** Where clouds come from. A source lives in the capture worker; it is driven by the robot's clock, ms. */
 import type { Battery, Pose, Twist } from '@farpoint/protocol';
-import type { Reading } from '@farpoint/ros';
+import type { TopicReading } from '@farpoint/ros';
 import type { Pinhole } from '@farpoint/wasm-codec';
 
 export interface SourceDescription {
@@ -96,7 +96,7 @@ export interface FrameSource {
   /** Called for what may pass: a producer that is gone, a cloud that cannot be read. */
   onFault?: ((error: Error) => void) | null;
   /** Called for what else the robot's topics say, for people. */
-  onReading?: ((reading: Reading) => void) | null;
+  onReading?: ((reading: TopicReading) => void) | null;
   readonly state: SourceState;
   close(): void;
 }

@@ -4,11 +4,11 @@ import {
   type CloudAxes,
   DiagnosticBoard,
   RateLimit,
-  type Reading,
   RosFault,
   type RosGraph,
   readingOf,
   type TopicEntry,
+  type TopicReading,
   type TopicTable,
   topicAs,
   WorldState,
@@ -52,7 +52,7 @@ export class RosSource implements FrameSource {
   readonly description: SourceDescription;
   onReady: (() => void) | null = null;
   onFault: ((error: Error) => void) | null = null;
-  onReading: ((reading: Reading) => void) | null = null;
+  onReading: ((reading: TopicReading) => void) | null = null;
   readonly #graph: RosGraph;
   readonly #feed: RosFeed;
   readonly #axes: CloudAxes;
@@ -153,7 +153,7 @@ export class RosSource implements FrameSource {
 class StateTopics {
   readonly world = new WorldState();
   onFault: ((fault: RosFault) => void) | null = null;
-  onReading: ((reading: Reading) => void) | null = null;
+  onReading: ((reading: TopicReading) => void) | null = null;
   readonly #listeners: Listener[];
 
   constructor(graph: RosGraph, topics: TopicTable, clock: RosClock) {

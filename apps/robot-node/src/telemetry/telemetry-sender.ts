@@ -2,20 +2,28 @@ import { encodeJson, type Telemetry, telemetryCodec } from '@farpoint/protocol';
 import type { DriveGuard } from '@farpoint/safety';
 import type { CaptureState } from '../capture/capture.ts';
 import type { ConnectedOperator } from '../session/connected-operator.ts';
+import type { ReadingBoard } from './reading-board.ts';
 import type { StageTimer } from './stage-timer.ts';
 
-/** Tells each operator the robot's state and what became of its stream. Call `send` 20 times a second. */
 /** On a path that carries less, telemetry goes out only so often: it would take a fifth of it. */
 const NARROW_BITS_PER_SECOND = 1e6;
 const NARROW_EVERY = 4;
 
+/** Tells each operator the robot's state, what became of its stream, and a reading at a time. Call `send` 20 times a second. */
 export class TelemetrySender {
   readonly #operators: ReadonlyMap<string, ConnectedOperator>;
   readonly #guard: DriveGuard;
   readonly #stages: StageTimer;
+  readonly #readings: ReadingBoard;
   #sequence = 0;
 
-  constructor(operators: ReadonlyMap<string, ConnectedOperator>, guard: DriveGuard, stages: StageTimer) {
+  constructor(
+    operators: ReadonlyMap<string, ConnectedOperator>,
+    guard: DriveGuard,
+    stages: StageTimer,
+    readings: ReadingBoard,
+  ) {
+    this.#readings = readings;
     this.#operators = operators;
     this.#guard = guard;
     this.#stages = stages;
@@ -25,6 +33,7 @@ export class TelemetrySender {
     if (this.#operators.size === 0) return;
     const stages = this.#stages.take();
     this.#sequence = (this.#sequence + 1) >>> 0;
+    const reading = this.#readings.next(nowMs);
     for (const operator of this.#operators.values()) {
       if (!operator.peer.connected) continue;
       const target = operator.sender?.targetBitsPerSecond ?? 0;
@@ -41,6 +50,7 @@ export class TelemetrySender {
         operators: this.#operators.size,
       };
       operator.peer.sendTelemetry(encodeJson(telemetryCodec, message));
+      if (reading !== null) operator.peer.sendTelemetry(encodeJson(telemetryCodec, reading));
     }
   }
 }

@@ -7,10 +7,12 @@ import {
   type IceCandidate,
   type OperatorControlMessage,
   type OperatorSessionMessage,
+  type Reading,
   type RobotSessionMessage,
   readCloudPayload,
   robotSessionCodec,
   type Telemetry,
+  type TelemetryMessage,
   type Twist,
   telemetryCodec,
   zeroTwist,
@@ -42,6 +44,8 @@ export class OperatorClient {
   /** Gets each readable packet of a cloud. */
   onCloudPacket: ((payload: Buffer) => void) | null = null;
   telemetry: Telemetry | null = null;
+  /** The newest of each topic. */
+  readonly readings = new Map<string, Reading>();
   packets = 0;
   malformedPackets = 0;
   readonly #waiters = new Set<() => void>();
@@ -77,7 +81,7 @@ export class OperatorClient {
       if (channel.label === 'session') this.#sessionChannel = channel;
       channel.onMessage.subscribe((data) => {
         if (channel.label === 'session') this.session.push(decodeJson(robotSessionCodec, data));
-        else if (channel.label === 'telemetry') this.telemetry = decodeJson(telemetryCodec, data);
+        else if (channel.label === 'telemetry') this.#onTelemetry(decodeJson(telemetryCodec, data));
         this.#changed();
       });
     });
@@ -181,6 +185,11 @@ export class OperatorClient {
   async close(): Promise<void> {
     if (this.#probes !== null) clearInterval(this.#probes);
     await this.connection.close();
+  }
+
+  #onTelemetry(message: TelemetryMessage): void {
+    if (message.type === 'reading') this.readings.set(message.topic, message);
+    else this.telemetry = message;
   }
 
   #onPayload(payload: Buffer): void {

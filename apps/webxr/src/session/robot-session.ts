@@ -17,6 +17,7 @@ import {
   telemetryCodec,
   type Welcome,
 } from '@farpoint/protocol';
+import { Readings } from './readings.ts';
 
 export interface RobotSessionEvents {
   onWelcome(welcome: Welcome): void;
@@ -36,6 +37,8 @@ export class RobotSession {
   lease: LeaseState = { type: 'lease', holder: 'nobody' };
   estop: EstopState = { type: 'estop', latched: false };
   telemetry: Telemetry | null = null;
+  /** What the robot's sensors and topics say. */
+  readonly readings = new Readings();
   readonly clock = new ClockOffset();
   /** Messages that are not of the protocol. */
   malformed = 0;
@@ -49,7 +52,7 @@ export class RobotSession {
   onMessage(channel: 'session' | 'telemetry' | 'control', data: MessageData, nowMs: number): void {
     try {
       if (channel === 'session') this.#onSession(data);
-      else if (channel === 'telemetry') this.#onTelemetry(data);
+      else if (channel === 'telemetry') this.#onTelemetry(data, nowMs);
       else this.clock.add(decodeJson(clockAnswerCodec, data), nowMs);
     } catch (error) {
       if (!(error instanceof ProtocolError)) throw error;
@@ -98,8 +101,12 @@ export class RobotSession {
     }
   }
 
-  #onTelemetry(data: MessageData): void {
+  #onTelemetry(data: MessageData, nowMs: number): void {
     const telemetry = decodeJson(telemetryCodec, data);
+    if (telemetry.type === 'reading') {
+      this.readings.take(telemetry, nowMs);
+      return;
+    }
     // Unordered: an older one that comes later tells nothing.
     if (this.telemetry !== null && sequenceDelta32(telemetry.sequence, this.telemetry.sequence) <= 0) return;
     this.telemetry = telemetry;

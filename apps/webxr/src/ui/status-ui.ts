@@ -1,6 +1,7 @@
 /** What the page shows of the link, the robot and the stream, a few times a second: on the screen and on the wrist. */
 import { robotAfter } from '../drive/robot-switch.ts';
 import type { PageParts } from '../page-parts.ts';
+import type { ShownReading } from '../session/readings.ts';
 import { driveWords, linkWords, type Words } from '../status/words.ts';
 import type { PageStats } from '../test-api.ts';
 import type { WristPanel } from '../view/wrist-panel.ts';
@@ -36,11 +37,11 @@ export class StatusUi {
     elements.view.hidden = !connected;
     elements.drive.hidden = link.phase !== 'live';
     elements.hud.hidden = link.phase !== 'live';
-    if (link.phase === 'live') this.#showSession();
+    if (link.phase === 'live') this.#showSession(nowMs);
     if (this.#app.vr.active) this.#showWrist(words);
   }
 
-  #showSession(): void {
+  #showSession(nowMs: number): void {
     const { driver, link } = this.#app;
     const { estop } = link.session;
     setPill(elements.holder, this.#holderWords());
@@ -48,7 +49,7 @@ export class StatusUi {
     elements.release.hidden = driver.holder !== 'you';
     elements.estop.setAttribute('aria-pressed', String(estop.latched));
     elements.estop.querySelector('b')!.textContent = estop.latched ? 'RELEASE' : 'STOP';
-    showFacts(this.#facts());
+    showFacts(this.#facts(nowMs));
   }
 
   #holderWords(): Words {
@@ -60,7 +61,7 @@ export class StatusUi {
       : { text: 'You may drive', tone: 'good' };
   }
 
-  #facts(): Fact[] {
+  #facts(nowMs: number): Fact[] {
     const { link } = this.#app;
     const { telemetry, estop, welcome } = link.session;
     const stats = this.#stats();
@@ -81,6 +82,7 @@ export class StatusUi {
         });
       }
     }
+    addReadings(facts, link.session.readings.list(nowMs));
     facts.push(...streamFacts(stats));
     if (telemetry !== null && telemetry.operators > 1) {
       facts.push({ name: 'Operators', value: String(telemetry.operators) });
@@ -161,6 +163,15 @@ function streamFacts(stats: PageStats): Fact[] {
     facts.push({ name: 'Motion to photon', value: `${ms(stats.mtpMs.p50)}  p95 ${ms(stats.mtpMs.p95)}` });
   }
   return facts;
+}
+
+/** A reading of the battery says more than the telemetry's two figures; any other name that is there already stays whose it is. */
+function addReadings(facts: Fact[], readings: readonly ShownReading[]): void {
+  for (const { topic, label, text, tone } of readings) {
+    const there = facts.find(({ name }) => name === label);
+    if (there !== undefined && label === 'Battery') Object.assign(there, { value: text, tone });
+    else facts.push({ name: there === undefined ? label : `${label} (${topic})`, value: text, tone });
+  }
 }
 
 function mbps(stats: PageStats): string {

@@ -80,7 +80,7 @@ def main():
         publishers.append((rospy.Publisher("/image", Image, queue_size=1), image()))
     if "state" in parts:
         publishers.append((rospy.Publisher("/odom", Odometry, queue_size=1), odometry(0)))
-        battery = BatteryState(voltage=25.1, percentage=0.75)
+        battery = BatteryState(voltage=25.1, percentage=0.75, current=float("nan"))
         publishers.append((rospy.Publisher("/battery", BatteryState, queue_size=1), battery))
         publishers.append((rospy.Publisher("/temperature", Float32, queue_size=1), Float32(21.5)))
     print(json.dumps({"ready": True}), flush=True)

@@ -1,0 +1,35 @@
+/**
+ * A `reading` on the `telemetry` channel: what a sensor or a topic of the robot says, as short text for people. The newest
+ * of each comes again every few seconds, so that one that is lost is missed by nobody.
+ */
+import * as z from 'zod';
+
+export const readingLevels = ['ok', 'warn', 'error'] as const;
+export type ReadingLevel = (typeof readingLevels)[number];
+
+/** Lengths in UTF-16 units; together they keep the longest reading within a telemetry message. */
+export const READING_LIMITS = { topic: 255, label: 40, values: 10, name: 36, text: 60 } as const;
+
+export interface Reading {
+  type: 'reading';
+  /** Tells readings apart. */
+  topic: string;
+  /** What people read beside the values. */
+  label: string;
+  level: ReadingLevel;
+  /** Name and value, most telling first; a name may be empty. */
+  values: [string, string][];
+  /** How long ago the robot heard it, ms. */
+  ageMs: number;
+}
+
+const { topic, label, values, name, text } = READING_LIMITS;
+
+export const readingSchema = z.strictObject({
+  type: z.literal('reading'),
+  topic: z.string().min(1).max(topic),
+  label: z.string().min(1).max(label),
+  level: z.enum(readingLevels),
+  values: z.array(z.tuple([z.string().max(name), z.string().max(text)])).max(values),
+  ageMs: z.number().min(0),
+}) satisfies z.ZodType<Reading>;
