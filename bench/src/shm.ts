@@ -4,12 +4,12 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { LocalStack } from '@farpoint/local-stack';
-import { emptyPointPacketHeader, readPointPacketHeader } from '@farpoint/protocol';
 import { SignaledOperator } from '@farpoint/robot-node/testing';
 import { buildAddon } from '@farpoint/shared-memory/build';
 import { type KillTestResult, runKillTest } from '@farpoint/shared-memory/kill-test';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { FrameColours, readFrameLog, residentPeakMb } from './robot-frames.ts';
 import { type Distribution, distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench shm [--layout both|reference|farpoint] [--size 480] [--fps 30] [--seconds 20] [--mbps 20] [--kill N [--seed 1]] [--json]
@@ -194,34 +194,6 @@ export async function measure(
   }
 }
 
-/** The colours in which frames arrived: one each, or it was torn. */
-class FrameColours {
-  torn = 0;
-  packets = 0;
-  readonly #header = emptyPointPacketHeader();
-  readonly #colours = new Map<number, number>();
-
-  add(payload: Buffer): void {
-    const view = new DataView(payload.buffer, payload.byteOffset, payload.byteLength);
-    if (readPointPacketHeader(view, this.#header) !== null) return;
-    this.packets++;
-    const { frameNumber, sequenceLength } = this.#header;
-    const points = sequenceLength / 8;
-    for (let i = 0; i < points; i++) this.#see(frameNumber, view.getUint16(16 + points * 6 + i * 2, true));
-    if (this.#colours.size > 100) this.#colours.delete(this.#colours.keys().next().value as number);
-  }
-
-  #see(frame: number, colour: number): void {
-    const first = this.#colours.get(frame);
-    if (first === undefined) {
-      this.#colours.set(frame, colour);
-    } else if (first !== colour && first >= 0) {
-      this.torn++;
-      this.#colours.set(frame, -1);
-    }
-  }
-}
-
 async function killAll(
   layouts: readonly Layout[],
   frames: number,
@@ -256,21 +228,6 @@ function summedKills(results: Partial<Record<Layout, KillTestResult>>): { frames
   return { frames: sum(({ frames }) => frames), torn: sum(({ torn }) => torn) };
 }
 
-interface LoggedFrame {
-  capturedMs: number;
-  readyMs: number;
-  points: number;
-}
-
-function readFrameLog(path: string): LoggedFrame[] {
-  const [header, ...lines] = readFileSync(path, 'utf8').trimEnd().split('\n');
-  if (header !== 'frameNumber,capturedMs,readyMs,points') throw new Error(`${path}: not a frame log`);
-  return lines.map((line) => {
-    const [, capturedMs, readyMs, points] = line.split(',').map(Number) as [number, number, number, number];
-    return { capturedMs, readyMs, points };
-  });
-}
-
 /** The last of ascending times that is not after `limit`. */
 function lastBefore(times: readonly number[], limit: number): number | undefined {
   let [low, high] = [0, times.length];
@@ -280,12 +237,6 @@ function lastBefore(times: readonly number[], limit: number): number | undefined
     else high = middle;
   }
   return times[low - 1];
-}
-
-/** The most memory a process has had, 10^6 bytes (Linux). */
-function residentPeakMb(pid: number): number {
-  const line = /^VmHWM:\s+(\d+) kB$/m.exec(readFileSync(`/proc/${pid}/status`, 'utf8'));
-  return Math.round((Number(line?.[1] ?? Number.NaN) * 1024) / 1e6);
 }
 
 async function stop(child: ChildProcess): Promise<void> {

@@ -87,7 +87,7 @@ for (const kind of kinds) {
       expect((first?.ms ?? Number.NaN) - lastMs).toBeLessThan(WATCHDOG_MS + SLACK_MS);
       // It is alive: the next command is obeyed.
       await driveUntil(lease, 0.125, () => speed() === 0.125);
-      await stack.robot(ROBOT).stop();
+      expect(await stack.robot(ROBOT).stop()).toMatchObject({ code: 0 });
       await until(() => speed() === 0);
     });
   });

@@ -1,4 +1,6 @@
 /** Graphs of this process that hear each other. */
+import { spawnSync } from 'node:child_process';
+import { join } from 'node:path';
 import { Worker } from 'node:worker_threads';
 import { RELIABLE_QOS, type RosFault, SENSOR_QOS } from '@farpoint/ros';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
@@ -172,6 +174,12 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     const fault = faultOf(() => new DdsGraph({ ...options, localhostOnly: false, env: {} }));
     expect(fault.code).toBe('unavailable');
     expect(fault.message).toContain('another configuration');
+  });
+
+  it('may be used in workers alone', () => {
+    const program = join(import.meta.dirname, 'testing', 'worker-only.ts');
+    const { status, signal } = spawnSync(process.execPath, [program]);
+    expect({ status, signal }).toEqual({ status: 0, signal: null });
   });
 
   it('outlives a thread that ends with a graph open', async () => {

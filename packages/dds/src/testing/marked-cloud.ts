@@ -6,12 +6,17 @@ export const CLOUD_QOS = { ...RELIABLE_QOS, depth: 5 };
 
 const POINT_BYTES = 16;
 const COLOUR_OFFSET = 12;
+/** A frame’s colour is its number times this, modulo 2²⁴; as the factor is odd, the number can be had back. */
+const MIX = 0x9e3779;
+const MASK = 0xffffff;
+const UNMIX = inverse(MIX);
 
 export interface MarkedCloud {
+  /** From 1. */
   number: number;
   /** When it was made, ms since 1970. */
   madeMs: number;
-  /** Points of another frame's number are among its own. */
+  /** Colours of another frame are among its own. */
   torn: boolean;
 }
 
@@ -26,11 +31,19 @@ export function readMarkedCloud(bytes: Uint8Array, side: number): MarkedCloud | 
   for (let after = 1; after <= 4; after++) {
     const begin = bytes.length - after - dataBytes;
     if (begin < 8 || view.getUint32(begin - 4, true) !== dataBytes) continue;
-    const number = view.getUint32(begin + COLOUR_OFFSET, true);
+    const colour = view.getUint32(begin + COLOUR_OFFSET, true);
+    const number = Math.imul(colour, UNMIX) & MASK;
     let torn = false;
     for (let at = begin + COLOUR_OFFSET; at < begin + dataBytes; at += POINT_BYTES)
-      torn ||= view.getUint32(at, true) !== number;
+      torn ||= view.getUint32(at, true) !== colour;
     return { number, madeMs: view.getInt32(4, true) * 1000 + view.getUint32(8, true) / 1e6, torn };
   }
   return null;
+}
+
+/** Modulo 2³², by Newton’s method: each step doubles how many bits are right. */
+function inverse(odd: number): number {
+  let result = odd;
+  for (let bits = 3; bits < 32; bits *= 2) result = Math.imul(result, 2 - Math.imul(odd, result));
+  return result;
 }

@@ -14,7 +14,7 @@ export type PeerKind = 'Fast DDS' | 'Python';
 
 export interface PeerOptions {
   domain: number;
-  /** DDS topic on which it gives clouds of `side` × `side` points, `hz` a second; their `rgb` is the frame's number, from 1. */
+  /** DDS topic on which it gives clouds of `side` × `side` points, `hz` a second, all of a frame in a colour of its own. */
   cloud?: string;
   side?: number;
   hz?: number;

@@ -173,14 +173,15 @@ class Matched : public DataWriterListener {
   }
 };
 
-// sensor_msgs/msg/PointCloud2 of side × side points, their `rgb` the number of the frame.
+// sensor_msgs/msg/PointCloud2 of side × side points, all of the frame's own colour: its number, its bits mixed.
 static Bytes cloud(uint32_t side, uint32_t number) {
+  const uint32_t colour = number * 0x9E3779U & 0xFFFFFFU;
   const uint32_t step = 16, points = side * side;
   std::vector<uint8_t> data(static_cast<size_t>(points) * step);
   for (uint32_t i = 0; i < points; i++) {
     const float at[3] = {static_cast<float>(i % side) / side - 0.5F, static_cast<float>(i / side) / side - 0.5F, 2.0F};
     memcpy(&data[static_cast<size_t>(i) * step], at, sizeof at);
-    memcpy(&data[static_cast<size_t>(i) * step + 12], &number, sizeof number);
+    memcpy(&data[static_cast<size_t>(i) * step + 12], &colour, sizeof colour);
   }
   FastBuffer buffer;
   Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);

@@ -120,7 +120,7 @@ if asked.twist:
 
 
 class Clouds:
-    """Clouds of side × side points, their `rgb` the number of the frame.
+    """Clouds of side × side points, all of the frame's own colour: its number, its bits mixed.
 
     The library takes a second to serialise four million bytes: it does so once, and what differs is put into its bytes.
     """
@@ -143,7 +143,8 @@ class Clouds:
         self.bytes = None
 
     def row(self, number):
-        return b"".join(struct.pack("<fffI", i / self.side - 0.5, 0.0, 2.0, number) for i in range(self.side))
+        colour = number * 0x9E3779 & 0xFFFFFF
+        return b"".join(struct.pack("<fffI", i / self.side - 0.5, 0.0, 2.0, colour) for i in range(self.side))
 
     def serialize(self, use_version_2=None):
         if self.bytes is None:

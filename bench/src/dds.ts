@@ -1,0 +1,254 @@
+/** `pnpm bench dds`: clouds from another maker's ROS 2 node to the robot's packets, and velocities back to it. */
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { parseArgs } from 'node:util';
+import { DdsGraph } from '@farpoint/dds';
+import { buildAddon } from '@farpoint/dds/build';
+import { findPeer, PEER_REMEDY, Peer, type PeerKind, testDomain } from '@farpoint/dds/testing';
+import { LocalStack } from '@farpoint/local-stack';
+import { SignaledOperator } from '@farpoint/robot-node/testing';
+import { VELOCITY_QOS, velocityWriter } from '@farpoint/ros';
+import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
+import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { FrameColours, readFrameLog, residentPeakMb } from './robot-frames.ts';
+import { type Distribution, distribution, rounded } from './stats.ts';
+
+const USAGE = `pnpm bench dds [--peer fastdds|python] [--side 480] [--hz 10] [--seconds 20] [--mbps 20] [--reliability best-effort|reliable] [--json]
+
+A node of another maker's DDS publishes PointCloud2 of side × side points --hz times a second; the real robot process
+(--source ros2 --sink ros2) samples them for --mbps and sends them to an operator in this process, who drives meanwhile.
+Latency: from the node's beginning to serialise a cloud to the robot's having its packets made. Every cloud has a colour of its
+own: torn counts frames that came with two. Drive: from the operator's command to the node's hearing that Twist. Round trip: of
+a Twist from a graph in this process to the node and back. Loopback.`;
+
+const PEERS: Record<string, PeerKind> = { fastdds: 'Fast DDS', python: 'Python' };
+const ROBOT = 'dds-1';
+const WARM_UP_MS = 2000;
+const COMMAND_MS = 20;
+const TWIST = 'geometry_msgs/msg/Twist';
+
+export const bench: Bench = {
+  name: 'dds',
+  summary: 'a ROS 2 graph of another maker: latency of clouds to packets, velocities, round trip',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        peer: { type: 'string', default: 'fastdds' },
+        side: { type: 'string', default: '480' },
+        hz: { type: 'string', default: '10' },
+        seconds: { type: 'string', default: '20' },
+        mbps: { type: 'string', default: '20' },
+        reliability: { type: 'string', default: 'best-effort' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const kind = PEERS[values.peer];
+    if (kind === undefined)
+      throw new Error(`--peer is \`${values.peer}\`, not ${Object.keys(PEERS).join(' or ')}`);
+    const { reliability } = values;
+    if (reliability !== 'reliable' && reliability !== 'best-effort')
+      throw new Error(`--reliability is \`${reliability}\`, not reliable or best-effort`);
+    const { ok, output } = buildAddon();
+    if (!ok) throw new Error(`the addon does not build:\n${output}`);
+    const command = findPeer(kind);
+    if (command === null) throw new Error(`no ${kind} here: ${PEER_REMEDY[kind]}`);
+    const run: Run = {
+      ...{ kind, command, reliability },
+      side: numberOption('side', values.side, 1),
+      hz: numberOption('hz', values.hz, 0.1),
+      seconds: numberOption('seconds', values.seconds, 1),
+      mbps: numberOption('mbps', values.mbps, 1),
+    };
+    const result = await measure(run);
+    printTable(
+      ['ms', 'p50', 'p95', 'p99', 'max'],
+      [
+        ['cloud to packets', ...distributionCells(result.latencyMs)],
+        ['command to Twist', ...distributionCells(result.driveMs)],
+        ['Twist there and back', ...distributionCells(result.roundTripMs)],
+      ],
+    );
+    printTable(
+      ['frames/s', 'torn', 'robot, MB', 'robot, cores', 'node, cores', 'Twists', 'commands'],
+      [
+        [
+          ...[result.framesPerSecond, result.torn, result.rssMbMax, result.robotCpu, result.peerCpu],
+          ...[result.twists, result.commands],
+        ],
+      ],
+    );
+    const { command: _, ...settings } = run;
+    if (values.json) printJson({ bench: 'dds', ...settings, points: run.side * run.side, ...result });
+  },
+};
+
+interface Run {
+  kind: PeerKind;
+  command: string[];
+  side: number;
+  hz: number;
+  seconds: number;
+  mbps: number;
+  reliability: 'reliable' | 'best-effort';
+}
+
+interface DdsResult {
+  latencyMs: Distribution;
+  driveMs: Distribution;
+  roundTripMs: Distribution;
+  framesPerSecond: number;
+  frames: number;
+  torn: number;
+  rssMbMax: number;
+  robotCpu: number | null;
+  peerCpu: number | null;
+  commands: number;
+  /** Velocities of those commands that the node heard. */
+  twists: number;
+}
+
+async function measure({ command, side, hz, seconds, mbps, reliability }: Run): Promise<DdsResult> {
+  const folder = mkdtempSync(join(tmpdir(), 'farpoint-bench-dds-'));
+  const [frameLog, config] = [join(folder, 'frames.csv'), join(folder, 'farpoint.yaml')];
+  const domain = testDomain();
+  writeFileSync(config, configuration(domain, reliability));
+  const peer = await Peer.start(command, {
+    ...{ domain, cloud: 'rt/points', side, hz, reliability, twist: 'rt/cmd_vel', echo: 'rt/echo' },
+  });
+  let stack: LocalStack | null = null;
+  try {
+    const roundTripMs = await roundTrips(domain);
+    stack = await LocalStack.start({
+      robots: [
+        {
+          id: ROBOT,
+          name: 'Robot in a ROS 2 graph',
+          args: [
+            ...['--config', config, '--frame-log', frameLog],
+            ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)],
+          ],
+        },
+      ],
+      env: { FARPOINT_LOG_LEVEL: 'warn' },
+    });
+    const robotPid = stack.robot(ROBOT).pid;
+    const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+    const colours = new FrameColours();
+    const driving = new Driving(operator, peer, await operator.client.takeLease());
+    await sleep(WARM_UP_MS);
+    operator.client.onCloudPacket = (payload) => colours.add(payload);
+    driving.forget();
+    const cpu = () => [cpuSecondsOfTree(robotPid), cpuSecondsOfTree(peer.pid)] as const;
+    const [beginMs, cpuBefore] = [nowMs(), cpu()];
+    await sleep(seconds * 1000);
+    const [endMs, cpuAfter] = [nowMs(), cpu()];
+    const rssMbMax = residentPeakMb(robotPid);
+    driving.stop();
+    operator.client.onCloudPacket = null;
+    await operator.close();
+    await stack.stop();
+
+    const elapsedMs = endMs - beginMs;
+    const frames = readFrameLog(frameLog).filter(({ readyMs }) => readyMs >= beginMs && readyMs < endMs);
+    return {
+      // The stamp is of the node's beginning to make the message; the robot tells it by its own clock.
+      latencyMs: rounded(distribution(frames.map(({ capturedMs, readyMs }) => readyMs - capturedMs)), 2),
+      driveMs: rounded(distribution(driving.latenciesMs), 2),
+      roundTripMs,
+      framesPerSecond: Number(((frames.length * 1000) / elapsedMs).toFixed(2)),
+      frames: frames.length,
+      torn: colours.torn,
+      rssMbMax,
+      robotCpu: coresBetween(cpuBefore[0], cpuAfter[0], elapsedMs),
+      peerCpu: coresBetween(cpuBefore[1], cpuAfter[1], elapsedMs),
+      commands: driving.commands,
+      twists: driving.latenciesMs.length,
+    };
+  } finally {
+    await stack?.stop();
+    await peer.kill();
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+function configuration(domain: number, reliability: string): string {
+  return `
+robot:
+  source: { kind: ros2, fps: 120 }
+  sink: { kind: ros2 }
+  ros: { domain: ${domain}, reach: localhost, axes: optical }
+  topics:
+    - { topic: /points, as: cloud, qos: { reliability: ${reliability} } }
+    - { topic: /cmd_vel, as: velocity }
+`;
+}
+
+/** Commands at 50 Hz, each with a speed of its own, so that the Twist that comes of it is known. */
+class Driving {
+  commands = 0;
+  latenciesMs: number[] = [];
+  readonly #sentMs = new Map<number, number>();
+  readonly #timer: NodeJS.Timeout;
+  #speed = 0;
+
+  constructor({ client }: SignaledOperator, peer: Peer, lease: string) {
+    this.#timer = setInterval(() => {
+      // Thousandths of a metre a second, from 0.05 up.
+      this.#speed = 50 + ((this.#speed + 1) % 100);
+      this.#sentMs.set(this.#speed, nowMs());
+      this.commands++;
+      client.drive(lease, this.#speed / 1000);
+    }, COMMAND_MS);
+    peer.onTwist = ({ x, ms }) => {
+      const speed = Math.round(x * 1000);
+      const sentMs = this.#sentMs.get(speed);
+      if (sentMs === undefined) return;
+      this.#sentMs.delete(speed);
+      this.latenciesMs.push(ms - sentMs);
+    };
+  }
+
+  forget(): void {
+    this.latenciesMs = [];
+    this.commands = 0;
+  }
+
+  stop(): void {
+    clearInterval(this.#timer);
+  }
+}
+
+/** Of Twists that go to the node and come back, one at a time. */
+async function roundTrips(domain: number): Promise<Distribution> {
+  const graph = new DdsGraph({ domain, localhostOnly: true, env: {} });
+  const write = velocityWriter(2, TWIST);
+  const publisher = graph.advertise({ topic: '/cmd_vel', type: TWIST, qos: VELOCITY_QOS });
+  let heard = 0;
+  graph.subscribe({ topic: '/echo', type: TWIST, queue: 1, qos: VELOCITY_QOS }, () => heard++);
+  const zero = { x: 0, y: 0, z: 0 };
+  const bytes = write({ linear: zero, angular: zero }, 0n, '');
+  const times: number[] = [];
+  // The first ones find the way.
+  for (let i = 0; i < 300; i++) {
+    const had = heard;
+    const begin = nowMs();
+    publisher.publish(bytes);
+    while (heard === had && nowMs() - begin < 1000) await new Promise((resolve) => setImmediate(resolve));
+    if (i >= 50 && heard > had) times.push(nowMs() - begin);
+    await sleep(5);
+  }
+  await graph.close();
+  return rounded(distribution(times), 2);
+}
+
+function nowMs(): number {
+  return Number(process.hrtime.bigint()) / 1e6;
+}
+
+function sleep(ms: number): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve, ms));
+}

@@ -1,0 +1,8 @@
+/** A program that uses DDS in a worker alone, which ends; so should the program, with 0. */
+import { Worker } from 'node:worker_threads';
+
+const source = new URL('./closing-worker.ts', import.meta.url);
+for (let i = 0; i < 2; i++) {
+  const code = await new Promise((resolve) => new Worker(source).once('exit', resolve));
+  if (code !== 0) process.exit(1);
+}
