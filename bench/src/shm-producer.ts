@@ -37,7 +37,7 @@ beat();
 function beat(): void {
   if (publish(frame)) frame++;
   beatMs = Math.max(beatMs + intervalMs, nowMs());
-  setTimeout(beat, beatMs - nowMs());
+  setTimeout(beat, Math.max(0, beatMs - nowMs()));
 }
 
 function nowMs(): number {
