@@ -128,8 +128,9 @@ export class CloudShmSource implements FrameSource {
       cameraPose: pose ?? STATIC_CAMERA_POSE,
       captureMs: Math.min(captureMs ?? this.#readyMs, nowMs),
     };
-    const { points, depth, colour } = room;
-    return form === 'images' ? { form, depth, colour, ...stamp } : { form, points, count, ...stamp };
+    return form === 'images'
+      ? { form, depth: room.depth, colour: room.colour, ...stamp }
+      : { form, points: room.points, count, ...stamp };
   }
 }
 

@@ -70,7 +70,7 @@ export class RosCloudFeed implements RosFeed {
     );
   }
 
-  take({ points, depth, colour }: CaptureRoom): FedFrame | null {
+  take(room: CaptureRoom): FedFrame | null {
     const waiting = this.#waiting;
     const shape = this.shape;
     if (waiting === null || shape === null) return null;
@@ -84,8 +84,9 @@ export class RosCloudFeed implements RosFeed {
       }
       const count =
         shape.camera === null
-          ? this.#decoder.decode(cloud, shape.axes, points)
-          : this.#decoder.decodeImages(cloud, depth, colour);
+          ? // What is asked for is made, and may move what was given out before: ask for one form alone.
+            this.#decoder.decode(cloud, shape.axes, room.points)
+          : this.#decoder.decodeImages(cloud, room.depth, room.colour);
       return { count, frameId: header.frame_id, stampNs: stampNs(header.stamp), receivedMs };
     } catch (error) {
       throw RosFault.of(error, this.#options.cloud.topic);

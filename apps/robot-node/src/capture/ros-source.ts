@@ -132,10 +132,9 @@ export class RosSource implements FrameSource {
       cameraPose: this.#world.opticalPose(frameId, stampNs, this.#axes),
       captureMs: Math.min(ageMs >= 0 && ageMs <= MOST_AGE_MS ? this.#clock.now() - ageMs : receivedMs, nowMs),
     };
-    const { points, depth, colour } = room;
     return this.description.camera === null
-      ? { form: 'points', points, count, ...stamp }
-      : { form: 'images', depth, colour, ...stamp };
+      ? { form: 'points', points: room.points, count, ...stamp }
+      : { form: 'images', depth: room.depth, colour: room.colour, ...stamp };
   }
 
   skip(): void {

@@ -50,7 +50,10 @@ export function placementOf(
   };
 }
 
-/** Views of an encoder's memory, taken when they are asked for: what nobody asks for is not made. */
+/**
+ * Views of an encoder's memory, taken when they are asked for: what nobody asks for is not made. Making one may move those
+ * given out before, so ask for points, or for depth and then colour.
+ */
 export function roomOf(encoder: {
   frame: Float32Array;
   depth: Float32Array;
@@ -61,6 +64,8 @@ export function roomOf(encoder: {
       return encoder.frame;
     },
     get depth() {
+      // Both are made before either is given out.
+      void encoder.colour;
       return encoder.depth;
     },
     get colour() {
