@@ -49,7 +49,7 @@ function cheapest(
 ): CodecRun | string {
   let best: { run: CodecRun; bytes: number } | undefined;
   let reason = `no colours of ${psnrDb} dB`;
-  const offer = (colour: OrganisedOptions['colour'], words: string): boolean => {
+  const offer = (colour: NonNullable<OrganisedOptions['colour']>, words: string): boolean => {
     const run = organisedAs(codec, cloud, { name: `${name} (${words})`, options: { ...options, colour } });
     if (typeof run === 'string') {
       if (colour !== 'palette') reason = run;

@@ -19,7 +19,7 @@ export function plotCodecs(rows: readonly CodecRow[]): string {
           x: points.map(x),
           y: points.map(y),
           shape: 'points',
-          colour: PALETTE[codecs.indexOf(codec) % PALETTE.length],
+          colour: PALETTE[codecs.indexOf(codec) % PALETTE.length] as string,
         };
       });
     const bits = (row: CodecRow) => row.bitsPerPoint;
