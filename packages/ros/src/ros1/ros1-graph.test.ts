@@ -1,5 +1,9 @@
 /** The graph against a real master and real rospy nodes. */
+import { once } from 'node:events';
+import { connect } from 'node:net';
 import type { Twist } from '@farpoint/protocol';
+import { RosFollowerClient, RosMasterClient, RosNode } from '@foxglove/ros1';
+import fc from 'fast-check';
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { RosFault } from '../fault.ts';
 import type { RosGraph } from '../graph.ts';
@@ -129,7 +133,9 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     await until(() => counter.count > since + 5 && publisher.subscribers === 1);
     publisher.publish(velocityWriter(1, TWIST)(ahead, 0n, ''));
     await until(() => fresh.heard.length === 1);
-    expect(graph.topics().find(({ topic }) => topic === '/points')?.subscribers).toBe(1);
+    await until(() =>
+      graph.topics().some(({ topic, subscribers }) => topic === '/points' && subscribers === 1),
+    );
     await fresh.kill();
   });
 
@@ -153,6 +159,54 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     expect(faults[0]?.topic).toBe('/points');
     expect(['wrong-type', 'refused']).toContain(faults[0]?.code);
     expect(counter.count).toBe(0);
+    await node.kill();
+  });
+
+  it('reads types that nobody here knows as their publisher tells them', async () => {
+    const node = await peers.startNode('own', 'arm');
+    let message: unknown = null;
+    const type = 'my_robot/msg/Arm';
+    const subscription = graph.subscribe({ topic: '/arm', type, queue: 1 }, (bytes) => {
+      message ??= decoderOf(1, type, subscription.definition)(bytes);
+    });
+    await until(() => message !== null);
+    expect(message).toMatchObject({ joints: Float32Array.of(0.5, 1.5), mode: 'hold' });
+    await node.kill();
+  });
+
+  it('outlives peers that speak nonsense to its ports', async () => {
+    graph.advertise({ topic: '/cmd_vel', type: TWIST });
+    await until(() => graph.topics().some(({ topic }) => topic === '/cmd_vel'));
+    const [, , url] = await new RosMasterClient(peers.masterUrl).lookupNode('/prober', '/farpoint_test');
+    const { port, address } = await RosNode.RequestTopic(
+      '/prober',
+      '/cmd_vel',
+      new RosFollowerClient(String(url)),
+    );
+    const ports = [port, Number(new URL(String(url)).port)];
+    const header = Buffer.from('\x12\0\0\0topic=/cmd_vel\0\0\0\0');
+    const length = Buffer.alloc(4);
+    length.writeUInt32LE(header.length);
+    const random = fc.sample(fc.uint8Array({ maxLength: 400 }), { numRuns: 60, seed: 1 });
+    const nonsense = [
+      ...random,
+      ...random.map((bytes) => Buffer.concat([length, header, bytes])),
+      Buffer.from('POST / HTTP/1.1\r\ncontent-length: 9\r\n\r\n<no>xml</'),
+      Buffer.from([0xff, 0xff, 0xff, 0xff, 1]),
+      Buffer.alloc(0),
+    ];
+    for (const bytes of nonsense) {
+      for (const each of ports) {
+        const socket = connect(each, address);
+        socket.on('error', () => {});
+        socket.end(bytes);
+        socket.resume();
+        await once(socket, 'close');
+      }
+    }
+    const node = await peers.startNode('velocity,cloud', 'camera');
+    const counter = counted();
+    await until(() => counter.count > 2);
     await node.kill();
   });
 

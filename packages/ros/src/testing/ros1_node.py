@@ -83,6 +83,11 @@ def main():
         battery = BatteryState(voltage=25.1, percentage=0.75, current=float("nan"))
         publishers.append((rospy.Publisher("/battery", BatteryState, queue_size=1), battery))
         publishers.append((rospy.Publisher("/temperature", Float32, queue_size=1), Float32(21.5)))
+    if "own" in parts:
+        from genpy.dynamic import generate_dynamic
+
+        own = generate_dynamic("my_robot/Arm", "float32[] joints\nstring mode\n")["my_robot/Arm"]
+        publishers.append((rospy.Publisher("/arm", own, queue_size=1), own(joints=[0.5, 1.5], mode="hold")))
     print(json.dumps({"ready": True}), flush=True)
     rate = rospy.Rate(10)
     while not rospy.is_shutdown():
