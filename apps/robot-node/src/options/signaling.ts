@@ -5,7 +5,7 @@ import * as z from 'zod';
 
 const signalingUrlSchema = z
   .url({ protocol: /^wss?$/, error: 'must be a ws:// or wss:// address' })
-  .refine((url) => new URL(url).search === '', 'must have no query');
+  .refine((url) => !URL.canParse(url) || new URL(url).search === '', 'must have no query');
 
 export const signalingOptions = optionGroup('signaling', {
   signaling: defineOption({
