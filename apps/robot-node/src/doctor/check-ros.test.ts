@@ -1,3 +1,5 @@
+import { isAvailable } from '@farpoint/dds';
+import { findPeer, PEER_REMEDY, Peer, testDomain } from '@farpoint/dds/testing';
 import { topicTableSchema } from '@farpoint/ros';
 import { Ros1Peers } from '@farpoint/ros/testing/ros1';
 import { afterAll, describe, expect, it } from 'vitest';
@@ -106,3 +108,30 @@ describe.skipIf(python === null)(`a real master (${missing ?? 'found'})`, () => 
     );
   }, 60_000);
 });
+
+const peerCommand = isAvailable() ? findPeer('Python') : null;
+it.skipIf(peerCommand === null)(
+  `a ROS 2 graph with another maker’s camera (needs pnpm build:native dds and ${PEER_REMEDY.Python})`,
+  async () => {
+    const peer = await Peer.start(peerCommand ?? [], {
+      ...{ domain: testDomain(), cloud: 'rt/points', side: 16, hz: 20, twist: 'rt/cmd_vel' },
+    });
+    try {
+      const topics = topicTableSchema.parse([
+        { topic: '/points', as: 'cloud' },
+        { topic: '/cmd_vel', as: 'velocity' },
+        { topic: '/nowhere', as: 'pose' },
+      ]);
+      const results = await checkRos(
+        { kind: 'ros2', domain: testDomain(), localhostOnly: true },
+        topics,
+        0,
+        1000,
+      );
+      expect(results.map(({ verdict }) => verdict).join(' ')).toBe('ok ok ok warn');
+    } finally {
+      await peer.kill();
+    }
+  },
+  60_000,
+);

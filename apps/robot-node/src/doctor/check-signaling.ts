@@ -3,12 +3,19 @@ import type { SignalingErrorCode } from '@farpoint/protocol';
 import { fail, ok, type Result, warn } from './finding.ts';
 import type { SignalingAnswer } from './signaling-probe.ts';
 
-/** @param robotRuns whether a robot runs on this machine: it has the id then */
+const EASY_CERTIFICATE_DAYS = 14;
+const DAY_MS = 86_400_000;
+
+/**
+ * @param robotRuns whether a robot runs on this machine: it has the id then
+ * @param nowMs the time of day, ms since 1970
+ */
 export function judgeSignaling(
   url: string,
   id: string,
   answer: SignalingAnswer,
   robotRuns: boolean,
+  nowMs: number,
 ): Result[] {
   switch (answer.outcome) {
     case 'welcome': {
@@ -21,6 +28,11 @@ export function judgeSignaling(
             'the line to it is not encrypted: token and offers can be read',
             'wss:// and TLS at the service',
           ),
+        );
+      const days = ((answer.certificateUntilMs ?? Number.POSITIVE_INFINITY) - nowMs) / DAY_MS;
+      if (days < EASY_CERTIFICATE_DAYS)
+        results.push(
+          warn(`its certificate runs out in ${Math.floor(days)} days`, 'renew it: without it nobody gets in'),
         );
       return results;
     }

@@ -74,7 +74,7 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
         if (answer.outcome === 'welcome') serviceServers = answer.iceServers;
         if (answer.outcome === 'welcome' || answer.outcome === 'refused')
           time = await askTime(target, ANSWER_MS, Date.now);
-        return judgeSignaling(target.url, robot.id, answer, running.state === 'runs');
+        return judgeSignaling(target.url, robot.id, answer, running.state === 'runs', Date.now());
       },
     },
     { name: 'clock', withinMs: SLACK_MS, run: () => checkTimeOfDay(time) },

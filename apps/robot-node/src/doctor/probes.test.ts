@@ -44,7 +44,9 @@ describe('a real signaling service', () => {
   it('takes a robot with its token, and tells the servers for ICE and the time', async () => {
     const answer = await probe('rover-1', 'the-token');
     expect(answer).toMatchObject({ outcome: 'welcome', iceServers: [{ urls: 'stun:127.0.0.1:9' }] });
-    expect(judgeSignaling(stack.signalingUrl, 'rover-1', answer, false)).toMatchObject([{ verdict: 'ok' }]);
+    expect(judgeSignaling(stack.signalingUrl, 'rover-1', answer, false, Date.now())).toMatchObject([
+      { verdict: 'ok' },
+    ]);
     const time = await askTime(
       { url: stack.signalingUrl, id: '', name: '', token: null, ca: null },
       LONG_MS,
@@ -56,7 +58,7 @@ describe('a real signaling service', () => {
   it.each([['wrong'], [null]])('refuses the token %s', async (token) => {
     const answer = await probe('rover-1', token);
     expect(answer).toMatchObject({ outcome: 'refused', code: 'unauthorized' });
-    const [result] = judgeSignaling(stack.signalingUrl, 'rover-1', answer, false);
+    const [result] = judgeSignaling(stack.signalingUrl, 'rover-1', answer, false, Date.now());
     expect(result).toMatchObject({
       verdict: 'fail',
       remedy: expect.stringContaining('FARPOINT_ROBOT_TOKEN') as string,
@@ -66,12 +68,12 @@ describe('a real signaling service', () => {
   it('keeps a robot that is registered, which is well where it is this one', async () => {
     const answer = await probe('robot-2', 'other');
     expect(answer).toMatchObject({ outcome: 'refused', code: 'robot-id-taken' });
-    expect(judgeSignaling('ws://x', 'robot-2', answer, false)[0]?.verdict).toBe('fail');
+    expect(judgeSignaling('ws://x', 'robot-2', answer, false, Date.now())[0]?.verdict).toBe('fail');
     const { hostname, port } = new URL(stack.robotAdminUrl('robot-2'));
     const running = await findRunningRobot(hostname, Number(port), LONG_MS);
     expect(running).toMatchObject({ state: 'runs', operators: 0, healthy: true });
     expect(judgeRunning(running, hostname, Number(port))).toMatchObject([{ verdict: 'ok' }]);
-    expect(judgeSignaling('ws://x', 'robot-2', answer, true)[0]?.verdict).toBe('ok');
+    expect(judgeSignaling('ws://x', 'robot-2', answer, true, Date.now())[0]?.verdict).toBe('ok');
     const health = (await (await fetch(`${stack.robotAdminUrl('robot-2')}/healthz`)).json()) as {
       checks: { signaling: { detail: unknown } };
     };
@@ -83,7 +85,7 @@ describe('a real signaling service', () => {
     const url = `ws://127.0.0.1:${port}`;
     const answer = await probeSignaling({ url, id: 'r', name: 'R', token: null, ca: null }, LONG_MS, now);
     expect(answer).toMatchObject({ outcome: 'unreachable', code: 'ECONNREFUSED' });
-    expect(judgeSignaling(url, 'r', answer, false)[0]?.remedy).toContain('nothing listens there');
+    expect(judgeSignaling(url, 'r', answer, false, Date.now())[0]?.remedy).toContain('nothing listens there');
   });
 });
 
@@ -105,7 +107,7 @@ describe('something else at the address of signaling', () => {
     const answer = await probeSignaling(target(port), SOON_MS, now);
     expect(['silent', 'unreachable']).toContain(answer.outcome);
     expect(now() - begin).toBeLessThan(SOON_MS * 5);
-    expect(judgeSignaling('ws://x', 'r', answer, false)[0]?.verdict).toBe('fail');
+    expect(judgeSignaling('ws://x', 'r', answer, false, Date.now())[0]?.verdict).toBe('fail');
     expect(await askTime(target(port), SOON_MS, Date.now)).toBeNull();
     expect((await findRunningRobot('127.0.0.1', port, SOON_MS)).state).not.toBe('runs');
   });
@@ -121,7 +123,7 @@ describe('something else at the address of signaling', () => {
     const { port } = server.address() as AddressInfo;
     const answer = await probeSignaling({ ...target(port), url: `ws://127.0.0.1:${port}` }, SOON_MS, now);
     expect(answer.outcome).toBe(outcome);
-    expect(judgeSignaling('ws://x', 'r', answer, false)[0]?.verdict).toBe('fail');
+    expect(judgeSignaling('ws://x', 'r', answer, false, Date.now())[0]?.verdict).toBe('fail');
   });
 
   it('that has a certificate nobody vouches for is named, and taken with tlsCa', async () => {
@@ -150,13 +152,29 @@ describe('something else at the address of signaling', () => {
     await new Promise((resolve) => server.once('listening', resolve));
     const { port } = server.address() as AddressInfo;
     const refused = await probeSignaling(target(port, 'wss'), LONG_MS, now);
-    expect(judgeSignaling('wss://x', 'r', refused, false)[0]?.remedy).toContain('signaling.tlsCa');
+    expect(judgeSignaling('wss://x', 'r', refused, false, Date.now())[0]?.remedy).toContain(
+      'signaling.tlsCa',
+    );
     const ca = readFileSync(cert, 'utf8');
     const other = await probeSignaling(target(port, 'wss', ca), LONG_MS, now);
-    expect(judgeSignaling('wss://x', 'r', other, false)[0]?.remedy).toContain('something else answers');
+    expect(judgeSignaling('wss://x', 'r', other, false, Date.now())[0]?.remedy).toContain(
+      'something else answers',
+    );
     expect(checkTimeOfDay(await askTime(target(port, 'wss', ca), LONG_MS, Date.now))[0]?.verdict).toBe('ok');
+    const sockets = new WebSocketServer({ server });
+    sockets.on('connection', (socket) =>
+      socket.send(JSON.stringify({ type: 'robot.welcome', id: 'r', iceServers: [] })),
+    );
+    const welcome = await probeSignaling(target(port, 'wss', ca), LONG_MS, now);
+    const later = (days: number) => Date.now() + days * 86_400_000;
+    expect(judgeSignaling('wss://x', 'r', welcome, false, Date.now())).toMatchObject([
+      { verdict: 'ok' },
+      { verdict: 'warn', detail: 'its certificate runs out in 1 days' },
+    ]);
+    expect(judgeSignaling('wss://x', 'r', welcome, false, later(-20))).toMatchObject([{ verdict: 'ok' }]);
+    sockets.close();
     const plain = await probeSignaling(target(port, 'ws'), LONG_MS, now);
-    expect(judgeSignaling('ws://x', 'r', plain, false)[0]?.verdict).toBe('fail');
+    expect(judgeSignaling('ws://x', 'r', plain, false, Date.now())[0]?.verdict).toBe('fail');
   });
 });
 

@@ -2,6 +2,7 @@
 import { randomBytes } from 'node:crypto';
 import { request as httpRequest } from 'node:http';
 import { request as httpsRequest } from 'node:https';
+import { TLSSocket } from 'node:tls';
 import {
   decodeJson,
   encodeJson,
@@ -20,7 +21,13 @@ export type SignalingTarget = Pick<SignalingOptions, 'url' | 'id' | 'name' | 'to
 
 /** What came of it. */
 export type SignalingAnswer =
-  | { outcome: 'welcome'; iceServers: readonly IceServer[]; milliseconds: number }
+  | {
+      outcome: 'welcome';
+      iceServers: readonly IceServer[];
+      milliseconds: number;
+      /** When its certificate runs out, ms since 1970; `null` without TLS. */
+      certificateUntilMs: number | null;
+    }
   | { outcome: 'refused'; code: SignalingErrorCode; detail: string }
   /** No WebSocket came about; `code` as the system or TLS names it, `''` where neither does. */
   | { outcome: 'unreachable'; code: string; detail: string }
@@ -41,6 +48,7 @@ export function probeSignaling(
 ): Promise<SignalingAnswer> {
   const { url, id, name, token, ca } = target;
   const begin = now();
+  let certificateUntilMs: number | null = null;
   const socket = new WebSocket(new URL('/robot', url), {
     handshakeTimeout: withinMs,
     maxPayload: MAX_SIGNALING_BYTES,
@@ -56,6 +64,10 @@ export function probeSignaling(
       setTimeout(() => socket.terminate(), 200).unref();
     };
     const timer = setTimeout(() => end({ outcome: 'silent' }), withinMs);
+    socket.on('upgrade', ({ socket: line }) => {
+      if (line instanceof TLSSocket)
+        certificateUntilMs = Date.parse(line.getPeerCertificate().valid_to) || null;
+    });
     socket.on('open', () => {
       const key = randomBytes(16).toString('hex');
       const hello = { type: 'robot.hello', protocol: PROTOCOL_VERSION, id, name, key } as const;
@@ -65,7 +77,12 @@ export function probeSignaling(
       try {
         const message = decodeJson(serviceToRobotCodec, binary ? data : data.toString('utf8'));
         if (message.type === 'robot.welcome')
-          end({ outcome: 'welcome', iceServers: message.iceServers, milliseconds: now() - begin });
+          end({
+            outcome: 'welcome',
+            iceServers: message.iceServers,
+            milliseconds: now() - begin,
+            certificateUntilMs,
+          });
         else if (message.type === 'error')
           end({ outcome: 'refused', code: message.code, detail: message.message });
       } catch (error) {
