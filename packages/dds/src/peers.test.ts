@@ -1,6 +1,6 @@
 /** The graph beside other makers' DDS: Fast DDS and Python's. */
 import { createSocket } from 'node:dgram';
-import { type RosFault, SENSOR_QOS, VELOCITY_QOS, velocityWriter } from '@farpoint/ros';
+import { decoderOf, RosFault, SENSOR_QOS, VELOCITY_QOS, velocityWriter } from '@farpoint/ros';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { isAvailable } from './addon.ts';
 import { DdsGraph } from './dds-graph.ts';
@@ -189,6 +189,27 @@ for (const kind of kinds) {
       for (const fault of faults) {
         expect(fault).toMatchObject({ code: 'unsupported', topic: '/raw', offset: 0 });
       }
+    });
+
+    it('a Twist that is cut short is told with its topic and the byte, and is not read', async () => {
+      const heard: unknown[] = [];
+      const decode = decoderOf(2, TWIST, null);
+      graph.subscribe({ topic: '/raw', type: TWIST, queue: 100, qos: CLOUD_QOS }, (bytes) => {
+        try {
+          heard.push(decode(bytes));
+        } catch (error) {
+          heard.push(RosFault.of(error, '/raw'));
+        }
+      });
+      const peer = await start({ raw: 'rt/raw', rawType: 'geometry_msgs::msg::dds_::Twist_' });
+      await probe(peer, heard);
+      const whole = twist(1, 2);
+      peer.send(whole.subarray(0, 4 + 8 * 3 + 4));
+      await until(() => heard.length === 1);
+      peer.send(whole);
+      await until(() => heard.length === 2);
+      expect(heard[0]).toMatchObject({ code: 'bad-message', topic: '/raw', offset: 4 + 8 * 3 });
+      expect(heard[1]).toMatchObject({ linear: { x: 1 }, angular: { z: 2 } });
     });
 
     it('packets of bytes at random do no harm', async () => {

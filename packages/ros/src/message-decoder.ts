@@ -1,6 +1,8 @@
+import type { MessageDefinition } from '@foxglove/message-definition';
 import { parse } from '@foxglove/rosmsg';
 import { MessageReader as Ros1Reader } from '@foxglove/rosmsg-serialization';
 import { MessageReader as Ros2Reader } from '@foxglove/rosmsg2-serialization';
+import { cdrCheck } from './cdr-check.ts';
 import { definitionsOf } from './definitions.ts';
 import { RosFault } from './fault.ts';
 
@@ -28,8 +30,7 @@ function makeDecoder({ messageEncoding, schemaEncoding, schema }: MessageSchema)
   }
   const text = new TextDecoder().decode(schema);
   if (messageEncoding === 'cdr' && schemaEncoding === 'ros2msg') {
-    const reader = new Ros2Reader(parse(text, { ros2: true }));
-    return (data: Uint8Array) => reader.readMessage(data);
+    return ros2Reader(parse(text, { ros2: true }));
   }
   if (messageEncoding === 'ros1' && schemaEncoding === 'ros1msg') {
     const reader = new Ros1Reader(parse(text));
@@ -56,6 +57,16 @@ export function decoderOf(
   if (definitions === null) {
     throw new RosFault('unsupported', `messages of the type ${type} are not known`);
   }
-  const reader = version === 1 ? new Ros1Reader(definitions) : new Ros2Reader(definitions);
+  if (version === 2) return ros2Reader(definitions);
+  const reader = new Ros1Reader(definitions);
   return (bytes) => reader.readMessage(bytes);
+}
+
+/** It reads nothing that is not whole. */
+function ros2Reader(definitions: MessageDefinition[]): (bytes: Uint8Array) => unknown {
+  const [check, reader] = [cdrCheck(definitions), new Ros2Reader(definitions)];
+  return (bytes) => {
+    check(bytes);
+    return reader.readMessage(bytes);
+  };
 }

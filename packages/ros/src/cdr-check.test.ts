@@ -1,0 +1,146 @@
+import type { MessageDefinition } from '@foxglove/message-definition';
+import { MessageReader, MessageWriter } from '@foxglove/rosmsg2-serialization';
+import fc from 'fast-check';
+import { describe, expect, it } from 'vitest';
+import { cdrCheck } from './cdr-check.ts';
+import { definitionsOf } from './definitions.ts';
+import { RosFault } from './fault.ts';
+import { decoderOf } from './message-decoder.ts';
+
+const TYPES = [
+  'sensor_msgs/msg/PointCloud2',
+  'sensor_msgs/msg/Image',
+  'sensor_msgs/msg/CameraInfo',
+  'sensor_msgs/msg/BatteryState',
+  'sensor_msgs/msg/NavSatFix',
+  'sensor_msgs/msg/JointState',
+  'nav_msgs/msg/Odometry',
+  'geometry_msgs/msg/TwistStamped',
+  'tf2_msgs/msg/TFMessage',
+  'diagnostic_msgs/msg/DiagnosticArray',
+  'std_msgs/msg/Empty',
+  'std_msgs/msg/Float64MultiArray',
+];
+
+function definitions(type: string): MessageDefinition[] {
+  const found = definitionsOf(2, type);
+  if (found === null) throw new Error(type);
+  return found;
+}
+
+/** Messages of a type, with any values. */
+function messagesOf(all: readonly MessageDefinition[], of: MessageDefinition): fc.Arbitrary<unknown> {
+  const anyOf = (type: string, isComplex: boolean): fc.Arbitrary<unknown> => {
+    const inner = all.find(({ name }) => name === type);
+    if (isComplex && inner !== undefined) return messagesOf(all, inner);
+    if (type === 'string') return fc.string({ maxLength: 12 });
+    if (type === 'bool') return fc.boolean();
+    if (type.endsWith('int64')) return fc.bigInt({ min: 0n, max: 1000n });
+    if (type.startsWith('float')) return fc.float({ noNaN: true });
+    if (type === 'time' || type === 'duration')
+      return fc.record({ sec: fc.nat({ max: 2 ** 30 }), nanosec: fc.nat({ max: 1e9 }) });
+    return fc.nat({ max: 100 });
+  };
+  const fields = of.definitions.filter(({ isConstant }) => isConstant !== true);
+  return fc.record(
+    Object.fromEntries(
+      fields.map(({ name, type, isArray, arrayLength, isComplex }) => {
+        const value = anyOf(type, isComplex === true);
+        if (isArray !== true) return [name, value];
+        const length = arrayLength ?? 5;
+        return [name, fc.array(value, { minLength: arrayLength ?? 0, maxLength: length })];
+      }),
+    ),
+  );
+}
+
+describe.each(TYPES)('%s', (type) => {
+  const all = definitions(type);
+  const [first] = all as [MessageDefinition];
+  const check = cdrCheck(all);
+  const messages = messagesOf(all, first).map((message) => new MessageWriter(all).writeMessage(message));
+
+  it('is whole as it was written, to its last byte', () => {
+    fc.assert(
+      fc.property(messages, (bytes) => {
+        expect(check(bytes)).toBe(bytes.length);
+      }),
+      { numRuns: 50 },
+    );
+  });
+
+  it('is told to be cut short at whichever byte', () => {
+    fc.assert(
+      fc.property(messages, fc.nat(), (bytes, at) => {
+        const length = at % bytes.length;
+        try {
+          check(bytes.subarray(0, length));
+        } catch (error) {
+          expect(error).toBeInstanceOf(RosFault);
+          expect((error as RosFault).code).toBe('bad-message');
+          expect((error as RosFault).offset).toBeLessThanOrEqual(length);
+          return;
+        }
+        throw new Error(`${length} of ${bytes.length} bytes are whole`);
+      }),
+      { numRuns: 100 },
+    );
+  });
+
+  it('of bytes at random is refused, or read to the same byte', () => {
+    const reader = new MessageReader(all);
+    fc.assert(
+      fc.property(
+        fc.uint8Array({ maxLength: 200 }),
+        fc.constantFrom(0, 1, 6, 7),
+        (content, representation) => {
+          const bytes = Uint8Array.of(0, representation, 0, 0, ...content);
+          let end: number;
+          try {
+            end = check(bytes);
+          } catch (error) {
+            expect(error).toBeInstanceOf(RosFault);
+            return;
+          }
+          reader.readMessage(bytes);
+          expect(reader.lastReadByteLength()).toBe(end);
+        },
+      ),
+    );
+  });
+});
+
+it('a cloud cut short is not filled up with what lies behind it in memory', () => {
+  const type = 'sensor_msgs/msg/PointCloud2';
+  const data = new Uint8Array(64).fill(7);
+  const cloud = {
+    ...{ header: { stamp: { sec: 1, nanosec: 2 }, frame_id: 'camera' }, height: 1, width: 4, fields: [] },
+    ...{ is_bigendian: false, point_step: 16, row_step: 64, data, is_dense: true },
+  };
+  const bytes = new MessageWriter(definitions(type)).writeMessage(cloud);
+  // As a receive buffer that is used again: an older message goes on behind the end of this one.
+  const room = new Uint8Array(2 * bytes.length).fill(9);
+  room.set(bytes.subarray(0, bytes.length - 20));
+  const decode = decoderOf(2, type, null);
+  expect(() => decode(room.subarray(0, bytes.length - 20))).toThrow(
+    /byte \d+: the message is cut short: data needs|64 values of data/,
+  );
+  expect(() => decode(bytes)).not.toThrow();
+});
+
+it('a length of four thousand million does not take memory', () => {
+  const check = cdrCheck(definitions('tf2_msgs/msg/TFMessage'));
+  expect(() => check(Uint8Array.of(0, 1, 0, 0, 255, 255, 255, 255))).toThrow(
+    '4294967295 values of transforms',
+  );
+});
+
+it('types that nobody can read are unsupported', () => {
+  const of = (type: string, isComplex: boolean) => [
+    { name: 'a/B', definitions: [{ name: 'text', type, isArray: false, isComplex }] },
+  ];
+  expect(() => cdrCheck(of('wstring', false))).toThrow(RosFault);
+  expect(() => cdrCheck(of('c/D', true))).toThrow(RosFault);
+  const endless = cdrCheck(of('a/B', true));
+  expect(() => endless(new Uint8Array(100))).toThrow('64 deep');
+});

@@ -1,0 +1,147 @@
+/**
+ * That a CDR message is whole: walks it by its definition before anybody reads it. The library that reads takes lengths on
+ * trust, as far as the memory around the message goes, and where it gives up it does not say at which byte.
+ *
+ * Source: DDSI-RTPS 2.5, 10.2 (header), DDS-XTypes 1.3, 7.4.1–7.4.3 (alignment of both versions of CDR).
+ */
+import type { MessageDefinition, MessageDefinitionField } from '@foxglove/message-definition';
+import { RosFault } from './fault.ts';
+
+const HEADER_BYTES = 4;
+const FIRST_OF_VERSION_2 = 6;
+/** ROS has no recursive messages; a definition from outside may pretend. */
+const DEEPEST = 64;
+
+/** Bytes of one, which it is also aligned to; 8 are aligned to 4 in the second version. */
+const SIZES: ReadonlyMap<string, number> = new Map([
+  ...(['bool', 'byte', 'char', 'int8', 'uint8'] as const).map((type) => [type, 1] as const),
+  ...(['int16', 'uint16'] as const).map((type) => [type, 2] as const),
+  ...(['int32', 'uint32', 'float32'] as const).map((type) => [type, 4] as const),
+  ...(['int64', 'uint64', 'float64'] as const).map((type) => [type, 8] as const),
+]);
+
+interface Field {
+  name: string;
+  /** Of a primitive; 0 for strings and structures. */
+  size: number;
+  /** How many of `size` one value is: two in a time. */
+  parts: number;
+  structure: Structure | null;
+  /** Of an array of fixed length; 1 of what is none; `null`: a length comes before it. */
+  count: number | null;
+}
+
+interface Structure {
+  fields: Field[];
+}
+
+/**
+ * @param definitions the type first, then all that it is made of
+ * @returns a check that throws for what is not whole, and else gives the bytes that the message takes
+ * @throws {RosFault} `unsupported` for types with `wstring`, or that are not all there
+ */
+export function cdrCheck(definitions: readonly MessageDefinition[]): (bytes: Uint8Array) => number {
+  const structures = new Map<string, Structure>();
+  const resolve = (name: string, fields: readonly MessageDefinitionField[]): Structure => {
+    const known = structures.get(name);
+    if (known !== undefined) return known;
+    const structure: Structure = { fields: [] };
+    structures.set(name, structure);
+    for (const field of fields)
+      if (field.isConstant !== true) structure.fields.push(toField(field, definitions, resolve));
+    return structure;
+  };
+  const first = definitions.find(
+    (each) => each.definitions.length === 0 || each.definitions.some(({ isConstant }) => isConstant !== true),
+  );
+  if (first === undefined) throw new RosFault('unsupported', 'a definition without a message');
+  const root = resolve(first.name ?? '', first.definitions);
+  return (bytes) => {
+    const cursor = new Cursor(bytes);
+    walk(root, cursor, 0);
+    return cursor.offset;
+  };
+}
+
+function toField(
+  { name, type, isArray, arrayLength, isComplex }: MessageDefinitionField,
+  definitions: readonly MessageDefinition[],
+  resolve: (name: string, fields: readonly MessageDefinitionField[]) => Structure,
+): Field {
+  const count = isArray === true ? (arrayLength ?? null) : 1;
+  const field = { name, count, size: 0, parts: 1, structure: null };
+  if (isComplex === true) {
+    const of = definitions.find((each) => each.name === type);
+    if (of === undefined) throw new RosFault('unsupported', `the type ${type} of ${name} is not known`);
+    return { ...field, structure: resolve(type, of.definitions) };
+  }
+  if (type === 'string') return field;
+  if (type === 'time' || type === 'duration') return { ...field, size: 4, parts: 2 };
+  const size = SIZES.get(type);
+  if (size === undefined) throw new RosFault('unsupported', `${name} is of the type ${type}`);
+  return { ...field, size };
+}
+
+/** Where in a message the walk is. */
+class Cursor {
+  offset = HEADER_BYTES;
+  readonly #view: DataView;
+  readonly #littleEndian: boolean;
+  readonly #mostAligned: number;
+
+  constructor(bytes: Uint8Array) {
+    if (bytes.length < HEADER_BYTES) throw ended(bytes.length, 'its header', HEADER_BYTES, bytes.length);
+    this.#view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+    const representation = this.#view.getUint16(0);
+    this.#littleEndian = (representation & 1) === 1;
+    this.#mostAligned = representation >= FIRST_OF_VERSION_2 ? 4 : 8;
+  }
+
+  get left(): number {
+    return this.#view.byteLength - this.offset;
+  }
+
+  /** @throws {RosFault} where fewer bytes are left */
+  skip(name: string, size: number, count: number): void {
+    if (count === 0) return;
+    const alignment = Math.min(size, this.#mostAligned);
+    const begin = HEADER_BYTES + Math.ceil((this.offset - HEADER_BYTES) / alignment) * alignment;
+    if (size * count > this.#view.byteLength - begin)
+      throw ended(this.offset, name, size * count, Math.max(0, this.#view.byteLength - begin));
+    this.offset = begin + size * count;
+  }
+
+  /** A length, of values of at least `least` bytes each. */
+  length(name: string, least: number): number {
+    this.skip(name, 4, 1);
+    const at = this.offset - 4;
+    const count = this.#view.getUint32(at, this.#littleEndian);
+    if (count * least > this.left) throw ended(at, `${count} values of ${name}`, count * least, this.left);
+    return count;
+  }
+}
+
+function walk({ fields }: Structure, cursor: Cursor, depth: number): void {
+  if (depth > DEEPEST) throw new RosFault('unsupported', `messages within messages, ${DEEPEST} deep`);
+  // One that is empty has a byte, so that it is none.
+  if (fields.length === 0) cursor.skip('an empty message', 1, 1);
+  for (const field of fields) {
+    const { name, size, parts, structure } = field;
+    // Anything takes a byte at least; a string has its own length before it.
+    const least = structure === null && size === 0 ? 4 : Math.max(1, size * parts);
+    const count = field.count ?? cursor.length(name, least);
+    if (size > 0) {
+      cursor.skip(name, size, count * parts);
+      continue;
+    }
+    for (let i = 0; i < count; i++) {
+      if (structure === null) cursor.skip(name, 1, cursor.length(name, 1));
+      else walk(structure, cursor, depth + 1);
+    }
+  }
+}
+
+function ended(offset: number, what: string, needed: number, left: number): RosFault {
+  const detail = `${what} needs ${needed} bytes, and ${left} are left`;
+  return new RosFault('bad-message', `the message is cut short: ${detail}`, { offset });
+}
