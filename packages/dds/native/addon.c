@@ -6,6 +6,7 @@
  * with what CycloneDDS says.
  */
 #include <node_api.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 
 #include "graph.h"
@@ -31,6 +32,8 @@ static napi_value fail_dds(napi_env env, dds_return_t result) {
 struct handle {
   napi_env env;
   napi_threadsafe_function callback;
+  /* It has been called and has not come to it yet: what happens meanwhile needs no call of its own. */
+  atomic_bool called;
   /* NULL once closed. */
   void *thing;
   void (*close)(void *);
@@ -39,11 +42,16 @@ struct handle {
 /* On a thread of CycloneDDS. */
 static void wake(void *context) {
   struct handle *handle = context;
-  napi_call_threadsafe_function(handle->callback, NULL, napi_tsfn_nonblocking);
+  if (!atomic_exchange(&handle->called, true)) {
+    napi_call_threadsafe_function(handle->callback, NULL, napi_tsfn_nonblocking);
+  }
 }
 
 static void call_js(napi_env env, napi_value callback, void *context, void *data) {
+  /* Once released it is called without an environment, and the handle may be gone. */
   if (env == NULL || callback == NULL) return;
+  struct handle *handle = context;
+  atomic_store(&handle->called, false);
   napi_value self, error;
   napi_get_undefined(env, &self);
   if (napi_call_function(env, self, callback, 0, NULL, NULL) != napi_pending_exception) return;
@@ -84,7 +92,7 @@ static struct handle *new_handle(napi_env env, napi_value callback, void (*close
   if (callback == NULL) return handle;
   napi_value name;
   napi_create_string_utf8(env, "farpoint-dds", NAPI_AUTO_LENGTH, &name);
-  if (napi_create_threadsafe_function(env, callback, NULL, name, 0, 1, NULL, NULL, NULL, call_js, &handle->callback) !=
+  if (napi_create_threadsafe_function(env, callback, NULL, name, 0, 1, NULL, NULL, handle, call_js, &handle->callback) !=
       napi_ok) {
     free(handle);
     fail(env, "RANGE", "not a function");

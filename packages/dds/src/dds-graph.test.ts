@@ -100,8 +100,13 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     expect(wrong()[0]).toMatchObject({ topic: '/e' });
     publisher.close();
     await until(() => !ours.topics().some(({ topic }) => topic === '/e'));
-    // It has heard so too once what came with it has been called.
-    await new Promise((resolve) => setImmediate(resolve));
+    // It looks a little later than that; then it has seen it gone.
+    const later = ours.subscribe(
+      { topic: '/later', type: STRING, queue: 1, qos: RELIABLE_QOS },
+      () => undefined,
+    );
+    theirs.advertise({ topic: '/later', type: STRING, qos: SENSOR_QOS });
+    await until(() => faults.some(({ topic }) => topic === later.topic));
     theirs.advertise({ topic: '/e', type: 'std_msgs/msg/Bool' });
     await until(() => wrong().length === 2);
   });

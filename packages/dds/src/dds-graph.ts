@@ -26,6 +26,9 @@ import {
 } from './discovery.ts';
 import { toDdsTopic, toDdsType } from './ros-names.ts';
 
+/** From the first news of discovery to the look at what it has, ms. */
+const LOOK_MS = 20;
+
 export interface DdsGraphOptions extends DdsOptions {
   /** Of `receivedMs`, ms; CLOCK_MONOTONIC where left out. */
   now?: () => number;
@@ -43,6 +46,7 @@ export class DdsGraph implements RosGraph {
   readonly #publishers = new Map<DdsPublisher, OwnEndpoint>();
   /** What is wrong as far as discovery knows, by its text: each is told once, and again when it has gone and come back. */
   #standing: ReadonlySet<string> = new Set();
+  #looking: NodeJS.Timeout | null = null;
   #closed = false;
 
   /** @throws {RosFault} `unavailable`: the addon or its library is not there, an option cannot be, no such interface */
@@ -53,7 +57,7 @@ export class DdsGraph implements RosGraph {
     this.#addon.lastLog();
     try {
       const configuration = cycloneConfiguration(checked, env.CYCLONEDDS_URI);
-      this.#handle = this.#addon.open(checked.domain ?? 0, configuration, () => this.#look());
+      this.#handle = this.#addon.open(checked.domain ?? 0, configuration, () => this.#lookSoon());
     } catch (error) {
       throw openingFault(error, checked, this.#addon.lastLog());
     }
@@ -95,6 +99,7 @@ export class DdsGraph implements RosGraph {
   close(): Promise<void> {
     if (this.#closed) return Promise.resolve();
     this.#closed = true;
+    if (this.#looking !== null) clearTimeout(this.#looking);
     for (const each of [...this.#subscriptions.keys(), ...this.#publishers.keys()]) each.close();
     this.#addon.closeGraph(this.#handle);
     return Promise.resolve();
@@ -104,9 +109,12 @@ export class DdsGraph implements RosGraph {
     return readOthers(this.#addon.others(this.#handle, side === 'publishers'));
   }
 
-  /** After the caller has set its {@link onFault}. */
+  /** Many come and go at once: they are looked at together. */
   #lookSoon(): void {
-    queueMicrotask(() => this.#look());
+    this.#looking ??= setTimeout(() => {
+      this.#looking = null;
+      this.#look();
+    }, LOOK_MS).unref();
   }
 
   /** Tells what discovery has that does not fit, as far as it has not been told. */
