@@ -36,6 +36,7 @@ describe.skipIf(!available())('under systemd (needs the addon, pnpm build:native
     );
     children.push(robot);
     const ended = new Promise((resolve) => robot.once('exit', resolve));
+    expect(await next()).toBe('EXTEND_TIMEOUT_USEC=60000000');
     expect(await next()).toBe('READY=1;STATUS=0 operators; not registered');
     expect(await next()).toBe('WATCHDOG=1;STATUS=0 operators; not registered');
     robot.kill('SIGTERM');

@@ -8,6 +8,8 @@ import { registerRobotMetrics } from './telemetry/robot-metrics.ts';
 
 /** The capture thread gives a sign of life every 20 ms, unless a frame takes longer. */
 const MOST_CAPTURE_SILENCE_MS = 5000;
+/** The start may take this beyond the wait for a producer or a topic. */
+const START_MS = 30_000;
 
 /** Runs the robot until a signal. */
 export async function run(): Promise<void> {
@@ -19,6 +21,7 @@ export async function run(): Promise<void> {
     }
     const order = notifyOrder(process.env, process.pid);
     const systemd = order === null ? null : new Notifier(order);
+    systemd?.starting(Math.max(options.shmWaitS, options.rosWaitS) * 1000 + START_MS);
     const robot = await Robot.start(toRobotOptions(options, where), log);
     shutdown.onClose('robot', () => robot.close());
     shutdown.onClose('systemd', () => systemd?.stopping());

@@ -71,6 +71,16 @@ describe('notifier', () => {
     notifier.stopping();
     expect(notifier.failed).toBe(2);
   });
+
+  it('asks for the time that its start may take', () => {
+    const told: string[] = [];
+    const notifier = new Notifier({ socket: '@n', watchdogMs: null }, (_, message) => {
+      told.push(message);
+      return 0;
+    });
+    notifier.starting(12_000.5);
+    expect(told).toEqual(['EXTEND_TIMEOUT_USEC=12000500']);
+  });
 });
 
 const send = available();

@@ -33,6 +33,11 @@ export class Notifier {
     this.#send = send;
   }
 
+  /** The service will be up within `mostMs`, ms: systemd waits for that long. */
+  starting(mostMs: number): void {
+    this.#tell(`EXTEND_TIMEOUT_USEC=${Math.ceil(mostMs * 1000)}`);
+  }
+
   /** The service is up. From here on systemd hears of it twice in each watchdog time, while `isAlive` says so. */
   ready(isAlive: () => boolean, status: () => string): void {
     this.#tell(`READY=1\nSTATUS=${status()}`);
