@@ -87,7 +87,7 @@ describe('capture thread that is recorded', { timeout: 30_000 }, () => {
 
   it.each([
     ['points64', { kind: 'sim', seed: 1, size: 64 } as const, false, 0.002],
-    ['organised', { kind: 'sim', seed: 1, size: 64 } as const, true, 0.05],
+    ['organised', { kind: 'sim', seed: 1, size: 240 } as const, true, 0.05],
     [
       'unorganised',
       {
