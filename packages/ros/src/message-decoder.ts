@@ -2,9 +2,9 @@ import type { MessageDefinition } from '@foxglove/message-definition';
 import { parse } from '@foxglove/rosmsg';
 import { MessageReader as Ros1Reader } from '@foxglove/rosmsg-serialization';
 import { MessageReader as Ros2Reader } from '@foxglove/rosmsg2-serialization';
-import { cdrCheck } from './cdr-check.ts';
 import { definitionsOf } from './definitions.ts';
 import { RosFault } from './fault.ts';
+import { type WireLayout, wireCheck } from './wire-check.ts';
 
 export interface MessageSchema {
   /** How messages are written: `cdr`, `ros1` or `json`. */
@@ -30,11 +30,10 @@ function makeDecoder({ messageEncoding, schemaEncoding, schema }: MessageSchema)
   }
   const text = new TextDecoder().decode(schema);
   if (messageEncoding === 'cdr' && schemaEncoding === 'ros2msg') {
-    return ros2Reader(parse(text, { ros2: true }));
+    return checkedReader('cdr', parse(text, { ros2: true }));
   }
   if (messageEncoding === 'ros1' && schemaEncoding === 'ros1msg') {
-    const reader = new Ros1Reader(parse(text));
-    return (data: Uint8Array) => reader.readMessage(data);
+    return checkedReader('ros1', parse(text));
   }
   throw new RosFault(
     'unsupported',
@@ -57,14 +56,13 @@ export function decoderOf(
   if (definitions === null) {
     throw new RosFault('unsupported', `messages of the type ${type} are not known`);
   }
-  if (version === 2) return ros2Reader(definitions);
-  const reader = new Ros1Reader(definitions);
-  return (bytes) => reader.readMessage(bytes);
+  return checkedReader(version === 1 ? 'ros1' : 'cdr', definitions);
 }
 
 /** It reads nothing that is not whole. */
-function ros2Reader(definitions: MessageDefinition[]): (bytes: Uint8Array) => unknown {
-  const [check, reader] = [cdrCheck(definitions), new Ros2Reader(definitions)];
+function checkedReader(layout: WireLayout, definitions: MessageDefinition[]): (bytes: Uint8Array) => unknown {
+  const check = wireCheck(definitions, layout);
+  const reader = layout === 'ros1' ? new Ros1Reader(definitions) : new Ros2Reader(definitions);
   return (bytes) => {
     check(bytes);
     return reader.readMessage(bytes);

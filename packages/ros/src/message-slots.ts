@@ -17,16 +17,21 @@ interface OwnSlot extends MessageSlot {
 export class MessageSlots {
   readonly #spare: OwnSlot[] = [];
 
-  /** Copies a message; the caller is its first user. */
-  keep(message: Uint8Array): MessageSlot {
+  /**
+   * Copies a message; the caller is its first user.
+   *
+   * @param lead bytes to leave before it, so that what matters in it lies where words can be read
+   */
+  keep(message: Uint8Array, lead = 0): MessageSlot {
     const slot: OwnSlot = this.#spare.pop() ?? {
       room: new Uint8Array(0),
       bytes: new Uint8Array(0),
       users: 0,
     };
-    if (slot.room.length < message.length) slot.room = new Uint8Array(Math.ceil(message.length * 1.25));
-    slot.room.set(message);
-    slot.bytes = slot.room.subarray(0, message.length);
+    const needed = message.length + lead;
+    if (slot.room.length < needed) slot.room = new Uint8Array(Math.ceil(needed * 1.25));
+    slot.room.set(message, lead);
+    slot.bytes = slot.room.subarray(lead, needed);
     slot.users = 1;
     return slot;
   }

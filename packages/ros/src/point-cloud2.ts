@@ -51,7 +51,8 @@ export class PointCloud2Decoder {
     ];
     const rowBytes = height > 1 ? cloud.row_step : width * cloud.point_step;
     const rows: Rows = { width, height, rowBytes, step: cloud.point_step };
-    if (isPlain(cloud, [x, y, z], rowBytes)) copyWords(alignedWords(cloud.data), rows, [x, y, z], axes, into);
+    if (isPlain(cloud, [x, y, z], rowBytes))
+      copyPoints(alignedWords(cloud.data), rows, [x, y, z], axes, into);
     else readCoordinates(cloud, rows, [x, y, z], axes, into);
     this.#colour(cloud, rows, new Uint32Array(into.buffer, into.byteOffset, into.length), 4, 3);
     return count;
@@ -75,12 +76,16 @@ export class PointCloud2Decoder {
     const rows: Rows = { width, height, rowBytes, step: cloud.point_step };
     const z = fieldOf(cloud, 'z');
     const { data } = cloud;
-    const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
-    const little = !cloud.is_bigendian;
-    const { read } = typeOf(z);
-    forEachPoint(rows, (at, i) => {
-      depth[i] = read(view, at + z.offset, little);
-    });
+    if (isPlain(cloud, [z], rowBytes)) {
+      copyWords(alignedWords(data), rows, z.offset >> 2, depth);
+    } else {
+      const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
+      const little = !cloud.is_bigendian;
+      const { read } = typeOf(z);
+      forEachPoint(rows, (at, i) => {
+        depth[i] = read(view, at + z.offset, little);
+      });
+    }
     this.#colour(cloud, rows, colour, 1, 0);
     return count;
   }
@@ -95,6 +100,13 @@ export class PointCloud2Decoder {
     const packed = named('rgb', 'rgba');
     if (packed !== undefined) {
       requireFit(cloud, packed, 4);
+      // As words: which bits they are is the same, whatever the field's type says.
+      const plain = { ...packed, datatype: FLOAT32 };
+      if (data.byteOffset % 4 === 0 && isPlain(cloud, [plain], rows.rowBytes)) {
+        const source = new Uint32Array(data.buffer, data.byteOffset, data.length >> 2);
+        copyColours(source, rows, packed.offset >> 2, words, stride, first);
+        return;
+      }
       forEachPoint(rows, (at, i) => {
         const argb = view.getUint32(at + packed.offset, little);
         words[i * stride + first] =
@@ -199,7 +211,42 @@ function alignedWords(data: Uint8Array): Float32Array {
   return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.length >> 2);
 }
 
+/** One word of each point, one after the other. */
 function copyWords(
+  words: Float32Array,
+  { width, height, rowBytes, step }: Rows,
+  offset: number,
+  into: Float32Array,
+): void {
+  const stride = step >> 2;
+  let to = 0;
+  for (let row = 0; row < height; row++) {
+    let at = ((row * rowBytes) >> 2) + offset;
+    for (let i = 0; i < width; i++, at += stride) into[to++] = words[at] as number;
+  }
+}
+
+/** From ROS's packed colours to R, G, B, A. */
+function copyColours(
+  source: Uint32Array,
+  { width, height, rowBytes, step }: Rows,
+  offset: number,
+  into: Uint32Array,
+  intoStride: number,
+  first: number,
+): void {
+  const stride = step >> 2;
+  let to = first;
+  for (let row = 0; row < height; row++) {
+    let at = ((row * rowBytes) >> 2) + offset;
+    for (let i = 0; i < width; i++, at += stride, to += intoStride) {
+      const argb = source[at] as number;
+      into[to] = ((argb >> 16) & 0xff) | (argb & 0xff00) | ((argb & 0xff) << 16) | 0xff00_0000;
+    }
+  }
+}
+
+function copyPoints(
   words: Float32Array,
   { width, height, rowBytes, step }: Rows,
   fields: readonly [PointField, PointField, PointField],

@@ -27,6 +27,7 @@ const LEAST_CAPACITY = 131_072;
 /** How far a point of a grid may lie beside its pixel, pixels. */
 const MOST_OFF = 1.5;
 const POINTS_CHECKED = 64;
+const WORD_BYTES = 4;
 
 export interface CloudFeedOptions {
   cloud: TopicEntry;
@@ -53,6 +54,7 @@ export class RosCloudFeed implements RosFeed {
   readonly #decode: (bytes: Uint8Array) => unknown;
   #camera: CameraInfo | null = null;
   #waiting: WaitingCloud | null = null;
+  #lead = 0;
 
   constructor(graph: RosGraph, options: CloudFeedOptions) {
     this.#options = options;
@@ -108,10 +110,18 @@ export class RosCloudFeed implements RosFeed {
   #keep(bytes: Uint8Array, receivedMs: number): void {
     // The grid’s camera decides what frames are: nothing is shown before it is known.
     if (this.shape === null && this.#options.cameraInfo !== undefined && this.#camera === null) return;
-    const slot = this.#slots.keep(bytes);
+    let slot = this.#slots.keep(bytes, this.#lead);
     let cloud: PointCloud2;
     try {
       cloud = pointCloud2Schema.parse(this.#decode(slot.bytes));
+      const off = cloud.data.byteOffset % WORD_BYTES;
+      if (off !== 0) {
+        // The points are read as words where they lie as such; with the same header the next cloud does at once.
+        this.#lead = (this.#lead + WORD_BYTES - off) % WORD_BYTES;
+        this.#slots.release(slot);
+        slot = this.#slots.keep(bytes, this.#lead);
+        cloud = pointCloud2Schema.parse(this.#decode(slot.bytes));
+      }
       this.shape ??= this.#shapeOf(cloud);
     } catch (error) {
       this.#slots.release(slot);

@@ -3,7 +3,6 @@
  * a master or a peer that comes back is found again.
  */
 
-import { Socket } from 'node:net';
 import { hostname } from 'node:os';
 import { Subscription as LibrarySubscription, Publication } from '@foxglove/ros1';
 import { md5, stringify } from '@foxglove/rosmsg';
@@ -107,8 +106,7 @@ class Ros1Graph implements RosGraph {
     try {
       const node = new OwnNode({
         ...{ name, hostname: host, pid: process.pid, rosMasterUri: masterUrl, httpServer },
-        tcpSocketCreate: async ({ host: peer, port }) =>
-          new RosTcpSocket(peer, port, new Socket(), onDropped),
+        tcpSocketCreate: async ({ host: peer, port }) => RosTcpSocket.to(peer, port, onDropped),
         tcpServer: await RosTcpServer.listen(bind, onDropped),
       });
       await node.start();

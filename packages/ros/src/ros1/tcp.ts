@@ -1,13 +1,17 @@
 /**
  * TCP for the library’s connections. Ours end once and for all when they are closed, as its own would read the header of a
- * connection made anew as a message; and what a slow subscriber does not take is dropped instead of kept.
+ * connection made anew as a message; messages are put together here, in memory that is used again; and what a slow subscriber
+ * does not take is dropped instead of kept.
  */
-import { createServer, type Server, type Socket } from 'node:net';
+import { createServer, type Server, Socket, type SocketConstructorOpts } from 'node:net';
 import type { TcpAddress, TcpServer, TcpServerEvents, TcpSocket, TcpSocketEvents } from '@foxglove/ros1';
 import { EventEmitter } from 'eventemitter3';
+import { MessageAssembly } from './message-assembly.ts';
 
 /** Bytes that may wait for a slow subscriber, beside those in the kernel. */
 const MOST_WAITING = 64 * 1024;
+/** Read at a time. */
+const READ_BYTES = 256 * 1024;
 /** What has not gone out by then after the connection was closed is lost, ms. */
 const LINGER_MS = 300;
 
@@ -17,8 +21,10 @@ export class RosTcpSocket extends EventEmitter<TcpSocketEvents> implements TcpSo
   readonly #port: number;
   readonly #onDropped: () => void;
   #ended = false;
+  /** The library gets a message at a time, whole. */
+  readonly #assembly = new MessageAssembly((framed) => this.emit('data', framed));
 
-  constructor(host: string, port: number, socket: Socket, onDropped: () => void) {
+  private constructor(host: string, port: number, socket: Socket, onDropped: () => void) {
     super();
     this.#host = host;
     this.#port = port;
@@ -26,13 +32,34 @@ export class RosTcpSocket extends EventEmitter<TcpSocketEvents> implements TcpSo
     this.#onDropped = onDropped;
     socket.setNoDelay(true);
     socket.on('connect', () => this.emit('connect'));
-    socket.on('data', (chunk) => this.emit('data', chunk));
+    socket.on('data', (chunk) => this.#onBytes(chunk));
     socket.on('end', () => this.emit('end'));
     socket.on('error', (error) => this.emit('error', error));
     socket.on('close', () => {
       this.#ended = true;
       this.emit('close');
     });
+  }
+
+  /** To a publisher. @param onDropped called for what it does not take */
+  static to(host: string, port: number, onDropped: () => void): RosTcpSocket {
+    let own: RosTcpSocket | null = null;
+    // One piece of memory for all that comes: megabytes a message are too much to leave to the collector.
+    const buffer = new Uint8Array(READ_BYTES);
+    const callback = (bytes: number) => {
+      if (own !== null) own.#onBytes(buffer.subarray(0, bytes));
+      return true;
+    };
+    const options: SocketConstructorOpts = { onread: { buffer, callback } };
+    own = new RosTcpSocket(host, port, new Socket(options), onDropped);
+    return own;
+  }
+
+  /** From a subscriber. */
+  static from(socket: Socket, onDropped: () => void): RosTcpSocket | null {
+    const { remoteAddress, remotePort } = socket;
+    if (remoteAddress === undefined || remotePort === undefined) return null;
+    return new RosTcpSocket(remoteAddress, remotePort, socket, onDropped);
   }
 
   async remoteAddress(): Promise<TcpAddress | undefined> {
@@ -72,6 +99,16 @@ export class RosTcpSocket extends EventEmitter<TcpSocketEvents> implements TcpSo
 
   /** Always: velocities do not wait for company. */
   async setNoDelay(): Promise<void> {}
+
+  #onBytes(chunk: Uint8Array): void {
+    if (this.#ended) return;
+    try {
+      this.#assembly.add(chunk);
+    } catch (error) {
+      this.emit('error', error instanceof Error ? error : new Error(String(error)));
+      this.#socket.destroy();
+    }
+  }
 }
 
 export class RosTcpServer extends EventEmitter<TcpServerEvents> implements TcpServer {
@@ -81,9 +118,8 @@ export class RosTcpServer extends EventEmitter<TcpServerEvents> implements TcpSe
     super();
     this.#server = server;
     server.on('connection', (socket) => {
-      const { remoteAddress, remotePort } = socket;
-      if (remoteAddress === undefined || remotePort === undefined) return;
-      this.emit('connection', new RosTcpSocket(remoteAddress, remotePort, socket, onDropped));
+      const own = RosTcpSocket.from(socket, onDropped);
+      if (own !== null) this.emit('connection', own);
     });
     server.on('error', (error) => this.emit('error', error));
   }

@@ -72,8 +72,8 @@ export class Ros1Peers {
   }
 
   /** @param parts of `ros1_node.py`, comma between them */
-  async startNode(parts: string, name: string): Promise<Ros1Node> {
-    const child = spawn(this.#python, [SCRIPT, parts, name], {
+  async startNode(parts: string, name: string, hz = 10): Promise<Ros1Node> {
+    const child = spawn(this.#python, [SCRIPT, parts, name, String(hz)], {
       env: this.#environment,
       stdio: ['ignore', 'pipe', 'inherit'],
       detached: true,
@@ -128,6 +128,10 @@ export class Ros1Node {
       });
     });
     this.ready.catch(() => {});
+  }
+
+  get pid(): number {
+    return this.#child.pid ?? -1;
   }
 
   /** Without a word to the master. */

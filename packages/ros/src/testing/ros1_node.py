@@ -89,7 +89,7 @@ def main():
         own = generate_dynamic("my_robot/Arm", "float32[] joints\nstring mode\n")["my_robot/Arm"]
         publishers.append((rospy.Publisher("/arm", own, queue_size=1), own(joints=[0.5, 1.5], mode="hold")))
     print(json.dumps({"ready": True}), flush=True)
-    rate = rospy.Rate(10)
+    rate = rospy.Rate(float(sys.argv[3]))
     while not rospy.is_shutdown():
         for publisher, message in publishers:
             if hasattr(message, "header"):

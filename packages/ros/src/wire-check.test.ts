@@ -1,11 +1,12 @@
 import type { MessageDefinition } from '@foxglove/message-definition';
+import { MessageReader as Ros1Reader, MessageWriter as Ros1Writer } from '@foxglove/rosmsg-serialization';
 import { MessageReader, MessageWriter } from '@foxglove/rosmsg2-serialization';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { cdrCheck } from './cdr-check.ts';
 import { definitionsOf } from './definitions.ts';
 import { RosFault } from './fault.ts';
 import { decoderOf } from './message-decoder.ts';
+import { wireCheck } from './wire-check.ts';
 
 const TYPES = [
   'sensor_msgs/msg/PointCloud2',
@@ -38,7 +39,11 @@ function messagesOf(all: readonly MessageDefinition[], of: MessageDefinition): f
     if (type.endsWith('int64')) return fc.bigInt({ min: 0n, max: 1000n });
     if (type.startsWith('float')) return fc.float({ noNaN: true });
     if (type === 'time' || type === 'duration')
-      return fc.record({ sec: fc.nat({ max: 2 ** 30 }), nanosec: fc.nat({ max: 1e9 }) });
+      return fc.record({
+        sec: fc.nat({ max: 2 ** 30 }),
+        nanosec: fc.nat({ max: 1e9 }),
+        nsec: fc.nat({ max: 1e9 }),
+      });
     return fc.nat({ max: 100 });
   };
   const fields = of.definitions.filter(({ isConstant }) => isConstant !== true);
@@ -57,7 +62,7 @@ function messagesOf(all: readonly MessageDefinition[], of: MessageDefinition): f
 describe.each(TYPES)('%s', (type) => {
   const all = definitions(type);
   const [first] = all as [MessageDefinition];
-  const check = cdrCheck(all);
+  const check = wireCheck(all, 'cdr');
   const messages = messagesOf(all, first).map((message) => new MessageWriter(all).writeMessage(message));
 
   it('is whole as it was written, to its last byte', () => {
@@ -110,6 +115,40 @@ describe.each(TYPES)('%s', (type) => {
   });
 });
 
+describe.each(TYPES)('%s of ROS 1', (type) => {
+  const all = definitionsOf(1, type) ?? [];
+  const check = wireCheck(all, 'ros1');
+  const messages = messagesOf(all, all[0] as MessageDefinition).map((message) =>
+    new Ros1Writer(all).writeMessage(message),
+  );
+
+  it('is whole to its last byte, and told to be cut short at whichever byte', () => {
+    fc.assert(
+      fc.property(messages, fc.nat(), (bytes, at) => {
+        expect(check(bytes)).toBe(bytes.length);
+        if (bytes.length > 0)
+          expect(() => check(bytes.subarray(0, at % bytes.length))).toThrow('is cut short');
+      }),
+      { numRuns: 100 },
+    );
+  });
+
+  it('of bytes at random is refused, or read', () => {
+    const reader = new Ros1Reader(all);
+    fc.assert(
+      fc.property(fc.uint8Array({ maxLength: 200 }), (bytes) => {
+        try {
+          check(bytes);
+        } catch (error) {
+          expect(error).toBeInstanceOf(RosFault);
+          return;
+        }
+        reader.readMessage(bytes);
+      }),
+    );
+  });
+});
+
 it('a cloud cut short is not filled up with what lies behind it in memory', () => {
   const type = 'sensor_msgs/msg/PointCloud2';
   const data = new Uint8Array(64).fill(7);
@@ -129,7 +168,7 @@ it('a cloud cut short is not filled up with what lies behind it in memory', () =
 });
 
 it('a length of four thousand million does not take memory', () => {
-  const check = cdrCheck(definitions('tf2_msgs/msg/TFMessage'));
+  const check = wireCheck(definitions('tf2_msgs/msg/TFMessage'), 'cdr');
   expect(() => check(Uint8Array.of(0, 1, 0, 0, 255, 255, 255, 255))).toThrow(
     '4294967295 values of transforms',
   );
@@ -139,8 +178,8 @@ it('types that nobody can read are unsupported', () => {
   const of = (type: string, isComplex: boolean) => [
     { name: 'a/B', definitions: [{ name: 'text', type, isArray: false, isComplex }] },
   ];
-  expect(() => cdrCheck(of('wstring', false))).toThrow(RosFault);
-  expect(() => cdrCheck(of('c/D', true))).toThrow(RosFault);
-  const endless = cdrCheck(of('a/B', true));
+  expect(() => wireCheck(of('wstring', false), 'cdr')).toThrow(RosFault);
+  expect(() => wireCheck(of('c/D', true), 'cdr')).toThrow(RosFault);
+  const endless = wireCheck(of('a/B', true), 'cdr');
   expect(() => endless(new Uint8Array(100))).toThrow('64 deep');
 });

@@ -1,5 +1,5 @@
 /**
- * That a CDR message is whole: walks it by its definition before anybody reads it. The library that reads takes lengths on
+ * That a message is whole: walks it by its definition before anybody reads it. The library that reads takes lengths on
  * trust, as far as the memory around the message goes, and where it gives up it does not say at which byte.
  *
  * Source: DDSI-RTPS 2.5, 10.2 (header), DDS-XTypes 1.3, 7.4.1–7.4.3 (alignment of both versions of CDR).
@@ -19,6 +19,9 @@ const SIZES: ReadonlyMap<string, number> = new Map([
   ...(['int32', 'uint32', 'float32'] as const).map((type) => [type, 4] as const),
   ...(['int64', 'uint64', 'float64'] as const).map((type) => [type, 8] as const),
 ]);
+
+/** ROS 1 writes the same values without a header and without gaps, little-endian. */
+export type WireLayout = 'cdr' | 'ros1';
 
 interface Field {
   name: string;
@@ -40,7 +43,10 @@ interface Structure {
  * @returns a check that throws for what is not whole, and else gives the bytes that the message takes
  * @throws {RosFault} `unsupported` for types with `wstring`, or that are not all there
  */
-export function cdrCheck(definitions: readonly MessageDefinition[]): (bytes: Uint8Array) => number {
+export function wireCheck(
+  definitions: readonly MessageDefinition[],
+  layout: WireLayout,
+): (bytes: Uint8Array) => number {
   const structures = new Map<string, Structure>();
   const resolve = (name: string, fields: readonly MessageDefinitionField[]): Structure => {
     const known = structures.get(name);
@@ -57,7 +63,7 @@ export function cdrCheck(definitions: readonly MessageDefinition[]): (bytes: Uin
   if (first === undefined) throw new RosFault('unsupported', 'a definition without a message');
   const root = resolve(first.name ?? '', first.definitions);
   return (bytes) => {
-    const cursor = new Cursor(bytes);
+    const cursor = new Cursor(bytes, layout);
     walk(root, cursor, 0);
     return cursor.offset;
   };
@@ -84,12 +90,22 @@ function toField(
 
 /** Where in a message the walk is. */
 class Cursor {
-  offset = HEADER_BYTES;
+  offset: number;
+  readonly #begin: number;
   readonly #view: DataView;
+  /** In CDR one that is empty has a byte, so that it is none. */
+  readonly emptyBytes: number;
   readonly #littleEndian: boolean;
   readonly #mostAligned: number;
 
-  constructor(bytes: Uint8Array) {
+  constructor(bytes: Uint8Array, layout: WireLayout) {
+    this.#begin = this.offset = layout === 'cdr' ? HEADER_BYTES : 0;
+    this.emptyBytes = layout === 'cdr' ? 1 : 0;
+    if (layout === 'ros1') {
+      this.#view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+      [this.#littleEndian, this.#mostAligned] = [true, 1];
+      return;
+    }
     if (bytes.length < HEADER_BYTES) throw ended(bytes.length, 'its header', HEADER_BYTES, bytes.length);
     this.#view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const representation = this.#view.getUint16(0);
@@ -105,7 +121,7 @@ class Cursor {
   skip(name: string, size: number, count: number): void {
     if (count === 0) return;
     const alignment = Math.min(size, this.#mostAligned);
-    const begin = HEADER_BYTES + Math.ceil((this.offset - HEADER_BYTES) / alignment) * alignment;
+    const begin = this.#begin + Math.ceil((this.offset - this.#begin) / alignment) * alignment;
     if (size * count > this.#view.byteLength - begin)
       throw ended(this.offset, name, size * count, Math.max(0, this.#view.byteLength - begin));
     this.offset = begin + size * count;
@@ -123,8 +139,7 @@ class Cursor {
 
 function walk({ fields }: Structure, cursor: Cursor, depth: number): void {
   if (depth > DEEPEST) throw new RosFault('unsupported', `messages within messages, ${DEEPEST} deep`);
-  // One that is empty has a byte, so that it is none.
-  if (fields.length === 0) cursor.skip('an empty message', 1, 1);
+  if (fields.length === 0) cursor.skip('an empty message', 1, cursor.emptyBytes);
   for (const field of fields) {
     const { name, size, parts, structure } = field;
     // Anything takes a byte at least; a string has its own length before it.

@@ -1,0 +1,120 @@
+/** `pnpm bench ros1`: clouds from a rospy node to the robot's packets. */
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { parseArgs } from 'node:util';
+import { LocalStack } from '@farpoint/local-stack';
+import { SignaledOperator } from '@farpoint/robot-node/testing';
+import { Ros1Peers } from '@farpoint/ros/testing/ros1';
+import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
+import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { readFrameLog, residentPeakMb } from './robot-frames.ts';
+import { distribution, rounded } from './stats.ts';
+
+const USAGE = `pnpm bench ros1 [--hz 10] [--seconds 20] [--mbps 20] [--as points|picture] [--json]
+
+A rospy node of a real ROS 1 master publishes PointCloud2 of 480 × 480 points, 20 bytes each, --hz times a second; the real
+robot process (--source ros1) samples them for --mbps and sends them to an operator in this process. With --as picture its
+CameraInfo is named, too, and the cloud is taken as a depth picture. Latency: from the stamp, which the node takes right before
+it publishes, to the robot's having the packets made. Loopback.`;
+
+const ROBOT = 'ros-1';
+const WARM_UP_MS = 2000;
+const nowMs = () => Number(process.hrtime.bigint()) / 1e6;
+const sleep = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
+
+export const bench: Bench = {
+  name: 'ros1',
+  summary: 'a ROS 1 graph: latency of rospy’s clouds to packets, processor, memory',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        hz: { type: 'string', default: '10' },
+        seconds: { type: 'string', default: '20' },
+        mbps: { type: 'string', default: '20' },
+        as: { type: 'string', default: 'points' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    if (values.as !== 'points' && values.as !== 'picture')
+      throw new Error(`--as is \`${values.as}\`, not points or picture`);
+    const { python, missing } = Ros1Peers.find();
+    if (python === null) throw new Error(missing);
+    const options: Options = {
+      as: values.as,
+      hz: numberOption('hz', values.hz, 0.1),
+      seconds: numberOption('seconds', values.seconds, 1),
+      mbps: numberOption('mbps', values.mbps, 1),
+    };
+    const result = await measure(python, options);
+    const { latencyMs, framesPerSecond, rssMbMax, robotCpu, nodeCpu } = result;
+    printTable(['ms', 'p50', 'p95', 'p99', 'max'], [['stamp to packets', ...distributionCells(latencyMs)]]);
+    printTable(
+      ['frames/s', 'robot, MB', 'robot, cores', 'node, cores'],
+      [[framesPerSecond, rssMbMax, robotCpu, nodeCpu]],
+    );
+    if (values.json) printJson({ bench: 'ros1', ...options, ...result });
+  },
+};
+
+interface Options {
+  as: 'points' | 'picture';
+  hz: number;
+  seconds: number;
+  mbps: number;
+}
+
+async function measure(python: string, { as, hz, seconds, mbps }: Options) {
+  const folder = mkdtempSync(join(tmpdir(), 'farpoint-bench-ros1-'));
+  const [frameLog, config] = [join(folder, 'frames.csv'), join(folder, 'farpoint.yaml')];
+  const peers = await Ros1Peers.open(python);
+  let stack: LocalStack | null = null;
+  try {
+    await peers.startCore();
+    const node = await peers.startNode('cloud', 'camera', hz);
+    writeFileSync(config, configuration(peers.masterUrl, as));
+    const rate = ['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)];
+    const args = ['--config', config, '--frame-log', frameLog, ...rate];
+    stack = await LocalStack.start({
+      robots: [{ id: ROBOT, name: 'Robot in a ROS 1 graph', args }],
+      env: { FARPOINT_LOG_LEVEL: 'warn' },
+    });
+    const robotPid = stack.robot(ROBOT).pid;
+    const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+    await sleep(WARM_UP_MS);
+    const cpu = () => [cpuSecondsOfTree(robotPid), cpuSecondsOfTree(node.pid)] as const;
+    const [beginMs, cpuBefore] = [nowMs(), cpu()];
+    await sleep(seconds * 1000);
+    const [endMs, cpuAfter] = [nowMs(), cpu()];
+    const rssMbMax = residentPeakMb(robotPid);
+    await operator.close();
+    await stack.stop();
+    const elapsedMs = endMs - beginMs;
+    const frames = readFrameLog(frameLog).filter(({ readyMs }) => readyMs >= beginMs && readyMs < endMs);
+    return {
+      latencyMs: rounded(distribution(frames.map(({ capturedMs, readyMs }) => readyMs - capturedMs)), 2),
+      framesPerSecond: Number(((frames.length * 1000) / elapsedMs).toFixed(2)),
+      frames: frames.length,
+      rssMbMax,
+      robotCpu: coresBetween(cpuBefore[0], cpuAfter[0], elapsedMs),
+      nodeCpu: coresBetween(cpuBefore[1], cpuAfter[1], elapsedMs),
+    };
+  } finally {
+    await stack?.stop();
+    await peers.close();
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+function configuration(master: string, as: Options['as']): string {
+  return `
+robot:
+  source: { kind: ros1, fps: 120 }
+  ros: { master: '${master}', hostname: 127.0.0.1 }
+  topics:
+    - { topic: /points, as: cloud }
+${as === 'picture' ? '    - { topic: /camera_info, as: cameraInfo }\n' : ''}`;
+}

@@ -1,0 +1,39 @@
+import { describe, expect, it } from 'vitest';
+import { RosFault } from './fault.ts';
+import { decoderOf } from './message-decoder.ts';
+import { messageBytes } from './testing/memory-graph.ts';
+
+const IMAGE = 'sensor_msgs/msg/Image';
+const image = {
+  header: { seq: 0, stamp: { sec: 1, nsec: 2, nanosec: 2 }, frame_id: 'camera' },
+  ...{
+    height: 2,
+    width: 3,
+    encoding: 'mono8',
+    is_bigendian: 0,
+    step: 3,
+    data: Uint8Array.of(1, 2, 3, 4, 5, 6),
+  },
+};
+
+describe.each([1, 2] as const)('decoderOf, ROS %i', (version) => {
+  const bytes = messageBytes(version, IMAGE, image);
+  const decode = decoderOf(version, IMAGE, null);
+
+  it('reads a message wherever it lies', () => {
+    for (let lead = 0; lead < 4; lead++) {
+      const room = new Uint8Array(bytes.length + 100);
+      room.set(bytes, lead);
+      expect(decode(room.subarray(lead, lead + bytes.length))).toMatchObject({ width: 3, data: image.data });
+    }
+  });
+
+  it('refuses what is cut anywhere, also where other messages follow in memory', () => {
+    const room = new Uint8Array(bytes.length + 100).fill(0xee);
+    room.set(bytes);
+    for (let length = 0; length < bytes.length; length++) {
+      expect(() => decode(room.subarray(0, length)), String(length)).toThrow(RosFault);
+    }
+    expect(() => decode(room.subarray(0, bytes.length - 2))).toThrow(/data needs 6 bytes, and 4 are left/);
+  });
+});
