@@ -10,7 +10,7 @@ const SCRIPT = join(import.meta.dirname, 'ros1_node.py');
 /** Debian's rospy belongs to the system's Python, whatever else is in the path. */
 const PYTHONS = ['python3', '/usr/bin/python3'];
 const REMEDY =
-  'on Debian: apt-get install python3-rospy python3-rosmaster python3-sensor-msgs python3-nav-msgs';
+  'on Debian: apt-get install python3-rospy python3-rosmaster python3-sensor-msgs python3-nav-msgs python3-diagnostic-msgs';
 
 /** What a rospy node heard on a topic for velocities. */
 export interface Heard {
@@ -41,7 +41,9 @@ export class Ros1Peers {
   static find(): { python: string; missing: null } | { python: null; missing: string } {
     for (const python of PYTHONS) {
       try {
-        execFileSync(python, ['-c', 'import rospy, sensor_msgs.msg, nav_msgs.msg'], { stdio: 'pipe' });
+        execFileSync(python, ['-c', 'import rospy, sensor_msgs.msg, nav_msgs.msg, diagnostic_msgs.msg'], {
+          stdio: 'pipe',
+        });
         execFileSync('which', ['rosmaster'], { stdio: 'pipe' });
         return { python, missing: null };
       } catch {

@@ -5,6 +5,7 @@ import sys
 import time
 
 import rospy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState, CameraInfo, Image, PointCloud2, PointField
@@ -83,6 +84,10 @@ def main():
         battery = BatteryState(voltage=25.1, percentage=0.75, current=float("nan"))
         publishers.append((rospy.Publisher("/battery", BatteryState, queue_size=1), battery))
         publishers.append((rospy.Publisher("/temperature", Float32, queue_size=1), Float32(21.5)))
+    if "diagnostics" in parts:
+        motor = DiagnosticStatus(level=1, name="left motor", message="71 degrees, which is too warm to go on for long")
+        array = DiagnosticArray(status=[motor, DiagnosticStatus(level=0, name="imu", message="fine")])
+        publishers.append((rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1), array))
     if "own" in parts:
         from genpy.dynamic import generate_dynamic
 
