@@ -35,6 +35,7 @@ export {
 export { axesOf, type CloudAxes, checkedCount, PointCloud2Decoder } from './point-cloud2.ts';
 export { RateLimit } from './rate-limit.ts';
 export { readingOf, type TopicReading } from './reading.ts';
+export { ros1Hostname } from './ros1-hostname.ts';
 export {
   qosOf,
   ros1TypeOf,

@@ -1,8 +1,7 @@
 /** From values that are right one by one to what the robot is made of. */
 import { randomBytes } from 'node:crypto';
 import { readFileSync } from 'node:fs';
-import { topicAs } from '@farpoint/ros';
-import { ros1Hostname } from '@farpoint/ros/ros1';
+import { ros1Hostname, topicAs } from '@farpoint/ros';
 import { type OptionMistake, OptionsError } from '@farpoint/service';
 import type { SourceOptions } from '../capture/open-source.ts';
 import type { SinkOptions } from '../drive/velocity-sink.ts';

@@ -3,7 +3,6 @@
  * a master or a peer that comes back is found again.
  */
 
-import { hostname } from 'node:os';
 import { Subscription as LibrarySubscription, Publication } from '@foxglove/ros1';
 import { md5, stringify } from '@foxglove/rosmsg';
 import { MessageWriter } from '@foxglove/rosmsg-serialization';
@@ -35,11 +34,6 @@ export interface Ros1Options {
 
 const WATCH_MS = 1000;
 const LOOPBACK = ['localhost', '127.0.0.1', '::1'];
-
-/** As ROS’s own nodes find out how they are reached. */
-export function ros1Hostname(environment: NodeJS.ProcessEnv): string {
-  return environment.ROS_HOSTNAME || environment.ROS_IP || hostname();
-}
 
 /** @param now the clock of `receivedMs`, ms @throws {RosFault} where no port can be opened; a master that is not there is waited for */
 export async function openRos1Graph(options: Ros1Options, now: () => number): Promise<RosGraph> {

@@ -1,1 +1,1 @@
-export { openRos1Graph, type Ros1Options, ros1Hostname } from './graph.ts';
+export { openRos1Graph, type Ros1Options } from './graph.ts';
