@@ -10,6 +10,7 @@ import {
   type ProtocolError,
   type ServiceToRobot,
 } from '@farpoint/protocol';
+import type { TopicReading } from '@farpoint/ros';
 import { type CommandVerdict, DriveGuard, type RejectedCommand, type TakePolicy } from '@farpoint/safety';
 import { JsonLinesFile, type Logger } from '@farpoint/service';
 import { Capture, type CaptureError, type CaptureState } from './capture/capture.ts';
@@ -134,7 +135,9 @@ export class Robot implements SessionHost {
     const stages = new StageTimer();
     const readings = new ReadingBoard();
     this.#telemetry = new TelemetrySender(this.operators, guard, stages, readings);
-    capture.onReading = (reading) => readings.add(reading, monotonicMs());
+    const addReading = (reading: TopicReading) => readings.add(reading, monotonicMs());
+    capture.onReading = addReading;
+    sink.tellReadings?.(addReading);
     this.#fanOut = new FrameFanOut({
       capture,
       targets: () => [...this.operators.values(), ...(this.reference?.targets ?? [])],

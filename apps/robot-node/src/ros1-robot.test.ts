@@ -81,7 +81,7 @@ describe.skipIf(python === null)(
         twist: { linear: { x: 0.125 } },
         battery: { percentage: 0.75 },
       });
-      await client.until(() => client.readings.size === 2);
+      await client.until(() => client.readings.size === 3);
       expect(client.readings.get('/battery')).toMatchObject({
         label: 'Battery',
         values: [
@@ -116,6 +116,18 @@ describe.skipIf(python === null)(
       camera = await peers.startNode('cloud,state', 'camera');
       const before = client.frames.size;
       await client.until(() => client.frames.size > before + 5);
+    });
+
+    it('tells operators whether anybody listens to the velocity', async () => {
+      const { client } = operator;
+      const wheels = () => client.readings.get('/cmd_vel');
+      await client.until(() => wheels()?.level === 'ok');
+      expect(wheels()).toMatchObject({ label: 'Wheels', values: [['', '/cmd_vel: 1 listening']] });
+      await base.kill();
+      await client.until(() => wheels()?.level === 'warn');
+      expect(wheels()?.values).toEqual([['', '/cmd_vel: nobody listens']]);
+      base = await peers.startNode('velocity', 'base');
+      await client.until(() => wheels()?.level === 'ok');
     });
 
     it('ends with zero when it is told to end', async () => {

@@ -15,5 +15,7 @@ export type RosDriveRequest = { type: 'twist'; twist: Twist; hold: boolean } | {
 export type RosDriveReport =
   /** Something is wrong that may pass. */
   | { type: 'fault'; detail: string }
+  /** How many nodes listen to the velocity, at each change. */
+  | { type: 'listeners'; count: number }
   /** It cannot be published at all. */
   | { type: 'failed'; detail: string };

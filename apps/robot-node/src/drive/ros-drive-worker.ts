@@ -26,7 +26,13 @@ try {
   };
   const { entry, silenceMs } = options;
   const velocity = new RosVelocity(graph, { entry, silenceMs, now: monotonicMs, wallNs });
-  const ticking = setInterval(() => velocity.tick(), TICK_MS);
+  let listeners: number | null = null;
+  const ticking = setInterval(() => {
+    velocity.tick();
+    if (velocity.subscribers === listeners) return;
+    listeners = velocity.subscribers;
+    send({ type: 'listeners', count: listeners });
+  }, TICK_MS);
   port.on('message', (request: RosDriveRequest) => {
     if (request.type === 'twist') {
       velocity.apply(request.twist, request.hold);

@@ -26,6 +26,7 @@ describe.skipIf(python === null)(`ROS sink (${missing ?? 'rosmaster, rospy'})`, 
     const graph = { kind: 'ros1' as const, masterUrl: peers.masterUrl, name: 'sink', hostname: '127.0.0.1' };
     const warnings: unknown[] = [];
     const log = {
+      info: () => {},
       warn: (...said: unknown[]) => warnings.push(said),
       error: (...said: unknown[]) => warnings.push(said),
     };

@@ -1,4 +1,5 @@
 import type { Twist } from '@farpoint/protocol';
+import type { TopicReading } from '@farpoint/ros';
 import type { Logger } from '@farpoint/service';
 import { ReferenceControlWriter } from '@farpoint/shared-memory';
 import type { RosDriveOptions } from './ros-drive-messages.ts';
@@ -12,6 +13,8 @@ export interface VelocitySink {
   readonly kind: string;
   /** @param estop whether the emergency stop is latched: others who drive the same wheels are to stand still, too */
   apply(twist: Twist, estop: boolean): void;
+  /** Tells from now on what people should know of the wheels. */
+  tellReadings?(listener: (reading: TopicReading) => void): void;
   /** Stops and lets go. */
   close(): void | Promise<void>;
 }
