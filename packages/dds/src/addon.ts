@@ -74,11 +74,9 @@ export function requireAddon(file: string): Addon {
   try {
     return createRequire(import.meta.url)(file) as Addon;
   } catch (error) {
-    const { code } = error as NodeJS.ErrnoException;
-    const what =
-      code === 'MODULE_NOT_FOUND'
-        ? 'the DDS addon is not built'
-        : `the DDS addon cannot be loaded (${error instanceof Error ? error.message : String(error)})`;
+    if ((error as NodeJS.ErrnoException).code === 'MODULE_NOT_FOUND')
+      throw new RosFault('unavailable', 'the DDS addon is not built', { remedy: BUILD_REMEDY });
+    const what = `the DDS addon cannot be loaded (${error instanceof Error ? error.message : String(error)})`;
     throw new RosFault('unavailable', what, { remedy: BUILD_REMEDY, cause: error });
   }
 }
