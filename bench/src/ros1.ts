@@ -11,13 +11,14 @@ import { type Bench, distributionCells, numberOption, printJson, printTable } fr
 import { readFrameLog, residentPeakMb } from './robot-frames.ts';
 import { distribution, rounded } from './stats.ts';
 
-const USAGE = `pnpm bench ros1 [--hz 10] [--seconds 20] [--mbps 20] [--as points|picture] [--json]
+const USAGE = `pnpm bench ros1 [--hz 10] [--seconds 20] [--mbps 20] [--as points|picture|images] [--json]
 
 A rospy node of a real ROS 1 master publishes PointCloud2 of 480 × 480 points, 20 bytes each, --hz times a second; the real
 robot process (--source ros1) samples them for --mbps and sends them to an operator in this process. With --as picture its
-CameraInfo is named, too, and the cloud is taken as a depth picture. Latency: from the stamp, which the node takes right before
+CameraInfo is named, too, and the cloud is taken as a depth picture; with images depth (16UC1) and colour (rgb8) come as such. Latency: from the stamp, which the node takes right before
 it publishes, to the robot's having the packets made. Loopback.`;
 
+const FORMS = ['points', 'picture', 'images'] as const;
 const ROBOT = 'ros-1';
 const WARM_UP_MS = 2000;
 const nowMs = () => Number(process.hrtime.bigint()) / 1e6;
@@ -39,12 +40,12 @@ export const bench: Bench = {
       },
     });
     if (values.help) return console.log(USAGE);
-    if (values.as !== 'points' && values.as !== 'picture')
-      throw new Error(`--as is \`${values.as}\`, not points or picture`);
+    const as = FORMS.find((form) => form === values.as);
+    if (as === undefined) throw new Error(`--as is \`${values.as}\`, not ${FORMS.join(', ')}`);
     const { python, missing } = Ros1Peers.find();
     if (python === null) throw new Error(missing);
     const options: Options = {
-      as: values.as,
+      as,
       hz: numberOption('hz', values.hz, 0.1),
       seconds: numberOption('seconds', values.seconds, 1),
       mbps: numberOption('mbps', values.mbps, 1),
@@ -61,7 +62,7 @@ export const bench: Bench = {
 };
 
 interface Options {
-  as: 'points' | 'picture';
+  as: (typeof FORMS)[number];
   hz: number;
   seconds: number;
   mbps: number;
@@ -74,7 +75,7 @@ async function measure(python: string, { as, hz, seconds, mbps }: Options) {
   let stack: LocalStack | null = null;
   try {
     await peers.startCore();
-    const node = await peers.startNode('cloud', 'camera', hz);
+    const node = await peers.startNode(as === 'images' ? 'rgbd' : 'cloud', 'camera', hz);
     writeFileSync(config, configuration(peers.masterUrl, as));
     const rate = ['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)];
     const args = ['--config', config, '--frame-log', frameLog, ...rate];
@@ -109,12 +110,25 @@ async function measure(python: string, { as, hz, seconds, mbps }: Options) {
   }
 }
 
+const TOPICS: Record<Options['as'], readonly (readonly [topic: string, as: string])[]> = {
+  points: [['/points', 'cloud']],
+  picture: [
+    ['/points', 'cloud'],
+    ['/camera_info', 'cameraInfo'],
+  ],
+  images: [
+    ['/rgbd/depth', 'depth'],
+    ['/rgbd/colour', 'colour'],
+    ['/rgbd/camera_info', 'cameraInfo'],
+  ],
+};
+
 function configuration(master: string, as: Options['as']): string {
   return `
 robot:
   source: { kind: ros1, fps: 120 }
   ros: { master: '${master}', hostname: 127.0.0.1 }
   topics:
-    - { topic: /points, as: cloud }
-${as === 'picture' ? '    - { topic: /camera_info, as: cameraInfo }\n' : ''}`;
+${TOPICS[as].map(([topic, role]) => `    - { topic: ${topic}, as: ${role} }`).join('\n')}
+`;
 }

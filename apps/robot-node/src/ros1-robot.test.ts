@@ -23,6 +23,16 @@ robot:
     - { topic: /cmd_vel, as: velocity }
 `;
 
+const pictures = (master: string) => `
+robot:
+  source: { kind: ros1 }
+  ros: { master: '${master}', hostname: 127.0.0.1 }
+  topics:
+    - { topic: /rgbd/depth, as: depth }
+    - { topic: /rgbd/colour, as: colour }
+    - { topic: /rgbd/camera_info, as: cameraInfo }
+`;
+
 describe.skipIf(python === null)(
   `robot process in a ROS 1 graph (${missing ?? 'rosmaster, rospy'})`,
   {
@@ -93,6 +103,29 @@ describe.skipIf(python === null)(
         label: 'Temperature',
         values: [['', '21.5']],
       });
+    });
+
+    it('streams depth and colour pictures of one camera', async () => {
+      const node = await peers.startNode('rgbd', 'rgbd');
+      const config = join(folder, 'rgbd.yaml');
+      writeFileSync(config, pictures(peers.masterUrl));
+      await stack.startRobot({
+        id: 'ros-2',
+        name: 'Robot',
+        args: ['--config', config, '--max-points', '6000'],
+      });
+      const watcher = await SignaledOperator.connect(stack.signalingUrl, 'ros-2');
+      const colours = new Set<number>();
+      watcher.client.onCloudPacket = (payload) => {
+        // The first point's colour comes after the coordinates of all: 6 bits red, 6 green, 4 blue.
+        const points = payload.readUInt32LE(12) / 8;
+        colours.add(payload.readUInt16LE(16 + points * 6));
+      };
+      await watcher.client.until(() => watcher.client.completeFrames.length > 5);
+      expect([...colours]).toEqual([((255 >> 2) << 10) | ((128 >> 2) << 4)]);
+      await watcher.close();
+      await stack.robot('ros-2').stop();
+      await node.kill();
     });
 
     it('drives: steady while commanded, zero on silence, then none, so that others may drive', async () => {

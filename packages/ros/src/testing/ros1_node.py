@@ -84,6 +84,16 @@ def main():
         battery = BatteryState(voltage=25.1, percentage=0.75, current=float("nan"))
         publishers.append((rospy.Publisher("/battery", BatteryState, queue_size=1), battery))
         publishers.append((rospy.Publisher("/temperature", Float32, queue_size=1), Float32(21.5)))
+    if "rgbd" in parts:
+        depth = Image(width=CLOUD_SIDE, height=CLOUD_SIDE, encoding="16UC1", step=CLOUD_SIDE * 2)
+        depth.data = (2000).to_bytes(2, "little") * (CLOUD_SIDE * CLOUD_SIDE)
+        colour = Image(width=CLOUD_SIDE, height=CLOUD_SIDE, encoding="rgb8", step=CLOUD_SIDE * 3)
+        colour.data = bytes((255, 128, 0)) * (CLOUD_SIDE * CLOUD_SIDE)
+        for message in (depth, colour):
+            message.header.frame_id = "camera_optical_frame"
+        publishers.append((rospy.Publisher("/rgbd/depth", Image, queue_size=1), depth))
+        publishers.append((rospy.Publisher("/rgbd/colour", Image, queue_size=1), colour))
+        publishers.append((rospy.Publisher("/rgbd/camera_info", CameraInfo, queue_size=1), camera_info()))
     if "diagnostics" in parts:
         motor = DiagnosticStatus(level=1, name="left motor", message="71 degrees, which is too warm to go on for long")
         array = DiagnosticArray(status=[motor, DiagnosticStatus(level=0, name="imu", message="fine")])
@@ -96,9 +106,10 @@ def main():
     print(json.dumps({"ready": True}), flush=True)
     rate = rospy.Rate(float(sys.argv[3]))
     while not rospy.is_shutdown():
+        now = rospy.Time.now()
         for publisher, message in publishers:
             if hasattr(message, "header"):
-                message.header.stamp = rospy.Time.now()
+                message.header.stamp = now
             publisher.publish(message)
         rate.sleep()
 
