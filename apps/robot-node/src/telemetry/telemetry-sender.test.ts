@@ -1,0 +1,49 @@
+import { decodeJson, telemetryCodec, zeroTwist } from '@farpoint/protocol';
+import { DriveGuard, defaultDriveLimits } from '@farpoint/safety';
+import { describe, expect, it } from 'vitest';
+import type { ConnectedOperator } from '../session/connected-operator.ts';
+import { ReadingBoard } from './reading-board.ts';
+import { StageTimer } from './stage-timer.ts';
+import { TelemetrySender } from './telemetry-sender.ts';
+
+const TICK_MS = 50;
+const STREAM = {
+  ...{ frameNumber: 0, framesPerSecond: 0, pointsPerFrame: 0, validPoints: 0 },
+  ...{ bitsPerSecond: 0, targetBitsPerSecond: 0, droppedFrames: 0 },
+};
+
+/** What one second of telemetry brings an operator whose path carries so much. */
+function secondAt(targetBitsPerSecond: number): { states: number; topics: string[] } {
+  const heard: string[] = [];
+  const operator = {
+    peer: { connected: true, sendTelemetry: (text: string) => heard.push(text) },
+    sender: { targetBitsPerSecond },
+    status: (stages: unknown) => ({ stages, stream: STREAM }),
+  } as unknown as ConnectedOperator;
+  const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
+  const readings = new ReadingBoard();
+  for (const topic of ['/a', '/b', '/c']) readings.add({ topic, label: topic, level: 'ok', values: [] }, 0);
+  const sender = new TelemetrySender(new Map([['operator', operator]]), guard, new StageTimer(), readings);
+  const orientation = { x: 0, y: 0, z: 0, w: 1 };
+  const state = { timeMs: 0, pose: { position: zeroTwist().linear, orientation }, twist: zeroTwist() };
+  for (let i = 0; i < 20; i++) sender.send({ ...state, battery: null, contact: false }, i * TICK_MS);
+  const messages = heard.map((text) => decodeJson(telemetryCodec, text));
+  return {
+    states: messages.filter(({ type }) => type === 'telemetry').length,
+    topics: messages.flatMap((message) => (message.type === 'reading' ? [message.topic] : [])),
+  };
+}
+
+describe('TelemetrySender', () => {
+  it('tells the state 20 times a second and each reading once', () => {
+    const { states, topics } = secondAt(10e6);
+    expect(states).toBe(20);
+    expect(topics.sort()).toEqual(['/a', '/b', '/c']);
+  });
+
+  it('on a path that carries little tells the state less often, and still each reading', () => {
+    const { states, topics } = secondAt(0.3e6);
+    expect(states).toBe(5);
+    expect(topics.sort()).toEqual(['/a', '/b', '/c']);
+  });
+});
