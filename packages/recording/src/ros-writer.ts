@@ -1,14 +1,10 @@
 /** ROS 2 messages in CDR, as recordings of ours hold them. */
 import type { Pose, Twist } from '@farpoint/protocol';
+import { velocityWriter } from '@farpoint/ros';
 import { parse } from '@foxglove/rosmsg';
 import { MessageWriter } from '@foxglove/rosmsg2-serialization';
 import { RECORDED_POINT_BYTES } from './captured-cloud.ts';
-import {
-  ODOMETRY_SCHEMA,
-  POINT_CLOUD2_SCHEMA,
-  TF_MESSAGE_SCHEMA,
-  TWIST_STAMPED_SCHEMA,
-} from './ros-schemas.ts';
+import { ODOMETRY_SCHEMA, POINT_CLOUD2_SCHEMA, TF_MESSAGE_SCHEMA } from './ros-schemas.ts';
 
 export const WORLD_FRAME = 'world';
 export const BASE_FRAME = 'base_link';
@@ -17,7 +13,7 @@ export const CAMERA_FRAME = 'camera_optical_frame';
 const writerOf = (schema: string) => new MessageWriter(parse(schema, { ros2: true }));
 const clouds = writerOf(POINT_CLOUD2_SCHEMA);
 const transforms = writerOf(TF_MESSAGE_SCHEMA);
-const twists = writerOf(TWIST_STAMPED_SCHEMA);
+const velocities = velocityWriter(2, 'geometry_msgs/msg/TwistStamped');
 const odometry = writerOf(ODOMETRY_SCHEMA);
 
 const FLOAT32 = 7;
@@ -71,7 +67,7 @@ export function transformOf(stampNs: bigint, child: string, { position, orientat
 }
 
 export function twistStamped(stampNs: bigint, twist: Twist): Uint8Array {
-  return twists.writeMessage({ header: headerOf(stampNs, BASE_FRAME), twist });
+  return velocities(twist, stampNs, BASE_FRAME);
 }
 
 export function odometryOf(stampNs: bigint, pose: Pose, twist: Twist): Uint8Array {

@@ -32,7 +32,8 @@ export {
   stampNs,
   TF_TYPES,
 } from './messages.ts';
-export { axesOf, type CloudAxes, checkedCount, PointCloud2Decoder } from './point-cloud2.ts';
+export { axesOf, checkedCount, PointCloud2Decoder } from './point-cloud2.ts';
+export type { CloudAxes } from './point-words.ts';
 export { RateLimit } from './rate-limit.ts';
 export { readingOf, type TopicReading } from './reading.ts';
 export { ros1Hostname } from './ros1-hostname.ts';

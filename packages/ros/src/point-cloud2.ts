@@ -2,9 +2,15 @@ import { intensityColour, intensityScale } from '@farpoint/cloud-formats';
 import { RosFault } from './fault.ts';
 import { GREY } from './image.ts';
 import type { PointCloud2, PointField } from './messages.ts';
-
-/** Axes of a cloud's frame (REP-103): optical (z forward, x right, y down) or body (x forward, y left, z up). */
-export type CloudAxes = 'optical' | 'body';
+import {
+  alignedWords,
+  type CloudAxes,
+  copyColours,
+  copyPoints,
+  copyWords,
+  forEachPoint,
+  type Rows,
+} from './point-words.ts';
 
 const LEVELS = 256;
 
@@ -151,14 +157,6 @@ export class PointCloud2Decoder {
   }
 }
 
-/** How the points lie in the data. */
-interface Rows {
-  width: number;
-  height: number;
-  rowBytes: number;
-  step: number;
-}
-
 /** Checks that what the cloud says of its size is there. @returns width × height */
 export function checkedCount({ width, height, point_step, row_step, data, fields }: PointCloud2): number {
   const count = width * height;
@@ -206,72 +204,6 @@ function isPlain(cloud: PointCloud2, xyz: readonly PointField[], rowBytes: numbe
   );
 }
 
-function alignedWords(data: Uint8Array): Float32Array {
-  const bytes = data.byteOffset % 4 === 0 ? data : data.slice();
-  return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.length >> 2);
-}
-
-/** One word of each point, one after the other. */
-function copyWords(
-  words: Float32Array,
-  { width, height, rowBytes, step }: Rows,
-  offset: number,
-  into: Float32Array,
-): void {
-  const stride = step >> 2;
-  let to = 0;
-  for (let row = 0; row < height; row++) {
-    let at = ((row * rowBytes) >> 2) + offset;
-    for (let i = 0; i < width; i++, at += stride) into[to++] = words[at] as number;
-  }
-}
-
-/** From ROS's packed colours to R, G, B, A. */
-function copyColours(
-  source: Uint32Array,
-  { width, height, rowBytes, step }: Rows,
-  offset: number,
-  into: Uint32Array,
-  intoStride: number,
-  first: number,
-): void {
-  const stride = step >> 2;
-  let to = first;
-  for (let row = 0; row < height; row++) {
-    let at = ((row * rowBytes) >> 2) + offset;
-    for (let i = 0; i < width; i++, at += stride, to += intoStride) {
-      const argb = source[at] as number;
-      into[to] = ((argb >> 16) & 0xff) | (argb & 0xff00) | ((argb & 0xff) << 16) | 0xff00_0000;
-    }
-  }
-}
-
-function copyPoints(
-  words: Float32Array,
-  { width, height, rowBytes, step }: Rows,
-  fields: readonly [PointField, PointField, PointField],
-  axes: CloudAxes,
-  into: Float32Array,
-): void {
-  const [x, y, z] = fields.map((field) => field.offset >> 2) as [number, number, number];
-  const stride = step >> 2;
-  let to = 0;
-  for (let row = 0; row < height; row++) {
-    let at = (row * rowBytes) >> 2;
-    for (let i = 0; i < width; i++, at += stride, to += 4) {
-      if (axes === 'optical') {
-        into[to] = words[at + x] as number;
-        into[to + 1] = words[at + y] as number;
-        into[to + 2] = words[at + z] as number;
-      } else {
-        into[to] = -(words[at + y] as number);
-        into[to + 1] = -(words[at + z] as number);
-        into[to + 2] = words[at + x] as number;
-      }
-    }
-  }
-}
-
 function readCoordinates(
   { data, is_bigendian }: PointCloud2,
   rows: Rows,
@@ -290,17 +222,6 @@ function readCoordinates(
     into[i * 4 + 1] = axes === 'optical' ? left : -up;
     into[i * 4 + 2] = axes === 'optical' ? up : forward;
   });
-}
-
-function forEachPoint(
-  { width, height, rowBytes, step }: Rows,
-  visit: (at: number, index: number) => void,
-): void {
-  let index = 0;
-  for (let row = 0; row < height; row++) {
-    let at = row * rowBytes;
-    for (let i = 0; i < width; i++, at += step) visit(at, index++);
-  }
 }
 
 /** As REP-103 has it: optical frames are named so. */

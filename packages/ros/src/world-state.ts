@@ -12,7 +12,7 @@ import {
   tfMessageSchema,
   unitQuaternion,
 } from './messages.ts';
-import type { CloudAxes } from './point-cloud2.ts';
+import type { CloudAxes } from './point-words.ts';
 import { STATIC_SUFFIX } from './topic-table.ts';
 import { TransformTree } from './transform-tree.ts';
 
