@@ -64,6 +64,7 @@ export class Ros1Peers {
       stdio: 'ignore',
       detached: true,
     });
+    endWithUs(this.#core);
     await this.untilAnswers();
   }
 
@@ -80,6 +81,7 @@ export class Ros1Peers {
       stdio: ['ignore', 'pipe', 'inherit'],
       detached: true,
     });
+    endWithUs(child);
     const node = new Ros1Node(child);
     this.#nodes.add(node);
     await node.ready;
@@ -140,6 +142,13 @@ export class Ros1Node {
   async kill(): Promise<void> {
     await killGroup(this.#child);
   }
+}
+
+/** A test that is ended from outside leaves nothing behind. */
+function endWithUs(child: ChildProcess): void {
+  const kill = () => child.pid !== undefined && process.kill(-child.pid, 'SIGKILL');
+  process.once('exit', kill);
+  child.once('exit', () => process.off('exit', kill));
 }
 
 async function killGroup(child: ChildProcess | null): Promise<void> {
