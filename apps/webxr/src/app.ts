@@ -103,7 +103,7 @@ export class App implements PageParts {
 
   start(): void {
     this.#listenToWorker();
-    if (this.settings.drawEvery !== null) this.#drawEvery(this.settings.drawEvery);
+    if (this.settings.drawEvery !== null) this.#drawEvery(this.settings.drawEvery, this.settings.drawEvery);
     this.#listenToCanvas();
     const controls = new ControlsUi(this);
     controls.start();
@@ -193,12 +193,13 @@ export class App implements PageParts {
     else if (this.#drawing.update(this.stats.displayFramesPerSecond, nowMs)) {
       const { scale, every } = this.#drawing.step;
       this.stage.resolution = scale;
-      if (this.settings.drawEvery === null) this.#drawEvery(every);
+      // A sample of a cloud is not thinned further: a few thousand points are not what is slow.
+      if (this.settings.drawEvery === null) this.#drawEvery(every, 1);
     }
   }
 
-  #drawEvery(every: number): void {
-    const message: ToCloudWorker = { type: 'drawEvery', every };
+  #drawEvery(every: number, everySample: number): void {
+    const message: ToCloudWorker = { type: 'drawEvery', every, everySample };
     this.#worker.postMessage(message);
   }
 

@@ -44,6 +44,7 @@ let bridge: BridgeStream | null = null;
 /** Whose packets are in the batch. */
 let filling: PacketDecoder | null = null;
 let every = 1;
+let everySample = 1;
 let flushTimer: ReturnType<typeof setTimeout> | undefined;
 let busyMs = 0;
 let busyPackets = 0;
@@ -71,7 +72,7 @@ self.onmessage = (event: MessageEvent<ToCloudWorker>) => {
       return;
     case 'drawEvery':
       flush();
-      every = message.every;
+      ({ every, everySample } = message);
   }
 };
 
@@ -142,6 +143,9 @@ function beginGeneration(of: number, codec: Codec): void {
 const writer: BatchWriter = {
   get every() {
     return every;
+  },
+  get everySample() {
+    return everySample;
   },
   batchFor(wanted) {
     if (batch !== null && (batch.full || (batch.pointCount > 0 && wanted > batch.room))) flush();

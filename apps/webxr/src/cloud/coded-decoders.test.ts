@@ -13,6 +13,7 @@ const placement = emptyPlacement();
 /** Batches as the worker fills them, as many as `most`. */
 class Batches implements BatchWriter {
   every = 1;
+  readonly everySample = 1;
   readonly all: Batch[] = [];
   readonly #most: number;
 

@@ -11,7 +11,7 @@ const placement = emptyPlacement();
 /** One batch, without end of room. */
 function writer(every: number): BatchWriter & { batch: Batch } {
   const batch = new Batch(new ArrayBuffer(BATCH_BYTES));
-  return { every, batch, batchFor: () => batch };
+  return { every: 1, everySample: every, batch, batchFor: () => batch };
 }
 
 /** Blocks of a frame: x, y, z differ from point to point. */
@@ -76,6 +76,8 @@ describe('Points64PacketDecoder', () => {
     decoder.add(header, placement, data, 5, into);
     decoder.finish(into.batch);
     expect(into.batch.pointCount).toBe(10);
-    expect(decoder.add(header, placement, data, 5, { every: 1, batchFor: () => null })).toBe('no-buffer');
+    expect(decoder.add(header, placement, data, 5, { every: 1, everySample: 1, batchFor: () => null })).toBe(
+      'no-buffer',
+    );
   });
 });

@@ -26,16 +26,16 @@ export class Points64PacketDecoder implements PacketDecoder {
     writer: BatchWriter,
   ): DropReason | null {
     const points = header.sequenceLength / 8;
-    const drawn = Math.ceil(points / writer.every);
+    const drawn = Math.ceil(points / writer.everySample);
     const batch = writer.batchFor(drawn);
     if (batch === null) return 'no-buffer';
     this.#decoder.put(data);
-    this.#every = writer.every;
+    this.#every = writer.everySample;
     this.#waiting++;
     const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
     this.#extent.add(header.frameNumber, view, 0, points);
     this.#look.imageExtent = this.#extent.value;
-    this.#look.cover = SAMPLED_COVER * Math.sqrt(writer.every);
+    this.#look.cover = SAMPLED_COVER * Math.sqrt(writer.everySample);
     batch.add(header, placement, drawn, receivedMs, this.#look);
     return null;
   }

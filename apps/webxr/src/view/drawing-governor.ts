@@ -1,11 +1,11 @@
 /**
- * How much is drawn: fewer points, and on a flat screen fewer pixels, where the machine cannot keep up. A
+ * How much is drawn: fewer points of a whole cloud, and on a flat screen fewer pixels, where the machine cannot keep up. A
  * late picture is worse than a coarse one. No clock here.
  */
 export interface DrawingStep {
   /** Share of the screen's own resolution. */
   scale: number;
-  /** Every so many-th point. */
+  /** Of coded clouds every so many-th point. */
   every: number;
 }
 
