@@ -1,5 +1,5 @@
 /** Clouds to measure with. */
-import { uniformNumbers } from './random.ts';
+import { seededRandom } from '@farpoint/congestion/sim';
 
 export interface SceneCloud {
   /** x, y, z in metres and colour bits for each point, as the encoder takes them. */
@@ -12,7 +12,7 @@ export interface SceneCloud {
  * twenty missing (NaN), as such cameras have it.
  */
 export function hallCloud(points: number, seed = 1): SceneCloud {
-  const uniform = uniformNumbers(seed);
+  const uniform = seededRandom(seed);
   const width = Math.min(480, points);
   const height = Math.ceil(points / width);
   const frame = new Float32Array(points * 4);

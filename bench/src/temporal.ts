@@ -1,10 +1,10 @@
 /** `pnpm bench temporal`: what it would gain, and cost, to leave out the tiles of a frame that have not changed. */
 import { parseArgs } from 'node:util';
+import { seededRandom } from '@farpoint/congestion/sim';
 import { zeroTwist } from '@farpoint/protocol';
 import { Simulation } from '@farpoint/sim';
 import { type Codec, OrganisedDecoder, OrganisedEncoder } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
-import { uniformNumbers } from './random.ts';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 import { changedTiles, TILE, type TileChange } from './temporal/tile-change.ts';
 
@@ -89,8 +89,8 @@ async function measure(
   const columns = Math.ceil(width / TILE);
   const tiles = columns * Math.ceil(height / TILE);
   const sent = { depth: new Float32Array(width * height), colour: new Uint32Array(width * height) };
-  const shown = { depth: new Float32Array(width * height), colour: new Uint32Array(width * height) };
-  const random = uniformNumbers(1);
+  const shown = new Float32Array(width * height);
+  const random = seededRandom(1);
   const command = zeroTwist();
   const sums = { points: 0, whole: 0, changed: 0, tiles: 0, missing: 0, wrong: 0 };
   simulation.step(LEAD_S);
@@ -132,19 +132,16 @@ async function measure(
       if (frame === 0 || random() >= loss) decoder.put(encoder.packet(packet));
     }
     // A tile with any pixel has come; where a tile has become empty nothing tells it, and it stays.
-    for (let pixel = 0; pixel < shown.depth.length; pixel++) {
-      if ((decoder.depth[pixel] as number) > 0) {
-        shown.depth[pixel] = decoder.depth[pixel] as number;
-        shown.colour[pixel] = decoder.colour[pixel] as number;
-      }
+    const { depth: came } = decoder;
+    for (let pixel = 0; pixel < shown.length; pixel++) {
+      if ((came[pixel] as number) > 0) shown[pixel] = came[pixel] as number;
     }
     if (frame === 0) continue;
-    const { wrong } = pixelsOff(depth, shown.depth);
     sums.points += whole.points;
     sums.whole += whole.bytes;
     sums.changed += part.bytes;
     sums.missing += lostPoints;
-    sums.wrong += wrong;
+    sums.wrong += pixelsOff(depth, shown);
   }
   decoder?.[Symbol.dispose]();
   simulation.close();
@@ -161,13 +158,13 @@ async function measure(
 }
 
 /** Pixels that are shown at a depth which neither noise nor the coder's error explains. */
-function pixelsOff(depth: Float32Array, shown: Float32Array): { wrong: number } {
+function pixelsOff(depth: Float32Array, shown: Float32Array): number {
   let wrong = 0;
   for (let i = 0; i < depth.length; i++) {
     const [z, s] = [depth[i] as number, shown[i] as number];
     if (z > 0 && s > 0 && Math.abs(z - s) > (0.0005 + 6 * 0.0015) * Math.max(z, s) ** 2) wrong++;
   }
-  return { wrong };
+  return wrong;
 }
 
 interface Images {

@@ -1,9 +1,9 @@
-import { spawnSync } from 'node:child_process';
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { connect } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createMetrics, Health } from '@farpoint/service';
+import { selfSigned } from '@farpoint/service/testing/self-signed';
 import { afterAll, afterEach, describe, expect, test } from 'vitest';
 import type { SignalingOptions } from './options.ts';
 import type { SignalingRim } from './server.ts';
@@ -315,22 +315,7 @@ describe('HTTP', () => {
 
 test('TLS on every port, and a new certificate at reload', async () => {
   const make = (name: string): { tlsCert: string; tlsKey: string } => {
-    const [tlsKey, tlsCert] = [join(folder, 'tls.key'), join(folder, 'tls.crt')];
-    const made = spawnSync('openssl', [
-      ...[
-        'req',
-        '-x509',
-        '-newkey',
-        'ec',
-        '-pkeyopt',
-        'ec_paramgen_curve:prime256v1',
-        '-nodes',
-        '-days',
-        '2',
-      ],
-      ...['-keyout', tlsKey, '-out', tlsCert, '-subj', `/CN=${name}`],
-    ]);
-    if (made.status !== 0) throw new Error(made.stderr.toString());
+    const { key: tlsKey, cert: tlsCert } = selfSigned(folder, name);
     return { tlsCert, tlsKey };
   };
   await start(make('first'));

@@ -1,6 +1,6 @@
 /** What is left of a frame when packets are lost. */
 
-import { uniformNumbers } from '../random.ts';
+import { seededRandom } from '@farpoint/congestion/sim';
 import type { BenchCloud, CodecRun } from './adapter.ts';
 import { verify } from './verify.ts';
 
@@ -69,7 +69,7 @@ function pointsOfPackets(run: CodecRun, packets: number): number[] {
 
 /** The packets that come, in a random order. */
 function survivors(packets: number, lossRate: number, seed: number): number[] {
-  const random = uniformNumbers(seed);
+  const random = seededRandom(seed);
   const come: number[] = [];
   for (let packet = 0; packet < packets; packet++) if (random() >= lossRate) come.push(packet);
   for (let i = come.length - 1; i > 0; i--) {

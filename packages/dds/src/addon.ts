@@ -1,6 +1,6 @@
 /** The native addon: what it offers, and loading it. */
 import { createRequire } from 'node:module';
-import { RosFault } from '@farpoint/ros';
+import { type Qos, RosFault } from '@farpoint/ros';
 import { ADDON_FILE, BUILD_REMEDY } from './build.ts';
 
 declare const handle: unique symbol;
@@ -59,6 +59,11 @@ export interface Addon {
   /** Whether it was taken; not where a reliable subscriber confirms too slowly. Never waits. */
   write(writer: WriterHandle, bytes: Uint8Array): boolean;
   subscribers(writer: WriterHandle): number;
+}
+
+/** How the addon's calls take a QoS: reliable, transient-local, depth. */
+export function qosArguments({ reliability, durability, depth }: Qos): [boolean, boolean, number] {
+  return [reliability === 'reliable', durability === 'transient-local', depth];
 }
 
 let loaded: Addon | null = null;

@@ -1,5 +1,5 @@
 import type { Publisher, Qos } from '@farpoint/ros';
-import type { Addon, GraphHandle, WriterHandle } from './addon.ts';
+import { type Addon, type GraphHandle, qosArguments, type WriterHandle } from './addon.ts';
 import { encapsulationFault } from './encapsulation.ts';
 
 export interface WriterOptions {
@@ -26,16 +26,7 @@ export class DdsPublisher implements Publisher {
     this.topic = topic;
     this.#addon = addon;
     this.#onClose = onClose;
-    this.#writer = addon.advertise(
-      ...([
-        graph,
-        ddsTopic,
-        ddsType,
-        qos.reliability === 'reliable',
-        qos.durability === 'transient-local',
-      ] as const),
-      qos.depth,
-    );
+    this.#writer = addon.advertise(graph, ddsTopic, ddsType, ...qosArguments(qos));
   }
 
   get subscribers(): number {

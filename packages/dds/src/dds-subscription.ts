@@ -1,5 +1,5 @@
 import type { OnMessage, Qos, RosFault, Subscription } from '@farpoint/ros';
-import type { Addon, GraphHandle, ReaderHandle } from './addon.ts';
+import { type Addon, type GraphHandle, qosArguments, type ReaderHandle } from './addon.ts';
 import { encapsulationFault } from './encapsulation.ts';
 
 /** Room for small messages; grows to the largest that came. */
@@ -39,16 +39,8 @@ export class DdsSubscription implements Subscription {
     this.topic = topic;
     this.#addon = addon;
     this.#events = events;
-    this.#reader = addon.subscribe(
-      ...([
-        graph,
-        ddsTopic,
-        ddsType,
-        qos.reliability === 'reliable',
-        qos.durability === 'transient-local',
-      ] as const),
-      ...([qos.depth, queue, () => this.#drain()] as const),
-    );
+    const onMessages = () => this.#drain();
+    this.#reader = addon.subscribe(graph, ddsTopic, ddsType, ...qosArguments(qos), queue, onMessages);
   }
 
   get received(): number {

@@ -19,7 +19,7 @@ import {
 } from '@farpoint/ros';
 import type { CaptureRoom } from './frame-source.ts';
 import type { FedFrame, FeedShape, RosFeed } from './ros-feed.ts';
-import { type Listener, listen } from './ros-listener.ts';
+import { type Listener, listen, listenBytes } from './ros-listener.ts';
 
 /** Clouds of a LiDAR differ in size: room for how many times the first, and for how many at least. */
 const HEADROOM = 2;
@@ -68,7 +68,7 @@ export class RosCloudFeed implements RosFeed {
       this.listeners.push(listener);
     }
     this.listeners.push(
-      listen(graph, cloud, { queue: 1, onFault }, (_, bytes, receivedMs) => this.#keep(bytes, receivedMs)),
+      listenBytes(graph, cloud, { queue: 1, onFault }, (bytes, receivedMs) => this.#keep(bytes, receivedMs)),
     );
   }
 

@@ -19,7 +19,7 @@ import {
 } from '@farpoint/ros';
 import type { CaptureRoom } from './frame-source.ts';
 import type { FedFrame, FeedShape, RosFeed } from './ros-feed.ts';
-import { type Listener, listen } from './ros-listener.ts';
+import { type Listener, listen, listenBytes } from './ros-listener.ts';
 
 export interface ImageFeedOptions {
   depth: TopicEntry;
@@ -63,14 +63,14 @@ export class RosImageFeed implements RosFeed {
       listen(graph, cameraInfo, { queue: 1, onFault }, (message) => this.#takeCamera(message)),
     );
     this.listeners.push(
-      listen(graph, depth, { queue: 2, onFault }, (_, bytes, receivedMs) => {
+      listenBytes(graph, depth, { queue: 2, onFault }, (bytes, receivedMs) => {
         const picture = this.#keep(bytes, receivedMs);
         this.#offer(colour === undefined ? { depth: picture, colour: null } : this.#pairs.depth(picture));
       }),
     );
     if (colour === undefined) return;
     this.listeners.push(
-      listen(graph, colour, { queue: 2, onFault }, (_, bytes, receivedMs) =>
+      listenBytes(graph, colour, { queue: 2, onFault }, (bytes, receivedMs) =>
         this.#offer(this.#pairs.colour(this.#keep(bytes, receivedMs))),
       ),
     );

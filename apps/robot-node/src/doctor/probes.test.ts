@@ -1,5 +1,4 @@
 /** The doctor's probes of servers, against real ones. */
-import { spawnSync } from 'node:child_process';
 import { createHmac } from 'node:crypto';
 import { createSocket, type Socket } from 'node:dgram';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -8,6 +7,7 @@ import { type AddressInfo, createServer } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { freePorts, hasTurnServer, LocalStack, TURN_REMEDY, TurnServer } from '@farpoint/local-stack';
+import { selfSigned } from '@farpoint/service/testing/self-signed';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { WebSocketServer } from 'ws';
 import { checkTimeOfDay } from './check-clock.ts';
@@ -129,22 +129,7 @@ describe('something else at the address of signaling', () => {
   it('that has a certificate nobody vouches for is named, and taken with tlsCa', async () => {
     const folder = mkdtempSync(join(tmpdir(), 'farpoint-doctor-tls-'));
     closers.push(() => rmSync(folder, { recursive: true }));
-    const [key, cert] = [join(folder, 'key.pem'), join(folder, 'cert.pem')];
-    const made = spawnSync('openssl', [
-      ...[
-        'req',
-        '-x509',
-        '-newkey',
-        'ec',
-        '-pkeyopt',
-        'ec_paramgen_curve:prime256v1',
-        '-nodes',
-        '-days',
-        '2',
-      ],
-      ...['-keyout', key, '-out', cert, '-subj', '/CN=localhost', '-addext', 'subjectAltName=DNS:localhost'],
-    ]);
-    expect(made.status, made.stderr?.toString()).toBe(0);
+    const { key, cert } = selfSigned(folder, 'localhost');
     const server = createHttpsServer({ key: readFileSync(key), cert: readFileSync(cert) }, (_, response) =>
       response.writeHead(404).end(),
     ).listen(0, 'localhost');
