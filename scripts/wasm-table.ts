@@ -33,4 +33,10 @@ export const WASM_CRATES: readonly WasmCrate[] = [
     outDir: 'packages/congestion/wasm',
     crates: ['bandwidth-estimator', 'goog-cc'],
   },
+  {
+    package: 'farpoint-picture-codec',
+    name: 'farpoint_picture_codec',
+    outDir: 'packages/pictures/wasm',
+    crates: ['picture-codec'],
+  },
 ];

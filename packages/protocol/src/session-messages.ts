@@ -6,6 +6,7 @@ import { CLOUD_FORMATS, type CloudFormat } from './cloud-format.ts';
 import { type CommandRejection, commandRejections } from './control.ts';
 import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
+import { MAX_CAMERAS } from './picture-chunk.ts';
 
 /** What the robot allows. Nothing on the wire raises any of it. */
 export interface DriveLimits {
@@ -76,6 +77,12 @@ export interface CloudStream {
   header: string;
 }
 
+/** The robot's cameras whose pictures it can send; a camera's place in the list is its number. Sent after the welcome. */
+export interface Cameras {
+  type: 'cameras';
+  cameras: { name: string }[];
+}
+
 /** A message of the operator that the robot could not use, other than a command. */
 export interface SessionFault {
   type: 'fault';
@@ -89,6 +96,7 @@ export type RobotSessionMessage =
   | EstopState
   | LatencyFrame
   | CloudStream
+  | Cameras
   | SessionFault;
 
 /** Asks to drive. `take` asks to take over from another operator; the robot's policy decides. */
@@ -116,6 +124,12 @@ export interface CloudFormats {
   formats: CloudFormat[];
 }
 
+/** Which cameras' pictures the operator wants to see from now on, by number. Until it has said so it is sent none. */
+export interface Pictures {
+  type: 'pictures';
+  cameras: number[];
+}
+
 /** What came of a latency test, for the robot's recording. */
 export interface LatencyMeasured {
   type: 'latencyMeasured';
@@ -133,6 +147,7 @@ export type OperatorSessionMessage =
   | EstopRequest
   | StreamRequest
   | CloudFormats
+  | Pictures
   | LatencyMeasured;
 
 export const PROTOCOL_VERSION = 1;
@@ -194,6 +209,10 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
       format: z.enum(['organised', 'unorganised']),
       header: z.base64().min(1).max(MAX_STREAM_HEADER_BASE64),
     }),
+    z.strictObject({
+      type: z.literal('cameras'),
+      cameras: z.array(z.strictObject({ name: displayNameSchema })).max(MAX_CAMERAS),
+    }),
     z.strictObject({ type: z.literal('fault'), message: z.string().max(512) }),
   ]),
   maxBytes: 4096,
@@ -209,6 +228,17 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
     z.strictObject({
       type: z.literal('cloudFormats'),
       formats: z.array(z.enum(CLOUD_FORMATS)).max(CLOUD_FORMATS.length),
+    }),
+    z.strictObject({
+      type: z.literal('pictures'),
+      cameras: z
+        .array(
+          z
+            .int()
+            .min(0)
+            .max(MAX_CAMERAS - 1),
+        )
+        .max(MAX_CAMERAS),
     }),
     z.strictObject({
       type: z.literal('latencyMeasured'),

@@ -271,6 +271,56 @@ write("bandwidth.json", {
     + [{"bitsPerSecond": -5, "hex": "00000000"}],
 })
 
+# pictures ------------------------------------------------------------------------------------------------------------
+
+PICTURE_FORMATS = ["jpeg", "png"]
+
+
+def chunk(data, fmt=1, camera=0, width=640, height=480, index=0, count=1, reserved=0, picture=0, stamp=0):
+    return struct.pack("<BBHHHHHII", fmt, camera, width, height, index, count, reserved, picture, stamp) + data
+
+
+def chunk_case(name, data, fmt=1, camera=0, width=640, height=480, index=0, count=1, reserved=0, picture=0, stamp=0):
+    return {"name": name, "hex": chunk(data, fmt, camera, width, height, index, count, reserved, picture, stamp).hex(),
+            "header": {"format": PICTURE_FORMATS[fmt - 1], "camera": camera, "width": width, "height": height, "index": index,
+                       "count": count, "pictureId": picture, "captureTimeUs": stamp},
+            "dataBytes": len(data)}
+
+
+full = bytes(i * 7 % 256 for i in range(1180))
+write("picture-chunk.json", {
+    "read": [
+        chunk_case("a picture in one chunk", b"\xff\xd8\xff\xd9"),
+        chunk_case("of one byte", b"\x01"),
+        chunk_case("a full first chunk", full, count=3, picture=9, stamp=123456789),
+        chunk_case("a full last chunk", full, index=2, count=3, picture=9, stamp=123456789),
+        chunk_case("a short last chunk", full[:77], index=2, count=3),
+        chunk_case("the largest of everything", full, 2, 7, 4096, 4096, 511, 512, 0, 2 ** 32 - 1, 2 ** 32 - 1),
+        chunk_case("the reserved bytes are passed over", b"x", reserved=65535),
+        refused("nothing", b"", "too-short"),
+        refused("a header alone", chunk(b""), "too-short"),
+        refused("a byte too long", chunk(full + b"x", count=2), "too-long"),
+        refused("format 0", chunk(b"x", fmt=0), "unknown-format"),
+        refused("format 3", chunk(b"x", fmt=3), "unknown-format"),
+        refused("camera 8", chunk(b"x", camera=8), "bad-camera"),
+        refused("no width", chunk(b"x", width=0), "bad-size"),
+        refused("no height", chunk(b"x", height=0), "bad-size"),
+        refused("too wide", chunk(b"x", width=4097), "bad-size"),
+        refused("too high", chunk(b"x", height=65535), "bad-size"),
+        refused("no chunks", chunk(b"x", count=0), "bad-index"),
+        refused("too many chunks", chunk(full, count=513), "bad-index"),
+        refused("an index beyond the last", chunk(b"x", index=1), "bad-index"),
+        refused("a short chunk that is not the last", chunk(full[:1179], count=2), "bad-length"),
+    ],
+    "pictures": [
+        {"name": "in %d chunks" % len(chunks), "pictureHex": picture.hex(),
+         "header": {"format": "jpeg", "camera": 1, "width": 320, "height": 200, "pictureId": 5, "captureTimeUs": 70},
+         "chunksHex": [chunk(c, camera=1, width=320, height=200, index=i, count=len(chunks), picture=5, stamp=70).hex()
+                       for i, c in enumerate(chunks)]}
+        for picture, chunks in [(b"abc", [b"abc"]), (full, [full]), (full + b"z", [full, b"z"])]
+    ],
+})
+
 # JSON messages -------------------------------------------------------------------------------------------------------
 
 ABSENT = object()
@@ -374,6 +424,8 @@ robot_session.good({"type": "estop", "latched": True, "by": "robot"}, "estop by 
 robot_session.good({"type": "estop", "latched": False}, "estop released")
 latency = robot_session.good({"type": "latencyFrame", "id": 4, "frameNumber": 901, "points": 30000, "commandMs": 88120.5, "captureMs": 88131})
 cloud_stream = robot_session.good({"type": "cloudStream", "format": "organised", "header": "RlBPQwEBAAA="})
+cameras = robot_session.good({"type": "cameras", "cameras": [{"name": "Front"}, {"name": "/gripper/image_raw"}]})
+robot_session.good({"type": "cameras", "cameras": []}, "cameras: none")
 fault = robot_session.good({"type": "fault", "message": "operator session message: latch: expected boolean"})
 robot_session.common(fault, 4096)
 robot_session.spoil(welcome, ("protocol", 0), ("protocol", 1.5), ("robotId", "Sim"), ("robotId", "-sim"), ("robotId", "x" * 65), ("name", ""),
@@ -385,6 +437,8 @@ robot_session.spoil(rejected, ("reason", "because"), ("detail", "x" * 513), ("co
 robot_session.spoil(estop, ("latched", "yes"), ("by", "me"))
 robot_session.spoil(latency, ("id", -1), ("frameNumber", 2 ** 32), ("points", -1), ("commandMs", ABSENT))
 robot_session.spoil(cloud_stream, ("format", "points64"), ("format", "draco"), ("header", ""), ("header", "a b"), ("header", "A" * 3204))
+robot_session.spoil(cameras, ("cameras", ABSENT), ("cameras", [{"name": "x"}] * 9), ("cameras.0.name", ""), ("cameras.1.name", 7),
+                    ("cameras.0.name", "a\nb"), ("cameras.0.extra", 1, "cameras.0"))
 robot_session.spoil(fault, ("message", "x" * 513), ("message", 1))
 write("robot-session.json", robot_session.lists())
 
@@ -397,6 +451,10 @@ operator_session.good({"type": "estop", "latch": False}, "estop release")
 stream = operator_session.good({"type": "stream", "running": False})
 formats = operator_session.good({"type": "cloudFormats", "formats": ["points64", "organised", "unorganised"]})
 operator_session.good({"type": "cloudFormats", "formats": []}, "cloudFormats: none")
+pictures = operator_session.good({"type": "pictures", "cameras": [0, 2]})
+operator_session.good({"type": "pictures", "cameras": []}, "pictures: none")
+operator_session.spoil(pictures, ("cameras", ABSENT), ("cameras", 0), ("cameras", [8], "cameras.0"), ("cameras", [-1], "cameras.0"),
+                       ("cameras", [0.5], "cameras.0"), ("cameras", [0] * 9))
 operator_session.spoil(formats, ("formats", ABSENT), ("formats", ["draco"], "formats.0"), ("formats", ["points64"] * 4))
 operator_session.common(stop, 1024)
 operator_session.spoil(request, ("take", ABSENT), ("take", 0), ("limits", limits, ""))

@@ -99,8 +99,13 @@ export function pinholeOf({ k, p }: CameraInfo): Pinhole {
   return { fx, fy, cx, cy };
 }
 
-/** Checks that what the image says of its size is there. @returns width × height */
-function checkedPixels({ width, height, step, data }: Image, bytes: number, room: number): number {
+/**
+ * Checks that what the image says of its size is there.
+ *
+ * @returns width × height
+ * @throws {RosFault} `bad-image`, `too-large`
+ */
+export function checkedPixels({ width, height, step, data }: Image, bytes: number, room: number): number {
   const pixels = width * height;
   if (pixels > room) {
     throw new RosFault('too-large', `${width} × ${height} pixels, room for ${room}`);

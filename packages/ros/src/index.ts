@@ -1,3 +1,4 @@
+export { compressedPicture } from './compressed-picture.ts';
 export { DiagnosticBoard } from './diagnostic-board.ts';
 export { RosFault, type RosFaultCode } from './fault.ts';
 export {
@@ -21,7 +22,9 @@ export { type MessageSlot, MessageSlots } from './message-slots.ts';
 export {
   BATTERY_TYPES,
   type CameraInfo,
+  type CompressedImage,
   cameraInfoSchema,
+  compressedImageSchema,
   type Image,
   imageSchema,
   ODOMETRY_TYPES,
@@ -32,6 +35,7 @@ export {
   stampNs,
   TF_TYPES,
 } from './messages.ts';
+export { type ImageRows, MOST_PICTURE_PIXELS, pictureRows } from './picture-rows.ts';
 export { axesOf, checkedCount, PointCloud2Decoder } from './point-cloud2.ts';
 export type { CloudAxes } from './point-words.ts';
 export { RateLimit } from './rate-limit.ts';

@@ -74,6 +74,13 @@ export const imageSchema = z.object({
 });
 export type Image = z.infer<typeof imageSchema>;
 
+export const compressedImageSchema = z.object({
+  header,
+  format: z.string().max(512),
+  data: z.instanceof(Uint8Array),
+});
+export type CompressedImage = z.infer<typeof compressedImageSchema>;
+
 const matrix = (length: number) =>
   z.union([z.array(z.number()), z.instanceof(Float64Array)]).refine((m) => m.length === length);
 /** ROS 1 says `K` and `P`, ROS 2 `k` and `p`. */

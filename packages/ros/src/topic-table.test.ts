@@ -22,7 +22,27 @@ describe('topic table', () => {
     expect(table.map(({ type }) => ros1TypeOf(type))).toContain('std_msgs/Float32');
   });
 
+  it('takes pictures, by their name raw or compressed', () => {
+    const table = topicTableSchema.parse([
+      { topic: '/front/image_raw', as: 'picture', label: 'Front' },
+      { topic: '/rear/image_raw/compressed', as: 'picture', most: 2 },
+      { topic: '/odd', type: 'sensor_msgs/CompressedImage', as: 'picture' },
+    ]);
+    expect(table.map(({ type }) => type)).toEqual([
+      'sensor_msgs/msg/Image',
+      'sensor_msgs/msg/CompressedImage',
+      'sensor_msgs/msg/CompressedImage',
+    ]);
+    const many = Array.from({ length: 9 }, (_, i) => ({ topic: `/camera_${i}`, as: 'picture' }));
+    expect(faults(many)).toEqual(['8.as: there can be at most 8 of picture']);
+  });
+
   it.each([
+    [
+      'compressed depth as a picture',
+      [{ topic: '/depth/image/compressedDepth', as: 'picture' }],
+      '0.topic: cannot be shown as compressedDepth: name the topic of the raw depth picture',
+    ],
     ['no list', {}, ': must be a list of topics'],
     ['no mapping', ['/points'], '0: must be a mapping with topic and as'],
     ['a key nobody knows', [{ topic: '/a', as: 'cloud', rate: 3 }], '0: has what nobody knows: rate'],

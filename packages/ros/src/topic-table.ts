@@ -2,6 +2,7 @@
  * Which topics the robot may touch, and as what. What is not in the table is neither subscribed nor published, whatever
  * discovery sees.
  */
+import { MAX_CAMERAS } from '@farpoint/protocol';
 import * as z from 'zod';
 import { LATCHED_QOS, type Qos, RELIABLE_QOS, SENSOR_QOS, VELOCITY_QOS } from './graph.ts';
 
@@ -14,6 +15,8 @@ export const TOPIC_ROLES = {
   /** The colour picture of `depth`, registered to it. */
   colour: ['sensor_msgs/msg/Image'],
   cameraInfo: ['sensor_msgs/msg/CameraInfo'],
+  /** A camera's picture, for people to look at. */
+  picture: ['sensor_msgs/msg/Image', 'sensor_msgs/msg/CompressedImage'],
   pose: [
     'nav_msgs/msg/Odometry',
     'geometry_msgs/msg/PoseStamped',
@@ -36,6 +39,10 @@ const roles = Object.keys(TOPIC_ROLES) as [TopicRole, ...TopicRole[]];
 const MOST_TOLD = 1;
 const TOLD: readonly TopicRole[] = ['battery', 'fix', 'diagnostics', 'text'];
 const MOST_TOPICS = 64;
+/** What image_transport's topics end with, and what they are. */
+const COMPRESSED_SUFFIX = '/compressed';
+const COMPRESSED_IMAGE = 'sensor_msgs/msg/CompressedImage';
+const COMPRESSED_DEPTH_SUFFIX = '/compressedDepth';
 /** Transforms that hold from before they are said. */
 export const STATIC_SUFFIX = '/tf_static';
 
@@ -105,7 +112,16 @@ const entry = z
   )
   .transform((given, context): TopicEntry => {
     const types: readonly string[] = TOPIC_ROLES[given.as];
-    const type = given.type ?? types[0];
+    const compressed = given.as === 'picture' && given.topic.endsWith(COMPRESSED_SUFFIX);
+    const type = given.type ?? (compressed ? COMPRESSED_IMAGE : types[0]);
+    if (given.as === 'picture' && given.topic.endsWith(COMPRESSED_DEPTH_SUFFIX)) {
+      context.addIssue({
+        code: 'custom',
+        path: ['topic'],
+        message: 'cannot be shown as compressedDepth: name the topic of the raw depth picture',
+      });
+      return z.NEVER;
+    }
     if (type === undefined) {
       context.addIssue({ code: 'custom', path: ['type'], message: `is needed where as is ${given.as}` });
       return z.NEVER;
@@ -141,6 +157,8 @@ export const topicTableSchema = z
       context.addIssue({ code: 'custom', path: [index, key], message });
     const first = (role: TopicRole) => entries.findIndex(({ as }) => as === role);
     entries.forEach(({ topic, as }, index) => {
+      if (as === 'picture' && entries.slice(0, index).filter((each) => each.as === as).length >= MAX_CAMERAS)
+        fault(index, 'as', `there can be at most ${MAX_CAMERAS} of picture`);
       if (SINGLE.includes(as) && first(as) !== index) fault(index, 'as', `there can be only one ${as}`);
       if (entries.findIndex((each) => each.topic === topic) !== index)
         fault(index, 'topic', `${topic} is there twice`);

@@ -1,0 +1,2 @@
+export { PictureCodec, PictureCodecError, type PicturePixels } from './picture-codec.ts';
+export { type PictureRows, rgbaRows, ShrinkingFilter, shrinkFactor, shrunkSize } from './shrinking-filter.ts';

@@ -1,0 +1,130 @@
+/** Puts pictures together from their chunks, in whatever order they come. The newest picture of a camera wins. */
+import {
+  emptyPictureChunkHeader,
+  MAX_CAMERAS,
+  PICTURE_CHUNK_DATA_BYTES,
+  PICTURE_CHUNK_HEADER_BYTES,
+  type PictureChunkFault,
+  type PictureChunkHeader,
+  type PictureHeader,
+  readPictureChunk,
+} from './picture-chunk.ts';
+import { sequenceDelta32 } from './sequence.ts';
+
+/** Chunks of the next picture may overtake the last ones of this. */
+const OPEN_PICTURES = 2;
+
+/** Why a chunk, or a picture that was not whole, was let go. */
+export type PictureDrop =
+  | PictureChunkFault
+  | 'unknown-camera' // the robot has told of no such camera
+  | 'inconsistent' // it says other things of its picture than the chunks before
+  | 'duplicate'
+  | 'late' // of a picture that is not wanted any more: a newer one is whole, or it was let go
+  | 'superseded'; // a picture that never became whole
+
+export interface WholePicture extends PictureHeader {
+  /** The file, JPEG or PNG as the header says. Nobody has looked into it. */
+  bytes: Uint8Array<ArrayBuffer>;
+}
+
+interface OpenPicture {
+  header: PictureChunkHeader;
+  bytes: Uint8Array<ArrayBuffer>;
+  there: Uint8Array;
+  missing: number;
+  length: number;
+}
+
+interface Camera {
+  /** Oldest first. */
+  open: OpenPicture[];
+  /** The newest that was given out or let go. */
+  doneId: number | null;
+}
+
+/** Of one session. Holds at most two unfinished pictures a camera: 10 MB in all. */
+export class PictureAssembler {
+  /** How many cameras the robot has told of. */
+  cameras = 0;
+  readonly drops = new Map<PictureDrop, number>();
+  readonly #cameras: Camera[] = Array.from({ length: MAX_CAMERAS }, () => ({ open: [], doneId: null }));
+  readonly #header = emptyPictureChunkHeader();
+
+  /** Takes one message. @returns the picture that it completes, else `null` */
+  take(message: Uint8Array): WholePicture | null {
+    const header = this.#header;
+    const fault = readPictureChunk(
+      new DataView(message.buffer, message.byteOffset, message.byteLength),
+      header,
+    );
+    if (fault !== null) return this.#drop(fault);
+    if (header.camera >= this.cameras) return this.#drop('unknown-camera');
+    const camera = this.#cameras[header.camera] as Camera;
+    if (camera.doneId !== null && sequenceDelta32(header.pictureId, camera.doneId) <= 0)
+      return this.#drop('late');
+    const picture = this.#find(camera, header);
+    if (picture === null) return null;
+    if (!agree(picture.header, header)) return this.#drop('inconsistent');
+    if (picture.there[header.index] === 1) return this.#drop('duplicate');
+    picture.there[header.index] = 1;
+    const data = message.subarray(PICTURE_CHUNK_HEADER_BYTES);
+    picture.bytes.set(data, header.index * PICTURE_CHUNK_DATA_BYTES);
+    picture.length += data.length;
+    picture.missing--;
+    if (picture.missing > 0) return null;
+    this.#finish(camera, header.pictureId);
+    const { format, width, height, pictureId, captureTimeUs } = header;
+    return {
+      ...{ format, camera: header.camera, width, height, pictureId, captureTimeUs },
+      bytes: picture.bytes.subarray(0, picture.length),
+    };
+  }
+
+  /** The picture that the chunk belongs to; the oldest makes room for a new one. `null` where the chunk is dropped. */
+  #find(camera: Camera, header: PictureChunkHeader): OpenPicture | null {
+    const { pictureId, count } = header;
+    const found = camera.open.find((each) => each.header.pictureId === pictureId);
+    if (found !== undefined) return found;
+    if (camera.open.length === OPEN_PICTURES) {
+      const [oldest] = camera.open as [OpenPicture];
+      if (sequenceDelta32(pictureId, oldest.header.pictureId) <= 0) return this.#drop('late');
+      this.#finish(camera, oldest.header.pictureId);
+      this.#drop('superseded');
+    }
+    const picture: OpenPicture = {
+      header: { ...header },
+      bytes: new Uint8Array(count * PICTURE_CHUNK_DATA_BYTES),
+      there: new Uint8Array(count),
+      missing: count,
+      length: 0,
+    };
+    camera.open.push(picture);
+    camera.open.sort((a, b) => sequenceDelta32(a.header.pictureId, b.header.pictureId));
+    return picture;
+  }
+
+  /** That picture is done, and those before it are not wanted any more. */
+  #finish(camera: Camera, pictureId: number): void {
+    camera.doneId = pictureId;
+    const left = camera.open.filter((each) => sequenceDelta32(each.header.pictureId, pictureId) > 0);
+    const older = camera.open.length - left.length - 1;
+    if (older > 0) this.#drop('superseded', older);
+    camera.open = left;
+  }
+
+  #drop(reason: PictureDrop, count = 1): null {
+    this.drops.set(reason, (this.drops.get(reason) ?? 0) + count);
+    return null;
+  }
+}
+
+function agree(a: PictureChunkHeader, b: PictureChunkHeader): boolean {
+  return (
+    a.count === b.count &&
+    a.format === b.format &&
+    a.width === b.width &&
+    a.height === b.height &&
+    a.captureTimeUs === b.captureTimeUs
+  );
+}

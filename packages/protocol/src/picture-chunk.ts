@@ -1,0 +1,123 @@
+/**
+ * One message of the `pictures` channel: a piece of a camera's picture, little-endian.
+ *
+ *     0  u8  format           1 JPEG, 2 PNG
+ *     1  u8  camera           place in the list of `cameras` (session-messages.ts)
+ *     2  u16 width            pixels, as the picture's own header says
+ *     4  u16 height
+ *     6  u16 index            of this chunk
+ *     8  u16 count            chunks of the picture
+ *    10  u16 reserved         0, passed over
+ *    12  u32 pictureId        counts up for each picture of this camera, wraps
+ *    16  u32 captureTimeUs    of the robot's monotonic clock, wraps, as in a placement
+ *    20      data             1,180 bytes, of the last chunk 1 to 1,180
+ *
+ * A chunk is one SCTP packet of 1,200 bytes: what a lost packet costs is one picture, and nothing has to be sent again.
+ */
+
+export const PICTURE_CHUNK_HEADER_BYTES = 20;
+export const MAX_PICTURE_CHUNK_BYTES = 1200;
+export const PICTURE_CHUNK_DATA_BYTES = MAX_PICTURE_CHUNK_BYTES - PICTURE_CHUNK_HEADER_BYTES;
+export const MAX_PICTURE_CHUNKS = 512;
+/** 604,160. */
+export const MAX_PICTURE_BYTES = MAX_PICTURE_CHUNKS * PICTURE_CHUNK_DATA_BYTES;
+/** Longest side of a picture, pixels. */
+export const MAX_PICTURE_SIDE = 4096;
+/** Cameras of a robot. */
+export const MAX_CAMERAS = 8;
+
+export const PICTURE_FORMATS = ['jpeg', 'png'] as const;
+export type PictureFormat = (typeof PICTURE_FORMATS)[number];
+
+/** What all chunks of a picture say of it. */
+export interface PictureHeader {
+  format: PictureFormat;
+  camera: number;
+  width: number;
+  height: number;
+  pictureId: number;
+  captureTimeUs: number;
+}
+
+export interface PictureChunkHeader extends PictureHeader {
+  index: number;
+  count: number;
+}
+
+/** Why a chunk is refused. */
+export type PictureChunkFault =
+  | 'too-short' // no header, or no data after it
+  | 'too-long' // more than 1,200 bytes
+  | 'unknown-format'
+  | 'bad-camera' // beyond the most cameras that a robot has
+  | 'bad-size' // a side of 0, or over 4,096
+  | 'bad-index' // no chunks, too many, or an index that is not among them
+  | 'bad-length'; // not the last and not full
+
+export function emptyPictureChunkHeader(): PictureChunkHeader {
+  return {
+    ...{ format: 'jpeg', camera: 0, width: 0, height: 0, index: 0, count: 0 },
+    ...{ pictureId: 0, captureTimeUs: 0 },
+  };
+}
+
+/** How many chunks a picture of so many bytes takes. */
+export function pictureChunks(bytes: number): number {
+  return Math.ceil(bytes / PICTURE_CHUNK_DATA_BYTES);
+}
+
+/**
+ * Writes one chunk of a picture.
+ *
+ * @param picture the whole of it, 1 to {@link MAX_PICTURE_BYTES} bytes
+ * @param into room for {@link MAX_PICTURE_CHUNK_BYTES}
+ * @returns how many bytes of it are the chunk
+ */
+export function writePictureChunk(
+  header: PictureHeader,
+  picture: Uint8Array,
+  index: number,
+  into: Uint8Array,
+): number {
+  const view = new DataView(into.buffer, into.byteOffset, into.byteLength);
+  view.setUint8(0, PICTURE_FORMATS.indexOf(header.format) + 1);
+  view.setUint8(1, header.camera);
+  view.setUint16(2, header.width, true);
+  view.setUint16(4, header.height, true);
+  view.setUint16(6, index, true);
+  view.setUint16(8, pictureChunks(picture.length), true);
+  view.setUint16(10, 0);
+  view.setUint32(12, header.pictureId, true);
+  view.setUint32(16, header.captureTimeUs >>> 0, true);
+  const begin = index * PICTURE_CHUNK_DATA_BYTES;
+  const data = picture.subarray(begin, begin + PICTURE_CHUNK_DATA_BYTES);
+  into.set(data, PICTURE_CHUNK_HEADER_BYTES);
+  return PICTURE_CHUNK_HEADER_BYTES + data.length;
+}
+
+/**
+ * Reads and checks a chunk's header into `into` (nothing is allocated), and says what is wrong with it, or `null`.
+ *
+ * @param view the whole message
+ */
+export function readPictureChunk(view: DataView, into: PictureChunkHeader): PictureChunkFault | null {
+  const dataBytes = view.byteLength - PICTURE_CHUNK_HEADER_BYTES;
+  if (dataBytes < 1) return 'too-short';
+  if (dataBytes > PICTURE_CHUNK_DATA_BYTES) return 'too-long';
+  const format = PICTURE_FORMATS[view.getUint8(0) - 1];
+  if (format === undefined) return 'unknown-format';
+  into.format = format;
+  into.camera = view.getUint8(1);
+  if (into.camera >= MAX_CAMERAS) return 'bad-camera';
+  into.width = view.getUint16(2, true);
+  into.height = view.getUint16(4, true);
+  if (Math.min(into.width, into.height) === 0 || Math.max(into.width, into.height) > MAX_PICTURE_SIDE)
+    return 'bad-size';
+  into.index = view.getUint16(6, true);
+  into.count = view.getUint16(8, true);
+  if (into.count > MAX_PICTURE_CHUNKS || into.index >= into.count) return 'bad-index';
+  if (into.index < into.count - 1 && dataBytes < PICTURE_CHUNK_DATA_BYTES) return 'bad-length';
+  into.pictureId = view.getUint32(12, true);
+  into.captureTimeUs = view.getUint32(16, true);
+  return null;
+}
