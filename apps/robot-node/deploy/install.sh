@@ -94,5 +94,9 @@ if [ -z "$dest" ] && [ "$files_only" = no ]; then
   systemctl daemon-reload
   systemctl enable farpoint-robot
 fi
+if [ -z "$dest" ] && [ "$files_only" = no ] && systemctl -q is-active farpoint-robot; then
+  say 'done. The robot that runs is still the old one: `systemctl restart farpoint-robot` when nobody drives.'
+  exit
+fi
 say "done. Next: edit $config and $dest/etc/farpoint/robot.env, run \`farpoint-robot doctor --config $config\`,"
 say 'then `systemctl start farpoint-robot`.'

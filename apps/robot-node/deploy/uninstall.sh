@@ -20,7 +20,11 @@ rm -rf "$dest/opt/farpoint"
 rm -f "$dest/etc/systemd/system/farpoint-robot.service" "$dest/etc/sysctl.d/60-farpoint.conf" "$dest/usr/local/bin/farpoint-robot"
 if [ "$purge" = yes ]; then
   rm -rf "$dest/etc/farpoint" "$dest/var/lib/farpoint"
-  if [ -z "$dest" ] && id farpoint >/dev/null 2>&1; then userdel farpoint; fi
+  if [ -z "$dest" ] && id farpoint >/dev/null 2>&1; then
+    # Nobody inherits them with the user's number.
+    find /dev/shm -maxdepth 1 -user farpoint -delete
+    userdel farpoint || printf 'the user farpoint is still there: end its programs, then `userdel farpoint`\n'
+  fi
 fi
 if [ -z "$dest" ]; then systemctl daemon-reload; fi
 printf 'removed%s\n' "$([ "$purge" = yes ] && printf ', configuration and recordings too' || printf '; /etc/farpoint and /var/lib/farpoint are still there')"

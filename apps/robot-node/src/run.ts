@@ -17,7 +17,10 @@ export async function run(): Promise<void> {
     try {
       setNiceness(options.niceness);
     } catch (error) {
-      log.info({ niceness: options.niceness, err: error }, 'the system keeps the priority');
+      log.info(
+        { niceness: options.niceness, reason: (error as Error).message },
+        'the system keeps the priority',
+      );
     }
     const order = notifyOrder(process.env, process.pid);
     const systemd = order === null ? null : new Notifier(order);

@@ -100,7 +100,8 @@ export function cycloneConfiguration(options: DdsOptions, uri = ''): string {
     // A cloud comes as one burst of packets. The kernel gives as much as net.core.rmem_max allows.
     '<Internal><SocketReceiveBufferSize min="default" max="16MB"/>',
     `<MaxSampleSize>${MOST_MESSAGE_BYTES}B</MaxSampleSize></Internal>`,
-    '<Tracing><Verbosity>severe</Verbosity></Tracing>',
+    // Its errors come to the log. Left to itself it opens a file in the working directory, or fails where it may not.
+    '<Tracing><Verbosity>severe</Verbosity><OutputFile>/dev/null</OutputFile></Tracing>',
     '</Domain></CycloneDDS>',
   ].join('');
   return uri === '' ? ours : `${ours},${uri}`;

@@ -1,5 +1,7 @@
 /** Graphs of this process that hear each other. */
 import { spawnSync } from 'node:child_process';
+import { mkdtempSync, readdirSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { Worker } from 'node:worker_threads';
 import { RELIABLE_QOS, type RosFault, SENSOR_QOS } from '@farpoint/ros';
@@ -185,6 +187,15 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     const program = join(import.meta.dirname, 'testing', 'worker-only.ts');
     const { status, signal } = spawnSync(process.execPath, [program]);
     expect({ status, signal }).toEqual({ status: 0, signal: null });
+  });
+
+  it('writes no file where it runs: that may not be its own', () => {
+    const folder = mkdtempSync(join(tmpdir(), 'farpoint-dds-'));
+    const program = join(import.meta.dirname, 'testing', 'worker-only.ts');
+    const { status } = spawnSync(process.execPath, [program], { cwd: folder });
+    const files = readdirSync(folder);
+    rmSync(folder, { recursive: true });
+    expect({ status, files }).toEqual({ status: 0, files: [] });
   });
 
   it('outlives a thread that ends with a graph open', async () => {

@@ -1,4 +1,5 @@
 import { type DestinationStream, destination, type Logger, pino } from 'pino';
+import { isJournal, toJournal } from './journal.ts';
 import { formatLogLine } from './log-format.ts';
 import type { CommonValues } from './option-table.ts';
 
@@ -13,10 +14,13 @@ export interface LoggerOptions {
   stream?: DestinationStream & { isTTY?: boolean };
 }
 
-/** One JSON object a line for machines, or one readable line on a terminal. Errors go under the key `err`. */
+/**
+ * One JSON object a line for machines, or one readable line on a terminal. Errors go under the key `err`. In systemd's
+ * journal each line has its level as priority.
+ */
 export function createLogger(options: LoggerOptions): Logger {
   const tty = options.stream === undefined ? process.stdout.isTTY === true : options.stream.isTTY === true;
-  const out = options.stream ?? destination({ dest: 1, sync: true });
+  const out = options.stream ?? standardOutput();
   const readable = options.format === 'text' || (options.format === 'auto' && tty);
   return pino(
     {
@@ -27,6 +31,11 @@ export function createLogger(options: LoggerOptions): Logger {
     },
     readable ? { write: (line) => void out.write(formatLogLine(line, tty)) } : out,
   );
+}
+
+function standardOutput(): DestinationStream {
+  const out = destination({ dest: 1, sync: true });
+  return isJournal(process.env.JOURNAL_STREAM, 1) ? toJournal(out) : out;
 }
 
 /** A logger that says nothing, for tests and libraries without one. */

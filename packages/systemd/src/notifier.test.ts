@@ -51,7 +51,7 @@ describe('notifier', () => {
     );
     expect(told).toEqual(['READY=1\nSTATUS=well']);
     vi.advanceTimersByTime(1600);
-    expect(told.slice(1)).toEqual(Array(3).fill('WATCHDOG=1\nSTATUS=well'));
+    expect(told.slice(1)).toEqual(Array(3).fill('WATCHDOG=1'));
     alive = false;
     vi.advanceTimersByTime(5000);
     expect(told).toHaveLength(4);
@@ -60,6 +60,26 @@ describe('notifier', () => {
     vi.advanceTimersByTime(5000);
     expect(told.slice(4)).toEqual(['STOPPING=1']);
     expect(notifier.failed).toBe(0);
+  });
+
+  it('tells a new status within a second, and one that is told not again', () => {
+    const told: string[] = [];
+    const notifier = new Notifier({ socket: '@n', watchdogMs: null }, (_, message) => {
+      told.push(message);
+      return 0;
+    });
+    let status = 'not registered';
+    notifier.ready(
+      () => true,
+      () => status,
+    );
+    vi.advanceTimersByTime(3000);
+    status = 'registered';
+    vi.advanceTimersByTime(3000);
+    notifier.stopping();
+    status = 'late';
+    vi.advanceTimersByTime(3000);
+    expect(told).toEqual(['READY=1\nSTATUS=not registered', 'STATUS=registered', 'STOPPING=1']);
   });
 
   it('goes on where nobody takes its words', () => {

@@ -20,11 +20,15 @@ export function notifyOrder(
   return { socket, watchdogMs: ours && microseconds > 0 ? microseconds / 1000 : null };
 }
 
+/** A new status is told within this time, ms. */
+const STATUS_MS = 1000;
+
 /** Tells systemd how the service is. */
 export class Notifier {
   readonly #order: NotifyOrder;
   readonly #send: Send;
-  #beat: NodeJS.Timeout | null = null;
+  readonly #timers: NodeJS.Timeout[] = [];
+  #status = '';
   /** Words that the socket did not take. */
   failed = 0;
 
@@ -40,20 +44,30 @@ export class Notifier {
 
   /** The service is up. From here on systemd hears of it twice in each watchdog time, while `isAlive` says so. */
   ready(isAlive: () => boolean, status: () => string): void {
-    this.#tell(`READY=1\nSTATUS=${status()}`);
+    this.#status = status();
+    this.#tell(`READY=1\nSTATUS=${this.#status}`);
+    this.#every(STATUS_MS, () => this.#tellStatus(status()));
     const { watchdogMs } = this.#order;
     if (watchdogMs === null) return;
-    this.#beat = setInterval(() => {
-      if (isAlive()) this.#tell(`WATCHDOG=1\nSTATUS=${status()}`);
-    }, watchdogMs / 2);
-    this.#beat.unref();
+    this.#every(watchdogMs / 2, () => {
+      if (isAlive()) this.#tell('WATCHDOG=1');
+    });
   }
 
   /** The service is on its way out. */
   stopping(): void {
-    if (this.#beat !== null) clearInterval(this.#beat);
-    this.#beat = null;
+    for (const timer of this.#timers.splice(0)) clearInterval(timer);
     this.#tell('STOPPING=1');
+  }
+
+  #every(ms: number, action: () => void): void {
+    this.#timers.push(setInterval(action, ms).unref());
+  }
+
+  #tellStatus(status: string): void {
+    if (status === this.#status) return;
+    this.#status = status;
+    this.#tell(`STATUS=${status}`);
   }
 
   #tell(message: string): void {
