@@ -1,10 +1,22 @@
 /** The robot program as it runs, with the real signaling service: processes, sockets, WebRTC. */
+
 import { LocalStack } from '@farpoint/local-stack';
+import { readPictureFile } from '@farpoint/protocol';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 
 const ROBOT = 'sim-1';
-const ARGS = ['--sim-size', '64', '--max-points', '600', '--silence-s', '1', '--max-operators', '2'];
+const ARGS = [
+  '--sim-size',
+  '64',
+  '--pictures-of-cloud',
+  '--max-points',
+  '600',
+  '--silence-s',
+  '1',
+  '--max-operators',
+  '2',
+];
 
 let stack: LocalStack;
 const operators: SignaledOperator[] = [];
@@ -57,6 +69,29 @@ describe('robot process', { timeout: 30_000 }, () => {
     });
     await client.until(() => (client.telemetry?.stream.pointsPerFrame ?? 0) > 0);
     expect(client.telemetry).toMatchObject({ drive: 'idle', operators: 1 });
+  });
+
+  it('sends pictures of its camera to who asks for them, and to nobody else', async () => {
+    const [{ client }, { client: other }] = [await connect(), await connect()];
+    expect((await client.message('cameras')).cameras).toEqual([{ name: 'Camera' }]);
+    client.sendSession({ type: 'pictures', cameras: [0] });
+    await client.until(() => (client.pictures.get(0)?.pictureId ?? 0) >= 3);
+    const picture = client.pictures.get(0)!;
+    expect(picture).toMatchObject({ format: 'jpeg', width: 64, height: 64 });
+    expect(readPictureFile(picture.bytes)).toEqual({ format: 'jpeg', width: 64, height: 64 });
+    expect(other.pictures.size).toBe(0);
+    expect(await metric('pictures_made_total')).toBeGreaterThanOrEqual(4);
+    expect(await metric('pictures_sent')).toBeGreaterThanOrEqual(4);
+    client.sendSession({ type: 'pictures', cameras: [] });
+    const made = () => metric('pictures_made_total');
+    // What is under way is made; then no more.
+    await until(async () => {
+      const before = await made();
+      const { framesPerSecond } = client.telemetry?.stream ?? { framesPerSecond: 0 };
+      const { size } = client.frames;
+      await client.until(() => client.frames.size > size + framesPerSecond / 2);
+      return (await made()) === before;
+    });
   });
 
   it('drives under a lease and stands still once the commands end', async () => {

@@ -19,6 +19,8 @@ import { monotonicMs, threadCpuMs } from './clock.ts';
 import { DriveStation } from './drive/drive-station.ts';
 import { openSink, type SinkOptions, type VelocitySink } from './drive/velocity-sink.ts';
 import type { StreamMode } from './encode/stream-mode.ts';
+import { PictureHub } from './pictures/picture-hub.ts';
+import type { PicturePolicy } from './pictures/picture-plan.ts';
 import { ReferenceProfile } from './reference/reference-profile.ts';
 import { ConnectedOperator } from './session/connected-operator.ts';
 import { FrameFanOut } from './session/frame-fan-out.ts';
@@ -56,6 +58,7 @@ export interface RobotOptions {
   rateControl: 'adaptive' | 'fixed';
   /** What an adaptive rate begins with, bit/s. */
   startBitsPerSecond: number;
+  pictures: PicturePolicy;
   maxOperators: number;
   /** An operator of whom nothing is heard for this long is gone, ms. */
   silenceMs: number;
@@ -87,6 +90,8 @@ export class Robot implements SessionHost {
   readonly counters = new RobotCounters();
   /** Its other face, to the reference system's operators; `null` where it has none. */
   reference: ReferenceProfile | null = null;
+  /** `null` where no camera's pictures are to be had. */
+  readonly pictures: PictureHub | null;
   /** Called once, where the robot cannot go on. */
   onFailure: ((error: CaptureError) => void) | null = null;
   /** `null` where nothing is recorded. */
@@ -154,6 +159,16 @@ export class Robot implements SessionHost {
       now: monotonicMs,
       mayCode: options.mode === 'auto',
     });
+    this.pictures =
+      capture.cameras.length === 0
+        ? null
+        : new PictureHub({
+            policy: options.pictures,
+            capture,
+            targets: () => this.operators.values(),
+            driver: () => guard.leaseHolder,
+            log,
+          });
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
     this.#paths = new PathKeeper({
       operators: this.operators,
@@ -234,6 +249,7 @@ export class Robot implements SessionHost {
     await this.#sink.close();
     this.#sendLoop.close();
     await this.signaling.close();
+    await this.pictures?.close();
     await this.capture.close();
     await this.recording?.close();
     this.#packetLog?.write();
@@ -350,9 +366,13 @@ export class Robot implements SessionHost {
       {
         session,
         operatorName,
-        peer: { iceServers: this.#iceServers, portRange, icePolicy, connectTimeoutMs },
+        peer: {
+          ...{ iceServers: this.#iceServers, portRange, icePolicy, connectTimeoutMs },
+          pictures: this.pictures !== null,
+        },
         controller: this.#makeController(),
         packetLog: this.#packetLog,
+        pictureShare: this.#options.pictures.share,
       },
       this,
       this.#sendLoop,
@@ -429,6 +449,8 @@ export class Robot implements SessionHost {
     });
     session.sendLease();
     session.sendEstop();
+    const { cameras } = this.capture;
+    if (cameras.length > 0) session.send({ type: 'cameras', cameras: cameras.map(({ name }) => ({ name })) });
     this.#fanOut.updateBudget();
   }
 
@@ -447,6 +469,7 @@ export class Robot implements SessionHost {
   #tick(): void {
     this.#paths.tick();
     this.reference?.tick();
+    this.pictures?.tick(monotonicMs());
     this.#fanOut.updateBudget();
     this.#sendLoop.run();
   }

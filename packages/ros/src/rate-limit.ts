@@ -1,11 +1,18 @@
 /** At most so many messages a second; the rhythm is kept where they do not come to the millisecond. */
 export class RateLimit {
-  readonly #intervalMs: number;
+  #intervalMs: number;
   #nextMs = Number.NEGATIVE_INFINITY;
 
   /** @param perSecond `null`: as many as come */
   constructor(perSecond: number | null) {
     this.#intervalMs = perSecond === null ? 0 : 1000 / perSecond;
+  }
+
+  /** From now on; what was admitted before counts. */
+  change(perSecond: number | null): void {
+    this.#nextMs -= this.#intervalMs;
+    this.#intervalMs = perSecond === null ? 0 : 1000 / perSecond;
+    this.#nextMs += this.#intervalMs;
   }
 
   /** @returns whether the message that comes now is taken */

@@ -1,11 +1,12 @@
 /** What the main thread and the capture worker say to each other. */
+import type { MessagePort } from 'node:worker_threads';
 import type { Twist } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { EncodedFrame, SamplingOptions } from '../encode/encoded-frame.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
 import type { PlanPolicy } from '../encode/plan.ts';
-import type { SourceDescription, SourceState } from './frame-source.ts';
+import type { CameraDescription, SourceDescription, SourceState } from './frame-source.ts';
 import type { SourceOptions } from './open-source.ts';
 
 export interface CaptureOptions {
@@ -16,6 +17,8 @@ export interface CaptureOptions {
   sampling: Omit<SamplingOptions, 'depthMeasure'>;
   floorFraction: number;
   mostPoints: number;
+  /** Also give the colour pictures of the camera that clouds come from, where it is one. */
+  picturesOfCloud?: boolean;
   /** Without a word on the velocity for this long the worker itself stops the robot. */
   watchdogMs: number;
 }
@@ -56,6 +59,8 @@ export type CaptureRequest =
   | { type: 'latencyTest' }
   /** A frame's buffer, no longer needed. */
   | { type: 'recycle'; buffer: ArrayBuffer }
+  /** Pictures go to this port from now on. */
+  | { type: 'pictures'; port: MessagePort }
   | { type: 'close' };
 
 /** One frame, ready to send; `buffer` is transferred. */
@@ -77,7 +82,7 @@ export interface CapturedFrame extends EncodedFrame {
 }
 
 export type CaptureReport =
-  | { type: 'ready'; description: SourceDescription }
+  | { type: 'ready'; description: SourceDescription; cameras: readonly CameraDescription[] }
   | CapturedFrame
   /** What receivers of the coded frames that follow need. */
   | { type: 'stream'; stream: CodedStream }

@@ -2,7 +2,7 @@
  * The capture thread: source → sampler → packets. Rendering and encoding take milliseconds at a time; here they never
  * delay the thread that paces packets and reads commands.
  */
-import { parentPort, workerData } from 'node:worker_threads';
+import { type MessagePort, parentPort, workerData } from 'node:worker_threads';
 import { type Twist, zeroTwist } from '@farpoint/protocol';
 import { CloudTap } from '@farpoint/recording';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
@@ -11,6 +11,8 @@ import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import { type FormattedFrame, FrameFormats } from '../encode/frame-formats.ts';
 import { SLOT_BYTES } from '../encode/packetiser.ts';
 import { FramePlanner } from '../encode/plan.ts';
+import type { TapReport } from '../pictures/picture-messages.ts';
+import { PictureTap } from '../pictures/picture-tap.ts';
 import { BufferPool } from './buffer-pool.ts';
 import type { CaptureRecording } from './capture.ts';
 import {
@@ -20,7 +22,7 @@ import {
   type CaptureRequest,
   NO_BUDGET,
 } from './capture-messages.ts';
-import type { CaptureWishes, SourceFrame } from './frame-source.ts';
+import type { CaptureWishes, ImageFrame, SourceFrame } from './frame-source.ts';
 import { openSource } from './open-source.ts';
 
 /** One frame being sent, one waiting, one being filled; and one more, as some frames go out in two formats. */
@@ -32,6 +34,7 @@ const MAX_WAIT_MS = 10;
 const MAX_READY_AGE_MS = 50;
 /** How much earlier than planned its cloud may be, as a share of the interval. */
 const EARLY_SHARE = 0.25;
+const CLOUD_CAMERA = { name: 'Camera', most: null };
 
 const port = parentPort;
 if (port === null) throw new Error('capture-worker.ts runs as a worker only');
@@ -40,6 +43,10 @@ const send = (report: CaptureReport, transfer: ArrayBuffer[] = []) => port.postM
 
 const source = await openSource(options.source);
 const { description } = source;
+const cameras = [
+  ...(description.cameras ?? []),
+  ...(options.picturesOfCloud === true && description.camera !== null ? [CLOUD_CAMERA] : []),
+];
 const { recording } = options;
 const tap = recording === null ? null : new CloudTap(recording.clouds, recording.capturedPerSecond);
 const codec = await loadCodecFromDisk();
@@ -72,6 +79,8 @@ let plannedMs = 1000 / options.framesPerSecond;
 let latencyTest = false;
 /** Since when a source with a rhythm of its own has a cloud ready. */
 let readySinceMs: number | null = null;
+let pictures: PictureTap | null = null;
+let picturePort: MessagePort | null = null;
 let lastFault = '';
 let nextFrameMs = monotonicMs();
 let nextStateMs = 0;
@@ -96,9 +105,13 @@ port.on('message', (request: CaptureRequest) => {
     case 'recycle':
       pool.release(request.buffer);
       break;
+    case 'pictures':
+      takePictures(request.port);
+      break;
     case 'close':
       closed = true;
       source.close();
+      picturePort?.close();
       tap?.close();
       send({ type: 'closed' });
       port.close();
@@ -189,10 +202,37 @@ function captureFrame(now: number): number | null {
     packets.copyPackets(new Uint8Array(buffer), encoded.packets);
     send({ type: 'frame', ...encoded, audience, buffer, ...times, readyMs: monotonicMs() }, [buffer]);
   }
+  if (frame.form === 'images') offerPicture(frame);
   if (tap !== null) record(tap, frame, frames);
   if (green) latencyTest = false;
   workMs += (threadCpuMs() - cpuBefore - workMs) * (workMs === 0 ? 1 : SMOOTHING);
   return intervalMs;
+}
+
+/** The colour picture that a cloud came with, once its packets are on their way. */
+function offerPicture({ colour, captureMs }: ImageFrame): void {
+  const camera = cameras.indexOf(CLOUD_CAMERA);
+  if (pictures === null || camera < 0 || !pictures.wants(camera, captureMs)) return;
+  const { width, height } = description;
+  const data = new Uint8Array(colour.buffer, colour.byteOffset, width * height * 4);
+  const facts = { kind: 'raw', width, height, step: width * 4, encoding: 'rgba8', bigEndian: false } as const;
+  pictures.offer({ camera, captureMs, facts, data });
+}
+
+function takePictures(from: MessagePort): void {
+  const taker = new PictureTap(
+    from,
+    cameras.map(({ most }) => most),
+  );
+  pictures = taker;
+  picturePort?.close();
+  picturePort = from;
+  from.on('message', (report: TapReport) => {
+    taker.onReport(report);
+    // One that was replaced says nothing any more.
+    if (report.type === 'rates' && pictures === taker) source.watchPictures?.(report.perSecond);
+  });
+  source.usePictures?.(taker);
 }
 
 /** Once its packets are on their way: recording delays nothing but the next look at the source. */
@@ -224,5 +264,5 @@ if (source.onFault !== undefined) {
   };
 }
 if (source.onReading !== undefined) source.onReading = (reading) => send({ type: 'reading', reading });
-send({ type: 'ready', description });
+send({ type: 'ready', description, cameras });
 tick();

@@ -9,12 +9,14 @@ import type {
   CaptureReport,
   CaptureRequest,
 } from './capture-messages.ts';
-import type { SourceDescription, SourceState } from './frame-source.ts';
+import type { CameraDescription, SourceDescription, SourceState } from './frame-source.ts';
 
 /** The capture thread ended by itself. */
 export class CaptureError extends Error {
   override readonly name = 'CaptureError';
 }
+
+type Introduction = Extract<CaptureReport, { type: 'ready' }>;
 
 /** Where clouds are recorded. */
 export interface CaptureRecording {
@@ -32,6 +34,8 @@ export interface CaptureState extends SourceState {
 /** The main thread's end of the capture worker. */
 export class Capture {
   readonly description: SourceDescription;
+  /** Cameras whose pictures can be had. */
+  readonly cameras: readonly CameraDescription[];
   /** Gets each frame; it must give the buffer back with `recycle`. */
   onFrame: ((frame: CapturedFrame) => void) | null = null;
   /** Gets what receivers of coded frames need, before the first of them and at each change. */
@@ -52,9 +56,10 @@ export class Capture {
   readonly #worker: Worker;
   #closing = false;
 
-  private constructor(worker: Worker, description: SourceDescription) {
+  private constructor(worker: Worker, { description, cameras }: Introduction) {
     this.#worker = worker;
     this.description = description;
+    this.cameras = cameras;
     worker.on('message', (report: CaptureReport) => {
       if (report.type === 'frame') {
         if (this.onFrame === null) this.recycle(report.buffer);
@@ -82,7 +87,7 @@ export class Capture {
       workerData: { ...options, recording },
       transferList: recording === null ? [] : [recording.clouds],
     });
-    const description = await new Promise<SourceDescription>((resolve, reject) => {
+    const introduction = await new Promise<Introduction>((resolve, reject) => {
       const onError = (error: unknown) =>
         reject(new CaptureError(error instanceof Error ? error.message : String(error), { cause: error }));
       const onExit = (code: number) => onError(new Error(`the capture thread ended with code ${code}`));
@@ -91,11 +96,11 @@ export class Capture {
       worker.once('message', (report: CaptureReport) => {
         worker.off('error', onError);
         worker.off('exit', onExit);
-        if (report.type === 'ready') resolve(report.description);
+        if (report.type === 'ready') resolve(report);
         else reject(new CaptureError('the capture thread did not introduce itself'));
       });
     });
-    return new Capture(worker, description);
+    return new Capture(worker, introduction);
   }
 
   setTwist(twist: Twist): void {
@@ -104,6 +109,11 @@ export class Capture {
 
   setBudget(budget: CaptureBudget): void {
     this.#post({ type: 'budget', ...budget });
+  }
+
+  /** Pictures of `cameras` go to this port from now on. */
+  usePictures(port: MessagePort): void {
+    this.#post({ type: 'pictures', port }, [port]);
   }
 
   requestLatencyTest(): void {
@@ -122,7 +132,7 @@ export class Capture {
     await ended;
   }
 
-  #post(request: CaptureRequest, transfer: ArrayBuffer[] = []): void {
+  #post(request: CaptureRequest, transfer: (ArrayBuffer | MessagePort)[] = []): void {
     this.#worker.postMessage(request, transfer);
   }
 

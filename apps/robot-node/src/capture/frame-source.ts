@@ -2,6 +2,15 @@
 import type { Battery, Pose, Twist } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import type { Pinhole } from '@farpoint/wasm-codec';
+import type { PictureTaker } from '../pictures/source-picture.ts';
+
+/** A camera whose pictures can be shown. */
+export interface CameraDescription {
+  /** What people read. */
+  name: string;
+  /** Most pictures a second that are to be looked at; `null`: as many as come. */
+  most: number | null;
+}
 
 export interface SourceDescription {
   /** What it is, for people, e.g. `sim`. */
@@ -19,6 +28,8 @@ export interface SourceDescription {
   drives: boolean;
   /** What it gives at most, frames a second, where it says so itself. */
   framesPerSecond?: number;
+  /** Cameras whose pictures it can give, beside its clouds. */
+  cameras?: readonly CameraDescription[];
 }
 
 /** What a source that makes its clouds to measure is told. */
@@ -97,6 +108,10 @@ export interface FrameSource {
   onFault?: ((error: Error) => void) | null;
   /** Called for what else the robot's topics say, for people. */
   onReading?: ((reading: TopicReading) => void) | null;
+  /** Where pictures go from now on. */
+  usePictures?(taker: PictureTaker): void;
+  /** Which cameras are watched, pictures a second; 0: nobody looks. */
+  watchPictures?(perSecond: readonly number[]): void;
   readonly state: SourceState;
   close(): void;
 }

@@ -293,4 +293,66 @@ describe('RosSource', () => {
     await expect(opening).rejects.toThrow(message);
     expect(graph.closed).toBe(true);
   });
+
+  describe.each([1, 2] as const)('pictures of ROS %i', (version) => {
+    const table = [
+      { topic: '/points', as: 'cloud' },
+      { topic: '/front/image_raw', as: 'picture', label: 'Front' },
+      { topic: '/rear/compressed', as: 'picture', most: 3 },
+    ];
+    const first = (graph: MemoryGraph) => graph.say('/points', CLOUD, cloudOf(0, 3, 1));
+    const jpeg = Uint8Array.from([0xff, 0xd8, 0xff, 0xc0, 0, 11, 8, 0, 48, 0, 64, 1, 1, 0x11, 0]);
+    const compressed = (ms: number, format = 'jpeg') => ({ header: headerAt(ms), format, data: jpeg });
+    const COMPRESSED = 'sensor_msgs/msg/CompressedImage';
+
+    it('are subscribed while somebody watches, and given to who wants them', async () => {
+      const { source, graph, faults, pass } = await setUp(table, first, { version });
+      expect(source.description.cameras).toEqual([
+        { name: 'Front', most: null },
+        { name: '/rear/compressed', most: 3 },
+      ]);
+      const taken: unknown[] = [];
+      const wanted: [number, number][] = [];
+      source.usePictures({
+        wants: (camera, nowMs) => wanted.push([camera, nowMs]) !== 2,
+        offer: ({ data, ...picture }) => taken.push({ ...picture, bytes: data.length }),
+      });
+      graph.say('/front/image_raw', IMAGE, imageOf(0, 'rgb8', 3));
+      expect(graph.subscribed.map(({ topic }) => topic)).toEqual(['/points']);
+      source.watchPictures([5, 5]);
+      pass(50);
+      graph.say('/front/image_raw', IMAGE, imageOf(20, 'rgb8', 3));
+      graph.say('/front/image_raw', IMAGE, imageOf(50, 'rgb8', 3));
+      graph.say('/rear/compressed', COMPRESSED, compressed(10));
+      expect(taken).toEqual([
+        {
+          ...{ camera: 0, captureMs: 5020, bytes: 144 },
+          facts: { kind: 'raw', width: 8, height: 6, step: 24, encoding: 'rgb8', bigEndian: false },
+        },
+        {
+          ...{ camera: 1, captureMs: 5010, bytes: 15 },
+          facts: { kind: 'file', format: 'jpeg', width: 64, height: 48 },
+        },
+      ]);
+      expect(wanted).toEqual([0, 0, 1].map((camera) => [camera, 5050]));
+      source.watchPictures([5, 0]);
+      graph.say('/rear/compressed', COMPRESSED, compressed(20));
+      expect(taken).toHaveLength(2);
+      expect(faults).toEqual([]);
+    });
+
+    it('that cannot be read are faults with their topic', async () => {
+      const { source, graph, faults } = await setUp(table, first, { version });
+      const taken: unknown[] = [];
+      source.usePictures({ wants: () => true, offer: (picture) => taken.push(picture) });
+      source.watchPictures([5, 5]);
+      graph.say('/rear/compressed', COMPRESSED, compressed(0, '16UC1; compressedDepth'));
+      graph.sayBytes('/front/image_raw', Uint8Array.from([0, 1, 0, 0, 1, 2, 3]));
+      expect(taken).toEqual([]);
+      expect(faults[0]).toMatch(
+        /^\/rear\/compressed: a picture as compressedDepth; take the topic of the raw/,
+      );
+      expect(faults[1]).toMatch(/^\/front\/image_raw/);
+    });
+  });
 });

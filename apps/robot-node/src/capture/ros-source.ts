@@ -13,6 +13,7 @@ import {
   topicAs,
   WorldState,
 } from '@farpoint/ros';
+import type { PictureTaker } from '../pictures/source-picture.ts';
 import type {
   CaptureRoom,
   CaptureWishes,
@@ -25,6 +26,7 @@ import { RosCloudFeed } from './ros-cloud-feed.ts';
 import type { FeedShape, RosFeed } from './ros-feed.ts';
 import { RosImageFeed } from './ros-image-feed.ts';
 import { type Listener, listen } from './ros-listener.ts';
+import { RosPictureFeed } from './ros-picture-feed.ts';
 
 export interface RosSourceOptions {
   topics: TopicTable;
@@ -46,6 +48,8 @@ const MOST_AGE_MS = 500;
 /** Messages of state that may wait in the graph. */
 const STATE_QUEUE = 100;
 const STATE_ROLES = ['pose', 'tf', 'battery'];
+/** Of a camera's name. */
+const MOST_NAME = 64;
 const READING_ROLES = ['battery', 'fix', 'diagnostics', 'text'];
 
 export class RosSource implements FrameSource {
@@ -59,8 +63,16 @@ export class RosSource implements FrameSource {
   readonly #world: WorldState;
   readonly #state: StateTopics;
   readonly #clock: RosClock;
+  readonly #pictures: RosPictureFeed;
 
-  private constructor(graph: RosGraph, feed: RosFeed, shape: FeedShape, state: StateTopics, clock: RosClock) {
+  private constructor(
+    graph: RosGraph,
+    feed: RosFeed,
+    shape: FeedShape,
+    state: StateTopics,
+    topics: TopicTable,
+    clock: RosClock,
+  ) {
     this.#graph = graph;
     this.#feed = feed;
     this.#axes = shape.axes;
@@ -68,13 +80,19 @@ export class RosSource implements FrameSource {
     this.#state = state;
     this.#clock = clock;
     const { width, height, capacity, camera, axes } = shape;
+    const pictures = topics.filter(({ as }) => as === 'picture');
     const names = feed.listeners.map(({ entry }) => entry.topic).join(', ');
     this.description = {
       kind: `ros${graph.version} (${names}, ${axes} frame)`,
       ...{ width, height, capacity, camera },
       depthMeasure: axes === 'body' ? 'range' : 'z',
       drives: false,
+      cameras: pictures.map(({ topic, label, most }) => ({ name: cameraName(label ?? topic), most })),
     };
+    this.#pictures = new RosPictureFeed(graph, pictures, (stampNs, receivedMs) =>
+      this.#captureMs(stampNs, receivedMs, clock.now()),
+    );
+    this.#pictures.onFault = (fault) => this.onFault?.(fault);
     feed.onFrame = () => this.onReady?.();
     feed.onFault = (fault) => this.onFault?.(fault);
     state.onFault = (fault) => this.onFault?.(fault);
@@ -101,7 +119,7 @@ export class RosSource implements FrameSource {
       feed.onFault = onFault;
       await firstFrame(feed, waitMs);
       if (feed.shape === null) throw whyNothing(graph, feed, waitMs, last);
-      return new RosSource(graph, feed, feed.shape, state, clock);
+      return new RosSource(graph, feed, feed.shape, state, topics, clock);
     } catch (error) {
       feed?.close();
       state.close();
@@ -127,14 +145,21 @@ export class RosSource implements FrameSource {
     }
     if (fed === null) return null;
     const { count, frameId, stampNs, receivedMs } = fed;
-    const ageMs = Number(this.#clock.wallNs() - stampNs) / 1e6;
     const stamp = {
       cameraPose: this.#world.opticalPose(frameId, stampNs, this.#axes),
-      captureMs: Math.min(ageMs >= 0 && ageMs <= MOST_AGE_MS ? this.#clock.now() - ageMs : receivedMs, nowMs),
+      captureMs: this.#captureMs(stampNs, receivedMs, nowMs),
     };
     return this.description.camera === null
       ? { form: 'points', points: room.points, count, ...stamp }
       : { form: 'images', depth: room.depth, colour: room.colour, ...stamp };
+  }
+
+  usePictures(taker: PictureTaker): void {
+    this.#pictures.taker = taker;
+  }
+
+  watchPictures(perSecond: readonly number[]): void {
+    this.#pictures.watch(perSecond);
   }
 
   skip(): void {
@@ -143,9 +168,22 @@ export class RosSource implements FrameSource {
 
   close(): void {
     this.#feed.close();
+    this.#pictures.close();
     this.#state.close();
     void this.#graph.close();
   }
+
+  /** By its stamp, where that is of our clock and not long ago, else by its coming. */
+  #captureMs(stampNs: bigint, receivedMs: number, nowMs: number): number {
+    const ageMs = Number(this.#clock.wallNs() - stampNs) / 1e6;
+    const stamped = ageMs >= 0 && ageMs <= MOST_AGE_MS;
+    return Math.min(stamped ? this.#clock.now() - ageMs : receivedMs, nowMs);
+  }
+}
+
+/** As people read it; of a long topic, its end. */
+function cameraName(name: string): string {
+  return name.slice(-MOST_NAME);
 }
 
 /** The topics that say where the robot is and how it does. */

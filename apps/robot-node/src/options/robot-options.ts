@@ -35,6 +35,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
       floorFraction: values.floor,
       mostPoints: values.maxPoints,
+      picturesOfCloud: values.picturesOfCloud,
       watchdogMs: values.watchdogMs,
     },
     sink: toSink(values),
@@ -50,6 +51,12 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     mode: values.mode,
     rateControl: values.rateControl,
     startBitsPerSecond: values.startMbps * 1e6,
+    pictures: {
+      perSecond: values.picturesPerSecond,
+      longestSide: values.picturesLongestSide,
+      quality: values.picturesQuality,
+      share: values.picturesShare,
+    },
     maxOperators: values.maxOperators,
     silenceMs: values.silenceS * 1000,
     connectTimeoutMs: 20_000,
@@ -78,6 +85,9 @@ function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, de
   const ros = source === 'ros1' || source === 'ros2';
   if (ros && topicAs(topics, 'cloud') === undefined && topicAs(topics, 'depth') === undefined) {
     refuse('topics', `needs an entry with \`as: cloud\` or \`as: depth\` for the source ${source}`);
+  }
+  if (!ros && topicAs(topics, 'picture') !== undefined) {
+    refuse('topics', 'can have `as: picture` only with the source ros1 or ros2');
   }
   if ((sink === 'ros1' || sink === 'ros2') && topicAs(topics, 'velocity') === undefined) {
     refuse('topics', `needs an entry with \`as: velocity\` for the sink ${sink}`);

@@ -4,6 +4,7 @@ import { identityOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';
 import { measurementOptions } from './measurement.ts';
 import { networkOptions } from './network.ts';
+import { picturesOptions } from './pictures.ts';
 import { playbackOptions } from './playback.ts';
 import { recordingOptions } from './recording.ts';
 import { rosOptions } from './ros.ts';
@@ -27,6 +28,7 @@ const options = {
   ...rosOptions,
   ...limitsOptions,
   ...streamOptions,
+  ...picturesOptions,
   ...networkOptions,
   ...recordingOptions,
   ...adminOptions(9400),

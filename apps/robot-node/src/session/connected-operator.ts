@@ -1,6 +1,8 @@
 import { type RateController, RateMeter } from '@farpoint/congestion';
 import { CLOUD_FORMATS, type IceCandidate, type StageTimings, type StreamStatus } from '@farpoint/protocol';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
+import type { ReadyPicture } from '../pictures/picture-messages.ts';
+import { PictureSender } from '../pictures/picture-sender.ts';
 import { StageTimer } from '../telemetry/stage-timer.ts';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
 import { OperatorPeer, type OperatorPeerOptions, type PeerEnd } from '../transport/operator-peer.ts';
@@ -26,6 +28,8 @@ export interface ConnectedOperatorOptions {
   peer: OperatorPeerOptions;
   controller: RateController;
   packetLog?: PacketLog | undefined;
+  /** Most of the path that pictures may take, 0–1. */
+  pictureShare: number;
 }
 
 export interface ConnectedOperatorEvents {
@@ -62,7 +66,8 @@ export class ConnectedOperator implements FrameTarget {
   readonly #points = new RateMeter();
   readonly #bytes = new RateMeter();
   readonly #stages = new StageTimer();
-  readonly #budget = new PathBudget();
+  readonly #budget: PathBudget;
+  readonly pictures: PictureSender;
   #tests: LatencyTest[] = [];
   #lastTestId: number | null = null;
   readonly #testsInFlight = new Map<SharedFrame, LatencyTest[]>();
@@ -80,6 +85,7 @@ export class ConnectedOperator implements FrameTarget {
     this.#sendLoop = sendLoop;
     this.#controller = options.controller;
     this.#packetLog = options.packetLog;
+    this.#budget = new PathBudget(options.pictureShare);
     this.#events = events;
     this.peer = new OperatorPeer(options.peer, {
       onCandidate: (candidate) => events.onCandidate(candidate),
@@ -87,6 +93,7 @@ export class ConnectedOperator implements FrameTarget {
       onMessage: (channel, data) => this.session.onMessage(channel, data),
       onEnded: (end, detail) => this.#onEnded(end, detail),
     });
+    this.pictures = new PictureSender(this.peer);
     this.session = new OperatorSession(options.session, options.operatorName, host, this.peer);
     this.session.onReceiverReport = (report) => this.sender?.onReceiverReport(report);
     this.session.onReceiverLimit = (bitsPerSecond) => {
@@ -94,9 +101,10 @@ export class ConnectedOperator implements FrameTarget {
       events.onBudgetChanged();
     };
     this.session.onStreamSwitch = (running) => {
-      if (!running) this.sender?.clear();
+      if (!running) this.#clear();
       events.onBudgetChanged();
     };
+    this.session.onPictures = (cameras) => this.pictures.watch(cameras);
     this.session.onCloudFormats = (formats) => {
       this.takesCoded = CLOUD_FORMATS.every((format) => formats.includes(format));
       if (this.takesCoded) events.onTakesCoded();
@@ -129,6 +137,20 @@ export class ConnectedOperator implements FrameTarget {
   get cloudBitsPerSecond(): number {
     const { sender } = this;
     return sender === null ? 0 : this.#budget.cloudBitsPerSecond(sender.targetBitsPerSecond) * sender.fit;
+  }
+
+  get watchedCameras(): ReadonlySet<number> {
+    return this.pictures.watched;
+  }
+
+  /** What pictures may take of the path, bit/s on the wire; 0 while there is none. */
+  get pictureBitsPerSecond(): number {
+    const { sender } = this;
+    return sender === null ? 0 : this.#budget.pictureBitsPerSecond(sender.targetBitsPerSecond);
+  }
+
+  offerPicture(picture: ReadyPicture): void {
+    if (this.streaming) this.pictures.offer(picture);
   }
 
   get droppedFrames(): number {
@@ -179,7 +201,8 @@ export class ConnectedOperator implements FrameTarget {
   /** Every 25 ms. */
   tick(): void {
     if (this.peer.heardSinceLast()) this.#pathHeardMs = this.#host.now();
-    this.#budget.update(this.peer.messageBytesSent, this.#host.now());
+    this.#budget.update(this.peer.messageBytesSent, this.pictures.bytesSent, this.#host.now());
+    this.pictures.tick(this.#host.now(), this.streaming ? this.pictureBitsPerSecond : 0);
     this.sender?.tick();
     this.session.flushRejections();
   }
@@ -203,6 +226,12 @@ export class ConnectedOperator implements FrameTarget {
         droppedFrames: this.droppedFrames,
       },
     };
+  }
+
+  /** What waits to be sent is not wanted any more. */
+  #clear(): void {
+    this.sender?.clear();
+    this.pictures.clear();
   }
 
   #onConnected(transport: CloudTransport): void {
@@ -236,6 +265,7 @@ export class ConnectedOperator implements FrameTarget {
     this.sender = null;
     this.#tests = [];
     this.#testsInFlight.clear();
+    this.pictures.clear();
     if (sender !== null) {
       this.#sendLoop.remove(sender);
       sender.clear();

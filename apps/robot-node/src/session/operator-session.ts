@@ -58,6 +58,7 @@ export class OperatorSession {
   onReceiverLimit: ((bitsPerSecond: number) => void) | null = null;
   onStreamSwitch: ((running: boolean) => void) | null = null;
   onCloudFormats: ((formats: readonly CloudFormat[]) => void) | null = null;
+  onPictures: ((cameras: readonly number[]) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #rejections = new RejectionReporter();
@@ -202,6 +203,9 @@ export class OperatorSession {
         break;
       case 'cloudFormats':
         this.onCloudFormats?.(message.formats);
+        break;
+      case 'pictures':
+        this.onPictures?.(message.cameras);
         break;
       case 'latencyMeasured':
         this.#host.latencyMeasured?.(this, message);

@@ -6,10 +6,28 @@ describe('PathBudget', () => {
     const budget = new PathBudget();
     expect(budget.cloudBitsPerSecond(10e6)).toBe(10e6 - 20_000);
     // 20 kB a second.
-    budget.update(0, 0);
-    budget.update(10_000, 500);
-    budget.update(20_000, 1000);
+    budget.update(0, 0, 0);
+    budget.update(10_000, 0, 500);
+    budget.update(20_000, 0, 1000);
     expect(budget.cloudBitsPerSecond(10e6)).toBe(9.8e6);
+  });
+
+  it('leaves clouds at least 85 % of what messages do not take, however much pictures want', () => {
+    for (const target of [0.1e6, 0.5e6, 1e6, 2e6, 4e6, 8e6, 20e6, 60e6]) {
+      const budget = new PathBudget(0.15);
+      // Pictures that take all they may, and more.
+      for (let i = 0; i <= 10; i++) budget.update(i * 200, i * 1e6, i * 100);
+      const cloud = budget.cloudBitsPerSecond(target);
+      expect(cloud).toBeGreaterThanOrEqual(target * 0.85 - 20_000 - 1);
+      expect(cloud + budget.pictureBitsPerSecond(target)).toBeLessThanOrEqual(target);
+    }
+  });
+
+  it('gives clouds what pictures may take and do not', () => {
+    const budget = new PathBudget(0.15);
+    for (let i = 0; i <= 10; i++) budget.update(0, 0, i * 100);
+    expect(budget.pictureBitsPerSecond(10e6)).toBe(1.5e6);
+    expect(budget.cloudBitsPerSecond(10e6)).toBe(10e6 - 20_000);
   });
 
   it('gives messages all of a path that carries hardly anything', () => {

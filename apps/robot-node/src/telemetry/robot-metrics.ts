@@ -54,6 +54,16 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
     sum('recording_bytes', 'Bytes of the recording', () => recording.counts.bytes);
     sum('recording_dropped', 'Not recorded: the writer did not keep up', () => recording.counts.dropped);
   }
+  const { pictures } = robot;
+  if (pictures !== null) {
+    const made = pictures.counters;
+    sum('pictures_made', 'Pictures of cameras made ready to send', () => made.made);
+    sum('pictures_untouched', 'Of those, files sent as the camera gave them', () => made.untouched);
+    sum('picture_bytes', 'Bytes of the pictures made ready', () => made.bytes);
+    sum('picture_thread_seconds', 'Processor time of making pictures', () => made.workSeconds);
+    sum('picture_thread_restarts', 'Times the picture thread was started anew', () => made.restarts);
+    sumBy('pictures_lost', 'Pictures that were not made, by reason', 'reason', made.lost);
+  }
   sum('sessions_refused', 'Sessions refused: too many operators', () => counters.sessionsRefused);
   sumBy('sessions_ended', 'Sessions that ended, by reason', 'reason', counters.sessionsEnded);
   sum('ice_candidates_refused', 'ICE candidates that could not be used', () => counters.candidatesRefused);
@@ -170,4 +180,22 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
     'Frames not sent because a newer one came first, operators connected now',
     overOperators((s) => s.droppedFrames.superseded + s.droppedFrames.overdue),
   );
+  if (pictures === null) return;
+  gauge('pictures_sent', 'Pictures sent to operators connected now', () =>
+    [...robot.operators.values()].reduce((total, operator) => total + operator.pictures.picturesSent, 0),
+  );
+  gauge('picture_bytes_sent', 'Bytes on the wire of pictures to operators connected now', () =>
+    [...robot.operators.values()].reduce((total, operator) => total + operator.pictures.bytesSent, 0),
+  );
+  new Gauge({
+    name: 'farpoint_robot_pictures_unsent',
+    help: 'Pictures that were not sent, or not to their end, by reason, operators connected now',
+    labelNames: ['reason'],
+    registers: [registry],
+    collect() {
+      this.reset();
+      for (const operator of robot.operators.values())
+        for (const [reason, count] of Object.entries(operator.pictures.drops)) this.inc({ reason }, count);
+    },
+  });
 }

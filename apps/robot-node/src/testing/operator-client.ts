@@ -7,6 +7,7 @@ import {
   type IceCandidate,
   type OperatorControlMessage,
   type OperatorSessionMessage,
+  PictureAssembler,
   type Reading,
   type RobotSessionMessage,
   readCloudPayload,
@@ -15,6 +16,7 @@ import {
   type TelemetryMessage,
   type Twist,
   telemetryCodec,
+  type WholePicture,
   zeroTwist,
 } from '@farpoint/protocol';
 import {
@@ -43,6 +45,9 @@ export class OperatorClient {
   onCandidate: ((candidate: IceCandidate) => void) | null = null;
   /** Gets each readable packet of a cloud. */
   onCloudPacket: ((payload: Buffer) => void) | null = null;
+  /** The newest of each camera. */
+  readonly pictures = new Map<number, WholePicture>();
+  readonly #assembler = new PictureAssembler();
   telemetry: Telemetry | null = null;
   /** The newest of each topic. */
   readonly readings = new Map<string, Reading>();
@@ -81,6 +86,7 @@ export class OperatorClient {
       if (channel.label === 'session') this.#sessionChannel = channel;
       channel.onMessage.subscribe((data) => {
         if (channel.label === 'session') this.session.push(decodeJson(robotSessionCodec, data));
+        else if (channel.label === 'pictures') this.#onPicture(data);
         else if (channel.label === 'telemetry') this.#onTelemetry(decodeJson(telemetryCodec, data));
         this.#changed();
       });
@@ -185,6 +191,13 @@ export class OperatorClient {
   async close(): Promise<void> {
     if (this.#probes !== null) clearInterval(this.#probes);
     await this.connection.close();
+  }
+
+  #onPicture(data: string | Buffer): void {
+    const cameras = this.session.findLast(({ type }) => type === 'cameras');
+    if (cameras?.type === 'cameras') this.#assembler.cameras = cameras.cameras.length;
+    const picture = typeof data === 'string' ? null : this.#assembler.take(data);
+    if (picture !== null) this.pictures.set(picture.camera, picture);
   }
 
   #onTelemetry(message: TelemetryMessage): void {

@@ -37,6 +37,8 @@ export interface OperatorPeerOptions {
   /** `relay`: by TURN servers only. */
   icePolicy?: 'all' | 'relay' | undefined;
   connectTimeoutMs: number;
+  /** There are pictures to send: a channel for them is opened. */
+  pictures?: boolean | undefined;
 }
 
 export interface OperatorPeerEvents {
@@ -62,6 +64,7 @@ export class OperatorPeer {
   readonly #session: RTCDataChannel;
   readonly #telemetry: RTCDataChannel;
   readonly #connectTimer: NodeJS.Timeout;
+  readonly #pictures: RTCDataChannel | null = null;
   #control: RTCDataChannel | null = null;
   #bandwidth: RTCDataChannel | null = null;
   #transport: SrtpCloudTransport | null = null;
@@ -115,12 +118,18 @@ export class OperatorPeer {
     });
     // Idle, but with a video m-line in the bundle the browser's UDP receive buffer is 2 MiB instead of 128 KiB.
     connection.addTransceiver('video', { direction: 'sendonly' });
-    const { session, telemetry } = channels;
+    const { session, telemetry, pictures } = channels;
     this.#session = connection.createDataChannel(session.label, { ordered: session.ordered });
     this.#telemetry = connection.createDataChannel(telemetry.label, {
       ordered: telemetry.ordered,
       maxPacketLifeTime: telemetry.maxPacketLifeTime,
     });
+    if (options.pictures === true) {
+      this.#pictures = connection.createDataChannel(pictures.label, {
+        ordered: pictures.ordered,
+        maxPacketLifeTime: pictures.maxPacketLifeTime,
+      });
+    }
     this.#session.onMessage.subscribe((data) => this.#events.onMessage('session', data));
     this.#session.stateChanged.subscribe((state) => {
       if (state === 'open') this.#checkConnected();
@@ -250,6 +259,24 @@ export class OperatorPeer {
     if (this.#control !== null) this.#sendUnreliable(this.#control, text);
   }
 
+  /** Bytes of pictures that wait to leave. */
+  get picturesBuffered(): number {
+    return this.#pictures?.bufferedAmount ?? 0;
+  }
+
+  /** @returns bytes on the wire, all headers counted; 0 where it cannot be sent */
+  sendPicture(chunk: Uint8Array): number {
+    const channel = this.#pictures;
+    if (channel === null || !this.connected || channel.readyState !== 'open') return 0;
+    try {
+      channel.send(Buffer.from(chunk.buffer, chunk.byteOffset, chunk.byteLength));
+    } catch (error) {
+      this.#end('connection-lost', errorText(error));
+      return 0;
+    }
+    return chunk.length + MESSAGE_OVERHEAD_BYTES;
+  }
+
   close(end: PeerEnd = 'closed', detail = ''): void {
     this.#end(end, detail);
   }
@@ -287,7 +314,7 @@ export class OperatorPeer {
     } else if (channel.label === channels.bandwidth.label && this.#bandwidth === null) {
       this.#bandwidth = channel;
       channel.onMessage.subscribe((data) => this.#events.onMessage('bandwidth', data));
-    } else if (channel !== this.#session && channel !== this.#telemetry) {
+    } else if (channel !== this.#session && channel !== this.#telemetry && channel !== this.#pictures) {
       this.unknownChannels++;
       channel.close();
     }

@@ -1,0 +1,136 @@
+/** The main thread's end of pictures: the picture thread, what it is to make, and who gets what it made. */
+import { MessageChannel, Worker } from 'node:worker_threads';
+import type { Logger } from '@farpoint/service';
+import type { Capture } from '../capture/capture.ts';
+import { ReasonCounts } from '../telemetry/robot-counters.ts';
+import type { CameraPlan, PictureReport, PictureRequest, ReadyPicture } from './picture-messages.ts';
+import { PicturePlanner, type PicturePolicy } from './picture-plan.ts';
+
+/** Who may watch. */
+export interface PictureTarget {
+  /** As the guard knows it. */
+  readonly id: string;
+  readonly streaming: boolean;
+  readonly watchedCameras: ReadonlySet<number>;
+  /** What pictures may take of its path, bit/s on the wire. */
+  readonly pictureBitsPerSecond: number;
+  offerPicture(picture: ReadyPicture): void;
+}
+
+export interface PictureHubOptions {
+  policy: PicturePolicy;
+  capture: Capture;
+  targets: () => Iterable<PictureTarget>;
+  /** Whose path decides how large pictures are; `null` where nobody drives. */
+  driver: () => string | null;
+  log: Logger;
+}
+
+const RESTART_MS = 1000;
+const PLAN_MS = 250;
+
+export interface PictureCounters {
+  made: number;
+  /** Of those, files that went on as they came. */
+  untouched: number;
+  bytes: number;
+  /** Processor time of the picture thread, s. */
+  workSeconds: number;
+  lost: ReasonCounts;
+  /** Times that the picture thread was started anew. */
+  restarts: number;
+}
+
+export class PictureHub {
+  readonly counters: PictureCounters = {
+    ...{ made: 0, untouched: 0, bytes: 0, workSeconds: 0, restarts: 0 },
+    lost: new ReasonCounts(),
+  };
+  readonly #options: PictureHubOptions;
+  readonly #planners: PicturePlanner[];
+  readonly #lastDetail: string[] = [];
+  #worker: Worker | null = null;
+  #restart: NodeJS.Timeout | null = null;
+  #told = '';
+  #plannedMs = Number.NEGATIVE_INFINITY;
+  #closed = false;
+
+  constructor(options: PictureHubOptions) {
+    this.#options = options;
+    this.#planners = options.capture.cameras.map(() => new PicturePlanner(options.policy));
+    this.#start();
+  }
+
+  /** Plans anew, a few times a second at most. */
+  tick(nowMs: number): void {
+    if (nowMs - this.#plannedMs < PLAN_MS) return;
+    this.#plannedMs = nowMs;
+    const watching = [...this.#options.targets()].filter(
+      ({ streaming, watchedCameras }) => streaming && watchedCameras.size > 0,
+    );
+    const driver = watching.find(({ id }) => id === this.#options.driver());
+    // One encode for all: the driver's path decides, without a driver the narrowest.
+    const deciding = driver === undefined ? watching : [driver];
+    const narrowest = Math.min(...deciding.map(({ pictureBitsPerSecond }) => pictureBitsPerSecond));
+    const shown = this.#planners.map((_, camera) =>
+      watching.some(({ watchedCameras }) => watchedCameras.has(camera)),
+    );
+    const share = watching.length === 0 ? 0 : narrowest / shown.filter(Boolean).length;
+    this.#tell(this.#planners.map((planner, camera) => planner.plan(shown[camera] ? share : 0)));
+  }
+
+  async close(): Promise<void> {
+    this.#closed = true;
+    if (this.#restart !== null) clearTimeout(this.#restart);
+    await this.#worker?.terminate();
+  }
+
+  #start(): void {
+    const { port1, port2 } = new MessageChannel();
+    const worker = new Worker(new URL('./picture-worker.ts', import.meta.url), {
+      workerData: { tap: port1 },
+      transferList: [port1],
+    });
+    this.#options.capture.usePictures(port2);
+    this.#told = '';
+    this.#worker = worker;
+    worker.on('message', (report: PictureReport) => this.#onReport(report));
+    worker.on('error', (error) => this.#options.log.error({ err: error }, 'the picture thread failed'));
+    worker.on('exit', () => {
+      if (this.#closed) return;
+      // Pictures are no reason to stop a robot.
+      this.counters.restarts++;
+      this.#worker = null;
+      this.#restart = setTimeout(() => this.#start(), RESTART_MS);
+    });
+  }
+
+  #tell(plans: readonly CameraPlan[]): void {
+    const text = JSON.stringify(plans);
+    if (text === this.#told || this.#worker === null) return;
+    this.#told = text;
+    const request: PictureRequest = { type: 'plans', plans };
+    this.#worker.postMessage(request);
+  }
+
+  #onReport(report: PictureReport): void {
+    const { counters } = this;
+    if (report.type === 'lost') {
+      const { camera, reason, count, detail } = report;
+      counters.lost.add(reason, count);
+      if (detail === '' || this.#lastDetail[camera] === detail) return;
+      // While it goes on it is said once.
+      this.#lastDetail[camera] = detail;
+      const { name } = this.#options.capture.cameras[camera] ?? { name: String(camera) };
+      this.#options.log.warn({ camera: name, reason, detail }, 'a picture cannot be shown');
+      return;
+    }
+    const { header, fileBytes, longestSide, untouched, workMs } = report;
+    counters.made++;
+    counters.bytes += fileBytes;
+    counters.workSeconds += workMs / 1000;
+    if (untouched) counters.untouched++;
+    else this.#planners[header.camera]?.onMade(fileBytes, longestSide);
+    for (const target of this.#options.targets()) target.offerPicture(report);
+  }
+}

@@ -1,0 +1,121 @@
+import type { ReadyPicture } from './picture-messages.ts';
+
+/** Why a picture was not sent to this operator, or not to its end. */
+export type PictureDropReason =
+  | 'superseded' // a newer one of its camera came before its turn
+  | 'backlog' // what was sent before has not left yet
+  | 'overdue'; // it took too long
+
+/** The operator's channel for pictures. */
+export interface PictureLink {
+  /** Bytes that wait to leave. */
+  readonly picturesBuffered: number;
+  /** @returns bytes on the wire, all headers counted; 0 where it was not sent */
+  sendPicture(chunk: Uint8Array): number;
+}
+
+/** More waiting than this, and no chunk follows, bytes. */
+const MOST_BUFFERED = 8192;
+/** Credit is saved up for so long, ms. */
+const BURST_MS = 100;
+/** A picture that took so long to send is not worth its rest, ms. */
+const OVERDUE_MS = 1500;
+
+interface Sending {
+  picture: ReadyPicture;
+  next: number;
+  beganMs: number;
+}
+
+/**
+ * One operator's pictures: of each camera the newest waits, one after another goes out, chunk by chunk, at the rate that is
+ * left to pictures. It owns no timer: call `tick` often.
+ */
+export class PictureSender {
+  /** Cameras that the operator wants to see. */
+  watched: ReadonlySet<number> = new Set();
+  picturesSent = 0;
+  bytesSent = 0;
+  readonly drops: Record<PictureDropReason, number> = { superseded: 0, backlog: 0, overdue: 0 };
+  readonly #link: PictureLink;
+  /** By camera, in the order of their turns. */
+  readonly #waiting = new Map<number, ReadyPicture>();
+  #sending: Sending | null = null;
+  #creditBytes = 0;
+  #filledMs: number | null = null;
+
+  constructor(link: PictureLink) {
+    this.#link = link;
+  }
+
+  watch(cameras: readonly number[]): void {
+    this.watched = new Set(cameras);
+    for (const camera of this.#waiting.keys()) if (!this.watched.has(camera)) this.#waiting.delete(camera);
+  }
+
+  offer(picture: ReadyPicture): void {
+    const { camera } = picture.header;
+    if (!this.watched.has(camera)) return;
+    // It keeps its turn: a fast camera does not push a slow one back.
+    if (this.#waiting.has(camera)) this.drops.superseded++;
+    this.#waiting.set(camera, picture);
+  }
+
+  /** Sends what is due. @param bitsPerSecond what pictures may take now; 0 holds everything back */
+  tick(nowMs: number, bitsPerSecond: number): void {
+    this.#fill(nowMs, bitsPerSecond);
+    while (this.#creditBytes > 0) {
+      const sending = this.#sending ?? this.#begin(nowMs);
+      if (sending === null) return;
+      if (nowMs - sending.beganMs > OVERDUE_MS) {
+        this.#end('overdue');
+        continue;
+      }
+      if (this.#link.picturesBuffered > MOST_BUFFERED) return;
+      const chunk = sending.picture.chunks[sending.next] as Uint8Array;
+      const bytes = this.#link.sendPicture(chunk);
+      if (bytes === 0) {
+        this.#end('backlog');
+        return;
+      }
+      this.#creditBytes -= bytes;
+      this.bytesSent += bytes;
+      sending.next++;
+      if (sending.next < sending.picture.chunks.length) continue;
+      this.picturesSent++;
+      this.#sending = null;
+    }
+  }
+
+  /** Lets go of everything: nobody looks. */
+  clear(): void {
+    this.#waiting.clear();
+    this.#sending = null;
+  }
+
+  #begin(nowMs: number): Sending | null {
+    for (const [camera, picture] of this.#waiting) {
+      this.#waiting.delete(camera);
+      if (this.#link.picturesBuffered > MOST_BUFFERED) {
+        this.drops.backlog++;
+        continue;
+      }
+      this.#sending = { picture, next: 0, beganMs: nowMs };
+      return this.#sending;
+    }
+    return null;
+  }
+
+  #end(reason: PictureDropReason): void {
+    this.drops[reason]++;
+    this.#sending = null;
+  }
+
+  #fill(nowMs: number, bitsPerSecond: number): void {
+    const bytesPerMs = bitsPerSecond / 8000;
+    const elapsed = this.#filledMs === null ? 0 : Math.max(0, nowMs - this.#filledMs);
+    this.#filledMs = nowMs;
+    // Nothing is begun on credit that is not there; the last chunk may overdraw it by a little.
+    this.#creditBytes = Math.min(this.#creditBytes + elapsed * bytesPerMs, bytesPerMs * BURST_MS);
+  }
+}
