@@ -13,6 +13,7 @@ import type { PageLink } from './link/page-link.ts';
 import { RobotLink, type RobotLinkEvents } from './link/robot-link.ts';
 import type { PageParts } from './page-parts.ts';
 import type { TransformSupport } from './peer/encoded-transform.ts';
+import { CameraViews } from './pictures/camera-views.ts';
 import type { Settings } from './settings.ts';
 import { PageStatistics } from './status/page-stats.ts';
 import { failureWords, leavingWords, lossWords, rejectionWords } from './status/words.ts';
@@ -47,6 +48,7 @@ export class App implements PageParts {
   readonly stats: PageStatistics;
   readonly latency: LatencyProbe;
   readonly vr: VrSession;
+  readonly cameras: CameraViews;
   readonly #worker: Worker;
   readonly #completion: GpuCompletion;
   readonly #gate = new DrawGate();
@@ -98,7 +100,12 @@ export class App implements PageParts {
       this.link.sendSession({ type: 'latencyMeasured', id, frameNumber, mtpMs, firstMs });
     });
     this.vr = new VrSession(renderer, (active) => this.#onVr(active));
-    this.#status = new StatusUi(this, new WristPanel(renderer, this.stage.rig));
+    this.cameras = new CameraViews((stampUs, nowMs) => this.link.session.ageMs(stampUs, nowMs), {
+      onChange: () => this.#status.onCameras(),
+      onWatch: (cameras) => this.link.sendSession({ type: 'pictures', cameras }),
+      onPicture: () => this.#status.updatePictures(performance.now()),
+    });
+    this.#status = new StatusUi(this, new WristPanel(renderer, this.stage.rig), this.cameras);
   }
 
   start(): void {
@@ -120,6 +127,7 @@ export class App implements PageParts {
     setInterval(() => {
       const nowMs = performance.now();
       this.stats.tick(this.cloud, nowMs);
+      this.cameras.looking = this.vr.active || !document.hidden;
       this.#status.update(nowMs);
       this.#governDrawing(nowMs);
     }, STATUS_TICK_MS);
@@ -239,6 +247,7 @@ export class App implements PageParts {
       },
       onGeneration: (generation) => {
         this.#generation = generation;
+        this.cameras.setCameras([]);
         this.cloud.reset();
         this.stats.reset();
         this.stage.forgetPose();
@@ -270,6 +279,8 @@ export class App implements PageParts {
         };
         this.#worker.postMessage(message, [bytes.buffer]);
       },
+      onCameras: (cameras) => this.cameras.setCameras(cameras),
+      onPicture: (picture, nowMs) => this.cameras.add(picture, nowMs),
       onTelemetry: (telemetry) => this.stage.setBody(telemetry.pose),
       onRobotFault: (message) => notify(`The robot says: ${message}`, 'warning'),
     };

@@ -78,6 +78,20 @@ export interface DrawnProbe {
   newestFrame: number | null;
 }
 
+/** A camera's panel. */
+export interface CameraProbe {
+  name: string;
+  shown: boolean;
+  /** Pixels of the newest picture. */
+  width: number;
+  height: number;
+  /** `null` before the first picture. */
+  ageMs: number | null;
+  /** Shown since the session began, and those that could not be decoded. */
+  pictures: number;
+  failures: number;
+}
+
 export interface FarpointTestApi {
   readonly version: 1;
   state(): PageState;
@@ -99,6 +113,7 @@ export interface FarpointTestApi {
   /** Limits the stream, bit/s (the `bandwidth` channel). */
   limitBandwidth(bitsPerSecond: number): void;
   probe(): DrawnProbe;
+  cameras(): CameraProbe[];
   /** Begins to record when each packet arrives, up to so many; `null` ends it. */
   recordPackets(capacity: number | null): void;
   /**

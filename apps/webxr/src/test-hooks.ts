@@ -61,6 +61,12 @@ export function installTestApi(app: App): void {
     },
     limitBandwidth: (bitsPerSecond) => link.limitBandwidth(bitsPerSecond),
     probe: () => probe(app),
+    cameras: () =>
+      app.cameras.views.map((view) => {
+        const { name, shown, canvas, pictures, failures } = view;
+        const ageMs = app.cameras.ageMs(view, performance.now());
+        return { name, shown, width: canvas.width, height: canvas.height, ageMs, pictures, failures };
+      }),
     recordPackets(capacity) {
       app.packetRecord = capacity === null ? null : new PacketRecord(capacity);
     },

@@ -6,6 +6,7 @@ import {
   type IceServer,
   type MessageData,
 } from '@farpoint/protocol';
+import type { RobotChannel } from '../session/robot-session.ts';
 import { attachWorker, type TransformSupport, transformConfiguration } from './encoded-transform.ts';
 
 export interface OperatorPeerEvents {
@@ -13,7 +14,7 @@ export interface OperatorPeerEvents {
   onCandidate(candidate: IceCandidate): void;
   /** The path stands and the robot's session channel is open. */
   onConnected(): void;
-  onMessage(channel: 'session' | 'telemetry' | 'control', data: MessageData): void;
+  onMessage(channel: RobotChannel, data: MessageData): void;
   /** The last event, unless {@link OperatorPeer.close} was called. */
   onFailed(detail: string): void;
 }
@@ -159,12 +160,14 @@ export class OperatorPeer {
       this.#checkConnected();
     } else if (channel.label === channels.telemetry.label) {
       this.#listen(channel, 'telemetry');
+    } else if (channel.label === channels.pictures.label) {
+      this.#listen(channel, 'pictures');
     } else {
       channel.close();
     }
   }
 
-  #listen(channel: RTCDataChannel, name: 'session' | 'telemetry' | 'control'): void {
+  #listen(channel: RTCDataChannel, name: RobotChannel): void {
     channel.binaryType = 'arraybuffer';
     channel.onmessage = ({ data }: MessageEvent<unknown>) => {
       if (this.#ended) return;

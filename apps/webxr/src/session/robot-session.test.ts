@@ -15,6 +15,8 @@ function bench(): { session: RobotSession; told: string[] } {
     onLatencyFrame: tell('latencyFrame'),
     onCloudStream: tell('cloudStream'),
     onTelemetry: tell('telemetry'),
+    onCameras: tell('cameras'),
+    onPicture: tell('picture'),
     onRobotFault: tell('fault'),
   });
   return { session, told };

@@ -1,6 +1,7 @@
 /** What the robot has told on its channels in this session. Takes bytes and the time; no channel, no clock. */
 import {
   ageOfStampMs,
+  type Cameras,
   ClockOffset,
   type CloudStream,
   type CommandRejected,
@@ -10,14 +11,19 @@ import {
   type LatencyFrame,
   type LeaseState,
   type MessageData,
+  PictureAssembler,
   ProtocolError,
   robotSessionCodec,
   sequenceDelta32,
   type Telemetry,
   telemetryCodec,
   type Welcome,
+  type WholePicture,
 } from '@farpoint/protocol';
 import { Readings } from './readings.ts';
+
+/** Channels by which the robot speaks. */
+export type RobotChannel = 'session' | 'telemetry' | 'control' | 'pictures';
 
 export interface RobotSessionEvents {
   onWelcome(welcome: Welcome): void;
@@ -28,6 +34,9 @@ export interface RobotSessionEvents {
   onTelemetry(telemetry: Telemetry): void;
   /** What coded packets are decoded with. */
   onCloudStream(stream: CloudStream): void;
+  /** The cameras whose pictures can be asked for. */
+  onCameras(cameras: Cameras['cameras']): void;
+  onPicture(picture: WholePicture, nowMs: number): void;
   /** The robot could not use a message of ours. */
   onRobotFault(message: string): void;
 }
@@ -39,6 +48,7 @@ export class RobotSession {
   telemetry: Telemetry | null = null;
   /** What the robot's sensors and topics say. */
   readonly readings = new Readings();
+  readonly pictures = new PictureAssembler();
   readonly clock = new ClockOffset();
   /** Messages that are not of the protocol. */
   malformed = 0;
@@ -49,10 +59,11 @@ export class RobotSession {
     this.#events = events;
   }
 
-  onMessage(channel: 'session' | 'telemetry' | 'control', data: MessageData, nowMs: number): void {
+  onMessage(channel: RobotChannel, data: MessageData, nowMs: number): void {
     try {
       if (channel === 'session') this.#onSession(data);
       else if (channel === 'telemetry') this.#onTelemetry(data, nowMs);
+      else if (channel === 'pictures') this.#onPicture(data, nowMs);
       else this.clock.add(decodeJson(clockAnswerCodec, data), nowMs);
     } catch (error) {
       if (!(error instanceof ProtocolError)) throw error;
@@ -95,10 +106,23 @@ export class RobotSession {
       case 'cloudStream':
         this.#events.onCloudStream(message);
         return;
+      case 'cameras':
+        this.pictures.cameras = message.cameras.length;
+        this.#events.onCameras(message.cameras);
+        return;
       case 'fault':
         this.#events.onRobotFault(message.message);
         return;
     }
+  }
+
+  #onPicture(data: MessageData, nowMs: number): void {
+    if (typeof data === 'string') {
+      this.malformed++;
+      return;
+    }
+    const picture = this.pictures.take(data instanceof ArrayBuffer ? new Uint8Array(data) : data);
+    if (picture !== null) this.#events.onPicture(picture, nowMs);
   }
 
   #onTelemetry(data: MessageData, nowMs: number): void {

@@ -1,26 +1,49 @@
 /** What the page shows of the link, the robot and the stream, a few times a second: on the screen and on the wrist. */
 import { robotAfter } from '../drive/robot-switch.ts';
 import type { PageParts } from '../page-parts.ts';
+import type { CameraViews } from '../pictures/camera-views.ts';
+import { STALE_MS } from '../pictures/camera-views.ts';
 import type { ShownReading } from '../session/readings.ts';
 import { driveWords, linkWords, type Words } from '../status/words.ts';
 import type { PageStats } from '../test-api.ts';
 import type { WristPanel } from '../view/wrist-panel.ts';
+import { WristPictures } from '../view/wrist-pictures.ts';
 import { elements } from './elements.ts';
 import { type Fact, showFacts } from './facts.ts';
+import { PicturePanels } from './picture-panels.ts';
 import { showRobotSwitcher } from './robot-switcher.ts';
 
 export class StatusUi {
   readonly #app: PageParts;
   readonly #wrist: WristPanel;
+  readonly #cameras: CameraViews;
+  readonly #panels: PicturePanels;
+  readonly #wristPictures = new WristPictures();
 
-  constructor(app: PageParts, wrist: WristPanel) {
+  constructor(app: PageParts, wrist: WristPanel, cameras: CameraViews) {
     this.#app = app;
     this.#wrist = wrist;
+    this.#cameras = cameras;
+    this.#panels = new PicturePanels(cameras);
+    wrist.addBeside(this.#wristPictures.object);
   }
 
   onVr(active: boolean): void {
     elements.vr.textContent = active ? 'Leave VR' : 'Enter VR';
     this.#wrist.visible = active;
+  }
+
+  /** Other cameras, or others of them shown. */
+  onCameras(): void {
+    this.#panels.rebuild();
+    this.#wristPictures.setViews(this.#cameras.views);
+  }
+
+  /** What pictures show changes with each of them, and with time. */
+  updatePictures(nowMs: number): void {
+    this.#panels.update(nowMs);
+    if (!this.#app.vr.active) return;
+    this.#wristPictures.update((view) => (this.#cameras.ageMs(view, nowMs) ?? 0) > STALE_MS);
   }
 
   update(nowMs: number): void {
@@ -39,6 +62,7 @@ export class StatusUi {
     elements.hud.hidden = link.phase !== 'live';
     if (link.phase === 'live') this.#showSession(nowMs);
     if (this.#app.vr.active) this.#showWrist(words);
+    this.updatePictures(nowMs);
   }
 
   #showSession(nowMs: number): void {

@@ -4,6 +4,7 @@ import {
   Group,
   Mesh,
   MeshBasicMaterial,
+  type Object3D,
   PlaneGeometry,
   SRGBColorSpace,
   type WebGLRenderer,
@@ -13,6 +14,7 @@ import type { Tone } from '../status/words.ts';
 const WIDTH = 512;
 const HEIGHT = 288;
 const PANEL_M = 0.18;
+const GAP_M = 0.02;
 const COLOURS: Record<Tone, string> = {
   good: '#35c9b5',
   neutral: '#9fb2c1',
@@ -65,6 +67,12 @@ export class WristPanel {
         if (this.#group.parent === grip) rest();
       });
     }
+  }
+
+  /** Puts something beside it, that goes with it. */
+  addBeside(object: Object3D): void {
+    object.position.set(PANEL_M + GAP_M, (-PANEL_M * HEIGHT) / WIDTH / 2, 0);
+    this.#group.add(object);
   }
 
   set visible(visible: boolean) {

@@ -8,7 +8,7 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import BatteryState, CameraInfo, Image, PointCloud2, PointField
+from sensor_msgs.msg import BatteryState, CameraInfo, CompressedImage, Image, PointCloud2, PointField
 from std_msgs.msg import Float32
 
 CLOUD_SIDE = 480
@@ -49,6 +49,20 @@ def image():
     return message
 
 
+def bars():
+    """1280 x 960 pixels: four bars from left to right: red, green, blue, white."""
+    message = Image(width=1280, height=960, encoding="bgr8", step=1280 * 3)
+    row = b"".join(bytes(bgr) * 320 for bgr in ((0, 0, 255), (0, 255, 0), (255, 0, 0), (255, 255, 255)))
+    message.data = row * 960
+    return message
+
+
+def broken_jpeg():
+    """A header of 320 x 240 pixels, and nothing behind it that could be decoded."""
+    frame = bytes((0xFF, 0xC0, 0, 17, 8, 0, 240, 1, 64, 3, 1, 0x22, 0, 2, 0x11, 1, 3, 0x11, 1))
+    return b"\xff\xd8" + frame + b"\xff\xda" + bytes(range(200))
+
+
 def odometry(count):
     message = Odometry(child_frame_id="base_link")
     message.header.frame_id = "odom"
@@ -79,6 +93,10 @@ def main():
         publishers.append((rospy.Publisher("/camera_info", CameraInfo, queue_size=1), camera_info()))
     if "image" in parts:
         publishers.append((rospy.Publisher("/image", Image, queue_size=1), image()))
+    if "pictures" in parts:
+        publishers.append((rospy.Publisher("/front/image_raw", Image, queue_size=1), bars()))
+        rear = CompressedImage(format="jpeg", data=broken_jpeg())
+        publishers.append((rospy.Publisher("/rear/image_raw/compressed", CompressedImage, queue_size=1), rear))
     if "state" in parts:
         publishers.append((rospy.Publisher("/odom", Odometry, queue_size=1), odometry(0)))
         battery = BatteryState(voltage=25.1, percentage=0.75, current=float("nan"))

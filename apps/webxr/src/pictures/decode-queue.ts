@@ -1,0 +1,55 @@
+import { MAX_CAMERAS, type WholePicture } from '@farpoint/protocol';
+import type { PictureToDecode } from './worker-messages.ts';
+
+interface Slot {
+  decoding: { ticket: number; picture: WholePicture } | null;
+  waiting: WholePicture | null;
+}
+
+/** Of each camera one picture is being decoded and the newest waits: a slow machine shows fewer, not later ones. */
+export class DecodeQueue {
+  /** Pictures that gave way to newer ones. */
+  superseded = 0;
+  readonly #decode: (picture: PictureToDecode) => void;
+  readonly #slots: Slot[] = Array.from({ length: MAX_CAMERAS }, () => ({ decoding: null, waiting: null }));
+  #ticket = 0;
+
+  constructor(decode: (picture: PictureToDecode) => void) {
+    this.#decode = decode;
+  }
+
+  add(picture: WholePicture): void {
+    const slot = this.#slots[picture.camera] as Slot;
+    if (slot.decoding === null) this.#begin(slot, picture);
+    else {
+      if (slot.waiting !== null) this.superseded++;
+      slot.waiting = picture;
+    }
+  }
+
+  /** @returns the picture whose decoding ended; `null` where nobody waits for it any more */
+  ended(ticket: number): WholePicture | null {
+    for (const slot of this.#slots) {
+      if (slot.decoding?.ticket !== ticket) continue;
+      const { picture } = slot.decoding;
+      slot.decoding = null;
+      const { waiting } = slot;
+      slot.waiting = null;
+      if (waiting !== null) this.#begin(slot, waiting);
+      return picture;
+    }
+    return null;
+  }
+
+  /** Another robot, or none: what is under way concerns nobody. */
+  clear(): void {
+    for (const slot of this.#slots) Object.assign(slot, { decoding: null, waiting: null });
+  }
+
+  #begin(slot: Slot, picture: WholePicture): void {
+    this.#ticket++;
+    slot.decoding = { ticket: this.#ticket, picture };
+    const { format, width, height, bytes } = picture;
+    this.#decode({ ticket: this.#ticket, format, width, height, bytes });
+  }
+}

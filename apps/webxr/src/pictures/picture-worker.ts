@@ -1,0 +1,32 @@
+/** Decodes pictures beside the page's thread. What the robot sends is anybody's bytes: only files that are what they say are tried. */
+import { readPictureFile } from '@farpoint/protocol';
+import type { FromPictureWorker, PictureToDecode } from './worker-messages.ts';
+
+declare const self: DedicatedWorkerGlobalScope;
+
+const TYPES = { jpeg: 'image/jpeg', png: 'image/png' } as const;
+
+self.onmessage = ({ data }: MessageEvent<PictureToDecode>) => {
+  void decode(data);
+};
+
+async function decode({ ticket, format, width, height, bytes }: PictureToDecode): Promise<void> {
+  try {
+    // Before anything is decoded: a small file may say that it is a huge picture.
+    const file = readPictureFile(bytes);
+    if (typeof file === 'string') throw new Error(file);
+    if (file.format !== format || file.width !== width || file.height !== height)
+      throw new Error(`a file of ${file.width} × ${file.height} pixels as ${width} × ${height}`);
+    const bitmap = await createImageBitmap(new Blob([bytes], { type: TYPES[format] }), {
+      // Its size is the one that was told, whatever its metadata say of turning it.
+      imageOrientation: 'none',
+    });
+    tell({ ticket, bitmap }, [bitmap]);
+  } catch (error) {
+    tell({ ticket, fault: error instanceof Error ? error.message : String(error) }, []);
+  }
+}
+
+function tell(message: FromPictureWorker, transfer: Transferable[]): void {
+  self.postMessage(message, transfer);
+}

@@ -1,0 +1,68 @@
+/** The cameras' pictures in VR: beside the panel on the wrist, one above the other. */
+import { CanvasTexture, Group, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from 'three';
+import type { CameraView } from '../pictures/camera-views.ts';
+
+const WIDTH_M = 0.2;
+const GAP_M = 0.012;
+/** More would hide the way. */
+const MOST_SHOWN = 3;
+const STALE_COLOUR = 0x555555;
+const FRESH_COLOUR = 0xffffff;
+
+interface Sheet {
+  view: CameraView;
+  mesh: Mesh<PlaneGeometry, MeshBasicMaterial>;
+  texture: CanvasTexture;
+  width: number;
+  height: number;
+  pictures: number;
+}
+
+export class WristPictures {
+  readonly object = new Group();
+  #sheets: Sheet[] = [];
+
+  /** Other cameras, or others of them shown. */
+  setViews(views: readonly CameraView[]): void {
+    for (const { mesh, texture } of this.#sheets) {
+      this.object.remove(mesh);
+      mesh.geometry.dispose();
+      mesh.material.dispose();
+      texture.dispose();
+    }
+    this.#sheets = views
+      .filter(({ shown }) => shown)
+      .slice(0, MOST_SHOWN)
+      .map((view) => {
+        const texture = new CanvasTexture(view.canvas);
+        texture.colorSpace = SRGBColorSpace;
+        const mesh = new Mesh(new PlaneGeometry(1, 1), new MeshBasicMaterial({ map: texture }));
+        mesh.visible = false;
+        this.object.add(mesh);
+        return { view, mesh, texture, width: 0, height: 0, pictures: 0 };
+      });
+  }
+
+  /** Hands new pictures to the GPU; call a few times a second, in VR only. */
+  update(isStale: (view: CameraView) => boolean): void {
+    let top = 0;
+    for (const sheet of this.#sheets) {
+      const { view, mesh, texture } = sheet;
+      const { width, height } = view.canvas;
+      mesh.visible = view.takenMs !== null;
+      if (!mesh.visible) continue;
+      if (width !== sheet.width || height !== sheet.height) {
+        // A texture keeps the size that it began with.
+        texture.dispose();
+        Object.assign(sheet, { width, height });
+      }
+      if (sheet.pictures !== view.pictures) texture.needsUpdate = true;
+      sheet.pictures = view.pictures;
+      const tall = (WIDTH_M * height) / width;
+      mesh.scale.set(WIDTH_M, tall, 1);
+      mesh.position.set(0, top + tall / 2, 0);
+      mesh.material.color.set(isStale(view) ? STALE_COLOUR : FRESH_COLOUR);
+      top += tall + GAP_M;
+    }
+  }
+}

@@ -1,0 +1,159 @@
+import { writeFileSync } from 'node:fs';
+import { Ros1Peers } from '@farpoint/ros/testing/ros1';
+import type { Page } from '@playwright/test';
+import { OperatorPage } from '../src/operator-page.ts';
+import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+
+const panel = (page: Page, name: string) => page.locator('#pictures figure', { hasText: name });
+const camera = async (page: Page, name: string) => {
+  const found = (await page.evaluate(() => window.farpoint.cameras())).find((each) => each.name === name);
+  if (found === undefined) throw new Error(`no camera ${name}`);
+  return found;
+};
+
+/** Colours of the panel's canvas at shares of its width, half-way down. */
+const colours = (page: Page, name: string, places: number[]) =>
+  panel(page, name)
+    .locator('canvas')
+    .evaluate((element, at) => {
+      const canvas = element as HTMLCanvasElement;
+      const context = canvas.getContext('2d') as CanvasRenderingContext2D;
+      return at.map((x) => [
+        ...context.getImageData(Math.floor(x * canvas.width), canvas.height >> 1, 1, 1).data.slice(0, 3),
+      ]);
+    }, places);
+
+const withCamera = { ...simulatedRobot, args: [...simulatedRobot.args, '--pictures-of-cloud'] };
+
+test('the simulated camera’s picture is shown, live, and can be hidden', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [withCamera] });
+  const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
+  await operator.expectPoints();
+  await expect(panel(page, 'Camera').locator('canvas')).toBeVisible();
+  await expect.poll(async () => (await camera(page, 'Camera')).pictures).toBeGreaterThan(5);
+  expect(await camera(page, 'Camera')).toMatchObject({ width: 480, height: 480, failures: 0 });
+  const places = Array.from({ length: 40 }, (_, i) => (i + 0.5) / 40);
+  const seen = await colours(page, 'Camera', places);
+  expect(new Set(seen.map((colour) => colour.map((value) => value >> 4).join())).size).toBeGreaterThan(5);
+  await operator.screenshot(testInfo, 'picture');
+
+  // What the robot sees changes as it turns.
+  await page.evaluate(() => window.farpoint.requestLease());
+  await operator.expectState('holder', 'you');
+  await page.evaluate(() => window.farpoint.drive({ forward: 0, left: 1 }, 1500));
+  await expect
+    .poll(async () => {
+      const now = await colours(page, 'Camera', places);
+      return now.flat().reduce((sum, value, i) => sum + Math.abs(value - (seen.flat()[i] as number)), 0);
+    })
+    .toBeGreaterThan(1000);
+
+  // Hidden, it is not sent either.
+  await page.getByRole('button', { name: 'Hide Camera' }).click();
+  await expect(panel(page, 'Camera').locator('canvas')).toBeHidden();
+  await expect(panel(page, 'Camera').locator('.age')).toHaveText('hidden');
+  const sent = async () => {
+    const text = await (await fetch(`${stack.robotAdminUrl(simulatedRobot.id)}/metrics`)).text();
+    return Number(/^farpoint_robot_pictures_made_total (\d+)/m.exec(text)?.[1]);
+  };
+  await expect
+    .poll(async () => {
+      const before = await sent();
+      await operator.expectFrames(30);
+      return (await sent()) - before;
+    })
+    .toBe(0);
+  const { pictures } = await camera(page, 'Camera');
+  await page.getByRole('button', { name: 'Show Camera' }).click();
+  await expect.poll(async () => (await camera(page, 'Camera')).pictures).toBeGreaterThan(pictures + 2);
+});
+
+test.describe('on a phone held upright', () => {
+  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true });
+
+  test('pictures are on the screen and cover no control', async ({ page, startStack }, testInfo) => {
+    const stack = await startStack({ robots: [withCamera] });
+    const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
+    await operator.expectPoints();
+    await expect.poll(async () => (await camera(page, 'Camera')).pictures).toBeGreaterThan(1);
+    await operator.screenshot(testInfo, 'phone-picture');
+    const figure = await panel(page, 'Camera').boundingBox();
+    expect(figure).not.toBeNull();
+    const { x, y, width, height } = figure!;
+    expect(width).toBeGreaterThan(120);
+    expect(x).toBeGreaterThanOrEqual(0);
+    expect(x + width).toBeLessThanOrEqual(390);
+    for (const id of ['#facts', '#joystick', '#estop', '#latency', '#bar']) {
+      const box = (await page.locator(id).boundingBox())!;
+      const apart =
+        x + width <= box.x || box.x + box.width <= x || y + height <= box.y || box.y + box.height <= y;
+      expect(apart, id).toBe(true);
+    }
+    await page.getByRole('button', { name: 'Hide Camera' }).tap();
+    await expect(panel(page, 'Camera').locator('canvas')).toBeHidden();
+  });
+});
+
+const { python, missing } = Ros1Peers.find();
+
+test('pictures of a ROS 1 graph: raw ones shrunk, a silent one marked, a broken one harmless', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  test.skip(python === null, missing ?? '');
+  const peers = await Ros1Peers.open(python ?? '');
+  try {
+    await peers.startCore();
+    await peers.startNode('cloud', 'lidar');
+    const cameras = await peers.startNode('pictures', 'cameras');
+    const config = testInfo.outputPath('farpoint.yaml');
+    writeFileSync(
+      config,
+      `
+robot:
+  source: { kind: ros1 }
+  ros: { master: '${peers.masterUrl}', hostname: 127.0.0.1 }
+  topics:
+    - { topic: /points, as: cloud }
+    - { topic: /camera_info, as: cameraInfo }
+    - { topic: /front/image_raw, as: picture, label: Front }
+    - { topic: /rear/image_raw/compressed, as: picture, label: Rear }
+`,
+    );
+    const robot = { id: 'ros-1', name: 'Robot in a ROS graph' };
+    const stack = await startStack({ robots: [{ ...robot, args: ['--config', config] }] });
+    const operator = await OperatorPage.open(page, stack, { robot: robot.id });
+    await operator.expectPoints(5000);
+    await expect.poll(async () => (await camera(page, 'Front')).pictures).toBeGreaterThan(3);
+    const front = await camera(page, 'Front');
+    expect(front.width).toBeLessThanOrEqual(640);
+    expect(front.width / front.height).toBeCloseTo(1280 / 960, 1);
+    const bars = await colours(page, 'Front', [0.125, 0.375, 0.625, 0.875]);
+    const expected = [
+      [255, 0, 0],
+      [0, 255, 0],
+      [0, 0, 255],
+      [255, 255, 255],
+    ];
+    for (const [i, bar] of bars.entries())
+      for (const [c, value] of bar.entries())
+        expect(Math.abs(value - (expected[i]?.[c] as number)), `bar ${i}`).toBeLessThan(20);
+
+    // The page goes on, and says nothing but that nothing came.
+    await expect.poll(async () => (await camera(page, 'Rear')).failures).toBeGreaterThan(3);
+    expect((await camera(page, 'Rear')).pictures).toBe(0);
+    await expect(panel(page, 'Rear').locator('.age')).toHaveText('waiting');
+    await operator.expectFrames(5);
+    await operator.screenshot(testInfo, 'ros-pictures');
+
+    await cameras.kill();
+    await expect(panel(page, 'Front')).toHaveAttribute('data-stale', 'true');
+    await expect(panel(page, 'Front').locator('.age')).toHaveText(/^stale, \d+\.\d s$/);
+    await operator.screenshot(testInfo, 'ros-pictures-stale');
+  } finally {
+    await peers.close();
+  }
+});
