@@ -1,7 +1,7 @@
 /** Joins the robot's ROS graph and looks around. */
 import { RosFault, type TopicTable } from '@farpoint/ros';
 import type { RobotOptions } from '../robot.ts';
-import { type GraphOptions, openGraph } from '../ros/open-graph.ts';
+import { type GraphOptions, openGraph, ros2GraphOf } from '../ros/open-graph.ts';
 import { graphName, judgeHostname, judgeTopics } from './check-ros.ts';
 import { fail, ok, type Result } from './finding.ts';
 
@@ -17,7 +17,7 @@ export function graphOf({ capture, sink }: RobotOptions): GraphOptions | null {
 
 /** With a name of its own: of two nodes with one name a master ends the first. */
 export function asDoctor(options: GraphOptions): GraphOptions {
-  return options.kind === 'ros1' ? { ...options, name: `${options.name}_doctor` } : options;
+  return { ...options, name: `${options.name ?? 'farpoint'}_doctor` };
 }
 
 /**
@@ -47,7 +47,7 @@ export async function checkRos(
     const seen = graph.topics();
     void graph.close();
     return [
-      ok(`${name}: ${seen.length} topics`),
+      ok(`${name}${carriedBy(options)}: ${seen.length} topics`),
       ...judgeHostname(options),
       ...judgeTopics(table, seen, own),
     ];
@@ -56,6 +56,11 @@ export async function checkRos(
       error instanceof RosFault ? error : { what: (error as Error).message, remedy: undefined };
     return [fail(`${name}: ${what}`, remedy ?? 'docs/ros.md says what is needed')];
   }
+}
+
+function carriedBy(options: GraphOptions): string {
+  if (options.kind === 'ros1') return '';
+  return ros2GraphOf(options) === 'dds' ? ', DDS' : `, rclnodejs with ROS ${process.env.ROS_DISTRO}`;
 }
 
 /** @returns what is wrong with the master, or `null` */

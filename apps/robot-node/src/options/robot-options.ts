@@ -142,10 +142,12 @@ function toSink(values: RobotOptionValues): SinkOptions {
 
 function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): GraphOptions {
   const { env } = process;
+  // What a node may not be called becomes _.
+  const name = values.rosName ?? `farpoint_${values.id.replaceAll(/[^A-Za-z0-9_]/g, '_')}`;
   if (kind === 'ros2') {
     const { rosDomain, rosInterface, rosPeers, rosReach } = values;
     return {
-      kind,
+      ...{ kind, name, graph: values.rosGraph },
       ...(rosDomain === null ? {} : { domain: rosDomain }),
       ...(rosInterface === null ? {} : { interface: rosInterface }),
       ...(rosPeers.length === 0 ? {} : { peers: rosPeers }),
@@ -153,9 +155,7 @@ function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): GraphOp
     };
   }
   return {
-    kind,
-    // What a node may not be called becomes _.
-    name: values.rosName ?? `farpoint_${values.id.replaceAll(/[^A-Za-z0-9_]/g, '_')}`,
+    ...{ kind, name },
     masterUrl: values.rosMaster ?? (env.ROS_MASTER_URI || 'http://localhost:11311'),
     hostname: values.rosHostname ?? ros1Hostname(env),
   };

@@ -13,7 +13,14 @@ export const rosOptions = optionGroup('ros', {
     default: null,
     argument: 'NAME',
     file: 'name',
-    help: 'ros1: begin of the names of its nodes; left out, made of the id',
+    help: 'ros1, rclnodejs: begin of the names of its nodes; left out, made of the id',
+  }),
+  rosGraph: defineOption({
+    schema: schema.choice(['auto', 'dds', 'rclnodejs']),
+    default: 'auto',
+    argument: 'GRAPH',
+    file: 'graph',
+    help: 'ros2: dds, which needs no ROS; rclnodejs, with the ROS installation that is sourced and its middleware; auto: rclnodejs where both are there, else dds',
   }),
   rosMaster: defineOption({
     schema: schema.optional(z.url({ protocol: /^http$/, error: 'must be an http:// address' })),
