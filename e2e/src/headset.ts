@@ -12,6 +12,7 @@ interface EmulatedDevice {
     | {
         updateAxes(id: string, x: number, y: number): void;
         updateButtonValue(id: string, value: number): void;
+        position: { set(x: number, y: number, z: number): void };
       }
     | undefined
   >;
@@ -51,6 +52,14 @@ export class Headset {
       ([hand, x, y]) => window.emulatedHeadset.controllers[hand]?.updateAxes('thumbstick', x, y),
       [hand, x, y] as const,
     );
+  }
+
+  /** @param at right, up, back, metres; the eyes are at 1.6 m */
+  async place(hand: Hand, at: [x: number, y: number, z: number]): Promise<void> {
+    await this.#page.evaluate(([hand, at]) => window.emulatedHeadset.controllers[hand]?.position.set(...at), [
+      hand,
+      at,
+    ] as const);
   }
 
   /** @param value 0 released … 1 held */

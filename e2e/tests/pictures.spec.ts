@@ -1,7 +1,9 @@
 import { writeFileSync } from 'node:fs';
 import { Ros1Peers } from '@farpoint/ros/testing/ros1';
 import type { Page } from '@playwright/test';
+import { Headset } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
+import { readPicture } from '../src/picture.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
 const panel = (page: Page, name: string) => page.locator('#pictures figure', { hasText: name });
@@ -95,6 +97,32 @@ test.describe('on a phone held upright', () => {
     await page.getByRole('button', { name: 'Hide Camera' }).tap();
     await expect(panel(page, 'Camera').locator('canvas')).toBeHidden();
   });
+});
+
+test('in the headset the picture is beside the panel on the wrist', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [withCamera] });
+  const headset = await Headset.wear(page);
+  const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
+  await operator.expectPoints();
+  await page.getByRole('button', { name: /VR/ }).click();
+  await operator.expectState('vr', true);
+  // Up, where there is nothing behind it.
+  await headset.place('left', [-0.12, 1.92, -0.45]);
+  const drawnAbove = async (name: string) => {
+    await operator.expectFrames(20);
+    const picture = await operator.screenshot(testInfo, name);
+    const [facts] = await readPicture(page, picture, [{ left: 0, top: 0, width: 0.5, height: 0.15 }]);
+    return facts?.drawnShare ?? Number.NaN;
+  };
+  await expect.poll(async () => (await camera(page, 'Camera')).pictures).toBeGreaterThan(2);
+  const shown = await drawnAbove('headset-picture');
+  await page
+    .getByRole('button', { name: 'Hide Camera' })
+    .evaluate((button: HTMLButtonElement) => button.click());
+  expect(shown - (await drawnAbove('headset-no-picture'))).toBeGreaterThan(0.1);
 });
 
 const { python, missing } = Ros1Peers.find();

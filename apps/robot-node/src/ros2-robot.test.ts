@@ -2,9 +2,11 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { isAvailable } from '@farpoint/dds';
+import { DdsGraph, isAvailable } from '@farpoint/dds';
 import { findPeer, PEER_REMEDY, Peer, type PeerKind, testDomain } from '@farpoint/dds/testing';
 import { LocalStack } from '@farpoint/local-stack';
+import { readPictureFile } from '@farpoint/protocol';
+import { messageBytes } from '@farpoint/ros/testing';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { monotonicMs } from './clock.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
@@ -21,6 +23,7 @@ robot:
   ros: { domain: ${testDomain()}, reach: localhost, axes: optical }
   topics:
     - { topic: /points, as: cloud }
+    - { topic: /front/image_raw, as: picture, label: Front }
     - { topic: /cmd_vel, as: velocity }
 `;
 
@@ -74,6 +77,37 @@ for (const kind of kinds) {
       const { client } = operator;
       await client.until(() => client.completeFrames.filter(({ points }) => points > 100).length > 10);
       expect(client.malformedPackets).toBe(0);
+    });
+
+    it('shows a camera’s pictures', { timeout: 30_000 }, async () => {
+      const { client } = operator;
+      const graph = new DdsGraph({ domain: testDomain(), localhostOnly: true, now: monotonicMs });
+      const type = 'sensor_msgs/msg/Image';
+      const camera = graph.advertise({ topic: '/front/image_raw', type });
+      const sides = { width: 1600, height: 1200, step: 4800, encoding: 'rgb8', is_bigendian: 0 };
+      const header = { stamp: { sec: 0, nanosec: 0 }, frame_id: 'front' };
+      const picture = messageBytes(2, type, {
+        header,
+        ...sides,
+        data: new Uint8Array(4800 * 1200).fill(200),
+      });
+      const timer = setInterval(() => camera.publish(picture), 100);
+      try {
+        expect((await client.message('cameras')).cameras).toEqual([{ name: 'Front' }]);
+        // Nobody has asked for it: it is not even subscribed.
+        expect(camera.subscribers).toBe(0);
+        client.sendSession({ type: 'pictures', cameras: [0] });
+        await client.until(() => (client.pictures.get(0)?.pictureId ?? 0) >= 2);
+        const { width, height, bytes } = client.pictures.get(0)!;
+        expect(width / height).toBeCloseTo(4 / 3, 1);
+        expect(width).toBeLessThanOrEqual(640);
+        expect(readPictureFile(bytes)).toEqual({ format: 'jpeg', width, height });
+        client.sendSession({ type: 'pictures', cameras: [] });
+        await until(() => camera.subscribers === 0);
+      } finally {
+        clearInterval(timer);
+        await graph.close();
+      }
     });
 
     it('publishes what the operator commands, zero within the watchdog’s time on silence, and as it ends', {

@@ -22,6 +22,26 @@ const twist = 'geometry_msgs/msg/Twist';
 const odometry = seen('/odom', 'nav_msgs/msg/Odometry', 1);
 
 describe('topics', () => {
+  it('warns of pictures that are not there, or of the other type', () => {
+    const pictures = topicTableSchema.parse([
+      { topic: '/front/image_raw', as: 'picture' },
+      { topic: '/rear', as: 'picture' },
+      { topic: '/left/image_raw/compressed', as: 'picture' },
+    ]);
+    const graph = [
+      seen('/front/image_raw', 'sensor_msgs/msg/Image', 1),
+      seen('/rear', 'sensor_msgs/msg/CompressedImage', 1),
+    ];
+    expect(judgeTopics(pictures, graph, 0)).toMatchObject([
+      { verdict: 'ok' },
+      {
+        verdict: 'warn',
+        detail: '/rear (picture) is of type sensor_msgs/msg/CompressedImage, not sensor_msgs/msg/Image',
+      },
+      { verdict: 'warn' },
+    ]);
+  });
+
   it.each([
     ['all there', [seen('/camera/points', cloud, 1), odometry, seen('/cmd_vel', twist, 0, 1)], 'ok ok ok'],
     ['nothing', [], 'fail warn warn'],

@@ -17,8 +17,11 @@ export function trialSource(source: SourceOptions): SourceOptions {
   return { ...source, graph: asDoctor(source.graph), waitMs: Math.min(source.waitMs, MOST_ROS_WAIT_MS) };
 }
 
-/** @param drives whether velocities go anywhere but to the source */
-export function judgeSource(trial: SourceTrial, ownSink: boolean): Result[] {
+/**
+ * @param ownSink whether velocities go to the source
+ * @param picturesOfCloud whether its colour pictures are to be shown
+ */
+export function judgeSource(trial: SourceTrial, ownSink: boolean, picturesOfCloud = false): Result[] {
   const { description, frames, seconds, validPoints, workMs, faults } = trial;
   const { kind, width, height } = description;
   const grid = height > 1 ? `${width} × ${height}` : `up to ${description.capacity} points`;
@@ -40,6 +43,13 @@ export function judgeSource(trial: SourceTrial, ownSink: boolean): Result[] {
   }
   for (const fault of faults)
     results.push(warn(`${kind}: ${fault}`, 'look into the log of the camera’s program'));
+  if (picturesOfCloud && description.camera === null)
+    results.push(
+      warn(
+        'pictures.ofCloud shows nothing: this source gives points, without pictures',
+        'take it out, or take a source of a depth camera’s pictures',
+      ),
+    );
   if (ownSink && !description.drives)
     results.push(
       warn(

@@ -128,7 +128,7 @@ async function checkSource({ capture, sink }: RobotOptions, robotRuns: boolean):
     ];
   try {
     const trial = await trySource({ ...capture, source: trialSource(source) }, WATCH_MS);
-    return judgeSource(trial, sink.kind === 'source');
+    return judgeSource(trial, sink.kind === 'source', capture.picturesOfCloud);
   } catch (error) {
     return judgeClosedSource(source, error as Error);
   }

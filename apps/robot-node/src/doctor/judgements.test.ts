@@ -179,6 +179,11 @@ describe('source', () => {
     expect(verdicts(judgeSource({ ...trial, validPoints: 0 }, false))).toEqual(['warn']);
     expect(verdicts(judgeSource({ ...trial, faults: ['torn'] }, false))).toEqual(['ok', 'warn']);
     expect(judgeSource(trial, true)[1]?.detail).toContain('nobody can drive');
+    const points = { ...trial, description: { ...trial.description, camera: null } };
+    expect(judgeSource(points, false, true)[1]?.detail).toContain('pictures.ofCloud shows nothing');
+    const camera = { fx: 1, fy: 1, cx: 0, cy: 0 };
+    const images = { ...trial, description: { ...trial.description, camera } };
+    expect(verdicts(judgeSource(images, false, true))).toEqual(['ok']);
   });
 
   it('that does not open, and that is not waited for long', () => {

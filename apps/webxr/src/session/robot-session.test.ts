@@ -1,3 +1,4 @@
+import { writePictureChunk } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { RobotSession } from './robot-session.ts';
@@ -63,6 +64,34 @@ describe('RobotSession', () => {
     }
     expect(session.telemetry?.sequence).toBe(1);
     expect(told).toHaveLength(3);
+  });
+
+  test('puts pictures together, and takes any bytes for them', () => {
+    const { session, told } = bench();
+    const chunk = new Uint8Array(1200);
+    const header = {
+      format: 'jpeg',
+      camera: 0,
+      width: 4,
+      height: 3,
+      pictureId: 1,
+      captureTimeUs: 5,
+    } as const;
+    const length = writePictureChunk(header, Uint8Array.from([1, 2, 3]), 0, chunk);
+    const message = chunk.slice(0, length).buffer;
+    session.onMessage('pictures', message, 0);
+    expect(told).toEqual([]);
+    session.onMessage('session', '{"type":"cameras","cameras":[{"name":"Front"}]}', 0);
+    session.onMessage('pictures', message, 0);
+    session.onMessage('pictures', 'text', 0);
+    expect(told).toEqual(['cameras', 'picture']);
+    expect(session.malformed).toBe(1);
+    fc.assert(
+      fc.property(fc.uint8Array({ maxLength: 1300, size: 'max' }), (bytes) => {
+        session.onMessage('pictures', bytes, 0);
+      }),
+      { seed: 6, numRuns: 500 },
+    );
   });
 
   test('ages stamps by the robot’s clock', () => {
