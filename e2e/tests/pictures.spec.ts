@@ -1,4 +1,5 @@
 import { writeFileSync } from 'node:fs';
+import { EmulatedLink } from '@farpoint/local-stack';
 import { Ros1Peers } from '@farpoint/ros/testing/ros1';
 import type { Page } from '@playwright/test';
 import { Headset } from '../src/headset.ts';
@@ -71,6 +72,37 @@ test('the simulated camera’s picture is shown, live, and can be hidden', async
   const { pictures } = await camera(page, 'Camera');
   await page.getByRole('button', { name: 'Show Camera' }).click();
   await expect.poll(async () => (await camera(page, 'Camera')).pictures).toBeGreaterThan(pictures + 2);
+});
+
+test('over a link of 3 Mbit/s pictures come small, and clouds keep their share', async ({
+  page,
+  startStack,
+}) => {
+  const stack = await startStack({ robots: [] });
+  const link = await EmulatedLink.start(stack, {
+    args: ['--rate-mbps', '3', '--rtt-ms', '40', '--queue-ms', '200', '--loss', '0.01'],
+  });
+  try {
+    const args = ['--pictures-of-cloud', '--signaling', link.signalingUrl];
+    await stack.startRobot({ ...simulatedRobot, args: [...simulatedRobot.args, ...args] });
+    const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
+    await operator.expectPoints();
+    const metric = async (name: string) => {
+      const text = await (await fetch(`${stack.robotAdminUrl(simulatedRobot.id)}/metrics`)).text();
+      return Number(new RegExp(`^farpoint_robot_${name} (\\S+)`, 'm').exec(text)?.[1]);
+    };
+    await expect.poll(async () => (await camera(page, 'Camera')).pictures).toBeGreaterThan(10);
+    const { pictures, width, ageMs } = await camera(page, 'Camera');
+    const [ofPictures, ofClouds] = [await metric('picture_bytes_sent'), await metric('bytes_sent')];
+    const share = ofPictures / (ofPictures + ofClouds);
+    console.log(
+      `${pictures} pictures of ${width} pixels, ${(ofPictures / 1000 / pictures) | 0} kB each, age ${ageMs?.toFixed(0)} ms; ${(share * 100).toFixed(1)} % of ${((ofPictures + ofClouds) / 1e6).toFixed(1)} MB`,
+    );
+    expect(share).toBeLessThan(0.16);
+    expect((await operator.stats()).framesPerSecond).toBeGreaterThan(5);
+  } finally {
+    await link.stop();
+  }
 });
 
 test.describe('on a phone held upright', () => {

@@ -130,7 +130,7 @@ export class PictureHub {
     counters.bytes += fileBytes;
     counters.workSeconds += workMs / 1000;
     if (untouched) counters.untouched++;
-    else this.#planners[header.camera]?.onMade(fileBytes, longestSide);
+    this.#planners[header.camera]?.onMade(fileBytes, longestSide);
     for (const target of this.#options.targets()) target.offerPicture(report);
   }
 }

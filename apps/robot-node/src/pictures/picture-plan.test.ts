@@ -60,7 +60,7 @@ describe('PicturePlanner', () => {
           planner.onMade(bytes, 640);
           for (const rate of rates) {
             const { perSecond, longestSide } = planner.plan(rate);
-            expect(perSecond * bytes * (longestSide / 640) ** 2 * 8).toBeLessThanOrEqual(rate);
+            expect(perSecond * bytes * (longestSide / 640) ** 1.5 * 8).toBeLessThanOrEqual(rate);
             expect(perSecond).toBeLessThanOrEqual(10);
           }
         },

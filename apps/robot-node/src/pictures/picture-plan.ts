@@ -27,6 +27,8 @@ const LARGER_MARGIN = 1.4;
 const SCALES = [1, 1 / 2, 1 / 4];
 /** Before the first one is made, bytes a pixel. */
 const FIRST_BYTES_PER_PIXEL = 0.12;
+/** How bytes grow with the side: a quarter of the pixels has more than a quarter of the bytes, as it has more detail in each. */
+const BYTES_BY_SIDE = 1.5;
 /** Header of a chunk, and of all that carries it, as a share of its data. */
 const OVERHEAD = 1.1;
 
@@ -51,14 +53,15 @@ export class PicturePlanner {
 
   /** @param longestSide that it was made for */
   onMade(bytes: number, longestSide: number): void {
-    this.#fullBytes = bytes * (this.#policy.longestSide / longestSide) ** 2;
+    this.#fullBytes = bytes * (this.#policy.longestSide / longestSide) ** BYTES_BY_SIDE;
   }
 
   /** @param bitsPerSecond of this camera on the wire; 0 stops it */
   plan(bitsPerSecond: number): CameraPlan {
     const { perSecond: most, longestSide, quality } = this.#policy;
     const bytesPerSecond = bitsPerSecond / 8 / OVERHEAD;
-    const rateAt = (scale: number) => bytesPerSecond / (this.#fullBytes * (SCALES[scale] as number) ** 2);
+    const rateAt = (scale: number) =>
+      bytesPerSecond / (this.#fullBytes * (SCALES[scale] as number) ** BYTES_BY_SIDE);
     const least = Math.min(LEAST_PER_SECOND, most);
     while (this.#scale < SCALES.length - 1 && rateAt(this.#scale) < least) this.#scale++;
     while (this.#scale > 0 && rateAt(this.#scale - 1) > least * LARGER_MARGIN) this.#scale--;
