@@ -81,7 +81,8 @@ describe('robot process', { timeout: 30_000 }, () => {
     expect(readPictureFile(picture.bytes)).toEqual({ format: 'jpeg', width: 64, height: 64 });
     expect(other.pictures.size).toBe(0);
     expect(await metric('pictures_made_total')).toBeGreaterThanOrEqual(4);
-    expect(await metric('pictures_sent')).toBeGreaterThanOrEqual(4);
+    // Those that were not sent gave way to newer ones.
+    expect(await metric('pictures_sent')).toBeGreaterThanOrEqual(1);
     client.sendSession({ type: 'pictures', cameras: [] });
     const made = () => metric('pictures_made_total');
     // What is under way is made; then no more.
