@@ -48,7 +48,7 @@ export function buildNativeAddon(addon: NativeAddon): BuildResult {
 }
 
 /** A folder with `include/node/node_api.h`, or `null`. Node-API is stable: headers of another Node serve as well. */
-function findNodeHeaders(): string | null {
+export function findNodeHeaders(): string | null {
   const program = dirname(dirname(realpathSync(process.execPath)));
   const carried = join(program, 'node_modules');
   const candidates = [

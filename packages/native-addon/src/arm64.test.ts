@@ -1,0 +1,58 @@
+/** The addons for a Jetson: compiled for arm64 without a warning, where its compiler is here (Debian: gcc-aarch64-linux-gnu). */
+import { spawnSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { afterAll, describe, expect, it } from 'vitest';
+import { findNodeHeaders } from './build-addon.ts';
+
+const compiler = 'aarch64-linux-gnu-gcc';
+const packages = join(import.meta.dirname, '..', '..');
+const headers = findNodeHeaders();
+const here = spawnSync(compiler, ['--version']).error === undefined && headers !== null;
+/** Where Debian has headers that are made when a library is built: `dds/features.h`. */
+const dds = ['/usr/include', ...readdirSync('/usr/include').map((name) => join('/usr/include', name))].find(
+  (folder) => existsSync(join(folder, 'dds', 'features.h')),
+);
+const WARNINGS = [
+  '-Wall',
+  '-Wextra',
+  '-Wno-unused-parameter',
+  '-Wconversion',
+  '-Wno-sign-conversion',
+  '-Werror',
+];
+
+describe.skipIf(!here)(`for arm64 (needs ${compiler})`, () => {
+  const out = mkdtempSync(join(tmpdir(), 'farpoint-arm64-'));
+  afterAll(() => rmSync(out, { recursive: true }));
+
+  it.skipIf(dds === undefined).each(['dds'])('%s (needs cyclonedds-dev)', (name) => compile(name, 'gnu11'));
+  it.each(['shared-memory', 'systemd'])('%s', (name) => compile(name, 'c11'));
+
+  function compile(name: string, standard: string): void {
+    const folder = join(packages, name, 'native');
+    const sources = readdirSync(folder).filter((file) => file.endsWith('.c'));
+    expect(sources).not.toEqual([]);
+    for (const source of sources) {
+      const { status, stderr } = spawnSync(
+        compiler,
+        [
+          ...['-c', `-std=${standard}`, '-O3', '-fPIC', ...WARNINGS, '-DNAPI_VERSION=8', '-D_GNU_SOURCE'],
+          // Behind its own: DDS's headers are the same for every machine.
+          ...[
+            '-DDDS_NDEBUG',
+            `-I${headers}/include/node`,
+            '-idirafter',
+            '/usr/include',
+            '-idirafter',
+            dds ?? '',
+          ],
+          ...[join(folder, source), '-o', join(out, `${name}-${source}.o`)],
+        ],
+        { encoding: 'utf8' },
+      );
+      expect({ source, status, stderr }).toEqual({ source, status: 0, stderr: '' });
+    }
+  }
+});
