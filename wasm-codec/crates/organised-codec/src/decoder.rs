@@ -63,7 +63,8 @@ impl Decoder {
             body: rans::Body::default(),
             columns,
             rows,
-            points: vec![0; pixels],
+            // And room for a row of a tile, of which not all need count.
+            points: vec![0; pixels + TILE],
             count: 0,
             come: vec![0; grid.tiles().div_ceil(64)],
             images: images.then(|| Images { depth: vec![0.0; pixels], colour: vec![0; pixels] }),

@@ -35,8 +35,8 @@ fn millimetres(metres: f32x4) -> i32x4 {
     round_low(limited)
 }
 
-/// Writes a tile's points from `count` on; `None` where a pixel outside the image is said to be valid, or there are more
-/// points than pixels.
+/// Writes a tile's points from `count` on; `None` where a pixel outside the image is said to be valid, or there is no
+/// room for a whole row.
 #[inline(never)]
 pub(crate) fn emit(
     tile: &Tile,
@@ -72,48 +72,44 @@ pub(crate) fn emit(
         }
         let depths = tile.depth.row(y);
         let row_colours: &[i16; TILE] = colours.bits664[y * TILE..][..TILE].first_chunk()?;
-        let mut packed = [0_u64; TILE];
-        let mut metres = [0.0_f32; TILE];
+        // Room for a whole row, however many of its points count.
+        let target: &mut [u64; TILE] = points.get_mut(count..)?.first_chunk_mut()?;
+        let mut at = 0;
         for x in (0..width).step_by(8) {
             let depth: &[i16; 8] = depths[x..][..8].first_chunk()?;
             let colour: &[i16; 8] = row_colours[x..][..8].first_chunk()?;
             let depth = interleave((*depth).into(), i16x8::ZERO);
             let colour = interleave(i16x8::ZERO, (*colour).into());
             for half in 0..2 {
-                let at = x + 4 * half;
-                let ray_x = f32x4::from(*rays[at..][..4].first_chunk::<4>()?);
+                let x = x + 4 * half;
+                let ray_x = f32x4::from(*rays[x..][..4].first_chunk::<4>()?);
                 let z = f32x4::splat(scale) / f32x4::from_i32x4(must_cast(depth[half]));
                 let low = i32x4::splat(0xffff);
                 let xy = (millimetres(z * ray_x) & low) | (millimetres(z * f32x4::splat(rows[v])) << 16);
                 let zc = (millimetres(z) & low) | must_cast::<i16x8, i32x4>(colour[half]);
                 let (xy, zc): (f32x4, f32x4) = (must_cast(xy), must_cast(zc));
-                packed[at..][..2].copy_from_slice(&must_cast::<f32x4, [u64; 2]>(xy.unpack_lo(zc)));
-                packed[at + 2..][..2].copy_from_slice(&must_cast::<f32x4, [u64; 2]>(xy.unpack_hi(zc)));
-                if images.is_some() {
-                    metres[at..][..4].copy_from_slice(z.as_array());
+                let four: [f32x4; 2] = [xy.unpack_lo(zc), xy.unpack_hi(zc)];
+                let four: [u64; 4] = must_cast(four);
+                let there = valid >> x & 15;
+                if there == 15 {
+                    target[at..][..4].copy_from_slice(&four);
+                    at += 4;
+                } else {
+                    for (i, point) in four.into_iter().enumerate() {
+                        target[at % TILE] = point;
+                        at += usize::from(there >> i & 1);
+                    }
+                }
+                if let Some(images) = images.as_deref_mut() {
+                    for i in (0..4).filter(|i| there >> i & 1 == 1) {
+                        let pixel = v * grid.width + x0 + first + (x + i) * step;
+                        images.depth[pixel] = z.as_array()[i];
+                        images.colour[pixel] = colours.rgba[y * TILE + x + i];
+                    }
                 }
             }
         }
-        if let Some(images) = images.as_deref_mut() {
-            for x in (0..width).filter(|x| valid >> x & 1 == 1) {
-                let pixel = v * grid.width + x0 + first + x * step;
-                images.depth[pixel] = metres[x];
-                images.colour[pixel] = colours.rgba[y * TILE + x];
-            }
-        }
-        let target = &mut points[count..];
-        if valid == u16::MAX {
-            *target.first_chunk_mut::<TILE>()? = packed;
-            count += TILE;
-        } else {
-            let mut rest = valid;
-            let needed = valid.count_ones() as usize;
-            for place in target.get_mut(..needed)? {
-                *place = packed[rest.trailing_zeros() as usize & 15];
-                rest &= rest - 1;
-            }
-            count += needed;
-        }
+        count += at;
     }
     Some(count)
 }

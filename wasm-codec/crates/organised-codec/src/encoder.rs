@@ -5,7 +5,7 @@ use crate::load::{Left, Loaded, MAX_COORDINATE, Quantiser, Source};
 use crate::packet::{MAX_PACKET_BYTES, PACKET_HEADER_BYTES, PacketHeader, Span};
 use crate::palette::Palette;
 use crate::plan::{LEFT_OUT, Plan};
-use crate::prepare::prepare;
+use crate::prepare::Preparer;
 use crate::rans::{Mark, PacketTokens, TileTokens, WORDS};
 use crate::rate::RateState;
 use crate::sampling::{Histogram, Learnt, SAMPLE_STEP, SAMPLE_TILES, is_sampled};
@@ -24,6 +24,7 @@ pub struct Encoder {
     pub(crate) patterns: Vec<Pattern>,
     /// The tiles of a row, by column.
     pub(crate) row: Vec<Loaded>,
+    pub(crate) preparer: Box<Preparer>,
     pub(crate) tile: Tile,
     pub(crate) tokens: TileTokens,
     packet_tokens: PacketTokens,
@@ -82,6 +83,7 @@ impl Encoder {
             quantiser,
             patterns: vec![Pattern(0); grid.tiles()],
             row: vec![Loaded::new(); grid.columns],
+            preparer: Box::new(Preparer::new()),
             tile: Tile::new(),
             tokens: TileTokens::new(),
             packet_tokens: PacketTokens::default(),
@@ -197,7 +199,7 @@ impl Encoder {
             let mut pattern = self.patterns[next];
             let valid = loaded.valid as usize;
             let nearest = i32::from(loaded.nearest) << settings.depth_level;
-            prepare(loaded, &mut self.tile, pattern, &settings, &self.palette);
+            self.preparer.prepare(loaded, &mut self.tile, pattern, &settings, &self.palette);
             next = loop {
                 let packet = open.get_or_insert_with(|| {
                     self.packet_tokens.clear();
@@ -249,7 +251,7 @@ impl Encoder {
                     open = None;
                     pattern = Pattern((pattern.0 + 1).min(LEFT_OUT.0));
                     let loaded = &self.row[place.column];
-                    prepare(loaded, &mut self.tile, pattern, &settings, &self.palette);
+                    self.preparer.prepare(loaded, &mut self.tile, pattern, &settings, &self.palette);
                 }
             };
         }

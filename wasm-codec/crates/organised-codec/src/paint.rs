@@ -18,11 +18,12 @@ pub(crate) struct Colours {
     /// R lowest; only written where they are wanted.
     pub rgba: [u32; TILE * TILE],
     pub wants_rgba: bool,
+    planes: [[i16; TILE * TILE]; 3],
 }
 
 impl Colours {
     pub fn new(wants_rgba: bool) -> Self {
-        Self { bits664: [0; TILE * TILE], rgba: [0; TILE * TILE], wants_rgba }
+        Self { bits664: [0; TILE * TILE], rgba: [0; TILE * TILE], wants_rgba, planes: [[0; TILE * TILE]; 3] }
     }
 
     /// Eight pixels whose channels are 0 to 255.
@@ -86,9 +87,8 @@ impl Colours {
         let (width, height) = (tile.pattern.width(), tile.pattern.height());
         let subsampled = header.mode == ColourMode::Subsampled;
         let luma = header.mode.blocks(tile.pattern, 0);
-        let mut planes = [[0_i16; TILE * TILE]; 3];
         let mut index = 0;
-        for (plane, pixels) in planes.iter_mut().enumerate() {
+        for (plane, pixels) in self.planes.iter_mut().enumerate() {
             let (columns, rows) = header.mode.blocks(tile.pattern, plane);
             let step = plane_step(header.quality.into(), plane, subsampled);
             for by in 0..rows {
@@ -103,29 +103,29 @@ impl Colours {
                 }
             }
         }
-        let eight = |plane: usize, at: usize| -> i16x8 {
-            let pixels: &[i16; 8] = planes[plane][at..][..8].first_chunk().expect("eight pixels");
+        let eight = |own: &Self, plane: usize, at: usize| -> i16x8 {
+            let pixels: &[i16; 8] = own.planes[plane][at..][..8].first_chunk().expect("eight pixels");
             i16x8::from(*pixels)
         };
         if subsampled && tile.pattern.0 < 2 {
             for y in 0..height {
                 let row = y / 2 * TILE;
-                let (co, cg) = (eight(1, row), eight(2, row));
+                let (co, cg) = (eight(self, 1, row), eight(self, 2, row));
                 if width == TILE {
                     // Each chroma value serves two pixels.
                     let (co, cg) = (interleave(co, co), interleave(cg, cg));
                     for half in 0..2 {
                         let at = y * TILE + 8 * half;
-                        self.put8(at, to_rgb(eight(0, at), co[half], cg[half]));
+                        self.put8(at, to_rgb(eight(self, 0, at), co[half], cg[half]));
                     }
                 } else {
-                    self.put8(y * TILE, to_rgb(eight(0, y * TILE), co, cg));
+                    self.put8(y * TILE, to_rgb(eight(self, 0, y * TILE), co, cg));
                 }
             }
         } else {
             for y in 0..height {
                 for at in (y * TILE..y * TILE + width).step_by(8) {
-                    self.put8(at, to_rgb(eight(0, at), eight(1, at), eight(2, at)));
+                    self.put8(at, to_rgb(eight(self, 0, at), eight(self, 1, at), eight(self, 2, at)));
                 }
             }
         }

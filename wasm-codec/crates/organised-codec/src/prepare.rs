@@ -9,77 +9,113 @@ use crate::load::Loaded;
 use crate::palette::Palette;
 use crate::plan::LEFT_OUT;
 use crate::tile::{ColourMode, Kind, LAST_TRANSFORMED, Pattern, TILE, Tile};
-use crate::transform::{forward, plane_step, point_step, quantise, to_ycocg, to_ycocg4};
+use crate::transform::{Quantisers, forward, plane_step, point_step, to_ycocg, to_ycocg4};
 
-/// Makes of a loaded tile what the syntax codes.
-pub(crate) fn prepare(
-    loaded: &Loaded,
-    tile: &mut Tile,
-    pattern: Pattern,
-    settings: &Settings,
-    palette: &Palette,
-) {
-    tile.pattern = pattern;
-    let (width, height) = (pattern.width(), pattern.height());
-    let mut rgba = [0_u32; TILE * TILE];
-    tile.rows = [0; TILE];
-    let mut valid = 0;
-    if pattern == LEFT_OUT {
-        tile.kind = Kind::Empty;
-        return;
-    }
-    if pattern.0 == 0 {
-        tile.rows = loaded.rows;
-        valid = loaded.valid as usize;
-        rgba = loaded.rgba;
-        for y in 0..TILE {
-            tile.depth.row_mut(y).copy_from_slice(&loaded.depth[y * TILE..(y + 1) * TILE]);
+/// Makes of loaded tiles what the syntax codes. It holds what is needed on the way: memory that is not written twice.
+pub(crate) struct Preparer {
+    /// Colours of the pattern's pixels; pixel x, y at `y * TILE + x`.
+    rgba: [u32; TILE * TILE],
+    planes: [[f32; TILE * TILE]; 3],
+    /// Of the planes, for the settings seen last.
+    quantisers: [Quantisers; 3],
+}
+
+impl Preparer {
+    pub fn new() -> Self {
+        Self {
+            rgba: [0; TILE * TILE],
+            planes: [[0.0; TILE * TILE]; 3],
+            quantisers: core::array::from_fn(|_| Quantisers::new(1)),
         }
-    } else if loaded.valid > 0 {
-        for y in 0..height {
-            for x in 0..width {
-                let (u, v) = pattern.pixel(x, y);
-                tile.depth.row_mut(y)[x] = loaded.depth[v * TILE + u];
-                rgba[y * TILE + x] = loaded.rgba[v * TILE + u];
-                tile.rows[y] |= (loaded.rows[v] >> u & 1) << x;
+    }
+
+    pub fn prepare(
+        &mut self,
+        loaded: &Loaded,
+        tile: &mut Tile,
+        pattern: Pattern,
+        settings: &Settings,
+        palette: &Palette,
+    ) {
+        tile.pattern = pattern;
+        let (width, height) = (pattern.width(), pattern.height());
+        tile.rows = [0; TILE];
+        if pattern == LEFT_OUT || loaded.valid == 0 {
+            tile.kind = Kind::Empty;
+            return;
+        }
+        let whole = pattern.0 == 0;
+        if whole {
+            tile.rows = loaded.rows;
+            for y in 0..TILE {
+                tile.depth.row_mut(y).copy_from_slice(&loaded.depth[y * TILE..(y + 1) * TILE]);
             }
-        }
-        valid = tile.valid();
-    }
-    tile.kind = match valid {
-        0 => Kind::Empty,
-        _ if valid == width * height => Kind::Full,
-        _ => Kind::Mixed,
-    };
-    if tile.kind == Kind::Empty || settings.mode == ColourMode::None {
-        return;
-    }
-    if settings.mode == ColourMode::Palette {
-        for y in 0..height {
-            for x in 0..width {
-                if tile.rows[y] >> x & 1 == 1 {
-                    tile.index.row_mut(y)[x] = palette.index(rgba[y * TILE + x]) as i16;
+        } else {
+            for y in 0..height {
+                for x in 0..width {
+                    let (u, v) = pattern.pixel(x, y);
+                    tile.depth.row_mut(y)[x] = loaded.depth[v * TILE + u];
+                    self.rgba[y * TILE + x] = loaded.rgba[v * TILE + u];
+                    tile.rows[y] |= (loaded.rows[v] >> u & 1) << x;
                 }
             }
         }
-    } else if pattern <= LAST_TRANSFORMED {
-        if tile.kind == Kind::Mixed {
-            fill(&mut rgba, &tile.rows, width, height);
+        tile.kind = match tile.valid() {
+            0 => Kind::Empty,
+            valid if valid == width * height => Kind::Full,
+            _ => Kind::Mixed,
+        };
+        if tile.kind == Kind::Empty || settings.mode == ColourMode::None {
+            return;
         }
-        transform_blocks(&rgba, tile, settings);
-    } else {
-        let step = point_step(settings.quality.into());
-        let mut at = 0;
-        for y in 0..height {
-            for x in 0..width {
-                if tile.rows[y] >> x & 1 == 1 {
-                    // Times 4 in, steps in 1/16.
-                    tile.points[at] = to_ycocg(rgba[y * TILE + x]).map(|c| {
-                        let c = 4 * c;
-                        (c + (step / 2) * c.signum()) / step
-                    });
-                    at += 1;
+        if settings.mode == ColourMode::Palette {
+            let rgba = if whole { &loaded.rgba } else { &self.rgba };
+            for y in 0..height {
+                for x in 0..width {
+                    if tile.rows[y] >> x & 1 == 1 {
+                        tile.index.row_mut(y)[x] = palette.index(rgba[y * TILE + x]) as i16;
+                    }
                 }
+            }
+        } else if pattern <= LAST_TRANSFORMED {
+            self.set(settings);
+            let rgba = if whole && tile.kind == Kind::Full {
+                &loaded.rgba
+            } else {
+                if whole {
+                    self.rgba.copy_from_slice(&loaded.rgba);
+                }
+                if tile.kind == Kind::Mixed {
+                    fill(&mut self.rgba, &tile.rows, width, height);
+                }
+                &self.rgba
+            };
+            transform(rgba, tile, settings.mode, &mut self.planes, &self.quantisers);
+        } else {
+            let step = point_step(settings.quality.into());
+            let mut at = 0;
+            for y in 0..height {
+                for x in 0..width {
+                    if tile.rows[y] >> x & 1 == 1 {
+                        // Times 4 in, steps in 1/16.
+                        tile.points[at] = to_ycocg(self.rgba[y * TILE + x]).map(|c| {
+                            let c = 4 * c;
+                            (c + (step / 2) * c.signum()) / step
+                        });
+                        at += 1;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Quantisers for these settings.
+    fn set(&mut self, settings: &Settings) {
+        let subsampled = settings.mode == ColourMode::Subsampled;
+        for (plane, quantisers) in self.quantisers.iter_mut().enumerate() {
+            let step = plane_step(settings.quality.into(), plane, subsampled);
+            if quantisers.step() != step {
+                *quantisers = Quantisers::new(step);
             }
         }
     }
@@ -119,11 +155,15 @@ fn fill(rgba: &mut [u32; TILE * TILE], rows: &[u16; TILE], width: usize, height:
     }
 }
 
-fn transform_blocks(rgba: &[u32; TILE * TILE], tile: &mut Tile, settings: &Settings) {
-    let subsampled = settings.mode == ColourMode::Subsampled;
+fn transform(
+    rgba: &[u32; TILE * TILE],
+    tile: &mut Tile,
+    mode: ColourMode,
+    planes: &mut [[f32; TILE * TILE]; 3],
+    quantisers: &[Quantisers; 3],
+) {
     let (width, height) = (tile.pattern.width(), tile.pattern.height());
-    let halved = subsampled && tile.pattern.0 < 2;
-    let mut planes = [[0.0_f32; TILE * TILE]; 3];
+    let halved = mode == ColourMode::Subsampled && tile.pattern.0 < 2;
     let four = |y: usize, x: usize| -> [i32x4; 3] {
         let pixels: [u32; 4] = *rgba[y * TILE + x..][..4].first_chunk().expect("four pixels");
         to_ycocg4(must_cast(pixels))
@@ -166,8 +206,7 @@ fn transform_blocks(rgba: &[u32; TILE * TILE], tile: &mut Tile, settings: &Setti
     }
     let mut index = 0;
     for (plane, pixels) in planes.iter().enumerate() {
-        let (columns, rows) = settings.mode.blocks(tile.pattern, plane);
-        let step = plane_step(settings.quality.into(), plane, subsampled);
+        let (columns, rows) = mode.blocks(tile.pattern, plane);
         for by in 0..rows {
             for bx in 0..columns {
                 let block: [f32x8; 8] = core::array::from_fn(|y| {
@@ -175,7 +214,7 @@ fn transform_blocks(rgba: &[u32; TILE * TILE], tile: &mut Tile, settings: &Setti
                         pixels[(by * 8 + y) * TILE + bx * 8..][..8].first_chunk().expect("eight pixels");
                     f32x8::from(*row)
                 });
-                quantise(&forward(&block), step, &mut tile.blocks[index]);
+                quantisers[plane].quantise(&forward(&block), &mut tile.blocks[index]);
                 index += 1;
             }
         }

@@ -4,7 +4,6 @@ use crate::contexts::{COLOUR_CONTEXTS, CONTEXTS, GEOMETRY_CONTEXTS, SYMBOLS};
 use crate::encoder::{Encoder, PACKET_OVERHEAD};
 use crate::frame::Settings;
 use crate::load::Source;
-use crate::prepare::prepare;
 use crate::rans::TileTokens;
 use crate::syntax::{Neighbours, code_tile};
 use crate::tables::{COLOUR_SETS, GEOMETRY_SETS, Sets, colour_base, geometry_base};
@@ -109,7 +108,7 @@ impl Encoder {
             let columns = place.column..place.column + 1;
             self.quantiser.load(source, self.grid, place.row, columns, &mut self.row);
             let own = &self.row[place.column];
-            prepare(own, &mut self.tile, self.patterns[index], settings, &self.palette);
+            self.preparer.prepare(own, &mut self.tile, self.patterns[index], settings, &self.palette);
             self.tokens.clear();
             code_tile(&mut self.tokens, &mut self.tile, &mut near, place, settings.mode, false);
             histogram.add(&self.tokens);

@@ -1,5 +1,7 @@
 //! A tile of 16 × 16 pixels, as the syntax sees it.
 
+use wide::i16x8;
+
 use crate::lanes::LANES;
 
 /// Pixels along a tile's side.
@@ -141,14 +143,19 @@ pub struct Block {
 pub struct Plane {
     /// Columns 0 to 45 of each line are used.
     pub lines: [[i16; LINE]; LANES],
+    /// Room for the columns of the lines: what they hold means nothing from call to call.
+    pub columns: [i16x8; STEPS],
 }
+
+/// Steps of a front over 16 × 16 pixels, and room for two more.
+pub const STEPS: usize = 48;
 
 /// Places of a line of a [`Plane`].
 pub const LINE: usize = 64;
 
 impl Plane {
     const fn new() -> Self {
-        Self { lines: [[1; LINE]; LANES] }
+        Self { lines: [[1; LINE]; LANES], columns: [i16x8::ZERO; STEPS] }
     }
 
     /// A row of 16 pixels; those beyond the pattern's width mean nothing.

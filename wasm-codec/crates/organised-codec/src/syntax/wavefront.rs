@@ -8,7 +8,7 @@ use wide::i16x8;
 
 use crate::lanes::{LANES, ONLY, rotate, select, transpose};
 use crate::rans::{Coder, Step};
-use crate::tile::{Plane, TILE};
+use crate::tile::{Plane, STEPS, TILE};
 
 /// A tile's outermost pixels, spread over 16.
 pub type Side = [i16; TILE];
@@ -22,9 +22,6 @@ pub struct Shape {
     /// Which of them are valid.
     pub rows: [u16; TILE],
 }
-
-/// Steps of a front over 16 × 16 pixels, and room for two more.
-const STEPS: usize = 48;
 
 /// Codes a plane and returns its right side. `left` is that of the left tile where it is known, else `anchor` stands for what
 /// lies around. `activity` holds, lane by lane, the size of the residual of the last valid pixel; it goes on from tile to
@@ -79,10 +76,10 @@ fn walk<C: Coder, const LEFT: bool>(
     let steps = 2 * (last_row % LANES) + 2 * LANES * (last_row / LANES) + width;
     // After this step the first four lanes are done.
     let low_end = 2 * (last_row % LANES).min(3) + 2 * LANES * (last_row / LANES) + width;
-    let mut columns = [i16x8::ZERO; STEPS];
+    let Plane { lines, columns } = plane;
     if !C::DECODES {
         for block in 0..STEPS / LANES {
-            let rows = plane.lines.each_ref().map(|line| {
+            let rows = lines.each_ref().map(|line| {
                 let eight: &[i16; LANES] = line[block * LANES..][..LANES].first_chunk().expect("eight");
                 i16x8::from(*eight)
             });
@@ -161,7 +158,7 @@ fn walk<C: Coder, const LEFT: bool>(
     for block in 0..STEPS / LANES {
         let eight: [i16x8; LANES] =
             *columns[block * LANES..][..LANES].first_chunk::<LANES>().expect("eight columns");
-        for (line, row) in plane.lines.iter_mut().zip(transpose(eight)) {
+        for (line, row) in lines.iter_mut().zip(transpose(eight)) {
             line[block * LANES..][..LANES].copy_from_slice(row.as_array());
         }
     }
