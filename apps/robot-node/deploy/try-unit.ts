@@ -7,7 +7,7 @@
  * Needs debootstrap, systemd-nspawn (Debian: systemd-container) and packages from the network; some 3 minutes.
  */
 import { type ChildProcess, execFileSync, spawn, spawnSync } from 'node:child_process';
-import { copyFileSync, cpSync, existsSync, mkdirSync, mkdtempSync, rmSync } from 'node:fs';
+import { chmodSync, copyFileSync, cpSync, existsSync, mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { createServer } from 'node:net';
 import { dirname, join } from 'node:path';
 import { setTimeout as wait } from 'node:timers/promises';
@@ -60,6 +60,8 @@ function makeSystem(): void {
   execFileSync('debootstrap', ['--variant=minbase', `--include=${PACKAGES}`, 'bookworm', folder], {
     stdio: ['ignore', 'ignore', 'inherit'],
   });
+  // It is the container's root: its users must get in.
+  chmodSync(folder, 0o755);
   const npx = execFileSync('readlink', ['-f', execFileSync('which', ['npx'], { encoding: 'utf8' }).trim()]);
   const npm = join(folder, 'usr/local/lib/node_modules/npm');
   cpSync(dirname(dirname(npx.toString().trim())), npm, { recursive: true, dereference: true });
