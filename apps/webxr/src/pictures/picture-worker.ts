@@ -4,6 +4,8 @@ import type { FromPictureWorker, PictureToDecode } from './worker-messages.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
+/** Longest side that is handed to the page: its panels are no larger. */
+const MOST_SIDE = 1280;
 const TYPES = { jpeg: 'image/jpeg', png: 'image/png' } as const;
 
 self.onmessage = ({ data }: MessageEvent<PictureToDecode>) => {
@@ -17,7 +19,9 @@ async function decode({ ticket, format, width, height, bytes }: PictureToDecode)
     if (typeof file === 'string') throw new Error(file);
     if (file.format !== format || file.width !== width || file.height !== height)
       throw new Error(`a file of ${file.width} × ${file.height} pixels as ${width} × ${height}`);
+    const factor = Math.max(1, Math.max(width, height) / MOST_SIDE);
     const bitmap = await createImageBitmap(new Blob([bytes], { type: TYPES[format] }), {
+      ...(factor === 1 ? {} : { resizeWidth: Math.max(1, Math.round(width / factor)) }),
       // Its size is the one that was told, whatever its metadata say of turning it.
       imageOrientation: 'none',
     });
