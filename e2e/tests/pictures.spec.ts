@@ -92,12 +92,8 @@ test('over a link of 3 Mbit/s pictures come small, and clouds keep their share',
       return Number(new RegExp(`^farpoint_robot_${name} (\\S+)`, 'm').exec(text)?.[1]);
     };
     await expect.poll(async () => (await camera(page, 'Camera')).pictures).toBeGreaterThan(10);
-    const { pictures, width, ageMs } = await camera(page, 'Camera');
     const [ofPictures, ofClouds] = [await metric('picture_bytes_sent'), await metric('bytes_sent')];
     const share = ofPictures / (ofPictures + ofClouds);
-    console.log(
-      `${pictures} pictures of ${width} pixels, ${(ofPictures / 1000 / pictures) | 0} kB each, age ${ageMs?.toFixed(0)} ms; ${(share * 100).toFixed(1)} % of ${((ofPictures + ofClouds) / 1e6).toFixed(1)} MB`,
-    );
     expect(share).toBeLessThan(0.16);
     expect((await operator.stats()).framesPerSecond).toBeGreaterThan(5);
   } finally {

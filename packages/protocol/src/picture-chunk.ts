@@ -10,16 +10,16 @@
  *    10  u16 reserved         0, passed over
  *    12  u32 pictureId        counts up for each picture of this camera, wraps
  *    16  u32 captureTimeUs    of the robot's monotonic clock, wraps, as in a placement
- *    20      data             1,180 bytes, of the last chunk 1 to 1,180
+ *    20      data             1,140 bytes, of the last chunk 1 to 1,140
  *
- * A chunk is one SCTP packet of 1,200 bytes: what a lost packet costs is one picture, and nothing has to be sent again.
+ * A chunk is one SCTP packet: usual stacks keep those to 1,191 bytes, and a message of 1,161 would go as two.
  */
 
 export const PICTURE_CHUNK_HEADER_BYTES = 20;
-export const MAX_PICTURE_CHUNK_BYTES = 1200;
+export const MAX_PICTURE_CHUNK_BYTES = 1160;
 export const PICTURE_CHUNK_DATA_BYTES = MAX_PICTURE_CHUNK_BYTES - PICTURE_CHUNK_HEADER_BYTES;
 export const MAX_PICTURE_CHUNKS = 512;
-/** 604,160. */
+/** 583,680. */
 export const MAX_PICTURE_BYTES = MAX_PICTURE_CHUNKS * PICTURE_CHUNK_DATA_BYTES;
 /** Longest side of a picture, pixels. */
 export const MAX_PICTURE_SIDE = 4096;
@@ -47,7 +47,7 @@ export interface PictureChunkHeader extends PictureHeader {
 /** Why a chunk is refused. */
 export type PictureChunkFault =
   | 'too-short' // no header, or no data after it
-  | 'too-long' // more than 1,200 bytes
+  | 'too-long' // more than 1,160 bytes
   | 'unknown-format'
   | 'bad-camera' // beyond the most cameras that a robot has
   | 'bad-size' // a side of 0, or over 4,096

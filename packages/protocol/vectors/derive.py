@@ -287,7 +287,7 @@ def chunk_case(name, data, fmt=1, camera=0, width=640, height=480, index=0, coun
             "dataBytes": len(data)}
 
 
-full = bytes(i * 7 % 256 for i in range(1180))
+full = bytes(i * 7 % 256 for i in range(1140))
 write("picture-chunk.json", {
     "read": [
         chunk_case("a picture in one chunk", b"\xff\xd8\xff\xd9"),
@@ -310,7 +310,7 @@ write("picture-chunk.json", {
         refused("no chunks", chunk(b"x", count=0), "bad-index"),
         refused("too many chunks", chunk(full, count=513), "bad-index"),
         refused("an index beyond the last", chunk(b"x", index=1), "bad-index"),
-        refused("a short chunk that is not the last", chunk(full[:1179], count=2), "bad-length"),
+        refused("a short chunk that is not the last", chunk(full[:1139], count=2), "bad-length"),
     ],
     "pictures": [
         {"name": "in %d chunks" % len(chunks), "pictureHex": picture.hex(),

@@ -5,7 +5,7 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import { PictureLossError, PictureMaker } from './picture-maker.ts';
 import type { RawPicture } from './source-picture.ts';
 
-const plan = { perSecond: 10, longestSide: 64, quality: 80, mostFileBytes: 8000 };
+const plan = { perSecond: 10, longestSide: 64, quality: 80, mostFileBytes: 8000, mostFileSide: 64 };
 const raw = (width: number, height: number): RawPicture => ({
   ...{ kind: 'raw', width, height, step: width * 3, encoding: 'bgr8', bigEndian: false },
 });
@@ -45,7 +45,7 @@ describe('PictureMaker', () => {
     const jpeg = codec.encodeJpeg(pixels, 90);
     const facts = { kind: 'file', format: 'jpeg', width: 64, height: 48 } as const;
     expect(maker.make({ facts, data: jpeg }, plan)).toMatchObject({ bytes: jpeg, untouched: true });
-    const smaller = maker.make({ facts, data: jpeg }, { ...plan, longestSide: 32 });
+    const smaller = maker.make({ facts, data: jpeg }, { ...plan, longestSide: 32, mostFileSide: 32 });
     expect(smaller).toMatchObject({ format: 'jpeg', width: 32, height: 24, untouched: false });
     const tight = maker.make({ facts, data: jpeg }, { ...plan, mostFileBytes: jpeg.length - 1 });
     expect(tight).toMatchObject({ width: 64, untouched: false });

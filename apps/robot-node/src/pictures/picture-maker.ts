@@ -50,7 +50,7 @@ export class PictureMaker {
         return this.#encode(pictureRows(image), plan);
       }
       const { format, width, height } = facts;
-      if (data.length <= plan.mostFileBytes && Math.max(width, height) <= plan.longestSide)
+      if (data.length <= plan.mostFileBytes && Math.max(width, height) <= plan.mostFileSide)
         return { format, width, height, bytes: data, untouched: true };
       const pixels = this.#codec.decode(format, data, MAX_PICTURE_SIDE * MAX_PICTURE_SIDE);
       if (pixels.width !== width || pixels.height !== height)

@@ -10,8 +10,9 @@ export interface CameraPlan {
   longestSide: number;
   /** Of JPEG, 1–100. */
   quality: number;
-  /** A file that is larger is made anew. */
+  /** A file that is larger, in bytes or pixels of a side, is made anew; others go on as they are. */
   mostFileBytes: number;
+  mostFileSide: number;
 }
 
 /** Why a picture was not sent to anybody. */

@@ -70,6 +70,7 @@ export class PicturePlanner {
       perSecond: bitsPerSecond > 0 ? Math.min(most, Math.floor(rateAt(this.#scale) * 20) / 20) : 0,
       longestSide: Math.max(16, Math.round(longestSide * (SCALES[this.#scale] as number))),
       quality,
+      mostFileSide: longestSide,
       mostFileBytes: Math.min(MAX_PICTURE_BYTES, Math.floor(bytesPerSecond / least)),
     };
   }

@@ -26,11 +26,11 @@ function picture(camera: number, pictureId: number, chunks: number): ReadyPictur
     type: 'picture',
     header: { format: 'jpeg', camera, width: 8, height: 8, pictureId, captureTimeUs: 0 },
     chunks: Array.from({ length: chunks }, () => {
-      const chunk = new Uint8Array(1200);
+      const chunk = new Uint8Array(1160);
       chunk.set([camera, pictureId]);
       return chunk;
     }),
-    ...{ fileBytes: chunks * 1180, longestSide: 640, untouched: false, workMs: 1 },
+    ...{ fileBytes: chunks * 1140, longestSide: 640, untouched: false, workMs: 1 },
   };
 }
 

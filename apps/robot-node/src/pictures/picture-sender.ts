@@ -14,8 +14,10 @@ export interface PictureLink {
   sendPicture(chunk: Uint8Array): number;
 }
 
-/** More waiting than this, and no chunk follows, bytes. */
-const MOST_BUFFERED = 8192;
+/**
+ * More waiting than this, and no chunk follows, bytes: messages share the association, and what waits here they wait for.
+ */
+const MOST_BUFFERED = 2400;
 /** Credit is saved up for so long, ms. */
 const BURST_MS = 100;
 /** A picture that took so long to send is not worth its rest, ms. */
@@ -29,7 +31,7 @@ interface Sending {
 
 /**
  * One operator's pictures: of each camera the newest waits, one after another goes out, chunk by chunk, at the rate that is
- * left to pictures. It owns no timer: call `tick` often.
+ * left to pictures. It owns no timer: call `tick` often, and whenever the channel has room again.
  */
 export class PictureSender {
   /** Cameras that the operator wants to see. */

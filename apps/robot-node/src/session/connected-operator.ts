@@ -91,6 +91,7 @@ export class ConnectedOperator implements FrameTarget {
       onCandidate: (candidate) => events.onCandidate(candidate),
       onConnected: (transport) => this.#onConnected(transport),
       onMessage: (channel, data) => this.session.onMessage(channel, data),
+      onPicturesLow: () => this.#sendPictures(),
       onEnded: (end, detail) => this.#onEnded(end, detail),
     });
     this.pictures = new PictureSender(this.peer);
@@ -202,7 +203,7 @@ export class ConnectedOperator implements FrameTarget {
   tick(): void {
     if (this.peer.heardSinceLast()) this.#pathHeardMs = this.#host.now();
     this.#budget.update(this.peer.messageBytesSent, this.pictures.bytesSent, this.#host.now());
-    this.pictures.tick(this.#host.now(), this.streaming ? this.pictureBitsPerSecond : 0);
+    this.#sendPictures();
     this.sender?.tick();
     this.session.flushRejections();
   }
@@ -226,6 +227,10 @@ export class ConnectedOperator implements FrameTarget {
         droppedFrames: this.droppedFrames,
       },
     };
+  }
+
+  #sendPictures(): void {
+    this.pictures.tick(this.#host.now(), this.streaming ? this.pictureBitsPerSecond : 0);
   }
 
   /** What waits to be sent is not wanted any more. */

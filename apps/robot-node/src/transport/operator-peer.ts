@@ -1,5 +1,11 @@
 /** The WebRTC connection with one operator: the robot offers, the operator answers, ICE trickles. */
-import { CLOUD_STREAM_ID, channels, type IceCandidate, type IceServer } from '@farpoint/protocol';
+import {
+  CLOUD_STREAM_ID,
+  channels,
+  type IceCandidate,
+  type IceServer,
+  MAX_PICTURE_CHUNK_BYTES,
+} from '@farpoint/protocol';
 import {
   MediaStream,
   type RTCDataChannel,
@@ -46,6 +52,8 @@ export interface OperatorPeerEvents {
   /** The path and our channels are up. */
   onConnected(transport: CloudTransport): void;
   onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void;
+  /** What was sent of pictures has nearly left. */
+  onPicturesLow?(): void;
   /** The last event. `detail` is for people. */
   onEnded(end: PeerEnd, detail: string): void;
 }
@@ -128,6 +136,13 @@ export class OperatorPeer {
       this.#pictures = connection.createDataChannel(pictures.label, {
         ordered: pictures.ordered,
         maxPacketLifeTime: pictures.maxPacketLifeTime,
+      });
+      this.#pictures.bufferedAmountLowThreshold = MAX_PICTURE_CHUNK_BYTES;
+      this.#pictures.bufferedAmountLow.subscribe(() => {
+        // It is told in the middle of werift's own sending.
+        setImmediate(() => {
+          if (!this.#ended) events.onPicturesLow?.();
+        });
       });
     }
     this.#session.onMessage.subscribe((data) => this.#events.onMessage('session', data));
