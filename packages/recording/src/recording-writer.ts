@@ -1,3 +1,4 @@
+import type { Pose } from '@farpoint/protocol';
 import { PointRoom, recordedPoints } from './captured-cloud.ts';
 import { McapFileWriter } from './mcap-file-writer.ts';
 import {
@@ -14,7 +15,14 @@ import {
   TF_MESSAGE_SCHEMA,
   TWIST_STAMPED_SCHEMA,
 } from './ros-schemas.ts';
-import { CAMERA_FRAME, odometryOf, pointCloud2, transformOf, twistStamped } from './ros-writer.ts';
+import {
+  BASE_FRAME,
+  CAMERA_FRAME,
+  odometryOf,
+  pointCloud2,
+  transformOf,
+  twistStamped,
+} from './ros-writer.ts';
 import type { SentCloudDecoder } from './sent-cloud.ts';
 
 const ROS_TOPICS = {
@@ -81,7 +89,7 @@ export class RecordingWriter {
     // One capture may be here twice, as it was and as it was sent.
     if (ns !== this.#lastTransformNs) {
       this.#lastTransformNs = ns;
-      await this.#add('tf', this.#transforms++, ns, [transformOf(ns, CAMERA_FRAME, record.pose)]);
+      await this.#addTransform(ns, CAMERA_FRAME, record.pose);
     }
     await this.#add(kind, record.sequence, ns, cloud);
   }
@@ -99,6 +107,8 @@ export class RecordingWriter {
         await this.#add('velocity', sequence, ns, [twistStamped(ns, record.twist)]);
         break;
       case 'state':
+        // Viewers place frames by tf alone: what is said in base_link would stand nowhere.
+        await this.#addTransform(ns, BASE_FRAME, record.pose);
         await this.#add('odometry', sequence, ns, [odometryOf(ns, record.pose, record.twist)]);
         break;
     }
@@ -113,6 +123,11 @@ export class RecordingWriter {
 
   addJson(kind: JsonKind, sequence: number, ns: bigint, value: object): Promise<void> {
     return this.#add(kind, sequence, ns, [new TextEncoder().encode(JSON.stringify(value))]);
+  }
+
+  /** A frame in the world. */
+  #addTransform(ns: bigint, frame: string, pose: Pose): Promise<void> {
+    return this.#add('tf', this.#transforms++, ns, [transformOf(ns, frame, pose)]);
   }
 
   #add(kind: RosKind | JsonKind, sequence: number, ns: bigint, data: readonly Uint8Array[]): Promise<void> {

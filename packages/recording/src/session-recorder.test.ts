@@ -4,6 +4,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Pose } from '@farpoint/protocol';
 import { afterAll, describe, expect, it } from 'vitest';
+import * as z from 'zod';
 import { CloudPlayer } from './cloud-player.ts';
 import { CloudTap } from './cloud-tap.ts';
 import { openRecording } from './open-recording.ts';
@@ -13,6 +14,12 @@ import { Peers } from './testing/peers.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'farpoint-recorder-'));
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
+
+const headerSchema = z.object({ frame_id: z.string() });
+const tfSchema = z.object({
+  transforms: z.array(z.object({ header: headerSchema, child_frame_id: z.string() })),
+});
+const stampedSchema = z.object({ header: headerSchema, child_frame_id: z.string().optional() });
 
 const FRAMES = 30;
 const LENS = { fx: 8, fy: 8, cx: 7.5, cy: 5.5 };
@@ -67,10 +74,10 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     const recording = await openRecording(path);
     expect(recording.warning).toBeNull();
     const counts = Object.fromEntries(recording.topics.map(({ name, messages }) => [name, messages]));
-    expect(counts).toMatchObject({ '/farpoint/captured': FRAMES, '/tf': FRAMES, '/odom': FRAMES });
+    expect(counts).toMatchObject({ '/farpoint/captured': FRAMES, '/tf': 2 * FRAMES, '/odom': FRAMES });
     expect(counts).toMatchObject({ '/farpoint/cmd_vel': FRAMES, '/farpoint/telemetry': FRAMES });
     await recording.close();
-    expect(recorder.messages).toBe(FRAMES * 5 + (counts['/farpoint/recorder'] ?? 0));
+    expect(recorder.messages).toBe(FRAMES * 6 + (counts['/farpoint/recorder'] ?? 0));
 
     const clock = new FakeClock();
     const player = await CloudPlayer.open(
@@ -96,6 +103,32 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     expect(player.twist.linear.x).toBe(1);
     await player.close();
     expect(k).toBe(FRAMES);
+  });
+
+  it('every frame that a message names stands in the world by tf alone, as viewers place it', async () => {
+    const path = join(folder, 'frames.mcap');
+    await record(path);
+    const recording = await openRecording(path);
+    const parents = new Map<string, string>();
+    const named = new Map<string, string>();
+    for await (const { topic, data } of recording.messages(
+      recording.topics.map(({ name }) => name),
+      0n,
+    )) {
+      const message = topic.decode(data);
+      for (const { header, child_frame_id } of tfSchema.safeParse(message).data?.transforms ?? [])
+        parents.set(child_frame_id, header.frame_id);
+      const { header, child_frame_id } = stampedSchema.safeParse(message).data ?? {};
+      if (header !== undefined) named.set(header.frame_id, topic.name);
+      if (child_frame_id !== undefined) named.set(child_frame_id, topic.name);
+    }
+    await recording.close();
+    expect([...named.keys()].sort()).toEqual(['base_link', 'camera_optical_frame', 'world']);
+    for (const [frame, topic] of named) {
+      let root = frame;
+      for (let depth = 0; depth < 8 && parents.has(root); depth++) root = parents.get(root) as string;
+      expect(root, `${frame} of ${topic}`).toBe('world');
+    }
   });
 
   it('records no more captured clouds than it was asked for', async () => {
@@ -199,15 +232,10 @@ describe.skipIf(typeof peers === 'string')(
         const { topics, messages, profile } = (peers as Peers).read(path);
         expect(profile).toBe('ros2');
         expect(messages).toBe(recorder.messages);
-        for (const topic of [
-          '/farpoint/captured',
-          '/tf',
-          '/odom',
-          '/farpoint/cmd_vel',
-          '/farpoint/telemetry',
-        ]) {
+        for (const topic of ['/farpoint/captured', '/odom', '/farpoint/cmd_vel', '/farpoint/telemetry']) {
           expect(topics[topic]).toMatchObject({ count: FRAMES, sequence: FRAMES - 1 });
         }
+        expect(topics['/tf']).toMatchObject({ count: 2 * FRAMES, sequence: 2 * FRAMES - 1 });
         expect((peers as Peers).count(path)).toEqual(
           Object.fromEntries(Object.entries(topics).map(([name, { count }]) => [name, count])),
         );
