@@ -57,6 +57,7 @@ const planner = new FramePlanner({
     options.framesPerSecond,
     description.framesPerSecond ?? options.framesPerSecond,
   ),
+  anyRate: source.onReady === undefined,
   floorFraction: options.floorFraction,
   mostPoints: options.mostPoints,
 });

@@ -1,3 +1,4 @@
+import { MAX_POINT_DATA_BYTES } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { type CodedPlan, FramePlanner, type PlanInput, type PlanOptions, wireBytesOfPacket } from './plan.ts';
@@ -5,6 +6,7 @@ import { type CodedPlan, FramePlanner, type PlanInput, type PlanOptions, wireByt
 const OPTIONS: PlanOptions = {
   policy: 'latency',
   mostFramesPerSecond: 60,
+  anyRate: false,
   floorFraction: 0.1,
   mostPoints: 1e6,
 };
@@ -77,6 +79,17 @@ describe('FramePlanner, for latency', () => {
     expect(planner().plan({ ...INPUT, workMs: 200 }).framesPerSecond).toBe(10);
   });
 
+  it('asks a source that gives a frame at any time as often as the thread has time', () => {
+    const at = (workMs: number) => planner({ anyRate: true }).plan({ ...INPUT, workMs }).framesPerSecond;
+    expect(at(5)).toBe(60);
+    expect(at(14)).toBeCloseTo(50);
+    expect(at(20)).toBeCloseTo(35);
+    expect(at(200)).toBe(10);
+    const coded = planner({ anyRate: true }).planCoded('organised', { ...INPUT, workMs: 14 });
+    expect(coded.framesPerSecond).toBeCloseTo(50);
+    expect(coded.framesPerSecond * coded.budgetBytes * 8).toBeLessThan(INPUT.targetBitsPerSecond);
+  });
+
   it('makes a frame large enough for the train that the rate control asks for', () => {
     const small = { ...INPUT, targetBitsPerSecond: 2e6 };
     const plain = planner().plan(small).points;
@@ -94,10 +107,14 @@ describe('FramePlanner, for latency', () => {
       rawPoints: fc.integer({ min: 0, max: 400_000 }),
       workMs: fc.double({ min: 0, max: 100, noNaN: true }),
       mostFramesPerSecond: fc.integer({ min: 1, max: 120 }),
+      anyRate: fc.boolean(),
     });
     fc.assert(
-      fc.property(numbers, ({ mostFramesPerSecond, ...input }) => {
-        const { points, framesPerSecond } = planner({ mostFramesPerSecond }).plan({ ...INPUT, ...input });
+      fc.property(numbers, ({ mostFramesPerSecond, anyRate, ...input }) => {
+        const { points, framesPerSecond } = planner({ mostFramesPerSecond, anyRate }).plan({
+          ...INPUT,
+          ...input,
+        });
         expect(points % 150).toBe(0);
         expect(framesPerSecond).toBeGreaterThanOrEqual(Math.min(10, mostFramesPerSecond));
         expect(framesPerSecond).toBeLessThanOrEqual(mostFramesPerSecond);
@@ -149,5 +166,13 @@ describe('FramePlanner, coded', () => {
     );
     const probing = { ...INPUT, targetBitsPerSecond: 1e6, probeBytes: 20_000 };
     expect(planner().planCoded('organised', probing).budgetBytes).toBeGreaterThan(17_000);
+  });
+
+  it('carries a whole train though the frame comes out as small as a budget allows', () => {
+    // The rate of a link that a frame of the finest kind does not fill.
+    const probing = { ...INPUT, targetBitsPerSecond: 28e6, probeBytes: 79_000 };
+    const { budgetBytes } = planner().planCoded('organised', probing);
+    const packets = (0.955 * budgetBytes) / MAX_POINT_DATA_BYTES;
+    expect(packets * wireBytesOfPacket(INPUT.overheadBytes)).toBeGreaterThanOrEqual(probing.probeBytes);
   });
 });

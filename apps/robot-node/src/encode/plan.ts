@@ -22,6 +22,8 @@ export interface PlanOptions {
   policy: PlanPolicy;
   /** What the source can give, frames a second. */
   mostFramesPerSecond: number;
+  /** It gives a frame whenever it is asked: what this computer can do need not be a whole fraction of that. */
+  anyRate: boolean;
   /** Equation 3's fraction of the raw cloud a second that is sent whatever the rate; for the policy `paper`. */
   floorFraction: number;
   /** The configuration's own limit of points a frame. */
@@ -78,6 +80,8 @@ const CODED_NEEDS: Readonly<Record<CodedFormat, CodedNeed>> = {
   // Its step is fixed, so that only the number of points can change.
   unorganised: { whole: 16, enough: 64 },
 };
+/** A coded frame may come out so much smaller than its budget; one that is to carry a train must not. */
+const CODED_SLACK = 1.06;
 /** A probe may make a frame so much larger than planned, at most. */
 const MOST_PROBE_FACTOR = 8;
 
@@ -143,7 +147,7 @@ export class FramePlanner {
     const enough = (rawPoints * need.enough) / 8;
     const afforded = Math.min(bitsPerSecond / 8 / framesPerSecond, enough);
     const probed = Math.min(
-      input.probeBytes * dataShare,
+      input.probeBytes * dataShare * CODED_SLACK,
       MOST_PROBE_FACTOR * Math.max(afforded, LEAST_BYTES),
     );
     return {
@@ -152,25 +156,29 @@ export class FramePlanner {
     };
   }
 
-  /** The source's rate, or a whole fraction of it: cameras can be asked for every second picture, not for every 1.3rd. */
+  /**
+   * The source's rate, or a whole fraction of it: cameras can be asked for every second picture, not for every 1.3rd. Of a
+   * source that gives a frame whenever it is asked, as many more as the processor has time for.
+   */
   #chooseFrameRate(
     pointsPerSecond: number,
     mostPoints: number,
     { workMs }: PlanInput,
     wanted = LEAST_POINTS,
   ): number {
-    const { mostFramesPerSecond } = this.#options;
+    const { mostFramesPerSecond, anyRate } = this.#options;
+    const floor = Math.min(LEAST_FRAMES_PER_SECOND, mostFramesPerSecond);
     const least = Math.min(wanted, mostPoints);
     const affordable = workMs > 0 ? (1000 * MOST_LOAD) / workMs : Number.POSITIVE_INFINITY;
     for (let divisor = 1; ; divisor++) {
       const candidate = mostFramesPerSecond / divisor;
       const next = mostFramesPerSecond / (divisor + 1);
       const margin = candidate > this.#framesPerSecond ? UPWARD_MARGIN : 1;
-      const fits =
-        pointsPerSecond / candidate >= least * margin && candidate * (margin === 1 ? 1 : 1.1) <= affordable;
-      if (!fits && next >= Math.min(LEAST_FRAMES_PER_SECOND, mostFramesPerSecond)) continue;
+      const inTime = anyRate || candidate * (margin === 1 ? 1 : 1.1) <= affordable;
+      const fits = pointsPerSecond / candidate >= least * margin && inTime;
+      if (!fits && next >= floor) continue;
       this.#framesPerSecond = candidate;
-      return candidate;
+      return anyRate ? Math.max(Math.min(candidate, affordable), floor) : candidate;
     }
   }
 }
