@@ -8,7 +8,6 @@ import {
   type LatencyMeasured,
   PROTOCOL_VERSION,
   type ProtocolError,
-  type ServiceToRobot,
 } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import { type CommandVerdict, DriveGuard, type RejectedCommand, type TakePolicy } from '@farpoint/safety';
@@ -22,9 +21,10 @@ import type { StreamMode } from './encode/stream-mode.ts';
 import { PictureHub } from './pictures/picture-hub.ts';
 import type { PicturePolicy } from './pictures/picture-plan.ts';
 import { ReferenceProfile } from './reference/reference-profile.ts';
-import { ConnectedOperator } from './session/connected-operator.ts';
+import type { ConnectedOperator } from './session/connected-operator.ts';
 import { FrameFanOut } from './session/frame-fan-out.ts';
 import type { OperatorSession, SessionHost } from './session/operator-session.ts';
+import { OperatorSessions } from './session/operator-sessions.ts';
 import { PathKeeper } from './session/path-keeper.ts';
 import { silenceLimits } from './session/silence.ts';
 import { SignalingClient, type SignalingOptions } from './signaling/signaling-client.ts';
@@ -35,7 +35,6 @@ import { type RecordingOptions, SessionRecording } from './telemetry/session-rec
 import { StageTimer } from './telemetry/stage-timer.ts';
 import { streamStatistics } from './telemetry/stream-statistics.ts';
 import { TelemetrySender } from './telemetry/telemetry-sender.ts';
-import type { PeerEnd } from './transport/operator-peer.ts';
 import { PacketLog } from './transport/packet-log.ts';
 import { SendLoop } from './transport/send-loop.ts';
 
@@ -86,7 +85,6 @@ export class Robot implements SessionHost {
   readonly capture: Capture;
   readonly drive: DriveStation;
   readonly signaling: SignalingClient;
-  readonly operators = new Map<string, ConnectedOperator>();
   readonly counters = new RobotCounters();
   /** Its other face, to the reference system's operators; `null` where it has none. */
   reference: ReferenceProfile | null = null;
@@ -103,11 +101,11 @@ export class Robot implements SessionHost {
   readonly #sink: VelocitySink;
   readonly #sendLoop = new SendLoop(monotonicMs, threadCpuMs);
   readonly #fanOut: FrameFanOut;
+  readonly #sessions: OperatorSessions;
   readonly #telemetry: TelemetrySender;
   readonly #paths: PathKeeper;
   readonly #timers: NodeJS.Timeout[] = [];
   readonly #statistics: JsonLinesFile | null = null;
-  #iceServers: readonly IceServer[] = [];
   #state: CaptureState | null = null;
 
   private constructor(
@@ -136,6 +134,29 @@ export class Robot implements SessionHost {
         recording?.velocity(twist);
       },
       monotonicMs,
+    );
+    this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
+    const { portRange, icePolicy, connectTimeoutMs } = options;
+    this.#sessions = new OperatorSessions(
+      {
+        most: options.maxOperators,
+        iceServers: options.iceServers,
+        peer: { portRange, icePolicy, connectTimeoutMs, pictures: capture.cameras.length > 0 },
+        pictureShare: options.pictures.share,
+        makeController: () => this.#makeController(),
+        sendLoop: this.#sendLoop,
+        packetLog: this.#packetLog,
+        host: this,
+        ...{ signaling: this.signaling, counters: this.counters, log },
+      },
+      {
+        resume: (session) => void this.#paths.resume(session),
+        connected: (operator) => this.#welcome(operator),
+        budgetChanged: () => this.#fanOut.updateBudget(),
+        takesCoded: (operator) => this.#fanOut.announceTo(operator),
+        latencyFrameLost: () => capture.requestLatencyTest(),
+        ended: (operator) => this.#operatorGone(operator),
+      },
     );
     const stages = new StageTimer();
     const readings = new ReadingBoard();
@@ -169,7 +190,6 @@ export class Robot implements SessionHost {
             driver: () => guard.leaseHolder,
             log,
           });
-    this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
     this.#paths = new PathKeeper({
       operators: this.operators,
       limits: silenceLimits(options.silenceMs),
@@ -179,7 +199,7 @@ export class Robot implements SessionHost {
       log,
       now: monotonicMs,
     });
-    this.signaling.onMessage = (message) => this.#onSignaling(message);
+    this.signaling.onMessage = (message) => this.#sessions.onSignaling(message);
     this.#sendLoop.onWork = (ms) => this.counters.stageSeconds.add('send', ms / 1000);
     capture.onState = (state) => {
       this.#state = state;
@@ -230,6 +250,10 @@ export class Robot implements SessionHost {
     return robot;
   }
 
+  get operators(): ReadonlyMap<string, ConnectedOperator> {
+    return this.#sessions.operators;
+  }
+
   /** Since the capture thread last gave a sign of life, ms; 0 before the first. */
   get captureSilenceMs(): number {
     return this.#state === null ? 0 : monotonicMs() - this.#state.timeMs;
@@ -240,10 +264,7 @@ export class Robot implements SessionHost {
     this.drive.guard.latchEstop('robot');
     this.drive.apply();
     for (const timer of this.#timers) clearInterval(timer);
-    for (const operator of [...this.operators.values()]) {
-      this.signaling.send({ type: 'session.close', session: operator.session.id });
-      operator.peer.close('closed', 'the robot is shutting down');
-    }
+    this.#sessions.close();
     this.reference?.close();
     this.drive.close();
     await this.#sink.close();
@@ -304,103 +325,6 @@ export class Robot implements SessionHost {
     this.#log.debug({ err: error, channel }, 'message refused');
   }
 
-  // Signaling
-
-  #onSignaling(message: ServiceToRobot): void {
-    switch (message.type) {
-      case 'robot.welcome':
-        this.#iceServers = [...message.iceServers, ...this.#options.iceServers];
-        break;
-      case 'session.request':
-        void this.#openSession(message.session, message.operator);
-        break;
-      case 'session.resume':
-        this.operators.get(message.session)?.peer.useIceServers(this.#iceServers);
-        void this.#paths.resume(message.session);
-        break;
-      case 'session.answer':
-        void this.operators.get(message.session)?.answer(message.sdp);
-        break;
-      case 'session.candidate':
-        void this.#addCandidate(message.session, message.candidate);
-        break;
-      case 'session.closed': {
-        const operator = this.operators.get(message.session);
-        // The operator's line to signaling is gone, or ours was: while its connection lives, the session does.
-        if (message.reason === 'operator-left' && operator?.peer.connected) break;
-        operator?.peer.close('closed', message.reason);
-        break;
-      }
-      case 'error':
-        this.counters.signalingErrors.add(message.code);
-        this.#log.warn(
-          { code: message.code, session: message.session, detail: message.message },
-          'signaling refused',
-        );
-        if (message.session !== undefined && message.code === 'unknown-session') {
-          const operator = this.operators.get(message.session);
-          if (operator !== undefined && !operator.peer.connected)
-            operator.peer.close('closed', message.message);
-        }
-        break;
-    }
-  }
-
-  async #addCandidate(session: string, candidate: Parameters<ConnectedOperator['peer']['addCandidate']>[0]) {
-    const fault = await this.operators.get(session)?.peer.addCandidate(candidate);
-    if (fault == null) return;
-    this.counters.candidatesRefused++;
-    this.#log.debug({ session, fault }, 'candidate refused');
-  }
-
-  async #openSession(session: string, operatorName: string): Promise<void> {
-    const { maxOperators, connectTimeoutMs, portRange, icePolicy } = this.#options;
-    if (this.operators.has(session) || this.operators.size >= maxOperators) {
-      this.counters.sessionsRefused++;
-      this.#log.warn({ session, operators: this.operators.size }, 'session refused');
-      this.signaling.send({ type: 'session.close', session });
-      return;
-    }
-    const log = this.#log.child({ session, operator: operatorName });
-    const operator = new ConnectedOperator(
-      {
-        session,
-        operatorName,
-        peer: {
-          ...{ iceServers: this.#iceServers, portRange, icePolicy, connectTimeoutMs },
-          pictures: this.pictures !== null,
-        },
-        controller: this.#makeController(),
-        packetLog: this.#packetLog,
-        pictureShare: this.#options.pictures.share,
-      },
-      this,
-      this.#sendLoop,
-      {
-        onCandidate: (candidate) => this.signaling.send({ type: 'session.candidate', session, candidate }),
-        onConnected: () => {
-          log.info({ operators: this.operators.size }, 'operator connected');
-          this.#welcome(operator);
-        },
-        onBudgetChanged: () => this.#fanOut.updateBudget(),
-        onTakesCoded: () => this.#fanOut.announceTo(operator),
-        onLatencyFrameLost: () => this.capture.requestLatencyTest(),
-        onEnded: (end, detail) => this.#sessionEnded(operator, end, detail, log),
-      },
-    );
-    this.operators.set(session, operator);
-    this.counters.sessionsOpened++;
-    log.info('session requested');
-    try {
-      const sdp = await operator.peer.offer();
-      if (this.operators.get(session) === operator)
-        this.signaling.send({ type: 'session.offer', session, sdp });
-    } catch (error) {
-      log.error({ err: error }, 'no offer');
-      operator.peer.close('not-connected', 'no offer could be made');
-    }
-  }
-
   #startReference(url: string): void {
     const { name, signaling, connectTimeoutMs, portRange, icePolicy, iceServers } = this.#options;
     this.reference = new ReferenceProfile(
@@ -454,16 +378,12 @@ export class Robot implements SessionHost {
     this.#fanOut.updateBudget();
   }
 
-  #sessionEnded(operator: ConnectedOperator, end: PeerEnd, detail: string, log: Logger): void {
-    const { id } = operator.session;
-    this.operators.delete(id);
-    this.counters.sessionsEnded.add(end);
-    const leaseFreed = this.drive.guard.operatorGone(id);
+  #operatorGone({ session }: ConnectedOperator): void {
+    // Its wheels stand before anything else is said.
+    const leaseFreed = this.drive.guard.operatorGone(session.id);
     this.drive.apply();
-    log.info({ end, detail, operators: this.operators.size }, 'session ended');
     if (leaseFreed) this.leaseChanged();
     this.#fanOut.updateBudget();
-    this.signaling.send({ type: 'session.close', session: id });
   }
 
   #tick(): void {

@@ -1,0 +1,158 @@
+import type { RateController } from '@farpoint/congestion';
+import type { IceServer, RobotToService, ServiceToRobot } from '@farpoint/protocol';
+import type { Logger } from '@farpoint/service';
+import type { RobotCounters } from '../telemetry/robot-counters.ts';
+import type { OperatorPeerOptions, PeerEnd } from '../transport/operator-peer.ts';
+import type { PacketLog } from '../transport/packet-log.ts';
+import type { SendLoop } from '../transport/send-loop.ts';
+import { ConnectedOperator } from './connected-operator.ts';
+import type { SessionHost } from './operator-session.ts';
+
+export interface OperatorSessionsOptions {
+  /** More are refused. */
+  most: number;
+  /** Besides those of the signaling service. */
+  iceServers: readonly IceServer[];
+  peer: Omit<OperatorPeerOptions, 'iceServers'>;
+  /** Most of a path that pictures may take, 0–1. */
+  pictureShare: number;
+  makeController: () => RateController;
+  sendLoop: SendLoop;
+  packetLog: PacketLog | undefined;
+  host: SessionHost;
+  signaling: { send(message: RobotToService): boolean };
+  counters: RobotCounters;
+  log: Logger;
+}
+
+export interface OperatorSessionsEvents {
+  /** The operator asks for a new path, having lost the old one. */
+  resume: (session: string) => void;
+  connected: (operator: ConnectedOperator) => void;
+  budgetChanged: () => void;
+  takesCoded: (operator: ConnectedOperator) => void;
+  latencyFrameLost: () => void;
+  /** It is not among the operators any more. */
+  ended: (operator: ConnectedOperator) => void;
+}
+
+/** Sessions with operators, opened and closed as signaling says; each has a connection of its own. */
+export class OperatorSessions {
+  readonly operators = new Map<string, ConnectedOperator>();
+  readonly #options: OperatorSessionsOptions;
+  readonly #events: OperatorSessionsEvents;
+  #iceServers: readonly IceServer[] = [];
+
+  constructor(options: OperatorSessionsOptions, events: OperatorSessionsEvents) {
+    this.#options = options;
+    this.#events = events;
+  }
+
+  onSignaling(message: ServiceToRobot): void {
+    switch (message.type) {
+      case 'robot.welcome':
+        this.#iceServers = [...message.iceServers, ...this.#options.iceServers];
+        break;
+      case 'session.request':
+        void this.#open(message.session, message.operator);
+        break;
+      case 'session.resume':
+        this.operators.get(message.session)?.peer.useIceServers(this.#iceServers);
+        this.#events.resume(message.session);
+        break;
+      case 'session.answer':
+        void this.operators.get(message.session)?.answer(message.sdp);
+        break;
+      case 'session.candidate':
+        void this.#addCandidate(message.session, message.candidate);
+        break;
+      case 'session.closed': {
+        const operator = this.operators.get(message.session);
+        // The operator's line to signaling is gone, or ours was: while its connection lives, the session does.
+        if (message.reason === 'operator-left' && operator?.peer.connected) break;
+        operator?.peer.close('closed', message.reason);
+        break;
+      }
+      case 'error':
+        this.#onError(message);
+        break;
+    }
+  }
+
+  /** Takes leave of everyone. */
+  close(): void {
+    for (const operator of [...this.operators.values()]) {
+      this.#options.signaling.send({ type: 'session.close', session: operator.session.id });
+      operator.peer.close('closed', 'the robot is shutting down');
+    }
+  }
+
+  #onError({ code, session, message }: Extract<ServiceToRobot, { type: 'error' }>): void {
+    const { counters, log } = this.#options;
+    counters.signalingErrors.add(code);
+    log.warn({ code, session, detail: message }, 'signaling refused');
+    if (session === undefined || code !== 'unknown-session') return;
+    const operator = this.operators.get(session);
+    if (operator !== undefined && !operator.peer.connected) operator.peer.close('closed', message);
+  }
+
+  async #addCandidate(session: string, candidate: Parameters<ConnectedOperator['peer']['addCandidate']>[0]) {
+    const { counters, log } = this.#options;
+    const fault = await this.operators.get(session)?.peer.addCandidate(candidate);
+    if (fault == null) return;
+    counters.candidatesRefused++;
+    log.debug({ session, fault }, 'candidate refused');
+  }
+
+  async #open(session: string, operatorName: string): Promise<void> {
+    const { most, peer, pictureShare, makeController, sendLoop, packetLog, host, signaling, counters } =
+      this.#options;
+    if (this.operators.has(session) || this.operators.size >= most) {
+      counters.sessionsRefused++;
+      this.#options.log.warn({ session, operators: this.operators.size }, 'session refused');
+      signaling.send({ type: 'session.close', session });
+      return;
+    }
+    const log = this.#options.log.child({ session, operator: operatorName });
+    const operator = new ConnectedOperator(
+      {
+        ...{ session, operatorName, packetLog, pictureShare },
+        peer: { ...peer, iceServers: this.#iceServers },
+        controller: makeController(),
+      },
+      host,
+      sendLoop,
+      {
+        onCandidate: (candidate) => signaling.send({ type: 'session.candidate', session, candidate }),
+        onConnected: () => {
+          log.info({ operators: this.operators.size }, 'operator connected');
+          this.#events.connected(operator);
+        },
+        onBudgetChanged: () => this.#events.budgetChanged(),
+        onTakesCoded: () => this.#events.takesCoded(operator),
+        onLatencyFrameLost: () => this.#events.latencyFrameLost(),
+        onEnded: (end, detail) => this.#ended(operator, end, detail, log),
+      },
+    );
+    this.operators.set(session, operator);
+    counters.sessionsOpened++;
+    log.info('session requested');
+    try {
+      const sdp = await operator.peer.offer();
+      if (this.operators.get(session) === operator) signaling.send({ type: 'session.offer', session, sdp });
+    } catch (error) {
+      log.error({ err: error }, 'no offer');
+      operator.peer.close('not-connected', 'no offer could be made');
+    }
+  }
+
+  #ended(operator: ConnectedOperator, end: PeerEnd, detail: string, log: Logger): void {
+    const { counters, signaling } = this.#options;
+    const { id } = operator.session;
+    this.operators.delete(id);
+    this.#events.ended(operator);
+    counters.sessionsEnded.add(end);
+    log.info({ end, detail, operators: this.operators.size }, 'session ended');
+    signaling.send({ type: 'session.close', session: id });
+  }
+}
