@@ -75,6 +75,7 @@ const CASES: readonly Case[] = [
   { ...BASE, name: 'bursts of loss', burstLoss: { enterBad: 0.002, leaveBad: 0.05, lossInBad: 0.8 } },
   { ...BASE, name: 'jitter of 3 ms', jitterMs: 3 },
   { ...BASE, name: 'delay that wobbles by ± 5 ms', wobbleMs: 5 },
+  { ...BASE, name: 'another route, longer by 16 ms', durationMs: 30_000, delaySteps: [[6000, 16]] },
   { ...BASE, name: '20 % of feedback lost', backLoss: 0.2 },
   { ...BASE, name: 'a busy computer', stalls: BUSY_COMPUTER },
   { ...BASE, name: 'a busy computer, 5 % loss', stalls: BUSY_COMPUTER, loss: 0.05 },

@@ -231,6 +231,24 @@ describe('what the path may do besides', () => {
   });
 });
 
+describe('another route', () => {
+  test.each([
+    ['shorter', -15, 0.95],
+    ['longer', 8, 0.85],
+    ['longer', 40, 0.8],
+    ['longer', 80, 0.75],
+  ])('that is %s by %i ms is learnt within 3 s', (_, moreMs, least) => {
+    for (const seed of [1, 2, 3]) {
+      for (const stalls of [{}, BUSY_COMPUTER]) {
+        const outcome = run({ durationMs: 30_000, seed, stalls, delaySteps: [[6000, moreMs]] });
+        expect(used(outcome, 9000, 30_000)).toBeGreaterThan(0.85);
+        expect(used(outcome, 6000, 30_000)).toBeGreaterThan(least);
+        expect(q95(outcome, 9000, 30_000)).toBeLessThan(30);
+      }
+    }
+  });
+});
+
 describe('on a busy computer', () => {
   const sharpDrops = (outcome: Outcome, fromMs: number) => {
     const { target, sampleMs } = outcome.media[0]!;

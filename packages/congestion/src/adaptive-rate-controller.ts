@@ -35,6 +35,8 @@ const LEAST_PACING = 300_000;
 const LEAST_WINDOW_BYTES = 7500;
 /** Below this the source cannot follow the rate in fine steps: what it leaves unused says nothing, bit/s. */
 const SMALL = 1e6;
+/** A queue that is being emptied for so long and has a floor is none, ms. */
+const STUCK_MS = 400;
 /** Of what arrives under too much loss, the part that is kept; and the most that is given up at once. */
 const KEEP_IN_LOSS = 0.95;
 const LOSS_CUT = 0.85;
@@ -56,6 +58,8 @@ export class AdaptiveRateController implements RateController {
   readonly #competition = new Competition();
   readonly #silence = new Silence();
   #estimate: number;
+  /** Since when the queue is being emptied. */
+  #drainSinceMs = 0;
   #state: AdaptiveState = 'steady';
   /** The part of the estimate that is held back for now. */
   #heldBack = 0;
@@ -168,6 +172,14 @@ export class AdaptiveRateController implements RateController {
     const { observation: o, noiseMs, baseRttMs } = this.#path;
     const allowanceMs = noiseAllowanceMs(noiseMs);
     const toleratedMs = toleratedQueueMs(this.#estimate) + allowanceMs;
+    if (this.#state !== 'drain') this.#drainSinceMs = nowMs;
+    else if (nowMs - this.#drainSinceMs > STUCK_MS && this.#path.settledQueueMs > toleratedMs / 2) {
+      // However little is sent, it gets no shorter: no queue, but a longer way than before.
+      this.#path.lengthen(nowMs);
+      this.#state = 'steady';
+      this.#heldBack = 0;
+      return;
+    }
     if (this.#state !== 'compete') {
       if (this.#competition.notice(o, this.#estimate, this.#heldBack, allowanceMs, elapsedMs)) {
         this.#state = 'compete';

@@ -1,4 +1,5 @@
 import type { PacketResult } from './rate-controller.ts';
+import { SettledDelay } from './settled-delay.ts';
 import { WindowedMinimum } from './windowed-minimum.ts';
 
 /** One feedback message, condensed. Overwritten by the next. */
@@ -45,6 +46,7 @@ export class PathObserver {
   };
   readonly #baseDelay = new WindowedMinimum(BASE_WINDOW_MS);
   readonly #baseRtt = new WindowedMinimum(BASE_WINDOW_MS);
+  readonly #settled = new SettledDelay();
   /** The last messages: newest arrival, bytes of the message. */
   readonly #ends = new Float64Array(MESSAGES);
   readonly #bytes = new Float64Array(MESSAGES);
@@ -73,6 +75,21 @@ export class PathObserver {
   get baseRttMs(): number {
     const value = this.#baseRtt.value;
     return value < Number.POSITIVE_INFINITY ? value : 100;
+  }
+
+  /** How far above the base delay the floor lies that the delay comes down to, ms; NaN where it has none. */
+  get settledQueueMs(): number {
+    return this.#settled.value - this.#baseDelay.value;
+  }
+
+  /** The path has become longer: on the floor there is no queue. */
+  lengthen(nowMs: number): void {
+    const delay = this.#settled.value;
+    this.#baseDelay.reset();
+    this.#baseDelay.add(delay, nowMs);
+    this.#baseRtt.reset();
+    this.#baseRtt.add(this.observation.rttMs, nowMs);
+    this.#settled.reset();
   }
 
   /** What arrived before says nothing about the rate now, as after an outage. */
@@ -175,12 +192,15 @@ export class PathObserver {
       this.clockJumps++;
       this.#baseDelay.reset();
       this.#baseDelay.add(endDelay - queuedAtMost, nowMs);
+      this.#settled.reset();
       this.#messages = 0;
       return false;
     }
-    this.#baseDelay.add(all[Math.floor(n / 10)] as number, nowMs);
+    const delay = all[Math.floor(n / 10)] as number;
+    this.#baseDelay.add(delay, nowMs);
+    this.#settled.add(delay);
     const base = this.#baseDelay.value;
-    o.queueMs = (all[Math.floor(n / 10)] as number) - base;
+    o.queueMs = delay - base;
     const change = Math.min(Math.max(o.queueMs - this.#lastQueueMs, -NOISE_CLAMP_MS), NOISE_CLAMP_MS);
     this.#changes++;
     const gain = Math.max(0.03, 1 / (this.#changes + 3));

@@ -7,6 +7,8 @@ export interface PathOptions {
   bottleneck: Bottleneck | null;
   /** Propagation, ms, behind the bottleneck. */
   delayMs: number;
+  /** From when on the way is longer or shorter, and by how much, ms: another route. In order of time. */
+  delaySteps?: readonly (readonly [fromMs: number, moreMs: number])[];
   /** Mean of an exponentially distributed extra delay, ms. It never reorders. */
   jitterMs?: number;
   /** Delay that varies evenly by up to so much, ms, drawn anew each 10 ms, as a radio's scheduler has it; no overtaking. */
@@ -51,6 +53,7 @@ export class Path {
     const {
       bottleneck,
       delayMs,
+      delaySteps = [],
       jitterMs = 0,
       wobbleMs = 0,
       reorder = 0,
@@ -74,7 +77,8 @@ export class Path {
       this.#wobbleUntilMs = nowMs + WOBBLE_EVERY_MS;
       this.#wobble = wobbleMs * (2 * this.#random() - 1);
     }
-    let arrival = Math.max(leaves + delayMs + jitter + this.#wobble, this.#lastArrivalMs);
+    const moreMs = delaySteps.findLast(([fromMs]) => nowMs >= fromMs)?.[1] ?? 0;
+    let arrival = Math.max(leaves + delayMs + moreMs + jitter + this.#wobble, this.#lastArrivalMs);
     if (reorder > 0 && this.#random() < reorder) arrival += reorderMs;
     else this.#lastArrivalMs = arrival;
     const lost = (bottleneck?.loses() ?? false) || (loss > 0 && this.#random() < loss);

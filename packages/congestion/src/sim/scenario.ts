@@ -4,7 +4,7 @@ import { CubicFlow } from './cubic-flow.ts';
 import { EventQueue } from './event-queue.ts';
 import type { FlowRecord } from './flow-record.ts';
 import { MediaFlow, type MediaFlowOptions } from './media-flow.ts';
-import { Path } from './path.ts';
+import { Path, type PathOptions } from './path.ts';
 import { seededRandom } from './random.ts';
 import { type StallOptions, Stalls } from './stalls.ts';
 
@@ -39,6 +39,8 @@ export interface Scenario {
   queueBytes?: number;
   loss?: number;
   burstLoss?: BurstLoss;
+  /** Of the media's way: see {@link PathOptions}. */
+  delaySteps?: PathOptions['delaySteps'];
   jitterMs?: number;
   wobbleMs?: number;
   reorder?: number;
@@ -84,7 +86,7 @@ export function runScenario(scenario: Scenario, controller: () => RateController
   const backQueueBytes = queueBytesOf(backCapacity ?? [], scenario.backQueueMs ?? 100);
   const backLink =
     backCapacity && new Bottleneck({ capacity: backCapacity, queueBytes: backQueueBytes }, random);
-  const { jitterMs = 0, wobbleMs = 0, reorder = 0 } = scenario;
+  const { delaySteps = [], jitterMs = 0, wobbleMs = 0, reorder = 0 } = scenario;
   // Of their own seed, so that they are the same whatever the flows do.
   const stallRandom = seededRandom((scenario.seed ?? 1) + 77);
   const stalls = (options: StallOptions | undefined) =>
@@ -95,6 +97,7 @@ export function runScenario(scenario: Scenario, controller: () => RateController
       {
         bottleneck: link,
         delayMs: rttMs / 2,
+        delaySteps,
         jitterMs,
         wobbleMs,
         reorder,

@@ -1,0 +1,31 @@
+/** Feedback messages that are looked at: some 0.7 s. */
+const MESSAGES = 10;
+/** So many of them come down to the least delay, but for this, ms. */
+const AT_FLOOR = 4;
+const FLOOR_MS = 0.7;
+
+/** Notices that a delay comes down to the same floor again and again: what propagation alone would take. */
+export class SettledDelay {
+  readonly #recent = new Float64Array(MESSAGES);
+  readonly #sorted = new Float64Array(MESSAGES);
+  #count = 0;
+
+  /** @param delayMs of a message */
+  add(delayMs: number): void {
+    this.#recent[this.#count % MESSAGES] = delayMs;
+    this.#count++;
+  }
+
+  reset(): void {
+    this.#count = 0;
+  }
+
+  /** The floor, ms; NaN where there is none. */
+  get value(): number {
+    if (this.#count < MESSAGES) return Number.NaN;
+    this.#sorted.set(this.#recent);
+    this.#sorted.sort();
+    const [least] = this.#sorted as ArrayLike<number> as readonly [number];
+    return (this.#sorted[AT_FLOOR - 1] as number) - least < FLOOR_MS ? least : Number.NaN;
+  }
+}
