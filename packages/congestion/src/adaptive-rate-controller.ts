@@ -202,6 +202,8 @@ export class AdaptiveRateController implements RateController {
       const before = this.#estimate;
       this.#estimate = this.#delay.estimateWhenOver(this.#path, before, toleratedMs);
       this.#state = 'drain';
+      // A train whose own queue ends it has found no more either.
+      if (this.#probe.busy) this.#plan.onCut(nowMs);
       this.#probe.cancel();
       if (this.#estimate < before) {
         this.#beforeTrial = 0;

@@ -52,6 +52,13 @@ export class ProbePlan {
     this.ignored = true;
   }
 
+  /** A train was given up, for the queue grew too long meanwhile. */
+  onCut(nowMs: number): void {
+    if (this.searching) return;
+    this.#waitMs = Math.min(Math.max(2 * this.#waitMs, LEAST_WAIT_MS), MOST_WAIT_MS);
+    this.#lastMs = nowMs;
+  }
+
   /** @returns whether it is time for a train */
   isDue(sinceOveruseMs: number, idle: boolean, nowMs: number): boolean {
     const waitMs = this.searching ? 0 : idle ? IDLE_WAIT_MS : this.#waitMs;
