@@ -1,4 +1,5 @@
 export { compressedPicture } from './compressed-picture.ts';
+export { definitionsOf } from './definitions.ts';
 export { DiagnosticBoard } from './diagnostic-board.ts';
 export { RosFault, type RosFaultCode } from './fault.ts';
 export {
@@ -18,6 +19,7 @@ export {
 export { colourOf, depthOf, GREY, type Pinhole, pinholeOf } from './image.ts';
 export { type ImagePair, ImagePairs } from './image-pairs.ts';
 export { decoderOf, lazyDecoder, type MessageSchema } from './message-decoder.ts';
+export { definitionsFromFiles, type ReadMessageFile } from './message-files.ts';
 export { type MessageSlot, MessageSlots } from './message-slots.ts';
 export {
   BATTERY_TYPES,

@@ -44,15 +44,16 @@ function makeDecoder({ messageEncoding, schemaEncoding, schema }: MessageSchema)
 /**
  * Decodes the messages of a live topic.
  *
- * @param definition as its publisher tells it, for types that are not ROS’s own
+ * @param definition for types that are not ROS’s own: as its publisher tells it, or with all that it is made of
  * @throws {RosFault} `unsupported` where nobody says what its messages hold
  */
 export function decoderOf(
   version: 1 | 2,
   type: string,
-  definition: string | null,
+  definition: string | MessageDefinition[] | null,
 ): (bytes: Uint8Array) => unknown {
-  const definitions = definitionsOf(version, type) ?? (definition === null ? null : parse(definition));
+  const told = typeof definition === 'string' ? parse(definition) : definition;
+  const definitions = definitionsOf(version, type) ?? told;
   if (definitions === null) {
     throw new RosFault('unsupported', `messages of the type ${type} are not known`);
   }

@@ -3,6 +3,7 @@
  * discovery sees.
  */
 import { MAX_CAMERAS } from '@farpoint/protocol';
+import type { MessageDefinition } from '@foxglove/message-definition';
 import * as z from 'zod';
 import { LATCHED_QOS, type Qos, RELIABLE_QOS, SENSOR_QOS, VELOCITY_QOS } from './graph.ts';
 
@@ -88,6 +89,8 @@ export interface TopicEntry {
   label?: string | undefined;
   /** Left out: what the role usually needs. ROS 2 only. */
   qos?: Qos | undefined;
+  /** Of a type that is not ROS’s own, from files: itself first. */
+  definitions?: MessageDefinition[] | undefined;
 }
 
 const entry = z

@@ -26,7 +26,7 @@ export function listen(
 ): Listener {
   let decode: ((bytes: Uint8Array) => unknown) | null = null;
   return listenBytes(graph, entry, options, (bytes, _, definition) => {
-    decode ??= decoderOf(graph.version, entry.type, definition);
+    decode ??= decoderOf(graph.version, entry.type, definition ?? entry.definitions ?? null);
     take(decode(bytes));
   });
 }

@@ -1,11 +1,12 @@
 /** From values that are right one by one to what the robot is made of. */
 import { randomBytes } from 'node:crypto';
 import { readFileSync } from 'node:fs';
-import { ros1Hostname, topicAs } from '@farpoint/ros';
+import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
 import { type OptionMistake, OptionsError } from '@farpoint/service';
 import type { SourceOptions } from '../capture/open-source.ts';
 import type { SinkOptions } from '../drive/velocity-sink.ts';
 import type { RobotOptions } from '../robot.ts';
+import { describeTopics, readFrom, sourcedFolders } from '../ros/message-folders.ts';
 import type { GraphOptions } from '../ros/open-graph.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 
@@ -92,6 +93,14 @@ function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, de
   if ((sink === 'ros1' || sink === 'ros2') && topicAs(topics, 'velocity') === undefined) {
     refuse('topics', `needs an entry with \`as: velocity\` for the sink ${sink}`);
   }
+  if (source === 'ros2') {
+    try {
+      describedTopics(values);
+    } catch (error) {
+      if (!(error instanceof RosFault)) throw error;
+      refuse('topics', `${error.message}, in the folders of ros.messages or of a ROS that is sourced`);
+    }
+  }
   if (source === 'sim' && values.simSize % 4 !== 0) refuse('simSize', 'must be a multiple of 4');
 }
 
@@ -115,7 +124,7 @@ function toSource(values: RobotOptionValues): SourceOptions {
     case 'ros1':
     case 'ros2':
       return {
-        ...{ kind: 'ros', graph: toGraph(values, values.source), topics: values.topics },
+        ...{ kind: 'ros', graph: toGraph(values, values.source), topics: describedTopics(values) },
         ...{ axes: values.rosAxes, waitMs: values.rosWaitS * 1000 },
       };
     case 'pcd':
@@ -123,6 +132,12 @@ function toSource(values: RobotOptionValues): SourceOptions {
     case 'rgbd':
       return { kind: 'rgbd', path };
   }
+}
+
+/** ROS 1's publishers tell what their messages hold; ROS 2's do not. @throws {RosFault} */
+function describedTopics({ source, topics, rosMessages }: RobotOptionValues): TopicEntry[] {
+  if (source !== 'ros2') return topics;
+  return describeTopics(topics, readFrom([...rosMessages, ...sourcedFolders(process.env)]));
 }
 
 function toSink(values: RobotOptionValues): SinkOptions {

@@ -57,6 +57,13 @@ export const rosOptions = optionGroup('ros', {
     file: 'peers',
     help: 'ros2: machines to look for where multicast does not reach, with commas between them; left out, ROS_STATIC_PEERS',
   }),
+  rosMessages: defineOption({
+    schema: schema.list(schema.text()),
+    default: [],
+    argument: 'FOLDERS',
+    file: 'messages',
+    help: 'ros2: folders of packages whose messages are not ROS’s own, <folder>/<package>/msg/<Type>.msg, with commas between them; those of the ROS that is sourced are known',
+  }),
   rosReach: defineOption({
     schema: schema.optional(schema.choice(['subnet', 'localhost'])),
     default: null,
