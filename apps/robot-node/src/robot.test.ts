@@ -75,12 +75,12 @@ describe('robot process', { timeout: 30_000 }, () => {
     const [{ client }, { client: other }] = [await connect(), await connect()];
     expect((await client.message('cameras')).cameras).toEqual([{ name: 'Camera' }]);
     client.sendSession({ type: 'pictures', cameras: [0] });
-    await client.until(() => (client.pictures.get(0)?.pictureId ?? 0) >= 3);
+    await client.until(() => (client.pictures.get(0)?.pictureId ?? 0) >= 1);
     const picture = client.pictures.get(0)!;
     expect(picture).toMatchObject({ format: 'jpeg', width: 64, height: 64 });
     expect(readPictureFile(picture.bytes)).toEqual({ format: 'jpeg', width: 64, height: 64 });
     expect(other.pictures.size).toBe(0);
-    expect(await metric('pictures_made_total')).toBeGreaterThanOrEqual(4);
+    expect(await metric('pictures_made_total')).toBeGreaterThanOrEqual(2);
     // Those that were not sent gave way to newer ones.
     expect(await metric('pictures_sent')).toBeGreaterThanOrEqual(1);
     client.sendSession({ type: 'pictures', cameras: [] });
