@@ -25,7 +25,7 @@ export class SettledDelay {
     if (this.#count < MESSAGES) return Number.NaN;
     this.#sorted.set(this.#recent);
     this.#sorted.sort();
-    const [least] = this.#sorted as ArrayLike<number> as readonly [number];
+    const least = this.#sorted[0] as number;
     return (this.#sorted[AT_FLOOR - 1] as number) - least < FLOOR_MS ? least : Number.NaN;
   }
 }

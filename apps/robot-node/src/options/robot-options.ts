@@ -18,6 +18,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const mistakes: OptionMistake[] = [];
   const refuse = (key: RobotOptionKey, detail: string) => mistakes.push({ where: where(key), detail });
   checkSource(values, refuse);
+  const topics = describedTopics(values, (detail) => refuse('topics', detail));
   const ca = values.tlsCa === null ? null : readText(values.tlsCa, (detail) => refuse('tlsCa', detail));
   if (mistakes.length > 0) throw new OptionsError(mistakes);
   return {
@@ -30,7 +31,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       ca,
     },
     capture: {
-      source: toSource(values),
+      source: toSource(values, topics),
       framesPerSecond: values.fps ?? (values.source === 'sim' ? 60 : 30),
       plan: values.plan,
       sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
@@ -93,18 +94,10 @@ function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, de
   if ((sink === 'ros1' || sink === 'ros2') && topicAs(topics, 'velocity') === undefined) {
     refuse('topics', `needs an entry with \`as: velocity\` for the sink ${sink}`);
   }
-  if (source === 'ros2') {
-    try {
-      describedTopics(values);
-    } catch (error) {
-      if (!(error instanceof RosFault)) throw error;
-      refuse('topics', `${error.message}, in the folders of ros.messages or of a ROS that is sourced`);
-    }
-  }
   if (source === 'sim' && values.simSize % 4 !== 0) refuse('simSize', 'must be a multiple of 4');
 }
 
-function toSource(values: RobotOptionValues): SourceOptions {
+function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOptions {
   const path = values.path ?? '';
   switch (values.source) {
     case 'sim':
@@ -124,7 +117,7 @@ function toSource(values: RobotOptionValues): SourceOptions {
     case 'ros1':
     case 'ros2':
       return {
-        ...{ kind: 'ros', graph: toGraph(values, values.source), topics: describedTopics(values) },
+        ...{ kind: 'ros', graph: toGraph(values, values.source), topics },
         ...{ axes: values.rosAxes, waitMs: values.rosWaitS * 1000 },
       };
     case 'pcd':
@@ -134,10 +127,19 @@ function toSource(values: RobotOptionValues): SourceOptions {
   }
 }
 
-/** ROS 1's publishers tell what their messages hold; ROS 2's do not. @throws {RosFault} */
-function describedTopics({ source, topics, rosMessages }: RobotOptionValues): TopicEntry[] {
+/** ROS 1's publishers tell what their messages hold; ROS 2's do not. */
+function describedTopics(
+  { source, topics, rosMessages }: RobotOptionValues,
+  refuse: (detail: string) => void,
+): TopicEntry[] {
   if (source !== 'ros2') return topics;
-  return describeTopics(topics, readFrom([...rosMessages, ...sourcedFolders(process.env)]));
+  try {
+    return describeTopics(topics, readFrom([...rosMessages, ...sourcedFolders(process.env)]));
+  } catch (error) {
+    if (!(error instanceof RosFault)) throw error;
+    refuse(`${error.message}, in the folders of ros.messages or of a ROS that is sourced`);
+    return topics;
+  }
 }
 
 function toSink(values: RobotOptionValues): SinkOptions {
