@@ -28,12 +28,6 @@ export const WASM_CRATES: readonly WasmCrate[] = [
     crates: ['sim-camera'],
   },
   {
-    package: 'farpoint-bandwidth-estimator',
-    name: 'farpoint_bandwidth_estimator',
-    outDir: 'packages/congestion/wasm',
-    crates: ['bandwidth-estimator', 'goog-cc'],
-  },
-  {
     package: 'farpoint-picture-codec',
     name: 'farpoint_picture_codec',
     outDir: 'packages/pictures/wasm',

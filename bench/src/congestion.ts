@@ -2,7 +2,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { AdaptiveRateController, FixedRateController, type RateController } from '@farpoint/congestion';
-import { GoogCcController } from '@farpoint/congestion/goog-cc';
+import { GccController } from '@farpoint/congestion/gcc';
 import {
   BUSY_COMPUTER,
   type CapacityStep,
@@ -24,10 +24,10 @@ import { type Bench, type Cell, numberOption, printJson, printTable } from './re
 
 const USAGE = `pnpm bench congestion [--controller NAME,…] [--scenario TEXT] [--trace FILE] [--seed 1] [--plot FILE.svg] [--json]
 
-Runs rate controllers (adaptive: ours; gcc: libwebrtc's Google congestion control; fixed: 40 Mbit/s, halved by loss) over
-simulated links in virtual time: a 30 Hz source as large as the target allows, paced, with padding for probes; a drop-tail
-queue; feedback each 50–62 ms. --trace adds a link from a file of lines \`seconds,Mbit/s\`; --scenario runs those whose name
-contains the text; --plot draws the step, and the trace where one is given.
+Runs rate controllers (adaptive: ours; gcc: Google congestion control; fixed: 40 Mbit/s, halved by loss) over simulated
+links in virtual time: a 30 Hz source as large as the target allows, paced, with padding for probes; a drop-tail queue;
+feedback each 50–62 ms. --trace adds a link from a file of lines \`seconds,Mbit/s\`; --scenario runs those whose name contains
+the text; --plot draws the step, and the trace where one is given.
 
 used: arrived over what the link could carry, after 5 s. queue: waiting time of the packets sent after 5 s. overflow: of the packets
 sent, those the full queue dropped. until90: from the beginning (or the last rise) until 90 % of the link are used over 0.5 s.
@@ -37,7 +37,7 @@ const M = 1e6;
 const LINK = 41.44 * M;
 const CONTROLLERS: Record<string, () => RateController> = {
   adaptive: () => new AdaptiveRateController(),
-  gcc: () => new GoogCcController(),
+  gcc: () => new GccController(),
   fixed: () => new FixedRateController({ bitsPerSecond: 40 * M }),
 };
 /** What is plotted of a scenario: an outcome for each controller. */

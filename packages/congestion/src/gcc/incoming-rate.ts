@@ -1,0 +1,55 @@
+/** The window `T`, ms; on a fast path so many packets, which are less. */
+const WINDOW_MS = 1000;
+const MOST_PACKETS = 500;
+/** What is told at the least from: packets. */
+const LEAST_PACKETS = 10;
+
+/**
+ * The rate of what arrives, `R_hat` (draft-ietf-rmcat-gcc-02, section 5.5): over the last packets. As in libwebrtc the
+ * longest gap does not count, for paths hold packets back and let them go at once; and it is never told to be more than was
+ * sent in the time.
+ */
+export class IncomingRate {
+  readonly #sent = new Float64Array(MOST_PACKETS);
+  readonly #arrived = new Float64Array(MOST_PACKETS);
+  readonly #bytes = new Float64Array(MOST_PACKETS);
+  #first = 0;
+  #end = 0;
+
+  add(bytes: number, sentMs: number, arrivedMs: number): void {
+    if (this.#end - this.#first === MOST_PACKETS) this.#first++;
+    const at = this.#end++ % MOST_PACKETS;
+    this.#sent[at] = sentMs;
+    this.#arrived[at] = arrivedMs;
+    this.#bytes[at] = bytes;
+    while (arrivedMs - (this.#arrived[this.#first % MOST_PACKETS] as number) > WINDOW_MS) this.#first++;
+  }
+
+  /** Bit/s; NaN while too little has arrived. */
+  get bitsPerSecond(): number {
+    if (this.#end - this.#first < LEAST_PACKETS) return Number.NaN;
+    let bytes = 0;
+    // The first packet came before the time that is counted.
+    for (let i = this.#first + 1; i < this.#end; i++) bytes += this.#bytes[i % MOST_PACKETS] as number;
+    const elapsedMs = Math.max(this.#spanMs(this.#sent), this.#spanMs(this.#arrived));
+    return elapsedMs > 0 ? (bytes * 8000) / elapsedMs : Number.NaN;
+  }
+
+  reset(): void {
+    this.#first = this.#end;
+  }
+
+  /** From first to last, but for the longest gap. */
+  #spanMs(times: Float64Array): number {
+    let span = 0;
+    let longest = 0;
+    let newest = times[this.#first % MOST_PACKETS] as number;
+    for (let i = this.#first + 1; i < this.#end; i++) {
+      const gap = Math.max((times[i % MOST_PACKETS] as number) - newest, 0);
+      newest += gap;
+      span += gap;
+      longest = Math.max(longest, gap);
+    }
+    return span - longest;
+  }
+}

@@ -1,6 +1,0 @@
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BandwidthUsage {
-    Normal,
-    Underusing,
-    Overusing,
-}

@@ -1,2 +1,0 @@
-mod interval_budget;
-pub use interval_budget::*;
