@@ -3,8 +3,9 @@
 
     python3 examples/zed_camera.py [--layout farpoint|reference] [--fps 30] [--size 480] [--track] [--flip] [--folder /dev/shm]
 
-The ZED SDK (https://www.stereolabs.com/developers) brings the module pyzed. --fps is how often a cloud is given, up to the
-camera's 30. --track gives each cloud the camera's pose, by the SDK's positional tracking.
+The ZED SDK (https://www.stereolabs.com/developers), version 5, brings the module pyzed. --fps is how often a cloud is given, up to
+the camera's 30. --track gives each cloud the camera's pose, by the SDK's positional tracking. It ends where the camera fails or
+goes away: let what supervises it start it again.
 """
 import argparse
 import os
@@ -22,6 +23,8 @@ from farpoint_shm import CloudProducer, ReferenceProducer, pack_points, sample_p
 # From optical axes (z forward, x right, y down) to the world's (x forward, y left, z up), as x, y, z, w.
 OPTICAL_IN_WORLD = (-0.5, 0.5, -0.5, 0.5)
 CAMERA_FPS = 30
+# Warnings of a grab that leaves nothing to show, by name, since not every SDK has them. After others there is a picture.
+NO_PICTURE = ("CAMERA_REBOOTING", "CORRUPTED_FRAME")
 
 
 def load_sdk():
@@ -44,6 +47,14 @@ def multiply(a, b):
     )
 
 
+def demand(sl, status, what):
+    """Ends where a call failed. Codes below SUCCESS are warnings: it was done, if not quite as asked."""
+    if status.value > sl.ERROR_CODE.SUCCESS.value:
+        sys.exit(f"{what}: {status!r}")
+    if status != sl.ERROR_CODE.SUCCESS:
+        print(f"{what}: {status!r}", file=sys.stderr)
+
+
 class Zed:
     """Clouds in metres in the optical frame, which is the SDK's IMAGE coordinate system."""
 
@@ -57,12 +68,10 @@ class Zed:
         parameters.coordinate_system = sl.COORDINATE_SYSTEM.IMAGE
         parameters.camera_image_flip = sl.FLIP_MODE.ON if options.flip else sl.FLIP_MODE.OFF
         self.camera = sl.Camera()
-        status = self.camera.open(parameters)
-        if status != sl.ERROR_CODE.SUCCESS:
-            sys.exit(f"the camera cannot be opened: {status!r}")
+        demand(sl, self.camera.open(parameters), "opening the camera")
         self.tracking = options.track
         if self.tracking:
-            self.camera.enable_positional_tracking(sl.PositionalTrackingParameters())
+            demand(sl, self.camera.enable_positional_tracking(sl.PositionalTrackingParameters()), "tracking its position")
         self.resolution = sl.Resolution(options.size, options.size)
         left = self.camera.get_camera_information(self.resolution).camera_configuration.calibration_parameters.left_cam
         self.lens = (left.fx, left.fy, left.cx, left.cy)
@@ -72,13 +81,21 @@ class Zed:
     def grab(self):
         """The next cloud, float32 of shape (size, size, 4) with the colour's bytes in the fourth, and when it was taken."""
         sl = self.sl
-        if self.camera.grab(self.runtime) != sl.ERROR_CODE.SUCCESS:
+        status = self.camera.grab(self.runtime)
+        if status.name in NO_PICTURE:
+            # While the camera boots this comes at once.
+            time.sleep(0.01)
             return None
+        if status.value > sl.ERROR_CODE.SUCCESS.value:
+            sys.exit(f"the camera gives no more pictures: {status!r}")
         # The SDK's clock is the system's: its age is taken off the monotonic one.
         now = self.camera.get_timestamp(sl.TIME_REFERENCE.CURRENT).get_nanoseconds()
         age_ns = now - self.camera.get_timestamp(sl.TIME_REFERENCE.IMAGE).get_nanoseconds()
         capture_ns = time.monotonic_ns() - max(0, age_ns)
-        self.camera.retrieve_measure(self.cloud, sl.MEASURE.XYZRGBA, sl.MEM.CPU, self.resolution)
+        # By position: the third argument has had two names.
+        status = self.camera.retrieve_measure(self.cloud, sl.MEASURE.XYZRGBA, sl.MEM.CPU, self.resolution)
+        if status.value > sl.ERROR_CODE.SUCCESS.value:
+            sys.exit(f"no cloud of {self.resolution.width} × {self.resolution.height} to be had: {status!r}")
         return self.cloud.get_data(), capture_ns
 
     def world_pose(self):

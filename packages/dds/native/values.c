@@ -1,25 +1,8 @@
 #include "values.h"
 
-#include <string.h>
-
 napi_value fail(napi_env env, const char *code, const char *message) {
   napi_throw_error(env, code, message);
   return NULL;
-}
-
-static bool refuse(napi_env env, const char *message) {
-  napi_throw_type_error(env, "RANGE", message);
-  return false;
-}
-
-bool take_arguments(napi_env env, napi_callback_info info, size_t wanted, napi_value *values) {
-  size_t count = MOST_ARGUMENTS;
-  if (napi_get_cb_info(env, info, &count, values, NULL, NULL) == napi_ok && count >= wanted) return true;
-  return refuse(env, "too few arguments");
-}
-
-bool take_bool(napi_env env, napi_value value, bool *to) {
-  return napi_get_value_bool(env, value, to) == napi_ok || refuse(env, "not a boolean");
 }
 
 bool take_word(napi_env env, napi_value value, uint32_t least, uint32_t most, uint32_t *to) {
@@ -33,12 +16,7 @@ bool take_word(napi_env env, napi_value value, uint32_t least, uint32_t most, ui
 }
 
 bool take_text(napi_env env, napi_value value, char *to, size_t room) {
-  size_t length = 0;
-  if (napi_get_value_string_utf8(env, value, to, room, &length) == napi_ok && length < room - 1 &&
-      strlen(to) == length) {
-    return true;
-  }
-  return refuse(env, "not a text, or too long");
+  return read_text(env, value, to, room) || refuse(env, "not a text, or too long");
 }
 
 static bool take_array(napi_env env, napi_value value, napi_typedarray_type wanted, size_t *length, void **data) {
@@ -65,13 +43,4 @@ bool take_doubles(napi_env env, napi_value value, size_t count, double **to) {
   if (length < count) return refuse(env, "too short an array");
   *to = data;
   return true;
-}
-
-bool take_handle(napi_env env, napi_value value, const napi_type_tag *tag, void **to) {
-  bool right = false;
-  if (napi_check_object_type_tag(env, value, tag, &right) == napi_ok && right &&
-      napi_unwrap(env, value, to) == napi_ok) {
-    return true;
-  }
-  return refuse(env, "not a handle of this kind");
 }

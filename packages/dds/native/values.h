@@ -2,23 +2,22 @@
 #ifndef FARPOINT_VALUES_H
 #define FARPOINT_VALUES_H
 
-#include <node_api.h>
-#include <stdbool.h>
-#include <stddef.h>
+#include <farpoint_addon.h>
 #include <stdint.h>
 
-enum { MOST_ARGUMENTS = 10, MOST_NAME = 512, MOST_CONFIGURATION = 65536 };
+enum { MOST_NAME = 512, MOST_CONFIGURATION = 65536 };
 
 struct bytes {
   uint8_t *at;
   size_t count;
 };
 
-/* Throws an error with a code; returns NULL. */
+/*
+ * Throws an error with a code: CLOSED, RANGE (a mistake of the caller), MEMORY, CONFIGURATION (the domain runs with another
+ * one), or DDS with what CycloneDDS says. Returns NULL.
+ */
 napi_value fail(napi_env env, const char *code, const char *message);
 
-bool take_arguments(napi_env env, napi_callback_info info, size_t wanted, napi_value *values);
-bool take_bool(napi_env env, napi_value value, bool *to);
 bool take_word(napi_env env, napi_value value, uint32_t least, uint32_t most, uint32_t *to);
 /* With a zero at its end; texts that hold one themselves are refused. */
 bool take_text(napi_env env, napi_value value, char *to, size_t room);
@@ -26,6 +25,5 @@ bool take_text(napi_env env, napi_value value, char *to, size_t room);
 bool take_bytes(napi_env env, napi_value value, struct bytes *to);
 /* Of a Float64Array with at least `count` numbers. */
 bool take_doubles(napi_env env, napi_value value, size_t count, double **to);
-bool take_handle(napi_env env, napi_value value, const napi_type_tag *tag, void **to);
 
 #endif

@@ -4,7 +4,7 @@ import { existsSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { afterAll, describe, expect, it } from 'vitest';
-import { findNodeHeaders } from './build-addon.ts';
+import { findNodeHeaders, INCLUDE_FOLDER } from './build-addon.ts';
 
 const compiler = 'aarch64-linux-gnu-gcc';
 const packages = join(import.meta.dirname, '..', '..');
@@ -39,6 +39,7 @@ describe.skipIf(!here)(`for arm64 (needs ${compiler})`, () => {
         compiler,
         [
           ...['-c', `-std=${standard}`, '-O3', '-fPIC', ...WARNINGS, '-DNAPI_VERSION=8', '-D_GNU_SOURCE'],
+          `-I${INCLUDE_FOLDER}`,
           // Behind its own: DDS's headers are the same for every machine.
           ...[
             '-DDDS_NDEBUG',

@@ -6,7 +6,7 @@ import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { existsSync, readdirSync, readFileSync, realpathSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { dirname, join } from 'node:path';
+import { delimiter, dirname, join } from 'node:path';
 
 export interface BuildResult {
   ok: boolean;
@@ -22,6 +22,9 @@ export interface NativeAddon {
   /** What else the build depends on: environment, versions of libraries. */
   depends?: string;
 }
+
+/** What the addons' C sources have in common. Each `binding.gyp` finds it as this package's. */
+export const INCLUDE_FOLDER = join(import.meta.dirname, '..', 'include');
 
 /** Where the addon is once it is built. */
 export function addonFile({ folder, name }: NativeAddon): string {
@@ -40,7 +43,12 @@ export function buildNativeAddon(addon: NativeAddon): BuildResult {
   const { status, stdout, stderr, error } = spawnSync(
     process.execPath,
     [gyp, 'rebuild', '--release', ...(headers === null ? [] : [`--nodedir=${headers}`])],
-    { cwd: folder, encoding: 'utf8' },
+    {
+      cwd: folder,
+      encoding: 'utf8',
+      // The `node` that `binding.gyp` asks for folders is this one.
+      env: { ...process.env, PATH: `${dirname(process.execPath)}${delimiter}${process.env.PATH ?? ''}` },
+    },
   );
   if (status !== 0) return { ok: false, output: `${stdout}${stderr}${error?.message ?? ''}` };
   writeFileSync(stampFile, stamp);
@@ -69,8 +77,9 @@ export function findNodeHeaders(): string | null {
 
 function sourcesHash({ folder, depends = '' }: NativeAddon): string {
   const hash = createHash('sha256').update(`${process.platform} ${process.arch}\n${depends}\n`);
-  for (const name of readdirSync(folder).sort()) {
-    if (/\.(c|h|gyp)$/.test(name)) hash.update(name).update(readFileSync(join(folder, name)));
+  for (const from of [folder, INCLUDE_FOLDER]) {
+    for (const name of readdirSync(from).sort())
+      if (/\.(c|h|gyp)$/.test(name)) hash.update(name).update(readFileSync(join(from, name)));
   }
   return hash.digest('hex');
 }

@@ -2,7 +2,11 @@
   "targets": [
     {
       "target_name": "farpoint_shared_memory",
-      "sources": ["addon.c", "mapping.c", "guard.c", "decode.c", "watch.c", "control.c"],
+      "sources": [
+        "addon.c", "values.c", "js_mapping.c", "js_decode.c", "js_watch.c", "js_control.c",
+        "mapping.c", "guard.c", "decode.c", "watch.c", "control.c"
+      ],
+      "include_dirs": ["<!(node -p \"require('node:path').dirname(require.resolve('@farpoint/native-addon/include/farpoint_addon.h'))\")"],
       "defines": ["NAPI_VERSION=8", "_GNU_SOURCE"],
       "cflags": ["-std=c11", "-Wall", "-Wextra", "-Wno-unused-parameter", "-O3", "-fvisibility=hidden"],
       "cflags_c": ["-std=c11"],

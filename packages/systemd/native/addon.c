@@ -3,7 +3,7 @@
  * own. A path that begins with @ names an abstract socket. Never waits: what does not fit the queue is refused.
  */
 #include <errno.h>
-#include <node_api.h>
+#include <farpoint_addon.h>
 #include <stddef.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -48,8 +48,6 @@ static napi_value notify(napi_env env, napi_callback_info info) {
 }
 
 NAPI_MODULE_INIT() {
-  napi_value function;
-  napi_create_function(env, "notify", NAPI_AUTO_LENGTH, notify, NULL, &function);
-  napi_set_named_property(env, exports, "notify", function);
-  return exports;
+  static const struct addon_function functions[] = {{"notify", notify}};
+  return EXPORT_FUNCTIONS(env, exports, functions) ? exports : NULL;
 }

@@ -3,6 +3,7 @@
     {
       "target_name": "farpoint_systemd",
       "sources": ["addon.c"],
+      "include_dirs": ["<!(node -p \"require('node:path').dirname(require.resolve('@farpoint/native-addon/include/farpoint_addon.h'))\")"],
       "defines": ["NAPI_VERSION=8", "_GNU_SOURCE"],
       "cflags": ["-std=c11", "-Wall", "-Wextra", "-Wno-unused-parameter", "-O2", "-fvisibility=hidden"],
       "cflags_c": ["-std=c11"],
