@@ -8,11 +8,11 @@ import { buildAddon } from '@farpoint/shared-memory/build';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { type LayoutResult, measure } from './shm.ts';
 
-const USAGE = `pnpm bench recording [--size 480] [--fps 30] [--captured-fps 30] [--seconds 60] [--mbps 20] [--compression none] [--folder FOLDER] [--json]
+const USAGE = `pnpm bench recording [--size 480] [--fps 30] [--captured-fps 30] [--seconds 60] [--mbps 20] [--pictures 0] [--compression none] [--folder FOLDER] [--json]
 
 A camera's process gives size × size points --fps times a second through shared memory; the robot sends them to an operator,
 first without a recording and then with one of everything: --captured-fps clouds a second as captured (16 bytes a point), all
-as sent, and the rest. Latency: from the camera's beginning to write a frame to the robot's having its packets made. Memory:
+as sent, and the rest; with --pictures N also the camera's picture N times a second, as its operator is sent it. Latency: from the camera's beginning to write a frame to the robot's having its packets made. Memory:
 of the robot's process, in the first and in the last fifth of the time. Then the file is read back: every message is counted.`;
 
 export const bench: Bench = {
@@ -27,6 +27,7 @@ export const bench: Bench = {
         'captured-fps': { type: 'string', default: '30' },
         seconds: { type: 'string', default: '60' },
         mbps: { type: 'string', default: '20' },
+        pictures: { type: 'string', default: '0' },
         compression: { type: 'string', default: 'none' },
         folder: { type: 'string' },
         json: { type: 'boolean' },
@@ -40,18 +41,27 @@ export const bench: Bench = {
       numberOption('mbps', values.mbps, 1),
     ];
     const { compression } = values;
+    const picturesPerSecond = numberOption('pictures', values.pictures);
+    const pictures = picturesPerSecond > 0;
+    const pictureArgs = pictures
+      ? ['--pictures-of-cloud', '--pictures-per-second', String(picturesPerSecond)]
+      : [];
     const { ok, output } = buildAddon();
     if (!ok) throw new Error(`the addon does not build:\n${output}`);
     const folder = mkdtempSync(join(values.folder ?? tmpdir(), 'farpoint-bench-recording-'));
     const path = join(folder, 'session.mcap');
     try {
       console.error('without a recording');
-      const plain = await measure('farpoint', { size, fps, mbps, seconds: Math.min(seconds, 20) });
+      const plain = await measure('farpoint', {
+        ...{ size, fps, mbps, seconds: Math.min(seconds, 20), pictures },
+        robotArgs: pictureArgs,
+      });
       console.error(`with one, ${seconds} s`);
       const memoryMb: number[] = [];
       const recorded = await measure('farpoint', {
-        ...{ size, fps, mbps, seconds },
+        ...{ size, fps, mbps, seconds, pictures },
         robotArgs: [
+          ...pictureArgs,
           ...['--record', path, '--record-captured-fps', values['captured-fps']],
           ...['--record-compression', compression],
         ],
@@ -67,6 +77,7 @@ export const bench: Bench = {
           seconds,
           mbps,
           compression,
+          picturesPerSecond,
           capturedFps: Number(values['captured-fps']),
         },
         latencyMs: recorded.latencyMs,
@@ -78,7 +89,7 @@ export const bench: Bench = {
         },
         framesPerSecond: recorded.framesPerSecond,
         framesPerSecondWithout: plain.framesPerSecond,
-        torn: recorded.torn,
+        ...(pictures ? {} : { torn: recorded.torn }),
         rssMbMax: recorded.rssMbMax,
         rssMbBegin: mean(memoryMb.slice(0, fifth)),
         rssMbEnd: mean(memoryMb.slice(-fifth)),
@@ -104,8 +115,8 @@ export const bench: Bench = {
         ],
       );
       printTable(
-        ['topic', 'recorded', 'dropped'],
-        Object.entries(file.topics).map(([name, { messages, dropped }]) => [name, messages, dropped]),
+        ['topic', 'recorded', 'dropped', 'MB'],
+        Object.entries(file.topics).map(([name, { messages, dropped, mb }]) => [name, messages, dropped, mb]),
       );
       if (values.json) printJson(result);
     } finally {
@@ -118,6 +129,7 @@ export const bench: Bench = {
 async function readBack(path: string) {
   const recording = await openRecording(path);
   const counts = new Map<string, number>();
+  const bytes = new Map<string, number>();
   let dropped: Record<string, number> = {};
   const begin = performance.now();
   for await (const { topic, data } of recording.messages(
@@ -125,6 +137,7 @@ async function readBack(path: string) {
     recording.startNs,
   )) {
     counts.set(topic.name, (counts.get(topic.name) ?? 0) + 1);
+    bytes.set(topic.name, (bytes.get(topic.name) ?? 0) + data.length);
     if (topic.name !== '/farpoint/recorder') continue;
     const state = topic.decode(data) as { dropped: Record<string, number> };
     dropped = state.dropped;
@@ -134,7 +147,10 @@ async function readBack(path: string) {
     recording.topics.map(({ name, messages }) => {
       const read = counts.get(name) ?? 0;
       if (read !== messages) throw new Error(`${name}: ${read} of ${messages} messages can be read`);
-      return [name, { messages: read, dropped: dropped[name.replace('/farpoint/', '')] ?? 0 }];
+      // Of pictures all cameras are counted together.
+      const kind = name.split('/')[2] ?? '';
+      const mb = Number(((bytes.get(name) ?? 0) / 1e6).toFixed(1));
+      return [name, { messages: read, dropped: dropped[kind] ?? 0, mb }];
     }),
   );
   const seconds = Number(recording.endNs - recording.startNs) / 1e9;

@@ -1,6 +1,6 @@
 /**
  * A depth camera's producer for `pnpm bench shm`: one picture of the simulated office, at a steady rate, every frame in one
- * colour of its own. It notes when it began to write each frame, and writes the notes to a file when it is told to end.
+ * colour of its own, with --scene in the scene's own colours. It notes when it began to write each frame, and writes the notes to a file when it is told to end.
  */
 import { writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
@@ -15,6 +15,7 @@ const { values } = parseArgs({
     size: { type: 'string', default: '480' },
     fps: { type: 'string', default: '30' },
     log: { type: 'string' },
+    scene: { type: 'boolean' },
   },
 });
 const size = Number(values.size);
@@ -61,7 +62,7 @@ function farpointPublisher(): (frame: number) => boolean {
     const mark = frame & 0xffff;
     const colour =
       unpackRed664(mark) | (unpackGreen664(mark) << 8) | (unpackBlue664(mark) << 16) | 0xff000000;
-    for (let i = 3; i < words.length; i += 4) words[i] = colour;
+    if (values.scene !== true) for (let i = 3; i < words.length; i += 4) words[i] = colour;
     const captureMs = nowMs();
     begun.push(captureMs);
     producer.publish({ points: words }, { ...header, captureMs });

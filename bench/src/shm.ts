@@ -113,6 +113,11 @@ export interface ShmRun {
   fps: number;
   seconds: number;
   mbps: number;
+  /**
+   * The operator watches the camera's pictures, too; clouds then come in the scene's colours, and torn ones are not looked
+   * for. The robot's options must give pictures.
+   */
+  pictures?: boolean;
   /** More options of the robot's. */
   robotArgs?: string[];
   /** Called each second. */
@@ -121,7 +126,7 @@ export interface ShmRun {
 
 export async function measure(
   layout: Layout,
-  { size, fps, seconds, mbps, robotArgs = [], onSecond }: ShmRun,
+  { size, fps, seconds, mbps, pictures = false, robotArgs = [], onSecond }: ShmRun,
 ): Promise<LayoutResult> {
   const folder = mkdtempSync('/dev/shm/farpoint-bench-');
   const [frameLog, producerLog] = [join(folder, 'frames.csv'), join(folder, 'producer.txt')];
@@ -130,6 +135,7 @@ export async function measure(
     [
       ...[join(import.meta.dirname, 'shm-producer.ts'), '--layout', layout, '--folder', folder],
       ...['--size', String(size), '--fps', String(fps), '--log', producerLog],
+      ...(pictures ? ['--scene'] : []),
     ],
     { stdio: ['ignore', 'inherit', 'inherit'] },
   );
@@ -153,8 +159,12 @@ export async function measure(
     const robotPid = stack.robot(ROBOT).pid;
     const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
     const colours = new FrameColours();
+    if (pictures) {
+      await operator.client.message('cameras');
+      operator.client.sendSession({ type: 'pictures', cameras: [0] });
+    }
     await sleep(WARM_UP_MS);
-    operator.client.onCloudPacket = (payload) => colours.add(payload);
+    if (!pictures) operator.client.onCloudPacket = (payload) => colours.add(payload);
     const cpu = () => [cpuSecondsOfTree(robotPid), cpuSecondsOfTree(producer.pid as number)] as const;
     const [beginMs, cpuBefore] = [nowMs(), cpu()];
     const ticking = setInterval(() => onSecond?.(robotPid), 1000);

@@ -1,6 +1,7 @@
-import { existsSync } from 'node:fs';
+import { existsSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { LocalStack, repositoryRoot, type StackSpec } from '@farpoint/local-stack';
+import { type Ros1Node, Ros1Peers } from '@farpoint/ros/testing/ros1';
 import { test as base } from '@playwright/test';
 import { OperatorPage } from './operator-page.ts';
 
@@ -15,6 +16,20 @@ export interface StackFixtures {
   startStack: (spec?: Partial<StackSpec>) => Promise<LocalStack>;
   /** Starts a stack with {@link simulatedRobot} and opens the page on it; its points are drawn. */
   openRobot: () => Promise<{ stack: LocalStack; operator: OperatorPage }>;
+  /**
+   * Starts a ROS 1 master, rospy nodes, and a robot among them, and opens the page on it; its points are drawn. The test
+   * skips where there is no rospy.
+   */
+  openRos1Robot: (graph: Ros1Graph) => Promise<{ nodes: Ros1Node[]; operator: OperatorPage }>;
+}
+
+export interface Ros1Graph {
+  /** Name of each node, and its parts of `ros1_node.py` with commas between them. */
+  nodes: readonly (readonly [name: string, parts: string])[];
+  /** The robot's, beside `/points` and their `/camera_info`. */
+  topics: readonly object[];
+  /** Where velocities go; `source`: nowhere. */
+  sink?: 'ros1' | 'source';
 }
 
 export const simulatedRobot = {
@@ -69,6 +84,35 @@ export const test = base.extend<StackFixtures>({
       await operator.expectPoints();
       return { stack, operator };
     });
+  },
+  openRos1Robot: async ({ page, startStack }, use, testInfo) => {
+    const { python, missing } = Ros1Peers.find();
+    let peers: Ros1Peers | null = null;
+    await use(async ({ nodes, topics, sink = 'source' }) => {
+      testInfo.skip(python === null, missing ?? '');
+      peers = await Ros1Peers.open(python ?? '');
+      await peers.startCore();
+      const started: Ros1Node[] = [];
+      for (const [name, parts] of nodes) started.push(await peers.startNode(parts, name));
+      const clouds = [
+        { topic: '/points', as: 'cloud' },
+        { topic: '/camera_info', as: 'cameraInfo' },
+      ];
+      const robot = {
+        ...{ source: { kind: 'ros1' }, sink: { kind: sink }, topics: [...clouds, ...topics] },
+        ros: { master: peers.masterUrl, hostname: '127.0.0.1' },
+      };
+      const config = testInfo.outputPath('farpoint.yaml');
+      // JSON is YAML, too.
+      writeFileSync(config, JSON.stringify({ robot }));
+      const stack = await startStack({
+        robots: [{ id: 'ros-1', name: 'Robot in a ROS graph', args: ['--config', config] }],
+      });
+      const operator = await OperatorPage.open(page, stack, { robot: 'ros-1' });
+      await operator.expectPoints(5000);
+      return { nodes: started, operator };
+    });
+    await (peers as Ros1Peers | null)?.close();
   },
 });
 

@@ -1,6 +1,7 @@
 import { writeFileSync } from 'node:fs';
 import { EmulatedLink } from '@farpoint/local-stack';
-import { Ros1Peers } from '@farpoint/ros/testing/ros1';
+import { openRecording } from '@farpoint/recording';
+import { foxgloveCompressedImageSchema } from '@farpoint/ros';
 import type { Page } from '@playwright/test';
 import { Headset } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
@@ -25,6 +26,36 @@ const colours = (page: Page, name: string, places: number[]) =>
         ...context.getImageData(Math.floor(x * canvas.width), canvas.height >> 1, 1, 1).data.slice(0, 3),
       ]);
     }, places);
+
+/** The same of JPEG files. */
+const coloursOfFiles = (page: Page, files: Uint8Array[], places: number[]) =>
+  page.evaluate(
+    async ({ texts, at }) => {
+      const rows: number[][][] = [];
+      for (const text of texts) {
+        const picture = await createImageBitmap(await (await fetch(`data:image/jpeg;base64,${text}`)).blob());
+        const context = new OffscreenCanvas(picture.width, picture.height).getContext('2d');
+        context?.drawImage(picture, 0, 0);
+        rows.push(
+          at.map((x) => {
+            const [column, row] = [Math.floor(x * picture.width), picture.height >> 1];
+            return [...(context?.getImageData(column, row, 1, 1).data.slice(0, 3) ?? [])];
+          }),
+        );
+      }
+      return rows;
+    },
+    { texts: files.map((file) => Buffer.from(file).toString('base64')), at: places },
+  );
+
+async function recordedPictures(path: string, topic: string): Promise<Uint8Array[]> {
+  const recording = await openRecording(path);
+  const files: Uint8Array[] = [];
+  for await (const { topic: of, data } of recording.messages([topic], recording.startNs))
+    files.push(foxgloveCompressedImageSchema.parse(of.decode(data)).data.slice());
+  await recording.close();
+  return files;
+}
 
 const withCamera = { ...simulatedRobot, args: [...simulatedRobot.args, '--pictures-of-cloud'] };
 
@@ -72,6 +103,53 @@ test('the simulated camera’s picture is shown, live, and can be hidden', async
   const { pictures } = await camera(page, 'Camera');
   await page.getByRole('button', { name: 'Show Camera' }).click();
   await expect.poll(async () => (await camera(page, 'Camera')).pictures).toBeGreaterThan(pictures + 2);
+});
+
+test('a recording of the robot shows the pictures that were seen', async ({ page, startStack }, testInfo) => {
+  const path = testInfo.outputPath('drive.mcap');
+  const places = Array.from({ length: 40 }, (_, i) => (i + 0.5) / 40);
+  const recorded = await startStack({
+    robots: [{ ...withCamera, args: [...withCamera.args, '--record', path] }],
+  });
+  const driver = await OperatorPage.open(page, recorded, { robot: simulatedRobot.id });
+  await driver.expectPoints();
+  await expect.poll(async () => (await camera(page, 'Camera')).pictures).toBeGreaterThan(3);
+  await page.evaluate(() => window.farpoint.requestLease());
+  await driver.expectState('holder', 'you');
+  await page.evaluate(() => window.farpoint.drive({ forward: 0, left: 1 }, 2000));
+  await recorded.stop();
+  const files = await recordedPictures(path, '/farpoint/pictures/Camera');
+  expect(files.length).toBeGreaterThan(5);
+
+  const config = testInfo.outputPath('farpoint.yaml');
+  const topics = [
+    { topic: '/farpoint/pictures/Camera', as: 'picture', label: 'Front' },
+    { topic: '/farpoint/pictures/Rear', as: 'picture', label: 'Rear' },
+    { topic: '/farpoint/telemetry', as: 'text', type: 'std_msgs/String', label: 'Recorded' },
+  ];
+  writeFileSync(config, JSON.stringify({ robot: { source: { kind: 'recording', path }, topics } }));
+  // A rate that takes the files as they are.
+  const args = ['--config', config, '--mode', 'points64', '--max-points', '15000', '--rate-control', 'fixed'];
+  const stack = await startStack({ robots: [{ id: 'played-1', name: 'A recording', args }] });
+  const operator = await OperatorPage.open(page, stack, { robot: 'played-1' });
+  await operator.expectPoints();
+  await expect.poll(async () => (await camera(page, 'Front')).pictures).toBeGreaterThan(3);
+  expect(await camera(page, 'Front')).toMatchObject({ width: 480, height: 480, failures: 0 });
+
+  // What the panel shows is one of them, to the pixel, and as it plays on another.
+  const rows = (await coloursOfFiles(page, files, places)).map((row) => row.join(' '));
+  const seen = new Set<number>();
+  await expect
+    .poll(async () => {
+      const shown = (await colours(page, 'Front', places)).join(' ');
+      expect(rows).toContain(shown);
+      return seen.add(rows.indexOf(shown)).size;
+    })
+    .toBeGreaterThan(3);
+  await expect(page.locator('#facts dt', { hasText: 'Recorded' }).locator('+ dd')).toContainText('x');
+  await operator.screenshot(testInfo, 'recorded-picture');
+  // A camera that the recording does not have keeps nothing from being played.
+  await expect(panel(page, 'Rear').locator('.age')).toHaveText('waiting');
 });
 
 test('over a link of 3 Mbit/s pictures come small, and clouds keep their share', async ({
@@ -153,63 +231,44 @@ test('in the headset the picture is beside the panel on the wrist', async ({
   expect(shown - (await drawnAbove('headset-no-picture'))).toBeGreaterThan(0.1);
 });
 
-const { python, missing } = Ros1Peers.find();
-
 test('pictures of a ROS 1 graph: raw ones shrunk, a silent one marked, a broken one harmless', async ({
   page,
-  startStack,
+  openRos1Robot,
 }, testInfo) => {
-  test.skip(python === null, missing ?? '');
-  const peers = await Ros1Peers.open(python ?? '');
-  try {
-    await peers.startCore();
-    await peers.startNode('cloud', 'lidar');
-    const cameras = await peers.startNode('pictures', 'cameras');
-    const config = testInfo.outputPath('farpoint.yaml');
-    writeFileSync(
-      config,
-      `
-robot:
-  source: { kind: ros1 }
-  ros: { master: '${peers.masterUrl}', hostname: 127.0.0.1 }
-  topics:
-    - { topic: /points, as: cloud }
-    - { topic: /camera_info, as: cameraInfo }
-    - { topic: /front/image_raw, as: picture, label: Front }
-    - { topic: /rear/image_raw/compressed, as: picture, label: Rear }
-`,
-    );
-    const robot = { id: 'ros-1', name: 'Robot in a ROS graph' };
-    const stack = await startStack({ robots: [{ ...robot, args: ['--config', config] }] });
-    const operator = await OperatorPage.open(page, stack, { robot: robot.id });
-    await operator.expectPoints(5000);
-    await expect.poll(async () => (await camera(page, 'Front')).pictures).toBeGreaterThan(3);
-    const front = await camera(page, 'Front');
-    expect(front.width).toBeLessThanOrEqual(640);
-    expect(front.width / front.height).toBeCloseTo(1280 / 960, 1);
-    const bars = await colours(page, 'Front', [0.125, 0.375, 0.625, 0.875]);
-    const expected = [
-      [255, 0, 0],
-      [0, 255, 0],
-      [0, 0, 255],
-      [255, 255, 255],
-    ];
-    for (const [i, bar] of bars.entries())
-      for (const [c, value] of bar.entries())
-        expect(Math.abs(value - (expected[i]?.[c] as number)), `bar ${i}`).toBeLessThan(20);
+  const { nodes, operator } = await openRos1Robot({
+    nodes: [
+      ['lidar', 'cloud'],
+      ['cameras', 'pictures'],
+    ],
+    topics: [
+      { topic: '/front/image_raw', as: 'picture', label: 'Front' },
+      { topic: '/rear/image_raw/compressed', as: 'picture', label: 'Rear' },
+    ],
+  });
+  await expect.poll(async () => (await camera(page, 'Front')).pictures).toBeGreaterThan(3);
+  const front = await camera(page, 'Front');
+  expect(front.width).toBeLessThanOrEqual(640);
+  expect(front.width / front.height).toBeCloseTo(1280 / 960, 1);
+  const bars = await colours(page, 'Front', [0.125, 0.375, 0.625, 0.875]);
+  const expected = [
+    [255, 0, 0],
+    [0, 255, 0],
+    [0, 0, 255],
+    [255, 255, 255],
+  ];
+  for (const [i, bar] of bars.entries())
+    for (const [c, value] of bar.entries())
+      expect(Math.abs(value - (expected[i]?.[c] as number)), `bar ${i}`).toBeLessThan(20);
 
-    // The page goes on, and says nothing but that nothing came.
-    await expect.poll(async () => (await camera(page, 'Rear')).failures).toBeGreaterThan(3);
-    expect((await camera(page, 'Rear')).pictures).toBe(0);
-    await expect(panel(page, 'Rear').locator('.age')).toHaveText('waiting');
-    await operator.expectFrames(5);
-    await operator.screenshot(testInfo, 'ros-pictures');
+  // The page goes on, and says nothing but that nothing came.
+  await expect.poll(async () => (await camera(page, 'Rear')).failures).toBeGreaterThan(3);
+  expect((await camera(page, 'Rear')).pictures).toBe(0);
+  await expect(panel(page, 'Rear').locator('.age')).toHaveText('waiting');
+  await operator.expectFrames(5);
+  await operator.screenshot(testInfo, 'ros-pictures');
 
-    await cameras.kill();
-    await expect(panel(page, 'Front')).toHaveAttribute('data-stale', 'true');
-    await expect(panel(page, 'Front').locator('.age')).toHaveText(/^stale, \d+\.\d s$/);
-    await operator.screenshot(testInfo, 'ros-pictures-stale');
-  } finally {
-    await peers.close();
-  }
+  await nodes[1]?.kill();
+  await expect(panel(page, 'Front')).toHaveAttribute('data-stale', 'true');
+  await expect(panel(page, 'Front').locator('.age')).toHaveText(/^stale, \d+\.\d s$/);
+  await operator.screenshot(testInfo, 'ros-pictures-stale');
 });

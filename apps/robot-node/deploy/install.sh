@@ -73,7 +73,7 @@ if [ "$files_only" = no ]; then
   (
     cd "$opt"
     export CI=1 npm_config_verify_deps_before_run=false
-    npx -y pnpm@12 install --frozen-lockfile --prod --filter '@farpoint/robot-node...' --filter '@farpoint/dds...'
+    npx -y pnpm@12 install --frozen-lockfile --prod --filter-prod '@farpoint/robot-node...'
   )
   say 'building the addons for shared memory, systemd and, where its library is there, ROS 2'
   # With the Node that its headers lie beside.

@@ -1,9 +1,10 @@
 /** The robot program that records, and the one that plays it: processes, signaling, WebRTC. */
-import { mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { LocalStack } from '@farpoint/local-stack';
 import { openRecording } from '@farpoint/recording';
+import { foxgloveCompressedImageSchema } from '@farpoint/ros';
 import { afterAll, describe, expect, it } from 'vitest';
 import * as z from 'zod';
 import { SignaledOperator } from './testing/signaled-operator.ts';
@@ -14,9 +15,12 @@ const folder = mkdtempSync(join(tmpdir(), 'farpoint-recording-robot-'));
 const path = join(folder, 'drive.mcap');
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
+const PICTURES = '/farpoint/pictures/Camera';
 const cloudSchema = z.object({ width: z.int(), height: z.int(), point_step: z.literal(16) });
 
-async function withRobot(id: string, args: string[], use: (operator: SignaledOperator) => Promise<void>) {
+async function withRobot(id: string, options: string[], use: (operator: SignaledOperator) => Promise<void>) {
+  // What a busy computer lets through is not what is asked here.
+  const args = [...options, '--rate-control', 'fixed'];
   const stack = await LocalStack.start({ robots: [{ id, name: 'Robot', args }] });
   try {
     const operator = await SignaledOperator.connect(stack.signalingUrl, id);
@@ -28,9 +32,18 @@ async function withRobot(id: string, args: string[], use: (operator: SignaledOpe
 }
 
 describe('robot process that records', { timeout: 60_000 }, () => {
-  it('records clouds as captured and as sent, commands, telemetry, estimates and latencies', async () => {
+  it('records clouds as captured and as sent, pictures, commands, telemetry, estimates and latencies', async () => {
     const args = ['--sim-size', '64', '--max-points', '600', '--record', path, '--record-captured-fps', '10'];
+    args.push('--pictures-of-cloud');
+    const seen: Uint8Array[] = [];
     await withRobot(RECORDED, args, async ({ client }) => {
+      expect(await client.message('cameras')).toMatchObject({ cameras: [{ name: 'Camera' }] });
+      client.sendSession({ type: 'pictures', cameras: [0] });
+      await client.until(() => {
+        const { bytes } = client.pictures.get(0) ?? {};
+        if (bytes !== undefined && bytes !== seen.at(-1)) seen.push(bytes);
+        return seen.length >= 3;
+      });
       const lease = await client.takeLease();
       await client.until(() => client.telemetry !== null);
       const start = client.telemetry?.pose.position.x ?? 0;
@@ -57,12 +70,17 @@ describe('robot process that records', { timeout: 60_000 }, () => {
     const [sentPoints, toldPoints]: [number[], number[]] = [[], []];
     const verdicts = { accepted: 0, refused: 0 };
     const measured: unknown[] = [];
+    const pictures: Buffer[] = [];
     for await (const { topic, data } of recording.messages([...topics.keys()], recording.startNs)) {
       const message = topic.decode(data);
       if (topic.name === '/farpoint/captured') {
         expect(cloudSchema.parse(message)).toMatchObject({ width: 64, height: 64 });
       } else if (topic.name === '/farpoint/sent') {
         sentPoints.push(cloudSchema.parse(message).width);
+      } else if (topic.name === PICTURES) {
+        const { data: file, format, frame_id } = foxgloveCompressedImageSchema.parse(message);
+        expect([format, frame_id]).toEqual(['jpeg', 'camera_optical_frame']);
+        pictures.push(Buffer.from(file));
       } else if (topic.name === '/farpoint/latencies') {
         toldPoints.push(z.object({ points: z.int() }).parse(message).points);
       } else if (topic.name === '/farpoint/motion_to_photon') {
@@ -72,6 +90,8 @@ describe('robot process that records', { timeout: 60_000 }, () => {
         verdicts[accepted ? 'accepted' : 'refused']++;
       }
     }
+    // To the byte what the operator got.
+    for (const bytes of seen) expect(pictures.some((file) => file.equals(bytes))).toBe(true);
     expect(sentPoints).toEqual(toldPoints);
     expect(sentPoints).toContain(600);
     expect(verdicts.accepted).toBeGreaterThan(10);
@@ -80,11 +100,22 @@ describe('robot process that records', { timeout: 60_000 }, () => {
     await recording.close();
   });
 
-  it('plays what was recorded, from where it was', async () => {
-    const args = ['--source', 'recording', '--path', path, '--play-rate', '2', '--max-points', '300'];
-    // What a busy computer lets through is not what is asked here.
-    args.push('--rate-control', 'fixed');
+  it('plays what was recorded, from where it was, with the pictures and readings that are named', async () => {
+    const config = join(folder, 'farpoint.yaml');
+    const entries = [
+      { topic: PICTURES, as: 'picture', label: 'Front' },
+      { topic: '/farpoint/telemetry', as: 'text', type: 'std_msgs/String', label: 'Drive' },
+    ];
+    writeFileSync(config, JSON.stringify({ robot: { topics: entries } }));
+    const args = ['--config', config, '--source', 'recording', '--path', path];
+    args.push('--play-rate', '2', '--max-points', '300');
     await withRobot(PLAYED, args, async ({ client }) => {
+      expect(await client.message('cameras')).toMatchObject({ cameras: [{ name: 'Front' }] });
+      client.sendSession({ type: 'pictures', cameras: [0] });
+      await client.until(() => client.pictures.has(0));
+      expect(client.pictures.get(0)).toMatchObject({ format: 'jpeg', width: 64, height: 64 });
+      await client.until(() => client.readings.has('/farpoint/telemetry'));
+      expect(client.readings.get('/farpoint/telemetry')).toMatchObject({ label: 'Drive', level: 'ok' });
       await client.until(() => client.completeFrames.length >= 10);
       expect(client.malformedPackets).toBe(0);
       expect(client.completeFrames.every((frame) => frame.points === 300)).toBe(true);

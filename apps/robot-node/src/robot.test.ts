@@ -6,7 +6,10 @@ import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 
 const ROBOT = 'sim-1';
+/** At a fixed rate: a busy machine delays packets as a bad link does, which then carries no pictures. */
 const ARGS = [
+  '--rate-control',
+  'fixed',
   '--sim-size',
   '64',
   '--pictures-of-cloud',
@@ -150,7 +153,7 @@ describe('robot process', { timeout: 30_000 }, () => {
 
   it('pauses and resumes the stream', async () => {
     const { client } = await connect();
-    await client.until(() => client.completeFrames.length > 0);
+    await client.until(() => (client.telemetry?.stream.framesPerSecond ?? 0) > 0);
     client.sendSession({ type: 'stream', running: false });
     await client.until(() => client.telemetry?.stream.framesPerSecond === 0);
     const paused = client.packets;

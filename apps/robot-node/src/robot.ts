@@ -180,6 +180,7 @@ export class Robot implements SessionHost {
       now: monotonicMs,
       mayCode: options.mode === 'auto',
     });
+    recording?.cameras(capture.cameras);
     this.pictures =
       capture.cameras.length === 0
         ? null
@@ -188,6 +189,7 @@ export class Robot implements SessionHost {
             capture,
             targets: () => this.operators.values(),
             driver: () => guard.leaseHolder,
+            onMade: (picture) => recording?.picture(picture),
             log,
           });
     this.#paths = new PathKeeper({

@@ -36,6 +36,7 @@ export class BagRecording implements Recording {
         type: ros2TypeOf(type ?? ''),
         messages: counts.get(id) ?? 0,
         decode: lazyDecoder({
+          name: type ?? '',
           messageEncoding: 'ros1',
           schemaEncoding: 'ros1msg',
           schema: new TextEncoder().encode(messageDefinition),

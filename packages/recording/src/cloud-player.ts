@@ -3,7 +3,9 @@ import { type CloudAxes, PointCloud2Decoder, pointCloud2Schema, stampNs, WorldSt
 import { type CloudStream, describeClouds } from './cloud-stream.ts';
 import { codeOf, detailOf, RecordingError } from './errors.ts';
 import { openRecording } from './open-recording.ts';
-import type { RecordedMessage, Recording } from './recording.ts';
+import { type PlayClock, PlayTimeline } from './play-timeline.ts';
+import { PREROLL_NS, readAhead } from './read-ahead.ts';
+import type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 
 export interface PlayOptions {
   /** An MCAP file or a ROS 1 bag. */
@@ -17,13 +19,8 @@ export interface PlayOptions {
   atEnd: 'repeat' | 'stop';
   /** `auto`: optical where the frame's name says so (REP-103), else body. */
   axes: CloudAxes | 'auto';
-}
-
-export interface PlayClock {
-  /** Any fixed beginning, ms. */
-  now(): number;
-  /** Ends early, without an error, when the signal is aborted. */
-  wait(ms: number, signal: AbortSignal): Promise<void>;
+  /** Topics whose messages are told at their times, beside the clouds; those that are not there are passed over. */
+  along?: readonly string[];
 }
 
 export interface PlayedCloud {
@@ -34,22 +31,25 @@ export interface PlayedCloud {
 
 /** Nobody took a cloud for so long: the recording stands still until somebody does, ms. */
 const IDLE_MS = 1000;
-/** More behind than this, it goes on from where it is, ms. */
-const LATE_MS = 500;
-/** How far after a cloud poses are read before it is shown, ns: they come later than what they are of. */
-const LOOK_AHEAD_NS = 100_000_000n;
-/** How far before the beginning they are read, ns. */
-const PREROLL_NS = 1_000_000_000n;
 const MOST_STATIC = 10_000;
 
 /**
- * Plays the clouds of one topic at their times, with the poses that tf and odometry give. It holds one cloud and the
- * chunk of the file that is being read, whatever the file's size.
+ * Plays the clouds of one topic at their times, with the poses that tf and odometry give, and other topics along with them.
+ * It holds one cloud, what comes within a tenth of a second after it, and the chunk of the file that is being read, whatever
+ * the file's size.
  */
 export class CloudPlayer {
   readonly stream: CloudStream;
   /** Called at each cloud: {@link take} it or {@link skip} it before the next, or the next takes its place. */
   onCloud: (() => void) | null = null;
+  /** Whether somebody wants the messages of a topic played along: others are passed over as they are read. */
+  wantsAlong: (topic: string) => boolean = () => true;
+  /**
+   * Called at each of them. Its memory is the receiver's; what it throws is told as a fault of the message.
+   *
+   * @param ageMs how much earlier it was due: of a message before the first cloud, which is shown with that
+   */
+  onAlong: ((message: RecordedMessage, ageMs: number) => void) | null = null;
   /** What is wrong with the recording: it goes on after it, or has ended for good. */
   onFault: ((error: RecordingError) => void) | null = null;
   /** Clouds that were due, and those of them that nobody took in time. */
@@ -58,6 +58,7 @@ export class CloudPlayer {
   readonly #recording: Recording;
   readonly #options: PlayOptions;
   readonly #clock: PlayClock;
+  readonly #timeline: PlayTimeline;
   readonly #state = new WorldState();
   readonly #decoder = new PointCloud2Decoder();
   readonly #ended = new AbortController();
@@ -67,14 +68,13 @@ export class CloudPlayer {
   #readySinceMs = 0;
   #claims = 0;
   #onClaim: (() => void) | null = null;
-  /** A moment of the clock and the time of the recording at it. */
-  #anchor: { ms: number; ns: bigint } | null = null;
 
   private constructor(recording: Recording, stream: CloudStream, options: PlayOptions, clock: PlayClock) {
     this.#recording = recording;
     this.stream = stream;
     this.#options = options;
     this.#clock = clock;
+    this.#timeline = new PlayTimeline(clock, options.rate);
     this.#fromNs = recording.startNs + BigInt(Math.round(options.fromS * 1e9));
   }
 
@@ -106,6 +106,11 @@ export class CloudPlayer {
   /** Something that is wrong with the file and does not keep it from being played. */
   get warning(): string | null {
     return this.#recording.warning;
+  }
+
+  /** What there is to play. */
+  get topics(): readonly RecordedTopic[] {
+    return this.#recording.topics;
   }
 
   /** Length of the recording, s. */
@@ -151,6 +156,7 @@ export class CloudPlayer {
   /** Goes on from another place, s after the first message. */
   seek(seconds: number): void {
     this.#fromNs = this.#recording.startNs + BigInt(Math.round(Math.max(0, seconds) * 1e9));
+    this.#ready = null;
     this.#passEnd.abort();
     this.#onClaim?.();
   }
@@ -193,34 +199,40 @@ export class CloudPlayer {
   /** From the beginning, or where it was told to begin, to the end. */
   async #pass(signal: AbortSignal): Promise<void> {
     const { topic } = this.stream;
-    const fromNs = this.#fromNs;
     this.#state.forgetMoving();
-    this.#anchor = null;
-    const names = [topic.name, ...WorldState.topicsOf(this.#recording.topics).map(({ name }) => name)];
-    let pending: RecordedMessage | null = null;
-    const onDamage = (fault: RecordingError) => this.#fault(fault, {});
-    for await (const message of this.#recording.messages(names, fromNs - PREROLL_NS, onDamage)) {
+    this.#timeline.clear();
+    const along = new Set(this.#options.along);
+    along.delete(topic.name);
+    /** Of each topic played along the newest before the first cloud. */
+    const lead = new Map<string, RecordedMessage>();
+    const shown = readAhead(this.#recording, {
+      cloud: topic.name,
+      states: new Set(WorldState.topicsOf(this.#recording.topics).map(({ name }) => name)),
+      along,
+      fromNs: this.#fromNs,
+      wants: (name) => this.wantsAlong(name),
+      onState: (message) => this.#takeState(message),
+      onFault: (error, where) => this.#fault(error, where),
+    });
+    for await (const { message, isCloud } of shown) {
       if (signal.aborted) return;
-      const isCloud = message.topic.name === topic.name;
-      if (pending !== null && (isCloud || message.logNs - pending.logNs > LOOK_AHEAD_NS)) {
-        await this.#show(pending, signal);
-        pending = null;
-        if (signal.aborted) return;
+      if (isCloud) await this.#show(message, lead, signal);
+      else if (!this.#timeline.running) lead.set(message.topic.name, message);
+      else {
+        await this.#timeline.until(message.logNs, signal);
+        if (!signal.aborted) this.#tellAlong(message, 0);
       }
-      if (!isCloud) this.#takeState(message);
-      else if (message.logNs >= fromNs) pending = message;
+      if (signal.aborted) return;
     }
-    if (pending !== null) await this.#show(pending, signal);
   }
 
   /** At its time, and only while somebody watches. */
-  async #show(message: RecordedMessage, signal: AbortSignal): Promise<void> {
-    const now = this.#clock.now();
-    this.#anchor ??= { ms: now, ns: message.logNs };
-    const sinceMs = Number(message.logNs - this.#anchor.ns) / 1e6 / this.#options.rate;
-    const waitMs = this.#anchor.ms + sinceMs - now;
-    if (waitMs > 0) await this.#clock.wait(waitMs, signal);
-    else if (waitMs < -LATE_MS) this.#anchor = { ms: now, ns: message.logNs };
+  async #show(
+    message: RecordedMessage,
+    lead: Map<string, RecordedMessage>,
+    signal: AbortSignal,
+  ): Promise<void> {
+    await this.#timeline.until(message.logNs, signal);
     if (this.#ready !== null) {
       const idleMs = this.#clock.now() - this.#readySinceMs;
       if (this.#claims === 0 || idleMs >= IDLE_MS) {
@@ -229,7 +241,7 @@ export class CloudPlayer {
           if (signal.aborted) resolve();
         });
         this.#onClaim = null;
-        this.#anchor = { ms: this.#clock.now(), ns: message.logNs };
+        this.#timeline.begin(message.logNs);
       }
     }
     if (signal.aborted) return;
@@ -237,7 +249,20 @@ export class CloudPlayer {
     else this.superseded++;
     this.#ready = message;
     this.played++;
+    for (const each of lead.values()) {
+      if (message.logNs - each.logNs > PREROLL_NS) continue;
+      this.#tellAlong(each, Math.max(0, this.#timeline.played(each.logNs, message.logNs)));
+    }
+    lead.clear();
     this.onCloud?.();
+  }
+
+  #tellAlong(message: RecordedMessage, ageMs: number): void {
+    try {
+      this.onAlong?.(message, ageMs);
+    } catch (error) {
+      this.#fault(error, message);
+    }
   }
 
   #takeState(message: RecordedMessage): void {

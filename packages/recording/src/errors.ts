@@ -10,12 +10,15 @@ export type RecordingErrorCode =
   | 'unsupported' // a compression, an encoding or a schema that nobody here reads
   | 'no-topic' // no such topic, or none with clouds
   | 'bad-message' // a message that is not what its schema says
-  | 'bad-cloud'; // a PointCloud2 whose fields and sizes do not agree
+  | 'bad-cloud' // a PointCloud2 whose fields and sizes do not agree
+  | 'bad-image'; // a picture that is not what it says
 
 /** What is wrong with a recording, and where. */
 export class RecordingError extends Error {
   override readonly name = 'RecordingError';
   readonly code: RecordingErrorCode;
+  /** What is wrong, without the place. */
+  readonly detail: string;
   readonly topic: string | undefined;
   /** Byte of the file at or after which it was found. */
   readonly offset: number | undefined;
@@ -31,6 +34,7 @@ export class RecordingError extends Error {
     );
     super([...place, detail].join(': '), { cause });
     this.code = code;
+    this.detail = detail;
     this.topic = topic;
     this.offset = offset;
   }
@@ -44,6 +48,7 @@ export function detailOf(error: unknown): string {
 const OF_MESSAGES: readonly string[] = [
   'bad-message',
   'bad-cloud',
+  'bad-image',
   'too-large',
   'unsupported',
 ] satisfies RecordingErrorCode[];

@@ -1,7 +1,8 @@
-export { CloudPlayer, type PlayClock, type PlayedCloud, type PlayOptions } from './cloud-player.ts';
+export { CloudPlayer, type PlayedCloud, type PlayOptions } from './cloud-player.ts';
 export { CloudTap, type TapGrid, type TappedCloud, type TappedPackets } from './cloud-tap.ts';
 export { RecordingError, type RecordingErrorCode } from './errors.ts';
 export { openRecording } from './open-recording.ts';
-export type { RecorderOptions } from './recorder-messages.ts';
+export type { PlayClock } from './play-timeline.ts';
+export type { DropKind, RecorderOptions } from './recorder-messages.ts';
 export type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 export { SessionRecorder } from './session-recorder.ts';

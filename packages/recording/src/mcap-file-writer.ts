@@ -17,6 +17,8 @@ export interface ChannelSpec {
   messageEncoding: 'cdr' | 'json';
   /** `null` for JSON, which says itself what it holds: some readers refuse a file for a schema that they do not know. */
   schema: { name: string; encoding: 'ros2msg'; text: string } | null;
+  /** Words about it. */
+  metadata?: Readonly<Record<string, string>>;
 }
 
 /**
@@ -59,7 +61,7 @@ export class McapFileWriter {
   }
 
   /** @returns its number */
-  addChannel({ topic, messageEncoding, schema }: ChannelSpec): number {
+  addChannel({ topic, messageEncoding, schema, metadata = {} }: ChannelSpec): number {
     const id = this.#channels.length;
     const before = this.#builder.length;
     let schemaId = 0;
@@ -70,7 +72,8 @@ export class McapFileWriter {
       this.#schemas.push(record);
       this.#builder.writeSchema(record);
     }
-    const channel = { id, schemaId, topic, messageEncoding, metadata: new Map<string, string>() };
+    const words = new Map(Object.entries(metadata));
+    const channel = { id, schemaId, topic, messageEncoding, metadata: words };
     this.#channels.push(channel);
     this.#builder.writeChannel(channel);
     this.#addPart(this.#builder.buffer.slice(before));

@@ -20,6 +20,7 @@ export function topicsOf(
       type: ros2TypeOf(schema?.name ?? ''),
       messages: count?.(id) ?? null,
       decode: lazyDecoder({
+        name: schema?.name ?? '',
         messageEncoding,
         schemaEncoding: schema?.encoding ?? '',
         schema: schema?.data ?? new Uint8Array(0),

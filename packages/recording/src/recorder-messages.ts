@@ -1,5 +1,5 @@
 /** What the threads of a recorded robot say to the one that writes. Times are of the robot's clock, ms. */
-import type { CloudFormat, Pose, Twist } from '@farpoint/protocol';
+import type { CloudFormat, PictureFormat, Pose, Twist } from '@farpoint/protocol';
 
 export interface RecorderOptions {
   /** The MCAP file to write; there must be none yet. */
@@ -54,6 +54,32 @@ export type SentRecord = RecordedStamp & {
 export type CloudRecord = CapturedRecord | SentRecord;
 export type CloudKind = 'captured' | 'sent';
 
+/** A camera whose pictures are recorded. */
+export interface RecordedCamera {
+  /** What people read. */
+  name: string;
+  /** It is the one that the clouds come from. */
+  ofCloud: boolean;
+}
+
+/** A camera's picture as operators are sent it: a JPEG or PNG file. */
+export interface PictureRecord {
+  type: 'picture';
+  /** Place in the list of cameras. */
+  camera: number;
+  captureMs: number;
+  /** Counts all there were of the camera: a gap is what was dropped. */
+  sequence: number;
+  /** How many were, so far, of all cameras. */
+  dropped: number;
+  format: PictureFormat;
+  /** Transferred. */
+  file: Uint8Array<ArrayBuffer>;
+}
+
+/** What is dropped where the writer does not keep up, each kind with a queue of its own. */
+export type DropKind = CloudKind | 'pictures' | 'events';
+
 /** A cloud's memory, free again. */
 export interface CloudDone {
   kind: CloudKind;
@@ -78,13 +104,24 @@ export type EventRecord =
   /** base_link in the world. */
   | { type: 'state'; timeMs: number; sequence: number; pose: Pose; twist: Twist };
 
-export type RecorderRequest = EventRecord | { type: 'close' };
+export type RecorderRequest =
+  | EventRecord
+  | PictureRecord
+  /** Before the first picture. */
+  | { type: 'cameras'; cameras: readonly RecordedCamera[] }
+  | { type: 'close' };
 
 export type RecorderReport =
   | { type: 'ready' }
-  /** An event was taken. */
-  | { type: 'done' }
+  /** An event or a picture was taken. */
+  | { type: 'done'; kind: 'events' | 'pictures' }
   /** Nothing more is written. */
   | { type: 'failed'; detail: string }
-  | { type: 'written'; messages: number; bytes: number; faults: number; cloudsDropped: number }
+  | {
+      type: 'written';
+      messages: number;
+      bytes: number;
+      faults: number;
+      dropped: Readonly<Record<CloudKind, number>>;
+    }
   | { type: 'closed' };

@@ -34,7 +34,12 @@ let tail: Promise<void> = Promise.resolve();
 function tell(): void {
   const { faults, dropped } = writer;
   const { messages, bytes } = writer.file;
-  send({ type: 'written', messages, bytes, faults, cloudsDropped: dropped.captured + dropped.sent });
+  const { captured, sent } = dropped;
+  send({ type: 'written', messages, bytes, faults, dropped: { captured, sent } });
+}
+
+async function addOwnState(): Promise<void> {
+  if (writer.file.messages > 0) await writer.addOwnState();
 }
 
 function inTurn(work: () => Promise<void>): Promise<void> {
@@ -62,7 +67,7 @@ const cloudsEnd = new Promise<void>((resolve) => clouds.once('close', resolve));
 
 const flushing = setInterval(() => {
   void inTurn(async () => {
-    if (writer.file.messages > 0) await writer.addOwnState();
+    await addOwnState();
     await writer.file.flush();
     tell();
     if (++flushes % SYNC_EVERY !== 0 || syncing) return;
@@ -78,14 +83,27 @@ const flushing = setInterval(() => {
 }, FLUSH_MS);
 
 port.on('message', (request: RecorderRequest) => {
+  if (request.type === 'cameras') {
+    void inTurn(async () => writer.addCameras(request.cameras));
+    return;
+  }
+  if (request.type === 'picture') {
+    void inTurn(() => writer.addPicture(request)).then(() => send({ type: 'done', kind: 'pictures' }));
+    return;
+  }
   if (request.type !== 'close') {
-    void inTurn(() => writer.addEvent(request)).then(() => send({ type: 'done' }));
+    void inTurn(() => writer.addEvent(request)).then(() => send({ type: 'done', kind: 'events' }));
     return;
   }
   clearInterval(flushing);
   setTimeout(() => clouds.close(), LINGER_MS).unref();
   void cloudsEnd
-    .then(() => inTurn(() => writer.file.close()))
+    .then(() =>
+      inTurn(async () => {
+        await addOwnState();
+        await writer.file.close();
+      }),
+    )
     .then(() => {
       tell();
       send({ type: 'closed' });

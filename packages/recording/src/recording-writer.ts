@@ -1,15 +1,19 @@
 import type { Pose } from '@farpoint/protocol';
 import { PointRoom, recordedPoints } from './captured-cloud.ts';
 import { McapFileWriter } from './mcap-file-writer.ts';
+import { pictureTopics } from './picture-topics.ts';
 import {
   type CloudKind,
   type CloudRecord,
   type EventRecord,
   JSON_TOPICS,
   type JsonKind,
+  type PictureRecord,
+  type RecordedCamera,
   type RecorderOptions,
 } from './recorder-messages.ts';
 import {
+  FOXGLOVE_COMPRESSED_IMAGE_SCHEMA,
   ODOMETRY_SCHEMA,
   POINT_CLOUD2_SCHEMA,
   TF_MESSAGE_SCHEMA,
@@ -18,6 +22,7 @@ import {
 import {
   BASE_FRAME,
   CAMERA_FRAME,
+  compressedImage,
   odometryOf,
   pointCloud2,
   transformOf,
@@ -38,12 +43,13 @@ type RosKind = keyof typeof ROS_TOPICS;
 export class RecordingWriter {
   /** Records that could not be turned into messages. */
   faults = 0;
-  /** Clouds that never came here: the writer had not kept up. */
-  readonly dropped: Record<CloudKind, number> = { captured: 0, sent: 0 };
+  /** Clouds and pictures that never came here: the writer had not kept up. */
+  readonly dropped: Record<CloudKind | 'pictures', number> = { captured: 0, sent: 0, pictures: 0 };
   readonly file: McapFileWriter;
   readonly #epochNs: bigint;
   readonly #decoder: SentCloudDecoder;
   readonly #channels = new Map<RosKind | JsonKind, number>();
+  #cameras: { channel: number; frame: string }[] = [];
   /** What lies in it is written, or copied, before the next cloud. */
   readonly #room = new PointRoom();
   #transforms = 0;
@@ -92,6 +98,39 @@ export class RecordingWriter {
       await this.#addTransform(ns, CAMERA_FRAME, record.pose);
     }
     await this.#add(kind, record.sequence, ns, cloud);
+  }
+
+  /** A topic for each, also for those that nobody will look at. */
+  addCameras(cameras: readonly RecordedCamera[]): void {
+    const name = 'foxglove_msgs/msg/CompressedImage';
+    const schema = { name, encoding: 'ros2msg' as const, text: FOXGLOVE_COMPRESSED_IMAGE_SCHEMA };
+    const topics = pictureTopics(cameras.map((camera) => camera.name));
+    this.#cameras = cameras.map(({ name: camera, ofCloud }, i) => ({
+      channel: this.file.addChannel({
+        ...{ topic: topics[i] as string, messageEncoding: 'cdr', schema, metadata: { camera } },
+      }),
+      // Where the others are nobody has said.
+      frame: ofCloud ? CAMERA_FRAME : camera,
+    }));
+  }
+
+  /** @throws {Error} where nothing more can be written */
+  async addPicture({
+    camera,
+    captureMs,
+    sequence,
+    dropped,
+    format,
+    file,
+  }: Omit<PictureRecord, 'type'>): Promise<void> {
+    this.dropped.pictures = dropped;
+    const of = this.#cameras[camera];
+    if (of === undefined) {
+      this.faults++;
+      return;
+    }
+    const ns = this.#nsOf(captureMs);
+    await this.file.add(of.channel, sequence >>> 0, ns, [compressedImage(ns, of.frame, format, file)]);
   }
 
   /** @throws {Error} where nothing more can be written */

@@ -28,6 +28,12 @@ export const POINT_CLOUD2_SCHEMA = schema(
   TIME,
 );
 
+/** As Foxglove’s schemas had it from the first; later versions add fields behind these. */
+export const FOXGLOVE_COMPRESSED_IMAGE_SCHEMA = schema(
+  'builtin_interfaces/Time timestamp\nstring frame_id\nuint8[] data\nstring format',
+  TIME,
+);
+
 export const TF_MESSAGE_SCHEMA = schema(
   'geometry_msgs/TransformStamped[] transforms',
   'MSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\nTransform transform',

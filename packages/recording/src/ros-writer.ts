@@ -4,7 +4,12 @@ import { velocityWriter } from '@farpoint/ros';
 import { parse } from '@foxglove/rosmsg';
 import { MessageWriter } from '@foxglove/rosmsg2-serialization';
 import { RECORDED_POINT_BYTES } from './captured-cloud.ts';
-import { ODOMETRY_SCHEMA, POINT_CLOUD2_SCHEMA, TF_MESSAGE_SCHEMA } from './ros-schemas.ts';
+import {
+  FOXGLOVE_COMPRESSED_IMAGE_SCHEMA,
+  ODOMETRY_SCHEMA,
+  POINT_CLOUD2_SCHEMA,
+  TF_MESSAGE_SCHEMA,
+} from './ros-schemas.ts';
 
 export const WORLD_FRAME = 'world';
 export const BASE_FRAME = 'base_link';
@@ -15,6 +20,7 @@ const clouds = writerOf(POINT_CLOUD2_SCHEMA);
 const transforms = writerOf(TF_MESSAGE_SCHEMA);
 const velocities = velocityWriter(2, 'geometry_msgs/msg/TwistStamped');
 const odometry = writerOf(ODOMETRY_SCHEMA);
+const pictures = writerOf(FOXGLOVE_COMPRESSED_IMAGE_SCHEMA);
 
 const FLOAT32 = 7;
 const FIELDS = ['x', 'y', 'z', 'rgb'].map((name, i) => ({
@@ -27,11 +33,12 @@ const NO_COVARIANCE = new Float64Array(36);
 /** What follows a cloud's points: `is_dense`. */
 const TAIL = Uint8Array.of(0);
 
+function timeOf(ns: bigint) {
+  return { sec: Number(ns / 1_000_000_000n), nanosec: Number(ns % 1_000_000_000n) };
+}
+
 function headerOf(stampNs: bigint, frame_id: string) {
-  return {
-    stamp: { sec: Number(stampNs / 1_000_000_000n), nanosec: Number(stampNs % 1_000_000_000n) },
-    frame_id,
-  };
+  return { stamp: timeOf(stampNs), frame_id };
 }
 
 /** In parts: the points are not copied. @param points 16 bytes each, x, y, z, rgb */
@@ -52,6 +59,16 @@ export function pointCloud2(
   const lengthAt = head.length - TAIL.length - 4;
   new DataView(head.buffer, head.byteOffset).setUint32(lengthAt, points.length, true);
   return [head.subarray(0, lengthAt + 4), points, TAIL];
+}
+
+/** @param format of the file: `jpeg` or `png` */
+export function compressedImage(
+  stampNs: bigint,
+  frame_id: string,
+  format: string,
+  data: Uint8Array,
+): Uint8Array {
+  return pictures.writeMessage({ timestamp: timeOf(stampNs), frame_id, data, format });
 }
 
 export function transformOf(stampNs: bigint, child: string, { position, orientation }: Pose): Uint8Array {

@@ -1,8 +1,10 @@
 import { spawn } from 'node:child_process';
+import { createHash } from 'node:crypto';
 import { mkdtempSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Pose } from '@farpoint/protocol';
+import { foxgloveCompressedImageSchema, stampNs } from '@farpoint/ros';
 import { afterAll, describe, expect, it } from 'vitest';
 import * as z from 'zod';
 import { CloudPlayer } from './cloud-player.ts';
@@ -22,12 +24,23 @@ const tfSchema = z.object({
 const stampedSchema = z.object({ header: headerSchema, child_frame_id: z.string().optional() });
 
 const FRAMES = 30;
+const NOTHING_DROPPED = { captured: 0, sent: 0, pictures: 0, events: 0 };
 const LENS = { fx: 8, fy: 8, cx: 7.5, cy: 5.5 };
 const GRID = { width: 16, height: 12, camera: LENS };
+const FRONT = '/farpoint/pictures/Camera';
+const REAR = '/farpoint/pictures/rear_image_raw';
 const poseAt = (k: number): Pose => ({
   position: { x: k / 10, y: 0, z: 1 },
   orientation: { x: -0.5, y: 0.5, z: -0.5, w: 0.5 },
 });
+
+/** Stand-ins for JPEGs: nobody looks into them. Some are larger than what the writer copies. */
+const pictureOf = (camera: number, k: number): Uint8Array<ArrayBuffer> =>
+  Uint8Array.from({ length: k % 10 === 9 ? 300_000 : 2000 + k }, (_, i) => (i * 7 + k * 13 + camera) & 0xff);
+const CAMERAS = [
+  { name: 'Camera', ofCloud: true },
+  { name: '/rear/image_raw', ofCloud: false },
+];
 
 /** The writer has its turn, as between two frames of a camera. */
 async function written(tap: CloudTap): Promise<void> {
@@ -38,6 +51,7 @@ async function record(path: string, compression: 'none' | 'zstd' = 'none'): Prom
   const recorder = await SessionRecorder.open({
     ...{ path, compression, robotId: 'test', epochNs: 1_700_000_000_000_000_000n },
   });
+  recorder.cameras(CAMERAS);
   const tap = new CloudTap(recorder.clouds, 1000);
   const depth = new Float32Array(16 * 12);
   const colour = new Uint32Array(16 * 12).fill(0xff03_0201);
@@ -46,6 +60,8 @@ async function record(path: string, compression: 'none' | 'zstd' = 'none'): Prom
     depth[0] = Number.NaN;
     const stamp = { cameraPose: poseAt(k), captureMs: k * 100 };
     tap.captured({ form: 'images', depth, colour, ...stamp }, GRID);
+    recorder.picture(0, k * 100, 'jpeg', pictureOf(0, k));
+    if (k % 3 === 0) recorder.picture(1, k * 100 + 40, 'png', pictureOf(1, k));
     recorder.json('telemetry', k * 100, { k, speed: 0.5 });
     recorder.velocity(k * 100, { linear: { x: k, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 1 } });
     recorder.state(
@@ -62,7 +78,7 @@ async function record(path: string, compression: 'none' | 'zstd' = 'none'): Prom
   tap.close();
   await recorder.close();
   const { dropped, faults } = recorder;
-  expect({ dropped, faults }).toEqual({ dropped: 0, faults: 0 });
+  expect({ dropped, faults }).toEqual({ dropped: NOTHING_DROPPED, faults: 0 });
   return recorder;
 }
 
@@ -77,13 +93,24 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     expect(counts).toMatchObject({ '/farpoint/captured': FRAMES, '/tf': 2 * FRAMES, '/odom': FRAMES });
     expect(counts).toMatchObject({ '/farpoint/cmd_vel': FRAMES, '/farpoint/telemetry': FRAMES });
     await recording.close();
-    expect(recorder.messages).toBe(FRAMES * 6 + (counts['/farpoint/recorder'] ?? 0));
+    expect(counts).toMatchObject({ [FRONT]: FRAMES, [REAR]: FRAMES / 3 });
+    expect(recorder.messages).toBe(FRAMES * 7 + FRAMES / 3 + (counts['/farpoint/recorder'] ?? 0));
 
     const clock = new FakeClock();
     const player = await CloudPlayer.open(
-      { path, topic: null, rate: 1, fromS: 0, atEnd: 'stop', axes: 'auto' },
+      { path, topic: null, rate: 1, fromS: 0, atEnd: 'stop', axes: 'auto', along: [FRONT, REAR] },
       clock,
     );
+    const pictures: [string, number, number][] = [];
+    player.onAlong = ({ topic, data }) => {
+      const image = foxgloveCompressedImageSchema.parse(topic.decode(data));
+      const at = Number(stampNs(image.timestamp) - 1_700_000_000_000_000_000n) / 1e6;
+      const camera = topic.name === FRONT ? 0 : 1;
+      const { length } = pictures.filter(([name]) => name === topic.name);
+      expect(image.data).toEqual(pictureOf(camera, camera === 0 ? length : length * 3));
+      expect(image.format).toBe(camera === 0 ? 'jpeg' : 'png');
+      pictures.push([topic.name, at, clock.ms]);
+    };
     expect(player.stream).toMatchObject({ axes: 'optical', width: 16, height: 12, capacity: 192 });
     const into = new Float32Array(192 * 4);
     let k = 0;
@@ -101,6 +128,9 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     };
     await player.run();
     expect(player.twist.linear.x).toBe(1);
+    expect(pictures.filter(([name]) => name === FRONT)).toHaveLength(FRAMES);
+    expect(pictures.filter(([name]) => name === REAR)).toHaveLength(FRAMES / 3);
+    for (const [, at, shownMs] of pictures) expect(shownMs).toBeCloseTo(at, 3);
     await player.close();
     expect(k).toBe(FRAMES);
   });
@@ -111,11 +141,15 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     const recording = await openRecording(path);
     const parents = new Map<string, string>();
     const named = new Map<string, string>();
+    const pictureFrames = new Set<string>();
     for await (const { topic, data } of recording.messages(
       recording.topics.map(({ name }) => name),
       0n,
     )) {
       const message = topic.decode(data);
+      // Of a camera that the clouds do not come from nobody knows where it is.
+      const image = foxgloveCompressedImageSchema.safeParse(message);
+      if (image.success) pictureFrames.add(image.data.frame_id);
       for (const { header, child_frame_id } of tfSchema.safeParse(message).data?.transforms ?? [])
         parents.set(child_frame_id, header.frame_id);
       const { header, child_frame_id } = stampedSchema.safeParse(message).data ?? {};
@@ -123,6 +157,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       if (child_frame_id !== undefined) named.set(child_frame_id, topic.name);
     }
     await recording.close();
+    expect(pictureFrames).toEqual(new Set(['camera_optical_frame', '/rear/image_raw']));
     expect([...named.keys()].sort()).toEqual(['base_link', 'camera_optical_frame', 'world']);
     for (const [frame, topic] of named) {
       let root = frame;
@@ -165,7 +200,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     }
     for (let k = 0; k < 10_000; k++) recorder.json('telemetry', k, { k });
     expect(tap.dropped).toBe(50 - 6);
-    expect(recorder.dropped).toBe(10_000 - 256 - 4096);
+    expect(recorder.dropped.events).toBe(10_000 - 256 - 4096);
     tap.close();
     await recorder.close();
     const recording = await openRecording(path);
@@ -175,6 +210,50 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     // The first two were under way at once; the newest four waited.
     expect(sequences).toEqual([0, 1, 46, 47, 48, 49]);
     expect(recording.topics.find(({ name }) => name === '/farpoint/telemetry')?.messages).toBe(256 + 4096);
+    await recording.close();
+  });
+
+  it('drops the oldest pictures where the writer does not keep up, and says which are missing', async () => {
+    const path = join(folder, 'many-pictures.mcap');
+    const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
+    recorder.cameras([{ name: 'Camera', ofCloud: true }]);
+    // All in one turn: no answer can come in between.
+    for (let k = 0; k < 100; k++) recorder.picture(0, k, 'jpeg', pictureOf(0, k));
+    recorder.json('telemetry', 0, {});
+    expect(recorder.dropped).toEqual({ ...NOTHING_DROPPED, pictures: 100 - 4 - 24 });
+    recorder.clouds.close();
+    await recorder.close();
+    expect(recorder.dropped.pictures).toBe(72);
+    const recording = await openRecording(path);
+    const times: number[] = [];
+    let told: unknown = null;
+    for await (const { topic, logNs, data } of recording.messages([FRONT, '/farpoint/recorder'], 0n)) {
+      if (topic.name !== FRONT) {
+        told = topic.decode(data);
+        continue;
+      }
+      const k = Number(logNs / 1_000_000n);
+      expect(foxgloveCompressedImageSchema.parse(topic.decode(data)).data).toEqual(pictureOf(0, k));
+      times.push(k);
+    }
+    // The first four were under way at once; the newest 24 waited.
+    expect(told).toMatchObject({ dropped: { captured: 0, sent: 0, pictures: 72 }, faults: 0 });
+    expect(times).toEqual([0, 1, 2, 3, ...Array.from({ length: 24 }, (_, i) => 76 + i)]);
+    await recording.close();
+  });
+
+  it('a camera that nobody watched has a topic without messages', async () => {
+    const path = join(folder, 'no-pictures.mcap');
+    const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
+    recorder.cameras(CAMERAS);
+    recorder.json('telemetry', 0, {});
+    recorder.clouds.close();
+    await recorder.close();
+    const recording = await openRecording(path);
+    for (const name of [FRONT, REAR])
+      expect(recording.topics.find((topic) => topic.name === name)).toMatchObject({
+        ...{ type: 'foxglove_msgs/msg/CompressedImage', messages: 0 },
+      });
     await recording.close();
   });
 
@@ -236,6 +315,25 @@ describe.skipIf(typeof peers === 'string')(
           expect(topics[topic]).toMatchObject({ count: FRAMES, sequence: FRAMES - 1 });
         }
         expect(topics['/tf']).toMatchObject({ count: 2 * FRAMES, sequence: 2 * FRAMES - 1 });
+        for (const [camera, topic] of [FRONT, REAR].entries()) {
+          const pictures = topics[topic]?.pictures ?? [];
+          expect(topics[topic]).toMatchObject({
+            ...{ type: 'foxglove_msgs/msg/CompressedImage', metadata: { camera: CAMERAS[camera]?.name } },
+            ...{ count: pictures.length, sequence: pictures.length - 1 },
+          });
+          expect(pictures).toHaveLength(camera === 0 ? FRAMES : FRAMES / 3);
+          pictures.forEach((picture, i) => {
+            const k = camera === 0 ? i : i * 3;
+            const data = pictureOf(camera, k);
+            const ns = 1_700_000_000_000_000_000n + BigInt(k * 100 + (camera === 0 ? 0 : 40)) * 1_000_000n;
+            expect(picture).toEqual({
+              ...{ stampNs: String(ns), logNs: String(ns), bytes: data.length },
+              frame: camera === 0 ? 'camera_optical_frame' : '/rear/image_raw',
+              format: camera === 0 ? 'jpeg' : 'png',
+              sha256: createHash('sha256').update(data).digest('hex'),
+            });
+          });
+        }
         expect((peers as Peers).count(path)).toEqual(
           Object.fromEntries(Object.entries(topics).map(([name, { count }]) => [name, count])),
         );

@@ -1,10 +1,13 @@
 import { MessageChannel, type MessagePort, Worker } from 'node:worker_threads';
-import type { Pose, Twist } from '@farpoint/protocol';
+import type { PictureFormat, Pose, Twist } from '@farpoint/protocol';
 import { CreditQueue } from './credit-queue.ts';
 import { RecordingError } from './errors.ts';
 import type {
+  DropKind,
   EventRecord,
   JsonKind,
+  PictureRecord,
+  RecordedCamera,
   RecorderOptions,
   RecorderReport,
   RecorderRequest,
@@ -12,6 +15,8 @@ import type {
 
 /** Events that the writer has, and that wait for it. */
 const LIMITS = { underWay: 256, waiting: 4096 };
+/** The same of pictures: 16 MB of the largest that are sent. */
+const PICTURE_LIMITS = { underWay: 4, waiting: 24 };
 
 /** The main thread's end of a recording. The capture thread has one of its own, {@link clouds}. */
 export class SessionRecorder {
@@ -22,13 +27,13 @@ export class SessionRecorder {
   /** So far. */
   messages = 0;
   bytes = 0;
-  /** Clouds that could not be turned into messages. */
+  /** Clouds and pictures that could not be turned into messages. */
   faults = 0;
-  /** … and those that were not recorded because the writer did not keep up. */
-  cloudsDropped = 0;
+  #cloudsDropped = { captured: 0, sent: 0 };
   readonly #worker: Worker;
   readonly #path: string;
   readonly #events: CreditQueue<EventRecord>;
+  readonly #pictures: CreditQueue<Omit<PictureRecord, 'dropped'>>;
   readonly #sequences = new Map<string, number>();
   #closing = false;
   #failed = false;
@@ -38,13 +43,14 @@ export class SessionRecorder {
     this.#path = path;
     this.clouds = clouds;
     this.#events = new CreditQueue(LIMITS, (event) => this.#post(event));
+    this.#pictures = new CreditQueue(PICTURE_LIMITS, (picture) => this.#postPicture(picture));
     worker.on('message', (report: RecorderReport) => {
-      if (report.type === 'done') this.#events.done();
+      if (report.type === 'done') (report.kind === 'pictures' ? this.#pictures : this.#events).done();
       else if (report.type === 'written') {
         this.messages = report.messages;
         this.bytes = report.bytes;
         this.faults = report.faults;
-        this.cloudsDropped = report.cloudsDropped;
+        this.#cloudsDropped = report.dropped;
       } else if (report.type === 'failed') this.#fail(report.detail);
     });
     worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));
@@ -72,9 +78,25 @@ export class SessionRecorder {
     return new SessionRecorder(worker, port1, options.path);
   }
 
-  /** Events that were not recorded because the writer did not keep up. */
-  get dropped(): number {
-    return this.#events.dropped;
+  /** What was not recorded because the writer did not keep up. */
+  get dropped(): Readonly<Record<DropKind, number>> {
+    return {
+      ...this.#cloudsDropped,
+      pictures: this.#pictures.dropped,
+      events: this.#events.dropped,
+    };
+  }
+
+  /** Whose pictures are recorded: once, before the first of them. */
+  cameras(cameras: readonly RecordedCamera[]): void {
+    this.#post({ type: 'cameras', cameras: cameras.map(({ name, ofCloud }) => ({ name, ofCloud })) });
+  }
+
+  /** A picture as operators are sent it. @param file its memory is the recorder's from now on */
+  picture(camera: number, captureMs: number, format: PictureFormat, file: Uint8Array<ArrayBuffer>): void {
+    if (this.#closing || this.#failed) return;
+    const sequence = this.#next(`picture ${camera}`);
+    this.#pictures.push({ type: 'picture', camera, captureMs, sequence, format, file });
   }
 
   json(kind: JsonKind, timeMs: number, value: object): void {
@@ -96,6 +118,7 @@ export class SessionRecorder {
     if (this.#closing) return;
     this.#closing = true;
     this.#events.drain();
+    this.#pictures.drain();
     const ended = new Promise((resolve) => this.#worker.once('exit', resolve));
     this.#post({ type: 'close' });
     await ended;
@@ -107,6 +130,11 @@ export class SessionRecorder {
 
   #post(request: RecorderRequest): void {
     this.#worker.postMessage(request);
+  }
+
+  #postPicture(picture: Omit<PictureRecord, 'dropped'>): void {
+    const record: PictureRecord = { ...picture, dropped: this.#pictures.dropped };
+    this.#worker.postMessage(record, [picture.file.buffer]);
   }
 
   #next(kind: string): number {

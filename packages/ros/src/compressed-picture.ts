@@ -1,4 +1,4 @@
-/** CompressedImage of sensor_msgs: what it is, by its own first bytes. */
+/** CompressedImage of sensor_msgs, or of Foxglove: what it is, by its own first bytes. */
 import { MAX_PICTURE_SIDE, type PictureFile, readPictureFile } from '@farpoint/protocol';
 import { RosFault } from './fault.ts';
 import type { CompressedImage } from './messages.ts';
@@ -10,7 +10,7 @@ const DEPTH = 'compressedDepth';
  * @returns format and size, from the file's header
  * @throws {RosFault} `unsupported`, `bad-image`, `too-large`
  */
-export function compressedPicture({ format, data }: CompressedImage): PictureFile {
+export function compressedPicture({ format, data }: Pick<CompressedImage, 'format' | 'data'>): PictureFile {
   if (format.includes(DEPTH)) {
     throw new RosFault('unsupported', `a picture as ${DEPTH}`, {
       remedy: 'take the topic of the raw depth picture',

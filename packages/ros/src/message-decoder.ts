@@ -4,12 +4,15 @@ import { MessageReader as Ros1Reader } from '@foxglove/rosmsg-serialization';
 import { MessageReader as Ros2Reader } from '@foxglove/rosmsg2-serialization';
 import { definitionsOf } from './definitions.ts';
 import { RosFault } from './fault.ts';
+import { imageFromProtobuf } from './protobuf-image.ts';
 import { type WireLayout, wireCheck } from './wire-check.ts';
 
 export interface MessageSchema {
-  /** How messages are written: `cdr`, `ros1` or `json`. */
+  /** As the recording has it, e.g. `foxglove.RawImage`. */
+  name: string;
+  /** How messages are written: `cdr`, `ros1`, `json` or `protobuf`. */
   messageEncoding: string;
-  /** How the schema is written: `ros2msg` or `ros1msg`. */
+  /** How the schema is written: `ros2msg` or `ros1msg`; of the others it is not read. */
   schemaEncoding: string;
   schema: Uint8Array;
 }
@@ -24,10 +27,12 @@ export function lazyDecoder(schema: MessageSchema): (data: Uint8Array) => unknow
 }
 
 /** @throws {RosFault} `unsupported`, or `bad-message` where the schema cannot be read */
-function makeDecoder({ messageEncoding, schemaEncoding, schema }: MessageSchema) {
+function makeDecoder({ name, messageEncoding, schemaEncoding, schema }: MessageSchema) {
   if (messageEncoding === 'json') {
     return (data: Uint8Array) => JSON.parse(new TextDecoder().decode(data)) as unknown;
   }
+  const image = messageEncoding === 'protobuf' ? imageFromProtobuf(name) : null;
+  if (image !== null) return image;
   const text = new TextDecoder().decode(schema);
   if (messageEncoding === 'cdr' && schemaEncoding === 'ros2msg') {
     return checkedReader('cdr', parse(text, { ros2: true }));
@@ -37,7 +42,7 @@ function makeDecoder({ messageEncoding, schemaEncoding, schema }: MessageSchema)
   }
   throw new RosFault(
     'unsupported',
-    `messages in ${messageEncoding} with a ${schemaEncoding || 'missing'} schema`,
+    `${name || 'messages'} in ${messageEncoding} with a ${schemaEncoding || 'missing'} schema`,
   );
 }
 

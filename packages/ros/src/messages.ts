@@ -81,6 +81,22 @@ export const compressedImageSchema = z.object({
 });
 export type CompressedImage = z.infer<typeof compressedImageSchema>;
 
+/** As JSON has bytes. */
+const bytes = z.union([
+  z.instanceof(Uint8Array),
+  z.base64().transform((text) => new Uint8Array(Buffer.from(text, 'base64'))),
+]);
+const foxgloveImage = z.object({ timestamp: stamp, frame_id: frameId, data: bytes });
+
+/** foxglove.CompressedImage, whatever it was encoded as. */
+export const foxgloveCompressedImageSchema = foxgloveImage.extend({ format: z.string().max(512) });
+
+/** foxglove.RawImage: little-endian. */
+export const foxgloveRawImageSchema = foxgloveImage.extend({
+  ...{ height: z.int().min(0), width: z.int().min(0), step: z.int().min(0) },
+  encoding: z.string().max(128),
+});
+
 const matrix = (length: number) =>
   z.union([z.array(z.number()), z.instanceof(Float64Array)]).refine((m) => m.length === length);
 /** ROS 1 says `K` and `P`, ROS 2 `k` and `p`. */
@@ -122,11 +138,16 @@ export const diagnosticArraySchema = z.object({
     .max(4096),
 });
 
-/** Types by the part that they play. */
+/** Types by the part that they play. `foxglove.` names are those of JSON and Protobuf. */
 export const POINT_CLOUD_TYPES: readonly string[] = ['sensor_msgs/msg/PointCloud2'];
 export const TF_TYPES: readonly string[] = ['tf2_msgs/msg/TFMessage', 'tf/msg/tfMessage'];
 export const ODOMETRY_TYPES: readonly string[] = ['nav_msgs/msg/Odometry'];
 export const BATTERY_TYPES: readonly string[] = ['sensor_msgs/msg/BatteryState'];
+export const FOXGLOVE_COMPRESSED_IMAGE_TYPES = [
+  'foxglove_msgs/msg/CompressedImage',
+  'foxglove.CompressedImage',
+];
+export const FOXGLOVE_RAW_IMAGE_TYPES = ['foxglove_msgs/msg/RawImage', 'foxglove.RawImage'];
 
 /** Nanoseconds since 1970, or whatever the robot's clock counts from. */
 export function stampNs(time: z.infer<typeof stamp>): bigint {

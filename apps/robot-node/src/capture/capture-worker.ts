@@ -22,7 +22,7 @@ import {
   type CaptureRequest,
   NO_BUDGET,
 } from './capture-messages.ts';
-import type { CaptureWishes, ImageFrame, SourceFrame } from './frame-source.ts';
+import type { CameraDescription, CaptureWishes, ImageFrame, SourceFrame } from './frame-source.ts';
 import { openSource } from './open-source.ts';
 
 /** One frame being sent, one waiting, one being filled; and one more, as some frames go out in two formats. */
@@ -34,7 +34,7 @@ const MAX_WAIT_MS = 10;
 const MAX_READY_AGE_MS = 50;
 /** How much earlier than planned its cloud may be, as a share of the interval. */
 const EARLY_SHARE = 0.25;
-const CLOUD_CAMERA = { name: 'Camera', most: null };
+const CLOUD_CAMERA: CameraDescription = { name: 'Camera', most: null, ofCloud: true };
 
 const port = parentPort;
 if (port === null) throw new Error('capture-worker.ts runs as a worker only');

@@ -1,6 +1,6 @@
 /** Where clouds come from. A source lives in the capture worker; it is driven by the robot's clock, ms. */
 import type { Battery, Pose, Twist } from '@farpoint/protocol';
-import type { TopicReading } from '@farpoint/ros';
+import type { TopicEntry, TopicReading } from '@farpoint/ros';
 import type { Pinhole } from '@farpoint/wasm-codec';
 import type { PictureTaker } from '../pictures/source-picture.ts';
 
@@ -10,6 +10,16 @@ export interface CameraDescription {
   name: string;
   /** Most pictures a second that are to be looked at; `null`: as many as come. */
   most: number | null;
+  /** It is the one that the clouds come from. */
+  ofCloud?: true;
+}
+
+/** Of a camera's name. */
+const MOST_NAME = 64;
+
+/** The camera whose pictures a topic has, as people read it; of a long topic, its end. */
+export function cameraOf({ topic, label, most }: TopicEntry): CameraDescription {
+  return { name: (label ?? topic).slice(-MOST_NAME), most };
 }
 
 export interface SourceDescription {

@@ -1,5 +1,7 @@
 import { setTimeout as delay } from 'node:timers/promises';
-import { CloudPlayer, type PlayClock, type PlayOptions } from '@farpoint/recording';
+import { CloudPlayer, type PlayClock, type PlayOptions, type RecordingError } from '@farpoint/recording';
+import type { TopicReading, TopicTable } from '@farpoint/ros';
+import type { PictureTaker } from '../pictures/source-picture.ts';
 import type {
   CaptureRoom,
   CaptureWishes,
@@ -8,41 +10,59 @@ import type {
   SourceFrame,
   SourceState,
 } from './frame-source.ts';
+import { RecordingTopics } from './recording-topics.ts';
 
-export type RecordingSourceOptions = PlayOptions;
+export interface RecordingSourceOptions extends Omit<PlayOptions, 'along'> {
+  /** Of it, what are pictures and readings. */
+  topics: TopicTable;
+}
 
-/** Plays a recording's clouds at their times. It has no wheels: velocities change nothing. */
+/** Plays a recording's clouds at their times, with the pictures and readings that the table of topics names. It has no wheels: velocities change nothing. */
 export class RecordingSource implements FrameSource {
   readonly description: SourceDescription;
   onReady: (() => void) | null = null;
   onFault: ((error: Error) => void) | null = null;
+  onReading: ((reading: TopicReading) => void) | null = null;
+  /** Called when there is nothing more to play. */
+  onEnd: (() => void) | null = null;
   readonly #player: CloudPlayer;
+  readonly #topics: RecordingTopics;
+  /** What is wrong before it begins; `null` once it has begun. */
+  #found: readonly Error[] | null;
+  /** Of each topic beside the clouds what was last wrong with it. */
+  readonly #told = new Map<string, string>();
 
-  private constructor(player: CloudPlayer) {
+  private constructor(player: CloudPlayer, topics: RecordingTopics, missing: readonly Error[]) {
+    const { warning } = player;
+    this.#found = warning === null ? missing : [new Error(warning), ...missing];
     const { topic, axes, width, height, capacity, framesPerSecond } = player.stream;
     this.#player = player;
+    this.#topics = topics;
     this.description = {
       kind: `recording (${topic.name}, ${axes} frame, ${player.seconds.toFixed(1)} s)`,
       ...{ width, height, capacity },
       camera: null,
       depthMeasure: axes === 'body' ? 'range' : 'z',
       drives: false,
+      cameras: topics.cameras,
       ...(framesPerSecond === null ? {} : { framesPerSecond }),
     };
     player.onCloud = () => this.onReady?.();
-    player.onFault = (error) => this.onFault?.(error);
+    player.onFault = (error) => this.#tell(error);
+    player.wantsAlong = (name) => topics.wants(name);
+    player.onAlong = (message, ageMs) => {
+      topics.take(message, ageMs);
+      this.#told.delete(message.topic.name);
+    };
+    topics.onReading = (reading) => this.onReading?.(reading);
   }
 
   /** @throws {RecordingError} saying what cannot be read, and where */
   static async open(options: RecordingSourceOptions, now: () => number): Promise<RecordingSource> {
-    const source = new RecordingSource(await CloudPlayer.open(options, playClock(now)));
-    // What it finds is told as faults, once somebody listens.
-    setImmediate(() => {
-      const { warning } = source.#player;
-      if (warning !== null) source.onFault?.(new Error(warning));
-      void source.#player.run();
-    });
-    return source;
+    const { topics: table, ...play } = options;
+    const topics = new RecordingTopics(table, now);
+    const player = await CloudPlayer.open({ ...play, along: topics.names }, playClock(now));
+    return new RecordingSource(player, topics, topics.missing(play.path, player.topics));
   }
 
   get state(): SourceState {
@@ -50,7 +70,14 @@ export class RecordingSource implements FrameSource {
     return { pose, twist, battery, contact: false };
   }
 
-  advance(): void {}
+  /** The first call begins: from then on somebody listens. */
+  advance(): void {
+    const found = this.#found;
+    if (found === null) return;
+    this.#found = null;
+    for (const error of found) this.onFault?.(error);
+    void this.#player.run().then(() => this.onEnd?.());
+  }
 
   capture(nowMs: number, _wishes: CaptureWishes, { points }: CaptureRoom): SourceFrame | null {
     const cloud = this.#player.take(points);
@@ -62,8 +89,27 @@ export class RecordingSource implements FrameSource {
     this.#player.skip();
   }
 
+  usePictures(taker: PictureTaker): void {
+    this.#topics.taker = taker;
+  }
+
+  watchPictures(perSecond: readonly number[]): void {
+    this.#topics.watch(perSecond);
+  }
+
   close(): void {
     void this.#player.close();
+  }
+
+  /** A topic all of whose pictures are wrong in one way is told of once. */
+  #tell(error: RecordingError): void {
+    const { topic, code, detail } = error;
+    if (topic !== undefined && this.#topics.names.includes(topic)) {
+      const what = `${code}: ${detail}`;
+      if (this.#told.get(topic) === what) return;
+      this.#told.set(topic, what);
+    }
+    this.onFault?.(error);
   }
 }
 

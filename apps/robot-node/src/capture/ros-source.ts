@@ -2,11 +2,8 @@
 import type { Twist } from '@farpoint/protocol';
 import {
   type CloudAxes,
-  DiagnosticBoard,
-  RateLimit,
   RosFault,
   type RosGraph,
-  readingOf,
   type TopicEntry,
   type TopicReading,
   type TopicTable,
@@ -14,14 +11,16 @@ import {
   WorldState,
 } from '@farpoint/ros';
 import type { PictureTaker } from '../pictures/source-picture.ts';
-import type {
-  CaptureRoom,
-  CaptureWishes,
-  FrameSource,
-  SourceDescription,
-  SourceFrame,
-  SourceState,
+import {
+  type CaptureRoom,
+  type CaptureWishes,
+  cameraOf,
+  type FrameSource,
+  type SourceDescription,
+  type SourceFrame,
+  type SourceState,
 } from './frame-source.ts';
+import { ReadingTopic } from './reading-topic.ts';
 import { RosCloudFeed } from './ros-cloud-feed.ts';
 import type { FeedShape, RosFeed } from './ros-feed.ts';
 import { RosImageFeed } from './ros-image-feed.ts';
@@ -48,9 +47,6 @@ const MOST_AGE_MS = 500;
 /** Messages of state that may wait in the graph. */
 const STATE_QUEUE = 100;
 const STATE_ROLES = ['pose', 'tf', 'battery'];
-/** Of a camera's name. */
-const MOST_NAME = 64;
-const READING_ROLES = ['battery', 'fix', 'diagnostics', 'text'];
 
 export class RosSource implements FrameSource {
   readonly description: SourceDescription;
@@ -87,7 +83,7 @@ export class RosSource implements FrameSource {
       ...{ width, height, capacity, camera },
       depthMeasure: axes === 'body' ? 'range' : 'z',
       drives: false,
-      cameras: pictures.map(({ topic, label, most }) => ({ name: cameraName(label ?? topic), most })),
+      cameras: pictures.map(cameraOf),
     };
     this.#pictures = new RosPictureFeed(graph, pictures, (stampNs, receivedMs) =>
       this.#captureMs(stampNs, receivedMs, clock.now()),
@@ -181,11 +177,6 @@ export class RosSource implements FrameSource {
   }
 }
 
-/** As people read it; of a long topic, its end. */
-function cameraName(name: string): string {
-  return name.slice(-MOST_NAME);
-}
-
 /** The topics that say where the robot is and how it does. */
 class StateTopics {
   readonly world = new WorldState();
@@ -195,7 +186,7 @@ class StateTopics {
 
   constructor(graph: RosGraph, topics: TopicTable, clock: RosClock) {
     this.#listeners = topics
-      .filter(({ as }) => STATE_ROLES.includes(as) || READING_ROLES.includes(as))
+      .filter((entry) => STATE_ROLES.includes(entry.as) || ReadingTopic.is(entry))
       .map((entry) => this.#listen(graph, entry, clock));
   }
 
@@ -206,14 +197,12 @@ class StateTopics {
   #listen(graph: RosGraph, entry: TopicEntry, clock: RosClock): Listener {
     const { topic: name, type, as } = entry;
     const onFault = (fault: RosFault) => this.onFault?.(fault);
-    const board = as === 'diagnostics' ? new DiagnosticBoard() : null;
-    const limit = new RateLimit(entry.most);
-    // Diagnostics come from many nodes, each with its part: all are read, and together they are told as often as allowed.
-    return listen(graph, entry, { queue: STATE_QUEUE, limited: board === null, onFault }, (message) => {
+    const reading = ReadingTopic.is(entry) ? new ReadingTopic(entry) : null;
+    const limited = reading?.readsAll !== true;
+    return listen(graph, entry, { queue: STATE_QUEUE, limited, onFault }, (message) => {
       if (STATE_ROLES.includes(as)) this.world.take({ name, type }, message);
-      if (!READING_ROLES.includes(as)) return;
-      const told = board === null ? message : board.take(message, clock.now());
-      if (board === null || limit.admits(clock.now())) this.onReading?.(readingOf(entry, told));
+      const told = reading?.take(message, clock.now()) ?? null;
+      if (told !== null) this.onReading?.(told);
     });
   }
 }

@@ -51,8 +51,8 @@ export function placementOf(
 }
 
 /**
- * Views of an encoder's memory, taken when they are asked for: what nobody asks for is not made. Making one may move those
- * given out before, so ask for points, or for depth and then colour.
+ * Views of an encoder's memory, taken when they are asked for: what nobody asks for is not made. Making the images
+ * may move the points given out before, so ask for points or for images.
  */
 export function roomOf(encoder: {
   frame: Float32Array;
@@ -64,8 +64,6 @@ export function roomOf(encoder: {
       return encoder.frame;
     },
     get depth() {
-      // Both are made before either is given out.
-      void encoder.colour;
       return encoder.depth;
     },
     get colour() {

@@ -7,7 +7,7 @@ export const recordingOptions = optionGroup('recording', {
     default: null,
     argument: 'FILE',
     file: 'file',
-    help: 'record clouds, commands, telemetry, rate estimates and latencies to this MCAP file; there must be none yet',
+    help: 'record clouds, pictures, commands, telemetry, rate estimates and latencies to this MCAP file; there must be none yet',
   }),
   recordCapturedFps: defineOption({
     schema: schema.number({ min: 0.1, max: 120 }),

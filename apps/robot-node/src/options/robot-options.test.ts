@@ -84,6 +84,21 @@ describe('robot options', () => {
     );
   });
 
+  it('take pictures and readings of a recording from the table of topics, and pictures of other files not', () => {
+    const topics = '[{topic: /front, as: picture}, {topic: /diagnostics, as: diagnostics}]';
+    const recording = `robot: {source: {kind: recording, path: a.mcap}, topics: ${topics}}`;
+    expect(file(recording).capture.source).toMatchObject({
+      ...{ kind: 'recording', path: 'a.mcap' },
+      topics: [
+        { topic: '/front', as: 'picture' },
+        { topic: '/diagnostics', as: 'diagnostics' },
+      ],
+    });
+    expect(() => file(`robot: {source: {kind: pcd, path: a.pcd}, topics: ${topics}}`)).toThrow(
+      /topics .*can have `as: picture` only with the source ros1, ros2 or recording/,
+    );
+  });
+
   it('hide credentials where they are wrong', () => {
     expect(() => robot('--ice-servers', '[{"urls":"turn:a","credential":5,"secret":"x"}]')).toThrow(
       /^--ice-servers\.0\.\w+ .*text$/m,

@@ -88,8 +88,8 @@ function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, de
   if (ros && topicAs(topics, 'cloud') === undefined && topicAs(topics, 'depth') === undefined) {
     refuse('topics', `needs an entry with \`as: cloud\` or \`as: depth\` for the source ${source}`);
   }
-  if (!ros && topicAs(topics, 'picture') !== undefined) {
-    refuse('topics', 'can have `as: picture` only with the source ros1 or ros2');
+  if (!ros && source !== 'recording' && topicAs(topics, 'picture') !== undefined) {
+    refuse('topics', 'can have `as: picture` only with the source ros1, ros2 or recording');
   }
   if ((sink === 'ros1' || sink === 'ros2') && topicAs(topics, 'velocity') === undefined) {
     refuse('topics', `needs an entry with \`as: velocity\` for the sink ${sink}`);
@@ -112,7 +112,7 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
     case 'recording':
       return {
         ...{ kind: 'recording', path, topic: values.topic, rate: values.playRate, fromS: values.playFromS },
-        ...{ atEnd: values.playEnd, axes: values.playAxes },
+        ...{ atEnd: values.playEnd, axes: values.playAxes, topics },
       };
     case 'ros1':
     case 'ros2':

@@ -19,10 +19,12 @@ export interface PictureTarget {
 
 export interface PictureHubOptions {
   policy: PicturePolicy;
-  capture: Capture;
+  capture: Pick<Capture, 'cameras' | 'usePictures'>;
   targets: () => Iterable<PictureTarget>;
   /** Whose path decides how large pictures are; `null` where nobody drives. */
   driver: () => string | null;
+  /** Gets each picture, whoever it goes to. */
+  onMade: (picture: ReadyPicture) => void;
   log: Logger;
 }
 
@@ -116,13 +118,13 @@ export class PictureHub {
   #onReport(report: PictureReport): void {
     const { counters } = this;
     if (report.type === 'lost') {
-      const { camera, reason, count, detail } = report;
+      const { camera, reason, count, detail, origin } = report;
       counters.lost.add(reason, count);
       if (detail === '' || this.#lastDetail[camera] === detail) return;
       // While it goes on it is said once.
       this.#lastDetail[camera] = detail;
       const { name } = this.#options.capture.cameras[camera] ?? { name: String(camera) };
-      this.#options.log.warn({ camera: name, reason, detail }, 'a picture cannot be shown');
+      this.#options.log.warn({ camera: name, reason, detail, origin }, 'a picture cannot be shown');
       return;
     }
     const { header, fileBytes, longestSide, untouched, workMs } = report;
@@ -132,5 +134,6 @@ export class PictureHub {
     if (untouched) counters.untouched++;
     this.#planners[header.camera]?.onMade(fileBytes, longestSide);
     for (const target of this.#options.targets()) target.offerPicture(report);
+    this.#options.onMade(report);
   }
 }

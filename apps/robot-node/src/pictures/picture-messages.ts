@@ -43,6 +43,8 @@ export type PictureRequest = { type: 'plans'; plans: readonly CameraPlan[] };
 export interface ReadyPicture {
   type: 'picture';
   header: PictureHeader;
+  /** Robot's clock when it was taken, ms: the header's wraps. */
+  captureMs: number;
   /** Of the file. */
   fileBytes: number;
   chunks: Uint8Array<ArrayBuffer>[];
@@ -55,4 +57,4 @@ export interface ReadyPicture {
 
 export type PictureReport =
   | ReadyPicture
-  | { type: 'lost'; camera: number; reason: PictureLoss; count: number; detail: string };
+  | { type: 'lost'; camera: number; reason: PictureLoss; count: number; detail: string; origin?: string };

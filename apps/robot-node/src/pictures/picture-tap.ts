@@ -39,14 +39,15 @@ export class PictureTap implements PictureTaker {
     return !of.busy;
   }
 
-  offer({ camera, captureMs, facts, data }: SourcePicture): void {
+  offer({ data, ...picture }: SourcePicture): void {
+    const { camera } = picture;
     const of = this.#cameras[camera];
     if (of === undefined || of.busy) return;
     const room =
       of.room !== null && of.room.byteLength >= data.length ? of.room : new ArrayBuffer(data.length);
     const copy = new Uint8Array(room, 0, data.length);
     copy.set(data);
-    this.#port.postMessage({ camera, captureMs, facts, data: copy, missed: of.missed }, [room]);
+    this.#port.postMessage({ ...picture, data: copy, missed: of.missed }, [room]);
     Object.assign(of, { busy: true, missed: 0, room: null });
   }
 

@@ -27,7 +27,7 @@ main.on('message', (request: PictureRequest) => {
 });
 
 tap.on('message', (offered: OfferedPicture) => {
-  const { camera, missed, data } = offered;
+  const { camera, missed, data, origin } = offered;
   if (missed > 0) tellMain({ type: 'lost', camera, reason: 'busy', count: missed, detail: '' });
   const plan = plans[camera];
   if (plan !== undefined && plan.perSecond > 0) {
@@ -36,7 +36,8 @@ tap.on('message', (offered: OfferedPicture) => {
       tellMain(ready, [(ready.chunks[0] as Uint8Array<ArrayBuffer>).buffer]);
     } catch (error) {
       if (!(error instanceof PictureLossError)) throw error;
-      tellMain({ type: 'lost', camera, reason: error.reason, count: 1, detail: error.message });
+      const from = origin === undefined ? {} : { origin };
+      tellMain({ type: 'lost', camera, reason: error.reason, count: 1, detail: error.message, ...from });
     }
   }
   tellTap({ type: 'done', camera, room: data.buffer }, [data.buffer]);
@@ -59,7 +60,7 @@ function makeReady(offered: OfferedPicture, plan: CameraPlan): ReadyPicture {
     chunks.push(room.subarray(at, at + length));
   }
   return {
-    ...{ type: 'picture', header, fileBytes: bytes.length, chunks, untouched },
+    ...{ type: 'picture', header, captureMs, fileBytes: bytes.length, chunks, untouched },
     ...{ longestSide: plan.longestSide, workMs: threadCpuMs() - began },
   };
 }

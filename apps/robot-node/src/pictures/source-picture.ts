@@ -27,6 +27,8 @@ export interface SourcePicture {
   /** Robot's clock when it was taken, ms. */
   captureMs: number;
   facts: RawPicture | PictureFileFacts;
+  /** Where it was read, for messages of what is wrong with it; of a live camera left out. */
+  origin?: string;
   /** Good only during the call. */
   data: Uint8Array;
 }

@@ -115,6 +115,26 @@ describe('SignalingClient', () => {
     expect(robot.disconnects).toBe(1);
   });
 
+  it('in doubt for long it does not ask without end, for which the service would cut it off', async () => {
+    const { port, nextRobot } = await service();
+    const robot = client(port);
+    const called = nextRobot();
+    robot.start();
+    const { socket } = await called;
+    let pings = 0;
+    socket.on('ping', () => pings++);
+    socket.send(welcome);
+    const start = performance.now();
+    for (let i = 0; i < 300; i++) {
+      robot.check();
+      // There and back: the ping of this turn has come, if there was one.
+      const back = once(socket, 'pong');
+      socket.ping();
+      await back;
+    }
+    expect(pings).toBeLessThanOrEqual(2 + (performance.now() - start) / 500);
+  });
+
   it('counts what it cannot read and goes on', async () => {
     const { port, nextRobot } = await service();
     const robot = client(port);

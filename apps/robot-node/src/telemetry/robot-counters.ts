@@ -8,7 +8,7 @@ export class ReasonCounts {
     this.#counts.set(reason, (this.#counts.get(reason) ?? 0) + by);
   }
 
-  entries(): IterableIterator<[string, number]> {
+  entries(): Iterable<[string, number]> {
     return this.#counts.entries();
   }
 

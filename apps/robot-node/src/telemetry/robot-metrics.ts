@@ -18,7 +18,7 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
       },
     });
   };
-  const sumBy = (name: string, help: string, label: string, counts: ReasonCounts) => {
+  const sumBy = (name: string, help: string, label: string, counts: Pick<ReasonCounts, 'entries'>) => {
     new Counter({
       name: `farpoint_robot_${name}_total`,
       help,
@@ -52,7 +52,9 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   if (recording !== null) {
     sum('recording_messages', 'Messages recorded', () => recording.counts.messages);
     sum('recording_bytes', 'Bytes of the recording', () => recording.counts.bytes);
-    sum('recording_dropped', 'Not recorded: the writer did not keep up', () => recording.counts.dropped);
+    sumBy('recording_dropped', 'Not recorded: the writer did not keep up, by kind', 'kind', {
+      entries: () => Object.entries(recording.counts.dropped),
+    });
   }
   const { pictures } = robot;
   if (pictures !== null) {

@@ -1,10 +1,18 @@
-import type { Command, LatencyMeasured, Twist } from '@farpoint/protocol';
-import { SessionRecorder } from '@farpoint/recording';
+import {
+  type Command,
+  type LatencyMeasured,
+  PICTURE_CHUNK_DATA_BYTES,
+  PICTURE_CHUNK_HEADER_BYTES,
+  type Twist,
+} from '@farpoint/protocol';
+import { type DropKind, SessionRecorder } from '@farpoint/recording';
 import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { CaptureRecording, CaptureState } from '../capture/capture.ts';
 import type { CapturedFrame } from '../capture/capture-messages.ts';
+import type { CameraDescription } from '../capture/frame-source.ts';
 import { monotonicMs } from '../clock.ts';
+import type { ReadyPicture } from '../pictures/picture-messages.ts';
 import type { StreamStatistics } from './stream-statistics.ts';
 
 export interface RecordingOptions {
@@ -37,9 +45,23 @@ export class SessionRecording {
   }
 
   /** For `/metrics`: written, and not written because the disk or the processor did not keep up. */
-  get counts(): { messages: number; bytes: number; dropped: number } {
-    const { messages, bytes, dropped, cloudsDropped } = this.#recorder;
-    return { messages, bytes, dropped: dropped + cloudsDropped };
+  get counts(): { messages: number; bytes: number; dropped: Readonly<Record<DropKind, number>> } {
+    const { messages, bytes, dropped } = this.#recorder;
+    return { messages, bytes, dropped };
+  }
+
+  /** Whose pictures there are. */
+  cameras(cameras: readonly CameraDescription[]): void {
+    this.#recorder.cameras(cameras.map(({ name, ofCloud = false }) => ({ name, ofCloud })));
+  }
+
+  /** A picture as it was made for operators. */
+  picture({ header, captureMs, fileBytes, chunks }: ReadyPicture): void {
+    const file = new Uint8Array(fileBytes);
+    chunks.forEach((chunk, i) => {
+      file.set(chunk.subarray(PICTURE_CHUNK_HEADER_BYTES), i * PICTURE_CHUNK_DATA_BYTES);
+    });
+    this.#recorder.picture(header.camera, captureMs, header.format, file);
   }
 
   /** What the wheels are given. */

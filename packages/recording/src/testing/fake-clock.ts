@@ -1,4 +1,4 @@
-import type { PlayClock } from '../cloud-player.ts';
+import type { PlayClock } from '../play-timeline.ts';
 
 /** A clock that jumps to whatever is waited for. */
 export class FakeClock implements PlayClock {

@@ -5,6 +5,8 @@ import { MessageWriter } from '@foxglove/rosmsg2-serialization';
 import { McapWriter } from '@mcap/core';
 import { POINT_CLOUD2_SCHEMA } from '../ros-schemas.ts';
 
+export { POINT_CLOUD2_SCHEMA };
+
 const writer = new MessageWriter(parse(POINT_CLOUD2_SCHEMA, { ros2: true }));
 
 /** A cloud of `points` points at (k, i, 1). */
@@ -20,12 +22,19 @@ export function cloudMessage(k: number, points: number, frameId = 'camera_optica
   });
 }
 
-/** 10 clouds a second. @param message the bytes of cloud k */
-export async function mcapOf(
-  clouds: number,
-  message: (k: number) => Uint8Array,
-  { type = 'sensor_msgs/msg/PointCloud2', chunkSize = 4096 } = {},
-): Promise<Uint8Array> {
+/** What an MCAP file is made of. */
+export interface TestTopic {
+  topic: string;
+  /** As its schema has it. */
+  type: string;
+  messageEncoding?: string;
+  schemaEncoding?: string;
+  schema?: string;
+  messages: readonly { logNs: bigint; data: Uint8Array }[];
+}
+
+/** Messages of several topics, in the order of their times. */
+export async function mcapOfTopics(topics: readonly TestTopic[], chunkSize = 4096): Promise<Uint8Array> {
   const pieces: Uint8Array[] = [];
   let position = 0;
   const mcap = new McapWriter({
@@ -39,17 +48,38 @@ export async function mcapOf(
     chunkSize,
   });
   await mcap.start({ profile: 'ros2', library: 'test' });
-  const data = new TextEncoder().encode(POINT_CLOUD2_SCHEMA);
-  const schemaId = await mcap.registerSchema({ name: type, encoding: 'ros2msg', data });
-  const channelId = await mcap.registerChannel({
-    ...{ schemaId, topic: '/points', messageEncoding: 'cdr', metadata: new Map() },
-  });
-  for (let k = 0; k < clouds; k++) {
-    const logTime = 1_000_000_000n + BigInt(k) * 100_000_000n;
-    await mcap.addMessage({ channelId, sequence: k, logTime, publishTime: logTime, data: message(k) });
+  const all: { channelId: number; sequence: number; logTime: bigint; data: Uint8Array }[] = [];
+  for (const { topic, type, messages, ...encoding } of topics) {
+    const data = new TextEncoder().encode(encoding.schema ?? '');
+    const schemaId = await mcap.registerSchema({
+      ...{ name: type, encoding: encoding.schemaEncoding ?? 'ros2msg', data },
+    });
+    const messageEncoding = encoding.messageEncoding ?? 'cdr';
+    const channelId = await mcap.registerChannel({ schemaId, topic, messageEncoding, metadata: new Map() });
+    messages.forEach(({ logNs, data }, sequence) => {
+      all.push({ channelId, sequence, logTime: logNs, data });
+    });
   }
+  all.sort((a, b) => Number(a.logTime - b.logTime));
+  for (const message of all) await mcap.addMessage({ ...message, publishTime: message.logTime });
   await mcap.end();
   return Buffer.concat(pieces);
+}
+
+/** When the first message of such a file was recorded. */
+export const START_NS = 1_000_000_000n;
+
+/** 10 clouds a second. @param message the bytes of cloud k */
+export function mcapOf(
+  clouds: number,
+  message: (k: number) => Uint8Array,
+  { type = 'sensor_msgs/msg/PointCloud2', chunkSize = 4096 } = {},
+): Promise<Uint8Array> {
+  const messages = Array.from({ length: clouds }, (_, k) => ({
+    logNs: START_NS + BigInt(k) * 100_000_000n,
+    data: message(k),
+  }));
+  return mcapOfTopics([{ topic: '/points', type, schema: POINT_CLOUD2_SCHEMA, messages }], chunkSize);
 }
 
 export function writeFile(path: string, bytes: Uint8Array): string {

@@ -1,13 +1,18 @@
 """The peers of the tests: PyPI mcap, mcap-ros2-support, mcap-ros1-support and rosbags write recordings and read ours.
 
     peers.py write FOLDER      the same drive in every format
+    peers.py pictures FOLDER   clouds and pictures, as ROS 1, ROS 2 and Foxglove write them
     peers.py read FILE         what is in an MCAP file, as JSON
     peers.py count FILE        the same as rosbags sees it: messages of each topic, deserialised
 """
 
+import base64
+import hashlib
 import json
 import math
+import struct
 import sys
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -138,6 +143,121 @@ def write_by_rosbags(folder: Path, drive, ros2) -> None:
             bag.write(connections[topic], log, ros2.serialize_cdr(message, type_name))
 
 
+PICTURES = 10
+WIDTH, HEIGHT = 8, 4
+
+
+def pixels(k: int) -> bytes:
+    """R, G, B of each: red says which picture it is."""
+    return bytes((k * 20, 50, 100)) * (WIDTH * HEIGHT)
+
+
+def png(k: int) -> bytes:
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    rows = b"".join(b"\0" + pixels(k)[: WIDTH * 3] for _ in range(HEIGHT))
+    head = struct.pack(">IIBBBBB", WIDTH, HEIGHT, 8, 2, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+def picture_message(types, compressed: bool, k: int, at: int, ros1: bool):
+    time = types.types["builtin_interfaces/msg/Time"](sec=at // 10**9, nanosec=at % 10**9)
+    header = types.types["std_msgs/msg/Header"](stamp=time, frame_id="camera", **({"seq": 0} if ros1 else {}))
+    if compressed:
+        data = np.frombuffer(png(k), np.uint8)
+        return "sensor_msgs/msg/CompressedImage", types.types["sensor_msgs/msg/CompressedImage"](
+            header=header, format="rgb8; png compressed ", data=data)
+    return "sensor_msgs/msg/Image", types.types["sensor_msgs/msg/Image"](
+        header=header, height=HEIGHT, width=WIDTH, encoding="rgb8", is_bigendian=0, step=WIDTH * 3,
+        data=np.frombuffer(pixels(k), np.uint8))
+
+
+def write_pictures(folder: Path) -> None:
+    """A cloud each 100 ms, and 50 ms after it one picture of each topic."""
+    from mcap.writer import Writer as McapWriter
+    from rosbags.rosbag1 import Writer as Bag1
+    from rosbags.typesys import Stores, get_typestore
+
+    ros1 = get_typestore(Stores.ROS1_NOETIC)
+    ros2 = get_typestore(Stores.ROS2_HUMBLE)
+
+    def messages(types, is_ros1: bool):
+        for k in range(PICTURES):
+            at = START_S * 10**9 + k * 100_000_000
+            yield at, "/points", *message_of(types, "cloud", k, at, is_ros1)
+            for topic, compressed in (("/raw", False), ("/file/compressed", True)):
+                yield at + 50_000_000, topic, *picture_message(types, compressed, k, at + 50_000_000, is_ros1)
+
+    with Bag1(folder / "ros1.bag") as bag:
+        connections = {}
+        for log, topic, type_name, message in messages(ros1, True):
+            if topic not in connections:
+                connections[topic] = bag.add_connection(topic, type_name, typestore=ros1)
+            bag.write(connections[topic], log, ros1.serialize_ros1(message, type_name))
+
+    for ros, types in ((1, ros1), (2, ros2)):
+        with open(folder / f"ros{ros}.mcap", "wb") as file:
+            writer = McapWriter(file, chunk_size=64 * 1024)
+            writer.start(profile=f"ros{ros}", library="peers.py")
+            channels = {}
+            for log, topic, type_name, message in messages(types, ros == 1):
+                if topic not in channels:
+                    channels[topic] = ros_channel(writer, types, topic, type_name, ros)
+                data = (types.serialize_cdr if ros == 2 else types.serialize_ros1)(message, type_name)
+                writer.add_message(channels[topic], log_time=log, publish_time=log, data=bytes(data))
+            writer.finish()
+    write_foxglove_pictures(folder / "foxglove.mcap", ros2)
+
+
+def ros_channel(writer, types, topic: str, type_name: str, ros: int) -> int:
+    definition, _ = types.generate_msgdef(type_name, ros_version=ros)
+    schema = writer.register_schema(
+        name=type_name if ros == 2 else type_name.replace("/msg/", "/"),
+        encoding=f"ros{ros}msg", data=definition.encode())
+    return writer.register_channel(topic=topic, message_encoding="cdr" if ros == 2 else "ros1", schema_id=schema)
+
+
+def write_foxglove_pictures(path: Path, ros2) -> None:
+    from foxglove_schemas_protobuf.CompressedImage_pb2 import CompressedImage
+    from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
+    from google.protobuf.descriptor_pb2 import FileDescriptorSet
+    from mcap.writer import Writer as McapWriter
+
+    def descriptors(file, into) -> FileDescriptorSet:
+        for other in file.dependencies:
+            descriptors(other, into)
+        file.CopyToProto(into.file.add())
+        return into
+
+    with open(path, "wb") as file:
+        writer = McapWriter(file, chunk_size=64 * 1024)
+        writer.start(profile="", library="peers.py")
+        clouds = ros_channel(writer, ros2, "/points", "sensor_msgs/msg/PointCloud2", 2)
+        protobuf = {}
+        for topic, kind in (("/protobuf", CompressedImage), ("/protobuf_raw", RawImage)):
+            data = descriptors(kind.DESCRIPTOR.file, FileDescriptorSet()).SerializeToString()
+            schema = writer.register_schema(name=kind.DESCRIPTOR.full_name, encoding="protobuf", data=data)
+            protobuf[topic] = writer.register_channel(topic=topic, message_encoding="protobuf", schema_id=schema)
+        schema = writer.register_schema(name="foxglove.CompressedImage", encoding="jsonschema", data=b"{}")
+        words = writer.register_channel(topic="/json", message_encoding="json", schema_id=schema)
+        for k in range(PICTURES):
+            at = START_S * 10**9 + k * 100_000_000
+            type_name, cloud = message_of(ros2, "cloud", k, at, False)
+            writer.add_message(clouds, log_time=at, publish_time=at, data=bytes(ros2.serialize_cdr(cloud, type_name)))
+            at += 50_000_000
+            compressed = CompressedImage(frame_id="camera", format="png", data=png(k))
+            raw = RawImage(frame_id="camera", width=WIDTH, height=HEIGHT, encoding="rgb8", step=WIDTH * 3, data=pixels(k))
+            for topic, message in (("/protobuf", compressed), ("/protobuf_raw", raw)):
+                message.timestamp.FromNanoseconds(at)
+                writer.add_message(protobuf[topic], log_time=at, publish_time=at, data=message.SerializeToString())
+            data = base64.b64encode(png(k)).decode()
+            stamp = {"sec": at // 10**9, "nsec": at % 10**9}
+            text = json.dumps({"timestamp": stamp, "frame_id": "camera", "format": "png", "data": data})
+            writer.add_message(words, log_time=at, publish_time=at, data=text.encode())
+        writer.finish()
+
+
 def read(path: Path) -> None:
     from mcap.reader import make_reader
     from mcap_ros2.decoder import DecoderFactory
@@ -147,12 +267,19 @@ def read(path: Path) -> None:
         reader = make_reader(file, decoder_factories=[DecoderFactory()], validate_crcs=True)
         summary, profile = reader.get_summary(), reader.get_header().profile
         for schema, channel, message in reader.iter_messages():
-            entry = topics.setdefault(channel.topic, {"type": schema.name if schema else "", "count": 0, "sums": []})
+            entry = topics.setdefault(channel.topic, {
+                "type": schema.name if schema else "", "metadata": channel.metadata, "count": 0, "sums": [], "pictures": []})
             entry["count"] += 1
             if channel.message_encoding == "cdr":
                 decoded = DecoderFactory().decoder_for("cdr", schema)(message.data)
                 if schema.name == "sensor_msgs/msg/PointCloud2":
                     entry["sums"].append(sum_of(decoded))
+                if schema.name == "foxglove_msgs/msg/CompressedImage":
+                    data = bytes(decoded.data)
+                    entry["pictures"].append({
+                        "stampNs": str(decoded.timestamp.sec * 10**9 + decoded.timestamp.nanosec),
+                        "logNs": str(message.log_time), "frame": decoded.frame_id, "format": decoded.format,
+                        "bytes": len(data), "sha256": hashlib.sha256(data).hexdigest()})
             else:
                 decoded = json.loads(message.data)
                 entry.setdefault("last", decoded)
@@ -194,4 +321,4 @@ def sum_of(cloud) -> list:
 
 
 if __name__ == "__main__":
-    {"write": write, "read": read, "count": count}[sys.argv[1]](Path(sys.argv[2]))
+    {"write": write, "pictures": write_pictures, "read": read, "count": count}[sys.argv[1]](Path(sys.argv[2]))

@@ -5,7 +5,10 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import * as z from 'zod';
 
-const PACKAGES = ['mcap==1.6.0', 'mcap-ros2-support==0.6.0', 'rosbags==0.11.9', 'numpy==2.4.6', 'lz4==4.4.5'];
+const PACKAGES = [
+  ...['mcap==1.6.0', 'mcap-ros2-support==0.6.0', 'rosbags==0.11.9', 'numpy==2.4.6', 'lz4==4.4.5'],
+  ...['foxglove-schemas-protobuf==0.4.0', 'protobuf==7.36.2'],
+];
 const SCRIPT = join(import.meta.dirname, 'peers.py');
 
 const contentSchema = z.object({
@@ -13,10 +16,21 @@ const contentSchema = z.object({
     z.string(),
     z.object({
       type: z.string(),
+      metadata: z.record(z.string(), z.string()),
       count: z.int(),
       sequence: z.int(),
       /** Of each cloud: points, and the sums of x, y and z. */
       sums: z.array(z.tuple([z.number(), z.number(), z.number(), z.number()])),
+      pictures: z.array(
+        z.object({
+          stampNs: z.string(),
+          logNs: z.string(),
+          frame: z.string(),
+          format: z.string(),
+          bytes: z.int(),
+          sha256: z.string(),
+        }),
+      ),
       last: z.unknown().optional(),
     }),
   ),
@@ -66,6 +80,12 @@ export class Peers {
   write(folder: string): void {
     mkdirSync(folder, { recursive: true });
     execFileSync(this.#python, [SCRIPT, 'write', folder], { stdio: ['ignore', 'pipe', 'inherit'] });
+  }
+
+  /** Clouds and pictures: `ros1.bag`, `ros1.mcap`, `ros2.mcap` and `foxglove.mcap`. */
+  writePictures(folder: string): void {
+    mkdirSync(folder, { recursive: true });
+    execFileSync(this.#python, [SCRIPT, 'pictures', folder], { stdio: ['ignore', 'pipe', 'inherit'] });
   }
 
   /** Messages of each topic, as rosbags reads them. */

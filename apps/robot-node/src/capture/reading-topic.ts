@@ -1,0 +1,44 @@
+/** One topic whose messages are told to people, live or recorded. */
+import {
+  DiagnosticBoard,
+  RateLimit,
+  readingOf,
+  type TopicEntry,
+  type TopicReading,
+  type TopicRole,
+} from '@farpoint/ros';
+
+const READING_ROLES: readonly TopicRole[] = ['battery', 'fix', 'diagnostics', 'text'];
+
+export class ReadingTopic {
+  readonly #entry: TopicEntry;
+  readonly #board: DiagnosticBoard | null;
+  readonly #limit: RateLimit;
+
+  constructor(entry: TopicEntry) {
+    this.#entry = entry;
+    this.#board = entry.as === 'diagnostics' ? new DiagnosticBoard() : null;
+    this.#limit = new RateLimit(entry.most);
+  }
+
+  static is({ as }: TopicEntry): boolean {
+    return READING_ROLES.includes(as);
+  }
+
+  /** Diagnostics come from many nodes, each with its part: all are read, and together they are told as often as allowed. */
+  get readsAll(): boolean {
+    return this.#board !== null;
+  }
+
+  /** @returns whether the message that comes now is to be read */
+  admits(nowMs: number): boolean {
+    return this.readsAll || this.#limit.admits(nowMs);
+  }
+
+  /** Of an admitted message. @returns `null` where it is not the time to tell it @throws {Error} where the message is none */
+  take(message: unknown, nowMs: number): TopicReading | null {
+    if (this.#board === null) return readingOf(this.#entry, message);
+    const told = this.#board.take(message, nowMs);
+    return this.#limit.admits(nowMs) ? readingOf(this.#entry, told) : null;
+  }
+}

@@ -1,0 +1,108 @@
+/** The hub with its real thread: what is made of a picture, and what is said of one that cannot be shown. */
+import type { MessagePort } from 'node:worker_threads';
+import { PICTURE_CHUNK_HEADER_BYTES, readPictureFile } from '@farpoint/protocol';
+import { createLogger } from '@farpoint/service';
+import { afterEach, expect, it } from 'vitest';
+import { PictureHub, type PictureTarget } from './picture-hub.ts';
+import type { ReadyPicture } from './picture-messages.ts';
+import { PictureTap } from './picture-tap.ts';
+import type { SourcePicture } from './source-picture.ts';
+
+const hubs: PictureHub[] = [];
+afterEach(async () => {
+  for (const hub of hubs.splice(0)) await hub.close();
+});
+
+/** A hub that somebody watches, and the tap that a capture thread would have. */
+async function setUp() {
+  const made: ReadyPicture[] = [];
+  const warned: unknown[] = [];
+  const changed: (() => void)[] = [];
+  const told = () => {
+    for (const look of changed) look();
+  };
+  const until = (is: () => boolean) =>
+    new Promise<void>((resolve) => {
+      const look = () => {
+        if (is()) resolve();
+      };
+      changed.push(look);
+      look();
+    });
+  let tap: PictureTap | null = null;
+  const usePictures = (port: MessagePort) => {
+    const taker = new PictureTap(port, [null]);
+    port.on('message', (report) => {
+      taker.onReport(report);
+      told();
+    });
+    tap = taker;
+  };
+  const target: PictureTarget = {
+    ...{ id: 'a', streaming: true, watchedCameras: new Set([0]), pictureBitsPerSecond: 1e6 },
+    offerPicture: () => {},
+  };
+  const write = (line: string) => {
+    warned.push(JSON.parse(line));
+    told();
+  };
+  const log = createLogger({ name: 'test', level: 'warn', format: 'json', stream: { isTTY: false, write } });
+  const hub = new PictureHub({
+    policy: { perSecond: 30, longestSide: 64, quality: 80, share: 0.15 },
+    capture: { cameras: [{ name: 'Front', most: null }], usePictures },
+    targets: () => [target],
+    driver: () => null,
+    onMade: (picture) => {
+      made.push(picture);
+      told();
+    },
+    log,
+  });
+  hubs.push(hub);
+  hub.tick(0);
+  let nowMs = 0;
+  const offer = async (picture: Omit<SourcePicture, 'camera'>) => {
+    // A plan comes, and the picture before is done, some time.
+    await until(() => {
+      nowMs += 1000;
+      return tap?.wants(0, nowMs) === true;
+    });
+    tap?.offer({ camera: 0, ...picture });
+  };
+  return { hub, made, warned, until, offer };
+}
+
+const facts = { kind: 'raw', width: 4, height: 2, step: 12, encoding: 'rgb8', bigEndian: false } as const;
+
+it('makes a file of a picture, with the time at which it was taken', { timeout: 20_000 }, async () => {
+  const { made, until, offer } = await setUp();
+  // Beyond what 32 bits of microseconds say.
+  await offer({ captureMs: 5_000_000.5, facts, data: new Uint8Array(24).fill(99) });
+  await until(() => made.length === 1);
+  const [picture] = made as [ReadyPicture];
+  expect(picture).toMatchObject({ captureMs: 5_000_000.5, header: { camera: 0, width: 4, height: 2 } });
+  const file = Buffer.concat(picture.chunks.map((chunk) => chunk.subarray(PICTURE_CHUNK_HEADER_BYTES)));
+  expect(file).toHaveLength(picture.fileBytes);
+  expect(readPictureFile(file)).toEqual({ format: 'jpeg', width: 4, height: 2 });
+});
+
+it('says where a picture was read that cannot be shown, once for each thing that is wrong', {
+  timeout: 20_000,
+}, async () => {
+  const { hub, made, warned, until, offer } = await setUp();
+  for (const byte of [100, 200])
+    await offer({ captureMs: 0, facts, data: new Uint8Array(20), origin: `/front: byte ${byte}` });
+  await offer({ captureMs: 0, facts: { ...facts, encoding: 'nv21' }, data: new Uint8Array(24) });
+  await until(() => warned.length === 2);
+  expect(warned).toMatchObject([
+    {
+      camera: 'Front',
+      reason: 'bad-image',
+      origin: '/front: byte 100',
+      detail: expect.stringContaining('24'),
+    },
+    { camera: 'Front', reason: 'unsupported' },
+  ]);
+  expect(hub.counters.lost.get('bad-image')).toBe(2);
+  expect(made).toEqual([]);
+});

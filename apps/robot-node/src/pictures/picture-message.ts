@@ -1,0 +1,66 @@
+/** Messages that hold a picture, of ROS and of Foxglove, live or recorded, as sources give pictures. */
+import {
+  compressedImageSchema,
+  compressedPicture,
+  FOXGLOVE_COMPRESSED_IMAGE_TYPES,
+  FOXGLOVE_RAW_IMAGE_TYPES,
+  foxgloveCompressedImageSchema,
+  foxgloveRawImageSchema,
+  imageSchema,
+  stampNs,
+} from '@farpoint/ros';
+import type { SourcePicture } from './source-picture.ts';
+
+export type PictureMessage = Pick<SourcePicture, 'facts' | 'data'> & { stampNs: bigint };
+type ReadMessage = (message: unknown) => PictureMessage;
+
+const READERS: ReadonlyMap<string, ReadMessage> = new Map([
+  ['sensor_msgs/msg/Image', readImage],
+  ['sensor_msgs/msg/CompressedImage', readCompressed],
+  ...FOXGLOVE_RAW_IMAGE_TYPES.map((type) => [type, readFoxgloveRaw] as const),
+  ...FOXGLOVE_COMPRESSED_IMAGE_TYPES.map((type) => [type, readFoxgloveCompressed] as const),
+]);
+
+/** Types of messages that hold a picture, as ROS 2 writes them; those of JSON and Protobuf as they are. */
+export const PICTURE_TYPES: readonly string[] = [...READERS.keys()];
+
+/**
+ * @param type one of {@link PICTURE_TYPES}
+ * @param message decoded; the picture's data is a part of it
+ * @throws {Error} where it is not what its type says, {@link RosFault} for a file that is neither JPEG nor PNG
+ */
+export function readPicture(type: string, message: unknown): PictureMessage {
+  const read = READERS.get(type);
+  if (read === undefined) throw new Error(`${type || 'an unknown type'} holds no picture`);
+  return read(message);
+}
+
+function readImage(message: unknown): PictureMessage {
+  const { header, width, height, step, encoding, is_bigendian, data } = imageSchema.parse(message);
+  const facts = { kind: 'raw', width, height, step, encoding, bigEndian: Boolean(is_bigendian) } as const;
+  return { stampNs: stampNs(header.stamp), facts, data };
+}
+
+function readCompressed(message: unknown): PictureMessage {
+  const { header, format, data } = compressedImageSchema.parse(message);
+  return {
+    stampNs: stampNs(header.stamp),
+    facts: { kind: 'file', ...compressedPicture({ format, data }) },
+    data,
+  };
+}
+
+function readFoxgloveRaw(message: unknown): PictureMessage {
+  const { timestamp, width, height, step, encoding, data } = foxgloveRawImageSchema.parse(message);
+  const facts = { kind: 'raw', width, height, step, encoding, bigEndian: false } as const;
+  return { stampNs: stampNs(timestamp), facts, data };
+}
+
+function readFoxgloveCompressed(message: unknown): PictureMessage {
+  const { timestamp, format, data } = foxgloveCompressedImageSchema.parse(message);
+  return {
+    stampNs: stampNs(timestamp),
+    facts: { kind: 'file', ...compressedPicture({ format, data }) },
+    data,
+  };
+}

@@ -1,0 +1,281 @@
+/** What is played beside the clouds: at its time, whatever is done to the playing. */
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import fc from 'fast-check';
+import { afterAll, beforeAll, describe, expect, it, vi } from 'vitest';
+import { CloudPlayer, type PlayOptions } from './cloud-player.ts';
+import type { RecordingError } from './errors.ts';
+import { PlayQueue } from './play-queue.ts';
+import type { RecordedMessage } from './recording.ts';
+import { POINT_CLOUD2_SCHEMA } from './ros-schemas.ts';
+import { FakeClock } from './testing/fake-clock.ts';
+import { cloudMessage, mcapOfTopics, START_NS, writeFile } from './testing/files.ts';
+
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-along-'));
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+
+const MS = 1_000_000n;
+const CLOUDS = 20;
+const at = (ms: number) => START_NS + BigInt(ms) * MS;
+const text = (value: object) => new TextEncoder().encode(JSON.stringify(value));
+const json = { messageEncoding: 'json', schemaEncoding: 'jsonschema' };
+const path = join(folder, 'drive.mcap');
+
+/** 10 clouds a second for 2 s, words of two topics; those of /left say the time that they are of, ms. */
+beforeAll(async () => {
+  const clouds = Array.from({ length: CLOUDS }, (_, k) => ({ logNs: at(k * 100), data: cloudMessage(k, 3) }));
+  const left = Array.from({ length: 67 }, (_, n) => ({
+    logNs: at(n * 30 - 15),
+    data: text({ ms: n * 30 - 15 }),
+  }));
+  const right = [140, 150, 1990].map((ms) => ({ logNs: at(ms), data: text({ ms }) }));
+  writeFile(
+    path,
+    await mcapOfTopics([
+      {
+        topic: '/points',
+        type: 'sensor_msgs/msg/PointCloud2',
+        schema: POINT_CLOUD2_SCHEMA,
+        messages: clouds,
+      },
+      { topic: '/left', type: 'left', ...json, messages: left },
+      { topic: '/right', type: 'right', ...json, messages: right },
+    ]),
+  );
+});
+
+interface Event {
+  /** `cloud`, or the topic. */
+  what: string;
+  /** Of the clock, and of the recording. */
+  atMs: number;
+  ofMs: number;
+  ageMs: number;
+}
+
+const PLAY: PlayOptions = {
+  ...{
+    path,
+    topic: null,
+    rate: 1,
+    fromS: 0,
+    atEnd: 'stop',
+    axes: 'auto',
+    along: ['/left', '/right', '/none'],
+  },
+};
+
+/** Plays it, takes every cloud, and tells what was shown when. @param onEvent may do something to the player */
+async function play(
+  options: Partial<PlayOptions> = {},
+  onEvent: (player: CloudPlayer, events: Event[]) => void = () => {},
+) {
+  const clock = new FakeClock();
+  const player = await CloudPlayer.open({ ...PLAY, ...options }, clock);
+  const into = new Float32Array(player.stream.capacity * 4);
+  const events: Event[] = [];
+  const faults: RecordingError[] = [];
+  const add = (event: Event) => {
+    events.push(event);
+    onEvent(player, events);
+  };
+  player.onFault = (fault) => faults.push(fault);
+  player.onCloud = () => {
+    const cloud = player.take(into);
+    if (cloud !== null) add({ what: 'cloud', atMs: clock.ms, ofMs: cloudOf(into), ageMs: 0 });
+  };
+  player.onAlong = ({ topic, data }, ageMs) => {
+    const { ms } = topic.decode(data) as { ms: number };
+    add({ what: topic.name, atMs: clock.ms, ofMs: ms, ageMs });
+  };
+  await player.run();
+  await player.close();
+  return { events, faults, clock };
+}
+
+/** Its points are at (k, i, 1). */
+const cloudOf = (points: Float32Array) => Math.round(points[0] as number) * 100;
+const of = (events: readonly Event[], what: string) => events.filter((event) => event.what === what);
+
+describe('what is played along', () => {
+  it('comes at its time, in order with the clouds, each once', async () => {
+    const { events, faults } = await play();
+    expect(faults).toEqual([]);
+    expect(of(events, 'cloud')).toHaveLength(CLOUDS);
+    expect(of(events, '/left').map(({ ofMs }) => ofMs)).toEqual(
+      Array.from({ length: 67 }, (_, n) => n * 30 - 15),
+    );
+    expect(of(events, '/right').map(({ ofMs }) => ofMs)).toEqual([140, 150, 1990]);
+    for (const { what, atMs, ofMs, ageMs } of events) {
+      // What is before the first cloud comes with that, and says how old it is.
+      expect(atMs - ageMs, what).toBeCloseTo(ofMs, 6);
+      expect(ageMs).toBe(ofMs < 0 ? 15 : 0);
+    }
+  });
+
+  it('keeps to the rate', async () => {
+    const { events } = await play({ rate: 4 });
+    expect(events).toHaveLength(CLOUDS + 70);
+    for (const { atMs, ofMs, ageMs } of events) expect(atMs - ageMs).toBeCloseTo(ofMs / 4, 6);
+  });
+
+  it('begins where the clouds begin: of what was before, the newest of each topic, no older than a second', async () => {
+    // Counted from the first message, 15 ms before the first cloud.
+    const lead = async (fromS: number) => {
+      const { events } = await play({ fromS });
+      const first = events.findIndex(({ what }) => what === 'cloud');
+      return events.slice(0, first + 1).map(({ what, ofMs, ageMs }) => [what, ofMs, ageMs]);
+    };
+    expect(await lead(0.616)).toEqual([
+      ['/left', 675, 25],
+      ['/right', 150, 550],
+      ['cloud', 700, 0],
+    ]);
+    expect(await lead(1.116)).toEqual([
+      ['/left', 1185, 15],
+      ['cloud', 1200, 0],
+    ]);
+  });
+
+  it('begins anew at each repetition', async () => {
+    const { events } = await play({ atEnd: 'repeat' }, (player, { length }) => {
+      if (length === 2 * (CLOUDS + 70)) void player.close();
+    });
+    const [once, again] = [events.slice(0, CLOUDS + 70), events.slice(CLOUDS + 70)];
+    expect(again.map(({ what, ofMs }) => [what, ofMs])).toEqual(once.map(({ what, ofMs }) => [what, ofMs]));
+  });
+
+  it('after a jump nothing comes that is of before it', async () => {
+    for (const [when, to] of [
+      [250, 1.5],
+      [1500, 0.3],
+      [1495, 1.49],
+      [0, 0],
+    ] as const) {
+      let jumped = -1;
+      const { events } = await play({}, (player, seen) => {
+        if (jumped < 0 && (seen.at(-1)?.ofMs ?? -1) >= when) {
+          jumped = seen.length;
+          player.seek(to);
+        }
+      });
+      const after = events.slice(jumped);
+      expect(after.length).toBeGreaterThan(10);
+      const firstCloud = after.find(({ what }) => what === 'cloud') as Event;
+      expect(firstCloud.ofMs).toBe(Math.ceil((to * 1000) / 100) * 100);
+      for (const { atMs, ofMs, ageMs } of after) {
+        // Everything is placed by that first cloud.
+        expect(atMs - ageMs - firstCloud.atMs).toBeCloseTo(ofMs - firstCloud.ofMs, 6);
+        expect(ofMs).toBeGreaterThan(firstCloud.ofMs - 1000);
+      }
+    }
+  });
+
+  it('stands still with the clouds where nobody takes those', async () => {
+    const clock = new FakeClock();
+    const player = await CloudPlayer.open(PLAY, clock);
+    const into = new Float32Array(player.stream.capacity * 4);
+    const seen: number[] = [];
+    player.onAlong = ({ topic, data }) => seen.push((topic.decode(data) as { ms: number }).ms);
+    const running = player.run();
+    // The second cloud is due: from there on it stands, however often others have their turn.
+    await vi.waitFor(() => expect(clock.ms).toBe(100), { interval: 1 });
+    for (let turn = 0; turn < 100; turn++) await new Promise((resolve) => setImmediate(resolve));
+    expect(clock.ms).toBe(100);
+    // The first cloud waits for somebody; up to the second it went on.
+    expect(Math.max(...seen)).toBe(75);
+    clock.ms += 60_000;
+    const paused = seen.length;
+    player.onCloud = () => player.take(into);
+    player.skip();
+    await running;
+    expect(seen.slice(paused)[0]).toBe(105);
+    expect(seen).toHaveLength(70);
+    await player.close();
+  });
+
+  it('what nobody wants is passed over, also where that changes on the way', async () => {
+    const { events } = await play({}, (player, seen) => {
+      const now = seen.at(-1)?.ofMs ?? 0;
+      player.wantsAlong = (topic) => topic === '/right' || now > 500;
+    });
+    expect(of(events, '/right')).toHaveLength(3);
+    const left = of(events, '/left').map(({ ofMs }) => ofMs);
+    // What was read ahead before, and what was read after it changed.
+    expect(left.filter((ms) => ms > 150 && ms < 500)).toEqual([]);
+    expect(left.filter((ms) => ms > 700)).toHaveLength(43);
+  });
+
+  it('what cannot be read is told with topic and byte, and the rest plays', async () => {
+    const clouds = Array.from({ length: 10 }, (_, k) => ({ logNs: at(k * 100), data: cloudMessage(k, 3) }));
+    const bad = Array.from({ length: 10 }, (_, k) => ({
+      logNs: at(k * 100 + 50),
+      data: k % 2 === 0 ? text({ ms: k * 100 + 50 }) : new TextEncoder().encode('{"ms"'),
+    }));
+    const broken = writeFile(
+      join(folder, 'broken.mcap'),
+      await mcapOfTopics([
+        {
+          topic: '/points',
+          type: 'sensor_msgs/msg/PointCloud2',
+          schema: POINT_CLOUD2_SCHEMA,
+          messages: clouds,
+        },
+        { topic: '/left', type: 'left', ...json, messages: bad },
+      ]),
+    );
+    const { events, faults } = await play({ path: broken });
+    expect(of(events, 'cloud')).toHaveLength(10);
+    expect(of(events, '/left')).toHaveLength(5);
+    expect(faults).toHaveLength(5);
+    for (const fault of faults) {
+      expect(fault).toMatchObject({ name: 'RecordingError', code: 'bad-message', topic: '/left' });
+      expect(fault.offset).toBeGreaterThan(0);
+      expect(fault.message).toContain(broken);
+    }
+  });
+});
+
+describe('PlayQueue', () => {
+  const message = (ms: number, bytes: number): RecordedMessage => ({
+    topic: { name: '/left', type: '', messages: null, decode: () => null },
+    ...{ logNs: at(ms), data: new Uint8Array(bytes).fill(ms), offset: 0 },
+  });
+
+  it('gives what was put in, in the order of time, drops the oldest beyond its room, and never the cloud', () => {
+    const step = fc.record({ ms: fc.nat(200), bytes: fc.nat(40) });
+    fc.assert(
+      fc.property(fc.array(step, { maxLength: 30 }), fc.nat(29), (steps, cloudAt) => {
+        const queue = new PlayQueue(100);
+        let along = 0;
+        steps.forEach(({ ms, bytes }, i) => {
+          if (i === cloudAt) queue.pushCloud(message(ms, 500));
+          else {
+            along++;
+            const before = queue.dropped;
+            expect(queue.pushAlong(message(ms, bytes)) === null).toBe(queue.dropped === before);
+          }
+        });
+        const given: { logNs: bigint; bytes: number; isCloud: boolean }[] = [];
+        for (let next = queue.take(null); next !== null; next = queue.take(null))
+          given.push({ logNs: next.message.logNs, bytes: next.message.data.length, isCloud: next.isCloud });
+        expect(given.filter(({ isCloud }) => isCloud)).toHaveLength(cloudAt < steps.length ? 1 : 0);
+        expect(given.filter(({ isCloud }) => !isCloud).length + queue.dropped).toBe(along);
+        const bytes = given.reduce((sum, each) => sum + (each.isCloud ? 0 : each.bytes), 0);
+        expect(bytes).toBeLessThanOrEqual(100);
+        for (let i = 1; i < given.length; i++)
+          expect(given[i]?.logNs).toBeGreaterThanOrEqual(given[i - 1]?.logNs ?? 0n);
+      }),
+    );
+  });
+
+  it('keeps a copy, as the file’s memory is used again', () => {
+    const queue = new PlayQueue();
+    const data = Uint8Array.of(1, 2, 3);
+    queue.pushAlong({ ...message(0, 0), data });
+    data.fill(9);
+    expect(queue.take(null)?.message.data).toEqual(Uint8Array.of(1, 2, 3));
+    expect(queue.take(null)).toBeNull();
+  });
+});

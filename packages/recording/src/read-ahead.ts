@@ -1,0 +1,53 @@
+import { RecordingError } from './errors.ts';
+import { PlayQueue } from './play-queue.ts';
+import type { RecordedMessage, Recording } from './recording.ts';
+
+/** How far after what is to be shown poses are read, ns: they come later than what they are of. */
+const LOOK_AHEAD_NS = 100_000_000n;
+/** How far before the beginning poses are read, and messages along with the clouds, ns. */
+export const PREROLL_NS = 1_000_000_000n;
+
+export interface ReadAheadOptions {
+  /** Of the clouds. */
+  cloud: string;
+  /** Topics that say where things are. */
+  states: ReadonlySet<string>;
+  /** Topics that are shown beside the clouds. */
+  along: ReadonlySet<string>;
+  fromNs: bigint;
+  /** Whether somebody wants that topic now; else its messages are passed over. */
+  wants: (topic: string) => boolean;
+  /** Called as they are read, that is ahead of what they place. */
+  onState: (message: RecordedMessage) => void;
+  onFault: (error: RecordingError, where: { topic?: { name: string }; offset?: number }) => void;
+}
+
+/** What is to be shown, in the order of its time; of that before `fromNs` no clouds. */
+export async function* readAhead(
+  recording: Recording,
+  { cloud, states, along, fromNs, wants, onState, onFault }: ReadAheadOptions,
+): AsyncGenerator<{ message: RecordedMessage; isCloud: boolean }, void, void> {
+  const names = [...new Set([cloud, ...states, ...along])];
+  const queue = new PlayQueue();
+  const onDamage = (fault: RecordingError) => onFault(fault, {});
+  for await (const message of recording.messages(names, fromNs - PREROLL_NS, onDamage)) {
+    const { topic, logNs } = message;
+    const isCloud = topic.name === cloud;
+    const { cloudNs } = queue;
+    // Two clouds at once are not held: then the poses so far must do.
+    const untilNs = isCloud && cloudNs !== null ? cloudNs : logNs - LOOK_AHEAD_NS;
+    for (let next = queue.take(untilNs); next !== null; next = queue.take(untilNs)) yield next;
+    if (isCloud) {
+      if (logNs >= fromNs) queue.pushCloud(message);
+      continue;
+    }
+    if (states.has(topic.name)) onState(message);
+    if (!along.has(topic.name) || !wants(topic.name)) continue;
+    const dropped = queue.pushAlong(message);
+    if (dropped !== null) {
+      const what = 'what is shown beside the clouds is more than waits in memory: the oldest is left out';
+      onFault(new RecordingError('too-large', what), dropped);
+    }
+  }
+  for (let next = queue.take(null); next !== null; next = queue.take(null)) yield next;
+}

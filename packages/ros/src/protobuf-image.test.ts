@@ -1,0 +1,90 @@
+import fc from 'fast-check';
+import { describe, expect, it } from 'vitest';
+import { RosFault } from './fault.ts';
+import { foxgloveCompressedImageSchema, foxgloveRawImageSchema, stampNs } from './messages.ts';
+import { imageFromProtobuf } from './protobuf-image.ts';
+
+/** Both as PyPI's protobuf 7.36 and foxglove-schemas-protobuf 0.4 write them. */
+const COMPRESSED = '0a0c0880e2cfaa061080cab5ee0112030102031a046a706567220566726f6e74';
+const RAW =
+  '0a1108ffffffffffffffffff0110ff93ebdc0315020000001d010000002204726762382d2c01000032060001020304053a0566726f6e74';
+
+const readCompressed = (bytes: Uint8Array) =>
+  foxgloveCompressedImageSchema.parse(imageFromProtobuf('foxglove.CompressedImage')?.(bytes));
+const readRaw = (bytes: Uint8Array) =>
+  foxgloveRawImageSchema.parse(imageFromProtobuf('foxglove.RawImage')?.(bytes));
+const hex = (text: string) => Uint8Array.from(Buffer.from(text, 'hex'));
+
+function faultOf(act: () => unknown): RosFault | null {
+  try {
+    act();
+    return null;
+  } catch (error) {
+    if (error instanceof RosFault) return error;
+    throw error;
+  }
+}
+
+describe('imageFromProtobuf', () => {
+  it('reads what the schemas’ own library writes', () => {
+    const image = readCompressed(hex(COMPRESSED));
+    expect(image).toMatchObject({ frame_id: 'front', format: 'jpeg', data: Uint8Array.of(1, 2, 3) });
+    expect(stampNs(image.timestamp)).toBe(1_700_000_000_500_000_000n);
+    const raw = readRaw(hex(RAW));
+    expect(raw).toMatchObject({ width: 2, height: 1, step: 300, encoding: 'rgb8', frame_id: 'front' });
+    expect(raw.data).toEqual(Uint8Array.of(0, 1, 2, 3, 4, 5));
+    expect(stampNs(raw.timestamp)).toBe(-1n);
+  });
+
+  it('takes defaults for what is not there, passes over what it does not know, and of two takes the last', () => {
+    expect(readCompressed(new Uint8Array(0))).toMatchObject({ format: '', data: new Uint8Array(0) });
+    // Field 100 as text, 101 as a number, 102 and 103 as eight and four bytes; then another format.
+    const more = `${COMPRESSED}a206026964a8060db1060102030405060708bd060a0b0c0d1a03706e67`;
+    expect(readCompressed(hex(more))).toMatchObject({ format: 'png', data: Uint8Array.of(1, 2, 3) });
+    // The same number as another kind of value is none of its fields.
+    expect(readCompressed(hex('1005'))).toMatchObject({ data: new Uint8Array(0) });
+  });
+
+  it('knows no other names', () => {
+    expect(imageFromProtobuf('foxglove.PointCloud')).toBeNull();
+    expect(imageFromProtobuf('toString')).toBeNull();
+  });
+
+  it('says at which byte a message ends that is cut short', () => {
+    const whole = hex(COMPRESSED);
+    // Between two fields it is whole, with less in it.
+    const between = [0, 14, 19, 25, 32];
+    for (let length = 0; length <= whole.length; length++) {
+      const fault = faultOf(() => readCompressed(whole.subarray(0, length)));
+      expect(fault?.code ?? 'whole', `${length} bytes`).toBe(
+        between.includes(length) ? 'whole' : 'bad-message',
+      );
+      if (fault !== null) expect(fault.offset).toBeLessThanOrEqual(length);
+    }
+  });
+
+  it('any bytes give an image or a typed fault', () => {
+    const outcomes = new Map<string, number>();
+    const good = fc.constantFrom(hex(COMPRESSED), hex(RAW));
+    fc.assert(
+      fc.property(
+        good,
+        fc.array(fc.tuple(fc.nat(60), fc.nat(255)), { minLength: 1, maxLength: 4 }),
+        fc.uint8Array({ maxLength: 12 }),
+        (whole, changes, tail) => {
+          const bytes = Uint8Array.from([...whole, ...tail]);
+          for (const [at, value] of changes) bytes[at % bytes.length] = value;
+          for (const name of ['foxglove.CompressedImage', 'foxglove.RawImage']) {
+            const fault = faultOf(() => imageFromProtobuf(name)?.(bytes));
+            const outcome = fault?.code ?? 'read';
+            outcomes.set(outcome, (outcomes.get(outcome) ?? 0) + 1);
+          }
+        },
+      ),
+      { seed: 1, numRuns: 2000 },
+    );
+    expect(outcomes.get('bad-message')).toBeGreaterThan(200);
+    expect(outcomes.get('read')).toBeGreaterThan(100);
+    expect([...outcomes.keys()].sort()).toEqual(['bad-message', 'read']);
+  });
+});
