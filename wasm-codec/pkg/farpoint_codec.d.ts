@@ -164,7 +164,7 @@ export class OrganisedEncoder {
      */
     check(fx: number, fy: number, cx: number, cy: number): number;
     /**
-     * 4 bytes a pixel, made at the first call.
+     * 4 bytes a pixel.
      */
     colour_ptr(): number;
     /**
@@ -173,7 +173,7 @@ export class OrganisedEncoder {
      */
     static create(width: number, height: number, stride: number, data_offset: number): OrganisedEncoder | undefined;
     /**
-     * A float a pixel, made at the first call.
+     * A float a pixel.
      */
     depth_ptr(): number;
     /**

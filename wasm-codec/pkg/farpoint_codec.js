@@ -381,7 +381,7 @@ export class OrganisedEncoder {
         return ret >>> 0;
     }
     /**
-     * 4 bytes a pixel, made at the first call.
+     * 4 bytes a pixel.
      * @returns {number}
      */
     colour_ptr() {
@@ -402,7 +402,7 @@ export class OrganisedEncoder {
         return ret === 0 ? undefined : OrganisedEncoder.__wrap(ret);
     }
     /**
-     * A float a pixel, made at the first call.
+     * A float a pixel.
      * @returns {number}
      */
     depth_ptr() {

@@ -23,7 +23,8 @@ function measure(made: CodecRun | string, of = cloud): CodecRow {
   return measureCodec(of, run, 1);
 }
 
-describe('the codecs on a frame of the simulated camera', () => {
+// Each codes and decodes the frame dozens of times, which a busy computer does slowly.
+describe('the codecs on a frame of the simulated camera', { timeout: 30_000 }, () => {
   it('points64: 64 bits, half a millimetre', () => {
     const row = measure(points64(codec, cloud));
     expect([row.bitsPerPoint, row.sentPoints, row.maxPacketBytes]).toEqual([64, cloud.valid.length, 1200]);

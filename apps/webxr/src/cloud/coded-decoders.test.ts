@@ -133,8 +133,10 @@ describe('OrganisedPacketDecoder', () => {
     expect(drawn / sum(whole, (batch, i) => batch.pointsOf(i))).toBeCloseTo(1 / 8, 2);
     const [a, b] = [whole.all[0] as Batch, thin.all[0] as Batch];
     expect(b.cover(0) / a.cover(0)).toBeCloseTo(Math.sqrt(8), 5);
-    expect(b.points.subarray(0, 4)).toEqual(a.points.subarray(0, 4));
-    expect(b.points.subarray(4, 8)).toEqual(a.points.subarray(32, 36));
+    const point = (batch: Batch, i: number) => batch.points.subarray(i * 4, i * 4 + 4).join();
+    for (let i = 0; i < Math.floor(a.pointsOf(0) / 8); i++) {
+      expect(Array.from({ length: 8 }, (_, k) => point(a, i * 8 + k))).toContain(point(b, i));
+    }
   });
 
   it('refuses a wrong count, foreign bytes, and says when there is no buffer', () => {

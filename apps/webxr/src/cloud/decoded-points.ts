@@ -4,7 +4,7 @@ import type { BatchWriter } from './packet-decoder.ts';
 import type { DropReason } from './packet-intake.ts';
 
 /**
- * Hands a decoded packet's points on, every `writer.every`-th of them. A packet that holds more than a batch goes on in the
+ * Hands a decoded packet's points on, one of every `writer.every`. A packet that holds more than a batch goes on in the
  * next ones: each part has its own place in the frame, as if it were a packet of its own.
  */
 export class DecodedPoints {
@@ -36,7 +36,7 @@ export class DecodedPoints {
       if (batch === null) return 'no-buffer';
       const at = batch.pointCount * 4;
       if (every === 1) batch.points.set(points.subarray(first * 4, (first + came) * 4), at);
-      else copyThinned(points, first, drawn, every, batch.points, at);
+      else copyThinned(points, first, came, every, batch.points, at);
       part.sequenceOffset = header.sequenceOffset + first * 8;
       part.sequenceLength = came * 8;
       batch.add(part, placement, drawn, receivedMs, look);
@@ -46,21 +46,31 @@ export class DecodedPoints {
   }
 }
 
-/** Copies `count` points, every so many-th from point `first` on, to index `at`. */
+/** Copies, from point `first` on, one of every so many of `came` points to index `at`. */
 export function copyThinned(
   from: Int16Array,
   first: number,
-  count: number,
+  came: number,
   every: number,
   into: Int16Array,
   at: number,
 ): void {
-  for (let i = 0; i < count; i++) {
-    const source = (first + i * every) * 4;
-    const target = at + i * 4;
+  let target = at;
+  for (let begin = 0; begin < came; begin += every) {
+    const source = (first + begin + chosenOf(Math.min(every, came - begin), begin)) * 4;
     into[target] = from[source] as number;
     into[target + 1] = from[source + 1] as number;
     into[target + 2] = from[source + 2] as number;
     into[target + 3] = from[source + 3] as number;
+    target += 4;
   }
+}
+
+/**
+ * Which of `count` points is drawn, as if by chance: coded points come in rows of 16, of which every 16th would stand in
+ * lines with nothing between.
+ */
+function chosenOf(count: number, begin: number): number {
+  const mixed = Math.imul(begin ^ (begin >>> 7), 0x9e37_79b1);
+  return (Math.imul(mixed ^ (mixed >>> 15), 0x85eb_ca6b) >>> 8) % count;
 }

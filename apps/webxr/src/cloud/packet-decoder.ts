@@ -7,7 +7,7 @@ import type { DropReason } from './packet-intake.ts';
 export interface BatchWriter {
   /** The batch being filled; with `wanted` points it has room for them, or is empty. `null`: all buffers are out. */
   batchFor(wanted: number): Batch | null;
-  /** Of a coded frame only every so many-th point is handed on. */
+  /** Of a coded frame only one of every so many points is handed on. */
   readonly every: number;
   /** The same of `points64`, which is a sample already. Changes between batches only. */
   readonly everySample: number;

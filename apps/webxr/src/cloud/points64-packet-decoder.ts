@@ -52,10 +52,10 @@ export class Points64PacketDecoder implements PacketDecoder {
     let first = 0;
     let at = 0;
     for (let packet = 0; packet < batch.packets; packet++) {
-      const drawn = batch.pointsOf(packet);
-      copyThinned(points, first, drawn, this.#every, batch.points, at);
-      first += batch.sequenceLength(packet) / 8;
-      at += drawn * 4;
+      const came = batch.sequenceLength(packet) / 8;
+      copyThinned(points, first, came, this.#every, batch.points, at);
+      first += came;
+      at += batch.pointsOf(packet) * 4;
     }
   }
 

@@ -11,7 +11,7 @@ export type ToCloudWorker =
   | { type: 'stream'; readable: ReadableStream<RTCEncodedAudioFrame>; generation: number }
   /** What packets of a coded format are decoded with from now on. */
   | { type: 'cloudStream'; generation: number; format: CloudStream['format']; header: Uint8Array }
-  /** Only every so many-th point is handed on, of a coded frame and of `points64`: the machine draws too slowly for more. */
+  /** Only one of every so many points is handed on, of a coded frame and of `points64`: the machine draws too slowly for more. */
   | { type: 'drawEvery'; every: number; everySample: number };
 
 /** Options of the `RTCRtpScriptTransform`. */

@@ -5,7 +5,7 @@
 export interface DrawingStep {
   /** Share of the screen's own resolution. */
   scale: number;
-  /** Of coded clouds every so many-th point. */
+  /** Of coded clouds one of every so many points. */
   every: number;
 }
 

@@ -66,16 +66,22 @@ impl OrganisedEncoder {
         self.frame.as_ptr().cast()
     }
 
-    /// A float a pixel, made at the first call.
+    /// A float a pixel.
     pub fn depth_ptr(&mut self) -> *const f32 {
-        self.depth.resize(self.width * self.height, 0.0);
+        self.make_images();
         self.depth.as_ptr()
     }
 
-    /// 4 bytes a pixel, made at the first call.
+    /// 4 bytes a pixel.
     pub fn colour_ptr(&mut self) -> *const u32 {
-        self.colour.resize(self.width * self.height, 0);
+        self.make_images();
         self.colour.as_ptr()
+    }
+
+    /// Both at the first call for either: memory that grows ends every view of it, so also of the other image.
+    fn make_images(&mut self) {
+        self.depth.resize(self.width * self.height, 0.0);
+        self.colour.resize(self.width * self.height, 0);
     }
 
     /// The slots of the last frame.

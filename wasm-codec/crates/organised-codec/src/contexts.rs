@@ -12,6 +12,10 @@ pub const MASK: usize = PATTERN + 9;
 /// Depth residual: 4 × the bin of the gradient + the bin of the residual before; 10 stands for the bin of the gradient in a
 /// tile's first row.
 pub const DEPTH: usize = MASK + 64;
+/// See [`DEPTH`].
+pub const FIRST_ROW_BIN: i16 = 10;
+/// From this bin of the gradient on low bits are not modelled: one, and one more with each bin.
+pub const SHIFTED_BIN: usize = 7;
 /// Contexts of the numbers of a plane.
 pub const PLANE_CONTEXTS: usize = 44;
 /// The first depth of a tile that no known tile touches, less that of the tile before it.

@@ -3,8 +3,8 @@
 /// CRC-16/CCITT-FALSE (polynomial 0x1021, first 0xFFFF) over parts that belong together.
 #[must_use]
 pub fn crc16(parts: &[&[u8]]) -> u16 {
-    const TABLE: [[u16; 256]; 4] = {
-        let mut table = [[0; 256]; 4];
+    const TABLE: [[u16; 256]; 8] = {
+        let mut table = [[0; 256]; 8];
         let mut i = 0;
         while i < 256 {
             let mut crc = (i as u16) << 8;
@@ -18,7 +18,7 @@ pub fn crc16(parts: &[&[u8]]) -> u16 {
         }
         // table[n]: the byte with n zero bytes after it.
         let mut n = 1;
-        while n < 4 {
+        while n < 8 {
             let mut i = 0;
             while i < 256 {
                 let crc: u16 = table[n - 1][i];
@@ -31,12 +31,16 @@ pub fn crc16(parts: &[&[u8]]) -> u16 {
     };
     let mut crc = 0xffff_u16;
     for part in parts {
-        let (fours, rest) = part.as_chunks::<4>();
-        for four in fours {
-            crc = TABLE[3][usize::from((crc >> 8) as u8 ^ four[0])]
-                ^ TABLE[2][usize::from(crc as u8 ^ four[1])]
-                ^ TABLE[1][usize::from(four[2])]
-                ^ TABLE[0][usize::from(four[3])];
+        let (eights, rest) = part.as_chunks::<8>();
+        for eight in eights {
+            crc = TABLE[7][usize::from((crc >> 8) as u8 ^ eight[0])]
+                ^ TABLE[6][usize::from(crc as u8 ^ eight[1])]
+                ^ TABLE[5][usize::from(eight[2])]
+                ^ TABLE[4][usize::from(eight[3])]
+                ^ TABLE[3][usize::from(eight[4])]
+                ^ TABLE[2][usize::from(eight[5])]
+                ^ TABLE[1][usize::from(eight[6])]
+                ^ TABLE[0][usize::from(eight[7])];
         }
         for byte in rest {
             crc = crc << 8 ^ TABLE[0][usize::from((crc >> 8) as u8 ^ byte)];

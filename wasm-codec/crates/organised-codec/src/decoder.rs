@@ -2,7 +2,7 @@
 
 use crate::emit::{Images, View, emit};
 use crate::packet::{PACKET_HEADER_BYTES, PacketError, PacketHeader, Span};
-use crate::paint::Colours;
+use crate::paint::{Colours, Palette};
 use crate::rans;
 use crate::stream::StreamHeader;
 use crate::syntax::{Neighbours, code_tile};
@@ -32,7 +32,7 @@ pub struct Decoder {
     rows: Vec<f32>,
     /// int16 x, y, z in millimetres and 6-6-4 colour: 8 bytes a point.
     points: Vec<u64>,
-    palette: Vec<u32>,
+    palette: Palette,
     count: usize,
     /// A bit for each tile that has come.
     come: Vec<u64>,
@@ -52,7 +52,7 @@ impl Decoder {
         let pixels = grid.width * grid.height;
         let mut columns: Vec<f32> = header.intrinsics.columns(grid.width).collect();
         columns.resize(grid.columns * TILE, 0.0);
-        let palette = header.palette.iter().map(|[r, g, b]| u32::from_le_bytes([*r, *g, *b, 255])).collect();
+        let palette = Palette::new(&header.palette);
         let tables = DecoderTables::new(&header.index_frequencies);
         let rows = header.intrinsics.rows(grid.height).collect();
         Some(Self {

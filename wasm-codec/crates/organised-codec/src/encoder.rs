@@ -155,17 +155,19 @@ impl Encoder {
             }
             let before = frame;
             let place = self.grid.place(next);
-            if place.row >= counted
-                && let Some(plan) = &mut plan
-            {
-                let in_packet = open
-                    .as_ref()
-                    .map_or(0.0, |packet: &Open| PACKET_OVERHEAD_BITS + packet.cost as f32 / 256.0);
-                let spent = self.bytes.len() as f32 * 8.0 + in_packet;
-                plan.begin_row(self.grid, place.row, spent, &mut self.patterns);
-                // A row that should be coded otherwise begins a packet, unless there is much room in the present one.
-                let turned =
-                    |packet: &mut Open| packet.cost > COST_LIMIT / 2 && packet.finer != plan.is_finer(next);
+            if let Some(plan) = &mut plan {
+                let begins = place.row >= counted;
+                if begins {
+                    let in_packet = open
+                        .as_ref()
+                        .map_or(0.0, |packet: &Open| PACKET_OVERHEAD_BITS + packet.cost as f32 / 256.0);
+                    let spent = self.bytes.len() as f32 * 8.0 + in_packet;
+                    plan.begin_row(self.grid, place.row, spent, &mut self.patterns);
+                }
+                // A row that should be coded otherwise begins a packet, unless there is much room in the present one; where the
+                // frame is split, so does any tile.
+                let ends = |packet: &mut Open| plan.is_split() || (begins && packet.cost > COST_LIMIT / 2);
+                let turned = |packet: &mut Open| packet.finer != plan.is_finer(next) && ends(packet);
                 if let Some(full) = open.take_if(turned)
                     && let Some(again) = self.close(full, &mut frame)
                 {

@@ -1,7 +1,7 @@
 //! What the codec needs of vectors beside plain arithmetic, in a few instructions on every machine.
 
 use bytemuck::must_cast;
-use wide::{f32x4, f32x8, i16x8, i32x4};
+use wide::{f32x4, i16x8, i32x4};
 
 /// Lanes of a wavefront.
 pub const LANES: usize = 8;
@@ -11,9 +11,16 @@ mod shuffle {
     use core::arch::wasm32::{i8x16_swizzle, i16x8_shuffle};
     use wide::{i8x16, i16x8};
 
+    use super::Ranks;
+
     #[inline(always)]
-    pub fn rotate(lanes: i16x8) -> i16x8 {
-        i16x8_shuffle::<7, 0, 1, 2, 3, 4, 5, 6>(lanes.into(), lanes.into()).into()
+    pub fn follow(before: i16x8, lanes: i16x8) -> i16x8 {
+        i16x8_shuffle::<7, 8, 9, 10, 11, 12, 13, 14>(before.into(), lanes.into()).into()
+    }
+
+    #[inline(always)]
+    pub fn precede(lanes: i16x8, after: i16x8) -> i16x8 {
+        i16x8_shuffle::<1, 2, 3, 4, 5, 6, 7, 8>(lanes.into(), after.into()).into()
     }
 
     /// For each mask of lanes the bytes of those, one after another.
@@ -41,11 +48,26 @@ mod shuffle {
         bytemuck::must_cast::<i8x16, [u16; 8]>(i8x16_swizzle(lanes.into(), bytes.into()).into())
     }
 
+    /// A look into the table: the upper bytes of what is looked up are 0, and so is what stands for that.
+    #[inline(always)]
+    pub fn rank(ranks: &Ranks, values: i16x8) -> i16x8 {
+        let table: i8x16 = bytemuck::must_cast(ranks.table);
+        i16x8::from(i8x16_swizzle(table.into(), values.min(i16x8::splat(15)).into()))
+    }
+
     #[inline(always)]
     pub fn interleave(a: i16x8, b: i16x8) -> [i16x8; 2] {
         [
             i16x8_shuffle::<0, 8, 1, 9, 2, 10, 3, 11>(a.into(), b.into()).into(),
             i16x8_shuffle::<4, 12, 5, 13, 6, 14, 7, 15>(a.into(), b.into()).into(),
+        ]
+    }
+
+    #[inline(always)]
+    pub fn deinterleave(a: i16x8, b: i16x8) -> [i16x8; 2] {
+        [
+            i16x8_shuffle::<0, 2, 4, 6, 8, 10, 12, 14>(a.into(), b.into()).into(),
+            i16x8_shuffle::<1, 3, 5, 7, 9, 11, 13, 15>(a.into(), b.into()).into(),
         ]
     }
 }
@@ -58,13 +80,19 @@ mod shuffle {
     };
     use wide::i16x8;
 
-    pub(crate) use super::gather_one_by_one as gather;
+    pub(crate) use super::{
+        deinterleave_by_halves as deinterleave, gather_one_by_one as gather, rank_by_limits as rank,
+    };
 
     #[inline(always)]
-    pub fn rotate(lanes: i16x8) -> i16x8 {
-        let lanes = lanes.into();
+    pub fn follow(before: i16x8, lanes: i16x8) -> i16x8 {
         // SAFETY: this module is compiled for SSE2 alone; so below.
-        unsafe { _mm_or_si128(_mm_slli_si128::<2>(lanes), _mm_srli_si128::<14>(lanes)) }.into()
+        unsafe { _mm_or_si128(_mm_slli_si128::<2>(lanes.into()), _mm_srli_si128::<14>(before.into())) }.into()
+    }
+
+    #[inline(always)]
+    pub fn precede(lanes: i16x8, after: i16x8) -> i16x8 {
+        unsafe { _mm_or_si128(_mm_srli_si128::<2>(lanes.into()), _mm_slli_si128::<14>(after.into())) }.into()
     }
 
     #[inline(always)]
@@ -81,12 +109,20 @@ mod shuffle {
 mod shuffle {
     use wide::i16x8;
 
-    pub(crate) use super::gather_one_by_one as gather;
+    pub(crate) use super::{
+        deinterleave_by_halves as deinterleave, gather_one_by_one as gather, rank_by_limits as rank,
+    };
 
     #[inline(always)]
-    pub fn rotate(lanes: i16x8) -> i16x8 {
-        let lanes = lanes.to_array();
-        i16x8::new(core::array::from_fn(|lane| lanes[(lane + 7) % 8]))
+    pub fn follow(before: i16x8, lanes: i16x8) -> i16x8 {
+        let (before, lanes) = (before.to_array(), lanes.to_array());
+        i16x8::new(core::array::from_fn(|lane| if lane == 0 { before[7] } else { lanes[lane - 1] }))
+    }
+
+    #[inline(always)]
+    pub fn precede(lanes: i16x8, after: i16x8) -> i16x8 {
+        let (lanes, after) = (lanes.to_array(), after.to_array());
+        i16x8::new(core::array::from_fn(|lane| if lane == 7 { after[0] } else { lanes[lane + 1] }))
     }
 
     #[inline(always)]
@@ -112,6 +148,13 @@ pub(crate) fn gather_one_by_one(lanes: i16x8, mask: u8) -> [u16; 8] {
     gathered
 }
 
+#[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
+#[inline(always)]
+pub(crate) fn deinterleave_by_halves(a: i16x8, b: i16x8) -> [i16x8; 2] {
+    let [a, b]: [i32x4; 2] = [must_cast(a), must_cast(b)];
+    [narrow((a << 16) >> 16, (b << 16) >> 16), narrow(a >> 16, b >> 16)]
+}
+
 /// The lanes of a mask, one after another; what follows them means nothing.
 #[inline(always)]
 pub fn gather(lanes: i16x8, mask: u8) -> [u16; 8] {
@@ -124,7 +167,19 @@ pub fn gather(lanes: i16x8, mask: u8) -> [u16; 8] {
 /// Lane k gets lane k − 1, the first one the last.
 #[inline(always)]
 pub fn rotate(lanes: i16x8) -> i16x8 {
-    shuffle::rotate(lanes)
+    follow(lanes, lanes)
+}
+
+/// Lane k gets lane k − 1, the first one the last of those before.
+#[inline(always)]
+pub fn follow(before: i16x8, lanes: i16x8) -> i16x8 {
+    shuffle::follow(before, lanes)
+}
+
+/// Lane k gets lane k + 1, the last one the first of those after.
+#[inline(always)]
+pub fn precede(lanes: i16x8, after: i16x8) -> i16x8 {
+    shuffle::precede(lanes, after)
 }
 
 /// Rows become columns.
@@ -144,19 +199,53 @@ pub fn interleave(a: i16x8, b: i16x8) -> [i16x8; 2] {
     shuffle::interleave(a, b)
 }
 
+/// How many of some limits a number is above. The limits are 0 to 14.
+pub struct Ranks {
+    #[cfg_attr(not(all(target_arch = "wasm32", target_feature = "simd128")), allow(dead_code))]
+    table: [u8; 16],
+    #[cfg_attr(all(target_arch = "wasm32", target_feature = "simd128"), allow(dead_code))]
+    limits: &'static [i16],
+}
+
+impl Ranks {
+    /// Of such limits.
+    #[must_use]
+    pub const fn new(limits: &'static [i16]) -> Self {
+        let mut table = [0; 16];
+        let mut i = 0;
+        while i < 16 * limits.len() {
+            let (value, limit) = (i / limits.len(), limits[i % limits.len()]);
+            assert!(limit >= 0 && limit < 15);
+            table[value] += (value as i16 > limit) as u8;
+            i += 1;
+        }
+        Self { table, limits }
+    }
+
+    /// The ranks of numbers that are not negative.
+    #[inline(always)]
+    #[must_use]
+    pub fn of(&self, values: i16x8) -> i16x8 {
+        shuffle::rank(self, values)
+    }
+}
+
+#[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
+#[inline(always)]
+pub(crate) fn rank_by_limits(ranks: &Ranks, values: i16x8) -> i16x8 {
+    ranks.limits.iter().fold(i16x8::ZERO, |rank, limit| rank - values.simd_gt(i16x8::splat(*limit)))
+}
+
+/// Every second lane of both, and the others: back from [`interleave`].
+#[inline(always)]
+pub fn deinterleave(a: i16x8, b: i16x8) -> [i16x8; 2] {
+    shuffle::deinterleave(a, b)
+}
+
 /// As 16 bits, limited to what those hold.
 #[inline(always)]
 pub fn narrow(low: i32x4, high: i32x4) -> i16x8 {
     i16x8::from_i32x8_saturate(must_cast([low, high]))
-}
-
-/// Rows become columns.
-#[inline(always)]
-pub fn transpose_floats(rows: [f32x8; LANES]) -> [f32x8; LANES] {
-    let halves: [[f32x4; 2]; LANES] = rows.map(must_cast);
-    let quarter = |row: usize, half: usize| f32x4::transpose(core::array::from_fn(|i| halves[row + i][half]));
-    let [a, b, c, d] = [quarter(0, 0), quarter(0, 1), quarter(4, 0), quarter(4, 1)];
-    core::array::from_fn(|i| if i < 4 { must_cast([a[i], c[i]]) } else { must_cast([b[i - 4], d[i - 4]]) })
 }
 
 /// 1.5 · 2²³: added to a float of at most 2²², it leaves the nearest whole number (of two, the even one) in the lowest bits.
@@ -199,8 +288,23 @@ mod tests {
     use super::*;
 
     #[test]
+    fn ranks_count_the_limits_below() {
+        const RANKS: Ranks = Ranks::new(&[0, 1, 4, 14]);
+        assert_eq!(
+            RANKS.of(i16x8::new([0, 1, 2, 4, 5, 14, 15, i16::MAX])).to_array(),
+            [0, 1, 2, 2, 3, 3, 4, 4]
+        );
+    }
+
+    #[test]
     fn lanes_turn_and_rows_become_columns() {
-        assert_eq!(rotate(i16x8::new([0, 1, 2, 3, 4, 5, 6, 7])).to_array(), [7, 0, 1, 2, 3, 4, 5, 6]);
+        let (low, high) = (i16x8::new([0, 1, 2, 3, 4, 5, 6, 7]), i16x8::new([8, 9, 10, 11, 12, 13, 14, 15]));
+        assert_eq!(rotate(low).to_array(), [7, 0, 1, 2, 3, 4, 5, 6]);
+        assert_eq!(follow(low, high).to_array(), [7, 8, 9, 10, 11, 12, 13, 14]);
+        assert_eq!(precede(low, high).to_array(), [1, 2, 3, 4, 5, 6, 7, 8]);
+        let [a, b] = interleave(low, high);
+        assert_eq!(a.to_array(), [0, 8, 1, 9, 2, 10, 3, 11]);
+        assert_eq!(deinterleave(a, b), [low, high]);
         let rows = core::array::from_fn(|y| i16x8::new(core::array::from_fn(|x| (10 * y + x) as i16)));
         for (x, column) in transpose(rows).iter().enumerate() {
             assert_eq!(column.to_array(), core::array::from_fn(|y| (10 * y + x) as i16));

@@ -16,6 +16,7 @@ pub mod load;
 pub mod packet;
 mod paint;
 mod palette;
+mod place_search;
 mod plan;
 mod prepare;
 pub mod rans;
@@ -27,6 +28,7 @@ pub mod tables;
 mod thinning;
 pub mod tile;
 pub mod transform;
+pub mod ycocg;
 
 pub use decoder::{Decoder, Put};
 pub use encoder::Encoder;

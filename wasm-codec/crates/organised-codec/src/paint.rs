@@ -6,7 +6,8 @@ use wide::i16x8;
 use crate::lanes::interleave;
 use crate::packet::PacketHeader;
 use crate::tile::{ColourMode, LAST_TRANSFORMED, TILE, Tile};
-use crate::transform::{inverse, plane_step, point_step, to_rgb};
+use crate::transform::{inverse, plane_step, point_step};
+use crate::ycocg::to_rgb;
 
 /// Pure green.
 const GREEN: [i16; 3] = [0, 255, 0];
@@ -19,6 +20,50 @@ pub(crate) struct Colours {
     pub rgba: [u32; TILE * TILE],
     pub wants_rgba: bool,
     planes: [[i16; TILE * TILE]; 3],
+}
+
+/// A colour as points have it and as images have it.
+#[derive(Clone, Copy)]
+pub(crate) struct Colour {
+    bits664: i16,
+    rgba: u32,
+}
+
+impl Colour {
+    pub fn new([r, g, b]: [u8; 3]) -> Self {
+        let bits664 = u16::from(r & 0xfc) << 8 | u16::from(g & 0xfc) << 2 | u16::from(b >> 4);
+        Self { bits664: bits664 as i16, rgba: u32::from_le_bytes([r, g, b, 255]) }
+    }
+}
+
+/// A stream's colours by index, from 1.
+pub(crate) struct Palette {
+    /// The first colour beyond.
+    end: i16,
+    bits664: [i16; PALETTE_SLOTS],
+    rgba: [u32; PALETTE_SLOTS],
+}
+
+/// Places for indices: a power of two, so that a place is within with no more than a mask.
+const PALETTE_SLOTS: usize = 512;
+
+impl Palette {
+    /// Of 256 colours at most.
+    pub fn new(colours: &[[u8; 3]]) -> Self {
+        let (mut bits664, mut rgba) = ([0; PALETTE_SLOTS], [0; PALETTE_SLOTS]);
+        for (index, colour) in colours.iter().enumerate() {
+            let colour = Colour::new(*colour);
+            (bits664[index + 1], rgba[index + 1]) = (colour.bits664, colour.rgba);
+        }
+        Self { end: colours.len() as i16 + 1, bits664, rgba }
+    }
+
+    /// True where all eight indices are within.
+    #[inline(always)]
+    fn has(&self, indices: i16x8) -> bool {
+        let within = indices.simd_gt(i16x8::ZERO) & i16x8::splat(self.end).simd_gt(indices);
+        within.to_bitmask() == 0xff
+    }
 }
 
 impl Colours {
@@ -39,14 +84,16 @@ impl Colours {
         }
     }
 
-    fn put(&mut self, at: usize, rgb: [i16; 3]) {
-        let [r, g, b] = rgb.map(|channel| channel as u16);
-        self.bits664[at] = ((r & 0xfc) << 8 | (g & 0xfc) << 2 | b >> 4) as i16;
-        self.rgba[at] = u32::from(r) | u32::from(g) << 8 | u32::from(b) << 16 | 0xff00_0000;
+    #[inline(always)]
+    fn put(&mut self, at: usize, Colour { bits664, rgba }: Colour) {
+        self.bits664[at] = bits664;
+        if self.wants_rgba {
+            self.rgba[at] = rgba;
+        }
     }
 
     /// Paints a tile; `None` where a colour is not in the palette.
-    pub fn paint(&mut self, tile: &Tile, header: &PacketHeader, palette: &[u32]) -> Option<()> {
+    pub fn paint(&mut self, tile: &Tile, header: &PacketHeader, palette: &Palette) -> Option<()> {
         let (width, height) = (tile.pattern.width(), tile.pattern.height());
         match header.mode {
             ColourMode::None => {
@@ -56,11 +103,7 @@ impl Colours {
             }
             ColourMode::Palette => {
                 for y in 0..height {
-                    for (x, index) in tile.index.row(y)[..width].iter().enumerate() {
-                        let colour = palette.get(*index as usize - 1)?;
-                        let channel = |shift: u32| (colour >> shift & 255) as i16;
-                        self.put(y * TILE + x, [channel(0), channel(8), channel(16)]);
-                    }
+                    self.paint_row(tile.index.row(y), y, width, palette)?;
                 }
             }
             _ if tile.pattern <= LAST_TRANSFORMED => self.paint_blocks(tile, header),
@@ -74,9 +117,34 @@ impl Colours {
                             let value = (level * step) >> 2;
                             i16x8::splat(value.clamp(i16::MIN.into(), i16::MAX.into()) as i16)
                         });
-                        self.put(y * TILE + x, to_rgb(y4, co, cg).map(|channel| channel.to_array()[0]));
+                        let rgb = to_rgb(y4, co, cg).map(|channel| channel.to_array()[0] as u8);
+                        self.put(y * TILE + x, Colour::new(rgb));
                     }
                 }
+            }
+        }
+        Some(())
+    }
+
+    /// Pixels beyond the width get any colour.
+    #[inline(always)]
+    fn paint_row(&mut self, indices: &[i16; TILE], y: usize, width: usize, palette: &Palette) -> Option<()> {
+        let within = |at: usize| palette.has(i16x8::from(*indices[at..][..8].first_chunk().expect("eight")));
+        let all = match width {
+            TILE => within(0) && within(8),
+            _ => indices[..width].iter().all(|index| (1..palette.end).contains(index)),
+        };
+        if !all {
+            return None;
+        }
+        let at = indices.map(|index| index as usize % PALETTE_SLOTS);
+        let row = y * TILE..(y + 1) * TILE;
+        for (own, index) in self.bits664[row.clone()].iter_mut().zip(at) {
+            *own = palette.bits664[index];
+        }
+        if self.wants_rgba {
+            for (own, index) in self.rgba[row].iter_mut().zip(at) {
+                *own = palette.rgba[index];
             }
         }
         Some(())

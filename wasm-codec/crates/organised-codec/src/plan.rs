@@ -27,8 +27,10 @@ const TRUST: f32 = 0.08;
 /// What a frame's bits are spent on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Means {
-    /// The nearer tiles finer: what finer and coarser cost as a share of what the plan's costs are counted in.
-    Mixed { finer: f32, coarser: f32 },
+    /// The nearer tiles finer: what finer and coarser cost as a share of what the plan's costs are counted in. With `split` so
+    /// large a share of all tiles, the last ones: the lower rows, which mostly are nearer. What the frame costs grows with
+    /// that, tile by tile, which it does not where finer and coarser tiles share packets.
+    Mixed { finer: f32, coarser: f32, split: Option<f32> },
     /// Far tiles thinned.
     Thinned { share: f32 },
 }
@@ -124,13 +126,21 @@ impl Plan {
         let row = row * grid.columns..(row + 1) * grid.columns;
         self.row_expected = 0.0;
         match means {
-            Means::Mixed { finer, coarser } => {
+            Means::Mixed { finer, coarser, split: None } => {
                 // Bins below the limit are finer.
                 let limit = self.nearer_than((bits - self.left * coarser) / (finer - coarser).max(1e-3));
                 for tile in row {
                     let own = self.take(means, tile) < limit;
                     self.finer[tile] = own;
                     self.finer_tiles += usize::from(own);
+                    patterns[tile] = Pattern(0);
+                }
+            }
+            Means::Mixed { split: Some(share), .. } => {
+                let first = ((1.0 - share) * grid.tiles() as f32).round() as usize;
+                for tile in row {
+                    self.finer[tile] = tile >= first;
+                    self.finer_tiles += usize::from(tile >= first);
                     patterns[tile] = Pattern(0);
                 }
             }
@@ -153,6 +163,11 @@ impl Plan {
     /// True where a packet that begins with this tile is to be coded finer.
     pub fn is_finer(&self, tile: usize) -> bool {
         self.finer.get(tile).copied().unwrap_or(false)
+    }
+
+    /// True where finer and coarser tiles share no packet.
+    pub fn is_split(&self) -> bool {
+        matches!(self.means, Some(Means::Mixed { split: Some(_), .. }))
     }
 
     /// Notes what a tile cost, bits.
@@ -179,7 +194,7 @@ impl Plan {
     /// By how much finer and coarser settings are dearer beside the others than was thought, by the tiles that changed theirs;
     /// what is known of tiles is put right.
     pub fn learn_shares(&mut self) -> [f32; 2] {
-        let Some(Means::Mixed { finer, coarser }) = self.means else { return [1.0; 2] };
+        let Some(Means::Mixed { finer, coarser, .. }) = self.means else { return [1.0; 2] };
         let ratios = self.changed.map(|(expected, real)| match expected / self.wanted {
             // Too little to tell; enough to believe in part; enough.
             ..TRUST => 1.0,
@@ -199,6 +214,12 @@ impl Plan {
             }
         }
         ratios
+    }
+
+    /// The share of the tiles that were coded finer; `None` where some were thinned instead.
+    pub fn finer_share(&self) -> Option<f32> {
+        let thinned = matches!(self.means, Some(Means::Thinned { .. }));
+        (!thinned).then(|| self.finer_tiles as f32 / self.costs.len().max(1) as f32)
     }
 
     /// Removes a tile from those to come; its bin.

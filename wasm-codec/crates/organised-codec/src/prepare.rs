@@ -1,21 +1,21 @@
 //! From a loaded tile to what the syntax codes: its pattern's pixels, and colours as coefficients.
 
-use bytemuck::must_cast;
-use wide::{f32x4, f32x8, i16x8, i32x4};
+use wide::i16x8;
 
 use crate::frame::Settings;
-use crate::lanes::narrow;
+use crate::lanes::deinterleave;
 use crate::load::Loaded;
 use crate::palette::Palette;
 use crate::plan::LEFT_OUT;
 use crate::tile::{ColourMode, Kind, LAST_TRANSFORMED, Pattern, TILE, Tile};
-use crate::transform::{Quantisers, forward, plane_step, point_step, to_ycocg, to_ycocg4};
+use crate::transform::{PIXEL_SCALE, Quantisers, forward, plane_step, point_step};
+use crate::ycocg::{to_ycocg, to_ycocg8};
 
 /// Makes of loaded tiles what the syntax codes. It holds what is needed on the way: memory that is not written twice.
 pub(crate) struct Preparer {
     /// Colours of the pattern's pixels; pixel x, y at `y * TILE + x`.
     rgba: [u32; TILE * TILE],
-    planes: [[f32; TILE * TILE]; 3],
+    planes: [[i16; TILE * TILE]; 3],
     /// Of the planes, for the settings seen last.
     quantisers: [Quantisers; 3],
 }
@@ -24,7 +24,7 @@ impl Preparer {
     pub fn new() -> Self {
         Self {
             rgba: [0; TILE * TILE],
-            planes: [[0.0; TILE * TILE]; 3],
+            planes: [[0; TILE * TILE]; 3],
             quantisers: core::array::from_fn(|_| Quantisers::new(1)),
         }
     }
@@ -70,12 +70,8 @@ impl Preparer {
         }
         if settings.mode == ColourMode::Palette {
             let rgba = if whole { &loaded.rgba } else { &self.rgba };
-            for y in 0..height {
-                for x in 0..width {
-                    if tile.rows[y] >> x & 1 == 1 {
-                        tile.index.row_mut(y)[x] = palette.index(rgba[y * TILE + x]) as i16;
-                    }
-                }
+            for (colours, y) in rgba.as_chunks::<TILE>().0.iter().zip(0..height) {
+                palette.places(colours, tile.rows[y], tile.index.row_mut(y));
             }
         } else if pattern <= LAST_TRANSFORMED {
             self.set(settings);
@@ -125,8 +121,7 @@ impl Preparer {
 fn fill(rgba: &mut [u32; TILE * TILE], rows: &[u16; TILE], width: usize, height: usize) {
     let first = rows[..height].iter().position(|row| *row != 0).unwrap_or(0);
     let mut above = first * TILE + (rows[first].trailing_zeros() as usize).min(TILE - 1);
-    for y in 0..height {
-        let row = rows[y];
+    for (y, &row) in rows.iter().enumerate().take(height) {
         if row == 0 {
             if y > 0 {
                 rgba.copy_within((y - 1) * TILE..y * TILE, y * TILE);
@@ -140,16 +135,18 @@ fn fill(rgba: &mut [u32; TILE * TILE], rows: &[u16; TILE], width: usize, height:
             above = y * TILE;
             continue;
         }
-        let mut colour = rgba[above];
+        let start = y * TILE;
+        let mut missing = !row & ((1_u32 << width) - 1) as u16;
         if row & 1 == 0 {
-            colour = rgba[y * TILE + row.trailing_zeros() as usize];
+            let first = row.trailing_zeros() as usize % TILE;
+            let colour = rgba[start + first];
+            rgba[start..start + first].fill(colour);
+            missing &= u16::MAX << first;
         }
-        for x in 0..width {
-            if row >> x & 1 == 1 {
-                colour = rgba[y * TILE + x];
-            } else {
-                rgba[y * TILE + x] = colour;
-            }
+        while missing != 0 {
+            let x = missing.trailing_zeros() as usize % TILE;
+            missing &= missing - 1;
+            rgba[start + x] = rgba[start + x - 1];
         }
         above = y * TILE;
     }
@@ -159,60 +156,63 @@ fn transform(
     rgba: &[u32; TILE * TILE],
     tile: &mut Tile,
     mode: ColourMode,
-    planes: &mut [[f32; TILE * TILE]; 3],
+    planes: &mut [[i16; TILE * TILE]; 3],
     quantisers: &[Quantisers; 3],
 ) {
     let (width, height) = (tile.pattern.width(), tile.pattern.height());
     let halved = mode == ColourMode::Subsampled && tile.pattern.0 < 2;
-    let four = |y: usize, x: usize| -> [i32x4; 3] {
-        let pixels: [u32; 4] = *rgba[y * TILE + x..][..4].first_chunk().expect("four pixels");
-        to_ycocg4(must_cast(pixels))
+    let eight = |y: usize, x: usize| -> [i16x8; 3] {
+        to_ycocg8(*rgba[y * TILE + x..][..8].first_chunk().expect("eight pixels"))
     };
-    let mut put = |plane: usize, y: usize, x: usize, values: f32x4| {
-        planes[plane][y * TILE + x..][..4].copy_from_slice(values.as_array());
+    let mut put = |plane: usize, y: usize, x: usize, values: i16x8| {
+        planes[plane][y * TILE + x..][..8].copy_from_slice(values.as_array());
     };
+    let scale = i16x8::splat(PIXEL_SCALE);
     if halved {
         // Sums over 2 × 2 pixels, or over 1 × 2 where the tile is 8 wide.
         for y in 0..height / 2 {
-            for x in (0..width).step_by(8) {
-                let [[upper, upper_right], [lower, lower_right]] =
-                    [2 * y, 2 * y + 1].map(|row| [four(row, x), four(row, x + 4)]);
-                for (row, [left, right]) in [(2 * y, [upper, upper_right]), (2 * y + 1, [lower, lower_right])]
-                {
-                    put(0, row, x, f32x4::from_i32x4(left[0]));
-                    put(0, row, x + 4, f32x4::from_i32x4(right[0]));
+            let mut chroma = [[i16x8::ZERO; 2]; 2];
+            for half in 0..width / 8 {
+                let [upper, lower] = [2 * y, 2 * y + 1].map(|row| eight(row, 8 * half));
+                put(0, 2 * y, 8 * half, upper[0] * scale);
+                put(0, 2 * y + 1, 8 * half, lower[0] * scale);
+                for (plane, sums) in chroma.iter_mut().enumerate() {
+                    sums[half] = upper[plane + 1] + lower[plane + 1];
                 }
-                for plane in 1..3 {
-                    let (left, right) =
-                        (upper[plane] + lower[plane], upper_right[plane] + lower_right[plane]);
-                    if width == TILE {
-                        let pairs = narrow(left, right).dot(i16x8::ONE);
-                        put(plane, y, x / 2, f32x4::from_i32x4(pairs) * f32x4::splat(0.25));
-                    } else {
-                        put(plane, y, x, f32x4::from_i32x4(left) * f32x4::splat(0.5));
-                        put(plane, y, x + 4, f32x4::from_i32x4(right) * f32x4::splat(0.5));
-                    }
-                }
+            }
+            for (plane, [left, right]) in chroma.into_iter().enumerate() {
+                let sums = if width == TILE {
+                    let [even, odd] = deinterleave(left, right);
+                    even + odd
+                } else {
+                    left + left
+                };
+                put(plane + 1, y, 0, sums);
             }
         }
     } else {
         for y in 0..height {
-            for x in (0..width).step_by(4) {
-                for (plane, values) in four(y, x).into_iter().enumerate() {
-                    put(plane, y, x, f32x4::from_i32x4(values));
+            for x in (0..width).step_by(8) {
+                for (plane, values) in eight(y, x).into_iter().enumerate() {
+                    put(plane, y, x, values * scale);
                 }
             }
         }
     }
     let mut index = 0;
+    let luma = mode.blocks(tile.pattern, 0);
     for (plane, pixels) in planes.iter().enumerate() {
         let (columns, rows) = mode.blocks(tile.pattern, plane);
         for by in 0..rows {
             for bx in 0..columns {
-                let block: [f32x8; 8] = core::array::from_fn(|y| {
-                    let row: &[f32; 8] =
+                if (columns, rows) == luma && !tile.block_is_seen(bx, by) {
+                    index += 1;
+                    continue;
+                }
+                let block: [i16x8; 8] = core::array::from_fn(|y| {
+                    let row: &[i16; 8] =
                         pixels[(by * 8 + y) * TILE + bx * 8..][..8].first_chunk().expect("eight pixels");
-                    f32x8::from(*row)
+                    i16x8::from(*row)
                 });
                 quantisers[plane].quantise(&forward(&block), &mut tile.blocks[index]);
                 index += 1;

@@ -8,6 +8,7 @@ use crate::encoder::{Encoder, PACKET_OVERHEAD_BITS};
 use crate::frame::{Frame, Mix, Settings};
 use crate::load::Source;
 use crate::packet::MAX_PACKET_BYTES;
+use crate::place_search::PlaceSearch;
 use crate::plan::{Means, Plan};
 use crate::thinning::{Validity, halvings, tile_depths};
 use crate::tile::{ColourMode, Pattern};
@@ -61,8 +62,9 @@ const LEVELS: [f32; 7] = [2.36, 1.75, 1.25, 1.0, 0.83, 0.6, 0.395];
 /// The rung that a stream's first estimate is for.
 const FIRST_RUNG: usize = 16;
 
-/// Passes over a frame at most.
-const PASSES: usize = 5;
+/// Passes over a frame at most, and those that go by what tiles cost; the rest go by what the frame did.
+const PASSES: usize = 12;
+const GUIDED_PASSES: usize = 3;
 /// What is aimed at, and what is taken without another pass: shares of the budget.
 const AIM: f32 = 0.985;
 const LEAST: f32 = 0.955;
@@ -139,13 +141,24 @@ impl Encoder {
         }
         // The last packet is rarely full: half a packet's header and states come on top.
         let wanted = ((budget.bytes as f32 * 8.0 - PACKET_OVERHEAD_BITS / 2.0) * AIM).max(1.0);
-        let (mut passes, mut before) = (0, usize::MAX);
+        let (mut passes, mut before, mut alike) = (0, usize::MAX, 0);
         let (mut frame, mut settings): (Frame, Settings);
+        let mut search = PlaceSearch::new((wanted / 8.0) as usize, (RUNGS - 1) as f32);
+        let mut place = None;
         loop {
-            let (finer, coarser, means) = self.find_rungs(source, budget, wanted, &mut costs);
+            let searches = passes >= GUIDED_PASSES || alike > 0;
+            let next = place.filter(|_| searches).and_then(|place| search.next(place));
+            let (finer, coarser, means) = match next {
+                Some(place) => costs.rungs_at(place),
+                None => self.find_rungs(source, budget, wanted, &mut costs),
+            };
             let mut mix = Mix { finer: settings_of(finer, budget), coarser: settings_of(coarser, budget) };
-            // The same tables for both: they differ little.
-            self.choose_tables(source, &mut mix.coarser);
+            // The same tables for both: they differ little. Those that the last pass taught may suit a far place badly.
+            if next.is_some() {
+                self.estimate(source, &mut mix.coarser);
+            } else {
+                self.choose_tables(source, &mut mix.coarser);
+            }
             mix.finer.geometry_set = mix.coarser.geometry_set;
             mix.finer.colour_set = mix.coarser.colour_set;
             costs.plan.begin(wanted, means);
@@ -157,14 +170,18 @@ impl Encoder {
             let spent = frame.bytes as f32 / budget.bytes.max(1) as f32;
             let over = frame.bytes.saturating_sub(budget.bytes);
             // The dearest rung for the whole frame: it has no more to tell.
-            let all = coarser == 0;
+            let all = coarser == 0 || next == Some(0.0);
             let fits = over <= SLACK_BYTES || (spent <= MOST && over <= MAX_PACKET_BYTES / 2);
             // Where the costs were far off, what was coded last got too much or too little.
             let even = passes > 1 || (0.75..1.35).contains(&costs.plan.dearer);
             let good = fits && even && (spent >= LEAST || all);
-            let stuck = frame.bytes == before;
+            alike = if frame.bytes == before && next.is_none() { alike + 1 } else { 0 };
             before = frame.bytes;
-            if good || stuck || passes == PASSES {
+            match next {
+                Some(place) => search.note(place, frame.bytes),
+                None => place = costs.plan.finer_share().map(|share| coarser as f32 - share),
+            }
+            if good || alike == 2 || passes == PASSES {
                 break;
             }
         }
@@ -208,13 +225,19 @@ impl Costs {
         let full = self.plan.full();
         // The first that is not too dear for the whole frame.
         match (0..RUNGS).find(|rung| full * self.shares[*rung] <= wanted) {
-            Some(0) => (0, 0, Means::Mixed { finer: self.shares[0], coarser: self.shares[0] }),
-            Some(rung) => {
-                let (finer, coarser) = (self.shares[rung - 1], self.shares[rung]);
-                (rung - 1, rung, Means::Mixed { finer, coarser })
-            }
+            Some(rung) => self.mixed(rung.saturating_sub(1), rung, None),
             None => (RUNGS - 1, RUNGS - 1, Means::Thinned { share: self.shares[RUNGS - 1] }),
         }
+    }
+
+    /// The rungs at a place on the ladder: whole numbers are rungs, what is between them a split into both.
+    fn rungs_at(&self, place: f32) -> (usize, usize, Means) {
+        let rung = (place as usize).min(RUNGS - 2);
+        self.mixed(rung, rung + 1, Some(1.0 + rung as f32 - place))
+    }
+
+    fn mixed(&self, finer: usize, coarser: usize, split: Option<f32>) -> (usize, usize, Means) {
+        (finer, coarser, Means::Mixed { finer: self.shares[finer], coarser: self.shares[coarser], split })
     }
 
     /// A rung costs so many times what the last frame's coarser one does. Rungs beyond it that have not been found are dearer or

@@ -2,7 +2,8 @@
 
 use wide::i16x8;
 
-use crate::lanes::LANES;
+use crate::lanes::{LANES, transpose};
+use crate::rans::NO_TOKEN;
 
 /// Pixels along a tile's side.
 pub const TILE: usize = 16;
@@ -145,6 +146,11 @@ pub struct Plane {
     pub lines: [[i16; LINE]; LANES],
     /// Room for the columns of the lines: what they hold means nothing from call to call.
     pub columns: [i16x8; STEPS],
+    /// Where the numbers are known: their tokens, laid out as they are, and what is coded. Where no row ever lies, there are
+    /// no tokens; the rest is room, too.
+    pub tokens: [[i16; LINE]; LANES],
+    /// See `tokens`.
+    pub numbers: [[i16; LINE]; LANES],
 }
 
 /// Steps of a front over 16 × 16 pixels, and room for two more.
@@ -155,28 +161,60 @@ pub const LINE: usize = 64;
 
 impl Plane {
     const fn new() -> Self {
-        Self { lines: [[1; LINE]; LANES], columns: [i16x8::ZERO; STEPS] }
+        Self {
+            lines: [[1; LINE]; LANES],
+            columns: [i16x8::ZERO; STEPS],
+            tokens: [[NO_TOKEN; LINE]; LANES],
+            numbers: [[0; LINE]; LANES],
+        }
     }
 
     /// A row of 16 pixels; those beyond the pattern's width mean nothing.
     #[inline(always)]
     #[must_use]
     pub fn row(&self, y: usize) -> &[i16; TILE] {
-        let (lane, start) = Self::place(y);
+        let (lane, start) = place(y);
         self.lines[lane][start..start + TILE].first_chunk().expect("16 pixels")
     }
 
     /// As [`Plane::row`].
     #[inline(always)]
     pub fn row_mut(&mut self, y: usize) -> &mut [i16; TILE] {
-        let (lane, start) = Self::place(y);
-        self.lines[lane][start..start + TILE].first_chunk_mut().expect("16 pixels")
+        row_mut(&mut self.lines, y)
     }
 
+    /// As [`Plane::row`], of the tokens.
     #[inline(always)]
-    const fn place(y: usize) -> (usize, usize) {
-        (y % LANES, 2 * (y % LANES) + 2 * LANES * (y / LANES % 2))
+    pub fn tokens_mut(&mut self, y: usize) -> &mut [i16; TILE] {
+        row_mut(&mut self.tokens, y)
     }
+
+    /// As [`Plane::row`], of what is coded.
+    #[inline(always)]
+    pub fn numbers_mut(&mut self, y: usize) -> &mut [i16; TILE] {
+        row_mut(&mut self.numbers, y)
+    }
+}
+
+/// Line and place in it where a row begins.
+#[inline(always)]
+const fn place(y: usize) -> (usize, usize) {
+    (y % LANES, 2 * (y % LANES) + 2 * LANES * (y / LANES % 2))
+}
+
+#[inline(always)]
+fn row_mut(lines: &mut [[i16; LINE]; LANES], y: usize) -> &mut [i16; TILE] {
+    let (lane, start) = place(y);
+    lines[lane][start..start + TILE].first_chunk_mut().expect("16 pixels")
+}
+
+/// Eight columns of a plane's lines.
+#[inline(always)]
+pub fn columns_of(lines: &[[i16; LINE]; LANES], block: usize) -> [i16x8; LANES] {
+    transpose(lines.each_ref().map(|line| {
+        let eight: &[i16; LANES] = line[block * LANES..][..LANES].first_chunk().expect("eight");
+        i16x8::from(*eight)
+    }))
 }
 
 /// A tile's content: coordinates are those of the pattern, not of the image.

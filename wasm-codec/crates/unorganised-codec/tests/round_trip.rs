@@ -71,10 +71,11 @@ fn can_be_sent(point: &Point) -> bool {
     point[..3].iter().all(|coordinate| coordinate.is_finite() && coordinate.abs() <= 500.0)
 }
 
-/// Each input's grid place, sorted, to compare two clouds as bags.
-fn places(points: impl Iterator<Item = [f64; 3]>, step: f64) -> Vec<[i64; 3]> {
+/// Each input's grid place, sorted, to compare two clouds as bags; `per_metre` steps. It is multiplied, as in the encoder:
+/// divided, what lies halfway between two places may come to the other one.
+fn places(points: impl Iterator<Item = [f64; 3]>, per_metre: f64) -> Vec<[i64; 3]> {
     let mut places: Vec<_> =
-        points.map(|point| point.map(|metres| (metres / step + 0.5).floor() as i64)).collect();
+        points.map(|point| point.map(|metres| (metres * per_metre + 0.5).floor() as i64)).collect();
     places.sort_unstable();
     places
 }
@@ -100,7 +101,8 @@ proptest! {
             }
         }
         let sent = sent.iter().map(|point| [point[0], point[1], point[2]].map(f64::from));
-        prop_assert_eq!(places(sent, step), places(grid.into_iter(), step));
+        let per_metre = 1000.0 / f64::from(settings.step_mm);
+        prop_assert_eq!(places(sent, per_metre), places(grid.into_iter(), per_metre));
     }
 
     #[test]

@@ -4,11 +4,11 @@ use bytemuck::must_cast;
 use wide::i16x8;
 
 use super::{
-    Coder, LOW, LOW_BITS, PROBABILITY_BITS, RAW_BYTES, SPARE_BITS, STATES, Step, WORDS, code_escape, shifts,
+    Coder, LOW, LOW_BITS, PROBABILITY_BITS, RAW_BYTES, SPARE_BITS, STATES, Step, WORDS, code_escape,
 };
 use crate::contexts::CERTAIN;
 use crate::lanes::{LANES, select};
-use crate::tables::DecoderTables;
+use crate::tables::{CONTEXT_SLOTS, DecoderTables};
 
 /// A packet's body as words from its beginning and as bytes from its end.
 pub struct Body {
@@ -148,17 +148,32 @@ impl<'a> Decoder<'a> {
         self.at += short as usize;
     }
 
-    /// Symbols of four contexts of 16 bits each, packed as those are.
+    /// Numbers of 16 bits, lane k by state k mod 4.
     #[inline(always)]
-    fn four(&mut self, contexts: u64) -> u64 {
-        let mut symbols = 0;
-        for lane in 0..STATES {
-            let context = (contexts >> (16 * lane)) as usize & 0xffff;
-            let symbol = self.tables.look(context, self.slot(lane));
-            self.take(lane, self.tables.share(context, symbol));
-            symbols |= u64::from(symbol) << (16 * lane);
+    pub fn step(&mut self, step: &Step) -> i16x8 {
+        let [one, two, three] = step.shifted;
+        let contexts = select(step.valid, step.contexts, i16x8::splat(CERTAIN as i16));
+        let contexts: [u64; 2] = must_cast(contexts);
+        let mut symbols = [0_u64; 2];
+        for (pair, some) in step.pairs.into_iter().enumerate() {
+            if some {
+                for lane in [2 * pair, 2 * pair + 1] {
+                    let (half, state) = (lane / STATES, lane % STATES);
+                    let context = (contexts[half] >> (16 * state)) as usize % CONTEXT_SLOTS;
+                    let symbol = self.tables.look(context, self.slot(state));
+                    self.take(state, self.tables.share(context, symbol));
+                    symbols[half] |= u64::from(symbol) << (16 * state);
+                }
+            }
         }
-        symbols
+        let symbols: i16x8 = must_cast(symbols);
+        let more = ((one | symbols.simd_gt(i16x8::splat(12))) & step.valid).to_bitmask();
+        if more == 0 {
+            return symbols;
+        }
+        let (numbers, raw) = extend(self.raw, more, symbols, -(one + two + three));
+        self.raw = raw;
+        numbers
     }
 }
 
@@ -242,27 +257,6 @@ impl Coder for Decoder<'_> {
         self.spare >>= held;
         self.spare_bits -= held;
         value | self.raw.take(bits - held) << held
-    }
-
-    #[inline(always)]
-    fn step(&mut self, step: &Step) -> i16x8 {
-        let contexts = select(step.valid, step.contexts, i16x8::splat(CERTAIN as i16));
-        let [low, high]: [u64; 2] = must_cast(contexts);
-        let mut symbols = [0_u64; 2];
-        if step.halves[0] {
-            symbols[0] = self.four(low);
-        }
-        if step.halves[1] {
-            symbols[1] = self.four(high);
-        }
-        let symbols: i16x8 = must_cast(symbols);
-        let more = ((step.shifted[0] | symbols.simd_gt(i16x8::splat(12))) & step.valid).to_bitmask();
-        if more == 0 {
-            return symbols;
-        }
-        let (numbers, raw) = extend(self.raw, more, symbols, shifts(step));
-        self.raw = raw;
-        numbers
     }
 
     #[inline(always)]

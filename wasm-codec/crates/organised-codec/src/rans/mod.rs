@@ -9,7 +9,9 @@ use wide::i16x8;
 
 pub use decoder::{Body, Decoder, RawReader};
 pub use packet_tokens::{EncoderSymbol, Mark, PacketTokens};
-pub use tile_tokens::TileTokens;
+pub use tile_tokens::{NO_TOKEN, TileTokens, token};
+
+use crate::lanes::LANES;
 
 /// Bits of a probability.
 pub const PROBABILITY_BITS: u32 = 12;
@@ -29,10 +31,8 @@ pub struct Step {
     pub contexts: i16x8,
     /// All bits where 1, 2 and 3 low bits of the number are not modelled (where 3 are, in all of them).
     pub shifted: [i16x8; 3],
-    /// The numbers, where they are known.
-    pub numbers: i16x8,
-    /// Whether lanes 0–3 and 4–7 hold any pixel.
-    pub halves: [bool; 2],
+    /// Which pairs of lanes hold a pixel.
+    pub pairs: [bool; LANES / 2],
 }
 
 /// One walk over the syntax serves coding and decoding: a coder is given the value where it is known, and returns the value
@@ -53,8 +53,6 @@ pub trait Coder {
     fn begin_signs(&mut self, last: bool);
     /// `bits` ≤ 16 signs.
     fn signs(&mut self, bits: u32, value: u32) -> u32;
-    /// Numbers of 16 bits, lane k by state k mod 4.
-    fn step(&mut self, step: &Step) -> i16x8;
     /// Works on a copy where that is cheap.
     #[inline(always)]
     fn with_copy<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T
@@ -81,12 +79,6 @@ pub fn code_escape(mut raw: impl FnMut(u32, u32) -> u32, symbol: u32, number: u3
     let above = number.wrapping_sub(ESCAPES[2] - 1) & 0xffff;
     let octave = raw(4, above.checked_ilog2().unwrap_or(0));
     ESCAPES[2] - 1 + (1 << octave | raw(octave, above & ((1 << octave) - 1)))
-}
-
-#[inline(always)]
-pub(crate) fn shifts(step: &Step) -> i16x8 {
-    let [one, two, three] = step.shifted;
-    -(one + two + three)
 }
 
 /// Where the state of a token begins, above its context and symbol.

@@ -116,9 +116,9 @@ impl PacketTokens {
             let x = states[own];
             // The last word comes first.
             words[at % WORDS] = x as u16;
-            let over = u32::from(x >= symbol.limit);
-            at += over as usize;
-            let x = x >> (16 * over);
+            let over = x >= symbol.limit;
+            at += usize::from(over);
+            let x = if over { x >> 16 } else { x };
             let quotient = ((u64::from(x) * symbol.reciprocal) >> RECIPROCAL_BITS) as u32;
             states[own] = x + u32::from(symbol.start) + quotient * u32::from(symbol.rest);
         }

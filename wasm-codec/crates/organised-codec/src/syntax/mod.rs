@@ -3,17 +3,53 @@
 mod blocks;
 mod mask;
 mod number;
+mod plane;
+mod rows;
 mod wavefront;
 
 use blocks::{BlockEdge, NO_BLOCK, code_blocks, code_points};
 use mask::code_mask;
 use number::{code_number, fold, unfold};
-use wavefront::{Shape, Side, code_plane};
+use plane::{Around, Shape, Side, code_plane};
 use wide::i16x8;
 
 use crate::contexts::{ANCHOR, DEPTH, INDEX, KIND, PATTERN};
-use crate::rans::Coder;
+use crate::rans::{Coder, Decoder, TileTokens};
 use crate::tile::{ColourMode, Kind, LAST_TRANSFORMED, Pattern, Place, Plane, TILE, Tile};
+
+/// A decoder finds a tile's masks and planes symbol by symbol; an encoder knows them, and finds many symbols at once.
+pub trait TileCoder: Coder {
+    /// Codes which pixels of the rows are valid.
+    fn mask(&mut self, rows: &mut [u16; TILE], width: usize, height: usize);
+    /// Codes a plane with contexts from `base` on, gives pixels that are not valid what is predicted for them, and returns the
+    /// lanes' activity.
+    fn plane(&mut self, plane: &mut Plane, shape: &Shape, around: &Around, base: usize) -> i16x8;
+}
+
+impl TileCoder for Decoder<'_> {
+    fn mask(&mut self, rows: &mut [u16; TILE], width: usize, height: usize) {
+        self.with_copy(|decoder| mask::walk(decoder, rows, width, height));
+    }
+
+    fn plane(&mut self, plane: &mut Plane, shape: &Shape, around: &Around, base: usize) -> i16x8 {
+        wavefront::decode(self, plane, shape, around, base)
+    }
+}
+
+impl TileCoder for TileTokens {
+    fn mask(&mut self, rows: &mut [u16; TILE], width: usize, height: usize) {
+        if width == TILE && height == TILE {
+            self.push_mask(mask::tokens(rows));
+        } else {
+            self.with_copy(|tokens| mask::walk(tokens, rows, width, height));
+        }
+    }
+
+    #[inline(never)]
+    fn plane(&mut self, plane: &mut Plane, shape: &Shape, around: &Around, base: usize) -> i16x8 {
+        rows::code(self, plane, shape, around, base)
+    }
+}
 
 /// The largest quantised inverse depth.
 pub const MAX_DEPTH: i32 = 32_767;
@@ -74,7 +110,7 @@ impl Default for Neighbours {
 
 /// Codes a tile. `last`: the packet's last one; a coder that does not decode need not know.
 #[inline(always)]
-pub fn code_tile<C: Coder>(
+pub fn code_tile<C: TileCoder>(
     coder: &mut C,
     tile: &mut Tile,
     near: &mut Neighbours,

@@ -1,0 +1,121 @@
+//! Planes whose numbers are known: what the front finds pixel after pixel, found row by row.
+
+use wide::i16x8;
+
+use super::plane::{Around, Shape, bins, contexts, fold, predict, predict_one};
+use crate::contexts::FIRST_ROW_BIN;
+use crate::lanes::{LANES, follow, precede};
+use crate::rans::{NO_TOKEN, TileTokens, token};
+use crate::tile::{Plane, TILE};
+
+/// See [`super::TileCoder::plane`].
+#[inline(always)]
+pub fn code(coder: &mut TileTokens, plane: &mut Plane, shape: &Shape, around: &Around, base: usize) -> i16x8 {
+    fill(plane, shape, around);
+    let activity = note(plane, shape, around, base);
+    coder.push_front(plane, shape.width, shape.height, base);
+    activity
+}
+
+/// What stands to the left of a row's first pixel.
+#[inline(always)]
+fn beside(plane: &Plane, around: &Around, y: usize) -> i16 {
+    match &around.left {
+        Some(left) => left[y % TILE],
+        None if y == 0 => around.anchor,
+        None => plane.row(y - 1)[0],
+    }
+}
+
+/// Gives pixels that are not valid what is predicted for them.
+#[inline(always)]
+fn fill(plane: &mut Plane, shape: &Shape, around: &Around) {
+    let all = ((1_u32 << shape.width) - 1) as u16;
+    for y in 0..shape.height {
+        let mut missing = !shape.rows[y] & all;
+        if missing != 0 {
+            let left = beside(plane, around, y);
+            let above_left = if y > 0 { beside(plane, around, y - 1) } else { left };
+            let above = if y > 0 { Some(*plane.row(y - 1)) } else { None };
+            let row = plane.row_mut(y);
+            while missing != 0 {
+                let x = missing.trailing_zeros() as usize % TILE;
+                missing &= missing - 1;
+                let l = if x > 0 { row[x - 1] } else { left };
+                row[x] = above.map_or(l, |above| {
+                    let (a, d) = (above[x], if x > 0 { above[x - 1] } else { above_left });
+                    predict_one(l, a, d)
+                });
+            }
+        }
+        if shape.width < TILE {
+            // To the right of the last pixel stands itself.
+            let row = plane.row_mut(y);
+            row[shape.width] = row[shape.width - 1];
+        }
+    }
+}
+
+/// Notes every pixel's token and number.
+#[inline(always)]
+fn note(plane: &mut Plane, shape: &Shape, around: &Around, base: usize) -> i16x8 {
+    const BITS: [i16x8; 2] = [
+        i16x8::new([1, 2, 4, 8, 16, 32, 64, 128]),
+        i16x8::new([1 << 8, 2 << 8, 4 << 8, 8 << 8, 16 << 8, 32 << 8, 64 << 8, i16::MIN]),
+    ];
+    let mut activity = around.activity.to_array();
+    let base = i16x8::splat(base as i16);
+    // Of the row above: its pixels, and what stood to the left of each.
+    let mut above = [i16x8::ZERO; 2];
+    let mut above_left = [i16x8::ZERO; 2];
+    for y in 0..shape.height {
+        let left = i16x8::splat(beside(plane, around, y));
+        let row = plane.row(y);
+        let own = [0, LANES].map(|x| i16x8::from(*row[x..][..LANES].first_chunk::<LANES>().expect("eight")));
+        let to_left = [follow(left, own[0]), follow(own[0], own[1])];
+        let last = i16x8::splat(above[1].to_array()[LANES - 1]);
+        let above_right = [precede(above[0], above[1]), precede(above[1], last)];
+        let lane = y % LANES;
+        let predicted: [i16x8; 2] = core::array::from_fn(|i| {
+            if y == 0 { to_left[i] } else { predict(to_left[i], above[i], above_left[i]) }
+        });
+        let residuals: [i16x8; 2] = core::array::from_fn(|i| own[i] - predicted[i]);
+        let mut sizes = residuals.map(|residual: i16x8| residual.abs());
+        let valid = shape.rows[y];
+        if valid != u16::MAX {
+            sizes = carried(sizes, valid, activity[lane]);
+        }
+        let before = [follow(i16x8::splat(activity[lane]), sizes[0]), follow(sizes[0], sizes[1])];
+        activity[lane] = sizes[1].to_array()[LANES - 1];
+        for half in 0..2 {
+            let (bin, shifted) = if y == 0 {
+                (i16x8::splat(FIRST_ROW_BIN), [i16x8::ZERO; 3])
+            } else {
+                bins(to_left[half], above[half], above_left[half], above_right[half])
+            };
+            let numbers = fold(residuals[half]);
+            let missing = (BITS[half] & i16x8::splat(valid as i16)).simd_eq(i16x8::ZERO);
+            let tokens = token(contexts(base, bin, before[half]), numbers, shifted, lane) | missing;
+            plane.tokens_mut(y)[half * LANES..][..LANES].copy_from_slice(tokens.as_array());
+            plane.numbers_mut(y)[half * LANES..][..LANES].copy_from_slice(numbers.as_array());
+        }
+        (above, above_left) = (own, to_left);
+    }
+    for y in shape.height..TILE {
+        plane.tokens_mut(y).fill(NO_TOKEN);
+    }
+    activity.into()
+}
+
+/// Sizes where pixels that are not valid have that of the one to their left; left of the first one stands `before`.
+#[inline(always)]
+fn carried(sizes: [i16x8; 2], valid: u16, before: i16) -> [i16x8; 2] {
+    let mut each: [i16; TILE] = bytemuck::must_cast(sizes);
+    let mut missing = !valid;
+    while missing != 0 {
+        let x = missing.trailing_zeros() as usize % TILE;
+        missing &= missing - 1;
+        each[x] = if x > 0 { each[x - 1] } else { before };
+    }
+    bytemuck::must_cast(each)
+}
