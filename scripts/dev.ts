@@ -55,11 +55,21 @@ async function stop(code: number): Promise<void> {
   await stack?.stop();
   process.exit(code);
 }
-process.once('SIGINT', () => {
-  console.log('\nstopping');
-  void stop(0);
-});
-process.once('SIGTERM', () => void stop(0));
+/** Ctrl-C may come twice: from the terminal, and from pnpm, which hands it on. */
+const SAME_SIGNAL_MS = 500;
+let askedMs = 0;
+for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP'] as const) {
+  process.on(signal, () => {
+    if (!stopping) {
+      askedMs = performance.now();
+      if (signal === 'SIGINT') console.log('\nstopping');
+      void stop(0);
+    } else if (performance.now() - askedMs > SAME_SIGNAL_MS) {
+      // Asked again: at once. Exiting takes all programs along, which being ended by a signal would not.
+      process.exit(1);
+    }
+  });
+}
 
 try {
   console.log('starting signaling and the simulated robot');
