@@ -51,7 +51,9 @@ pub fn packet(data: &[u8]) {
         seal(&mut forged);
         for colours in [0, 40] {
             let told = decode(&forged, colours);
-            assert_ne!(told, Err(PacketError::Check));
+            // In packets without signs the check value is coded with the rest.
+            let is_sealed = matches!(forged[1] >> 6, 1 | 2);
+            assert!(!is_sealed || told != Err(PacketError::Check));
         }
     }
 }

@@ -1,9 +1,12 @@
 //! Packets to points.
 
+use core::ops::Range;
+
+use crate::content_check::ContentCheck;
 use crate::emit::{Images, View, emit};
-use crate::packet::{PACKET_HEADER_BYTES, PacketError, PacketHeader, Span};
+use crate::packet::{PacketError, PacketHeader, Span, header_bytes};
 use crate::paint::{Colours, Palette};
-use crate::rans;
+use crate::rans::{self, Coder};
 use crate::stream::StreamHeader;
 use crate::syntax::{Neighbours, code_tile};
 use crate::tables::{COLOUR_SETS, DecoderTables, GEOMETRY_SETS};
@@ -122,55 +125,58 @@ impl Decoder {
         if header.id != self.header.id {
             return Err(PacketError::UnknownStream);
         }
-        self.body.load(&packet[PACKET_HEADER_BYTES..]);
-        let mut raw = rans::RawReader::new(&self.body);
-        let Span { first, count } = Span::from_raw(self.grid, |bits| raw.take(bits));
-        let end = first + count;
+        self.body.load(&packet[header_bytes(header.mode)..]);
+        let (tiles, count) = self.decode(&header)?;
+        for tile in tiles {
+            self.come[tile / 64] |= 1 << (tile % 64);
+        }
+        let start = core::mem::replace(&mut self.count, count);
+        let latency_test = header.mode == ColourMode::None;
+        Ok(Put { start, points: count - start, latency_test })
+    }
+
+    /// The packet's tiles, and the number of points with theirs.
+    fn decode(&mut self, header: &PacketHeader) -> Result<(Range<usize>, usize), PacketError> {
+        const { assert!(GEOMETRY_SETS == 8 && COLOUR_SETS == 4) };
+        self.tables.choose((header.geometry_set, header.colour_set));
+        let mut coder = rans::Decoder::new(&self.body, &self.tables);
+        let span = Span::from_raw(self.grid, |bits| coder.raw(bits, 0));
+        let (first, end) = (span.first, span.first + span.count);
         if end > self.grid.tiles() {
             return Err(PacketError::Tiles);
         }
         if (first..end).any(|tile| self.come[tile / 64] >> (tile % 64) & 1 == 1) {
             return Err(PacketError::Duplicate);
         }
-        let start = self.count;
-        match self.decode(&header, first..end) {
-            Some(count) => {
-                for tile in first..end {
-                    self.come[tile / 64] |= 1 << (tile % 64);
-                }
-                self.count = count;
-                let latency_test = header.mode == ColourMode::None;
-                Ok(Put { start, points: count - start, latency_test })
-            }
-            None => Err(PacketError::Corrupt),
-        }
-    }
-
-    /// The number of points with those of these tiles; `None` where the data is not what an encoder writes.
-    fn decode(&mut self, header: &PacketHeader, tiles: core::ops::Range<usize>) -> Option<usize> {
-        const { assert!(GEOMETRY_SETS == 8 && COLOUR_SETS == 4) };
-        self.tables.choose((header.geometry_set, header.colour_set));
-        let mut raw = rans::RawReader::new(&self.body);
-        let _ = Span::from_raw(self.grid, |bits| raw.take(bits));
-        let mut coder = rans::Decoder::new(&self.body, raw, &self.tables);
+        let mut check = (!header.mode.has_signs()).then(ContentCheck::default);
         let mut near = Neighbours::new();
-        let end = tiles.end;
         let scale = 1.0 / self.header.depth_step(header.depth_level);
         let mut count = self.count;
-        for index in tiles {
+        for index in first..end {
             let place = self.grid.place(index);
             let last = index + 1 == end;
             code_tile(&mut coder, &mut self.tile, &mut near, place, header.mode, last);
             if coder.overrun() {
-                return None;
+                return Err(PacketError::Corrupt);
             }
             if self.tile.kind == Kind::Empty {
                 continue;
             }
-            self.colours.paint(&self.tile, header, &self.palette)?;
+            if let Some(check) = &mut check {
+                check.add_tile(index, &self.tile, header.mode);
+            }
+            self.colours.paint(&self.tile, header, &self.palette).ok_or(PacketError::Corrupt)?;
             let view = View { grid: self.grid, columns: &self.columns, rows: &self.rows, place, scale };
-            count = emit(&self.tile, &self.colours, &view, &mut self.points, count, self.images.as_mut())?;
+            count = emit(&self.tile, &self.colours, &view, &mut self.points, count, self.images.as_mut())
+                .ok_or(PacketError::Corrupt)?;
         }
-        coder.finished().then_some(count)
+        let held = check.as_ref().map(|_| coder.take_held());
+        if !coder.finished() {
+            return Err(PacketError::Corrupt);
+        }
+        if held != check.map(|check| check.value(header, span)) {
+            return Err(PacketError::Check);
+        }
+        Ok((first..end, count))
     }
 }

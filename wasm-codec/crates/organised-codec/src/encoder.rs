@@ -1,18 +1,19 @@
 //! Frames to packets.
 
+use crate::content_check::ContentCheck;
 use crate::frame::{Frame, Mix, Packet, Settings};
 use crate::load::{Left, Loaded, MAX_COORDINATE, Quantiser, Source};
-use crate::packet::{MAX_PACKET_BYTES, PACKET_HEADER_BYTES, PacketHeader, Span};
+use crate::packet::{MAX_PACKET_BYTES, PacketHeader, Span, header_bytes, seal};
 use crate::palette::Palette;
 use crate::plan::{LEFT_OUT, Plan};
 use crate::prepare::Preparer;
-use crate::rans::{Mark, PacketTokens, TileTokens, WORDS};
+use crate::rans::{Held, Mark, PacketTokens, TileTokens, WORDS};
 use crate::rate::RateState;
 use crate::sampling::{Histogram, Learnt, SAMPLE_STEP, SAMPLE_TILES, is_sampled};
 use crate::stream::StreamHeader;
 use crate::syntax::{Neighbours, code_tile};
 use crate::tables::EncoderTables;
-use crate::tile::{Grid, Kind, Pattern, TILE, Tile};
+use crate::tile::{ColourMode, Grid, Kind, Pattern, TILE, Tile};
 
 /// Codes frames of one stream.
 pub struct Encoder {
@@ -57,6 +58,8 @@ struct Filled {
     mark: Mark,
     points: usize,
     nearest: i32,
+    /// Where its colour has no signs.
+    check: ContentCheck,
 }
 
 impl Encoder {
@@ -158,15 +161,17 @@ impl Encoder {
             if let Some(plan) = &mut plan {
                 let begins = place.row >= counted;
                 if begins {
-                    let in_packet = open
-                        .as_ref()
-                        .map_or(0.0, |packet: &Open| PACKET_OVERHEAD_BITS + packet.cost as f32 / 256.0);
+                    let in_packet = open.as_ref().map_or(0.0, |packet: &Open| {
+                        overhead_bits(packet.settings.mode) + packet.cost as f32 / 256.0
+                    });
                     let spent = self.bytes.len() as f32 * 8.0 + in_packet;
                     plan.begin_row(self.grid, place.row, spent, &mut self.patterns);
                 }
                 // A row that should be coded otherwise begins a packet, unless there is much room in the present one; where the
                 // frame is split, so does any tile.
-                let ends = |packet: &mut Open| plan.is_split() || (begins && packet.cost > COST_LIMIT / 2);
+                let ends = |packet: &mut Open| {
+                    plan.is_split() || (begins && packet.cost > cost_limit(packet.settings.mode) / 2)
+                };
                 let turned = |packet: &mut Open| packet.finer != plan.is_finer(next) && ends(packet);
                 if let Some(full) = open.take_if(turned)
                     && let Some(again) = self.close(full, &mut frame)
@@ -218,10 +223,10 @@ impl Encoder {
                 self.tokens.clear();
                 code_tile(&mut self.tokens, &mut self.tile, &mut packet.near, place, settings.mode, false);
                 let cost = packet.cost + self.tokens.cost(&self.tables);
-                if cost <= COST_LIMIT {
+                if cost <= cost_limit(settings.mode) {
                     if let Some(plan) = &mut plan {
                         let bits = (cost - packet.cost) as f32 / 256.0;
-                        plan.note(next, pattern, finer, bits * (1.0 + PACKET_OVERHEAD));
+                        plan.note(next, pattern, finer, bits * (1.0 + overhead(settings.mode)));
                     }
                     packet.cost = cost;
                     self.packet_tokens.push(&self.tokens);
@@ -235,7 +240,12 @@ impl Encoder {
                             frame.too_dense += valid - there;
                         }
                         packet.before = (packet.full, before);
+                        let mut check = packet.full.check;
+                        if !settings.mode.has_signs() {
+                            check.add_tile(next, &self.tile, settings.mode);
+                        }
                         packet.full = Filled {
+                            check,
                             tiles: next + 1 - packet.first,
                             mark: self.packet_tokens.mark(),
                             points: packet.full.points + there,
@@ -296,13 +306,6 @@ impl Encoder {
     fn write(&mut self, first: usize, filled: &Filled, settings: &Settings) -> bool {
         self.packet_tokens.rewind(filled.mark);
         let start = self.bytes.len();
-        self.bytes.extend_from_slice(&[0; PACKET_HEADER_BYTES]);
-        let limit = MAX_PACKET_BYTES - PACKET_HEADER_BYTES;
-        let span = Span { first, count: filled.tiles }.to_raw(self.grid);
-        if !self.packet_tokens.write(&self.tables, &span, &mut self.words, limit, &mut self.bytes) {
-            self.bytes.truncate(start);
-            return false;
-        }
         let header = PacketHeader {
             id: self.header.id,
             geometry_set: settings.geometry_set,
@@ -311,7 +314,21 @@ impl Encoder {
             depth_level: settings.depth_level,
             quality: settings.quality,
         };
-        header.write(&mut self.bytes[start..]);
+        let header_bytes = header_bytes(header.mode);
+        self.bytes.extend_from_slice(&header.to_bytes()[..header_bytes]);
+        let limit = MAX_PACKET_BYTES - header_bytes;
+        let span = Span { first, count: filled.tiles };
+        let held = if header.mode.has_signs() {
+            Held::Signs
+        } else {
+            Held::Check(filled.check.value(&header, span))
+        };
+        let span = span.to_raw(self.grid);
+        if !self.packet_tokens.write(&self.tables, &span, held, &mut self.words, limit, &mut self.bytes) {
+            self.bytes.truncate(start);
+            return false;
+        }
+        seal(&mut self.bytes[start..]);
         let length = self.bytes.len() - start;
         self.packets.push(Packet { start, length, points: filled.points, nearest: filled.nearest });
         true
@@ -331,12 +348,21 @@ impl Encoder {
     }
 }
 
-/// What a packet's header, span and states cost, less what the states hold.
-pub(crate) const PACKET_OVERHEAD_BITS: f32 = 134.0;
-/// As a share of the rest of a full packet.
-pub(crate) const PACKET_OVERHEAD: f32 =
-    PACKET_OVERHEAD_BITS / (MAX_PACKET_BYTES as f32 * 8.0 - PACKET_OVERHEAD_BITS);
+/// What a packet's header, span (18 bits, mostly) and states cost, less what the states hold.
+pub(crate) const fn overhead_bits(mode: ColourMode) -> f32 {
+    (8 * header_bytes(mode) + 18) as f32 + STATES_BITS as f32
+}
 
-/// What the symbols and raw bits of a packet may cost, in 1/256 bit: all but its header (40 bits), its span (35), what the
-/// states cost more than they hold (76), and the rest of a byte.
-const COST_LIMIT: u32 = (MAX_PACKET_BYTES as u32 * 8 - 40 - 35 - 76 - 8) * 256;
+/// As a share of the rest of a full packet.
+pub(crate) const fn overhead(mode: ColourMode) -> f32 {
+    overhead_bits(mode) / (MAX_PACKET_BYTES as f32 * 8.0 - overhead_bits(mode))
+}
+
+/// What the states cost more than they hold.
+const STATES_BITS: u32 = 76;
+
+/// What the symbols and raw bits of a packet may cost, in 1/256 bit: all but its header, its span (35 bits), the states, and
+/// the rest of a byte.
+const fn cost_limit(mode: ColourMode) -> u32 {
+    (8 * (MAX_PACKET_BYTES - header_bytes(mode)) as u32 - 35 - STATES_BITS - 8) * 256
+}

@@ -4,6 +4,7 @@
 //! Without I/O; works in buffers made once; packets decode to the same bits natively and in WASM.
 #![deny(unsafe_code)]
 
+mod content_check;
 pub mod contexts;
 pub mod crc16;
 mod decoder;

@@ -1,14 +1,18 @@
 //! The header of a packet, and why packets are refused.
 
 use crate::crc16::crc16;
+use crate::rans::code_octaves;
 use crate::tile::{ColourMode, Grid};
 
-/// Bytes of a packet before its words.
-pub const PACKET_HEADER_BYTES: usize = 5;
+/// Bytes of a packet before its words, where its colour has signs: they are left in the states, which then cannot hold the
+/// check value.
+const LONG_HEADER_BYTES: usize = 5;
+/// Of another packet.
+const SHORT_HEADER_BYTES: usize = 2;
 /// A packet is never longer.
 pub const MAX_PACKET_BYTES: usize = 1200;
-/// A packet is never shorter: its header, a count of 4 raw bits and four states of 19.
-pub const MIN_PACKET_BYTES: usize = PACKET_HEADER_BYTES + 10;
+/// What follows a header is never shorter: four states of 19 bits and a count of 4.
+const MIN_BODY_BYTES: usize = 10;
 
 /// The first bytes of a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,16 +31,21 @@ pub struct PacketHeader {
     pub quality: u8,
 }
 
+/// Bytes of the header of packets with such colours.
+#[must_use]
+pub const fn header_bytes(mode: ColourMode) -> usize {
+    if mode.has_signs() { LONG_HEADER_BYTES } else { SHORT_HEADER_BYTES }
+}
+
 impl PacketHeader {
-    /// Writes the header before the rest of the packet, and the check value over all.
-    pub fn write(&self, packet: &mut [u8]) {
-        packet[0] = self.id;
-        packet[1] = self.geometry_set | self.colour_set << 3 | (self.mode as u8) << 5;
-        packet[2] = self.depth_level | self.quality << 3;
-        seal(packet);
+    /// The header, of which [`header_bytes`] count; 0 for the check value.
+    #[must_use]
+    pub fn to_bytes(&self) -> [u8; LONG_HEADER_BYTES] {
+        let geometry = self.geometry_set | self.depth_level << 3 | (self.mode as u8) << 6;
+        [self.id, geometry, self.quality | self.colour_set << 5, 0, 0]
     }
 
-    /// Reads the header; the check value is compared.
+    /// Reads the header; the check value is compared where it is in it.
     ///
     /// # Errors
     /// `TooShort`, `TooLong`, `Check`, `Reserved`.
@@ -44,41 +53,44 @@ impl PacketHeader {
         if packet.len() > MAX_PACKET_BYTES {
             return Err(PacketError::TooLong);
         }
-        if packet.len() < MIN_PACKET_BYTES {
+        let Some(mode) = mode_of(packet).filter(|mode| packet.len() >= header_bytes(*mode) + MIN_BODY_BYTES)
+        else {
             return Err(PacketError::TooShort);
-        }
-        if u16::from_le_bytes([packet[3], packet[4]]) != check_of(packet) {
-            return Err(PacketError::Check);
-        }
-        let mode = match packet[1] >> 5 {
-            0 => ColourMode::None,
-            1 => ColourMode::Subsampled,
-            2 => ColourMode::Full,
-            3 => ColourMode::Palette,
-            _ => return Err(PacketError::Reserved),
         };
-        Ok(Self {
-            id: packet[0],
-            geometry_set: packet[1] & 7,
-            colour_set: packet[1] >> 3 & 3,
-            mode,
-            depth_level: packet[2] & 7,
-            quality: packet[2] >> 3,
-        })
+        let (mut quality, mut colour_set) = (0, 0);
+        if mode.has_signs() {
+            if u16::from_le_bytes([packet[3], packet[4]]) != check_of(packet) {
+                return Err(PacketError::Check);
+            }
+            if packet[2] >> 7 != 0 {
+                return Err(PacketError::Reserved);
+            }
+            (quality, colour_set) = (packet[2] & 31, packet[2] >> 5);
+        }
+        let (id, geometry_set, depth_level) = (packet[0], packet[1] & 7, packet[1] >> 3 & 7);
+        Ok(Self { id, geometry_set, colour_set, mode, depth_level, quality })
     }
 }
 
-/// Writes a packet's check value.
+/// Writes a packet's check value, where its header has one.
 pub fn seal(packet: &mut [u8]) {
-    let check = check_of(packet);
-    packet[3..5].copy_from_slice(&check.to_le_bytes());
+    if packet.len() >= LONG_HEADER_BYTES && mode_of(packet).is_some_and(ColourMode::has_signs) {
+        let check = check_of(packet);
+        packet[3..LONG_HEADER_BYTES].copy_from_slice(&check.to_le_bytes());
+    }
+}
+
+fn mode_of(packet: &[u8]) -> Option<ColourMode> {
+    const MODES: [ColourMode; 4] =
+        [ColourMode::None, ColourMode::Subsampled, ColourMode::Full, ColourMode::Palette];
+    packet.get(1).map(|byte| MODES[usize::from(byte >> 6)])
 }
 
 fn check_of(packet: &[u8]) -> u16 {
-    crc16(&[&packet[..3], &packet[5..]])
+    crc16(&[&packet[..3], &packet[LONG_HEADER_BYTES..]])
 }
 
-/// The tiles of a packet: what its raw bits begin with.
+/// The tiles of a packet: what comes first of its raw bits behind the states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
     /// The first.
@@ -104,8 +116,7 @@ impl Span {
     /// From raw bits.
     pub fn from_raw(grid: Grid, mut raw: impl FnMut(u32) -> u32) -> Self {
         let first = raw(Self::first_bits(grid)) as usize;
-        let octave = raw(4);
-        Self { first, count: (1 << octave | raw(octave)) as usize }
+        Self { first, count: code_octaves(|bits, _| raw(bits), 0) as usize }
     }
 }
 

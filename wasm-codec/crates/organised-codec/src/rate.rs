@@ -4,7 +4,7 @@
 //! only below the last rung far tiles are thinned. What frames cost is learnt from frame to frame, so that a steady stream
 //! takes one pass a frame.
 
-use crate::encoder::{Encoder, PACKET_OVERHEAD_BITS};
+use crate::encoder::{Encoder, overhead_bits};
 use crate::frame::{Frame, Mix, Settings};
 use crate::load::Source;
 use crate::packet::MAX_PACKET_BYTES;
@@ -140,7 +140,8 @@ impl Encoder {
             costs.plan.guess(bytes * 8.0 / costs.shares[FIRST_RUNG]);
         }
         // The last packet is rarely full: half a packet's header and states come on top.
-        let wanted = ((budget.bytes as f32 * 8.0 - PACKET_OVERHEAD_BITS / 2.0) * AIM).max(1.0);
+        let overhead = overhead_bits(settings_of(FIRST_RUNG, budget).mode);
+        let wanted = ((budget.bytes as f32 * 8.0 - overhead / 2.0) * AIM).max(1.0);
         let (mut passes, mut before, mut alike) = (0, usize::MAX, 0);
         let (mut frame, mut settings): (Frame, Settings);
         let mut search = PlaceSearch::new((wanted / 8.0) as usize, (RUNGS - 1) as f32);

@@ -1,7 +1,7 @@
 //! Which table sets suit a frame, by a sample of it, and what it would cost.
 
 use crate::contexts::{COLOUR_CONTEXTS, CONTEXTS, GEOMETRY_CONTEXTS, SYMBOLS};
-use crate::encoder::{Encoder, PACKET_OVERHEAD};
+use crate::encoder::{Encoder, overhead, overhead_bits};
 use crate::frame::Settings;
 use crate::load::Source;
 use crate::rans::TileTokens;
@@ -144,7 +144,7 @@ impl Encoder {
         (settings.geometry_set, settings.colour_set) = (geometry, colour);
         self.histogram = histogram;
         // Headers and what the states waste.
-        bits / 8.0 * share * (1.0 + PACKET_OVERHEAD)
+        bits / 8.0 * share * (1.0 + overhead(settings.mode))
     }
 
     /// What the frame would take in one packet of any length, bits: what packets that need no other are measured against.
@@ -161,6 +161,6 @@ impl Encoder {
             .map(|(n, cost)| f64::from(*n) * f64::from(*cost) / 256.0)
             .sum();
         // One header, one span, four states.
-        symbols + histogram.raw_bits as f64 + 40.0 + 18.0 + 76.0
+        symbols + histogram.raw_bits as f64 + f64::from(overhead_bits(settings.mode))
     }
 }

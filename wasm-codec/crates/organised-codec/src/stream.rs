@@ -11,7 +11,7 @@ pub const STREAM_HEADER_BYTES: usize = 34;
 /// Colours of a palette.
 pub const MAX_PALETTE: usize = 256;
 /// Version of the format.
-pub const VERSION: u8 = 1;
+pub const VERSION: u8 = 2;
 /// The finest step of inverse depth, 1/m: an error of 0.0625 mm · z² at most, with something in hand for the far end.
 pub const DEPTH_UNIT: f32 = 0.000_124;
 /// Steps of inverse depth to choose from: each twice the one before.
@@ -179,8 +179,8 @@ mod tests {
             bytes[end..].copy_from_slice(&check.to_le_bytes());
             StreamHeader::parse(&bytes)
         };
-        assert_eq!(change(4, 2), Err(HeaderError::Version));
-        assert_eq!(change(5, 2), Err(HeaderError::Version));
+        assert_eq!(change(4, VERSION - 1), Err(HeaderError::Version));
+        assert_eq!(change(5, TABLE_VERSION + 1), Err(HeaderError::Version));
         assert_eq!(change(7, 1), Err(HeaderError::Value));
         assert_eq!(change(9, 255), Err(HeaderError::Value));
         assert_eq!(change(15, 255), Err(HeaderError::Value));

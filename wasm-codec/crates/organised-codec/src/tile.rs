@@ -111,6 +111,12 @@ pub enum ColourMode {
 }
 
 impl ColourMode {
+    /// True where a tile may end with signs of coefficients.
+    #[must_use]
+    pub const fn has_signs(self) -> bool {
+        matches!(self, Self::Subsampled | Self::Full)
+    }
+
     /// Blocks across and down of a plane (0 luma, 1 and 2 chroma) in a tile of a pattern up to 2.
     #[inline(always)]
     #[must_use]

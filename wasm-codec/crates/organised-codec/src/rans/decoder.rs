@@ -49,21 +49,15 @@ impl Body {
 
 /// Raw bits, one after another. Beyond the end they are 0.
 #[derive(Clone, Copy)]
-pub struct RawReader<'a> {
+struct RawReader<'a> {
     bytes: &'a [u8; RAW_BYTES + 8],
     at: usize,
 }
 
-impl<'a> RawReader<'a> {
-    /// From a body's end.
-    #[must_use]
-    pub fn new(body: &'a Body) -> Self {
-        Self { bytes: &body.raw, at: 0 }
-    }
-
+impl RawReader<'_> {
     /// 32 bits at most.
     #[inline(always)]
-    pub fn take(&mut self, bits: u32) -> u32 {
+    fn take(&mut self, bits: u32) -> u32 {
         let at = self.at / 8 % RAW_BYTES;
         let eight: &[u8; 8] = self.bytes[at..at + 8].first_chunk().expect("eight bytes");
         let window = u64::from_le_bytes(*eight) >> (self.at % 8);
@@ -91,9 +85,10 @@ pub struct Decoder<'a> {
 }
 
 impl<'a> Decoder<'a> {
-    /// Of a body whose head has been read.
+    /// At a body's beginning.
     #[must_use]
-    pub fn new(body: &'a Body, mut raw: RawReader<'a>, tables: &'a DecoderTables) -> Self {
+    pub fn new(body: &'a Body, tables: &'a DecoderTables) -> Self {
+        let mut raw = RawReader { bytes: &body.raw, at: 0 };
         let states = core::array::from_fn(|_| {
             let bits = LOW_BITS + raw.take(4);
             1 << bits | raw.take(bits)
@@ -117,8 +112,20 @@ impl<'a> Decoder<'a> {
         2 * self.at + self.raw.at / 8 > self.length
     }
 
+    /// Takes out of the states what the encoder put there in the beginning, 60 bits.
+    #[must_use]
+    pub fn take_held(&mut self) -> u64 {
+        self.first_turn();
+        let mut held = 0;
+        for (i, state) in self.states.iter_mut().enumerate() {
+            held |= u64::from(*state & (LOW - 1)) << (LOW_BITS * i as u32);
+            *state &= !(LOW - 1);
+        }
+        held
+    }
+
     /// True where all was read, what was left of the last byte of raw bits is 0, and the states are what the encoder began
-    /// with: 2¹⁵ and the last tile's first signs, or zeros.
+    /// with, less what they held: 2¹⁵.
     #[must_use]
     pub fn finished(&self) -> bool {
         let used = self.raw.at;
@@ -238,12 +245,8 @@ impl Coder for Decoder<'_> {
 
     fn begin_signs(&mut self, last: bool) {
         if last {
-            self.first_turn();
             self.spare_bits = SPARE_BITS;
-            for (i, state) in self.states.iter_mut().enumerate() {
-                self.spare |= u64::from(*state & (LOW - 1)) << (LOW_BITS * i as u32);
-                *state &= !(LOW - 1);
-            }
+            self.spare = self.take_held();
         }
     }
 

@@ -7,8 +7,8 @@ mod tile_tokens;
 
 use wide::i16x8;
 
-pub use decoder::{Body, Decoder, RawReader};
-pub use packet_tokens::{EncoderSymbol, Mark, PacketTokens};
+pub use decoder::{Body, Decoder};
+pub use packet_tokens::{EncoderSymbol, Held, Mark, PacketTokens};
 pub use tile_tokens::{NO_TOKEN, TileTokens, token};
 
 use crate::lanes::LANES;
@@ -76,9 +76,14 @@ pub fn code_escape(mut raw: impl FnMut(u32, u32) -> u32, symbol: u32, number: u3
         let first = ESCAPES[escape];
         return first + raw(*bits, number.wrapping_sub(first) & ((1 << bits) - 1));
     }
-    let above = number.wrapping_sub(ESCAPES[2] - 1) & 0xffff;
-    let octave = raw(4, above.checked_ilog2().unwrap_or(0));
-    ESCAPES[2] - 1 + (1 << octave | raw(octave, above & ((1 << octave) - 1)))
+    ESCAPES[2] - 1 + code_octaves(raw, number.wrapping_sub(ESCAPES[2] - 1) & 0xffff)
+}
+
+/// The raw bits of a number from 1 to 65535: 4 bits n, then n bits of it below its highest bit, 2ⁿ.
+#[inline(always)]
+pub fn code_octaves(mut raw: impl FnMut(u32, u32) -> u32, number: u32) -> u32 {
+    let octave = raw(4, number.checked_ilog2().unwrap_or(0));
+    1 << octave | raw(octave, number & ((1 << octave) - 1))
 }
 
 /// Where the state of a token begins, above its context and symbol.

@@ -41,6 +41,15 @@ pub struct PacketTokens {
     signs: usize,
 }
 
+/// What the states begin with, beside their highest bit: the decoder finds it in them at the end.
+#[derive(Clone, Copy, Debug)]
+pub enum Held {
+    /// The last tile's first signs.
+    Signs,
+    /// A check value of 60 bits.
+    Check(u64),
+}
+
 /// A place in a packet's tokens to go back to.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Mark {
@@ -77,38 +86,26 @@ impl PacketTokens {
         self.signs = mark.signs;
     }
 
-    /// Adds the packet's body to `bytes`: words, then the raw bits (`head` first) from the end backwards. False, and
-    /// nothing added, where it would have more than `limit` bytes.
+    /// Adds the packet's body to `bytes`: words, then the raw bits (states, then `head`, first) from the end backwards.
+    /// False, and nothing added, where it would have more than `limit` bytes.
     #[must_use]
     pub fn write(
         &self,
         tables: &EncoderTables,
         head: &[(u32, u32)],
+        held: Held,
         words: &mut [u16; WORDS],
         limit: usize,
         bytes: &mut Vec<u8>,
     ) -> bool {
         let symbols = tables.symbols();
         let (raw_bits, signs) = self.raw.split_at(self.signs);
-        // What the states begin with the decoder finds in them at the end: room for the last tile's first signs.
-        let mut left = 0_u64;
-        let mut held = 0;
-        let mut beyond = [0_u32; 1];
-        let mut rest = signs;
-        while let Some((first, others)) = rest.split_first() {
-            let (bits, value) = (first >> 16, first & 0xffff);
-            left |= u64::from(value) << held & SPARE_MASK;
-            if held + bits > SPARE_BITS {
-                let fit = SPARE_BITS - held;
-                beyond[0] = (bits - fit) << 16 | value >> fit;
-                rest = others;
-                break;
-            }
-            held += bits;
-            rest = others;
-        }
+        let (held, beyond, rest) = match held {
+            Held::Signs => hold(signs),
+            Held::Check(value) => (value, 0, signs),
+        };
         let mut states: [u32; STATES] =
-            core::array::from_fn(|i| LOW | (left >> (LOW_BITS * i as u32)) as u32 & (LOW - 1));
+            core::array::from_fn(|i| LOW | (held >> (LOW_BITS * i as u32)) as u32 & (LOW - 1));
         let mut at = 0;
         for &token in self.tokens.iter().rev() {
             let symbol = &symbols[usize::from(token) & TOKEN_MASK];
@@ -128,15 +125,15 @@ impl PacketTokens {
         let start = bytes.len();
         bytes.extend(words[..at].iter().rev().flat_map(|word| word.to_le_bytes()));
         let mut raw = RawWriter { bytes, buffer: 0, filled: 0 };
-        for (bits, value) in head {
-            raw.put(*bits, *value);
-        }
         for state in states {
             let more = 31 - LOW_BITS - state.leading_zeros();
             raw.put(4, more);
             raw.put(LOW_BITS + more, state ^ 1 << (LOW_BITS + more));
         }
-        for bits in raw_bits.iter().chain(&beyond).chain(rest) {
+        for (bits, value) in head {
+            raw.put(*bits, *value);
+        }
+        for bits in raw_bits.iter().chain(&[beyond]).chain(rest) {
             raw.put(bits >> 16, bits & 0xffff);
         }
         raw.finish();
@@ -150,6 +147,24 @@ impl PacketTokens {
 }
 
 const SPARE_MASK: u64 = (1 << SPARE_BITS) - 1;
+
+/// The first signs as the states hold them, what is left of the entry that they end in, and the other entries.
+fn hold(signs: &[u32]) -> (u64, u32, &[u32]) {
+    let mut held = 0;
+    let mut count = 0;
+    let mut rest = signs;
+    while let Some((first, others)) = rest.split_first() {
+        let (bits, value) = (first >> 16, first & 0xffff);
+        held |= u64::from(value) << count & SPARE_MASK;
+        rest = others;
+        if count + bits > SPARE_BITS {
+            let fit = SPARE_BITS - count;
+            return (held, (bits - fit) << 16 | value >> fit, rest);
+        }
+        count += bits;
+    }
+    (held, 0, rest)
+}
 
 /// Bits to bytes, the lowest first.
 struct RawWriter<'a> {

@@ -14,7 +14,7 @@ use plane::{Around, Shape, Side, code_plane};
 use wide::i16x8;
 
 use crate::contexts::{ANCHOR, DEPTH, INDEX, KIND, PATTERN};
-use crate::rans::{Coder, Decoder, TileTokens};
+use crate::rans::{Coder, Decoder, TileTokens, code_octaves};
 use crate::tile::{ColourMode, Kind, LAST_TRANSFORMED, Pattern, Place, Plane, TILE, Tile};
 
 /// A decoder finds a tile's masks and planes symbol by symbol; an encoder knows them, and finds many symbols at once.
@@ -147,7 +147,7 @@ pub fn code_tile<C: TileCoder>(
     near.last_depth = Some(side[0]);
     if mode == ColourMode::Palette {
         let anchor =
-            if known { 1 } else { coder.raw(9, first_valid::<C>(&tile.index, &shape)).max(1) as i16 };
+            if known { 1 } else { coder.raw(8, first_valid::<C>(&tile.index, &shape) - 1) as i16 + 1 };
         let left = known.then_some(&near.left.index);
         let side = code_plane(coder, &mut tile.index, &shape, left, anchor, &mut near.activity[1], INDEX);
         near.left.index = side;
@@ -172,7 +172,7 @@ fn first_valid<C: Coder>(plane: &Plane, shape: &Shape) -> u32 {
 /// What stands in for a tile's surroundings where none are known.
 fn code_anchor<C: Coder>(coder: &mut C, value: u32, before: Option<i16>) -> i16 {
     match before {
-        None => coder.raw(15, value).max(1) as i16,
+        None => code_octaves(|bits, value| coder.raw(bits, value), value).min(MAX_DEPTH as u32) as i16,
         Some(before) => {
             let before = i32::from(before);
             let folded = code_number(coder, ANCHOR, fold(value as i32 - before));
