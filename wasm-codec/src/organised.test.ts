@@ -150,7 +150,7 @@ test('the conformance vectors give their points here too', () => {
     streamHeader: string;
     packets: { data: string; points: number[][] }[];
   }[];
-  expect(vectors).toHaveLength(5);
+  expect(vectors).toHaveLength(9);
   for (const { streamHeader, packets } of vectors) {
     const decoder = new OrganisedDecoder(codec, Buffer.from(streamHeader, 'hex'));
     for (const { data, points } of packets) {

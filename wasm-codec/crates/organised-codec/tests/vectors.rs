@@ -53,10 +53,23 @@ fn made() -> Vec<Vector> {
         ("palette", ColourMode::Palette, 0, 3, 0.0),
         ("latency test", ColourMode::None, 0, 5, 0.0),
         ("thinned", ColourMode::Subsampled, 12, 4, 0.3),
+        ("thinned palette", ColourMode::Palette, 0, 2, 0.3),
+        ("thinned latency test", ColourMode::None, 0, 6, 0.1),
+        ("full and empty tiles", ColourMode::Subsampled, 2, 3, 0.0),
+        ("full and empty tiles, thinned", ColourMode::Full, 6, 4, 0.15),
     ];
     let vector = |(name, mode, quality, depth_level, density): (&str, ColourMode, u8, u8, f32)| {
         let mut header = header(53, 41);
-        let points_in = frame(&header, 11, 0.15, 0.004, mode == ColourMode::Palette);
+        let has_full_tiles = name.starts_with("full and empty");
+        let holes = if has_full_tiles { 0.0 } else { 0.15 };
+        let mut points_in = frame(&header, 11, holes, 0.004, mode == ColourMode::Palette);
+        if has_full_tiles {
+            let width = usize::from(header.width);
+            let is_left_out = |i: usize| i % width >= width / 3 && i / width < 20;
+            for (_, point) in points_in.iter_mut().enumerate().filter(|(i, _)| is_left_out(*i)) {
+                point[2] = 0.0;
+            }
+        }
         let source = Source::Points(&points_in);
         if mode == ColourMode::Palette {
             header = with_palette(header, source).expect("few colours");
@@ -88,7 +101,7 @@ fn the_vectors_give_their_points() {
     }
     let vectors: Vec<Vector> =
         serde_json::from_str(&std::fs::read_to_string(PATH).expect("the vectors")).expect("vectors");
-    assert_eq!(vectors.len(), 5);
+    assert_eq!(vectors.len(), 9);
     for vector in vectors {
         let header = StreamHeader::parse(&unhex(&vector.stream_header)).expect("a header");
         let mut decoder = Decoder::new(header, false).expect("a stream");
