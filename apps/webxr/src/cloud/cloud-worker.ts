@@ -8,6 +8,7 @@ import { type Codec, loadCodec } from '@farpoint/wasm-codec';
 import { BridgeStream } from '../bridge/bridge-stream.ts';
 import type { Batch } from './batch.ts';
 import { BatchPool } from './batch-pool.ts';
+import { DecoderBacklog } from './decoder-backlog.ts';
 import { OrganisedPacketDecoder } from './organised-packet-decoder.ts';
 import type { BatchWriter, PacketDecoder } from './packet-decoder.ts';
 import { countDrop, PacketIntake } from './packet-intake.ts';
@@ -35,6 +36,13 @@ codecReady.then(
     post({ type: 'failed', message: error instanceof Error ? error.message : String(error) }),
 );
 
+/** https://w3c.github.io/webrtc-encoded-transform/ */
+interface AudioFrameMetadata extends RTCEncodedAudioFrameMetadata {
+  /** When the packet came, as `performance.now()`; where the browser tells. */
+  receiveTime?: number;
+}
+
+const backlog = new DecoderBacklog();
 let generation = -1;
 let intake = new PacketIntake();
 /** Of coded formats, once their stream header has come. */
@@ -157,8 +165,12 @@ const writer: BatchWriter = {
 function receive(frame: RTCEncodedAudioFrame): void {
   const began = performance.now();
   const { data } = frame;
-  const fault = intake.take(new DataView(data), frame.getMetadata().sequenceNumber);
-  if (fault === null) decode(data, performance.timeOrigin + began);
+  const { sequenceNumber, receiveTime = Number.NaN }: AudioFrameMetadata = frame.getMetadata();
+  const fault = intake.take(new DataView(data), sequenceNumber);
+  if (fault === null) {
+    if (backlog.isStale(began - receiveTime)) countDrop(intake.drops, 'decoder-behind');
+    else decode(data, performance.timeOrigin + began);
+  }
   busyMs += performance.now() - began;
   busyPackets++;
 }

@@ -17,6 +17,7 @@ export type DropReason =
   | UnorganisedFault
   | 'no-stream' // of a coded format whose stream header has not come
   | 'bad-count' // decoded, but not into as many points as its header says
+  | 'decoder-behind' // packets come faster than they are decoded: this one waited too long
   | 'no-buffer' // the page has not given buffers back: it draws too slowly
   | 'page-behind' // handed to the page, but newer points came before it could draw
   | 'late' // its frame was replaced on the screen already
