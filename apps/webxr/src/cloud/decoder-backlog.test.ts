@@ -11,7 +11,16 @@ test('what waited up to a tenth of a second is decoded', () => {
 });
 
 test('behind, all is left out until what comes is new', () => {
-  expect(stale(100, 101, 90, 60, 21, 20, 60)).toEqual([false, true, true, true, true, false, false]);
+  expect(stale(0, 100, 101, 90, 60, 21, 20, 60)).toEqual([false, false, true, true, true, true, false, false]);
+});
+
+test.each([-5000, 700])('clocks that are %d ms apart make no difference', (apartMs) => {
+  const waits = [0, 100, 101, 60, 20].map((waitedMs) => waitedMs + apartMs);
+  expect(stale(...waits)).toEqual([false, false, true, true, false]);
+});
+
+test('what has waited for the decoder to begin is decoded', () => {
+  expect(stale(600, 590, 300, 10)).toEqual([false, false, false, false]);
 });
 
 test('where the browser does not tell, nothing is left out', () => {

@@ -1,6 +1,6 @@
-/** What waited longer for the decoder shows the past, ms. */
+/** What waited so much longer than the least that ever waited shows the past, ms. */
 const MOST_MS = 100;
-/** What waited less is what comes now, ms. */
+/** What waited only so much longer is what comes now, ms. */
 const CAUGHT_UP_MS = 20;
 
 /**
@@ -10,11 +10,17 @@ const CAUGHT_UP_MS = 20;
  */
 export class DecoderBacklog {
   #behind = false;
+  #leastMs = Number.POSITIVE_INFINITY;
 
-  /** @param waitedMs from the packet's arrival until now; NaN where the browser does not tell: then none is left out */
+  /**
+   * @param waitedMs from the packet's arrival until now, but for what a browser's clocks of the two are apart; NaN where it
+   *   does not tell: then none is left out
+   */
   isStale(waitedMs: number): boolean {
-    if (waitedMs > MOST_MS) this.#behind = true;
-    else if (!(waitedMs > CAUGHT_UP_MS)) this.#behind = false;
+    if (waitedMs < this.#leastMs) this.#leastMs = waitedMs;
+    const behindMs = waitedMs - this.#leastMs;
+    if (behindMs > MOST_MS) this.#behind = true;
+    else if (!(behindMs > CAUGHT_UP_MS)) this.#behind = false;
     return this.#behind;
   }
 }
