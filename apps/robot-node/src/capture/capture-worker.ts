@@ -206,7 +206,7 @@ function captureFrame(now: number): number | null {
   if (frame.form === 'images') offerPicture(frame);
   if (tap !== null) record(tap, frame, frames);
   if (green) latencyTest = false;
-  workMs += (threadCpuMs() - cpuBefore - workMs) * (workMs === 0 ? 1 : SMOOTHING);
+  workMs += (monotonicMs() - now - workMs) * (workMs === 0 ? 1 : SMOOTHING);
   return intervalMs;
 }
 

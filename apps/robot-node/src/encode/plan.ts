@@ -39,7 +39,7 @@ export interface PlanInput {
   overheadBytes: number;
   /** The rate control wants to try the link with a train of so many bytes on the wire; 0 for none. */
   probeBytes: number;
-  /** Processor time that a frame takes, ms. */
+  /** How long the capture thread works on a frame, by the clock: whatever else keeps the processors busy counts, ms. */
   workMs: number;
 }
 
@@ -67,6 +67,8 @@ const LEAST_FRAMES_PER_SECOND = 10;
 const UPWARD_MARGIN = 1.25;
 /** The capture thread also reads commands, moves the robot and must not fall behind: share of its time for frames. */
 const MOST_LOAD = 0.7;
+/** Of a source that need not give so many: on a computer that is full, each further frame makes all of them later. */
+const MOST_LOAD_AT_ANY_RATE = 0.5;
 /** What a coded frame needs, bits for each point of the raw cloud. */
 interface CodedNeed {
   /** The frame is whole, if coarse: below, rather fewer frames. */
@@ -158,7 +160,7 @@ export class FramePlanner {
 
   /**
    * The source's rate, or a whole fraction of it: cameras can be asked for every second picture, not for every 1.3rd. Of a
-   * source that gives a frame whenever it is asked, as many more as the processor has time for.
+   * source that gives a frame whenever it is asked, as many more as there is time for.
    */
   #chooseFrameRate(
     pointsPerSecond: number,
@@ -169,7 +171,8 @@ export class FramePlanner {
     const { mostFramesPerSecond, anyRate } = this.#options;
     const floor = Math.min(LEAST_FRAMES_PER_SECOND, mostFramesPerSecond);
     const least = Math.min(wanted, mostPoints);
-    const affordable = workMs > 0 ? (1000 * MOST_LOAD) / workMs : Number.POSITIVE_INFINITY;
+    const load = anyRate ? MOST_LOAD_AT_ANY_RATE : MOST_LOAD;
+    const affordable = workMs > 0 ? (1000 * load) / workMs : Number.POSITIVE_INFINITY;
     for (let divisor = 1; ; divisor++) {
       const candidate = mostFramesPerSecond / divisor;
       const next = mostFramesPerSecond / (divisor + 1);
