@@ -5,12 +5,13 @@ import { LossJudge } from './loss-judge.ts';
 import { PathObserver } from './path-observer.ts';
 import { ProbePlan } from './probe-plan.ts';
 import { ProbeTester } from './probe-tester.ts';
-import type {
-  PacketResult,
-  RateController,
-  RateDecision,
-  RateSnapshot,
-  ReceiverSums,
+import {
+  emptyDecision,
+  type PacketResult,
+  type RateController,
+  type RateDecision,
+  type RateSnapshot,
+  type ReceiverSums,
 } from './rate-controller.ts';
 import { Silence } from './silence.ts';
 
@@ -70,13 +71,7 @@ export class AdaptiveRateController implements RateController {
   #ignoreLossBeforeMs = Number.NEGATIVE_INFINITY;
   /** The rate before the cut for loss that is on trial; 0 where delay has cut it since. */
   #beforeTrial = 0;
-  readonly #decision: RateDecision = {
-    targetBitsPerSecond: 0,
-    pacingBitsPerSecond: 0,
-    congestionWindowBytes: 0,
-    bytesInFlight: 0,
-    probe: null,
-  };
+  readonly #decision = emptyDecision();
 
   constructor(options: AdaptiveRateOptions = {}) {
     this.#min = options.minBitsPerSecond ?? 150_000;

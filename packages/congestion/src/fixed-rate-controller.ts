@@ -1,9 +1,10 @@
-import type {
-  PacketResult,
-  RateController,
-  RateDecision,
-  RateSnapshot,
-  ReceiverSums,
+import {
+  emptyDecision,
+  type PacketResult,
+  type RateController,
+  type RateDecision,
+  type RateSnapshot,
+  type ReceiverSums,
 } from './rate-controller.ts';
 
 export interface FixedRateOptions {
@@ -47,13 +48,7 @@ export class FixedRateController implements RateController {
   #sumsAtStart: ReceiverSums | null = null;
   #reportInInterval = false;
   #loss = 0;
-  readonly #decision: RateDecision = {
-    targetBitsPerSecond: 0,
-    pacingBitsPerSecond: 0,
-    congestionWindowBytes: Number.POSITIVE_INFINITY,
-    bytesInFlight: 0,
-    probe: null,
-  };
+  readonly #decision = emptyDecision();
 
   constructor(options: FixedRateOptions) {
     this.#configured = options.bitsPerSecond;

@@ -56,6 +56,17 @@ export interface RateDecision {
   probe: Readonly<ProbeRequest> | null;
 }
 
+/** What a controller fills in before each answer. Its window stays without a limit where the controller has none. */
+export function emptyDecision(): RateDecision {
+  return {
+    targetBitsPerSecond: 0,
+    pacingBitsPerSecond: 0,
+    congestionWindowBytes: Number.POSITIVE_INFINITY,
+    bytesInFlight: 0,
+    probe: null,
+  };
+}
+
 /**
  * A wish for a short train of packets at a higher rate: media that waits, then points that were left out, then padding.
  * Each packet of the train is reported with its `clusterId`. A sender that cannot may ignore it.

@@ -1,11 +1,12 @@
 import { InFlight } from '../in-flight.ts';
 import { ProbeTester } from '../probe-tester.ts';
-import type {
-  PacketResult,
-  RateController,
-  RateDecision,
-  RateSnapshot,
-  ReceiverSums,
+import {
+  emptyDecision,
+  type PacketResult,
+  type RateController,
+  type RateDecision,
+  type RateSnapshot,
+  type ReceiverSums,
 } from '../rate-controller.ts';
 import { AimdRate } from './aimd-rate.ts';
 import { IncomingRate } from './incoming-rate.ts';
@@ -45,13 +46,7 @@ export class GccController implements RateController {
   #roundTripMs = Number.NaN;
   #feedbackMs = Number.NaN;
   #receiverLimit = Number.POSITIVE_INFINITY;
-  readonly #decision: RateDecision = {
-    targetBitsPerSecond: 0,
-    pacingBitsPerSecond: 0,
-    congestionWindowBytes: Number.POSITIVE_INFINITY,
-    bytesInFlight: 0,
-    probe: null,
-  };
+  readonly #decision = emptyDecision();
 
   constructor(options: GccOptions = {}) {
     const start = options.startBitsPerSecond ?? 3e6;
