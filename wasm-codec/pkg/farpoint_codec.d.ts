@@ -125,18 +125,26 @@ export class OrganisedDecoder {
      */
     latency_test(): boolean;
     /**
-     * Where to write a packet: 1201 bytes.
+     * Where to write packets: twice 1201 bytes.
      */
-    packet_ptr(): number;
+    packets_ptr(): number;
     /**
      * Points of the frame, 8 bytes each.
      */
     points_ptr(): number;
     /**
-     * Decodes the first `length` bytes at `packet_ptr`: the number of points, or −1 too short, −2 too long, −3 check value,
-     * −4 reserved, −5 unknown stream, −6 tiles, −7 duplicate, −8 corrupt.
+     * Decodes the first packet: the number of points, or −1 too short, −2 too long, −3 check value, −4 reserved, −5 unknown
+     * stream, −6 tiles, −7 duplicate, −8 corrupt.
      */
     put(length: number): number;
+    /**
+     * Decodes both packets. As [`OrganisedDecoder::put`] of the first; of the second [`OrganisedDecoder::second`] tells.
+     */
+    put_two(length: number, second_length: number): number;
+    /**
+     * See [`OrganisedDecoder::put_two`].
+     */
+    second(): number;
     /**
      * Image width, pixels.
      */
@@ -338,9 +346,11 @@ export interface InitOutput {
     readonly organiseddecoder_fault_of: (a: number, b: number) => number;
     readonly organiseddecoder_height: (a: number) => number;
     readonly organiseddecoder_latency_test: (a: number) => number;
-    readonly organiseddecoder_packet_ptr: (a: number) => number;
+    readonly organiseddecoder_packets_ptr: (a: number) => number;
     readonly organiseddecoder_points_ptr: (a: number) => number;
     readonly organiseddecoder_put: (a: number, b: number) => number;
+    readonly organiseddecoder_put_two: (a: number, b: number, c: number) => number;
+    readonly organiseddecoder_second: (a: number) => number;
     readonly organiseddecoder_width: (a: number) => number;
     readonly organisedencoder_begin: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number) => [number, number];
     readonly organisedencoder_bits_in_one_packet: (a: number, b: number) => number;

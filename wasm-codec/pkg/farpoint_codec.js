@@ -285,11 +285,11 @@ export class OrganisedDecoder {
         return ret !== 0;
     }
     /**
-     * Where to write a packet: 1201 bytes.
+     * Where to write packets: twice 1201 bytes.
      * @returns {number}
      */
-    packet_ptr() {
-        const ret = wasm.organiseddecoder_packet_ptr(this.__wbg_ptr);
+    packets_ptr() {
+        const ret = wasm.organiseddecoder_packets_ptr(this.__wbg_ptr);
         return ret >>> 0;
     }
     /**
@@ -301,13 +301,31 @@ export class OrganisedDecoder {
         return ret >>> 0;
     }
     /**
-     * Decodes the first `length` bytes at `packet_ptr`: the number of points, or −1 too short, −2 too long, −3 check value,
-     * −4 reserved, −5 unknown stream, −6 tiles, −7 duplicate, −8 corrupt.
+     * Decodes the first packet: the number of points, or −1 too short, −2 too long, −3 check value, −4 reserved, −5 unknown
+     * stream, −6 tiles, −7 duplicate, −8 corrupt.
      * @param {number} length
      * @returns {number}
      */
     put(length) {
         const ret = wasm.organiseddecoder_put(this.__wbg_ptr, length);
+        return ret;
+    }
+    /**
+     * Decodes both packets. As [`OrganisedDecoder::put`] of the first; of the second [`OrganisedDecoder::second`] tells.
+     * @param {number} length
+     * @param {number} second_length
+     * @returns {number}
+     */
+    put_two(length, second_length) {
+        const ret = wasm.organiseddecoder_put_two(this.__wbg_ptr, length, second_length);
+        return ret;
+    }
+    /**
+     * See [`OrganisedDecoder::put_two`].
+     * @returns {number}
+     */
+    second() {
+        const ret = wasm.organiseddecoder_second(this.__wbg_ptr);
         return ret;
     }
     /**

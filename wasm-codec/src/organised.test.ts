@@ -55,6 +55,30 @@ describe('OrganisedEncoder and OrganisedDecoder', () => {
     expect(decoder.depth.every((z) => z === 0)).toBe(true);
   });
 
+  test('take two packets at once as one after the other, refused ones too', () => {
+    const { header, packets } = encoded({ depthLevel: 0, colour: { quality: 0, chroma: 'full' } });
+    expect(packets.length).toBeGreaterThan(2);
+    const [a, b, c] = packets as [Uint8Array, Uint8Array, Uint8Array];
+    const damaged = a.with(30, (a[30] as number) ^ 1);
+    const long = new Uint8Array(1300);
+    const pairs = [
+      [damaged, a],
+      [b, b],
+      [long, c],
+      [a.with(0, (a[0] as number) ^ 1), c.subarray(0, 9)],
+    ] as const;
+    const [atOnce, oneByOne] = [new OrganisedDecoder(codec, header), new OrganisedDecoder(codec, header)];
+    const results = pairs.map(([first, second]) => atOnce.putTwo(first, second));
+    expect(results).toEqual(pairs.map((pair) => pair.map((packet) => oneByOne.put(packet))));
+    expect(results).toMatchObject([
+      [{ fault: 'bad-check' }, { points: expect.any(Number) }],
+      [{ points: expect.any(Number) }, { fault: 'duplicate' }],
+      [{ fault: 'too-long' }, { points: expect.any(Number) }],
+      [{ fault: 'bad-check' }, { fault: 'too-short' }],
+    ]);
+    expect(atOnce.unpack()).toEqual(oneByOne.unpack());
+  });
+
   test('keep a budget and thin the far first', () => {
     const whole = encoded({}).report;
     const budgetBytes = Math.round(whole.bytes / 6);

@@ -109,11 +109,16 @@ function organisedAs(
   const witness = new OrganisedDecoder(codec, header, { images: true });
   let [packets, passes] = [0, 0];
   let wanted: readonly number[] = [];
+  // Two by two, as the page does.
   const put = (into: OrganisedDecoder, indices: readonly number[]) => {
     into.begin();
-    for (const index of indices) {
-      const result = into.put(encoder.packet(index));
-      if ('fault' in result) throw new Error(`packet ${index}: ${result.fault}`);
+    for (let i = 0; i < indices.length; i += 2) {
+      const [first, second] = indices.slice(i, i + 2).map((index) => encoder.packet(index));
+      if (first === undefined) break;
+      const results = second === undefined ? [into.put(first)] : into.putTwo(first, second);
+      for (const result of results) {
+        if ('fault' in result) throw new Error(`packet ${indices[i]} or the next: ${result.fault}`);
+      }
     }
   };
   const run: CodecRun = {

@@ -1,13 +1,15 @@
 //! What must hold for any bytes that reach the organised decoder. The fuzz targets and the replay of their corpus share it.
 
+use farpoint_organised_codec::contexts::INDEX_CONTEXTS;
 use farpoint_organised_codec::crc16::crc16;
+use farpoint_organised_codec::tables::EVEN;
 use farpoint_organised_codec::{Decoder, Intrinsics, PacketError, StreamHeader, seal, stream};
 
 const ID: u8 = 9;
 const SIDES: (u16, u16) = (90, 60);
 
 fn header(colours: u8) -> StreamHeader {
-    let frequencies = if colours > 0 { vec![[256; 16]; 44] } else { Vec::new() };
+    let frequencies = if colours > 0 { vec![EVEN; INDEX_CONTEXTS] } else { Vec::new() };
     StreamHeader {
         id: ID,
         width: SIDES.0,
@@ -42,13 +44,35 @@ fn decode(packet: &[u8], colours: u8) -> Result<usize, PacketError> {
     first
 }
 
-/// Any bytes as a packet: as they are, then with the id and the check value put right.
+/// Two packets at once are as one after the other.
+fn decode_two(packets: [&[u8]; 2], colours: u8) {
+    let [mut one_by_one, mut at_once] =
+        [(); 2].map(|()| Decoder::new(header(colours), false).expect("a stream"));
+    let expected = packets.map(|packet| one_by_one.put(packet));
+    assert_eq!(at_once.put_two(packets), expected);
+    assert_eq!(at_once.points(), one_by_one.points());
+}
+
+/// With the id and the check value put right.
+fn forge(data: &[u8]) -> Vec<u8> {
+    let mut forged = data.to_vec();
+    if let Some(id) = forged.first_mut() {
+        *id = ID;
+    }
+    seal(&mut forged);
+    forged
+}
+
+/// Any bytes as a packet: as they are, then with the id and the check value put right; and as two.
 pub fn packet(data: &[u8]) {
     let _ = decode(data, 0);
+    let (first, second) = data.split_at(data.len() / 2);
+    for colours in [0, 40] {
+        decode_two([&forge(first), &forge(second)], colours);
+        decode_two([&forge(data), &forge(second)], colours);
+    }
     if data.len() >= 5 {
-        let mut forged = data.to_vec();
-        forged[0] = ID;
-        seal(&mut forged);
+        let forged = forge(data);
         for colours in [0, 40] {
             let told = decode(&forged, colours);
             // In packets without signs the check value is coded with the rest.

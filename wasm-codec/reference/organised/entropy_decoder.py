@@ -4,7 +4,7 @@ from __future__ import annotations
 from bisect import bisect_right
 
 from .errors import BadPacket
-from .tables import Context
+from .tables import TOTAL, Context
 
 STATES = 4  # A, B, C, D
 FREE_BITS = 15  # of each state, when all is decoded
@@ -47,9 +47,9 @@ class EntropyDecoder:
     def symbol_by(self, state: int, context: Context) -> int:
         """A symbol by the state with this number, 0 for A."""
         x = self._states[state]
-        slot = x & 4095
+        slot = x % TOTAL
         symbol = bisect_right(context.starts, slot) - 1
-        x = context.frequencies[symbol] * (x >> 12) + slot - context.starts[symbol]
+        x = context.frequencies[symbol] * (x // TOTAL) + slot - context.starts[symbol]
         if x < 1 << 15:
             if self._next_word + 2 > self._raw_start():
                 raise BadPacket('words run out')

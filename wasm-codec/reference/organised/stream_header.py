@@ -41,8 +41,8 @@ def read_stream_header(data: bytes) -> StreamHeader:
      fx, fy, cx, cy, depth_unit, colours) = FIXED.unpack_from(data)
     if magic != b'FPOC':
         raise BadHeader('not a stream header')
-    if (format_version, tables_version) != (2, 1):
-        raise BadHeader(f'version {format_version} with tables {tables_version}, not 2 with 1')
+    if (format_version, tables_version) != (3, 2):
+        raise BadHeader(f'version {format_version} with tables {tables_version}, not 3 with 2')
     if zero != 0:
         raise BadHeader('byte 7 is not 0')
     if colours > 256:

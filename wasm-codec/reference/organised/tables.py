@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import List, NamedTuple, Tuple
 
 SYMBOLS = 16
-TOTAL = 4096
+TOTAL = 512
 CONTEXT_BYTES = 2 * SYMBOLS
 
 GEOMETRY_SETS, GEOMETRY_CONTEXTS = 8, 122

@@ -2,7 +2,7 @@
 //! there are (each frame joins the set that codes it best), and writes the frequencies.
 
 use farpoint_organised_codec::contexts::{COLOUR_CONTEXTS, GEOMETRY_CONTEXTS, INDEX_CONTEXTS, SYMBOLS};
-use farpoint_organised_codec::tables::{COLOUR_SETS, GEOMETRY_SETS, normalise};
+use farpoint_organised_codec::tables::{COLOUR_SETS, EVEN, GEOMETRY_SETS, normalise};
 use farpoint_organised_codec::tile::Pattern;
 use farpoint_organised_codec::{
     ColourMode, Encoder, Histogram, Intrinsics, Point, Settings, Source, StreamHeader, stream,
@@ -99,7 +99,7 @@ fn count(points: &[Point], sensor: &Sensor, settings: &Settings, pattern: u8) ->
         intrinsics,
         depth_unit: stream::DEPTH_UNIT,
         palette: (0..=255).map(|level| [level; 3]).collect(),
-        index_frequencies: vec![[256; SYMBOLS]; INDEX_CONTEXTS],
+        index_frequencies: vec![EVEN; INDEX_CONTEXTS],
     };
     let mut encoder = Encoder::new(header).expect("a camera");
     encoder.patterns().fill(Pattern(pattern));
@@ -118,7 +118,7 @@ fn cluster(name: &str, samples: &[Counts], sets: usize, contexts: usize) -> Vec<
         }
     }
     // Begin with samples sorted by bits a symbol under the common table, in equal parts.
-    let common = frequencies(&all, &all);
+    let common = shares(&all, &all);
     let mut order: Vec<usize> = (0..samples.len()).collect();
     let per_symbol =
         |sample: &Counts| cost(sample, &common) / sample.iter().map(|c| f64::from(*c)).sum::<f64>();
@@ -127,7 +127,7 @@ fn cluster(name: &str, samples: &[Counts], sets: usize, contexts: usize) -> Vec<
     for (rank, sample) in order.iter().enumerate() {
         member[*sample] = rank * sets / samples.len();
     }
-    let mut tables: Vec<Vec<u16>> = Vec::new();
+    let mut tables: Vec<Vec<f64>> = Vec::new();
     for round in 0..ROUNDS {
         tables = (0..sets)
             .map(|set| {
@@ -141,7 +141,7 @@ fn cluster(name: &str, samples: &[Counts], sets: usize, contexts: usize) -> Vec<
                         }
                     }
                 }
-                frequencies(&sums, &all)
+                shares(&sums, &all)
             })
             .collect();
         let mut total = 0.0;
@@ -162,11 +162,11 @@ fn cluster(name: &str, samples: &[Counts], sets: usize, contexts: usize) -> Vec<
             break;
         }
     }
-    tables.concat()
+    tables.concat().as_chunks::<SYMBOLS>().0.iter().flat_map(normalise).collect()
 }
 
-/// Of a set; what it never saw is taken from all sets.
-fn frequencies(sums: &[f64], all: &[f64]) -> Vec<u16> {
+/// Of a set, each context's adding up to 1; what it never saw is taken from all sets.
+fn shares(sums: &[f64], all: &[f64]) -> Vec<f64> {
     let (own, _) = sums.as_chunks::<SYMBOLS>();
     let (common, _) = all.as_chunks::<SYMBOLS>();
     own.iter()
@@ -174,12 +174,12 @@ fn frequencies(sums: &[f64], all: &[f64]) -> Vec<u16> {
         .flat_map(|(own, common)| {
             let total: f64 = common.iter().sum::<f64>().max(1.0);
             let mixed: [f64; SYMBOLS] = core::array::from_fn(|i| own[i] + 60.0 * common[i] / total + 0.02);
-            normalise(&mixed)
+            let sum: f64 = mixed.iter().sum();
+            mixed.map(|count| count / sum)
         })
         .collect()
 }
 
-fn cost(sample: &Counts, table: &[u16]) -> f64 {
-    let bits = |(count, frequency): (&u32, &u16)| f64::from(*count) * (12.0 - f64::from(*frequency).log2());
-    sample.iter().zip(table).map(bits).sum()
+fn cost(sample: &Counts, table: &[f64]) -> f64 {
+    sample.iter().zip(table).map(|(count, share)| f64::from(*count) * -share.log2()).sum()
 }

@@ -160,6 +160,9 @@ const writer: BatchWriter = {
     batch ??= pool.take();
     return batch;
   },
+  drop(reason) {
+    countDrop(intake.drops, reason);
+  },
 };
 
 function receive(frame: RTCEncodedAudioFrame): void {
@@ -168,7 +171,7 @@ function receive(frame: RTCEncodedAudioFrame): void {
   const { sequenceNumber, receiveTime = Number.NaN }: AudioFrameMetadata = frame.getMetadata();
   const fault = intake.take(new DataView(data), sequenceNumber);
   if (fault === null) {
-    if (backlog.isStale(began - receiveTime)) countDrop(intake.drops, 'decoder-behind');
+    if (backlog.isStale(began - receiveTime)) writer.drop('decoder-behind');
     else decode(data, performance.timeOrigin + began);
   }
   busyMs += performance.now() - began;
@@ -176,10 +179,10 @@ function receive(frame: RTCEncodedAudioFrame): void {
 }
 
 function decode(data: ArrayBuffer, receivedMs: number): void {
-  const { header, placement, drops } = intake;
+  const { header, placement } = intake;
   const decoder = decoders[placement.format];
   if (decoder === undefined) {
-    countDrop(drops, 'no-stream');
+    writer.drop('no-stream');
     return;
   }
   if (filling !== decoder) {
@@ -187,11 +190,7 @@ function decode(data: ArrayBuffer, receivedMs: number): void {
     filling = decoder;
   }
   const bytes = new Uint8Array(data, HEADER_BYTES, data.byteLength - HEADER_BYTES - PLACEMENT_BYTES);
-  const fault = decoder.add(header, placement, bytes, receivedMs, writer);
-  if (fault !== null) {
-    countDrop(drops, fault);
-    return;
-  }
+  decoder.add(header, placement, bytes, receivedMs, writer);
   const lastOfFrame = header.sequenceOffset + header.sequenceLength === header.frameLength;
   if (lastOfFrame && pool.out < BATCHES_AHEAD) flush();
   else scheduleFlush();
@@ -200,6 +199,9 @@ function decode(data: ArrayBuffer, receivedMs: number): void {
 function scheduleFlush(): void {
   flushTimer ??= setTimeout(() => {
     flushTimer = undefined;
+    const began = performance.now();
+    filling?.settle(writer);
+    busyMs += performance.now() - began;
     // Otherwise the next buffer that comes back, or a full one, brings it on its way.
     if (pool.out < BATCHES_AHEAD) flush();
   }, FLUSH_AFTER_MS);
@@ -208,6 +210,8 @@ function scheduleFlush(): void {
 function flush(): void {
   clearTimeout(flushTimer);
   flushTimer = undefined;
+  // This may itself hand over batches that it fills.
+  filling?.settle(writer);
   if (batch === null || batch.packets === 0) return;
   filling?.finish(batch);
   const { buffer, packets, pointCount: points } = batch;

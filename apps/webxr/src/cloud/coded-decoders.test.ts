@@ -5,6 +5,7 @@ import { describe, expect, it } from 'vitest';
 import { BATCH_BYTES, BATCH_POINTS, Batch } from './batch.ts';
 import { OrganisedPacketDecoder } from './organised-packet-decoder.ts';
 import type { BatchWriter } from './packet-decoder.ts';
+import type { DropReason } from './packet-intake.ts';
 import { UnorganisedPacketDecoder } from './unorganised-packet-decoder.ts';
 
 const codec = await loadCodecFromDisk();
@@ -15,6 +16,7 @@ class Batches implements BatchWriter {
   every = 1;
   readonly everySample = 1;
   readonly all: Batch[] = [];
+  readonly drops: DropReason[] = [];
   readonly #most: number;
 
   constructor(most = Number.POSITIVE_INFINITY) {
@@ -28,6 +30,10 @@ class Batches implements BatchWriter {
     const batch = new Batch(new ArrayBuffer(BATCH_BYTES));
     this.all.push(batch);
     return batch;
+  }
+
+  drop(reason: DropReason): void {
+    this.drops.push(reason);
   }
 }
 
@@ -77,7 +83,9 @@ describe('OrganisedPacketDecoder', () => {
   it('hands on every point of every packet, in its place', () => {
     const decoder = new OrganisedPacketDecoder(codec, header);
     const batches = new Batches();
-    for (const packet of first) expect(add(decoder, packet, batches)).toBeNull();
+    for (const packet of first) add(decoder, packet, batches);
+    decoder.settle(batches);
+    expect(batches.drops).toEqual([]);
     const total = (first[0] as Packet).header.frameLength / 8;
     expect(total).toBeGreaterThan(BATCH_POINTS * 3);
     expect(batches.all.reduce((sum, batch) => sum + batch.pointCount, 0)).toBe(total);
@@ -107,14 +115,53 @@ describe('OrganisedPacketDecoder', () => {
     const decoder = new OrganisedPacketDecoder(codec, header);
     const batches = new Batches();
     const late = first.slice(-2);
-    for (const packet of first.slice(0, -2)) expect(add(decoder, packet, batches)).toBeNull();
-    expect(add(decoder, second[0] as Packet, batches)).toBeNull();
-    for (const packet of late) expect(add(decoder, packet, batches)).toBeNull();
-    for (const packet of second.slice(1)) expect(add(decoder, packet, batches)).toBeNull();
+    for (const packet of first.slice(0, -2)) add(decoder, packet, batches);
+    add(decoder, second[0] as Packet, batches);
+    for (const packet of late) add(decoder, packet, batches);
+    for (const packet of second.slice(1)) add(decoder, packet, batches);
+    decoder.settle(batches);
+    expect(batches.drops).toEqual([]);
     // Twice is once too often; and two frames back is gone.
-    expect(add(decoder, second[3] as Packet, batches)).toBe('duplicate');
-    expect(add(decoder, third[0] as Packet, batches)).toBeNull();
-    expect(add(decoder, late[0] as Packet, batches)).toBe('late');
+    add(decoder, second[3] as Packet, batches);
+    add(decoder, third[0] as Packet, batches);
+    add(decoder, late[0] as Packet, batches);
+    decoder.settle(batches);
+    expect(batches.drops).toEqual(['duplicate', 'late']);
+  });
+
+  it('decodes two packets at once and hands each on with its own place, time and pose', () => {
+    const decoder = new OrganisedPacketDecoder(codec, header);
+    const batches = new Batches();
+    const moved = emptyPlacement();
+    // The page reads every packet's into the same object.
+    for (const [i, packet] of first.slice(0, 3).entries()) {
+      moved.pose.position.x = i;
+      moved.pose.orientation.y = i / 4;
+      moved.captureTimeUs = 100 + i;
+      moved.latencyTest = i === 1;
+      const passing = { ...packet.header };
+      decoder.add(passing, moved, packet.data, 10 * i, batches);
+      passing.sequenceOffset = 0;
+    }
+    const batch = batches.all[0] as Batch;
+    // The third waits for a fourth.
+    expect(batch.packets).toBe(2);
+    decoder.settle(batches);
+    decoder.settle(batches);
+    expect(batch.packets).toBe(3);
+    for (const [i, packet] of first.slice(0, 3).entries()) {
+      expect(batch.sequenceOffset(i)).toBe(packet.header.sequenceOffset);
+      expect(batch.receivedMs(i)).toBe(10 * i);
+      expect(batch.captureTimeUs(i)).toBe(100 + i);
+      expect(batch.isLatencyTest(i)).toBe(i === 1);
+      expect([batch.poseComponent(i, 0), batch.poseComponent(i, 4)]).toEqual([i, i / 4]);
+    }
+    // What is held of a session that is over is not of the next.
+    add(decoder, first[3] as Packet, batches);
+    decoder.abandon();
+    decoder.settle(batches);
+    expect(batch.packets).toBe(3);
+    expect(batches.drops).toEqual([]);
   });
 
   it('hands on fewer points where they cannot all be drawn, larger, and tells the same places', () => {
@@ -122,7 +169,9 @@ describe('OrganisedPacketDecoder', () => {
     thin.every = 8;
     for (const batches of [whole, thin]) {
       const decoder = new OrganisedPacketDecoder(codec, header);
-      for (const packet of second) expect(add(decoder, packet, batches)).toBeNull();
+      for (const packet of second) add(decoder, packet, batches);
+      decoder.settle(batches);
+      expect(batches.drops).toEqual([]);
     }
     const sum = (batches: Batches, of: (batch: Batch, packet: number) => number) =>
       batches.all
@@ -141,13 +190,23 @@ describe('OrganisedPacketDecoder', () => {
 
   it('refuses a wrong count, foreign bytes, and says when there is no buffer', () => {
     const decoder = new OrganisedPacketDecoder(codec, header);
+    const batches = new Batches();
     const packet = first[0] as Packet;
     const wrong = { ...packet.header, sequenceLength: packet.header.sequenceLength + 8 };
-    expect(decoder.add(wrong, placement, packet.data, 0, new Batches())).toBe('bad-count');
+    decoder.add(wrong, placement, packet.data, 0, batches);
     const damaged = (first[1] as Packet).data.slice();
     damaged[20] = (damaged[20] as number) ^ 1;
-    expect(add(decoder, { ...(first[1] as Packet), data: damaged }, new Batches())).toBe('bad-check');
-    expect(add(decoder, first[2] as Packet, new Batches(0))).toBe('no-buffer');
+    add(decoder, { ...(first[1] as Packet), data: damaged }, batches);
+    // Of two, one that is refused does the other no harm.
+    add(decoder, { ...(first[1] as Packet), data: damaged }, batches);
+    add(decoder, first[2] as Packet, batches);
+    expect(batches.drops).toEqual(['bad-count', 'bad-check', 'bad-check']);
+    expect(batches.all[0]?.packets).toBe(1);
+    expect(batches.all[0]?.sequenceOffset(0)).toBe(first[2]?.header.sequenceOffset);
+    const none = new Batches(0);
+    add(decoder, first[3] as Packet, none);
+    decoder.settle(none);
+    expect(none.drops).toEqual(['no-buffer']);
     expect(() => new OrganisedPacketDecoder(codec, header.slice(1))).toThrow();
   });
 });
@@ -168,9 +227,10 @@ describe('UnorganisedPacketDecoder', () => {
     for (let i = 0; i < packets; i++) {
       const sequenceLength = encoder.pointsOf(i) * 8;
       const header = { frameNumber: 1, frameLength: kept * 8, sequenceOffset, sequenceLength };
-      expect(decoder.add(header, placement, encoder.packet(i).slice(), 0, batches)).toBeNull();
+      decoder.add(header, placement, encoder.packet(i).slice(), 0, batches);
       sequenceOffset += sequenceLength;
     }
+    expect(batches.drops).toEqual([]);
     const [batch] = batches.all as [Batch];
     expect(batch.pointCount).toBe(3000);
     expect(batch.unit(0)).toBeCloseTo(0.004, 9);

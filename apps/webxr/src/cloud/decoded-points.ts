@@ -1,7 +1,6 @@
 import type { Placement, PointPacketHeader } from '@farpoint/protocol';
 import { BATCH_POINTS, type PointLook } from './batch.ts';
 import type { BatchWriter } from './packet-decoder.ts';
-import type { DropReason } from './packet-intake.ts';
 
 /**
  * Hands a decoded packet's points on, one of every `writer.every`. A packet that holds more than a batch goes on in the
@@ -23,7 +22,7 @@ export class DecodedPoints {
     receivedMs: number,
     look: PointLook,
     writer: BatchWriter,
-  ): DropReason | null {
+  ): void {
     const { every } = writer;
     const total = points.length / 4;
     const part = this.#part;
@@ -33,7 +32,10 @@ export class DecodedPoints {
       const came = Math.min(total - first, BATCH_POINTS * every);
       const drawn = Math.ceil(came / every);
       const batch = writer.batchFor(drawn);
-      if (batch === null) return 'no-buffer';
+      if (batch === null) {
+        writer.drop('no-buffer');
+        return;
+      }
       const at = batch.pointCount * 4;
       if (every === 1) batch.points.set(points.subarray(first * 4, (first + came) * 4), at);
       else copyThinned(points, first, came, every, batch.points, at);
@@ -42,7 +44,6 @@ export class DecodedPoints {
       batch.add(part, placement, drawn, receivedMs, look);
       first += came;
     }
-    return null;
   }
 }
 

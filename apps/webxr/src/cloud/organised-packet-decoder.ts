@@ -1,9 +1,13 @@
-import type { Placement, PointPacketHeader } from '@farpoint/protocol';
-import { type Codec, OrganisedDecoder } from '@farpoint/wasm-codec';
+import {
+  emptyPlacement,
+  emptyPointPacketHeader,
+  type Placement,
+  type PointPacketHeader,
+} from '@farpoint/protocol';
+import { type Codec, OrganisedDecoder, type PutResult } from '@farpoint/wasm-codec';
 import type { PointLook } from './batch.ts';
 import { DecodedPoints } from './decoded-points.ts';
 import type { BatchWriter, PacketDecoder } from './packet-decoder.ts';
-import type { DropReason } from './packet-intake.ts';
 
 /** Neighbours on the grid are one mean distance apart: circles of its diagonal close the gaps. */
 const COVER = Math.SQRT2;
@@ -16,11 +20,35 @@ interface FrameDecoder {
   frameNumber: number | null;
 }
 
-/** `organised`: each packet at once. Two frames are open at a time: packets at a frame's end may overtake each other. */
+/** The first of two packets, until the second comes. */
+class HeldPacket {
+  readonly header: PointPacketHeader = emptyPointPacketHeader();
+  readonly placement: Placement = emptyPlacement();
+  receivedMs = 0;
+  /** `null` where none is held. */
+  data: Uint8Array | null = null;
+
+  hold(header: PointPacketHeader, placement: Placement, data: Uint8Array, receivedMs: number): void {
+    Object.assign(this.header, header);
+    const { position, orientation } = this.placement.pose;
+    const { pose, ...others } = placement;
+    Object.assign(position, pose.position);
+    Object.assign(orientation, pose.orientation);
+    Object.assign(this.placement, others);
+    this.receivedMs = receivedMs;
+    this.data = data;
+  }
+}
+
+/**
+ * `organised`: two packets of a frame are decoded at once, for that takes less time; what is left alone at the end of a frame
+ * or of a burst, by itself. Two frames are open at a time: packets at a frame's end may overtake each other.
+ */
 export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
   readonly #open: [FrameDecoder, FrameDecoder];
   readonly #points = new DecodedPoints();
   readonly #look: PointLook;
+  readonly #held = new HeldPacket();
   #newest = 0;
 
   /** @throws {CodecError} `bad-stream-header` */
@@ -39,38 +67,89 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
     data: Uint8Array,
     receivedMs: number,
     writer: BatchWriter,
-  ): DropReason | null {
-    const open = this.#frame(header.frameNumber);
-    if (open === null) return 'late';
-    const { decoder } = open;
+  ): void {
+    const held = this.#held;
+    // A new frame may take the place of the held packet's.
+    if (held.header.frameNumber !== header.frameNumber) this.settle(writer);
+    const decoder = this.#frame(header.frameNumber);
+    if (decoder === null) {
+      writer.drop('late');
+      return;
+    }
+    if (held.data === null) {
+      held.hold(header, placement, data, receivedMs);
+      return;
+    }
     const before = decoder.count;
-    const result = decoder.put(data);
-    if ('fault' in result) return result.fault;
-    if (result.points !== header.sequenceLength / 8) return 'bad-count';
-    const bytes = decoder.unpack();
-    const points = new Int16Array(bytes.buffer, bytes.byteOffset + before * 8, result.points * 4);
-    this.#look.cover = COVER * Math.sqrt(writer.every);
-    return this.#points.write(points, header, placement, receivedMs, this.#look, writer);
+    const [first, second] = decoder.putTwo(held.data, data);
+    held.data = null;
+    const between = before + pointsOf(first);
+    this.#write(decoder, before, first, held.header, held.placement, held.receivedMs, writer);
+    this.#write(decoder, between, second, header, placement, receivedMs, writer);
+  }
+
+  settle(writer: BatchWriter): void {
+    const { header, placement, data, receivedMs } = this.#held;
+    if (data === null) return;
+    this.#held.data = null;
+    const decoder = this.#frame(header.frameNumber);
+    if (decoder === null) {
+      writer.drop('late');
+      return;
+    }
+    const before = decoder.count;
+    this.#write(decoder, before, decoder.put(data), header, placement, receivedMs, writer);
   }
 
   finish(): void {}
 
-  abandon(): void {}
+  abandon(): void {
+    this.#held.data = null;
+  }
 
   [Symbol.dispose](): void {
+    this.abandon();
     for (const { decoder } of this.#open) decoder[Symbol.dispose]();
   }
 
+  /** Hands a packet's points on, which begin at the decoder's point `start`. */
+  #write(
+    decoder: OrganisedDecoder,
+    start: number,
+    result: PutResult,
+    header: PointPacketHeader,
+    placement: Placement,
+    receivedMs: number,
+    writer: BatchWriter,
+  ): void {
+    if ('fault' in result) {
+      writer.drop(result.fault);
+      return;
+    }
+    if (result.points !== header.sequenceLength / 8) {
+      writer.drop('bad-count');
+      return;
+    }
+    const bytes = decoder.unpack();
+    const points = new Int16Array(bytes.buffer, bytes.byteOffset + start * 8, result.points * 4);
+    this.#look.cover = COVER * Math.sqrt(writer.every);
+    this.#points.write(points, header, placement, receivedMs, this.#look, writer);
+  }
+
   /** The decoder of a frame; a new frame takes the place of the older of the two. `null` for one before them. */
-  #frame(frameNumber: number): FrameDecoder | null {
+  #frame(frameNumber: number): OrganisedDecoder | null {
     const newest = this.#open[this.#newest] as FrameDecoder;
-    if (newest.frameNumber === frameNumber) return newest;
+    if (newest.frameNumber === frameNumber) return newest.decoder;
     const other = this.#open[1 - this.#newest] as FrameDecoder;
-    if (other.frameNumber === frameNumber) return other;
+    if (other.frameNumber === frameNumber) return other.decoder;
     if (newest.frameNumber !== null && ((frameNumber - newest.frameNumber) | 0) < 0) return null;
     other.frameNumber = frameNumber;
     other.decoder.begin();
     this.#newest = 1 - this.#newest;
-    return other;
+    return other.decoder;
   }
+}
+
+function pointsOf(result: PutResult): number {
+  return 'points' in result ? result.points : 0;
 }

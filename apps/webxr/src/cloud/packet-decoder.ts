@@ -11,15 +11,16 @@ export interface BatchWriter {
   readonly every: number;
   /** The same of `points64`, which is a sample already. Changes between batches only. */
   readonly everySample: number;
+  /** Counts a packet that gives no points. */
+  drop(reason: DropReason): void;
 }
 
 export interface PacketDecoder {
   /**
-   * Decodes one packet and adds its points to the writer's batch.
+   * Decodes one packet and adds its points to the writer's batch, at once or with the next one.
    *
-   * @param data the codec's own bytes, without header and placement
+   * @param data the codec's own bytes, without header and placement; they must stay as they are
    * @param receivedMs since the epoch
-   * @returns why it gave no points, or `null`
    */
   add(
     header: PointPacketHeader,
@@ -27,7 +28,9 @@ export interface PacketDecoder {
     data: Uint8Array,
     receivedMs: number,
     writer: BatchWriter,
-  ): DropReason | null;
+  ): void;
+  /** Decodes what waits for a next one: none may come, or too late for the batch. */
+  settle(writer: BatchWriter): void;
   /** The batch is about to be handed over: what is not yet in it must come now. */
   finish(batch: Batch): void;
   /** The batch will not be handed over. */

@@ -8,10 +8,11 @@ import { Points64PacketDecoder } from './points64-packet-decoder.ts';
 const codec = await loadCodecFromDisk();
 const placement = emptyPlacement();
 
-/** One batch, without end of room. */
+/** One batch, without end of room; nothing may be dropped. */
 function writer(every: number): BatchWriter & { batch: Batch } {
   const batch = new Batch(new ArrayBuffer(BATCH_BYTES));
-  return { every: 1, everySample: every, batch, batchFor: () => batch };
+  const drop = (reason: string) => expect.unreachable(reason);
+  return { every: 1, everySample: every, batch, batchFor: () => batch, drop };
 }
 
 /** Blocks of a frame: x, y, z differ from point to point. */
@@ -34,7 +35,7 @@ function decode(every: number, counts: readonly number[]): Batch {
   const frameLength = counts.reduce((sum, count) => sum + count * 8, 0);
   for (const { data, offset } of blocks(counts)) {
     const header = { frameNumber: 7, frameLength, sequenceOffset: offset, sequenceLength: data.length };
-    expect(decoder.add(header, placement, data, 5, into)).toBeNull();
+    decoder.add(header, placement, data, 5, into);
   }
   decoder.finish(into.batch);
   return into.batch;
@@ -83,8 +84,9 @@ describe('Points64PacketDecoder', () => {
     decoder.add(header, placement, data, 5, into);
     decoder.finish(into.batch);
     expect(into.batch.pointCount).toBe(10);
-    expect(decoder.add(header, placement, data, 5, { every: 1, everySample: 1, batchFor: () => null })).toBe(
-      'no-buffer',
-    );
+    const drops: string[] = [];
+    const drop = (reason: string) => drops.push(reason);
+    decoder.add(header, placement, data, 5, { every: 1, everySample: 1, batchFor: () => null, drop });
+    expect(drops).toEqual(['no-buffer']);
   });
 });

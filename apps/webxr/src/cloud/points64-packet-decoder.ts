@@ -4,7 +4,6 @@ import { BATCH_PACKETS, type Batch, type PointLook, SAMPLED_COVER } from './batc
 import { copyThinned } from './decoded-points.ts';
 import { ImageExtent } from './image-extent.ts';
 import type { BatchWriter, PacketDecoder } from './packet-decoder.ts';
-import type { DropReason } from './packet-intake.ts';
 
 /** `points64`: a batch's packets are unpacked together, when it is handed over. All of a batch are thinned alike. */
 export class Points64PacketDecoder implements PacketDecoder {
@@ -24,11 +23,14 @@ export class Points64PacketDecoder implements PacketDecoder {
     data: Uint8Array,
     receivedMs: number,
     writer: BatchWriter,
-  ): DropReason | null {
+  ): void {
     const points = header.sequenceLength / 8;
     const drawn = Math.ceil(points / writer.everySample);
     const batch = writer.batchFor(drawn);
-    if (batch === null) return 'no-buffer';
+    if (batch === null) {
+      writer.drop('no-buffer');
+      return;
+    }
     this.#decoder.put(data);
     this.#every = writer.everySample;
     this.#waiting++;
@@ -37,8 +39,9 @@ export class Points64PacketDecoder implements PacketDecoder {
     this.#look.imageExtent = this.#extent.value;
     this.#look.cover = SAMPLED_COVER * Math.sqrt(writer.everySample);
     batch.add(header, placement, drawn, receivedMs, this.#look);
-    return null;
   }
+
+  settle(): void {}
 
   finish(batch: Batch): void {
     // A batch holds packets of one format: these begin at its first point.

@@ -4,7 +4,6 @@ import { type PointLook, SAMPLED_COVER } from './batch.ts';
 import { DecodedPoints } from './decoded-points.ts';
 import { ImageExtent } from './image-extent.ts';
 import type { BatchWriter, PacketDecoder } from './packet-decoder.ts';
-import type { DropReason } from './packet-intake.ts';
 
 /** A packet of 1200 bytes with more points than this is none. */
 const MOST_POINTS = 65_536;
@@ -31,20 +30,28 @@ export class UnorganisedPacketDecoder implements PacketDecoder, Disposable {
     data: Uint8Array,
     receivedMs: number,
     writer: BatchWriter,
-  ): DropReason | null {
+  ): void {
     const decoder = this.#decoder;
     decoder.clear();
     const count = decoder.decode(data);
-    if (typeof count === 'string') return count;
-    if (count !== header.sequenceLength / 8) return 'bad-count';
+    if (typeof count === 'string') {
+      writer.drop(count);
+      return;
+    }
+    if (count !== header.sequenceLength / 8) {
+      writer.drop('bad-count');
+      return;
+    }
     if (this.#turned.length < count * 4) this.#turned = new Int16Array(count * 8);
     const points = this.#turned.subarray(0, count * 4);
     this.#turn(decoder.points, decoder.places, points);
     this.#extent.addVertices(header.frameNumber, points, 0, count);
     this.#look.imageExtent = this.#extent.value;
     this.#look.cover = SAMPLED_COVER * Math.sqrt(writer.every);
-    return this.#points.write(points, header, placement, receivedMs, this.#look, writer);
+    this.#points.write(points, header, placement, receivedMs, this.#look, writer);
   }
+
+  settle(): void {}
 
   finish(): void {}
 

@@ -1,16 +1,20 @@
 //! Bindings of the organised decoder.
 
 use farpoint_organised_codec::packet::MAX_PACKET_BYTES;
-use farpoint_organised_codec::{Decoder, HeaderError, PacketError, StreamHeader};
+use farpoint_organised_codec::{Decoder, HeaderError, PacketError, Put, StreamHeader};
 use wasm_bindgen::prelude::*;
 
 /// Packets of one stream into points.
 #[wasm_bindgen]
 pub struct OrganisedDecoder {
     decoder: Decoder,
-    packet: Box<[u8; MAX_PACKET_BYTES + 1]>,
+    packets: Box<[[u8; PACKET_ROOM]; 2]>,
+    second: i32,
     latency_test: bool,
 }
+
+/// One more than a packet may have: so one that is too long is told.
+const PACKET_ROOM: usize = MAX_PACKET_BYTES + 1;
 
 #[wasm_bindgen]
 impl OrganisedDecoder {
@@ -18,7 +22,7 @@ impl OrganisedDecoder {
     /// nothing.
     pub fn create(header: &[u8], images: bool) -> Option<OrganisedDecoder> {
         let decoder = Decoder::new(StreamHeader::parse(header).ok()?, images)?;
-        Some(Self { decoder, packet: Box::new([0; MAX_PACKET_BYTES + 1]), latency_test: false })
+        Some(Self { decoder, packets: Box::new([[0; PACKET_ROOM]; 2]), second: 0, latency_test: false })
     }
 
     /// 0, or what is wrong with a header: 1 length, 2 magic, 3 version, 4 check value, 5 a value.
@@ -33,9 +37,9 @@ impl OrganisedDecoder {
         }
     }
 
-    /// Where to write a packet: 1201 bytes.
-    pub fn packet_ptr(&self) -> *const u8 {
-        self.packet.as_ptr()
+    /// Where to write packets: twice 1201 bytes.
+    pub fn packets_ptr(&self) -> *const u8 {
+        self.packets.as_ptr().cast()
     }
 
     /// Points of the frame, 8 bytes each.
@@ -79,11 +83,31 @@ impl OrganisedDecoder {
         self.decoder.points().len()
     }
 
-    /// Decodes the first `length` bytes at `packet_ptr`: the number of points, or −1 too short, −2 too long, −3 check value,
-    /// −4 reserved, −5 unknown stream, −6 tiles, −7 duplicate, −8 corrupt.
+    /// Decodes the first packet: the number of points, or −1 too short, −2 too long, −3 check value, −4 reserved, −5 unknown
+    /// stream, −6 tiles, −7 duplicate, −8 corrupt.
     pub fn put(&mut self, length: usize) -> i32 {
-        let packet = &self.packet[..length.min(MAX_PACKET_BYTES + 1)];
-        match self.decoder.put(packet) {
+        let put = self.decoder.put(&self.packets[0][..length.min(PACKET_ROOM)]);
+        self.tell(put)
+    }
+
+    /// Decodes both packets. As [`OrganisedDecoder::put`] of the first; of the second [`OrganisedDecoder::second`] tells.
+    pub fn put_two(&mut self, length: usize, second_length: usize) -> i32 {
+        let [packet, second] = self.packets.each_ref();
+        let packets = [&packet[..length.min(PACKET_ROOM)], &second[..second_length.min(PACKET_ROOM)]];
+        let [put, second] = self.decoder.put_two(packets).map(|put| self.tell(put));
+        self.second = second;
+        put
+    }
+
+    /// See [`OrganisedDecoder::put_two`].
+    pub fn second(&self) -> i32 {
+        self.second
+    }
+}
+
+impl OrganisedDecoder {
+    fn tell(&mut self, put: Result<Put, PacketError>) -> i32 {
+        match put {
             Ok(put) => {
                 self.latency_test |= put.latency_test;
                 put.points as i32

@@ -2,15 +2,12 @@
 
 use core::ops::Range;
 
-use crate::content_check::ContentCheck;
-use crate::emit::{Images, View, emit};
-use crate::packet::{PacketError, PacketHeader, Span, header_bytes};
-use crate::paint::{Colours, Palette};
-use crate::rans::{self, Coder};
+use crate::emit::Images;
+use crate::open_packet::{OpenPacket, Room, Scene};
+use crate::packet::{PacketError, PacketHeader};
 use crate::stream::StreamHeader;
-use crate::syntax::{Neighbours, code_tile};
-use crate::tables::{COLOUR_SETS, DecoderTables, GEOMETRY_SETS};
-use crate::tile::{ColourMode, Grid, Kind, TILE, Tile};
+use crate::tables::DecoderTables;
+use crate::tile::{ColourMode, TILE};
 
 /// What a packet brought.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,23 +22,17 @@ pub struct Put {
 
 /// Decodes the packets of one stream, frame by frame.
 pub struct Decoder {
-    header: StreamHeader,
-    grid: Grid,
+    scene: Scene,
     tables: DecoderTables,
-    body: rans::Body,
-    /// x at 1 m of each column, padded to whole tiles.
-    columns: Vec<f32>,
-    /// y at 1 m of each row.
-    rows: Vec<f32>,
+    rooms: [Room; 2],
     /// int16 x, y, z in millimetres and 6-6-4 colour: 8 bytes a point.
     points: Vec<u64>,
-    palette: Palette,
     count: usize,
+    /// Of the second of two packets, until it is known how many the first has.
+    second_points: Vec<u64>,
     /// A bit for each tile that has come.
     come: Vec<u64>,
     images: Option<Images>,
-    tile: Tile,
-    colours: Box<Colours>,
 }
 
 impl Decoder {
@@ -51,35 +42,26 @@ impl Decoder {
         if !header.is_valid() {
             return None;
         }
-        let grid = header.grid();
-        let pixels = grid.width * grid.height;
-        let mut columns: Vec<f32> = header.intrinsics.columns(grid.width).collect();
-        columns.resize(grid.columns * TILE, 0.0);
-        let palette = Palette::new(&header.palette);
         let tables = DecoderTables::new(&header.index_frequencies);
-        let rows = header.intrinsics.rows(grid.height).collect();
+        let scene = Scene::new(header);
+        let pixels = scene.grid.width * scene.grid.height;
         Some(Self {
-            header,
-            palette,
-            grid,
             tables,
-            body: rans::Body::default(),
-            columns,
-            rows,
+            rooms: [Room::new(images), Room::new(images)],
             // And room for a row of a tile, of which not all need count.
             points: vec![0; pixels + TILE],
             count: 0,
-            come: vec![0; grid.tiles().div_ceil(64)],
+            second_points: vec![0; pixels + TILE],
+            come: vec![0; scene.grid.tiles().div_ceil(64)],
             images: images.then(|| Images { depth: vec![0.0; pixels], colour: vec![0; pixels] }),
-            tile: Tile::new(),
-            colours: Box::new(Colours::new(images)),
+            scene,
         })
     }
 
     /// The stream's header.
     #[must_use]
     pub fn header(&self) -> &StreamHeader {
-        &self.header
+        &self.scene.header
     }
 
     /// Begins a frame: no points, empty images.
@@ -121,62 +103,86 @@ impl Decoder {
     /// # Errors
     /// See [`PacketError`]; nothing of the packet is kept then, save in the images, where a corrupt packet may have left pixels.
     pub fn put(&mut self, packet: &[u8]) -> Result<Put, PacketError> {
-        let header = PacketHeader::parse(packet)?;
-        if header.id != self.header.id {
-            return Err(PacketError::UnknownStream);
+        let header = self.header_of(packet)?;
+        let Self { scene, tables, rooms: [room, _], points, count, come, images, .. } = self;
+        room.load(packet, &header);
+        tables.choose(header.sets());
+        let mut open = OpenPacket::new(header, room, tables, scene, &mut points[*count..])?;
+        let tiles = open.tiles();
+        if has_come(come, tiles.clone()) {
+            return Err(PacketError::Duplicate);
         }
-        self.body.load(&packet[header_bytes(header.mode)..]);
-        let (tiles, count) = self.decode(&header)?;
+        while open.has_tile() {
+            open.decode_tile(images.as_mut());
+        }
+        let points = open.finish()?;
+        Ok(self.keep(&header, tiles, points))
+    }
+
+    /// As [`Decoder::put`] of one and then the other, in less time: where neither waits for the other's tables or tiles they are
+    /// decoded side by side.
+    ///
+    /// # Errors
+    /// Each packet's own.
+    pub fn put_two(&mut self, packets: [&[u8]; 2]) -> [Result<Put, PacketError>; 2] {
+        self.put_side_by_side(packets).unwrap_or_else(|| packets.map(|packet| self.put(packet)))
+    }
+
+    /// `None`, and nothing done, where that is not possible.
+    fn put_side_by_side(&mut self, packets: [&[u8]; 2]) -> Option<[Result<Put, PacketError>; 2]> {
+        let [Ok(first), Ok(second)] = packets.map(|packet| self.header_of(packet)) else { return None };
+        if (first.sets(), first.mode) != (second.sets(), second.mode) {
+            return None;
+        }
+        let Self { scene, tables, rooms: [room, other_room], points, count, second_points, come, images } =
+            self;
+        room.load(packets[0], &first);
+        other_room.load(packets[1], &second);
+        tables.choose(first.sets());
+        let mut one = OpenPacket::new(first, room, tables, scene, &mut points[*count..]).ok()?;
+        let mut other = OpenPacket::new(second, other_room, tables, scene, second_points).ok()?;
+        let (tiles, other_tiles) = (one.tiles(), other.tiles());
+        if has_come(come, tiles.clone())
+            || has_come(come, other_tiles.clone())
+            || (tiles.start < other_tiles.end && other_tiles.start < tiles.end)
+        {
+            return None;
+        }
+        while one.has_tile() && other.has_tile() {
+            OpenPacket::decode_tiles([&mut one, &mut other], images);
+        }
+        for rest in [&mut one, &mut other] {
+            while rest.has_tile() {
+                rest.decode_tile(images.as_mut());
+            }
+        }
+        let (points, other_points) = (one.finish(), other.finish());
+        let put = points.map(|points| self.keep(&first, tiles, points));
+        let other_put = other_points.map(|points| {
+            let own = &self.second_points[..points];
+            self.points[self.count..][..points].copy_from_slice(own);
+            self.keep(&second, other_tiles, points)
+        });
+        Some([put, other_put])
+    }
+
+    fn header_of(&self, packet: &[u8]) -> Result<PacketHeader, PacketError> {
+        let header = PacketHeader::parse(packet)?;
+        if header.id == self.header().id { Ok(header) } else { Err(PacketError::UnknownStream) }
+    }
+
+    /// Keeps what a packet has written.
+    fn keep(&mut self, header: &PacketHeader, tiles: Range<usize>, points: usize) -> Put {
         for tile in tiles {
             self.come[tile / 64] |= 1 << (tile % 64);
         }
-        let start = core::mem::replace(&mut self.count, count);
-        let latency_test = header.mode == ColourMode::None;
-        Ok(Put { start, points: count - start, latency_test })
+        let start = self.count;
+        self.count += points;
+        Put { start, points, latency_test: header.mode == ColourMode::None }
     }
+}
 
-    /// The packet's tiles, and the number of points with theirs.
-    fn decode(&mut self, header: &PacketHeader) -> Result<(Range<usize>, usize), PacketError> {
-        const { assert!(GEOMETRY_SETS == 8 && COLOUR_SETS == 4) };
-        self.tables.choose((header.geometry_set, header.colour_set));
-        let mut coder = rans::Decoder::new(&self.body, &self.tables);
-        let span = Span::from_raw(self.grid, |bits| coder.raw(bits, 0));
-        let (first, end) = (span.first, span.first + span.count);
-        if end > self.grid.tiles() {
-            return Err(PacketError::Tiles);
-        }
-        if (first..end).any(|tile| self.come[tile / 64] >> (tile % 64) & 1 == 1) {
-            return Err(PacketError::Duplicate);
-        }
-        let mut check = (!header.mode.has_signs()).then(ContentCheck::default);
-        let mut near = Neighbours::new();
-        let scale = 1.0 / self.header.depth_step(header.depth_level);
-        let mut count = self.count;
-        for index in first..end {
-            let place = self.grid.place(index);
-            let last = index + 1 == end;
-            code_tile(&mut coder, &mut self.tile, &mut near, place, header.mode, last);
-            if coder.overrun() {
-                return Err(PacketError::Corrupt);
-            }
-            if self.tile.kind == Kind::Empty {
-                continue;
-            }
-            if let Some(check) = &mut check {
-                check.add_tile(index, &self.tile, header.mode);
-            }
-            self.colours.paint(&self.tile, header, &self.palette).ok_or(PacketError::Corrupt)?;
-            let view = View { grid: self.grid, columns: &self.columns, rows: &self.rows, place, scale };
-            count = emit(&self.tile, &self.colours, &view, &mut self.points, count, self.images.as_mut())
-                .ok_or(PacketError::Corrupt)?;
-        }
-        let held = check.as_ref().map(|_| coder.take_held());
-        if !coder.finished() {
-            return Err(PacketError::Corrupt);
-        }
-        if held != check.map(|check| check.value(header, span)) {
-            return Err(PacketError::Check);
-        }
-        Ok((first..end, count))
-    }
+/// True where one of some tiles has.
+fn has_come(come: &[u64], mut tiles: Range<usize>) -> bool {
+    tiles.any(|tile| come[tile / 64] >> (tile % 64) & 1 == 1)
 }

@@ -221,7 +221,7 @@ impl Encoder {
                     }
                 });
                 self.tokens.clear();
-                code_tile(&mut self.tokens, &mut self.tile, &mut packet.near, place, settings.mode, false);
+                code_tile(&mut self.tokens, &mut self.tile, &mut packet.near, place, settings.mode);
                 let cost = packet.cost + self.tokens.cost(&self.tables);
                 if cost <= cost_limit(settings.mode) {
                     if let Some(plan) = &mut plan {

@@ -9,7 +9,7 @@ pub const LANES: usize = 8;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 mod shuffle {
     use core::arch::wasm32::{i8x16_swizzle, i16x8_shuffle};
-    use wide::{i8x16, i16x8};
+    use wide::{i8x16, i16x8, i32x4};
 
     use super::Ranks;
 
@@ -48,6 +48,33 @@ mod shuffle {
         bytemuck::must_cast::<i8x16, [u16; 8]>(i8x16_swizzle(lanes.into(), bytes.into()).into())
     }
 
+    /// For each mask of four lanes where their bytes come from; beyond the end there are zeros.
+    const EXPAND: [[u8; 16]; 16] = {
+        let mut expand = [[u8::MAX; 16]; 16];
+        let mut mask = 0;
+        while mask < 16 {
+            let (mut lane, mut at) = (0, 0);
+            while lane < 4 {
+                if mask >> lane & 1 == 1 {
+                    expand[mask][4 * lane] = 2 * at;
+                    expand[mask][4 * lane + 1] = 2 * at + 1;
+                    at += 1;
+                }
+                lane += 1;
+            }
+            mask += 1;
+        }
+        expand
+    };
+
+    #[inline(always)]
+    pub fn expand(words: [u16; 4], mask: u8) -> i32x4 {
+        let words: u64 = bytemuck::must_cast(words);
+        let words: i8x16 = bytemuck::must_cast([words, 0]);
+        let bytes: i8x16 = bytemuck::must_cast(EXPAND[usize::from(mask % 16)]);
+        bytemuck::must_cast(i8x16::from(i8x16_swizzle(words.into(), bytes.into())))
+    }
+
     /// A look into the table: the upper bytes of what is looked up are 0, and so is what stands for that.
     #[inline(always)]
     pub fn rank(ranks: &Ranks, values: i16x8) -> i16x8 {
@@ -81,7 +108,8 @@ mod shuffle {
     use wide::i16x8;
 
     pub(crate) use super::{
-        deinterleave_by_halves as deinterleave, gather_one_by_one as gather, rank_by_limits as rank,
+        deinterleave_by_halves as deinterleave, expand_one_by_one as expand, gather_one_by_one as gather,
+        rank_by_limits as rank,
     };
 
     #[inline(always)]
@@ -110,7 +138,8 @@ mod shuffle {
     use wide::i16x8;
 
     pub(crate) use super::{
-        deinterleave_by_halves as deinterleave, gather_one_by_one as gather, rank_by_limits as rank,
+        deinterleave_by_halves as deinterleave, expand_one_by_one as expand, gather_one_by_one as gather,
+        rank_by_limits as rank,
     };
 
     #[inline(always)]
@@ -150,6 +179,18 @@ pub(crate) fn gather_one_by_one(lanes: i16x8, mask: u8) -> [u16; 8] {
 
 #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
 #[inline(always)]
+pub(crate) fn expand_one_by_one(words: [u16; 4], mask: u8) -> i32x4 {
+    let mut at = 0;
+    i32x4::new(core::array::from_fn(|lane| {
+        let own = mask >> lane & 1;
+        let word = words[at % 4] * u16::from(own);
+        at += usize::from(own);
+        word.into()
+    }))
+}
+
+#[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
+#[inline(always)]
 pub(crate) fn deinterleave_by_halves(a: i16x8, b: i16x8) -> [i16x8; 2] {
     let [a, b]: [i32x4; 2] = [must_cast(a), must_cast(b)];
     [narrow((a << 16) >> 16, (b << 16) >> 16), narrow(a >> 16, b >> 16)]
@@ -162,6 +203,12 @@ pub fn gather(lanes: i16x8, mask: u8) -> [u16; 8] {
         return must_cast(lanes);
     }
     shuffle::gather(lanes, mask)
+}
+
+/// The lanes of a mask get the words, one after another; the others get 0.
+#[inline(always)]
+pub fn expand(words: [u16; 4], mask: u8) -> i32x4 {
+    shuffle::expand(words, mask)
 }
 
 /// Lane k gets lane k − 1, the first one the last.
@@ -294,6 +341,13 @@ mod tests {
             RANKS.of(i16x8::new([0, 1, 2, 4, 5, 14, 15, i16::MAX])).to_array(),
             [0, 1, 2, 2, 3, 3, 4, 4]
         );
+    }
+
+    #[test]
+    fn words_go_to_the_lanes_of_a_mask() {
+        assert_eq!(expand([1, 2, 3, 0xffff], 0b1111).to_array(), [1, 2, 3, 0xffff]);
+        assert_eq!(expand([0xffff, 2, 3, 4], 0b1010).to_array(), [0, 0xffff, 0, 2]);
+        assert_eq!(expand([1, 2, 3, 4], 0).to_array(), [0; 4]);
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod frame;
 mod grid;
 mod lanes;
 pub mod load;
+mod open_packet;
 pub mod packet;
 mod paint;
 mod palette;

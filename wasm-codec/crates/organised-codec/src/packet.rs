@@ -1,7 +1,10 @@
 //! The header of a packet, and why packets are refused.
 
+use core::ops::Range;
+
 use crate::crc16::crc16;
 use crate::rans::code_octaves;
+use crate::tables::Sets;
 use crate::tile::{ColourMode, Grid};
 
 /// Bytes of a packet before its words, where its colour has signs: they are left in the states, which then cannot hold the
@@ -43,6 +46,12 @@ impl PacketHeader {
     pub fn to_bytes(&self) -> [u8; LONG_HEADER_BYTES] {
         let geometry = self.geometry_set | self.depth_level << 3 | (self.mode as u8) << 6;
         [self.id, geometry, self.quality | self.colour_set << 5, 0, 0]
+    }
+
+    /// The tables that it names.
+    #[must_use]
+    pub const fn sets(&self) -> Sets {
+        (self.geometry_set, self.colour_set)
     }
 
     /// Reads the header; the check value is compared where it is in it.
@@ -104,6 +113,12 @@ impl Span {
     #[must_use]
     pub const fn first_bits(grid: Grid) -> u32 {
         usize::BITS - (grid.tiles() - 1).leading_zeros()
+    }
+
+    /// Their numbers.
+    #[must_use]
+    pub const fn tiles(self) -> Range<usize> {
+        self.first..self.first + self.count
     }
 
     /// As raw bits.

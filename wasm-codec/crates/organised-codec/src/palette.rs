@@ -6,7 +6,7 @@ use crate::frame::Settings;
 use crate::load::Source;
 use crate::sampling::{Histogram, SAMPLE_TILES};
 use crate::stream::{MAX_PALETTE, StreamHeader};
-use crate::tables::normalise;
+use crate::tables::{EVEN, normalise};
 use crate::tile::{ColourMode, TILE};
 
 /// Of 256 colours, so many slots part all with one factor in eight.
@@ -159,7 +159,7 @@ pub fn with_palette(header: StreamHeader, source: Source<'_>) -> Option<StreamHe
 /// With frequencies for a palette, and what the frame then costs.
 fn trained(header: &StreamHeader, palette: Vec<[u8; 3]>, source: Source<'_>) -> Option<(StreamHeader, f32)> {
     let mut header =
-        StreamHeader { palette, index_frequencies: vec![[256; SYMBOLS]; INDEX_CONTEXTS], ..header.clone() };
+        StreamHeader { palette, index_frequencies: vec![EVEN; INDEX_CONTEXTS], ..header.clone() };
     let mut encoder = Encoder::new(header.clone())?;
     if source.len() != encoder.grid.width * encoder.grid.height {
         return None;

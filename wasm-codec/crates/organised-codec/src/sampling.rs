@@ -110,7 +110,7 @@ impl Encoder {
             let own = &self.row[place.column];
             self.preparer.prepare(own, &mut self.tile, self.patterns[index], settings, &self.palette);
             self.tokens.clear();
-            code_tile(&mut self.tokens, &mut self.tile, &mut near, place, settings.mode, false);
+            code_tile(&mut self.tokens, &mut self.tile, &mut near, place, settings.mode);
             histogram.add(&self.tokens);
         }
         if seen == 0 { 0.0 } else { tiles as f32 / seen as f32 }

@@ -3,6 +3,7 @@
 use crate::contexts::{INDEX_CONTEXTS, SYMBOLS};
 use crate::crc16::crc16;
 use crate::grid::Intrinsics;
+use crate::rans::TOTAL;
 use crate::tables::TABLE_VERSION;
 use crate::tile::Grid;
 
@@ -11,7 +12,7 @@ pub const STREAM_HEADER_BYTES: usize = 34;
 /// Colours of a palette.
 pub const MAX_PALETTE: usize = 256;
 /// Version of the format.
-pub const VERSION: u8 = 2;
+pub const VERSION: u8 = 3;
 /// The finest step of inverse depth, 1/m: an error of 0.0625 mm · z² at most, with something in hand for the far end.
 pub const DEPTH_UNIT: f32 = 0.000_124;
 /// Steps of inverse depth to choose from: each twice the one before.
@@ -35,7 +36,7 @@ pub struct StreamHeader {
     /// R, G, B of each colour, for [`ColourMode::Palette`]; neighbours should be alike. Mostly empty.
     pub palette: Vec<[u8; 3]>,
     /// Frequencies of the contexts of palette indices, which differ from picture to picture: [`INDEX_CONTEXTS`] where there
-    /// is a palette, else none. Each context's sum is 4096 and none is 0.
+    /// is a palette, else none. Each context's sum is [`TOTAL`] and none is 0.
     pub index_frequencies: Vec<[u16; SYMBOLS]>,
 }
 
@@ -123,7 +124,7 @@ impl StreamHeader {
             && self.palette.len() <= MAX_PALETTE
             && self.index_frequencies.len() == if self.palette.is_empty() { 0 } else { INDEX_CONTEXTS }
             && self.index_frequencies.iter().all(|context| {
-                context.iter().map(|frequency| u32::from(*frequency)).sum::<u32>() == 4096
+                context.iter().map(|frequency| u32::from(*frequency)).sum::<u32>() == TOTAL.into()
                     && !context.contains(&0)
             })
     }
@@ -144,6 +145,7 @@ impl StreamHeader {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tables::EVEN;
 
     fn header() -> StreamHeader {
         StreamHeader {
@@ -153,7 +155,7 @@ mod tests {
             intrinsics: Intrinsics { fx: 240.0, fy: 241.0, cx: 239.5, cy: 240.0 },
             depth_unit: DEPTH_UNIT,
             palette: vec![[1, 2, 3], [4, 5, 6]],
-            index_frequencies: vec![[256; SYMBOLS]; INDEX_CONTEXTS],
+            index_frequencies: vec![EVEN; INDEX_CONTEXTS],
         }
     }
 

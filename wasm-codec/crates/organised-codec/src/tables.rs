@@ -1,6 +1,6 @@
 //! The static probability tables: sets of geometry and colour tables, of which a packet names one each.
 //!
-//! They are kept as frequencies out of 4096 in `tables.bin`, little-endian u16: [`GEOMETRY_SETS`] sets of
+//! They are kept as frequencies out of 512 in `tables.bin`, little-endian u16: [`GEOMETRY_SETS`] sets of
 //! [`GEOMETRY_CONTEXTS`] contexts of 16 symbols, then [`COLOUR_SETS`] sets of [`COLOUR_CONTEXTS`] contexts. They are made by
 //! `cargo run --release -p xtask -- train-tables`, from synthetic scenes alone.
 
@@ -10,16 +10,19 @@ use wide::{i8x16, i16x16};
 use crate::contexts::{
     CERTAIN, COLOUR_CONTEXTS, CONTEXTS, DEPTH, GEOMETRY_CONTEXTS, INDEX, PLANE_CONTEXTS, SYMBOLS,
 };
-use crate::rans::{EncoderSymbol, PROBABILITY_BITS};
+use crate::rans::{EncoderSymbol, PROBABILITY_BITS, TOTAL};
 
 /// Which tables a stream is coded with; part of the stream header.
-pub const TABLE_VERSION: u8 = 1;
+pub const TABLE_VERSION: u8 = 2;
 /// Geometry sets to choose from.
 pub const GEOMETRY_SETS: usize = 8;
 /// Colour sets to choose from.
 pub const COLOUR_SETS: usize = 4;
 /// Places for contexts: a power of two, so that a place is within with no more than a mask.
 pub const CONTEXT_SLOTS: usize = 512;
+
+/// Frequencies of a context of which nothing is known.
+pub const EVEN: [u16; SYMBOLS] = [TOTAL / SYMBOLS as u16; SYMBOLS];
 
 const BYTES: &[u8] = include_bytes!("tables.bin");
 const ENTRIES: usize = (GEOMETRY_SETS * GEOMETRY_CONTEXTS + COLOUR_SETS * COLOUR_CONTEXTS) * SYMBOLS;
@@ -91,7 +94,7 @@ impl EncoderTables {
                 all_costs.push((bits * 256.0 + 0.5) as u16);
                 start += frequency;
             }
-            assert_eq!(start, 1 << PROBABILITY_BITS);
+            assert_eq!(start, u32::from(TOTAL));
         }
         let mut tables = Self {
             all_symbols,
@@ -137,29 +140,39 @@ impl EncoderTables {
 pub struct DecoderTables {
     frequencies: Vec<u16>,
     sets: Option<Sets>,
-    /// The symbol of every slot, for the contexts of planes: there a look is faster than a search.
-    symbols: Box<[u8; CONTEXT_SLOTS << PROBABILITY_BITS]>,
+    /// For the contexts of planes, of every slot: there a look is faster than a search.
+    slots: Box<[Share; SLOTS]>,
     /// Where the shares end, less 1.
     ends: Box<[[u16; SYMBOLS]; CONTEXT_SLOTS]>,
-    /// Where each share begins << 16 | how long it is.
-    shares: Box<[u32; PLACES]>,
+    /// By context and symbol.
+    shares: Box<[Share; PLACES]>,
 }
+
+/// A symbol << 20 | where its share of [`TOTAL`] begins << 10 | how long it is.
+pub(crate) type Share = u32;
+/// Where a share's parts lie, and the mask of the lower two.
+pub(crate) const SHARE_START: u32 = 10;
+pub(crate) const SHARE_SYMBOL: u32 = 20;
+pub(crate) const SHARE_MASK: u32 = (1 << SHARE_START) - 1;
+const _: () = assert!(TOTAL as u32 <= SHARE_MASK);
+
+/// Slots of all contexts, [`TOTAL`] each.
+pub(crate) const SLOTS: usize = CONTEXT_SLOTS << PROBABILITY_BITS;
 
 impl DecoderTables {
     /// As [`EncoderTables::new`].
     #[must_use]
     pub fn new(index_frequencies: &[[u16; SYMBOLS]]) -> Self {
-        let mut shares = places(0);
-        // The certain symbol is the first.
-        shares[CERTAIN * SYMBOLS] = 1 << PROBABILITY_BITS;
-        let symbols = vec![0; CONTEXT_SLOTS << PROBABILITY_BITS];
+        let mut slots = vec![0; SLOTS];
+        // Symbol 0 has all.
+        slots[CERTAIN << PROBABILITY_BITS..][..TOTAL.into()].fill(TOTAL.into());
         let ends = vec![[0; SYMBOLS]; CONTEXT_SLOTS];
         Self {
             frequencies: frequencies(index_frequencies),
             sets: None,
-            symbols: symbols.into_boxed_slice().try_into().expect("as many"),
+            slots: slots.into_boxed_slice().try_into().expect("as many"),
             ends: ends.into_boxed_slice().try_into().expect("as many"),
-            shares,
+            shares: places(0),
         }
     }
 
@@ -178,60 +191,57 @@ impl DecoderTables {
     fn fill(&mut self, contexts: core::ops::Range<usize>, base: usize) {
         let (own, _) = self.frequencies[base..].as_chunks::<SYMBOLS>();
         let (shares, _) = self.shares.as_chunks_mut::<SYMBOLS>();
-        let (symbols, _) = self.symbols.as_chunks_mut::<{ 1 << PROBABILITY_BITS }>();
+        let (slots, _) = self.slots.as_chunks_mut::<{ TOTAL as usize }>();
         for (context, frequencies) in contexts.zip(own) {
             let of_plane =
                 [DEPTH, INDEX].iter().any(|base| (*base..base + PLANE_CONTEXTS).contains(&context));
             let mut start = 0;
             for (symbol, frequency) in frequencies.iter().enumerate() {
                 let end = start + usize::from(*frequency);
-                shares[context][symbol] = (start as u32) << 16 | u32::from(*frequency);
+                let share =
+                    (symbol as u32) << SHARE_SYMBOL | (start as u32) << SHARE_START | u32::from(*frequency);
+                shares[context][symbol] = share;
                 self.ends[context][symbol] = (end - 1) as u16;
                 if of_plane {
-                    symbols[context][start..end].fill(symbol as u8);
+                    slots[context][start..end].fill(share);
                 }
                 start = end;
             }
         }
     }
 
-    /// The symbol whose share of 4096 holds `slot`, by a look: of a plane's context, or the certain one.
+    /// The share that each slot of 512 lies in, of planes' contexts and the certain one.
     #[inline(always)]
-    pub(crate) fn look(&self, context: usize, slot: u32) -> u32 {
-        self.symbols[(context << PROBABILITY_BITS | slot as usize) % (CONTEXT_SLOTS << PROBABILITY_BITS)]
-            .into()
+    pub(crate) fn slots(&self) -> &[Share; SLOTS] {
+        &self.slots
     }
 
-    /// The same by a search, which touches less memory: how many shares end before it.
+    /// The same of any context but the certain one, by a search, which touches less memory: how many shares end before it.
     #[inline(always)]
-    pub(crate) fn search(&self, context: usize, slot: u32) -> u32 {
+    pub(crate) fn search(&self, context: usize, slot: u32) -> Share {
         let ends: i16x16 = must_cast(self.ends[context % CONTEXT_SLOTS]);
         let before = i16x16::splat(slot as i16).simd_gt(ends);
-        (!i8x16::from_i16x16_saturate(before).to_bitmask()).trailing_zeros()
-    }
-
-    #[inline(always)]
-    pub(crate) fn share(&self, context: usize, symbol: u32) -> u32 {
+        let symbol = (!i8x16::from_i16x16_saturate(before).to_bitmask()).trailing_zeros();
         self.shares[(context * SYMBOLS + symbol as usize) % PLACES]
     }
 }
 
-/// Counts to frequencies: their sum is 4096 and none is 0. Unseen symbols get the least share.
+/// Counts to frequencies: their sum is [`TOTAL`] and none is 0. Unseen symbols get the least share.
 #[must_use]
 pub fn normalise(counts: &[f64; SYMBOLS]) -> [u16; SYMBOLS] {
     let total: f64 = counts.iter().sum();
-    let whole = f64::from(1u32 << PROBABILITY_BITS);
+    let whole = f64::from(TOTAL);
     let mut frequencies = [1_u16; SYMBOLS];
     if total > 0.0 {
         for (frequency, count) in frequencies.iter_mut().zip(counts) {
             *frequency = (count / total * whole).round().max(1.0) as u16;
         }
     } else {
-        frequencies = [256; SYMBOLS];
+        frequencies = EVEN;
     }
     loop {
         let sum: i32 = frequencies.iter().map(|f| i32::from(*f)).sum();
-        let missing = (1 << PROBABILITY_BITS) - sum;
+        let missing = i32::from(TOTAL) - sum;
         if missing == 0 {
             return frequencies;
         }

@@ -105,7 +105,7 @@ proptest! {
         let mut random = Random(seed);
         let mut some: Vec<(usize, Vec<u8>)> = packets(&encoder).into_iter().enumerate().collect();
         some.retain(|_| random.uniform() < 0.7);
-        some.sort_by_key(|_| random.next());
+        some.sort_by_cached_key(|_| random.next());
         let expected: usize = some.iter().map(|(index, _)| encoder.packets()[*index].points).sum();
         let some: Vec<Vec<u8>> = some.into_iter().map(|(_, packet)| packet).collect();
         let part = decode(&header, &some);
@@ -118,6 +118,47 @@ proptest! {
         }
         // Near packets first.
         prop_assert!(encoder.packets().is_sorted_by(|a, b| a.nearest >= b.nearest));
+    }
+
+    #[test]
+    fn two_packets_at_once_are_as_one_after_the_other(
+        seed: u64,
+        holes in 0.0_f32..0.5,
+        settings in settings(),
+        damage in prop::option::of(0_usize..100_000),
+    ) {
+        let mut header = header(180, 130);
+        let palette = settings.mode == ColourMode::Palette;
+        let points = frame(&header, seed, holes, 0.01, palette);
+        if palette {
+            header = with_palette(header, Source::Points(&points)).expect("few colours");
+        }
+        let mut encoder = Encoder::new(header.clone()).expect("a stream");
+        encoder.encode(Source::Points(&points), &settings).expect("a frame");
+        let mut packets = packets(&encoder);
+        // Some come twice, beside another and beside themselves.
+        packets.extend_from_within(..packets.len() / 2);
+        let mut random = Random(seed);
+        packets.sort_by_cached_key(|_| random.next());
+        if let Some(place) = damage {
+            let index = place % packets.len();
+            let bit = place % (8 * packets[index].len());
+            packets[index][bit / 8] ^= 1 << (bit % 8);
+            seal(&mut packets[index]);
+        }
+        for images in [false, true] {
+            let mut decoders = [(); 2].map(|()| Decoder::new(header.clone(), images).expect("a stream"));
+            let [one_by_one, at_once] = &mut decoders;
+            for pair in packets.as_chunks::<2>().0 {
+                let pair = pair.each_ref().map(Vec::as_slice);
+                prop_assert_eq!(at_once.put_two(pair), pair.map(|packet| one_by_one.put(packet)));
+            }
+            prop_assert_eq!(at_once.points(), one_by_one.points());
+            if damage.is_none() {
+                prop_assert_eq!(at_once.depth(), one_by_one.depth());
+                prop_assert_eq!(at_once.colour(), one_by_one.colour());
+            }
+        }
     }
 
     #[test]

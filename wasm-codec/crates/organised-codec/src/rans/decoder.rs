@@ -1,25 +1,21 @@
 //! From bytes to symbols and raw bits.
 
-use bytemuck::must_cast;
-use wide::i16x8;
-
 use super::{
-    Coder, LOW, LOW_BITS, PROBABILITY_BITS, RAW_BYTES, SPARE_BITS, STATES, Step, WORDS, code_escape,
+    Coder, LOW, LOW_BITS, PROBABILITY_BITS, PlaneDecoder, RAW_BYTES, SPARE_BITS, STATES, TOTAL, WORDS,
+    code_escape,
 };
-use crate::contexts::CERTAIN;
-use crate::lanes::{LANES, select};
-use crate::tables::{CONTEXT_SLOTS, DecoderTables};
+use crate::tables::{DecoderTables, SHARE_MASK, SHARE_START, SHARE_SYMBOL};
 
-/// A packet's body as words from its beginning and as bytes from its end.
+/// A packet's body as words from its beginning, with room for four to be read at once, and as bytes from its end.
 pub struct Body {
-    words: Box<[u16; WORDS]>,
+    words: Box<[u16; WORDS + 4]>,
     raw: Box<[u8; RAW_BYTES + 8]>,
     length: usize,
 }
 
 impl Default for Body {
     fn default() -> Self {
-        Self { words: Box::new([0; WORDS]), raw: Box::new([0; RAW_BYTES + 8]), length: 0 }
+        Self { words: Box::new([0; WORDS + 4]), raw: Box::new([0; RAW_BYTES + 8]), length: 0 }
     }
 }
 
@@ -49,7 +45,7 @@ impl Body {
 
 /// Raw bits, one after another. Beyond the end they are 0.
 #[derive(Clone, Copy)]
-struct RawReader<'a> {
+pub(super) struct RawReader<'a> {
     bytes: &'a [u8; RAW_BYTES + 8],
     at: usize,
 }
@@ -57,7 +53,7 @@ struct RawReader<'a> {
 impl RawReader<'_> {
     /// 32 bits at most.
     #[inline(always)]
-    fn take(&mut self, bits: u32) -> u32 {
+    pub(super) fn take(&mut self, bits: u32) -> u32 {
         let at = self.at / 8 % RAW_BYTES;
         let eight: &[u8; 8] = self.bytes[at..at + 8].first_chunk().expect("eight bytes");
         let window = u64::from_le_bytes(*eight) >> (self.at % 8);
@@ -74,7 +70,7 @@ pub struct Decoder<'a> {
     states: [u32; STATES],
     /// The first two states are exchanged.
     odd: bool,
-    words: &'a [u16; WORDS],
+    words: &'a [u16; WORDS + 4],
     at: usize,
     raw: RawReader<'a>,
     /// Signs that were in the states, and how many of them have not been read.
@@ -137,50 +133,16 @@ impl<'a> Decoder<'a> {
             && self.states == [LOW; STATES]
     }
 
+    /// The states for planes, which all take part there.
     #[inline(always)]
-    fn slot(&self, state: usize) -> u32 {
-        self.states[state] & ((1 << PROBABILITY_BITS) - 1)
+    pub fn plane_decoder(&self) -> PlaneDecoder<'a> {
+        PlaneDecoder::new(self.states, self.words, self.at, self.raw, self.tables.slots())
     }
 
-    /// Takes a symbol with such a share off a state.
+    /// Goes on behind a plane.
     #[inline(always)]
-    fn take(&mut self, state: usize, share: u32) {
-        let x = self.states[state];
-        let slot = self.slot(state);
-        let x = (share & 0xffff) * (x >> PROBABILITY_BITS) + slot - (share >> 16);
-        // Without a branch: which symbol needs a word is hard to foretell.
-        let short = u32::from(x < LOW);
-        let word = u32::from(self.words[self.at % WORDS]) & short.wrapping_neg();
-        self.states[state] = x << (16 * short) | word;
-        self.at += short as usize;
-    }
-
-    /// Numbers of 16 bits, lane k by state k mod 4.
-    #[inline(always)]
-    pub fn step(&mut self, step: &Step) -> i16x8 {
-        let [one, two, three] = step.shifted;
-        let contexts = select(step.valid, step.contexts, i16x8::splat(CERTAIN as i16));
-        let contexts: [u64; 2] = must_cast(contexts);
-        let mut symbols = [0_u64; 2];
-        for (pair, some) in step.pairs.into_iter().enumerate() {
-            if some {
-                for lane in [2 * pair, 2 * pair + 1] {
-                    let (half, state) = (lane / STATES, lane % STATES);
-                    let context = (contexts[half] >> (16 * state)) as usize % CONTEXT_SLOTS;
-                    let symbol = self.tables.look(context, self.slot(state));
-                    self.take(state, self.tables.share(context, symbol));
-                    symbols[half] |= u64::from(symbol) << (16 * state);
-                }
-            }
-        }
-        let symbols: i16x8 = must_cast(symbols);
-        let more = ((one | symbols.simd_gt(i16x8::splat(12))) & step.valid).to_bitmask();
-        if more == 0 {
-            return symbols;
-        }
-        let (numbers, raw) = extend(self.raw, more, symbols, -(one + two + three));
-        self.raw = raw;
-        numbers
+    pub fn resume(&mut self, plane: &PlaneDecoder<'a>) {
+        (self.states, self.at, self.raw) = plane.place();
     }
 }
 
@@ -189,26 +151,6 @@ impl<'a> Decoder<'a> {
 #[inline(never)]
 fn read_escape(mut raw: RawReader<'_>, symbol: u32) -> (u32, RawReader<'_>) {
     (code_escape(|bits, _| raw.take(bits), symbol, 0), raw)
-}
-
-/// Numbers of the lanes whose symbol says not all, and the reader behind their raw bits.
-#[inline(never)]
-fn extend<'a>(
-    mut raw: RawReader<'a>,
-    mut lanes: u32,
-    symbols: i16x8,
-    shifts: i16x8,
-) -> (i16x8, RawReader<'a>) {
-    let mut numbers = symbols.to_array();
-    let shifts = shifts.to_array();
-    while lanes != 0 {
-        let lane = lanes.trailing_zeros() as usize % LANES;
-        lanes &= lanes - 1;
-        let (symbol, shift) = (numbers[lane] as u32, shifts[lane] as u32);
-        let high = if symbol > 12 { code_escape(|bits, _| raw.take(bits), symbol, 0) } else { symbol };
-        numbers[lane] = (high << shift | raw.take(shift)) as i16;
-    }
-    (numbers.into(), raw)
 }
 
 impl Coder for Decoder<'_> {
@@ -224,11 +166,18 @@ impl Coder for Decoder<'_> {
 
     #[inline(always)]
     fn symbol(&mut self, context: usize, _value: u32) -> u32 {
-        let symbol = self.tables.search(context, self.slot(0));
-        self.take(0, self.tables.share(context, symbol));
+        let x = self.states[0];
+        let slot = x & u32::from(TOTAL - 1);
+        let share = self.tables.search(context, slot);
+        let x = (share & SHARE_MASK) * (x >> PROBABILITY_BITS) + slot - (share >> SHARE_START & SHARE_MASK);
+        // Without a branch: which symbol needs a word is hard to foretell.
+        let short = u32::from(x < LOW);
+        let word = u32::from(self.words[self.at % WORDS]) & short.wrapping_neg();
+        self.states[0] = x << (16 * short) | word;
+        self.at += short as usize;
         self.states.swap(0, 1);
         self.odd = !self.odd;
-        symbol
+        share >> SHARE_SYMBOL
     }
 
     #[inline(always)]

@@ -10,10 +10,10 @@ mod wavefront;
 use blocks::{BlockEdge, NO_BLOCK, code_blocks, code_points};
 use mask::code_mask;
 use number::{code_number, fold, unfold};
-use plane::{Around, Shape, Side, code_plane};
+use plane::{Channel, PlaneTask, Side};
 use wide::i16x8;
 
-use crate::contexts::{ANCHOR, DEPTH, INDEX, KIND, PATTERN};
+use crate::contexts::{ANCHOR, KIND, PATTERN};
 use crate::rans::{Coder, Decoder, TileTokens, code_octaves};
 use crate::tile::{ColourMode, Kind, LAST_TRANSFORMED, Pattern, Place, Plane, TILE, Tile};
 
@@ -21,9 +21,8 @@ use crate::tile::{ColourMode, Kind, LAST_TRANSFORMED, Pattern, Place, Plane, TIL
 pub trait TileCoder: Coder {
     /// Codes which pixels of the rows are valid.
     fn mask(&mut self, rows: &mut [u16; TILE], width: usize, height: usize);
-    /// Codes a plane with contexts from `base` on, gives pixels that are not valid what is predicted for them, and returns the
-    /// lanes' activity.
-    fn plane(&mut self, plane: &mut Plane, shape: &Shape, around: &Around, base: usize) -> i16x8;
+    /// Codes a plane, gives pixels that are not valid what is predicted for them, and returns the lanes' activity.
+    fn plane(&mut self, plane: &mut Plane, task: &PlaneTask) -> i16x8;
 }
 
 impl TileCoder for Decoder<'_> {
@@ -31,8 +30,9 @@ impl TileCoder for Decoder<'_> {
         self.with_copy(|decoder| mask::walk(decoder, rows, width, height));
     }
 
-    fn plane(&mut self, plane: &mut Plane, shape: &Shape, around: &Around, base: usize) -> i16x8 {
-        wavefront::decode(self, plane, shape, around, base)
+    fn plane(&mut self, plane: &mut Plane, task: &PlaneTask) -> i16x8 {
+        let [activity] = wavefront::decode([self], [plane], [task]);
+        activity
     }
 }
 
@@ -46,8 +46,8 @@ impl TileCoder for TileTokens {
     }
 
     #[inline(never)]
-    fn plane(&mut self, plane: &mut Plane, shape: &Shape, around: &Around, base: usize) -> i16x8 {
-        rows::code(self, plane, shape, around, base)
+    fn plane(&mut self, plane: &mut Plane, task: &PlaneTask) -> i16x8 {
+        rows::code(self, plane, task)
     }
 }
 
@@ -65,13 +65,13 @@ struct Edge {
     kind: usize,
     /// False where there is nothing to predict from.
     known: bool,
-    depth: Side,
-    index: Side,
+    /// By channel.
+    sides: [Side; Channel::COUNT],
     blocks: [[BlockEdge; 2]; 3],
 }
 
 const NO_EDGE: Edge =
-    Edge { kind: NO_KIND, known: false, depth: [0; TILE], index: [0; TILE], blocks: [[NO_BLOCK; 2]; 3] };
+    Edge { kind: NO_KIND, known: false, sides: [[0; TILE]; Channel::COUNT], blocks: [[NO_BLOCK; 2]; 3] };
 
 /// What the tiles of a packet know of those before them.
 #[derive(Clone)]
@@ -83,8 +83,8 @@ pub struct Neighbours {
     last_depth: Option<i16>,
     /// Of the last block of each plane.
     last_dc: [Option<i32>; 3],
-    /// Of depth and indices, lane by lane: the size of the last residual.
-    activity: [i16x8; 2],
+    /// By channel, lane by lane: the size of the last residual.
+    activity: [i16x8; Channel::COUNT],
 }
 
 impl Neighbours {
@@ -97,7 +97,7 @@ impl Neighbours {
             point: [0; 3],
             last_depth: None,
             last_dc: [None; 3],
-            activity: [i16x8::ZERO; 2],
+            activity: [i16x8::ZERO; Channel::COUNT],
         }
     }
 }
@@ -108,7 +108,7 @@ impl Default for Neighbours {
     }
 }
 
-/// Codes a tile. `last`: the packet's last one; a coder that does not decode need not know.
+/// Codes a tile that is known.
 #[inline(always)]
 pub fn code_tile<C: TileCoder>(
     coder: &mut C,
@@ -116,8 +116,17 @@ pub fn code_tile<C: TileCoder>(
     near: &mut Neighbours,
     place: Place,
     mode: ColourMode,
-    last: bool,
 ) {
+    const { assert!(!C::DECODES) };
+    if code_head(coder, tile, near, place) {
+        code_planes(coder, tile, near, mode);
+        code_tail(coder, tile, near, mode, false);
+    }
+}
+
+/// Codes which pixels of a tile there are. False where there are none: nothing follows then.
+#[inline(always)]
+pub fn code_head<C: TileCoder>(coder: &mut C, tile: &mut Tile, near: &mut Neighbours, place: Place) -> bool {
     if place.column == 0 {
         near.left = NO_EDGE;
     }
@@ -131,27 +140,57 @@ pub fn code_tile<C: TileCoder>(
     if tile.kind == Kind::Empty {
         tile.rows = [0; TILE];
         near.left = Edge { kind: 0, ..NO_EDGE };
-        return;
+        return false;
     }
     let pattern = coder.symbol(PATTERN + near.pattern, u32::from(tile.pattern.0));
     tile.pattern = Pattern(pattern as u8 & 7);
     near.pattern = usize::from(tile.pattern.0);
     code_mask(coder, tile);
-    let shape = Shape { width: tile.pattern.width(), height: tile.pattern.height(), rows: tile.rows };
-    let known = near.left.known;
-    let anchor =
-        if known { 1 } else { code_anchor(coder, first_valid::<C>(&tile.depth, &shape), near.last_depth) };
-    let left = known.then_some(&near.left.depth);
-    let side = code_plane(coder, &mut tile.depth, &shape, left, anchor, &mut near.activity[0], DEPTH);
-    near.left.depth = side;
-    near.last_depth = Some(side[0]);
-    if mode == ColourMode::Palette {
-        let anchor =
-            if known { 1 } else { coder.raw(8, first_valid::<C>(&tile.index, &shape) - 1) as i16 + 1 };
-        let left = known.then_some(&near.left.index);
-        let side = code_plane(coder, &mut tile.index, &shape, left, anchor, &mut near.activity[1], INDEX);
-        near.left.index = side;
+    true
+}
+
+/// Codes a tile's planes, which follow its head.
+#[inline(always)]
+pub fn code_planes<C: TileCoder>(coder: &mut C, tile: &mut Tile, near: &mut Neighbours, mode: ColourMode) {
+    for channel in Channel::of(mode) {
+        let task = begin_plane(coder, tile, near, *channel);
+        let activity = coder.plane(channel.plane_mut(tile), &task);
+        end_plane(tile, near, *channel, &task, activity);
     }
+}
+
+/// Decodes the planes of a tile of each of two packets: side by side where their shapes are alike.
+#[inline(always)]
+pub fn decode_planes(
+    [first, second]: [&mut Decoder<'_>; 2],
+    [one, other]: [&mut Tile; 2],
+    [near_one, near_other]: [&mut Neighbours; 2],
+    mode: ColourMode,
+) {
+    for channel in Channel::of(mode) {
+        let task = begin_plane(first, one, near_one, *channel);
+        let other_task = begin_plane(second, other, near_other, *channel);
+        let planes = [channel.plane_mut(one), channel.plane_mut(other)];
+        let [activity, other_activity] = if task.is_like(&other_task) {
+            wavefront::decode([first, second], planes, [&task, &other_task])
+        } else {
+            let [plane, other_plane] = planes;
+            [first.plane(plane, &task), second.plane(other_plane, &other_task)]
+        };
+        end_plane(one, near_one, *channel, &task, activity);
+        end_plane(other, near_other, *channel, &other_task, other_activity);
+    }
+}
+
+/// Codes a tile's colours, which follow its planes. `last`: the packet's last tile, which an encoder need not know.
+#[inline(always)]
+pub fn code_tail<C: TileCoder>(
+    coder: &mut C,
+    tile: &mut Tile,
+    near: &mut Neighbours,
+    mode: ColourMode,
+    last: bool,
+) {
     near.left.kind = tile.kind as usize;
     near.left.known = true;
     match mode {
@@ -161,10 +200,45 @@ pub fn code_tile<C: TileCoder>(
     }
 }
 
+/// What a plane's coding needs to know, and what stands in for surroundings where none are known.
+#[inline(always)]
+fn begin_plane<C: TileCoder>(coder: &mut C, tile: &Tile, near: &Neighbours, channel: Channel) -> PlaneTask {
+    let known = near.left.known;
+    let anchor = match channel {
+        _ if known => 1,
+        Channel::Depth => code_anchor(coder, first_valid::<C>(&tile.depth, tile), near.last_depth),
+        Channel::Index => coder.raw(8, first_valid::<C>(&tile.index, tile) - 1) as i16 + 1,
+    };
+    coder.first_turn();
+    let height = tile.pattern.height();
+    let side = &near.left.sides[channel as usize];
+    PlaneTask {
+        width: tile.pattern.width(),
+        height,
+        rows: tile.rows,
+        left: known.then(|| core::array::from_fn(|y| side[y * TILE / height % TILE])),
+        anchor,
+        activity: near.activity[channel as usize],
+        base: channel.base(),
+    }
+}
+
+/// Keeps what the next tiles' planes need to know of this one.
+#[inline(always)]
+fn end_plane(tile: &Tile, near: &mut Neighbours, channel: Channel, task: &PlaneTask, activity: i16x8) {
+    let plane = channel.plane(tile);
+    let side: Side = core::array::from_fn(|i| plane.row(i * task.height / TILE)[task.width - 1]);
+    if matches!(channel, Channel::Depth) {
+        near.last_depth = Some(side[0]);
+    }
+    near.left.sides[channel as usize] = side;
+    near.activity[channel as usize] = activity;
+}
+
 /// The first valid pixel's value, where it is known.
-fn first_valid<C: Coder>(plane: &Plane, shape: &Shape) -> u32 {
-    match shape.rows.iter().position(|row| *row != 0) {
-        Some(y) if !C::DECODES => plane.row(y)[shape.rows[y].trailing_zeros() as usize] as u32,
+fn first_valid<C: Coder>(plane: &Plane, tile: &Tile) -> u32 {
+    match tile.rows.iter().position(|row| *row != 0) {
+        Some(y) if !C::DECODES => plane.row(y)[tile.rows[y].trailing_zeros() as usize] as u32,
         _ => 1,
     }
 }

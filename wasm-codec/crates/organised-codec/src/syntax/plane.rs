@@ -2,50 +2,90 @@
 
 use wide::i16x8;
 
-use super::TileCoder;
+use crate::contexts::{DEPTH, INDEX};
 use crate::lanes::Ranks;
-use crate::tile::{Plane, TILE};
+use crate::tile::{ColourMode, Plane, TILE, Tile};
+
+/// What a tile tells of each pixel in a plane.
+#[derive(Clone, Copy)]
+pub enum Channel {
+    /// Inverse depth.
+    Depth,
+    /// The colour's place in the palette.
+    Index,
+}
+
+impl Channel {
+    /// How many there are.
+    pub const COUNT: usize = 2;
+
+    /// Those of tiles whose colours are coded so, in their order.
+    #[inline(always)]
+    pub const fn of(mode: ColourMode) -> &'static [Self] {
+        match mode {
+            ColourMode::Palette => &[Self::Depth, Self::Index],
+            _ => &[Self::Depth],
+        }
+    }
+
+    /// The first of its contexts.
+    #[inline(always)]
+    pub const fn base(self) -> usize {
+        match self {
+            Self::Depth => DEPTH,
+            Self::Index => INDEX,
+        }
+    }
+
+    /// A tile's plane.
+    #[inline(always)]
+    pub const fn plane(self, tile: &Tile) -> &Plane {
+        match self {
+            Self::Depth => &tile.depth,
+            Self::Index => &tile.index,
+        }
+    }
+
+    /// A tile's plane.
+    #[inline(always)]
+    pub const fn plane_mut(self, tile: &mut Tile) -> &mut Plane {
+        match self {
+            Self::Depth => &mut tile.depth,
+            Self::Index => &mut tile.index,
+        }
+    }
+}
 
 /// A tile's outermost pixels, spread over 16.
 pub type Side = [i16; TILE];
 
-/// What a plane's coding needs to know of its tile.
-pub struct Shape {
+/// What a plane's coding needs to know of its tile and what surrounds it.
+pub struct PlaneTask {
     /// Pixels across.
     pub width: usize,
     /// Pixels down.
     pub height: usize,
     /// Which of them are valid.
     pub rows: [u16; TILE],
-}
-
-/// What surrounds a plane.
-pub struct Around {
     /// To the left of each row, where it is known.
     pub left: Option<Side>,
     /// What stands for all where nothing is known.
     pub anchor: i16,
     /// Lane by lane, the size of the residual of the last valid pixel; it goes on from tile to tile.
     pub activity: i16x8,
+    /// The first of the plane's contexts.
+    pub base: usize,
 }
 
-/// Codes a plane and returns its right side. `left` is that of the left tile where it is known. `base` is the first of the
-/// plane's contexts.
-#[inline(always)]
-pub fn code_plane<C: TileCoder>(
-    coder: &mut C,
-    plane: &mut Plane,
-    shape: &Shape,
-    left: Option<&Side>,
-    anchor: i16,
-    activity: &mut i16x8,
-    base: usize,
-) -> Side {
-    let (width, height) = (shape.width, shape.height);
-    coder.first_turn();
-    let left = left.map(|side| core::array::from_fn(|y| side[y * TILE / height % TILE]));
-    *activity = coder.plane(plane, shape, &Around { left, anchor, activity: *activity }, base);
-    core::array::from_fn(|i| plane.row(i * height / TILE)[width - 1])
+impl PlaneTask {
+    /// True where both take the same steps, whatever their pixels are.
+    #[inline(always)]
+    pub const fn is_like(&self, other: &Self) -> bool {
+        self.width == other.width
+            && self.height == other.height
+            && self.left.is_some() == other.left.is_some()
+            && self.base == other.base
+    }
 }
 
 /// Median of the left pixel, the upper one, and the plane through them and the diagonal one (LOCO-I).

@@ -2,7 +2,7 @@
 
 use wide::i16x8;
 
-use super::plane::{Around, Shape, bins, contexts, fold, predict, predict_one};
+use super::plane::{PlaneTask, bins, contexts, fold, predict, predict_one};
 use crate::contexts::FIRST_ROW_BIN;
 use crate::lanes::{LANES, follow, precede};
 use crate::rans::{NO_TOKEN, TileTokens, token};
@@ -10,32 +10,32 @@ use crate::tile::{Plane, TILE};
 
 /// See [`super::TileCoder::plane`].
 #[inline(always)]
-pub fn code(coder: &mut TileTokens, plane: &mut Plane, shape: &Shape, around: &Around, base: usize) -> i16x8 {
-    fill(plane, shape, around);
-    let activity = note(plane, shape, around, base);
-    coder.push_front(plane, shape.width, shape.height, base);
+pub fn code(coder: &mut TileTokens, plane: &mut Plane, task: &PlaneTask) -> i16x8 {
+    fill(plane, task);
+    let activity = note(plane, task);
+    coder.push_front(plane, task.width, task.height, task.base);
     activity
 }
 
 /// What stands to the left of a row's first pixel.
 #[inline(always)]
-fn beside(plane: &Plane, around: &Around, y: usize) -> i16 {
-    match &around.left {
+fn beside(plane: &Plane, task: &PlaneTask, y: usize) -> i16 {
+    match &task.left {
         Some(left) => left[y % TILE],
-        None if y == 0 => around.anchor,
+        None if y == 0 => task.anchor,
         None => plane.row(y - 1)[0],
     }
 }
 
 /// Gives pixels that are not valid what is predicted for them.
 #[inline(always)]
-fn fill(plane: &mut Plane, shape: &Shape, around: &Around) {
-    let all = ((1_u32 << shape.width) - 1) as u16;
-    for y in 0..shape.height {
-        let mut missing = !shape.rows[y] & all;
+fn fill(plane: &mut Plane, task: &PlaneTask) {
+    let all = ((1_u32 << task.width) - 1) as u16;
+    for y in 0..task.height {
+        let mut missing = !task.rows[y] & all;
         if missing != 0 {
-            let left = beside(plane, around, y);
-            let above_left = if y > 0 { beside(plane, around, y - 1) } else { left };
+            let left = beside(plane, task, y);
+            let above_left = if y > 0 { beside(plane, task, y - 1) } else { left };
             let above = if y > 0 { Some(*plane.row(y - 1)) } else { None };
             let row = plane.row_mut(y);
             while missing != 0 {
@@ -48,28 +48,28 @@ fn fill(plane: &mut Plane, shape: &Shape, around: &Around) {
                 });
             }
         }
-        if shape.width < TILE {
+        if task.width < TILE {
             // To the right of the last pixel stands itself.
             let row = plane.row_mut(y);
-            row[shape.width] = row[shape.width - 1];
+            row[task.width] = row[task.width - 1];
         }
     }
 }
 
 /// Notes every pixel's token and number.
 #[inline(always)]
-fn note(plane: &mut Plane, shape: &Shape, around: &Around, base: usize) -> i16x8 {
+fn note(plane: &mut Plane, task: &PlaneTask) -> i16x8 {
     const BITS: [i16x8; 2] = [
         i16x8::new([1, 2, 4, 8, 16, 32, 64, 128]),
         i16x8::new([1 << 8, 2 << 8, 4 << 8, 8 << 8, 16 << 8, 32 << 8, 64 << 8, i16::MIN]),
     ];
-    let mut activity = around.activity.to_array();
-    let base = i16x8::splat(base as i16);
+    let mut activity = task.activity.to_array();
+    let base = i16x8::splat(task.base as i16);
     // Of the row above: its pixels, and what stood to the left of each.
     let mut above = [i16x8::ZERO; 2];
     let mut above_left = [i16x8::ZERO; 2];
-    for y in 0..shape.height {
-        let left = i16x8::splat(beside(plane, around, y));
+    for y in 0..task.height {
+        let left = i16x8::splat(beside(plane, task, y));
         let row = plane.row(y);
         let own = [0, LANES].map(|x| i16x8::from(*row[x..][..LANES].first_chunk::<LANES>().expect("eight")));
         let to_left = [follow(left, own[0]), follow(own[0], own[1])];
@@ -81,7 +81,7 @@ fn note(plane: &mut Plane, shape: &Shape, around: &Around, base: usize) -> i16x8
         });
         let residuals: [i16x8; 2] = core::array::from_fn(|i| own[i] - predicted[i]);
         let mut sizes = residuals.map(|residual: i16x8| residual.abs());
-        let valid = shape.rows[y];
+        let valid = task.rows[y];
         if valid != u16::MAX {
             sizes = carried(sizes, valid, activity[lane]);
         }
@@ -101,7 +101,7 @@ fn note(plane: &mut Plane, shape: &Shape, around: &Around, base: usize) -> i16x8
         }
         (above, above_left) = (own, to_left);
     }
-    for y in shape.height..TILE {
+    for y in task.height..TILE {
         plane.tokens_mut(y).fill(NO_TOKEN);
     }
     activity.into()
