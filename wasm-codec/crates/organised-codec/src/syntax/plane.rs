@@ -97,7 +97,8 @@ pub fn predict(l: i16x8, a: i16x8, d: i16x8) -> i16x8 {
 /// The same of a single pixel.
 #[inline(always)]
 pub fn predict_one(l: i16, a: i16, d: i16) -> i16 {
-    l.saturating_add(a - d).max(l.min(a)).min(l.max(a))
+    let plane = i32::from(l) + i32::from(a) - i32::from(d);
+    plane.max(l.min(a).into()).min(l.max(a).into()) as i16
 }
 
 /// The bin of what surrounds a pixel, and for each of the last three bins whether it is that or one beyond.

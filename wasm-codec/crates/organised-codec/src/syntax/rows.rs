@@ -30,22 +30,30 @@ fn beside(plane: &Plane, task: &PlaneTask, y: usize) -> i16 {
 /// Gives pixels that are not valid what is predicted for them.
 #[inline(always)]
 fn fill(plane: &mut Plane, task: &PlaneTask) {
-    let all = ((1_u32 << task.width) - 1) as u16;
+    let all = (1_u32 << task.width) - 1;
     for y in 0..task.height {
-        let mut missing = !task.rows[y] & all;
+        let mut missing = !u32::from(task.rows[y]) & all;
         if missing != 0 {
             let left = beside(plane, task, y);
-            let above_left = if y > 0 { beside(plane, task, y - 1) } else { left };
-            let above = if y > 0 { Some(*plane.row(y - 1)) } else { None };
+            let (above, above_left) = if y > 0 {
+                (*plane.row(y - 1), beside(plane, task, y - 1))
+            } else {
+                // So that the prediction is the left one.
+                ([left; TILE], left)
+            };
             let row = plane.row_mut(y);
             while missing != 0 {
-                let x = missing.trailing_zeros() as usize % TILE;
-                missing &= missing - 1;
-                let l = if x > 0 { row[x - 1] } else { left };
-                row[x] = above.map_or(l, |above| {
-                    let (a, d) = (above[x], if x > 0 { above[x - 1] } else { above_left });
-                    predict_one(l, a, d)
-                });
+                // As long as one follows the other, each is the next one's left.
+                let mut x = missing.trailing_zeros() as usize % TILE;
+                let (mut l, mut d) = if x > 0 { (row[x - 1], above[x - 1]) } else { (left, above_left) };
+                while missing >> x & 1 == 1 {
+                    let a = above[x % TILE];
+                    l = predict_one(l, a, d);
+                    row[x % TILE] = l;
+                    d = a;
+                    missing &= missing - 1;
+                    x += 1;
+                }
             }
         }
         if task.width < TILE {
