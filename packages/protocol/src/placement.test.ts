@@ -4,6 +4,7 @@ import { describe, expect, test } from 'vitest';
 import { CLOUD_FORMATS } from './cloud-format.ts';
 import type { Quaternion, Vector3 } from './geometry.ts';
 import {
+  copyPlacement,
   emptyPlacement,
   type Placement,
   type PlacementFault,
@@ -33,6 +34,25 @@ function toPlacement({ position, orientation, ...rest }: PlacementVector): Place
 function viewOf(bytes: Uint8Array): DataView {
   return new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
 }
+
+test('a copy has every value and shares no object', () => {
+  const from: Placement = {
+    pose: { position: { x: 1, y: 2, z: 3 }, orientation: { x: 0.1, y: 0.2, z: 0.3, w: 0.9 } },
+    captureTimeUs: 4,
+    latencyTest: true,
+    saturated: true,
+    sensor: 5,
+    format: 'organised',
+  };
+  const into = emptyPlacement();
+  const { pose } = into;
+  copyPlacement(from, into);
+  expect(into).toEqual(from);
+  from.pose.position.x = 9;
+  from.pose.orientation.w = 9;
+  expect(into.pose).toBe(pose);
+  expect([pose.position.x, pose.orientation.w]).toEqual([1, 0.9]);
+});
 
 describe('conformance vectors', () => {
   test.each(vectors.read)('read: $name', ({ hex, placement, fault }) => {

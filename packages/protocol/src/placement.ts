@@ -45,6 +45,17 @@ export function emptyPlacement(): Placement {
   };
 }
 
+/** Copies every value; `into` keeps its own objects, and nothing is allocated. */
+export function copyPlacement(from: Placement, into: Placement): void {
+  Object.assign(into.pose.position, from.pose.position);
+  Object.assign(into.pose.orientation, from.pose.orientation);
+  into.captureTimeUs = from.captureTimeUs;
+  into.latencyTest = from.latencyTest;
+  into.saturated = from.saturated;
+  into.sensor = from.sensor;
+  into.format = from.format;
+}
+
 /** Writes the 28 bytes at `offset`. The view must have room. */
 export function writePlacement(view: DataView, offset: number, placement: Placement): void {
   const { position, orientation } = placement.pose;

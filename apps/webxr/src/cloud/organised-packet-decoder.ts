@@ -1,4 +1,5 @@
 import {
+  copyPlacement,
   emptyPlacement,
   emptyPointPacketHeader,
   type Placement,
@@ -30,11 +31,7 @@ class HeldPacket {
 
   hold(header: PointPacketHeader, placement: Placement, data: Uint8Array, receivedMs: number): void {
     Object.assign(this.header, header);
-    const { position, orientation } = this.placement.pose;
-    const { pose, ...others } = placement;
-    Object.assign(position, pose.position);
-    Object.assign(orientation, pose.orientation);
-    Object.assign(this.placement, others);
+    copyPlacement(placement, this.placement);
     this.receivedMs = receivedMs;
     this.data = data;
   }
