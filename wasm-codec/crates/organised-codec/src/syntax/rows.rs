@@ -81,6 +81,12 @@ fn note(plane: &mut Plane, task: &PlaneTask) -> i16x8 {
         let row = plane.row(y);
         let own = [0, LANES].map(|x| i16x8::from(*row[x..][..LANES].first_chunk::<LANES>().expect("eight")));
         let to_left = [follow(left, own[0]), follow(own[0], own[1])];
+        let valid = task.rows[y];
+        if valid == 0 {
+            plane.tokens_mut(y).fill(NO_TOKEN);
+            (above, above_left) = (own, to_left);
+            continue;
+        }
         let last = i16x8::splat(above[1].to_array()[LANES - 1]);
         let above_right = [precede(above[0], above[1]), precede(above[1], last)];
         let lane = y % LANES;
@@ -89,7 +95,6 @@ fn note(plane: &mut Plane, task: &PlaneTask) -> i16x8 {
         });
         let residuals: [i16x8; 2] = core::array::from_fn(|i| own[i] - predicted[i]);
         let mut sizes = residuals.map(|residual: i16x8| residual.abs());
-        let valid = task.rows[y];
         if valid != u16::MAX {
             sizes = carried(sizes, valid, activity[lane]);
         }
