@@ -26,10 +26,18 @@ class HeldPacket {
   readonly header: PointPacketHeader = emptyPointPacketHeader();
   readonly placement: Placement = emptyPlacement();
   receivedMs = 0;
-  /** `null` where none is held. */
-  data: Uint8Array | null = null;
+  data: Uint8Array = new Uint8Array(0);
+  /** Its frame's; `null` where none is held. */
+  decoder: OrganisedDecoder | null = null;
 
-  hold(header: PointPacketHeader, placement: Placement, data: Uint8Array, receivedMs: number): void {
+  hold(
+    decoder: OrganisedDecoder,
+    header: PointPacketHeader,
+    placement: Placement,
+    data: Uint8Array,
+    receivedMs: number,
+  ): void {
+    this.decoder = decoder;
     Object.assign(this.header, header);
     copyPlacement(placement, this.placement);
     this.receivedMs = receivedMs;
@@ -73,27 +81,22 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
       writer.drop('late');
       return;
     }
-    if (held.data === null) {
-      held.hold(header, placement, data, receivedMs);
+    if (held.decoder === null) {
+      held.hold(decoder, header, placement, data, receivedMs);
       return;
     }
     const before = decoder.count;
     const [first, second] = decoder.putTwo(held.data, data);
-    held.data = null;
+    held.decoder = null;
     const between = before + pointsOf(first);
     this.#write(decoder, before, first, held.header, held.placement, held.receivedMs, writer);
     this.#write(decoder, between, second, header, placement, receivedMs, writer);
   }
 
   settle(writer: BatchWriter): void {
-    const { header, placement, data, receivedMs } = this.#held;
-    if (data === null) return;
-    this.#held.data = null;
-    const decoder = this.#frame(header.frameNumber);
-    if (decoder === null) {
-      writer.drop('late');
-      return;
-    }
+    const { decoder, header, placement, data, receivedMs } = this.#held;
+    if (decoder === null) return;
+    this.#held.decoder = null;
     const before = decoder.count;
     this.#write(decoder, before, decoder.put(data), header, placement, receivedMs, writer);
   }
@@ -101,7 +104,7 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
   finish(): void {}
 
   abandon(): void {
-    this.#held.data = null;
+    this.#held.decoder = null;
   }
 
   [Symbol.dispose](): void {

@@ -105,13 +105,9 @@ impl Decoder {
     pub fn put(&mut self, packet: &[u8]) -> Result<Put, PacketError> {
         let header = self.header_of(packet)?;
         let Self { scene, tables, rooms: [room, _], points, count, come, images, .. } = self;
-        room.load(packet, &header);
         tables.choose(header.sets());
-        let mut open = OpenPacket::new(header, room, tables, scene, &mut points[*count..])?;
+        let mut open = OpenPacket::new(header, packet, room, tables, scene, come, &mut points[*count..])?;
         let tiles = open.tiles();
-        if has_come(come, tiles.clone()) {
-            return Err(PacketError::Duplicate);
-        }
         while open.has_tile() {
             open.decode_tile(images.as_mut());
         }
@@ -136,16 +132,13 @@ impl Decoder {
         }
         let Self { scene, tables, rooms: [room, other_room], points, count, second_points, come, images } =
             self;
-        room.load(packets[0], &first);
-        other_room.load(packets[1], &second);
         tables.choose(first.sets());
-        let mut one = OpenPacket::new(first, room, tables, scene, &mut points[*count..]).ok()?;
-        let mut other = OpenPacket::new(second, other_room, tables, scene, second_points).ok()?;
+        let points = &mut points[*count..];
+        let mut one = OpenPacket::new(first, packets[0], room, tables, scene, come, points).ok()?;
+        let mut other =
+            OpenPacket::new(second, packets[1], other_room, tables, scene, come, second_points).ok()?;
         let (tiles, other_tiles) = (one.tiles(), other.tiles());
-        if has_come(come, tiles.clone())
-            || has_come(come, other_tiles.clone())
-            || (tiles.start < other_tiles.end && other_tiles.start < tiles.end)
-        {
+        if tiles.start < other_tiles.end && other_tiles.start < tiles.end {
             return None;
         }
         while one.has_tile() && other.has_tile() {
@@ -180,9 +173,4 @@ impl Decoder {
         self.count += points;
         Put { start, points, latency_test: header.mode == ColourMode::None }
     }
-}
-
-/// True where one of some tiles has.
-fn has_come(come: &[u64], mut tiles: Range<usize>) -> bool {
-    tiles.any(|tile| come[tile / 64] >> (tile % 64) & 1 == 1)
 }

@@ -45,11 +45,6 @@ impl Room {
     pub fn new(images: bool) -> Self {
         Self { body: rans::Body::default(), tile: Tile::new(), colours: Box::new(Colours::new(images)) }
     }
-
-    /// Takes a packet over.
-    pub fn load(&mut self, packet: &[u8], header: &PacketHeader) {
-        self.body.load(&packet[header_bytes(header.mode)..]);
-    }
 }
 
 /// See the module. Where it has a tile, that one's head has been read.
@@ -72,19 +67,28 @@ pub(crate) struct OpenPacket<'a> {
 }
 
 impl<'a> OpenPacket<'a> {
-    /// Goes to the first tile. `points` is where to write them.
+    /// Goes to the first tile. `come` has a bit for each tile that has come before; `points` is where to write them.
+    ///
+    /// # Errors
+    /// `Tiles`, `Duplicate`.
     pub fn new(
         header: PacketHeader,
+        packet: &[u8],
         room: &'a mut Room,
         tables: &'a DecoderTables,
         scene: &'a Scene,
+        come: &[u64],
         points: &'a mut [u64],
     ) -> Result<Self, PacketError> {
         const { assert!(GEOMETRY_SETS == 8 && COLOUR_SETS == 4) };
+        room.body.load(&packet[header_bytes(header.mode)..]);
         let mut coder = rans::Decoder::new(&room.body, tables);
         let span = Span::from_raw(scene.grid, |bits| coder.raw(bits, 0));
         if span.tiles().end > scene.grid.tiles() {
             return Err(PacketError::Tiles);
+        }
+        if span.tiles().any(|tile| come[tile / 64] >> (tile % 64) & 1 == 1) {
+            return Err(PacketError::Duplicate);
         }
         let mut packet = Self {
             scale: 1.0 / scene.header.depth_step(header.depth_level),

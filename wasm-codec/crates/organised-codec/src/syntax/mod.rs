@@ -206,8 +206,8 @@ fn begin_plane<C: TileCoder>(coder: &mut C, tile: &Tile, near: &Neighbours, chan
     let known = near.left.known;
     let anchor = match channel {
         _ if known => 1,
-        Channel::Depth => code_anchor(coder, first_valid::<C>(&tile.depth, tile), near.last_depth),
-        Channel::Index => coder.raw(8, first_valid::<C>(&tile.index, tile) - 1) as i16 + 1,
+        Channel::Depth => code_anchor(coder, first_valid::<C>(tile, channel), near.last_depth),
+        Channel::Index => coder.raw(8, first_valid::<C>(tile, channel) - 1) as i16 + 1,
     };
     coder.first_turn();
     let height = tile.pattern.height();
@@ -236,9 +236,9 @@ fn end_plane(tile: &Tile, near: &mut Neighbours, channel: Channel, task: &PlaneT
 }
 
 /// The first valid pixel's value, where it is known.
-fn first_valid<C: Coder>(plane: &Plane, tile: &Tile) -> u32 {
+fn first_valid<C: Coder>(tile: &Tile, channel: Channel) -> u32 {
     match tile.rows.iter().position(|row| *row != 0) {
-        Some(y) if !C::DECODES => plane.row(y)[tile.rows[y].trailing_zeros() as usize] as u32,
+        Some(y) if !C::DECODES => channel.plane(tile).row(y)[tile.rows[y].trailing_zeros() as usize] as u32,
         _ => 1,
     }
 }
