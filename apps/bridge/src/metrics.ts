@@ -26,6 +26,10 @@ export function registerBridgeMetrics(registry: Registry, bridge: Bridge): void 
       'packets of the robots here that came when asked for',
       () => bridge.roster.sum((c) => c.packetsRecovered),
     ],
+    datagrams_refused: [
+      'datagrams and packets of the robots here that were dropped unread',
+      () => bridge.roster.sum((c) => c.datagramsRefused),
+    ],
     robots_failed_total: ['connections to robots that failed', () => bridge.roster.failed],
     robots_refused_total: ['robots there was no room for', () => bridge.roster.refused],
     messages_refused_total: ['messages of pages that could not be read', () => bridge.messagesRefused],

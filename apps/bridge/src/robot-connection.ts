@@ -45,6 +45,8 @@ export class RobotConnection {
   readonly assembler: FrameAssembler;
   packets = 0;
   candidatesRefused = 0;
+  /** What came to its sockets and was dropped unread. */
+  datagramsRefused = 0;
   readonly #options: RobotConnectionOptions;
   readonly #events: RobotConnectionEvents;
   readonly #connection: RTCPeerConnection;
@@ -68,7 +70,16 @@ export class RobotConnection {
     this.#events = events;
     this.#limit = new ReceiverLimit(options);
     this.assembler = new FrameAssembler(options, (frame) => this.#onFrame(frame));
-    const connection = createReferencePeerConnection();
+    const connection = createReferencePeerConnection(
+      {},
+      {
+        onRefused: () => {
+          this.datagramsRefused++;
+        },
+        onUnproven: (error) => this.#fail(`the robot is not the one that registered: ${error.reason}`),
+        onFault: (error) => this.#fail(textOf(error)),
+      },
+    );
     this.#connection = connection;
     connection.onIceCandidate.subscribe((candidate) => {
       if (candidate === undefined || this.#closed) return;

@@ -12,10 +12,12 @@ import {
 import type { TopicReading } from '@farpoint/ros';
 import { type CommandVerdict, DriveGuard, type RejectedCommand, type TakePolicy } from '@farpoint/safety';
 import { JsonLinesFile, type Logger } from '@farpoint/service';
+import type { Refusal } from '@farpoint/webrtc';
 import { Capture, type CaptureError, type CaptureState } from './capture/capture.ts';
 import type { CaptureOptions } from './capture/capture-messages.ts';
 import { monotonicMs, threadCpuMs } from './clock.ts';
 import { DriveStation } from './drive/drive-station.ts';
+import { EstopJournal } from './drive/estop-journal.ts';
 import { openSink, type SinkOptions, type VelocitySink } from './drive/velocity-sink.ts';
 import type { StreamMode } from './encode/stream-mode.ts';
 import { PictureHub } from './pictures/picture-hub.ts';
@@ -47,6 +49,8 @@ export interface RobotOptions {
   sink: SinkOptions;
   limits: DriveLimits;
   takePolicy: TakePolicy;
+  /** Where the robot remembers its emergency stop over restarts. */
+  stateFolder: string;
   /** Robots' port of a reference signaling service; its operators prove nothing of themselves. */
   referenceSignaling?: string | undefined;
   /** `auto`: our own coded formats to whoever reads them; `points64`: that to everyone. */
@@ -98,6 +102,7 @@ export class Robot implements SessionHost {
   readonly #log: Logger;
   readonly #packetLog: PacketLog | undefined;
   readonly #frameLog: FrameLog | undefined;
+  readonly #estop: EstopJournal;
   readonly #sink: VelocitySink;
   readonly #sendLoop = new SendLoop(monotonicMs, threadCpuMs);
   readonly #fanOut: FrameFanOut;
@@ -107,6 +112,8 @@ export class Robot implements SessionHost {
   readonly #timers: NodeJS.Timeout[] = [];
   readonly #statistics: JsonLinesFile | null = null;
   #state: CaptureState | null = null;
+  /** It ends because it must: the next start is latched. */
+  #failed = false;
 
   private constructor(
     capture: Capture,
@@ -127,6 +134,17 @@ export class Robot implements SessionHost {
       takePolicy: options.takePolicy,
       randomBytes: (count) => randomBytes(count),
     });
+    this.#estop = new EstopJournal(options.stateFolder, options.id, (error) =>
+      log.error({ err: error }, 'the emergency stop is not remembered: the next start will be latched'),
+    );
+    const { latched } = this.#estop.start;
+    if (latched !== null) {
+      guard.latchEstop(latched.by);
+      log.warn(
+        { reason: latched.reason, detail: latched.detail },
+        'starts with the emergency stop latched: whoever drives must release it',
+      );
+    }
     this.drive = new DriveStation(
       guard,
       (twist) => {
@@ -136,12 +154,11 @@ export class Robot implements SessionHost {
       monotonicMs,
     );
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
-    const { portRange, icePolicy, connectTimeoutMs } = options;
     this.#sessions = new OperatorSessions(
       {
         most: options.maxOperators,
         iceServers: options.iceServers,
-        peer: { portRange, icePolicy, connectTimeoutMs, pictures: capture.cameras.length > 0 },
+        peer: { ...this.#peerOptions, pictures: capture.cameras.length > 0 },
         pictureShare: options.pictures.share,
         makeController: () => this.#makeController(),
         sendLoop: this.#sendLoop,
@@ -206,7 +223,10 @@ export class Robot implements SessionHost {
     capture.onState = (state) => {
       this.#state = state;
     };
-    capture.onFailure = (error) => this.onFailure?.(error);
+    capture.onFailure = (error) => {
+      this.#failed = true;
+      this.onFailure?.(error);
+    };
     capture.onFault = (detail) => log.warn({ detail }, 'the source has a fault');
     this.#timers.push(setInterval(() => this.#tick(), TICK_MS));
     if (options.statisticsFile !== undefined) {
@@ -263,6 +283,7 @@ export class Robot implements SessionHost {
 
   /** Stops the wheels first, then takes leave of everyone. */
   async close(): Promise<void> {
+    if (!this.#failed) this.#estop.end();
     this.drive.guard.latchEstop('robot');
     this.drive.apply();
     for (const timer of this.#timers) clearInterval(timer);
@@ -293,7 +314,9 @@ export class Robot implements SessionHost {
 
   estopChanged(): void {
     const { guard } = this.drive;
-    this.#log.warn({ estop: guard.estopState() }, 'emergency stop changed');
+    const state = guard.estopState();
+    this.#estop.changed(state.by ?? null);
+    this.#log.warn({ estop: state }, 'emergency stop changed');
     for (const operator of this.operators.values()) operator.session.sendEstop();
   }
 
@@ -327,14 +350,21 @@ export class Robot implements SessionHost {
     this.#log.debug({ err: error, channel }, 'message refused');
   }
 
+  /** Of a connection with any operator. */
+  get #peerOptions() {
+    const { portRange, icePolicy, connectTimeoutMs } = this.#options;
+    const onRefused = (reason: Refusal) => this.counters.datagramsRefused.add(reason);
+    return { portRange, icePolicy, connectTimeoutMs, onRefused };
+  }
+
   #startReference(url: string): void {
-    const { name, signaling, connectTimeoutMs, portRange, icePolicy, iceServers } = this.#options;
+    const { name, signaling, iceServers } = this.#options;
     this.reference = new ReferenceProfile(
       {
         url,
         ca: signaling.ca,
         name,
-        peer: { iceServers, portRange, icePolicy, connectTimeoutMs },
+        peer: { ...this.#peerOptions, iceServers },
         makeController: () => this.#makeController(),
         packetLog: this.#packetLog,
         sendLoop: this.#sendLoop,

@@ -1,3 +1,6 @@
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { freePorts } from './free-port.ts';
 import { ManagedProcess } from './managed-process.ts';
@@ -43,6 +46,8 @@ export class LocalStack {
   readonly #spec: StackSpec;
   #signaling: ManagedProcess | null = null;
   readonly #robots = new Map<string, RunningRobot>();
+  /** A robot that is started again finds its own state; one of another stack does not. */
+  readonly #stateFolder = mkdtempSync(join(tmpdir(), 'farpoint-state-'));
 
   private constructor(spec: StackSpec, ports: StackPorts) {
     this.#spec = spec;
@@ -126,6 +131,7 @@ export class LocalStack {
         ...['--id', spec.id],
         ...['--name', spec.name],
         ...['--admin-port', String(spec.adminPort)],
+        ...['--state-dir', this.#stateFolder],
         ...(spec.reference ? ['--reference-signaling', `ws://127.0.0.1:${this.ports.referenceRobot}`] : []),
         ...spec.args,
       ],
@@ -145,6 +151,7 @@ export class LocalStack {
   async stop(): Promise<void> {
     await Promise.all([...this.#robots.values()].map((robot) => robot.process.stop()));
     await this.#signaling?.stop();
+    rmSync(this.#stateFolder, { recursive: true, force: true });
   }
 
   #robot(id: string): RunningRobot {

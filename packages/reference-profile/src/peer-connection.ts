@@ -1,3 +1,4 @@
+import { type ConnectionGuardEvents, guardConnection } from '@farpoint/webrtc';
 import {
   RTCPeerConnection,
   RTCRtpCodecParameters,
@@ -24,11 +25,14 @@ export interface ReferencePeerOptions {
 
 /**
  * A connection that offers, or takes, the media of the reference profile: one video m-line of payload type 5, `pcm/90000`,
- * with its feedback and its one header extension.
+ * with its feedback and its one header extension. What it hears is guarded.
  */
-export function createReferencePeerConnection(options: ReferencePeerOptions = {}): RTCPeerConnection {
+export function createReferencePeerConnection(
+  options: ReferencePeerOptions = {},
+  events: ConnectionGuardEvents = {},
+): RTCPeerConnection {
   const { portRange } = options;
-  return new RTCPeerConnection({
+  const connection = new RTCPeerConnection({
     iceServers: options.iceServers ?? [],
     bundlePolicy: 'max-bundle',
     iceUseTcp: false,
@@ -48,4 +52,6 @@ export function createReferencePeerConnection(options: ReferencePeerOptions = {}
     // The first and only one: its id is 1.
     headerExtensions: { video: [useTransportWideCC()] },
   });
+  guardConnection(connection, events);
+  return connection;
 }

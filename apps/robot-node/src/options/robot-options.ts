@@ -9,6 +9,7 @@ import type { RobotOptions } from '../robot.ts';
 import { describeTopics, readFrom, sourcedFolders } from '../ros/message-folders.ts';
 import type { GraphOptions } from '../ros/open-graph.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
+import { stateFolder } from './state.ts';
 
 /** How messages name the place of an option's value. */
 export type Where = (key: RobotOptionKey) => string;
@@ -48,6 +49,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       maxCommandsPerSecond: values.maxCommandsPerSecond,
     },
     takePolicy: values.takePolicy,
+    stateFolder: stateFolder(values.stateDir, process.env),
     referenceSignaling: values.referenceSignaling ?? undefined,
     bitsPerSecond: values.bitrateMbps * 1e6,
     mode: values.mode,

@@ -13,6 +13,7 @@ import { signalingOptions } from './signaling.ts';
 import { simOptions } from './sim.ts';
 import { sinkOptions } from './sink.ts';
 import { sourceOptions } from './source.ts';
+import { stateOptions } from './state.ts';
 import { streamOptions } from './stream.ts';
 import { topicsOptions } from './topics.ts';
 
@@ -27,6 +28,7 @@ const options = {
   ...topicsOptions,
   ...rosOptions,
   ...limitsOptions,
+  ...stateOptions,
   ...streamOptions,
   ...picturesOptions,
   ...networkOptions,

@@ -6,6 +6,7 @@ import {
   REFERENCE_EXTENSION_ID,
   referenceChannels,
 } from '@farpoint/reference-profile';
+import type { Refusal } from '@farpoint/webrtc';
 import type { RTCDataChannel, RTCPeerConnection, RTCRtpTransceiver } from 'werift';
 import { dropDefaultStun, pairLateCandidates } from '../transport/ice-restart.ts';
 import { errorText, type PeerEnd, toWeriftServers } from '../transport/operator-peer.ts';
@@ -17,6 +18,8 @@ export interface ReferencePeerOptions {
   icePolicy: 'all' | 'relay';
   /** From the answer on. */
   connectTimeoutMs: number;
+  /** Something that came from the network was dropped unread. */
+  onRefused?: ((reason: Refusal) => void) | undefined;
 }
 
 export interface ReferencePeerEvents {
@@ -51,11 +54,19 @@ export class ReferencePeer {
   constructor(options: ReferencePeerOptions, events: ReferencePeerEvents) {
     this.#options = options;
     this.#events = events;
-    const connection = createReferencePeerConnection({
-      iceServers: toWeriftServers(options.iceServers),
-      portRange: options.portRange,
-      icePolicy: options.icePolicy,
-    });
+    const connection = createReferencePeerConnection(
+      {
+        iceServers: toWeriftServers(options.iceServers),
+        portRange: options.portRange,
+        icePolicy: options.icePolicy,
+      },
+      {
+        onRefused: (reason) => options.onRefused?.(reason),
+        onUnproven: (error) => this.close('unproven-peer', error.reason),
+        onFault: (error) =>
+          this.close('connection-lost', `a message could not be handled: ${errorText(error)}`),
+      },
+    );
     this.#connection = connection;
     this.#cloud = connection.addTransceiver('video', { direction: 'sendonly' });
     const { control } = referenceChannels;

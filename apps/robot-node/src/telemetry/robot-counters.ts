@@ -23,6 +23,8 @@ export class RobotCounters {
   sessionsRefused = 0;
   readonly sessionsEnded = new ReasonCounts();
   candidatesRefused = 0;
+  /** What came to the sockets of sessions and was dropped unread, by reason. */
+  readonly datagramsRefused = new ReasonCounts();
   readonly signalingErrors = new ReasonCounts();
   commandsAccepted = 0;
   readonly commandsRejected = new ReasonCounts();

@@ -1,6 +1,7 @@
 /** What werift leaves undone in ICE, above all where it is restarted by the side that offers. */
+import { WeriftShapeError } from '@farpoint/webrtc';
 import { CandidatePairState, type RTCDtlsTransport } from 'werift';
-import { guardSocket, WeriftShapeError } from './werift-path.ts';
+import { guardSocket } from './werift-path.ts';
 
 interface ProtocolShape {
   transport?: { socket?: unknown };

@@ -6,6 +6,7 @@ import {
   type IceServer,
   MAX_PICTURE_CHUNK_BYTES,
 } from '@farpoint/protocol';
+import { guardConnection, type Refusal } from '@farpoint/webrtc';
 import {
   MediaStream,
   type RTCDataChannel,
@@ -32,6 +33,7 @@ export type PeerEnd =
   | 'closed' // by us
   | 'bad-answer' // the operator's SDP or its codecs cannot be used
   | 'not-connected' // no connection came about
+  | 'unproven-peer' // who answered the handshake does not hold the described certificate's key
   | 'connection-lost' // ICE, DTLS or a channel ended
   | 'silent' // nothing heard for too long
   | 'not-reading'; // our reliable messages pile up
@@ -45,6 +47,8 @@ export interface OperatorPeerOptions {
   connectTimeoutMs: number;
   /** There are pictures to send: a channel for them is opened. */
   pictures?: boolean | undefined;
+  /** Something that came from the network was dropped unread. */
+  onRefused?: ((reason: Refusal) => void) | undefined;
 }
 
 export interface OperatorPeerEvents {
@@ -119,6 +123,11 @@ export class OperatorPeer {
       headerExtensions: { audio: extensions, video: extensions },
     });
     const connection = this.#connection;
+    guardConnection(connection, {
+      onRefused: (reason) => options.onRefused?.(reason),
+      onUnproven: (error) => this.#end('unproven-peer', error.reason),
+      onFault: (error) => this.#end('connection-lost', `a message could not be handled: ${errorText(error)}`),
+    });
     // Points travel as "audio": the browser hands each packet over as it comes, without assembling frames.
     this.#cloud = connection.addTransceiver('audio', {
       direction: 'sendonly',

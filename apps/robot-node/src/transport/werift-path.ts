@@ -4,14 +4,10 @@
  */
 import type { Buffer } from 'node:buffer';
 import { Socket } from 'node:dgram';
+import { WeriftShapeError } from '@farpoint/webrtc';
 import type { RTCDtlsTransport } from 'werift';
 
 const SRTP_AEAD_AES_128_GCM = 7;
-
-/** A werift that is built differently from the one this was written for. */
-export class WeriftShapeError extends Error {
-  override readonly name = 'WeriftShapeError';
-}
 
 export interface SrtpKeys {
   /** 16 bytes. */

@@ -1,0 +1,71 @@
+import { mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import fc from 'fast-check';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { EstopJournal } from './estop-journal.ts';
+
+let folder: string;
+const faults: Error[] = [];
+beforeEach(() => {
+  folder = mkdtempSync(join(tmpdir(), 'farpoint-estop-'));
+  faults.length = 0;
+});
+afterEach(() => rmSync(folder, { recursive: true, force: true }));
+
+const open = (id = 'robot-1', at = folder) => new EstopJournal(at, id, (error) => faults.push(error));
+
+describe('EstopJournal', () => {
+  it('lets the first run and one after an orderly end drive', () => {
+    const first = open();
+    expect(first.start.latched).toBeNull();
+    first.end();
+    expect(open().start.latched).toBeNull();
+  });
+
+  it('latches after a run that did not end', () => {
+    open();
+    expect(open().start.latched).toMatchObject({ by: 'robot', reason: 'unclean-exit' });
+    // Nobody has released it: it stays latched over as many crashes, or orderly ends, as there are.
+    open().end();
+    expect(open().start.latched).toMatchObject({ by: 'robot', reason: 'was-latched' });
+  });
+
+  it('keeps a latch over an orderly end, and forgets a released one', () => {
+    const first = open();
+    first.changed('operator');
+    first.end();
+    first.changed(null);
+    const second = open();
+    expect(second.start.latched).toMatchObject({ by: 'operator', reason: 'was-latched' });
+    second.changed(null);
+    second.end();
+    expect(open().start.latched).toBeNull();
+  });
+
+  it('latches for what it cannot read, whatever it is', () => {
+    fc.assert(
+      fc.property(fc.oneof(fc.string(), fc.json()), (text) => {
+        writeFileSync(join(folder, 'robot-1.run.json'), text);
+        expect(open().start.latched).toMatchObject({ by: 'robot', reason: 'unreadable' });
+      }),
+      { seed: 8, numRuns: 100 },
+    );
+  });
+
+  it('latches where it cannot write, and tells of later faults', () => {
+    const file = join(folder, 'no-folder');
+    writeFileSync(file, '');
+    const journal = open('robot-1', join(file, 'below'));
+    expect(journal.start.latched).toMatchObject({ by: 'robot' });
+    journal.changed(null);
+    expect(faults).toHaveLength(1);
+  });
+
+  it('has a file for each robot, and leaves no other', () => {
+    open('a').end();
+    open('b');
+    expect(open('a').start.latched).toBeNull();
+    expect(readdirSync(folder).sort()).toEqual(['a.run.json', 'b.run.json']);
+  });
+});

@@ -1,0 +1,21 @@
+/** Where the robot keeps what must outlive it. */
+import { homedir } from 'node:os';
+import { join } from 'node:path';
+import { defineOption, type OptionTable, schema } from '@farpoint/service';
+
+export const stateOptions = {
+  stateDir: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'DIR',
+    help: 'where the robot remembers its emergency stop over restarts; by default the service manager’s STATE_DIRECTORY, else ~/.local/state/farpoint',
+  }),
+} satisfies OptionTable;
+
+/** @param env `STATE_DIRECTORY` as systemd.exec(5) sets it, `XDG_STATE_HOME` of the XDG base directories */
+export function stateFolder(stateDir: string | null, env: NodeJS.ProcessEnv): string {
+  if (stateDir !== null) return stateDir;
+  const ofService = env.STATE_DIRECTORY?.split(':')[0];
+  if (ofService) return ofService;
+  return join(env.XDG_STATE_HOME || join(homedir(), '.local', 'state'), 'farpoint');
+}

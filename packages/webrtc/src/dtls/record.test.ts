@@ -1,0 +1,63 @@
+import fc from 'fast-check';
+import { describe, expect, it } from 'vitest';
+import { parseRecords } from './record.ts';
+
+function record(contentType: number, epoch: number, sequence: number, fragment: Uint8Array): Buffer {
+  const header = Buffer.alloc(13);
+  header.writeUInt8(contentType, 0);
+  header.writeUInt16BE(0xfefd, 1);
+  header.writeUInt16BE(epoch, 3);
+  header.writeUIntBE(sequence, 5, 6);
+  header.writeUInt16BE(fragment.length, 11);
+  return Buffer.concat([header, fragment]);
+}
+
+const records = fc.array(
+  fc.record({
+    contentType: fc.integer({ min: 20, max: 23 }),
+    epoch: fc.nat(0xffff),
+    sequence: fc.nat(2 ** 48 - 1),
+    fragment: fc.uint8Array({ minLength: 1, maxLength: 50 }),
+  }),
+  { maxLength: 4 },
+);
+
+describe('parseRecords', () => {
+  it('reads what was written, up to the first damage', () => {
+    fc.assert(
+      fc.property(records, fc.nat(12), (written, cut) => {
+        const bytes = Buffer.concat(
+          written.map(({ contentType, epoch, sequence, fragment }) =>
+            record(contentType, epoch, sequence, fragment),
+          ),
+        );
+        const whole = parseRecords(bytes);
+        expect(whole.malformed).toBe(false);
+        const read = whole.records.map(({ version: _, ...rest }) => rest);
+        expect(read).toEqual(written.map((one) => ({ ...one, fragment: Buffer.from(one.fragment) })));
+        if (written.length === 0 || cut === 0) return;
+        const damaged = parseRecords(bytes.subarray(0, bytes.length - Math.min(cut, 1)));
+        expect(damaged.malformed).toBe(true);
+        expect(damaged.records).toHaveLength(written.length - 1);
+      }),
+      { seed: 2 },
+    );
+  });
+
+  it('never throws', () => {
+    fc.assert(
+      fc.property(fc.uint8Array({ maxLength: 80 }), (bytes) => {
+        parseRecords(Buffer.from(bytes));
+      }),
+      { seed: 3, numRuns: 2000 },
+    );
+  });
+
+  it.each([
+    ['an unknown content type', record(24, 0, 0, new Uint8Array(1))],
+    ['an empty fragment', record(22, 0, 0, new Uint8Array(0))],
+    ['another version', Buffer.from(record(22, 0, 0, new Uint8Array(1)).fill(3, 1, 3))],
+  ])('refuses %s', (_, bytes) => {
+    expect(parseRecords(bytes)).toEqual({ records: [], malformed: true });
+  });
+});

@@ -1,0 +1,333 @@
+import { createSocket } from 'node:dgram';
+import { once } from 'node:events';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { crc32c, createSelfSignedCertificate, Message, RTCPeerConnection } from 'werift';
+import { finishedData } from '../dtls/peer-proof.ts';
+import { parseRecords } from '../dtls/record.ts';
+import { stunKind } from '../stun/binding-request.ts';
+import { type LoopbackOptions, LoopbackPeers } from '../testing/loopback-peers.ts';
+import { guardConnection } from './guard-connection.ts';
+import { WeriftShapeError } from './werift-shape.ts';
+
+const cleanups: (() => unknown)[] = [];
+const unhandled: unknown[] = [];
+const note = (reason: unknown) => unhandled.push(reason);
+beforeEach(() => {
+  unhandled.length = 0;
+  process.on('unhandledRejection', note);
+});
+afterEach(async () => {
+  for (const cleanup of cleanups.splice(0)) await cleanup();
+  process.off('unhandledRejection', note);
+  expect(unhandled).toEqual([]);
+});
+
+async function open(options: LoopbackOptions = {}): Promise<LoopbackPeers> {
+  const peers = await LoopbackPeers.open(options);
+  cleanups.push(() => peers.close());
+  return peers;
+}
+
+async function connect(options: LoopbackOptions = {}): Promise<LoopbackPeers> {
+  const peers = await open(options);
+  await peers.until(() => peers.connected);
+  await peers.exchange('hello');
+  return peers;
+}
+
+/** A certificate, and the key of another one. */
+async function stolenCertificate() {
+  const signatureHash = { hash: 4, signature: 3 } as const;
+  const [victim, thief] = await Promise.all([0, 0].map(() => createSelfSignedCertificate(signatureHash)));
+  return { certPem: victim?.certPem ?? '', keyPem: thief?.keyPem ?? '', signatureHash };
+}
+
+function plainRecord(contentType: number, fragment: readonly number[], epoch = 0): Buffer {
+  const header = Buffer.from([contentType, 0xfe, 0xfd, 0, epoch, 0, 0, 0, 0, 1, 0, 0, fragment.length]);
+  return Buffer.concat([header, Buffer.from(fragment)]);
+}
+
+/** A ClientHello that begins a new handshake, 105 bytes with its headers. */
+function clientHello(): Buffer {
+  const body = [0xfe, 0xfd, ...new Array(32).fill(7), 0, 0, 0, 2, 0xc0, 0x2b, 1, 0, ...new Array(38).fill(0)];
+  const header = [1, 0, 0, body.length, 0, 0, 0, 0, 0, 0, 0, body.length];
+  return plainRecord(22, [...header, ...body]);
+}
+
+const closeAlert = plainRecord(21, [1, 0]);
+
+for (const guardedAnswers of [false, true]) {
+  describe(`a guarded connection that ${guardedAnswers ? 'answers' : 'offers'}`, () => {
+    it('connects with the peer of the description, and refuses nothing of it', async () => {
+      const peers = await connect({ guardedAnswers });
+      expect([...peers.refusals.entries()]).toEqual([]);
+    });
+
+    it('fails where the peer does not hold the key of its certificate', async () => {
+      const peers = await open({ guardedAnswers, keys: await stolenCertificate() });
+      await peers.until(() => peers.unproven !== null);
+      expect(peers.unproven?.reason).toBe(guardedAnswers ? 'bad-key-exchange' : 'bad-certificate-verify');
+      await peers.until(() => peers.guarded.connectionState === 'failed');
+      expect(peers.heard).toEqual([]);
+    });
+  });
+}
+
+describe('the handshake', () => {
+  it('fails where the certificate is not the described one', async () => {
+    const onAnswer = (sdp: string) => sdp.replaceAll(/(fingerprint:sha-256 )../g, '$1FF');
+    const peers = await open({ onAnswer });
+    await peers.until(() => peers.unproven !== null);
+    expect(peers.unproven?.reason).toBe('fingerprint-mismatch');
+    await peers.until(() => peers.guarded.connectionState === 'failed');
+    expect(peers.heard).toEqual([]);
+  });
+
+  it('fails where Finished does not prove that both saw the same', async () => {
+    const peers = await open({
+      onClientSocket: (socket) => {
+        Object.assign(socket.cipher, {
+          verifyData: () => finishedData(Buffer.alloc(1), Buffer.alloc(48), 'client'),
+        });
+      },
+    });
+    await peers.until(() => peers.unproven !== null);
+    expect(peers.unproven?.reason).toBe('bad-finished');
+  });
+
+  it('takes a hello that came before the transport was ready, without a second one', async () => {
+    let hellos = 0;
+    const greeted = Promise.withResolvers<void>();
+    const peers = await open({
+      onGuardedTransport: (transport) => {
+        // As a slow check of ours does: the peer's own is through already.
+        const start = transport.start.bind(transport);
+        transport.start = async () => {
+          await greeted.promise;
+          await start();
+        };
+        transport.iceTransport.connection.onData.subscribe((datagram) => {
+          if (datagram[13] === 1) greeted.resolve();
+        });
+      },
+      onClientSocket: (socket) => {
+        const send = socket.transport.send;
+        socket.transport.send = (bytes) => {
+          if (bytes[0] === 22 && bytes[13] === 1) hellos++;
+          return send(bytes);
+        };
+      },
+    });
+    await peers.until(() => peers.connected);
+    // One without a cookie, one with.
+    expect(hellos).toBe(2);
+    await peers.exchange('hello');
+  });
+
+  it('seals no two records with one nonce', async () => {
+    const sequences: number[] = [];
+    const peers = await open({
+      onGuardedTransport: (transport) => {
+        const { connection } = transport.iceTransport;
+        const send = connection.send;
+        connection.send = (datagram) => {
+          for (const { epoch, sequence } of parseRecords(datagram).records) {
+            if (epoch === 1) sequences.push(sequence);
+          }
+          return send(datagram);
+        };
+      },
+    });
+    await peers.until(() => peers.connected);
+    for (let n = 0; n < 12; n++) await peers.exchange(`message ${n}`);
+    expect(sequences.length).toBeGreaterThan(12);
+    expect(new Set(sequences).size).toBe(sequences.length);
+  });
+
+  it('survives flights that are lost, doubled and turned round', async () => {
+    let sent = 0;
+    const peers = await open({
+      onClientSocket: (socket) => {
+        const send = socket.transport.send;
+        const held: Buffer[] = [];
+        socket.transport.send = async (bytes) => {
+          // The last flight's first copy comes in the wrong order, and twice.
+          if (bytes[0] === 22 && bytes[13] !== 1 && sent < 5) held.push(bytes);
+          else if (held.length === 0) return send(bytes);
+          else held.push(bytes);
+          if (++sent !== 5) return;
+          for (const late of held.splice(0).reverse()) {
+            await send(late);
+            await send(late);
+          }
+        };
+      },
+    });
+    await peers.until(() => peers.connected);
+    await peers.exchange('hello');
+  });
+});
+
+describe('a running session', () => {
+  it('is not ended by plaintext of the peer’s own address', async () => {
+    const peers = await connect();
+    for (const datagram of [
+      closeAlert,
+      plainRecord(21, [2, 40]),
+      clientHello(),
+      plainRecord(23, [1, 2, 3]),
+    ]) {
+      await peers.inject(datagram);
+    }
+    await peers.until(() => peers.refusals.get('dtls-plaintext') === 4);
+    await peers.exchange('still here');
+    expect(peers.connected).toBe(true);
+  });
+
+  it('is not ended by plaintext that calls itself encrypted', async () => {
+    const peers = await connect();
+    await peers.inject(plainRecord(21, [1, 0], 1));
+    await peers.inject(plainRecord(21, new Array(40).fill(0), 1));
+    await peers.inject(plainRecord(23, new Array(40).fill(0), 2));
+    await peers.until(() => peers.refusals.get('dtls-epoch') === 1);
+    expect(peers.refusals.get('dtls-unauthentic')).toBe(2);
+    await peers.exchange('still here');
+  });
+
+  it('hears nothing of a stranger: no alert, no hello, no unsealed connectivity check', async () => {
+    const peers = await connect();
+    const [host, port] = peers.guardedAddress;
+    const stranger = createSocket('udp4').bind(0);
+    cleanups.push(() => stranger.close());
+    await once(stranger, 'listening');
+    const answers: Buffer[] = [];
+    stranger.on('message', (datagram) => answers.push(datagram));
+    const check = new Message(1, 0)
+      .setAttribute('USERNAME', `${peers.guarded.iceTransports[0]?.connection.localUsername}:x`)
+      .setAttribute('PRIORITY', 1)
+      .setAttribute('ICE-CONTROLLING', 2n ** 64n - 1n)
+      .setAttribute('USE-CANDIDATE', null);
+    for (const datagram of [closeAlert, clientHello(), check.bytes]) stranger.send(datagram, port, host);
+    await peers.until(() => peers.refusals.get('stun-unauthenticated') === 1);
+    await peers.until(() => peers.refusals.get('unknown-source') === 2);
+    await peers.exchange('still here');
+    // What is sealed with the session's password is answered, and it alone: an answer to the others came before it.
+    const { localPassword } = peers.guarded.iceTransports[0]?.connection ?? { localPassword: '' };
+    const sealed = new Message(1, 0)
+      .setAttribute('USERNAME', `${peers.guarded.iceTransports[0]?.connection.localUsername}:x`)
+      .setAttribute('PRIORITY', 1)
+      .setAttribute('ICE-CONTROLLED', 0n)
+      .addMessageIntegrity(Buffer.from(localPassword));
+    stranger.send(sealed.bytes, port, host);
+    await once(stranger, 'message');
+    expect(answers[0]?.subarray(8, 20)).toEqual(sealed.bytes.subarray(8, 20));
+    expect(stunKind(answers[0] as Buffer)).toBe('response');
+  });
+
+  it('takes a record once', async () => {
+    const records: Buffer[] = [];
+    const peers = await connect({
+      onClientSocket: (socket) => {
+        const send = socket.transport.send;
+        socket.transport.send = (bytes) => {
+          if (bytes[0] === 23) records.push(Buffer.from(bytes));
+          return send(bytes);
+        };
+      },
+    });
+    const count = records.length;
+    for (const record of records.slice()) await peers.inject(record);
+    await peers.until(() => peers.refusals.get('dtls-replayed') === count);
+    await peers.exchange('still here');
+    expect(peers.heard).toEqual(['hello', 'still here']);
+  });
+
+  it('ends when the peer says so under its keys', async () => {
+    const peers = await connect();
+    const sealed = (
+      peers.socket.cipher as unknown as { encryptPacket(packet: unknown): { serialize(): Buffer } }
+    ).encryptPacket({
+      recordLayerHeader: {
+        contentType: 21,
+        protocolVersion: { major: 0xfe, minor: 0xfd },
+        epoch: 1,
+        sequenceNumber: 1000,
+        contentLen: 2,
+      },
+      fragment: Buffer.from([1, 0]),
+      serialize(this: { recordLayerHeader: { contentLen: number }; fragment: Buffer }) {
+        const header = Buffer.from([21, 0xfe, 0xfd, 0, 1, 0, 0, 0, 0, 0x03, 0xe8, 0, this.fragment.length]);
+        return Buffer.concat([header, this.fragment]);
+      },
+    });
+    const closed = new Promise((resolve) =>
+      peers.guarded.dtlsTransports[0]?.onStateChange.subscribe(
+        (state) => state === 'closed' && resolve(state),
+      ),
+    );
+    await peers.inject(sealed.serialize());
+    expect(await closed).toBe('closed');
+  });
+
+  it('survives malformed SCTP and messages that cannot be, of a peer that has its keys', async () => {
+    const peers = await connect();
+    const transport = peers.other.dtlsTransports[0];
+    const association = peers.guarded.sctpTransport?.sctp as unknown as { localVerificationTag: number };
+    const packet = (...chunks: number[]) => {
+      const bytes = Buffer.alloc(12 + chunks.length);
+      bytes.writeUInt16BE(5000, 0);
+      bytes.writeUInt16BE(5000, 2);
+      bytes.writeUInt32BE(association.localVerificationTag, 4);
+      bytes.set(chunks, 12);
+      bytes.writeUInt32LE(crc32c(bytes), 8);
+      return bytes;
+    };
+    await transport?.sendData(Buffer.from([1, 2, 3]));
+    await transport?.sendData(packet(0, 0, 0, 0));
+    await transport?.sendData(packet(130, 0, 0, 8, 0, 13, 0, 0));
+    await transport?.sendData(packet(77, 0, 0, 4));
+    await peers.until(() => peers.refusals.get('sctp-malformed') === 4);
+    // Well framed, and two openings beside each other: RFC 9260 forbids it.
+    const init = [1, 0, 0, 20, ...new Array(16).fill(1)];
+    await transport?.sendData(packet(...init, ...init));
+    await transport?.sendData(packet(4, 0, 0, 8, 0, 1, 0, 4).fill(0, 8, 12));
+    await peers.until(() => peers.refusals.get('sctp-failed') === 2);
+    const { sctp } = peers.other.sctpTransport ?? {};
+    await sctp?.send(40, 50, Buffer.from([2]));
+    await sctp?.send(41, 50, Buffer.from([3, 0, 0, 0, 0, 0, 0, 0, 0, 9, 0, 0]));
+    await sctp?.send(42, 99, Buffer.from('strange'));
+    await peers.until(() => peers.refusals.get('message-malformed') === 3);
+    await peers.exchange('still here');
+  });
+
+  it('tells of a listener that throws, and lives on', async () => {
+    const peers = await connect();
+    peers.onHeard = () => {
+      throw new Error('a fault of ours');
+    };
+    peers.toGuarded.send('anything');
+    await peers.until(() => peers.faults.length === 1);
+    peers.onHeard = null;
+    await peers.exchange('still here');
+  });
+
+  it('announces an unordered channel with a lifetime as RFC 8832 has it', async () => {
+    const peers = await connect();
+    const opened = new Promise<boolean>((resolve) =>
+      peers.other.onDataChannel.subscribe((channel) => {
+        if (channel.label === 'loose') resolve(channel.ordered);
+      }),
+    );
+    peers.guarded.createDataChannel('loose', { ordered: false, maxPacketLifeTime: 100 });
+    expect(await opened).toBe(false);
+  });
+});
+
+describe('guardConnection', () => {
+  it('refuses a connection that is under way', () => {
+    const connection = new RTCPeerConnection({ iceServers: [] });
+    cleanups.push(() => connection.close());
+    connection.createDataChannel('early');
+    expect(() => guardConnection(connection)).toThrow(WeriftShapeError);
+  });
+});

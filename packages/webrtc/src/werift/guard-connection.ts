@@ -1,0 +1,49 @@
+import type { RTCDtlsTransport, RTCPeerConnection, RTCSctpTransport } from 'werift';
+import type { UnprovenPeerError } from '../dtls/peer-proof.ts';
+import { type Refusal, Refusals } from '../refusal.ts';
+import { guardDtls } from './guard-dtls.ts';
+import { guardIce } from './guard-ice.ts';
+import { guardSctp } from './guard-sctp.ts';
+import { expectMethods, WeriftShapeError } from './werift-shape.ts';
+
+export interface ConnectionGuardEvents {
+  /** Something was dropped. */
+  onRefused?(reason: Refusal): void;
+  /** The peer is not the one of the description; the connection fails right after. */
+  onUnproven?(error: UnprovenPeerError): void;
+  /** A listener of a data channel threw. */
+  onFault?(error: unknown): void;
+}
+
+interface ConnectionShape {
+  createDtlsTransport(options?: unknown): RTCDtlsTransport;
+  createSctpTransport(): RTCSctpTransport;
+}
+
+/**
+ * Guards everything that a connection hears: ICE, DTLS and SCTP. Call it before the connection has any transceiver or
+ * channel.
+ *
+ * @returns what was dropped since
+ * @throws {WeriftShapeError}
+ */
+export function guardConnection(connection: RTCPeerConnection, events: ConnectionGuardEvents = {}): Refusals {
+  if (connection.dtlsTransports.length > 0) throw new WeriftShapeError('guarded too late');
+  const shape = connection as unknown as ConnectionShape;
+  expectMethods(shape, 'the connection', ['createDtlsTransport', 'createSctpTransport']);
+  const refusals = new Refusals(events.onRefused);
+  const createDtls = shape.createDtlsTransport.bind(connection);
+  shape.createDtlsTransport = (options) => {
+    const transport = createDtls(options);
+    guardIce(transport, refusals);
+    guardDtls(transport, refusals, (error) => events.onUnproven?.(error));
+    return transport;
+  };
+  const createSctp = shape.createSctpTransport.bind(connection);
+  shape.createSctpTransport = () => {
+    const transport = createSctp();
+    guardSctp(transport, refusals, (error) => events.onFault?.(error));
+    return transport;
+  };
+  return refusals;
+}

@@ -1,0 +1,70 @@
+import type { RTCSctpTransport } from 'werift';
+import type { Refusals } from '../refusal.ts';
+import { isSctpPacket } from '../sctp/packet-check.ts';
+import { DCEP_OPEN, isUserMessage, PayloadProtocol } from '../sctp/user-message-check.ts';
+import { expectMethods } from './werift-shape.ts';
+
+type Receive = (streamId: number, payloadProtocol: number, data: Buffer) => Promise<void>;
+type Send = (streamId: number, payloadProtocol: number, data: Buffer, options?: unknown) => Promise<void>;
+
+interface AssociationShape {
+  handleData(packet: Buffer): Promise<void>;
+  send: Send;
+  onReceive: { allUnsubscribe(): void; subscribe(receive: (...args: Parameters<Receive>) => void): unknown };
+}
+
+interface TransportShape {
+  sctp: AssociationShape;
+  dataChannels: Record<string, { ordered: boolean } | undefined>;
+  datachannelReceive: Receive;
+}
+
+/** Channel types of RFC 8832 §5.1: this bit says that the channel is unordered. */
+const UNORDERED = 0x80;
+
+/**
+ * Checks what comes to an SCTP association before werift parses it. Whatever werift still fails at ends with the packet:
+ * unguarded, its promise would be nobody's and end the process.
+ *
+ * @param onFault a listener of ours threw at a message
+ * @throws {WeriftShapeError}
+ */
+export function guardSctp(
+  transport: RTCSctpTransport,
+  refusals: Refusals,
+  onFault: (error: unknown) => void,
+): void {
+  const shape = transport as unknown as TransportShape;
+  const { sctp } = shape;
+  expectMethods(shape, 'the SCTP transport', ['datachannelReceive']);
+  expectMethods(sctp, 'the SCTP association', ['handleData', 'send']);
+  expectMethods(sctp.onReceive, 'the SCTP association', ['allUnsubscribe', 'subscribe']);
+
+  const handleData = sctp.handleData.bind(sctp);
+  sctp.handleData = async (packet) => {
+    if (!isSctpPacket(packet)) {
+      refusals.add('sctp-malformed');
+      return;
+    }
+    await handleData(packet).catch(() => refusals.add('sctp-failed'));
+  };
+
+  sctp.onReceive.allUnsubscribe();
+  sctp.onReceive.subscribe((streamId, payloadProtocol, data) => {
+    if (!isUserMessage(payloadProtocol, data, shape.dataChannels[streamId] !== undefined)) {
+      refusals.add('message-malformed');
+      return;
+    }
+    shape.datachannelReceive(streamId, payloadProtocol, data).catch(onFault);
+  });
+
+  // werift announces unordered channels with a limit as ordered ones.
+  const send = sctp.send;
+  sctp.send = (streamId, payloadProtocol, data, options) => {
+    const isOpen = payloadProtocol === PayloadProtocol.dcep && data[0] === DCEP_OPEN && data.length > 1;
+    if (isOpen && shape.dataChannels[streamId]?.ordered === false) {
+      data.writeUInt8(data.readUInt8(1) | UNORDERED, 1);
+    }
+    return send(streamId, payloadProtocol, data, options);
+  };
+}
