@@ -200,8 +200,18 @@ describe('robot process', { timeout: 30_000 }, () => {
     await lost.client.until(() => lost.client.completeFrames.length > 0);
     await stack.robot(ROBOT).kill();
     await stack.restartRobot(ROBOT);
-    const { client } = await connect();
+    const operator = await connect();
+    const { client } = operator;
     await client.until(() => client.completeFrames.length > 0);
+    // A crash is no release: nobody moves it before somebody means it to.
+    expect(await client.message('estop')).toMatchObject({ latched: true, by: 'robot' });
+    const lease = await client.takeLease();
+    client.drive(lease, 0.3);
+    await client.message('rejected', (message) => message.reason === 'estop-latched');
+    client.sendSession({ type: 'estop', latch: false });
+    await client.message('estop', (message) => !message.latched);
+    client.drive(lease, 0);
+    await driveUntil(operator, lease, 0.3, () => (client.telemetry?.twist.linear.x ?? 0) > 0.1);
   });
 
   it('ends in order when asked to', async () => {
@@ -210,5 +220,6 @@ describe('robot process', { timeout: 30_000 }, () => {
     const { code } = await stack.robot(ROBOT).stop();
     expect(code).toBe(0);
     await stack.restartRobot(ROBOT);
+    expect(await (await connect()).client.message('estop')).toMatchObject({ latched: false });
   });
 });

@@ -1,5 +1,8 @@
 /** The robot program under systemd: a stand-in for its socket hears what it says. */
 import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
+import { mkdtempSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
 import { loadSend } from '@farpoint/systemd';
@@ -31,7 +34,11 @@ describe.skipIf(!available())('under systemd (needs the addon, pnpm build:native
     expect(await next()).toBe('bound');
     const robot = spawn(
       process.execPath,
-      [program, '--sim-size', '16', '--admin-port', '0', '--signaling', 'ws://127.0.0.1:9'],
+      [
+        program,
+        ...['--sim-size', '16', '--admin-port', '0', '--signaling', 'ws://127.0.0.1:9'],
+        ...['--state-dir', mkdtempSync(join(tmpdir(), 'farpoint-run-'))],
+      ],
       { env: { ...process.env, NOTIFY_SOCKET: SOCKET, WATCHDOG_USEC: '200000' }, stdio: 'ignore' },
     );
     children.push(robot);

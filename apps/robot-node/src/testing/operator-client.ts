@@ -37,6 +37,12 @@ export interface ReceivedFrame {
   complete: boolean;
 }
 
+export interface DtlsKeys {
+  keyPem: string;
+  certPem: string;
+  signatureHash: { hash: 4; signature: 3 };
+}
+
 export class OperatorClient {
   readonly connection: RTCPeerConnection;
   readonly session: RobotSessionMessage[] = [];
@@ -59,7 +65,8 @@ export class OperatorClient {
   #probes: NodeJS.Timeout | null = null;
   #sequence = 0;
 
-  constructor() {
+  /** @param keys of its certificate, for one that does not fit; made by werift where left out */
+  constructor(keys?: DtlsKeys) {
     const extensions = [useSdesMid(), useTransportWideCC()];
     const rtcpFeedback = [useTWCC()];
     this.connection = new RTCPeerConnection({
@@ -72,6 +79,7 @@ export class OperatorClient {
         video: [new RTCRtpCodecParameters({ mimeType: 'video/VP8', clockRate: 90_000, rtcpFeedback })],
       },
       headerExtensions: { audio: extensions, video: extensions },
+      ...(keys === undefined ? {} : { dtls: { keys } }),
     });
     const { connection } = this;
     connection.onTrack.subscribe((track) => {

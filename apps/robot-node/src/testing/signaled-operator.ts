@@ -9,16 +9,17 @@ import {
   serviceToOperatorCodec,
 } from '@farpoint/protocol';
 import { WebSocket } from 'ws';
-import { OperatorClient } from './operator-client.ts';
+import { type DtlsKeys, OperatorClient } from './operator-client.ts';
 
 export class SignaledOperator {
-  readonly client = new OperatorClient();
+  readonly client: OperatorClient;
   readonly #socket: WebSocket;
   readonly #log: ServiceToOperator[] = [];
   readonly #waiters = new Set<() => void>();
   #session = '';
 
-  private constructor(url: string) {
+  private constructor(url: string, keys?: DtlsKeys) {
+    this.client = new OperatorClient(keys);
     this.#socket = new WebSocket(new URL('/operator', url));
     this.#socket.on('open', () =>
       this.#send({ type: 'operator.hello', protocol: PROTOCOL_VERSION, name: 'test operator' }),
@@ -36,14 +37,20 @@ export class SignaledOperator {
 
   /** Opens a session as soon as the robot is listed; resolves once it is welcomed and can send commands. */
   static async connect(url: string, robotId: string): Promise<SignaledOperator> {
-    const operator = new SignaledOperator(url);
+    const operator = await SignaledOperator.open(url, robotId);
+    await operator.client.ready();
+    return operator;
+  }
+
+  /** Asks for a session as soon as the robot is listed, and waits for nothing more. */
+  static async open(url: string, robotId: string, keys?: DtlsKeys): Promise<SignaledOperator> {
+    const operator = new SignaledOperator(url, keys);
     await operator.until(
       (message) =>
         (message.type === 'robots' && message.robots.some(({ id }) => id === robotId)) ||
         (message.type === 'robots.changed' && message.here.some(({ id }) => id === robotId)),
     );
     operator.#send({ type: 'session.open', robotId });
-    await operator.client.ready();
     return operator;
   }
 
