@@ -40,6 +40,10 @@ export interface PacketResult {
 export interface ReceiverSums {
   packetsReceived: number;
   packetsLost: number;
+  /** Who counted: sums of different counters do not go together. */
+  source?: 'rtcp' | 'application' | undefined;
+  /** From sending the newest packet that is counted to hearing of it, ms. */
+  rttMs?: number | null | undefined;
 }
 
 /** What may be sent. Ask again before each frame, after each feedback message and on each tick. */

@@ -24,6 +24,8 @@ export interface MediaFlowOptions {
   probes?: boolean;
   /** Whole frames at once, in place of pacing. */
   bursts?: boolean;
+  /** The receiver gives its sums and no transport-wide feedback. */
+  reports?: boolean;
   /** Bounds of the interval between two feedback messages, ms. */
   feedbackMs?: readonly [number, number];
   /** Feedback messages, 0–1, that come twice. */
@@ -72,6 +74,8 @@ export class MediaFlow {
   readonly #arrivals = new Float64Array(RECEIVER_WINDOW);
   #highestArrived = -1;
   #nextToReport = 0;
+  #received = 0;
+  #sentMs: number[] = [];
 
   constructor(events: EventQueue, random: Random, options: MediaFlowOptions) {
     this.#events = events;
@@ -172,6 +176,7 @@ export class MediaFlow {
       this.#probeNextMs = Math.max(this.#probeNextMs, now - 2) + (PACKET_BYTES * 8000) / this.#probeRate;
     }
     const sequence = this.#sequence++;
+    if (this.#options.reports) this.#sentMs[sequence] = now;
     this.#adapter.onPacketSent(sequence & 0xffff, PACKET_BYTES, now);
     this.#controller.onPacketSent(sequence & 0xffff, PACKET_BYTES, now, cluster);
     const { arrivalMs, queueMs } = this.#options.forward.send(PACKET_BYTES, now);
@@ -182,6 +187,7 @@ export class MediaFlow {
       if (sequence < this.#nextToReport) return;
       this.#arrivals[at] = this.#receiverClock(arrivalMs);
       if (sequence > this.#highestArrived) this.#highestArrived = sequence;
+      this.#received++;
     });
   }
 
@@ -202,6 +208,10 @@ export class MediaFlow {
     const next = now + this.#feedbackInterval();
     this.#events.at(this.#options.receiverStalls?.after(next) ?? next, () => this.#report());
     if (this.#highestArrived < this.#nextToReport) return;
+    if (this.#options.reports) {
+      this.#sendSums();
+      return;
+    }
     const packets: PacketStatus[] = [];
     const first = Math.max(this.#nextToReport, this.#highestArrived - RECEIVER_WINDOW + 1);
     for (let sequence = first; sequence <= this.#highestArrived; sequence++) {
@@ -235,6 +245,21 @@ export class MediaFlow {
     };
     this.#senderAt(arrivalMs, deliver);
     if (this.#random() < (this.#options.duplicateFeedback ?? 0)) this.#senderAt(arrivalMs + 3, deliver);
+  }
+
+  /** As a receiver report has it: how many came, and the highest number. */
+  #sendSums(): void {
+    const highest = this.#highestArrived;
+    const packetsReceived = this.#received;
+    const { arrivalMs } = this.#options.back.send(80, this.#events.nowMs);
+    if (arrivalMs === Number.POSITIVE_INFINITY) return;
+    this.#senderAt(arrivalMs, () => {
+      const now = this.#events.nowMs;
+      const rttMs = now - (this.#sentMs[highest] as number);
+      const packetsLost = highest + 1 - packetsReceived;
+      this.#controller.onReceiverReport({ packetsReceived, packetsLost, source: 'rtcp', rttMs }, now);
+      this.#pump();
+    });
   }
 
   /** What the sender's process is to do at a time. */

@@ -1,0 +1,234 @@
+import { LossJudge } from './loss-judge.ts';
+import {
+  emptyDecision,
+  type PacketResult,
+  type RateController,
+  type RateDecision,
+  type RateSnapshot,
+  type ReceiverSums,
+} from './rate-controller.ts';
+import { WindowedMinimum } from './windowed-minimum.ts';
+
+export interface ReportRateOptions {
+  startBitsPerSecond?: number;
+  minBitsPerSecond?: number;
+  maxBitsPerSecond?: number;
+}
+
+/** What the controller is doing. */
+export type ReportState =
+  | 'reports' // follows the receiver's sums
+  | 'no-reports' // none has come yet: a rate that hurts hardly any path
+  | 'silent'; // they have stopped: a trickle
+
+/** Before the first report, bit/s; and how long the start rate may last without one, ms. */
+const BLIND_BITS_PER_SECOND = 500_000;
+const BLIND_AFTER_MS = 2000;
+/** Without a report for so long, or for three of the usual intervals. */
+const SILENT_AFTER_MS = 3000;
+/** Reports are judged together until there is so much of them. */
+const LEAST_MS = 200;
+const LEAST_PACKETS = 20;
+const PATIENCE_MS = 1000;
+/** Where delay cannot be seen, more loss than this speaks against growing. */
+const CLEAN_LOSS = 0.02;
+/** Beyond the least round trip, ms: a queue to be emptied, and one that is no reason to hold back. */
+const LONG_QUEUE_MS = 60;
+const SHORT_QUEUE_MS = 30;
+const BASE_WINDOW_MS = 30_000;
+/** Of what arrived, the rate after a cut. */
+const KEEP = 0.85;
+/** Growth in a second: until the path has shown its limit, from then on, and near the last limit. */
+const SEARCH = 1.4;
+const CLIMB = 1.12;
+const CREEP = 1.04;
+/** Of the last limit, where it is near. */
+const NEAR = 0.9;
+/** Less of the rate in use says nothing about more. */
+const USED = 0.7;
+const PACING = 1.1;
+const SMOOTHING = 0.2;
+const NOISE_SMOOTHING = 0.1;
+const NOISE_CLAMP_MS = 40;
+
+/**
+ * Rate control for a receiver that gives no transport-wide feedback: from loss and round trip alone, as receiver reports tell
+ * them a few times a second at best. What it cannot see it does not bet on: it grows slowly, falls to what arrives as soon as
+ * loss or delay rise, and trickles where nothing is reported. Sends no probes.
+ */
+export class ReportRateController implements RateController {
+  readonly #min: number;
+  readonly #max: number;
+  readonly #baseRtt = new WindowedMinimum(BASE_WINDOW_MS);
+  readonly #judgeOfLoss = new LossJudge();
+  readonly #decision = emptyDecision();
+  #estimate: number;
+  #state: ReportState = 'no-reports';
+  /** What the path last carried when it was full, bit/s; infinite until it was. */
+  #limit = Number.POSITIVE_INFINITY;
+  /** The rate before the cut for loss that is on trial. */
+  #beforeTrial = 0;
+  #receiverLimit = Number.POSITIVE_INFINITY;
+  #firstSentMs = Number.NaN;
+  #lastSentMs = Number.NaN;
+  #packetBytes = 1200;
+  #sums: ReceiverSums | null = null;
+  #sinceMs = 0;
+  #lastReportMs = Number.NaN;
+  #intervalMs = 1000;
+  #beforeSilence = 0;
+  #loss = 0;
+  #rttMs: number | null = null;
+  #queueMs = 0;
+  #lastChange = 0;
+  #opposed = 0;
+  #acked = 0;
+
+  constructor(options: ReportRateOptions = {}) {
+    this.#min = options.minBitsPerSecond ?? 150_000;
+    this.#max = Math.max(options.maxBitsPerSecond ?? 200e6, this.#min);
+    this.#estimate = Math.min(Math.max(options.startBitsPerSecond ?? 3e6, this.#min), this.#max);
+  }
+
+  onPacketSent(_transportSequence: number, bytes: number, nowMs: number): void {
+    if (Number.isNaN(this.#firstSentMs)) this.#firstSentMs = nowMs;
+    // After a pause the wait for reports begins anew.
+    if (nowMs - this.#lastSentMs > SILENT_AFTER_MS) this.#lastReportMs = nowMs;
+    this.#lastSentMs = nowMs;
+    this.#packetBytes += (bytes - this.#packetBytes) * 0.01;
+  }
+
+  /** Is not there, or this controller would not be. */
+  onFeedback(_results: readonly PacketResult[], _nowMs: number): void {}
+
+  onReceiverReport(report: ReceiverSums, nowMs: number): void {
+    if (Number.isNaN(this.#firstSentMs)) return;
+    const last = this.#sums;
+    const restarted = last === null || report.source !== last.source;
+    // They may overtake each other: sums only grow.
+    if (!restarted && report.packetsReceived < last.packetsReceived) return;
+    this.#noteReport(nowMs);
+    if (report.rttMs != null) this.#noteRtt(report.rttMs, nowMs);
+    if (restarted) {
+      this.#sums = { ...report };
+      this.#sinceMs = nowMs;
+      return;
+    }
+    const received = report.packetsReceived - last.packetsReceived;
+    // A late packet takes back a loss.
+    const lost = Math.max(report.packetsLost - last.packetsLost, 0);
+    const sinceMs = this.#sinceMs;
+    if (nowMs - sinceMs < LEAST_MS) return;
+    if (received + lost < LEAST_PACKETS && nowMs - sinceMs < PATIENCE_MS) return;
+    this.#sums = { ...report };
+    this.#sinceMs = nowMs;
+    if (received + lost > 0) this.#judge(received, lost, sinceMs, nowMs);
+  }
+
+  onReceiverLimit(bitsPerSecond: number, _nowMs: number): void {
+    this.#receiverLimit = Math.max(bitsPerSecond, 0);
+  }
+
+  onTick(nowMs: number): void {
+    if (Number.isNaN(this.#firstSentMs) || this.#state === 'silent') return;
+    if (this.#state === 'no-reports') {
+      if (nowMs - this.#firstSentMs > BLIND_AFTER_MS) {
+        this.#estimate = Math.min(this.#estimate, Math.max(BLIND_BITS_PER_SECOND, this.#min));
+      }
+      return;
+    }
+    const patienceMs = Math.max(SILENT_AFTER_MS, 3 * this.#intervalMs);
+    if (nowMs - this.#lastReportMs <= patienceMs || this.#lastSentMs <= this.#lastReportMs) return;
+    this.#state = 'silent';
+    this.#beforeSilence = this.#estimate;
+    this.#estimate = this.#min;
+  }
+
+  targetBitsPerSecond(_nowMs: number): number {
+    return Math.min(this.#estimate, this.#receiverLimit);
+  }
+
+  /** No window: what is in flight is not known. No probes. */
+  decision(nowMs: number): Readonly<RateDecision> {
+    this.#decision.targetBitsPerSecond = this.targetBitsPerSecond(nowMs);
+    this.#decision.pacingBitsPerSecond = this.#decision.targetBitsPerSecond * PACING;
+    return this.#decision;
+  }
+
+  snapshot(_nowMs: number): RateSnapshot {
+    return {
+      estimateBitsPerSecond: this.#estimate,
+      state: this.#state,
+      lossFraction: this.#loss,
+      rttMs: this.#rttMs,
+      queueMs: this.#queueMs,
+      ackedBitsPerSecond: this.#acked,
+    };
+  }
+
+  #noteReport(nowMs: number): void {
+    if (this.#state === 'reports') {
+      this.#intervalMs += (nowMs - this.#lastReportMs - this.#intervalMs) * SMOOTHING;
+    } else {
+      // What was sent meanwhile says nothing about the path of now.
+      if (this.#state === 'silent') this.#estimate = Math.max(this.#beforeSilence / 2, this.#min);
+      this.#state = 'reports';
+      this.#sums = null;
+    }
+    this.#lastReportMs = nowMs;
+  }
+
+  #noteRtt(rttMs: number, nowMs: number): void {
+    this.#rttMs = rttMs;
+    this.#baseRtt.add(rttMs, nowMs);
+    const queueMs = Math.max(rttMs - this.#baseRtt.value, 0);
+    // Each sample is a single packet's. Jitter shows as changes that are followed by opposite ones.
+    const change = Math.min(Math.max(queueMs - this.#queueMs, -NOISE_CLAMP_MS), NOISE_CLAMP_MS);
+    this.#opposed += (-change * this.#lastChange - this.#opposed) * NOISE_SMOOTHING;
+    this.#lastChange = change;
+    this.#queueMs = queueMs;
+  }
+
+  #judge(received: number, lost: number, sinceMs: number, nowMs: number): void {
+    const elapsedMs = nowMs - sinceMs;
+    this.#loss = lost / (received + lost);
+    this.#acked = (received * this.#packetBytes * 8000) / elapsedMs;
+    const verdict = this.#judgeOfLoss.onFeedback(received, lost, sinceMs - (this.#rttMs ?? 0), nowMs);
+    // What was sent for it to arrive, where some is always lost.
+    const through = this.#acked / (1 - this.#judgeOfLoss.base);
+    if (this.#queueMs > LONG_QUEUE_MS + 3 * this.#noiseMs) {
+      this.#limit = Math.min(this.#estimate, through);
+      this.#estimate = this.#limit * KEEP;
+    } else if (verdict === 'excess') {
+      this.#beforeTrial = this.#estimate;
+      this.#limit = Math.min(this.#estimate, this.#acked);
+      this.#estimate = this.#limit * KEEP;
+      this.#judgeOfLoss.cutAt(nowMs);
+    } else if (verdict === 'innocent') {
+      this.#estimate = Math.max(this.#estimate, this.#beforeTrial);
+      this.#limit = Number.POSITIVE_INFINITY;
+    } else if (through > USED * this.targetBitsPerSecond(nowMs) && this.#mayGrow) {
+      this.#estimate *= this.#growth ** Math.min(elapsedMs / 1000, 1);
+    }
+    this.#estimate = Math.min(Math.max(this.#estimate, this.#min), this.#max);
+  }
+
+  get #noiseMs(): number {
+    return Math.sqrt(Math.max(this.#opposed, 0));
+  }
+
+  /** In a second. */
+  get #growth(): number {
+    if (this.#limit === Number.POSITIVE_INFINITY) return SEARCH;
+    if (this.#estimate < NEAR * this.#limit) return CLIMB;
+    // Well beyond what it was, it is another path.
+    if (this.#estimate > this.#limit / NEAR) this.#limit = Number.POSITIVE_INFINITY;
+    return CREEP;
+  }
+
+  /** Where delay cannot be seen, no loss at all must do. */
+  get #mayGrow(): boolean {
+    if (this.#judgeOfLoss.onTrial) return false;
+    return this.#rttMs === null ? this.#loss < CLEAN_LOSS : this.#queueMs < SHORT_QUEUE_MS + this.#noiseMs;
+  }
+}
