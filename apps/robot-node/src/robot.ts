@@ -1,6 +1,11 @@
 /** The robot put together: one capture, any number of operators, one guard over the wheels. */
 import { randomBytes } from 'node:crypto';
-import { AdaptiveRateController, FixedRateController, type RateController } from '@farpoint/congestion';
+import {
+  AdaptiveRateController,
+  FixedRateController,
+  type RateController,
+  ReportRateController,
+} from '@farpoint/congestion';
 import {
   type Command,
   type DriveLimits,
@@ -160,7 +165,7 @@ export class Robot implements SessionHost {
         iceServers: options.iceServers,
         peer: { ...this.#peerOptions, pictures: capture.cameras.length > 0 },
         pictureShare: options.pictures.share,
-        makeController: () => this.#makeController(),
+        makeController: (transportFeedback) => this.#makeController(transportFeedback),
         sendLoop: this.#sendLoop,
         packetLog: this.#packetLog,
         host: this,
@@ -365,7 +370,7 @@ export class Robot implements SessionHost {
         ca: signaling.ca,
         name,
         peer: { ...this.#peerOptions, iceServers },
-        makeController: () => this.#makeController(),
+        makeController: () => this.#makeController(true),
         packetLog: this.#packetLog,
         sendLoop: this.#sendLoop,
         onBudgetChanged: () => this.#fanOut.updateBudget(),
@@ -381,14 +386,14 @@ export class Robot implements SessionHost {
     this.recording?.estimates(lines);
   }
 
-  #makeController(): RateController {
+  #makeController(transportFeedback: boolean): RateController {
     const { bitsPerSecond, rateControl, startBitsPerSecond } = this.#options;
-    return rateControl === 'fixed'
-      ? new FixedRateController({ bitsPerSecond })
-      : new AdaptiveRateController({
-          startBitsPerSecond: Math.min(startBitsPerSecond, bitsPerSecond),
-          maxBitsPerSecond: bitsPerSecond,
-        });
+    if (rateControl === 'fixed') return new FixedRateController({ bitsPerSecond });
+    const options = {
+      startBitsPerSecond: Math.min(startBitsPerSecond, bitsPerSecond),
+      maxBitsPerSecond: bitsPerSecond,
+    };
+    return transportFeedback ? new AdaptiveRateController(options) : new ReportRateController(options);
   }
 
   #welcome(operator: ConnectedOperator): void {

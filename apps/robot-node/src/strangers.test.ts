@@ -86,7 +86,7 @@ describe('strangers', { timeout: 30_000 }, () => {
     const [own, other] = await Promise.all([0, 0].map(() => createSelfSignedCertificate(signatureHash)));
     const keys = { certPem: own?.certPem ?? '', keyPem: other?.keyPem ?? '', signatureHash };
     const before = await metric('sessions_ended', refused('unproven-peer'));
-    const impostor = await SignaledOperator.open(stack.signalingUrl, ROBOT, keys);
+    const impostor = await SignaledOperator.open(stack.signalingUrl, ROBOT, { keys });
     others.push(impostor);
     await impostor.until((message) => message.type === 'session.closed');
     expect(await metric('sessions_ended', refused('unproven-peer'))).toBe(before + 1);
@@ -94,8 +94,7 @@ describe('strangers', { timeout: 30_000 }, () => {
     expect(impostor.client.packets).toBe(0);
 
     const honest = await SignaledOperator.open(stack.signalingUrl, ROBOT, {
-      ...keys,
-      keyPem: own?.keyPem ?? '',
+      keys: { ...keys, keyPem: own?.keyPem ?? '' },
     });
     others.push(honest);
     await honest.client.ready();

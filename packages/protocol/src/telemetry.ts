@@ -43,6 +43,8 @@ export interface StreamStatus {
   targetBitsPerSecond: number;
   /** Frames dropped before sending since the session began, because the queue was full. */
   droppedFrames: number;
+  /** The connection gives no transport-wide feedback: the rate follows receiver reports. Absent where it does. */
+  feedback?: 'reports' | undefined;
 }
 
 export interface Telemetry {
@@ -91,6 +93,7 @@ const telemetrySchema = z.strictObject({
     bitsPerSecond: nonNegative,
     targetBitsPerSecond: nonNegative,
     droppedFrames: count,
+    feedback: z.literal('reports').optional(),
   }),
   operators: count,
 }) satisfies z.ZodType<Telemetry>;

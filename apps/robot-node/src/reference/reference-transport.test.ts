@@ -18,6 +18,8 @@ function fakeInner(sent: Sent[]): CloudTransport {
     overheadBytes: 64,
     ready: true,
     onRtcp: null,
+    transportFeedback: true,
+    receiverSums: () => null,
     resendRefusals: {} as CloudTransport['resendRefusals'],
     send: (payload, timestamp, marker) => sent.push({ payload: payload.slice(), timestamp, marker }),
     resend: () => 0,

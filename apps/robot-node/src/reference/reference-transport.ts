@@ -1,4 +1,4 @@
-import type { ResendRefusal } from '@farpoint/congestion';
+import type { ReceiverSums, ReportBlock, ResendRefusal } from '@farpoint/congestion';
 import { FULL_POINT_PACKET_BYTES, MAX_POINT_DATA_BYTES, PLACEMENT_BYTES } from '@farpoint/protocol';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
 
@@ -33,6 +33,14 @@ export class ReferenceTransport implements CloudTransport {
 
   get resendRefusals(): Readonly<Record<ResendRefusal, number>> {
     return this.#inner.resendRefusals;
+  }
+
+  get transportFeedback(): boolean {
+    return this.#inner.transportFeedback;
+  }
+
+  receiverSums(block: Readonly<ReportBlock>, nowMs: number): ReceiverSums | null {
+    return this.#inner.receiverSums(block, nowMs);
   }
 
   get onRtcp(): ((compound: Uint8Array) => void) | null {

@@ -26,7 +26,8 @@ export interface ConnectedOperatorOptions {
   session: string;
   operatorName: string;
   peer: OperatorPeerOptions;
-  controller: RateController;
+  /** @param transportFeedback whether the operator gives transport-wide feedback */
+  makeController: (transportFeedback: boolean) => RateController;
   packetLog?: PacketLog | undefined;
   /** Most of the path that pictures may take, 0–1. */
   pictureShare: number;
@@ -59,7 +60,7 @@ export class ConnectedOperator implements FrameTarget {
   quiet = false;
   readonly #host: SessionHost;
   readonly #sendLoop: SendLoop;
-  readonly #controller: RateController;
+  readonly #makeController: ConnectedOperatorOptions['makeController'];
   readonly #packetLog: PacketLog | undefined;
   readonly #events: ConnectedOperatorEvents;
   readonly #frames = new RateMeter();
@@ -83,7 +84,7 @@ export class ConnectedOperator implements FrameTarget {
   ) {
     this.#host = host;
     this.#sendLoop = sendLoop;
-    this.#controller = options.controller;
+    this.#makeController = options.makeController;
     this.#packetLog = options.packetLog;
     this.#budget = new PathBudget(options.pictureShare);
     this.#events = events;
@@ -225,6 +226,7 @@ export class ConnectedOperator implements FrameTarget {
         bitsPerSecond: this.#bytes.perSecond * 8,
         targetBitsPerSecond: this.sender?.targetBitsPerSecond ?? 0,
         droppedFrames: this.droppedFrames,
+        ...(this.sender?.transportFeedback === false ? { feedback: 'reports' as const } : {}),
       },
     };
   }
@@ -240,7 +242,9 @@ export class ConnectedOperator implements FrameTarget {
   }
 
   #onConnected(transport: CloudTransport): void {
-    const sender = new StreamSender(transport, this.#controller, () => this.#host.now());
+    const sender = new StreamSender(transport, this.#makeController(transport.transportFeedback), () =>
+      this.#host.now(),
+    );
     const log = this.#packetLog;
     if (log !== undefined) sender.onPacketSent = (frame, offset, sentMs) => log.add(frame, offset, sentMs);
     sender.onFrameSent = ({ shared, sendMs }) => {

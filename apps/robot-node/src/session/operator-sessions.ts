@@ -16,7 +16,7 @@ export interface OperatorSessionsOptions {
   peer: Omit<OperatorPeerOptions, 'iceServers'>;
   /** Most of a path that pictures may take, 0–1. */
   pictureShare: number;
-  makeController: () => RateController;
+  makeController: (transportFeedback: boolean) => RateController;
   sendLoop: SendLoop;
   packetLog: PacketLog | undefined;
   host: SessionHost;
@@ -118,7 +118,7 @@ export class OperatorSessions {
       {
         ...{ session, operatorName, packetLog, pictureShare },
         peer: { ...peer, iceServers: this.#iceServers },
-        controller: makeController(),
+        makeController,
       },
       host,
       sendLoop,

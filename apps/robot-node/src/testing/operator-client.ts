@@ -43,6 +43,13 @@ export interface DtlsKeys {
   signatureHash: { hash: 4; signature: 3 };
 }
 
+export interface OperatorClientOptions {
+  /** Of its certificate, for one that does not fit; made by werift where left out. */
+  keys?: DtlsKeys | undefined;
+  /** Whether it gives transport-wide feedback; by default it does. */
+  transportFeedback?: boolean | undefined;
+}
+
 export class OperatorClient {
   readonly connection: RTCPeerConnection;
   readonly session: RobotSessionMessage[] = [];
@@ -65,10 +72,9 @@ export class OperatorClient {
   #probes: NodeJS.Timeout | null = null;
   #sequence = 0;
 
-  /** @param keys of its certificate, for one that does not fit; made by werift where left out */
-  constructor(keys?: DtlsKeys) {
-    const extensions = [useSdesMid(), useTransportWideCC()];
-    const rtcpFeedback = [useTWCC()];
+  constructor({ keys, transportFeedback = true }: OperatorClientOptions = {}) {
+    const extensions = transportFeedback ? [useSdesMid(), useTransportWideCC()] : [useSdesMid()];
+    const rtcpFeedback = transportFeedback ? [useTWCC()] : [];
     this.connection = new RTCPeerConnection({
       iceServers: [],
       bundlePolicy: 'max-bundle',

@@ -9,7 +9,7 @@ import {
   serviceToOperatorCodec,
 } from '@farpoint/protocol';
 import { WebSocket } from 'ws';
-import { type DtlsKeys, OperatorClient } from './operator-client.ts';
+import { OperatorClient, type OperatorClientOptions } from './operator-client.ts';
 
 export class SignaledOperator {
   readonly client: OperatorClient;
@@ -18,8 +18,8 @@ export class SignaledOperator {
   readonly #waiters = new Set<() => void>();
   #session = '';
 
-  private constructor(url: string, keys?: DtlsKeys) {
-    this.client = new OperatorClient(keys);
+  private constructor(url: string, options?: OperatorClientOptions) {
+    this.client = new OperatorClient(options);
     this.#socket = new WebSocket(new URL('/operator', url));
     this.#socket.on('open', () =>
       this.#send({ type: 'operator.hello', protocol: PROTOCOL_VERSION, name: 'test operator' }),
@@ -36,15 +36,23 @@ export class SignaledOperator {
   }
 
   /** Opens a session as soon as the robot is listed; resolves once it is welcomed and can send commands. */
-  static async connect(url: string, robotId: string): Promise<SignaledOperator> {
-    const operator = await SignaledOperator.open(url, robotId);
+  static async connect(
+    url: string,
+    robotId: string,
+    options?: OperatorClientOptions,
+  ): Promise<SignaledOperator> {
+    const operator = await SignaledOperator.open(url, robotId, options);
     await operator.client.ready();
     return operator;
   }
 
   /** Asks for a session as soon as the robot is listed, and waits for nothing more. */
-  static async open(url: string, robotId: string, keys?: DtlsKeys): Promise<SignaledOperator> {
-    const operator = new SignaledOperator(url, keys);
+  static async open(
+    url: string,
+    robotId: string,
+    options?: OperatorClientOptions,
+  ): Promise<SignaledOperator> {
+    const operator = new SignaledOperator(url, options);
     await operator.until(
       (message) =>
         (message.type === 'robots' && message.robots.some(({ id }) => id === robotId)) ||

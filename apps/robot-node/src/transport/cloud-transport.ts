@@ -3,7 +3,7 @@
  * above it; RTP, SRTP and sockets below it.
  */
 
-import type { ResendRefusal } from '@farpoint/congestion';
+import type { ReceiverSums, ReportBlock, ResendRefusal } from '@farpoint/congestion';
 
 /** What a packet costs on the wire beyond its payload, bytes. */
 export const UDP_IPV4_BYTES = 28;
@@ -40,6 +40,12 @@ export interface CloudTransport {
   resend(sequence: number, nowMs: number): number;
   /** How often a missed packet was not sent again, by reason. */
   readonly resendRefusals: Readonly<Record<ResendRefusal, number>>;
+
+  /** Whether the peer has agreed to give transport-wide feedback. */
+  readonly transportFeedback: boolean;
+
+  /** What a block of a receiver report says of our stream; `null` for one about another. */
+  receiverSums(block: Readonly<ReportBlock>, nowMs: number): ReceiverSums | null;
 
   /** Raw RTCP compound packets from the peer, decrypted. */
   onRtcp: ((compound: Uint8Array) => void) | null;

@@ -14,6 +14,7 @@ import {
   RTCRtpCodecParameters,
   type RTCRtpTransceiver,
   useNACK,
+  useREMB,
   useSdesMid,
   useTransportWideCC,
   useTWCC,
@@ -113,7 +114,8 @@ export class OperatorPeer {
             mimeType: 'audio/opus',
             clockRate: 48_000,
             channels: 2,
-            rtcpFeedback: [useTWCC(), useNACK()],
+            // REMB for peers that know nothing better.
+            rtcpFeedback: [useTWCC(), useNACK(), useREMB()],
           }),
         ],
         video: [

@@ -1,8 +1,9 @@
 import { Buffer } from 'node:buffer';
 import { randomInt } from 'node:crypto';
-import { ResendHistory } from '@farpoint/congestion';
+import { type ReceiverSums, type ReportBlock, ResendHistory } from '@farpoint/congestion';
 import { type RTCDtlsTransport, type RTCRtpTransceiver, RTP_EXTENSION_URI } from 'werift';
 import { type CloudTransport, UDP_IPV4_BYTES } from './cloud-transport.ts';
+import { ReportSums } from './report-sums.ts';
 import { RtpHeaderTemplate } from './rtp-header.ts';
 import { SRTP_GCM_TAG_BYTES, SrtpSealer } from './srtp-sealer.ts';
 import { IcePath, outgoingSrtpKeys, tapRtcp } from './werift-path.ts';
@@ -20,10 +21,12 @@ export class CloudTransportError extends Error {
 export class SrtpCloudTransport implements CloudTransport {
   onRtcp: ((compound: Uint8Array) => void) | null = null;
   readonly overheadBytes: number;
+  readonly transportFeedback: boolean;
   readonly #dtls: RTCDtlsTransport;
   readonly #path: IcePath;
   readonly #header: RtpHeaderTemplate;
   readonly #sealer: SrtpSealer;
+  readonly #reports: ReportSums | null;
   /** Sealed packets: sealing other bytes under a number again would give the key away (RFC 7714 §8.4). */
   readonly #sent = new ResendHistory<readonly Buffer[]>();
   /** The path is looked up once a turn of the event loop, not for each packet. */
@@ -45,13 +48,18 @@ export class SrtpCloudTransport implements CloudTransport {
     const keys = outgoingSrtpKeys(dtls);
     if (keys === null) throw new CloudTransportError('the peer does not take SRTP with AES-128-GCM');
     const extensionId = (uri: string) => transceiver.headerExtensions.find((e) => e.uri === uri)?.id;
+    const transportSequenceId =
+      transportSequenceExtensionId ?? extensionId(RTP_EXTENSION_URI.transportWideCC);
+    this.transportFeedback =
+      transportSequenceId !== undefined && codec.rtcpFeedback.some(({ type }) => type === 'transport-cc');
+    // Who gives the one need not be asked for the other.
+    this.#reports = this.transportFeedback ? null : new ReportSums(sender.ssrc);
     this.#header = new RtpHeaderTemplate({
       payloadType: codec.payloadType,
       ssrc: sender.ssrc,
       mid,
       midExtensionId: extensionId(RTP_EXTENSION_URI.sdesMid),
-      transportSequenceExtensionId:
-        transportSequenceExtensionId ?? extensionId(RTP_EXTENSION_URI.transportWideCC),
+      transportSequenceExtensionId: transportSequenceId,
     });
     this.#sealer = new SrtpSealer(keys.key, keys.salt, sender.ssrc, randomInt(0x8000));
     this.#dtls = dtls;
@@ -86,8 +94,13 @@ export class SrtpCloudTransport implements CloudTransport {
     const header = Buffer.from(this.#header.bytes);
     const sealed = this.#sealer.seal(header, payload);
     this.#sent.add(nextSequence, sealed, nowMs, usefulMs);
+    this.#reports?.onSent(nextSequence, nowMs);
     this.#path.send(sealed);
     return transportSequence;
+  }
+
+  receiverSums(block: Readonly<ReportBlock>, nowMs: number): ReceiverSums | null {
+    return this.#reports?.read(block, nowMs) ?? null;
   }
 
   resend(sequence: number, nowMs: number): number {

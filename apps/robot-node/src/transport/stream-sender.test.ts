@@ -1,4 +1,10 @@
-import { FixedRateController, type RateController, type RateDecision } from '@farpoint/congestion';
+import {
+  FixedRateController,
+  type RateController,
+  type RateDecision,
+  type ReceiverSums,
+  type ReportBlock,
+} from '@farpoint/congestion';
 import { emptyPlacement } from '@farpoint/protocol';
 import { describe, expect, it } from 'vitest';
 import type { CapturedFrame } from '../capture/capture-messages.ts';
@@ -19,6 +25,7 @@ interface Sent {
 class RecordingTransport implements CloudTransport {
   readonly overheadBytes = 68;
   ready = true;
+  transportFeedback = true;
   onRtcp: ((compound: Uint8Array) => void) | null = null;
   readonly sent: Sent[] = [];
   readonly resendRefusals = { unknown: 0, 'too-late': 0, resent: 0 };
@@ -39,6 +46,12 @@ class RecordingTransport implements CloudTransport {
       marker,
     });
     return (this.sent.length - 1) & 0xffff;
+  }
+
+  /** Reports the stream 1, of which 100 packets were sent before. */
+  receiverSums({ ssrc, highestSequence, packetsLost }: Readonly<ReportBlock>): ReceiverSums | null {
+    if (ssrc !== 1) return null;
+    return { packetsReceived: highestSequence - 99 - packetsLost, packetsLost, source: 'rtcp', rttMs: 40 };
   }
 
   resend(sequence: number): number {
@@ -73,6 +86,19 @@ function frame(points: number, capturedAtMs = 1000): CapturedFrame {
     captureCpuMs: 0,
     readyMs: capturedAtMs,
   };
+}
+
+/** Writes down what it is told of the receiver. */
+class ReportedController extends FixedRateController {
+  readonly told: (ReceiverSums | number)[] = [];
+
+  override onReceiverReport(report: ReceiverSums): void {
+    this.told.push(report);
+  }
+
+  override onReceiverLimit(bitsPerSecond: number): void {
+    this.told.push(bitsPerSecond);
+  }
 }
 
 /** Does as it is told. */
@@ -328,5 +354,58 @@ describe('StreamSender', () => {
     const { sender } = stage(10e6);
     sender.onReceiverLimit(2e6);
     expect(sender.targetBitsPerSecond).toBe(2e6);
+  });
+
+  describe('receiver reports', () => {
+    const block = '00000001 05000003 000000c7 0000005a 00000000 00000000';
+    const report = Buffer.from(`81c90007 00000009 ${block}`.replaceAll(' ', ''), 'hex');
+    const sums = { packetsReceived: 97, packetsLost: 3, source: 'rtcp', rttMs: 40 };
+    // 10 Mbit/s of stream 1.
+    const remb = Buffer.from('8fce000500000009000000005245 4d42 0121312d00000001'.replaceAll(' ', ''), 'hex');
+
+    it('count where the operator gives no transport-wide feedback, and only there', () => {
+      const controller = new ReportedController({ bitsPerSecond: 10e6 });
+      const { transport, sender } = stage(10e6, controller);
+      transport.onRtcp?.(report);
+      transport.onRtcp?.(remb);
+      expect(controller.told).toEqual([]);
+      transport.transportFeedback = false;
+      let changes = 0;
+      sender.onRateChanged = () => changes++;
+      transport.onRtcp?.(report);
+      transport.onRtcp?.(remb);
+      expect(controller.told).toEqual([sums, 0x1312d * 2 ** 8]);
+      expect(changes).toBe(2);
+      sender.onReceiverLimit(1e6);
+      expect(controller.told.at(-1)).toBe(1e6);
+    });
+
+    it('give way to the operator’s own sums, but for the round trip', () => {
+      const controller = new ReportedController({ bitsPerSecond: 10e6 });
+      const { transport, sender, runUntil } = stage(10e6, controller);
+      transport.transportFeedback = false;
+      transport.onRtcp?.(report);
+      sender.onReceiverReport({ packetsReceived: 50, packetsLost: 1 });
+      sender.onReceiverReport({ packetsReceived: 60, packetsLost: 1 });
+      transport.onRtcp?.(report);
+      const own = { packetsLost: 1, source: 'application' };
+      expect(controller.told).toEqual([
+        sums,
+        { ...own, packetsReceived: 50, rttMs: 40 },
+        { ...own, packetsReceived: 60, rttMs: null },
+      ]);
+      runUntil(3001);
+      transport.onRtcp?.(report);
+      expect(controller.told).toHaveLength(4);
+    });
+
+    it('that are cut short are counted', () => {
+      const { transport, sender } = stage();
+      transport.transportFeedback = false;
+      const lies = Buffer.from(report);
+      lies[0] = 0x82;
+      transport.onRtcp?.(lies);
+      expect(sender.counters.feedbackMalformed).toBe(1);
+    });
   });
 });

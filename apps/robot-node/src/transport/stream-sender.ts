@@ -1,4 +1,5 @@
 import {
+  FMT_APPLICATION,
   FMT_GENERIC_NACK,
   FMT_TRANSPORT_WIDE,
   type FrameDropReason,
@@ -8,8 +9,14 @@ import {
   type RateController,
   type RateSnapshot,
   type ResendRefusal,
+  RTCP_PAYLOAD_FEEDBACK,
+  RTCP_RECEIVER_REPORT,
+  RTCP_SENDER_REPORT,
   RTCP_TRANSPORT_FEEDBACK,
+  type RtcpPacket,
   readNack,
+  readRemb,
+  readReportBlocks,
   TokenBucket,
   TransportFeedbackAdapter,
   TransportFeedbackError,
@@ -22,6 +29,8 @@ import type { SharedFrame } from './shared-frame.ts';
 
 /** Packets leave in bursts of so long, ms: a wake-up for each would cost more than the packets do. */
 const BURST_MS = 2.5;
+/** Who counts for itself is believed before its RTCP, for so long after it last did, ms. */
+const OWN_SUMS_HOLD_MS = 3000;
 
 /** Sums since the session began. */
 export interface StreamCounters {
@@ -79,6 +88,13 @@ export class StreamSender {
   #probeCluster = 0;
   #probeBitsPerSecond = 0;
   #probeBytesLeft = 0;
+  /** The receiver's limits: the operator's own, and its stack's. */
+  #ownLimit = Number.POSITIVE_INFINITY;
+  #remb = Number.POSITIVE_INFINITY;
+  /** When the operator's own sums last came, ms: they are believed before RTCP's. */
+  #ownSumsMs = Number.NEGATIVE_INFINITY;
+  #rttMs: number | null = null;
+  #rttHeardMs = Number.NEGATIVE_INFINITY;
   /** When RTCP last came from the operator, ms. */
   heardMs = 0;
 
@@ -198,12 +214,23 @@ export class StreamSender {
     this.#setPace(now);
   }
 
-  onReceiverReport(report: { packetsReceived: number; packetsLost: number }): void {
-    this.#controller.onReceiverReport(report, this.#now());
+  /** Whether the operator gives transport-wide feedback. */
+  get transportFeedback(): boolean {
+    return this.#transport.transportFeedback;
+  }
+
+  onReceiverReport({ packetsReceived, packetsLost }: { packetsReceived: number; packetsLost: number }): void {
+    const now = this.#now();
+    this.#ownSumsMs = now;
+    const rttMs = now - this.#rttHeardMs < OWN_SUMS_HOLD_MS ? this.#rttMs : null;
+    this.#rttHeardMs = Number.NEGATIVE_INFINITY;
+    this.#controller.onReceiverReport({ packetsReceived, packetsLost, source: 'application', rttMs }, now);
+    if (!this.transportFeedback) this.onRateChanged?.();
   }
 
   onReceiverLimit(bitsPerSecond: number): void {
-    this.#controller.onReceiverLimit(bitsPerSecond, this.#now());
+    this.#ownLimit = bitsPerSecond;
+    this.#controller.onReceiverLimit(Math.min(this.#ownLimit, this.#remb), this.#now());
   }
 
   /** Drops what waits: the stream is stopped or the session over. */
@@ -218,7 +245,11 @@ export class StreamSender {
     this.heardMs = this.#now();
     let changed = false;
     for (const packet of walkRtcp(compound, () => this.counters.feedbackMalformed++)) {
-      if (packet.packetType !== RTCP_TRANSPORT_FEEDBACK) continue;
+      if (packet.packetType !== RTCP_TRANSPORT_FEEDBACK) {
+        // Transport-wide feedback says all that reports do, and more.
+        if (!this.transportFeedback) changed = this.#onReport(packet) || changed;
+        continue;
+      }
       if (packet.format === FMT_GENERIC_NACK) this.#onNack(packet.bytes);
       if (packet.format !== FMT_TRANSPORT_WIDE) continue;
       try {
@@ -234,6 +265,33 @@ export class StreamSender {
       }
     }
     if (changed) this.onRateChanged?.();
+  }
+
+  /** @returns whether the rate control has learnt something */
+  #onReport({ packetType, format, bytes }: RtcpPacket): boolean {
+    const now = this.#now();
+    if (packetType === RTCP_PAYLOAD_FEEDBACK && format === FMT_APPLICATION) {
+      const remb = readRemb(bytes);
+      if (remb === null) return false;
+      this.#remb = remb;
+      this.#controller.onReceiverLimit(Math.min(this.#ownLimit, this.#remb), now);
+      return true;
+    }
+    if (packetType !== RTCP_RECEIVER_REPORT && packetType !== RTCP_SENDER_REPORT) return false;
+    let changed = false;
+    const whole = readReportBlocks(packetType, bytes, (block) => {
+      const sums = this.#transport.receiverSums(block, now);
+      if (sums === null) return;
+      if (sums.rttMs != null) {
+        this.#rttMs = sums.rttMs;
+        this.#rttHeardMs = now;
+      }
+      if (now - this.#ownSumsMs < OWN_SUMS_HOLD_MS) return;
+      this.#controller.onReceiverReport(sums, now);
+      changed = true;
+    });
+    if (!whole) this.counters.feedbackMalformed++;
+    return changed;
   }
 
   #onNack(bytes: Uint8Array): void {

@@ -8,6 +8,7 @@ const live = {
   robotListed: true,
   silentMs: 20,
   pointsSilentMs: 20,
+  rateByReports: false,
 } as const;
 
 describe('words', () => {
@@ -19,6 +20,7 @@ describe('words', () => {
   test('the link’s line names what is wrong, gravest first', () => {
     expect(linkWords(live)).toEqual({ text: 'Live', tone: 'good' });
     expect(linkWords({ ...live, signaling: 'waiting' }).text).toContain('signaling is away');
+    expect(linkWords({ ...live, rateByReports: true }).text).toContain('cautious rate');
     expect(linkWords({ ...live, pointsSilentMs: 3000 }).text).toContain('no points arrive');
     expect(linkWords({ ...live, silentMs: 4200, pointsSilentMs: 4200 })).toEqual({
       text: 'Connection lost for 4 s. The robot stops by itself. Trying to reach it…',

@@ -59,6 +59,8 @@ export interface LinkFacts {
   silentMs: number;
   /** Since the last point, ms. */
   pointsSilentMs: number;
+  /** The robot learns of the path from receiver reports alone. */
+  rateByReports: boolean;
 }
 
 const SILENT_MS = 1000;
@@ -87,6 +89,12 @@ export function linkWords(facts: LinkFacts): Words {
         return { text: 'Connected, but no points arrive.', tone: 'warning' };
       }
       if (facts.signaling !== 'ready') return { text: 'Live (signaling is away)', tone: 'good' };
+      if (facts.rateByReports) {
+        return {
+          text: 'Live, at a cautious rate: the connection gives no transport-wide feedback.',
+          tone: 'warning',
+        };
+      }
       return { text: 'Live', tone: 'good' };
   }
 }

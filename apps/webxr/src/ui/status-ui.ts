@@ -165,6 +165,7 @@ export function describeLink(app: PageParts, nowMs: number): Words {
     robotListed: link.robotListed,
     silentMs: link.silentMs(nowMs),
     pointsSilentMs: nowMs - app.lastPointsMs,
+    rateByReports: link.session.telemetry?.stream.feedback === 'reports',
   });
 }
 
