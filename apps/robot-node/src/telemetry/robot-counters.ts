@@ -22,7 +22,7 @@ export class RobotCounters {
   sessionsOpened = 0;
   sessionsRefused = 0;
   readonly sessionsEnded = new ReasonCounts();
-  candidatesRefused = 0;
+  readonly candidatesRefused = new ReasonCounts();
   readonly signalingErrors = new ReasonCounts();
   commandsAccepted = 0;
   readonly commandsRejected = new ReasonCounts();

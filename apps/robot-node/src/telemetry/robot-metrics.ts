@@ -68,7 +68,8 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   }
   sum('sessions_refused', 'Sessions refused: too many operators', () => counters.sessionsRefused);
   sumBy('sessions_ended', 'Sessions that ended, by reason', 'reason', counters.sessionsEnded);
-  sum('ice_candidates_refused', 'ICE candidates that could not be used', () => counters.candidatesRefused);
+  const { candidatesRefused } = counters;
+  sumBy('ice_candidates_refused', 'ICE candidates left out, by reason', 'reason', candidatesRefused);
   sumBy('signaling_errors', 'Errors that signaling told of, by code', 'code', counters.signalingErrors);
   sum('signaling_disconnects', 'Times the line to signaling broke', () => signaling.disconnects);
   sum('signaling_malformed', 'Messages of signaling that could not be read', () => signaling.malformed);
