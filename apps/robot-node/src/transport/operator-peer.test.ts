@@ -76,7 +76,8 @@ function robotPeer(connectTimeoutMs = 20_000, iceServers: IceServer[] = []) {
     }
     await answered;
     // A browser checks what it knows after a restart, too; werift waits to be asked.
-    if (peer.connected) for (const transport of client?.connection.iceTransports ?? []) void transport.start();
+    if (peer.connected)
+      for (const transport of client?.connection.iceTransports ?? []) void transport.start();
   };
   return {
     peer,
