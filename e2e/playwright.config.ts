@@ -4,7 +4,7 @@ import { defineConfig } from '@playwright/test';
 export default defineConfig({
   projects: [
     { name: 'chromium', testDir: 'tests' },
-    // Playwright's runner alone: Firefox itself is driven by WebDriver BiDi (src/firefox-browser.ts).
+    // Playwright's runner alone: Firefox itself is driven by WebDriver BiDi (FirefoxBrowser of @farpoint/local-stack).
     { name: 'firefox', testDir: 'firefox' },
   ],
   outputDir: 'output',

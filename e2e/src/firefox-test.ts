@@ -1,6 +1,5 @@
-import { firefoxMissing } from '@farpoint/local-stack';
+import { FirefoxBrowser, firefoxMissing } from '@farpoint/local-stack';
 import type { Page } from 'puppeteer-core';
-import { FirefoxBrowser } from './firefox-browser.ts';
 import { test as base } from './stack-test.ts';
 
 /** Tests in Firefox; they skip, saying why, where it cannot be had. */

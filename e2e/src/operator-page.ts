@@ -19,7 +19,7 @@ export interface OpenOptions {
   bridge?: string;
 }
 
-/** What both Playwright's pages and those of Firefox (firefox-browser.ts) can do. */
+/** What both Playwright's pages and Puppeteer's in Firefox can do. */
 export interface BrowserPage {
   goto(url: string): Promise<unknown>;
   waitForFunction(holds: () => boolean): Promise<unknown>;

@@ -3,6 +3,7 @@ export * from './chromium.ts';
 export * from './emulated-link.ts';
 export * from './find-program.ts';
 export * from './firefox.ts';
+export * from './firefox-browser.ts';
 export * from './free-port.ts';
 export * from './managed-process.ts';
 export * from './stack.ts';

@@ -1,5 +1,6 @@
-import { findFirefox, firefoxNeedsDisplay, VirtualDisplay } from '@farpoint/local-stack';
-import puppeteer, { type Browser, type Page } from 'puppeteer-core';
+import type { Browser, Page } from 'puppeteer-core';
+import { findFirefox, firefoxNeedsDisplay } from './firefox.ts';
+import { VirtualDisplay } from './virtual-display.ts';
 
 const WINDOW = { width: 960, height: 540 };
 
@@ -17,6 +18,8 @@ export class FirefoxBrowser {
   static async launch(): Promise<FirefoxBrowser> {
     const executablePath = findFirefox();
     if (executablePath === null) throw new Error('no Firefox here');
+    // Large, and most who start a stack have no use for it.
+    const { default: puppeteer } = await import('puppeteer-core');
     const display = firefoxNeedsDisplay ? await VirtualDisplay.start(1280, 800) : null;
     try {
       const browser = await puppeteer.launch({
