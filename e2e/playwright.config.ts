@@ -2,7 +2,11 @@ import { chromiumLaunchOptions } from '@farpoint/local-stack';
 import { defineConfig } from '@playwright/test';
 
 export default defineConfig({
-  testDir: 'tests',
+  projects: [
+    { name: 'chromium', testDir: 'tests' },
+    // Playwright's runner alone: Firefox itself is driven by WebDriver BiDi (FirefoxBrowser of @farpoint/local-stack).
+    { name: 'firefox', testDir: 'firefox' },
+  ],
   outputDir: 'output',
   // One stack and one software-rendered browser at a time: two would only slow each other down.
   workers: 1,

@@ -9,6 +9,7 @@ import * as sharedMemory from '../packages/shared-memory/src/build.ts';
 import * as systemd from '../packages/systemd/src/build.ts';
 import { ensureChromium } from './lib/ensure-chromium.ts';
 import { ensureCycloneDds, ensureDdsPeers } from './lib/ensure-dds.ts';
+import { ensureFirefox } from './lib/ensure-firefox.ts';
 import { ensureNumpy } from './lib/ensure-numpy.ts';
 import { ensureTurnServer } from './lib/ensure-turn-server.ts';
 import { run } from './lib/run.ts';
@@ -34,6 +35,12 @@ const say = (line: string): void => console.log(`  ${line}`);
 async function runQuietly(program: string, args: string[]): Promise<StepResult> {
   const { code, output } = await run(program, args);
   return { ok: code === 0, output };
+}
+
+async function runPlaywright(project: 'chromium' | 'firefox'): Promise<StepResult> {
+  const args = ['--dir', 'e2e', 'exec', 'playwright', 'test', '--project', project];
+  const { code, output } = await run('pnpm', args, { echo: true });
+  return { ok: code === 0, tally: tallyPlaywright(output) };
 }
 
 const steps: Step[] = [
@@ -89,10 +96,15 @@ const steps: Step[] = [
         return { ok: false, output: `no Chromium, and it could not be installed; run: ${CHROMIUM_REMEDY}` };
       }
       await ensureTurnServer(say);
-      const { code, output } = await run('pnpm', ['--dir', 'e2e', 'exec', 'playwright', 'test'], {
-        echo: true,
-      });
-      return { ok: code === 0, tally: tallyPlaywright(output) };
+      return runPlaywright('chromium');
+    },
+  },
+  {
+    name: 'firefox',
+    what: 'end to end in Firefox (WebDriver BiDi)',
+    run: async () => {
+      const missing = await ensureFirefox(say);
+      return missing === null ? runPlaywright('firefox') : { ok: true, skipped: missing };
     },
   },
 ];
@@ -103,7 +115,7 @@ const { values } = parseArgs({
 
 if (values.help) {
   console.log('pnpm test [--only STEP[,STEP…]]\n');
-  for (const step of steps) console.log(`  ${step.name.padEnd(6)} ${step.what}`);
+  for (const step of steps) console.log(`  ${step.name.padEnd(7)} ${step.what}`);
   process.exit(0);
 }
 

@@ -92,7 +92,7 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
   }
 }
 
-function buildPage(): void {
+export function buildPage(): void {
   const vite = join(repositoryRoot, 'apps', 'webxr', 'node_modules', 'vite', 'bin', 'vite.js');
   const cwd = join(repositoryRoot, 'apps', 'webxr');
   const result = spawnSync(process.execPath, [vite, 'build', '--logLevel', 'error'], {

@@ -1,6 +1,6 @@
 import type { LocalStack } from '@farpoint/local-stack';
 import type { DrawnProbe, PageState, PageStats } from '@farpoint/webxr/test-api';
-import { expect, type Page, type TestInfo } from '@playwright/test';
+import { expect, type TestInfo } from '@playwright/test';
 
 export interface OpenOptions {
   robot?: string;
@@ -19,15 +19,33 @@ export interface OpenOptions {
   bridge?: string;
 }
 
+/** What both Playwright's pages and Puppeteer's in Firefox can do. */
+export interface BrowserPage {
+  goto(url: string): Promise<unknown>;
+  waitForFunction(holds: () => boolean): Promise<unknown>;
+  evaluate<T>(work: () => T | Promise<T>): Promise<T>;
+  screenshot(options: { path: string }): Promise<Uint8Array>;
+  readonly keyboard: BrowserKeyboard;
+}
+
+/** Keys by what they write: the one way that both know. */
+interface BrowserKeyboard {
+  down(key: typeof DEAD_MAN | typeof FORWARD): Promise<void>;
+  up(key: typeof DEAD_MAN | typeof FORWARD): Promise<void>;
+}
+
+const DEAD_MAN = ' ';
+const FORWARD = 'w';
+
 /** The operator's page as a test uses it: real keys and buttons, and `window.farpoint` to look inside. */
 export class OperatorPage {
-  readonly page: Page;
+  readonly page: BrowserPage;
 
-  private constructor(page: Page) {
+  private constructor(page: BrowserPage) {
     this.page = page;
   }
 
-  static async open(page: Page, stack: LocalStack, options: OpenOptions = {}): Promise<OperatorPage> {
+  static async open(page: BrowserPage, stack: LocalStack, options: OpenOptions = {}): Promise<OperatorPage> {
     const url = new URL(stack.webUrl);
     if (options.robot !== undefined) url.searchParams.set('robot', options.robot);
     for (const name of ['token', 'signaling', 'ice', 'bridge', 'canvas', 'mode', 'every'] as const) {
@@ -108,17 +126,17 @@ export class OperatorPage {
 
   /** Holds the dead man and drives forward until {@link releaseKeys}. The first grip asks for the lease. */
   async holdForward(): Promise<void> {
-    await this.page.keyboard.down('Space');
-    await this.page.keyboard.down('KeyW');
+    await this.page.keyboard.down(DEAD_MAN);
+    await this.page.keyboard.down(FORWARD);
   }
 
   async releaseKeys(): Promise<void> {
-    await this.page.keyboard.up('KeyW');
-    await this.page.keyboard.up('Space');
+    await this.page.keyboard.up(FORWARD);
+    await this.page.keyboard.up(DEAD_MAN);
   }
 
   /** Keeps a picture of the page with the test's output. */
   async screenshot(testInfo: TestInfo, name: string): Promise<Buffer> {
-    return this.page.screenshot({ path: testInfo.outputPath(`${name}.png`) });
+    return Buffer.from(await this.page.screenshot({ path: testInfo.outputPath(`${name}.png`) }));
   }
 }

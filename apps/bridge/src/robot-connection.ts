@@ -2,11 +2,8 @@
 import { Buffer } from 'node:buffer';
 import { RateMeter } from '@farpoint/congestion';
 import { encodeBandwidth, encodeJsonBytes, referenceControlCodec, type Twist } from '@farpoint/protocol';
-import {
-  createReferencePeerConnection,
-  prepareSockets,
-  referenceChannels,
-} from '@farpoint/reference-profile';
+import { createReferencePeerConnection, referenceChannels } from '@farpoint/reference-profile';
+import { prepareSockets, RemoteCandidates } from '@farpoint/webrtc';
 import type { RTCDataChannel, RTCPeerConnection } from 'werift';
 import { type AssembledFrame, FrameAssembler } from './frame-assembler.ts';
 import { ReceiverLimit } from './receiver-limit.ts';
@@ -35,31 +32,27 @@ export type CommandDrop = 'channel-not-open' | 'backlog';
 /** A command that would wait behind others is worse than none. */
 const MAX_COMMAND_BACKLOG = 4096;
 const MAX_REPORT_BACKLOG = 4096;
-const MAX_PENDING_CANDIDATES = 64;
-/** In all: more are not meant to connect anything. */
-const MAX_CANDIDATES = 256;
 /** IP, UDP, RTP and SRTP of one packet, bytes. */
 const OVERHEAD_BYTES = 64;
 
 export class RobotConnection {
   readonly assembler: FrameAssembler;
   packets = 0;
+  /** Of the robot's, left out. */
   candidatesRefused = 0;
   /** What came to its sockets and was dropped unread. */
   datagramsRefused = 0;
   readonly #options: RobotConnectionOptions;
   readonly #events: RobotConnectionEvents;
   readonly #connection: RTCPeerConnection;
+  readonly #candidates: RemoteCandidates;
   readonly #limit: ReceiverLimit;
   readonly #received = new RateMeter();
   readonly #words: RTCDataChannel;
   readonly #bandwidth: RTCDataChannel;
   #control: RTCDataChannel | null = null;
   #receiver: RtpReceiver | null = null;
-  #described = false;
   #closed = false;
-  #candidates: string[] = [];
-  #candidateCount = 0;
   #shown = false;
   #bytes = 0;
   #lastPacketMs = Number.NEGATIVE_INFINITY;
@@ -81,6 +74,9 @@ export class RobotConnection {
       },
     );
     this.#connection = connection;
+    this.#candidates = new RemoteCandidates(connection, () => {
+      this.candidatesRefused++;
+    });
     connection.onIceCandidate.subscribe((candidate) => {
       if (candidate === undefined || this.#closed) return;
       prepareSockets(connection);
@@ -145,12 +141,10 @@ export class RobotConnection {
   /** Also for a renegotiation. @returns the SDP answer, or `null` where the offer cannot be used: it has failed then */
   async answer(offer: string): Promise<string | null> {
     try {
-      await this.#connection.setRemoteDescription({ type: 'offer', sdp: offer });
+      await this.#candidates.describe('offer', offer);
       const answer = await this.#connection.createAnswer();
       // Resolves only when every candidate is gathered; they follow one by one.
       this.#connection.setLocalDescription(answer).catch((error: unknown) => this.#fail(textOf(error)));
-      this.#described = true;
-      for (const candidate of this.#candidates.splice(0)) void this.addCandidate(candidate);
       return this.#closed ? null : answer.sdp;
     } catch (error) {
       this.#fail(textOf(error));
@@ -158,23 +152,9 @@ export class RobotConnection {
     }
   }
 
-  /** Never throws: one that cannot be used is counted, others may do. */
-  async addCandidate(candidate: string): Promise<void> {
-    if (this.#closed) return;
-    if (++this.#candidateCount > MAX_CANDIDATES) {
-      this.candidatesRefused++;
-      return;
-    }
-    if (!this.#described) {
-      this.#candidates.push(candidate);
-      if (this.#candidates.length > MAX_PENDING_CANDIDATES) this.#candidates.shift();
-      return;
-    }
-    try {
-      await this.#connection.addIceCandidate({ candidate, sdpMLineIndex: 0 });
-    } catch {
-      this.candidatesRefused++;
-    }
+  /** At any time: it waits for the offer. Never throws: one that cannot be used is counted, others may do. */
+  addCandidate(candidate: string): void {
+    if (!this.#closed) this.#candidates.add({ candidate, sdpMLineIndex: 0 });
   }
 
   /** Does nothing before the channel is open: `onReady` tells when. */

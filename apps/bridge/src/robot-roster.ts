@@ -107,7 +107,7 @@ export class RobotRoster {
         break;
       case 'candidate': {
         const robot = this.#robots.get(message.robotId);
-        if (robot?.orphan === false) void robot.connection.addCandidate(message.candidate);
+        if (robot?.orphan === false) robot.connection.addCandidate(message.candidate);
         break;
       }
       case 'deregister':
@@ -178,7 +178,7 @@ export class RobotRoster {
     this.#selection.add(id, name);
     this.#events.onRobotsChanged();
     void this.#answer(id, robot);
-    for (const candidate of candidates) void connection.addCandidate(candidate);
+    for (const candidate of candidates) connection.addCandidate(candidate);
   }
 
   #onReady(connection: RobotConnection): void {

@@ -1,6 +1,6 @@
 import { existsSync } from 'node:fs';
-import { delimiter, join } from 'node:path';
 import { chromium, type LaunchOptions } from '@playwright/test';
+import { findProgram } from './find-program.ts';
 
 /** The one command that cures a missing browser. */
 export const CHROMIUM_REMEDY = 'npx -y pnpm@12 --dir e2e exec playwright install --with-deps chromium';
@@ -22,9 +22,7 @@ export function findChromium(): string | null {
   if (named !== undefined && named !== '') return existsSync(named) ? named : null;
   const own = chromium.executablePath();
   if (own !== '' && existsSync(own)) return own;
-  const folders = (process.env.PATH ?? '').split(delimiter);
-  const candidates = PROGRAM_NAMES.flatMap((name) => folders.map((folder) => join(folder, name)));
-  return [...candidates, ...OTHER_PLACES].find((path) => existsSync(path)) ?? null;
+  return findProgram(PROGRAM_NAMES, OTHER_PLACES);
 }
 
 /** Launch options that work as root, without a GPU, and without a connection to the world. */

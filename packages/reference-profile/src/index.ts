@@ -1,5 +1,4 @@
 export * from './channels.ts';
-export * from './ice-sockets.ts';
 export * from './message-line.ts';
 export * from './peer-connection.ts';
 export * from './rtp-tap.ts';

@@ -2,11 +2,10 @@
 import type { IceServer } from '@farpoint/protocol';
 import {
   createReferencePeerConnection,
-  prepareSockets,
   REFERENCE_EXTENSION_ID,
   referenceChannels,
 } from '@farpoint/reference-profile';
-import type { Refusal } from '@farpoint/webrtc';
+import { prepareSockets, type Refusal, RemoteCandidates } from '@farpoint/webrtc';
 import type { RTCDataChannel, RTCPeerConnection, RTCRtpTransceiver } from 'werift';
 import { dropDefaultStun, pairLateCandidates } from '../transport/ice-restart.ts';
 import { errorText, type PeerEnd, toWeriftServers } from '../transport/operator-peer.ts';
@@ -31,12 +30,10 @@ export interface ReferencePeerEvents {
   onEnded(end: PeerEnd, detail: string): void;
 }
 
-/** Of an operator that is not here yet. */
-const MAX_PENDING_CANDIDATES = 64;
-
 export class ReferencePeer {
   /** What was found so far: the reference system's bridge hears only those that are told after its answer. */
   readonly candidates: string[] = [];
+  /** Of the operator's, left out. */
   candidatesRefused = 0;
   /** Channels that the operator opened and the profile does not know. */
   unknownChannels = 0;
@@ -44,8 +41,8 @@ export class ReferencePeer {
   readonly #events: ReferencePeerEvents;
   readonly #connection: RTCPeerConnection;
   readonly #cloud: RTCRtpTransceiver;
+  readonly #candidates: RemoteCandidates;
   #transport: SrtpCloudTransport | null = null;
-  #pending: string[] = [];
   #timer: NodeJS.Timeout | null = null;
   #state: 'offering' | 'answered' | 'connected' | 'ended' = 'offering';
   #hasBandwidth = false;
@@ -68,6 +65,9 @@ export class ReferencePeer {
       },
     );
     this.#connection = connection;
+    this.#candidates = new RemoteCandidates(connection, () => {
+      this.candidatesRefused++;
+    });
     this.#cloud = connection.addTransceiver('video', { direction: 'sendonly' });
     const { control } = referenceChannels;
     const commands = connection.createDataChannel(control.label, { ordered: control.ordered });
@@ -121,27 +121,16 @@ export class ReferencePeer {
       connectTimeoutMs,
     );
     try {
-      await this.#connection.setRemoteDescription({ type: 'answer', sdp });
-      for (const candidate of this.#pending.splice(0)) await this.addCandidate(candidate);
+      await this.#candidates.describe('answer', sdp);
       this.#checkPairs();
     } catch (error) {
       this.close('bad-answer', errorText(error));
     }
   }
 
-  /** Never throws: one that cannot be used is counted, others may do. */
-  async addCandidate(candidate: string): Promise<void> {
-    if (this.#state === 'ended') return;
-    if (this.#connection.remoteDescription === undefined) {
-      this.#pending.push(candidate);
-      if (this.#pending.length > MAX_PENDING_CANDIDATES) this.#pending.shift();
-      return;
-    }
-    try {
-      await this.#connection.addIceCandidate({ candidate, sdpMLineIndex: 0 });
-    } catch {
-      this.candidatesRefused++;
-    }
+  /** At any time: it waits for the answer. Never throws: one that cannot be used is counted, others may do. */
+  addCandidate(candidate: string): void {
+    if (this.#state !== 'ended') this.#candidates.add({ candidate, sdpMLineIndex: 0 });
   }
 
   close(end: PeerEnd, detail: string): void {

@@ -124,7 +124,7 @@ export class ReferenceProfile {
         break;
       case 'candidate':
         // Also once it is connected: a better path may be found.
-        void this.#listed?.peer.addCandidate(message.candidate);
+        this.#listed?.peer.addCandidate(message.candidate);
         break;
     }
   }

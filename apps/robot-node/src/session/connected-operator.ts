@@ -1,5 +1,6 @@
 import { type RateController, RateMeter } from '@farpoint/congestion';
 import { CLOUD_FORMATS, type IceCandidate, type StageTimings, type StreamStatus } from '@farpoint/protocol';
+import type { CandidateRefusal } from '@farpoint/webrtc';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
 import { PictureSender } from '../pictures/picture-sender.ts';
@@ -35,6 +36,7 @@ export interface ConnectedOperatorOptions {
 
 export interface ConnectedOperatorEvents {
   onCandidate(candidate: IceCandidate): void;
+  onCandidateRefused(reason: CandidateRefusal, detail: string): void;
   onConnected(): void;
   /** Streaming began, paused, or may go at another rate or in another format. */
   onBudgetChanged(): void;
@@ -90,6 +92,7 @@ export class ConnectedOperator implements FrameTarget {
     this.#events = events;
     this.peer = new OperatorPeer(options.peer, {
       onCandidate: (candidate) => events.onCandidate(candidate),
+      onCandidateRefused: (reason, detail) => events.onCandidateRefused(reason, detail),
       onConnected: (transport) => this.#onConnected(transport),
       onMessage: (channel, data) => this.session.onMessage(channel, data),
       onPicturesLow: () => this.#sendPictures(),

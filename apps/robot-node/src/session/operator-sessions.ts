@@ -64,7 +64,7 @@ export class OperatorSessions {
         void this.operators.get(message.session)?.answer(message.sdp);
         break;
       case 'session.candidate':
-        void this.#addCandidate(message.session, message.candidate);
+        this.operators.get(message.session)?.peer.addCandidate(message.candidate);
         break;
       case 'session.closed': {
         const operator = this.operators.get(message.session);
@@ -96,14 +96,6 @@ export class OperatorSessions {
     if (operator !== undefined && !operator.peer.connected) operator.peer.close('closed', message);
   }
 
-  async #addCandidate(session: string, candidate: Parameters<ConnectedOperator['peer']['addCandidate']>[0]) {
-    const { counters, log } = this.#options;
-    const fault = await this.operators.get(session)?.peer.addCandidate(candidate);
-    if (fault == null) return;
-    counters.candidatesRefused++;
-    log.debug({ session, fault }, 'candidate refused');
-  }
-
   async #open(session: string, operatorName: string): Promise<void> {
     const { most, peer, pictureShare, makeController, sendLoop, packetLog, host, signaling, counters } =
       this.#options;
@@ -124,6 +116,10 @@ export class OperatorSessions {
       sendLoop,
       {
         onCandidate: (candidate) => signaling.send({ type: 'session.candidate', session, candidate }),
+        onCandidateRefused: (reason, detail) => {
+          counters.candidatesRefused.add(reason);
+          log.debug({ reason, detail }, 'candidate refused');
+        },
         onConnected: () => {
           log.info({ operators: this.operators.size }, 'operator connected');
           this.#events.connected(operator);

@@ -22,7 +22,7 @@ export class RobotCounters {
   sessionsOpened = 0;
   sessionsRefused = 0;
   readonly sessionsEnded = new ReasonCounts();
-  candidatesRefused = 0;
+  readonly candidatesRefused = new ReasonCounts();
   /** What came to the sockets of sessions and was dropped unread, by reason. */
   readonly datagramsRefused = new ReasonCounts();
   readonly signalingErrors = new ReasonCounts();

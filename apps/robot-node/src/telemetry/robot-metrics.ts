@@ -68,7 +68,8 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   }
   sum('sessions_refused', 'Sessions refused: too many operators', () => counters.sessionsRefused);
   sumBy('sessions_ended', 'Sessions that ended, by reason', 'reason', counters.sessionsEnded);
-  sum('ice_candidates_refused', 'ICE candidates that could not be used', () => counters.candidatesRefused);
+  const { candidatesRefused } = counters;
+  sumBy('ice_candidates_refused', 'ICE candidates left out, by reason', 'reason', candidatesRefused);
   sumBy(
     'datagrams_refused',
     'Datagrams and packets of sessions that were dropped unread, by reason',

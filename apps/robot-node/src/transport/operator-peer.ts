@@ -6,7 +6,7 @@ import {
   type IceServer,
   MAX_PICTURE_CHUNK_BYTES,
 } from '@farpoint/protocol';
-import { guardConnection, type Refusal } from '@farpoint/webrtc';
+import { type CandidateRefusal, guardConnection, type Refusal, RemoteCandidates } from '@farpoint/webrtc';
 import {
   MediaStream,
   type RTCDataChannel,
@@ -54,6 +54,8 @@ export interface OperatorPeerOptions {
 
 export interface OperatorPeerEvents {
   onCandidate(candidate: IceCandidate): void;
+  /** A candidate of the operator is left out; others may do. */
+  onCandidateRefused?(reason: CandidateRefusal, detail: string): void;
   /** The path and our channels are up. */
   onConnected(transport: CloudTransport): void;
   onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void;
@@ -77,6 +79,7 @@ export class OperatorPeer {
   readonly #session: RTCDataChannel;
   readonly #telemetry: RTCDataChannel;
   readonly #connectTimer: NodeJS.Timeout;
+  readonly #candidates: RemoteCandidates;
   readonly #pictures: RTCDataChannel | null = null;
   #control: RTCDataChannel | null = null;
   #bandwidth: RTCDataChannel | null = null;
@@ -130,6 +133,9 @@ export class OperatorPeer {
       onUnproven: (error) => this.#end('unproven-peer', error.reason),
       onFault: (error) => this.#end('connection-lost', `a message could not be handled: ${errorText(error)}`),
     });
+    this.#candidates = new RemoteCandidates(connection, (reason, detail) =>
+      events.onCandidateRefused?.(reason, detail),
+    );
     // Points travel as "audio": the browser hands each packet over as it comes, without assembling frames.
     this.#cloud = connection.addTransceiver('audio', {
       direction: 'sendonly',
@@ -224,6 +230,7 @@ export class OperatorPeer {
   #describe(description: Awaited<ReturnType<RTCPeerConnection['createOffer']>>): void {
     this.#answerDue = true;
     this.#startDue = false;
+    this.#candidates.hold();
     dropDefaultStun(this.#cloud.dtlsTransport);
     // Resolves only when every candidate is gathered.
     this.#connection.setLocalDescription(description).catch((error: unknown) => {
@@ -239,7 +246,7 @@ export class OperatorPeer {
     const dtls = this.#cloud.dtlsTransport;
     const isRestart = dtls.state === 'connected';
     try {
-      await this.#connection.setRemoteDescription({ type: 'answer', sdp });
+      await this.#candidates.describe('answer', sdp);
       this.#startDue = isRestart;
       this.#checkPairs();
     } catch (error) {
@@ -247,24 +254,9 @@ export class OperatorPeer {
     }
   }
 
-  /**
-   * Never throws: a candidate that cannot be used is left out, others may do.
-   *
-   * @returns what was wrong with it, or `null`
-   */
-  async addCandidate(candidate: IceCandidate): Promise<string | null> {
-    if (this.#ended) return null;
-    try {
-      const { candidate: text, sdpMid, sdpMLineIndex } = candidate;
-      await this.#connection.addIceCandidate({
-        candidate: text,
-        ...(sdpMid == null ? {} : { sdpMid }),
-        ...(sdpMLineIndex == null ? {} : { sdpMLineIndex }),
-      });
-      return null;
-    } catch (error) {
-      return errorText(error);
-    }
+  /** At any time: it waits for its description. Never throws: one that cannot be used is left out. */
+  addCandidate(candidate: IceCandidate): void {
+    if (!this.#ended) this.#candidates.add(candidate);
   }
 
   /** Reliable and in order. */

@@ -1,12 +1,8 @@
 /** An operator that speaks as the reference system's bridge does: a client of signaling, the one who answers. */
 import { Buffer } from 'node:buffer';
 import { encodeBandwidth, encodeJsonBytes, referenceControlCodec, type Twist } from '@farpoint/protocol';
-import {
-  createReferencePeerConnection,
-  prepareSockets,
-  referenceChannels,
-  tapRtp,
-} from '@farpoint/reference-profile';
+import { createReferencePeerConnection, referenceChannels, tapRtp } from '@farpoint/reference-profile';
+import { prepareSockets } from '@farpoint/webrtc';
 import type { RTCDataChannel, RTCPeerConnection } from 'werift';
 import { Inbox } from './inbox.ts';
 import { SocketPeer } from './socket-peer.ts';

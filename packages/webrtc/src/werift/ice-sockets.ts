@@ -8,6 +8,7 @@ interface UdpSocketShape {
 
 interface IceShape {
   protocols?: { transport?: { socket?: Partial<UdpSocketShape> } }[];
+  lookup?: { mdnsInstance?: { on?: UdpSocketShape['on'] } };
 }
 
 /** As a browser has it; the system may give less. A frame of 100,000 points is 0.8 MB. */
@@ -33,5 +34,19 @@ export function prepareSockets(connection: RTCPeerConnection): void {
         // Not bound yet, or TCP: it does without.
       }
     }
+  }
+}
+
+/**
+ * Gives the mDNS look-ups a listener for errors: without one a port 5353 that another program keeps to itself would end the
+ * process. Call it in the same turn as `addIceCandidate`.
+ */
+export function guardLookups(connection: RTCPeerConnection): void {
+  for (const transport of connection.iceTransports) {
+    const mdns = (transport.connection as unknown as IceShape).lookup?.mdnsInstance;
+    if (mdns === undefined || typeof mdns.on !== 'function' || prepared.has(mdns)) continue;
+    prepared.add(mdns);
+    // The name stays unknown.
+    mdns.on('error', () => undefined);
   }
 }

@@ -1,0 +1,64 @@
+/** The operator's page in an unchanged Firefox, which hides its addresses behind mDNS names and trickles TCP candidates. */
+import { expect, test } from '../src/firefox-test.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { simulatedRobot } from '../src/stack-test.ts';
+
+const CONNECTIONS = 10;
+/** An operator waits a moment; one mDNS look-up that is waited for takes ten seconds. */
+const MOST_SECONDS = 5;
+
+/** The whole of what its camera sees, at a rate that a software renderer can follow. */
+const wholeRobot = {
+  id: 'whole',
+  name: 'Whole cloud',
+  args: ['--source', 'sim', '--sim-seed', '1', '--fps', '8', '--start-mbps', '20', '--bitrate-mbps', '30'],
+};
+
+test(`connects ${CONNECTIONS} times in a row`, async ({ firefoxPage, startStack }) => {
+  const stack = await startStack();
+  const operator = await OperatorPage.open(firefoxPage, stack);
+  await operator.expectState('signaling', 'ready');
+  const seconds: number[] = [];
+  for (let count = 0; count < CONNECTIONS; count++) {
+    seconds.push(
+      await firefoxPage.evaluate(async (robot) => {
+        const began = performance.now();
+        await window.farpoint.connect(robot, 30_000);
+        const took = (performance.now() - began) / 1000;
+        window.farpoint.disconnect();
+        return took;
+      }, simulatedRobot.id),
+    );
+    await operator.expectState('session', 'none');
+  }
+  console.log(`seconds to the first points: ${seconds.map((one) => one.toFixed(2)).join(' ')}`);
+  expect(Math.max(...seconds)).toBeLessThan(MOST_SECONDS);
+});
+
+test('sees the whole cloud, drives, and stops at once', async ({ firefoxPage, startStack }, testInfo) => {
+  const stack = await startStack({ robots: [wholeRobot] });
+  const operator = await OperatorPage.open(firefoxPage, stack, {
+    robot: wholeRobot.id,
+    canvas: '320x180',
+    every: '1',
+  });
+  await operator.expectPoints(10_000);
+  // 480 × 480 pixels, about 15 % of which a stereo camera does not see.
+  await expect.poll(async () => (await operator.stats()).pointsPerFrame).toBeGreaterThan(170_000);
+  const { 'no-stream': _, ...drops } = (await operator.stats()).drops;
+  expect(drops).toEqual({});
+  await operator.screenshot(testInfo, 'firefox-whole-cloud');
+
+  const start = await operator.body();
+  await operator.holdForward();
+  await operator.expectState('holder', 'you');
+  await operator.expectMovedFrom(start, 0.3);
+  // Stop, with the keys still held.
+  await firefoxPage.keyboard.press('x');
+  await operator.expectState('estop', true);
+  await operator.expectStanding();
+  const stopped = await operator.body();
+  await operator.expectFrames(5);
+  expect(await operator.body()).toEqual(stopped);
+  await operator.releaseKeys();
+});

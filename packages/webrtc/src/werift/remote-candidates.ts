@@ -1,0 +1,69 @@
+/** A werift connection's remote descriptions, and the peer's ICE candidates for them. */
+import type { IceCandidate } from '@farpoint/protocol';
+import type { RTCPeerConnection } from 'werift';
+import { CandidateGate, type CandidateRefusal, takeCandidates } from '../ice/candidate-gate.ts';
+import { guardLookups } from './ice-sockets.ts';
+
+const MAX_DETAIL = 300;
+
+/**
+ * Hands a peer's candidates to werift when they can be used. werift would add those that come while a description is being
+ * set one after the other, before it connects, and wait up to 10 s for each mDNS name; and would give up as soon as the peer
+ * knows no more and no pair works. Here each is looked up beside the connecting. The peer's end of candidates is not passed
+ * on: its checks may still make a peer-reflexive pair (RFC 8863); who connects sets the time.
+ */
+export class RemoteCandidates {
+  readonly #connection: RTCPeerConnection;
+  readonly #onRefused: (reason: CandidateRefusal, detail: string) => void;
+  readonly #gate = new CandidateGate();
+
+  /** @param onRefused for each that is left out; others may do */
+  constructor(
+    connection: RTCPeerConnection,
+    onRefused: (reason: CandidateRefusal, detail: string) => void = () => undefined,
+  ) {
+    this.#connection = connection;
+    this.#onRefused = onRefused;
+  }
+
+  /** A new description was asked for: what comes from now on may belong to it. */
+  hold(): void {
+    this.#gate.hold();
+  }
+
+  /**
+   * Sets the remote description, then adds its candidates and those that waited for it.
+   *
+   * @throws {Error} where the description cannot be used
+   */
+  async describe(type: 'offer' | 'answer', text: string): Promise<void> {
+    const { sdp, candidates, fragments } = takeCandidates(text);
+    this.#gate.hold();
+    await this.#connection.setRemoteDescription({ type, sdp });
+    const waited = this.#gate.open(fragments);
+    for (const candidate of candidates) this.add(candidate);
+    for (const candidate of waited) this.add(candidate);
+  }
+
+  /** At any time, in any order. Never throws. */
+  add(candidate: IceCandidate): void {
+    const verdict = this.#gate.take(candidate);
+    if (verdict === 'wait' || verdict === 'end') return;
+    if (verdict !== 'add') {
+      this.#onRefused(verdict, candidate.candidate.slice(0, MAX_DETAIL));
+      return;
+    }
+    const { candidate: text, sdpMid, sdpMLineIndex } = candidate;
+    this.#connection
+      .addIceCandidate({
+        candidate: text,
+        ...(sdpMid == null ? {} : { sdpMid }),
+        ...(sdpMLineIndex == null ? {} : { sdpMLineIndex }),
+      })
+      .catch((error: unknown) => {
+        const detail = error instanceof Error ? error.message : String(error);
+        this.#onRefused('unusable', detail.slice(0, MAX_DETAIL));
+      });
+    guardLookups(this.#connection);
+  }
+}
