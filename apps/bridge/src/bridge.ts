@@ -162,7 +162,7 @@ export class Bridge {
       {
         onOpen: () => line.send({ type: 'getRobots' }),
         onMessage: (message) => this.roster.onSignaling(message),
-        onDown: (detail) => this.#log.warn({ url: this.#url, detail }, 'no line to signaling'),
+        onDown: (detail) => this.#log.warn({ url: this.#url, detail }, 'no line to signaling; trying again'),
       },
     );
     return line;

@@ -42,6 +42,9 @@ export class ReferencePeer {
   readonly #connection: RTCPeerConnection;
   readonly #cloud: RTCRtpTransceiver;
   #transport: SrtpCloudTransport | null = null;
+  #offerSdp = '';
+  /** The answer is set: werift would keep candidates that come before, and refuse the answer for one of them that is none. */
+  #described = false;
   #pending: string[] = [];
   #timer: NodeJS.Timeout | null = null;
   #state: 'offering' | 'answered' | 'connected' | 'ended' = 'offering';
@@ -90,6 +93,11 @@ export class ReferencePeer {
     return this.#transport?.heardSinceLast() ?? false;
   }
 
+  /** Empty before it is made. */
+  get offerSdp(): string {
+    return this.#offerSdp;
+  }
+
   async offer(): Promise<string> {
     const description = await this.#connection.createOffer();
     dropDefaultStun(this.#cloud.dtlsTransport);
@@ -97,6 +105,7 @@ export class ReferencePeer {
     this.#connection.setLocalDescription(description).catch((error: unknown) => {
       this.close('not-connected', `no local description: ${errorText(error)}`);
     });
+    this.#offerSdp = description.sdp;
     return description.sdp;
   }
 
@@ -111,6 +120,7 @@ export class ReferencePeer {
     );
     try {
       await this.#connection.setRemoteDescription({ type: 'answer', sdp });
+      this.#described = true;
       for (const candidate of this.#pending.splice(0)) await this.addCandidate(candidate);
       this.#checkPairs();
     } catch (error) {
@@ -121,7 +131,7 @@ export class ReferencePeer {
   /** Never throws: one that cannot be used is counted, others may do. */
   async addCandidate(candidate: string): Promise<void> {
     if (this.#state === 'ended') return;
-    if (this.#connection.remoteDescription === undefined) {
+    if (!this.#described) {
       this.#pending.push(candidate);
       if (this.#pending.length > MAX_PENDING_CANDIDATES) this.#pending.shift();
       return;
@@ -143,7 +153,7 @@ export class ReferencePeer {
   }
 
   #checkPairs(): void {
-    if (this.#connection.remoteDescription !== undefined) pairLateCandidates(this.#cloud.dtlsTransport);
+    if (this.#described) pairLateCandidates(this.#cloud.dtlsTransport);
   }
 
   #adopt(channel: RTCDataChannel): void {
