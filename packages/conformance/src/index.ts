@@ -1,6 +1,7 @@
 export * from './exchange.ts';
 export * from './finding.ts';
 export * from './frames.ts';
+export * from './known-defects.ts';
 export * from './offer-rules.ts';
 export * from './peers/inbox.ts';
 export * from './peers/offering-connection.ts';

@@ -55,6 +55,14 @@ export const robotSuite: readonly ConformanceCase<RobotTarget>[] = [
     }),
   },
   {
+    name: 'sends nothing before "start", whatever the operator before said',
+    defect: 'streams-unasked',
+    run: withOperator(async (operator) => {
+      const packet = await operator.packets.next(undefined, QUIET_MS).catch(() => null);
+      must(packet === null, 'packets come unasked');
+    }),
+  },
+  {
     name: 'pauses at "stop"',
     run: withOperator(async (operator) => {
       operator.say('start');
