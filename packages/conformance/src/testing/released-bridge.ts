@@ -20,6 +20,7 @@ import {
 } from '@farpoint/reference-profile';
 import type { RTCDataChannel, RTCPeerConnection } from 'werift';
 import { WebSocket, type WebSocketServer } from 'ws';
+import { Inbox } from '../peers/inbox.ts';
 import { closePlainServer, openPlainServer, plainServerUrl } from './plain-socket-server.ts';
 import { ReleasedFrames } from './released-frames.ts';
 import type { BridgeSockets } from './released-page.ts';
@@ -60,6 +61,7 @@ export class ReleasedBridge {
   /** Also those that it has forgotten. */
   readonly #connections: RTCPeerConnection[] = [];
   readonly #lines: WebSocket[] = [];
+  readonly #opened = new Inbox<true>();
   #selected = 0;
   #handling: Promise<void> = Promise.resolve();
 
@@ -86,6 +88,18 @@ export class ReleasedBridge {
   /** On free ports of this machine. */
   static async start(): Promise<ReleasedBridge> {
     return new ReleasedBridge(await Promise.all([openPlainServer(), openPlainServer(), openPlainServer()]));
+  }
+
+  /** For tests: resolves once a robot of this name is connected, so that it hears `start` and commands. */
+  async ready(name: string): Promise<void> {
+    for (;;) {
+      for (const [id, listed] of this.#listed) {
+        const robot = this.#robots.get(id);
+        if (listed === name && robot?.words.readyState === 'open' && robot.control?.readyState === 'open')
+          return;
+      }
+      await this.#opened.next(undefined, undefined, `robot '${name}', connected,`);
+    }
   }
 
   async stop(): Promise<void> {
@@ -213,7 +227,10 @@ export class ReleasedBridge {
     this.#robots.set(id, robot);
     connection.onDataChannel.subscribe((channel) => {
       robot.control = channel;
+      channel.stateChanged.subscribe(() => this.#opened.push(true));
+      this.#opened.push(true);
     });
+    robot.words.stateChanged.subscribe(() => this.#opened.push(true));
     connection.onIceCandidate.subscribe((candidate) => {
       prepareSockets(connection);
       if (candidate !== undefined)

@@ -33,7 +33,8 @@ export class ReleasedRobot {
   id = 0;
   readonly commands = new Inbox<Twist>();
   readonly reports = new Inbox<number>();
-  /** Connections offered so far. */
+  /** Connections that it has offered, counted from 1. */
+  readonly offered = new Inbox<number>();
   offers = 0;
   readonly #options: Required<ReleasedRobotOptions>;
   readonly #line: SocketPeer;
@@ -101,6 +102,7 @@ export class ReleasedRobot {
         ? { type: 'register', name: this.#options.name, sdpOffer }
         : { type: 'offer', robotId: this.id, sdpOffer },
     );
+    this.offered.push(this.offers);
   }
 
   async #follow(): Promise<void> {
