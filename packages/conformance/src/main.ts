@@ -19,22 +19,40 @@ initBridge. For the bridge no robot must be registered but those that the suite 
 is listed as a known defect, and no case is tried by which one of them would end. --json prints the results as JSON. Exit status 1 where
 a case fails, 2 for arguments that cannot be used.`;
 
-const { values, positionals } = parseArgs({
-  allowPositionals: true,
-  options: {
-    robot: { type: 'string', default: 'ws://127.0.0.1:3001' },
-    client: { type: 'string', default: 'ws://127.0.0.1:3002' },
-    control: { type: 'string', default: 'ws://127.0.0.1:8085' },
-    telemetry: { type: 'string', default: 'ws://127.0.0.1:8090' },
-    streaming: { type: 'string', default: 'ws://127.0.0.1:8095' },
-    name: { type: 'string', default: 'Robot' },
-    level: { type: 'string', default: 'strict' },
-    json: { type: 'boolean' },
-    help: { type: 'boolean', short: 'h' },
-  },
-});
+function readArguments() {
+  return parseArgs({
+    allowPositionals: true,
+    options: {
+      robot: { type: 'string', default: 'ws://127.0.0.1:3001' },
+      client: { type: 'string', default: 'ws://127.0.0.1:3002' },
+      control: { type: 'string', default: 'ws://127.0.0.1:8085' },
+      telemetry: { type: 'string', default: 'ws://127.0.0.1:8090' },
+      streaming: { type: 'string', default: 'ws://127.0.0.1:8095' },
+      name: { type: 'string', default: 'Robot' },
+      level: { type: 'string', default: 'strict' },
+      json: { type: 'boolean' },
+      help: { type: 'boolean', short: 'h' },
+    },
+  });
+}
 
-const level = LEVELS.find((known) => known === values.level);
+/** Ends the program where they cannot be used. */
+function orUsage<T>(read: () => T): T {
+  try {
+    return read();
+  } catch (error) {
+    console.error(`${error instanceof Error ? error.message : error}\n\n${USAGE}`);
+    return process.exit(2);
+  }
+}
+
+const { values, positionals } = orUsage(readArguments);
+
+const level = orUsage(() => {
+  const found = LEVELS.find((known) => known === values.level);
+  if (found === undefined) throw new Error(`--level ${values.level}: must be one of ${LEVELS.join(', ')}`);
+  return found;
+});
 
 const MARKS: Record<Outcome, string> = { passed: '✓', failed: '✗', 'known-defect': '!', 'not-tried': '–' };
 
@@ -58,10 +76,6 @@ async function run(suite: string | undefined, at: Level): Promise<CaseResult[] |
   }
 }
 
-if (level === undefined) {
-  console.error(`--level ${values.level}: must be one of ${LEVELS.join(', ')}`);
-  process.exit(2);
-}
 const results = values.help ? null : await run(positionals[0], level);
 if (results === null) {
   console.log(USAGE);
