@@ -18,6 +18,9 @@ import { Inbox } from './inbox.ts';
 import { OfferBoard, type OpenOffer } from './offer-board.ts';
 import { SocketPeer } from './socket-peer.ts';
 
+/** The reference system's robot needs some 6 s. */
+const OFFERS_AGAIN_WITHIN_MS = 15_000;
+
 export class ReferenceOperator {
   readonly offer: string;
   readonly robotId: number;
@@ -32,6 +35,8 @@ export class ReferenceOperator {
   readonly #bandwidth: RTCDataChannel;
   readonly #words: RTCDataChannel;
   readonly #channels = new Inbox<RTCDataChannel>();
+  /** Made since this one was connected. */
+  readonly #laterOffers = new Inbox<OpenOffer>();
   #control: RTCDataChannel | null = null;
 
   private constructor(line: SocketPeer, { robotId, sdpOffer }: OpenOffer) {
@@ -99,7 +104,11 @@ export class ReferenceOperator {
         const message = await line.message<ReferenceServiceToClient>({}, 60_000).catch(() => null);
         if (message === null) return;
         if (message.type === 'candidate') void attempts.get(message.robotId)?.addCandidate(message.candidate);
-        else if (chosen === null) for (const offer of board.read(message)) void answer(offer);
+        else
+          for (const offer of board.read(message)) {
+            if (chosen === null) void answer(offer);
+            else chosen.#laterOffers.push(offer);
+          }
       }
     };
     line.send({ type: 'getRobots' });
@@ -142,6 +151,17 @@ export class ReferenceOperator {
   async close(): Promise<void> {
     await this.#line.close();
     await this.disconnect();
+  }
+
+  /**
+   * Leaves the robot, and signaling once the robot offers again: who came before would find its old offer listed, and the
+   * reference system's robot takes an answer to that for one to its next.
+   */
+  async leave(): Promise<void> {
+    this.#laterOffers.clear();
+    await this.disconnect();
+    await this.#laterOffers.next(undefined, OFFERS_AGAIN_WITHIN_MS).catch(() => undefined);
+    await this.#line.close();
   }
 
   /** Leaves the robot, not signaling. */

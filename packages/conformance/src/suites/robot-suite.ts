@@ -25,7 +25,7 @@ function withOperator(
     try {
       await run(operator);
     } finally {
-      await operator.close();
+      await operator.leave();
     }
   };
 }
