@@ -1,8 +1,11 @@
 /** The bridge against the real signaling service and robots that speak as the reference system's do. */
 
+import { once } from 'node:events';
+import { get, type IncomingMessage } from 'node:http';
 import { ReferenceRobot } from '@farpoint/conformance';
 import { LocalStack } from '@farpoint/local-stack';
 import { writePointPacketHeader } from '@farpoint/protocol';
+import { createLogger } from '@farpoint/service';
 import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
 import { WebSocket } from 'ws';
 import type { Bridge } from './bridge.ts';
@@ -117,11 +120,66 @@ it('shows one robot, switches, passes commands on, reports bandwidth; garbage hu
   expect(markOf(await streaming.next(() => true))).toBe(3);
 }, 30_000);
 
-it('refuses pages of other origins', async () => {
+it('tells a page of the reference system, which says nothing but initBridge, all that it must know', async () => {
   const made = await bridge();
-  await expect(page(made.ports.telemetry, 'https://evil.example')).rejects.toThrow('401');
-  await page(made.ports.telemetry, 'http://localhost:5173');
+  const url = `ws://127.0.0.1:${stack.ports.referenceClient}`;
+  const early = await page(made.ports.control);
+  // The same address as in use, be it without the slash.
+  early.send({ type: 'initBridge', url });
+  expect(await early.next(() => true)).toBe('{"type":"updateRobots","robots":null}');
+  expect(await early.next(() => true)).toBe('{"type":"updateRobots","robots":null}');
+  const { id } = await robot('shown');
+  const list = JSON.stringify({ type: 'updateRobots', robots: [{ id, name: 'shown' }] });
+  const switched = JSON.stringify({ type: 'switchedRobot', robotId: id });
+  // The page looks the robot up in its last list: the list goes first.
+  expect([await early.next(() => true), await early.next(() => true)]).toEqual([list, switched]);
+  // Loaded anew: it comes again, and says the same again.
+  const late = await page(made.ports.control);
+  expect([await late.next(() => true), await late.next(() => true)]).toEqual([list, switched]);
+  for (let i = 0; i < 3; i++) {
+    late.send({ type: 'initBridge', url });
+    expect(await late.next(() => true)).toBe(list);
+  }
+  // One that is no address changes nothing.
+  late.send({ type: 'initBridge', url: 'nowhere' });
+  expect(await late.next(() => true)).toBe(list);
+  // Another service, where nobody is: an empty list, and no robot.
+  late.send({ type: 'initBridge', url: 'ws://127.0.0.1:1' });
+  expect(await late.next(() => true)).toBe('{"type":"updateRobots","robots":null}');
 });
+
+it('refuses pages of other origins, and says what lets them in', async () => {
+  const lines: string[] = [];
+  const stream = { write: (line: string) => void lines.push(line) };
+  const log = createLogger({ name: 'bridge', level: 'info', format: 'json', stream });
+  const made = await openBridge(
+    stack.ports.referenceClient,
+    { allowedOrigins: ['https://own.example'] },
+    log,
+  );
+  cleanups.push(() => made.close());
+  for (const port of Object.values(made.ports)) {
+    await expect(page(port, 'https://evil.example')).rejects.toThrow('401');
+    expect(await refusalOf(port, 'https://evil.example')).toContain('--allowed-origins https://evil.example');
+  }
+  const refused = lines.filter((line) => line.includes('--allowed-origins https://evil.example'));
+  expect(refused.length).toBe(1);
+  await page(made.ports.telemetry, 'http://localhost:5173');
+  await page(made.ports.telemetry, 'https://own.example');
+});
+
+/** Body of the answer to a page that is turned away. */
+async function refusalOf(port: number, origin: string): Promise<string> {
+  const headers = {
+    Connection: 'Upgrade',
+    Upgrade: 'websocket',
+    'Sec-WebSocket-Version': '13',
+    'Sec-WebSocket-Key': 'x3JJHMbDL1EzLkh9GBhXDw==',
+    Origin: origin,
+  };
+  const [response] = (await once(get({ host: '127.0.0.1', port, headers }), 'response')) as [IncomingMessage];
+  return (await response.toArray()).join('');
+}
 
 it('keeps showing its robot while 50 others come at once, half of them with offers that are none, and go', async () => {
   const shown = await robot('shown');

@@ -1,11 +1,11 @@
 /** The bridge put together: signaling on one side, every robot's connection in the middle, a page's three sockets on the other. */
+import { TokenBucket } from '@farpoint/congestion';
 import {
   decodeJson,
   encodeJson,
   type JsonCodec,
   ProtocolError,
   type ReferenceBridgeTelemetry,
-  type ReferenceBridgeToPage,
   type ReferenceClientToService,
   type ReferencePageToBridge,
   type ReferenceServiceToClient,
@@ -18,7 +18,8 @@ import {
 import { MessageLine } from '@farpoint/reference-profile';
 import type { Logger } from '@farpoint/service';
 import type { AssembledFrame } from './frame-assembler.ts';
-import { LocalSocketServer } from './local-socket-server.ts';
+import { LocalSocketServer, type Send } from './local-socket-server.ts';
+import { listMessage, PageAnnouncer } from './page-announcer.ts';
 import { RobotRoster, type RosterOptions } from './robot-roster.ts';
 
 export interface BridgeOptions extends Omit<RosterOptions, 'now'> {
@@ -46,6 +47,7 @@ export interface FrameRecord {
 type SignalingLine = MessageLine<ReferenceServiceToClient, ReferenceClientToService>;
 
 const TICK_MS = 250;
+const MAX_REFUSED_ORIGINS = 100;
 const CONTROL_BACKLOG_BYTES = 1_048_576;
 /** A page that has not read the frame before is not sent another. */
 const STREAMING_BACKLOG_BYTES = 65_536;
@@ -60,7 +62,11 @@ export class Bridge {
   readonly #log: Logger;
   readonly #now: () => number;
   readonly roster: RobotRoster;
+  readonly #refusedOrigins = new Set<string>();
   readonly #tick: NodeJS.Timeout;
+  readonly #announcer = new PageAnnouncer();
+  /** A reference signaling tells changes to the client that came last only: pages may have the list fetched anew. */
+  readonly #refreshes = new TokenBucket({ perSecond: 1, burst: 2 });
   #control!: LocalSocketServer;
   #telemetry!: LocalSocketServer;
   #streaming!: LocalSocketServer;
@@ -75,10 +81,10 @@ export class Bridge {
       {
         send: (message) => this.#line.send(message),
         onFrame: (frame, lastPacketMs) => this.#toStreaming(frame, lastPacketMs),
-        onRobotsChanged: () => this.#toPagesRobots(),
+        onRobotsChanged: () => this.#announce(),
         onSelected: (id) => {
           log.info({ robot: id }, 'robot shown');
-          if (id !== null) this.#toPages({ type: 'switchedRobot', robotId: id });
+          this.#announce();
         },
         onRobotFailed: (robot, detail) => log.warn({ robot, detail }, 'robot failed'),
       },
@@ -93,16 +99,21 @@ export class Bridge {
     const bridge = new Bridge(options, log, now);
     const { host, allowedOrigins, controlPort, telemetryPort, streamingPort } = options;
     const common = { host, allowedOrigins, maxMessageBytes: 4096 };
+    const onRefused = (origin: string) => bridge.#onRefused(origin);
     try {
       bridge.#control = await LocalSocketServer.open(
         { ...common, port: controlPort },
-        { onMessage: (data) => bridge.#onControl(data) },
+        {
+          onOpen: (send) => bridge.#greet(send),
+          onMessage: (data, send) => bridge.#onControl(data, send),
+          onRefused,
+        },
       );
       bridge.#telemetry = await LocalSocketServer.open(
         { ...common, port: telemetryPort },
-        { onMessage: (data) => bridge.#onTelemetry(data) },
+        { onMessage: (data) => bridge.#onTelemetry(data), onRefused },
       );
-      bridge.#streaming = await LocalSocketServer.open({ ...common, port: streamingPort }, {});
+      bridge.#streaming = await LocalSocketServer.open({ ...common, port: streamingPort }, { onRefused });
     } catch (error) {
       await bridge.close();
       throw error;
@@ -151,7 +162,7 @@ export class Bridge {
       {
         onOpen: () => line.send({ type: 'getRobots' }),
         onMessage: (message) => this.roster.onSignaling(message),
-        onDown: (detail) => this.#log.warn({ url: this.#url, detail }, 'no line to signaling'),
+        onDown: (detail) => this.#log.warn({ url: this.#url, detail }, 'no line to signaling; trying again'),
       },
     );
     return line;
@@ -168,26 +179,38 @@ export class Bridge {
     this.onFrame?.({ frameNumber, points, expectedPoints, lastPacketMs, emittedMs, pages });
   }
 
-  #onControl(data: string | Uint8Array): void {
+  /** A page comes again and again: said once for each origin. */
+  #onRefused(origin: string): void {
+    if (this.#refusedOrigins.has(origin) || this.#refusedOrigins.size >= MAX_REFUSED_ORIGINS) return;
+    this.#refusedOrigins.add(origin);
+    this.#log.warn(
+      { origin },
+      `refused a page of another host; --allowed-origins ${origin} lets it in: whoever serves it may then drive`,
+    );
+  }
+
+  #onControl(data: string | Uint8Array, reply: Send): void {
     const message = this.#decode<ReferencePageToBridge>(referencePageToBridgeCodec, data);
     switch (message?.type) {
       case 'initBridge':
         this.#init(message.url);
+        // Whatever the address: the reference system's page asks by nothing else.
+        this.#tellRobots(reply);
         break;
       case 'updateRobots':
-        this.#toPagesRobots();
+        this.#tellRobots(reply);
         break;
       case 'switchRobot':
         // Told again where it is shown already: the page may be a new one.
-        if (this.roster.selected === message.robotId)
-          this.#toPages({ type: 'switchedRobot', robotId: message.robotId });
-        else this.roster.select(message.robotId);
+        if (this.roster.selected === message.robotId) this.#greet(reply);
+        else if (!this.roster.select(message.robotId)) this.#tellRobots(reply);
         break;
     }
   }
 
   #init(url: string): void {
-    if (url === this.#url || !/^wss?:$/.test(URL.parse(url)?.protocol ?? '')) return;
+    const named = signalingUrl(url);
+    if (named === null || named === signalingUrl(this.#url)) return;
     this.#log.info({ url }, 'page names another signaling service');
     this.#line.close();
     this.roster.clear();
@@ -211,12 +234,27 @@ export class Bridge {
     }
   }
 
-  #toPagesRobots(): void {
-    const { robots } = this.roster;
-    this.#toPages({ type: 'updateRobots', robots: robots.length === 0 ? null : robots });
+  #announce(): void {
+    for (const message of this.#announcer.changes(this.roster))
+      this.#control?.broadcast(encodeJson(referenceBridgeToPageCodec, message), CONTROL_BACKLOG_BYTES);
   }
 
-  #toPages(message: ReferenceBridgeToPage): void {
-    this.#control?.broadcast(encodeJson(referenceBridgeToPageCodec, message), CONTROL_BACKLOG_BYTES);
+  /** All that a page which has just come must know. */
+  #greet(send: Send): void {
+    this.#announce();
+    for (const message of this.#announcer.present(this.roster))
+      send(encodeJson(referenceBridgeToPageCodec, message), CONTROL_BACKLOG_BYTES);
   }
+
+  #tellRobots(reply: Send): void {
+    this.#announce();
+    reply(encodeJson(referenceBridgeToPageCodec, listMessage(this.roster)), CONTROL_BACKLOG_BYTES);
+    if (this.#line.open && this.#refreshes.take(this.#now())) this.#line.send({ type: 'getRobots' });
+  }
+}
+
+/** The same text for the same address; `null` where it is none. */
+function signalingUrl(text: string): string | null {
+  const url = URL.parse(text);
+  return url !== null && /^wss?:$/.test(url.protocol) ? url.href : null;
 }

@@ -10,12 +10,18 @@ export interface LocalSocketServerOptions {
   maxMessageBytes: number;
 }
 
+/** To the page of one socket, unless it has not read so much of what was sent before. */
+export type Send = (data: string, maxBacklogBytes: number) => void;
+
 export interface LocalSocketEvents {
-  onOpen?: (socket: WebSocket) => void;
-  onMessage?: (data: string | Uint8Array) => void;
+  onOpen?: (send: Send) => void;
+  onMessage?: (data: string | Uint8Array, send: Send) => void;
+  /** A page whose origin is not allowed was turned away. */
+  onRefused?: (origin: string) => void;
 }
 
 const MAX_SOCKETS = 16;
+const MAX_SHOWN_ORIGIN = 200;
 const LOCAL_HOSTS = new Set(['localhost', '127.0.0.1', '[::1]']);
 
 /** Browsers always name the page's origin; programs on this machine need not. */
@@ -27,6 +33,11 @@ export function originAllowed(origin: string | undefined, allowed: readonly stri
   } catch {
     return false;
   }
+}
+
+/** Says how to let the page in; it goes into the log and into the body of the refusal. */
+export function originRefusal(origin: string): string {
+  return `pages of ${origin} may not connect: start the bridge with --allowed-origins ${origin} to allow them\n`;
 }
 
 export class LocalSocketServer {
@@ -42,10 +53,11 @@ export class LocalSocketServer {
         socket.close(1013, 'too many sockets');
         return;
       }
+      const send: Send = (data, maxBacklogBytes) => this.#send(socket, data, maxBacklogBytes);
       socket.on('message', (data: Buffer, binary: boolean) =>
-        events.onMessage?.(binary ? data : data.toString('utf8')),
+        events.onMessage?.(binary ? data : data.toString('utf8'), send),
       );
-      events.onOpen?.(socket);
+      events.onOpen?.(send);
     });
   }
 
@@ -60,7 +72,12 @@ export class LocalSocketServer {
       port,
       maxPayload: maxMessageBytes,
       perMessageDeflate: false,
-      verifyClient: ({ origin }: { origin?: string }) => originAllowed(origin, allowedOrigins),
+      verifyClient: ({ origin }: { origin?: string }, done) => {
+        if (originAllowed(origin, allowedOrigins)) return done(true);
+        const shown = (origin ?? '').slice(0, MAX_SHOWN_ORIGIN);
+        events.onRefused?.(shown);
+        done(false, 401, originRefusal(shown), { 'Content-Type': 'text/plain; charset=utf-8' });
+      },
     });
     await new Promise<void>((resolve, reject) => {
       server.once('listening', resolve);
@@ -94,18 +111,28 @@ export class LocalSocketServer {
       if (--holders === 0) onDone();
     };
     for (const socket of this.#server.clients) {
-      if (socket.readyState !== WebSocket.OPEN) continue;
-      if (socket.bufferedAmount > maxBacklogBytes) {
-        this.unsent++;
-        continue;
-      }
       holders++;
-      // Called once, be it with an error.
-      socket.send(data, letGo);
-      reached++;
+      if (this.#send(socket, data, maxBacklogBytes, letGo)) reached++;
+      else holders--;
     }
     letGo();
     return reached;
+  }
+
+  /** @param onDone called once where it was sent, be it with an error */
+  #send(
+    socket: WebSocket,
+    data: string | Uint8Array,
+    maxBacklogBytes: number,
+    onDone: () => void = () => undefined,
+  ): boolean {
+    if (socket.readyState !== WebSocket.OPEN) return false;
+    if (socket.bufferedAmount > maxBacklogBytes) {
+      this.unsent++;
+      return false;
+    }
+    socket.send(data, onDone);
+    return true;
   }
 
   async close(): Promise<void> {

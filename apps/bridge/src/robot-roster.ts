@@ -3,6 +3,7 @@
  * robot whose registration ends while its points still come is kept until they end, or until it is here again by its name:
  * signaling introduces, it does not carry.
  */
+import { createHash } from 'node:crypto';
 import type { ReferenceClientToService, ReferenceServiceToClient } from '@farpoint/protocol';
 import type { AssembledFrame } from './frame-assembler.ts';
 import { RobotConnection, type RobotConnectionOptions } from './robot-connection.ts';
@@ -33,6 +34,8 @@ interface Robot {
 const ORPHAN_SILENCE_MS = 3000;
 /** Ids of orphans whose own id another robot has now; the service counts up from 0. */
 const FIRST_ORPHAN_ID = 0x8000_0000;
+/** Answered offers that are remembered. */
+const MAX_SPENT_OFFERS = 1000;
 
 export class RobotRoster {
   failed = 0;
@@ -42,6 +45,11 @@ export class RobotRoster {
   readonly #robots = new Map<number, Robot>();
   readonly #selection: RobotSelection;
   #nextOrphanId = FIRST_ORPHAN_ID;
+  /**
+   * Offers that were answered: a second answer fits nothing. The reference signaling goes on listing registrations that have
+   * ended, and its robot would take such an answer for one to its newer offer.
+   */
+  readonly #spent = new Set<string>();
 
   constructor(options: RosterOptions, events: RosterEvents) {
     this.#options = options;
@@ -82,8 +90,9 @@ export class RobotRoster {
     return total;
   }
 
-  select(robotId: number): void {
-    this.#selection.select(robotId);
+  /** @returns false where there is no such robot */
+  select(robotId: number): boolean {
+    return this.#selection.select(robotId);
   }
 
   onSignaling(message: ReferenceServiceToClient): void {
@@ -113,6 +122,8 @@ export class RobotRoster {
       case 'deregister':
         // It took leave.
         if (message.robotId !== undefined) this.#remove(message.robotId);
+        // Not every service says which robot that was.
+        else this.#events.send({ type: 'getRobots' });
         break;
       case 'deregistered':
         this.#leave(message.robotId);
@@ -156,7 +167,9 @@ export class RobotRoster {
   #add(id: number, name: string, offer: string | null, candidates: readonly string[]): void {
     if (offer === null) return;
     const present = this.#robots.get(id);
-    if (present?.orphan === false) return;
+    // It is listed again: its registration has not ended after all.
+    if (present?.offer === offer) present.orphan = false;
+    if (present?.orphan === false || this.#spent.has(spentKey(id, offer))) return;
     if (present !== undefined) this.#rekey(id, present);
     if (this.#robots.size >= this.#options.maxRobots) {
       this.refused++;
@@ -192,6 +205,9 @@ export class RobotRoster {
   }
 
   async #answer(id: number, robot: Robot): Promise<void> {
+    const [oldest] = this.#spent;
+    if (oldest !== undefined && this.#spent.size >= MAX_SPENT_OFFERS) this.#spent.delete(oldest);
+    this.#spent.add(spentKey(id, robot.offer));
     const sdpAnswer = await robot.connection.answer(robot.offer);
     if (sdpAnswer !== null) this.#events.send({ type: 'answer', robotId: id, sdpAnswer });
   }
@@ -224,6 +240,10 @@ export class RobotRoster {
     for (const [id, robot] of this.#robots) if (robot.connection === connection) return id;
     return null;
   }
+}
+
+function spentKey(id: number, offer: string): string {
+  return `${id} ${createHash('sha256').update(offer).digest('base64')}`;
 }
 
 /** What stays the same while a peer connection is negotiated anew: the session's id (RFC 8866 §5.2) and the certificate. */

@@ -232,7 +232,7 @@ async function tryRobot(): Promise<void> {
     await start(configured);
     await tryOperator(stack.signalingUrl, true);
     const client = `ws://127.0.0.1:${stack.ports.referenceClient}`;
-    const results = await runSuite(robotSuite, { client, name: 'Robot' });
+    const results = await runSuite(robotSuite, { client, name: 'Robot' }, 'strict');
     for (const { name, fault } of results) check(`conformance: ${name}`, fault === null, fault ?? '');
     stop();
     await tryCamera(configured, stack.signalingUrl);

@@ -5,6 +5,7 @@ export type Role = 'robot' | 'operator' | 'reference-robot' | 'reference-client'
 /** Why something was refused, for counting. */
 export type RejectReason =
   | SignalingErrorCode
+  | 'no-offer' // an answer to a reference robot that has offered nothing
   | 'not-yours' // a reference robot that speaks for another one
   | 'too-many-faults' // closed after many refused messages
   | 'hello-overdue'

@@ -211,6 +211,22 @@ describe('limits', () => {
     expect(observer.rejects).toEqual(['reference-client: unknown-robot']);
   });
 
+  test('an answer to no offer changes nothing, nor does one to a registration that has ended', () => {
+    const { client, socket, observer } = setup();
+    const r = socket();
+    const c = client();
+    r.send({ type: 'register', name: 'Diane' });
+    c.send({ type: 'answer', robotId: 0, sdpAnswer: 'to what?' });
+    // It begins anew on the same socket.
+    r.send({ type: 'register', name: 'Diane', sdpOffer: 'offer of Diane' });
+    r.take();
+    c.take();
+    c.send({ type: 'answer', robotId: 0, sdpAnswer: 'late' });
+    c.send({ type: 'getRobots' });
+    expect([r.take(), c.take()]).toEqual([[], [{ type: 'robots', robots: [record(1)] }]]);
+    expect(observer.rejects).toEqual(['reference-client: no-offer', 'reference-client: unknown-robot']);
+  });
+
   test.each([
     'nope',
     'null',

@@ -98,13 +98,14 @@ export class ReferenceHub {
     this.#toClients({ type: 'candidate', robotId: id, candidate });
   }
 
-  /** @returns false where there is no such robot */
-  answer(id: number, sdpAnswer: string): boolean {
+  /** @returns why nothing has changed, or `null` */
+  answer(id: number, sdpAnswer: string): 'unknown-robot' | 'no-offer' | null {
+    if (this.#robots.get(id)?.record.sdpOffer === null) return 'no-offer';
     const record = this.#change(id);
-    if (record === null) return false;
+    if (record === null) return 'unknown-robot';
     record.sdpAnswer = sdpAnswer;
     toRobot(this.#robots.get(id)!.peer, { type: 'sdpAnswer', sdpAnswer });
-    return true;
+    return null;
   }
 
   /** @returns false where there is no such robot */
@@ -225,15 +226,20 @@ class ClientConnection extends ReferenceConnection<ReferenceClientToService> {
       case 'getRobots':
         this.peer.send(this.#hub.listing());
         return null;
-      case 'answer':
-        if (this.#hub.answer(message.robotId, message.sdpAnswer)) return 'reference.answer';
-        break;
+      case 'answer': {
+        const refusal = this.#hub.answer(message.robotId, message.sdpAnswer);
+        return refusal === null ? 'reference.answer' : this.#refuse(refusal, message);
+      }
       case 'candidate':
-        if (this.#hub.clientCandidate(message.robotId, message.candidate)) return 'reference.candidate';
-        break;
+        return this.#hub.clientCandidate(message.robotId, message.candidate)
+          ? 'reference.candidate'
+          : this.#refuse('unknown-robot', message);
     }
-    // No fault: it may have left a moment ago.
-    return this.refuse('unknown-robot', `${message.type} for robot ${message.robotId}`, false);
+  }
+
+  /** No fault: the robot may have left a moment ago. */
+  #refuse(reason: 'unknown-robot' | 'no-offer', { type, robotId }: { type: string; robotId: number }): null {
+    return this.refuse(reason, `${type} for robot ${robotId}`, false);
   }
 
   protected left(): void {

@@ -60,7 +60,7 @@ export function readSettings(
     signalingFault: given !== null && 'fault' in given ? given.fault : null,
     token: token !== undefined && tokenSchema.safeParse(token).success ? token : undefined,
     name: displayNameSchema.safeParse(name).success ? name : 'Operator',
-    bridge: parseBridge(query.get('bridge') ?? ''),
+    bridge: parseBridge(query.get('bridge') ?? '', query.get('bridge-signaling')),
     robot: robot !== undefined && robotIdSchema.safeParse(robot).success ? robot : null,
     icePolicy: query.get('ice') === 'relay' ? 'relay' : 'all',
     canvas: parseCanvas(query.get('canvas')),

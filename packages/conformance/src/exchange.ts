@@ -1,4 +1,5 @@
 /** Plays a recorded exchange against a running service. */
+import type { KnownDefect } from './known-defects.ts';
 import { SocketPeer } from './peers/socket-peer.ts';
 
 export interface ExchangeStep {
@@ -17,13 +18,17 @@ export interface ExchangeStep {
 
 export interface Exchange {
   name: string;
+  /** Why the released signaling departs from it. */
+  defect?: KnownDefect;
+  /** With that defect it ends the program. */
+  deadly?: boolean;
   steps: ExchangeStep[];
 }
 
 /** `{bind: NAME}` takes whatever stands there; `{use: NAME}` stands for it; `{containing: X}` is a list that has an X. */
 type Bindings = Map<string, unknown>;
 
-const TIMEOUT_MS = 5000;
+const TIMEOUT_MS = 2000;
 
 /** @throws {Error} naming the step at which the service departs from the exchange */
 export async function playExchange(

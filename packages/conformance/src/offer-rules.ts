@@ -1,17 +1,13 @@
 /** What a robot's SDP offer must say (docs/protocol.md, "In RTP"). Text in, findings out. */
+import { sdpLines, sdpSections } from '@farpoint/reference-profile';
 import type { Finding } from './finding.ts';
 
 const FEEDBACK = ['ccm fir', 'goog-remb', 'nack', 'nack pli', 'transport-cc'];
 const TRANSPORT_WIDE_CC = 'http://www.ietf.org/id/draft-holmer-rmcat-transport-wide-cc-extensions-01';
 
-interface Section {
-  /** `m=…` */
-  media: string;
-  attributes: string[];
-}
-
 export function checkOffer(sdp: string): Finding[] {
-  const sections = sectionsOf(sdp);
+  const sections = sdpSections(sdp);
+  const lines = sdpLines(sdp);
   const findings: Finding[] = [];
   const find = (rule: string, detail: string) => findings.push({ rule, detail });
   const kinds = sections.map(({ media }) => media.split(' ')[0]);
@@ -23,7 +19,8 @@ export function checkOffer(sdp: string): Finding[] {
   if (kinds.length !== 2) find('no-other-line', `m-lines: ${kinds.join(', ')}`);
   if (video === undefined) return findings;
   const types = video.media.split(' ').slice(3);
-  if (types.join() !== '5') find('payload-type-5', `payload types ${types.join(' ')}`);
+  // A stack may list its other types beside it; the answer takes this one.
+  if (!types.includes('5')) find('payload-type-5', `payload types ${types.join(' ')}`);
   const valuesOf = (name: string) =>
     video.attributes.filter((line) => line.startsWith(`${name}:`)).map((line) => line.slice(name.length + 1));
   const map = valuesOf('rtpmap');
@@ -38,15 +35,6 @@ export function checkOffer(sdp: string): Finding[] {
   if (extensions.join() !== `1 ${TRANSPORT_WIDE_CC}`)
     find('one-extension', `extmap ${extensions.join(', ')}`);
   for (const wanted of ['ice-ufrag', 'ice-pwd', 'fingerprint'])
-    if (!sdp.includes(`\na=${wanted}:`)) find('transport', `no ${wanted}`);
+    if (!lines.some((line) => line.startsWith(`a=${wanted}:`))) find('transport', `no ${wanted}`);
   return findings;
-}
-
-function sectionsOf(sdp: string): Section[] {
-  const sections: Section[] = [];
-  for (const line of sdp.split(/\r?\n/)) {
-    if (line.startsWith('m=')) sections.push({ media: line.slice(2), attributes: [] });
-    else if (line.startsWith('a=')) sections.at(-1)?.attributes.push(line.slice(2));
-  }
-  return sections;
 }

@@ -24,9 +24,16 @@ describe('checkOffer', () => {
     expect(checkOffer(OFFER)).toEqual([]);
   });
 
+  it('takes the offer of a stack that lists its other payload types, and ends attribute lines with a blank', () => {
+    const offer = OFFER.replace('SAVPF 5', 'SAVPF 96 5 97')
+      .replace('a=rtpmap', 'a=rtpmap:96 VP8/90000\r\na=rtcp-fb:96 nack \r\na=rtpmap')
+      .replaceAll(/(a=rtcp-fb:5 .*)\r/g, '$1 \r');
+    expect(checkOffer(offer)).toEqual([]);
+  });
+
   it.each([
     ['pcm/90000', 'pcm/48000', 'pcm-90000'],
-    ['SAVPF 5', 'SAVPF 5 96', 'payload-type-5'],
+    ['SAVPF 5', 'SAVPF 96', 'payload-type-5'],
     ['a=rtcp-fb:5 ccm fir', 'a=x', 'feedback'],
     ['extmap:1 ', 'extmap:2 ', 'one-extension'],
     ['m=application 9', 'm=audio 9', 'one-application-line'],

@@ -20,6 +20,7 @@ export interface MessageLineEvents<In> {
   /** Connected, at first or again: say who you are. */
   onOpen: () => void;
   onMessage: (message: In) => void;
+  /** Told once until it is open again, however often it is tried meanwhile. */
   onDown: (detail: string) => void;
 }
 
@@ -31,7 +32,7 @@ export class MessageLine<In, Out> {
   readonly #reconnect = new Reconnect(Math.random);
   #socket: WebSocket | null = null;
   #retry: NodeJS.Timeout | null = null;
-  #heartbeat: NodeJS.Timeout | null = null;
+  #down = false;
   #closed = false;
 
   /** Connects at once. */
@@ -53,14 +54,19 @@ export class MessageLine<In, Out> {
     else socket.send(encodeJson(this.#options.outgoing, message));
   }
 
-  /** @param farewell sent before it closes */
-  close(farewell?: Out): void {
-    if (this.#closed) return;
-    if (farewell !== undefined) this.send(farewell);
+  /** Leaves its socket for another, on which all begins anew. Does nothing while the line is down: it has none. */
+  reopen(): void {
+    const socket = this.#socket;
+    if (this.#closed || socket?.readyState !== WebSocket.OPEN) return;
+    this.#socket = null;
+    socket.terminate();
+    this.#connect();
+  }
+
+  close(): void {
     this.#closed = true;
     if (this.#retry !== null) clearTimeout(this.#retry);
-    if (farewell === undefined) this.#socket?.terminate();
-    else this.#socket?.close();
+    this.#socket?.terminate();
   }
 
   #connect(): void {
@@ -75,16 +81,18 @@ export class MessageLine<In, Out> {
       });
     } catch (error) {
       // An address that no socket takes: it will not become one.
-      this.#events.onDown(error instanceof Error ? error.message : String(error));
+      this.#onDown(error instanceof Error ? error.message : String(error));
       return;
     }
     this.#socket = socket;
     let detail = '';
     let heard = true;
+    let heartbeat: NodeJS.Timeout | null = null;
     socket.on('open', () => {
       if (this.#closed) return;
+      this.#down = false;
       this.#reconnect.reset();
-      this.#heartbeat = setInterval(() => {
+      heartbeat = setInterval(() => {
         if (!heard) socket.terminate();
         heard = false;
         socket.ping();
@@ -96,18 +104,25 @@ export class MessageLine<In, Out> {
     });
     socket.on('message', (data: Buffer, binary: boolean) => {
       heard = true;
-      if (!this.#closed) this.#receive(binary ? data : data.toString('utf8'));
+      if (!this.#closed && socket === this.#socket) this.#receive(binary ? data : data.toString('utf8'));
     });
     socket.on('error', (error) => {
       detail = error.message;
     });
     socket.on('close', () => {
-      if (this.#heartbeat !== null) clearInterval(this.#heartbeat);
+      if (heartbeat !== null) clearInterval(heartbeat);
+      if (socket !== this.#socket) return;
       this.#socket = null;
       if (this.#closed) return;
-      this.#events.onDown(detail);
+      this.#onDown(detail);
       this.#retry = setTimeout(() => this.#connect(), this.#reconnect.nextMs());
     });
+  }
+
+  #onDown(detail: string): void {
+    if (this.#down) return;
+    this.#down = true;
+    this.#events.onDown(detail);
   }
 
   #receive(data: string | Uint8Array): void {

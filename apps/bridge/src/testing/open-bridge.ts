@@ -1,9 +1,13 @@
-import { silentLogger } from '@farpoint/service';
+import { type Logger, silentLogger } from '@farpoint/service';
 import { Bridge, type BridgeOptions } from '../bridge.ts';
 import { monotonicMs } from '../clock.ts';
 
 /** A bridge on free ports of this machine, for tests. @param signaling the clients' port */
-export function openBridge(signaling: number, options: Partial<BridgeOptions> = {}): Promise<Bridge> {
+export function openBridge(
+  signaling: number,
+  options: Partial<BridgeOptions> = {},
+  log: Logger = silentLogger(),
+): Promise<Bridge> {
   return Bridge.open(
     {
       signaling: `ws://127.0.0.1:${signaling}/`,
@@ -19,7 +23,7 @@ export function openBridge(signaling: number, options: Partial<BridgeOptions> = 
       maxBitsPerSecond: 100e6,
       ...options,
     },
-    silentLogger(),
+    log,
     monotonicMs,
   );
 }

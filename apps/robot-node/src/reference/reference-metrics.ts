@@ -10,6 +10,10 @@ export function registerReferenceMetrics(registry: Registry, robot: Robot): void
   const gauges: Record<string, [help: string, value: () => number]> = {
     registered: ['1 while the reference signaling has this robot', () => Number(reference.registered)],
     offers: ['Offers made since the start', () => reference.offers],
+    answers_refused: [
+      'Answers that were none to the open offer, since the start',
+      () => reference.answersRefused,
+    ],
     connected: ['Reference operators that connected since the start', () => reference.connected],
     operators: ['Reference operators now', () => reference.targets.length],
     frames_sent: ['Frames sent to the present reference operator', ofStream('framesSent')],

@@ -43,6 +43,7 @@ export class ReferencePeer {
   readonly #cloud: RTCRtpTransceiver;
   readonly #candidates: RemoteCandidates;
   #transport: SrtpCloudTransport | null = null;
+  #offerSdp = '';
   #timer: NodeJS.Timeout | null = null;
   #state: 'offering' | 'answered' | 'connected' | 'ended' = 'offering';
   #hasBandwidth = false;
@@ -101,6 +102,11 @@ export class ReferencePeer {
     return this.#transport?.heardSinceLast() ?? false;
   }
 
+  /** Empty before it is made. */
+  get offerSdp(): string {
+    return this.#offerSdp;
+  }
+
   async offer(): Promise<string> {
     const description = await this.#connection.createOffer();
     dropDefaultStun(this.#cloud.dtlsTransport);
@@ -108,6 +114,7 @@ export class ReferencePeer {
     this.#connection.setLocalDescription(description).catch((error: unknown) => {
       this.close('not-connected', `no local description: ${errorText(error)}`);
     });
+    this.#offerSdp = description.sdp;
     return description.sdp;
   }
 

@@ -1,5 +1,6 @@
 /** The robot program to an operator of the reference system: processes, sockets, WebRTC. */
 import { checkOffer, ReferenceOperator, RtpStreamRules, SocketPeer } from '@farpoint/conformance';
+import { ReleasedSignaling } from '@farpoint/conformance/testing';
 import { LocalStack } from '@farpoint/local-stack';
 import {
   CLOUD_FORMATS,
@@ -190,12 +191,15 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     await first.close();
     const line = await SocketPeer.open(clientUrl());
     cleanups.push(() => line.close());
-    for (let i = 0; i < 3; i++) {
-      const { robot } = await line.message<{ robot: { id: number } }>({ type: 'register' });
+    const { robot } = await line.message<{ robot: { id: number } }>({ type: 'register' });
+    const noTransport = first.offer.replaceAll('a=ice-pwd', 'a=x');
+    for (const sdpAnswer of ['', 'v=0\r\nm=nonsense', noTransport]) {
       line.send({ type: 'candidate', robotId: robot.id, candidate: 'candidate:nonsense' });
-      line.send({ type: 'answer', robotId: robot.id, sdpAnswer: 'v=0\r\nm=nonsense' });
+      line.send({ type: 'answer', robotId: robot.id, sdpAnswer });
     }
     const again = await referenceOperator();
+    // They fit no offer: it stands as it was.
+    expect(again.robotId).toBe(robot.id);
     again.say('start');
     const rules = new RtpStreamRules();
     again.onPacket = (packet) => rules.add(packet);
@@ -215,6 +219,22 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     const again = await referenceOperator();
     again.say('start');
     await again.packets.next();
+  });
+
+  it('is listed once by a signaling that forgets no robot 0 and hears no farewell of it, and takes no answer to a dead offer', async () => {
+    const released = await ReleasedSignaling.start();
+    cleanups.push(() => released.stop());
+    const args = [...ARGS, '--reference-signaling', released.robotUrl];
+    await stack.startRobot({ id: 'sim-2', name: 'Other', args });
+    cleanups.push(async () => void (await stack.robot('sim-2').stop()));
+    for (const robotId of [0, 1, 2]) {
+      const operator = await ReferenceOperator.connect(released.clientUrl, 'Other');
+      expect(operator.robotId).toBe(robotId);
+      expect(released.listed).toEqual([robotId]);
+      operator.say('start');
+      await operator.packets.next();
+      await operator.close();
+    }
   });
 
   it('has no such face where it is not asked for', async () => {

@@ -1,6 +1,10 @@
 /**
  * The robot at the reference system's signaling: registered with an offer of its own whenever nobody has taken it, so that
  * the reference system's bridge, or ours, can show it. One such operator at a time, beside any number of Farpoint's.
+ *
+ * Each registration has a socket of its own, and ends with it. The reference signaling ignores a `deregister` of robot 0 and
+ * tells of others' by a word that its bridge does not know: a second registration on the same socket would be listed beside
+ * the first, and answers to the first, dead offer would come as if they were to the second.
  */
 import type { RateController } from '@farpoint/congestion';
 import {
@@ -9,7 +13,7 @@ import {
   referenceRobotToServiceCodec,
   referenceServiceToRobotCodec,
 } from '@farpoint/protocol';
-import { MessageLine } from '@farpoint/reference-profile';
+import { answerMisfit, MessageLine } from '@farpoint/reference-profile';
 import type { Logger } from '@farpoint/service';
 import type { FrameTarget } from '../session/frame-fan-out.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
@@ -40,6 +44,8 @@ export class ReferenceProfile {
   offers = 0;
   connected = 0;
   ended = 0;
+  /** Answers that were none to the offer: they change nothing. */
+  answersRefused = 0;
   readonly #options: ReferenceProfileOptions;
   readonly #host: ReferenceHost;
   readonly #log: Logger;
@@ -69,12 +75,11 @@ export class ReferenceProfile {
         ca: options.ca,
       },
       {
-        onOpen: () => void this.#offer(),
+        onOpen: () => void this.#register(),
         onMessage: (message) => this.#onMessage(message),
         onDown: (detail) => {
-          this.#robotId = null;
-          this.#listed = null;
-          this.#log.debug({ detail }, 'no line to the reference signaling');
+          this.#unlist();
+          this.#log.warn({ url: options.url, detail }, 'no line to the reference signaling; trying again');
         },
       },
     );
@@ -108,7 +113,7 @@ export class ReferenceProfile {
     if (this.#retry !== null) clearTimeout(this.#retry);
     this.#offered?.peer.close('closed', 'the robot is shutting down');
     this.#current?.peer.close('closed', 'the robot is shutting down');
-    this.#line.close(this.#robotId === null ? undefined : { type: 'deregister', robotId: this.#robotId });
+    this.#line.close();
   }
 
   #onMessage(message: ReferenceServiceToRobot): void {
@@ -131,7 +136,11 @@ export class ReferenceProfile {
 
   async #onAnswer(sdp: string): Promise<void> {
     const listed = this.#listed;
-    if (listed?.peer.state === 'offering') {
+    const misfit = answerMisfit(listed?.peer.offerSdp ?? '', sdp);
+    if (misfit !== null) {
+      this.answersRefused++;
+      this.#log.debug({ misfit }, 'an answer that is none to the offer');
+    } else if (listed?.peer.state === 'offering') {
       await listed.peer.answer(sdp);
       for (const candidate of listed.peer.candidates) this.#tell(candidate);
     } else if (listed !== null && listed === this.#current) {
@@ -140,14 +149,26 @@ export class ReferenceProfile {
     }
   }
 
-  /** Registers, anew where need be: the service then knows the robot by another id. */
-  async #offer(): Promise<void> {
+  /** Another offer, on another socket: the service then knows the robot by another id. */
+  #offerAnew(): void {
+    this.#retry = null;
     if (this.#closed || !this.#line.open) return;
+    this.#unlist();
+    this.#line.reopen();
+  }
+
+  #unlist(): void {
+    this.#robotId = null;
+    this.#listed = null;
+  }
+
+  /** The line has just opened. */
+  async #register(): Promise<void> {
     if (this.#retry !== null) clearTimeout(this.#retry);
     this.#retry = null;
     const before = this.#offered;
     this.#offered = null;
-    this.#listed = null;
+    this.#unlist();
     before?.peer.close('closed', 'offered anew');
     const operator = this.#makeOperator();
     this.#offered = operator;
@@ -155,8 +176,6 @@ export class ReferenceProfile {
     try {
       const sdpOffer = await operator.peer.offer();
       if (this.#offered !== operator || this.#closed) return;
-      if (this.#robotId !== null) this.#line.send({ type: 'deregister', robotId: this.#robotId });
-      this.#robotId = null;
       this.#line.send({ type: 'register', name: this.#options.name, sdpOffer });
     } catch (error) {
       this.#log.error({ err: error }, 'no offer');
@@ -205,7 +224,7 @@ export class ReferenceProfile {
     this.#options.onBudgetChanged();
     if (this.#closed || !wasOurs || this.#offered !== null || this.#current !== null) return;
     const waitMs = Math.min(FIRST_RETRY_MS * 2 ** this.#failures++, MOST_RETRY_MS);
-    this.#retry ??= setTimeout(() => void this.#offer(), waitMs);
+    this.#retry ??= setTimeout(() => this.#offerAnew(), waitMs);
   }
 
   #tell(candidate: string): void {

@@ -6,7 +6,7 @@ import {
   robotToServiceCodec,
   type ServiceToRobot,
 } from '@farpoint/protocol';
-import { silentLogger } from '@farpoint/service';
+import { createLogger, silentLogger } from '@farpoint/service';
 import { afterEach, describe, expect, it } from 'vitest';
 import { type WebSocket, WebSocketServer } from 'ws';
 import { SignalingClient } from './signaling-client.ts';
@@ -33,10 +33,10 @@ async function service(port = 0) {
   return { port: (server.address() as AddressInfo).port, nextRobot, stop };
 }
 
-function client(port: number, token: string | null = null) {
+function client(port: number, token: string | null = null, log = silentLogger()) {
   const url = `ws://127.0.0.1:${port}`;
   const options = { url, id: 'r1', name: 'Robot', key: 'k1', token, ca: null };
-  const made = new SignalingClient(options, silentLogger());
+  const made = new SignalingClient(options, log);
   cleanups.push(() => made.close());
   return made;
 }
@@ -86,6 +86,27 @@ describe('SignalingClient', () => {
     const { hello } = await second.nextRobot();
     expect(hello).toMatchObject({ type: 'robot.hello', key: 'k1' });
     expect(robot.disconnects).toBeGreaterThanOrEqual(1);
+  });
+
+  it('says once that the service is not there, and once more when it has gone again', async () => {
+    const first = await service();
+    const warnings: string[] = [];
+    const stream = { write: (line: string) => void warnings.push(line) };
+    const log = createLogger({ name: 'robot', level: 'warn', format: 'json', stream });
+    const robot = client(first.port, null, log);
+    await first.stop();
+    robot.start();
+    while (robot.disconnects < 3) await new Promise((resolve) => setTimeout(resolve, 5));
+    expect(warnings.length).toBe(1);
+    const second = await service(first.port);
+    const { socket } = await second.nextRobot();
+    const welcomed = new Promise<void>((resolve) => (robot.onMessage = () => resolve()));
+    socket.send(welcome);
+    await welcomed;
+    const before = robot.disconnects;
+    await second.stop();
+    while (robot.disconnects < before + 2) await new Promise((resolve) => setTimeout(resolve, 5));
+    expect(warnings.length).toBe(2);
   });
 
   it('in doubt it asks the service; a line that does not answer within 2 s is made anew', async () => {

@@ -57,6 +57,8 @@ export class SignalingClient {
   #retry: NodeJS.Timeout | null = null;
   #heartbeat: NodeJS.Timeout | null = null;
   #closed = false;
+  /** It was said that the service is not there. */
+  #missed = false;
   #check: (() => void) | null = null;
 
   constructor(options: SignalingOptions, log: Logger) {
@@ -171,10 +173,11 @@ export class SignalingClient {
       if (this.#closed) return;
       this.disconnects++;
       const waitMs = this.#reconnect.nextMs();
-      this.#log.warn(
-        { url, code, detail: detail || reason.toString('utf8'), retryMs: Math.round(waitMs) },
-        'no line to signaling',
-      );
+      const facts = { url, code, detail: detail || reason.toString('utf8'), retryMs: Math.round(waitMs) };
+      // Once until it is registered again: a robot may have the reference system's signaling only.
+      if (this.#missed) this.#log.debug(facts, 'still no line to signaling');
+      else this.#log.warn(facts, 'no line to signaling; trying again, in silence');
+      this.#missed = true;
       this.#retry = setTimeout(() => this.#connect(), waitMs);
     });
   }
@@ -191,6 +194,7 @@ export class SignalingClient {
     }
     if (message.type === 'robot.welcome') {
       this.registered = true;
+      this.#missed = false;
       this.#reconnect.reset();
       this.#log.info({ url: this.#options.url, id: message.id }, 'registered with signaling');
     }

@@ -81,7 +81,13 @@ it('parseBridge takes a host, or a host and three ports', () => {
     control: 'ws://localhost:8085/',
     telemetry: 'ws://localhost:8090/',
     streaming: 'ws://localhost:8095/',
+    signaling: null,
   });
+  expect(parseBridge('localhost', 'ws://signaling.example:3002')?.signaling).toBe(
+    'ws://signaling.example:3002/',
+  );
+  for (const none of ['', 'signaling.example', 'http://signaling.example'])
+    expect(parseBridge('localhost', none)?.signaling).toBeNull();
   expect(parseBridge('wss://robot.example:1,2,3/')?.streaming).toBe('wss://robot.example:3/');
   expect(parseBridge('[::1]')?.control).toBe('ws://[::1]:8085/');
   for (const text of [

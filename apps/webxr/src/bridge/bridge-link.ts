@@ -6,7 +6,7 @@ import type { RobotLinkEvents } from '../link/robot-link.ts';
 import { RobotSession } from '../session/robot-session.ts';
 import type { SessionLoss, SessionPhase } from '../session/session-keeper.ts';
 import type { SignalingState } from '../signaling/operator-signaling.ts';
-import { BridgeSession } from './bridge-session.ts';
+import { BridgeSession, type BridgeSessionActions } from './bridge-session.ts';
 import type { BridgeAddress } from './bridge-settings.ts';
 import { BridgeSocket } from './bridge-socket.ts';
 
@@ -38,7 +38,7 @@ export class BridgeLink implements PageLink {
       onText: (text) => this.#bridge.onControl(text, performance.now()),
     });
     this.#telemetry = new BridgeSocket(address.telemetry, { onState, onText: () => undefined });
-    this.#bridge = new BridgeSession({
+    const actions: BridgeSessionActions = {
       sendControl: (text) => this.#control.send(text),
       sendTelemetry: (text) => this.#telemetry.send(text),
       onRobots: (robots) => events.onRobots(robots),
@@ -49,7 +49,8 @@ export class BridgeLink implements PageLink {
       onBegin: () => this.#begin(),
       onRobotMessage: (text) => this.#session.onMessage('session', text, performance.now()),
       onPath: (up) => events.onPath(up),
-    });
+    };
+    this.#bridge = new BridgeSession(actions, address.signaling);
   }
 
   start(): void {

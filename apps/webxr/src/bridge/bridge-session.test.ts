@@ -1,14 +1,14 @@
 import { type Command, type RobotSessionMessage, zeroTwist } from '@farpoint/protocol';
 import { describe, expect, it } from 'vitest';
-import { BridgeSession } from './bridge-session.ts';
+import { BridgeSession, type BridgeSessionActions } from './bridge-session.ts';
 
-function setUp() {
+function setUp(signaling: string | null = null) {
   const control: object[] = [];
   const said: { linear: { x: number; z: number } }[] = [];
   const told: RobotSessionMessage[] = [];
   const phases: string[] = [];
   const paths: boolean[] = [];
-  const session = new BridgeSession({
+  const actions: BridgeSessionActions = {
     sendControl: (text) => control.push(JSON.parse(text)),
     sendTelemetry: (text) => said.push(JSON.parse(text).command),
     onRobots: () => undefined,
@@ -16,7 +16,8 @@ function setUp() {
     onBegin: () => phases.push('begin'),
     onRobotMessage: (text) => told.push(JSON.parse(text)),
     onPath: (up) => paths.push(up),
-  });
+  };
+  const session = new BridgeSession(actions, signaling);
   const robots = (...listed: [number, string][]) =>
     session.onControl(
       JSON.stringify({ type: 'updateRobots', robots: listed.map(([id, name]) => ({ id, name })) }),
@@ -54,6 +55,30 @@ describe('BridgeSession', () => {
     switched(1);
     expect(phases).toEqual(['waiting', 'opening', 'begin', 'live']);
     expect(told.map(({ type }) => type)).toEqual(['welcome', 'lease', 'estop']);
+  });
+
+  it('tells the bridge which signaling to use, where the page was told', () => {
+    const { session, control } = setUp('ws://signaling.example:3002/');
+    session.onSockets(true);
+    session.onSockets(false);
+    session.onSockets(true);
+    const init = { type: 'initBridge', url: 'ws://signaling.example:3002/' };
+    expect(control).toEqual([init, init]);
+  });
+
+  it('is not live by a robot that no list names', () => {
+    const { session, phases, robots, switched } = setUp();
+    session.want('1');
+    session.onSockets(true);
+    switched(1);
+    expect(session.phase).toBe('waiting');
+    robots([1, 'second']);
+    robots();
+    switched(1);
+    expect(session.phase).toBe('waiting');
+    robots([1, 'second']);
+    switched(1);
+    expect(phases).toEqual(['waiting', 'opening', 'waiting', 'opening', 'begin', 'live']);
   });
 
   it('finds its robot again by its name', () => {

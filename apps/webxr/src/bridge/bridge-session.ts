@@ -46,6 +46,7 @@ const STOP_REPEATS = 4;
 
 export class BridgeSession {
   readonly #actions: BridgeSessionActions;
+  readonly #signaling: string | null;
   #phase: SessionPhase = 'none';
   #wanted: string | null = null;
   /** The same robot is known by another id each time it registers. */
@@ -60,8 +61,10 @@ export class BridgeSession {
   #heardMs = 0;
   #green: { id: number; askedMs: number } | null = null;
 
-  constructor(actions: BridgeSessionActions) {
+  /** @param signaling which service the bridge is to use; `null`: the one that it uses */
+  constructor(actions: BridgeSessionActions, signaling: string | null = null) {
     this.#actions = actions;
+    this.#signaling = signaling;
   }
 
   get phase(): SessionPhase {
@@ -96,7 +99,10 @@ export class BridgeSession {
   onSockets(open: boolean): void {
     this.#open = open;
     if (open) {
-      this.#control({ type: 'updateRobots' });
+      // Either is answered by the list.
+      this.#control(
+        this.#signaling === null ? { type: 'updateRobots' } : { type: 'initBridge', url: this.#signaling },
+      );
       this.#choose();
       return;
     }
@@ -127,6 +133,8 @@ export class BridgeSession {
       if (this.#phase !== 'none' && (isRenumbered || !this.robotListed)) this.#enter('waiting');
       if (this.#phase === 'waiting') this.#choose();
     } else if (String(message.robotId) === this.#wanted) {
+      // Not in the list: it has left meanwhile.
+      if (!this.robotListed) return;
       if (this.#phase !== 'live') this.#begin(nowMs);
     } else if (this.#wantedName !== null && this.#nameOf(String(message.robotId)) === this.#wantedName) {
       this.#wanted = String(message.robotId);

@@ -3,6 +3,8 @@ export interface BridgeAddress {
   control: string;
   telemetry: string;
   streaming: string;
+  /** Clients' port of the signaling service that the bridge is to use; `null`: the one that it uses. */
+  signaling: string | null;
 }
 
 const PORTS = { control: 8085, telemetry: 8090, streaming: 8095 };
@@ -10,9 +12,10 @@ const PORTS = { control: 8085, telemetry: 8090, streaming: 8095 };
 /**
  * `ws://localhost`, or with other ports than usual `ws://localhost:8085,8090,8095` (control, telemetry, streaming).
  *
+ * @param signaling an address too: the released bridge has none before a page tells it
  * @returns `null` where it is no such address
  */
-export function parseBridge(text: string): BridgeAddress | null {
+export function parseBridge(text: string, signaling: string | null = null): BridgeAddress | null {
   const match =
     /^(?<scheme>wss?:\/\/)?(?<host>[a-z0-9.-]+|\[[0-9a-f:]+\])(?::(?<ports>\d{1,5},\d{1,5},\d{1,5}))?\/?$/i.exec(
       text.trim(),
@@ -24,5 +27,11 @@ export function parseBridge(text: string): BridgeAddress | null {
   if ([control, telemetry, streaming].some((port) => port === undefined || port < 1 || port > 65_535))
     return null;
   const at = (port: number | undefined) => `${scheme.toLowerCase()}${host}:${port}/`;
-  return { control: at(control), telemetry: at(telemetry), streaming: at(streaming) };
+  const named = URL.parse(signaling?.trim() ?? '');
+  return {
+    control: at(control),
+    telemetry: at(telemetry),
+    streaming: at(streaming),
+    signaling: named !== null && /^wss?:$/.test(named.protocol) ? named.href : null,
+  };
 }

@@ -12,6 +12,11 @@ export class Inbox<T> {
     this.#waiting.clear();
   }
 
+  /** Forgets what has come. */
+  clear(): void {
+    this.#items.length = 0;
+  }
+
   /** The next one that is as wanted; those before it are forgotten. @throws {Error} where none comes in time */
   async next(
     is: (item: T) => boolean = () => true,

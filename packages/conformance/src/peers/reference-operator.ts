@@ -1,18 +1,21 @@
 /** An operator that speaks as the reference system's bridge does: a client of signaling, the one who answers. */
 import { Buffer } from 'node:buffer';
-import { encodeBandwidth, encodeJsonBytes, referenceControlCodec, type Twist } from '@farpoint/protocol';
+import {
+  encodeBandwidth,
+  encodeJsonBytes,
+  type ReferenceServiceToClient,
+  referenceControlCodec,
+  type Twist,
+} from '@farpoint/protocol';
 import { createReferencePeerConnection, referenceChannels, tapRtp } from '@farpoint/reference-profile';
 import { prepareSockets } from '@farpoint/webrtc';
 import type { RTCDataChannel, RTCPeerConnection } from 'werift';
 import { Inbox } from './inbox.ts';
+import { OfferBoard, type OpenOffer } from './offer-board.ts';
 import { SocketPeer } from './socket-peer.ts';
 
-interface ListedRobot {
-  id: number;
-  name: string;
-  sdpOffer: string | null;
-  robotCandidates: string[];
-}
+/** The reference system's robot needs some 6 s. */
+const OFFERS_AGAIN_WITHIN_MS = 15_000;
 
 export class ReferenceOperator {
   readonly offer: string;
@@ -28,15 +31,14 @@ export class ReferenceOperator {
   readonly #bandwidth: RTCDataChannel;
   readonly #words: RTCDataChannel;
   readonly #channels = new Inbox<RTCDataChannel>();
-  /** The robot's registration ended. */
-  readonly #left = new Inbox<string>();
+  /** Made since this one was connected. */
+  readonly #laterOffers = new Inbox<OpenOffer>();
   #control: RTCDataChannel | null = null;
-  #open = false;
 
-  private constructor(line: SocketPeer, robot: ListedRobot) {
+  private constructor(line: SocketPeer, { robotId, sdpOffer }: OpenOffer) {
     this.#line = line;
-    this.robotId = robot.id;
-    this.offer = robot.sdpOffer ?? '';
+    this.robotId = robotId;
+    this.offer = sdpOffer;
     const connection = createReferencePeerConnection();
     this.#connection = connection;
     const { bandwidth, words } = referenceChannels;
@@ -57,7 +59,7 @@ export class ReferenceOperator {
     connection.onIceCandidate.subscribe((candidate) => {
       if (candidate === undefined) return;
       prepareSockets(connection);
-      line.send({ type: 'candidate', robotId: robot.id, candidate: candidate.toJSON().candidate });
+      line.send({ type: 'candidate', robotId, candidate: candidate.toJSON().candidate });
     });
     connection.connectionStateChange.subscribe((state) => {
       const dtls = connection.dtlsTransports[0];
@@ -71,27 +73,50 @@ export class ReferenceOperator {
   }
 
   /**
-   * Answers the robot of this name, waiting for it where it is not there yet, and anew where it registers anew meanwhile;
-   * resolves when its channel and ours are open.
+   * Answers the robot of this name, waiting for it where it is not there yet, and each of its later offers; resolves when a
+   * connection's channels are open, the robot's and ours.
    *
    * @param url the clients' port of signaling
    */
   static async connect(url: string, name: string, timeoutMs = 15_000): Promise<ReferenceOperator> {
-    const deadline = performance.now() + timeoutMs;
-    for (;;) {
-      const line = await SocketPeer.open(url);
-      line.send({ type: 'getRobots' });
-      const leftMs = deadline - performance.now();
-      const robot = await findRobot(line, name, leftMs);
-      const operator = new ReferenceOperator(line, robot);
-      try {
-        await Promise.race([operator.#answer(robot, leftMs), operator.#left.next(undefined, leftMs)]);
-        if (operator.#open) return operator;
-      } catch (error) {
-        await operator.close();
-        throw error;
+    const line = await SocketPeer.open(url);
+    const board = new OfferBoard(name);
+    const attempts = new Map<number, ReferenceOperator>();
+    const opened = new Inbox<ReferenceOperator>();
+    const answer = async (offer: OpenOffer) => {
+      const before = attempts.get(offer.robotId);
+      const operator = new ReferenceOperator(line, offer);
+      attempts.set(offer.robotId, operator);
+      await before?.disconnect();
+      // Where this one comes to nothing another offer may come.
+      await operator.#answer(offer.candidates, timeoutMs).then(
+        () => opened.push(operator),
+        () => undefined,
+      );
+    };
+    let chosen: ReferenceOperator | null = null;
+    const follow = async () => {
+      for (;;) {
+        const message = await line.message<ReferenceServiceToClient>({}, 60_000).catch(() => null);
+        if (message === null) return;
+        if (message.type === 'candidate') void attempts.get(message.robotId)?.addCandidate(message.candidate);
+        else
+          for (const offer of board.read(message)) {
+            if (chosen === null) void answer(offer);
+            else chosen.#laterOffers.push(offer);
+          }
       }
-      await operator.close();
+    };
+    line.send({ type: 'getRobots' });
+    void follow();
+    try {
+      chosen = await opened.next(undefined, timeoutMs, `robot '${name}', connected,`);
+      return chosen;
+    } catch (error) {
+      await line.close();
+      throw error;
+    } finally {
+      for (const attempt of attempts.values()) if (attempt !== chosen) await attempt.disconnect();
     }
   }
 
@@ -121,17 +146,32 @@ export class ReferenceOperator {
 
   async close(): Promise<void> {
     await this.#line.close();
+    await this.disconnect();
+  }
+
+  /**
+   * Leaves the robot, and signaling once the robot offers again: who came before would find its old offer listed, and the
+   * reference system's robot takes an answer to that for one to its next.
+   */
+  async leave(): Promise<void> {
+    this.#laterOffers.clear();
+    await this.disconnect();
+    await this.#laterOffers.next(undefined, OFFERS_AGAIN_WITHIN_MS).catch(() => undefined);
+    await this.#line.close();
+  }
+
+  /** Leaves the robot, not signaling. */
+  async disconnect(): Promise<void> {
     await this.#connection.close();
   }
 
-  async #answer(robot: ListedRobot, timeoutMs: number): Promise<void> {
+  async #answer(candidates: readonly string[], timeoutMs: number): Promise<void> {
     const connection = this.#connection;
     await connection.setRemoteDescription({ type: 'offer', sdp: this.offer });
     const answer = await connection.createAnswer();
-    this.#line.send({ type: 'answer', robotId: robot.id, sdpAnswer: answer.sdp });
+    this.#line.send({ type: 'answer', robotId: this.robotId, sdpAnswer: answer.sdp });
     const gathered = connection.setLocalDescription(answer);
-    for (const candidate of robot.robotCandidates) await this.#addCandidate(candidate);
-    void this.#followRobot();
+    for (const candidate of candidates) await this.addCandidate(candidate);
     await gathered;
     const control = await this.#channels.next(
       ({ label }) => label === referenceChannels.control.label,
@@ -140,40 +180,12 @@ export class ReferenceOperator {
     );
     this.#control = control;
     for (const channel of [control, this.#words, this.#bandwidth]) await opened(channel, timeoutMs);
-    this.#open = true;
   }
 
-  async #followRobot(): Promise<void> {
-    for (;;) {
-      const next = await this.#line
-        .message<{ type: string; candidate: string }>({ robotId: this.robotId }, 60_000)
-        .catch(() => null);
-      if (next === null) return;
-      if (next.type === 'candidate') await this.#addCandidate(next.candidate);
-      if (next.type === 'deregistered') this.#left.push('left');
-    }
-  }
-
-  async #addCandidate(candidate: string): Promise<void> {
+  /** One that cannot be used is passed over. */
+  async addCandidate(candidate: string): Promise<void> {
     await this.#connection.addIceCandidate({ candidate, sdpMLineIndex: 0 }).catch(() => undefined);
   }
-}
-
-async function findRobot(line: SocketPeer, name: string, timeoutMs: number): Promise<ListedRobot> {
-  let found: ListedRobot | undefined;
-  await line.inbox.next(
-    (data) => {
-      if (typeof data !== 'string') return false;
-      const message = JSON.parse(data) as { type: string; robots?: ListedRobot[]; robot?: ListedRobot };
-      const listed = message.type === 'robots' ? (message.robots ?? []) : [];
-      if (message.type === 'register' && message.robot !== undefined) listed.push(message.robot);
-      found = listed.find((robot) => robot.name === name && robot.sdpOffer !== null);
-      return found !== undefined;
-    },
-    timeoutMs,
-    `robot '${name}'`,
-  );
-  return found as ListedRobot;
 }
 
 async function opened(channel: RTCDataChannel, timeoutMs: number): Promise<void> {

@@ -1,8 +1,7 @@
 /** A robot for tests that speaks as the reference system's does: signaling, channels, payload type 5. */
 import { decodeBandwidth, decodeJson, referenceControlCodec, type Twist } from '@farpoint/protocol';
-import { createReferencePeerConnection, referenceChannels } from '@farpoint/reference-profile';
-import { MediaStreamTrack, type RTCPeerConnection, RtpHeader, RtpPacket } from 'werift';
 import { Inbox } from './inbox.ts';
+import { OfferingConnection } from './offering-connection.ts';
 import { SocketPeer } from './socket-peer.ts';
 
 export interface ReferenceRobotOptions {
@@ -15,16 +14,13 @@ export class ReferenceRobot {
   readonly words = new Inbox<string>();
   readonly commands = new Inbox<Twist>();
   readonly reports = new Inbox<number>();
+  /** The robots' port at which it is registered. */
+  readonly url: string;
   readonly #registered = new Inbox<number>();
   readonly #line: SocketPeer;
   readonly #lead: NonNullable<ReferenceRobotOptions['lead']>;
-  #connection!: RTCPeerConnection;
-  #track!: MediaStreamTrack;
-  #sequence = 0;
-  #timestamp = 0;
-
-  /** The robots' port at which it is registered. */
-  readonly url: string;
+  #connection!: OfferingConnection;
+  #offer = '';
 
   private constructor(url: string, line: SocketPeer, options: ReferenceRobotOptions) {
     this.url = url;
@@ -40,24 +36,29 @@ export class ReferenceRobot {
     options: ReferenceRobotOptions = {},
   ): Promise<ReferenceRobot> {
     const robot = new ReferenceRobot(url, await SocketPeer.open(url), options);
-    await robot.#offer((sdpOffer) => ({ type: 'register', name, sdpOffer }));
+    await robot.#connect((sdpOffer) => ({ type: 'register', name, sdpOffer }));
     return robot;
   }
 
   /** Its offer, for others to claim. */
   get offer(): string {
-    return this.#connection.localDescription?.sdp ?? '';
+    return this.#offer;
   }
 
   /** As the reference system's robot after a failure: another connection, offered under the same id. */
   async reconnect(): Promise<void> {
     const before = this.#connection;
-    await this.#offer((sdpOffer) => ({ type: 'offer', robotId: this.id, sdpOffer }));
+    await this.#connect((sdpOffer) => ({ type: 'offer', robotId: this.id, sdpOffer }));
     await before.close();
   }
 
   signal(message: unknown): void {
     this.#line.send(message);
+  }
+
+  /** Resolves once an operator has connected and both sides may speak. */
+  ready(): Promise<void> {
+    return this.#connection.ready();
   }
 
   /** Resolves once this word came; words before it are forgotten. */
@@ -75,16 +76,7 @@ export class ReferenceRobot {
 
   /** One packet each, all of one frame. */
   sendFrame(payloads: readonly Uint8Array[]): void {
-    this.#timestamp += 9000;
-    payloads.forEach((payload, i) => {
-      const header = new RtpHeader({
-        payloadType: 5,
-        sequenceNumber: this.#sequence++ & 0xffff,
-        timestamp: this.#timestamp >>> 0,
-        marker: i === payloads.length - 1,
-      });
-      this.#track.writeRtp(new RtpPacket(header, Buffer.from(payload)));
-    });
+    this.#connection.sendFrame(payloads);
   }
 
   async close(): Promise<void> {
@@ -92,45 +84,28 @@ export class ReferenceRobot {
     await this.#connection.close();
   }
 
-  async #offer(toMessage: (sdpOffer: string) => object): Promise<void> {
-    const connection = createReferencePeerConnection();
-    const track = new MediaStreamTrack({ kind: 'video' });
-    this.#connection = connection;
-    this.#track = track;
-    connection.addTransceiver(track, { direction: 'sendonly' });
-    const { control } = referenceChannels;
-    const commands = connection.createDataChannel(control.label, { ordered: control.ordered });
-    commands.onMessage.subscribe((data) => this.commands.push(decodeJson(referenceControlCodec, data)));
-    connection.onDataChannel.subscribe((channel) => {
-      channel.onMessage.subscribe((data) => {
-        if (channel.label === referenceChannels.bandwidth.label)
-          this.reports.push(decodeBandwidth(data as Buffer));
-        else this.words.push(data.toString());
-      });
-    });
+  async #connect(toMessage: (sdpOffer: string) => object): Promise<void> {
     const found: string[] = [];
     let registered = this.id >= 0;
     const tell = async (candidate: string) => {
       if (connection !== this.#connection) return;
       this.signal({ type: 'candidate', robotId: this.id, candidate: await this.#lead('robot', candidate) });
     };
-    connection.onIceCandidate.subscribe((candidate) => {
-      if (candidate === undefined) return;
-      const text = candidate.toJSON().candidate;
-      if (registered) void tell(text);
-      else found.push(text);
+    const connection: OfferingConnection = new OfferingConnection({
+      onCandidate: (candidate) => {
+        if (registered) void tell(candidate);
+        else found.push(candidate);
+      },
+      onCommand: (data) => this.commands.push(decodeJson(referenceControlCodec, data)),
+      onBandwidth: (data) => this.reports.push(decodeBandwidth(data as Buffer)),
+      onWord: (word) => this.words.push(word),
     });
-    const offer = await connection.createOffer();
-    const gathered = connection.setLocalDescription(offer);
-    const isNew = !registered;
-    const answered = isNew
-      ? this.#registered.next(undefined, undefined, 'registered')
-      : Promise.resolve(this.id);
-    this.signal(toMessage(offer.sdp));
-    this.id = await answered;
+    this.#connection = connection;
+    this.#offer = await connection.offer();
+    this.signal(toMessage(this.#offer));
+    if (!registered) this.id = await this.#registered.next(undefined, undefined, 'registered');
     registered = true;
     for (const candidate of found) await tell(candidate);
-    await gathered;
   }
 
   async #followClient(): Promise<void> {
@@ -139,13 +114,10 @@ export class ReferenceRobot {
         .message<{ type: string; robotId: number; sdpAnswer: string; candidate: string }>({}, 60_000)
         .catch(() => null);
       if (message?.type === 'registered') this.#registered.push(message.robotId);
-      else if (message?.type === 'sdpAnswer') {
-        const answer = { type: 'answer', sdp: message.sdpAnswer } as const;
-        await this.#connection.setRemoteDescription(answer).catch(() => undefined);
-      } else if (message?.type === 'candidate') {
-        const candidate = await this.#lead('operator', message.candidate);
-        await this.#connection.addIceCandidate({ candidate, sdpMLineIndex: 0 }).catch(() => undefined);
-      }
+      else if (message?.type === 'sdpAnswer')
+        await this.#connection.answer(message.sdpAnswer).catch(() => undefined);
+      else if (message?.type === 'candidate')
+        await this.#connection.addCandidate(await this.#lead('operator', message.candidate));
     }
   }
 }

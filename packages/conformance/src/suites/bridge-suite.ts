@@ -1,12 +1,17 @@
 import { readFileSync } from 'node:fs';
-import { knownFrame, readKnownFrame } from '../frames.ts';
+import { knownFrame } from '../frames.ts';
+import type { KnownDefect } from '../known-defects.ts';
 import { ReferenceRobot } from '../peers/reference-robot.ts';
 import { SocketPeer } from '../peers/socket-peer.ts';
-import { type ConformanceCase, must } from './suite.ts';
+import { nextPoints, showFrames } from './shown-frames.ts';
+import { type ConformanceCase, type Level, must } from './suite.ts';
 
-/** A bridge, and the robots' port of the signaling at which it is a client. No other robot is there. */
+/** A bridge, and the signaling at which it is, or becomes, a client. No other robot is there. */
 export interface BridgeTarget {
+  /** Robots' port of signaling. */
   robot: string;
+  /** Clients' port of the same, as the bridge reaches it. */
+  client: string;
   control: string;
   telemetry: string;
   streaming: string;
@@ -28,12 +33,15 @@ interface Page {
   streaming: SocketPeer;
 }
 
-/** A page and robots of these names, the first of them shown. */
+/** Bridges that were told where signaling is: the released one opens another line each time. */
+const initialised = new WeakSet<BridgeTarget>();
+
+/** A page and robots of these names, connected; the first of them shown. */
 function withRobots(
   names: readonly string[],
-  run: (robots: ReferenceRobot[], page: Page) => Promise<void>,
+  run: (robots: ReferenceRobot[], page: Page, level: Level, target: BridgeTarget) => Promise<void>,
 ): ConformanceCase<BridgeTarget>['run'] {
-  return async (target) => {
+  return async (target, level) => {
     const closers: (() => Promise<void>)[] = [];
     try {
       const open = async (url: string) => {
@@ -46,88 +54,185 @@ function withRobots(
         telemetry: await open(target.telemetry),
         streaming: await open(target.streaming),
       };
+      if (!initialised.has(target)) await initBridge(page.control, target);
+      initialised.add(target);
       const robots: ReferenceRobot[] = [];
       for (const name of names) {
         const robot = await ReferenceRobot.register(target.robot, name);
         closers.push(() => robot.close());
         robots.push(robot);
-        const like = { type: 'updateRobots', robots: robots.map(({ id }) => ({ id })) };
-        page.control.send({ type: 'updateRobots' });
-        await page.control.message(like);
-        if (robots.length > 1) await robot.heard('stop');
-        else {
-          page.control.send({ type: 'switchRobot', robotId: robot.id });
-          await robot.heard('start');
-        }
       }
-      await run(robots, page);
+      // What is said to a channel that is not open may be lost.
+      for (const robot of robots) await robot.ready();
+      page.control.send({ type: 'updateRobots' });
+      for (const { id } of robots) await listed(page.control, id);
+      const [first, ...others] = robots as [ReferenceRobot, ...ReferenceRobot[]];
+      await switchTo(page.control, first.id);
+      await first.heard('start');
+      for (const other of others) await other.heard('stop');
+      await run(robots, page, level, target);
     } finally {
       for (const close of closers.reverse()) await close();
     }
   };
 }
 
-const vectorCases = frames.map(
-  ({ name, payloads, messages }): ConformanceCase<BridgeTarget> => ({
+async function initBridge(control: SocketPeer, { client }: BridgeTarget): Promise<void> {
+  control.send({ type: 'initBridge', url: client });
+  await control.message({ type: 'updateRobots' });
+}
+
+/** Asks for the list until the robot is in it. */
+async function listed(control: SocketPeer, id: number): Promise<void> {
+  for (;;) {
+    control.send({ type: 'updateRobots' });
+    const { robots } = await control.message<{ robots: { id: number }[] | null }>({ type: 'updateRobots' });
+    if (robots?.some((robot) => robot.id === id)) return;
+  }
+}
+
+async function switchTo(control: SocketPeer, robotId: number): Promise<void> {
+  control.send({ type: 'switchRobot', robotId });
+  await control.message({ type: 'switchedRobot', robotId });
+}
+
+/** Why the released bridge fails at a vector, by the vector's name. */
+const VECTOR_DEFECTS: Readonly<Record<string, KnownDefect>> = {
+  'a whole frame is given out without the next': 'frame-waits-for-next',
+  'a last packet that is partial keeps its points': 'partial-block-lost',
+  'packets of one frame in any order': 'order-of-arrival',
+  'packets that come twice': 'doubled-points',
+  'packets of two frames between each other': 'late-in-wrong-frame',
+  'packets that cannot be are passed over': 'reads-what-is-no-packet',
+};
+/** Later than those of any vector. */
+const NEXT_FRAME = 1000;
+
+const vectorCases = frames.map(({ name, payloads, messages }): ConformanceCase<BridgeTarget> => {
+  const defect = VECTOR_DEFECTS[name];
+  return {
     name: `frames: ${name}`,
-    run: withRobots(['conformance'], async ([robot], { streaming }) => {
+    defect,
+    run: withRobots(['conformance'], async ([robot], { streaming }, level) => {
       robot?.sendFrame(payloads.map((hex) => Buffer.from(hex, 'hex')));
+      if (level === 'reference' && defect !== 'frame-waits-for-next')
+        robot?.sendFrame(knownFrame(NEXT_FRAME, 150));
       for (const hex of messages) {
-        const message = Buffer.from(await streaming.bytes(5000)).toString('hex');
+        const message = Buffer.from(await nextPoints(streaming, level, 2000)).toString('hex');
         must(
           message === hex,
           `a message of ${message.length / 2} bytes, another one of ${hex.length / 2} expected`,
         );
       }
     }),
-  }),
-);
+  };
+});
+
+const DRIVE = { linear: { x: 0.25, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -0.5 } };
+
+async function passesCommands(robot: ReferenceRobot, telemetry: SocketPeer): Promise<void> {
+  telemetry.send({ type: 'command', command: DRIVE });
+  const came = await robot.commands.next(undefined, 2000, 'a command');
+  must(JSON.stringify(came) === JSON.stringify(DRIVE), JSON.stringify(came));
+}
 
 export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
   ...vectorCases,
   {
     name: 'shows one robot, goes over to another at once, and shows no other meanwhile',
-    run: withRobots(['first', 'second'], async (robots, { control, streaming }) => {
+    run: withRobots(['first', 'second'], async (robots, { control, streaming }, level) => {
       const [first, second] = robots as [ReferenceRobot, ReferenceRobot];
-      first.sendFrame(knownFrame(1, 300));
-      must(readKnownFrame(await streaming.bytes(5000)).frame === 1, 'not the first robot’s frame');
-      control.send({ type: 'switchRobot', robotId: second.id });
-      await control.message({ type: 'switchedRobot', robotId: second.id });
+      const shown = await showFrames(first, 1, 300, streaming, level);
+      must(shown.frame < 1000 && shown.places.length === 300, `frame ${shown.frame}, not the first robot’s`);
+      await switchTo(control, second.id);
       await first.heard('stop');
       await second.heard('start');
       // One that does not heed the word.
-      first.sendFrame(knownFrame(2, 300));
-      second.sendFrame(knownFrame(3, 300));
-      const { frame, places, strays } = readKnownFrame(await streaming.bytes(5000));
-      must(frame === 3 && places.length === 300 && strays === 0, `frame ${frame}, ${places.length} points`);
+      first.sendFrame(knownFrame(900, 300));
+      for (;;) {
+        const { frame, places, strays } = await showFrames(second, 2000, 300, streaming, level);
+        // What was given out before the switch is on its way still.
+        if (frame < 900) continue;
+        must(
+          frame >= 2000 && places.length === 300 && strays === 0,
+          `frame ${frame}, ${places.length} points`,
+        );
+        return;
+      }
     }),
   },
   {
     name: 'passes commands on as they are, and reports a rate for each frame',
-    run: withRobots(['conformance'], async ([robot], { telemetry, streaming }) => {
-      const command = { linear: { x: 0.25, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -0.5 } };
-      telemetry.send({ type: 'command', command });
-      const came = await (robot as ReferenceRobot).command();
-      must(JSON.stringify(came) === JSON.stringify(command), JSON.stringify(came));
-      for (let frame = 0; frame < 3; frame++) {
-        robot?.sendFrame(knownFrame(frame, 300));
-        await streaming.bytes(5000);
+    run: withRobots(['conformance'], async ([robot], { telemetry, streaming }, level) => {
+      await passesCommands(robot as ReferenceRobot, telemetry);
+      for (let i = 0; i < 3; i++) {
+        await showFrames(robot as ReferenceRobot, 100 * i, 300, streaming, level);
         must(((await robot?.report()) ?? -1) > 0, 'a report that is no rate');
       }
     }),
   },
   {
-    name: 'lives through offers that are none, garbage on its sockets and commands for nobody',
-    run: withRobots(['conformance'], async ([robot], { control, telemetry, streaming }) => {
+    name: 'lives through garbage on its sockets',
+    run: withRobots(['conformance'], async ([robot], { control, telemetry, streaming }, level) => {
       for (const peer of [control, telemetry, streaming])
         for (const data of ['null', '{', '{"type":"switchRobot","robotId":"x"}', new Uint8Array([0xff, 0])])
           peer.sendRaw(data);
+      await showFrames(robot as ReferenceRobot, 1, 300, streaming, level);
+      await passesCommands(robot as ReferenceRobot, telemetry);
+    }),
+  },
+  {
+    name: 'goes on showing its robot where a page chooses one that is not there',
+    defect: 'shows-nobody',
+    run: withRobots(['conformance'], async ([robot], { control, streaming }, level) => {
+      control.send({ type: 'switchRobot', robotId: 0xffffffff });
+      // Answered in order: what came before is done.
+      control.send({ type: 'updateRobots' });
+      await listed(control, (robot as ReferenceRobot).id);
+      robot?.sendFrame(knownFrame(1, 300));
+      robot?.sendFrame(knownFrame(2, 300));
+      await nextPoints(streaming, level, 2000);
+    }),
+  },
+  {
+    name: 'drops a command for a robot whose channel is not open',
+    defect: 'command-breaks-socket',
+    run: withRobots(['conformance'], async ([robot], { control, telemetry }) => {
+      const { url, offer, id } = robot as ReferenceRobot;
+      const mute = await SocketPeer.open(url);
+      try {
+        mute.send({ type: 'register', name: 'mute', sdpOffer: offer });
+        const { robotId } = await mute.message<{ robotId: number }>({ type: 'registered' });
+        await mute.message({ type: 'sdpAnswer' });
+        await switchTo(control, robotId);
+        telemetry.send({ type: 'command', command: DRIVE });
+        // The answer comes after the command was read, or another is lost.
+        await switchTo(control, id);
+        await robot?.heard('start');
+        await passesCommands(robot as ReferenceRobot, telemetry);
+      } finally {
+        await mute.close();
+      }
+    }),
+  },
+  {
+    name: 'answers each initBridge by the list, also with the address in use',
+    run: withRobots(['conformance'], async ([robot], { control }, _level, target) => {
+      for (let i = 0; i < 2; i++) {
+        await initBridge(control, target);
+        await listed(control, (robot as ReferenceRobot).id);
+      }
+    }),
+  },
+  {
+    name: 'lives through an offer that is none',
+    defect: 'offer-ends-bridge',
+    deadly: true,
+    run: withRobots(['conformance'], async ([robot], { streaming }, level) => {
       const bad = await SocketPeer.open((robot as ReferenceRobot).url);
       bad.send({ type: 'register', name: 'bad', sdpOffer: 'v=0\r\nm=nonsense' });
       await bad.message({ type: 'registered' });
-      control.send({ type: 'switchRobot', robotId: 0xffffffff });
-      robot?.sendFrame(knownFrame(1, 300));
-      must(readKnownFrame(await streaming.bytes(5000)).frame === 1, 'another frame');
+      await showFrames(robot as ReferenceRobot, 1, 300, streaming, level);
       await bad.close();
     }),
   },

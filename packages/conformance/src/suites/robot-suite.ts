@@ -25,7 +25,7 @@ function withOperator(
     try {
       await run(operator);
     } finally {
-      await operator.close();
+      await operator.leave();
     }
   };
 }
@@ -52,6 +52,14 @@ export const robotSuite: readonly ConformanceCase<RobotTarget>[] = [
       operator.say('start');
       await operator.packets.next(() => rules.frames >= FRAMES, 15_000, `${FRAMES} frames`);
       must(rules.findings.length === 0, JSON.stringify(rules.findings.slice(0, 5)));
+    }),
+  },
+  {
+    name: 'sends nothing before "start", whatever the operator before said',
+    defect: 'streams-unasked',
+    run: withOperator(async (operator) => {
+      const packet = await operator.packets.next(undefined, QUIET_MS).catch(() => null);
+      must(packet === null, 'packets come unasked');
     }),
   },
   {

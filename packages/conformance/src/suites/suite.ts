@@ -1,33 +1,61 @@
+import { type KnownDefect, knownDefects } from '../known-defects.ts';
+
+export const LEVELS = ['reference', 'strict'] as const;
+/** `reference`: what the released programs do, known defects let pass; `strict`: what they should have done. */
+export type Level = (typeof LEVELS)[number];
+
 /** One thing that an implementation must do; it throws where it does not. */
 export interface ConformanceCase<Target> {
   name: string;
-  run(target: Target): Promise<void>;
+  run(target: Target, level: Level): Promise<void>;
+  /** Why the released program fails here. */
+  defect?: KnownDefect | undefined;
+  /** With that defect the case ends the program: it is tried at level `strict` only. */
+  deadly?: boolean | undefined;
 }
+
+export type Outcome = 'passed' | 'failed' | 'known-defect' | 'not-tried';
 
 export interface CaseResult {
   name: string;
-  /** What went wrong; `null` where all is well. */
+  outcome: Outcome;
+  /** What went wrong, or why it was not tried; `null` where all is well. */
   fault: string | null;
+  /** Of a case that has not passed for it. */
+  defect: KnownDefect | null;
 }
 
 /** Runs all of them, one after another, whatever becomes of each. */
 export async function runSuite<Target>(
   cases: readonly ConformanceCase<Target>[],
   target: Target,
+  level: Level,
   onResult: (result: CaseResult) => void = () => undefined,
 ): Promise<CaseResult[]> {
   const results: CaseResult[] = [];
-  for (const { name, run } of cases) {
-    let fault: string | null = null;
-    try {
-      await run(target);
-    } catch (error) {
-      fault = error instanceof Error ? error.message : String(error);
-    }
-    results.push({ name, fault });
-    onResult({ name, fault });
+  for (const tried of cases) {
+    const result = await runCase(tried, target, level);
+    results.push(result);
+    onResult(result);
   }
   return results;
+}
+
+export async function runCase<Target>(
+  { name, run, defect, deadly }: ConformanceCase<Target>,
+  target: Target,
+  level: Level,
+): Promise<CaseResult> {
+  const allowed = level === 'reference' ? (defect ?? null) : null;
+  if (allowed !== null && deadly)
+    return { name, outcome: 'not-tried', fault: knownDefects[allowed], defect: allowed };
+  try {
+    await run(target, level);
+    return { name, outcome: 'passed', fault: null, defect: null };
+  } catch (error) {
+    const fault = error instanceof Error ? error.message : String(error);
+    return { name, outcome: allowed === null ? 'failed' : 'known-defect', fault, defect: allowed };
+  }
 }
 
 /** @throws {Error} with `what` where it does not hold */

@@ -12,48 +12,55 @@ const ROBOT = {
   args: ['--sim-size', '64', '--max-points', '700'],
 };
 
-/** Signaling and a robot; signaling and a bridge, without any robot but the suite's. */
+/** Signaling and a robot; signaling and a bridge, without any robot but the suite's; signaling alone. */
 let stack: LocalStack;
 let alone: LocalStack;
+let fresh: LocalStack;
 let bridge: BridgeProcess;
 beforeAll(async () => {
   stack = await LocalStack.start({ robots: [ROBOT] });
   alone = await LocalStack.start({ robots: [] });
+  fresh = await LocalStack.start({ robots: [] });
   bridge = await BridgeProcess.start(alone);
 }, 60_000);
 afterAll(async () => {
   await bridge.stop();
   await alone.stop();
+  await fresh.stop();
   await stack.stop();
 }, 30_000);
 
+const at = (port: number) => `ws://127.0.0.1:${port}`;
+
 describe('signaling', () => {
+  // The one to which it gives its first id: no robot is there.
   it.each(signalingSuite.map(({ name, run }) => [name, run] as const))('%s', async (_name, run) => {
-    const { referenceRobot, referenceClient } = stack.ports;
-    await run({ robot: `ws://127.0.0.1:${referenceRobot}`, client: `ws://127.0.0.1:${referenceClient}` });
+    const { referenceRobot, referenceClient } = fresh.ports;
+    await run({ robot: at(referenceRobot), client: at(referenceClient) }, 'strict');
   });
 });
 
 describe('robot', { timeout: 30_000 }, () => {
   it.each(robotSuite.map(({ name, run }) => [name, run] as const))('%s', async (_name, run) => {
-    await run({ client: `ws://127.0.0.1:${stack.ports.referenceClient}`, name: ROBOT.name });
+    await run({ client: at(stack.ports.referenceClient), name: ROBOT.name }, 'strict');
   });
 });
 
 describe('bridge', { timeout: 30_000 }, () => {
   it.each(bridgeSuite.map(({ name, run }) => [name, run] as const))('%s', async (_name, run) => {
     const { control, telemetry, streaming } = bridge.ports;
-    const at = (port: number) => `ws://127.0.0.1:${port}`;
-    await run({
+    const target = {
       robot: at(alone.ports.referenceRobot),
+      client: at(alone.ports.referenceClient),
       control: at(control),
       telemetry: at(telemetry),
       streaming: at(streaming),
-    });
+    };
+    await run(target, 'strict');
   });
 });
 
 it('the suites find what is wrong', async () => {
-  const wrong = { robot: 'ws://127.0.0.1:1', client: 'ws://127.0.0.1:1' };
-  for (const { run } of signalingSuite) await expect(run(wrong)).rejects.toThrow('step 1');
+  const wrong = { robot: at(1), client: at(1) };
+  for (const { run } of signalingSuite) await expect(run(wrong, 'strict')).rejects.toThrow('step 1');
 });

@@ -1,0 +1,51 @@
+/**
+ * What pages are told of robots. The reference system's page looks a switched robot up in the list that it was sent last,
+ * and breaks where it is not there: a list that names the robot always goes first. Pure.
+ */
+import type { ReferenceBridgeToPage } from '@farpoint/protocol';
+
+export interface ShownRobots {
+  readonly robots: readonly { id: number; name: string }[];
+  /** The robot that is shown. */
+  readonly selected: number | null;
+}
+
+export class PageAnnouncer {
+  /** The list that every page has; `null` is said for an empty one. */
+  #list: string = listText([]);
+  #selected: number | null = null;
+
+  /** What is new to pages that were told all before, in the order in which it must be said. */
+  changes(now: ShownRobots): ReferenceBridgeToPage[] {
+    const list = listText(now.robots);
+    const messages: ReferenceBridgeToPage[] = list === this.#list ? [] : [listMessage(now)];
+    const selected = shownRobot(now);
+    if (selected !== null && selected !== this.#selected) messages.push(switchMessage(selected));
+    this.#list = list;
+    this.#selected = selected;
+    return messages;
+  }
+
+  /** All of it, for a page that was told nothing. */
+  present(now: ShownRobots): ReferenceBridgeToPage[] {
+    const selected = shownRobot(now);
+    return selected === null ? [listMessage(now)] : [listMessage(now), switchMessage(selected)];
+  }
+}
+
+function listText(robots: ShownRobots['robots']): string {
+  return JSON.stringify(robots.map(({ id, name }) => [id, name]));
+}
+
+/** The protocol has no word for "none is shown any more". */
+function shownRobot({ robots, selected }: ShownRobots): number | null {
+  return robots.some(({ id }) => id === selected) ? selected : null;
+}
+
+export function listMessage({ robots }: ShownRobots): ReferenceBridgeToPage {
+  return { type: 'updateRobots', robots: robots.length === 0 ? null : [...robots] };
+}
+
+function switchMessage(robotId: number): ReferenceBridgeToPage {
+  return { type: 'switchedRobot', robotId };
+}

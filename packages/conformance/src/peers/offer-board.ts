@@ -1,0 +1,55 @@
+/** Which offers of a robot are worth an answer, from what signaling tells a client. Pure. */
+import type { ReferenceRobot, ReferenceServiceToClient } from '@farpoint/protocol';
+
+export interface OpenOffer {
+  robotId: number;
+  sdpOffer: string;
+  candidates: readonly string[];
+}
+
+export class OfferBoard {
+  readonly #name: string;
+  /** Robots of that name, be their offer taken or not. */
+  readonly #ids = new Set<number>();
+
+  constructor(name: string) {
+    this.#name = name;
+  }
+
+  /** What is to be answered because of this message. */
+  read(message: ReferenceServiceToClient): OpenOffer[] {
+    switch (message.type) {
+      case 'robots':
+        return this.#fromList(message.robots);
+      case 'register':
+        return this.#isOurs(message.robot) ? [toOffer(message.robot)] : [];
+      case 'offer':
+        // The reference system's robot offers so, some 6 s after its operator has gone.
+        return this.#ids.has(message.robotId)
+          ? [{ robotId: message.robotId, sdpOffer: message.sdpOffer, candidates: [] }]
+          : [];
+      default:
+        return [];
+    }
+  }
+
+  /**
+   * Registrations may be listed that have ended: the reference signaling keeps some, and their robot would take an answer for
+   * one to its newer offer. An offer without an answer is open; where each has one, the last may be open still.
+   */
+  #fromList(robots: readonly ReferenceRobot[]): OpenOffer[] {
+    const ours = robots.filter((robot) => this.#isOurs(robot));
+    const open = ours.filter(({ sdpAnswer }) => sdpAnswer === null);
+    return (open.length > 0 ? open : ours.slice(-1)).map(toOffer);
+  }
+
+  #isOurs({ id, name, sdpOffer }: ReferenceRobot): boolean {
+    if (name !== this.#name) return false;
+    this.#ids.add(id);
+    return sdpOffer !== null;
+  }
+}
+
+function toOffer({ id, sdpOffer, robotCandidates }: ReferenceRobot): OpenOffer {
+  return { robotId: id, sdpOffer: sdpOffer ?? '', candidates: robotCandidates };
+}

@@ -1,0 +1,87 @@
+/** The suites against stand-ins for the released programs: they pass at level `reference`, and are found out at level `strict`. */
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import type { KnownDefect } from '../known-defects.ts';
+import { ReleasedBridge, ReleasedRobot, ReleasedSignaling } from '../testing/index.ts';
+import { bridgeSuite } from './bridge-suite.ts';
+import { robotSuite } from './robot-suite.ts';
+import { signalingSuite } from './signaling-suite.ts';
+import { type CaseResult, type ConformanceCase, type Level, runSuite } from './suite.ts';
+
+let signaling: ReleasedSignaling;
+const cleanups: (() => Promise<void>)[] = [];
+beforeEach(async () => {
+  signaling = await ReleasedSignaling.start();
+  cleanups.push(() => signaling.stop());
+});
+afterEach(async () => {
+  for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
+});
+
+const failed = (results: readonly CaseResult[]) => results.filter(({ outcome }) => outcome === 'failed');
+
+/** Every defect of the suite shows at level `reference`, and no other case fails. */
+async function expectAllDefects<Target>(
+  suite: readonly ConformanceCase<Target>[],
+  target: Target,
+): Promise<void> {
+  const results = await runSuite(suite, target, 'reference');
+  expect(failed(results)).toEqual([]);
+  const shown = results.flatMap(({ defect }) => (defect === null ? [] : [defect]));
+  const known = suite.flatMap(({ defect }): KnownDefect[] => (defect === undefined ? [] : [defect]));
+  expect(shown).toEqual(known);
+}
+
+describe('signaling', { timeout: 60_000 }, () => {
+  const target = () => ({ robot: signaling.robotUrl, client: signaling.clientUrl });
+
+  it('passes at level reference, its defects named, and lives', async () => {
+    await expectAllDefects(signalingSuite, target());
+    expect(signaling.death).toBeNull();
+  });
+
+  it('fails at level strict at each of them, and ends', async () => {
+    const results = await runSuite(signalingSuite, target(), 'strict');
+    expect(failed(results).map(({ name }) => name)).toEqual(
+      signalingSuite.filter(({ defect }) => defect !== undefined).map(({ name }) => name),
+    );
+    expect(signaling.death).not.toBeNull();
+  });
+});
+
+describe('robot', { timeout: 60_000 }, () => {
+  it.each(['as robot 0, which registers again on its socket', 'as another, which offers again'])(
+    'passes at level reference %s',
+    async (which) => {
+      if (which.startsWith('as another')) {
+        const first = await ReleasedRobot.start(signaling.robotUrl, { name: 'first' });
+        cleanups.push(() => first.stop());
+      }
+      const robot = await ReleasedRobot.start(signaling.robotUrl, { offerAgainMs: 100 });
+      cleanups.push(() => robot.stop());
+      await expectAllDefects(robotSuite, { client: signaling.clientUrl, name: 'robot' });
+      expect(robot.offers).toBeGreaterThanOrEqual(robotSuite.length);
+    },
+  );
+});
+
+describe('bridge', { timeout: 120_000 }, () => {
+  const run = async (level: Level) => {
+    const bridge = await ReleasedBridge.start();
+    cleanups.push(() => bridge.stop());
+    const target = { robot: signaling.robotUrl, client: signaling.clientUrl, ...bridge.sockets };
+    if (level === 'reference') await expectAllDefects(bridgeSuite, target);
+    return { bridge, target };
+  };
+
+  it('passes at level reference, its defects named, and lives', async () => {
+    const { bridge } = await run('reference');
+    expect(bridge.death).toBeNull();
+  });
+
+  it('ends at level strict', async () => {
+    const { bridge, target } = await run('strict');
+    const deadly = bridgeSuite.filter((tried) => tried.deadly);
+    expect(failed(await runSuite(deadly, target, 'strict')).length).toBe(deadly.length);
+    expect(bridge.death).not.toBeNull();
+  });
+});
