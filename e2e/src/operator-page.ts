@@ -117,6 +117,13 @@ export class OperatorPage {
     await this.page.keyboard.up('Space');
   }
 
+  /** Holds the key that releases the emergency stop until the robot has released it. */
+  async releaseEstop(): Promise<void> {
+    await this.page.keyboard.down('KeyR');
+    await this.expectState('estop', false);
+    await this.page.keyboard.up('KeyR');
+  }
+
   /** Keeps a picture of the page with the test's output. */
   async screenshot(testInfo: TestInfo, name: string): Promise<Buffer> {
     return this.page.screenshot({ path: testInfo.outputPath(`${name}.png`) });

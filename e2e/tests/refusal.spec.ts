@@ -46,6 +46,8 @@ test('a link to another signaling service is not sent the token of this one', as
     const { length } = hellos;
     await OperatorPage.open(page, stack, { signaling: 'wss://elsewhere.example' });
     await expect.poll(() => hellos.length, { message: 'hellos' }).toBeGreaterThan(length);
+    for (const hello of hellos)
+      expect(hello).toEqual({ type: 'operator.hello', protocol: 1, name: 'Operator' });
   };
 
   // As earlier pages kept it: a single one.
@@ -62,10 +64,9 @@ test('a link to another signaling service is not sent the token of this one', as
   await expect(page.getByLabel('Token')).toHaveValue('');
   await page.getByLabel('Signaling service').fill('');
   await expect(page.getByLabel('Token')).toHaveValue(token);
+  const loaded = page.waitForEvent('load');
   await page.getByRole('button', { name: 'Save and reconnect' }).click();
+  await loaded;
   await page.waitForFunction(() => window.farpoint?.state().signaling === 'ready');
   await elsewhere();
-
-  for (const hello of hellos)
-    expect(hello).toEqual({ type: 'operator.hello', protocol: 1, name: 'Operator' });
 });

@@ -19,6 +19,7 @@ import { PageStatistics } from './status/page-stats.ts';
 import { failureWords, leavingWords, lossWords, rejectionWords } from './status/words.ts';
 import { ControlsUi } from './ui/controls-ui.ts';
 import { elements } from './ui/elements.ts';
+import { EstopUi } from './ui/estop-ui.ts';
 import { notify, showFailure } from './ui/notice.ts';
 import { OperatorInputs } from './ui/operator-inputs.ts';
 import { showRobots } from './ui/robot-list.ts';
@@ -53,6 +54,7 @@ export class App implements PageParts {
   readonly #completion: GpuCompletion;
   readonly #gate = new DrawGate();
   readonly #status: StatusUi;
+  readonly #estop = new EstopUi(this);
   readonly #drawing = new DrawingGovernor();
   readonly #switch = new RobotSwitch({
     letGo: () => this.driver.letGo(performance.now()),
@@ -112,14 +114,18 @@ export class App implements PageParts {
     this.#listenToWorker();
     if (this.settings.drawEvery !== null) this.#drawEvery(this.settings.drawEvery, this.settings.drawEvery);
     this.#listenToCanvas();
-    const controls = new ControlsUi(this);
+    const controls = new ControlsUi(this, this.#estop);
     controls.start();
     this.inputs.onAction = (action, timeMs) => controls.act(action, timeMs);
+    this.inputs.onRelease = (control, held) => this.#estop.hold(control, held);
     this.link.start();
     if (this.settings.robot !== null) this.link.connect(this.settings.robot);
     setInterval(() => {
       this.inputs.poll();
-      this.driver.suspended = this.#handsAway();
+      const away = this.#handsAway();
+      this.#estop.tick(performance.now(), away);
+      if (this.vr.active) this.#status.showRelease(this.#estop.progress);
+      this.driver.suspended = away;
       this.driver.tick(performance.now());
       this.#switch.tick(this.#presentRobot, performance.now());
       this.latency.tick(performance.now());

@@ -46,6 +46,11 @@ export class StatusUi {
     this.#wristPictures.update((view) => (this.#cameras.ageMs(view, nowMs) ?? 0) > STALE_MS);
   }
 
+  /** In VR. @param progress of the hold that releases the emergency stop, 0–1 */
+  showRelease(progress: number): void {
+    this.#wrist.showProgress(progress);
+  }
+
   update(nowMs: number): void {
     const { link, settings } = this.#app;
     const words =
@@ -66,13 +71,10 @@ export class StatusUi {
   }
 
   #showSession(nowMs: number): void {
-    const { driver, link } = this.#app;
-    const { estop } = link.session;
+    const { driver } = this.#app;
     setPill(elements.holder, this.#holderWords());
     elements.take.hidden = driver.holder !== 'other';
     elements.release.hidden = driver.holder !== 'you';
-    elements.estop.setAttribute('aria-pressed', String(estop.latched));
-    elements.estop.querySelector('b')!.textContent = estop.latched ? 'RELEASE' : 'STOP';
     showFacts(this.#facts(nowMs));
   }
 
@@ -133,15 +135,17 @@ export class StatusUi {
         text: `rtt ${ms(stats.minRttMs)}  frame ${ms(stats.frameLatencyMs?.p50)}  loss ${(stats.lossRate * 100).toFixed(1)} %`,
         tone: stats.lossRate > 0.05 ? 'warning' : 'neutral',
       },
-      {
-        text: [
-          battery === undefined
-            ? 'Squeeze: drive  B: stop'
-            : `Battery ${Math.round(battery.percentage * 100)} %`,
-          ...(next === null ? [] : [`press stick: ${next.name}`]),
-        ].join('  '),
-        tone: 'neutral',
-      },
+      link.session.estop.latched
+        ? { text: 'Open your hand, hold a trigger for a second: release', tone: 'bad' }
+        : {
+            text: [
+              battery === undefined
+                ? 'Squeeze: drive  B: stop'
+                : `Battery ${Math.round(battery.percentage * 100)} %`,
+              ...(next === null ? [] : [`press stick: ${next.name}`]),
+            ].join('  '),
+            tone: 'neutral',
+          },
     ]);
   }
 
