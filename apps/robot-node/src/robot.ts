@@ -150,7 +150,7 @@ export class Robot implements SessionHost {
         ...{ signaling: this.signaling, counters: this.counters, log },
       },
       {
-        resume: (session) => void this.#paths.resume(session),
+        resume: (request, iceServers) => void this.#paths.resume(request, iceServers),
         connected: (operator) => this.#welcome(operator),
         budgetChanged: () => this.#fanOut.updateBudget(),
         takesCoded: (operator) => this.#fanOut.announceTo(operator),
@@ -198,6 +198,7 @@ export class Robot implements SessionHost {
       drive: this.drive,
       signaling: this.signaling,
       leaseChanged: () => this.leaseChanged(),
+      counters: this.counters,
       log,
       now: monotonicMs,
     });
@@ -372,6 +373,7 @@ export class Robot implements SessionHost {
       name,
       limits,
       stream: { format: 'points64', width, height, framesPerSecond: capture.framesPerSecond },
+      resumeKey: operator.resumeKey.text,
     });
     session.sendLease();
     session.sendEstop();

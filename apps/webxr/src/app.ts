@@ -16,7 +16,7 @@ import type { TransformSupport } from './peer/encoded-transform.ts';
 import { CameraViews } from './pictures/camera-views.ts';
 import type { Settings } from './settings.ts';
 import { PageStatistics } from './status/page-stats.ts';
-import { failureWords, leavingWords, lossWords, rejectionWords } from './status/words.ts';
+import { failureWords, leavingWords, rejectionWords, wordsOfLoss } from './status/words.ts';
 import { ControlsUi } from './ui/controls-ui.ts';
 import { elements } from './ui/elements.ts';
 import { EstopUi } from './ui/estop-ui.ts';
@@ -246,7 +246,7 @@ export class App implements PageParts {
         this.lastPointsMs = performance.now();
         this.#status.update(performance.now());
       },
-      onLoss: (loss) => notify(lossWords[loss], 'warning'),
+      onLoss: (loss) => notify(wordsOfLoss(loss, this.link.maxOperators), 'warning'),
       onPath: () => {
         this.driver.onPath(performance.now());
         this.#status.update(performance.now());

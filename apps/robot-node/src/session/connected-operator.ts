@@ -4,6 +4,7 @@ import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
 import { PictureSender } from '../pictures/picture-sender.ts';
 import { StageTimer } from '../telemetry/stage-timer.ts';
+import type { AnswerVerdict } from '../transport/answer-gate.ts';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
 import { OperatorPeer, type OperatorPeerOptions, type PeerEnd } from '../transport/operator-peer.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
@@ -14,6 +15,7 @@ import type { FrameTarget } from './frame-fan-out.ts';
 import { OperatorSession, type SessionHost } from './operator-session.ts';
 import { PathBudget } from './path-budget.ts';
 import { RestartPolicy } from './restart-policy.ts';
+import { ResumeKey } from './resume-key.ts';
 
 /** A latency test that waits for its green frame. */
 export interface LatencyTest {
@@ -52,6 +54,7 @@ export class ConnectedOperator implements FrameTarget {
   readonly session: OperatorSession;
   readonly peer: OperatorPeer;
   readonly restarts = new RestartPolicy();
+  readonly resumeKey = new ResumeKey();
   sender: StreamSender | null = null;
   /** The operator has said that it reads all our formats. */
   takesCoded = false;
@@ -114,9 +117,10 @@ export class ConnectedOperator implements FrameTarget {
   }
 
   /** The operator's answer to our latest offer. Never throws. */
-  async answer(sdp: string): Promise<void> {
-    this.restarts.onAnswer();
-    await this.peer.answer(sdp);
+  async answer(sdp: string): Promise<AnswerVerdict> {
+    const verdict = await this.peer.answer(sdp);
+    if (verdict === 'taken') this.restarts.onAnswer();
+    return verdict;
   }
 
   /** As the guard knows it. */

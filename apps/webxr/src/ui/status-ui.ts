@@ -167,6 +167,8 @@ export function describeLink(app: PageParts, nowMs: number): Words {
     phase: link.phase,
     signaling: link.signaling,
     robotListed: link.robotListed,
+    lastLoss: link.lastLoss,
+    maxOperators: link.maxOperators,
     silentMs: link.silentMs(nowMs),
     pointsSilentMs: nowMs - app.lastPointsMs,
   });
