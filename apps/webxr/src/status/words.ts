@@ -63,8 +63,9 @@ export function wordsOfLoss(loss: SessionLoss, maxOperators: number | null): str
 }
 
 function fullWords(maxOperators: number | null): string {
-  const most = maxOperators === null ? 'no more operators' : `${maxOperators} operators at most`;
-  return `The robot is full: it takes ${most}. Trying again…`;
+  if (maxOperators === null) return 'The robot is full: it takes no more operators. Trying again…';
+  const operators = maxOperators === 1 ? 'one operator' : `${maxOperators} operators`;
+  return `The robot is full: it takes ${operators} at most. Trying again…`;
 }
 
 /** Another robot was chosen. */
