@@ -235,6 +235,22 @@ describe('robot process', { timeout: 30_000 }, () => {
     socket.terminate();
   });
 
+  it('sends organised frames to who reads those alone, and points64 beside them to who does not', async () => {
+    const [{ client: reads }, { client: plain }] = [await connect(), await connect()];
+    const newest = new Map<object, number>();
+    for (const client of [reads, plain]) {
+      client.onCloudPacket = (payload) => newest.set(client, payload.at(-1) as number);
+    }
+    reads.sendSession({ type: 'cloudFormats', formats: ['points64', 'organised'] });
+    expect(await reads.message('cloudStream')).toMatchObject({ format: 'organised' });
+    await reads.until(() => newest.get(reads) === 2);
+    await plain.until(() => newest.get(plain) === 1 && plain.completeFrames.length > 2);
+    // It fits no format that is left.
+    reads.sendSession({ type: 'cloudFormats', formats: ['points64', 'unorganised'] });
+    await reads.until(() => newest.get(reads) === 1);
+    expect(plain.session.some(({ type }) => type === 'cloudStream')).toBe(false);
+  });
+
   it('pauses and resumes the stream', async () => {
     const { client } = await connect();
     await client.until(() => (client.telemetry?.stream.framesPerSecond ?? 0) > 0);

@@ -153,7 +153,7 @@ export class Robot implements SessionHost {
         resume: (request, iceServers) => void this.#paths.resume(request, iceServers),
         connected: (operator) => this.#welcome(operator),
         budgetChanged: () => this.#fanOut.updateBudget(),
-        takesCoded: (operator) => this.#fanOut.announceTo(operator),
+        cloudFormats: (operator) => this.#fanOut.announceTo(operator),
         latencyFrameLost: () => capture.requestLatencyTest(),
         ended: (operator) => this.#operatorGone(operator),
       },

@@ -61,8 +61,8 @@ export class App implements PageParts {
     connect: (robotId) => this.link.connect(robotId),
   });
   #generation = 0;
-  /** A coded stream came that this page cannot decode: it asks for none any more. */
-  #formatRefused = false;
+  /** Streams of these came that this page cannot decode: it asks for none any more. */
+  readonly #refusedFormats = new Set<CloudFormat>();
   lastPointsMs = 0;
   /** Filled while a measurement asks for it. */
   packetRecord: PacketRecord | null = null;
@@ -219,8 +219,9 @@ export class App implements PageParts {
 
   /** Which of our formats we read; the robot chooses. */
   #tellFormats(): void {
-    const formats = this.#formatRefused || this.settings.mode === 'points64' ? POINTS64_ONLY : CLOUD_FORMATS;
-    this.link.sendSession({ type: 'cloudFormats', formats: [...formats] });
+    const readable = this.settings.mode === 'points64' ? POINTS64_ONLY : CLOUD_FORMATS;
+    const formats = readable.filter((format) => !this.#refusedFormats.has(format));
+    this.link.sendSession({ type: 'cloudFormats', formats });
   }
 
   /** Commands may only come from hands that see what they do. */
@@ -322,8 +323,8 @@ export class App implements PageParts {
           return;
         case 'streamRefused':
           if (message.generation !== this.#generation) return;
-          console.warn('cloud stream:', message.message);
-          this.#formatRefused = true;
+          console.warn('cloud stream:', message.format, message.message);
+          this.#refusedFormats.add(message.format);
           this.#tellFormats();
           return;
         case 'failed':

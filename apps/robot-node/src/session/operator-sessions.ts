@@ -31,7 +31,7 @@ export interface OperatorSessionsEvents {
   resume: (request: ResumeRequest, iceServers: readonly IceServer[]) => void;
   connected: (operator: ConnectedOperator) => void;
   budgetChanged: () => void;
-  takesCoded: (operator: ConnectedOperator) => void;
+  cloudFormats: (operator: ConnectedOperator) => void;
   latencyFrameLost: () => void;
   /** It is not among the operators any more. */
   ended: (operator: ConnectedOperator) => void;
@@ -142,7 +142,7 @@ export class OperatorSessions {
           this.#events.connected(operator);
         },
         onBudgetChanged: () => this.#events.budgetChanged(),
-        onTakesCoded: () => this.#events.takesCoded(operator),
+        onCloudFormats: () => this.#events.cloudFormats(operator),
         onLatencyFrameLost: () => this.#events.latencyFrameLost(),
         onEnded: (end, detail) => this.#ended(operator, end, detail, log),
       },
