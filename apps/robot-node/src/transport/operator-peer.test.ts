@@ -143,6 +143,26 @@ describe('OperatorPeer', () => {
     await robot.connected;
   });
 
+  it('drops answers while the channel has no room for them: a flood of probes gets some, and costs little', async () => {
+    const robot = robotPeer();
+    const client = await robot.meet();
+    await robot.connected;
+    await client.until(() => client.control.readyState === 'open');
+    let received = 0;
+    client.control.onMessage.subscribe(() => received++);
+    client.control.send('hello');
+    await robot.heard;
+    const answer = '{"type":"clockAnswer","id":3,"sentMs":1000.25,"robotMs":88123.75}';
+    for (let i = 0; i < 5000; i++) robot.peer.sendControl(answer);
+    const taken = 5000 - robot.peer.unreliableDrops;
+    expect(taken).toBeGreaterThan(100);
+    // What waits, and what is on its way.
+    expect(taken * answer.length).toBeLessThan(2 * 16_384);
+    await until(() => received === taken);
+    robot.peer.sendControl(answer);
+    await until(() => received === taken + 1);
+  });
+
   it('closes channels that it does not know', async () => {
     const robot = robotPeer();
     const client = await robot.meet();
