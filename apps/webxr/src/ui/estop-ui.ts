@@ -21,6 +21,10 @@ export class EstopUi {
     for (const end of ['pointerup', 'pointercancel', 'pointerleave', 'lostpointercapture'] as const) {
       estopRelease.addEventListener(end, () => this.hold('pointer', false));
     }
+    // Neither keeps the focus of a press: the space bar is the grip again.
+    for (const control of [estop, estopRelease]) {
+      control.addEventListener('mousedown', (event) => event.preventDefault());
+    }
     // A long touch is no wish for a menu.
     estopRelease.addEventListener('contextmenu', (event) => event.preventDefault());
   }
