@@ -94,7 +94,8 @@ export class StatusUi {
     const facts: Fact[] = [];
     if (welcome !== null) facts.push({ name: 'Robot', value: welcome.name });
     if (telemetry !== null) {
-      const drive = driveWords[telemetry.drive];
+      // Telemetry tells of a stop a moment later.
+      const drive = driveWords[estop.latched ? 'estop' : telemetry.drive];
       const by = estop.latched && estop.by !== undefined ? ` (by ${estop.by})` : '';
       facts.push({ name: 'State', value: drive.text + by, tone: drive.tone });
       const { linear, angular } = telemetry.twist;
@@ -136,7 +137,7 @@ export class StatusUi {
         tone: stats.lossRate > 0.05 ? 'warning' : 'neutral',
       },
       link.session.estop.latched
-        ? { text: 'Open your hand, hold a trigger for a second: release', tone: 'bad' }
+        ? { text: 'Open hand, hold trigger 1 s: release', tone: 'bad' }
         : {
             text: [
               battery === undefined
