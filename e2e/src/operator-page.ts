@@ -30,12 +30,14 @@ export interface BrowserPage {
 
 /** Keys by what they write: the one way that both know. */
 interface BrowserKeyboard {
-  down(key: typeof DEAD_MAN | typeof FORWARD): Promise<void>;
-  up(key: typeof DEAD_MAN | typeof FORWARD): Promise<void>;
+  down(key: Key): Promise<void>;
+  up(key: Key): Promise<void>;
 }
 
 const DEAD_MAN = ' ';
 const FORWARD = 'w';
+const RELEASE_ESTOP = 'r';
+type Key = typeof DEAD_MAN | typeof FORWARD | typeof RELEASE_ESTOP;
 
 /** The operator's page as a test uses it: real keys and buttons, and `window.farpoint` to look inside. */
 export class OperatorPage {
@@ -133,6 +135,13 @@ export class OperatorPage {
   async releaseKeys(): Promise<void> {
     await this.page.keyboard.up(FORWARD);
     await this.page.keyboard.up(DEAD_MAN);
+  }
+
+  /** Holds the key that releases the emergency stop until the robot has released it. */
+  async releaseEstop(): Promise<void> {
+    await this.page.keyboard.down(RELEASE_ESTOP);
+    await this.expectState('estop', false);
+    await this.page.keyboard.up(RELEASE_ESTOP);
   }
 
   /** Keeps a picture of the page with the test's output. */

@@ -45,8 +45,7 @@ test('through the bridge: see the robot’s world, drive it, stop it, measure; b
     await operator.expectFrames(20);
     expect(await watcher.body()).toEqual(stopped);
     await operator.releaseKeys();
-    await page.evaluate(() => window.farpoint.estop(false));
-    await operator.expectState('estop', false);
+    await operator.releaseEstop();
     await operator.holdForward();
     await watcher.expectMovedFrom(stopped, 0.2);
     await operator.releaseKeys();

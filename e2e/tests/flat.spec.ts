@@ -76,8 +76,7 @@ test('the emergency stop latches until it is released on purpose', async ({ page
   expect(await operator.body()).toEqual(stopped);
   await operator.releaseKeys();
 
-  await page.evaluate(() => window.farpoint.estop(false));
-  await operator.expectState('estop', false);
+  await operator.releaseEstop();
   await operator.holdForward();
   await operator.expectMovedFrom(stopped, 0.2);
   await operator.releaseKeys();

@@ -29,3 +29,44 @@ test('without a headset the page says why there is no VR', async ({ page, startS
   await expect(page.getByText(/headset|WebXR/).first()).toBeVisible();
   await expect(page.getByRole('button', { name: 'Enter VR' })).toBeHidden();
 });
+
+test('a link to another signaling service is not sent the token of this one', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const token = 'a-right-token-of-some-length';
+  const tokens = testInfo.outputPath('operators.json');
+  writeFileSync(tokens, JSON.stringify({ anna: token }));
+  const stack = await startStack({ signalingArgs: ['--operator-tokens', tokens] });
+  const hellos: Record<string, unknown>[] = [];
+  await page.routeWebSocket('wss://elsewhere.example/**', (socket) => {
+    socket.onMessage((message) => hellos.push(JSON.parse(String(message))));
+  });
+  const elsewhere = async () => {
+    const { length } = hellos;
+    await OperatorPage.open(page, stack, { signaling: 'wss://elsewhere.example' });
+    await expect.poll(() => hellos.length, { message: 'hellos' }).toBeGreaterThan(length);
+    for (const hello of hellos)
+      expect(hello).toEqual({ type: 'operator.hello', protocol: 1, name: 'Operator' });
+  };
+
+  // As earlier pages kept it: a single one.
+  const operator = await OperatorPage.open(page, stack);
+  await page.evaluate((t) => localStorage.setItem('farpoint.settings', JSON.stringify({ token: t })), token);
+  await elsewhere();
+  await OperatorPage.open(page, stack);
+  await operator.expectState('signaling', 'ready');
+
+  // As this page keeps it.
+  await page.getByRole('button', { name: 'Settings' }).click();
+  await expect(page.getByLabel('Token')).toHaveValue(token);
+  await page.getByLabel('Signaling service').fill('wss://elsewhere.example');
+  await expect(page.getByLabel('Token')).toHaveValue('');
+  await page.getByLabel('Signaling service').fill('');
+  await expect(page.getByLabel('Token')).toHaveValue(token);
+  const loaded = page.waitForEvent('load');
+  await page.getByRole('button', { name: 'Save and reconnect' }).click();
+  await loaded;
+  await page.waitForFunction(() => window.farpoint?.state().signaling === 'ready');
+  await elsewhere();
+});

@@ -1,8 +1,10 @@
 /** The robot program as it runs, with the real signaling service: processes, sockets, WebRTC. */
 
+import { once } from 'node:events';
 import { LocalStack } from '@farpoint/local-stack';
 import { readPictureFile } from '@farpoint/protocol';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { WebSocket } from 'ws';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 
 const ROBOT = 'sim-1';
@@ -147,8 +149,106 @@ describe('robot process', { timeout: 30_000 }, () => {
       );
     await Promise.race([watcher.client.until(common), driver.client.until(common)]);
     const refused = await metric('sessions_refused_total');
-    void SignaledOperator.connect(stack.signalingUrl, ROBOT).then((third) => operators.push(third));
-    await until(async () => (await metric('sessions_refused_total')) === refused + 1);
+    expect(await SignaledOperator.refused(stack.signalingUrl, ROBOT)).toMatchObject({
+      type: 'session.closed',
+      reason: 'robot-full',
+      maxOperators: 2,
+    });
+    expect(await metric('sessions_refused_total')).toBe(refused + 1);
+  });
+
+  it('a stranger who knows the session’s handle, and not its key, disturbs nobody', async () => {
+    const operator = await connect();
+    const { client, session } = operator;
+    await client.until(() => client.completeFrames.length > 0);
+    const restarts = await metric('ice_restarts_total');
+    const heard = operator.heard.length;
+    const stranger = new WebSocket(new URL('/operator', stack.signalingUrl));
+    const told: Record<string, unknown>[] = [];
+    stranger.on('message', (data: Buffer) => told.push(JSON.parse(data.toString())));
+    const say = (message: object) => stranger.send(JSON.stringify(message));
+    await once(stranger, 'open');
+    say({ type: 'operator.hello', protocol: 1, name: 'stranger' });
+    const resume = { type: 'session.resume', session, robotId: ROBOT };
+    const key = (await client.message('welcome')).resumeKey ?? '';
+    for (const resumeKey of ['0', 'A'.repeat(22), `${key.slice(0, -1)}_`, `${key}0`]) {
+      say({ ...resume, resumeKey });
+      await until(async () => told.at(-1)?.type === 'error');
+      expect(told.splice(0).at(-1)).toMatchObject({ code: 'wrong-resume-key', session });
+    }
+    // Not bound to it, it can end nothing, and put nothing in.
+    const candidate = { candidate: 'candidate:1 1 udp 2130706431 127.0.0.1 9 typ host', sdpMid: '0' };
+    for (const message of [
+      { type: 'session.close', session },
+      { type: 'session.answer', session, sdp: 'v=0' },
+      { type: 'session.candidate', session, candidate },
+    ]) {
+      say(message);
+      await until(async () => told.length > 0);
+      expect(told.splice(0)).toMatchObject([{ type: 'error', code: 'unknown-session' }]);
+    }
+    stranger.terminate();
+    const { length } = client.completeFrames;
+    await client.until(() => client.completeFrames.length > length + 10);
+    expect(operator.heard.slice(heard)).toEqual([]);
+    expect(await metric('ice_restarts_total')).toBe(restarts);
+    expect(await metric('resumes_refused_total', '{reason="wrong-resume-key"}')).toBe(4);
+
+    // The same from a new socket with the right key gets its new path.
+    await operator.resume();
+    await operator.until(({ type }) => type === 'session.resuming');
+    await until(async () => (await metric('ice_restarts_total')) === restarts + 1);
+    const { packets } = client;
+    await client.until(() => client.packets > packets + 20);
+  });
+
+  it('says why it ends a session: an answer that it cannot use, one that was open before it was restarted', async () => {
+    const operator = await connect();
+    const { session } = operator;
+    await operator.close();
+    operators.splice(0);
+    await stack.robot(ROBOT).kill();
+    await stack.restartRobot(ROBOT);
+    const back = await connect();
+    await back.resume('0');
+    await back.until((message) => message.type === 'error' && message.code === 'wrong-resume-key');
+    const socket = new WebSocket(new URL('/operator', stack.signalingUrl));
+    const told: Record<string, unknown>[] = [];
+    socket.on('message', (data: Buffer) => told.push(JSON.parse(data.toString())));
+    await once(socket, 'open');
+    const say = (message: object) => socket.send(JSON.stringify(message));
+    const closed = async () => {
+      await until(async () => told.some(({ type }) => type === 'session.closed'));
+      return told.splice(0).find(({ type }) => type === 'session.closed');
+    };
+    say({ type: 'operator.hello', protocol: 1, name: 'test operator' });
+    say({ type: 'session.resume', session, robotId: ROBOT, resumeKey: '0' });
+    expect(await closed()).toMatchObject({ session, reason: 'unknown-session' });
+    say({ type: 'session.open', robotId: ROBOT });
+    await until(async () => told.some(({ type }) => type === 'session.offer'));
+    const offer = told.findLast(({ type }) => type === 'session.offer');
+    say({ type: 'session.answer', session: offer?.session, sdp: 'v=0\r\n' });
+    expect(await closed()).toMatchObject({
+      reason: 'bad-answer',
+      detail: '0 m-lines, where the offer has 3',
+    });
+    socket.terminate();
+  });
+
+  it('sends organised frames to who reads those alone, and points64 beside them to who does not', async () => {
+    const [{ client: reads }, { client: plain }] = [await connect(), await connect()];
+    const newest = new Map<object, number>();
+    for (const client of [reads, plain]) {
+      client.onCloudPacket = (payload) => newest.set(client, payload.at(-1) as number);
+    }
+    reads.sendSession({ type: 'cloudFormats', formats: ['points64', 'organised'] });
+    expect(await reads.message('cloudStream')).toMatchObject({ format: 'organised' });
+    await reads.until(() => newest.get(reads) === 2);
+    await plain.until(() => newest.get(plain) === 1 && plain.completeFrames.length > 2);
+    // It fits no format that is left.
+    reads.sendSession({ type: 'cloudFormats', formats: ['points64', 'unorganised'] });
+    await reads.until(() => newest.get(reads) === 1);
+    expect(plain.session.some(({ type }) => type === 'cloudStream')).toBe(false);
   });
 
   it('pauses and resumes the stream', async () => {

@@ -172,10 +172,10 @@ export class Robot implements SessionHost {
         ...{ signaling: this.signaling, counters: this.counters, log },
       },
       {
-        resume: (session) => void this.#paths.resume(session),
+        resume: (request, iceServers) => void this.#paths.resume(request, iceServers),
         connected: (operator) => this.#welcome(operator),
         budgetChanged: () => this.#fanOut.updateBudget(),
-        takesCoded: (operator) => this.#fanOut.announceTo(operator),
+        cloudFormats: (operator) => this.#fanOut.announceTo(operator),
         latencyFrameLost: () => capture.requestLatencyTest(),
         ended: (operator) => this.#operatorGone(operator),
       },
@@ -220,6 +220,7 @@ export class Robot implements SessionHost {
       drive: this.drive,
       signaling: this.signaling,
       leaseChanged: () => this.leaseChanged(),
+      counters: this.counters,
       log,
       now: monotonicMs,
     });
@@ -407,6 +408,7 @@ export class Robot implements SessionHost {
       name,
       limits,
       stream: { format: 'points64', width, height, framesPerSecond: capture.framesPerSecond },
+      resumeKey: operator.resumeKey.text,
     });
     session.sendLease();
     session.sendEstop();

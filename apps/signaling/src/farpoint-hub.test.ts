@@ -282,6 +282,15 @@ describe('sessions', () => {
     expect(observer.sessionEnds).toEqual(['closed-by-operator', 'closed-by-robot']);
   });
 
+  test('closed by the robot with a reason: the operator is told it', () => {
+    const { session, observer } = setup();
+    const { r, o, handle } = session();
+    const reason = { reason: 'robot-full', maxOperators: 4 };
+    r.send({ type: 'session.close', session: handle, ...reason });
+    expect(o.take()).toEqual([{ type: 'session.closed', session: handle, ...reason }]);
+    expect(observer.sessionEnds).toEqual(['robot-full']);
+  });
+
   test('end when either side leaves', () => {
     const { session, clock } = setup();
     const first = session('r1');
@@ -298,45 +307,153 @@ describe('sessions', () => {
     ]);
   });
 
-  test('resumed: the robot is asked to restart ICE, also where the service has forgotten the session', () => {
-    const { session, operator, robot, hub } = setup();
-    const { r, o, handle } = session('r1');
-    const resume = { type: 'session.resume', session: handle, robotId: 'r1' };
-    const opened = { type: 'session.opened', session: handle, robotId: 'r1' };
-    const asked = { type: 'session.resume', session: handle, operator: 'Ada' };
-    o.send(resume);
-    expect([o.take(), r.take()]).toEqual([[opened], [asked]]);
-    // A newer socket of the same operator, while the old one is half-open.
-    const o2 = operator();
-    o2.take();
-    o2.send(resume);
-    expect([o2.take(), r.take()]).toEqual([[opened], [asked]]);
-    o.connection.closed();
-    expect(r.take()).toEqual([]);
-    // And one of the robot.
-    const r2 = robot('r1');
-    r2.take();
-    expect(o2.take()).toEqual([{ type: 'session.closed', session: handle, reason: 'robot-left' }]);
-    o2.send(resume);
-    expect([o2.take(), r2.take()]).toEqual([[opened], [asked]]);
-    expect(hub.counts.sessions).toBe(1);
-    r2.send({ type: 'session.offer', session: handle, sdp: 'v=0' });
-    expect(o2.types()).toEqual(['session.offer']);
-  });
+  describe('resumed', () => {
+    const resume = (session: string, robotId = 'r1') => ({
+      type: 'session.resume',
+      session,
+      robotId,
+      resumeKey: 'key',
+    });
+    /** The claim of the only thing that the robot was asked. */
+    const claimOf = (robot: FakeClient, session: string): string => {
+      const [asked, ...more] = robot.take();
+      expect(more).toEqual([]);
+      expect(asked).toMatchObject({ type: 'session.resume', session, operator: 'Ada', resumeKey: 'key' });
+      return asked?.claim as string;
+    };
+    const offer = (session: string, claim: string) => ({ type: 'session.offer', session, sdp: 'v=0', claim });
 
-  test('cannot be resumed with another robot, or one that is not here', () => {
-    const { session, robot } = setup();
-    const { r, o, handle } = session('r1');
-    const other = robot('r2');
-    o.take();
-    other.take();
-    o.send({ type: 'session.resume', session: handle, robotId: 'r2' });
-    o.send({ type: 'session.resume', session: handle, robotId: 'nobody' });
-    expect(o.take().filter(({ type }) => type === 'error')).toMatchObject([
-      { code: 'unknown-session', session: handle },
-      { code: 'unknown-robot', session: handle },
-    ]);
-    expect([r.take(), other.take()]).toEqual([[], []]);
+    test('by its own socket, by a newer one, and where the service has forgotten it', () => {
+      const { session, operator, robot, hub, observer } = setup();
+      const { r, o, handle } = session('r1');
+      const resuming = { type: 'session.resuming', session: handle };
+      const accepted = [
+        { type: 'session.opened', session: handle, robotId: 'r1' },
+        { type: 'session.offer', session: handle, sdp: 'v=0' },
+      ];
+      o.send(resume(handle));
+      expect(o.take()).toEqual([resuming]);
+      r.send(offer(handle, claimOf(r, handle)));
+      expect(o.take()).toEqual(accepted);
+      // A newer socket of the same operator, while the old one is half-open.
+      const o2 = operator();
+      o2.take();
+      o2.send(resume(handle));
+      expect(o2.take()).toEqual([resuming]);
+      r.send(offer(handle, claimOf(r, handle)));
+      expect(o2.take()).toEqual(accepted);
+      o.connection.closed();
+      expect(r.take()).toEqual([]);
+      // And one of the robot.
+      const r2 = robot('r1');
+      r2.take();
+      expect(o2.take()).toEqual([{ type: 'session.closed', session: handle, reason: 'robot-left' }]);
+      o2.send(resume(handle));
+      expect(o2.take()).toEqual([resuming]);
+      r2.send(offer(handle, claimOf(r2, handle)));
+      expect(o2.take()).toEqual(accepted);
+      expect(hub.counts.sessions).toBe(1);
+      expect(observer.sessionEnds).toEqual(['operator-left', 'robot-left']);
+    });
+
+    test.each(['wrong-resume-key', 'resume-too-soon'])(
+      '%s: told to who asked, and nothing else changes',
+      (code) => {
+        const { session, operator, hub } = setup();
+        const { r, o, handle } = session('r1');
+        const stranger = operator();
+        stranger.take();
+        stranger.send(resume(handle));
+        expect(stranger.types()).toEqual(['session.resuming']);
+        const claim = claimOf(r, handle);
+        // While the robot has not judged, and after it: the session is whose it was.
+        for (const judged of [false, true]) {
+          stranger.send({ type: 'session.close', session: handle });
+          stranger.send({ type: 'session.answer', session: handle, sdp: 'v=0' });
+          expect(stranger.types()).toEqual(['unknown-session', 'unknown-session']);
+          o.send({ type: 'session.candidate', session: handle, candidate: { candidate: 'c' } });
+          r.send({ type: 'session.candidate', session: handle, candidate: { candidate: 'd' } });
+          expect([r.types(), o.types()]).toEqual([['session.candidate'], ['session.candidate']]);
+          if (judged) break;
+          r.send({ type: 'session.refuse', session: handle, claim, code });
+          expect(stranger.take()).toEqual([
+            { type: 'error', code, message: expect.any(String), session: handle },
+          ]);
+        }
+        // Judged once: the claim is spent.
+        r.send(offer(handle, claim));
+        expect([stranger.take(), o.types()]).toEqual([[], ['session.offer']]);
+        stranger.connection.closed();
+        expect([r.take(), o.take(), hub.counts.sessions]).toEqual([[], [], 1]);
+      },
+    );
+
+    test('two at once: the robot says which of them it means', () => {
+      const { session, operator } = setup();
+      const { r, handle } = session('r1');
+      const [stranger, genuine] = [operator(), operator()];
+      for (const socket of [stranger, genuine]) {
+        socket.take();
+        socket.send(resume(handle));
+        socket.take();
+      }
+      const [first, second] = r.take().map(({ claim }) => claim as string);
+      r.send(offer(handle, second as string));
+      r.send({ type: 'session.refuse', session: handle, claim: first, code: 'wrong-resume-key' });
+      expect(genuine.types()).toEqual(['session.opened', 'session.offer']);
+      expect(stranger.types()).toEqual(['wrong-resume-key']);
+    });
+
+    test('a robot that does not have the session ends it for who asked', () => {
+      const { session, operator, hub } = setup();
+      const { r, o, handle } = session('r1');
+      const other = operator();
+      for (const asker of [other, o]) {
+        asker.take();
+        asker.send(resume(handle));
+        const claim = claimOf(r, handle);
+        r.send({ type: 'session.refuse', session: handle, claim, code: 'unknown-session' });
+        expect(asker.take().at(-1)).toEqual({
+          type: 'session.closed',
+          session: handle,
+          reason: 'unknown-session',
+        });
+      }
+      expect([r.take(), hub.counts.sessions]).toEqual([[], 0]);
+    });
+
+    test('a claim ends with the socket that made it, and with that of its robot', () => {
+      const { session, operator, robot } = setup();
+      const { r, o, handle } = session('r1');
+      const gone = operator();
+      gone.send(resume(handle));
+      const claim = claimOf(r, handle);
+      gone.connection.closed();
+      r.send({ type: 'session.refuse', session: handle, claim, code: 'unknown-session' });
+      expect(o.take()).toEqual([]);
+      const waiting = operator();
+      waiting.take();
+      waiting.send(resume(handle));
+      const older = claimOf(r, handle);
+      const r2 = robot('r1');
+      r2.send({ type: 'session.refuse', session: handle, claim: older, code: 'unknown-session' });
+      expect(waiting.types()).toEqual(['session.resuming']);
+    });
+
+    test('cannot be with another robot, or one that is not here', () => {
+      const { session, robot } = setup();
+      const { r, o, handle } = session('r1');
+      const other = robot('r2');
+      o.take();
+      other.take();
+      o.send(resume(handle, 'r2'));
+      o.send(resume(handle, 'nobody'));
+      expect(o.take().filter(({ type }) => type === 'error')).toMatchObject([
+        { code: 'unknown-session', session: handle },
+        { code: 'unknown-robot', session: handle },
+      ]);
+      expect([r.take(), other.take()]).toEqual([[], []]);
+    });
   });
 
   test('with an unknown robot are refused', () => {

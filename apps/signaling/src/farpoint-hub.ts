@@ -1,23 +1,18 @@
 import {
-  encodeJson,
   type IceServer,
   type OperatorToService,
   operatorToServiceCodec,
   PROTOCOL_VERSION,
   type RobotToService,
   robotToServiceCodec,
-  type ServiceToOperator,
-  type ServiceToRobot,
-  type SessionEndReason,
-  serviceToOperatorCodec,
-  serviceToRobotCodec,
 } from '@farpoint/protocol';
 import type { AccessList } from './access.ts';
 import { HubConnection, type HubConnectionOptions, type Refuse } from './farpoint-connection.ts';
+import { FarpointSessions, type OperatorEntry, toOperator, toRobot } from './farpoint-sessions.ts';
 import { ListingFeed } from './listing-feed.ts';
 import { type Connection, closeCodes, type Peer } from './peer.ts';
 import { type RobotEntry, RobotRegistry } from './robot-registry.ts';
-import { type Session, type SessionLimits, SessionTable } from './session-table.ts';
+import type { SessionLimits } from './session-table.ts';
 
 export interface FarpointHubOptions extends HubConnectionOptions {
   readonly limits: HubConnectionOptions['limits'] & SessionLimits & { readonly maxRobots: number };
@@ -29,25 +24,18 @@ export interface FarpointHubOptions extends HubConnectionOptions {
   readonly makeHandle: () => string;
 }
 
-interface OperatorEntry {
-  readonly name: string;
-  readonly peer: Peer;
-}
-
-type HubSession = Session<RobotEntry, OperatorEntry>;
-
 /** Introduces robots and operators over Farpoint's own protocol (see `@farpoint/protocol`, signaling/farpoint.ts). */
 export class FarpointHub {
   readonly #options: FarpointHubOptions;
   readonly #registry: RobotRegistry;
-  readonly #sessions: SessionTable<RobotEntry, OperatorEntry>;
+  readonly #sessions: FarpointSessions;
   readonly #feed: ListingFeed;
   #operators = 0;
 
   constructor(options: FarpointHubOptions) {
     this.#options = options;
     this.#registry = new RobotRegistry(options.limits.maxRobots);
-    this.#sessions = new SessionTable(options.limits, options.makeHandle);
+    this.#sessions = new FarpointSessions({ ...options, registry: this.#registry });
     this.#feed = new ListingFeed({
       clock: options.clock,
       listing: this.#registry.listing,
@@ -87,7 +75,7 @@ export class FarpointHub {
         left: (operator) => {
           this.#operators--;
           this.#feed.remove(operator.peer);
-          this.#endAll(operator, 'operator-left');
+          this.#sessions.endAll(operator, 'operator-left');
         },
       },
     );
@@ -114,7 +102,7 @@ export class FarpointHub {
     }
     const { previous } = joined;
     if (previous !== null) {
-      this.#endAll(previous, 'robot-left');
+      this.#sessions.endAll(previous, 'robot-left');
       previous.peer.close(closeCodes.policyViolation, 'a newer connection of this robot took over');
     }
     this.#options.observer.robotJoined('robot', entry.id, peer.address, previous !== null);
@@ -127,28 +115,14 @@ export class FarpointHub {
     // Its place may have been taken by a newer socket, which then has had its sessions ended.
     if (!this.#registry.leave(robot)) return;
     this.#options.observer.robotLeft('robot', robot.id);
-    this.#endAll(robot, 'robot-left');
+    this.#sessions.endAll(robot, 'robot-left');
     this.#feed.changed();
   }
 
   #robotMessage(robot: RobotEntry, message: RobotToService, refuse: Refuse): string | null {
-    if (message.type === 'robot.hello') {
-      refuse('malformed', 'only one robot.hello per connection');
-      return null;
-    }
-    const session = this.#find(robot, message.session, refuse);
-    if (session === null) return null;
-    if (message.type === 'session.close') {
-      this.#end(session, 'closed-by-robot');
-      toOperator(session.operator.peer, {
-        type: 'session.closed',
-        session: session.handle,
-        reason: 'closed-by-robot',
-      });
-      return null;
-    }
-    toOperator(session.operator.peer, message);
-    return message.type;
+    if (message.type !== 'robot.hello') return this.#sessions.fromRobot(robot, message, refuse);
+    refuse('malformed', 'only one robot.hello per connection');
+    return null;
   }
 
   #operatorHello(
@@ -171,110 +145,9 @@ export class FarpointHub {
   }
 
   #operatorMessage(operator: OperatorEntry, message: OperatorToService, refuse: Refuse): string | null {
-    switch (message.type) {
-      case 'operator.hello':
-        refuse('malformed', 'only one operator.hello per connection');
-        return null;
-      case 'session.open':
-        this.#open(operator, message.robotId, refuse);
-        return null;
-      case 'session.resume':
-        this.#resume(operator, message, refuse);
-        return null;
-    }
-    const session = this.#find(operator, message.session, refuse);
-    if (session === null) return null;
-    if (message.type === 'session.close') {
-      this.#end(session, 'closed-by-operator');
-      toRobot(session.robot.peer, {
-        type: 'session.closed',
-        session: session.handle,
-        reason: 'closed-by-operator',
-      });
-      return null;
-    }
-    toRobot(session.robot.peer, message);
-    return message.type;
-  }
-
-  #open(operator: OperatorEntry, robotId: string, refuse: Refuse): void {
-    const robot = this.#registry.get(robotId);
-    if (robot === undefined) {
-      // No fault: it may have left a moment ago.
-      refuse('unknown-robot', `robot ${robotId} is not here`, { fault: false });
-      return;
-    }
-    const session = this.#sessions.open(robot, operator);
-    if (session === null) {
-      refuse('too-many-sessions', `no more sessions with robot ${robotId}: close one first`, {
-        fault: false,
-      });
-      return;
-    }
-    this.#options.observer.sessionOpened(session.handle, robot.id, operator.name);
-    // The operator first: it must know the handle before an offer can come.
-    toOperator(operator.peer, { type: 'session.opened', session: session.handle, robotId });
-    toRobot(robot.peer, { type: 'session.request', session: session.handle, operator: operator.name });
-  }
-
-  /**
-   * Asks the robot to restart ICE in a session that its peers may still have, though this service may have forgotten it
-   * with an earlier socket of theirs. Who knows the handle may: it is unguessable, and without the keys of the peers'
-   * connection its messages cannot be read.
-   */
-  #resume(
-    operator: OperatorEntry,
-    { session: handle, robotId }: Extract<OperatorToService, { type: 'session.resume' }>,
-    refuse: Refuse,
-  ): void {
-    const robot = this.#registry.get(robotId);
-    if (robot === undefined) {
-      refuse('unknown-robot', `robot ${robotId} is not here`, { session: handle, fault: false });
-      return;
-    }
-    const known = this.#sessions.get(handle);
-    if (known !== null && known.robot.id !== robotId) {
-      refuse('unknown-session', 'not a session of yours', { session: handle, fault: false });
-      return;
-    }
-    if (known?.operator !== operator || known.robot !== robot) {
-      // The socket it was opened by may be half-open still, or gone.
-      if (known !== null) this.#end(known, 'operator-left');
-      if (this.#sessions.open(robot, operator, handle) === null) {
-        refuse('too-many-sessions', `no more sessions with robot ${robotId}: close one first`, {
-          session: handle,
-          fault: false,
-        });
-        return;
-      }
-      this.#options.observer.sessionOpened(handle, robot.id, operator.name);
-    }
-    toOperator(operator.peer, { type: 'session.opened', session: handle, robotId });
-    toRobot(robot.peer, { type: 'session.resume', session: handle, operator: operator.name });
-  }
-
-  #find(owner: RobotEntry | OperatorEntry, handle: string, refuse: Refuse): HubSession | null {
-    const session = this.#sessions.find(handle, owner);
-    // No fault: the other side may have closed it a moment ago.
-    if (session === null) {
-      refuse('unknown-session', 'not a session of yours', { session: handle, fault: false });
-    }
-    return session;
-  }
-
-  #end(session: HubSession, reason: SessionEndReason): void {
-    this.#sessions.close(session);
-    this.#options.observer.sessionClosed(session.handle, reason);
-  }
-
-  /** One side has left: tells every other side. */
-  #endAll(owner: RobotEntry | OperatorEntry, reason: 'robot-left' | 'operator-left'): void {
-    for (const session of this.#sessions.closeAll(owner)) {
-      this.#options.observer.sessionClosed(session.handle, reason);
-      const closed = { type: 'session.closed', session: session.handle, reason } as const;
-      if (reason === 'robot-left') toOperator(session.operator.peer, closed);
-      else toRobot(session.robot.peer, closed);
-    }
+    if (message.type !== 'operator.hello') return this.#sessions.fromOperator(operator, message, refuse);
+    refuse('malformed', 'only one operator.hello per connection');
+    return null;
   }
 }
 
@@ -283,13 +156,4 @@ function unsupported(protocol: number, refuse: Refuse): 'refused' {
     fatal: true,
   });
   return 'refused';
-}
-
-// Encoded anew from what was validated: the original text could hold a key twice, and readers differ on which one counts.
-function toRobot(peer: Peer, message: ServiceToRobot): void {
-  peer.send(encodeJson(serviceToRobotCodec, message));
-}
-
-function toOperator(peer: Peer, message: ServiceToOperator): void {
-  peer.send(encodeJson(serviceToOperatorCodec, message));
 }

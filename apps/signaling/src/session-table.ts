@@ -17,7 +17,7 @@ export class SessionTable<Robot extends object, Operator extends object> {
   readonly #sessions = new Map<string, Session<Robot, Operator>>();
   readonly #byOwner = new Map<object, Set<Session<Robot, Operator>>>();
 
-  /** @param makeHandle must be unguessable: who knows a handle may resume its session */
+  /** @param makeHandle must be unguessable */
   constructor(limits: SessionLimits, makeHandle: () => string) {
     this.#limits = limits;
     this.#makeHandle = makeHandle;
@@ -32,15 +32,22 @@ export class SessionTable<Robot extends object, Operator extends object> {
    * @returns null where either side has as many sessions as it may have
    */
   open(robot: Robot, operator: Operator, handle = this.#makeHandle()): Session<Robot, Operator> | null {
-    const full =
-      this.#count(operator) >= this.#limits.maxSessionsPerOperator ||
-      this.#count(robot) >= this.#limits.maxSessionsPerRobot;
-    if (full) return null;
+    if (!this.hasRoom(robot, operator)) return null;
     const session = { handle, robot, operator };
     this.#sessions.set(session.handle, session);
     this.#ownedBy(robot).add(session);
     this.#ownedBy(operator).add(session);
     return session;
+  }
+
+  /** @param replaced a session that ends in the same moment */
+  hasRoom(robot: Robot, operator: Operator, replaced: Session<Robot, Operator> | null = null): boolean {
+    const count = (owner: Robot | Operator) =>
+      (this.#byOwner.get(owner)?.size ?? 0) -
+      Number(replaced !== null && (replaced.robot === owner || replaced.operator === owner));
+    return (
+      count(operator) < this.#limits.maxSessionsPerOperator && count(robot) < this.#limits.maxSessionsPerRobot
+    );
   }
 
   /** The session of this handle, if `owner` is one of its two sides. */
@@ -65,10 +72,6 @@ export class SessionTable<Robot extends object, Operator extends object> {
     const sessions = [...(this.#byOwner.get(owner) ?? [])];
     for (const session of sessions) this.close(session);
     return sessions;
-  }
-
-  #count(owner: object): number {
-    return this.#byOwner.get(owner)?.size ?? 0;
   }
 
   #ownedBy(owner: object): Set<Session<Robot, Operator>> {

@@ -16,9 +16,10 @@ import type { TransformSupport } from './peer/encoded-transform.ts';
 import { CameraViews } from './pictures/camera-views.ts';
 import type { Settings } from './settings.ts';
 import { PageStatistics } from './status/page-stats.ts';
-import { failureWords, leavingWords, lossWords, rejectionWords } from './status/words.ts';
+import { failureWords, leavingWords, rejectionWords, wordsOfLoss } from './status/words.ts';
 import { ControlsUi } from './ui/controls-ui.ts';
 import { elements } from './ui/elements.ts';
+import { EstopUi } from './ui/estop-ui.ts';
 import { notify, showFailure } from './ui/notice.ts';
 import { OperatorInputs } from './ui/operator-inputs.ts';
 import { showRobots } from './ui/robot-list.ts';
@@ -53,14 +54,15 @@ export class App implements PageParts {
   readonly #completion: GpuCompletion;
   readonly #gate = new DrawGate();
   readonly #status: StatusUi;
+  readonly #estop = new EstopUi(this);
   readonly #drawing = new DrawingGovernor();
   readonly #switch = new RobotSwitch({
     letGo: () => this.driver.letGo(performance.now()),
     connect: (robotId) => this.link.connect(robotId),
   });
   #generation = 0;
-  /** A coded stream came that this page cannot decode: it asks for none any more. */
-  #formatRefused = false;
+  /** Streams of these came that this page cannot decode: it asks for none any more. */
+  readonly #refusedFormats = new Set<CloudFormat>();
   lastPointsMs = 0;
   /** Filled while a measurement asks for it. */
   packetRecord: PacketRecord | null = null;
@@ -112,14 +114,18 @@ export class App implements PageParts {
     this.#listenToWorker();
     if (this.settings.drawEvery !== null) this.#drawEvery(this.settings.drawEvery, this.settings.drawEvery);
     this.#listenToCanvas();
-    const controls = new ControlsUi(this);
+    const controls = new ControlsUi(this, this.#estop);
     controls.start();
     this.inputs.onAction = (action, timeMs) => controls.act(action, timeMs);
+    this.inputs.onRelease = (control, held) => this.#estop.hold(control, held);
     this.link.start();
     if (this.settings.robot !== null) this.link.connect(this.settings.robot);
     setInterval(() => {
       this.inputs.poll();
-      this.driver.suspended = this.#handsAway();
+      const away = this.#handsAway();
+      this.#estop.tick(performance.now(), away);
+      if (this.vr.active) this.#status.showRelease(this.#estop.progress);
+      this.driver.suspended = away;
       this.driver.tick(performance.now());
       this.#switch.tick(this.#presentRobot, performance.now());
       this.latency.tick(performance.now());
@@ -213,8 +219,9 @@ export class App implements PageParts {
 
   /** Which of our formats we read; the robot chooses. */
   #tellFormats(): void {
-    const formats = this.#formatRefused || this.settings.mode === 'points64' ? POINTS64_ONLY : CLOUD_FORMATS;
-    this.link.sendSession({ type: 'cloudFormats', formats: [...formats] });
+    const readable = this.settings.mode === 'points64' ? POINTS64_ONLY : CLOUD_FORMATS;
+    const formats = readable.filter((format) => !this.#refusedFormats.has(format));
+    this.link.sendSession({ type: 'cloudFormats', formats });
   }
 
   /** Commands may only come from hands that see what they do. */
@@ -240,7 +247,7 @@ export class App implements PageParts {
         this.lastPointsMs = performance.now();
         this.#status.update(performance.now());
       },
-      onLoss: (loss) => notify(lossWords[loss], 'warning'),
+      onLoss: (loss) => notify(wordsOfLoss(loss, this.link.maxOperators), 'warning'),
       onPath: () => {
         this.driver.onPath(performance.now());
         this.#status.update(performance.now());
@@ -316,8 +323,8 @@ export class App implements PageParts {
           return;
         case 'streamRefused':
           if (message.generation !== this.#generation) return;
-          console.warn('cloud stream:', message.message);
-          this.#formatRefused = true;
+          console.warn('cloud stream:', message.format, message.message);
+          this.#refusedFormats.add(message.format);
           this.#tellFormats();
           return;
         case 'failed':

@@ -3,17 +3,11 @@ import { App } from './app.ts';
 import { transformSupport } from './peer/encoded-transform.ts';
 import { readSettings } from './settings.ts';
 import { failureWords } from './status/words.ts';
+import { loadStored, pageOrigin } from './stored-settings.ts';
 import { installTestApi } from './test-hooks.ts';
 import { showFailure } from './ui/notice.ts';
-import { loadStored } from './ui/settings-dialog.ts';
 
-const { protocol, hostname, host, search } = window.location;
-const settings = readSettings(new URLSearchParams(search), loadStored(), {
-  protocol,
-  hostname,
-  host,
-  isDevServer: import.meta.env.DEV,
-});
+const settings = readSettings(new URLSearchParams(window.location.search), loadStored(), pageOrigin());
 
 function start(): void {
   const transform = transformSupport();

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { parseSignalingUrl, parseStored, readSettings } from './settings.ts';
+import { ownSignalingUrl, parseSignalingUrl, parseStored, readSettings } from './settings.ts';
 
 const served = { protocol: 'https:', hostname: 'x.org', host: 'x.org:8443', isDevServer: false };
 const dev = { protocol: 'http:', hostname: 'localhost', host: 'localhost:5173', isDevServer: true };
@@ -14,7 +14,11 @@ describe('readSettings', () => {
   });
 
   test('the address goes before what is stored, which goes before the default', () => {
-    const stored = { signaling: 'wss://stored.org', token: 's', name: 'Stored' };
+    const stored = {
+      signaling: 'wss://stored.org',
+      tokens: new Map([['wss://stored.org', 's']]),
+      name: 'Stored',
+    };
     expect(read('', stored)).toMatchObject({
       signalingUrl: 'wss://stored.org/operator',
       token: 's',
@@ -45,6 +49,44 @@ describe('readSettings', () => {
   });
 });
 
+describe('a token goes only where it was given for', () => {
+  const tokens = new Map([
+    ['wss://x.org:8443', 'own'],
+    ['wss://stored.org', 'stored'],
+  ]);
+
+  test.each([
+    ['', 'own'],
+    ['signaling=wss://x.org:8443/elsewhere', 'own'],
+    ['signaling=wss://elsewhere.org', undefined],
+    ['signaling=wss://x.org', undefined],
+    ['signaling=wss://x.org.elsewhere.org:8443', undefined],
+    ['signaling=wss://x.org.elsewhere.org:8443', undefined],
+    ['signaling=wss://stored.org', 'stored'],
+    // With the token comes the service that it is for.
+    ['signaling=wss://elsewhere.org&token=theirs', 'theirs'],
+    ['token=given', 'given'],
+    // The address beside it is none: nobody knows whose it is.
+    ['signaling=ftp://elsewhere.org&token=theirs', 'own'],
+  ])('?%s', (query, token) => {
+    expect(read(query, { tokens }).token).toBe(token);
+  });
+
+  test('one in a link to the page is not for a service that was chosen in the settings', () => {
+    const stored = { signaling: 'wss://stored.org', tokens };
+    expect(read('token=given', stored).token).toBe('stored');
+    expect(read('', stored).token).toBe('stored');
+  });
+
+  test('the single token of earlier visits is the page’s own service’s', () => {
+    const stored = parseStored('{"token":"old","signaling":""}', ownSignalingUrl(served));
+    expect(read('', stored).token).toBe('old');
+    expect(read('signaling=wss://elsewhere.org', stored).token).toBeUndefined();
+    const newer = '{"token":"old","tokens":{"wss://x.org:8443":"new"}}';
+    expect(read('', parseStored(newer, ownSignalingUrl(served))).token).toBe('new');
+  });
+});
+
 describe('parseSignalingUrl', () => {
   test('accepts what people type', () => {
     expect(parseSignalingUrl('x.org', true)).toEqual({ url: 'wss://x.org/operator' });
@@ -70,13 +112,19 @@ describe('parseSignalingUrl', () => {
 });
 
 test('parseStored takes only what is of the right kind', () => {
-  expect(parseStored(null)).toEqual({});
-  expect(parseStored('not json')).toEqual({});
-  expect(parseStored('[1]')).toEqual({});
-  expect(parseStored('{"token":5,"name":"A","pointScale":99}')).toEqual({ name: 'A', pointScale: 4 });
+  const own = ownSignalingUrl(served);
+  const nothing = { tokens: new Map() };
+  expect(parseStored(null, own)).toEqual(nothing);
+  expect(parseStored('not json', own)).toEqual({});
+  expect(parseStored('[1]', own)).toEqual(nothing);
+  expect(parseStored('{"token":5,"name":"A","pointScale":99}', own)).toEqual({
+    ...nothing,
+    name: 'A',
+    pointScale: 4,
+  });
   fc.assert(
     fc.property(fc.oneof(fc.string(), fc.json()), (text) => {
-      parseStored(text);
+      parseStored(text, own);
     }),
     { seed: 2 },
   );

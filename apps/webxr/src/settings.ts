@@ -2,13 +2,22 @@
 
 import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
 import { type BridgeAddress, parseBridge } from './bridge/bridge-settings.ts';
+import { parseTokens, type SignalingTokens, tokenOrigin, withToken } from './signaling-tokens.ts';
 
 /** What the browser keeps between visits. */
 export interface StoredSettings {
   signaling?: string | undefined;
-  token?: string | undefined;
+  tokens?: SignalingTokens | undefined;
   name?: string | undefined;
   pointScale?: number | undefined;
+}
+
+/** Where the page comes from. */
+export interface PageOrigin {
+  protocol: string;
+  hostname: string;
+  host: string;
+  isDevServer: boolean;
 }
 
 export interface Settings {
@@ -37,26 +46,29 @@ export interface Settings {
 export const DEFAULT_SIGNALING_PORT = 3000;
 const MAX_CANVAS = 8192;
 
-/**
- * @param query the page's query string
- * @param page where the page comes from
- */
-export function readSettings(
-  query: URLSearchParams,
-  stored: StoredSettings,
-  page: { protocol: string; hostname: string; host: string; isDevServer: boolean },
-): Settings {
-  const secure = page.protocol === 'https:';
-  // Served by the signaling service itself, or by a development server beside it.
+/** The page's own signaling service: the one that serves it, or that stands beside a development server. */
+export function ownSignalingUrl(page: PageOrigin): string {
   const host = page.isDevServer ? `${page.hostname || 'localhost'}:${DEFAULT_SIGNALING_PORT}` : page.host;
-  const standard = `${secure ? 'wss' : 'ws'}://${host}/operator`;
-  const asked = nonEmpty(query.get('signaling')) ?? nonEmpty(stored.signaling);
+  return `${page.protocol === 'https:' ? 'wss' : 'ws'}://${host}/operator`;
+}
+
+/** @param query the page's query string */
+export function readSettings(query: URLSearchParams, stored: StoredSettings, page: PageOrigin): Settings {
+  const secure = page.protocol === 'https:';
+  const own = ownSignalingUrl(page);
+  const inQuery = nonEmpty(query.get('signaling'));
+  const asked = inQuery ?? nonEmpty(stored.signaling);
   const given = asked === undefined ? null : parseSignalingUrl(asked, secure);
+  const signalingUrl = given !== null && 'url' in given ? given.url : own;
   const name = nonEmpty(query.get('name')) ?? nonEmpty(stored.name) ?? 'Operator';
-  const token = nonEmpty(query.get('token')) ?? nonEmpty(stored.token);
+  // A token in the query is for the service that it came with: the one beside it in the query, else the page's own.
+  const cameFor = inQuery === undefined ? own : given !== null && 'url' in given ? given.url : null;
+  const isForHere = cameFor !== null && tokenOrigin(cameFor) === tokenOrigin(signalingUrl);
+  const token =
+    (isForHere ? nonEmpty(query.get('token')) : undefined) ?? stored.tokens?.get(tokenOrigin(signalingUrl));
   const robot = nonEmpty(query.get('robot'));
   return {
-    signalingUrl: given !== null && 'url' in given ? given.url : standard,
+    signalingUrl,
     signalingFault: given !== null && 'fault' in given ? given.fault : null,
     token: token !== undefined && tokenSchema.safeParse(token).success ? token : undefined,
     name: displayNameSchema.safeParse(name).success ? name : 'Operator',
@@ -94,8 +106,11 @@ export function parseSignalingUrl(text: string, securePage: boolean): { url: str
   return { url: url.href };
 }
 
-/** What of local storage can be used. */
-export function parseStored(text: string | null): StoredSettings {
+/**
+ * What of local storage can be used. Pages once kept a single token, and did not say for which service: it is taken for that
+ * of `ownUrl` alone.
+ */
+export function parseStored(text: string | null, ownUrl: string): StoredSettings {
   let value: unknown;
   try {
     value = JSON.parse(text ?? '{}');
@@ -106,9 +121,12 @@ export function parseStored(text: string | null): StoredSettings {
   const record = value as Record<string, unknown>;
   const textOf = (key: string): string | undefined =>
     typeof record[key] === 'string' && record[key].length <= 4096 ? record[key] : undefined;
+  const single = nonEmpty(textOf('token'));
+  const own = tokenOrigin(ownUrl);
+  const tokens = parseTokens(record.tokens);
   return {
     signaling: textOf('signaling'),
-    token: textOf('token'),
+    tokens: single === undefined || tokens.has(own) ? tokens : withToken(tokens, own, single),
     name: textOf('name'),
     pointScale: typeof record.pointScale === 'number' ? clampScale(record.pointScale) : undefined,
   };

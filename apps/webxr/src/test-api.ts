@@ -6,7 +6,8 @@ import type { DriveState, LatencyFrame, LeaseState, RobotListing } from '@farpoi
 import type { DropCounts } from './cloud/packet-intake.ts';
 import type { LatencyResult } from './latency/latency-test.ts';
 import type { Distribution } from './latency/sample-window.ts';
-import type { SessionLoss, SessionPhase } from './session/session-keeper.ts';
+import type { SessionPhase } from './session/session-keeper.ts';
+import type { SessionLoss } from './session/session-loss.ts';
 import type { SignalingState } from './signaling/operator-signaling.ts';
 
 export interface PageState {

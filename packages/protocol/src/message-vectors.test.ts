@@ -8,11 +8,14 @@ import { decodeJson, encodeJson, encodeJsonBytes, type JsonCodec, type MessageDa
 import { referenceControlCodec } from './reference-control.ts';
 import { operatorSessionCodec, robotSessionCodec } from './session-messages.ts';
 import {
+  operatorEndReasons,
   operatorToServiceCodec,
+  resumeRefusals,
+  robotCloseReasons,
+  robotEndReasons,
   robotToServiceCodec,
   serviceToOperatorCodec,
   serviceToRobotCodec,
-  sessionEndReasons,
   signalingErrorCodes,
 } from './signaling/farpoint.ts';
 import {
@@ -133,7 +136,10 @@ test.each([
   ['robot-session', 'reason', commandRejections],
   ['telemetry', 'drive', driveStates],
   ['signaling-service-to-robot', 'code', signalingErrorCodes],
-  ['signaling-service-to-robot', 'reason', sessionEndReasons],
+  ['signaling-service-to-robot', 'reason', operatorEndReasons],
+  ['signaling-robot-to-service', 'reason', robotCloseReasons],
+  ['signaling-robot-to-service', 'code', resumeRefusals],
+  ['signaling-service-to-operator', 'reason', robotEndReasons],
 ])('the vectors of %s have every %s', (file, member, all) => {
   const values = vectorsOf(file).valid.map(
     ({ text }) => (JSON.parse(text) as Record<string, unknown>)[member],

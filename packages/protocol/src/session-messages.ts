@@ -28,6 +28,8 @@ export interface Welcome {
   name: string;
   limits: DriveLimits;
   stream: { format: 'points64'; width: number; height: number; framesPerSecond: number };
+  /** Proves to the robot that a `session.resume` comes from this session's operator. Left out: it cannot be resumed. */
+  resumeKey?: string | undefined;
 }
 
 /** Who may drive. `lease` is there only for the operator who holds it. */
@@ -178,6 +180,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
         height: z.int().positive(),
         framesPerSecond: positive,
       }),
+      resumeKey: handleSchema.optional(),
     }),
     z.strictObject({
       type: z.literal('lease'),

@@ -412,6 +412,7 @@ robot_session = Messages()
 limits = {"maxLinear": 1, "maxAngular": 1.5, "watchdogMs": 150, "maxCommandsPerSecond": 100}
 welcome = robot_session.good({"type": "welcome", "protocol": 1, "robotId": "sim-1", "name": "Simulated robot", "limits": limits,
                               "stream": {"format": "points64", "width": 480, "height": 480, "framesPerSecond": 30}})
+robot_session.good({**welcome, "resumeKey": "p5bGbAm3i8CqEIfnp0tqkg"}, "welcome with the key that resumes the session")
 lease = robot_session.good({"type": "lease", "holder": "you", "lease": "0f3a9c"}, "lease held by this operator")
 robot_session.good({"type": "lease", "holder": "other"}, "lease held by another")
 robot_session.good({"type": "lease", "holder": "nobody"}, "lease free")
@@ -431,7 +432,7 @@ robot_session.common(fault, 4096)
 robot_session.spoil(welcome, ("protocol", 0), ("protocol", 1.5), ("robotId", "Sim"), ("robotId", "-sim"), ("robotId", "x" * 65), ("name", ""),
                     ("name", "a\nb"), ("name", "x" * 65), ("limits.maxLinear", 0), ("limits.watchdogMs", -150),
                     ("limits.maxAngular", ABSENT), ("limits.extra", 1, "limits"), ("stream.format", "points32"), ("stream.width", 0),
-                    ("stream.height", 1.5), ("stream.framesPerSecond", 0))
+                    ("stream.height", 1.5), ("stream.framesPerSecond", 0), ("resumeKey", ""), ("resumeKey", "a b"))
 robot_session.spoil(lease, ("holder", "me"), ("lease", "a b"), ("lease", 7))
 robot_session.spoil(rejected, ("reason", "because"), ("detail", "x" * 513), ("count", 0), ("sequence", -1))
 robot_session.spoil(estop, ("latched", "yes"), ("by", "me"))
@@ -453,6 +454,10 @@ formats = operator_session.good({"type": "cloudFormats", "formats": ["points64",
 operator_session.good({"type": "cloudFormats", "formats": []}, "cloudFormats: none")
 pictures = operator_session.good({"type": "pictures", "cameras": [0, 2]})
 operator_session.good({"type": "pictures", "cameras": []}, "pictures: none")
+measured = operator_session.good({"type": "latencyMeasured", "id": 4, "frameNumber": 902, "mtpMs": 98.5, "firstMs": 91.25})
+operator_session.good(changed(measured, "mtpMs", 60000), "latencyMeasured: the longest")
+operator_session.spoil(measured, ("id", -1), ("id", 2 ** 32), ("frameNumber", 1.5), ("frameNumber", ABSENT), ("mtpMs", 60000.5), ("mtpMs", -1),
+                       ("firstMs", ABSENT), ("firstMs", "91"), ("points", 1, ""))
 operator_session.spoil(pictures, ("cameras", ABSENT), ("cameras", 0), ("cameras", [8], "cameras.0"), ("cameras", [-1], "cameras.0"),
                        ("cameras", [0.5], "cameras.0"), ("cameras", [0] * 9))
 operator_session.spoil(formats, ("formats", ABSENT), ("formats", ["draco"], "formats.0"), ("formats", ["points64"] * 4))
@@ -508,6 +513,10 @@ session_answer = {"type": "session.answer", "session": "s1", "sdp": SDP}
 trickle = {"type": "session.candidate", "session": "s1", "candidate": ice}
 close = {"type": "session.close", "session": "s1"}
 closed = {"type": "session.closed", "session": "s1", "reason": "operator-left"}
+ended = {"type": "session.closed", "session": "s1", "reason": "robot-left"}
+refuse = {"type": "session.refuse", "session": "s1", "claim": "c1", "code": "wrong-resume-key"}
+ROBOT_REASONS = ["robot-full", "bad-answer", "unproven-peer", "not-connected", "connection-lost", "silent", "not-reading",
+                 "shutting-down"]
 error = {"type": "error", "code": "unknown-robot", "message": "no robot 'sim-9' is here", "session": "s1"}
 servers = [{"urls": "stun:stun.example.org"},
            {"urls": ["turn:turn.example.org", "turns:turn.example.org"], "username": "u", "credential": "c"}]
@@ -515,8 +524,15 @@ servers = [{"urls": "stun:stun.example.org"},
 m = Messages()
 hello = m.good({"type": "robot.hello", "protocol": 1, "id": "sim-1", "name": "Simulated robot", "key": "k_0-Z", "token": "secret"})
 m.good(changed(hello, "token", ABSENT), "robot.hello without a token")
-for message in [offer, trickle, close]:
+for message in [offer, trickle, close, refuse]:
     m.good(message)
+m.good({**offer, "claim": "c1"}, "session.offer that answers a session.resume")
+for reason in ROBOT_REASONS:
+    m.good({**close, "reason": reason}, "session.close: " + reason)
+full = m.good({**close, "reason": "robot-full", "maxOperators": 4}, "session.close: robot-full, with how many")
+m.good({**close, "reason": "bad-answer", "detail": "no codec in common"}, "session.close with a detail")
+for code in ["unknown-session", "resume-too-soon"]:
+    m.good({**refuse, "code": code}, "session.refuse: " + code)
 m.good({**trickle, "candidate": {"candidate": ""}}, "the end of the candidates")
 m.good({**trickle, "candidate": {**ice, "sdpMid": None, "sdpMLineIndex": None, "usernameFragment": "abcd"}}, "candidate with nulls")
 m.common(close, 65536)
@@ -524,36 +540,37 @@ m.spoil(hello, ("protocol", 0), ("id", "Robot 1"), ("id", ""), ("name", ""), ("n
         ("token", "x" * 4097), ("admin", True, ""))
 m.spoil(offer, ("session", ""), ("session", "s 1"), ("sdp", ""), ("sdp", ABSENT), ("type", "session.answer"))
 m.spoil(trickle, ("candidate", CANDIDATE), ("candidate.candidate", "x" * 1025), ("candidate.sdpMLineIndex", -1), ("candidate.extra", 1, "candidate"))
+m.spoil(full, ("reason", "operator-left"), ("maxOperators", -1), ("maxOperators", "4"), ("detail", "x" * 301))
+m.spoil(refuse, ("claim", ABSENT), ("code", "unauthorized"), ("session", ABSENT))
 write("signaling-robot-to-service.json", m.lists())
 
 m = Messages()
 m_welcome = m.good({"type": "robot.welcome", "id": "sim-1", "iceServers": servers})
 m_request = m.good({"type": "session.request", "session": "s1", "operator": "Ada"})
-m_resume = m.good({"type": "session.resume", "session": "s1", "operator": "Ada"})
+m_resume = m.good({"type": "session.resume", "session": "s1", "operator": "Ada", "claim": "c1", "resumeKey": "k_0-Z"})
 for message in [session_answer, trickle, closed, error]:
     m.good(message)
-for reason in ["robot-left", "closed-by-operator", "closed-by-robot"]:
-    m.good({**closed, "reason": reason}, "session.closed: " + reason)
+m.good({**closed, "reason": "closed-by-operator"}, "session.closed: closed-by-operator")
 for code in ["malformed", "too-large", "rate-limited", "hello-first", "unauthorized", "robot-id-taken", "unknown-session",
-             "too-many-sessions", "unsupported-protocol", "full", "shutting-down"]:
+             "too-many-sessions", "wrong-resume-key", "resume-too-soon", "unsupported-protocol", "full", "shutting-down"]:
     m.good({"type": "error", "code": code, "message": ""}, "error: " + code)
 m.common(m_request, 65536)
 m.spoil(m_welcome, ("iceServers", ABSENT), ("iceServers.0.urls", 1), ("iceServers.1.password", "x", "iceServers.1"))
 m.spoil(m_request, ("operator", ""), ("session", None), ("type", "session.offer"))
-m.spoil(m_resume, ("operator", ABSENT), ("session", "../x"))
-m.spoil(closed, ("reason", "bored"))
+m.spoil(m_resume, ("operator", ABSENT), ("session", "../x"), ("claim", ABSENT), ("resumeKey", ABSENT))
+m.spoil(closed, ("reason", "bored"), ("reason", "robot-left"))
 m.spoil(error, ("code", "oops"), ("message", "x" * 1025))
 write("signaling-service-to-robot.json", m.lists())
 
 m = Messages()
 hello = m.good({"type": "operator.hello", "protocol": 1, "name": "Ada", "token": "secret"})
 m_open = m.good({"type": "session.open", "robotId": "sim-1"})
-m_resume = m.good({"type": "session.resume", "session": "s1", "robotId": "sim-1"})
+m_resume = m.good({"type": "session.resume", "session": "s1", "robotId": "sim-1", "resumeKey": "k_0-Z"})
 for message in [session_answer, trickle, close]:
     m.good(message)
 m.common(m_open, 65536)
 m.spoil(hello, ("protocol", "1"), ("name", ABSENT), ("token", 5))
-m.spoil(m_resume, ("robotId", ABSENT), ("session", ABSENT), ("session", "a b"))
+m.spoil(m_resume, ("robotId", ABSENT), ("session", ABSENT), ("session", "a b"), ("resumeKey", ABSENT), ("resumeKey", "a.b"))
 m.spoil(m_open, ("robotId", 0), ("robotId", "../x"), ("type", "session.offer"))
 write("signaling-operator-to-service.json", m.lists())
 
@@ -564,12 +581,19 @@ m.good({"type": "robots", "robots": []}, "no robots")
 delta = m.good({"type": "robots.changed", "here": [{"id": "sim-2", "name": "Second robot"}], "gone": ["sim-1", "r2"]})
 m.good({"type": "robots.changed", "here": [], "gone": []}, "nothing changed")
 opened = m.good({"type": "session.opened", "session": "s1", "robotId": "sim-1"})
-for message in [offer, trickle, closed, error]:
+resuming = m.good({"type": "session.resuming", "session": "s1"})
+for message in [offer, trickle, ended, error]:
     m.good(message)
+for reason in [*ROBOT_REASONS, "closed-by-robot", "unknown-session"]:
+    m.good({**ended, "reason": reason}, "session.closed: " + reason)
+m.good({**ended, "reason": "robot-full", "maxOperators": 4}, "session.closed: robot-full, with how many")
+m.good({**ended, "reason": "bad-answer", "detail": "no codec in common"}, "session.closed with a detail")
 m.common(opened, 1048576)
 m.spoil(robots, ("robots", None), ("robots.0.id", "A"), ("robots.1.name", ABSENT), ("robots.1.key", "k", "robots.1"))
 m.spoil(delta, ("here", ABSENT), ("here.0.name", ""), ("here.0.key", "k", "here.0"), ("gone", ABSENT), ("gone.1", "R 2"), ("gone.0", {"id": "sim-1"}), ("robots", [], ""))
 m.spoil(opened, ("robotId", ABSENT), ("type", "session.answer"))
+m.spoil(resuming, ("session", ABSENT), ("robotId", "sim-1", ""))
+m.spoil(ended, ("reason", "closed-by-operator"), ("maxOperators", 0.5), ("detail", 7))
 write("signaling-service-to-operator.json", m.lists())
 
 # The reference system's signaling: unknown fields are let through, ids are numbers from 0.

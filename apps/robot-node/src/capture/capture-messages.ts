@@ -5,7 +5,7 @@ import type { TopicReading } from '@farpoint/ros';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { EncodedFrame, SamplingOptions } from '../encode/encoded-frame.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
-import type { PlanPolicy } from '../encode/plan.ts';
+import type { CodedFormat, PlanPolicy } from '../encode/plan.ts';
 import type { CameraDescription, SourceDescription, SourceState } from './frame-source.ts';
 import type { SourceOptions } from './open-source.ts';
 
@@ -35,9 +35,16 @@ export interface CaptureBudget {
    * `clusterId` is one such wish.
    */
   probe: { clusterId: number; bytes: number } | null;
-  /** Those who watch read coded formats: the rate is theirs. */
-  coded: boolean;
-  /** Beside a coded stream: what those may be sent who read `points64` only, bit/s; `null` where there are none. */
+  /** The coded formats that may be used, where they fit a frame: each is read by somebody who decides. */
+  coded: readonly CodedBudget[];
+}
+
+/** What frames in one coded format may take. */
+export interface CodedBudget {
+  format: CodedFormat;
+  /** Of those who decide and read it, bit/s. */
+  targetBitsPerSecond: number;
+  /** Beside them: what those may be sent who do not read it, as `points64`, bit/s; `null` where there are none. */
   plainBitsPerSecond: number | null;
 }
 
@@ -47,8 +54,7 @@ export const NO_BUDGET: CaptureBudget = {
   overheadBytes: 0,
   streaming: false,
   probe: null,
-  coded: false,
-  plainBitsPerSecond: null,
+  coded: [],
 };
 
 export type CaptureRequest =

@@ -6,6 +6,7 @@ import { cloudMessage, mcapOf, writeFile } from '@farpoint/recording/testing';
 import type { TopicTable } from '@farpoint/ros';
 import { afterAll, describe, expect, it } from 'vitest';
 import * as z from 'zod';
+import { CODED_FORMATS } from '../encode/plan.ts';
 import { Capture } from './capture.ts';
 import { type CapturedFrame, type CaptureOptions, NO_BUDGET } from './capture-messages.ts';
 import type { SourceOptions } from './open-source.ts';
@@ -67,7 +68,9 @@ async function recordFrames(source: SourceOptions, coded: boolean, count: number
       targetBitsPerSecond: 200e6,
       overheadBytes: 68,
       streaming: true,
-      coded,
+      coded: coded
+        ? CODED_FORMATS.map((format) => ({ format, targetBitsPerSecond: 200e6, plainBitsPerSecond: null }))
+        : [],
     });
   });
   await capture.close();

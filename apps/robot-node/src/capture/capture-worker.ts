@@ -179,7 +179,7 @@ function captureFrame(now: number): number | null {
   if (buffer === null) return null;
   pool.release(buffer);
   const cpuBefore = threadCpuMs();
-  const frame = source.capture(now, wishes(), formats.room(budget.coded));
+  const frame = source.capture(now, wishes(), formats.room(budget.coded.length > 0));
   if (frame === null) return null;
   lastFault = '';
   const { captureMs: capturedAtMs } = frame;

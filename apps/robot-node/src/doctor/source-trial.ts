@@ -2,6 +2,7 @@
 import { Capture } from '../capture/capture.ts';
 import type { CaptureOptions } from '../capture/capture-messages.ts';
 import type { SourceDescription } from '../capture/frame-source.ts';
+import { CODED_FORMATS } from '../encode/plan.ts';
 
 export interface SourceTrial {
   description: SourceDescription;
@@ -46,8 +47,11 @@ export async function trySource(options: CaptureOptions, watchMs: number): Promi
     overheadBytes: PACKET_OVERHEAD_BYTES,
     streaming: true,
     probe: null,
-    coded: true,
-    plainBitsPerSecond: null,
+    coded: CODED_FORMATS.map((format) => ({
+      format,
+      targetBitsPerSecond: BITS_PER_SECOND,
+      plainBitsPerSecond: null,
+    })),
   });
   let timer: NodeJS.Timeout | undefined;
   const watched = new Promise<void>((resolve) => {

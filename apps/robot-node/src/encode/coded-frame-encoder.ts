@@ -35,9 +35,12 @@ export class CodedFrameEncoder {
     return (this.#last ?? this.#organised ?? this.#makeUnorganised()).room;
   }
 
-  /** What the next frame will most likely be coded in. */
-  get format(): CodedFormat {
-    return this.#stream?.format ?? (this.#organised === null ? 'unorganised' : 'organised');
+  /** What the next frame will most likely be coded in; `null` where none of `allowed` comes into question. */
+  likelyFormat(allowed: readonly CodedFormat[]): CodedFormat | null {
+    const last = this.#stream?.format;
+    if (last !== undefined && allowed.includes(last)) return last;
+    if (this.#organised !== null && allowed.includes('organised')) return 'organised';
+    return this.#source.camera === null && allowed.includes('unorganised') ? 'unorganised' : null;
   }
 
   /** Of the last frame; another object where it changed. */
@@ -46,6 +49,7 @@ export class CodedFrameEncoder {
   }
 
   /**
+   * @param allowed the formats that somebody reads
    * @param budgetBytes for the data of all packets
    * @param latencyTest makes the whole frame green
    * @returns `null` where there is no format for this frame but `points64`
@@ -54,10 +58,12 @@ export class CodedFrameEncoder {
   encode(
     frame: SourceFrame,
     frameNumber: number,
+    allowed: readonly CodedFormat[],
     budgetBytes: number,
     latencyTest: boolean,
   ): EncodedFrame | null {
-    const fits = this.#organised?.take(frame, this.#source.camera) === true;
+    const fits = allowed.includes('organised') && this.#organised?.take(frame, this.#source.camera) === true;
+    if (!fits && !allowed.includes('unorganised')) return null;
     // Making the other encoder may move the codec's memory, and with it a frame that lies there.
     const kept =
       !fits && frame.form === 'points' && this.#unorganised === null

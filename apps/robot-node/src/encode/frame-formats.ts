@@ -3,11 +3,11 @@ import type { CaptureBudget } from '../capture/capture-messages.ts';
 import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/frame-source.ts';
 import { CodedFrameEncoder, type CodedStream } from './coded-frame-encoder.ts';
 import type { EncodedFrame, PacketSource, SamplingOptions } from './encoded-frame.ts';
-import type { FramePlanner } from './plan.ts';
+import type { CodedFormat, FramePlanner, PlanInput } from './plan.ts';
 import { Points64FrameEncoder } from './points64-frame-encoder.ts';
 
-/** Whom a frame is for: those who read coded formats, those who do not, or everyone. */
-export type FrameAudience = 'coded' | 'plain' | 'everyone';
+/** Whom a frame is for: those who read a coded format, those who do not, or everyone. */
+export type FrameAudience = 'everyone' | { readers: CodedFormat } | { others: CodedFormat };
 
 export interface FormattedFrame {
   encoded: EncodedFrame;
@@ -67,31 +67,44 @@ export class FrameFormats {
     const { frameNumber, budget, probeBytes, workMs, latencyTest } = request;
     const rawPoints = frame.form === 'points' ? frame.count : frame.depth.length;
     const input = { ...budget, probeBytes, rawPoints, workMs };
-    const frames: FormattedFrame[] = [];
-    let framesPerSecond: number | null = null;
-    if (budget.coded) {
-      this.#coded ??= this.#makeCoded();
-      const plan = this.#planner.planCoded(this.#coded.format, input);
-      const encoded = this.#coded.encode(frame, frameNumber, plan.budgetBytes, latencyTest);
-      if (encoded !== null) {
-        framesPerSecond = plan.framesPerSecond;
-        frames.push({ encoded, audience: 'coded', packets: this.#coded });
-      }
-    }
-    if (framesPerSecond === null) {
-      const plan = this.#planner.plan(input);
-      framesPerSecond = plan.framesPerSecond;
-      const encoded = this.#points64.encode(frame, frameNumber, plan.points, latencyTest);
-      frames.push({ encoded, audience: 'everyone', packets: this.#points64 });
-    } else if (budget.plainBitsPerSecond !== null) {
-      // At the frame rate of the others: whoever reads only this has a stream that is wasteful enough.
-      const points = this.#planner.pointsAt(framesPerSecond, {
-        ...input,
-        targetBitsPerSecond: budget.plainBitsPerSecond,
-      });
+    const coded = this.#encodeCoded(frame, request, input);
+    if (coded === null) {
+      const { framesPerSecond, points } = this.#planner.plan(input);
       const encoded = this.#points64.encode(frame, frameNumber, points, latencyTest);
-      frames.push({ encoded, audience: 'plain', packets: this.#points64 });
+      return {
+        intervalMs: 1000 / framesPerSecond,
+        frames: [{ encoded, audience: 'everyone', packets: this.#points64 }],
+      };
+    }
+    const { formatted, format, framesPerSecond } = coded;
+    const frames: FormattedFrame[] = [formatted];
+    const plain = budget.coded.find((one) => one.format === format)?.plainBitsPerSecond ?? null;
+    if (plain !== null) {
+      // At the frame rate of the others: whoever reads only this has a stream that is wasteful enough.
+      const points = this.#planner.pointsAt(framesPerSecond, { ...input, targetBitsPerSecond: plain });
+      const encoded = this.#points64.encode(frame, frameNumber, points, latencyTest);
+      frames.push({ encoded, audience: { others: format }, packets: this.#points64 });
     }
     return { intervalMs: 1000 / framesPerSecond, frames };
+  }
+
+  /** @returns `null` where nobody reads a coded format that fits the frame */
+  #encodeCoded(
+    frame: SourceFrame,
+    { frameNumber, budget, latencyTest }: FormatRequest,
+    input: PlanInput,
+  ): { formatted: FormattedFrame; format: CodedFormat; framesPerSecond: number } | null {
+    if (budget.coded.length === 0) return null;
+    this.#coded ??= this.#makeCoded();
+    const allowed = budget.coded.map(({ format }) => format);
+    const likely = budget.coded.find(({ format }) => format === this.#coded?.likelyFormat(allowed));
+    if (likely === undefined) return null;
+    const { targetBitsPerSecond } = likely;
+    const plan = this.#planner.planCoded(likely.format, { ...input, targetBitsPerSecond });
+    const encoded = this.#coded.encode(frame, frameNumber, allowed, plan.budgetBytes, latencyTest);
+    if (encoded === null) return null;
+    const format = encoded.format as CodedFormat;
+    const formatted: FormattedFrame = { encoded, audience: { readers: format }, packets: this.#coded };
+    return { formatted, format, framesPerSecond: plan.framesPerSecond };
   }
 }

@@ -45,6 +45,9 @@ export interface PlanInput {
 
 export type CodedFormat = Exclude<CloudFormat, 'points64'>;
 
+/** Best first. */
+export const CODED_FORMATS: readonly CodedFormat[] = ['organised', 'unorganised'];
+
 export interface FramePlan {
   framesPerSecond: number;
   /** Whole packets' worth. */

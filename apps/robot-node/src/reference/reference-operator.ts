@@ -53,8 +53,6 @@ export class ReferenceOperator implements FrameTarget {
   readonly id: string;
   readonly peer: ReferencePeer;
   readonly driver: ReferenceDriver;
-  /** The reference profile has one format. */
-  readonly takesCoded = false;
   sender: StreamSender | null = null;
   readonly #host: ReferenceHost;
   readonly #sendLoop: SendLoop;
@@ -85,6 +83,11 @@ export class ReferenceOperator implements FrameTarget {
       onMessage: (channel, data) => this.#onMessage(channel, data),
       onEnded: (end, detail) => this.#onEnded(end, detail),
     });
+  }
+
+  /** The reference profile has one format. */
+  reads(): boolean {
+    return false;
   }
 
   get streaming(): boolean {

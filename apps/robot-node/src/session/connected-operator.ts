@@ -1,10 +1,12 @@
 import { type RateController, RateMeter } from '@farpoint/congestion';
-import { CLOUD_FORMATS, type IceCandidate, type StageTimings, type StreamStatus } from '@farpoint/protocol';
+import type { CloudFormat, IceCandidate, StageTimings, StreamStatus } from '@farpoint/protocol';
 import type { CandidateRefusal } from '@farpoint/webrtc';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
+import type { CodedFormat } from '../encode/plan.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
 import { PictureSender } from '../pictures/picture-sender.ts';
 import { StageTimer } from '../telemetry/stage-timer.ts';
+import type { AnswerVerdict } from '../transport/answer-gate.ts';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
 import { OperatorPeer, type OperatorPeerOptions, type PeerEnd } from '../transport/operator-peer.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
@@ -15,6 +17,7 @@ import type { FrameTarget } from './frame-fan-out.ts';
 import { OperatorSession, type SessionHost } from './operator-session.ts';
 import { PathBudget } from './path-budget.ts';
 import { RestartPolicy } from './restart-policy.ts';
+import { ResumeKey } from './resume-key.ts';
 
 /** A latency test that waits for its green frame. */
 export interface LatencyTest {
@@ -40,8 +43,8 @@ export interface ConnectedOperatorEvents {
   onConnected(): void;
   /** Streaming began, paused, or may go at another rate or in another format. */
   onBudgetChanged(): void;
-  /** The operator reads coded formats now: it needs to know the stream. */
-  onTakesCoded(): void;
+  /** The operator has said which formats it reads: it may need to know the stream. */
+  onCloudFormats(): void;
   /** A green frame did not get through: another is needed. */
   onLatencyFrameLost(): void;
   onEnded(end: PeerEnd, detail: string): void;
@@ -55,9 +58,10 @@ export class ConnectedOperator implements FrameTarget {
   readonly session: OperatorSession;
   readonly peer: OperatorPeer;
   readonly restarts = new RestartPolicy();
+  readonly resumeKey = new ResumeKey();
   sender: StreamSender | null = null;
-  /** The operator has said that it reads all our formats. */
-  takesCoded = false;
+  /** What the operator has said that it reads. */
+  #formats: ReadonlySet<CloudFormat> = new Set();
   /** Nothing is heard: points would go nowhere. */
   quiet = false;
   readonly #host: SessionHost;
@@ -111,16 +115,22 @@ export class ConnectedOperator implements FrameTarget {
     };
     this.session.onPictures = (cameras) => this.pictures.watch(cameras);
     this.session.onCloudFormats = (formats) => {
-      this.takesCoded = CLOUD_FORMATS.every((format) => formats.includes(format));
-      if (this.takesCoded) events.onTakesCoded();
+      this.#formats = new Set(formats);
+      events.onCloudFormats();
       events.onBudgetChanged();
     };
   }
 
   /** The operator's answer to our latest offer. Never throws. */
-  async answer(sdp: string): Promise<void> {
-    this.restarts.onAnswer();
-    await this.peer.answer(sdp);
+  async answer(sdp: string): Promise<AnswerVerdict> {
+    const verdict = await this.peer.answer(sdp);
+    if (verdict === 'taken') this.restarts.onAnswer();
+    return verdict;
+  }
+
+  /** Each format counts by itself. */
+  reads(format: CodedFormat): boolean {
+    return this.#formats.has(format);
   }
 
   /** As the guard knows it. */

@@ -1,6 +1,14 @@
+import { isDeepStrictEqual } from 'node:util';
 import type { Capture } from '../capture/capture.ts';
-import { type CaptureBudget, type CapturedFrame, NO_BUDGET } from '../capture/capture-messages.ts';
+import {
+  type CaptureBudget,
+  type CapturedFrame,
+  type CodedBudget,
+  NO_BUDGET,
+} from '../capture/capture-messages.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
+import type { FrameAudience } from '../encode/frame-formats.ts';
+import { CODED_FORMATS, type CodedFormat } from '../encode/plan.ts';
 import type { FrameLog } from '../telemetry/frame-log.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { StageTimer } from '../telemetry/stage-timer.ts';
@@ -18,8 +26,7 @@ export interface FrameTarget {
   readonly streaming: boolean;
   /** What points may take of its path, bit/s on the wire. */
   readonly cloudBitsPerSecond: number;
-  /** Reads coded formats. */
-  readonly takesCoded: boolean;
+  reads(format: CodedFormat): boolean;
   readonly sender: Pick<StreamSender, 'probeWish' | 'overheadBytes'> | null;
   enqueue(shared: SharedFrame): void;
   /** What coded frames are decoded with; told to those who read them. */
@@ -27,9 +34,9 @@ export interface FrameTarget {
 }
 
 export interface FanOutOptions {
-  capture: Capture;
+  capture: Pick<Capture, 'onFrame' | 'onStream' | 'setBudget' | 'recycle' | 'requestLatencyTest'>;
   targets: () => Iterable<FrameTarget>;
-  sendLoop: SendLoop;
+  sendLoop: Pick<SendLoop, 'run'>;
   /** Whose path decides how much is captured; `null` where nobody drives. */
   driver: () => string | null;
   counters: RobotCounters;
@@ -57,27 +64,26 @@ export class FrameFanOut {
 
   /** Tells what coded frames are decoded with, where there are any and the target reads them. */
   announceTo(target: FrameTarget): void {
-    if (this.#stream !== null && target.takesCoded) target.announce?.(this.#stream);
+    if (this.#stream !== null && target.reads(this.#stream.format)) target.announce?.(this.#stream);
   }
 
   /**
-   * Tells the worker how much to capture and in which format, where that changed. The driver's path decides; without a
-   * driver the narrowest does. Operators with slower paths skip frames. Those who do not read what the driver reads get
-   * `points64` beside it.
+   * Tells the worker how much to capture and in which formats, where that changed. The driver decides; where nobody drives,
+   * all who watch do: the formats that any of them reads, at the rate of the narrowest path of those who read it. Operators
+   * with slower paths skip frames. Those who do not read a frame's format get `points64` beside it.
    */
   updateBudget(): void {
     const { capture, targets, driver, mayCode } = this.#options;
     const streaming = [...targets()].filter((operator) => operator.streaming);
     const driving = streaming.find((operator) => operator.id === driver());
     const driven = driving === undefined ? streaming : [driving];
-    const coded = mayCode && driven.some(({ takesCoded }) => takesCoded);
-    const deciding = coded ? driven.filter(({ takesCoded }) => takesCoded) : driven;
-    const plain = coded ? streaming.filter(({ takesCoded }) => !takesCoded) : [];
+    const coded = mayCode ? CODED_FORMATS.flatMap((format) => codedBudget(format, driven, streaming)) : [];
+    const readers = driven.filter((target) => coded.some(({ format }) => target.reads(format)));
+    const deciding = readers.length > 0 ? readers : driven;
     // One path at a time can be tried with larger frames: they go to everyone.
     const probe = deciding.length === 1 ? (deciding[0]?.sender?.probeWish ?? null) : null;
     const next: CaptureBudget = {
       coded,
-      plainBitsPerSecond: plain.length === 0 ? null : narrowest(plain),
       targetBitsPerSecond: deciding.length === 0 ? 0 : narrowest(deciding),
       probe: probe === null ? null : { clusterId: probe.clusterId, bytes: probe.bytes },
       overheadBytes: Math.max(0, ...streaming.map((operator) => operator.sender?.overheadBytes ?? 0)),
@@ -88,8 +94,7 @@ export class FrameFanOut {
       next.probe?.clusterId === last.probe?.clusterId &&
       next.targetBitsPerSecond === last.targetBitsPerSecond &&
       next.overheadBytes === last.overheadBytes &&
-      next.coded === last.coded &&
-      next.plainBitsPerSecond === last.plainBitsPerSecond &&
+      isDeepStrictEqual(next.coded, last.coded) &&
       next.streaming === last.streaming
     ) {
       return;
@@ -110,14 +115,31 @@ export class FrameFanOut {
       counters.framesStale++;
       if (frame.latencyTest) capture.requestLatencyTest();
     } else {
-      const { audience } = frame;
       for (const target of targets()) {
-        if (audience === 'everyone' || (audience === 'coded') === target.takesCoded) target.enqueue(shared);
+        if (isFor(target, frame.audience)) target.enqueue(shared);
       }
     }
     shared.release();
     sendLoop.run();
   }
+}
+
+function isFor(target: FrameTarget, audience: FrameAudience): boolean {
+  if (audience === 'everyone') return true;
+  return 'readers' in audience ? target.reads(audience.readers) : !target.reads(audience.others);
+}
+
+/** None where nobody who decides reads the format. */
+function codedBudget(
+  format: CodedFormat,
+  deciding: readonly FrameTarget[],
+  streaming: readonly FrameTarget[],
+): CodedBudget[] {
+  const readers = deciding.filter((target) => target.reads(format));
+  if (readers.length === 0) return [];
+  const others = streaming.filter((target) => !target.reads(format));
+  const plainBitsPerSecond = others.length === 0 ? null : narrowest(others);
+  return [{ format, targetBitsPerSecond: narrowest(readers), plainBitsPerSecond }];
 }
 
 function narrowest(targets: readonly FrameTarget[]): number {

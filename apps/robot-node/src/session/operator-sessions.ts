@@ -7,6 +7,7 @@ import type { PacketLog } from '../transport/packet-log.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
 import { ConnectedOperator } from './connected-operator.ts';
 import type { SessionHost } from './operator-session.ts';
+import type { ResumeRequest } from './path-keeper.ts';
 
 export interface OperatorSessionsOptions {
   /** More are refused. */
@@ -26,11 +27,11 @@ export interface OperatorSessionsOptions {
 }
 
 export interface OperatorSessionsEvents {
-  /** The operator asks for a new path, having lost the old one. */
-  resume: (session: string) => void;
+  /** Somebody asks for a new path of a session, having lost the old one. */
+  resume: (request: ResumeRequest, iceServers: readonly IceServer[]) => void;
   connected: (operator: ConnectedOperator) => void;
   budgetChanged: () => void;
-  takesCoded: (operator: ConnectedOperator) => void;
+  cloudFormats: (operator: ConnectedOperator) => void;
   latencyFrameLost: () => void;
   /** It is not among the operators any more. */
   ended: (operator: ConnectedOperator) => void;
@@ -57,11 +58,10 @@ export class OperatorSessions {
         void this.#open(message.session, message.operator);
         break;
       case 'session.resume':
-        this.operators.get(message.session)?.peer.useIceServers(this.#iceServers);
-        this.#events.resume(message.session);
+        this.#events.resume(message, this.#iceServers);
         break;
       case 'session.answer':
-        void this.operators.get(message.session)?.answer(message.sdp);
+        void this.#answer(message.session, message.sdp);
         break;
       case 'session.candidate':
         this.operators.get(message.session)?.peer.addCandidate(message.candidate);
@@ -82,7 +82,8 @@ export class OperatorSessions {
   /** Takes leave of everyone. */
   close(): void {
     for (const operator of [...this.operators.values()]) {
-      this.#options.signaling.send({ type: 'session.close', session: operator.session.id });
+      const { id: session } = operator.session;
+      this.#options.signaling.send({ type: 'session.close', session, reason: 'shutting-down' });
       operator.peer.close('closed', 'the robot is shutting down');
     }
   }
@@ -96,13 +97,25 @@ export class OperatorSessions {
     if (operator !== undefined && !operator.peer.connected) operator.peer.close('closed', message);
   }
 
+  async #answer(session: string, sdp: string): Promise<void> {
+    const verdict = await this.operators.get(session)?.answer(sdp);
+    if (verdict === undefined || verdict === 'taken') return;
+    this.#options.counters.answersIgnored.add(verdict);
+    this.#options.log.debug({ session, verdict }, 'answer ignored');
+  }
+
   async #open(session: string, operatorName: string): Promise<void> {
     const { most, peer, pictureShare, makeController, sendLoop, packetLog, host, signaling, counters } =
       this.#options;
-    if (this.operators.has(session) || this.operators.size >= most) {
+    if (this.operators.has(session)) {
+      // Its operator came by another way into a session that we have: that is what session.resume is for.
+      this.#options.log.warn({ session }, 'a session that is open was requested again');
+      return;
+    }
+    if (this.operators.size >= most) {
       counters.sessionsRefused++;
-      this.#options.log.warn({ session, operators: this.operators.size }, 'session refused');
-      signaling.send({ type: 'session.close', session });
+      this.#options.log.warn({ session, operators: most }, 'session refused: the robot is full');
+      signaling.send({ type: 'session.close', session, reason: 'robot-full', maxOperators: most });
       return;
     }
     const log = this.#options.log.child({ session, operator: operatorName });
@@ -125,7 +138,7 @@ export class OperatorSessions {
           this.#events.connected(operator);
         },
         onBudgetChanged: () => this.#events.budgetChanged(),
-        onTakesCoded: () => this.#events.takesCoded(operator),
+        onCloudFormats: () => this.#events.cloudFormats(operator),
         onLatencyFrameLost: () => this.#events.latencyFrameLost(),
         onEnded: (end, detail) => this.#ended(operator, end, detail, log),
       },
@@ -149,6 +162,8 @@ export class OperatorSessions {
     this.#events.ended(operator);
     counters.sessionsEnded.add(end);
     log.info({ end, detail, operators: this.operators.size }, 'session ended');
-    signaling.send({ type: 'session.close', session: id });
+    // What ends by us has been told, or was told to us.
+    if (end === 'closed') return;
+    signaling.send({ type: 'session.close', session: id, reason: end, detail: detail.slice(0, 300) });
   }
 }

@@ -1,11 +1,21 @@
-import type { RobotToService } from '@farpoint/protocol';
+import { TokenBucket } from '@farpoint/congestion';
+import type { IceServer, ResumeRefusal, RobotToService, ServiceToRobot } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import type { DriveStation } from '../drive/drive-station.ts';
+import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { ConnectedOperator } from './connected-operator.ts';
 import { type SilenceLimits, silenceStep } from './silence.ts';
 
+export type ResumeRequest = Extract<ServiceToRobot, { type: 'session.resume' }>;
+
+/** What is needed of an operator here. */
+export type KeptOperator = Pick<
+  ConnectedOperator,
+  'tick' | 'sender' | 'heardMs' | 'quiet' | 'session' | 'restarts' | 'resumeKey'
+> & { readonly peer: Pick<ConnectedOperator['peer'], 'connected' | 'close' | 'restart' | 'useIceServers'> };
+
 export interface PathKeeperOptions {
-  operators: ReadonlyMap<string, ConnectedOperator>;
+  operators: ReadonlyMap<string, KeptOperator>;
   limits: SilenceLimits;
   drive: DriveStation;
   signaling: {
@@ -14,6 +24,7 @@ export interface PathKeeperOptions {
     check(): void;
   };
   leaseChanged: () => void;
+  counters: Pick<RobotCounters, 'iceRestarts' | 'resumesRefused'>;
   log: Logger;
   now: () => number;
 }
@@ -21,8 +32,7 @@ export interface PathKeeperOptions {
 /** Keeps sessions whose path is lost, as long as that makes sense, and offers new paths when operators ask. */
 export class PathKeeper {
   readonly #options: PathKeeperOptions;
-  /** ICE restarts offered. */
-  restarts = 0;
+  readonly #refusals = new TokenBucket({ perSecond: 5, burst: 10 });
 
   constructor(options: PathKeeperOptions) {
     this.#options = options;
@@ -48,24 +58,37 @@ export class PathKeeper {
     }
   }
 
-  /** An operator hears nothing and asks for a new path. */
-  async resume(session: string): Promise<void> {
-    const { operators, signaling, log, now } = this.#options;
+  /**
+   * An operator hears nothing and asks for a new path. A restart of ICE gives up the sockets of the path that there is: nobody
+   * gets one who has not proven that the session is its own.
+   */
+  async resume(request: ResumeRequest, iceServers: readonly IceServer[]): Promise<void> {
+    const { operators, signaling, counters, log, now } = this.#options;
+    const { session, claim } = request;
     const operator = operators.get(session);
-    if (operator === undefined) {
-      signaling.send({ type: 'session.close', session });
-      return;
-    }
+    if (operator === undefined) return this.#refuse(request, 'unknown-session');
+    if (!operator.resumeKey.matches(request.resumeKey)) return this.#refuse(request, 'wrong-resume-key');
     // While it is being set up it has an offer already.
-    if (!operator.peer.connected || !operator.restarts.request(now())) return;
+    if (!operator.peer.connected || !operator.restarts.request(now())) {
+      return this.#refuse(request, 'resume-too-soon');
+    }
+    operator.peer.useIceServers(iceServers);
     try {
       const sdp = await operator.peer.restart();
-      this.restarts++;
+      counters.iceRestarts++;
       log.info({ session, silentMs: Math.round(now() - operator.heardMs) }, 'ICE restart offered');
-      if (operators.get(session) === operator) signaling.send({ type: 'session.offer', session, sdp });
+      if (operators.get(session) === operator) signaling.send({ type: 'session.offer', session, sdp, claim });
     } catch (error) {
       log.error({ err: error, session }, 'no offer');
       operator.peer.close('connection-lost', 'no offer could be made');
     }
+  }
+
+  #refuse({ session, claim, operator }: ResumeRequest, code: ResumeRefusal): void {
+    const { signaling, counters, log, now } = this.#options;
+    counters.resumesRefused.add(code);
+    log.debug({ session, operator, code }, 'session not resumed');
+    // Whoever asks without end must not use up what the service lets us say.
+    if (this.#refusals.take(now())) signaling.send({ type: 'session.refuse', session, claim, code });
   }
 }

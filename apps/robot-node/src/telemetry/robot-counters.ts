@@ -22,6 +22,12 @@ export class RobotCounters {
   sessionsOpened = 0;
   sessionsRefused = 0;
   readonly sessionsEnded = new ReasonCounts();
+  /** Offered to operators that had lost their path. */
+  iceRestarts = 0;
+  /** Requests to resume a session, by the reason they were refused for. */
+  readonly resumesRefused = new ReasonCounts();
+  /** Answers that changed nothing: repeated, or asked for by nobody. */
+  readonly answersIgnored = new ReasonCounts();
   readonly candidatesRefused = new ReasonCounts();
   /** What came to the sockets of sessions and was dropped unread, by reason. */
   readonly datagramsRefused = new ReasonCounts();

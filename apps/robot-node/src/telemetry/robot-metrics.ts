@@ -68,6 +68,18 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   }
   sum('sessions_refused', 'Sessions refused: too many operators', () => counters.sessionsRefused);
   sumBy('sessions_ended', 'Sessions that ended, by reason', 'reason', counters.sessionsEnded);
+  sum(
+    'ice_restarts',
+    'ICE restarts offered to operators that had lost their path',
+    () => counters.iceRestarts,
+  );
+  sumBy(
+    'resumes_refused',
+    'Requests to resume a session that were refused',
+    'reason',
+    counters.resumesRefused,
+  );
+  sumBy('answers_ignored', 'Answers that changed nothing, by reason', 'reason', counters.answersIgnored);
   const { candidatesRefused } = counters;
   sumBy('ice_candidates_refused', 'ICE candidates left out, by reason', 'reason', candidatesRefused);
   sumBy(

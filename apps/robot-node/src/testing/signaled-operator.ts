@@ -13,23 +13,20 @@ import { OperatorClient, type OperatorClientOptions } from './operator-client.ts
 
 export class SignaledOperator {
   readonly client: OperatorClient;
-  readonly #socket: WebSocket;
+  readonly #url: string;
+  readonly #robotId: string;
+  /** The newest. */
+  #socket: WebSocket;
+  readonly #sockets: WebSocket[] = [];
   readonly #log: ServiceToOperator[] = [];
   readonly #waiters = new Set<() => void>();
   #session = '';
 
-  private constructor(url: string, options?: OperatorClientOptions) {
+  private constructor(url: string, robotId: string, options?: OperatorClientOptions) {
     this.client = new OperatorClient(options);
-    this.#socket = new WebSocket(new URL('/operator', url));
-    this.#socket.on('open', () =>
-      this.#send({ type: 'operator.hello', protocol: PROTOCOL_VERSION, name: 'test operator' }),
-    );
-    this.#socket.on('message', (data: Buffer) => {
-      const message = decodeJson(serviceToOperatorCodec, data.toString());
-      this.#log.push(message);
-      void this.#onMessage(message);
-      for (const look of [...this.#waiters]) look();
-    });
+    this.#url = url;
+    this.#robotId = robotId;
+    this.#socket = this.#openSocket();
     this.client.onCandidate = (candidate) => {
       if (this.#session !== '') this.#send({ type: 'session.candidate', session: this.#session, candidate });
     };
@@ -52,7 +49,7 @@ export class SignaledOperator {
     robotId: string,
     options?: OperatorClientOptions,
   ): Promise<SignaledOperator> {
-    const operator = new SignaledOperator(url, options);
+    const operator = new SignaledOperator(url, robotId, options);
     await operator.until(
       (message) =>
         (message.type === 'robots' && message.robots.some(({ id }) => id === robotId)) ||
@@ -60,6 +57,41 @@ export class SignaledOperator {
     );
     operator.#send({ type: 'session.open', robotId });
     return operator;
+  }
+
+  /** Asks for a session and resolves with why the robot or the service does not give it. */
+  static async refused(url: string, robotId: string): Promise<ServiceToOperator> {
+    const operator = new SignaledOperator(url, robotId);
+    await operator.until(({ type }) => type === 'robots');
+    operator.#send({ type: 'session.open', robotId });
+    const is = ({ type }: ServiceToOperator) => type === 'session.closed' || type === 'error';
+    await operator.until(is);
+    await operator.close();
+    return operator.#log.find(is) as ServiceToOperator;
+  }
+
+  get session(): string {
+    return this.#session;
+  }
+
+  /** Everything that the service has said. */
+  get heard(): readonly ServiceToOperator[] {
+    return this.#log;
+  }
+
+  /** Asks for an ICE restart from a new socket, while the old one stands. @param resumeKey the robot's own where left out */
+  async resume(resumeKey?: string): Promise<void> {
+    const own = (await this.client.message('welcome')).resumeKey ?? '';
+    const welcomes = () => this.#log.filter(({ type }) => type === 'operator.welcome').length;
+    const before = welcomes();
+    this.#socket = this.#openSocket();
+    await this.until(() => welcomes() > before);
+    this.#send({
+      type: 'session.resume',
+      session: this.#session,
+      robotId: this.#robotId,
+      resumeKey: resumeKey ?? own,
+    });
   }
 
   /** Resolves once such a message has come. */
@@ -86,8 +118,29 @@ export class SignaledOperator {
   }
 
   async close(): Promise<void> {
-    this.#socket.close();
+    for (const socket of this.#sockets) socket.close();
     await this.client.close();
+  }
+
+  #openSocket(): WebSocket {
+    const socket = new WebSocket(new URL('/operator', this.#url));
+    this.#sockets.push(socket);
+    socket.on('open', () =>
+      socket.send(
+        encodeJson(operatorToServiceCodec, {
+          type: 'operator.hello',
+          protocol: PROTOCOL_VERSION,
+          name: 'test operator',
+        }),
+      ),
+    );
+    socket.on('message', (data: Buffer) => {
+      const message = decodeJson(serviceToOperatorCodec, data.toString());
+      this.#log.push(message);
+      void this.#onMessage(message);
+      for (const look of [...this.#waiters]) look();
+    });
+    return socket;
   }
 
   async #onMessage(message: ServiceToOperator): Promise<void> {

@@ -19,6 +19,8 @@ import {
   useTransportWideCC,
   useTWCC,
 } from 'werift';
+import { answerFault } from './answer-fault.ts';
+import { AnswerGate, type AnswerVerdict } from './answer-gate.ts';
 import type { CloudTransport } from './cloud-transport.ts';
 import {
   discardSockets,
@@ -33,6 +35,7 @@ import { SrtpCloudTransport } from './srtp-cloud-transport.ts';
 export type PeerEnd =
   | 'closed' // by us
   | 'bad-answer' // the operator's SDP or its codecs cannot be used
+  | 'unproven-peer' // DTLS: another certificate than the answer names, or a key that it does not have
   | 'not-connected' // no connection came about
   | 'unproven-peer' // who answered the handshake does not hold the described certificate's key
   | 'connection-lost' // ICE, DTLS or a channel ended
@@ -86,7 +89,7 @@ export class OperatorPeer {
   #transport: SrtpCloudTransport | null = null;
   #connected = false;
   #ended = false;
-  #answerDue = false;
+  readonly #answers = new AnswerGate();
   /** ICE is restarted and answered, but its checks wait for a first local candidate. */
   #startDue = false;
   /** Restarts of ICE that were offered. */
@@ -228,7 +231,7 @@ export class OperatorPeer {
   }
 
   #describe(description: Awaited<ReturnType<RTCPeerConnection['createOffer']>>): void {
-    this.#answerDue = true;
+    this.#answers.onOffer();
     this.#startDue = false;
     this.#candidates.hold();
     dropDefaultStun(this.#cloud.dtlsTransport);
@@ -238,11 +241,15 @@ export class OperatorPeer {
     });
   }
 
-  /** Never throws: a bad answer ends the connection. */
-  async answer(sdp: string): Promise<void> {
-    if (this.#ended) return;
-    if (!this.#answerDue) return this.#end('bad-answer', 'a second answer');
-    this.#answerDue = false;
+  /** Never throws: a bad answer ends the connection; one that no offer waits for changes nothing. */
+  async answer(sdp: string): Promise<AnswerVerdict> {
+    const verdict = this.#ended ? 'unasked' : this.#answers.judge(sdp);
+    if (verdict !== 'taken') return verdict;
+    const fault = answerFault(sdp);
+    if (fault !== null) {
+      this.#end('bad-answer', fault);
+      return verdict;
+    }
     const dtls = this.#cloud.dtlsTransport;
     const isRestart = dtls.state === 'connected';
     try {
@@ -252,6 +259,7 @@ export class OperatorPeer {
     } catch (error) {
       this.#end('bad-answer', errorText(error));
     }
+    return verdict;
   }
 
   /** At any time: it waits for its description. Never throws: one that cannot be used is left out. */

@@ -4,7 +4,8 @@ import type { ToCloudWorker } from '../cloud/worker-messages.ts';
 import type { PageLink } from '../link/page-link.ts';
 import type { RobotLinkEvents } from '../link/robot-link.ts';
 import { RobotSession } from '../session/robot-session.ts';
-import type { SessionLoss, SessionPhase } from '../session/session-keeper.ts';
+import type { SessionPhase } from '../session/session-keeper.ts';
+import type { SessionLoss } from '../session/session-loss.ts';
 import type { SignalingState } from '../signaling/operator-signaling.ts';
 import { BridgeSession, type BridgeSessionActions } from './bridge-session.ts';
 import type { BridgeAddress } from './bridge-settings.ts';
@@ -15,6 +16,7 @@ const TICK_MS = 100;
 export class BridgeLink implements PageLink {
   sessionsOpened = 0;
   readonly lastLoss: SessionLoss | null = null;
+  readonly maxOperators = null;
   readonly #address: BridgeAddress;
   readonly #worker: Worker;
   readonly #events: RobotLinkEvents;

@@ -132,6 +132,21 @@ describe('BridgeSession', () => {
     expect([said.at(-1)?.linear.x, paths]).toEqual([0.4, [false, true]]);
   });
 
+  it('its stop only ever latches, and stays when its robot comes back', () => {
+    const { session, said, told, robots, switched, live } = setUp();
+    live();
+    for (let i = 0; i < 3; i++) session.session({ type: 'estop', latch: true });
+    robots([7, 'second']);
+    switched(7);
+    expect(told.findLast(({ type }) => type === 'estop')).toMatchObject({ latched: true });
+    session.session({ type: 'leaseRequest', take: false });
+    session.command(forward(0), 0);
+    session.command(forward(0.4), 0);
+    expect(said.at(-1)?.linear.x).toBe(0);
+    session.session({ type: 'estop', latch: false });
+    expect(told.at(-1)).toEqual({ type: 'estop', latched: false });
+  });
+
   it('asks for a green frame by linear.z, not with every repetition', () => {
     const { session, said, live } = setUp();
     live();

@@ -54,6 +54,7 @@ export class BridgeSession {
   #robots: RobotListing[] = [];
   #open = false;
   #holdsLease = false;
+  /** Until it is released on purpose, whichever robot is shown and however often it comes back. */
   #stopped = false;
   /** Since the stop was released the hand has not been open. */
   #mustRest = false;
@@ -208,7 +209,6 @@ export class BridgeSession {
   #begin(nowMs: number): void {
     this.#heardMs = nowMs;
     this.#pathUp = true;
-    this.#stopped = false;
     this.#mustRest = false;
     this.#green = null;
     this.#actions.onBegin();

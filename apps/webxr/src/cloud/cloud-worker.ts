@@ -110,7 +110,7 @@ async function beginCodedStream(message: ToCloudWorker & { type: 'cloudStream' }
     decoders[format] = decoder;
   } catch (error) {
     const text = error instanceof Error ? error.message : String(error);
-    post({ type: 'streamRefused', generation, message: `${format}: ${text}` });
+    post({ type: 'streamRefused', generation, format, message: text });
   }
 }
 

@@ -24,7 +24,7 @@ export type FromCloudWorker =
   | { type: 'ready' }
   | { type: 'failed'; message: string }
   /** A coded stream that cannot be decoded here. */
-  | { type: 'streamRefused'; generation: number; message: string }
+  | { type: 'streamRefused'; generation: number; format: CloudStream['format']; message: string }
   | { type: 'batch'; generation: number; packets: number; points: number; buffer: ArrayBuffer }
   | ({ type: 'report' } & IntakeReport);
 

@@ -9,11 +9,13 @@ export interface DriveInput {
   readonly wish: Readonly<DriveWish>;
 }
 
-/** Buttons beside the grip that went down since a device was last read. */
+/** Buttons beside the grip: which went down since a device was last read, and which is held. */
 export interface PressedButtons {
   readonly estop: boolean;
   readonly latencyTest: boolean;
   readonly nextRobot: boolean;
+  /** Held now: the control that releases the emergency stop. */
+  readonly releaseHeld: boolean;
 }
 
 /** The first device whose grip is held drives; the others are ignored until it lets go. */

@@ -100,9 +100,22 @@ describe('GamepadInput', () => {
     const input = new GamepadInput();
     expect(input.read(pad([], [1])).estop).toBe(true);
     expect(input.read(pad([], [1])).estop).toBe(false);
-    expect(input.read(pad([], [0]))).toEqual({ estop: false, latencyTest: true, nextRobot: false });
+    expect(input.read(pad([], [0]))).toMatchObject({ estop: false, latencyTest: true, nextRobot: false });
     expect(input.read(pad([], [9])).nextRobot).toBe(true);
     expect(input.read(pad([], [9])).nextRobot).toBe(false);
+  });
+
+  test('Y tells for as long as it is held, B never', () => {
+    const input = new GamepadInput();
+    for (const [down, held] of [
+      [[3], true],
+      [[3, 1], true],
+      [[1], false],
+    ] as const) {
+      expect(input.read(pad([], [...down])).releaseHeld).toBe(held);
+      expect(input.read(pad([], [...down])).releaseHeld).toBe(held);
+    }
+    expect(input.read(null).releaseHeld).toBe(false);
   });
 });
 
@@ -157,19 +170,29 @@ describe('HeadsetInput', () => {
     expect(input.read([controller('left', 0, 0, 0, 3)]).nextRobot).toBe(false);
   });
 
+  test('a trigger is held to release the stop by an open hand only: a clenched one holds both', () => {
+    const input = new HeadsetInput();
+    const held = (...sources: ReturnType<typeof controller>[]) => input.read(sources).releaseHeld;
+    expect(held(controller('left', 0, 0, 0, 0))).toBe(true);
+    expect(held(controller('left', 1, 0, 0, 0))).toBe(false);
+    expect(held(controller('left', 0, 0, 0, 0), controller('right', 1, 0, 0))).toBe(false);
+    expect(held(controller('left', 0, 0, 0, 5))).toBe(false);
+    expect(held(controller('right', 0, 0, 0, 0))).toBe(true);
+  });
+
   test('A or X asks for a latency test, B or Y for the stop, once a press', () => {
     const input = new HeadsetInput();
-    expect(input.read([controller('right', 0, 0, 0, 4)])).toEqual({
+    expect(input.read([controller('right', 0, 0, 0, 4)])).toMatchObject({
       estop: false,
       latencyTest: true,
       nextRobot: false,
     });
-    expect(input.read([controller('right', 0, 0, 0, 5)])).toEqual({
+    expect(input.read([controller('right', 0, 0, 0, 5)])).toMatchObject({
       estop: true,
       latencyTest: false,
       nextRobot: false,
     });
-    expect(input.read([controller('right', 0, 0, 0, 5)])).toEqual({
+    expect(input.read([controller('right', 0, 0, 0, 5)])).toMatchObject({
       estop: false,
       latencyTest: false,
       nextRobot: false,

@@ -7,6 +7,7 @@ import type { DriveWish } from './velocity-mapping.ts';
 const GRIP_BUTTONS = [4, 5, 6, 7];
 const ESTOP_BUTTON = 1;
 const LATENCY_BUTTON = 0;
+const RELEASE_BUTTON = 3;
 const NEXT_ROBOT_BUTTON = 9;
 
 /** What is read of a Gamepad. */
@@ -25,7 +26,7 @@ export class GamepadInput implements DriveInput {
 
   /**
    * @param pad the gamepad now, or `null` where it is gone
-   * @returns buttons that went down since the last call
+   * @returns buttons that went down since the last call, or are held
    */
   read(pad: GamepadState | null): PressedButtons {
     const estop = pad?.buttons[ESTOP_BUTTON]?.pressed === true;
@@ -35,6 +36,7 @@ export class GamepadInput implements DriveInput {
       estop: estop && !this.#estop,
       latencyTest: latency && !this.#latency,
       nextRobot: next && !this.#next,
+      releaseHeld: pad?.buttons[RELEASE_BUTTON]?.pressed === true,
     };
     this.#estop = estop;
     this.#latency = latency;

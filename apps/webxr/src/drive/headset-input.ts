@@ -1,12 +1,13 @@
 /**
- * Headset controllers, WebXR's `xr-standard` mapping: thumbstick axes 2 and 3, squeeze is button 1, the thumbstick's
- * press button 3, A/X button 4, B/Y button 5. The hand that squeezes drives.
+ * Headset controllers, WebXR's `xr-standard` mapping: thumbstick axes 2 and 3, the trigger is button 0, squeeze button 1, the
+ * thumbstick's press button 3, A/X button 4, B/Y button 5. The hand that squeezes drives.
  */
 import { DEFAULT_STICK_RESPONSE, shapeAxis } from './dead-zone.ts';
 import type { DriveInput, PressedButtons } from './drive-input.ts';
 import type { GamepadState } from './gamepad-input.ts';
 import type { DriveWish } from './velocity-mapping.ts';
 
+const TRIGGER = 0;
 const SQUEEZE = 1;
 const STICK_PRESS = 3;
 const AX_BUTTON = 4;
@@ -27,18 +28,20 @@ export class HeadsetInput implements DriveInput {
   #latency = false;
   #stickPress = false;
 
-  /** @returns buttons that went down since the last call */
+  /** @returns buttons that went down since the last call, or are held */
   read(sources: Iterable<XrController>): PressedButtons {
     let driving: XrController | null = null;
     let estop = false;
     let latency = false;
     let stickPress = false;
+    let trigger = false;
     for (const source of sources) {
       const buttons = source.gamepad?.buttons;
       if (buttons === undefined) continue;
       estop ||= buttons[BY_BUTTON]?.pressed === true;
       latency ||= buttons[AX_BUTTON]?.pressed === true;
       stickPress ||= buttons[STICK_PRESS]?.pressed === true;
+      trigger ||= (buttons[TRIGGER]?.value ?? 0) > 0.5;
       if ((buttons[SQUEEZE]?.value ?? 0) <= 0.5) continue;
       if (driving === null || source.handedness === this.#hand) driving = source;
     }
@@ -53,6 +56,8 @@ export class HeadsetInput implements DriveInput {
       latencyTest: latency && !this.#latency,
       // A stick is easily pressed while it is pushed.
       nextRobot: stickPress && !this.#stickPress && !this.held,
+      // A fist clenched in fright holds both.
+      releaseHeld: trigger && !this.held,
     };
     this.#estop = estop;
     this.#latency = latency;

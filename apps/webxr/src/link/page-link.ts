@@ -2,7 +2,8 @@
 import type { Command, OperatorSessionMessage, RobotListing } from '@farpoint/protocol';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
 import type { RobotSession } from '../session/robot-session.ts';
-import type { SessionLoss, SessionPhase } from '../session/session-keeper.ts';
+import type { SessionPhase } from '../session/session-keeper.ts';
+import type { SessionLoss } from '../session/session-loss.ts';
 import type { SignalingState } from '../signaling/operator-signaling.ts';
 
 export interface PageLink {
@@ -18,6 +19,8 @@ export interface PageLink {
   readonly interrupted: boolean;
   readonly sessionsOpened: number;
   readonly lastLoss: SessionLoss | null;
+  /** How many operators the robot takes, where it has said that it is full. */
+  readonly maxOperators: number | null;
   start(): void;
   connect(robotId: string): void;
   disconnect(): void;

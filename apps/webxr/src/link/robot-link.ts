@@ -13,13 +13,15 @@ import type { IntakeReport } from '../cloud/worker-messages.ts';
 import type { TransformSupport } from '../peer/encoded-transform.ts';
 import { OperatorPeer } from '../peer/operator-peer.ts';
 import { RobotSession, type RobotSessionEvents } from '../session/robot-session.ts';
-import { SessionKeeper, type SessionLoss, type SessionPhase } from '../session/session-keeper.ts';
+import { SessionKeeper, type SessionPhase } from '../session/session-keeper.ts';
+import type { SessionLoss } from '../session/session-loss.ts';
 import {
   OperatorSignaling,
   type SessionSignal,
   type SignalingState,
 } from '../signaling/operator-signaling.ts';
 import { WebSocketPort } from '../signaling/web-socket-port.ts';
+import { watchPageLifecycle } from './page-lifecycle.ts';
 import type { PageLink } from './page-link.ts';
 
 export interface RobotLinkOptions {
@@ -64,6 +66,9 @@ export class RobotLink implements PageLink {
   /** Requests for an ICE restart. */
   resumesAsked = 0;
   lastLoss: SessionLoss | null = null;
+  maxOperators: number | null = null;
+  /** The robot to come back to, while the page is put away. */
+  #left: string | null = null;
 
   constructor(options: RobotLinkOptions, events: RobotLinkEvents) {
     this.#options = options;
@@ -92,8 +97,11 @@ export class RobotLink implements PageLink {
       {
         requestSession: (robotId) => this.#signaling.send({ type: 'session.open', robotId }),
         resumeSession: (session, robotId) => {
+          const resumeKey = this.#session.welcome?.resumeKey;
+          // The path was lost before the robot had said anything, or it is one that resumes nothing.
+          if (resumeKey === undefined) return this.#keeper.onPeerFailed(performance.now());
           this.resumesAsked++;
-          this.#signaling.ask({ type: 'session.resume', session, robotId });
+          this.#signaling.ask({ type: 'session.resume', session, robotId, resumeKey });
         },
         closeSession: (session) => this.#signaling.send({ type: 'session.close', session }),
         dropPeer: () => this.#dropPeer(),
@@ -123,6 +131,20 @@ export class RobotLink implements PageLink {
     window.addEventListener('offline', onNetworkChange);
     // Not in every browser, nor in TypeScript's types.
     (navigator as { connection?: EventTarget }).connection?.addEventListener('change', onNetworkChange);
+    watchPageLifecycle(window, { onLeave: () => this.#leave(), onReturn: () => this.#return() });
+  }
+
+  /** Takes leave of the robot, which would else keep this session for a minute in case its path was lost. */
+  #leave(): void {
+    this.#left = this.robotId;
+    this.disconnect();
+    this.#signaling.stop();
+  }
+
+  #return(): void {
+    this.#signaling.start();
+    if (this.#left !== null) this.connect(this.#left);
+    this.#left = null;
   }
 
   connect(robotId: string): void {
@@ -199,7 +221,7 @@ export class RobotLink implements PageLink {
     const nowMs = performance.now();
     switch (message.type) {
       case 'session.opened': {
-        // The service has passed our request for a new path on.
+        // The robot has accepted our request for a new path: its offer follows.
         if (message.session === this.#keeper.session) return;
         const ours = this.#keeper.onOpened(message.session, message.robotId);
         if (!ours) this.#signaling.send({ type: 'session.close', session: message.session });
@@ -215,11 +237,14 @@ export class RobotLink implements PageLink {
         if (message.session === this.#keeper.session) void this.#peer?.candidate(message.candidate);
         return;
       case 'session.closed': {
-        const { reason } = message;
-        const known = reason === 'robot-left' || reason === 'closed-by-robot' ? reason : 'other';
-        this.#keeper.onClosed(message.session, known, nowMs);
+        const { session, reason, maxOperators = null, detail } = message;
+        if (detail !== undefined) console.warn('session ended by the robot:', reason, detail);
+        if (reason === 'robot-full') this.maxOperators = maxOperators;
+        this.#keeper.onClosed(session, reason, nowMs);
         return;
       }
+      case 'session.resuming':
+        return;
       case 'error':
         // A session that stands needs no service: that it is unknown, or the robot away, is all right.
         if (message.code !== 'unknown-session' && !(this.phase === 'live' && message.session !== undefined)) {

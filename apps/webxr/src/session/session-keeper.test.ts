@@ -1,6 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { SessionKeeper, type SessionLoss } from './session-keeper.ts';
+import { SessionKeeper } from './session-keeper.ts';
+import type { SessionLoss } from './session-loss.ts';
 
 const HERE = [{ id: 'rover', name: 'Rover' }];
 
@@ -130,7 +131,7 @@ describe('SessionKeeper', () => {
     expect(bench.keeper.phase).toBe('live');
     bench.keeper.onRobots(HERE, bench.now);
     expect(bench.resumed).toEqual(['s1 rover']);
-    bench.keeper.onClosed('s1', 'closed-by-robot', bench.now);
+    bench.keeper.onClosed('s1', 'unknown-session', bench.now);
     expect(bench.losses).toEqual(['robot-restarted']);
     expect(bench.requests).toHaveLength(2);
     expect(bench.drops).toBe(1);
@@ -143,6 +144,33 @@ describe('SessionKeeper', () => {
     expect(bench.resumed).toEqual([]);
     bench.pass(250);
     expect(bench.resumed).toHaveLength(1);
+  });
+
+  test.each([
+    ['robot-full', 'robot-full'],
+    ['bad-answer', 'bad-answer'],
+    ['unproven-peer', 'unproven-peer'],
+    ['shutting-down', 'robot-stopped'],
+    ['silent', 'unheard'],
+    ['closed-by-robot', 'closed-by-robot'],
+  ] as const)('ended by the robot, %s: said so, and tried again after a while', (reason, loss) => {
+    const bench = new Bench().wanted();
+    bench.keeper.onOpened('s1', 'rover');
+    bench.keeper.onClosed('s1', reason, bench.now);
+    expect([bench.losses, bench.requests.length]).toEqual([[loss], 1]);
+    bench.pass(500);
+    expect(bench.requests).toHaveLength(2);
+  });
+
+  test('left with the page, and wanted again when the page is back', () => {
+    const bench = new Bench().live();
+    bench.keeper.want(null, HERE, bench.now);
+    bench.keeper.onSignaling(false, bench.now);
+    expect([bench.closed, bench.drops]).toEqual([['s1'], 1]);
+    bench.keeper.want('rover', HERE, bench.now);
+    expect(bench.keeper.phase).toBe('waiting');
+    bench.keeper.onSignaling(true, bench.now);
+    expect(bench.requests).toHaveLength(2);
   });
 
   test('a failed connection is opened again, each time later, and at once when the robot comes back', () => {

@@ -4,24 +4,15 @@
  * becomes of signaling.
  */
 import { Backoff } from '@farpoint/congestion';
-import type { RobotListing } from '@farpoint/protocol';
+import type { RobotEndReason, RobotListing } from '@farpoint/protocol';
 import { ResumePolicy } from './resume-policy.ts';
+import { lossOf, type SessionLoss } from './session-loss.ts';
 
 export type SessionPhase =
   | 'none' // no robot is wanted
   | 'waiting' // the wanted robot, or the signaling service, is not here
   | 'opening' // asked for, until the peer connection stands
   | 'live'; // the peer connection stands
-
-/** Why a session was given up. */
-export type SessionLoss =
-  | 'not-connected' // no peer connection came about in time
-  | 'connection-failed' // ICE or DTLS ended
-  | 'closed-by-robot'
-  | 'robot-restarted' // the robot went, came back, and does not know the session
-  | 'silent' // nothing heard for long
-  | 'signaling-lost' // before the peers had met
-  | 'refused'; // the service would not open it
 
 export interface SessionActions {
   requestSession(robotId: string): void;
@@ -50,8 +41,6 @@ export class SessionKeeper {
   #session: string | null = null;
   #signalingReady = false;
   #listed = false;
-  /** The robot's registration ended at some time during this session. */
-  #robotWasAway = false;
   #deadlineMs = Number.POSITIVE_INFINITY;
   #retryAtMs = 0;
   readonly #resume = new ResumePolicy();
@@ -105,7 +94,6 @@ export class SessionKeeper {
 
   onRobots(robots: readonly RobotListing[], nowMs: number): void {
     const listed = robots.some((robot) => robot.id === this.#robotId);
-    if (!listed && this.#listed) this.#robotWasAway = true;
     // It is back: do not let an old failure delay it.
     if (listed && !this.#listed) {
       this.#retryAtMs = 0;
@@ -123,16 +111,13 @@ export class SessionKeeper {
     return true;
   }
 
-  onClosed(session: string, reason: 'robot-left' | 'closed-by-robot' | 'other', nowMs: number): void {
+  onClosed(session: string, reason: RobotEndReason, nowMs: number): void {
     if (session !== this.#session) return;
     // Only its signaling went; the peers may still hear each other.
-    if (reason === 'robot-left' && this.#phase === 'live') {
-      this.#robotWasAway = true;
-      return;
-    }
-    const restarted = this.#robotWasAway && reason === 'closed-by-robot';
-    this.#lose(restarted ? 'robot-restarted' : 'closed-by-robot', nowMs);
-    if (restarted) this.#retryAtMs = 0;
+    if (reason === 'robot-left' && this.#phase === 'live') return;
+    this.#lose(lossOf[reason], nowMs);
+    // It is here, and new.
+    if (reason === 'unknown-session') this.#retryAtMs = 0;
     this.tick(nowMs);
   }
 
@@ -148,7 +133,6 @@ export class SessionKeeper {
     if (this.#phase !== 'opening') return;
     this.#resume.begin(nowMs);
     this.#pathUp = true;
-    this.#robotWasAway = false;
     this.#deadlineMs = Number.POSITIVE_INFINITY;
     this.#enter('live');
   }
@@ -196,7 +180,6 @@ export class SessionKeeper {
       nowMs >= this.#retryAtMs
     ) {
       this.#deadlineMs = nowMs + OPEN_TIMEOUT_MS;
-      this.#robotWasAway = false;
       this.#enter('opening');
       this.#actions.requestSession(this.#robotId);
     }

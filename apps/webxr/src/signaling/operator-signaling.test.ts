@@ -102,12 +102,12 @@ describe('OperatorSignaling', () => {
 
   test('a line on which a question gets no answer is dead', () => {
     const bench = new Bench().ready();
-    const question = { type: 'session.resume', session: 's', robotId: 'r' } as const;
+    const question = { type: 'session.resume', session: 's', robotId: 'r', resumeKey: 'k' } as const;
     // The timer of the welcome says nothing any more.
     bench.machine.onTimer();
     expect(bench.machine.state).toBe('ready');
     bench.machine.ask(question);
-    bench.receive({ type: 'session.opened', session: 's', robotId: 'r' });
+    bench.receive({ type: 'session.resuming', session: 's' });
     bench.machine.onTimer();
     expect(bench.machine.state).toBe('ready');
     bench.machine.ask(question);

@@ -1,11 +1,14 @@
-import { commandRejections, driveStates } from '@farpoint/protocol';
+import { commandRejections, driveStates, robotEndReasons } from '@farpoint/protocol';
 import { describe, expect, test } from 'vitest';
-import { driveWords, linkWords, rejectionWords, vrUnavailable } from './words.ts';
+import { lossOf } from '../session/session-loss.ts';
+import { driveWords, linkWords, rejectionWords, vrUnavailable, wordsOfLoss } from './words.ts';
 
 const live = {
   phase: 'live',
   signaling: 'ready',
   robotListed: true,
+  lastLoss: null,
+  maxOperators: null,
   silentMs: 20,
   pointsSilentMs: 20,
   rateByReports: false,
@@ -15,6 +18,16 @@ describe('words', () => {
   test('every state and refusal of the protocol has words', () => {
     for (const state of driveStates) expect(driveWords[state].text).not.toBe('');
     for (const reason of commandRejections) expect(rejectionWords[reason]).not.toBe('');
+    for (const reason of robotEndReasons) expect(wordsOfLoss(lossOf[reason], null)).not.toBe('');
+  });
+
+  test('a full robot is said to be full, and how many operators it takes', () => {
+    expect(wordsOfLoss('robot-full', 4)).toContain('4 operators at most');
+    expect(wordsOfLoss('robot-full', null)).toContain('full');
+    const waiting = { ...live, phase: 'waiting', lastLoss: 'robot-full', maxOperators: 4 } as const;
+    expect(linkWords(waiting).text).toContain('4 operators at most');
+    expect(linkWords({ ...waiting, robotListed: false }).text).toContain('away');
+    expect(linkWords({ ...waiting, lastLoss: 'silent' }).text).toBe('Connecting…');
   });
 
   test('the link’s line names what is wrong, gravest first', () => {

@@ -1,6 +1,7 @@
 /** What the page says, in plain words: one place for every state, refusal and failure a person may meet. */
 import type { CommandRejection, DriveState } from '@farpoint/protocol';
-import type { SessionLoss, SessionPhase } from '../session/session-keeper.ts';
+import type { SessionPhase } from '../session/session-keeper.ts';
+import type { SessionLoss } from '../session/session-loss.ts';
 import type { SignalingState } from '../signaling/operator-signaling.ts';
 
 export type Tone = 'good' | 'neutral' | 'warning' | 'bad';
@@ -38,15 +39,34 @@ export const signalingWords: Record<SignalingState, Words> = {
   stopped: { text: 'Signaling is off', tone: 'neutral' },
 };
 
-export const lossWords: Record<SessionLoss, string> = {
+const lossWords: Record<Exclude<SessionLoss, 'robot-full'>, string> = {
   'not-connected': 'No connection to the robot came about. Trying again…',
   'connection-failed': 'The connection to the robot is lost. The robot has stopped by itself. Trying again…',
   'closed-by-robot': 'The robot ended the session. Trying again…',
   'robot-restarted': 'The robot has restarted. Connecting anew…',
+  'robot-stopped': 'The robot was shut down. Waiting for it to come back…',
+  'robot-left': 'The robot went away while connecting. Trying again…',
+  'bad-answer':
+    'The robot cannot use what this browser offers. Update the browser, or use another one. Trying again…',
+  'unproven-peer':
+    'The robot refused the connection: its encryption ended at somebody else than this page. Trying again…',
+  'not-reading': 'This page did not keep up with the robot’s messages. Connecting anew…',
+  unheard: 'The robot heard nothing of this page for long. Connecting anew…',
   silent: 'Nothing is heard from the robot. Trying again…',
   'signaling-lost': 'The signaling service went away while connecting. Trying again…',
   refused: 'The service did not open a session. Trying again…',
 };
+
+/** Why a session was given up. @param maxOperators how many the robot takes, where it has said so */
+export function wordsOfLoss(loss: SessionLoss, maxOperators: number | null): string {
+  return loss === 'robot-full' ? fullWords(maxOperators) : lossWords[loss];
+}
+
+function fullWords(maxOperators: number | null): string {
+  if (maxOperators === null) return 'The robot is full: it takes no more operators. Trying again…';
+  const operators = maxOperators === 1 ? 'one operator' : `${maxOperators} operators`;
+  return `The robot is full: it takes ${operators} at most. Trying again…`;
+}
 
 /** Another robot was chosen. */
 export const leavingWords = 'This robot stops first…';
@@ -55,6 +75,10 @@ export interface LinkFacts {
   phase: SessionPhase;
   signaling: SignalingState;
   robotListed: boolean;
+  /** Why the last session was given up. */
+  lastLoss: SessionLoss | null;
+  /** How many operators the robot takes, where it has said so. */
+  maxOperators: number | null;
   /** Since the last message or point of the robot, ms. */
   silentMs: number;
   /** Since the last point, ms. */
@@ -73,9 +97,12 @@ export function linkWords(facts: LinkFacts): Words {
       return signalingWords[facts.signaling];
     case 'waiting':
       if (facts.signaling !== 'ready') return signalingWords[facts.signaling];
-      return facts.robotListed
-        ? { text: 'Connecting…', tone: 'neutral' }
-        : { text: 'The robot is away. Waiting for it to come back…', tone: 'warning' };
+      if (!facts.robotListed) {
+        return { text: 'The robot is away. Waiting for it to come back…', tone: 'warning' };
+      }
+      return facts.lastLoss === 'robot-full'
+        ? { text: fullWords(facts.maxOperators), tone: 'warning' }
+        : { text: 'Connecting…', tone: 'neutral' };
     case 'opening':
       return { text: 'Connecting to the robot…', tone: 'neutral' };
     case 'live':

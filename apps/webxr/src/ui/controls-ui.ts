@@ -3,6 +3,7 @@ import { robotAfter } from '../drive/robot-switch.ts';
 import { LatencyError } from '../latency/latency-probe.ts';
 import type { PageParts } from '../page-parts.ts';
 import { elements } from './elements.ts';
+import type { EstopUi } from './estop-ui.ts';
 import { notify } from './notice.ts';
 import type { Action } from './operator-inputs.ts';
 import { initRobotSwitcher } from './robot-switcher.ts';
@@ -15,21 +16,19 @@ const latencyFailureWords: Record<LatencyError['reason'], string> = {
   busy: 'A latency test runs already.',
 };
 
-/** A press so soon after the last one never releases the emergency stop. */
-const ESTOP_CALM_MS = 1000;
-
 export class ControlsUi {
   readonly #app: PageParts;
-  #lastEstopMs = Number.NEGATIVE_INFINITY;
+  readonly #estop: EstopUi;
 
-  constructor(app: PageParts) {
+  constructor(app: PageParts, estop: EstopUi) {
     this.#app = app;
+    this.#estop = estop;
   }
 
   start(): void {
     const app = this.#app;
     elements.disconnect.addEventListener('click', () => app.leave());
-    elements.estop.addEventListener('click', () => this.act('estop', performance.now()));
+    this.#estop.start();
     elements.latency.addEventListener('click', ({ timeStamp }) => this.act('latency-test', timeStamp));
     elements.view.addEventListener('click', () => this.act('view', performance.now()));
     elements.take.addEventListener('click', () => app.driver.requestLease(true));
@@ -50,7 +49,7 @@ export class ControlsUi {
     const { stage } = this.#app;
     switch (action) {
       case 'estop':
-        this.#estop(timeMs);
+        this.#estop.stop();
         return;
       case 'latency-test':
         this.#app.latency.run(timeMs).then(
@@ -79,17 +78,6 @@ export class ControlsUi {
     const next = robotAfter(link.robots, chosenRobotId);
     if (next === null) notify('No other robot is here.');
     else this.#app.choose(next.id);
-  }
-
-  /** Any press stops. Only a single, calm one releases: whoever hammers at it in fright never does. */
-  #estop(timeMs: number): void {
-    const { link } = this.#app;
-    const calm = timeMs - this.#lastEstopMs >= ESTOP_CALM_MS;
-    this.#lastEstopMs = timeMs;
-    if (link.phase !== 'live') return;
-    const { latched } = link.session.estop;
-    if (!latched) link.sendSession({ type: 'estop', latch: true });
-    else if (calm) link.sendSession({ type: 'estop', latch: false });
   }
 
   #startVr(): void {

@@ -30,5 +30,6 @@ export const elements = {
   release: byId('release', HTMLButtonElement),
   latency: byId('latency', HTMLButtonElement),
   estop: byId('estop', HTMLButtonElement),
+  estopRelease: byId('estop-release', HTMLButtonElement),
   failure: byId('failure', HTMLElement),
 };

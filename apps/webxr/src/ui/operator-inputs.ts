@@ -3,22 +3,28 @@ import type { DriveInput, PressedButtons } from '../drive/drive-input.ts';
 import { GamepadInput } from '../drive/gamepad-input.ts';
 import { HeadsetInput, type XrController } from '../drive/headset-input.ts';
 import { KeyboardInput } from '../drive/keyboard-input.ts';
+import type { ReleaseControl } from '../drive/release-hold.ts';
 import { TouchJoystick } from '../drive/touch-joystick.ts';
 import { elements } from './elements.ts';
 
 export type Action = 'estop' | 'latency-test' | 'recentre' | 'view' | 'next-robot';
 
+/** Stops, whatever has the focus, but for a field that is written in. */
+const STOP_KEY = 'KeyX';
 const ACTION_KEYS: Readonly<Record<string, Action>> = {
-  KeyX: 'estop',
   KeyL: 'latency-test',
   KeyC: 'recentre',
   KeyV: 'view',
   KeyN: 'next-robot',
 };
+/** Held, it releases the emergency stop; so does Enter on the control itself. */
+const RELEASE_KEY = 'KeyR';
 
 export class OperatorInputs {
   readonly all: readonly DriveInput[];
   onAction: (action: Action, timeMs: number) => void = () => undefined;
+  /** The control that releases the emergency stop is held, or let go. */
+  onRelease: (control: ReleaseControl, held: boolean) => void = () => undefined;
   readonly #keyboard = new KeyboardInput();
   readonly #gamepad = new GamepadInput();
   readonly #headset = new HeadsetInput();
@@ -41,6 +47,7 @@ export class OperatorInputs {
     this.#keyboard.releaseAll();
     this.#touch.release();
     this.#headset.release();
+    for (const control of ['key', 'pointer', 'headset'] as const) this.onRelease(control, false);
     this.#onChange();
   }
 
@@ -48,34 +55,39 @@ export class OperatorInputs {
   poll(): void {
     const pads = navigator.getGamepads?.() ?? [];
     const pad = pads.find((candidate) => candidate?.mapping === 'standard') ?? null;
-    this.#buttons(this.#gamepad.read(pad));
+    this.#buttons(this.#gamepad.read(pad), 'gamepad');
   }
 
   /** In VR, each display frame. */
   readHeadset(sources: Iterable<XrController>): void {
     const wasHeld = this.#headset.held;
-    this.#buttons(this.#headset.read(sources));
+    this.#buttons(this.#headset.read(sources), 'headset');
     if (wasHeld !== this.#headset.held) this.#onChange();
   }
 
-  #buttons(pressed: PressedButtons): void {
+  #buttons(pressed: PressedButtons, control: ReleaseControl): void {
     if (pressed.estop) this.onAction('estop', performance.now());
+    this.onRelease(control, pressed.releaseHeld);
     if (pressed.latencyTest) this.onAction('latency-test', performance.now());
     if (pressed.nextRobot) this.onAction('next-robot', performance.now());
   }
 
   #onKey(event: KeyboardEvent, down: boolean): void {
     const { target } = event;
+    const typing = target instanceof HTMLInputElement && target.type !== 'range';
     const elsewhere = target instanceof HTMLInputElement || elements.settings.open;
     const driving = !elements.drive.hidden && !elsewhere;
     // A key that goes up is let go, whatever has the focus by now.
     if (!down) {
+      if (event.code === RELEASE_KEY || event.code === 'Enter') this.onRelease('key', false);
       if (!this.#keyboard.key(event.code, false)) return;
       if (driving) event.preventDefault();
       this.#onChange();
       return;
     }
-    if (elsewhere || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (!typing && this.#onEstopKey(event)) return;
+    if (elsewhere) return;
     const choosing = target instanceof HTMLSelectElement;
     if (choosing && event.code.startsWith('Arrow')) return;
     // Space on a focused button would press it; driving goes first once a robot is there.
@@ -89,5 +101,22 @@ export class OperatorInputs {
     // A letter would choose from the list as well.
     if (choosing) event.preventDefault();
     if (!event.repeat) this.onAction(action, event.timeStamp);
+  }
+
+  /** Keys of the emergency stop: they go before all others. @returns whether it was one */
+  #onEstopKey(event: KeyboardEvent): boolean {
+    const { target, code } = event;
+    const { estop, estopRelease } = elements;
+    const isSpaceOnControl = code === 'Space' && (target === estop || target === estopRelease);
+    const isRelease = code === RELEASE_KEY || (code === 'Enter' && target === estopRelease);
+    if (code === STOP_KEY || isSpaceOnControl) {
+      if (!event.repeat) this.onAction('estop', event.timeStamp);
+    } else if (isRelease && !elements.settings.open) {
+      // A key that repeats is no new press.
+      if (!event.repeat) this.onRelease('key', true);
+    } else return false;
+    // Neither a click on what has the focus, nor a choice from a list.
+    event.preventDefault();
+    return true;
   }
 }

@@ -1,43 +1,40 @@
-import { clampScale, parseSignalingUrl, parseStored, type StoredSettings } from '../settings.ts';
+import { clampScale, ownSignalingUrl, parseSignalingUrl } from '../settings.ts';
+import { tokenOrigin, withToken } from '../signaling-tokens.ts';
+import { loadStored, pageOrigin, store } from '../stored-settings.ts';
 import { elements } from './elements.ts';
-
-const KEY = 'farpoint.settings';
-
-/** What this browser remembers; nothing where it may not. */
-export function loadStored(): StoredSettings {
-  try {
-    return parseStored(localStorage.getItem(KEY));
-  } catch {
-    return {};
-  }
-}
-
-function store(settings: StoredSettings): void {
-  try {
-    localStorage.setItem(KEY, JSON.stringify(settings));
-  } catch {
-    // Private browsing: the settings hold for this visit by the address only.
-  }
-}
 
 /** Wires the dialog. @param onPointScale while the slider moves */
 export function initSettingsDialog(onPointScale: (scale: number) => void): void {
   const { settings: dialog, settingsOpen } = elements;
   const form = dialog.querySelector('form')!;
   const field = (name: string): HTMLInputElement => form.elements.namedItem(name) as HTMLInputElement;
+  const service = (): ReturnType<typeof parseSignalingUrl> => {
+    const value = field('signaling').value.trim();
+    if (value === '') return { url: ownSignalingUrl(pageOrigin()) };
+    return parseSignalingUrl(value, location.protocol === 'https:');
+  };
+  /** The token is that of the service in the field above it. */
+  const showToken = (): void => {
+    const at = service();
+    field('token').value = 'url' in at ? (loadStored().tokens?.get(tokenOrigin(at.url)) ?? '') : '';
+  };
+  let tokenTyped = false;
   settingsOpen.addEventListener('click', () => {
     const stored = loadStored();
     field('signaling').value = stored.signaling ?? '';
-    field('token').value = stored.token ?? '';
     field('name').value = stored.name ?? '';
     field('pointScale').value = String(stored.pointScale ?? 1);
+    tokenTyped = false;
+    showToken();
     dialog.showModal();
   });
   field('signaling').addEventListener('input', () => {
-    const { value } = field('signaling');
-    const parsed =
-      value.trim() === '' ? null : parseSignalingUrl(value.trim(), location.protocol === 'https:');
-    field('signaling').setCustomValidity(parsed !== null && 'fault' in parsed ? parsed.fault : '');
+    const at = service();
+    field('signaling').setCustomValidity('fault' in at ? at.fault : '');
+    if (!tokenTyped) showToken();
+  });
+  field('token').addEventListener('input', () => {
+    tokenTyped = true;
   });
   field('pointScale').addEventListener('input', () => onPointScale(Number(field('pointScale').value)));
   dialog.addEventListener('close', () => {
@@ -45,9 +42,11 @@ export function initSettingsDialog(onPointScale: (scale: number) => void): void 
       onPointScale(clampScale(loadStored().pointScale));
       return;
     }
+    const at = service();
+    const { tokens = new Map() } = loadStored();
     store({
       signaling: field('signaling').value,
-      token: field('token').value,
+      tokens: 'url' in at ? withToken(tokens, tokenOrigin(at.url), field('token').value.trim()) : tokens,
       name: field('name').value,
       pointScale: clampScale(Number(field('pointScale').value)),
     });

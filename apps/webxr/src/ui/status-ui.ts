@@ -46,6 +46,11 @@ export class StatusUi {
     this.#wristPictures.update((view) => (this.#cameras.ageMs(view, nowMs) ?? 0) > STALE_MS);
   }
 
+  /** In VR. @param progress of the hold that releases the emergency stop, 0–1 */
+  showRelease(progress: number): void {
+    this.#wrist.showProgress(progress);
+  }
+
   update(nowMs: number): void {
     const { link, settings } = this.#app;
     const words =
@@ -66,13 +71,10 @@ export class StatusUi {
   }
 
   #showSession(nowMs: number): void {
-    const { driver, link } = this.#app;
-    const { estop } = link.session;
+    const { driver } = this.#app;
     setPill(elements.holder, this.#holderWords());
     elements.take.hidden = driver.holder !== 'other';
     elements.release.hidden = driver.holder !== 'you';
-    elements.estop.setAttribute('aria-pressed', String(estop.latched));
-    elements.estop.querySelector('b')!.textContent = estop.latched ? 'RELEASE' : 'STOP';
     showFacts(this.#facts(nowMs));
   }
 
@@ -92,7 +94,8 @@ export class StatusUi {
     const facts: Fact[] = [];
     if (welcome !== null) facts.push({ name: 'Robot', value: welcome.name });
     if (telemetry !== null) {
-      const drive = driveWords[telemetry.drive];
+      // Telemetry tells of a stop a moment later.
+      const drive = driveWords[estop.latched ? 'estop' : telemetry.drive];
       const by = estop.latched && estop.by !== undefined ? ` (by ${estop.by})` : '';
       facts.push({ name: 'State', value: drive.text + by, tone: drive.tone });
       const { linear, angular } = telemetry.twist;
@@ -133,15 +136,17 @@ export class StatusUi {
         text: `rtt ${ms(stats.minRttMs)}  frame ${ms(stats.frameLatencyMs?.p50)}  loss ${(stats.lossRate * 100).toFixed(1)} %`,
         tone: stats.lossRate > 0.05 ? 'warning' : 'neutral',
       },
-      {
-        text: [
-          battery === undefined
-            ? 'Squeeze: drive  B: stop'
-            : `Battery ${Math.round(battery.percentage * 100)} %`,
-          ...(next === null ? [] : [`press stick: ${next.name}`]),
-        ].join('  '),
-        tone: 'neutral',
-      },
+      link.session.estop.latched
+        ? { text: 'Open hand, hold trigger 1 s: release', tone: 'bad' }
+        : {
+            text: [
+              battery === undefined
+                ? 'Squeeze: drive  B: stop'
+                : `Battery ${Math.round(battery.percentage * 100)} %`,
+              ...(next === null ? [] : [`press stick: ${next.name}`]),
+            ].join('  '),
+            tone: 'neutral',
+          },
     ]);
   }
 
@@ -163,6 +168,8 @@ export function describeLink(app: PageParts, nowMs: number): Words {
     phase: link.phase,
     signaling: link.signaling,
     robotListed: link.robotListed,
+    lastLoss: link.lastLoss,
+    maxOperators: link.maxOperators,
     silentMs: link.silentMs(nowMs),
     pointsSilentMs: nowMs - app.lastPointsMs,
     rateByReports: link.session.telemetry?.stream.feedback === 'reports',

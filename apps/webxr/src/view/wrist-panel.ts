@@ -32,6 +32,9 @@ export class WristPanel {
   readonly #context: CanvasRenderingContext2D;
   readonly #texture: CanvasTexture;
   #shown = '';
+  #lines: readonly PanelLine[] = [];
+  /** Of the bar at the bottom, in twentieths. */
+  #progress = 0;
 
   constructor(renderer: WebGLRenderer, rig: Group) {
     const canvas = document.createElement('canvas');
@@ -84,6 +87,19 @@ export class WristPanel {
     const key = lines.map((line) => line.tone + line.text).join('\n');
     if (key === this.#shown) return;
     this.#shown = key;
+    this.#lines = lines;
+    this.#draw();
+  }
+
+  /** A bar at the bottom that fills. @param share 0–1; at 0 there is none */
+  showProgress(share: number): void {
+    const progress = Math.round(share * 20);
+    if (progress === this.#progress) return;
+    this.#progress = progress;
+    this.#draw();
+  }
+
+  #draw(): void {
     const context = this.#context;
     context.clearRect(0, 0, WIDTH, HEIGHT);
     context.fillStyle = '#0d141bee';
@@ -91,10 +107,14 @@ export class WristPanel {
     context.roundRect(0, 0, WIDTH, HEIGHT, 24);
     context.fill();
     context.textBaseline = 'top';
-    for (const [index, line] of lines.slice(0, 6).entries()) {
+    for (const [index, line] of this.#lines.slice(0, 6).entries()) {
       context.font = index === 0 ? '600 36px system-ui, sans-serif' : '30px system-ui, sans-serif';
       context.fillStyle = COLOURS[line.tone];
       context.fillText(line.text, 24, 20 + index * 44, WIDTH - 48);
+    }
+    if (this.#progress > 0) {
+      context.fillStyle = COLOURS.bad;
+      context.fillRect(24, HEIGHT - 10, ((WIDTH - 48) * this.#progress) / 20, 6);
     }
     this.#texture.needsUpdate = true;
   }

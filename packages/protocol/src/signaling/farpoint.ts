@@ -28,14 +28,39 @@ export const iceServerSchema = z.strictObject({
 });
 export type IceServer = z.infer<typeof iceServerSchema>;
 
-/** Why a session ended, as told to the other peer. */
-export const sessionEndReasons = [
-  'operator-left',
-  'robot-left',
-  'closed-by-operator',
-  'closed-by-robot',
+/** Why a session ended, as told to the robot. */
+export const operatorEndReasons = ['operator-left', 'closed-by-operator'] as const;
+export type OperatorEndReason = (typeof operatorEndReasons)[number];
+
+/** Why a robot ends a session, or does not begin it. */
+export const robotCloseReasons = [
+  'robot-full', // as many operators as it takes
+  'bad-answer', // the SDP answer, or what it agrees to, cannot be used
+  'unproven-peer', // its certificate is not the one that the answer names, or it did not prove that the key is its own
+  'not-connected', // no connection came about in time
+  'connection-lost', // DTLS or a channel ended
+  'silent', // nothing was heard of the operator for too long
+  'not-reading', // reliable messages piled up
+  'shutting-down',
 ] as const;
-export type SessionEndReason = (typeof sessionEndReasons)[number];
+export type RobotCloseReason = (typeof robotCloseReasons)[number];
+
+/** Why a session ended, as told to the operator. */
+export const robotEndReasons = [
+  ...robotCloseReasons,
+  'robot-left', // its socket to the service closed
+  'closed-by-robot', // it gave no reason
+  'unknown-session', // it does not have the session that was to be resumed
+] as const;
+export type RobotEndReason = (typeof robotEndReasons)[number];
+
+/** Why a robot does not resume a session. */
+export const resumeRefusals = [
+  'unknown-session', // it does not have it
+  'wrong-resume-key', // who asks has not proven that the session is its own
+  'resume-too-soon', // the last offer waits for its answer, or has only just been answered
+] as const;
+export type ResumeRefusal = (typeof resumeRefusals)[number];
 
 /** Why the service refuses a message. After `fatal` ones it closes the socket. */
 export const signalingErrorCodes = [
@@ -48,6 +73,8 @@ export const signalingErrorCodes = [
   'unknown-robot', // no such robot here now
   'unknown-session', // not a session of yours
   'too-many-sessions',
+  'wrong-resume-key', // the robot refused a session.resume; nothing else has changed
+  'resume-too-soon', // the same: ask again later
   'unsupported-protocol', // `protocol` of the hello is not spoken here: fatal
   'full', // no room for another robot or operator: fatal
   'shutting-down', // come back in a moment: fatal
@@ -77,11 +104,13 @@ const sessionCandidate = z.strictObject({
   candidate: iceCandidateSchema,
 });
 const sessionClose = z.strictObject({ type: z.literal('session.close'), session: handleSchema });
-const sessionClosed = z.strictObject({
-  type: z.literal('session.closed'),
-  session: handleSchema,
-  reason: z.enum(sessionEndReasons),
-});
+/** What may come with a robot's reason. */
+const robotEndFields = {
+  /** With `robot-full`: how many operators it takes. */
+  maxOperators: z.int().min(0).max(1_000_000).optional(),
+  /** For people: what exactly was wrong. */
+  detail: z.string().max(300).optional(),
+};
 
 const robotListing = z.strictObject({ id: robotIdSchema, name: displayNameSchema });
 /** A robot that is here now. */
@@ -106,9 +135,17 @@ const robotToService = z.discriminatedUnion('type', [
     key: handleSchema,
     token: tokenSchema.optional(),
   }),
-  sessionOffer,
+  /** `claim` where it answers a `session.resume`. */
+  sessionOffer.extend({ claim: handleSchema.optional() }),
   sessionCandidate,
-  sessionClose,
+  sessionClose.extend({ reason: z.enum(robotCloseReasons).optional(), ...robotEndFields }),
+  /** Does not resume a session; nothing else changes. */
+  z.strictObject({
+    type: z.literal('session.refuse'),
+    session: handleSchema,
+    claim: handleSchema,
+    code: z.enum(resumeRefusals),
+  }),
 ]);
 export type RobotToService = z.infer<typeof robotToService>;
 
@@ -120,11 +157,25 @@ const serviceToRobot = z.discriminatedUnion('type', [
   }),
   /** An operator asks for a session: offer. */
   z.strictObject({ type: z.literal('session.request'), session: handleSchema, operator: displayNameSchema }),
-  /** The operator hears nothing in this session: offer an ICE restart, or close a session that you do not have. */
-  z.strictObject({ type: z.literal('session.resume'), session: handleSchema, operator: displayNameSchema }),
+  /**
+   * Somebody says that it is this session's operator and hears nothing. With the session's key: offer an ICE restart under
+   * this claim; else refuse it.
+   */
+  z.strictObject({
+    type: z.literal('session.resume'),
+    session: handleSchema,
+    operator: displayNameSchema,
+    /** Made by the service: tells its askers apart. */
+    claim: handleSchema,
+    resumeKey: handleSchema,
+  }),
   sessionAnswer,
   sessionCandidate,
-  sessionClosed,
+  z.strictObject({
+    type: z.literal('session.closed'),
+    session: handleSchema,
+    reason: z.enum(operatorEndReasons),
+  }),
   error,
 ]);
 export type ServiceToRobot = z.infer<typeof serviceToRobot>;
@@ -139,9 +190,16 @@ const operatorToService = z.discriminatedUnion('type', [
   z.strictObject({ type: z.literal('session.open'), robotId: robotIdSchema }),
   /**
    * For a session that has connected once: its path is silent. Also where the service has forgotten the session with an
-   * earlier socket of either side. Answered with `session.opened`; the robot offers an ICE restart.
+   * earlier socket of either side. Answered with `session.resuming`; then, where the robot accepts, with `session.opened` and
+   * its offer of an ICE restart.
    */
-  z.strictObject({ type: z.literal('session.resume'), session: handleSchema, robotId: robotIdSchema }),
+  z.strictObject({
+    type: z.literal('session.resume'),
+    session: handleSchema,
+    robotId: robotIdSchema,
+    /** What the robot told this session's operator in its welcome. */
+    resumeKey: handleSchema,
+  }),
   sessionAnswer,
   sessionCandidate,
   sessionClose,
@@ -155,9 +213,16 @@ const serviceToOperator = z.discriminatedUnion('type', [
   /** What has changed since the last `robots` or `robots.changed`. */
   robotsChanged,
   z.strictObject({ type: z.literal('session.opened'), session: handleSchema, robotId: robotIdSchema }),
+  /** `session.resume` was passed on to the robot. */
+  z.strictObject({ type: z.literal('session.resuming'), session: handleSchema }),
   sessionOffer,
   sessionCandidate,
-  sessionClosed,
+  z.strictObject({
+    type: z.literal('session.closed'),
+    session: handleSchema,
+    reason: z.enum(robotEndReasons),
+    ...robotEndFields,
+  }),
   error,
 ]);
 export type ServiceToOperator = z.infer<typeof serviceToOperator>;

@@ -1,0 +1,132 @@
+import { expect, it } from 'vitest';
+import type { CaptureBudget, CapturedFrame } from '../capture/capture-messages.ts';
+import type { FrameAudience } from '../encode/frame-formats.ts';
+import type { CodedFormat } from '../encode/plan.ts';
+import { RobotCounters } from '../telemetry/robot-counters.ts';
+import { StageTimer } from '../telemetry/stage-timer.ts';
+import { FrameFanOut, type FrameTarget } from './frame-fan-out.ts';
+
+class Viewer implements FrameTarget {
+  readonly id: string;
+  streaming = true;
+  readonly cloudBitsPerSecond: number;
+  readonly formats: readonly CodedFormat[];
+  readonly sender = null;
+  frames = 0;
+  readonly announced: string[] = [];
+
+  constructor(id: string, cloudBitsPerSecond: number, formats: readonly CodedFormat[]) {
+    this.id = id;
+    this.cloudBitsPerSecond = cloudBitsPerSecond;
+    this.formats = formats;
+  }
+
+  reads(format: CodedFormat): boolean {
+    return this.formats.includes(format);
+  }
+  enqueue(): void {
+    this.frames++;
+  }
+  announce({ format }: { format: CodedFormat }): void {
+    this.announced.push(format);
+  }
+}
+
+const BOTH = ['organised', 'unorganised'] as const;
+
+function setUp(viewers: Viewer[], driver: string | null = null) {
+  const budgets: CaptureBudget[] = [];
+  const capture = {
+    onFrame: null as ((frame: CapturedFrame) => void) | null,
+    onStream: null as ((stream: { format: CodedFormat; header: Uint8Array }) => void) | null,
+    setBudget: (budget: CaptureBudget) => void budgets.push(budget),
+    recycle: () => undefined,
+    requestLatencyTest: () => undefined,
+  };
+  const fanOut = new FrameFanOut({
+    capture,
+    targets: () => viewers,
+    sendLoop: { run: () => undefined },
+    driver: () => driver,
+    counters: new RobotCounters(),
+    stages: new StageTimer(),
+    now: () => 1000,
+    mayCode: true,
+  });
+  fanOut.updateBudget();
+  const frame = (audience: FrameAudience) =>
+    capture.onFrame?.({
+      ...{ type: 'frame', audience, buffer: new ArrayBuffer(0), latencyTest: false, intervalMs: 33 },
+      ...{ capturedAtMs: 990, captureMs: 1, captureCpuMs: 1, readyMs: 1000, frameNumber: 1, packets: 1 },
+      ...{ points: 10, validPoints: 10, sampleMs: 1, packMs: 1, format: 'points64' },
+      rejected: { notFinite: 0, nonPositiveDepth: 0, outOfRange: 0, notDrawn: 0 },
+    } as unknown as CapturedFrame);
+  const received = (audience: FrameAudience) => {
+    const before = viewers.map(({ frames }) => frames);
+    frame(audience);
+    return viewers.filter(({ frames }, i) => frames > (before[i] as number)).map(({ id }) => id);
+  };
+  return { budget: budgets.at(-1), capture, received };
+}
+
+const coded = (
+  format: CodedFormat,
+  targetBitsPerSecond: number,
+  plainBitsPerSecond: number | null = null,
+) => ({
+  format,
+  targetBitsPerSecond,
+  plainBitsPerSecond,
+});
+
+it('each format counts by itself: who reads one of them gets it', () => {
+  const { budget } = setUp([new Viewer('a', 5e6, ['organised'])]);
+  expect(budget?.coded).toEqual([coded('organised', 5e6)]);
+  expect(setUp([new Viewer('a', 5e6, ['unorganised'])]).budget?.coded).toEqual([coded('unorganised', 5e6)]);
+  expect(setUp([new Viewer('a', 5e6, BOTH)]).budget?.coded).toEqual([
+    coded('organised', 5e6),
+    coded('unorganised', 5e6),
+  ]);
+  expect(setUp([new Viewer('a', 5e6, [])]).budget?.coded).toEqual([]);
+});
+
+it('who drives decides the formats and the rate; who does not read them gets points64 beside them', () => {
+  const viewers = [
+    new Viewer('driver', 8e6, ['organised']),
+    new Viewer('both', 1e6, BOTH),
+    new Viewer('other', 3e6, ['unorganised']),
+    new Viewer('plain', 2e6, []),
+  ];
+  const { budget, received } = setUp(viewers, 'driver');
+  expect(budget).toMatchObject({ coded: [coded('organised', 8e6, 2e6)], targetBitsPerSecond: 8e6 });
+  expect(received({ readers: 'organised' })).toEqual(['driver', 'both']);
+  expect(received({ others: 'organised' })).toEqual(['other', 'plain']);
+  expect(received('everyone')).toHaveLength(4);
+});
+
+it('a driver who reads points64 alone has everybody get it', () => {
+  const { budget } = setUp([new Viewer('driver', 8e6, []), new Viewer('both', 1e6, BOTH)], 'driver');
+  expect(budget).toMatchObject({ coded: [], targetBitsPerSecond: 8e6 });
+});
+
+it('where nobody drives, each format that anybody reads may be used, at the narrowest path of those who read it', () => {
+  const viewers = [
+    new Viewer('a', 8e6, ['organised']),
+    new Viewer('b', 4e6, BOTH),
+    new Viewer('c', 1e6, []),
+    new Viewer('paused', 1e5, BOTH),
+  ];
+  viewers[3]!.streaming = false;
+  const { budget } = setUp(viewers);
+  expect(budget).toMatchObject({
+    coded: [coded('organised', 4e6, 1e6), coded('unorganised', 4e6, 1e6)],
+    targetBitsPerSecond: 4e6,
+  });
+});
+
+it('a stream is told to those who read its format', () => {
+  const viewers = [new Viewer('a', 1e6, ['organised']), new Viewer('b', 1e6, ['unorganised'])];
+  const { capture } = setUp(viewers);
+  capture.onStream?.({ format: 'organised', header: new Uint8Array(1) });
+  expect(viewers.map(({ announced }) => announced)).toEqual([['organised'], []]);
+});

@@ -1,0 +1,92 @@
+import type { RobotToService } from '@farpoint/protocol';
+import { silentLogger } from '@farpoint/service';
+import { expect, it } from 'vitest';
+import { ReasonCounts } from '../telemetry/robot-counters.ts';
+import { type KeptOperator, PathKeeper } from './path-keeper.ts';
+import { RestartPolicy } from './restart-policy.ts';
+import { ResumeKey } from './resume-key.ts';
+import { silenceLimits } from './silence.ts';
+
+function setUp(connected = true) {
+  let nowMs = 1000;
+  const sent: RobotToService[] = [];
+  const done: string[] = [];
+  const resumeKey = new ResumeKey();
+  const operator = {
+    ...{ resumeKey, restarts: new RestartPolicy(), heardMs: 0 },
+    peer: {
+      connected,
+      close: () => done.push('close'),
+      useIceServers: () => done.push('servers'),
+      restart: async () => {
+        done.push('restart');
+        return 'v=0';
+      },
+    },
+  } as unknown as KeptOperator;
+  const counters = { iceRestarts: 0, resumesRefused: new ReasonCounts() };
+  const keeper = new PathKeeper({
+    operators: new Map([['s', operator]]),
+    limits: silenceLimits(60_000),
+    drive: undefined as never,
+    signaling: {
+      send: (message) => {
+        sent.push(message);
+        return true;
+      },
+      check: () => undefined,
+    },
+    leaseChanged: () => undefined,
+    counters,
+    log: silentLogger(),
+    now: () => nowMs,
+  });
+  const resume = async (key: string, session = 's', claim = 'c') => {
+    sent.length = 0;
+    await keeper.resume({ type: 'session.resume', session, operator: 'Ada', claim, resumeKey: key }, []);
+    return sent[0] ?? null;
+  };
+  const pass = (ms: number) => {
+    nowMs += ms;
+  };
+  return { resume, pass, done, counters, key: resumeKey.text };
+}
+
+it('restarts ICE for who has the key, under the claim that asked', async () => {
+  const { resume, done, key, counters } = setUp();
+  expect(await resume(key)).toEqual({ type: 'session.offer', session: 's', sdp: 'v=0', claim: 'c' });
+  expect([done, counters.iceRestarts]).toEqual([['servers', 'restart'], 1]);
+});
+
+it('touches nothing for who does not, and does not make the operator wait for it', async () => {
+  const { resume, done, key, counters } = setUp();
+  for (let i = 0; i < 9; i++) {
+    expect(await resume(`${key}x`)).toEqual({
+      ...{ type: 'session.refuse', session: 's', claim: 'c', code: 'wrong-resume-key' },
+    });
+  }
+  expect(done).toEqual([]);
+  expect(counters.resumesRefused.get('wrong-resume-key')).toBe(9);
+  expect(await resume(key)).toMatchObject({ type: 'session.offer' });
+});
+
+it('says why it does not resume', async () => {
+  const { resume, key } = setUp();
+  expect(await resume(key, 'other')).toMatchObject({ session: 'other', code: 'unknown-session' });
+  await resume(key);
+  expect(await resume(key)).toMatchObject({ code: 'resume-too-soon' });
+  expect(await setUp(false).resume('0')).toMatchObject({ code: 'wrong-resume-key' });
+  const early = setUp(false);
+  expect(await early.resume(early.key)).toMatchObject({ code: 'resume-too-soon' });
+});
+
+it('whoever asks without end gets few answers: the service counts what the robot says', async () => {
+  const { resume, pass, counters } = setUp();
+  let answers = 0;
+  for (let i = 0; i < 1000; i++) {
+    if ((await resume('x')) !== null) answers++;
+    pass(10);
+  }
+  expect(answers).toBe(10 + 49);
+  expect(counters.resumesRefused.get('wrong-resume-key')).toBe(1000);
+});

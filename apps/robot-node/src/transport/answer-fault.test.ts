@@ -1,0 +1,36 @@
+import fc from 'fast-check';
+import { expect, it } from 'vitest';
+import { answerFault } from './answer-fault.ts';
+
+const good = [
+  ...['v=0', 'o=- 1 1 IN IP4 0.0.0.0', 's=-', 't=0 0', 'a=group:BUNDLE 0 1 2'],
+  ...['m=audio 9 UDP/TLS/RTP/SAVPF 96', 'a=mid:0', 'a=ice-ufrag:abcd', 'a=ice-pwd:p'],
+  ...['a=fingerprint:sha-256 AA', 'm=video 0 UDP/TLS/RTP/SAVPF 97', 'a=mid:1'],
+  ...['m=application 9 UDP/DTLS/SCTP webrtc-datachannel', 'a=mid:2'],
+];
+const without = (start: string) => good.filter((line) => !line.startsWith(start));
+const changed = (from: string, to: string) => good.map((line) => line.replace(from, to));
+
+it.each([
+  [good, null],
+  [[], 'no SDP: it does not begin with v=0'],
+  [['v=0', 'nonsense'], '0 m-lines, where the offer has 3'],
+  [without('m=video'), '2 m-lines, where the offer has 3'],
+  [changed('m=video', 'm=audio'), 'm-line 2 is audio, where the offer has video'],
+  [changed('m=audio 9', 'm=audio 0'), 'the cloud is refused (m=audio has port 0)'],
+  [changed('m=application 9', 'm=application 0'), 'the data channels are refused (m=application has port 0)'],
+  [without('a=fingerprint'), 'no a=fingerprint'],
+  [without('a=ice-pwd'), 'no a=ice-pwd'],
+] as const)('%#', (lines, fault) => {
+  expect(answerFault(lines.join('\r\n'))).toBe(fault);
+  expect(answerFault(lines.join('\n'))).toBe(fault);
+});
+
+it('any text gets a short fault, or none', () => {
+  fc.assert(
+    fc.property(fc.array(fc.oneof(fc.string(), fc.constantFrom(...good))), (lines) => {
+      expect((answerFault(lines.join('\n')) ?? '').length).toBeLessThan(100);
+    }),
+    { seed: 3 },
+  );
+});

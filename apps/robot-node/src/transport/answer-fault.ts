@@ -1,0 +1,29 @@
+/** Our offer's m-lines, in their order; an answer repeats them (RFC 3264 §6). */
+const SECTIONS = ['audio', 'video', 'application'] as const;
+/** Those that must not be refused; the video line is idle. */
+const NEEDED: Readonly<Record<string, string>> = {
+  audio: 'the cloud is refused (m=audio has port 0)',
+  application: 'the data channels are refused (m=application has port 0)',
+};
+const ATTRIBUTES = ['ice-ufrag', 'ice-pwd', 'fingerprint'] as const;
+
+/**
+ * What is wrong with an SDP answer that can be seen before it is used: werift takes texts that can never connect, and the
+ * operator would learn of it only by the time running out.
+ *
+ * @returns for people; `null` where nothing is
+ */
+export function answerFault(sdp: string): string | null {
+  const lines = sdp.split(/\r?\n/);
+  if (lines[0] !== 'v=0') return 'no SDP: it does not begin with v=0';
+  const media = lines.filter((line) => line.startsWith('m=')).map((line) => line.slice(2).split(' '));
+  if (media.length !== SECTIONS.length)
+    return `${media.length} m-lines, where the offer has ${SECTIONS.length}`;
+  for (const [index, kind] of SECTIONS.entries()) {
+    const [found, port] = media[index] as string[];
+    if (found !== kind) return `m-line ${index + 1} is ${found?.slice(0, 20)}, where the offer has ${kind}`;
+    if (port === '0' && NEEDED[kind] !== undefined) return NEEDED[kind];
+  }
+  const missing = ATTRIBUTES.find((name) => !lines.some((line) => line.startsWith(`a=${name}:`)));
+  return missing === undefined ? null : `no a=${missing}`;
+}

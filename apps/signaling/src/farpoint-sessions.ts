@@ -1,0 +1,251 @@
+import {
+  encodeJson,
+  type OperatorEndReason,
+  type OperatorToService,
+  type RobotEndReason,
+  type RobotToService,
+  type ServiceToOperator,
+  type ServiceToRobot,
+  serviceToOperatorCodec,
+  serviceToRobotCodec,
+} from '@farpoint/protocol';
+import type { Refuse } from './farpoint-connection.ts';
+import type { Observer } from './observer.ts';
+import type { Peer } from './peer.ts';
+import { type ResumeClaim, ResumeClaims } from './resume-claims.ts';
+import type { RobotEntry, RobotRegistry } from './robot-registry.ts';
+import { type Session, type SessionLimits, SessionTable } from './session-table.ts';
+
+/** An operator that is here now. */
+export interface OperatorEntry {
+  readonly name: string;
+  readonly peer: Peer;
+}
+
+export interface FarpointSessionsOptions {
+  readonly registry: RobotRegistry;
+  readonly observer: Observer;
+  readonly limits: SessionLimits;
+  readonly makeHandle: () => string;
+}
+
+type FromRobot = Exclude<RobotToService, { type: 'robot.hello' }>;
+type FromOperator = Exclude<OperatorToService, { type: 'operator.hello' }>;
+type HubSession = Session<RobotEntry, OperatorEntry>;
+type Claim = ResumeClaim<RobotEntry, OperatorEntry>;
+
+/** What an operator is told whose session is not resumed. */
+const refusalWords = {
+  'wrong-resume-key': 'the robot refused: this is not the key that it gave to the operator of this session',
+  'resume-too-soon': 'the robot has just offered, or not yet connected: ask again in a second',
+} as const;
+
+/** What robots and operators say of their sessions, led to the other side. */
+export class FarpointSessions {
+  readonly #options: FarpointSessionsOptions;
+  readonly #sessions: SessionTable<RobotEntry, OperatorEntry>;
+  readonly #claims: ResumeClaims<RobotEntry, OperatorEntry>;
+
+  constructor(options: FarpointSessionsOptions) {
+    this.#options = options;
+    const { limits, makeHandle } = options;
+    this.#sessions = new SessionTable(limits, makeHandle);
+    this.#claims = new ResumeClaims(limits.maxSessionsPerOperator, makeHandle);
+  }
+
+  get size(): number {
+    return this.#sessions.size;
+  }
+
+  /** @returns the type of a message that was relayed */
+  fromRobot(robot: RobotEntry, message: FromRobot, refuse: Refuse): string | null {
+    if (message.type === 'session.refuse') {
+      this.#refuseClaim(robot, message);
+      return null;
+    }
+    if (message.type === 'session.offer') return this.#offer(robot, message, refuse);
+    const session = this.#find(robot, message.session, refuse);
+    if (session === null) return null;
+    if (message.type === 'session.close') {
+      const { reason = 'closed-by-robot', maxOperators, detail } = message;
+      this.#end(session, reason);
+      toOperator(session.operator.peer, {
+        type: 'session.closed',
+        session: session.handle,
+        reason,
+        maxOperators,
+        detail,
+      });
+      return null;
+    }
+    toOperator(session.operator.peer, message);
+    return message.type;
+  }
+
+  /** @returns the type of a message that was relayed */
+  fromOperator(operator: OperatorEntry, message: FromOperator, refuse: Refuse): string | null {
+    if (message.type === 'session.open') {
+      this.#open(operator, message.robotId, refuse);
+      return null;
+    }
+    if (message.type === 'session.resume') {
+      this.#resume(operator, message, refuse);
+      return null;
+    }
+    const session = this.#find(operator, message.session, refuse);
+    if (session === null) return null;
+    if (message.type === 'session.close') {
+      this.#end(session, 'closed-by-operator');
+      toRobot(session.robot.peer, {
+        type: 'session.closed',
+        session: session.handle,
+        reason: 'closed-by-operator',
+      });
+      return null;
+    }
+    toRobot(session.robot.peer, message);
+    return message.type;
+  }
+
+  #offer(
+    robot: RobotEntry,
+    { type, session: handle, sdp, claim: claimed }: Extract<RobotToService, { type: 'session.offer' }>,
+    refuse: Refuse,
+  ): string | null {
+    const claim = claimed === undefined ? null : this.#claims.take(claimed, handle, robot);
+    const session = claim === null ? this.#find(robot, handle, refuse) : this.#bind(claim, refuse);
+    if (session === null) return null;
+    toOperator(session.operator.peer, { type, session: handle, sdp });
+    return type;
+  }
+
+  #open(operator: OperatorEntry, robotId: string, refuse: Refuse): void {
+    const robot = this.#options.registry.get(robotId);
+    if (robot === undefined) {
+      // No fault: it may have left a moment ago.
+      refuse('unknown-robot', `robot ${robotId} is not here`, { fault: false });
+      return;
+    }
+    const session = this.#sessions.open(robot, operator);
+    if (session === null) {
+      this.#tooMany(robotId, refuse);
+      return;
+    }
+    this.#options.observer.sessionOpened(session.handle, robot.id, operator.name);
+    // The operator first: it must know the handle before an offer can come.
+    toOperator(operator.peer, { type: 'session.opened', session: session.handle, robotId });
+    toRobot(robot.peer, { type: 'session.request', session: session.handle, operator: operator.name });
+  }
+
+  /**
+   * Asks the robot to restart ICE in a session that its peers may still have, though this service may have forgotten it
+   * with an earlier socket of theirs. Nothing changes before the robot has found the asker's key to be the session's: who has
+   * merely heard the handle disturbs nobody.
+   */
+  #resume(
+    operator: OperatorEntry,
+    { session: handle, robotId, resumeKey }: Extract<OperatorToService, { type: 'session.resume' }>,
+    refuse: Refuse,
+  ): void {
+    const robot = this.#options.registry.get(robotId);
+    if (robot === undefined) {
+      refuse('unknown-robot', `robot ${robotId} is not here`, { session: handle, fault: false });
+      return;
+    }
+    const known = this.#sessions.get(handle);
+    if (known !== null && known.robot.id !== robotId) {
+      refuse('unknown-session', 'not a session of yours', { session: handle, fault: false });
+      return;
+    }
+    if (!this.#sessions.hasRoom(robot, operator, known)) {
+      this.#tooMany(robotId, refuse, handle);
+      return;
+    }
+    const claim = this.#claims.add(handle, robot, operator);
+    toOperator(operator.peer, { type: 'session.resuming', session: handle });
+    toRobot(robot.peer, {
+      type: 'session.resume',
+      session: handle,
+      operator: operator.name,
+      claim: claim.handle,
+      resumeKey,
+    });
+  }
+
+  /** The robot has accepted a claim: the session is bound to the sockets of now. @returns what its offer goes on in */
+  #bind(claim: Claim, refuse: Refuse): HubSession | null {
+    const { session: handle, robot, operator } = claim;
+    const known = this.#sessions.get(handle);
+    const fits = known === null || known.robot.id === robot.id;
+    if (!fits || !this.#sessions.hasRoom(robot, operator, known)) {
+      refuse('unknown-session', 'not a session of yours', { session: handle, fault: false });
+      return null;
+    }
+    let session = known;
+    if (session === null || session.operator !== operator || session.robot !== robot) {
+      // The socket it was opened by may be half-open still, or gone.
+      if (session !== null) this.#end(session, 'operator-left');
+      session = this.#sessions.open(robot, operator, handle);
+      this.#options.observer.sessionOpened(handle, robot.id, operator.name);
+    }
+    toOperator(operator.peer, { type: 'session.opened', session: handle, robotId: robot.id });
+    return session;
+  }
+
+  /** The robot does not resume the session for who asked. Nobody else is told. */
+  #refuseClaim(robot: RobotEntry, message: Extract<RobotToService, { type: 'session.refuse' }>): void {
+    const { session, code } = message;
+    const claim = this.#claims.take(message.claim, session, robot);
+    if (claim === null) return;
+    const { peer } = claim.operator;
+    this.#options.observer.rejected('operator', code, '');
+    if (code !== 'unknown-session') {
+      toOperator(peer, { type: 'error', code, message: refusalWords[code], session });
+      return;
+    }
+    const known = this.#sessions.find(session, claim.operator);
+    if (known !== null) this.#end(known, code);
+    toOperator(peer, { type: 'session.closed', session, reason: code });
+  }
+
+  #tooMany(robotId: string, refuse: Refuse, session?: string): void {
+    refuse('too-many-sessions', `no more sessions with robot ${robotId}: close one first`, {
+      ...(session === undefined ? {} : { session }),
+      fault: false,
+    });
+  }
+
+  #find(owner: RobotEntry | OperatorEntry, handle: string, refuse: Refuse): HubSession | null {
+    const session = this.#sessions.find(handle, owner);
+    // No fault: the other side may have closed it a moment ago.
+    if (session === null) {
+      refuse('unknown-session', 'not a session of yours', { session: handle, fault: false });
+    }
+    return session;
+  }
+
+  #end(session: HubSession, reason: OperatorEndReason | RobotEndReason): void {
+    this.#sessions.close(session);
+    this.#options.observer.sessionClosed(session.handle, reason);
+  }
+
+  /** One side has left: tells every other side. */
+  endAll(owner: RobotEntry | OperatorEntry, reason: 'robot-left' | 'operator-left'): void {
+    this.#claims.drop(owner);
+    for (const { handle, robot, operator } of this.#sessions.closeAll(owner)) {
+      this.#options.observer.sessionClosed(handle, reason);
+      if (reason === 'robot-left')
+        toOperator(operator.peer, { type: 'session.closed', session: handle, reason });
+      else toRobot(robot.peer, { type: 'session.closed', session: handle, reason });
+    }
+  }
+}
+
+// Encoded anew from what was validated: the original text could hold a key twice, and readers differ on which one counts.
+export function toRobot(peer: Peer, message: ServiceToRobot): void {
+  peer.send(encodeJson(serviceToRobotCodec, message));
+}
+
+export function toOperator(peer: Peer, message: ServiceToOperator): void {
+  peer.send(encodeJson(serviceToOperatorCodec, message));
+}

@@ -1,0 +1,16 @@
+/** When the page goes, and when the browser brings it back from its cache as it was. */
+
+export interface PageLifecycleEvents {
+  /** The page is closed, left or put away: the last moment in which anything is sent. */
+  onLeave(): void;
+  /** It is back, where it was only put away. */
+  onReturn(): void;
+}
+
+export function watchPageLifecycle(target: EventTarget, events: PageLifecycleEvents): void {
+  target.addEventListener('pagehide', () => events.onLeave());
+  target.addEventListener('pageshow', (event) => {
+    // After a load, too; then nothing was left.
+    if ((event as PageTransitionEvent).persisted) events.onReturn();
+  });
+}

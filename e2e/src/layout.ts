@@ -1,0 +1,34 @@
+import type { Locator } from '@playwright/test';
+import { expect } from '@playwright/test';
+
+/**
+ * Every one of the elements is wholly on the screen, and none covers another.
+ *
+ * @returns their ids
+ */
+export async function expectOnScreenAndApart(
+  elements: Locator,
+  screen: { width: number; height: number },
+): Promise<string[]> {
+  const boxes = await elements.evaluateAll((found) =>
+    found.map((element) => {
+      const { left, top, right, bottom } = element.getBoundingClientRect();
+      return { name: element.id, left, top, right, bottom };
+    }),
+  );
+  for (const [i, box] of boxes.entries()) {
+    expect(box.right, box.name).toBeLessThanOrEqual(screen.width);
+    expect(box.left, box.name).toBeGreaterThanOrEqual(0);
+    expect(box.bottom, box.name).toBeLessThanOrEqual(screen.height);
+    expect(box.right - box.left, box.name).toBeGreaterThan(24);
+    for (const other of boxes.slice(i + 1)) {
+      const apart =
+        box.right <= other.left ||
+        other.right <= box.left ||
+        box.bottom <= other.top ||
+        other.bottom <= box.top;
+      expect(apart, `${box.name} and ${other.name}`).toBe(true);
+    }
+  }
+  return boxes.map(({ name }) => name);
+}

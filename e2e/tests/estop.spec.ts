@@ -1,0 +1,243 @@
+import type { Page } from '@playwright/test';
+import { Headset } from '../src/headset.ts';
+import { expectOnScreenAndApart } from '../src/layout.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+
+/** Each change of the robot's emergency stop, as its own journal has it. */
+function changes(lines: readonly string[]): boolean[] {
+  return lines
+    .filter((line) => line.includes('emergency stop changed'))
+    .map((line) => line.includes('"latched":true'));
+}
+
+/**
+ * Begins to hold the control that releases, and ends it in the page itself, once it shows that much progress: however slow the
+ * machine, it is let go before a second is over.
+ */
+function holdInPart(
+  page: Page,
+  by: 'key' | 'pointer',
+  end: 'up' | 'slide' | 'stop',
+  progress: number,
+): Promise<void> {
+  return page.evaluate(
+    async ([by, end, progress]) => {
+      const control = document.getElementById('estop-release') as HTMLElement;
+      const key = (type: string, code: string) => window.dispatchEvent(new KeyboardEvent(type, { code }));
+      const pointer = (type: string) => control.dispatchEvent(new PointerEvent(type, { button: 0 }));
+      const shown = () => Number(getComputedStyle(control).getPropertyValue('--held'));
+      if (by === 'key') key('keydown', 'KeyR');
+      else pointer('pointerdown');
+      while (shown() < progress) await new Promise((resolve) => setTimeout(resolve, 5));
+      if (shown() >= 1) throw new Error('held to the end');
+      if (end === 'stop') key('keydown', 'KeyX');
+      else if (by === 'key') key('keyup', 'KeyR');
+      else pointer(end === 'slide' ? 'pointerleave' : 'pointerup');
+    },
+    [by, end, progress] as const,
+  );
+}
+
+test('STOP only ever latches, however it is pressed and however often; a hold of a second releases it', async ({
+  page,
+  startStack,
+}) => {
+  const lines: string[] = [];
+  const stack = await startStack({ onLine: (_, line) => lines.push(line) });
+  const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id, canvas: '64x36' });
+  await operator.expectPoints();
+  await page.keyboard.down('Space');
+  await operator.expectState('holder', 'you');
+  await page.keyboard.up('Space');
+  const stop = page.locator('#estop');
+  const release = page.locator('#estop-release');
+  await expect(release).toBeHidden();
+  // Without a stop there is nothing to release.
+  await page.keyboard.down('KeyR');
+  await operator.expectFrames(40);
+  await page.keyboard.up('KeyR');
+
+  // Space on the focused button stops; it neither clicks nor grips.
+  await stop.focus();
+  await page.keyboard.down('Space');
+  await operator.expectState('estop', true);
+  expect((await operator.state()).driving).toBe(false);
+  await page.keyboard.up('Space');
+  await expect(release).toBeVisible();
+  const presses: (() => Promise<void>)[] = [
+    () => page.keyboard.press('KeyX'),
+    () => page.keyboard.press('KeyX'),
+    () => stop.click(),
+    () => stop.click(),
+    () => stop.press('Space'),
+    () => stop.press('Enter'),
+    () => release.press('Space'),
+    () => page.locator('#settings-open').press('KeyX'),
+    // Pressed, and the finger slides off.
+    async () => {
+      await stop.hover();
+      await page.mouse.down();
+      await page.mouse.move(100, 100);
+      await page.mouse.up();
+    },
+  ];
+  for (const press of presses) {
+    await press();
+    // More than a second: a calm press is no release either.
+    await operator.expectFrames(35);
+    expect(await operator.state()).toMatchObject({ estop: true, drive: 'estop' });
+  }
+  expect(changes(lines)).toEqual([true]);
+
+  // Let go early, nearly at the end, or stopped in the middle of it: held on to, it releases nothing either.
+  for (const progress of [0.2, 0.8]) {
+    await holdInPart(page, 'key', 'up', progress);
+    await holdInPart(page, 'pointer', 'up', progress);
+    await holdInPart(page, 'pointer', 'slide', progress);
+    await operator.expectFrames(40);
+  }
+  await holdInPart(page, 'key', 'stop', 0.5);
+  await operator.expectFrames(60);
+  await page.keyboard.down('KeyR');
+  await page.keyboard.up('KeyR');
+  await release.click();
+  await release.press('Enter');
+  expect(changes(lines)).toEqual([true]);
+
+  // Held: by key, by Enter on the control, by pointer.
+  await operator.releaseEstop();
+  expect(changes(lines)).toEqual([true, false]);
+  await page.keyboard.press('KeyX');
+  await expect(release).toBeVisible();
+  await release.focus();
+  await page.keyboard.down('Enter');
+  await operator.expectState('estop', false);
+  await page.keyboard.up('Enter');
+  await stop.click();
+  await release.hover();
+  await page.mouse.down();
+  await operator.expectState('estop', false);
+  await page.mouse.up();
+  await expect(release).toBeHidden();
+  expect(changes(lines)).toEqual([true, false, true, false, true, false]);
+});
+
+test('whoever presses STOP just after somebody else’s press stops, too', async ({
+  page,
+  context,
+  startStack,
+}) => {
+  const lines: string[] = [];
+  const stack = await startStack({ onLine: (_, line) => lines.push(line) });
+  const options = { robot: simulatedRobot.id, canvas: '64x36' };
+  const one = await OperatorPage.open(page, stack, options);
+  await one.expectPoints();
+  await page.keyboard.down('Space');
+  await one.expectState('holder', 'you');
+  await page.keyboard.up('Space');
+  const otherPage = await context.newPage();
+  const other = await OperatorPage.open(otherPage, stack, options);
+  await other.expectPoints();
+  await otherPage.keyboard.press('KeyX');
+  await one.expectState('estop', true);
+  await page.bringToFront();
+  await page.keyboard.press('KeyX');
+  await page.locator('#estop').click();
+  await one.expectFrames(40);
+  expect(changes(lines)).toEqual([true]);
+});
+
+test('on a gamepad and in the headset: B stops, another button held releases', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const lines: string[] = [];
+  const stack = await startStack({ onLine: (_, line) => lines.push(line) });
+  await page.addInitScript(() => {
+    const buttons = Array.from({ length: 17 }, () => ({ pressed: false, touched: false, value: 0 }));
+    const pad = { mapping: 'standard', axes: [0, 0, 0, 0], buttons };
+    Object.assign(window, { pad });
+    navigator.getGamepads = () => [pad as never];
+  });
+  const press = (index: number, pressed: boolean) =>
+    page.evaluate(
+      ([index, pressed]) => {
+        const { pad } = window as unknown as { pad: { buttons: { pressed: boolean; value: number }[] } };
+        Object.assign(pad.buttons[index]!, { pressed, value: Number(pressed) });
+      },
+      [index, pressed] as const,
+    );
+  const headset = await Headset.wear(page);
+  const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
+  await operator.expectPoints();
+  await press(5, true);
+  await operator.expectState('holder', 'you');
+  await press(5, false);
+  for (let i = 0; i < 2; i++) {
+    await press(1, true);
+    await operator.expectState('estop', true);
+    await press(1, false);
+    await operator.expectFrames(35);
+  }
+  expect(changes(lines)).toEqual([true]);
+  await press(3, true);
+  await operator.expectState('estop', false);
+  await press(3, false);
+
+  await page.getByRole('button', { name: /VR/ }).click();
+  await operator.expectState('vr', true);
+  await operator.expectPoints();
+  for (let i = 0; i < 2; i++) {
+    await headset.button('right', 'b-button', 1);
+    await operator.expectState('estop', true);
+    await headset.button('right', 'b-button', 0);
+    await operator.expectFrames(20);
+  }
+  // A fist.
+  await headset.button('right', 'squeeze', 1);
+  await headset.button('right', 'trigger', 1);
+  await operator.expectFrames(40);
+  await headset.button('right', 'trigger', 0);
+  await operator.expectFrames(10);
+  await headset.button('right', 'squeeze', 0);
+  await operator.expectFrames(10);
+  expect(changes(lines)).toEqual([true, false, true]);
+  await headset.place('left', [-0.05, 1.5, -0.4]);
+  await headset.button('right', 'trigger', 1);
+  await operator.screenshot(testInfo, 'holding-in-the-headset');
+  await operator.expectState('estop', false);
+  await headset.button('right', 'trigger', 0);
+  expect(changes(lines)).toEqual([true, false, true, false]);
+});
+
+for (const [width, height] of [
+  [360, 740],
+  [1280, 720],
+  [3840, 2160],
+] as const) {
+  test(`latched, every control is on a screen ${width} wide and none covers another`, async ({
+    browser,
+    startStack,
+  }, testInfo) => {
+    const stack = await startStack();
+    const context = await browser.newContext({ viewport: { width, height }, hasTouch: width < 400 });
+    const page = await context.newPage();
+    try {
+      const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
+      await operator.expectPoints();
+      await page.locator('#estop').click();
+      await operator.expectState('estop', true);
+      await operator.screenshot(testInfo, `latched-${width}`);
+      const names = await expectOnScreenAndApart(
+        page.locator(
+          '#bar button:visible, #drive button:visible, #joystick:visible, #facts, #notice:visible',
+        ),
+        { width, height },
+      );
+      expect(names).toEqual(expect.arrayContaining(['estop', 'estop-release']));
+    } finally {
+      await context.close();
+    }
+  });
+}

@@ -1,0 +1,71 @@
+import type { LocalStack } from '@farpoint/local-stack';
+import type { Page } from '@playwright/test';
+import { OperatorPage } from '../src/operator-page.ts';
+import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+
+/** It keeps an operator of whom nothing is heard for a minute: what ends sooner was told to end. */
+const robotForOne = { ...simulatedRobot, args: [...simulatedRobot.args, '--max-operators', '1'] };
+const options = { robot: simulatedRobot.id, canvas: '64x36' };
+
+async function expectOperators(stack: LocalStack, count: number): Promise<void> {
+  const operators = async () => {
+    const text = await (await fetch(`${stack.robotAdminUrl(simulatedRobot.id)}/metrics`)).text();
+    return Number(/^farpoint_robot_operators (\d+)$/m.exec(text)?.[1]);
+  };
+  const began = performance.now();
+  await expect.poll(operators, { message: 'operators', intervals: [10], timeout: 20_000 }).toBe(count);
+  console.log(`  ${count} operators after ${Math.round(performance.now() - began)} ms`);
+}
+
+const ways: [how: string, leave: (page: Page) => Promise<unknown>][] = [
+  ['its tab is closed', (page) => page.close({ runBeforeUnload: true })],
+  ['it goes to another page', (page) => page.goto('about:blank')],
+  ['it is left by a link to elsewhere', (page) => page.goto('data:text/html,elsewhere')],
+];
+
+test('an operator whose page goes makes room at once', async ({ context, startStack }) => {
+  const stack = await startStack({ robots: [robotForOne] });
+  for (const [how, leave] of ways) {
+    const page = await context.newPage();
+    const operator = await OperatorPage.open(page, stack, options);
+    await operator.expectState('session', 'live');
+    await expectOperators(stack, 1);
+    console.log(`  ${how}`);
+    await leave(page);
+    await expectOperators(stack, 0);
+    if (!page.isClosed()) await page.close();
+  }
+});
+
+test('a full robot is said to be full, with how many it takes, and lets in who waited once there is room', async ({
+  context,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [robotForOne] });
+  const [firstPage, secondPage] = [await context.newPage(), await context.newPage()];
+  const first = await OperatorPage.open(firstPage, stack, options);
+  await first.expectState('session', 'live');
+  const second = await OperatorPage.open(secondPage, stack, { robot: simulatedRobot.id });
+  await expect(secondPage.locator('#notice')).toContainText('full: it takes one operator at most');
+  await expect(secondPage.locator('#link')).toContainText('full: it takes one operator at most');
+  await second.screenshot(testInfo, 'full');
+  expect((await second.state()).lastLoss).toBe('robot-full');
+  await firstPage.close({ runBeforeUnload: true });
+  await second.expectState('session', 'live');
+});
+
+test('a page that the browser puts away leaves, and comes back with it', async ({ page, startStack }) => {
+  const stack = await startStack({ robots: [robotForOne] });
+  const operator = await OperatorPage.open(page, stack, options);
+  await operator.expectPoints();
+  const transition = (type: string) =>
+    page.evaluate((type) => window.dispatchEvent(new PageTransitionEvent(type, { persisted: true })), type);
+  for (let sessions = 2; sessions <= 3; sessions++) {
+    await transition('pagehide');
+    await expectOperators(stack, 0);
+    expect(await operator.state()).toMatchObject({ session: 'none', signaling: 'stopped' });
+    await transition('pageshow');
+    await operator.expectPoints();
+    expect((await operator.state()).sessionsOpened).toBe(sessions);
+  }
+});
