@@ -11,7 +11,7 @@ import {
 } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import { type CommandVerdict, DriveGuard, type RejectedCommand, type TakePolicy } from '@farpoint/safety';
-import { JsonLinesFile, type Logger } from '@farpoint/service';
+import { fileFault, JsonLinesFile, type Logger } from '@farpoint/service';
 import { Capture, type CaptureError, type CaptureState } from './capture/capture.ts';
 import type { CaptureOptions } from './capture/capture-messages.ts';
 import { monotonicMs, threadCpuMs } from './clock.ts';
@@ -211,7 +211,10 @@ export class Robot implements SessionHost {
     this.#timers.push(setInterval(() => this.#tick(), TICK_MS));
     if (options.statisticsFile !== undefined) {
       this.#statistics = new JsonLinesFile(options.statisticsFile, (error) =>
-        log.error({ err: error }, 'statistics are not written'),
+        log.error(
+          { remedy: 'set --stats to a file that can be written' },
+          `statistics are not written: ${fileFault(error) ?? error.message}`,
+        ),
       );
     }
     if (this.#statistics !== null || recording !== null) {

@@ -2,7 +2,7 @@
 import { randomBytes } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
-import { type OptionMistake, OptionsError } from '@farpoint/service';
+import { fileFault, type OptionMistake, OptionsError } from '@farpoint/service';
 import type { SourceOptions } from '../capture/open-source.ts';
 import type { SinkOptions } from '../drive/velocity-sink.ts';
 import type { RobotOptions } from '../robot.ts';
@@ -182,7 +182,7 @@ function readText(path: string, refuse: (detail: string) => void): string {
   try {
     return readFileSync(path, 'utf8');
   } catch (error) {
-    refuse(`cannot be read: ${error instanceof Error ? error.message : String(error)}`);
+    refuse(`cannot be read: ${fileFault(error) ?? String(error)}`);
     return '';
   }
 }
