@@ -1,4 +1,5 @@
 export * from './admin-server.ts';
+export { closest } from './closest.ts';
 export * from './config-template.ts';
 export * from './health.ts';
 export * from './json-lines-file.ts';
