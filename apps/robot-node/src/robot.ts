@@ -241,6 +241,7 @@ export class Robot implements SessionHost {
       throw error;
     }
     log.info({ source: capture.description }, 'source open');
+    recording?.announce(capture, options.capture.framesPerSecond);
     let sink: VelocitySink;
     try {
       sink = openSink(options.sink, capture, log);

@@ -10,6 +10,9 @@ import { describeTopics, readFrom, sourcedFolders } from '../ros/message-folders
 import type { GraphOptions } from '../ros/open-graph.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 
+/** Where it is not said: what the source is asked for at most. A recording has a rate of its own, which is kept to. */
+const DEFAULT_FPS: Partial<Record<RobotOptionValues['source'], number>> = { sim: 60, recording: 120 };
+
 /** How messages name the place of an option's value. */
 export type Where = (key: RobotOptionKey) => string;
 
@@ -21,6 +24,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const topics = describedTopics(values, (detail) => refuse('topics', detail));
   const ca = values.tlsCa === null ? null : readText(values.tlsCa, (detail) => refuse('tlsCa', detail));
   if (mistakes.length > 0) throw new OptionsError(mistakes);
+  const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
   return {
     id: values.id,
     name: values.name,
@@ -32,7 +36,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     },
     capture: {
       source: toSource(values, topics),
-      framesPerSecond: values.fps ?? (values.source === 'sim' ? 60 : 30),
+      framesPerSecond: values.fps ?? DEFAULT_FPS[values.source] ?? 30,
       plan: values.plan,
       sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
       floorFraction: values.floor,
@@ -74,7 +78,11 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
         : {
             path: values.record,
             compression: values.recordCompression,
-            capturedPerSecond: values.recordCapturedFps,
+            clouds: {
+              captured: recorded('captured') ? values.recordCapturedFps : 0,
+              sent: recorded('sent') ? values.recordSentFps : 0,
+            },
+            mostBytes: values.recordMax,
           },
   };
 }
