@@ -37,8 +37,7 @@ export async function describeClouds(
   recording: Recording,
   options: { topic: string | null; rate: number; axes: CloudAxes | 'auto' },
 ): Promise<CloudStream> {
-  const topic = chooseTopic(recording, options.topic);
-  const { clouds, perSecond } = await sampleClouds(recording, topic);
+  const { topic, clouds, perSecond } = await sampleFirst(recording, candidates(recording, options.topic));
   const first = clouds[0] as PointCloud2;
   const sameGrid =
     first.height > 1 && clouds.every(({ width, height }) => width === first.width && height === first.height);
@@ -55,12 +54,13 @@ export async function describeClouds(
   };
 }
 
-function chooseTopic({ file, topics }: Recording, wanted: string | null): RecordedTopic {
+/** Topics that clouds are looked for in, the one to play first; at least one. */
+function candidates({ file, topics }: Recording, wanted: string | null): RecordedTopic[] {
   const clouds = topics.filter(({ type }) => POINT_CLOUD_TYPES.includes(type));
   const names = clouds.map(({ name }) => name).join(', ') || 'none';
   if (wanted !== null) {
     const named = clouds.find(({ name }) => name === wanted);
-    if (named !== undefined) return named;
+    if (named !== undefined) return [named];
     const other = topics.find(({ name }) => name === wanted);
     const detail =
       other === undefined
@@ -68,15 +68,28 @@ function chooseTopic({ file, topics }: Recording, wanted: string | null): Record
         : `its type is ${other.type || 'unknown'}, not clouds; with clouds: ${names}`;
     throw new RecordingError('no-topic', detail, { file, topic: wanted });
   }
-  const best =
-    clouds.find(({ name }) => name === OWN_TOPIC) ??
-    clouds.reduce<RecordedTopic | undefined>(
-      (most, each) => (most === undefined || (each.messages ?? 0) > (most.messages ?? 0) ? each : most),
-      undefined,
-    );
-  if (best === undefined)
+  if (clouds.length === 0)
     throw new RecordingError('no-topic', 'no topic with sensor_msgs/PointCloud2', { file });
-  return best;
+  const most = clouds.toSorted((a, b) => (b.messages ?? 0) - (a.messages ?? 0));
+  // Our own recordings have each topic, also one that nothing was recorded of.
+  const own = most.filter(({ name, messages }) => name === OWN_TOPIC && messages !== 0);
+  return [...own, ...most.filter((each) => !own.includes(each))];
+}
+
+/** The first of them that has clouds. @throws {RecordingError} of the first, where none has */
+async function sampleFirst(
+  recording: Recording,
+  topics: readonly RecordedTopic[],
+): Promise<CloudSamples & { topic: RecordedTopic }> {
+  let fault: unknown;
+  for (const topic of topics) {
+    try {
+      return { topic, ...(await sampleClouds(recording, topic)) };
+    } catch (error) {
+      fault ??= error;
+    }
+  }
+  throw fault;
 }
 
 /**

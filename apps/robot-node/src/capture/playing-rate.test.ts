@@ -35,6 +35,12 @@ const telemetry = {
   })),
 };
 
+/** As a robot's recording has it that records clouds as sent alone. */
+const unused = {
+  ...{ topic: '/farpoint/captured', type: 'sensor_msgs/msg/PointCloud2', schema: POINT_CLOUD2_SCHEMA },
+  messages: [],
+};
+
 async function recording(name: string, times: readonly number[]): Promise<string> {
   const messages = times.map((ms, k) => ({ logNs: at(ms), data: cloudMessage(k, 3) }));
   const clouds = {
@@ -45,7 +51,7 @@ async function recording(name: string, times: readonly number[]): Promise<string
       messages,
     },
   };
-  return writeFile(join(folder, name), await mcapOfTopics([telemetry, clouds]));
+  return writeFile(join(folder, name), await mcapOfTopics([telemetry, unused, clouds]));
 }
 
 /** The robot's own default, and what the capture thread makes of it. */

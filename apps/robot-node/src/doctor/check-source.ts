@@ -79,7 +79,9 @@ function closedRemedy(source: SourceOptions, error: Error): string {
   }
   if (source.kind === 'ros') return '`farpoint-robot doctor` lists the topics; docs/ros.md has the rest';
   if (source.kind === 'sim') return 'report this';
-  if (/topic/.test(message)) return 'set source.topic (--topic) to one of those';
+  if (/no such topic|not clouds/.test(message)) return 'set source.topic (--topic) to one of those';
+  if (/no cloud/.test(message))
+    return 'play another file or topic (--path, --topic): clouds are recorded while an operator watches';
   return `set source.path (--path) to ${PLAYED[source.kind]}`;
 }
 
