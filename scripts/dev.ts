@@ -2,55 +2,48 @@
  * `pnpm dev`: the whole local stack: signaling, one simulated robot and the web app. Prints the address to open; Ctrl-C
  * stops everything.
  */
-import { parseArgs } from 'node:util';
-import { isPortFree, LocalStack, ManagedProcess, repositoryRoot } from '@farpoint/local-stack';
+import { setTimeout as delay } from 'node:timers/promises';
+import { Backoff } from '@farpoint/congestion';
+import {
+  type ChosenPorts,
+  choosePorts,
+  isPortFree,
+  keepRunning,
+  LocalStack,
+  ManagedProcess,
+  PortTaken,
+  repositoryRoot,
+} from '@farpoint/local-stack';
+import { portHolder } from '@farpoint/service';
+import { DEV_HELP, type DevOptions, readDevOptions } from './lib/dev-options.ts';
 
-const { values } = parseArgs({
-  options: {
-    port: { type: 'string', default: '5173' },
-    robots: { type: 'string', default: '1' },
-    verbose: { type: 'boolean', default: false },
-    help: { type: 'boolean', short: 'h', default: false },
-  },
-});
+/** The usual port of a robot's own, 9400, stays free for one that is started beside these. */
+const FIRST_ADMIN_PORT = 9410;
+const FIRST_WEB_PORT = 5173;
+/** Of a program that failed, so many of its last lines are shown. */
+const SHOWN_LINES = 8;
 
-if (values.help) {
-  console.log(`pnpm dev [options]
-
-  --port N     port of the web app (5173)
-  --robots N   how many simulated robots (1)
-  --verbose    show what every program logs
-
-Signaling listens on 3000 (Farpoint), 3001 and 3002 (reference protocol); robots answer /healthz and /metrics from 9400 up.`);
-  process.exit(0);
-}
-
-const SIGNALING_PORTS = { signaling: 3000, referenceRobot: 3001, referenceClient: 3002 };
-const FIRST_ADMIN_PORT = 9400;
-const webPort = readCount('--port', values.port, 65535);
-const robotCount = readCount('--robots', values.robots, 16);
-
-const adminPorts = Array.from({ length: robotCount }, (_, index) => FIRST_ADMIN_PORT + index);
-for (const port of [...Object.values(SIGNALING_PORTS), webPort, ...adminPorts]) {
-  if (!(await isPortFree(port))) {
-    console.error(
-      `port ${port} is in use: stop what listens there (\`lsof -i :${port}\` names it) and run pnpm dev again`,
-    );
-    process.exit(1);
-  }
+const options = optionsOrExit();
+const { ports, moved } = await portsOrExit(options);
+const [signaling, referenceRobot, referenceClient, webPort, ...adminPorts] = ports as [
+  ...[number, number, number, number],
+  ...number[],
+];
+for (const { wanted, port } of moved) {
+  console.log(`port ${wanted.port} is taken by ${holderOf(wanted.port)}: ${wanted.name} takes ${port}`);
 }
 
 const onLine = (name: string, line: string): void => {
-  if (values.verbose) console.log(`${name.padEnd(10)} ${line}`);
+  if (options.verbose) console.log(`${name.padEnd(10)} ${line}`);
 };
 
 let stack: LocalStack | null = null;
 let web: ManagedProcess | null = null;
-let stopping = false;
+const stopping = new AbortController();
 
 async function stop(code: number): Promise<void> {
-  if (stopping) return;
-  stopping = true;
+  if (stopping.signal.aborted) return;
+  stopping.abort();
   await web?.stop();
   await stack?.stop();
   process.exit(code);
@@ -60,7 +53,7 @@ const SAME_SIGNAL_MS = 500;
 let askedMs = 0;
 for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP'] as const) {
   process.on(signal, () => {
-    if (!stopping) {
+    if (!stopping.signal.aborted) {
       askedMs = performance.now();
       if (signal === 'SIGINT') console.log('\nstopping');
       void stop(0);
@@ -71,10 +64,21 @@ for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP'] as const) {
   });
 }
 
+const startWeb = async (): Promise<ManagedProcess> => {
+  web = await ManagedProcess.start({
+    name: 'web',
+    command: ['node', 'node_modules/vite/bin/vite.js', '--port', String(webPort), '--strictPort'],
+    cwd: `${repositoryRoot}/apps/webxr`,
+    readyUrl: `http://localhost:${webPort}/`,
+    onLine,
+  });
+  return web;
+};
+
 try {
   console.log('starting signaling and the simulated robot');
-  stack = await LocalStack.start({
-    ports: SIGNALING_PORTS,
+  const running = await LocalStack.start({
+    ports: { signaling, referenceRobot, referenceClient },
     robots: adminPorts.map((adminPort, index) => ({
       id: `sim-${index + 1}`,
       name: `Simulated robot ${index + 1}`,
@@ -83,38 +87,93 @@ try {
     })),
     onLine,
   });
+  stack = running;
   console.log('starting the web app');
-  web = await ManagedProcess.start({
-    name: 'web',
-    command: ['node', 'node_modules/vite/bin/vite.js', '--port', String(webPort), '--strictPort'],
-    cwd: `${repositoryRoot}/apps/webxr`,
-    readyUrl: `http://localhost:${webPort}/`,
-    onLine,
+  const page = await startWeb();
+  const query = signaling === 3000 ? '' : `?signaling=ws://localhost:${signaling}`;
+  console.log(`\n  Open  http://localhost:${webPort}/${query}\n\n  Ctrl-C stops everything.\n`);
+  keep(page, startWeb);
+  keep(running.signaling, async () => {
+    await running.startSignaling();
+    return running.signaling;
+  });
+  adminPorts.forEach((_, index) => {
+    const id = `sim-${index + 1}`;
+    keep(running.robot(id), async () => {
+      await running.restartRobot(id);
+      return running.robot(id);
+    });
   });
 } catch (error) {
-  if (!stopping) {
+  if (!stopping.signal.aborted) {
     console.error(error instanceof Error ? error.message : error);
     await stop(1);
   }
 }
 
-if (stack !== null && web !== null) {
-  console.log(`\n  Open  http://localhost:${webPort}/\n\n  Ctrl-C stops everything.\n`);
-  const programs = [stack.signaling, web, ...adminPorts.map((_, index) => stack!.robot(`sim-${index + 1}`))];
-  const ended = await Promise.race(
-    programs.map(async (program) => ({ program, exit: await program.exited })),
+/** One that ends takes no other along: it is said, and it is started again. */
+function keep(first: ManagedProcess, start: () => Promise<ManagedProcess>): void {
+  const { name } = first;
+  const again = (waitMs: number) => `; it is started again in ${(waitMs / 1000).toFixed(1)} s`;
+  void keepRunning(
+    first,
+    {
+      start,
+      backoff: new Backoff({ firstMs: 500, mostMs: 10_000, random: Math.random }),
+      now: () => performance.now(),
+      wait: async (ms, signal) => {
+        // An abort ends the wait: whoever waits looks at the signal.
+        await delay(ms, undefined, { signal }).catch(() => {});
+      },
+      onEnd: ({ output }, exit, waitMs) => {
+        console.error(`${name} has ended (${exit.signal ?? `code ${exit.code}`})${again(waitMs)}`);
+        if (exit.signal === null && !options.verbose)
+          console.error(output.split('\n').slice(-SHOWN_LINES).join('\n'));
+      },
+      onFailure: (error, waitMs) =>
+        console.error(`${error instanceof Error ? error.message : String(error)}${again(waitMs)}`),
+      onStart: () => console.log(`${name} is up again`),
+    },
+    stopping.signal,
   );
-  if (!stopping) {
-    console.error(
-      `${ended.program.name} ended (${ended.exit.signal ?? ended.exit.code}):\n${ended.program.output}`,
-    );
-    await stop(1);
+}
+
+function optionsOrExit(): DevOptions {
+  try {
+    const read = readDevOptions(process.argv.slice(2));
+    if (read !== null) return read;
+    process.stdout.write(DEV_HELP);
+    process.exit(0);
+  } catch (error) {
+    console.error(`pnpm dev: ${(error as Error).message}`);
+    process.exit(2);
   }
 }
 
-function readCount(flag: string, text: string, most: number): number {
-  const value = Number(text);
-  if (Number.isInteger(value) && value >= 1 && value <= most) return value;
-  console.error(`${flag} ${text}: not a whole number from 1 to ${most}`);
-  process.exit(2);
+async function portsOrExit({ port, robots }: DevOptions): Promise<ChosenPorts> {
+  const wanted = [
+    { name: 'signaling', port: 3000 },
+    { name: 'signaling for robots of the reference system', port: 3001 },
+    { name: 'signaling for bridges of the reference system', port: 3002 },
+    { name: 'the web app', port: port ?? FIRST_WEB_PORT, fixed: port !== null },
+    ...Array.from({ length: robots }, (_, index) => ({
+      name: `the health of robot sim-${index + 1}`,
+      port: FIRST_ADMIN_PORT + index,
+    })),
+  ];
+  try {
+    return await choosePorts(wanted, isPortFree);
+  } catch (error) {
+    if (!(error instanceof PortTaken)) throw error;
+    const { name, port: taken } = error.wanted;
+    console.error(
+      `port ${taken} is taken by ${holderOf(taken)}: end it, or give ${name} another by --port N, or none`,
+    );
+    process.exit(1);
+  }
+}
+
+function holderOf(port: number): string {
+  const holder = portHolder(port);
+  return holder === null ? 'another program' : `${holder.program} (process ${holder.pid})`;
 }

@@ -62,7 +62,8 @@ export const bench: Bench = {
         ...{ size, fps, mbps, seconds, pictures },
         robotArgs: [
           ...pictureArgs,
-          ...['--record', path, '--record-captured-fps', values['captured-fps']],
+          ...['--record', path, '--record-clouds', 'both', '--record-max', 'none'],
+          ...['--record-captured-fps', values['captured-fps'], '--record-sent-fps', '120'],
           ...['--record-compression', compression],
         ],
         onSecond: (pid) => memoryMb.push(residentMb(pid)),

@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-import { JsonLinesFile, runProgram, setNiceness } from '@farpoint/service';
+import { fileFault, JsonLinesFile, runProgram, setNiceness } from '@farpoint/service';
 import { Bridge } from './bridge.ts';
 import { monotonicMs } from './clock.ts';
 import { registerBridgeMetrics } from './metrics.ts';
@@ -9,13 +9,19 @@ await runProgram(program, async ({ options, log, health, metrics, shutdown, serv
   try {
     setNiceness(options.niceness);
   } catch (error) {
-    log.info({ niceness: options.niceness, err: error }, 'the system keeps the priority');
+    log.info(
+      { niceness: options.niceness, reason: (error as Error).message },
+      'the system keeps the priority',
+    );
   }
   const bridge = await Bridge.open(toBridgeOptions(options), log, monotonicMs);
   shutdown.onClose('bridge', () => bridge.close());
   if (options.stats !== null) {
     const file = new JsonLinesFile(options.stats, (error) =>
-      log.error({ err: error }, 'statistics are not written'),
+      log.error(
+        { remedy: 'set --stats to a file that can be written' },
+        `statistics are not written: ${fileFault(error) ?? error.message}`,
+      ),
     );
     shutdown.onClose('statistics', () => file.close());
     bridge.onFrame = (record) => file.write(record);

@@ -1,6 +1,6 @@
 #!/usr/bin/env node
 import { directions, monotonicMs, SignalingInterposer, UdpLink } from '@farpoint/link-emulator';
-import { JsonLinesFile, runProgram, setNiceness } from '@farpoint/service';
+import { fileFault, JsonLinesFile, runProgram, setNiceness } from '@farpoint/service';
 import { control } from './control.ts';
 import { directionOf } from './directions.ts';
 import { registerLinkMetrics } from './metrics.ts';
@@ -13,14 +13,19 @@ await runProgram(program, async ({ options, log, health, metrics, shutdown, serv
     setNiceness(options.niceness);
   } catch (error) {
     log.info(
-      { niceness: options.niceness, err: error },
+      { niceness: options.niceness, reason: (error as Error).message },
       'the system keeps the priority: a busy processor makes packets late',
     );
   }
   const file =
     options.stats === null
       ? null
-      : new JsonLinesFile(options.stats, (error) => log.error({ err: error }, 'statistics are not written'));
+      : new JsonLinesFile(options.stats, (error) =>
+          log.error(
+            { remedy: 'set --stats to a file that can be written' },
+            `statistics are not written: ${fileFault(error) ?? error.message}`,
+          ),
+        );
   const counters = registerLinkMetrics(metrics, () => link);
   const link = new UdpLink({
     up: directionOf(options, 'up'),

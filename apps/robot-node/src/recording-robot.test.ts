@@ -34,7 +34,7 @@ async function withRobot(id: string, options: string[], use: (operator: Signaled
 describe('robot process that records', { timeout: 60_000 }, () => {
   it('records clouds as captured and as sent, pictures, commands, telemetry, estimates and latencies', async () => {
     const args = ['--sim-size', '64', '--max-points', '600', '--record', path, '--record-captured-fps', '10'];
-    args.push('--pictures-of-cloud');
+    args.push('--record-clouds', 'both', '--record-sent-fps', '120', '--pictures-of-cloud');
     const seen: Uint8Array[] = [];
     await withRobot(RECORDED, args, async ({ client }) => {
       expect(await client.message('cameras')).toMatchObject({ cameras: [{ name: 'Camera' }] });

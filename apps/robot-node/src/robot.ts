@@ -16,7 +16,7 @@ import {
 } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import { type CommandVerdict, DriveGuard, type RejectedCommand, type TakePolicy } from '@farpoint/safety';
-import { JsonLinesFile, type Logger } from '@farpoint/service';
+import { fileFault, JsonLinesFile, type Logger } from '@farpoint/service';
 import type { Refusal } from '@farpoint/webrtc';
 import { Capture, type CaptureError, type CaptureState } from './capture/capture.ts';
 import type { CaptureOptions } from './capture/capture-messages.ts';
@@ -237,7 +237,10 @@ export class Robot implements SessionHost {
     this.#timers.push(setInterval(() => this.#tick(), TICK_MS));
     if (options.statisticsFile !== undefined) {
       this.#statistics = new JsonLinesFile(options.statisticsFile, (error) =>
-        log.error({ err: error }, 'statistics are not written'),
+        log.error(
+          { remedy: 'set --stats to a file that can be written' },
+          `statistics are not written: ${fileFault(error) ?? error.message}`,
+        ),
       );
     }
     if (this.#statistics !== null || recording !== null) {
@@ -264,6 +267,7 @@ export class Robot implements SessionHost {
       throw error;
     }
     log.info({ source: capture.description }, 'source open');
+    recording?.announce(capture, options.capture.framesPerSecond);
     let sink: VelocitySink;
     try {
       sink = openSink(options.sink, capture, log);

@@ -25,7 +25,10 @@ export async function run(): Promise<void> {
     const order = notifyOrder(process.env, process.pid);
     const systemd = order === null ? null : new Notifier(order);
     systemd?.starting(Math.max(options.shmWaitS, options.rosWaitS) * 1000 + START_MS);
-    const robot = await Robot.start(toRobotOptions(options, where), log);
+    const robotOptions = toRobotOptions(options, where);
+    const robot = await Robot.start(robotOptions, log).catch(async (error: unknown) => {
+      throw (await import('./doctor/start-failure.ts')).startFailure(robotOptions, error);
+    });
     shutdown.onClose('robot', () => robot.close());
     shutdown.onClose('systemd', () => systemd?.stopping());
     robot.onFailure = (error) => {

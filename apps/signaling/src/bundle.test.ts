@@ -40,6 +40,6 @@ test('a file that is missing is one sentence and exit code 2', async () => {
   const service = start([...anyPorts, '--robot-tokens', '/nix']);
   expect(await service.exited).toBe(2);
   expect(service.errors).toMatch(
-    /^farpoint-signaling: --robot-tokens names a file that cannot be read: ENOENT.*\n$/,
+    /^farpoint-signaling: --robot-tokens names a file that cannot be read: .* does not exist.*\n$/,
   );
 });

@@ -1,5 +1,6 @@
 import { readFileSync } from 'node:fs';
-import { OptionsError } from '@farpoint/service';
+import { createSecureContext } from 'node:tls';
+import { fileFault, OptionsError } from '@farpoint/service';
 import { AccessList } from './access.ts';
 import type { TlsFiles } from './listener.ts';
 import type { SignalingOptions } from './options.ts';
@@ -26,13 +27,21 @@ export function readFiles(options: SignalingOptions): ServiceFiles {
     );
   }
   return {
-    tls:
-      tlsCert === null || tlsKey === null
-        ? null
-        : { cert: readOptionFile('--tls-cert', tlsCert), key: readOptionFile('--tls-key', tlsKey) },
+    tls: tlsCert === null || tlsKey === null ? null : readTls(tlsCert, tlsKey),
     robots: readTokens('--robot-tokens', robotTokens, true),
     operators: readTokens('--operator-tokens', operatorTokens, false),
   };
+}
+
+function readTls(certPath: string, keyPath: string): TlsFiles {
+  const tls = { cert: readOptionFile('--tls-cert', certPath), key: readOptionFile('--tls-key', keyPath) };
+  try {
+    createSecureContext(tls);
+  } catch (error) {
+    const detail = `are not a PEM certificate and its key: ${(error as Error).message}`;
+    throw new OptionsError(`--tls-cert ${certPath} and --tls-key ${keyPath}`, detail);
+  }
+  return tls;
 }
 
 function readTokens(flag: string, path: string | null, bound: boolean): AccessList {
@@ -49,6 +58,9 @@ function readOptionFile(flag: string, path: string): Buffer {
   try {
     return readFileSync(path);
   } catch (error) {
-    throw new OptionsError(flag, `names a file that cannot be read: ${(error as Error).message}`);
+    throw new OptionsError(
+      flag,
+      `names a file that cannot be read: ${fileFault(error) ?? (error as Error).message}`,
+    );
   }
 }

@@ -17,11 +17,18 @@ export async function freePorts(count: number): Promise<number[]> {
   return ports;
 }
 
-/** True where nothing listens on the port of loopback. */
+/** True where nothing listens on the port of loopback, neither of its addresses. */
 export async function isPortFree(port: number): Promise<boolean> {
+  // Development servers listen on what `localhost` is, which may be ::1 alone.
+  const codes = await Promise.all(['127.0.0.1', '::1'].map((host) => tryListen(port, host)));
+  return !codes.some((code) => code === 'EADDRINUSE' || code === 'EACCES');
+}
+
+/** @returns why not, or `null` */
+function tryListen(port: number, host: string): Promise<string | null> {
   return new Promise((resolve) => {
     const server = createServer();
-    server.once('error', () => resolve(false));
-    server.listen(port, '127.0.0.1', () => server.close(() => resolve(true)));
+    server.once('error', (error: NodeJS.ErrnoException) => resolve(error.code ?? ''));
+    server.listen(port, host, () => server.close(() => resolve(null)));
   });
 }

@@ -13,7 +13,7 @@ import type { RecordedTopic, Recording } from './recording.ts';
 const OWN_TOPIC = '/farpoint/captured';
 /** Places of the recording, as parts of its length, at which clouds are looked at to know how large they are. */
 const SAMPLE_PLACES = [0, 0.25, 0.5, 0.75];
-const SAMPLES_AT_EACH = 3;
+const SAMPLES_AT_EACH = 4;
 /** Clouds of a LiDAR differ in size: how much larger others may be than the largest that was looked at. */
 const HEADROOM = 1.5;
 
@@ -28,7 +28,7 @@ export interface CloudStream {
   height: number;
   /** Most points of one. */
   capacity: number;
-  /** As played; `null` where the file does not say. */
+  /** As played, where they come fastest; `null` where there is only one. */
   framesPerSecond: number | null;
 }
 
@@ -37,15 +37,12 @@ export async function describeClouds(
   recording: Recording,
   options: { topic: string | null; rate: number; axes: CloudAxes | 'auto' },
 ): Promise<CloudStream> {
-  const topic = chooseTopic(recording, options.topic);
-  const clouds = await sampleClouds(recording, topic);
+  const { topic, clouds, perSecond } = await sampleFirst(recording, candidates(recording, options.topic));
   const first = clouds[0] as PointCloud2;
   const sameGrid =
     first.height > 1 && clouds.every(({ width, height }) => width === first.width && height === first.height);
   const largest = Math.max(1, ...clouds.map(({ width, height }) => width * height));
   const capacity = sameGrid ? largest : Math.ceil(largest * HEADROOM);
-  const seconds = Number(recording.endNs - recording.startNs) / 1e9;
-  const { messages } = topic;
   return {
     topic,
     axes: options.axes === 'auto' ? axesOf(first.header.frame_id) : options.axes,
@@ -53,17 +50,17 @@ export async function describeClouds(
     width: sameGrid ? first.width : capacity,
     height: sameGrid ? first.height : 1,
     capacity,
-    framesPerSecond:
-      messages === null || messages < 2 || seconds <= 0 ? null : ((messages - 1) / seconds) * options.rate,
+    framesPerSecond: perSecond === null ? null : perSecond * options.rate,
   };
 }
 
-function chooseTopic({ file, topics }: Recording, wanted: string | null): RecordedTopic {
+/** Topics that clouds are looked for in, the one to play first; at least one. */
+function candidates({ file, topics }: Recording, wanted: string | null): RecordedTopic[] {
   const clouds = topics.filter(({ type }) => POINT_CLOUD_TYPES.includes(type));
   const names = clouds.map(({ name }) => name).join(', ') || 'none';
   if (wanted !== null) {
     const named = clouds.find(({ name }) => name === wanted);
-    if (named !== undefined) return named;
+    if (named !== undefined) return [named];
     const other = topics.find(({ name }) => name === wanted);
     const detail =
       other === undefined
@@ -71,26 +68,63 @@ function chooseTopic({ file, topics }: Recording, wanted: string | null): Record
         : `its type is ${other.type || 'unknown'}, not clouds; with clouds: ${names}`;
     throw new RecordingError('no-topic', detail, { file, topic: wanted });
   }
-  const best =
-    clouds.find(({ name }) => name === OWN_TOPIC) ??
-    clouds.reduce<RecordedTopic | undefined>(
-      (most, each) => (most === undefined || (each.messages ?? 0) > (most.messages ?? 0) ? each : most),
-      undefined,
-    );
-  if (best === undefined)
+  if (clouds.length === 0)
     throw new RecordingError('no-topic', 'no topic with sensor_msgs/PointCloud2', { file });
-  return best;
+  const most = clouds.toSorted((a, b) => (b.messages ?? 0) - (a.messages ?? 0));
+  // Our own recordings have each topic, also one that nothing was recorded of.
+  const own = most.filter(({ name, messages }) => name === OWN_TOPIC && messages !== 0);
+  return [...own, ...most.filter((each) => !own.includes(each))];
 }
 
-async function sampleClouds(recording: Recording, topic: RecordedTopic): Promise<PointCloud2[]> {
+/** The first of them that has clouds. @throws {RecordingError} of the first, where none has */
+async function sampleFirst(
+  recording: Recording,
+  topics: readonly RecordedTopic[],
+): Promise<CloudSamples & { topic: RecordedTopic }> {
+  let fault: unknown;
+  for (const topic of topics) {
+    try {
+      return { topic, ...(await sampleClouds(recording, topic)) };
+    } catch (error) {
+      fault ??= error;
+    }
+  }
+  throw fault;
+}
+
+/**
+ * How many clouds a second these are, by the times between one and the next: those of a recording that stood still for half
+ * of its length are not half as many.
+ *
+ * @param times of clouds that follow each other, ns
+ */
+export function cloudsPerSecond(times: readonly bigint[]): number | null {
+  // Two formats of one capture have one time.
+  const different = times.filter((ns, i) => i === 0 || ns !== times[i - 1]);
+  const intervals = different.slice(1).map((ns, i) => Number(ns - (different[i] as bigint)) / 1e9);
+  intervals.sort((a, b) => a - b);
+  // The median of them: neither a pause nor two that came at once count.
+  const median = intervals[(intervals.length - 1) >> 1];
+  return median === undefined || median <= 0 ? null : 1 / median;
+}
+
+interface CloudSamples {
+  clouds: PointCloud2[];
+  /** Where they come fastest. */
+  perSecond: number | null;
+}
+
+async function sampleClouds(recording: Recording, topic: RecordedTopic): Promise<CloudSamples> {
   const clouds: PointCloud2[] = [];
+  let perSecond: number | null = null;
   let fault: RecordingError | null = null;
   const length = recording.endNs - recording.startNs;
   for (const part of SAMPLE_PLACES) {
     const fromNs = recording.startNs + BigInt(Math.floor(Number(length) * part));
     let count = 0;
+    const times: bigint[] = [];
     try {
-      for await (const { data, offset } of recording.messages([topic.name], fromNs)) {
+      for await (const { data, logNs, offset } of recording.messages([topic.name], fromNs)) {
         const where = { file: recording.file, topic: topic.name, offset };
         try {
           const cloud = pointCloud2Schema.parse(topic.decode(data));
@@ -100,14 +134,17 @@ async function sampleClouds(recording: Recording, topic: RecordedTopic): Promise
         } catch (error) {
           fault = new RecordingError(codeOf(error), detailOf(error), { ...where, cause: error });
         }
+        times.push(logNs);
         if (++count >= SAMPLES_AT_EACH) break;
       }
     } catch (error) {
       if (!(error instanceof RecordingError)) throw error;
       fault = error;
     }
+    const here = cloudsPerSecond(times);
+    if (here !== null) perSecond = Math.max(perSecond ?? 0, here);
   }
-  if (clouds.length > 0) return clouds;
+  if (clouds.length > 0) return { clouds, perSecond };
   throw (
     fault ?? new RecordingError('no-topic', 'no cloud in it', { file: recording.file, topic: topic.name })
   );

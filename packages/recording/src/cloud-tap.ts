@@ -1,12 +1,11 @@
 import type { MessagePort } from 'node:worker_threads';
 import type { CloudFormat, Pose } from '@farpoint/protocol';
+import { CloudRate } from './cloud-rate.ts';
 import { CreditQueue } from './credit-queue.ts';
 import type { CloudDone, CloudKind, CloudRecord, Lens } from './recorder-messages.ts';
 
 /** Clouds of each kind that the writer has, and that wait for it. */
 const LIMITS = { underWay: 2, waiting: 4 };
-/** A cloud may be so much of its interval early. */
-const EARLY_SHARE = 0.25;
 
 /** A captured cloud: as points, or as a depth camera's pictures. */
 export type TappedCloud = { cameraPose: Pose; captureMs: number } & (
@@ -37,15 +36,19 @@ export interface TappedPackets {
 export class CloudTap {
   readonly #port: MessagePort;
   readonly #lanes: Record<CloudKind, Lane>;
-  readonly #intervalMs: number;
-  #nextMs = Number.NEGATIVE_INFINITY;
+  readonly #rates: Record<CloudKind, CloudRate>;
+  #ended = false;
 
-  /** @param capturedPerSecond captured clouds recorded a second at most; of those sent all are */
-  constructor(port: MessagePort, capturedPerSecond: number) {
+  /** @param perSecond clouds of each kind recorded a second at most: 0 records none, infinity all */
+  constructor(port: MessagePort, perSecond: Readonly<Record<CloudKind, number>>) {
     this.#port = port;
     this.#lanes = { captured: new Lane(port), sent: new Lane(port) };
-    this.#intervalMs = 1000 / capturedPerSecond;
-    port.on('message', ({ kind, buffer }: CloudDone) => this.#lanes[kind].done(buffer));
+    this.#rates = { captured: new CloudRate(perSecond.captured), sent: new CloudRate(perSecond.sent) };
+    port.on('message', ({ kind, buffer, ended }: CloudDone) => {
+      this.#lanes[kind].done(buffer);
+      // Nothing more is copied for a recording that has ended.
+      if (ended) this.#ended = true;
+    });
   }
 
   /** Clouds that were not recorded because the writer did not keep up. */
@@ -60,9 +63,7 @@ export class CloudTap {
 
   captured(cloud: TappedCloud, { width, height, camera }: TapGrid): void {
     const { captureMs, cameraPose: pose } = cloud;
-    if (captureMs < this.#nextMs - this.#intervalMs * EARLY_SHARE) return;
-    const late = captureMs - this.#nextMs > this.#intervalMs;
-    this.#nextMs = (late ? captureMs : this.#nextMs) + this.#intervalMs;
+    if (this.#ended || !this.#rates.captured.takes(captureMs)) return;
     const lane = this.#lanes.captured;
     if (cloud.form === 'points') {
       const { points, count } = cloud;
@@ -97,6 +98,7 @@ export class CloudTap {
     { captureMs, cameraPose: pose }: Pick<TappedCloud, 'captureMs' | 'cameraPose'>,
     frame: TappedPackets,
   ): void {
+    if (this.#ended || !this.#rates.sent.takes(captureMs)) return;
     const { format, points, packets, slotBytes, streamHeader, copyPackets } = frame;
     this.#lanes.sent.push(
       packets * slotBytes,

@@ -3,6 +3,6 @@ export { CloudTap, type TapGrid, type TappedCloud, type TappedPackets } from './
 export { RecordingError, type RecordingErrorCode } from './errors.ts';
 export { openRecording } from './open-recording.ts';
 export type { PlayClock } from './play-timeline.ts';
-export type { DropKind, RecorderOptions } from './recorder-messages.ts';
+export type { CloudKind, DropKind, RecorderOptions } from './recorder-messages.ts';
 export type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 export { SessionRecorder } from './session-recorder.ts';

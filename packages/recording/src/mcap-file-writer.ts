@@ -12,6 +12,18 @@ const CHUNK_OPCODE = 6;
 /** Opcode and length, and a message's own fields. */
 const MESSAGE_HEAD_BYTES = 1 + 8 + 2 + 4 + 8 + 8;
 
+/** What comes after everything at the end of a file, beside the definitions and the index. */
+const FOOTER_BYTES = 256;
+/** Of a chunk: its head, its index and its entry in the index of chunks, beside what each message and channel adds. */
+const CHUNK_EXTRA_BYTES = 256;
+const MESSAGE_INDEX_BYTES = 16;
+const CHANNEL_INDEX_BYTES = 15 + 10;
+
+/** The file would become larger than it may. It can still be closed, and is whole then. */
+export class McapFileFull extends Error {
+  override readonly name = 'McapFileFull';
+}
+
 export interface ChannelSpec {
   topic: string;
   messageEncoding: 'cdr' | 'json';
@@ -30,6 +42,7 @@ export class McapFileWriter {
   bytes = 0;
   readonly #file: FileHandle;
   readonly #compression: 'none' | 'zstd';
+  readonly #mostBytes: number;
   readonly #builder = new McapRecordBuilder();
   readonly #schemas: McapTypes.Schema[] = [];
   readonly #channels: McapTypes.Channel[] = [];
@@ -42,18 +55,27 @@ export class McapFileWriter {
   /** Of the chunk that is being filled. */
   #parts: Uint8Array[] = [];
   #chunkBytes = 0;
+  #chunkMessages = 0;
   #index = new Map<number, [bigint, bigint][]>();
   #firstNs = 0n;
   #lastNs = 0n;
+  /** Of schemas and channels, which stand at the end once more, and of words about the recording. */
+  #definitionBytes = 0;
 
-  private constructor(file: FileHandle, compression: 'none' | 'zstd') {
+  private constructor(file: FileHandle, compression: 'none' | 'zstd', mostBytes: number) {
     this.#file = file;
     this.#compression = compression;
+    this.#mostBytes = mostBytes;
   }
 
   /** @throws {Error} where the file exists already, or cannot be made */
-  static async create(path: string, compression: 'none' | 'zstd', library: string): Promise<McapFileWriter> {
-    const writer = new McapFileWriter(await open(path, 'wx', 0o640), compression);
+  static async create(
+    path: string,
+    compression: 'none' | 'zstd',
+    library: string,
+    mostBytes = Number.POSITIVE_INFINITY,
+  ): Promise<McapFileWriter> {
+    const writer = new McapFileWriter(await open(path, 'wx', 0o640), compression, mostBytes);
     writer.#builder.writeMagic();
     writer.#builder.writeHeader({ profile: 'ros2', library });
     await writer.#writeBuilder();
@@ -76,14 +98,24 @@ export class McapFileWriter {
     const channel = { id, schemaId, topic, messageEncoding, metadata: words };
     this.#channels.push(channel);
     this.#builder.writeChannel(channel);
-    this.#addPart(this.#builder.buffer.slice(before));
+    const definition = this.#builder.buffer.slice(before);
+    this.#definitionBytes += definition.length + CHANNEL_INDEX_BYTES;
+    this.#addPart(definition);
     this.#builder.reset();
     return id;
   }
 
-  /** @param data one message in parts, which must stay as they are until the promise is kept */
+  /**
+   * @param data one message in parts, which must stay as they are until the promise is kept
+   * @throws {McapFileFull} having written nothing of it
+   */
   async add(channelId: number, sequence: number, logNs: bigint, data: readonly Uint8Array[]): Promise<void> {
     const dataBytes = data.reduce((sum, part) => sum + part.length, 0);
+    const more = MESSAGE_HEAD_BYTES + dataBytes + MESSAGE_INDEX_BYTES;
+    // What waits may be packed and so take less than it seems.
+    if (this.#closedBytes() + more > this.#mostBytes) await this.flush();
+    if (this.#closedBytes() + more > this.#mostBytes)
+      throw new McapFileFull(`no room for ${dataBytes} bytes more within ${this.#mostBytes}`);
     const head = new DataView(new ArrayBuffer(MESSAGE_HEAD_BYTES));
     head.setUint8(0, MESSAGE_OPCODE);
     head.setBigUint64(1, BigInt(MESSAGE_HEAD_BYTES - 9 + dataBytes), true);
@@ -105,6 +137,7 @@ export class McapFileWriter {
     for (const part of data) this.#addPart(large ? part : part.slice());
     this.#counts.set(channelId, (this.#counts.get(channelId) ?? 0n) + 1n);
     this.messages++;
+    this.#chunkMessages++;
     if (large || this.#chunkBytes >= CHUNK_BYTES) await this.flush();
   }
 
@@ -149,6 +182,7 @@ export class McapFileWriter {
     this.#builder.reset();
     this.#parts = [];
     this.#chunkBytes = 0;
+    this.#chunkMessages = 0;
     this.#index = new Map();
   }
 
@@ -158,6 +192,7 @@ export class McapFileWriter {
     const offset = BigInt(this.bytes);
     const length = this.#builder.writeMetadata({ name, metadata: new Map(Object.entries(values)) });
     this.#metadata.push({ offset, length, name });
+    this.#definitionBytes += name.length + 64;
     await this.#writeBuilder();
   }
 
@@ -194,6 +229,16 @@ export class McapFileWriter {
     await this.#writeBuilder();
     await this.#file.sync();
     await this.#file.close();
+  }
+
+  /** The most that the file has once it is closed now. */
+  #closedBytes(): number {
+    const chunk =
+      this.#chunkBytes +
+      CHUNK_EXTRA_BYTES +
+      this.#chunkMessages * MESSAGE_INDEX_BYTES +
+      this.#channels.length * 2 * CHANNEL_INDEX_BYTES;
+    return this.bytes + chunk + this.#definitionBytes + this.#chunkIndex.length + FOOTER_BYTES;
   }
 
   #addPart(part: Uint8Array): void {

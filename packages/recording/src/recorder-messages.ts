@@ -6,6 +6,8 @@ export interface RecorderOptions {
   path: string;
   /** Its chunks: as they are, or packed. */
   compression: 'none' | 'zstd';
+  /** The file ends, whole, before it is larger; left out, it may be of any size. */
+  mostBytes?: number | undefined;
   /** The time since 1970 at the robot's clock's 0, ns. */
   epochNs: bigint;
   /** For people: what is recorded. */
@@ -84,6 +86,8 @@ export type DropKind = CloudKind | 'pictures' | 'events';
 export interface CloudDone {
   kind: CloudKind;
   buffer: ArrayBuffer;
+  /** The file is full: no more clouds are written. */
+  ended: boolean;
 }
 
 /** Topics of what is written as JSON. */
@@ -115,6 +119,8 @@ export type RecorderReport =
   | { type: 'ready' }
   /** An event or a picture was taken. */
   | { type: 'done'; kind: 'events' | 'pictures' }
+  /** The file has as many bytes as it may, and is closed. */
+  | { type: 'full' }
   /** Nothing more is written. */
   | { type: 'failed'; detail: string }
   | {

@@ -2,6 +2,7 @@
 import { type MessagePort, parentPort, workerData } from 'node:worker_threads';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { detailOf } from './errors.ts';
+import { McapFileFull } from './mcap-file-writer.ts';
 import type {
   CloudDone,
   CloudRecord,
@@ -26,6 +27,8 @@ const send = (report: RecorderReport) => port.postMessage(report);
 
 const writer = await RecordingWriter.create(options, new SentCloudDecoder(await loadCodecFromDisk()));
 let failed = false;
+/** The file has all that it may, and is closed. */
+let full = false;
 let flushes = 0;
 let syncing = false;
 /** One thing after the other. */
@@ -44,9 +47,9 @@ async function addOwnState(): Promise<void> {
 
 function inTurn(work: () => Promise<void>): Promise<void> {
   tail = tail.then(async () => {
-    if (failed) return;
+    if (failed || full) return;
     try {
-      await work();
+      await work().catch(endIfFull);
     } catch (error) {
       failed = true;
       send({ type: 'failed', detail: detailOf(error) });
@@ -55,11 +58,22 @@ function inTurn(work: () => Promise<void>): Promise<void> {
   return tail;
 }
 
+async function endIfFull(error: unknown): Promise<void> {
+  if (!(error instanceof McapFileFull)) throw error;
+  full = true;
+  await writer.file.close();
+  tell();
+  send({ type: 'full' });
+}
+
 clouds.on('message', (record: CloudRecord) => {
   const { buffer } = record;
-  const done: CloudDone = { kind: record.type === 'sent' ? 'sent' : 'captured', buffer };
+  const kind = record.type === 'sent' ? 'sent' : 'captured';
   // Its memory goes back once the chunk that refers to it is written; also after a failure.
-  void inTurn(() => writer.addCloud(record)).then(() => clouds.postMessage(done, [buffer]));
+  void inTurn(() => writer.addCloud(record)).then(() => {
+    const done: CloudDone = { kind, buffer, ended: full };
+    clouds.postMessage(done, [buffer]);
+  });
 });
 
 /** The capture thread has said all. */

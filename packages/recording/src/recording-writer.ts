@@ -72,13 +72,18 @@ export class RecordingWriter {
 
   /** @throws {Error} where the file exists already, or cannot be made */
   static async create(options: RecorderOptions, decoder: SentCloudDecoder): Promise<RecordingWriter> {
-    const file = await McapFileWriter.create(options.path, options.compression, 'farpoint');
+    const file = await McapFileWriter.create(
+      options.path,
+      options.compression,
+      'farpoint',
+      options.mostBytes,
+    );
     const writer = new RecordingWriter(file, options.epochNs, decoder);
     await file.addMetadata('farpoint', { robot: options.robotId, epochNs: String(options.epochNs) });
     return writer;
   }
 
-  /** @throws {Error} where nothing more can be written */
+  /** @throws {Error} where nothing more can be written; {McapFileFull} where nothing more may be, as all of these */
   async addCloud(record: CloudRecord): Promise<void> {
     const ns = this.#nsOf(record.captureMs);
     const kind: CloudKind = record.type === 'sent' ? 'sent' : 'captured';

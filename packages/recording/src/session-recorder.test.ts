@@ -52,7 +52,7 @@ async function record(path: string, compression: 'none' | 'zstd' = 'none'): Prom
     ...{ path, compression, robotId: 'test', epochNs: 1_700_000_000_000_000_000n },
   });
   recorder.cameras(CAMERAS);
-  const tap = new CloudTap(recorder.clouds, 1000);
+  const tap = new CloudTap(recorder.clouds, { captured: 1000, sent: 1000 });
   const depth = new Float32Array(16 * 12);
   const colour = new Uint32Array(16 * 12).fill(0xff03_0201);
   for (let k = 0; k < FRAMES; k++) {
@@ -169,7 +169,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
   it('records no more captured clouds than it was asked for', async () => {
     const path = join(folder, 'few.mcap');
     const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
-    const tap = new CloudTap(recorder.clouds, 5);
+    const tap = new CloudTap(recorder.clouds, { captured: 5, sent: Number.POSITIVE_INFINITY });
     const cloud = { form: 'points' as const, points: new Float32Array(40), count: 10 };
     for (let k = 0; k < 58; k++) {
       tap.captured(
@@ -185,10 +185,65 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     await recording.close();
   });
 
+  it.each(['none', 'zstd'] as const)(
+    'ends before it is larger than it may be (%s), says so, and every message of it can be read',
+    async (compression) => {
+      const path = join(folder, `full-${compression}.mcap`);
+      const mostBytes = 2_000_000;
+      const recorder = await SessionRecorder.open({
+        ...{ path, compression, robotId: 'test', epochNs: 0n, mostBytes },
+      });
+      const full = new Promise<void>((resolve) => {
+        recorder.onFull = resolve;
+      });
+      const tap = new CloudTap(recorder.clouds, { captured: 1000, sent: 1000 });
+      // Nothing that can be packed.
+      const points = Float32Array.from({ length: 40_000 }, (_, i) => Math.sin(i * i));
+      let pushed = 0;
+      let ended = false;
+      void full.then(() => {
+        ended = true;
+      });
+      while (!ended) {
+        recorder.json('telemetry', pushed, { pushed });
+        tap.captured(
+          { form: 'points', points, count: 10_000, cameraPose: poseAt(0), captureMs: pushed++ },
+          { ...GRID, camera: null },
+        );
+        await written(tap);
+      }
+      // What comes later is nobody's.
+      recorder.json('telemetry', pushed, {});
+      tap.captured(
+        { form: 'points', points, count: 10_000, cameraPose: poseAt(0), captureMs: pushed },
+        { ...GRID, camera: null },
+      );
+      expect(tap.pending).toBe(0);
+      expect(tap.dropped).toBe(0);
+      tap.close();
+      await recorder.close();
+      const { size } = statSync(path);
+      expect(size).toBeLessThanOrEqual(mostBytes);
+      expect(size).toBeGreaterThan(mostBytes * 0.8);
+      expect(recorder.bytes).toBe(size);
+      const recording = await openRecording(path);
+      expect(recording.warning).toBeNull();
+      const messages = new Map(recording.topics.map((topic) => [topic.name, topic.messages]));
+      let clouds = 0;
+      for await (const _ of recording.messages(['/farpoint/captured'], 0n)) clouds++;
+      expect(clouds).toBe(messages.get('/farpoint/captured'));
+      expect(clouds).toBeGreaterThan(5);
+      await recording.close();
+    },
+  );
+
   it('drops the oldest where the writer does not keep up, counts it, and never waits', async () => {
     const path = join(folder, 'fast.mcap');
     const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
-    const tap = new CloudTap(recorder.clouds, Number.POSITIVE_INFINITY);
+    const tap = new CloudTap(recorder.clouds, {
+      captured: Number.POSITIVE_INFINITY,
+      sent: Number.POSITIVE_INFINITY,
+    });
     const points = new Float32Array(40_000);
     // All in one turn: no answer can come in between.
     for (let k = 0; k < 50; k++) {

@@ -22,6 +22,8 @@ const PICTURE_LIMITS = { underWay: 4, waiting: 24 };
 export class SessionRecorder {
   /** For the capture thread, which makes a `CloudTap` of it. */
   readonly clouds: MessagePort;
+  /** Called once, where the file has as many bytes as it may: it is closed, and whole. */
+  onFull: (() => void) | null = null;
   /** Called once, where nothing more can be written. The robot goes on. */
   onFailure: ((error: RecordingError) => void) | null = null;
   /** So far. */
@@ -37,6 +39,7 @@ export class SessionRecorder {
   readonly #sequences = new Map<string, number>();
   #closing = false;
   #failed = false;
+  #full = false;
 
   private constructor(worker: Worker, clouds: MessagePort, path: string) {
     this.#worker = worker;
@@ -51,6 +54,9 @@ export class SessionRecorder {
         this.bytes = report.bytes;
         this.faults = report.faults;
         this.#cloudsDropped = report.dropped;
+      } else if (report.type === 'full') {
+        this.#full = true;
+        this.onFull?.();
       } else if (report.type === 'failed') this.#fail(report.detail);
     });
     worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));
@@ -94,7 +100,7 @@ export class SessionRecorder {
 
   /** A picture as operators are sent it. @param file its memory is the recorder's from now on */
   picture(camera: number, captureMs: number, format: PictureFormat, file: Uint8Array<ArrayBuffer>): void {
-    if (this.#closing || this.#failed) return;
+    if (!this.#writing) return;
     const sequence = this.#next(`picture ${camera}`);
     this.#pictures.push({ type: 'picture', camera, captureMs, sequence, format, file });
   }
@@ -125,7 +131,11 @@ export class SessionRecorder {
   }
 
   #push(event: EventRecord): void {
-    if (!this.#closing && !this.#failed) this.#events.push(event);
+    if (this.#writing) this.#events.push(event);
+  }
+
+  get #writing(): boolean {
+    return !this.#closing && !this.#failed && !this.#full;
   }
 
   #post(request: RecorderRequest): void {

@@ -1,4 +1,5 @@
 export * from './admin-server.ts';
+export { closest } from './closest.ts';
 export * from './config-template.ts';
 export * from './health.ts';
 export * from './json-lines-file.ts';
@@ -8,5 +9,8 @@ export * from './option-errors.ts';
 export * as schema from './option-schemas.ts';
 export * from './option-table.ts';
 export * from './options.ts';
+export * from './port-holder.ts';
 export * from './program.ts';
 export * from './shutdown.ts';
+export { StartFailure } from './start-failure.ts';
+export { fileFault } from './system-error.ts';

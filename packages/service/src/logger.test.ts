@@ -31,6 +31,18 @@ test('readable on a terminal, with the stack of an error', () => {
   expect(lines[0]).toContain('Error: no link\n    at ');
 });
 
+test('what caused an error stands beside it, once; a remedy follows an arrow', () => {
+  const { lines, stream } = collect(false);
+  const log = createLogger({ name: 'robot', level: 'info', format: 'auto', stream });
+  log.error({ err: new Error('no camera', { cause: new Error('no file') }), remedy: 'plug it in' }, 'failed');
+  const { err } = JSON.parse(lines[0]!) as { err: { message: string; cause: { message: string } } };
+  expect(err.message).toBe('no camera');
+  expect(err.cause.message).toBe('no file');
+  const text = formatLogLine(lines[0]!, false);
+  expect(text).toContain('robot: failed → plug it in\nError: no camera');
+  expect(text).toContain('\ncaused by: Error: no file');
+});
+
 test('format wins over the kind of stream', () => {
   const terminal = collect(true);
   createLogger({ name: 'a', level: 'info', format: 'json', stream: terminal.stream }).info('x');

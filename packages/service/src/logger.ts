@@ -15,8 +15,8 @@ export interface LoggerOptions {
 }
 
 /**
- * One JSON object a line for machines, or one readable line on a terminal. Errors go under the key `err`. In systemd's
- * journal each line has its level as priority.
+ * One JSON object a line for machines, or one readable line on a terminal. Errors go under the key `err`, what helps under
+ * `remedy`. In systemd's journal each line has its level as priority.
  */
 export function createLogger(options: LoggerOptions): Logger {
   const tty = options.stream === undefined ? process.stdout.isTTY === true : options.stream.isTTY === true;
@@ -28,6 +28,8 @@ export function createLogger(options: LoggerOptions): Logger {
       base: { name: options.name },
       timestamp: pino.stdTimeFunctions.isoTime,
       formatters: { level: (label) => ({ level: label }) },
+      // Causes stand beside the error: pino's own way puts all their messages and stacks into one.
+      serializers: { err: pino.stdSerializers.errWithCause },
     },
     readable ? { write: (line) => void out.write(formatLogLine(line, tty)) } : out,
   );

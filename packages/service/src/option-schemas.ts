@@ -28,6 +28,22 @@ export function port(): z.ZodType<number> {
   return integer({ min: 0, max: 65_535 });
 }
 
+const SIZE_UNITS: Readonly<Record<string, number>> = { '': 1, k: 1e3, m: 1e6, g: 1e9, t: 1e12 };
+
+/** Bytes: a number, or text with a unit (`500MB`, `4 GB`, 10^6 and 10^9). `none`, where it may be, is infinity. */
+export function size(limits: { min: number; none?: boolean }): z.ZodType<number> {
+  const { min, none = false } = limits;
+  const message = `must be a size such as 500MB or 4GB, of at least ${min} bytes${none ? ', or none' : ''}`;
+  return z.unknown().transform((value, context) => {
+    if (none && (value === 'none' || value === false)) return Number.POSITIVE_INFINITY;
+    const [, digits, unit = ''] = /^(\d+(?:\.\d+)?) ?([kmgt]?)b?$/i.exec(String(value).trim()) ?? [];
+    const bytes = Number(digits) * (SIZE_UNITS[unit.toLowerCase()] ?? Number.NaN);
+    if ((typeof value === 'string' || typeof value === 'number') && bytes >= min) return bytes;
+    context.addIssue({ code: 'custom', message });
+    return z.NEVER;
+  });
+}
+
 export function boolean(): z.ZodType<boolean> {
   const words = new Map([
     ['true', true],

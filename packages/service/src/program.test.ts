@@ -1,3 +1,4 @@
+import { type AddressInfo, createServer } from 'node:net';
 import { fileURLToPath } from 'node:url';
 import { expect, test } from 'vitest';
 import { LoggingProcess } from './testing/logging-process.ts';
@@ -21,6 +22,22 @@ test('a mistake in the options is one sentence on standard error and exit code 2
   expect(fixture.errors).toBe(
     'farpoint-robot: --admin-port must be a whole number from 0 to 65535, not "x"\n',
   );
+});
+
+test('a port that is taken is one line with what to do, without a stack, and exit code 1', async () => {
+  const server = createServer();
+  await new Promise<void>((resolve) => server.listen(0, '127.0.0.1', resolve));
+  const { port } = server.address() as AddressInfo;
+  const fixture = start(['--admin-port', String(port)]);
+  const said = await fixture.logged(/^could not start: /);
+  expect(await fixture.exited).toBe(1);
+  server.close();
+  expect(said).toMatchObject({
+    level: 'fatal',
+    msg: expect.stringContaining(`127.0.0.1:${port} is taken by `) as string,
+    remedy: 'set --admin-port to another port, or end that program',
+  });
+  expect(said).not.toHaveProperty('err');
 });
 
 test('an exception nobody caught ends the program in order with exit code 1', async () => {

@@ -13,6 +13,7 @@ import {
 } from './option-table.ts';
 import { resolveOptions } from './options.ts';
 import { Shutdown } from './shutdown.ts';
+import { startFailureOf } from './start-failure.ts';
 
 /** What a running program gets from its rim. */
 export interface ProgramContext<Table extends OptionTable> {
@@ -51,7 +52,8 @@ export function adminOptions(defaultPort: number) {
  * Runs a program: reads its options, sets up log, health, metrics and shutdown, calls `main`, and lets it run until a
  * signal. Exit codes: 0 after an orderly end, 1 for a failure, 2 for a mistake in the options.
  *
- * `main` may throw OptionsError too, for mistakes that only show once files are read. It returns once the program is up; what keeps it alive (servers, timers) is closed through `shutdown.onClose`.
+ * `main` may throw OptionsError too, for mistakes that only show once files are read, and StartFailure for what is to be
+ * mended outside the program. It returns once the program is up; what keeps it alive (servers, timers) is closed through `shutdown.onClose`.
  */
 export async function runProgram<const Table extends OptionTable>(
   definition: ProgramDefinition<Table>,
@@ -104,7 +106,9 @@ export async function runProgram<const Table extends OptionTable>(
     });
   } catch (error) {
     const mistake = error instanceof OptionsError;
+    const failure = startFailureOf(error, definition, options);
     if (mistake) process.stderr.write(mistakesText(definition.name, error));
+    else if (failure !== null) log.fatal({ remedy: failure.remedy }, `could not start: ${failure.message}`);
     else log.fatal({ err: error }, 'could not start');
     await shutdown.end('could not start', mistake ? 2 : 1);
   }

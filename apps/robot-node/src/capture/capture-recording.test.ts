@@ -54,7 +54,7 @@ async function recordFrames(source: SourceOptions, coded: boolean, count: number
   const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
   const capture = await Capture.start(
     { source, ...OPTIONS },
-    { clouds: recorder.clouds, capturedPerSecond: 1000 },
+    { clouds: recorder.clouds, perSecond: { captured: 1000, sent: 1000 } },
   );
   const frames: CapturedFrame[] = [];
   await new Promise<void>((resolve) => {

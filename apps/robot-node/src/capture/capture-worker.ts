@@ -24,6 +24,7 @@ import {
 } from './capture-messages.ts';
 import type { CameraDescription, CaptureWishes, ImageFrame, SourceFrame } from './frame-source.ts';
 import { openSource } from './open-source.ts';
+import { ReadyGate } from './ready-gate.ts';
 
 /** One frame being sent, one waiting, one being filled; and one more, as some frames go out in two formats. */
 const BUFFERS = 4;
@@ -32,8 +33,6 @@ const STATE_INTERVAL_MS = 20;
 const MAX_WAIT_MS = 10;
 /** Of a source with a rhythm of its own: a cloud that waited longer for someone to watch is let go, ms. */
 const MAX_READY_AGE_MS = 50;
-/** How much earlier than planned its cloud may be, as a share of the interval. */
-const EARLY_SHARE = 0.25;
 const CLOUD_CAMERA: CameraDescription = { name: 'Camera', most: null, ofCloud: true };
 
 const port = parentPort;
@@ -48,7 +47,7 @@ const cameras = [
   ...(options.picturesOfCloud === true && description.camera !== null ? [CLOUD_CAMERA] : []),
 ];
 const { recording } = options;
-const tap = recording === null ? null : new CloudTap(recording.clouds, recording.capturedPerSecond);
+const tap = recording === null ? null : new CloudTap(recording.clouds, recording.perSecond);
 const codec = await loadCodecFromDisk();
 const pool = new BufferPool(BUFFERS, Math.ceil(description.capacity / 150) * SLOT_BYTES);
 const planner = new FramePlanner({
@@ -75,8 +74,6 @@ let stream: CodedStream | null = null;
 /** The probe that the last enlarged frame was made for. */
 let probeCluster = 0;
 let workMs = 0;
-/** Between two frames, as planned last. */
-let plannedMs = 1000 / options.framesPerSecond;
 let latencyTest = false;
 /** Since when a source with a rhythm of its own has a cloud ready. */
 let readySinceMs: number | null = null;
@@ -84,6 +81,7 @@ let pictures: PictureTap | null = null;
 let picturePort: MessagePort | null = null;
 let lastFault = '';
 let nextFrameMs = monotonicMs();
+const gate = new ReadyGate(monotonicMs(), 1000 / options.framesPerSecond);
 let nextStateMs = 0;
 let watchdogStops = 0;
 let closed = false;
@@ -158,15 +156,12 @@ function takeReady(): void {
   const now = monotonicMs();
   const aged = now - readySinceMs > MAX_READY_AGE_MS;
   readySinceMs = null;
-  // A camera's clouds do not come to the millisecond: one that is a little early is not the one too many.
-  if (aged || pool.free === 0 || now < nextFrameMs - plannedMs * EARLY_SHARE) {
+  if (aged || pool.free === 0 || !gate.takes(now)) {
     source.skip?.(now, wishes());
     return;
   }
   const interval = captureFrame(now);
-  if (interval === null) return;
-  plannedMs = interval;
-  nextFrameMs = Math.max(nextFrameMs + plannedMs, now);
+  if (interval !== null) gate.taken(now, interval);
 }
 
 function wishes(): CaptureWishes {

@@ -1,5 +1,6 @@
 import { type MessagePort, Worker } from 'node:worker_threads';
 import type { Twist } from '@farpoint/protocol';
+import type { CloudKind } from '@farpoint/recording';
 import type { TopicReading } from '@farpoint/ros';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type {
@@ -22,8 +23,8 @@ type Introduction = Extract<CaptureReport, { type: 'ready' }>;
 export interface CaptureRecording {
   /** Of a `SessionRecorder`; it goes to the capture thread. */
   clouds: MessagePort;
-  /** Captured clouds recorded a second at most; of those sent all are. */
-  capturedPerSecond: number;
+  /** Clouds recorded a second at most; 0 records none. */
+  perSecond: Readonly<Record<CloudKind, number>>;
 }
 
 export interface CaptureState extends SourceState {

@@ -17,6 +17,9 @@ export interface RecordingSourceOptions extends Omit<PlayOptions, 'along'> {
   topics: TopicTable;
 }
 
+/** Of a recording with a single cloud. */
+const UNKNOWN_FPS = 30;
+
 /** Plays a recording's clouds at their times, with the pictures and readings that the table of topics names. It has no wheels: velocities change nothing. */
 export class RecordingSource implements FrameSource {
   readonly description: SourceDescription;
@@ -45,7 +48,7 @@ export class RecordingSource implements FrameSource {
       depthMeasure: axes === 'body' ? 'range' : 'z',
       drives: false,
       cameras: topics.cameras,
-      ...(framesPerSecond === null ? {} : { framesPerSecond }),
+      framesPerSecond: framesPerSecond ?? UNKNOWN_FPS,
     };
     player.onCloud = () => this.onReady?.();
     player.onFault = (error) => this.#tell(error);

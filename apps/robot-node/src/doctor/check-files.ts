@@ -86,7 +86,7 @@ export function checkRecording(path: string | undefined): Result[] {
     checkRoom(
       folder,
       EASY_RECORDING_BYTES,
-      'clouds as captured take some 20 MB a second: make room, or set recording.capturedFps',
+      'clouds take some 20 to 40 MB a second: make room, or set recording.max and recording.clouds',
     ),
   ];
 }

@@ -1,4 +1,5 @@
 /** What came of trying the source. */
+import { fileFault } from '@farpoint/service';
 import type { SourceOptions } from '../capture/open-source.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
 import { asDoctor } from './ros-probe.ts';
@@ -62,10 +63,12 @@ export function judgeSource(trial: SourceTrial, ownSink: boolean, picturesOfClou
 
 /** Of one that does not open. */
 export function judgeClosedSource(source: SourceOptions, error: Error): Result[] {
-  return [fail(`${source.kind}: ${error.message}`, closedRemedy(source, error.message))];
+  const detail = fileFault(error) ?? error.message;
+  return [fail(`${source.kind}: ${detail}`, closedRemedy(source, error))];
 }
 
-function closedRemedy(source: SourceOptions, message: string): string {
+function closedRemedy(source: SourceOptions, error: Error): string {
+  const { message } = error;
   if (source.kind === 'shm') {
     if (/build:native|Linux/.test(message)) return 'build the addon: `pnpm build:native`';
     if (/ENOENT|no such file/i.test(message))
@@ -74,8 +77,16 @@ function closedRemedy(source: SourceOptions, message: string): string {
       return 'run both as one user, or give the file to a group that both are in';
     return 'start the camera’s program anew; docs/shared-memory.md has the layouts';
   }
-  if (source.kind === 'ros') return 'see the topics above; docs/ros.md has the rest';
+  if (source.kind === 'ros') return '`farpoint-robot doctor` lists the topics; docs/ros.md has the rest';
   if (source.kind === 'sim') return 'report this';
-  if (/ENOENT|no such file/i.test(message)) return 'set source.path to a file that is there';
-  return 'docs/real-robot.md says what each source needs';
+  if (/no such topic|not clouds/.test(message)) return 'set source.topic (--topic) to one of those';
+  if (/no cloud/.test(message))
+    return 'play another file or topic (--path, --topic): clouds are recorded while an operator watches';
+  return `set source.path (--path) to ${PLAYED[source.kind]}`;
 }
+
+const PLAYED = {
+  pcd: 'a PCD file or a folder of them',
+  rgbd: 'a folder of colour and depth pictures as Open3D lays it out',
+  recording: 'an MCAP file or a ROS 1 bag of version 2.0 (docs/recordings.md)',
+} as const;

@@ -4,6 +4,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { isAvailable } from '@farpoint/shared-memory';
 import { afterAll, describe, expect, it } from 'vitest';
+import type { SourceOptions } from '../capture/open-source.ts';
 import { checkMonotonicClock, checkTimeOfDay } from './check-clock.ts';
 import { checkRecording, checkSharedMemory } from './check-files.ts';
 import { checkMemory, checkNode, checkSocketBuffers } from './check-machine.ts';
@@ -13,6 +14,7 @@ import { judgeClosedSource, judgeSource, trialSource } from './check-source.ts';
 import { type Result, runCheck } from './finding.ts';
 import type { Host } from './host.ts';
 import { findingLine, jsonReport, summaryLine } from './report.ts';
+import { judgeRunning } from './running-robot.ts';
 import type { SourceTrial } from './source-trial.ts';
 
 /** A machine of these files. */
@@ -195,7 +197,20 @@ describe('source', () => {
       judgeClosedSource({ kind: 'pcd', path: 'x', frame: 'auto' }, new Error('ENOENT: no such file'))[0]
         ?.remedy,
     ).toContain('source.path');
+    const gone = Object.assign(new Error("ENOENT: no such file or directory, open '/a.mcap'"), {
+      ...{ code: 'ENOENT', syscall: 'open', path: '/a.mcap' },
+    });
+    const recording = { kind: 'recording', path: '/a.mcap' } as unknown as SourceOptions;
+    expect(judgeClosedSource(recording, new Error('/a.mcap: …', { cause: gone }))).toMatchObject([
+      { detail: 'recording: /a.mcap does not exist', remedy: expect.stringContaining('MCAP') as string },
+    ]);
   });
+});
+
+it('a free port for health has no address yet: none is printed', () => {
+  const [result] = judgeRunning({ state: 'stands' }, '127.0.0.1', 0);
+  expect(result).toMatchObject({ verdict: 'ok', detail: expect.stringContaining('the log says which') });
+  expect(result?.detail).not.toContain(':0');
 });
 
 describe('files', () => {

@@ -55,6 +55,8 @@ export function judgeRunning(found: RunningRobot, host: string, port: number): R
         ),
       ];
     case 'stands':
+      if (port === 0)
+        return [ok('health will be at a free port, since admin.port is 0; the log says which at the start')];
       return [ok(`no robot runs here; health will be at http://${place}/healthz`)];
   }
 }

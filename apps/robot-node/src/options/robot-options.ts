@@ -2,7 +2,7 @@
 import { randomBytes } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
-import { type OptionMistake, OptionsError } from '@farpoint/service';
+import { fileFault, type OptionMistake, OptionsError } from '@farpoint/service';
 import type { SourceOptions } from '../capture/open-source.ts';
 import type { SinkOptions } from '../drive/velocity-sink.ts';
 import type { RobotOptions } from '../robot.ts';
@@ -10,6 +10,9 @@ import { describeTopics, readFrom, sourcedFolders } from '../ros/message-folders
 import type { GraphOptions } from '../ros/open-graph.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { stateFolder } from './state.ts';
+
+/** Where it is not said: what the source is asked for at most. A recording has a rate of its own, which is kept to. */
+const DEFAULT_FPS: Partial<Record<RobotOptionValues['source'], number>> = { sim: 60, recording: 120 };
 
 /** How messages name the place of an option's value. */
 export type Where = (key: RobotOptionKey) => string;
@@ -22,6 +25,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const topics = describedTopics(values, (detail) => refuse('topics', detail));
   const ca = values.tlsCa === null ? null : readText(values.tlsCa, (detail) => refuse('tlsCa', detail));
   if (mistakes.length > 0) throw new OptionsError(mistakes);
+  const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
   return {
     id: values.id,
     name: values.name,
@@ -33,7 +37,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     },
     capture: {
       source: toSource(values, topics),
-      framesPerSecond: values.fps ?? (values.source === 'sim' ? 60 : 30),
+      framesPerSecond: values.fps ?? DEFAULT_FPS[values.source] ?? 30,
       plan: values.plan,
       sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
       floorFraction: values.floor,
@@ -76,7 +80,11 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
         : {
             path: values.record,
             compression: values.recordCompression,
-            capturedPerSecond: values.recordCapturedFps,
+            clouds: {
+              captured: recorded('captured') ? values.recordCapturedFps : 0,
+              sent: recorded('sent') ? values.recordSentFps : 0,
+            },
+            mostBytes: values.recordMax,
           },
   };
 }
@@ -184,7 +192,7 @@ function readText(path: string, refuse: (detail: string) => void): string {
   try {
     return readFileSync(path, 'utf8');
   } catch (error) {
-    refuse(`cannot be read: ${error instanceof Error ? error.message : String(error)}`);
+    refuse(`cannot be read: ${fileFault(error) ?? String(error)}`);
     return '';
   }
 }

@@ -15,6 +15,6 @@ export const sourceOptions = optionGroup('source', {
     schema: schema.optional(schema.number({ min: 0.1, max: 120 })),
     default: null,
     argument: 'RATE',
-    help: 'most frames a second that the source is asked for; left out, 60 of the simulated camera, 30 of others',
+    help: 'most frames a second that the source is asked for; left out, 60 of the simulated camera, a recording’s own, 30 of others',
   }),
 });

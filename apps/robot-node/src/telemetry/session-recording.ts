@@ -5,43 +5,80 @@ import {
   PICTURE_CHUNK_HEADER_BYTES,
   type Twist,
 } from '@farpoint/protocol';
-import { type DropKind, SessionRecorder } from '@farpoint/recording';
+import { type CloudKind, type DropKind, SessionRecorder } from '@farpoint/recording';
 import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
-import type { CaptureRecording, CaptureState } from '../capture/capture.ts';
+import type { Capture, CaptureRecording, CaptureState } from '../capture/capture.ts';
 import type { CapturedFrame } from '../capture/capture-messages.ts';
 import type { CameraDescription } from '../capture/frame-source.ts';
 import { monotonicMs } from '../clock.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
+import { durationWords, recordingBytesPerSecond, sizeWords } from './recording-rate.ts';
 import type { StreamStatistics } from './stream-statistics.ts';
 
 export interface RecordingOptions {
   /** The MCAP file; there must be none yet. */
   path: string;
   compression: 'none' | 'zstd';
-  /** Captured clouds a second at most; of those sent all are recorded. */
-  capturedPerSecond: number;
+  /** Clouds a second at most; 0 records none. */
+  clouds: Readonly<Record<CloudKind, number>>;
+  /** It ends, whole, before it is larger. */
+  mostBytes: number;
 }
+
+const MORE_ROOM =
+  'for longer recordings: a larger --record-max, or fewer clouds (--record-clouds, --record-sent-fps)';
 
 /** What the main thread tells a recording. The clouds come from the capture thread. */
 export class SessionRecording {
   readonly capture: CaptureRecording;
   readonly #recorder: SessionRecorder;
+  readonly #options: RecordingOptions;
+  readonly #log: Logger;
 
-  private constructor(recorder: SessionRecorder, capturedPerSecond: number) {
+  private constructor(recorder: SessionRecorder, options: RecordingOptions, log: Logger) {
     this.#recorder = recorder;
-    this.capture = { clouds: recorder.clouds, capturedPerSecond };
+    this.#options = options;
+    this.#log = log;
+    this.capture = { clouds: recorder.clouds, perSecond: options.clouds };
   }
 
   /** @throws {RecordingError} where the file exists already, or cannot be made */
   static async open(options: RecordingOptions, robotId: string, log: Logger): Promise<SessionRecording> {
-    const { path, compression, capturedPerSecond } = options;
+    const { path, compression, mostBytes } = options;
     // The robot's clock is monotonic; recordings are in the time of day.
     const epochNs = BigInt(Math.round((Date.now() - monotonicMs()) * 1000)) * 1000n;
-    const recorder = await SessionRecorder.open({ path, compression, robotId, epochNs });
+    const recorder = await SessionRecorder.open({ path, compression, robotId, epochNs, mostBytes });
     recorder.onFailure = (error) => log.error({ err: error }, 'the recording ends; the robot goes on');
-    log.info({ path }, 'recording');
-    return new SessionRecording(recorder, capturedPerSecond);
+    recorder.onFull = () =>
+      log.warn(
+        { path, bytes: recorder.bytes, remedy: MORE_ROOM },
+        `the recording has reached ${sizeWords(mostBytes)} and is closed, whole; the robot goes on`,
+      );
+    return new SessionRecording(recorder, options, log);
+  }
+
+  /** Says how fast it will grow, and where it ends. */
+  announce(
+    { description, cameras }: Pick<Capture, 'description' | 'cameras'>,
+    mostFramesPerSecond: number,
+  ): void {
+    const { capacity, framesPerSecond = mostFramesPerSecond } = description;
+    const { path, clouds, mostBytes } = this.#options;
+    const bytesPerSecond = recordingBytesPerSecond({
+      perSecond: clouds,
+      points: capacity,
+      framesPerSecond: Math.min(framesPerSecond, mostFramesPerSecond),
+      pictures: cameras.length > 0,
+    });
+    const rate = `up to ${sizeWords(bytesPerSecond)} a second while an operator watches`;
+    const end = Number.isFinite(mostBytes)
+      ? `it ends at ${sizeWords(mostBytes)} (--record-max), in ${durationWords(mostBytes / bytesPerSecond)} at the soonest`
+      : 'it has no limit (--record-max)';
+    this.#log.info(
+      { path, clouds, bytesPerSecond: Math.round(bytesPerSecond) },
+      `recording: ${rate}; ${end}`,
+    );
   }
 
   /** For `/metrics`: written, and not written because the disk or the processor did not keep up. */

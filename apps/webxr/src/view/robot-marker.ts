@@ -1,10 +1,9 @@
-/** A plain outline of the robot and its heading, and a grid on the floor: what the eye holds on to. */
+/** A plain outline of the robot and its heading. */
 import {
   BoxGeometry,
   BufferGeometry,
   EdgesGeometry,
   Float32BufferAttribute,
-  GridHelper,
   Group,
   LineBasicMaterial,
   LineSegments,
@@ -39,19 +38,5 @@ export class RobotMarker {
     );
     this.object.add(outline, heading);
     this.object.visible = false;
-  }
-}
-
-/** Lines every metre, in three's axes; moves along in whole metres, so that it stands still and never ends. */
-export class GroundGrid {
-  readonly object = new GridHelper(40, 40, 0x2a3a48, 0x1a242e);
-
-  constructor() {
-    this.object.position.y = -0.01;
-  }
-
-  centreOn(x: number, z: number): void {
-    this.object.position.x = Math.round(x);
-    this.object.position.z = Math.round(z);
   }
 }

@@ -2,9 +2,10 @@
 import { Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
 import type { CloudView } from '../cloud/cloud-view.ts';
 import { opticalYaw, worldToThree } from './axes.ts';
+import { GroundGrid } from './ground-grid.ts';
 import { Look } from './look.ts';
 import { PoseFollower } from './pose-follower.ts';
-import { GroundGrid, RobotMarker } from './robot-marker.ts';
+import { RobotMarker } from './robot-marker.ts';
 
 const BACKGROUND = 0x0b0f14;
 const NEAR_M = 0.05;

@@ -30,16 +30,17 @@ export class LoggingProcess {
   }
 
   /**
-   * The next record with this message; those before it are passed over.
+   * The next record with this message, or one that the pattern fits; those before it are passed over.
    *
    * @throws {Error} with what it wrote on its standard error, where its output ends first
    */
-  async logged(message: string): Promise<Record<string, unknown>> {
+  async logged(message: string | RegExp): Promise<Record<string, unknown>> {
     for (;;) {
       const line = await this.#lines.next();
-      if (line.done === true) throw new Error(`never logged: ${message}\n${this.#errors}`);
+      if (line.done === true) throw new Error(`never logged: ${String(message)}\n${this.#errors}`);
       const record = JSON.parse(line.value) as Record<string, unknown>;
-      if (record.msg === message) return record;
+      if (typeof message === 'string' ? record.msg === message : message.test(String(record.msg)))
+        return record;
     }
   }
 }

@@ -1,0 +1,31 @@
+/** Why the robot could not start, in the words that the doctor has for it. */
+import { RecordingError } from '@farpoint/recording';
+import { RosFault } from '@farpoint/ros';
+import { StartFailure } from '@farpoint/service';
+import { SharedMemoryError } from '@farpoint/shared-memory';
+import { CaptureError } from '../capture/capture.ts';
+import type { RobotOptions } from '../robot.ts';
+import { checkRecording, checkSharedMemory } from './check-files.ts';
+import { judgeClosedSource } from './check-source.ts';
+import type { Result } from './finding.ts';
+
+/**
+ * @param error thrown by the robot's start
+ * @returns a StartFailure that says what to do, or what was thrown where the doctor has no words for it
+ */
+export function startFailure({ capture, sink, record }: RobotOptions, error: unknown): unknown {
+  if (error instanceof CaptureError) return failure(error, judgeClosedSource(capture.source, error));
+  if (error instanceof RecordingError)
+    return failure(error, checkRecording(record?.path), 'set recording.file (--record) to another');
+  if (error instanceof SharedMemoryError)
+    return failure(error, checkSharedMemory(capture.source, sink), 'docs/shared-memory.md has the layouts');
+  if (error instanceof RosFault)
+    return new StartFailure(error.what, error.remedy ?? 'docs/ros.md says what is needed', { cause: error });
+  return error;
+}
+
+/** By the first failed result; where everything looks well by now, by what was thrown. */
+function failure(error: Error, results: readonly Result[], otherwise = ''): StartFailure {
+  const found = results.find(({ verdict }) => verdict === 'fail');
+  return new StartFailure(found?.detail ?? error.message, found?.remedy ?? otherwise, { cause: error });
+}

@@ -1,0 +1,46 @@
+/** The robot program where it cannot start: one line that says what is wrong and what to do, in JSON as in text. */
+import { spawnSync } from 'node:child_process';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { LoggingProcess } from '@farpoint/service/testing';
+import { afterAll, describe, expect, it } from 'vitest';
+
+const program = fileURLToPath(new URL('./main.ts', import.meta.url));
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-start-'));
+const words = join(folder, 'words.txt');
+writeFileSync(words, 'no cloud, no recording\n');
+afterAll(() => rmSync(folder, { recursive: true }));
+
+const missing = join(folder, 'missing');
+
+describe('a robot that cannot start', () => {
+  it.each([
+    [['--source', 'pcd', '--path', missing], `pcd: ${missing} does not exist`, 'a PCD file'],
+    [['--source', 'pcd', '--path', words], 'words.txt: PCD, line 1', 'a PCD file'],
+    [['--source', 'rgbd', '--path', missing], `rgbd: ${missing} does not exist`, 'a folder of colour'],
+    [['--source', 'rgbd', '--path', words], `rgbd: ${words} is no folder`, 'a folder of colour'],
+    [['--source', 'recording', '--path', missing], `recording: ${missing} does not exist`, 'an MCAP file'],
+    [['--source', 'recording', '--path', words], 'neither MCAP nor a ROS 1 bag', 'an MCAP file'],
+    [['--record', words], `${words} is there already`, 'name another file'],
+    [['--record', join(missing, 'a.mcap')], `${missing} is no folder`, 'make it'],
+  ])('%j: says so once, with what to do, and without a stack', async (args, detail, remedy) => {
+    const robot = new LoggingProcess(program, [...args, '--admin-port', '0', '--sim-size', '16']);
+    const said = await robot.logged(/^could not start: /);
+    expect(await robot.exited).toBe(1);
+    expect(said.msg).toContain(detail);
+    expect(said.remedy).toContain(remedy);
+    expect(said).not.toHaveProperty('err');
+  });
+
+  it('in text: the line ends with an arrow and the remedy', () => {
+    const args = [program, '--source', 'pcd', '--path', missing, '--log-format', 'text'];
+    const { stdout, status } = spawnSync(process.execPath, args, { encoding: 'utf8' });
+    expect(status).toBe(1);
+    expect(stdout).toContain(
+      `could not start: pcd: ${missing} does not exist → set source.path (--path) to a PCD file`,
+    );
+    expect(stdout).not.toContain('    at ');
+  });
+});

@@ -1,0 +1,42 @@
+/** How fast a recording grows: said before it fills a disk. */
+
+/** A point of a recorded cloud: x, y, z and colour, four bytes each. */
+const POINT_BYTES = 16;
+/** Poses, velocities, telemetry, estimates and latencies, while somebody drives. */
+const EVENT_BYTES_PER_SECOND = 50_000;
+/** What pictures may take of any link, 3 Mbit/s. */
+const PICTURE_BYTES_PER_SECOND = 375_000;
+
+export interface RecordedKinds {
+  /** Clouds recorded a second at most; 0 records none. */
+  perSecond: Readonly<Record<'captured' | 'sent', number>>;
+  /** Most points of a cloud. */
+  points: number;
+  /** Most frames a second of the source. */
+  framesPerSecond: number;
+  pictures: boolean;
+}
+
+/** Bytes a second while an operator watches, at most, without compression. */
+export function recordingBytesPerSecond({
+  perSecond,
+  points,
+  framesPerSecond,
+  pictures,
+}: RecordedKinds): number {
+  const clouds = Math.min(perSecond.captured, framesPerSecond) + Math.min(perSecond.sent, framesPerSecond);
+  return clouds * points * POINT_BYTES + EVENT_BYTES_PER_SECOND + (pictures ? PICTURE_BYTES_PER_SECOND : 0);
+}
+
+/** `446 MB`, `1.2 GB`. */
+export function sizeWords(bytes: number): string {
+  const [value, unit] =
+    bytes >= 1e9 ? [bytes / 1e9, 'GB'] : bytes >= 1e6 ? [bytes / 1e6, 'MB'] : [bytes / 1e3, 'kB'];
+  return `${value >= 10 ? value.toFixed(0) : value.toFixed(1).replace(/\.0$/, '')} ${unit}`;
+}
+
+/** `40 s`, `12 min`, `3 h`. */
+export function durationWords(seconds: number): string {
+  if (seconds < 120) return `${Math.floor(seconds)} s`;
+  return seconds < 7200 ? `${Math.floor(seconds / 60)} min` : `${Math.floor(seconds / 3600)} h`;
+}

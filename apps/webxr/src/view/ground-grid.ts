@@ -1,0 +1,55 @@
+/** A grid on the floor: what the eye holds on to. */
+import { BufferGeometry, Color, Float32BufferAttribute, LineBasicMaterial, LineSegments } from 'three';
+
+/** Lines every metre, out to so many metres on each side. */
+const HALF_M = 20;
+const MIDDLE = 0x2a3a48;
+const OTHERS = 0x1a242e;
+/** Below the floor's own points. */
+const HEIGHT_M = -0.01;
+
+/**
+ * Ends of the grid's lines, x and z in turn, both ends of one segment after the other. Each segment is one metre long: a
+ * software renderer leaves out a whole line of which one end is behind the camera.
+ */
+export function gridSegments(half: number): number[] {
+  const ends: number[] = [];
+  for (let across = -half; across <= half; across++) {
+    for (let along = -half; along < half; along++) {
+      ends.push(across, along, across, along + 1);
+      ends.push(along, across, along + 1, across);
+    }
+  }
+  return ends;
+}
+
+/** In three's axes; moves along in whole metres, so that it stands still and never ends. */
+export class GroundGrid {
+  readonly object: LineSegments;
+
+  constructor() {
+    const ends = gridSegments(HALF_M);
+    const positions = new Float32Array((ends.length / 2) * 3);
+    const colours = new Float32Array(positions.length);
+    const [middle, others] = [new Color(MIDDLE), new Color(OTHERS)];
+    for (let i = 0; i < ends.length / 4; i++) {
+      const [x0 = 0, z0 = 0, x1 = 0, z1 = 0] = ends.slice(i * 4, i * 4 + 4);
+      positions.set([x0, 0, z0, x1, 0, z1], i * 6);
+      const { r, g, b } = (x0 === 0 && x1 === 0) || (z0 === 0 && z1 === 0) ? middle : others;
+      colours.set([r, g, b, r, g, b], i * 6);
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new Float32BufferAttribute(positions, 3));
+    geometry.setAttribute('color', new Float32BufferAttribute(colours, 3));
+    this.object = new LineSegments(
+      geometry,
+      new LineBasicMaterial({ vertexColors: true, toneMapped: false }),
+    );
+    this.object.position.y = HEIGHT_M;
+  }
+
+  centreOn(x: number, z: number): void {
+    this.object.position.x = Math.round(x);
+    this.object.position.z = Math.round(z);
+  }
+}

@@ -1,0 +1,27 @@
+import { expect, test } from 'vitest';
+import { CloudRate } from './cloud-rate.ts';
+
+const taken = (rate: CloudRate, times: readonly number[]) => times.filter((ms) => rate.takes(ms));
+const every = (ms: number, count: number) => Array.from({ length: count }, (_, k) => k * ms);
+
+test('as many a second as asked for, evenly, whatever comes', () => {
+  expect(taken(new CloudRate(5), every(1000 / 30, 58))).toHaveLength(10);
+  expect(taken(new CloudRate(10), every(100, 20))).toHaveLength(20);
+  expect(taken(new CloudRate(Number.POSITIVE_INFINITY), every(1, 100))).toHaveLength(100);
+});
+
+test('none where the rate is 0', () => {
+  expect(taken(new CloudRate(0), every(100, 20))).toEqual([]);
+});
+
+test('two formats of one capture are recorded both, or neither', () => {
+  const rate = new CloudRate(5);
+  expect([0, 0, 33, 33, 200, 200].map((ms) => rate.takes(ms))).toEqual([
+    true,
+    true,
+    false,
+    false,
+    true,
+    true,
+  ]);
+});

@@ -1,0 +1,44 @@
+/** What the system says of files and sockets, in words that people act on. */
+
+/** An error of the system, wherever in the chain of causes it is; `null` where there is none. */
+export function systemErrorOf(error: unknown): NodeJS.ErrnoException | null {
+  for (let at: unknown = error, depth = 0; at instanceof Error && depth < 8; at = at.cause, depth++) {
+    const { code, syscall } = at as NodeJS.ErrnoException;
+    if (typeof code === 'string' && typeof syscall === 'string') return at as NodeJS.ErrnoException;
+  }
+  return null;
+}
+
+const FILE_WORDS: Readonly<Record<string, string>> = {
+  ENOENT: 'does not exist',
+  EEXIST: 'is there already',
+  EISDIR: 'is a folder, not a file',
+  ENOTDIR: 'is no folder, or lies in none',
+  EACCES: 'is not allowed to this user',
+  EPERM: 'is not allowed to this user',
+  EROFS: 'lies on a disk that is read only',
+  ENOSPC: 'has no room: the disk is full',
+  EMFILE: 'cannot be opened: too many files are open',
+};
+
+/** One sentence about a file, without the system's own name for the fault where there is a plain one. */
+export function fileFault(error: unknown): string | null {
+  const found = systemErrorOf(error);
+  if (found === null || found.path === undefined || found.syscall === 'listen') return null;
+  const words = FILE_WORDS[found.code ?? ''];
+  return words === undefined ? null : `${found.path} ${words}`;
+}
+
+/** Where a program could not listen. */
+export interface ListenFault {
+  readonly code: string;
+  readonly host: string;
+  readonly port: number;
+}
+
+/** `null` where the error is of something else. */
+export function listenFault(error: unknown): ListenFault | null {
+  const found = systemErrorOf(error) as (NodeJS.ErrnoException & { address?: string; port?: number }) | null;
+  if (found?.syscall !== 'listen' || typeof found.port !== 'number') return null;
+  return { code: found.code ?? '', host: found.address ?? '', port: found.port };
+}

@@ -1,0 +1,182 @@
+/** What becomes of each command of the documents when they are tested. One that is not here, or no longer there, fails the test. */
+
+/** Why a command cannot run where tests run. */
+export type Obstacle =
+  | 'needs root'
+  | 'needs systemd'
+  | 'needs a container engine'
+  | 'needs a ROS installation'
+  | 'needs a robot that is installed'
+  | 'builds for minutes'
+  | 'measures for minutes'
+  | 'runs until it is ended, and every test of it'
+  | 'writes into the working tree'
+  | 'needs Rust';
+
+export type Treatment =
+  /** It runs as it stands until it logs this; `also` keeps it off ports and services of others. */
+  | { up: string | RegExp; also?: readonly string[]; fill?: Readonly<Record<string, string>> }
+  /** It runs as it stands and cannot start here, for this reason. */
+  | { refused: RegExp; also?: readonly string[] }
+  /** Its program's help names each of its options. */
+  | { help: true; because?: Obstacle }
+  /** This file names each of its options. */
+  | { options: string; because: Obstacle }
+  /** Nothing but that its files and its script are there. */
+  | { because: Obstacle };
+
+const ALONE = ['--admin-port', '0', '--signaling', 'ws://127.0.0.1:9'];
+const FREE_LINK = ['--port', '0', '--admin-port', '0'];
+const FREE_SIGNALING = ['--port', '0', '--reference-robot-port', '0', '--reference-client-port', '0'];
+const FREE_BRIDGE = ['--control-port', '0', '--telemetry-port', '0', '--streaming-port', '0', ...ALONE];
+const robot: Treatment = {
+  up: 'health and metrics',
+  also: [...ALONE, '--sim-size', '16'],
+  fill: { '…': 'x' },
+};
+const MEASURES = { help: true, because: 'measures for minutes' } as const;
+const SYNTHETIC = {
+  options: 'examples/synthetic_camera.py',
+  because: 'runs until it is ended, and every test of it',
+} as const;
+const shm: Treatment = { refused: /^could not start: shm: /, also: [...ALONE, '--shm-wait-s', '0'] };
+
+export const TREATMENTS: Readonly<Record<string, Treatment>> = {
+  // The local stack, and the programs one by one.
+  'npx -y pnpm@12 dev': { help: true, because: 'runs until it is ended, and every test of it' },
+  'npx -y pnpm@12 test': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm test': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm test --only lint,types,unit': {
+    help: true,
+    because: 'runs until it is ended, and every test of it',
+  },
+  'pnpm test --help': { help: true },
+  'pnpm robot': robot,
+  'pnpm signaling': { up: 'listening', also: FREE_SIGNALING },
+  'pnpm bridge': { up: 'health and metrics', also: FREE_BRIDGE },
+  'pnpm emulate': { up: 'health and metrics', also: FREE_LINK },
+  'pnpm robot --help': { help: true },
+  'pnpm robot init': { help: true, because: 'writes into the working tree' },
+  'npx -y pnpm@12 robot --signaling wss://signal.example.org --id rover-1 --name "Rover" --token …': robot,
+  'npx -y pnpm@12 robot --signaling ws://127.0.0.1:3100 --id bad --name "Behind 8 Mbit/s"': robot,
+  'npx -y pnpm@12 robot --record session.mcap …': robot,
+  'npx -y pnpm@12 robot --source recording --path drive.mcap --topic /velodyne_points …': {
+    refused: /^could not start: recording: drive\.mcap does not exist$/,
+    also: ALONE,
+  },
+  'npx -y pnpm@12 robot --source shm': shm,
+  'npx -y pnpm@12 robot --source shm --shm-layout reference --fps 18': shm,
+  'npx -y pnpm@12 robot --source shm --sink shm …': shm,
+  'npx -y pnpm@12 robot --source shm --shm-layout reference --fps 18 --sink shm …': shm,
+  'NODE_PATH=~/rcl/node_modules npx -y pnpm@12 robot …': robot,
+  'npx -y pnpm@12 emulate': { up: 'health and metrics', also: FREE_LINK },
+  'npx -y pnpm@12 emulate --rate-mbps 8 --rtt-ms 60 --loss 0.02': {
+    up: 'health and metrics',
+    also: FREE_LINK,
+  },
+  'pnpm bridge --signaling ws://SIGNALING:3002': {
+    up: 'health and metrics',
+    also: FREE_BRIDGE,
+  },
+  'node signaling.mjs --host 0.0.0.0 --port 443 --tls-cert fullchain.pem --tls-key privkey.pem': {
+    refused: /--tls-cert names a file that cannot be read: fullchain\.pem does not exist/,
+    also: ['--host', '127.0.0.1', '--port', '0', '--no-reference'],
+  },
+  'sudo npx -y pnpm@12 netns-link --rate-mbps 8 --rtt-ms 60 --loss 0.02 -- bash': {
+    help: true,
+    because: 'needs root',
+  },
+  'npx -y pnpm@12 conformance signaling --robot ws://HOST:3001 --client ws://HOST:3002': { help: true },
+  'npx -y pnpm@12 conformance robot --name ROBOT --client ws://HOST:3002': { help: true },
+  'npx -y pnpm@12 conformance bridge --robot ws://HOST:3001 --control ws://HOST:8085 --telemetry ws://HOST:8090 --streaming ws://HOST:8095':
+    { help: true },
+  'python3 examples/synthetic_camera.py': SYNTHETIC,
+  'python3 examples/synthetic_camera.py --layout reference --fps 18': SYNTHETIC,
+
+  // What is installed.
+  'sudo apps/robot-node/deploy/install.sh --source shm': {
+    options: 'apps/robot-node/deploy/install.sh',
+    because: 'needs root',
+  },
+  'farpoint-robot doctor --config /etc/farpoint/robot.yaml': { help: true },
+  'farpoint-robot init --source KIND': { help: true },
+  'farpoint-robot init --source ros2': { help: true },
+  'sudo systemctl start farpoint-robot': { because: 'needs systemd' },
+  'systemctl status farpoint-robot': { because: 'needs systemd' },
+  'sudo systemctl kill -s KILL farpoint-robot': { because: 'needs systemd' },
+  'journalctl -u farpoint-robot -p warning': { because: 'needs systemd' },
+  'journalctl -u farpoint-robot -n 50': { because: 'needs systemd' },
+  'curl -s localhost:9400/healthz': { because: 'needs a robot that is installed' },
+  'sudo systemd-run --pipe --wait --collect -p User=farpoint -p EnvironmentFile=/etc/farpoint/robot.env farpoint-robot doctor --config /etc/farpoint/robot.yaml':
+    { because: 'needs systemd' },
+  'sudo npx -y pnpm@12 exec node apps/robot-node/deploy/try-unit.ts': { because: 'needs root' },
+  'sudo npx -y pnpm@12 exec node apps/robot-node/deploy/try-image.ts --arch arm64': {
+    options: 'apps/robot-node/deploy/try-image.ts',
+    because: 'needs root',
+  },
+  'sudo install -D -m 644 apps/signaling/dist/signaling.mjs /opt/farpoint/signaling.mjs': {
+    because: 'needs root',
+  },
+  'sudo cp -r apps/webxr/dist /opt/farpoint/web': { because: 'needs root' },
+  'sudo install -m 644 apps/signaling/deploy/farpoint-signaling.service /etc/systemd/system/': {
+    because: 'needs root',
+  },
+  "sudo install -D -m 600 /dev/stdin /etc/farpoint/signaling.env <<'ENV'": { because: 'needs root' },
+  'sudo systemctl daemon-reload && sudo systemctl enable --now farpoint-signaling': {
+    because: 'needs systemd',
+  },
+
+  // Containers.
+  'docker ps': { because: 'needs a container engine' },
+  'docker build -f apps/robot-node/Dockerfile -t farpoint-robot .': { because: 'needs a container engine' },
+  'sudo mkdir -p /etc/farpoint': { because: 'needs root' },
+  'docker run --rm farpoint-robot init --source shm --output - | sudo tee /etc/farpoint/robot.yaml': {
+    because: 'needs a container engine',
+  },
+  'docker run -d --name farpoint-robot --restart unless-stopped --network host --ipc host --user "$(id -u)" -v /etc/farpoint:/etc/farpoint:ro --env-file /etc/farpoint/robot.env farpoint-robot':
+    { because: 'needs a container engine' },
+  'docker run --rm --network host --ipc host --user "$(id -u)" -v /etc/farpoint:/etc/farpoint:ro --env-file /etc/farpoint/robot.env farpoint-robot doctor':
+    { because: 'needs a container engine' },
+  'docker build -f apps/signaling/Dockerfile -t farpoint-signaling .': {
+    because: 'needs a container engine',
+  },
+  'docker run -d --name farpoint-signaling --restart unless-stopped --read-only --cap-drop ALL -p 127.0.0.1:3000:3000 -v /etc/farpoint:/etc/farpoint:ro -e FARPOINT_SIGNALING_OPERATOR_TOKENS=/etc/farpoint/operator-tokens.yaml farpoint-signaling':
+    { because: 'needs a container engine' },
+
+  // Building, and what it needs.
+  'npx -y pnpm@12 build': { because: 'builds for minutes' },
+  'npx -y pnpm@12 build:native': { because: 'builds for minutes' },
+  'npx -y pnpm@12 build:native dds': { because: 'builds for minutes' },
+  'pnpm build:native': { because: 'builds for minutes' },
+  'pnpm build:wasm': { because: 'needs Rust' },
+  'cargo fmt --all': { because: 'needs Rust' },
+  'cargo run --release -p xtask -- train-tables FILE': { because: 'needs Rust' },
+  'cargo run --release -p farpoint-unorganised-codec --example train_tables': { because: 'needs Rust' },
+  'pnpm format': { because: 'writes into the working tree' },
+  'pnpm exec vitest packages/protocol': { because: 'runs until it is ended, and every test of it' },
+  'pnpm --dir e2e exec playwright test -g "in the headset"': {
+    because: 'runs until it is ended, and every test of it',
+  },
+  'apt-get install cyclonedds-dev': { because: 'needs root' },
+  'sudo apt-get install build-essential python3': { because: 'needs root' },
+  'sudo apt-get install cyclonedds-dev build-essential python3': { because: 'needs root' },
+  'sudo sysctl -w net.core.rmem_max=8388608': { because: 'needs root' },
+  'source /opt/ros/jazzy/setup.bash': { because: 'needs a ROS installation' },
+  'mkdir -p ~/rcl && npm install --prefix ~/rcl rclnodejs': { because: 'needs a ROS installation' },
+
+  // Benchmarks.
+  'pnpm bench --help': { help: true },
+  'pnpm bench … --json': { help: true },
+  ...Object.fromEntries(
+    [
+      ...['mtp', 'link', 'link --mode auto', 'transport', 'sampler', 'pack', 'codec', 'codec --cloud …'],
+      ...['codec --cloud FILE…', 'bridge', 'signaling', 'shm', 'shm --kill N', 'dds', 'ros1', 'pictures'],
+      ...['sim', 'recording', 'congestion', 'temporal', 'sampling --plot FILE.svg'],
+    ].map((rest) => [`pnpm bench ${rest}`, MEASURES]),
+  ),
+  'npx -y pnpm@12 bench link --seconds 30 --plot link.svg': MEASURES,
+  'npx -y pnpm@12 bench link --trace FILE.csv --seconds 60 --json': MEASURES,
+  'npx -y pnpm@12 bench link --rate-mbps 20 --cross cubic --seconds 40': MEASURES,
+  'npx -y pnpm@12 bench link --mode auto': MEASURES,
+  'npx -y pnpm@12 bench picture --rate-mbps 8 --out picture.png': MEASURES,
+};
