@@ -137,6 +137,8 @@ async function runs({ file, args }: Program, treatment: Running): Promise<{ said
   const words = own.map((word) => fill?.[word] ?? word);
   const child = spawn(process.execPath, [join(root, file), ...words, ...(treatment.also ?? [])], {
     cwd: folder,
+    // Not where the person who runs the tests keeps a robot's state.
+    env: { ...process.env, XDG_STATE_HOME: folder },
     stdio: ['ignore', 'pipe', 'pipe'],
   });
   const exited = new Promise((resolve) => child.once('exit', resolve));

@@ -88,7 +88,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   },
   'npx -y pnpm@12 conformance signaling --robot ws://HOST:3001 --client ws://HOST:3002': { help: true },
   'npx -y pnpm@12 conformance robot --name ROBOT --client ws://HOST:3002': { help: true },
-  'npx -y pnpm@12 conformance bridge --robot ws://HOST:3001 --control ws://HOST:8085 --telemetry ws://HOST:8090 --streaming ws://HOST:8095':
+  'npx -y pnpm@12 conformance bridge --robot ws://HOST:3001 --client ws://HOST:3002 --control ws://HOST:8085 --telemetry ws://HOST:8090 --streaming ws://HOST:8095':
     { help: true },
   'python3 examples/synthetic_camera.py': SYNTHETIC,
   'python3 examples/synthetic_camera.py --layout reference --fps 18': SYNTHETIC,
@@ -157,6 +157,11 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'pnpm --dir e2e exec playwright test -g "in the headset"': {
     because: 'runs until it is ended, and every test of it',
   },
+  'pnpm test --only firefox': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm --dir e2e exec playwright test --project firefox': {
+    because: 'runs until it is ended, and every test of it',
+  },
+  'apt-get install firefox-esr xvfb': { because: 'needs root' },
   'apt-get install cyclonedds-dev': { because: 'needs root' },
   'sudo apt-get install build-essential python3': { because: 'needs root' },
   'sudo apt-get install cyclonedds-dev build-essential python3': { because: 'needs root' },
@@ -178,5 +183,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'npx -y pnpm@12 bench link --trace FILE.csv --seconds 60 --json': MEASURES,
   'npx -y pnpm@12 bench link --rate-mbps 20 --cross cubic --seconds 40': MEASURES,
   'npx -y pnpm@12 bench link --mode auto': MEASURES,
+  'npx -y pnpm@12 bench repair': MEASURES,
+  'npx -y pnpm@12 bench repair --robot="--mode points64 --fps 15 --rate-control fixed --bitrate-mbps 8"':
+    MEASURES,
   'npx -y pnpm@12 bench picture --rate-mbps 8 --out picture.png': MEASURES,
 };

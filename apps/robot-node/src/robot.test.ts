@@ -60,6 +60,13 @@ async function driveUntil(operator: SignaledOperator, lease: string, linear: num
   clearInterval(timer);
 }
 
+/** A robot that was killed starts latched. */
+async function releaseEstop({ client }: SignaledOperator): Promise<void> {
+  await client.takeLease();
+  client.sendSession({ type: 'estop', latch: false });
+  await client.message('estop', (message) => !message.latched);
+}
+
 describe('robot process', { timeout: 30_000 }, () => {
   it('streams whole frames to an operator', async () => {
     const { client } = await connect();
@@ -210,6 +217,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     await stack.robot(ROBOT).kill();
     await stack.restartRobot(ROBOT);
     const back = await connect();
+    await releaseEstop(back);
     await back.resume('0');
     await back.until((message) => message.type === 'error' && message.code === 'wrong-resume-key');
     const socket = new WebSocket(new URL('/operator', stack.signalingUrl));
@@ -308,8 +316,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     const lease = await client.takeLease();
     client.drive(lease, 0.3);
     await client.message('rejected', (message) => message.reason === 'estop-latched');
-    client.sendSession({ type: 'estop', latch: false });
-    await client.message('estop', (message) => !message.latched);
+    await releaseEstop(operator);
     client.drive(lease, 0);
     await driveUntil(operator, lease, 0.3, () => (client.telemetry?.twist.linear.x ?? 0) > 0.1);
   });
