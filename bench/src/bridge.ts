@@ -5,19 +5,24 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { BridgeProcess, LocalStack } from '@farpoint/local-stack';
+import { nextMessage, nowMs, profile, wait } from './bridge-profile.ts';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { readPacketLog, type SentTimes } from './packet-log.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { type Distribution, distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench bridge [--points 100000] [--fps 10] [--seconds 60] [--mbps 100] [--json]
+       pnpm bench bridge --profile [--points 7500] [--fps 18] [--seconds 30] [--json]
 
 Real robot (simulated office) in the reference profile, signaling, bridge, and a reader of the streaming socket, each in its
 own process, no network between. Two runs of --seconds each: --points at --fps (rounded up to whole packets), then as many
 points at --fps as --mbps (10^6 bit/s on the wire, all headers counted) carry; --mbps 0 leaves that one out.
 
 emitMs: from the arrival of a frame's last packet in the bridge to its whole message in the reader; of that, handOverMs until
-the bridge has handed it to the socket. sendToReadMs: from the robot's send call of that packet to the reader. Frames that are not whole count in neither; see framesPartial.`;
+the bridge has handed it to the socket. sendToReadMs: from the robot's send call of that packet to the reader. Frames that are not whole count in neither; see framesPartial.
+
+--profile takes clouds from a camera's shared memory instead, with the robot's own rate control, and prints where the time of
+a frame goes, stage by stage, to the reader's whole message.`;
 
 const WARM_UP_MS = 6000;
 const POINTS_PER_PACKET = 150;
@@ -62,18 +67,23 @@ export const bench: Bench = {
     const { values } = parseArgs({
       args: argv,
       options: {
-        points: { type: 'string', default: '100000' },
-        fps: { type: 'string', default: '10' },
-        seconds: { type: 'string', default: '60' },
+        points: { type: 'string' },
+        fps: { type: 'string' },
+        seconds: { type: 'string' },
         mbps: { type: 'string', default: '100' },
+        profile: { type: 'boolean', default: false },
         json: { type: 'boolean' },
         help: { type: 'boolean' },
       },
     });
     if (values.help) return console.log(USAGE);
-    const points = numberOption('points', values.points, POINTS_PER_PACKET);
-    const fps = numberOption('fps', values.fps, 1);
-    const seconds = numberOption('seconds', values.seconds, 1);
+    const usual = values.profile
+      ? { points: '7500', fps: '18', seconds: '30' }
+      : { points: '100000', fps: '10', seconds: '60' };
+    const points = numberOption('points', values.points ?? usual.points, POINTS_PER_PACKET);
+    const fps = numberOption('fps', values.fps ?? usual.fps, 1);
+    const seconds = numberOption('seconds', values.seconds ?? usual.seconds, 1);
+    if (values.profile) return profile({ points, fps, seconds, json: values.json ?? false });
     const mbps = numberOption('mbps', values.mbps, 0);
 
     const first = await run(Math.ceil(points / POINTS_PER_PACKET), fps, seconds);
@@ -261,23 +271,7 @@ function join3(
   return joined;
 }
 
-function nowMs(): number {
-  const [seconds, nanoseconds] = process.hrtime();
-  return seconds * 1000 + nanoseconds / 1e6;
-}
-
 function rssMb(pid: number): number {
   const pages = Number(readFileSync(`/proc/${pid}/statm`, 'utf8').split(' ')[1]);
   return Number(((pages * 4096) / 1e6).toFixed(1));
-}
-
-function nextMessage<T>(child: ChildProcess): Promise<T> {
-  return new Promise((resolve, reject) => {
-    child.once('message', (message) => resolve(message as T));
-    child.once('exit', (code) => reject(new Error(`the reader ended with code ${code}`)));
-  });
-}
-
-function wait(ms: number): Promise<void> {
-  return new Promise((resolve) => setTimeout(resolve, ms));
 }
