@@ -51,7 +51,8 @@ export async function profile({ points, fps, seconds, json }: ProfileOptions): P
     process.execPath,
     [
       ...[join(import.meta.dirname, 'shm-producer.ts'), '--layout', 'farpoint', '--folder', folder],
-      ...['--fps', String(fps), '--scene'],
+      // As many points as are sent: the reference system's producer, too, has drawn them already.
+      ...['--fps', String(fps), '--size', String(Math.ceil(Math.sqrt(points) / 4) * 4), '--scene'],
     ],
     { stdio: ['ignore', 'inherit', 'inherit'] },
   );

@@ -32,6 +32,8 @@ export type AdaptiveState =
   | 'silent'; // no feedback: a trickle
 
 const PACING = 1.1;
+/** The path is looked into up to so many times what the sources use: a frame that goes faster is shown sooner. */
+const PACE_HEADROOM = 2;
 const LEAST_PACING = 300_000;
 const LEAST_WINDOW_BYTES = 7500;
 /** Below this the source cannot follow the rate in fine steps: what it leaves unused says nothing, bit/s. */
@@ -49,6 +51,8 @@ const LOSS_CUT = 0.85;
  */
 export class AdaptiveRateController implements RateController {
   readonly #min: number;
+  /** What may be sent, and what is found out of the path beyond it: how fast a frame may go. */
+  readonly #most: number;
   readonly #max: number;
   readonly #path = new PathObserver();
   readonly #flight = new InFlight();
@@ -75,8 +79,9 @@ export class AdaptiveRateController implements RateController {
 
   constructor(options: AdaptiveRateOptions = {}) {
     this.#min = options.minBitsPerSecond ?? 150_000;
-    this.#max = Math.max(options.maxBitsPerSecond ?? 200e6, this.#min);
-    this.#estimate = Math.min(Math.max(options.startBitsPerSecond ?? 3e6, this.#min), this.#max);
+    this.#most = Math.max(options.maxBitsPerSecond ?? 200e6, this.#min);
+    this.#max = PACE_HEADROOM * this.#most;
+    this.#estimate = Math.min(Math.max(options.startBitsPerSecond ?? 3e6, this.#min), this.#most);
   }
 
   onPacketSent(transportSequence: number, bytes: number, nowMs: number, probeCluster = 0): void {
@@ -124,14 +129,20 @@ export class AdaptiveRateController implements RateController {
   }
 
   targetBitsPerSecond(_nowMs: number): number {
+    return Math.min(this.#receiverLimit, this.#most, this.#pathBitsPerSecond);
+  }
+
+  /** What the path may be given now, whatever the receiver wants of it. */
+  get #pathBitsPerSecond(): number {
     const rate = this.#state === 'silent' ? this.#min : this.#estimate * (1 - this.#heldBack);
-    return Math.min(this.#receiverLimit, Math.max(rate, this.#min));
+    return Math.max(rate, this.#min);
   }
 
   decision(nowMs: number): Readonly<RateDecision> {
     const d = this.#decision;
     d.targetBitsPerSecond = this.targetBitsPerSecond(nowMs);
-    d.pacingBitsPerSecond = Math.max(d.targetBitsPerSecond * PACING, LEAST_PACING);
+    // What the receiver takes bounds how much is sent in all; how fast a frame goes is the path's matter.
+    d.pacingBitsPerSecond = Math.max(this.#pathBitsPerSecond * PACING, LEAST_PACING);
     d.bytesInFlight = this.#flight.bytes;
     d.congestionWindowBytes = this.#windowBytes();
     d.probe = this.#state === 'silent' ? null : this.#probe.wish;

@@ -29,6 +29,9 @@ import type { SharedFrame } from './shared-frame.ts';
 
 /** Packets leave in bursts of so long, ms: a wake-up for each would cost more than the packets do. */
 const BURST_MS = 2.5;
+/** A wished train waits for a frame of its length for so many frames; then one of at least so many packets must do. */
+const PATIENT_FRAMES = 2;
+const SHORT_TRAIN_PACKETS = 20;
 /** Who counts for itself is believed before its RTCP, for so long after it last did, ms. */
 const OWN_SUMS_HOLD_MS = 3000;
 
@@ -88,6 +91,8 @@ export class StreamSender {
   #probeCluster = 0;
   #probeBitsPerSecond = 0;
   #probeBytesLeft = 0;
+  /** Frames in a row that were shorter than the train that is wished for. */
+  #framesTooShort = 0;
   /** The receiver's limits: the operator's own, and its stack's. */
   #ownLimit = Number.POSITIVE_INFINITY;
   #remb = Number.POSITIVE_INFINITY;
@@ -151,18 +156,33 @@ export class StreamSender {
   /** Takes a hold of the frame and sends it when its time comes, unless a newer one comes first. */
   enqueue(shared: SharedFrame): void {
     if (shared.packets === 0) return;
-    const wish = this.probeWish;
-    if (wish !== null && shared.bytes >= wish.bytes) {
-      this.#probeCluster = wish.clusterId;
-      this.#probeBitsPerSecond = wish.bitsPerSecond;
-      this.#probeBytesLeft = wish.bytes;
-    }
+    this.#takeProbe(shared);
     for (const { frame, reason } of this.#pacer.enqueue(shared.hold(), this.#now())) {
       // What waits for the window is not late by our own doing.
       if (!this.#windowFull) this.#fit.onCut();
       this.onFrameDropped?.(frame, reason);
       frame.release();
     }
+  }
+
+  /**
+   * A train of the wished length, or, where frames stay shorter than that, a whole frame: a source that has no more to give
+   * would otherwise never learn how fast its frames may go.
+   */
+  #takeProbe(shared: SharedFrame): void {
+    const wish = this.probeWish;
+    if (wish === null) {
+      this.#framesTooShort = 0;
+      return;
+    }
+    if (shared.bytes < wish.bytes) {
+      this.#framesTooShort++;
+      if (this.#framesTooShort <= PATIENT_FRAMES || shared.packets < SHORT_TRAIN_PACKETS) return;
+    }
+    this.#framesTooShort = 0;
+    this.#probeCluster = wish.clusterId;
+    this.#probeBitsPerSecond = wish.bitsPerSecond;
+    this.#probeBytesLeft = Math.min(wish.bytes, shared.bytes);
   }
 
   /** Sends what is due now. */
