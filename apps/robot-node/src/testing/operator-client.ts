@@ -19,6 +19,7 @@ import {
   type WholePicture,
   zeroTwist,
 } from '@farpoint/protocol';
+import { helloAtOnce } from '@farpoint/webrtc/testing';
 import {
   type RTCDataChannel,
   RTCPeerConnection,
@@ -46,6 +47,8 @@ export interface DtlsKeys {
 export interface OperatorClientOptions {
   /** Of its certificate, for one that does not fit; made by werift where left out. */
   keys?: DtlsKeys | undefined;
+  /** It begins the DTLS handshake without the pause that werift makes. */
+  helloAtOnce?: boolean | undefined;
   /** Whether it gives transport-wide feedback; by default it does. */
   transportFeedback?: boolean | undefined;
 }
@@ -68,11 +71,13 @@ export class OperatorClient {
   malformedPackets = 0;
   readonly #waiters = new Set<() => void>();
   readonly #bandwidth: RTCDataChannel;
+  readonly #helloAtOnce: boolean;
   #sessionChannel: RTCDataChannel | null = null;
   #probes: NodeJS.Timeout | null = null;
   #sequence = 0;
 
-  constructor({ keys, transportFeedback = true }: OperatorClientOptions = {}) {
+  constructor({ keys, transportFeedback = true, ...options }: OperatorClientOptions = {}) {
+    this.#helloAtOnce = options.helloAtOnce ?? false;
     const extensions = transportFeedback ? [useSdesMid(), useTransportWideCC()] : [useSdesMid()];
     const rtcpFeedback = transportFeedback ? [useTWCC()] : [];
     this.connection = new RTCPeerConnection({
@@ -120,6 +125,7 @@ export class OperatorClient {
   /** @returns the SDP answer */
   async answer(offer: string): Promise<string> {
     await this.connection.setRemoteDescription({ type: 'offer', sdp: offer });
+    if (this.#helloAtOnce) helloAtOnce(this.connection);
     await this.connection.setLocalDescription(await this.connection.createAnswer());
     return this.connection.localDescription?.sdp ?? '';
   }

@@ -9,6 +9,7 @@ import {
 } from '@farpoint/protocol';
 import { createReferencePeerConnection, referenceChannels, tapRtp } from '@farpoint/reference-profile';
 import { prepareSockets } from '@farpoint/webrtc';
+import { helloAtOnce } from '@farpoint/webrtc/testing';
 import type { RTCDataChannel, RTCPeerConnection } from 'werift';
 import { Inbox } from './inbox.ts';
 import { OfferBoard, type OpenOffer } from './offer-board.ts';
@@ -168,6 +169,8 @@ export class ReferenceOperator {
   async #answer(candidates: readonly string[], timeoutMs: number): Promise<void> {
     const connection = this.#connection;
     await connection.setRemoteDescription({ type: 'offer', sdp: this.offer });
+    // As the reference system's own stack does.
+    helloAtOnce(connection);
     const answer = await connection.createAnswer();
     this.#line.send({ type: 'answer', robotId: this.robotId, sdpAnswer: answer.sdp });
     const gathered = connection.setLocalDescription(answer);

@@ -1,0 +1,93 @@
+/** `pnpm bench connect`: how long a session takes to come about. */
+import { parseArgs } from 'node:util';
+import { ReferenceOperator } from '@farpoint/conformance';
+import { LocalStack } from '@farpoint/local-stack';
+import { SignaledOperator } from '@farpoint/robot-node/testing';
+import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { distribution, rounded } from './stats.ts';
+
+const USAGE = `pnpm bench connect [--count 20] [--json]
+
+Real signaling and robot (simulated office), each in its own process, no network between. An operator in this process connects
+--count times in each profile, one after the other. It begins the DTLS handshake as soon as its own connectivity checks are
+through, which may be before the robot's are. Farpoint's: from opening the signaling socket to the robot's welcome. Reference
+profile: from the clients' port of signaling to the open data channels, once the robot's offer stands.`;
+
+const ROBOT = 'sim-1';
+const NAME = 'Simulated robot';
+
+export const bench: Bench = {
+  name: 'connect',
+  summary: 'time from signaling to a session, in both profiles',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        count: { type: 'string', default: '20' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const count = numberOption('count', values.count, 1);
+    const stack = await LocalStack.start({
+      robots: [{ id: ROBOT, name: NAME, reference: true, args: ['--sim-size', '64'] }],
+      env: { FARPOINT_LOG_LEVEL: 'warn' },
+    });
+    try {
+      // It makes one offer at a time, and the next one when that operator has gone.
+      const offered = async (connected: number) => {
+        while ((await metric(stack, 'reference_offers')) <= connected) {
+          await new Promise((resolve) => setTimeout(resolve, 20));
+        }
+      };
+      const clients = `ws://127.0.0.1:${stack.ports.referenceClient}`;
+      const farpointMs = await times(count, async () => {
+        const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT, { helloAtOnce: true });
+        return () => operator.close();
+      });
+      const referenceMs = await times(
+        count,
+        async () => {
+          const operator = await ReferenceOperator.connect(clients, NAME);
+          return () => operator.close();
+        },
+        offered,
+      );
+      const results = { farpointMs, referenceMs };
+      printTable(
+        ['connected after, ms', 'p50', 'p95', 'p99', 'max'],
+        [
+          ['Farpoint’s profile', ...distributionCells(farpointMs)],
+          ['reference profile', ...distributionCells(referenceMs)],
+        ],
+      );
+      if (values.json) printJson({ bench: 'connect', count, ...results });
+    } finally {
+      await stack.stop();
+    }
+  },
+};
+
+async function metric(stack: LocalStack, name: string): Promise<number> {
+  const text = await (await fetch(`${stack.robotAdminUrl(ROBOT)}/metrics`)).text();
+  const line = text.split('\n').find((row) => row.startsWith(`farpoint_robot_${name} `));
+  return Number(line?.split(' ').at(-1) ?? 0);
+}
+
+/** @param connect gives what closes the connection again */
+async function times(
+  count: number,
+  connect: () => Promise<() => Promise<unknown>>,
+  ready: (connected: number) => Promise<unknown> = async () => undefined,
+) {
+  const ms: number[] = [];
+  for (let n = 0; n < count; n++) {
+    await ready(n);
+    const began = performance.now();
+    const close = await connect();
+    ms.push(performance.now() - began);
+    await close();
+  }
+  return rounded(distribution(ms), 0);
+}
