@@ -175,7 +175,18 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   ...Object.fromEntries(
     [
       ...['mtp', 'link', 'link --mode auto', 'transport', 'sampler', 'pack', 'codec', 'codec --cloud …'],
-      ...['codec --cloud FILE…', 'bridge', 'signaling', 'shm', 'shm --kill N', 'dds', 'ros1', 'pictures'],
+      ...[
+        'codec --cloud FILE…',
+        'connect',
+        'bridge',
+        'bridge --profile',
+        'signaling',
+        'shm',
+        'shm --kill N',
+        'dds',
+        'ros1',
+        'pictures',
+      ],
       ...['sim', 'recording', 'congestion', 'temporal', 'sampling --plot FILE.svg'],
     ].map((rest) => [`pnpm bench ${rest}`, MEASURES]),
   ),
