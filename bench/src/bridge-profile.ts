@@ -163,7 +163,8 @@ function joined(
   return frames;
 }
 
-interface BridgeFrame {
+/** A line of the bridge's `--stats`. */
+export interface BridgeFrame {
   frameNumber: number;
   points: number;
   expectedPoints: number;

@@ -5,7 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { BridgeProcess, LocalStack } from '@farpoint/local-stack';
-import { nextMessage, nowMs, profile, wait } from './bridge-profile.ts';
+import { type BridgeFrame, nextMessage, nowMs, profile, wait } from './bridge-profile.ts';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { readPacketLog, type SentTimes } from './packet-log.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
@@ -29,15 +29,6 @@ const POINTS_PER_PACKET = 150;
 /** On the wire: IP 20, UDP 8, RTP 12, extension 8, payload 1216, SRTP tag 16. */
 const WIRE_BYTES_PER_PACKET = 1280;
 const RSS_EVERY_MS = 250;
-
-interface FrameRecord {
-  frameNumber: number;
-  points: number;
-  expectedPoints: number;
-  lastPacketMs: number;
-  emittedMs: number;
-  pages: number;
-}
 
 interface RunResult {
   mbps: number;
@@ -180,7 +171,7 @@ async function run(packets: number, fps: number, seconds: number): Promise<RunRe
     const records = readFileSync(frameFile, 'utf8')
       .trimEnd()
       .split('\n')
-      .map((line) => JSON.parse(line) as FrameRecord);
+      .map((line) => JSON.parse(line) as BridgeFrame);
     const times = join3(records, read, readPacketLog(sentFile), beganMs, endedMs);
     const elapsedMs = endedMs - beganMs;
     const received = times.points / POINTS_PER_PACKET;
@@ -230,7 +221,7 @@ interface Joined {
 
 /** The bridge's frames, the reader's messages (one for each frame that went to a page, in order), the robot's packets. */
 function join3(
-  records: readonly FrameRecord[],
+  records: readonly BridgeFrame[],
   read: readonly { atMs: number; bytes: number }[],
   sent: SentTimes,
   fromMs: number,

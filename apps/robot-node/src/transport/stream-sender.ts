@@ -1,5 +1,4 @@
 import {
-  FMT_APPLICATION,
   FMT_GENERIC_NACK,
   FMT_TRANSPORT_WIDE,
   type FrameDropReason,
@@ -9,14 +8,8 @@ import {
   type RateController,
   type RateSnapshot,
   type ResendRefusal,
-  RTCP_PAYLOAD_FEEDBACK,
-  RTCP_RECEIVER_REPORT,
-  RTCP_SENDER_REPORT,
   RTCP_TRANSPORT_FEEDBACK,
-  type RtcpPacket,
   readNack,
-  readRemb,
-  readReportBlocks,
   TokenBucket,
   TransportFeedbackAdapter,
   TransportFeedbackError,
@@ -25,6 +18,7 @@ import {
 import { slotPayload, slotSequenceOffset } from '../encode/packetiser.ts';
 import type { CloudTransport } from './cloud-transport.ts';
 import { FrameFit } from './frame-fit.ts';
+import { ReportIntake } from './report-intake.ts';
 import type { SharedFrame } from './shared-frame.ts';
 
 /** Packets leave in bursts of so long, ms: a wake-up for each would cost more than the packets do. */
@@ -32,8 +26,6 @@ const BURST_MS = 2.5;
 /** A wished train waits for a frame of its length for so many frames; then one of at least so many packets must do. */
 const PATIENT_FRAMES = 2;
 const SHORT_TRAIN_PACKETS = 20;
-/** Who counts for itself is believed before its RTCP, for so long after it last did, ms. */
-const OWN_SUMS_HOLD_MS = 3000;
 
 /** Sums since the session began. */
 export interface StreamCounters {
@@ -82,6 +74,7 @@ export class StreamSender {
   readonly #controller: RateController;
   readonly #pacer: PacketPacer<SharedFrame>;
   readonly #feedback = new TransportFeedbackAdapter();
+  readonly #reports: ReportIntake;
   readonly #fit = new FrameFit();
   /** A peer that asks for everything again gets a tenth of it. */
   readonly #resends = new TokenBucket({ perSecond: 400, burst: 50 });
@@ -93,19 +86,13 @@ export class StreamSender {
   #probeBytesLeft = 0;
   /** Frames in a row that were shorter than the train that is wished for. */
   #framesTooShort = 0;
-  /** The receiver's limits: the operator's own, and its stack's. */
-  #ownLimit = Number.POSITIVE_INFINITY;
-  #remb = Number.POSITIVE_INFINITY;
-  /** When the operator's own sums last came, ms: they are believed before RTCP's. */
-  #ownSumsMs = Number.NEGATIVE_INFINITY;
-  #rttMs: number | null = null;
-  #rttHeardMs = Number.NEGATIVE_INFINITY;
   /** When RTCP last came from the operator, ms. */
   heardMs = 0;
 
   constructor(transport: CloudTransport, controller: RateController, now: () => number) {
     this.#transport = transport;
     this.#controller = controller;
+    this.#reports = new ReportIntake(transport, controller);
     this.#now = now;
     // The controller says how much faster than planned packets may go.
     this.#pacer = new PacketPacer(controller.decision(now()).pacingBitsPerSecond, {
@@ -240,17 +227,12 @@ export class StreamSender {
   }
 
   onReceiverReport({ packetsReceived, packetsLost }: { packetsReceived: number; packetsLost: number }): void {
-    const now = this.#now();
-    this.#ownSumsMs = now;
-    const rttMs = now - this.#rttHeardMs < OWN_SUMS_HOLD_MS ? this.#rttMs : null;
-    this.#rttHeardMs = Number.NEGATIVE_INFINITY;
-    this.#controller.onReceiverReport({ packetsReceived, packetsLost, source: 'application', rttMs }, now);
+    this.#reports.onOwnSums(packetsReceived, packetsLost, this.#now());
     if (!this.transportFeedback) this.onRateChanged?.();
   }
 
   onReceiverLimit(bitsPerSecond: number): void {
-    this.#ownLimit = bitsPerSecond;
-    this.#controller.onReceiverLimit(Math.min(this.#ownLimit, this.#remb), this.#now());
+    this.#reports.onOwnLimit(bitsPerSecond, this.#now());
   }
 
   /** Drops what waits: the stream is stopped or the session over. */
@@ -266,8 +248,9 @@ export class StreamSender {
     let changed = false;
     for (const packet of walkRtcp(compound, () => this.counters.feedbackMalformed++)) {
       if (packet.packetType !== RTCP_TRANSPORT_FEEDBACK) {
-        // Transport-wide feedback says all that reports do, and more.
-        if (!this.transportFeedback) changed = this.#onReport(packet) || changed;
+        const outcome = this.#reports.onRtcp(packet, this.#now());
+        if (outcome === 'malformed') this.counters.feedbackMalformed++;
+        changed ||= outcome === 'changed';
         continue;
       }
       if (packet.format === FMT_GENERIC_NACK) this.#onNack(packet.bytes);
@@ -285,33 +268,6 @@ export class StreamSender {
       }
     }
     if (changed) this.onRateChanged?.();
-  }
-
-  /** @returns whether the rate control has learnt something */
-  #onReport({ packetType, format, bytes }: RtcpPacket): boolean {
-    const now = this.#now();
-    if (packetType === RTCP_PAYLOAD_FEEDBACK && format === FMT_APPLICATION) {
-      const remb = readRemb(bytes);
-      if (remb === null) return false;
-      this.#remb = remb;
-      this.#controller.onReceiverLimit(Math.min(this.#ownLimit, this.#remb), now);
-      return true;
-    }
-    if (packetType !== RTCP_RECEIVER_REPORT && packetType !== RTCP_SENDER_REPORT) return false;
-    let changed = false;
-    const whole = readReportBlocks(packetType, bytes, (block) => {
-      const sums = this.#transport.receiverSums(block, now);
-      if (sums === null) return;
-      if (sums.rttMs != null) {
-        this.#rttMs = sums.rttMs;
-        this.#rttHeardMs = now;
-      }
-      if (now - this.#ownSumsMs < OWN_SUMS_HOLD_MS) return;
-      this.#controller.onReceiverReport(sums, now);
-      changed = true;
-    });
-    if (!whole) this.counters.feedbackMalformed++;
-    return changed;
   }
 
   #onNack(bytes: Uint8Array): void {

@@ -1,6 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { Refusals } from '../refusal.ts';
+import { dtlsRecord } from '../testing/dtls-record.ts';
 import { type DtlsEndpoint, DtlsGate } from './dtls-gate.ts';
 import { serializeHandshake } from './handshake-message.ts';
 
@@ -47,16 +48,6 @@ class FakeEndpoint implements DtlsEndpoint {
   }
 }
 
-function record(contentType: number, epoch: number, sequence: number, fragment: Uint8Array): Buffer {
-  const header = Buffer.alloc(13);
-  header.writeUInt8(contentType, 0);
-  header.writeUInt16BE(0xfefd, 1);
-  header.writeUInt16BE(epoch, 3);
-  header.writeUIntBE(sequence, 5, 6);
-  header.writeUInt16BE(fragment.length, 11);
-  return Buffer.concat([header, fragment]);
-}
-
 function hello(messageSequence: number, cookie: string, random = 7): Buffer {
   const body = Buffer.concat([
     Buffer.from([0xfe, 0xfd]),
@@ -65,7 +56,7 @@ function hello(messageSequence: number, cookie: string, random = 7): Buffer {
     Buffer.from(cookie),
     Buffer.from([0, 2, 0xc0, 0x2b, 1, 0]),
   ]);
-  return record(22, 0, messageSequence, serializeHandshake({ type: 1, messageSequence, body }));
+  return dtlsRecord(22, 0, messageSequence, serializeHandshake({ type: 1, messageSequence, body }));
 }
 
 const types = fc.constantFrom(1, 2, 3, 11, 12, 13, 14, 15, 16, 20, 77);
@@ -79,7 +70,7 @@ const datagrams = fc
     sequence: fc.nat(100),
     fragment: fc.oneof(fc.uint8Array({ minLength: 1, maxLength: 60 }), handshakes),
   })
-  .map(({ contentType, epoch, sequence, fragment }) => record(contentType, epoch, sequence, fragment));
+  .map(({ contentType, epoch, sequence, fragment }) => dtlsRecord(contentType, epoch, sequence, fragment));
 
 describe('DtlsGate', () => {
   it('gives an endpoint without keys neither data nor an end, whatever comes, and never throws', () => {
@@ -129,7 +120,7 @@ describe('DtlsGate', () => {
   it('keeps a few encrypted records that overtook the keys, and counts the rest', () => {
     const refusals = new Refusals();
     const gate = new DtlsGate(new FakeEndpoint('server'), refusals);
-    for (let n = 0; n < 6; n++) gate.onDatagram(record(23, 1, n, Buffer.from([1, 2])));
+    for (let n = 0; n < 6; n++) gate.onDatagram(dtlsRecord(23, 1, n, Buffer.from([1, 2])));
     expect(refusals.get('dtls-early')).toBe(2);
   });
 
@@ -137,11 +128,11 @@ describe('DtlsGate', () => {
     const endpoint = new FakeEndpoint('server');
     const gate = new DtlsGate(endpoint, new Refusals());
     endpoint.masterSecret = Buffer.alloc(48);
-    gate.onDatagram(record(21, 1, 1, Buffer.from([1, 1, 90])));
-    gate.onDatagram(record(21, 1, 2, Buffer.from([9, 2, 40])));
+    gate.onDatagram(dtlsRecord(21, 1, 1, Buffer.from([1, 1, 90])));
+    gate.onDatagram(dtlsRecord(21, 1, 2, Buffer.from([9, 2, 40])));
     expect(endpoint.calls).toEqual([]);
-    gate.onDatagram(record(21, 1, 3, Buffer.from([1, 2, 40])));
-    gate.onDatagram(record(21, 1, 4, Buffer.from([1, 1, 0])));
+    gate.onDatagram(dtlsRecord(21, 1, 3, Buffer.from([1, 2, 40])));
+    gate.onDatagram(dtlsRecord(21, 1, 4, Buffer.from([1, 1, 0])));
     expect(endpoint.calls).toEqual(['closed']);
   });
 });

@@ -1,16 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
+import { dtlsRecord } from '../testing/dtls-record.ts';
 import { parseRecords } from './record.ts';
-
-function record(contentType: number, epoch: number, sequence: number, fragment: Uint8Array): Buffer {
-  const header = Buffer.alloc(13);
-  header.writeUInt8(contentType, 0);
-  header.writeUInt16BE(0xfefd, 1);
-  header.writeUInt16BE(epoch, 3);
-  header.writeUIntBE(sequence, 5, 6);
-  header.writeUInt16BE(fragment.length, 11);
-  return Buffer.concat([header, fragment]);
-}
 
 const records = fc.array(
   fc.record({
@@ -28,7 +19,7 @@ describe('parseRecords', () => {
       fc.property(records, fc.nat(12), (written, cut) => {
         const bytes = Buffer.concat(
           written.map(({ contentType, epoch, sequence, fragment }) =>
-            record(contentType, epoch, sequence, fragment),
+            dtlsRecord(contentType, epoch, sequence, fragment),
           ),
         );
         const whole = parseRecords(bytes);
@@ -54,9 +45,9 @@ describe('parseRecords', () => {
   });
 
   it.each([
-    ['an unknown content type', record(24, 0, 0, new Uint8Array(1))],
-    ['an empty fragment', record(22, 0, 0, new Uint8Array(0))],
-    ['another version', Buffer.from(record(22, 0, 0, new Uint8Array(1)).fill(3, 1, 3))],
+    ['an unknown content type', dtlsRecord(24, 0, 0, new Uint8Array(1))],
+    ['an empty fragment', dtlsRecord(22, 0, 0, new Uint8Array(0))],
+    ['another version', Buffer.from(dtlsRecord(22, 0, 0, new Uint8Array(1)).fill(3, 1, 3))],
   ])('refuses %s', (_, bytes) => {
     expect(parseRecords(bytes)).toEqual({ records: [], malformed: true });
   });
