@@ -3,11 +3,10 @@ import { defineConfig } from '@playwright/test';
 
 export default defineConfig({
   projects: [
-    { name: 'chromium', testDir: 'tests' },
+    { name: 'chromium', testDir: 'tests', outputDir: 'output/chromium' },
     // Playwright's runner alone: Firefox itself is driven by WebDriver BiDi (FirefoxBrowser of @farpoint/local-stack).
-    { name: 'firefox', testDir: 'firefox' },
+    { name: 'firefox', testDir: 'firefox', outputDir: 'output/firefox' },
   ],
-  outputDir: 'output',
   // One stack and one software-rendered browser at a time: two would only slow each other down.
   workers: 1,
   retries: 0,

@@ -104,7 +104,7 @@ test('signaling is killed and restarted while driving: the drive goes on, the se
   expect((await operator.state()).sessionsOpened).toBe(1);
 });
 
-test('the robot process is killed and restarted: the page says so and comes back by itself', async ({
+test('the robot process is killed and restarted: the page says so and comes back by itself, stopped until somebody releases it', async ({
   page,
   openRobot,
 }) => {
@@ -118,7 +118,15 @@ test('the robot process is killed and restarted: the page says so and comes back
   await operator.expectState('session', 'live');
   await operator.expectPoints();
   expect((await operator.state()).sessionsOpened).toBe(2);
+  // It did not end in order: it starts with its emergency stop latched, and whoever drives means to release it.
+  await operator.expectState('estop', true);
   const start = await operator.body();
+  await operator.holdForward();
+  await operator.expectState('holder', 'you');
+  await operator.expectFrames(20);
+  expect(await operator.body()).toEqual(start);
+  await operator.releaseKeys();
+  await operator.releaseEstop();
   await operator.holdForward();
   await operator.expectMovedFrom(start, 0.2);
   await operator.releaseKeys();
