@@ -24,7 +24,7 @@ import type { SharedFrame } from './shared-frame.ts';
 /** Packets leave in bursts of so long, ms: a wake-up for each would cost more than the packets do. */
 const BURST_MS = 2.5;
 /** A wished train waits for a frame of its length for so many frames; then one of at least so many packets must do. */
-const PATIENT_FRAMES = 2;
+const PATIENT_FRAMES = 4;
 const SHORT_TRAIN_PACKETS = 20;
 
 /** Sums since the session began. */

@@ -1,17 +1,22 @@
 import { expect, test } from 'vitest';
 import { GroundGrid, gridSegments } from './ground-grid.ts';
 
-test('every line of the grid, in segments of a metre, each once', () => {
-  const ends = gridSegments(3);
-  const segments = Array.from({ length: ends.length / 4 }, (_, i) => ends.slice(i * 4, i * 4 + 4));
-  // 7 lines of 6 segments, both ways.
-  expect(new Set(segments.map(String)).size).toBe(2 * 7 * 6);
-  expect(segments).toHaveLength(2 * 7 * 6);
-  for (const [x0 = 0, z0 = 0, x1 = 0, z1 = 0] of segments) {
+test('every line of the grid from end to end, in segments that are no longer than they are far, or a metre', () => {
+  const half = 20;
+  const ends = gridSegments(half);
+  const lines = new Map<string, number[]>();
+  for (let i = 0; i < ends.length; i += 4) {
+    const [x0 = 0, z0 = 0, x1 = 0, z1 = 0] = ends.slice(i, i + 4);
     // A longer one whose one end is behind the camera is not drawn at all by a software renderer.
-    expect(Math.hypot(x1 - x0, z1 - z0)).toBe(1);
-    expect(Math.max(...[x0, z0, x1, z1].map(Math.abs))).toBeLessThanOrEqual(3);
+    const far = Math.max(Math.min(Math.abs(x0), Math.abs(x1)), Math.min(Math.abs(z0), Math.abs(z1)));
+    expect(Math.hypot(x1 - x0, z1 - z0)).toBeLessThanOrEqual(Math.max(1, far));
+    const [line, from, to] = x0 === x1 ? [`x ${x0}`, z0, z1] : [`z ${z0}`, x0, x1];
+    const known = lines.get(line) ?? [-half];
+    expect(known.at(-1)).toBe(from);
+    lines.set(line, [...known, to]);
   }
+  expect(lines.size).toBe(2 * (2 * half + 1));
+  for (const known of lines.values()) expect(known.at(-1)).toBe(half);
 });
 
 test('moves along in whole metres', () => {

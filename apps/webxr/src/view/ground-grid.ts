@@ -8,16 +8,31 @@ const OTHERS = 0x1a242e;
 /** Below the floor's own points. */
 const HEIGHT_M = -0.01;
 
+/** Segments are so long, m, up to this distance from the middle, m. */
+const LENGTHS: readonly [withinM: number, lengthM: number][] = [
+  [4, 1],
+  [8, 2],
+  [Number.POSITIVE_INFINITY, 4],
+];
+
 /**
- * Ends of the grid's lines, x and z in turn, both ends of one segment after the other. Each segment is one metre long: a
- * software renderer leaves out a whole line of which one end is behind the camera.
+ * Ends of the grid's lines, x and z in turn, both ends of one segment after the other. A software renderer leaves out a whole
+ * segment of which one end is behind the camera; what is no longer than it is far is then out of sight anyway. Fewer of them
+ * are faster to draw.
+ *
+ * @param half a multiple of 4
  */
 export function gridSegments(half: number): number[] {
   const ends: number[] = [];
   for (let across = -half; across <= half; across++) {
-    for (let along = -half; along < half; along++) {
-      ends.push(across, along, across, along + 1);
-      ends.push(along, across, along + 1, across);
+    for (let along = -half; along < half; ) {
+      // The end that is nearer to the middle decides.
+      const inner = along < 0 ? along + 1 : along;
+      const far = Math.max(Math.abs(across), Math.abs(inner));
+      const length = LENGTHS.find(([within]) => far < within)?.[1] ?? 1;
+      ends.push(across, along, across, along + length);
+      ends.push(along, across, along + length, across);
+      along += length;
     }
   }
   return ends;
