@@ -13,7 +13,6 @@ export class ReportSums {
   readonly #sequences = new Uint16Array(REMEMBERED);
   #first: number | null = null;
   #highest = -1;
-  #rttMs: number | null = null;
 
   constructor(ssrc: number) {
     this.#ssrc = ssrc;
@@ -26,20 +25,20 @@ export class ReportSums {
     this.#sequences[sequence % REMEMBERED] = sequence;
   }
 
-  /** @returns `null` for a block about another stream, or one that says nothing new */
+  /** @returns `null` for a block about another stream, or one that cannot be right */
   read({ ssrc, packetsLost, highestSequence }: Readonly<ReportBlock>, nowMs: number): ReceiverSums | null {
     if (ssrc !== this.#ssrc || this.#first === null) return null;
     const expected = highestSequence - this.#first + 1;
     const packetsReceived = expected - packetsLost;
     if (expected < 1 || packetsReceived < 0) return null;
+    // Where nothing came since the last report, how long ago that packet left says nothing.
+    let rttMs: number | null = null;
     if (highestSequence > this.#highest) {
       this.#highest = highestSequence;
       const at = (highestSequence & 0xffff) % REMEMBERED;
       const sentMs = this.#sequences[at] === (highestSequence & 0xffff) ? this.#sentMs[at]! : Number.NaN;
-      this.#rttMs = Number.isNaN(sentMs) ? null : nowMs - sentMs;
-      return { packetsReceived, packetsLost, source: 'rtcp', rttMs: this.#rttMs };
+      if (!Number.isNaN(sentMs)) rttMs = nowMs - sentMs;
     }
-    // Nothing came since the last report: how long ago that packet left says nothing.
-    return { packetsReceived, packetsLost, source: 'rtcp', rttMs: null };
+    return { packetsReceived, packetsLost, source: 'rtcp', rttMs };
   }
 }
