@@ -24,6 +24,7 @@ import {
 export { findWasmToolchain, NoWasmToolchainError } from './wasm-toolchain.ts';
 
 const ROOT = resolve(import.meta.dirname, '..');
+const require = createRequire(import.meta.url);
 const RECORD = 'sources.json';
 
 /** Kept with every committed module. */
@@ -157,8 +158,6 @@ function rustFlags(toolchain: WasmToolchain, workspace: string): string {
 }
 
 function optimise(module: string): void {
-  // binaryen belongs to the package of the Cargo workspace.
-  const require = createRequire(join(ROOT, CARGO_WORKSPACE, 'package.json'));
   const tool = join(require.resolve('binaryen/package.json'), '..', 'bin', 'wasm-opt');
   const features = ['simd', 'bulk-memory', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals'];
   const enabled = [...features, 'reference-types', 'multivalue'].map((feature) => `--enable-${feature}`);
@@ -173,7 +172,6 @@ function optimise(module: string): void {
 function toolVersions(workspace: string): string {
   const lock = readFileSync(join(workspace, 'Cargo.lock'), 'utf8');
   const bindgen = /name = "wasm-bindgen"\nversion = "([^"]+)"/.exec(lock)?.[1] ?? 'unknown';
-  const require = createRequire(join(workspace, 'package.json'));
   const binaryen = (require('binaryen/package.json') as { version: string }).version;
   return `wasm-bindgen ${bindgen}; binaryen ${binaryen}`;
 }

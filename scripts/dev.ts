@@ -3,7 +3,6 @@
  * stops everything.
  */
 import { setTimeout as delay } from 'node:timers/promises';
-import { Backoff } from '@farpoint/congestion';
 import {
   type ChosenPorts,
   choosePorts,
@@ -15,6 +14,7 @@ import {
   repositoryRoot,
 } from '@farpoint/local-stack';
 import { portHolder } from '@farpoint/service';
+import { Backoff } from '@farpoint/timing';
 import { DEV_HELP, type DevOptions, readDevOptions } from './lib/dev-options.ts';
 
 /** The usual port of a robot's own, 9400, stays free for one that is started beside these. */

@@ -4,7 +4,7 @@ import { defineConfig } from 'vite';
 // A headset on the LAN needs https for WebXR: give a certificate that it trusts.
 const { FARPOINT_HTTPS_CERT: cert, FARPOINT_HTTPS_KEY: key, FARPOINT_WEB_PORT: port } = process.env;
 
-export default defineConfig({
+export default defineConfig(({ mode }) => ({
   // Works under whatever path it is served.
   base: './',
   server: {
@@ -19,7 +19,9 @@ export default defineConfig({
     target: 'es2022',
     // The WASM module stays a file: it is compiled while it streams in.
     assetsInlineLimit: 0,
+    // The page with `window.farpoint`, for tests and benchmarks.
+    outDir: mode === 'testing' ? 'dist-testing' : 'dist',
     sourcemap: true,
     chunkSizeWarningLimit: 900,
   },
-});
+}));

@@ -2,10 +2,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { AdaptiveRateController, FixedRateController, type RateController } from '@farpoint/congestion';
-import { GccController } from '@farpoint/congestion/gcc';
 import {
-  BUSY_COMPUTER,
-  type CapacityStep,
   type FlowRecord,
   losses,
   msAboveQueue,
@@ -18,7 +15,9 @@ import {
   sumBins,
   throughput,
   utilisation,
-} from '@farpoint/congestion/sim';
+} from '@farpoint/congestion/testing';
+import { BUSY_COMPUTER, type CapacityStep, parseTrace } from '@farpoint/network-sim';
+import { GccController } from './gcc/gcc-controller.ts';
 import { type Panel, renderChart, type Series } from './plot/chart.ts';
 import { type Bench, type Cell, numberOption, printJson, printTable } from './report.ts';
 
@@ -26,7 +25,7 @@ const USAGE = `pnpm bench congestion [--controller NAME,…] [--scenario TEXT] [
 
 Runs rate controllers (adaptive: ours; gcc: Google congestion control; fixed: 40 Mbit/s, halved by loss) over simulated
 links in virtual time: a 30 Hz source as large as the target allows, paced, with padding for probes; a drop-tail queue;
-feedback each 50–62 ms. --trace adds a link from a file of lines \`seconds,Mbit/s\`; --scenario runs those whose name contains
+feedback each 50–62 ms. --trace adds a link from a CSV file \`time_s,capacity_mbps\`; --scenario runs those whose name contains
 the text; --plot draws the step, and the trace where one is given.
 
 used: arrived over what the link could carry, after 5 s. queue: waiting time of the packets sent after 5 s. overflow: of the packets
@@ -48,15 +47,11 @@ interface Case extends Scenario {
   riseMs?: number;
 }
 
-const flat = (bitsPerSecond: number): CapacityStep[] => [{ fromMs: 0, bitsPerSecond }];
+const flat = (bitsPerSecond: number): CapacityStep[] => [{ atMs: 0, mbps: bitsPerSecond / M }];
 const BASE = { durationMs: 30_000, capacity: flat(LINK), rttMs: 42.4, queueMs: 100 };
 const TCP = { ...BASE, durationMs: 60_000, capacity: flat(20 * M), cubic: [{ startMs: 5000 }] };
 
-const STEP: CapacityStep[] = [
-  ...flat(LINK),
-  { fromMs: 15_000, bitsPerSecond: 8 * M },
-  { fromMs: 28_000, bitsPerSecond: LINK },
-];
+const STEP: CapacityStep[] = [...flat(LINK), { atMs: 15_000, mbps: 8 }, { atMs: 28_000, mbps: LINK / M }];
 
 const CASES: readonly Case[] = [
   { ...BASE, name: 'steady 41.44 Mbit/s' },
@@ -72,9 +67,13 @@ const CASES: readonly Case[] = [
   { ...BASE, name: 'queue of 10 ms', queueMs: 10 },
   { ...BASE, name: '5 % loss', loss: 0.05 },
   { ...BASE, name: '20 % loss', loss: 0.2 },
-  { ...BASE, name: 'bursts of loss', burstLoss: { enterBad: 0.002, leaveBad: 0.05, lossInBad: 0.8 } },
-  { ...BASE, name: 'jitter of 3 ms', jitterMs: 3 },
-  { ...BASE, name: 'delay that wobbles by ± 5 ms', wobbleMs: 5 },
+  {
+    ...BASE,
+    name: 'bursts of loss',
+    burstLoss: { enter: 0.002, leave: 0.05, lossWhenBad: 0.8, lossWhenGood: 0 },
+  },
+  { ...BASE, name: 'jitter of 3 ms', tailMs: 3 },
+  { ...BASE, name: 'delay that wobbles by ± 5 ms', jitterMs: 5 },
   { ...BASE, name: 'another route, longer by 16 ms', durationMs: 30_000, delaySteps: [[6000, 16]] },
   { ...BASE, name: '20 % of feedback lost', backLoss: 0.2 },
   { ...BASE, name: 'a busy computer', stalls: BUSY_COMPUTER },
@@ -102,7 +101,7 @@ const CASES: readonly Case[] = [
     ...BASE,
     name: 'outage of 10 s',
     durationMs: 40_000,
-    capacity: [...flat(LINK), { fromMs: 15_000, bitsPerSecond: 0 }, { fromMs: 25_000, bitsPerSecond: LINK }],
+    capacity: [...flat(LINK), { atMs: 15_000, mbps: 0 }, { atMs: 25_000, mbps: LINK / M }],
     riseMs: 25_000,
   },
   { ...TCP, name: 'CUBIC, 20 Mbit/s, queue 50 ms', queueMs: 50 },
@@ -195,8 +194,8 @@ function measure(one: Case, outcome: Outcome): Record<string, Cell> {
 /** Rates above, queueing delay below: two panels. */
 function panels(one: Case, runs: Runs): Panel[] {
   const seconds = (steps: readonly CapacityStep[]) =>
-    [...steps.map((s) => s.fromMs), one.durationMs].map((t) => t / 1000);
-  const capacity = one.capacity.map((s) => s.bitsPerSecond / M);
+    [...steps.map((s) => s.atMs), one.durationMs].map((t) => t / 1000);
+  const capacity = one.capacity.map((s) => s.mbps);
   const rates: Series[] = [
     { label: 'link', x: seconds(one.capacity), y: [...capacity, capacity.at(-1) ?? 0], shape: 'area' },
   ];
@@ -227,20 +226,12 @@ function mostWaited(flow: FlowRecord, fromMs: number, toMs: number): number {
   return Math.min(queueQuantiles(flow, fromMs, toMs, [1])[0] ?? Number.NaN, 10_000);
 }
 
-/** Lines `seconds,Mbit/s`; others are left out. */
 function traceCase(file: string): Case {
-  const capacity = readFileSync(file, 'utf8')
-    .split('\n')
-    .map((line) => line.split(',').map(Number))
-    .filter((row): row is [number, number] => row.length === 2 && row.every((value) => value >= 0))
-    .map(([s, mbit]) => ({ fromMs: s * 1000, bitsPerSecond: mbit * M }));
-  const last = capacity.at(-1);
-  if (last === undefined || capacity[0]?.fromMs !== 0)
-    throw new Error(`${file}: no lines \`seconds,Mbit/s\` from 0 on`);
+  const { steps: capacity } = parseTrace(readFileSync(file, 'utf8'), 'hold');
   // A cellular base station keeps a long queue for each user.
   return {
     name: `trace ${file.split('/').at(-1)}`,
-    durationMs: last.fromMs,
+    durationMs: capacity.at(-1)!.atMs,
     capacity,
     rttMs: 42.4,
     queueBytes: 500_000,

@@ -240,3 +240,8 @@ export function isWithin(spans: readonly TimeSpan[], fromMs: number, toMs: numbe
 function round(value: number): number {
   return Number(value.toFixed(1));
 }
+
+/** The worst; `null` where one never came about. */
+export function worst(times: readonly (number | null)[]): number | null {
+  return times.some((time) => time === null) ? null : Math.max(...(times as number[]));
+}

@@ -1,9 +1,7 @@
 /** `pnpm bench link`: the real robot and the real browser over an emulated link. */
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
-import { parseArgs } from 'node:util';
-import { parseTrace } from '@farpoint/link-emulator';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import {
   capacityRises,
@@ -15,7 +13,10 @@ import {
   queueQuantiles,
   shareOf,
   utilisationOf,
+  worst,
 } from './link-analysis.ts';
+import { readLinkOptions } from './link-options.ts';
+import { downlinkOutages, traceOutages } from './link-outages.ts';
 import { plotLink } from './link-plot.ts';
 import {
   drivePage,
@@ -26,33 +27,8 @@ import {
   scrape,
 } from './link-run.ts';
 import { startLiveStack } from './live-stack.ts';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
-
-const USAGE = `pnpm bench link [options]
-
-Real robot (simulated office), signaling and headless Chromium; all packets between robot and browser pass an emulated link.
-The operator drives in circles and tests the latency again and again: from an input event to the end of the display frame
-that shows the whole green cloud (mtpMs), or its first points (mtpFirstMs). Figures are of the time after the first 5 s.
-
-  --rate-mbps 41.44   capacity, both ways, 10^6 bit/s on the wire
-  --trace FILE        capacity from the robot over time, CSV time_s,capacity_mbps; the other way has 50 Mbit/s, and nothing
-                      while the trace has nothing
-  --rtt-ms 42.4       propagation, both ways together
-  --jitter-ms 0  --loss 0  --burst-loss 0  --queue-ms 100
-  --cross KIND        a competing flow from the robot's side: cubic, reno
-  --robots 1          so many robots stream over the same link, each to a page of its own; the first one is measured
-  --seconds 30        how long; a trace begins anew when the measurement begins
-  --mode points64     points64, or auto: the best format that both sides know, the whole cloud where the rate allows
-  --draw-every N      every N-th point that comes is drawn, all are decoded: where the GPU is a processor, drawing would
-                      be what is measured. 8 for points64, 192 for auto, some
-                      1,000 points a picture; 1 draws all
-  --fps 60            most frames a second that the camera is asked for
-  --plan latency      or paper: every frame, points by the paper's equations 2 and 3
-  --rate-control adaptive   or fixed
-  --canvas 160x90     drawn by software: the stream is to be measured, not the renderer
-  --plot FILE.svg     capacity, estimate, delivered rate, latency, points and frames over time
-  --json`;
 
 /** Begins with the link's own start: the rate is still being found. */
 const WARM_UP_MS = 5000;
@@ -62,48 +38,13 @@ const CONNECT_MBPS = 10;
 /** A test that is under way when the service ends or begins says nothing of the link with service. */
 const MARGIN_MS = 500;
 
-/** About a thousand points a display frame, of a sample and of a whole cloud. */
-const DRAW_EVERY = { points64: '8', auto: '192' } as const;
-
 export const bench: Bench = {
   name: 'link',
   summary: 'the whole stack over an emulated link: utilisation, latency, recovery',
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        'rate-mbps': { type: 'string' },
-        trace: { type: 'string' },
-        'rtt-ms': { type: 'string', default: '42.4' },
-        'jitter-ms': { type: 'string', default: '0' },
-        loss: { type: 'string', default: '0' },
-        'burst-loss': { type: 'string', default: '0' },
-        'queue-ms': { type: 'string', default: '100' },
-        cross: { type: 'string' },
-        robots: { type: 'string', default: '1' },
-        seconds: { type: 'string', default: '30' },
-        mode: { type: 'string', default: 'points64' },
-        'draw-every': { type: 'string' },
-        fps: { type: 'string', default: '60' },
-        plan: { type: 'string', default: 'latency' },
-        'rate-control': { type: 'string', default: 'adaptive' },
-        canvas: { type: 'string', default: '160x90' },
-        plot: { type: 'string' },
-        keep: { type: 'string' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-    });
-    if (values.help) return console.log(USAGE);
-    if (values.trace !== undefined && values['rate-mbps'] !== undefined)
-      throw new Error('--rate-mbps and --trace exclude each other');
-    if (values.mode !== 'points64' && values.mode !== 'auto')
-      throw new Error(`--mode is \`${values.mode}\`, not points64 or auto`);
-    const rateMbps = numberOption('rate-mbps', values['rate-mbps'] ?? '41.44', 0.1);
-    const seconds = numberOption('seconds', values.seconds, 6);
-    const drawEvery = numberOption('draw-every', values['draw-every'] ?? DRAW_EVERY[values.mode], 1);
-    const robots = numberOption('robots', values.robots, 1);
-    const fps = numberOption('fps', values.fps, 1);
+    const options = readLinkOptions(argv);
+    if (options === null) return;
+    const { values, rateMbps, seconds, drawEvery, robots, fps, sensors } = options;
 
     const folder = values.keep ?? mkdtempSync(join(tmpdir(), 'farpoint-link-'));
     const linkFile = join(folder, 'link.jsonl');
@@ -113,7 +54,7 @@ export const bench: Bench = {
       name: `Simulated robot ${i + 1}`,
       args: [
         ...['--fps', String(fps), '--plan', values.plan, '--rate-control', values['rate-control']],
-        ...['--mode', values.mode],
+        ...['--mode', values.mode, ...(sensors === 2 ? ['--sim-lidar'] : [])],
         ...['--bitrate-mbps', '200', '--stats', robotFiles[i] as string],
       ],
     });
@@ -170,6 +111,8 @@ export const bench: Bench = {
       const endMs = monotonicMs();
       const [cpuAfter, stagesAfter] = [cpu(), await stages()];
       const statistics = await page.evaluate(() => window.farpoint.stats());
+      const drawn = await page.evaluate(() => window.farpoint.sensors());
+      for (const { name, points } of drawn) console.error(`${name}: ${points} points drawn at the end`);
       await stack.robot('sim-1').stop();
       await live.close();
 
@@ -336,19 +279,3 @@ export const bench: Bench = {
     }
   },
 };
-
-/** The worst; `null` where one never came about. */
-function worst(times: readonly (number | null)[]): number | null {
-  return times.some((time) => time === null) ? null : Math.max(...(times as number[]));
-}
-
-/** Seconds of the trace without service, in which nothing comes back either. */
-function traceOutages(path: string): { from: number; to: number }[] {
-  const { steps } = parseTrace(readFileSync(path, 'utf8'));
-  const capacities = steps.map(({ atMs, mbps }) => ({ timeMs: atMs, capacityMbps: mbps }));
-  return outagesOf(capacities).map(({ fromMs, toMs }) => ({ from: fromMs / 1000, to: toMs / 1000 }));
-}
-
-function downlinkOutages(spans: readonly { from: number; to: number }[]): string[] {
-  return spans.length === 0 ? [] : ['--down-outages', spans.map(({ from, to }) => `${from}-${to}`).join(',')];
-}

@@ -46,7 +46,7 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
   buildPage();
   log('starting signaling and the robot');
   const stack = await LocalStack.start({
-    webRoot: join(repositoryRoot, 'apps', 'webxr', 'dist'),
+    webRoot: join(repositoryRoot, 'apps', 'webxr', 'dist-testing'),
     robots: [],
     env: { FARPOINT_LOG_LEVEL: 'warn' },
   });
@@ -95,7 +95,7 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
 export function buildPage(): void {
   const vite = join(repositoryRoot, 'apps', 'webxr', 'node_modules', 'vite', 'bin', 'vite.js');
   const cwd = join(repositoryRoot, 'apps', 'webxr');
-  const result = spawnSync(process.execPath, [vite, 'build', '--logLevel', 'error'], {
+  const result = spawnSync(process.execPath, [vite, 'build', '--mode', 'testing', '--logLevel', 'error'], {
     cwd,
     encoding: 'utf8',
   });

@@ -92,7 +92,7 @@ async function measure(
   seconds: number,
 ) {
   const stack = await LocalStack.start({
-    webRoot: join(repositoryRoot, 'apps', 'webxr', 'dist'),
+    webRoot: join(repositoryRoot, 'apps', 'webxr', 'dist-testing'),
     robots: [],
     env: { FARPOINT_LOG_LEVEL: 'warn' },
   });

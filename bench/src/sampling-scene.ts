@@ -1,5 +1,5 @@
 /** Clouds to measure with. */
-import { seededRandom } from '@farpoint/congestion/sim';
+import { Random } from '@farpoint/network-sim';
 
 export interface SceneCloud {
   /** x, y, z in metres and colour bits for each point, as the encoder takes them. */
@@ -12,7 +12,7 @@ export interface SceneCloud {
  * twenty missing (NaN), as such cameras have it.
  */
 export function hallCloud(points: number, seed = 1): SceneCloud {
-  const uniform = seededRandom(seed);
+  const uniform = new Random(seed, 0);
   const width = Math.min(480, points);
   const height = Math.ceil(points / width);
   const frame = new Float32Array(points * 4);
@@ -32,10 +32,10 @@ export function hallCloud(points: number, seed = 1): SceneCloud {
       [0.4, 11],
     ];
     for (const [centre, depth] of pillars) if (Math.abs(x * depth - centre) < 0.25) z = Math.min(z, depth);
-    z *= 1 + (uniform() - 0.5) * 0.004 * z;
-    if (uniform() < 0.05) z = Number.NaN;
+    z *= 1 + (uniform.next() - 0.5) * 0.004 * z;
+    if (uniform.next() < 0.05) z = Number.NaN;
     frame.set([x * z, y * z, z], i * 4);
-    bits[i * 4 + 3] = (uniform() * 2 ** 32) >>> 0;
+    bits[i * 4 + 3] = (uniform.next() * 2 ** 32) >>> 0;
   }
   return { frame, points };
 }

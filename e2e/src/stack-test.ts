@@ -5,8 +5,8 @@ import { type Ros1Node, Ros1Peers } from '@farpoint/ros/testing/ros1';
 import { test as base } from '@playwright/test';
 import { OperatorPage } from './operator-page.ts';
 
-/** The built web app; `pnpm build` makes it. */
-export const webRoot = join(repositoryRoot, 'apps', 'webxr', 'dist');
+/** The web app, built with `window.farpoint`; `pnpm build` makes it. */
+export const webRoot = join(repositoryRoot, 'apps', 'webxr', 'dist-testing');
 
 /** Recorded clouds that lie beside the repository on some machines; tests that use them skip where they are absent. */
 export const cloudsFolder = join(repositoryRoot, '..', 'shared', 'data', 'clouds');

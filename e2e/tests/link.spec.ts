@@ -30,9 +30,12 @@ test('over an emulated link: points flow, each as late as the link has it, and n
     await stack.startRobot({ ...simulatedRobot, args: [...simulatedRobot.args, ...args] });
     const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
     await operator.expectPoints();
-    const { minRttMs, deliveryMs, packetsReceived } = await operator.stats();
+    // The clocks' offset is known to half of what the best round trip was late by: the first ones can be later than that.
+    await expect
+      .poll(async () => (await operator.stats()).deliveryMs?.p50)
+      .toBeGreaterThanOrEqual(ONE_WAY_MS);
+    const { minRttMs, packetsReceived } = await operator.stats();
     expect(minRttMs).toBeGreaterThanOrEqual(2 * ONE_WAY_MS);
-    expect(deliveryMs?.p50).toBeGreaterThanOrEqual(ONE_WAY_MS);
     expect(packetsReceived).toBeGreaterThan(100);
 
     // The robot drives over it too.

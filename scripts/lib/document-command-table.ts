@@ -39,7 +39,8 @@ const SYNTHETIC = {
   options: 'examples/synthetic_camera.py',
   because: 'runs until it is ended, and every test of it',
 } as const;
-const shm: Treatment = { refused: /^could not start: shm: /, also: [...ALONE, '--shm-wait-s', '0'] };
+const NO_PRODUCER = ['--shm-folder', '/dev/shm/farpoint-without-a-producer', '--shm-wait-s', '0'];
+const shm: Treatment = { refused: /^could not start: shm: /, also: [...ALONE, ...NO_PRODUCER] };
 
 export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   // The local stack, and the programs one by one.
@@ -81,10 +82,6 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'node signaling.mjs --host 0.0.0.0 --port 443 --tls-cert fullchain.pem --tls-key privkey.pem': {
     refused: /--tls-cert names a file that cannot be read: fullchain\.pem does not exist/,
     also: ['--host', '127.0.0.1', '--port', '0', '--no-reference'],
-  },
-  'sudo npx -y pnpm@12 netns-link --rate-mbps 8 --rtt-ms 60 --loss 0.02 -- bash': {
-    help: true,
-    because: 'needs root',
   },
   'npx -y pnpm@12 conformance signaling --robot ws://HOST:3001 --client ws://HOST:3002': { help: true },
   'npx -y pnpm@12 conformance robot --name ROBOT --client ws://HOST:3002': { help: true },
@@ -147,6 +144,9 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'npx -y pnpm@12 build': { because: 'builds for minutes' },
   'npx -y pnpm@12 build:native': { because: 'builds for minutes' },
   'npx -y pnpm@12 build:native dds': { because: 'builds for minutes' },
+  'npx -y pnpm@12 --filter @farpoint/operator --filter @farpoint/cloud-view pack --out %s.tgz': {
+    because: 'writes into the working tree',
+  },
   'pnpm build:native': { because: 'builds for minutes' },
   'pnpm build:wasm': { because: 'needs Rust' },
   'cargo fmt --all': { because: 'needs Rust' },
@@ -187,7 +187,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
         'ros1',
         'pictures',
       ],
-      ...['sim', 'recording', 'congestion', 'temporal', 'sampling --plot FILE.svg'],
+      ...['sim', 'recording', 'congestion', 'sampling --plot FILE.svg'],
     ].map((rest) => [`pnpm bench ${rest}`, MEASURES]),
   ),
   'npx -y pnpm@12 bench link --seconds 30 --plot link.svg': MEASURES,

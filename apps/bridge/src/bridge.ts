@@ -1,5 +1,5 @@
 /** The bridge put together: signaling on one side, every robot's connection in the middle, a page's three sockets on the other. */
-import { TokenBucket } from '@farpoint/congestion';
+
 import {
   decodeJson,
   encodeJson,
@@ -17,6 +17,7 @@ import {
 } from '@farpoint/protocol';
 import { MessageLine } from '@farpoint/reference-profile';
 import type { Logger } from '@farpoint/service';
+import { TokenBucket } from '@farpoint/timing';
 import type { AssembledFrame } from './frame-assembler.ts';
 import { LocalSocketServer, type Send } from './local-socket-server.ts';
 import { listMessage, PageAnnouncer } from './page-announcer.ts';

@@ -6,8 +6,9 @@ import {
   readKnownFrame,
   SocketPeer,
 } from '@farpoint/conformance';
-import { idealProfile, readCandidate, standIn, UdpLink } from '@farpoint/link-emulator';
+import { readCandidate, standIn, UdpLink } from '@farpoint/link-emulator';
 import { LocalStack } from '@farpoint/local-stack';
+import { idealProfile } from '@farpoint/network-sim';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import type { Bridge } from './bridge.ts';
 import { openBridge } from './testing/open-bridge.ts';

@@ -1,3 +1,4 @@
+import { POINTS_PER_PACKET } from '@farpoint/protocol';
 import { adminOptions, defineOption, defineProgram, type OptionValues, schema } from '@farpoint/service';
 import * as z from 'zod';
 import type { BridgeOptions } from './bridge.ts';
@@ -48,7 +49,7 @@ export const program = defineProgram({
       help: 'robots connected at once',
     }),
     maxPoints: defineOption({
-      schema: schema.integer({ min: 150, max: 4_194_304 }),
+      schema: schema.integer({ min: POINTS_PER_PACKET, max: 4_194_304 }),
       default: 500_000,
       argument: 'N',
       help: 'larger frames are refused',

@@ -1,13 +1,13 @@
 /** One robot's WebRTC connection. Whatever it sends or fails at concerns nobody but itself. */
 import { Buffer } from 'node:buffer';
-import { RateMeter } from '@farpoint/congestion';
 import { encodeBandwidth, encodeJsonBytes, referenceControlCodec, type Twist } from '@farpoint/protocol';
 import { createReferencePeerConnection, referenceChannels } from '@farpoint/reference-profile';
+import { BitRate, RateMeter } from '@farpoint/timing';
 import { prepareSockets, RemoteCandidates } from '@farpoint/webrtc';
 import type { RTCDataChannel, RTCPeerConnection } from 'werift';
 import { type AssembledFrame, FrameAssembler } from './frame-assembler.ts';
 import { ReceiverLimit } from './receiver-limit.ts';
-import { RtpReceiver } from './rtp/rtp-receiver.ts';
+import { RtpReceiver } from './rtp-receiver.ts';
 
 export interface RobotConnectionOptions {
   maxPoints: number;
@@ -218,7 +218,7 @@ export class RobotConnection {
     this.#events.onFrame(frame, this.#lastPacketMs);
     this.#received.update(this.#bytes, this.#options.now());
     const lossRate = 1 - frame.points / frame.expectedPoints;
-    const limit = this.#limit.onFrame(lossRate, this.#received.perSecond * 8);
+    const limit = this.#limit.onFrame(lossRate, BitRate.fromBytesPerSecond(this.#received.perSecond));
     if (this.#bandwidth.bufferedAmount <= MAX_REPORT_BACKLOG) {
       this.#send(this.#bandwidth, Buffer.from(encodeBandwidth(limit)));
     }

@@ -1,5 +1,5 @@
 /** Capacities over time as options. */
-import type { CapacityStep, Outage } from '@farpoint/link-emulator';
+import type { CapacityStep, Outage } from '@farpoint/network-sim';
 import * as z from 'zod';
 
 /** `10-15,30-36` in seconds, rising. */

@@ -1,4 +1,5 @@
-import { constantCapacity, idealProfile, monotonicMs, UdpLink } from '@farpoint/link-emulator';
+import { monotonicMs, UdpLink } from '@farpoint/link-emulator';
+import { constantCapacity, idealProfile } from '@farpoint/network-sim';
 import { afterEach, expect, test } from 'vitest';
 import { ZodError } from 'zod';
 import { control } from './control.ts';

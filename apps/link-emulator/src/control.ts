@@ -1,13 +1,6 @@
 /** What a parent process may say over Node's IPC channel while the link runs. */
-import {
-  type CapacitySpec,
-  constantCapacity,
-  type Direction,
-  directions,
-  type LinkProfile,
-  monotonicMs,
-  type UdpLink,
-} from '@farpoint/link-emulator';
+import { type Direction, directions, monotonicMs, type UdpLink } from '@farpoint/link-emulator';
+import { type CapacitySpec, constantCapacity, type LinkProfile } from '@farpoint/network-sim';
 import * as z from 'zod';
 
 const direction = z.enum(['up', 'down', 'both']);

@@ -1,5 +1,6 @@
 /** The link that the options describe. */
 import { readFileSync } from 'node:fs';
+import type { Direction, DirectionOptions } from '@farpoint/link-emulator';
 import {
   burstLossOf,
   CapacityError,
@@ -7,13 +8,11 @@ import {
   CbrFlow,
   type CrossFlow,
   constantCapacity,
-  type Direction,
-  type DirectionOptions,
   type LinkProfile,
   parseTrace,
   TcpFlow,
   unlimitedCapacity,
-} from '@farpoint/link-emulator';
+} from '@farpoint/network-sim';
 import { OptionsError } from '@farpoint/service';
 import type * as z from 'zod';
 import type { DirectionalKey, directional, LinkOptions } from './options.ts';
@@ -39,6 +38,7 @@ export function directionOf(options: LinkOptions, direction: Direction): Directi
     delayMs,
     jitterMs: value('jitterMs') ?? 0,
     jitterReorders: options.jitterReorders,
+    tailMs: 0,
     loss: value('loss') ?? 0,
     burstLoss: burst === 0 ? null : burstOf(burst, burstLength),
     reorder: { probability: value('reorder') ?? 0, extraMs: value('reorderMs') ?? 10 },

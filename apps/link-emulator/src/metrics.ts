@@ -1,4 +1,5 @@
-import { type Direction, dropReasons, type LinkBin, type UdpLink } from '@farpoint/link-emulator';
+import type { Direction, UdpLink } from '@farpoint/link-emulator';
+import { dropReasons, type LinkBin } from '@farpoint/network-sim';
 import { Counter, Gauge, type Registry } from '@farpoint/service';
 
 /** Sums of what the bins tell. `link` may only be asked once the program is up. */

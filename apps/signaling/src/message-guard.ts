@@ -1,5 +1,5 @@
-import { TokenBucket } from '@farpoint/congestion';
 import { decodeJson, type JsonCodec, type MessageData, ProtocolError } from '@farpoint/protocol';
+import { TokenBucket } from '@farpoint/timing';
 
 export interface MessageLimits {
   /** Longest accepted message, bytes. */

@@ -1,5 +1,5 @@
-import { TokenBucket } from '@farpoint/congestion';
 import { Counter, Gauge, Histogram, type Logger, type Registry } from '@farpoint/service';
+import { TokenBucket } from '@farpoint/timing';
 import type { Observer, RejectReason, Role } from './observer.ts';
 
 /** Worth a line in the log each: somebody tried what they may not. */

@@ -1,4 +1,4 @@
-import { TokenBucket } from '@farpoint/congestion';
+import { TokenBucket } from '@farpoint/timing';
 import type { RawData, WebSocket } from 'ws';
 import type { Pulse } from './heartbeat.ts';
 import type { Connection, Peer } from './peer.ts';

@@ -1,10 +1,9 @@
 import './ui/style.css';
+import { transformSupport } from '@farpoint/operator';
 import { App } from './app.ts';
-import { transformSupport } from './peer/encoded-transform.ts';
 import { readSettings } from './settings.ts';
 import { failureWords } from './status/words.ts';
 import { loadStored, pageOrigin } from './stored-settings.ts';
-import { installTestApi } from './test-hooks.ts';
 import { showFailure } from './ui/notice.ts';
 
 const settings = readSettings(new URLSearchParams(window.location.search), loadStored(), pageOrigin());
@@ -23,7 +22,9 @@ function start(): void {
   try {
     const app = new App(settings, transform);
     app.start();
-    installTestApi(app);
+    // Left out of the page that is deployed: `vite build --mode testing` makes one with it.
+    if (import.meta.env.MODE === 'testing')
+      void import('./testing/test-hooks.ts').then(({ installTestApi }) => installTestApi(app));
   } catch (error) {
     console.error(error);
     showFailure(failureWords.noWebGl2);

@@ -1,10 +1,9 @@
 /** What the page's surface (ui) sees of the page, and asks of it. */
-import type { CloudView } from './cloud/cloud-view.ts';
-import type { Driver } from './drive/driver.ts';
-import type { LatencyProbe } from './latency/latency-probe.ts';
-import type { PageLink } from './link/page-link.ts';
+import type { CloudView } from '@farpoint/cloud-view';
+import type { RobotClient } from '@farpoint/operator';
 import type { Settings } from './settings.ts';
 import type { PageStatistics } from './status/page-stats.ts';
+import type { SensorClouds } from './view/sensor-clouds.ts';
 import type { Stage } from './view/stage.ts';
 import type { VrSession } from './view/vr-session.ts';
 
@@ -12,15 +11,9 @@ export interface PageParts {
   readonly settings: Settings;
   readonly stage: Stage;
   readonly cloud: CloudView;
-  readonly link: PageLink;
-  readonly driver: Driver;
+  readonly clouds: SensorClouds;
+  readonly client: RobotClient;
   readonly stats: PageStatistics;
-  readonly latency: LatencyProbe;
   readonly vr: VrSession;
-  /** When points last came, page's clock, ms. */
-  readonly lastPointsMs: number;
-  /** The robot that is connected to, or will be once the present one stands. */
-  readonly chosenRobotId: string | null;
   choose(robotId: string): void;
-  leave(): void;
 }

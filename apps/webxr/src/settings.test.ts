@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { ownSignalingUrl, parseSignalingUrl, parseStored, readSettings } from './settings.ts';
+import { ownSignalingUrl, parseStored, readSettings } from './settings.ts';
 
 const served = { protocol: 'https:', hostname: 'x.org', host: 'x.org:8443', isDevServer: false };
 const dev = { protocol: 'http:', hostname: 'localhost', host: 'localhost:5173', isDevServer: true };
@@ -84,30 +84,6 @@ describe('a token goes only where it was given for', () => {
     expect(read('signaling=wss://elsewhere.org', stored).token).toBeUndefined();
     const newer = '{"token":"old","tokens":{"wss://x.org:8443":"new"}}';
     expect(read('', parseStored(newer, ownSignalingUrl(served))).token).toBe('new');
-  });
-});
-
-describe('parseSignalingUrl', () => {
-  test('accepts what people type', () => {
-    expect(parseSignalingUrl('x.org', true)).toEqual({ url: 'wss://x.org/operator' });
-    expect(parseSignalingUrl('x.org:3000', false)).toEqual({ url: 'ws://x.org:3000/operator' });
-    expect(parseSignalingUrl('https://x.org/', true)).toEqual({ url: 'wss://x.org/operator' });
-    expect(parseSignalingUrl('ws://127.0.0.1:3000', true)).toEqual({ url: 'ws://127.0.0.1:3000/operator' });
-  });
-
-  test('says why an unsafe address cannot be used', () => {
-    expect(parseSignalingUrl('ws://x.org', true)).toEqual({
-      fault: 'a page served by https can only use a wss: signaling address',
-    });
-  });
-
-  test('never throws', () => {
-    fc.assert(
-      fc.property(fc.string(), fc.boolean(), (text, secure) => {
-        parseSignalingUrl(text, secure);
-      }),
-      { seed: 1 },
-    );
   });
 });
 

@@ -1,7 +1,7 @@
 /** What the page is told by its address and what it remembers: checked here, trusted elsewhere. */
 
+import { type BridgeAddress, parseBridge, parseSignalingUrl } from '@farpoint/operator';
 import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
-import { type BridgeAddress, parseBridge } from './bridge/bridge-settings.ts';
 import { parseTokens, type SignalingTokens, tokenOrigin, withToken } from './signaling-tokens.ts';
 
 /** What the browser keeps between visits. */
@@ -87,25 +87,6 @@ function parseEvery(text: string | null): number | null {
   return text !== null && Number.isInteger(every) && every >= 1 && every <= 1024 ? every : null;
 }
 
-/** Accepts `host`, `host:port`, http, https, ws and wss addresses; adds what is missing. */
-export function parseSignalingUrl(text: string, securePage: boolean): { url: string } | { fault: string } {
-  const withScheme = /^[a-z]+:\/\//i.test(text) ? text : `${securePage ? 'wss' : 'ws'}://${text}`;
-  let url: URL;
-  try {
-    url = new URL(withScheme.replace(/^http/i, 'ws'));
-  } catch {
-    return { fault: `“${text}” is not an address` };
-  }
-  if (url.protocol !== 'ws:' && url.protocol !== 'wss:')
-    return { fault: `“${text}” is no WebSocket address` };
-  if (securePage && url.protocol === 'ws:' && !isLoopback(url.hostname)) {
-    return { fault: 'a page served by https can only use a wss: signaling address' };
-  }
-  if (url.pathname === '' || url.pathname === '/') url.pathname = '/operator';
-  url.hash = '';
-  return { url: url.href };
-}
-
 /**
  * What of local storage can be used. Pages once kept a single token, and did not say for which service: it is taken for that
  * of `ownUrl` alone.
@@ -142,10 +123,6 @@ function parseCanvas(text: string | null): Settings['canvas'] {
   const [width, height] = [Number(match[1]), Number(match[2])];
   if (width < 16 || height < 16 || width > MAX_CANVAS || height > MAX_CANVAS) return null;
   return { width, height };
-}
-
-function isLoopback(hostname: string): boolean {
-  return hostname === 'localhost' || hostname === '127.0.0.1' || hostname === '[::1]';
 }
 
 function nonEmpty(text: string | null | undefined): string | undefined {

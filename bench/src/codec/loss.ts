@@ -1,6 +1,6 @@
 /** What is left of a frame when packets are lost. */
 
-import { seededRandom } from '@farpoint/congestion/sim';
+import { Random } from '@farpoint/network-sim';
 import type { BenchCloud, CodecRun } from './adapter.ts';
 import { verify } from './verify.ts';
 
@@ -69,11 +69,11 @@ function pointsOfPackets(run: CodecRun, packets: number): number[] {
 
 /** The packets that come, in a random order. */
 function survivors(packets: number, lossRate: number, seed: number): number[] {
-  const random = seededRandom(seed);
+  const random = new Random(seed, 0);
   const come: number[] = [];
-  for (let packet = 0; packet < packets; packet++) if (random() >= lossRate) come.push(packet);
+  for (let packet = 0; packet < packets; packet++) if (random.next() >= lossRate) come.push(packet);
   for (let i = come.length - 1; i > 0; i--) {
-    const j = Math.floor(random() * (i + 1));
+    const j = Math.floor(random.next() * (i + 1));
     [come[i], come[j]] = [come[j] as number, come[i] as number];
   }
   return come;

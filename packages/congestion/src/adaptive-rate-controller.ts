@@ -1,3 +1,4 @@
+import type { PacketResult } from '@farpoint/rtp';
 import { Competition } from './competition.ts';
 import { DelayLaw, growth, noiseAllowanceMs, toleratedQueueMs } from './delay-law.ts';
 import { InFlight } from './in-flight.ts';
@@ -7,7 +8,6 @@ import { ProbePlan } from './probe-plan.ts';
 import { ProbeTester } from './probe-tester.ts';
 import {
   emptyDecision,
-  type PacketResult,
   type RateController,
   type RateDecision,
   type RateSnapshot,

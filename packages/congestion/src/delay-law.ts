@@ -1,6 +1,8 @@
+import { BitRate } from '@farpoint/timing';
 import type { PathObservation, PathObserver } from './path-observer.ts';
 
-const PACKET_BITS = 10_000;
+/** Of a typical packet on the wire. */
+const PACKET_BYTES = 1250;
 /** Of what got through while the queue stood, the part that is planned for. */
 const KEEP = 0.96;
 /** Over how long the rate is told: of a queue's first message, and of later ones, ms. */
@@ -28,7 +30,7 @@ export function toleratedQueueMs(bitsPerSecond: number): number {
 
 /** A packet's own time on a link of this rate, ms. */
 export function packetMs(bitsPerSecond: number): number {
-  return (PACKET_BITS * 1000) / bitsPerSecond;
+  return BitRate.msFor(bitsPerSecond, PACKET_BYTES);
 }
 
 /** How much of the delay may be noise, ms. */

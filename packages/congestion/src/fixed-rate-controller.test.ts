@@ -1,7 +1,7 @@
+import type { PacketResult } from '@farpoint/rtp';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { FixedRateController } from './fixed-rate-controller.ts';
-import type { PacketResult } from './rate-controller.ts';
 
 const MBIT = 1_000_000;
 

@@ -1,6 +1,6 @@
+import type { PacketResult } from '@farpoint/rtp';
 import {
   emptyDecision,
-  type PacketResult,
   type RateController,
   type RateDecision,
   type RateSnapshot,

@@ -1,3 +1,5 @@
+import { SequenceNumber } from '@farpoint/rtp';
+
 /**
  * What has been sent and not been spoken of: sums of bytes by transport-wide sequence number, in preallocated rings. A
  * packet counts as answered for as soon as feedback names it or a later one, so that a lost feedback message does not
@@ -22,9 +24,8 @@ export class InFlight {
 
   onAnswered(transportSequence: number): void {
     const newest = this.#newestAnswered;
-    // 16 bits that wrap: less than half the circle ahead is newer.
-    if (newest >= 0 && ((transportSequence - newest) & 0xffff) >= 0x8000) return;
-    this.#newestAnswered = transportSequence & 0xffff;
+    if (newest >= 0 && SequenceNumber.ahead(transportSequence, newest) < 0) return;
+    this.#newestAnswered = SequenceNumber.of(transportSequence);
     this.#answered = Math.max(this.#answered, this.#sums[transportSequence & InFlight.#MASK] as number);
   }
 

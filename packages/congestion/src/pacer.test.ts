@@ -219,3 +219,38 @@ test('any frames, any wake-ups: every packet once and in order or its frame drop
     { seed: 7, numRuns: 500 },
   );
 });
+
+describe('lanes', () => {
+  const inLane = (id: number, packets: number, lane: number) => ({ ...frame(id, packets), lane });
+
+  test('a lower lane’s frame goes between the packets of a higher one’s, which goes on afterwards', () => {
+    const pacer = exact(10 * MBIT);
+    pacer.enqueue(inLane(1, 4, 1), 0);
+    const sent: number[] = [];
+    for (let t = 0; pacer.nextDueMs !== null; t++) {
+      if (t === 2) expect(pacer.enqueue(inLane(2, 2, 0), t)).toEqual([]);
+      for (let run = pacer.due(t); run !== null; run = pacer.due(t)) sent.push(run.frame.id);
+    }
+    expect(sent).toEqual([1, 1, 2, 2, 1, 1]);
+  });
+
+  test('a frame gives way to newer ones of its own lane alone', () => {
+    const pacer = exact(10 * MBIT);
+    pacer.enqueue(inLane(1, 4, 1), 0);
+    expect(pacer.enqueue(inLane(2, 4, 0), 0)).toEqual([]);
+    expect(pacer.enqueue(inLane(3, 4, 0), 0)).toMatchObject([{ frame: { id: 2 }, reason: 'superseded' }]);
+    expect(pacer.enqueue(inLane(4, 4, 1), 0)).toMatchObject([{ frame: { id: 1 }, reason: 'superseded' }]);
+    expect(new Set(drain(pacer, 0).map(([id]) => id))).toEqual(new Set([3, 4]));
+  });
+
+  test('all of them share one rate, and clearing empties all', () => {
+    const pacer = exact(10 * MBIT);
+    pacer.enqueue(inLane(1, 3, 1), 0);
+    pacer.enqueue(inLane(2, 3, 0), 0);
+    expect(drain(pacer, 0).map(([, , t]) => t)).toEqual([0, 1, 2, 3, 4, 5]);
+    pacer.enqueue(inLane(3, 3, 1), 10);
+    pacer.enqueue(inLane(4, 3, 0), 10);
+    expect(pacer.clear()).toHaveLength(2);
+    expect(pacer.nextDueMs).toBeNull();
+  });
+});

@@ -1,3 +1,5 @@
+import { BitRate } from '@farpoint/timing';
+
 /** A frame to send: `packets` packets, `bytes` in all on the wire, all but the last of one size. */
 export interface PacedFrame {
   packets: number;
@@ -6,6 +8,8 @@ export interface PacedFrame {
   minSpanMs?: number;
   /** Begun this long ago, ms, it gives way to a newer frame; the pacer's `maxFrameMs` where absent. */
   maxSpanMs?: number;
+  /** Lower goes first; 0 where absent. */
+  lane?: number;
 }
 
 /** Why a frame, or the rest of it, is not sent. */
@@ -49,16 +53,31 @@ export interface PacerOptions {
  */
 const MIN_BITS_PER_SECOND = 100_000;
 
+/** A frame that has been begun. */
+interface Sending<T> {
+  frame: T;
+  sent: number;
+  startMs: number;
+}
+
+/** The frames of one source. */
+interface Lane<T> {
+  number: number;
+  waiting: { frame: T; sinceMs: number }[];
+  current: Sending<T> | null;
+}
+
 /**
  * Says when the packets of frames may go, evenly over time instead of in one burst per frame. It owns no timer and no
- * packet: ask `due` until it has nothing more, then again at `nextDueMs`.
+ * packet: ask `due` until it has nothing more, then again at `nextDueMs`. Frames of several sources go in lanes: each frame
+ * gives way to newer ones of its own lane alone, and the packets of a lower lane go first.
  */
 export class PacketPacer<T extends PacedFrame> {
   readonly #options: Required<PacerOptions>;
-  readonly #waiting: { frame: T; sinceMs: number }[] = [];
+  /** By lane number; in the order of it. */
+  readonly #lanes: Lane<T>[] = [];
   readonly #drops: Record<FrameDropReason, number> = { superseded: 0, overdue: 0, cleared: 0 };
   #bitsPerSecond: number;
-  #current: { frame: T; sent: number; startMs: number } | null = null;
   /** Before this time the next packet must not go. */
   #nextMs = Number.NEGATIVE_INFINITY;
 
@@ -86,15 +105,16 @@ export class PacketPacer<T extends PacedFrame> {
   /** Takes a frame over. @returns the frames that have to give way to it */
   enqueue(frame: T, nowMs: number): DroppedFrame<T>[] {
     const dropped: DroppedFrame<T>[] = [];
-    const current = this.#current;
+    const lane = this.#laneOf(frame);
+    const { current, waiting } = lane;
     const maxSpanMs = current?.frame.maxSpanMs ?? this.#options.maxFrameMs;
     if (current !== null && nowMs - current.startMs >= maxSpanMs) {
       dropped.push(this.#dropped(current.frame, 'overdue', current.frame.packets - current.sent));
-      this.#current = null;
+      lane.current = null;
     }
-    this.#waiting.push({ frame, sinceMs: nowMs });
-    while (this.#waiting.length > this.#options.maxWaitingFrames) {
-      const oldest = (this.#waiting.shift() as { frame: T }).frame;
+    waiting.push({ frame, sinceMs: nowMs });
+    while (waiting.length > this.#options.maxWaitingFrames) {
+      const oldest = (waiting.shift() as { frame: T }).frame;
       dropped.push(this.#dropped(oldest, 'superseded', oldest.packets));
     }
     return dropped;
@@ -103,29 +123,39 @@ export class PacketPacer<T extends PacedFrame> {
   /** Drops everything, as when the stream stops. */
   clear(): DroppedFrame<T>[] {
     const dropped: DroppedFrame<T>[] = [];
-    if (this.#current !== null) {
-      const { frame, sent } = this.#current;
-      dropped.push(this.#dropped(frame, 'cleared', frame.packets - sent));
-      this.#current = null;
+    for (const lane of this.#lanes) {
+      if (lane.current !== null) {
+        const { frame, sent } = lane.current;
+        dropped.push(this.#dropped(frame, 'cleared', frame.packets - sent));
+        lane.current = null;
+      }
+      for (const { frame } of lane.waiting.splice(0))
+        dropped.push(this.#dropped(frame, 'cleared', frame.packets));
     }
-    for (const { frame } of this.#waiting.splice(0))
-      dropped.push(this.#dropped(frame, 'cleared', frame.packets));
     return dropped;
   }
 
   /** When `due` has something next, maybe past; `null` where nothing waits. */
   get nextDueMs(): number | null {
-    if (this.#current !== null) return this.#nextMs;
-    const next = this.#waiting[0];
-    // What was not sent while there was nothing to send is not made up for.
-    return next === undefined ? null : Math.max(this.#nextMs, next.sinceMs);
+    let next: number | null = null;
+    for (const { current, waiting } of this.#lanes) {
+      if (current !== null) return this.#nextMs;
+      const first = waiting[0];
+      // What was not sent while there was nothing to send is not made up for.
+      if (first !== undefined)
+        next = Math.min(next ?? Number.POSITIVE_INFINITY, Math.max(this.#nextMs, first.sinceMs));
+    }
+    return next;
   }
 
   /** The packets that may go now, of one frame; `null` where none may. Ask again until `null`. */
   due(nowMs: number): PacedRun<T> | null {
     const dueMs = this.nextDueMs;
     if (dueMs === null || dueMs > nowMs) return null;
-    const current = this.#current ?? this.#begin(nowMs);
+    const lane = this.#lanes.find(
+      ({ current, waiting }) => current !== null || waiting.length > 0,
+    ) as Lane<T>;
+    const current = lane.current ?? begin(lane, nowMs);
     this.#nextMs = Math.max(dueMs, nowMs - this.#options.catchUpMs);
     const { frame } = current;
     const spacingMs = this.#spacingMs(frame);
@@ -138,20 +168,22 @@ export class PacketPacer<T extends PacedFrame> {
     }
     current.sent += count;
     const last = current.sent === frame.packets;
-    if (last) this.#current = null;
+    if (last) lane.current = null;
     return { frame, first, count, last };
   }
 
-  #begin(nowMs: number): { frame: T; sent: number; startMs: number } {
-    const { frame } = this.#waiting.shift() as { frame: T };
-    this.#current = { frame, sent: 0, startMs: nowMs };
-    return this.#current;
+  #laneOf({ lane: number = 0 }: T): Lane<T> {
+    const known = this.#lanes.find((lane) => lane.number === number);
+    if (known !== undefined) return known;
+    const lane: Lane<T> = { number, waiting: [], current: null };
+    this.#lanes.push(lane);
+    this.#lanes.sort((a, b) => a.number - b.number);
+    return lane;
   }
 
   #spacingMs(frame: T): number {
     const { factor } = this.#options;
-    const bits = frame.bytes * 8;
-    const atRateMs = (bits / (this.#bitsPerSecond * factor)) * 1000;
+    const atRateMs = BitRate.msFor(this.#bitsPerSecond * factor, frame.bytes);
     return Math.max(atRateMs, frame.minSpanMs ?? 0) / frame.packets;
   }
 
@@ -159,4 +191,10 @@ export class PacketPacer<T extends PacedFrame> {
     this.#drops[reason]++;
     return { frame, reason, packets };
   }
+}
+
+function begin<T>(lane: Lane<T>, nowMs: number): Sending<T> {
+  const { frame } = lane.waiting.shift() as { frame: T };
+  lane.current = { frame, sent: 0, startMs: nowMs };
+  return lane.current;
 }

@@ -1,6 +1,6 @@
+import type { PacketResult } from '@farpoint/rtp';
 import { expect, test } from 'vitest';
 import { PathObserver } from './path-observer.ts';
-import type { PacketResult } from './rate-controller.ts';
 
 /** Packets 1 ms apart, each delayed by what `delayMs` says of its time of sending. */
 function message(

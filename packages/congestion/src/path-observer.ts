@@ -1,6 +1,6 @@
-import type { PacketResult } from './rate-controller.ts';
+import { type PacketResult, SequenceNumber } from '@farpoint/rtp';
+import { WindowedMinimum } from '@farpoint/timing';
 import { SettledDelay } from './settled-delay.ts';
-import { WindowedMinimum } from './windowed-minimum.ts';
 
 /** One feedback message, condensed. Overwritten by the next. */
 export interface PathObservation {
@@ -147,7 +147,7 @@ export class PathObserver {
     let newestArrivalMs = Number.NEGATIVE_INFINITY;
     let rttMs = 0;
     const first = results[0]?.transportSequence ?? 0;
-    const gap = this.#newestSequence < 0 || ((first - this.#newestSequence) & 0xffff) !== 1;
+    const gap = this.#newestSequence < 0 || SequenceNumber.ahead(first, this.#newestSequence) !== 1;
     this.#newestSequence = results[results.length - 1]?.transportSequence ?? this.#newestSequence;
     for (const { arrivalUs, sentMs, bytes } of results) {
       if (sentMs < o.oldestSentMs) o.oldestSentMs = sentMs;

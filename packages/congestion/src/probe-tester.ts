@@ -1,5 +1,6 @@
+import type { PacketResult } from '@farpoint/rtp';
 import type { InFlight } from './in-flight.ts';
-import type { PacketResult, ProbeRequest } from './rate-controller.ts';
+import type { ProbeRequest } from './rate-controller.ts';
 
 export interface ProbeOutcome {
   /** What the train was sent at, as measured, bit/s. */

@@ -1,3 +1,5 @@
+import type { PacketResult } from '@farpoint/rtp';
+
 /**
  * What a rate controller is told and what it answers: when each packet left and how big it was, when it arrived or that it
  * did not, the receiver's own limit, and a regular tick. One controller serves one operator's path.
@@ -11,7 +13,7 @@ export interface RateController {
    * @param probeCluster the `clusterId` of the probe it was sent for; 0 or absent for none
    */
   onPacketSent(transportSequence: number, bytes: number, nowMs: number, probeCluster?: number): void;
-  /** One transport-wide feedback message, joined with what was sent (transport-feedback-adapter.ts), in sending order. */
+  /** One transport-wide feedback message, joined with what was sent (`TransportFeedbackAdapter`), in sending order. */
   onFeedback(results: readonly PacketResult[], nowMs: number): void;
   /** The receiving application's sums; a way to learn of loss where transport-wide feedback is missing. */
   onReceiverReport(report: ReceiverSums, nowMs: number): void;
@@ -25,15 +27,6 @@ export interface RateController {
   decision(nowMs: number): Readonly<RateDecision>;
   /** For metrics and plots. A new object. */
   snapshot(nowMs: number): RateSnapshot;
-}
-
-/** What became of one packet. */
-export interface PacketResult {
-  transportSequence: number;
-  bytes: number;
-  sentMs: number;
-  /** The receiver's clock, µs, continuous over feedback messages; only differences mean something. `null`: lost. */
-  arrivalUs: number | null;
 }
 
 /** Sums since the session began. */

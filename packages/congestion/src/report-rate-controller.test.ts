@@ -8,11 +8,11 @@ import {
   runScenario,
   type Scenario,
   utilisation,
-} from './sim/index.ts';
+} from './testing/index.ts';
 
 const M = 1e6;
 const LINK = 41.44 * M;
-const flat = (bitsPerSecond: number) => [{ fromMs: 0, bitsPerSecond }];
+const flat = (bitsPerSecond: number) => [{ atMs: 0, mbps: bitsPerSecond / M }];
 /** RFC 3550 spreads reports over 0.5 to 1.5 of their interval. */
 const RTCP = [{ reports: true, probes: false, feedbackMs: [500, 1500] as const }];
 
@@ -59,11 +59,7 @@ describe('with a report a second', () => {
 
   test('a link that falls to a fifth is followed within seconds, and taken again', () => {
     const outcome = run({
-      capacity: [
-        ...flat(LINK),
-        { fromMs: 20_000, bitsPerSecond: 8 * M },
-        { fromMs: 40_000, bitsPerSecond: LINK },
-      ],
+      capacity: [...flat(LINK), { atMs: 20_000, mbps: 8 }, { atMs: 40_000, mbps: LINK / M }],
     });
     expect(median(outcome, 25_000, 40_000)).toBeLessThan(40);
     expect(losses(outcome.media[0]!, 25_000, 40_000).overflow).toBeLessThan(0.03);

@@ -1,13 +1,13 @@
+import type { PacketResult } from '@farpoint/rtp';
+import { WindowedMinimum } from '@farpoint/timing';
 import { LossJudge } from './loss-judge.ts';
 import {
   emptyDecision,
-  type PacketResult,
   type RateController,
   type RateDecision,
   type RateSnapshot,
   type ReceiverSums,
 } from './rate-controller.ts';
-import { WindowedMinimum } from './windowed-minimum.ts';
 
 export interface ReportRateOptions {
   startBitsPerSecond?: number;

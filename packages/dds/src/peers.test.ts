@@ -1,11 +1,12 @@
 /** The graph beside other makers' DDS: Fast DDS and Python's. */
 import { createSocket } from 'node:dgram';
 import { readFileSync } from 'node:fs';
+import { Random } from '@farpoint/network-sim/random';
 import { decoderOf, RosFault, SENSOR_QOS, VELOCITY_QOS, velocityWriter } from '@farpoint/ros';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { isAvailable } from './addon.ts';
 import { DdsGraph } from './dds-graph.ts';
-import { ADDON_SUITE, cdr, randomOf, testDomain, until } from './testing/helpers.ts';
+import { ADDON_SUITE, cdr, testDomain, until } from './testing/helpers.ts';
 import { CLOUD_QOS, type MarkedCloud, readMarkedCloud } from './testing/marked-cloud.ts';
 import { findPeer, PEER_REMEDY, Peer, type PeerKind, type PeerOptions } from './testing/peers.ts';
 
@@ -174,7 +175,7 @@ for (const kind of kinds) {
     });
 
     it('messages of bytes at random are told, or handed over as they came', async () => {
-      const random = randomOf(20261121);
+      const random = new Random(20261121, 0);
       const heard: string[] = [];
       const probes: Uint8Array[] = [];
       graph.subscribe(
@@ -189,9 +190,9 @@ for (const kind of kinds) {
       const sent = Array.from({ length: 400 }, (_, i) => {
         // Small ones, and those that need fragments; all of representations that there are. Without a whole header none is
         // a message: what becomes of it, and of what shares its packet, each DDS has its own idea of.
-        const size = 4 + Math.floor(random() * (i % 10 === 0 ? 200_000 : 64));
-        const bytes = Uint8Array.from({ length: size }, () => random() * 256);
-        bytes.set([0, [0, 1, 2, 3, 6, 7, 8, 9, 10, 11][Math.floor(random() * 10)] as number]);
+        const size = 4 + Math.floor(random.next() * (i % 10 === 0 ? 200_000 : 64));
+        const bytes = Uint8Array.from({ length: size }, () => random.next() * 256);
+        bytes.set([0, [0, 1, 2, 3, 6, 7, 8, 9, 10, 11][Math.floor(random.next() * 10)] as number]);
         return bytes;
       });
       const sound = sent.filter((bytes) => [0, 1, 6, 7].includes(bytes[1] ?? 0));
@@ -235,16 +236,22 @@ for (const kind of kinds) {
 
     it('packets of bytes at random do no harm', async () => {
       const clouds = hearClouds(64);
-      const random = randomOf(7);
+      const random = new Random(7, 0);
       const socket = createSocket('udp4');
       const port = 7400 + 250 * domain;
       for (let i = 0; i < 3000; i++) {
-        const packet = Uint8Array.from({ length: 24 + Math.floor(random() * 300) }, () => random() * 256);
+        const packet = Uint8Array.from(
+          { length: 24 + Math.floor(random.next() * 300) },
+          () => random.next() * 256,
+        );
         // A header that is right, of RTPS 2.3 and CycloneDDS, then a submessage of a kind that there is.
         packet.set([...Buffer.from('RTPS'), 2, 3, 1, 16]);
-        packet.set([[0x06, 0x07, 0x08, 0x09, 0x0e, 0x15, 0x16][Math.floor(random() * 7)] as number, 1], 20);
+        packet.set(
+          [[0x06, 0x07, 0x08, 0x09, 0x0e, 0x15, 0x16][Math.floor(random.next() * 7)] as number, 1],
+          20,
+        );
         // Discovery and data of the first participants of the domain.
-        const to = port + 10 + Math.floor(random() * 6);
+        const to = port + 10 + Math.floor(random.next() * 6);
         await new Promise((resolve) => socket.send(packet, to, '127.0.0.1', resolve));
       }
       socket.close();

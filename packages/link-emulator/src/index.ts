@@ -1,15 +1,5 @@
 export * from './candidate.ts';
-export * from './capacity.ts';
-export * from './congestion-window.ts';
-export * from './cross-flow.ts';
 export * from './lateness.ts';
-export * from './link-model.ts';
-export * from './link-statistics.ts';
-export { type BurstLoss, burstLossOf } from './loss.ts';
-export * from './profile.ts';
 export * from './signaling-interposer.ts';
 export * from './signaling-messages.ts';
-export * from './tc.ts';
-export * from './tcp-flow.ts';
-export * from './trace.ts';
 export * from './udp-link.ts';

@@ -1,7 +1,7 @@
 import { type LocalStack, LocalStack as Stack } from '@farpoint/local-stack';
+import { idealProfile } from '@farpoint/network-sim';
 import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
 import { WebSocket } from 'ws';
-import { idealProfile } from './profile.ts';
 import { SignalingInterposer } from './signaling-interposer.ts';
 import { UdpLink } from './udp-link.ts';
 

@@ -1,10 +1,8 @@
 import { createSocket, type RemoteInfo, type Socket } from 'node:dgram';
 import { once } from 'node:events';
+import { constantCapacity, idealProfile, type LinkBin } from '@farpoint/network-sim';
 import { afterEach, expect, test } from 'vitest';
 import type { Endpoint } from './candidate.ts';
-import { constantCapacity } from './capacity.ts';
-import type { LinkBin } from './link-statistics.ts';
-import { idealProfile } from './profile.ts';
 import { type Direction, UdpLink, type UdpLinkOptions } from './udp-link.ts';
 
 const closers: (() => void)[] = [];

@@ -1,13 +1,10 @@
 import type { RemoteInfo } from 'node:dgram';
 import { isIP } from 'node:net';
 import { networkInterfaces } from 'node:os';
+import { type CrossFlow, type LinkBin, LinkModel, type LinkProfile } from '@farpoint/network-sim';
 import type { Endpoint } from './candidate.ts';
-import type { CrossFlow } from './cross-flow.ts';
 import { ForwardPort } from './forward-port.ts';
 import { LatenessHistogram } from './lateness.ts';
-import { LinkModel } from './link-model.ts';
-import type { LinkBin } from './link-statistics.ts';
-import type { LinkProfile } from './profile.ts';
 import type { Side } from './signaling-messages.ts';
 
 /** From the robot, and to it. */

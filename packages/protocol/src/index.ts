@@ -2,6 +2,7 @@ export * from './bandwidth.ts';
 export * from './channels.ts';
 export * from './clock-offset.ts';
 export * from './cloud-format.ts';
+export * from './cloud-media.ts';
 export * from './cloud-payload.ts';
 export * from './colour664.ts';
 export * from './control.ts';

@@ -14,6 +14,8 @@ import { type CloudFormat, cloudFormatNumber, cloudFormatOf } from './cloud-form
 import type { Pose } from './geometry.ts';
 
 export const PLACEMENT_BYTES = 28;
+/** More cloud sensors than this no robot announces. */
+export const MAX_SENSORS = 8;
 export const FLAG_LATENCY_TEST = 1;
 export const FLAG_SATURATED = 2;
 

@@ -7,6 +7,7 @@ import { type CommandRejection, commandRejections } from './control.ts';
 import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
+import { MAX_SENSORS } from './placement.ts';
 
 /** What the robot allows. Nothing on the wire raises any of it. */
 export interface DriveLimits {
@@ -77,12 +78,23 @@ export interface CloudStream {
   format: Exclude<CloudFormat, 'points64'>;
   /** The format's own stream header, base64. */
   header: string;
+  /** Whose clouds; left out, those of sensor 0. */
+  sensor?: number | undefined;
 }
 
 /** The robot's cameras whose pictures it can send; a camera's place in the list is its number. Sent after the welcome. */
 export interface Cameras {
   type: 'cameras';
   cameras: { name: string }[];
+}
+
+/**
+ * The sensors whose clouds the robot can send; a sensor's place in the list is its number in the placement. Sent after the
+ * welcome by a robot that has more than one.
+ */
+export interface Sensors {
+  type: 'sensors';
+  sensors: { name: string }[];
 }
 
 /** A message of the operator that the robot could not use, other than a command. */
@@ -99,6 +111,7 @@ export type RobotSessionMessage =
   | LatencyFrame
   | CloudStream
   | Cameras
+  | Sensors
   | SessionFault;
 
 /** Asks to drive. `take` asks to take over from another operator; the robot's policy decides. */
@@ -132,6 +145,12 @@ export interface Pictures {
   cameras: number[];
 }
 
+/** Whose clouds the operator wants from now on, by number. Until it has said so it gets those of sensor 0. */
+export interface WantedSensors {
+  type: 'sensors';
+  sensors: number[];
+}
+
 /** What came of a latency test, for the robot's recording. */
 export interface LatencyMeasured {
   type: 'latencyMeasured';
@@ -150,11 +169,16 @@ export type OperatorSessionMessage =
   | StreamRequest
   | CloudFormats
   | Pictures
+  | WantedSensors
   | LatencyMeasured;
 
 export const PROTOCOL_VERSION = 1;
 
 const positive = z.number().positive();
+const sensorSchema = z
+  .int()
+  .min(0)
+  .max(MAX_SENSORS - 1);
 /** A palette of 256 colours with its tables is 2,210 bytes. */
 const MAX_STREAM_HEADER_BASE64 = 3200;
 /** A test that takes longer has failed. */
@@ -211,10 +235,15 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
       type: z.literal('cloudStream'),
       format: z.enum(['organised', 'unorganised']),
       header: z.base64().min(1).max(MAX_STREAM_HEADER_BASE64),
+      sensor: sensorSchema.optional(),
     }),
     z.strictObject({
       type: z.literal('cameras'),
       cameras: z.array(z.strictObject({ name: displayNameSchema })).max(MAX_CAMERAS),
+    }),
+    z.strictObject({
+      type: z.literal('sensors'),
+      sensors: z.array(z.strictObject({ name: displayNameSchema })).max(MAX_SENSORS),
     }),
     z.strictObject({ type: z.literal('fault'), message: z.string().max(512) }),
   ]),
@@ -243,6 +272,7 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
         )
         .max(MAX_CAMERAS),
     }),
+    z.strictObject({ type: z.literal('sensors'), sensors: z.array(sensorSchema).max(MAX_SENSORS) }),
     z.strictObject({
       type: z.literal('latencyMeasured'),
       id: uint32Schema,

@@ -1,27 +1,12 @@
 import type { Battery, Pose, Twist } from '@farpoint/protocol';
-import { type CloudAxes, PointCloud2Decoder, pointCloud2Schema, stampNs, WorldState } from '@farpoint/ros';
+import { PointCloud2Decoder, pointCloud2Schema, stampNs, WorldState } from '@farpoint/ros';
 import { type CloudStream, describeClouds } from './cloud-stream.ts';
 import { codeOf, detailOf, RecordingError } from './errors.ts';
 import { openRecording } from './open-recording.ts';
+import type { PlayOptions } from './play-options.ts';
 import { type PlayClock, PlayTimeline } from './play-timeline.ts';
 import { PREROLL_NS, readAhead } from './read-ahead.ts';
 import type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
-
-export interface PlayOptions {
-  /** An MCAP file or a ROS 1 bag. */
-  path: string;
-  /** Of the clouds; `null`: the topic with most clouds. */
-  topic: string | null;
-  /** 1 as it was recorded, 2 twice as fast. */
-  rate: number;
-  /** Where to begin, s after the first message. */
-  fromS: number;
-  atEnd: 'repeat' | 'stop';
-  /** `auto`: optical where the frame's name says so (REP-103), else body. */
-  axes: CloudAxes | 'auto';
-  /** Topics whose messages are told at their times, beside the clouds; those that are not there are passed over. */
-  along?: readonly string[];
-}
 
 export interface PlayedCloud {
   count: number;

@@ -1,7 +1,8 @@
-export { CloudPlayer, type PlayedCloud, type PlayOptions } from './cloud-player.ts';
+export { CloudPlayer, type PlayedCloud } from './cloud-player.ts';
 export { CloudTap, type TapGrid, type TappedCloud, type TappedPackets } from './cloud-tap.ts';
 export { RecordingError, type RecordingErrorCode } from './errors.ts';
 export { openRecording } from './open-recording.ts';
+export type { PlayOptions } from './play-options.ts';
 export type { PlayClock } from './play-timeline.ts';
 export type { CloudKind, DropKind, RecorderOptions } from './recorder-messages.ts';
 export type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';

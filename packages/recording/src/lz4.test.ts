@@ -51,6 +51,13 @@ describe('decompressLz4', () => {
     expect(text(decompressLz4(both, 8))).toBe('storedok');
   });
 
+  it('reads on after a chunk that was damaged', () => {
+    const whole = frame([0x20, ...codes('ok')]);
+    expect(() => decompressLz4(whole.subarray(0, 9), 2)).toThrow(RecordingError);
+    expect(() => decompressLz4(Uint8Array.from(codes('no LZ4 at all')), 2)).toThrow(RecordingError);
+    expect(text(decompressLz4(whole, 2))).toBe('ok');
+  });
+
   it('refuses everything else with a typed error, and never writes beyond its size', () => {
     let errors = 0;
     const bytes = fc.array(fc.integer({ min: 0, max: 255 }), { maxLength: 60 });

@@ -1,4 +1,7 @@
-/** LZ4 frames (the lz4 project's frame format 1.6.4), to be read. Check values are not looked at: the recordings have their own. */
+/**
+ * Reads LZ4 frames (the lz4 project's frame format 1.6.4). Check values are not looked at: the recordings have their own. Why
+ * this is not a library's: docs/decisions/2026-11-22-own-lz4.md.
+ */
 import { RecordingError } from './errors.ts';
 
 const MAGIC = 0x184d2204;

@@ -1,6 +1,5 @@
 export * from './channels.ts';
 export * from './message-line.ts';
 export * from './peer-connection.ts';
-export * from './rtp-tap.ts';
 export * from './sdp-answer.ts';
 export * from './sdp-sections.ts';

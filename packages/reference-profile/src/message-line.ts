@@ -1,6 +1,7 @@
 /** A line to one of the reference system's signaling ports: JSON messages over a WebSocket that comes back for ever. */
-import { Reconnect } from '@farpoint/congestion';
+
 import { decodeJson, encodeJson, type JsonCodec, ProtocolError } from '@farpoint/protocol';
+import { Reconnect } from '@farpoint/timing';
 import { WebSocket } from 'ws';
 
 const MAX_BACKLOG_BYTES = 1_048_576;

@@ -1,3 +1,4 @@
+import { REFERENCE_MEDIA } from '@farpoint/protocol';
 import { type ConnectionGuardEvents, guardConnection } from '@farpoint/webrtc';
 import {
   RTCPeerConnection,
@@ -9,11 +10,6 @@ import {
   useTransportWideCC,
   useTWCC,
 } from 'werift';
-
-export const REFERENCE_PAYLOAD_TYPE = 5;
-/** Of the one header extension, transport-wide-cc-01. */
-export const REFERENCE_EXTENSION_ID = 1;
-export const REFERENCE_CLOCK_RATE = 90_000;
 
 export interface ReferencePeerOptions {
   /** None where left out. */
@@ -42,9 +38,9 @@ export function createReferencePeerConnection(
       audio: [],
       video: [
         new RTCRtpCodecParameters({
-          mimeType: 'video/pcm',
-          clockRate: REFERENCE_CLOCK_RATE,
-          payloadType: REFERENCE_PAYLOAD_TYPE,
+          mimeType: REFERENCE_MEDIA.mimeType,
+          clockRate: REFERENCE_MEDIA.clockRate,
+          payloadType: REFERENCE_MEDIA.payloadType,
           rtcpFeedback: [useREMB(), useFIR(), useNACK(), usePLI(), useTWCC()],
         }),
       ],

@@ -1,5 +1,5 @@
 /** Whether an SDP answer belongs to an offer of the reference profile (RFC 3264 §6). Text in, reason out. */
-import { REFERENCE_PAYLOAD_TYPE } from './peer-connection.ts';
+import { REFERENCE_MEDIA } from '@farpoint/protocol';
 import { sdpLines, sdpSections } from './sdp-sections.ts';
 
 export type AnswerMisfit =
@@ -15,7 +15,7 @@ export function answerMisfit(offer: string, answer: string): AnswerMisfit | null
   if (kinds(offer).join() !== kinds(answer).join()) return 'other-m-lines';
   const video = sdpSections(answer).find(({ media }) => media.startsWith('video '));
   const [, port, , ...types] = video?.media.split(' ') ?? [];
-  if (port === '0' || !types.includes(String(REFERENCE_PAYLOAD_TYPE))) return 'no-video';
+  if (port === '0' || !types.includes(String(REFERENCE_MEDIA.payloadType))) return 'no-video';
   const lines = sdpLines(answer);
   const hasTransport = TRANSPORT.every((start) => lines.some((line) => line.startsWith(start)));
   return hasTransport ? null : 'no-transport';

@@ -1,4 +1,3 @@
-import { TokenBucket } from '@farpoint/congestion';
 import {
   type Command,
   type CommandRejection,
@@ -7,6 +6,7 @@ import {
   sequenceDelta32,
   type Twist,
 } from '@farpoint/protocol';
+import { TokenBucket } from '@farpoint/timing';
 import type { EstopAnswer } from './estop.ts';
 import { QueueingDelay } from './queueing-delay.ts';
 

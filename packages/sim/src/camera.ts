@@ -9,10 +9,11 @@ export interface CameraOptions {
   height?: number;
   /** Horizontal field of view, radians; default 90°. */
   fieldOfView?: number;
-  /** Where the camera sits on the robot: metres ahead of and above base_link, radians downwards. */
+  /** Where the camera sits on the robot: metres ahead of and above base_link, radians downwards, radians to the left. */
   forward?: number;
   up?: number;
   pitch?: number;
+  yaw?: number;
   /** Distance between the two imagers, metres. */
   baseline?: number;
   /** Standard deviation of depth at one metre, metres; it grows with the square of depth. */
@@ -36,6 +37,7 @@ export const DEFAULT_CAMERA: Readonly<Required<CameraOptions>> = {
   forward: 0.12,
   up: 0.9,
   pitch: 0.2,
+  yaw: 0,
   baseline: 0.075,
   noise: 0.0015,
   disparityStep: 1 / 32,

@@ -8,12 +8,10 @@ export {
 } from './camera.ts';
 export { DEFAULT_LIMITS, type RobotLimits } from './drive.ts';
 export { SimulationError, type SimulationErrorCode } from './errors.ts';
-export {
-  type CloudFrame,
-  type RobotState,
-  Simulation,
-  type SimulationOptions,
-  TIME_STEP,
-} from './simulation.ts';
+export { type BaseState, SimulatedBase, TIME_STEP } from './simulated-base.ts';
+export { type CloudFrame, type RenderOptions, SimulatedCamera } from './simulated-camera.ts';
+export { DEFAULT_LIDAR, type LidarOptions, type LidarTurn, SimulatedLidar } from './simulated-lidar.ts';
+export { type RobotState, Simulation, type SimulationOptions } from './simulation.ts';
 export type { Box, Ellipsoid, Material, Mover, Panel, PlanarPose, WorldDescription } from './world.ts';
+export { readSnapshot, snapshotNumbers, type WorldSnapshot, writeSnapshot } from './world-snapshot.ts';
 export { officeWorld } from './worlds/office.ts';

@@ -1,15 +1,18 @@
 /** What the main thread and the capture worker say to each other. */
 import type { MessagePort } from 'node:worker_threads';
-import type { Twist } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
+import type { TimedBaseState } from '../base/base.ts';
+import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { EncodedFrame, SamplingOptions } from '../encode/encoded-frame.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
-import type { CodedFormat, PlanPolicy } from '../encode/plan.ts';
-import type { CameraDescription, SourceDescription, SourceState } from './frame-source.ts';
+import type { PlanPolicy } from '../encode/plan.ts';
+import type { CameraDescription, SourceDescription } from './frame-source.ts';
 import type { SourceOptions } from './open-source.ts';
 
 export interface CaptureOptions {
+  /** Its number among the robot's sensors. */
+  sensor: number;
   source: SourceOptions;
   /** The most the source may be asked for. */
   framesPerSecond: number;
@@ -19,47 +22,9 @@ export interface CaptureOptions {
   mostPoints: number;
   /** Also give the colour pictures of the camera that clouds come from, where it is one. */
   picturesOfCloud?: boolean;
-  /** Without a word on the velocity for this long the worker itself stops the robot. */
-  watchdogMs: number;
 }
-
-/** What the stream may take. */
-export interface CaptureBudget {
-  targetBitsPerSecond: number;
-  /** Bytes that the transport adds to each payload. */
-  overheadBytes: number;
-  /** With nobody watching nothing is captured. */
-  streaming: boolean;
-  /**
-   * The rate control wants to try the link: one frame, the next, is to have at least so many bytes on the wire. Each
-   * `clusterId` is one such wish.
-   */
-  probe: { clusterId: number; bytes: number } | null;
-  /** The coded formats that may be used, where they fit a frame: each is read by somebody who decides. */
-  coded: readonly CodedBudget[];
-}
-
-/** What frames in one coded format may take. */
-export interface CodedBudget {
-  format: CodedFormat;
-  /** Of those who decide and read it, bit/s. */
-  targetBitsPerSecond: number;
-  /** Beside them: what those may be sent who do not read it, as `points64`, bit/s; `null` where there are none. */
-  plainBitsPerSecond: number | null;
-}
-
-/** Nobody watches. */
-export const NO_BUDGET: CaptureBudget = {
-  targetBitsPerSecond: 0,
-  overheadBytes: 0,
-  streaming: false,
-  probe: null,
-  coded: [],
-};
 
 export type CaptureRequest =
-  /** The velocity from now on; repeated at least every watchdog time while it is not zero. */
-  | { type: 'twist'; twist: Twist }
   | ({ type: 'budget' } & CaptureBudget)
   /** Make the next captured frame a latency-test frame. */
   | { type: 'latencyTest' }
@@ -72,6 +37,9 @@ export type CaptureRequest =
 /** One frame, ready to send; `buffer` is transferred. */
 export interface CapturedFrame extends EncodedFrame {
   type: 'frame';
+  sensor: number;
+  /** What frames like it could use at most, bit/s on the wire. */
+  usefulBitsPerSecond: number;
   audience: FrameAudience;
   /** Packets in slots of 1248 bytes. */
   buffer: ArrayBuffer;
@@ -92,8 +60,8 @@ export type CaptureReport =
   | CapturedFrame
   /** What receivers of the coded frames that follow need. */
   | { type: 'stream'; stream: CodedStream }
-  /** The robot's state, and frames that found no free buffer so far. */
-  | { type: 'state'; timeMs: number; state: SourceState; framesWithoutBuffer: number; watchdogStops: number }
+  /** What the source knows of the base, and frames that found no free buffer so far. */
+  | { type: 'state'; state: TimedBaseState; framesWithoutBuffer: number }
   /** Something is wrong with the source that may pass. */
   | { type: 'fault'; detail: string }
   /** What a topic says, for people. */

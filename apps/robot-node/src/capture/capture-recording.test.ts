@@ -6,9 +6,10 @@ import { cloudMessage, mcapOf, writeFile } from '@farpoint/recording/testing';
 import type { TopicTable } from '@farpoint/ros';
 import { afterAll, describe, expect, it } from 'vitest';
 import * as z from 'zod';
+import { NO_BUDGET } from '../encode/capture-budget.ts';
 import { CODED_FORMATS } from '../encode/plan.ts';
 import { Capture } from './capture.ts';
-import { type CapturedFrame, type CaptureOptions, NO_BUDGET } from './capture-messages.ts';
+import type { CapturedFrame, CaptureOptions } from './capture-messages.ts';
 import type { SourceOptions } from './open-source.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'farpoint-capture-recording-'));
@@ -21,7 +22,7 @@ const OPTIONS: Omit<CaptureOptions, 'source'> = {
   sampling: { lambda: 0, epsilon: 1e-6, nearDistance: 3.85 },
   floorFraction: 0.1,
   mostPoints: 1_000_000,
-  watchdogMs: 150,
+  sensor: 0,
 };
 
 interface Recorded {

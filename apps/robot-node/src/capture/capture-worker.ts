@@ -2,11 +2,14 @@
  * The capture thread: source → sampler → packets. Rendering and encoding take milliseconds at a time; here they never
  * delay the thread that paces packets and reads commands.
  */
+
 import { type MessagePort, parentPort, workerData } from 'node:worker_threads';
-import { type Twist, zeroTwist } from '@farpoint/protocol';
+import { POINTS_PER_PACKET } from '@farpoint/protocol';
 import { CloudTap } from '@farpoint/recording';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import type { BaseState } from '../base/base.ts';
 import { monotonicMs, threadCpuMs } from '../clock.ts';
+import { type CaptureBudget, NO_BUDGET } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import { type FormattedFrame, FrameFormats } from '../encode/frame-formats.ts';
 import { SLOT_BYTES } from '../encode/packetiser.ts';
@@ -15,13 +18,7 @@ import type { TapReport } from '../pictures/picture-messages.ts';
 import { PictureTap } from '../pictures/picture-tap.ts';
 import { BufferPool } from './buffer-pool.ts';
 import type { CaptureRecording } from './capture.ts';
-import {
-  type CaptureBudget,
-  type CaptureOptions,
-  type CaptureReport,
-  type CaptureRequest,
-  NO_BUDGET,
-} from './capture-messages.ts';
+import type { CaptureOptions, CaptureReport, CaptureRequest } from './capture-messages.ts';
 import type { CameraDescription, CaptureWishes, ImageFrame, SourceFrame } from './frame-source.ts';
 import { openSource } from './open-source.ts';
 import { ReadyGate } from './ready-gate.ts';
@@ -29,7 +26,9 @@ import { ReadyGate } from './ready-gate.ts';
 /** One frame being sent, one waiting, one being filled; and one more, as some frames go out in two formats. */
 const BUFFERS = 4;
 const STATE_INTERVAL_MS = 20;
-/** Longest time between two looks at the source, ms. */
+/** A state that stays as it is is repeated so often, as a sign of life, ms. */
+const UNCHANGED_STATE_INTERVAL_MS = 100;
+/** Longest time between two looks at a source that is asked for clouds, ms. */
 const MAX_WAIT_MS = 10;
 /** Of a source with a rhythm of its own: a cloud that waited longer for someone to watch is let go, ms. */
 const MAX_READY_AGE_MS = 50;
@@ -49,7 +48,7 @@ const cameras = [
 const { recording } = options;
 const tap = recording === null ? null : new CloudTap(recording.clouds, recording.perSecond);
 const codec = await loadCodecFromDisk();
-const pool = new BufferPool(BUFFERS, Math.ceil(description.capacity / 150) * SLOT_BYTES);
+const pool = new BufferPool(BUFFERS, Math.ceil(description.capacity / POINTS_PER_PACKET) * SLOT_BYTES);
 const planner = new FramePlanner({
   policy: options.plan,
   mostFramesPerSecond: Math.min(
@@ -60,13 +59,16 @@ const planner = new FramePlanner({
   floorFraction: options.floorFraction,
   mostPoints: options.mostPoints,
 });
-const formats = new FrameFormats(codec, description, options.sampling, planner, monotonicMs);
+const formats = new FrameFormats(
+  codec,
+  description,
+  { ...options.sampling, sensor: options.sensor },
+  planner,
+  monotonicMs,
+);
 /** Weight of the latest frame in the mean of what a frame costs. */
 const SMOOTHING = 0.1;
 
-let twist: Twist = zeroTwist();
-let twistAtMs = monotonicMs();
-let standing = true;
 let budget: CaptureBudget = NO_BUDGET;
 let frameNumber = 0;
 /** The stream that the main thread knows. */
@@ -83,20 +85,16 @@ let lastFault = '';
 let nextFrameMs = monotonicMs();
 const gate = new ReadyGate(monotonicMs(), 1000 / options.framesPerSecond);
 let nextStateMs = 0;
-let watchdogStops = 0;
+let toldState: BaseState | null = null;
+let toldStateMs = 0;
 let closed = false;
 
 port.on('message', (request: CaptureRequest) => {
   switch (request.type) {
-    case 'twist':
-      // What was driven until now was driven under the old velocity.
-      source.advance(monotonicMs(), twist);
-      twist = request.twist;
-      twistAtMs = monotonicMs();
-      standing = false;
-      break;
     case 'budget':
       budget = request;
+      // A cloud may have waited for somebody to watch.
+      if (source.onReady !== undefined) takeReady();
       break;
     case 'latencyTest':
       latencyTest = true;
@@ -121,33 +119,31 @@ port.on('message', (request: CaptureRequest) => {
 function tick(): void {
   if (closed) return;
   const now = monotonicMs();
-  if (!standing && now - twistAtMs >= options.watchdogMs) {
-    // The main thread hangs or died: its own watchdog would have spoken first.
-    if (twist.linear.x !== 0 || twist.angular.z !== 0) watchdogStops++;
-    source.advance(twistAtMs + options.watchdogMs, twist);
-    twist = zeroTwist();
-    standing = true;
-  }
-  source.advance(now, twist);
-  if (source.onReady !== undefined) {
-    takeReady();
-  } else if (now >= nextFrameMs) {
+  if (source.onReady === undefined && now >= nextFrameMs) {
     nextFrameMs += (budget.streaming ? captureFrame(now) : null) ?? 1000 / options.framesPerSecond;
     // After a stall the rhythm starts anew; frames are not made up for.
     if (nextFrameMs < monotonicMs()) nextFrameMs = monotonicMs();
   }
   if (now >= nextStateMs) {
     nextStateMs = now + STATE_INTERVAL_MS;
-    send({
-      type: 'state',
-      timeMs: now,
-      state: source.state,
-      framesWithoutBuffer: pool.refused,
-      watchdogStops,
-    });
+    tellState(now);
   }
-  const waitMs = source.onReady === undefined ? nextFrameMs - monotonicMs() : MAX_WAIT_MS;
-  setTimeout(tick, Math.min(Math.max(waitMs, 0), MAX_WAIT_MS));
+  setTimeout(tick, waitMs());
+}
+
+/** Until the next tick: a source with a rhythm of its own calls by itself, and ticks are for the state alone. */
+function waitMs(): number {
+  const now = monotonicMs();
+  if (source.onReady !== undefined) return Math.max(nextStateMs - now, 0);
+  return Math.min(Math.max(nextFrameMs - now, 0), MAX_WAIT_MS);
+}
+
+function tellState(now: number): void {
+  const { state } = source;
+  if (state === toldState && now - toldStateMs < UNCHANGED_STATE_INTERVAL_MS) return;
+  toldState = state;
+  toldStateMs = now;
+  send({ type: 'state', state: { ...state, timeMs: now }, framesWithoutBuffer: pool.refused });
 }
 
 /** The cloud that a source with a rhythm of its own has ready: now, or never. With nobody watching it stays where it is. */
@@ -185,13 +181,22 @@ function captureFrame(now: number): number | null {
   if (probe !== null) probeCluster = probe.clusterId;
   const green = latencyTest && frame.latencyTest !== false;
   const request = { frameNumber, budget, probeBytes, workMs, latencyTest: green };
-  const { intervalMs, frames } = formats.encode(frame, request);
+  const { intervalMs, usefulBitsPerSecond, frames } = formats.encode(frame, request);
   frameNumber = (frameNumber + 1) >>> 0;
   if (formats.stream !== null && formats.stream !== stream) {
     stream = formats.stream;
     send({ type: 'stream', stream });
   }
-  const times = { intervalMs, capturedAtMs, captureMs, captureCpuMs, latencyTest: green };
+  const { sensor } = options;
+  const times = {
+    sensor,
+    usefulBitsPerSecond,
+    intervalMs,
+    capturedAtMs,
+    captureMs,
+    captureCpuMs,
+    latencyTest: green,
+  };
   for (const { encoded, audience, packets } of frames) {
     const buffer = pool.take();
     if (buffer === null) break;
@@ -261,4 +266,5 @@ if (source.onFault !== undefined) {
 }
 if (source.onReading !== undefined) source.onReading = (reading) => send({ type: 'reading', reading });
 send({ type: 'ready', description, cameras });
+source.start?.();
 tick();

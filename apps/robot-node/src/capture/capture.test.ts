@@ -1,11 +1,12 @@
 import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { emptyPlacement, emptyPointPacketHeader, readCloudPayload, zeroTwist } from '@farpoint/protocol';
+import { emptyPlacement, emptyPointPacketHeader, readCloudPayload } from '@farpoint/protocol';
 import { afterEach, describe, expect, it } from 'vitest';
+import type { TimedBaseState } from '../base/base.ts';
+import { NO_BUDGET } from '../encode/capture-budget.ts';
 import { SLOT_BYTES, slotPayloadBytes } from '../encode/packetiser.ts';
-import { Capture, CaptureError, type CaptureState } from './capture.ts';
+import { Capture, CaptureError } from './capture.ts';
 import type { CapturedFrame, CaptureOptions } from './capture-messages.ts';
-import { NO_BUDGET } from './capture-messages.ts';
 import type { SourceOptions } from './open-source.ts';
 
 const open: Capture[] = [];
@@ -21,7 +22,7 @@ async function start(source: SourceOptions, more: Partial<CaptureOptions> = {}):
     sampling: { lambda: 3, epsilon: 1e-6, nearDistance: 3.85 },
     floorFraction: 0.1,
     mostPoints: 1_000_000,
-    watchdogMs: 150,
+    sensor: 0,
     ...more,
   });
   open.push(capture);
@@ -42,7 +43,7 @@ async function frames(capture: Capture, count: number, recycle = true): Promise<
   return got;
 }
 
-async function stateWhere(capture: Capture, is: (state: CaptureState) => boolean): Promise<CaptureState> {
+async function stateWhere(capture: Capture, is: (state: TimedBaseState) => boolean): Promise<TimedBaseState> {
   return new Promise((resolve) => {
     capture.onState = (state) => {
       if (is(state)) resolve(state);
@@ -113,16 +114,6 @@ describe('capture thread', () => {
     expect(got.filter((frame) => frame.latencyTest)).toHaveLength(1);
   });
 
-  it('drives while the velocity is repeated, and stops by itself when it is not', async () => {
-    const capture = await start(sim);
-    const twist = { ...zeroTwist(), linear: { x: 0.3, y: 0, z: 0 } };
-    capture.setTwist(twist);
-    await stateWhere(capture, (state) => state.twist.linear.x > 0);
-    // Not repeated: the thread's own watchdog brakes.
-    await stateWhere(capture, (state) => state.twist.linear.x === 0);
-    expect(capture.watchdogStops).toBe(1);
-  });
-
   it('says what is wrong with a source that cannot be opened', async () => {
     await expect(start({ kind: 'pcd', path: '/nowhere/cloud.pcd', frame: 'auto' })).rejects.toThrow(
       CaptureError,
@@ -142,7 +133,7 @@ describe.skipIf(!existsSync(clouds))('recorded sources (skipped without ../share
     [{ kind: 'rgbd', path: path('rgbd-sequence') }, 640, 480],
   ])('plays %j', async (source, width, height) => {
     const capture = await start(source);
-    expect(capture.description).toMatchObject({ width, height, drives: false });
+    expect(capture.description).toMatchObject({ width, height });
     capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 200e6, overheadBytes: 68, streaming: true });
     const got = await frames(capture, 6);
     for (const frame of got) {

@@ -1,20 +1,22 @@
 import { type MessagePort, Worker } from 'node:worker_threads';
-import type { Twist } from '@farpoint/protocol';
 import type { CloudKind } from '@farpoint/recording';
 import type { TopicReading } from '@farpoint/ros';
+import type { TimedBaseState } from '../base/base.ts';
+import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
-import type {
-  CaptureBudget,
-  CapturedFrame,
-  CaptureOptions,
-  CaptureReport,
-  CaptureRequest,
-} from './capture-messages.ts';
-import type { CameraDescription, SourceDescription, SourceState } from './frame-source.ts';
+import type { CapturedFrame, CaptureOptions, CaptureReport, CaptureRequest } from './capture-messages.ts';
+import type { CameraDescription, SourceDescription } from './frame-source.ts';
 
 /** The capture thread ended by itself. */
 export class CaptureError extends Error {
   override readonly name = 'CaptureError';
+  /** Whose: its number among the robot's sensors. */
+  readonly sensor: number;
+
+  constructor(sensor: number, message: string, options?: ErrorOptions) {
+    super(message, options);
+    this.sensor = sensor;
+  }
 }
 
 type Introduction = Extract<CaptureReport, { type: 'ready' }>;
@@ -27,11 +29,6 @@ export interface CaptureRecording {
   perSecond: Readonly<Record<CloudKind, number>>;
 }
 
-export interface CaptureState extends SourceState {
-  /** Robot's clock, ms. */
-  timeMs: number;
-}
-
 /** The main thread's end of the capture worker. */
 export class Capture {
   readonly description: SourceDescription;
@@ -41,7 +38,7 @@ export class Capture {
   onFrame: ((frame: CapturedFrame) => void) | null = null;
   /** Gets what receivers of coded frames need, before the first of them and at each change. */
   onStream: ((stream: CodedStream) => void) | null = null;
-  onState: ((state: CaptureState) => void) | null = null;
+  onState: ((state: TimedBaseState) => void) | null = null;
   /** Called once, if the thread ends without having been asked to. */
   onFailure: ((error: CaptureError) => void) | null = null;
   /** Called at each new thing that is wrong with the source and may pass. */
@@ -52,12 +49,12 @@ export class Capture {
   onReading: ((reading: TopicReading) => void) | null = null;
   /** Frames not captured because all buffers were out. */
   framesWithoutBuffer = 0;
-  /** How often the worker's own watchdog stopped the robot. */
-  watchdogStops = 0;
+  readonly #sensor: number;
   readonly #worker: Worker;
   #closing = false;
 
-  private constructor(worker: Worker, { description, cameras }: Introduction) {
+  private constructor(sensor: number, worker: Worker, { description, cameras }: Introduction) {
+    this.#sensor = sensor;
     this.#worker = worker;
     this.description = description;
     this.cameras = cameras;
@@ -69,8 +66,7 @@ export class Capture {
         this.onStream?.(report.stream);
       } else if (report.type === 'state') {
         this.framesWithoutBuffer = report.framesWithoutBuffer;
-        this.watchdogStops = report.watchdogStops;
-        this.onState?.({ ...report.state, timeMs: report.timeMs });
+        this.onState?.(report.state);
       } else if (report.type === 'fault') {
         this.faults++;
         this.onFault?.(report.detail);
@@ -78,19 +74,20 @@ export class Capture {
         this.onReading?.(report.reading);
       }
     });
-    worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));
+    worker.on('error', (error) => this.#fail(errorText(error)));
     worker.on('exit', (code) => this.#fail(`exit code ${code}`));
   }
 
   /** @throws {CaptureError} where the source cannot be opened, saying why */
   static async start(options: CaptureOptions, recording: CaptureRecording | null = null): Promise<Capture> {
+    const { sensor } = options;
     const worker = new Worker(new URL('./capture-worker.ts', import.meta.url), {
       workerData: { ...options, recording },
       transferList: recording === null ? [] : [recording.clouds],
     });
     const introduction = await new Promise<Introduction>((resolve, reject) => {
       const onError = (error: unknown) =>
-        reject(new CaptureError(error instanceof Error ? error.message : String(error), { cause: error }));
+        reject(new CaptureError(sensor, errorText(error), { cause: error }));
       const onExit = (code: number) => onError(new Error(`the capture thread ended with code ${code}`));
       worker.once('error', onError);
       worker.once('exit', onExit);
@@ -98,14 +95,10 @@ export class Capture {
         worker.off('error', onError);
         worker.off('exit', onExit);
         if (report.type === 'ready') resolve(report);
-        else reject(new CaptureError('the capture thread did not introduce itself'));
+        else reject(new CaptureError(sensor, 'the capture thread did not introduce itself'));
       });
     });
-    return new Capture(worker, introduction);
-  }
-
-  setTwist(twist: Twist): void {
-    this.#post({ type: 'twist', twist });
+    return new Capture(sensor, worker, introduction);
   }
 
   setBudget(budget: CaptureBudget): void {
@@ -140,6 +133,10 @@ export class Capture {
   #fail(detail: string): void {
     if (this.#closing) return;
     this.#closing = true;
-    this.onFailure?.(new CaptureError(`the capture thread ended: ${detail}`));
+    this.onFailure?.(new CaptureError(this.#sensor, `the capture thread ended: ${detail}`));
   }
+}
+
+function errorText(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
 }

@@ -1,4 +1,4 @@
-import { compose, inverse, type Twist } from '@farpoint/protocol';
+import { compose, inverse } from '@farpoint/protocol';
 import {
   type CloudFrame,
   CloudReader,
@@ -6,13 +6,13 @@ import {
   PUBLISHED_OFFSET,
   SharedMemoryError,
 } from '@farpoint/shared-memory';
+import type { BaseState } from '../base/base.ts';
 import type {
   CaptureRoom,
   CaptureWishes,
   FrameSource,
   SourceDescription,
   SourceFrame,
-  SourceState,
 } from './frame-source.ts';
 import { STANDING, STATIC_CAMERA_POSE } from './playback-source.ts';
 import { openWhenThere, ProducerLink } from './producer-link.ts';
@@ -31,7 +31,7 @@ export class CloudShmSource implements FrameSource {
   onReady: (() => void) | null = null;
   onFault: ((error: Error) => void) | null = null;
   readonly #link: ProducerLink<CloudReader>;
-  #state: SourceState = STANDING;
+  #state: BaseState = STANDING;
   #readyMs: number;
 
   private constructor(reader: CloudReader, first: CloudFrame | null, folder: string, now: () => number) {
@@ -43,7 +43,6 @@ export class CloudShmSource implements FrameSource {
       capacity: maxPoints,
       camera: first?.lens ?? null,
       depthMeasure: 'z',
-      drives: false,
       ...(framesPerSecond > 0 ? { framesPerSecond } : {}),
     };
     this.#readyMs = now();
@@ -73,11 +72,9 @@ export class CloudShmSource implements FrameSource {
     return new CloudShmSource(reader, first, folder, now);
   }
 
-  get state(): SourceState {
+  get state(): BaseState {
     return this.#state;
   }
-
-  advance(_nowMs: number, _twist: Twist): void {}
 
   /** @throws {Error} where a producer with another camera or larger frames has taken over */
   capture(nowMs: number, _wishes: CaptureWishes, room: CaptureRoom): SourceFrame | null {

@@ -1,7 +1,8 @@
-/** Where clouds come from. A source lives in the capture worker; it is driven by the robot's clock, ms. */
-import type { Battery, Pose, Twist } from '@farpoint/protocol';
+/** Where clouds come from. A source lives in the capture worker; its times are the robot's clock, ms. */
+import type { Pose } from '@farpoint/protocol';
 import type { TopicEntry, TopicReading } from '@farpoint/ros';
 import type { Pinhole } from '@farpoint/wasm-codec';
+import type { BaseState } from '../base/base.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
 
 /** A camera whose pictures can be shown. */
@@ -34,8 +35,6 @@ export interface SourceDescription {
   camera: Pinhole | null;
   /** What the sampler takes as depth: `range` for sensors that look all around. */
   depthMeasure: 'z' | 'range';
-  /** False where there are no wheels: drive commands are accepted and change nothing. */
-  drives: boolean;
   /** What it gives at most, frames a second, where it says so itself. */
   framesPerSecond?: number;
   /** Cameras whose pictures it can give, beside its clouds. */
@@ -88,19 +87,10 @@ export interface ImageFrame extends FrameStamp {
 
 export type SourceFrame = PointFrame | ImageFrame;
 
-export interface SourceState {
-  /** base_link in the world. */
-  pose: Pose;
-  twist: Twist;
-  battery: Battery | null;
-  /** Touching an obstacle. */
-  contact: boolean;
-}
-
 export interface FrameSource {
   readonly description: SourceDescription;
-  /** Lets time pass until `nowMs`; the velocity wanted in the meantime is `twist`. */
-  advance(nowMs: number, twist: Twist): void;
+  /** Called once, when somebody listens to what it tells. */
+  start?(): void;
   /**
    * Takes one cloud now; `null` where there is none.
    *
@@ -122,6 +112,7 @@ export interface FrameSource {
   usePictures?(taker: PictureTaker): void;
   /** Which cameras are watched, pictures a second; 0: nobody looks. */
   watchPictures?(perSecond: readonly number[]): void;
-  readonly state: SourceState;
+  /** What it knows of the base that carries it. */
+  readonly state: BaseState;
   close(): void;
 }

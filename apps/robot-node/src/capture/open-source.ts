@@ -8,11 +8,13 @@ import { RecordingSource, type RecordingSourceOptions } from './recording-source
 import { type ReferenceShmOptions, ReferenceShmSource } from './reference-shm-source.ts';
 import { openRgbdSource, type RgbdSourceOptions } from './rgbd-source.ts';
 import { RosSource, type RosSourceOptions } from './ros-source.ts';
+import { SimLidarSource, type SimLidarSourceOptions } from './sim-lidar-source.ts';
 import { SimSource, type SimSourceOptions } from './sim-source.ts';
 
 /** Which source to open; plain data, so that it can be handed to the worker. */
 export type SourceOptions =
   | ({ kind: 'sim' } & SimSourceOptions)
+  | ({ kind: 'sim-lidar' } & SimLidarSourceOptions)
   | ({ kind: 'pcd' } & PcdSourceOptions)
   | ({ kind: 'rgbd' } & RgbdSourceOptions)
   | ({ kind: 'recording' } & RecordingSourceOptions)
@@ -25,6 +27,8 @@ export async function openSource(options: SourceOptions): Promise<FrameSource> {
   switch (options.kind) {
     case 'sim':
       return SimSource.create(options);
+    case 'sim-lidar':
+      return SimLidarSource.create(options);
     case 'pcd':
       return openPcdSource(options);
     case 'rgbd':

@@ -1,12 +1,6 @@
-import { type Pose, type Twist, zeroTwist } from '@farpoint/protocol';
-import type {
-  FrameSource,
-  ImageFrame,
-  PointFrame,
-  SourceDescription,
-  SourceFrame,
-  SourceState,
-} from './frame-source.ts';
+import { type Pose, zeroTwist } from '@farpoint/protocol';
+import type { BaseState } from '../base/base.ts';
+import type { FrameSource, ImageFrame, PointFrame, SourceDescription, SourceFrame } from './frame-source.ts';
 
 /** A decoded cloud: points or images, as the source describes. */
 export type RecordedCloud =
@@ -35,14 +29,14 @@ export const STATIC_CAMERA_POSE: Pose = {
 };
 
 /** The state of what has no wheels and knows no place. */
-export const STANDING: SourceState = {
+export const STANDING: BaseState = {
   pose: { position: { x: 0, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } },
   twist: zeroTwist(),
   battery: null,
   contact: false,
 };
 
-/** Recorded clouds, one for each capture, over and over. It has no wheels: velocities change nothing. */
+/** Recorded clouds, one for each capture, over and over. It has no wheels. */
 export class PlaybackSource implements FrameSource {
   readonly description: SourceDescription;
   readonly state = STANDING;
@@ -52,14 +46,12 @@ export class PlaybackSource implements FrameSource {
   #next = 0;
 
   /** @throws {Error} where there is no frame, or one of those that are kept cannot be read: said now, not in mid-stream */
-  constructor(description: Omit<SourceDescription, 'drives'>, frames: readonly RecordedFrame[]) {
+  constructor(description: SourceDescription, frames: readonly RecordedFrame[]) {
     if (frames.length === 0) throw new Error(`${description.kind}: no frames`);
-    this.description = { ...description, drives: false };
+    this.description = description;
     this.#frames = frames;
     for (let i = 0; i < frames.length && this.#cachedBytes < CACHE_BYTES; i++) this.#cloud(i);
   }
-
-  advance(_nowMs: number, _twist: Twist): void {}
 
   capture(nowMs: number): SourceFrame {
     const index = this.#next;

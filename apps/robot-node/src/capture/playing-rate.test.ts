@@ -61,7 +61,7 @@ async function play(
   const argv = ['--source', 'recording', '--path', path];
   const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => null });
   if (resolved.action !== 'run') throw new Error(resolved.action);
-  const { framesPerSecond: most } = toRobotOptions(resolved.values, resolved.where).capture;
+  const { framesPerSecond: most } = toRobotOptions(resolved.values, resolved.where).sensors[0]!.capture;
   let nowMs = 0;
   const clock = {
     now: () => nowMs,

@@ -56,7 +56,7 @@ async function play(path: string, table: object[], { watched = true } = {}) {
   source.onReady = () => {
     if (source.capture(now(), wishes, room) !== null) clouds++;
   };
-  source.advance();
+  source.start();
   await ended;
   return { source, pictures, readings, faults, clouds };
 }
@@ -214,7 +214,7 @@ describe('pictures and readings of a recording', () => {
     const capture = await Capture.start({
       ...{ source: { kind: 'recording', ...PLAY, path, topics }, framesPerSecond: 20, plan: 'paper' },
       sampling: { lambda: 0, epsilon: 1e-6, nearDistance: 3.85 },
-      ...{ floorFraction: 0.1, mostPoints: 1000, watchdogMs: 150 },
+      ...{ floorFraction: 0.1, mostPoints: 1000, sensor: 0 },
     });
     const fault = await new Promise<string>((resolve) => {
       capture.onFault = resolve;

@@ -1,6 +1,7 @@
 import { setTimeout as delay } from 'node:timers/promises';
 import { CloudPlayer, type PlayClock, type PlayOptions, type RecordingError } from '@farpoint/recording';
 import type { TopicReading, TopicTable } from '@farpoint/ros';
+import type { BaseState } from '../base/base.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
 import type {
   CaptureRoom,
@@ -8,7 +9,6 @@ import type {
   FrameSource,
   SourceDescription,
   SourceFrame,
-  SourceState,
 } from './frame-source.ts';
 import { RecordingTopics } from './recording-topics.ts';
 
@@ -31,7 +31,7 @@ export class RecordingSource implements FrameSource {
   readonly #player: CloudPlayer;
   readonly #topics: RecordingTopics;
   /** What is wrong before it begins; `null` once it has begun. */
-  #found: readonly Error[] | null;
+  #found: readonly Error[];
   /** Of each topic beside the clouds what was last wrong with it. */
   readonly #told = new Map<string, string>();
 
@@ -46,7 +46,6 @@ export class RecordingSource implements FrameSource {
       ...{ width, height, capacity },
       camera: null,
       depthMeasure: axes === 'body' ? 'range' : 'z',
-      drives: false,
       cameras: topics.cameras,
       framesPerSecond: framesPerSecond ?? UNKNOWN_FPS,
     };
@@ -68,16 +67,14 @@ export class RecordingSource implements FrameSource {
     return new RecordingSource(player, topics, topics.missing(play.path, player.topics));
   }
 
-  get state(): SourceState {
+  get state(): BaseState {
     const { pose, twist, battery } = this.#player;
     return { pose, twist, battery, contact: false };
   }
 
-  /** The first call begins: from then on somebody listens. */
-  advance(): void {
+  start(): void {
     const found = this.#found;
-    if (found === null) return;
-    this.#found = null;
+    this.#found = [];
     for (const error of found) this.onFault?.(error);
     void this.#player.run().then(() => this.onEnd?.());
   }

@@ -1,4 +1,3 @@
-import type { Twist } from '@farpoint/protocol';
 import {
   READY_OFFSET,
   REFERENCE_MAX_POINTS,
@@ -43,7 +42,6 @@ export class ReferenceShmSource implements FrameSource {
     capacity: REFERENCE_MAX_POINTS,
     camera: null,
     depthMeasure: 'z',
-    drives: false,
   };
   readonly state = STANDING;
   onReady: (() => void) | null = null;
@@ -77,8 +75,6 @@ export class ReferenceShmSource implements FrameSource {
     const consumer = await openWhenThere(() => ReferenceFrameConsumer.open(folder), waitMs);
     return new ReferenceShmSource(consumer, folder, now);
   }
-
-  advance(_nowMs: number, _twist: Twist): void {}
 
   capture(nowMs: number, wishes: CaptureWishes, { points }: CaptureRoom): SourceFrame | null {
     try {

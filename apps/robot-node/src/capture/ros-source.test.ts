@@ -113,7 +113,6 @@ describe('RosSource', () => {
         height: 1,
         camera: null,
         depthMeasure: 'range',
-        drives: false,
       });
       expect(source.description.kind).toBe(`ros${version} (/points, body frame)`);
       graph.say('/odom', ODOMETRY, odometry(0, 7));

@@ -1,5 +1,5 @@
 /** Clouds, places and readings of a live ROS graph, as its topic table allows. */
-import type { Twist } from '@farpoint/protocol';
+
 import {
   type CloudAxes,
   RosFault,
@@ -10,6 +10,7 @@ import {
   topicAs,
   WorldState,
 } from '@farpoint/ros';
+import type { BaseState } from '../base/base.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
 import {
   type CaptureRoom,
@@ -18,7 +19,6 @@ import {
   type FrameSource,
   type SourceDescription,
   type SourceFrame,
-  type SourceState,
 } from './frame-source.ts';
 import { ReadingTopic } from './reading-topic.ts';
 import { RosCloudFeed } from './ros-cloud-feed.ts';
@@ -82,7 +82,6 @@ export class RosSource implements FrameSource {
       kind: `ros${graph.version} (${names}, ${axes} frame)`,
       ...{ width, height, capacity, camera },
       depthMeasure: axes === 'body' ? 'range' : 'z',
-      drives: false,
       cameras: pictures.map(cameraOf),
     };
     this.#pictures = new RosPictureFeed(graph, pictures, (stampNs, receivedMs) =>
@@ -124,12 +123,10 @@ export class RosSource implements FrameSource {
     }
   }
 
-  get state(): SourceState {
+  get state(): BaseState {
     const { basePose: pose, twist, battery } = this.#world;
     return { pose, twist, battery, contact: false };
   }
-
-  advance(_nowMs: number, _twist: Twist): void {}
 
   capture(nowMs: number, _wishes: CaptureWishes, room: CaptureRoom): SourceFrame | null {
     let fed: ReturnType<RosFeed['take']>;

@@ -1,25 +1,27 @@
-import type { Twist } from '@farpoint/protocol';
-import { Simulation } from '@farpoint/sim';
-import type { FrameSource, SourceDescription, SourceFrame, SourceState } from './frame-source.ts';
-
-/** After a stall the simulated robot does not catch up with more than this, s. */
-const MAX_STEP_S = 0.25;
+import { officeWorld, SimulatedCamera } from '@farpoint/sim';
+import { SharedWorld } from '../base/shared-snapshot.ts';
+import type { FrameSource, SourceDescription, SourceFrame } from './frame-source.ts';
+import { STANDING } from './playback-source.ts';
 
 export interface SimSourceOptions {
   seed: number;
   /** Pixels of the square camera, a multiple of 4. */
   size: number;
+  /** The base's thread writes the world here; left out, the robot stands at the start and nothing moves. */
+  snapshot?: SharedArrayBuffer | undefined;
 }
 
-/** The simulated robot, in real time. */
+/** The simulated robot's depth camera: it draws the world as the base has it. */
 export class SimSource implements FrameSource {
   readonly description: SourceDescription;
-  readonly #simulation: Simulation;
-  #lastMs: number | null = null;
+  readonly state = STANDING;
+  readonly #camera: SimulatedCamera;
+  readonly #world: SharedWorld;
 
-  private constructor(simulation: Simulation) {
-    const { width, height, fx, fy, cx, cy } = simulation.intrinsics;
-    this.#simulation = simulation;
+  private constructor(camera: SimulatedCamera, world: SharedWorld) {
+    const { width, height, fx, fy, cx, cy } = camera.intrinsics;
+    this.#camera = camera;
+    this.#world = world;
     this.description = {
       kind: 'sim',
       width,
@@ -27,34 +29,22 @@ export class SimSource implements FrameSource {
       capacity: width * height,
       camera: { fx, fy, cx, cy },
       depthMeasure: 'z',
-      drives: true,
     };
   }
 
-  static async create({ seed, size }: SimSourceOptions): Promise<SimSource> {
-    return new SimSource(await Simulation.create({ seed, camera: { width: size, height: size } }));
-  }
-
-  advance(nowMs: number, twist: Twist): void {
-    const seconds = this.#lastMs === null ? 0 : (nowMs - this.#lastMs) / 1000;
-    this.#lastMs = nowMs;
-    this.#simulation.setCommand(twist);
-    this.#simulation.step(Math.min(Math.max(seconds, 0), MAX_STEP_S));
+  static async create({ seed, size, snapshot }: SimSourceOptions): Promise<SimSource> {
+    const world = officeWorld();
+    const camera = await SimulatedCamera.create({ world, seed, camera: { width: size, height: size } });
+    return new SimSource(camera, new SharedWorld(world, snapshot));
   }
 
   capture(nowMs: number): SourceFrame {
-    const { depth, colour, cameraPose } = this.#simulation.renderFrame({ points: false });
+    const { depth, colour, cameraPose } = this.#camera.render(this.#world.newest, { points: false });
     const words = new Uint32Array(colour.buffer, colour.byteOffset, depth.length);
     return { form: 'images', depth, colour: words, cameraPose, captureMs: nowMs };
   }
 
-  get state(): SourceState {
-    const { pose, twist, battery, collision } = this.#simulation.state;
-    const { voltage, percentage } = battery;
-    return { pose, twist, battery: { voltage, percentage }, contact: collision };
-  }
-
   close(): void {
-    this.#simulation.close();
+    this.#camera.close();
   }
 }

@@ -3,7 +3,7 @@ import { statSync } from 'node:fs';
 import { OptionsError, type ResolvedOptions, resolveOptions } from '@farpoint/service';
 import { toRobotOptions } from '../options/robot-options.ts';
 import { type RobotOptionValues, robotProgram } from '../options/robot-program.ts';
-import type { RobotOptions } from '../robot.ts';
+import type { RobotOptions } from '../robot-configuration.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
 
 export interface Configuration {

@@ -3,7 +3,7 @@ import { accessSync, constants, type Stats, statfsSync, statSync } from 'node:fs
 import { dirname } from 'node:path';
 import { cloudFile, isAvailable, referenceFiles } from '@farpoint/shared-memory';
 import type { SourceOptions } from '../capture/open-source.ts';
-import type { SinkOptions } from '../drive/velocity-sink.ts';
+import type { SinkOptions } from '../drive/open-sink.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
 import { megabytes } from './host.ts';
 

@@ -97,7 +97,7 @@ const BUDGET_BYTES = 100_000;
 export async function timeCodec(now: () => number): Promise<number[]> {
   const simulation = await Simulation.create({ seed: 1, camera: { width: SIZE, height: SIZE } });
   const { fx, fy, cx, cy } = simulation.intrinsics;
-  const sampling = { lambda: 1, epsilon: 1e-6, nearDistance: 3.85, depthMeasure: 'z' as const };
+  const sampling = { lambda: 1, epsilon: 1e-6, nearDistance: 3.85, depthMeasure: 'z' as const, sensor: 0 };
   const encoder = new OrganisedFrameEncoder(
     await loadCodecFromDisk(),
     { width: SIZE, height: SIZE },

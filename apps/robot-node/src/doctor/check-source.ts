@@ -19,10 +19,10 @@ export function trialSource(source: SourceOptions): SourceOptions {
 }
 
 /**
- * @param ownSink whether velocities go to the source
+ * @param wheelless whether velocities go nowhere
  * @param picturesOfCloud whether its colour pictures are to be shown
  */
-export function judgeSource(trial: SourceTrial, ownSink: boolean, picturesOfCloud = false): Result[] {
+export function judgeSource(trial: SourceTrial, wheelless: boolean, picturesOfCloud = false): Result[] {
   const { description, frames, seconds, validPoints, workMs, faults } = trial;
   const { kind, width, height } = description;
   const grid = height > 1 ? `${width} × ${height}` : `up to ${description.capacity} points`;
@@ -51,7 +51,7 @@ export function judgeSource(trial: SourceTrial, ownSink: boolean, picturesOfClou
         'take it out, or take a source of a depth camera’s pictures',
       ),
     );
-  if (ownSink && !description.drives)
+  if (wheelless)
     results.push(
       warn(
         'nobody can drive: this source has no wheels and sink.kind is source',
@@ -78,7 +78,7 @@ function closedRemedy(source: SourceOptions, error: Error): string {
     return 'start the camera’s program anew; docs/shared-memory.md has the layouts';
   }
   if (source.kind === 'ros') return '`farpoint-robot doctor` lists the topics; docs/ros.md has the rest';
-  if (source.kind === 'sim') return 'report this';
+  if (source.kind === 'sim' || source.kind === 'sim-lidar') return 'report this';
   if (/no such topic|not clouds/.test(message)) return 'set source.topic (--topic) to one of those';
   if (/no cloud/.test(message))
     return 'play another file or topic (--path, --topic): clouds are recorded while an operator watches';

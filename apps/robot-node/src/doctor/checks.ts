@@ -1,8 +1,10 @@
 /** Every check of the doctor, in the order in which a fault is cheapest to understand. */
+
 import { cpus, loadavg, networkInterfaces } from 'node:os';
 import type { IceServer } from '@farpoint/protocol';
+import type { CaptureOptions } from '../capture/capture-messages.ts';
 import type { RobotOptionValues } from '../options/robot-program.ts';
-import type { RobotOptions } from '../robot.ts';
+import type { RobotOptions } from '../robot-configuration.ts';
 import { checkMonotonicClock, checkTimeOfDay, type ServerTime } from './check-clock.ts';
 import type { Configuration } from './check-configuration.ts';
 import { checkRecording, checkSharedMemory } from './check-files.ts';
@@ -97,7 +99,7 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
     {
       name: 'shared memory',
       withinMs: SLACK_MS,
-      run: () => checkSharedMemory(robot.capture.source, robot.sink),
+      run: () => robot.sensors.flatMap(({ capture }) => checkSharedMemory(capture.source, robot.sink)),
     },
     {
       name: 'ROS',
@@ -108,7 +110,11 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
         return graph === null ? [] : checkRos(graph, values.topics, own, ANSWER_MS);
       },
     },
-    { name: 'source', withinMs: 20_000, run: () => checkSource(robot, running.state === 'runs') },
+    ...robot.sensors.map(({ name, capture }, i) => ({
+      name: i === 0 ? 'source' : `source (${name})`,
+      withinMs: 20_000,
+      run: () => checkSource(capture, robot, running.state === 'runs'),
+    })),
     {
       name: 'recording',
       withinMs: SLACK_MS,
@@ -117,7 +123,11 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
   ];
 }
 
-async function checkSource({ capture, sink }: RobotOptions, robotRuns: boolean): Promise<Result[]> {
+async function checkSource(
+  capture: CaptureOptions,
+  { sink, base }: RobotOptions,
+  robotRuns: boolean,
+): Promise<Result[]> {
   const { source } = capture;
   if (robotRuns && source.kind === 'shm' && source.layout === 'reference')
     return [
@@ -128,7 +138,7 @@ async function checkSource({ capture, sink }: RobotOptions, robotRuns: boolean):
     ];
   try {
     const trial = await trySource({ ...capture, source: trialSource(source) }, WATCH_MS);
-    return judgeSource(trial, sink.kind === 'source', capture.picturesOfCloud);
+    return judgeSource(trial, sink.kind === 'base' && base === null, capture.picturesOfCloud);
   } catch (error) {
     return judgeClosedSource(source, error as Error);
   }

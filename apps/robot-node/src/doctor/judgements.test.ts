@@ -160,7 +160,6 @@ describe('source', () => {
     capacity: 3072,
     camera: null,
     depthMeasure: 'z' as const,
-    drives: false,
   };
   const trial: SourceTrial = {
     description,
@@ -222,22 +221,22 @@ describe('files', () => {
   it.skipIf(!isAvailable())(
     'of shared memory: what is wrong with them has a name (needs the addon: pnpm build:native)',
     () => {
-      expect(checkSharedMemory({ kind: 'sim', seed: 1, size: 64 }, { kind: 'source' })).toEqual([]);
+      expect(checkSharedMemory({ kind: 'sim', seed: 1, size: 64 }, { kind: 'base' })).toEqual([]);
       expect(verdicts(checkSharedMemory(source, sink)).filter((verdict) => verdict === 'fail')).toEqual([]);
       const cloud = join(folder, 'farpoint_cloud');
       writeFileSync(cloud, '');
       chmodSync(cloud, 0o666);
-      expect(checkSharedMemory(source, { kind: 'source' })[1]).toMatchObject({
+      expect(checkSharedMemory(source, { kind: 'base' })[1]).toMatchObject({
         verdict: 'fail',
         detail: expect.stringContaining('mode 0666) may be written by anybody') as string,
       });
       chmodSync(cloud, 0o640);
-      expect(verdicts(checkSharedMemory(source, { kind: 'source' }))[1]).toBe('ok');
+      expect(verdicts(checkSharedMemory(source, { kind: 'base' }))[1]).toBe('ok');
       rmSync(cloud);
       symlinkSync('/', cloud);
-      expect(checkSharedMemory(source, { kind: 'source' })[1]?.detail).toContain('is no file');
+      expect(checkSharedMemory(source, { kind: 'base' })[1]?.detail).toContain('is no file');
       rmSync(cloud);
-      expect(checkSharedMemory({ ...source, folder: '/nowhere' }, { kind: 'source' })[0]?.detail).toContain(
+      expect(checkSharedMemory({ ...source, folder: '/nowhere' }, { kind: 'base' })[0]?.detail).toContain(
         'is no folder',
       );
     },

@@ -1,6 +1,6 @@
 /** Joins the robot's ROS graph and looks around. */
 import { RosFault, type TopicTable } from '@farpoint/ros';
-import type { RobotOptions } from '../robot.ts';
+import type { RobotOptions } from '../robot-configuration.ts';
 import { type GraphOptions, openGraph, ros2GraphOf } from '../ros/open-graph.ts';
 import { graphName, judgeHostname, judgeTopics } from './check-ros.ts';
 import { fail, ok, type Result } from './finding.ts';
@@ -10,8 +10,8 @@ const DISCOVERY_MS = 3000;
 const LOOK_MS = 100;
 
 /** The graph that source or sink take part in, `null` where neither does. */
-export function graphOf({ capture, sink }: RobotOptions): GraphOptions | null {
-  if (capture.source.kind === 'ros') return capture.source.graph;
+export function graphOf({ sensors, sink }: RobotOptions): GraphOptions | null {
+  for (const { capture } of sensors) if (capture.source.kind === 'ros') return capture.source.graph;
   return sink.kind === 'ros' ? sink.graph : null;
 }
 

@@ -4,7 +4,7 @@ import { RosFault } from '@farpoint/ros';
 import { StartFailure } from '@farpoint/service';
 import { SharedMemoryError } from '@farpoint/shared-memory';
 import { CaptureError } from '../capture/capture.ts';
-import type { RobotOptions } from '../robot.ts';
+import type { RobotOptions } from '../robot-configuration.ts';
 import { checkRecording, checkSharedMemory } from './check-files.ts';
 import { judgeClosedSource } from './check-source.ts';
 import type { Result } from './finding.ts';
@@ -13,12 +13,20 @@ import type { Result } from './finding.ts';
  * @param error thrown by the robot's start
  * @returns a StartFailure that says what to do, or what was thrown where the doctor has no words for it
  */
-export function startFailure({ capture, sink, record }: RobotOptions, error: unknown): unknown {
-  if (error instanceof CaptureError) return failure(error, judgeClosedSource(capture.source, error));
+export function startFailure({ sensors, sink, record }: RobotOptions, error: unknown): unknown {
+  const sources = sensors.map(({ capture }) => capture.source);
+  if (error instanceof CaptureError) {
+    const source = sources[error.sensor];
+    return source === undefined ? error : failure(error, judgeClosedSource(source, error));
+  }
   if (error instanceof RecordingError)
     return failure(error, checkRecording(record?.path), 'set recording.file (--record) to another');
   if (error instanceof SharedMemoryError)
-    return failure(error, checkSharedMemory(capture.source, sink), 'docs/shared-memory.md has the layouts');
+    return failure(
+      error,
+      sources.flatMap((source) => checkSharedMemory(source, sink)),
+      'docs/shared-memory.md has the layouts',
+    );
   if (error instanceof RosFault)
     return new StartFailure(error.what, error.remedy ?? 'docs/ros.md says what is needed', { cause: error });
   return error;

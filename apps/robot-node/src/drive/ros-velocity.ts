@@ -8,6 +8,7 @@ import {
   type VelocityWriter,
   velocityWriter,
 } from '@farpoint/ros';
+import { Watchdog } from '@farpoint/safety';
 
 export interface RosVelocityOptions {
   entry: TopicEntry;
@@ -33,7 +34,7 @@ export class RosVelocity {
   readonly #write: VelocityWriter;
   readonly #options: RosVelocityOptions;
   #twist: Twist = zeroTwist();
-  #heardMs: number | null = null;
+  readonly #watchdog: Watchdog;
   /** Zeros are published until then. */
   #tailEndMs = Number.NEGATIVE_INFINITY;
   #sentMs = Number.NEGATIVE_INFINITY;
@@ -41,6 +42,7 @@ export class RosVelocity {
   /** @throws {RosFault} where the graph refuses the topic */
   constructor(graph: RosGraph, options: RosVelocityOptions) {
     this.#options = options;
+    this.#watchdog = new Watchdog(options.silenceMs);
     const { topic, type } = options.entry;
     this.#write = velocityWriter(graph.version, type);
     this.#publisher = graph.advertise({ topic, type, qos: qosOf(options.entry) });
@@ -53,7 +55,7 @@ export class RosVelocity {
   /** @param hold publish zeros for as long as this is said: an emergency stop is meant for other drivers, too */
   apply(twist: Twist, hold: boolean): void {
     const now = this.#options.now();
-    this.#heardMs = now;
+    this.#watchdog.feed(now);
     this.#twist = twist;
     if (hold || !isZeroTwist(twist)) this.#tailEndMs = now + TAIL_MS;
     this.#publish(now);
@@ -61,9 +63,9 @@ export class RosVelocity {
 
   /** Looks whether there was silence. */
   tick(): void {
-    if (this.#heardMs === null) return;
     const now = this.#options.now();
-    if (now - this.#heardMs < this.#options.silenceMs) return;
+    // Before the first word there is nothing to repeat.
+    if (!this.#wasFed || !this.#watchdog.expired(now)) return;
     if (!isZeroTwist(this.#twist)) {
       this.silences++;
       this.#twist = zeroTwist();
@@ -74,8 +76,12 @@ export class RosVelocity {
 
   /** Zero, and lets go of the topic. */
   close(): void {
-    if (this.#heardMs !== null && this.#options.now() < this.#tailEndMs) this.#send(zeroTwist());
+    if (this.#wasFed && this.#options.now() < this.#tailEndMs) this.#send(zeroTwist());
     this.#publisher.close();
+  }
+
+  get #wasFed(): boolean {
+    return this.#watchdog.deadlineMs !== null;
   }
 
   #publish(now: number): void {

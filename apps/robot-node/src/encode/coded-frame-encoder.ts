@@ -1,6 +1,6 @@
 import { type Codec, CodecError } from '@farpoint/wasm-codec';
 import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/frame-source.ts';
-import type { EncodedFrame, PacketSource, SamplingOptions } from './encoded-frame.ts';
+import type { EncodedFrame, EncoderOptions, PacketSource } from './encoded-frame.ts';
 import { OrganisedFrameEncoder } from './organised-frame-encoder.ts';
 import type { CodedFormat } from './plan.ts';
 import { UnorganisedFrameEncoder } from './unorganised-frame-encoder.ts';
@@ -15,14 +15,14 @@ export interface CodedStream {
 export class CodedFrameEncoder {
   readonly #codec: Codec;
   readonly #source: SourceDescription;
-  readonly #sampling: SamplingOptions;
+  readonly #sampling: EncoderOptions;
   readonly #now: () => number;
   readonly #organised: OrganisedFrameEncoder | null;
   #unorganised: UnorganisedFrameEncoder | null = null;
   #last: (PacketSource & { header: Uint8Array | null }) | null = null;
   #stream: CodedStream | null = null;
 
-  constructor(codec: Codec, source: SourceDescription, sampling: SamplingOptions, now: () => number) {
+  constructor(codec: Codec, source: SourceDescription, sampling: EncoderOptions, now: () => number) {
     this.#codec = codec;
     this.#source = source;
     this.#sampling = sampling;

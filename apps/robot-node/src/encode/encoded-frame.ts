@@ -11,6 +11,12 @@ export interface SamplingOptions {
   depthMeasure: 'z' | 'range';
 }
 
+/** What an encoder is made with. */
+export interface EncoderOptions extends SamplingOptions {
+  /** The sensor's number, for the placement. */
+  sensor: number;
+}
+
 /** What came of encoding one frame; its packets wait in the encoder. */
 export interface EncodedFrame {
   format: CloudFormat;
@@ -37,6 +43,7 @@ export interface PacketSource {
 export function placementOf(
   frame: SourceFrame,
   format: CloudFormat,
+  sensor: number,
   latencyTest: boolean,
   saturated: boolean,
 ): Placement {
@@ -45,7 +52,7 @@ export function placementOf(
     captureTimeUs: Math.floor((frame.captureMs * 1000) % 0x1_0000_0000),
     latencyTest,
     saturated,
-    sensor: 0,
+    sensor,
     format,
   };
 }

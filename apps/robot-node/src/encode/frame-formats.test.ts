@@ -1,7 +1,7 @@
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { expect, it } from 'vitest';
-import type { CodedBudget } from '../capture/capture-messages.ts';
 import type { ImageFrame, PointFrame, SourceDescription } from '../capture/frame-source.ts';
+import type { CodedBudget } from './capture-budget.ts';
 import { type FormattedFrame, FrameFormats } from './frame-formats.ts';
 import { type CodedFormat, FramePlanner } from './plan.ts';
 
@@ -29,7 +29,6 @@ const describe = (camera: boolean): SourceDescription => ({
   ...(camera ? { width: SIZE, height: SIZE, camera: CAMERA } : { width: 3000, height: 1, camera: null }),
   capacity: SIZE * SIZE,
   depthMeasure: 'z',
-  drives: false,
 });
 
 function encode(
@@ -44,7 +43,7 @@ function encode(
     floorFraction: 0.1,
     mostPoints: 1e6,
   });
-  const sampling = { lambda: 1, epsilon: 1e-6, nearDistance: 3.85 };
+  const sampling = { lambda: 1, epsilon: 1e-6, nearDistance: 3.85, sensor: 0 };
   const encoder = new FrameFormats(codec, describe(frame.form === 'images'), sampling, planner, () => 0);
   const coded = formats.map(
     (format): CodedBudget => ({ format, targetBitsPerSecond: 20e6, plainBitsPerSecond }),

@@ -1,8 +1,8 @@
 import type { Codec } from '@farpoint/wasm-codec';
-import type { CaptureBudget } from '../capture/capture-messages.ts';
 import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/frame-source.ts';
+import type { CaptureBudget } from './capture-budget.ts';
 import { CodedFrameEncoder, type CodedStream } from './coded-frame-encoder.ts';
-import type { EncodedFrame, PacketSource, SamplingOptions } from './encoded-frame.ts';
+import type { EncodedFrame, EncoderOptions, PacketSource } from './encoded-frame.ts';
 import type { CodedFormat, FramePlanner, PlanInput } from './plan.ts';
 import { Points64FrameEncoder } from './points64-frame-encoder.ts';
 
@@ -25,6 +25,14 @@ export interface FormatRequest {
   latencyTest: boolean;
 }
 
+export interface FormattedFrames {
+  /** Until the next, as planned, ms. */
+  intervalMs: number;
+  /** What frames like it could use at most, bit/s on the wire. */
+  usefulBitsPerSecond: number;
+  frames: FormattedFrame[];
+}
+
 /** Encodes a frame once for each format that somebody reads. */
 export class FrameFormats {
   readonly #planner: FramePlanner;
@@ -36,7 +44,7 @@ export class FrameFormats {
   constructor(
     codec: Codec,
     source: SourceDescription,
-    sampling: Omit<SamplingOptions, 'depthMeasure'>,
+    sampling: Omit<EncoderOptions, 'depthMeasure'>,
     planner: FramePlanner,
     now: () => number,
   ) {
@@ -63,7 +71,7 @@ export class FrameFormats {
    *
    * @throws {CodecError} for a frame beyond the source's capacity
    */
-  encode(frame: SourceFrame, request: FormatRequest): { intervalMs: number; frames: FormattedFrame[] } {
+  encode(frame: SourceFrame, request: FormatRequest): FormattedFrames {
     const { frameNumber, budget, probeBytes, workMs, latencyTest } = request;
     const rawPoints = frame.form === 'points' ? frame.count : frame.depth.length;
     const input = { ...budget, probeBytes, rawPoints, workMs };
@@ -73,6 +81,7 @@ export class FrameFormats {
       const encoded = this.#points64.encode(frame, frameNumber, points, latencyTest);
       return {
         intervalMs: 1000 / framesPerSecond,
+        usefulBitsPerSecond: this.#planner.usefulBitsPerSecond('points64', input),
         frames: [{ encoded, audience: 'everyone', packets: this.#points64 }],
       };
     }
@@ -85,7 +94,8 @@ export class FrameFormats {
       const encoded = this.#points64.encode(frame, frameNumber, points, latencyTest);
       frames.push({ encoded, audience: { others: format }, packets: this.#points64 });
     }
-    return { intervalMs: 1000 / framesPerSecond, frames };
+    const usefulBitsPerSecond = this.#planner.usefulBitsPerSecond(format, input);
+    return { intervalMs: 1000 / framesPerSecond, usefulBitsPerSecond, frames };
   }
 
   /** @returns `null` where nobody reads a coded format that fits the frame */

@@ -2,18 +2,18 @@ import { type Codec, type GridResult, OrganisedEncoder, type Pinhole } from '@fa
 import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/frame-source.ts';
 import {
   type EncodedFrame,
+  type EncoderOptions,
   isSameMemory,
   type PacketSource,
   placementOf,
   roomOf,
-  type SamplingOptions,
 } from './encoded-frame.ts';
 import { Packetiser, SLOT_BYTES, SLOT_DATA_OFFSET } from './packetiser.ts';
 
 /** From a depth camera's frame to finished `organised` packets (docs/organised-codec.md). */
 export class OrganisedFrameEncoder implements PacketSource {
   readonly #encoder: OrganisedEncoder;
-  readonly #sampling: SamplingOptions;
+  readonly #sampling: EncoderOptions;
   readonly #now: () => number;
   readonly #packetiser = new Packetiser();
   readonly room: CaptureRoom;
@@ -25,7 +25,7 @@ export class OrganisedFrameEncoder implements PacketSource {
   constructor(
     codec: Codec,
     source: Pick<SourceDescription, 'width' | 'height'>,
-    sampling: SamplingOptions,
+    sampling: EncoderOptions,
     now: () => number,
   ) {
     const { width, height } = source;
@@ -86,7 +86,7 @@ export class OrganisedFrameEncoder implements PacketSource {
       thinning: { lambda, epsilon, nearDistance },
     });
     const { lengths } = encoder;
-    const placement = placementOf(frame, 'organised', latencyTest, false);
+    const placement = placementOf(frame, 'organised', this.#sampling.sensor, latencyTest, false);
     this.#packetiser.begin(encoder.slots, frameNumber, report.points, placement);
     for (let i = 0; i < report.packets; i++) {
       this.#packetiser.add(lengths[i * 2 + 1] as number, lengths[i * 2] as number);

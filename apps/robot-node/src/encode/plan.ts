@@ -6,6 +6,7 @@
  *   and the sending of one frame; both last as long as a frame interval, so smaller frames halve them. The floor is one
  *   packet a frame: on a link that carries nothing, commands and telemetry matter more than the paper's floor of points.
  */
+
 import {
   type CloudFormat,
   MAX_POINT_DATA_BYTES,
@@ -13,6 +14,7 @@ import {
   POINT_PACKET_HEADER_BYTES,
   POINTS_PER_PACKET,
 } from '@farpoint/protocol';
+import { BitRate } from '@farpoint/timing';
 import { maxPoints } from '@farpoint/wasm-codec';
 
 export const PLAN_POLICIES = ['latency', 'paper'] as const;
@@ -150,7 +152,7 @@ export class FramePlanner {
     const bitsPerSecond = input.targetBitsPerSecond * dataShare;
     const framesPerSecond = this.#chooseFrameRate(bitsPerSecond / need.whole, rawPoints, input, rawPoints);
     const enough = (rawPoints * need.enough) / 8;
-    const afforded = Math.min(bitsPerSecond / 8 / framesPerSecond, enough);
+    const afforded = Math.min(BitRate.toBytesPerSecond(bitsPerSecond) / framesPerSecond, enough);
     const probed = Math.min(
       input.probeBytes * dataShare * CODED_SLACK,
       MOST_PROBE_FACTOR * Math.max(afforded, LEAST_BYTES),
@@ -159,6 +161,14 @@ export class FramePlanner {
       framesPerSecond,
       budgetBytes: Math.floor(Math.max(afforded, probed, MAX_POINT_DATA_BYTES)),
     };
+  }
+
+  /** The most that frames like this one can use, all headers counted, bit/s. */
+  usefulBitsPerSecond(format: CloudFormat, { rawPoints, overheadBytes }: PlanInput): number {
+    const { mostFramesPerSecond, mostPoints } = this.#options;
+    const plain = format === 'points64';
+    const bits = plain ? Math.min(rawPoints, mostPoints) * 64 : rawPoints * CODED_NEEDS[format].enough;
+    return (bits * mostFramesPerSecond * wireBytesOfPacket(overheadBytes)) / MAX_POINT_DATA_BYTES;
   }
 
   /**

@@ -16,7 +16,7 @@ import { SLOT_BYTES, slotPayload, slotSequenceOffset } from './packetiser.ts';
 import { Points64FrameEncoder } from './points64-frame-encoder.ts';
 
 const codec = await loadCodecFromDisk();
-const sampling = { lambda: 3, epsilon: 1e-6, nearDistance: 3.85, depthMeasure: 'z' } as const;
+const sampling = { lambda: 3, epsilon: 1e-6, nearDistance: 3.85, depthMeasure: 'z', sensor: 0 } as const;
 const CAPACITY = 1000;
 
 const SOURCE = { capacity: CAPACITY, width: CAPACITY, height: 1, camera: null };

@@ -2,18 +2,18 @@ import { CloudEncoder, type Codec, type SampleReport } from '@farpoint/wasm-code
 import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/frame-source.ts';
 import {
   type EncodedFrame,
+  type EncoderOptions,
   isSameMemory,
   type PacketSource,
   placementOf,
   roomOf,
-  type SamplingOptions,
 } from './encoded-frame.ts';
 import { completePackets, Packetiser, SLOT_BYTES, SLOT_DATA_OFFSET } from './packetiser.ts';
 
 /** From a source's frame to finished `points64` packets: sample, pack, header and placement. */
 export class Points64FrameEncoder implements PacketSource {
   readonly #encoder: CloudEncoder;
-  readonly #sampling: SamplingOptions;
+  readonly #sampling: EncoderOptions;
   readonly #now: () => number;
   readonly #packetiser = new Packetiser();
   readonly room: CaptureRoom;
@@ -21,7 +21,7 @@ export class Points64FrameEncoder implements PacketSource {
   constructor(
     codec: Codec,
     source: Pick<SourceDescription, 'capacity' | 'width' | 'height' | 'camera'>,
-    sampling: SamplingOptions,
+    sampling: EncoderOptions,
     now: () => number,
   ) {
     const { capacity, width, height, camera } = source;
@@ -54,7 +54,13 @@ export class Points64FrameEncoder implements PacketSource {
     }
     const middle = this.#now();
     const packed = encoder.pack({ order: 'near-first', latencyTest });
-    const placement = placementOf(frame, 'points64', latencyTest, packed.saturated > 0);
+    const placement = placementOf(
+      frame,
+      'points64',
+      this.#sampling.sensor,
+      latencyTest,
+      packed.saturated > 0,
+    );
     const packets = completePackets(encoder.packets, frameNumber, packed.points, placement, this.#packetiser);
     return {
       format: 'points64',

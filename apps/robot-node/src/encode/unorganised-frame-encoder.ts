@@ -3,10 +3,10 @@ import { type Codec, UnorganisedEncoder } from '@farpoint/wasm-codec';
 import type { CaptureRoom, PointFrame } from '../capture/frame-source.ts';
 import {
   type EncodedFrame,
+  type EncoderOptions,
   isSameMemory,
   type PacketSource,
   placementOf,
-  type SamplingOptions,
 } from './encoded-frame.ts';
 import { Packetiser, SLOT_BYTES, SLOT_DATA_OFFSET } from './packetiser.ts';
 
@@ -21,6 +21,7 @@ const MOST_METRES = 500;
 export class UnorganisedFrameEncoder implements PacketSource {
   readonly #encoder: UnorganisedEncoder;
   readonly #lambda: number;
+  readonly #sensor: number;
   readonly #now: () => number;
   readonly #packetiser = new Packetiser();
   readonly room: CaptureRoom;
@@ -29,7 +30,7 @@ export class UnorganisedFrameEncoder implements PacketSource {
   /** The stream's header: the unit that receivers keep coordinates in. It grows where a frame reaches farther. */
   header: Uint8Array | null = null;
 
-  constructor(codec: Codec, capacity: number, sampling: SamplingOptions, now: () => number) {
+  constructor(codec: Codec, capacity: number, sampling: EncoderOptions, now: () => number) {
     const encoder = new UnorganisedEncoder(codec, capacity);
     this.#encoder = encoder;
     this.room = {
@@ -40,6 +41,7 @@ export class UnorganisedFrameEncoder implements PacketSource {
       colour: new Uint32Array(0),
     };
     this.#lambda = sampling.lambda;
+    this.#sensor = sampling.sensor;
     this.#now = now;
   }
 
@@ -67,7 +69,7 @@ export class UnorganisedFrameEncoder implements PacketSource {
     if (this.#slots.length < report.packets * SLOT_BYTES) {
       this.#slots = new Uint8Array(Math.ceil(report.packets * 1.25) * SLOT_BYTES);
     }
-    const placement = placementOf(frame, 'unorganised', latencyTest, false);
+    const placement = placementOf(frame, 'unorganised', this.#sensor, latencyTest, false);
     this.#packetiser.begin(this.#slots, frameNumber, report.kept, placement);
     for (let i = 0; i < report.packets; i++) {
       const packet = encoder.packet(i);

@@ -15,7 +15,7 @@ function resolve(argv: string[], text: string | null) {
 describe('robot options', () => {
   it('make a simulated robot by default', () => {
     const options = robot();
-    expect(options.capture).toMatchObject({
+    expect(options.sensors[0]?.capture).toMatchObject({
       source: { kind: 'sim', seed: 1, size: 480 },
       framesPerSecond: 60,
     });
@@ -29,7 +29,16 @@ describe('robot options', () => {
   });
 
   it('take a recorded source', () => {
-    const { capture } = robot('--source', 'pcd', '--path', 'a.pcd', '--pcd-frame', 'body', '--fps', '10');
+    const [{ capture } = { capture: null }] = robot(
+      '--source',
+      'pcd',
+      '--path',
+      'a.pcd',
+      '--pcd-frame',
+      'body',
+      '--fps',
+      '10',
+    ).sensors;
     expect(capture).toMatchObject({
       source: { kind: 'pcd', path: 'a.pcd', frame: 'body' },
       framesPerSecond: 10,
@@ -40,13 +49,13 @@ describe('robot options', () => {
     const options = robot(
       ...['--source', 'shm', '--shm-layout', 'reference', '--shm-folder', '/x', '--sink', 'shm'],
     );
-    expect(options.capture).toMatchObject({
+    expect(options.sensors[0]?.capture).toMatchObject({
       source: { kind: 'shm', layout: 'reference', folder: '/x', waitMs: 10_000 },
       framesPerSecond: 30,
     });
     expect(options.sink).toEqual({ kind: 'shm', folder: '/x', mode: 0o600, silenceMs: 150 });
     expect(robot('--sink', 'shm', '--shm-access', 'group').sink).toMatchObject({ mode: 0o660 });
-    expect(robot().sink).toEqual({ kind: 'source' });
+    expect(robot().sink).toEqual({ kind: 'base' });
   });
 
   it('give UDP ports as a range', () => {
@@ -87,7 +96,7 @@ describe('robot options', () => {
   it('take pictures and readings of a recording from the table of topics, and pictures of other files not', () => {
     const topics = '[{topic: /front, as: picture}, {topic: /diagnostics, as: diagnostics}]';
     const recording = `robot: {source: {kind: recording, path: a.mcap}, topics: ${topics}}`;
-    expect(file(recording).capture.source).toMatchObject({
+    expect(file(recording).sensors[0]?.capture.source).toMatchObject({
       ...{ kind: 'recording', path: 'a.mcap' },
       topics: [
         { topic: '/front', as: 'picture' },

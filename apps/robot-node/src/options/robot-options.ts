@@ -3,11 +3,14 @@ import { randomBytes } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
 import { fileFault, type OptionMistake, OptionsError } from '@farpoint/service';
+import { BitRate } from '@farpoint/timing';
+import type { CaptureOptions } from '../capture/capture-messages.ts';
 import type { SourceOptions } from '../capture/open-source.ts';
-import type { SinkOptions } from '../drive/velocity-sink.ts';
-import type { RobotOptions } from '../robot.ts';
+import type { SinkOptions } from '../drive/open-sink.ts';
+import type { RobotOptions } from '../robot-configuration.ts';
 import { describeTopics, readFrom, sourcedFolders } from '../ros/message-folders.ts';
 import type { GraphOptions } from '../ros/open-graph.ts';
+import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { stateFolder } from './state.ts';
 
@@ -35,16 +38,8 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       token: values.token,
       ca,
     },
-    capture: {
-      source: toSource(values, topics),
-      framesPerSecond: values.fps ?? DEFAULT_FPS[values.source] ?? 30,
-      plan: values.plan,
-      sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
-      floorFraction: values.floor,
-      mostPoints: values.maxPoints,
-      picturesOfCloud: values.picturesOfCloud,
-      watchdogMs: values.watchdogMs,
-    },
+    sensors: toSensors(values, topics),
+    base: values.source === 'sim' ? { watchdogMs: values.watchdogMs } : null,
     sink: toSink(values),
     limits: {
       maxLinear: values.maxLinear,
@@ -55,10 +50,10 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     takePolicy: values.takePolicy,
     stateFolder: stateFolder(values.stateDir, process.env),
     referenceSignaling: values.referenceSignaling ?? undefined,
-    bitsPerSecond: values.bitrateMbps * 1e6,
+    bitsPerSecond: BitRate.fromMbps(values.bitrateMbps),
     mode: values.mode,
     rateControl: values.rateControl,
-    startBitsPerSecond: values.startMbps * 1e6,
+    startBitsPerSecond: BitRate.fromMbps(values.startMbps),
     pictures: {
       perSecond: values.picturesPerSecond,
       longestSide: values.picturesLongestSide,
@@ -87,6 +82,25 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
             mostBytes: values.recordMax,
           },
   };
+}
+
+/** The main source of clouds first. */
+function toSensors(values: RobotOptionValues, topics: TopicEntry[]): CloudSensorOptions[] {
+  const capture: CaptureOptions = {
+    sensor: 0,
+    source: toSource(values, topics),
+    framesPerSecond: values.fps ?? DEFAULT_FPS[values.source] ?? 30,
+    plan: values.plan,
+    sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
+    floorFraction: values.floor,
+    mostPoints: values.maxPoints,
+    picturesOfCloud: values.picturesOfCloud,
+  };
+  const main: CloudSensorOptions = { name: 'Camera', capture, priority: 0, weight: 1 };
+  if (values.source !== 'sim' || !values.simLidar) return [main];
+  const source: SourceOptions = { kind: 'sim-lidar', seed: values.simSeed };
+  const lidar: CaptureOptions = { ...capture, sensor: 1, source, picturesOfCloud: false };
+  return [main, { name: 'LiDAR', capture: lidar, priority: 1, weight: 1 }];
 }
 
 function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, detail: string) => void): void {
@@ -153,7 +167,7 @@ function describedTopics(
 }
 
 function toSink(values: RobotOptionValues): SinkOptions {
-  if (values.sink === 'source') return { kind: 'source' };
+  if (values.sink === 'source') return { kind: 'base' };
   if (values.sink === 'ros1' || values.sink === 'ros2') {
     const entry = topicAs(values.topics, 'velocity');
     if (entry === undefined) throw new Error('checked before: there is a topic for velocities');

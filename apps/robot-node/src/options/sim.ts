@@ -8,6 +8,11 @@ export const simOptions = optionGroup('source', {
     argument: 'SEED',
     help: 'seed of the simulated robot’s sensor noise',
   }),
+  simLidar: defineOption({
+    schema: schema.boolean(),
+    default: false,
+    help: 'gives the simulated robot a LiDAR beside its camera: 16 beams, 10 turns a second',
+  }),
   simSize: defineOption({
     schema: schema.integer({ min: 16, max: 1024 }),
     default: 480,

@@ -1,4 +1,5 @@
 /** What operators are sent. */
+import { POINTS_PER_PACKET } from '@farpoint/protocol';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import { PLAN_POLICIES } from '../encode/plan.ts';
 import { STREAM_MODES } from '../encode/stream-mode.ts';
@@ -35,7 +36,7 @@ export const streamOptions = optionGroup('stream', {
     help: 'latency: as many frames a second as the rate makes pictures of; paper: every frame, points by its equations 2 and 3',
   }),
   maxPoints: defineOption({
-    schema: schema.integer({ min: 150, max: 4_194_304 }),
+    schema: schema.integer({ min: POINTS_PER_PACKET, max: 4_194_304 }),
     default: 4_194_304,
     argument: 'N',
     help: 'most points of a points64 frame, whatever the rate allows',

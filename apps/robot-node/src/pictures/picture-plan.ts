@@ -1,5 +1,7 @@
 /** How large pictures are, and how many a second, so that they fit what the path leaves them. */
+
 import { MAX_PICTURE_BYTES } from '@farpoint/protocol';
+import { BitRate } from '@farpoint/timing';
 import type { CameraPlan } from './picture-messages.ts';
 
 export interface PicturePolicy {
@@ -59,7 +61,7 @@ export class PicturePlanner {
   /** @param bitsPerSecond of this camera on the wire; 0 stops it */
   plan(bitsPerSecond: number): CameraPlan {
     const { perSecond: most, longestSide, quality } = this.#policy;
-    const bytesPerSecond = bitsPerSecond / 8 / OVERHEAD;
+    const bytesPerSecond = BitRate.toBytesPerSecond(bitsPerSecond) / OVERHEAD;
     const rateAt = (scale: number) =>
       bytesPerSecond / (this.#fullBytes * (SCALES[scale] as number) ** BYTES_BY_SIDE);
     const least = Math.min(LEAST_PER_SECOND, most);

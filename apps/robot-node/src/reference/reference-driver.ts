@@ -3,9 +3,10 @@
  * protocol has no lease, no dead-man grip, no sequence number and no time of sending; what stands for them is made here,
  * always on the side of standing still.
  */
-import { TokenBucket } from '@farpoint/congestion';
+
 import { type Command, isZeroTwist, type Twist, zeroTwist } from '@farpoint/protocol';
 import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
+import { TokenBucket } from '@farpoint/timing';
 
 /**
  * Without a wish for motion for so long the lease is given back, as nobody can ask for it, and the hand counts as open: not

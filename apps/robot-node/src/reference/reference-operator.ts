@@ -9,8 +9,8 @@ import {
 } from '@farpoint/protocol';
 import type { FrameTarget } from '../session/frame-fan-out.ts';
 import type { SessionHost } from '../session/operator-session.ts';
-import type { PeerEnd } from '../transport/operator-peer.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
+import type { PeerEnd } from '../transport/peer-events.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
 import type { SharedFrame } from '../transport/shared-frame.ts';
 import type { SrtpCloudTransport } from '../transport/srtp-cloud-transport.ts';
@@ -94,7 +94,12 @@ export class ReferenceOperator implements FrameTarget {
     return this.sender !== null && this.#started && !this.#quiet;
   }
 
-  get cloudBitsPerSecond(): number {
+  /** The reference profile knows of one sensor. */
+  wants(sensor: number): boolean {
+    return sensor === 0;
+  }
+
+  cloudBitsPerSecond(): number {
     const { sender } = this;
     return sender === null ? 0 : sender.targetBitsPerSecond * sender.fit;
   }

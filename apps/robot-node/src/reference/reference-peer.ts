@@ -1,14 +1,18 @@
 /** The WebRTC connection with one operator of the reference system: the robot offers, the operator answers, ICE trickles. */
+
 import type { IceServer } from '@farpoint/protocol';
+import { REFERENCE_MEDIA } from '@farpoint/protocol';
+import { createReferencePeerConnection, referenceChannels } from '@farpoint/reference-profile';
 import {
-  createReferencePeerConnection,
-  REFERENCE_EXTENSION_ID,
-  referenceChannels,
-} from '@farpoint/reference-profile';
-import { prepareSockets, type Refusal, RemoteCandidates } from '@farpoint/webrtc';
+  dropDefaultStun,
+  pairLateCandidates,
+  prepareSockets,
+  type Refusal,
+  RemoteCandidates,
+} from '@farpoint/webrtc';
 import type { RTCDataChannel, RTCPeerConnection, RTCRtpTransceiver } from 'werift';
-import { dropDefaultStun, pairLateCandidates } from '../transport/ice-restart.ts';
-import { errorText, type PeerEnd, toWeriftServers } from '../transport/operator-peer.ts';
+import { errorText, toWeriftServers } from '../transport/open-peer-connection.ts';
+import type { PeerEnd } from '../transport/peer-events.ts';
 import { SrtpCloudTransport } from '../transport/srtp-cloud-transport.ts';
 
 export interface ReferencePeerOptions {
@@ -172,7 +176,7 @@ export class ReferencePeer {
     let transport: SrtpCloudTransport;
     try {
       // Whatever the answer says of it: the reference system's bridge takes the header to be 20 bytes long.
-      transport = new SrtpCloudTransport(this.#cloud, REFERENCE_EXTENSION_ID);
+      transport = new SrtpCloudTransport(this.#cloud, REFERENCE_MEDIA.extensionId);
     } catch (error) {
       this.close('bad-answer', errorText(error));
       return;

@@ -1,5 +1,12 @@
-import type { ReceiverSums, ReportBlock, ResendRefusal } from '@farpoint/congestion';
-import { FULL_POINT_PACKET_BYTES, MAX_POINT_DATA_BYTES, PLACEMENT_BYTES } from '@farpoint/protocol';
+import type { ReceiverSums } from '@farpoint/congestion';
+import {
+  FULL_POINT_PACKET_BYTES,
+  MAX_POINT_DATA_BYTES,
+  PLACEMENT_BYTES,
+  REFERENCE_MEDIA,
+} from '@farpoint/protocol';
+import type { ReportBlock, ResendRefusal } from '@farpoint/rtp';
+import { rtpTimestamp } from '@farpoint/rtp';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
 
 /** The RTP header, extension included, that the reference system's bridge cuts off without looking. */
@@ -77,7 +84,7 @@ export class ReferenceTransport implements CloudTransport {
     if (source === this.#source) return;
     this.#source = source;
     this.frameNumber = (this.frameNumber + 1) >>> 0;
-    const timestamp = Math.floor((this.#now() * 90) % 0x1_0000_0000) >>> 0;
+    const timestamp = rtpTimestamp(this.#now(), REFERENCE_MEDIA.clockRate);
     // It advances with every frame, were two to begin at once.
     this.#rtpTimestamp = timestamp === this.#rtpTimestamp ? (timestamp + 1) >>> 0 : timestamp;
   }

@@ -57,7 +57,7 @@ it('says at the start which file is missing, and where to name its folder', () =
   expect(() => options(file('/nowhere'))).toThrow(
     /robot\.topics \/grip: there is no arm_msgs\/msg\/Grip\.msg, in the folders of ros\.messages or of a ROS that is sourced/,
   );
-  expect(options(file(folder)).capture.source).toMatchObject({
+  expect(options(file(folder)).sensors[0]?.capture.source).toMatchObject({
     topics: [{}, { definitions: [{ name: 'arm_msgs/Grip' }, { name: 'arm_msgs/Finger' }] }],
   });
 });

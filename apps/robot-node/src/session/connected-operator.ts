@@ -1,29 +1,27 @@
-import { type RateController, RateMeter } from '@farpoint/congestion';
+import type { RateController } from '@farpoint/congestion';
 import type { CloudFormat, IceCandidate, StageTimings, StreamStatus } from '@farpoint/protocol';
+import { BitRate, RateMeter } from '@farpoint/timing';
 import type { CandidateRefusal } from '@farpoint/webrtc';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { CodedFormat } from '../encode/plan.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
 import { PictureSender } from '../pictures/picture-sender.ts';
+import { type CloudClaim, cloudShare } from '../sensors/cloud-shares.ts';
 import { StageTimer } from '../telemetry/stage-timer.ts';
 import type { AnswerVerdict } from '../transport/answer-gate.ts';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
-import { OperatorPeer, type OperatorPeerOptions, type PeerEnd } from '../transport/operator-peer.ts';
+import { OperatorPeer } from '../transport/operator-peer.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
+import type { OperatorPeerOptions, PeerEnd } from '../transport/peer-events.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
 import type { SharedFrame } from '../transport/shared-frame.ts';
 import { StreamSender } from '../transport/stream-sender.ts';
 import type { FrameTarget } from './frame-fan-out.ts';
+import { type LatencyTest, LatencyTests } from './latency-tests.ts';
 import { OperatorSession, type SessionHost } from './operator-session.ts';
 import { PathBudget } from './path-budget.ts';
 import { RestartPolicy } from './restart-policy.ts';
 import { ResumeKey } from './resume-key.ts';
-
-/** A latency test that waits for its green frame. */
-export interface LatencyTest {
-  id: number;
-  commandMs: number;
-}
 
 export interface ConnectedOperatorOptions {
   /** The session's handle; also the operator's name towards the guard. */
@@ -35,6 +33,8 @@ export interface ConnectedOperatorOptions {
   packetLog?: PacketLog | undefined;
   /** Most of the path that pictures may take, 0–1. */
   pictureShare: number;
+  /** What the robot's cloud sensors ask of a path, by number. */
+  claims: () => readonly CloudClaim[];
 }
 
 export interface ConnectedOperatorEvents {
@@ -50,9 +50,6 @@ export interface ConnectedOperatorEvents {
   onEnded(end: PeerEnd, detail: string): void;
 }
 
-/** More tests than this wait only where the operator misbehaves. */
-const MAX_LATENCY_TESTS = 16;
-
 /** One operator: connection, session and stream. */
 export class ConnectedOperator implements FrameTarget {
   readonly session: OperatorSession;
@@ -60,6 +57,9 @@ export class ConnectedOperator implements FrameTarget {
   readonly restarts = new RestartPolicy();
   readonly resumeKey = new ResumeKey();
   sender: StreamSender | null = null;
+  readonly #claims: ConnectedOperatorOptions['claims'];
+  /** The sensors whose clouds it wants. */
+  #sensors: ReadonlySet<number> = new Set([0]);
   /** What the operator has said that it reads. */
   #formats: ReadonlySet<CloudFormat> = new Set();
   /** Nothing is heard: points would go nowhere. */
@@ -75,10 +75,10 @@ export class ConnectedOperator implements FrameTarget {
   readonly #stages = new StageTimer();
   readonly #budget: PathBudget;
   readonly pictures: PictureSender;
-  #tests: LatencyTest[] = [];
-  #lastTestId: number | null = null;
-  readonly #testsInFlight = new Map<SharedFrame, LatencyTest[]>();
+  readonly #tests = new LatencyTests();
   #pathHeardMs = 0;
+  #framesSent = 0;
+  #pointsSent = 0;
   #lastFrameNumber = 0;
   #lastValidPoints = 0;
 
@@ -92,6 +92,7 @@ export class ConnectedOperator implements FrameTarget {
     this.#sendLoop = sendLoop;
     this.#makeController = options.makeController;
     this.#packetLog = options.packetLog;
+    this.#claims = options.claims;
     this.#budget = new PathBudget(options.pictureShare);
     this.#events = events;
     this.peer = new OperatorPeer(options.peer, {
@@ -111,6 +112,11 @@ export class ConnectedOperator implements FrameTarget {
     };
     this.session.onStreamSwitch = (running) => {
       if (!running) this.#clear();
+      events.onBudgetChanged();
+    };
+    this.session.onSensors = (sensors) => {
+      this.#sensors = new Set(sensors);
+      events.onCloudFormats();
       events.onBudgetChanged();
     };
     this.session.onPictures = (cameras) => this.pictures.watch(cameras);
@@ -148,10 +154,16 @@ export class ConnectedOperator implements FrameTarget {
     return Math.max(this.session.heardMs, this.sender?.heardMs ?? 0, this.#pathHeardMs);
   }
 
-  /** What points may take of the path, bit/s on the wire; 0 while there is none. */
-  get cloudBitsPerSecond(): number {
+  wants(sensor: number): boolean {
+    return this.#sensors.has(sensor);
+  }
+
+  /** What a sensor's points may take of the path, bit/s on the wire; 0 while there is none. */
+  cloudBitsPerSecond(sensor: number): number {
     const { sender } = this;
-    return sender === null ? 0 : this.#budget.cloudBitsPerSecond(sender.targetBitsPerSecond) * sender.fit;
+    if (sender === null) return 0;
+    const total = this.#budget.cloudBitsPerSecond(sender.targetBitsPerSecond) * sender.fit;
+    return cloudShare(sensor, total, this.#claims(), this.#sensors);
   }
 
   get watchedCameras(): ReadonlySet<number> {
@@ -173,44 +185,26 @@ export class ConnectedOperator implements FrameTarget {
     return drops === undefined ? 0 : drops.superseded + drops.overdue;
   }
 
-  /** @returns false where the test is known: the operator repeats a request until it is answered. */
+  /** @returns false where the test is known */
   askLatencyTest(test: LatencyTest): boolean {
-    if (test.id === this.#lastTestId) return false;
-    this.#lastTestId = test.id;
-    this.#addLatencyTest(test);
-    return true;
-  }
-
-  #addLatencyTest(test: LatencyTest): void {
-    this.#tests.push(test);
-    if (this.#tests.length > MAX_LATENCY_TESTS) this.#tests.shift();
+    return this.#tests.ask(test);
   }
 
   /** Sends the frame when its time comes; a green one answers the latency tests that wait. */
   enqueue(shared: SharedFrame): void {
     if (this.sender === null || !this.streaming) return;
     const { frame } = shared;
-    if (frame.latencyTest && this.#tests.length > 0) {
-      this.#testsInFlight.set(shared, this.#tests);
-      for (const { id, commandMs } of this.#tests) {
-        const { frameNumber, points, capturedAtMs } = frame;
-        this.session.send({
-          type: 'latencyFrame',
-          id,
-          frameNumber,
-          points,
-          commandMs,
-          captureMs: capturedAtMs,
-        });
-      }
-      this.#tests = [];
+    const { frameNumber, points, capturedAtMs: captureMs } = frame;
+    for (const { id, commandMs } of this.#tests.answeredBy(shared)) {
+      this.session.send({ type: 'latencyFrame', id, frameNumber, points, commandMs, captureMs });
     }
-    this.#lastValidPoints = frame.validPoints;
+    if (frame.sensor === 0) this.#lastValidPoints = frame.validPoints;
     this.sender.enqueue(shared);
   }
 
-  announce({ format, header }: CodedStream): void {
-    this.session.send({ type: 'cloudStream', format, header: Buffer.from(header).toString('base64') });
+  announce({ format, header }: CodedStream, sensor: number): void {
+    const text = Buffer.from(header).toString('base64');
+    this.session.send({ type: 'cloudStream', format, header: text, ...(sensor === 0 ? {} : { sensor }) });
   }
 
   /** Every 25 ms. */
@@ -224,10 +218,9 @@ export class ConnectedOperator implements FrameTarget {
 
   /** What telemetry says of this operator's stream; call once for each telemetry message. */
   status(captureStages: StageTimings, nowMs: number): { stages: StageTimings; stream: StreamStatus } {
-    const counters = this.sender?.counters ?? { framesSent: 0, pointsSent: 0, bytesSent: 0 };
-    this.#frames.update(counters.framesSent, nowMs);
-    this.#points.update(counters.pointsSent, nowMs);
-    this.#bytes.update(counters.bytesSent, nowMs);
+    this.#frames.update(this.#framesSent, nowMs);
+    this.#points.update(this.#pointsSent, nowMs);
+    this.#bytes.update(this.sender?.counters.bytesSent ?? 0, nowMs);
     const framesPerSecond = this.#frames.perSecond;
     return {
       stages: { ...captureStages, sendMs: this.#stages.take().sendMs },
@@ -236,12 +229,19 @@ export class ConnectedOperator implements FrameTarget {
         framesPerSecond,
         pointsPerFrame: framesPerSecond > 0 ? this.#points.perSecond / framesPerSecond : 0,
         validPoints: this.#lastValidPoints,
-        bitsPerSecond: this.#bytes.perSecond * 8,
+        bitsPerSecond: BitRate.fromBytesPerSecond(this.#bytes.perSecond),
         targetBitsPerSecond: this.sender?.targetBitsPerSecond ?? 0,
         droppedFrames: this.droppedFrames,
         ...(this.sender?.transportFeedback === false ? { feedback: 'reports' as const } : {}),
       },
     };
+  }
+
+  /** Telemetry tells of the first sensor's frames, and of all bytes. */
+  #countSent({ frame }: SharedFrame): void {
+    this.#lastFrameNumber = frame.frameNumber;
+    this.#framesSent++;
+    this.#pointsSent += frame.points;
   }
 
   #sendPictures(): void {
@@ -262,15 +262,11 @@ export class ConnectedOperator implements FrameTarget {
     if (log !== undefined) sender.onPacketSent = (frame, offset, sentMs) => log.add(frame, offset, sentMs);
     sender.onFrameSent = ({ shared, sendMs }) => {
       this.#stages.add('sendMs', sendMs);
-      this.#lastFrameNumber = shared.frame.frameNumber;
-      this.#testsInFlight.delete(shared);
+      if (shared.frame.sensor === 0) this.#countSent(shared);
+      this.#tests.onSent(shared);
     };
     sender.onFrameDropped = (shared) => {
-      const tests = this.#testsInFlight.get(shared);
-      if (tests === undefined) return;
-      this.#testsInFlight.delete(shared);
-      for (const test of tests) this.#addLatencyTest(test);
-      this.#events.onLatencyFrameLost();
+      if (this.#tests.onLost(shared)) this.#events.onLatencyFrameLost();
     };
     sender.onRateChanged = () => {
       this.#events.onBudgetChanged();
@@ -285,8 +281,7 @@ export class ConnectedOperator implements FrameTarget {
   #onEnded(end: PeerEnd, detail: string): void {
     const sender = this.sender;
     this.sender = null;
-    this.#tests = [];
-    this.#testsInFlight.clear();
+    this.#tests.clear();
     this.pictures.clear();
     if (sender !== null) {
       this.#sendLoop.remove(sender);

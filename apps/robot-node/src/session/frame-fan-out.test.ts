@@ -1,5 +1,6 @@
 import { expect, it } from 'vitest';
-import type { CaptureBudget, CapturedFrame } from '../capture/capture-messages.ts';
+import type { CapturedFrame } from '../capture/capture-messages.ts';
+import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
 import type { CodedFormat } from '../encode/plan.ts';
 import { RobotCounters } from '../telemetry/robot-counters.ts';
@@ -9,7 +10,7 @@ import { FrameFanOut, type FrameTarget } from './frame-fan-out.ts';
 class Viewer implements FrameTarget {
   readonly id: string;
   streaming = true;
-  readonly cloudBitsPerSecond: number;
+  readonly #bitsPerSecond: number;
   readonly formats: readonly CodedFormat[];
   readonly sender = null;
   frames = 0;
@@ -17,12 +18,18 @@ class Viewer implements FrameTarget {
 
   constructor(id: string, cloudBitsPerSecond: number, formats: readonly CodedFormat[]) {
     this.id = id;
-    this.cloudBitsPerSecond = cloudBitsPerSecond;
+    this.#bitsPerSecond = cloudBitsPerSecond;
     this.formats = formats;
   }
 
   reads(format: CodedFormat): boolean {
     return this.formats.includes(format);
+  }
+  wants(sensor: number): boolean {
+    return sensor === 0;
+  }
+  cloudBitsPerSecond(): number {
+    return this.#bitsPerSecond;
   }
   enqueue(): void {
     this.frames++;
@@ -44,6 +51,7 @@ function setUp(viewers: Viewer[], driver: string | null = null) {
     requestLatencyTest: () => undefined,
   };
   const fanOut = new FrameFanOut({
+    ...{ sensor: 0, lane: 0 },
     capture,
     targets: () => viewers,
     sendLoop: { run: () => undefined },

@@ -1,11 +1,7 @@
 import { isDeepStrictEqual } from 'node:util';
 import type { Capture } from '../capture/capture.ts';
-import {
-  type CaptureBudget,
-  type CapturedFrame,
-  type CodedBudget,
-  NO_BUDGET,
-} from '../capture/capture-messages.ts';
+import type { CapturedFrame } from '../capture/capture-messages.ts';
+import { type CaptureBudget, type CodedBudget, NO_BUDGET } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
 import { CODED_FORMATS, type CodedFormat } from '../encode/plan.ts';
@@ -24,16 +20,22 @@ export interface FrameTarget {
   /** As the guard knows it. */
   readonly id: string;
   readonly streaming: boolean;
-  /** What points may take of its path, bit/s on the wire. */
-  readonly cloudBitsPerSecond: number;
+  /** Whether it wants the clouds of this sensor. */
+  wants(sensor: number): boolean;
+  /** What the clouds of this sensor may take of its path, bit/s on the wire. */
+  cloudBitsPerSecond(sensor: number): number;
   reads(format: CodedFormat): boolean;
   readonly sender: Pick<StreamSender, 'probeWish' | 'overheadBytes'> | null;
   enqueue(shared: SharedFrame): void;
   /** What coded frames are decoded with; told to those who read them. */
-  announce?(stream: CodedStream): void;
+  announce?(stream: CodedStream, sensor: number): void;
 }
 
 export interface FanOutOptions {
+  /** Number of the sensor. */
+  sensor: number;
+  /** Of the pacer: packets of a lower one go first. */
+  lane: number;
   capture: Pick<Capture, 'onFrame' | 'onStream' | 'setBudget' | 'recycle' | 'requestLatencyTest'>;
   targets: () => Iterable<FrameTarget>;
   sendLoop: Pick<SendLoop, 'run'>;
@@ -42,6 +44,7 @@ export interface FanOutOptions {
   counters: RobotCounters;
   stages: StageTimer;
   frameLog?: Pick<FrameLog, 'add'> | undefined;
+  onFrame?: ((frame: CapturedFrame) => void) | undefined;
   now: () => number;
   /** Coded formats may be used. */
   mayCode: boolean;
@@ -64,7 +67,9 @@ export class FrameFanOut {
 
   /** Tells what coded frames are decoded with, where there are any and the target reads them. */
   announceTo(target: FrameTarget): void {
-    if (this.#stream !== null && target.reads(this.#stream.format)) target.announce?.(this.#stream);
+    const { sensor } = this.#options;
+    if (this.#stream === null || !target.wants(sensor) || !target.reads(this.#stream.format)) return;
+    target.announce?.(this.#stream, sensor);
   }
 
   /**
@@ -73,18 +78,20 @@ export class FrameFanOut {
    * with slower paths skip frames. Those who do not read a frame's format get `points64` beside it.
    */
   updateBudget(): void {
-    const { capture, targets, driver, mayCode } = this.#options;
-    const streaming = [...targets()].filter((operator) => operator.streaming);
+    const { capture, targets, driver, mayCode, sensor } = this.#options;
+    const streaming = [...targets()].filter((operator) => operator.streaming && operator.wants(sensor));
     const driving = streaming.find((operator) => operator.id === driver());
     const driven = driving === undefined ? streaming : [driving];
-    const coded = mayCode ? CODED_FORMATS.flatMap((format) => codedBudget(format, driven, streaming)) : [];
+    const coded = mayCode
+      ? CODED_FORMATS.flatMap((format) => codedBudget(format, sensor, driven, streaming))
+      : [];
     const readers = driven.filter((target) => coded.some(({ format }) => target.reads(format)));
     const deciding = readers.length > 0 ? readers : driven;
     // One path at a time can be tried with larger frames: they go to everyone.
-    const probe = deciding.length === 1 ? (deciding[0]?.sender?.probeWish ?? null) : null;
+    const probe = deciding.length === 1 && sensor === 0 ? (deciding[0]?.sender?.probeWish ?? null) : null;
     const next: CaptureBudget = {
       coded,
-      targetBitsPerSecond: deciding.length === 0 ? 0 : narrowest(deciding),
+      targetBitsPerSecond: deciding.length === 0 ? 0 : narrowest(deciding, sensor),
       probe: probe === null ? null : { clusterId: probe.clusterId, bytes: probe.bytes },
       overheadBytes: Math.max(0, ...streaming.map((operator) => operator.sender?.overheadBytes ?? 0)),
       streaming: streaming.length > 0,
@@ -104,19 +111,21 @@ export class FrameFanOut {
   }
 
   #onFrame(frame: CapturedFrame): void {
-    const { capture, targets, sendLoop, counters, stages, now } = this.#options;
+    const { capture, targets, sendLoop, counters, stages, now, sensor, lane } = this.#options;
     counters.frame(frame);
     this.#options.frameLog?.add(frame);
+    this.#options.onFrame?.(frame);
     stages.add('captureMs', frame.captureMs);
     stages.add('sampleMs', frame.sampleMs);
     stages.add('packMs', frame.packMs);
-    const shared = new SharedFrame(frame, this.#budget.overheadBytes, (buffer) => capture.recycle(buffer));
+    const { overheadBytes } = this.#budget;
+    const shared = new SharedFrame(frame, overheadBytes, (buffer) => capture.recycle(buffer), lane);
     if (now() - frame.capturedAtMs > MAX_FRAME_AGE_MS) {
       counters.framesStale++;
       if (frame.latencyTest) capture.requestLatencyTest();
     } else {
       for (const target of targets()) {
-        if (isFor(target, frame.audience)) target.enqueue(shared);
+        if (target.wants(sensor) && isFor(target, frame.audience)) target.enqueue(shared);
       }
     }
     shared.release();
@@ -132,16 +141,17 @@ function isFor(target: FrameTarget, audience: FrameAudience): boolean {
 /** None where nobody who decides reads the format. */
 function codedBudget(
   format: CodedFormat,
+  sensor: number,
   deciding: readonly FrameTarget[],
   streaming: readonly FrameTarget[],
 ): CodedBudget[] {
   const readers = deciding.filter((target) => target.reads(format));
   if (readers.length === 0) return [];
   const others = streaming.filter((target) => !target.reads(format));
-  const plainBitsPerSecond = others.length === 0 ? null : narrowest(others);
-  return [{ format, targetBitsPerSecond: narrowest(readers), plainBitsPerSecond }];
+  const plainBitsPerSecond = others.length === 0 ? null : narrowest(others, sensor);
+  return [{ format, targetBitsPerSecond: narrowest(readers, sensor), plainBitsPerSecond }];
 }
 
-function narrowest(targets: readonly FrameTarget[]): number {
-  return Math.min(...targets.map((target) => target.cloudBitsPerSecond));
+function narrowest(targets: readonly FrameTarget[], sensor: number): number {
+  return Math.min(...targets.map((target) => target.cloudBitsPerSecond(sensor)));
 }

@@ -59,6 +59,7 @@ export class OperatorSession {
   onStreamSwitch: ((running: boolean) => void) | null = null;
   onCloudFormats: ((formats: readonly CloudFormat[]) => void) | null = null;
   onPictures: ((cameras: readonly number[]) => void) | null = null;
+  onSensors: ((sensors: readonly number[]) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #rejections = new RejectionReporter();
@@ -206,6 +207,9 @@ export class OperatorSession {
         break;
       case 'pictures':
         this.onPictures?.(message.cameras);
+        break;
+      case 'sensors':
+        this.onSensors?.(message.sensors);
         break;
       case 'latencyMeasured':
         this.#host.latencyMeasured?.(this, message);

@@ -1,9 +1,10 @@
 import type { RateController } from '@farpoint/congestion';
 import type { IceServer, RobotToService, ServiceToRobot } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
+import type { CloudClaim } from '../sensors/cloud-shares.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
-import type { OperatorPeerOptions, PeerEnd } from '../transport/operator-peer.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
+import type { OperatorPeerOptions, PeerEnd } from '../transport/peer-events.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
 import { ConnectedOperator } from './connected-operator.ts';
 import type { SessionHost } from './operator-session.ts';
@@ -18,6 +19,8 @@ export interface OperatorSessionsOptions {
   /** Most of a path that pictures may take, 0–1. */
   pictureShare: number;
   makeController: (transportFeedback: boolean) => RateController;
+  /** What the robot's cloud sensors ask of a path, by number. */
+  claims: () => readonly CloudClaim[];
   sendLoop: SendLoop;
   packetLog: PacketLog | undefined;
   host: SessionHost;
@@ -105,8 +108,8 @@ export class OperatorSessions {
   }
 
   async #open(session: string, operatorName: string): Promise<void> {
-    const { most, peer, pictureShare, makeController, sendLoop, packetLog, host, signaling, counters } =
-      this.#options;
+    const { most, peer, pictureShare, makeController, claims, sendLoop, packetLog } = this.#options;
+    const { host, signaling, counters } = this.#options;
     if (this.operators.has(session)) {
       // Its operator came by another way into a session that we have: that is what session.resume is for.
       this.#options.log.warn({ session }, 'a session that is open was requested again');
@@ -123,7 +126,7 @@ export class OperatorSessions {
       {
         ...{ session, operatorName, packetLog, pictureShare },
         peer: { ...peer, iceServers: this.#iceServers },
-        makeController,
+        ...{ makeController, claims },
       },
       host,
       sendLoop,

@@ -1,4 +1,5 @@
-import { allocate, RateMeter, type StreamClaim } from '@farpoint/congestion';
+import { allocate, type StreamClaim } from '@farpoint/congestion';
+import { BitRate, RateMeter } from '@farpoint/timing';
 import { pictureAllowance } from '../pictures/picture-plan.ts';
 
 /** Messages (answers to commands, session, telemetry) are counted with this margin: they come in fits. */
@@ -37,7 +38,7 @@ export class PathBudget {
     const messages = this.#messageBitsPerSecond;
     // What they may take and do not is the cloud's.
     const pictures = Math.min(
-      this.#pictures.perSecond * 8 * PICTURE_MARGIN,
+      BitRate.fromBytesPerSecond(this.#pictures.perSecond) * PICTURE_MARGIN,
       this.pictureBitsPerSecond(targetBitsPerSecond),
     );
     const claims: StreamClaim[] = [
@@ -61,6 +62,6 @@ export class PathBudget {
   }
 
   get #messageBitsPerSecond(): number {
-    return Math.max(this.#messages.perSecond * 8 * MESSAGE_MARGIN, LEAST_MESSAGES);
+    return Math.max(BitRate.fromBytesPerSecond(this.#messages.perSecond) * MESSAGE_MARGIN, LEAST_MESSAGES);
   }
 }

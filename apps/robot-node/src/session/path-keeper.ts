@@ -1,6 +1,6 @@
-import { TokenBucket } from '@farpoint/congestion';
 import type { IceServer, ResumeRefusal, RobotToService, ServiceToRobot } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
+import { TokenBucket } from '@farpoint/timing';
 import type { DriveStation } from '../drive/drive-station.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { ConnectedOperator } from './connected-operator.ts';

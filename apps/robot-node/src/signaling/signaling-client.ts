@@ -1,4 +1,3 @@
-import { Reconnect } from '@farpoint/congestion';
 import {
   decodeJson,
   encodeJson,
@@ -11,6 +10,7 @@ import {
   serviceToRobotCodec,
 } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
+import { Reconnect } from '@farpoint/timing';
 import { WebSocket } from 'ws';
 
 export interface SignalingOptions {

@@ -6,7 +6,7 @@ import type { ReasonCounts } from './robot-counters.ts';
 
 /** Puts the robot's counters on `/metrics`; they are read when somebody asks. */
 export function registerRobotMetrics(registry: Registry, robot: Robot): void {
-  const { counters, capture, signaling } = robot;
+  const { counters, sensors, signaling } = robot;
   const sum = (name: string, help: string, read: () => number) => {
     new Counter({
       name: `farpoint_robot_${name}_total`,
@@ -95,13 +95,17 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   sumBy('commands_rejected', 'Drive commands refused, by reason', 'reason', counters.commandsRejected);
   sumBy('messages_refused', 'Unreadable messages, by channel and error', 'reason', counters.messagesRefused);
   sum('frames_captured', 'Clouds captured', () => counters.framesCaptured);
-  sum('frames_without_buffer', 'Clouds not captured: all buffers out', () => capture.framesWithoutBuffer);
-  sum('source_faults', 'Faults of the source that may pass: no producer, bad clouds', () => capture.faults);
+  sum('frames_without_buffer', 'Clouds not captured: all buffers out', () => sensors.framesWithoutBuffer);
+  sum('source_faults', 'Faults of the source that may pass: no producer, bad clouds', () => sensors.faults);
   sum('frames_stale', 'Clouds dropped: too old when ready', () => counters.framesStale);
   sum('points_sent_per_frame_sum', 'Points of all captured frames', () => counters.pointsCaptured);
   sumBy('points_rejected', 'Points not sent, by reason', 'reason', counters.pointsRejected);
   sumBy('stage_seconds', 'Time spent, by stage', 'stage', counters.stageSeconds);
-  sum('watchdog_thread_stops', 'Stops by the capture thread’s own watchdog', () => capture.watchdogStops);
+  sum(
+    'watchdog_thread_stops',
+    'Stops by the simulated base’s own watchdog',
+    () => robot.base?.watchdogStops ?? 0,
+  );
   gauge('signaling_registered', '1 while registered with signaling', () => (signaling.registered ? 1 : 0));
   gauge('operators', 'Operators with a session', () => robot.operators.size);
   gauge('points_per_frame', 'Points of the last frame', () => counters.lastPoints);

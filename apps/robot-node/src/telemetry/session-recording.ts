@@ -8,7 +8,8 @@ import {
 import { type CloudKind, type DropKind, SessionRecorder } from '@farpoint/recording';
 import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
-import type { Capture, CaptureRecording, CaptureState } from '../capture/capture.ts';
+import type { TimedBaseState } from '../base/base.ts';
+import type { Capture, CaptureRecording } from '../capture/capture.ts';
 import type { CapturedFrame } from '../capture/capture-messages.ts';
 import type { CameraDescription } from '../capture/frame-source.ts';
 import { monotonicMs } from '../clock.ts';
@@ -113,7 +114,7 @@ export class SessionRecording {
     this.#recorder.json('command', monotonicMs(), { session, sequence, timeMs, twist, ...outcome });
   }
 
-  telemetry(state: CaptureState, guard: DriveGuard, operators: number): void {
+  telemetry(state: TimedBaseState, guard: DriveGuard, operators: number): void {
     const { timeMs, pose, twist, battery, contact } = state;
     const drive = guard.state(monotonicMs(), contact);
     this.#recorder.state(timeMs, pose, twist);

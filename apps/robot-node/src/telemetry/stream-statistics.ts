@@ -1,5 +1,5 @@
 import type { RateSnapshot } from '@farpoint/congestion';
-import type { CaptureState } from '../capture/capture.ts';
+import type { TimedBaseState } from '../base/base.ts';
 import type { ConnectedOperator } from '../session/connected-operator.ts';
 import type { RobotCounters } from './robot-counters.ts';
 
@@ -25,7 +25,7 @@ export interface StreamStatistics extends RateSnapshot {
 
 export function streamStatistics(
   operators: Iterable<ConnectedOperator>,
-  state: CaptureState | null,
+  state: TimedBaseState | null,
   { lastFramesPerSecond, lastPoints }: RobotCounters,
   timeMs: number,
 ): StreamStatistics[] {

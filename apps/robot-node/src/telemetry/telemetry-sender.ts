@@ -1,6 +1,6 @@
 import { encodeJson, type Telemetry, telemetryCodec } from '@farpoint/protocol';
 import type { DriveGuard } from '@farpoint/safety';
-import type { CaptureState } from '../capture/capture.ts';
+import type { TimedBaseState } from '../base/base.ts';
 import type { ConnectedOperator } from '../session/connected-operator.ts';
 import type { ReadingBoard } from './reading-board.ts';
 import type { StageTimer } from './stage-timer.ts';
@@ -29,7 +29,7 @@ export class TelemetrySender {
     this.#stages = stages;
   }
 
-  send(state: CaptureState, nowMs: number): void {
+  send(state: TimedBaseState, nowMs: number): void {
     if (this.#operators.size === 0) return;
     const stages = this.#stages.take();
     this.#sequence = (this.#sequence + 1) >>> 0;

@@ -57,7 +57,9 @@ export class OperatorClient {
   readonly connection: RTCPeerConnection;
   readonly session: RobotSessionMessage[] = [];
   readonly control: RTCDataChannel;
+  /** Of sensor 0, by frame number. */
   readonly frames = new Map<number, ReceivedFrame>();
+  readonly #framesOf = new Map([[0, this.frames]]);
   onCandidate: ((candidate: IceCandidate) => void) | null = null;
   /** Gets each readable packet of a cloud. */
   onCloudPacket: ((payload: Buffer) => void) | null = null;
@@ -199,7 +201,11 @@ export class OperatorClient {
   }
 
   get completeFrames(): ReceivedFrame[] {
-    return [...this.frames.values()].filter((frame) => frame.complete);
+    return this.completeFramesOf(0);
+  }
+
+  completeFramesOf(sensor: number): ReceivedFrame[] {
+    return [...(this.#framesOf.get(sensor)?.values() ?? [])].filter((frame) => frame.complete);
   }
 
   /** Stops hearing and speaking, as a machine does whose power is cut. */
@@ -237,7 +243,9 @@ export class OperatorClient {
     }
     this.onCloudPacket?.(payload);
     const { frameNumber, frameLength, sequenceLength } = header;
-    const frame = this.frames.get(frameNumber) ?? {
+    const frames = this.#framesOf.get(placement.sensor) ?? new Map<number, ReceivedFrame>();
+    this.#framesOf.set(placement.sensor, frames);
+    const frame = frames.get(frameNumber) ?? {
       frameNumber,
       packets: 0,
       points: 0,
@@ -247,8 +255,8 @@ export class OperatorClient {
     frame.packets++;
     frame.points += sequenceLength / 8;
     frame.complete = frame.points * 8 === frameLength;
-    this.frames.set(frameNumber, frame);
-    if (this.frames.size > 1000) this.frames.delete(this.frames.keys().next().value as number);
+    frames.set(frameNumber, frame);
+    if (frames.size > 1000) frames.delete(frames.keys().next().value as number);
     this.#changed();
   }
 

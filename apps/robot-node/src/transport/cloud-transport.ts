@@ -3,7 +3,8 @@
  * above it; RTP, SRTP and sockets below it.
  */
 
-import type { ReceiverSums, ReportBlock, ResendRefusal } from '@farpoint/congestion';
+import type { ReceiverSums } from '@farpoint/congestion';
+import type { ReportBlock, ResendRefusal } from '@farpoint/rtp';
 
 /** What a packet costs on the wire beyond its payload, bytes. */
 export const UDP_IPV4_BYTES = 28;

@@ -5,7 +5,8 @@ import fc from 'fast-check';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { OperatorClient } from '../testing/operator-client.ts';
 import type { CloudTransport } from './cloud-transport.ts';
-import { OperatorPeer, type PeerEnd } from './operator-peer.ts';
+import { OperatorPeer } from './operator-peer.ts';
+import type { PeerEnd } from './peer-events.ts';
 
 const cleanups: (() => unknown)[] = [];
 const unhandled: unknown[] = [];

@@ -1,79 +1,28 @@
 /** The WebRTC connection with one operator: the robot offers, the operator answers, ICE trickles. */
 import {
+  CLOUD_MEDIA,
   CLOUD_STREAM_ID,
   channels,
   type IceCandidate,
   type IceServer,
   MAX_PICTURE_CHUNK_BYTES,
 } from '@farpoint/protocol';
-import { type CandidateRefusal, guardConnection, type Refusal, RemoteCandidates } from '@farpoint/webrtc';
-import {
-  MediaStream,
-  type RTCDataChannel,
-  RTCPeerConnection,
-  RTCRtpCodecParameters,
-  type RTCRtpTransceiver,
-  useNACK,
-  useREMB,
-  useSdesMid,
-  useTransportWideCC,
-  useTWCC,
-} from 'werift';
-import { answerFault } from './answer-fault.ts';
-import { AnswerGate, type AnswerVerdict } from './answer-gate.ts';
-import type { CloudTransport } from './cloud-transport.ts';
 import {
   discardSockets,
   dropDefaultStun,
-  guardSockets,
+  guardConnection,
   pairLateCandidates,
+  prepareSockets,
+  RemoteCandidates,
   startChecks,
-} from './ice-restart.ts';
+} from '@farpoint/webrtc';
+import { MediaStream, type RTCDataChannel, type RTCPeerConnection, type RTCRtpTransceiver } from 'werift';
+import { answerFault } from './answer-fault.ts';
+import { AnswerGate, type AnswerVerdict } from './answer-gate.ts';
+import { MAX_RELIABLE_BACKLOG, MAX_UNRELIABLE_BACKLOG, MESSAGE_OVERHEAD_BYTES } from './message-limits.ts';
+import { errorText, openPeerConnection, toWeriftServers } from './open-peer-connection.ts';
+import type { OperatorPeerEvents, OperatorPeerOptions, PeerEnd } from './peer-events.ts';
 import { SrtpCloudTransport } from './srtp-cloud-transport.ts';
-
-/** Why a connection ended. */
-export type PeerEnd =
-  | 'closed' // by us
-  | 'bad-answer' // the operator's SDP or its codecs cannot be used
-  | 'unproven-peer' // DTLS: another certificate than the answer names, or a key that it does not have
-  | 'not-connected' // no connection came about
-  | 'unproven-peer' // who answered the handshake does not hold the described certificate's key
-  | 'connection-lost' // ICE, DTLS or a channel ended
-  | 'silent' // nothing heard for too long
-  | 'not-reading'; // our reliable messages pile up
-
-export interface OperatorPeerOptions {
-  iceServers: readonly IceServer[];
-  /** Local UDP ports, both ends included; any where absent. */
-  portRange?: readonly [number, number] | undefined;
-  /** `relay`: by TURN servers only. */
-  icePolicy?: 'all' | 'relay' | undefined;
-  connectTimeoutMs: number;
-  /** There are pictures to send: a channel for them is opened. */
-  pictures?: boolean | undefined;
-  /** Something that came from the network was dropped unread. */
-  onRefused?: ((reason: Refusal) => void) | undefined;
-}
-
-export interface OperatorPeerEvents {
-  onCandidate(candidate: IceCandidate): void;
-  /** A candidate of the operator is left out; others may do. */
-  onCandidateRefused?(reason: CandidateRefusal, detail: string): void;
-  /** The path and our channels are up. */
-  onConnected(transport: CloudTransport): void;
-  onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void;
-  /** What was sent of pictures has nearly left. */
-  onPicturesLow?(): void;
-  /** The last event. `detail` is for people. */
-  onEnded(end: PeerEnd, detail: string): void;
-}
-
-/** What a message costs on the wire beyond its text: SCTP chunk and header 28, DTLS record 37, UDP and IPv4 28 bytes. */
-const MESSAGE_OVERHEAD_BYTES = 93;
-/** Our unreliable messages are dropped while this much waits, bytes. */
-const MAX_UNRELIABLE_BACKLOG = 16_384;
-/** A peer that lets this much of the reliable channel pile up is closed. */
-const MAX_RELIABLE_BACKLOG = 262_144;
 
 export class OperatorPeer {
   readonly #events: OperatorPeerEvents;
@@ -103,33 +52,7 @@ export class OperatorPeer {
 
   constructor(options: OperatorPeerOptions, events: OperatorPeerEvents) {
     this.#events = events;
-    // The same objects for both m-lines: within a bundle the ids must agree.
-    const extensions = [useSdesMid(), useTransportWideCC()];
-    this.#connection = new RTCPeerConnection({
-      iceServers: toWeriftServers(options.iceServers),
-      bundlePolicy: 'max-bundle',
-      // Points over TCP would arrive late in heaps; a relay's own TCP is another matter.
-      iceUseTcp: false,
-      iceTransportPolicy: options.icePolicy ?? 'all',
-      ...(options.portRange === undefined
-        ? {}
-        : { icePortRange: [...options.portRange] as [number, number] }),
-      codecs: {
-        audio: [
-          new RTCRtpCodecParameters({
-            mimeType: 'audio/opus',
-            clockRate: 48_000,
-            channels: 2,
-            // REMB for peers that know nothing better.
-            rtcpFeedback: [useTWCC(), useNACK(), useREMB()],
-          }),
-        ],
-        video: [
-          new RTCRtpCodecParameters({ mimeType: 'video/VP8', clockRate: 90_000, rtcpFeedback: [useTWCC()] }),
-        ],
-      },
-      headerExtensions: { audio: extensions, video: extensions },
-    });
+    this.#connection = openPeerConnection(options);
     const connection = this.#connection;
     guardConnection(connection, {
       onRefused: (reason) => options.onRefused?.(reason),
@@ -140,7 +63,7 @@ export class OperatorPeer {
       events.onCandidateRefused?.(reason, detail),
     );
     // Points travel as "audio": the browser hands each packet over as it comes, without assembling frames.
-    this.#cloud = connection.addTransceiver('audio', {
+    this.#cloud = connection.addTransceiver(CLOUD_MEDIA.kind, {
       direction: 'sendonly',
       streams: [new MediaStream({ id: CLOUD_STREAM_ID })],
     });
@@ -173,7 +96,7 @@ export class OperatorPeer {
     connection.onDataChannel.subscribe((channel) => this.#adopt(channel));
     connection.onIceCandidate.subscribe((candidate) => {
       if (candidate === undefined || this.#ended) return;
-      guardSockets(this.#cloud.dtlsTransport);
+      prepareSockets(connection);
       this.#checkPairs();
       const { candidate: text, sdpMid, sdpMLineIndex, usernameFragment } = candidate.toJSON();
       events.onCandidate({
@@ -371,18 +294,4 @@ export class OperatorPeer {
     this.#connection.close().catch(() => undefined);
     this.#events.onEnded(end, detail);
   }
-}
-
-export function toWeriftServers(servers: readonly IceServer[]) {
-  return servers.flatMap(({ urls, username, credential }) =>
-    [urls].flat().map((url) => ({
-      urls: url,
-      ...(username === undefined ? {} : { username }),
-      ...(credential === undefined ? {} : { credential }),
-    })),
-  );
-}
-
-export function errorText(error: unknown): string {
-  return (error instanceof Error ? error.message : String(error)).slice(0, 300);
 }

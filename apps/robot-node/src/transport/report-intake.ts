@@ -1,14 +1,15 @@
 /** What an operator without transport-wide feedback lets us know of its path, handed to the rate control. */
+
+import type { RateController } from '@farpoint/congestion';
 import {
   FMT_APPLICATION,
-  type RateController,
   RTCP_PAYLOAD_FEEDBACK,
   RTCP_RECEIVER_REPORT,
   RTCP_SENDER_REPORT,
   type RtcpPacket,
   readRemb,
   readReportBlocks,
-} from '@farpoint/congestion';
+} from '@farpoint/rtp';
 import type { CloudTransport } from './cloud-transport.ts';
 
 /** Who counts for itself is believed before its RTCP, for so long after it last did, ms. */

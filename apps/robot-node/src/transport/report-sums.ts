@@ -1,4 +1,5 @@
-import type { ReceiverSums, ReportBlock } from '@farpoint/congestion';
+import type { ReceiverSums } from '@farpoint/congestion';
+import { type ReportBlock, SequenceNumber } from '@farpoint/rtp';
 
 /** Packets whose sending is remembered: several seconds of any stream that such reports allow. */
 const REMEMBERED = 8192;
@@ -35,8 +36,9 @@ export class ReportSums {
     let rttMs: number | null = null;
     if (highestSequence > this.#highest) {
       this.#highest = highestSequence;
-      const at = (highestSequence & 0xffff) % REMEMBERED;
-      const sentMs = this.#sequences[at] === (highestSequence & 0xffff) ? this.#sentMs[at]! : Number.NaN;
+      const sequence = SequenceNumber.of(highestSequence);
+      const at = sequence % REMEMBERED;
+      const sentMs = this.#sequences[at] === sequence ? this.#sentMs[at]! : Number.NaN;
       if (!Number.isNaN(sentMs)) rttMs = nowMs - sentMs;
     }
     return { packetsReceived, packetsLost, source: 'rtcp', rttMs };

@@ -31,15 +31,20 @@ export class SendLoop {
   run(): void {
     if (this.#timer !== null) clearTimeout(this.#timer);
     this.#timer = null;
-    const began = this.#cpu();
-    let next = Number.POSITIVE_INFINITY;
-    for (const sender of this.#senders) {
-      sender.pump();
-      next = Math.min(next, sender.nextDueMs ?? Number.POSITIVE_INFINITY);
+    if (this.#nextDueMs <= this.#now()) {
+      const began = this.#cpu();
+      for (const sender of this.#senders) sender.pump();
+      this.onWork?.(this.#cpu() - began);
     }
-    this.onWork?.(this.#cpu() - began);
+    const next = this.#nextDueMs;
     if (next === Number.POSITIVE_INFINITY) return;
     this.#timer = setTimeout(() => this.run(), Math.max(1, Math.ceil(next - this.#now())));
+  }
+
+  get #nextDueMs(): number {
+    let next = Number.POSITIVE_INFINITY;
+    for (const sender of this.#senders) next = Math.min(next, sender.nextDueMs ?? Number.POSITIVE_INFINITY);
+    return next;
   }
 
   close(): void {

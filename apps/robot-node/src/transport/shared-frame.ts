@@ -1,4 +1,6 @@
 import type { PacedFrame } from '@farpoint/congestion';
+import { CLOUD_MEDIA } from '@farpoint/protocol';
+import { rtpTimestamp } from '@farpoint/rtp';
 import type { CapturedFrame } from '../capture/capture-messages.ts';
 import { slotPayloadBytes } from '../encode/packetiser.ts';
 
@@ -16,18 +18,24 @@ export class SharedFrame implements PacedFrame {
   readonly rtpTimestamp: number;
   /** While a newer frame waits, the rest of this one has so long from its first packet. */
   readonly maxSpanMs: number;
+  readonly lane: number;
   #holders = 1;
   readonly #recycle: (buffer: ArrayBuffer) => void;
 
-  /** The maker holds it first and must `release` it. */
-  constructor(frame: CapturedFrame, overheadBytes: number, recycle: (buffer: ArrayBuffer) => void) {
+  /**
+   * The maker holds it first and must `release` it.
+   *
+   * @param lane of the pacer: frames of lower ones go first
+   */
+  constructor(frame: CapturedFrame, overheadBytes: number, recycle: (buffer: ArrayBuffer) => void, lane = 0) {
+    this.lane = lane;
     this.frame = frame;
     this.slots = new Uint8Array(frame.buffer);
     this.packets = frame.packets;
     let bytes = frame.packets * overheadBytes;
     for (let i = 0; i < frame.packets; i++) bytes += slotPayloadBytes(this.slots, i);
     this.bytes = bytes;
-    this.rtpTimestamp = Math.floor((frame.capturedAtMs * 48) % 0x1_0000_0000) >>> 0;
+    this.rtpTimestamp = rtpTimestamp(frame.capturedAtMs, CLOUD_MEDIA.clockRate);
     this.maxSpanMs = frame.intervalMs * MOST_INTERVALS;
     this.#recycle = recycle;
   }

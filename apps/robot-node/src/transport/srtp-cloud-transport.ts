@@ -1,12 +1,12 @@
 import { Buffer } from 'node:buffer';
 import { randomInt } from 'node:crypto';
-import { type ReceiverSums, type ReportBlock, ResendHistory } from '@farpoint/congestion';
+import type { ReceiverSums } from '@farpoint/congestion';
+import { type ReportBlock, ResendHistory, RtpHeaderTemplate, SequenceNumber } from '@farpoint/rtp';
+import { SRTP_AEAD_AES_128_GCM, SRTP_GCM_TAG_BYTES, SrtpSealer } from '@farpoint/rtp/srtp';
+import { IcePath, srtpKeys, tapRtcp } from '@farpoint/webrtc';
 import { type RTCDtlsTransport, type RTCRtpTransceiver, RTP_EXTENSION_URI } from 'werift';
 import { type CloudTransport, UDP_IPV4_BYTES } from './cloud-transport.ts';
 import { ReportSums } from './report-sums.ts';
-import { RtpHeaderTemplate } from './rtp-header.ts';
-import { SRTP_GCM_TAG_BYTES, SrtpSealer } from './srtp-sealer.ts';
-import { IcePath, outgoingSrtpKeys, tapRtcp } from './werift-path.ts';
 
 /** The peer does not speak what the stream needs. */
 export class CloudTransportError extends Error {
@@ -45,8 +45,9 @@ export class SrtpCloudTransport implements CloudTransport {
     if (codec === undefined || mid === null)
       throw new CloudTransportError('the peer refused the cloud stream');
     const dtls = transceiver.dtlsTransport;
-    const keys = outgoingSrtpKeys(dtls);
-    if (keys === null) throw new CloudTransportError('the peer does not take SRTP with AES-128-GCM');
+    const { profile, key, salt } = srtpKeys(dtls, 'outgoing');
+    if (profile !== SRTP_AEAD_AES_128_GCM)
+      throw new CloudTransportError('the peer does not take SRTP with AES-128-GCM');
     const extensionId = (uri: string) => transceiver.headerExtensions.find((e) => e.uri === uri)?.id;
     const transportSequenceId =
       transportSequenceExtensionId ?? extensionId(RTP_EXTENSION_URI.transportWideCC);
@@ -61,7 +62,7 @@ export class SrtpCloudTransport implements CloudTransport {
       midExtensionId: extensionId(RTP_EXTENSION_URI.sdesMid),
       transportSequenceExtensionId: transportSequenceId,
     });
-    this.#sealer = new SrtpSealer(keys.key, keys.salt, sender.ssrc, randomInt(0x8000));
+    this.#sealer = new SrtpSealer(key, salt, sender.ssrc, randomInt(0x8000));
     this.#dtls = dtls;
     this.#path = new IcePath(dtls);
     this.overheadBytes = this.#header.bytes.length + SRTP_GCM_TAG_BYTES + UDP_IPV4_BYTES;
@@ -86,7 +87,7 @@ export class SrtpCloudTransport implements CloudTransport {
   ): number | null {
     this.#refreshPath();
     if (!this.#pathIsOpen) return null;
-    const transportSequence = (this.#dtls.transportSequenceNumber + 1) & 0xffff;
+    const transportSequence = SequenceNumber.next(this.#dtls.transportSequenceNumber);
     this.#dtls.transportSequenceNumber = transportSequence;
     const { nextSequence } = this.#sealer;
     this.#header.patch(marker, nextSequence, timestamp, transportSequence);

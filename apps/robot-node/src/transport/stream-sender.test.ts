@@ -3,9 +3,9 @@ import {
   type RateController,
   type RateDecision,
   type ReceiverSums,
-  type ReportBlock,
 } from '@farpoint/congestion';
 import { emptyPlacement } from '@farpoint/protocol';
+import type { ReportBlock } from '@farpoint/rtp';
 import { describe, expect, it } from 'vitest';
 import type { CapturedFrame } from '../capture/capture-messages.ts';
 import { completePackets, SLOT_BYTES } from '../encode/packetiser.ts';
@@ -68,6 +68,8 @@ function frame(points: number, capturedAtMs = 1000): CapturedFrame {
   for (let i = 0; i < packets; i++) slots[i * SLOT_BYTES] = i;
   return {
     type: 'frame',
+    sensor: 0,
+    usefulBitsPerSecond: 1e6,
     audience: 'everyone',
     format: 'points64',
     frameNumber: 0,

@@ -1,46 +1,34 @@
 import {
-  FMT_GENERIC_NACK,
-  FMT_TRANSPORT_WIDE,
   type FrameDropReason,
   PacketPacer,
   type ProbeRequest,
-  parseTransportFeedback,
   type RateController,
   type RateSnapshot,
+} from '@farpoint/congestion';
+import {
+  FMT_GENERIC_NACK,
+  FMT_TRANSPORT_WIDE,
+  parseTransportFeedback,
   type ResendRefusal,
   RTCP_TRANSPORT_FEEDBACK,
   readNack,
-  TokenBucket,
   TransportFeedbackAdapter,
   TransportFeedbackError,
   walkRtcp,
-} from '@farpoint/congestion';
+} from '@farpoint/rtp';
+import { TokenBucket } from '@farpoint/timing';
 import { slotPayload, slotSequenceOffset } from '../encode/packetiser.ts';
 import type { CloudTransport } from './cloud-transport.ts';
 import { FrameFit } from './frame-fit.ts';
 import { ReportIntake } from './report-intake.ts';
 import type { SharedFrame } from './shared-frame.ts';
+import { emptyStreamCounters } from './stream-counters.ts';
 
 /** Packets leave in bursts of so long, ms: a wake-up for each would cost more than the packets do. */
 const BURST_MS = 2.5;
 /** A wished train waits for a frame of its length for so many frames; then one of at least so many packets must do. */
 const PATIENT_FRAMES = 4;
 const SHORT_TRAIN_PACKETS = 20;
-
-/** Sums since the session began. */
-export interface StreamCounters {
-  framesSent: number;
-  packetsSent: number;
-  /** On the wire, all headers counted. */
-  bytesSent: number;
-  pointsSent: number;
-  /** Packets that found the path closed. */
-  packetsUnsent: number;
-  feedbackMessages: number;
-  feedbackMalformed: number;
-  /** Sent again because the operator missed them; not among `packetsSent`. */
-  packetsResent: number;
-}
 
 /** A frame has been sent to its last packet. */
 export interface SentFrame {
@@ -54,16 +42,7 @@ export interface SentFrame {
  * the controller what came of them. It owns no timer: call `pump` at `nextDueMs`.
  */
 export class StreamSender {
-  readonly counters: StreamCounters = {
-    framesSent: 0,
-    packetsSent: 0,
-    bytesSent: 0,
-    pointsSent: 0,
-    packetsUnsent: 0,
-    feedbackMessages: 0,
-    feedbackMalformed: 0,
-    packetsResent: 0,
-  };
+  readonly counters = emptyStreamCounters();
   onFrameSent: ((sent: SentFrame) => void) | null = null;
   onFrameDropped: ((shared: SharedFrame, reason: FrameDropReason) => void) | null = null;
   /** Told of each packet that left: frame number, where its data lies in the frame, robot's clock. For measurements. */
@@ -79,7 +58,7 @@ export class StreamSender {
   /** A peer that asks for everything again gets a tenth of it. */
   readonly #resends = new TokenBucket({ perSecond: 400, burst: 50 });
   readonly #now: () => number;
-  #beganMs = 0;
+  readonly #beganMs = new WeakMap<SharedFrame, number>();
   /** The probe that is being sent, its rate and what is left of it. */
   #probeCluster = 0;
   #probeBitsPerSecond = 0;
@@ -162,6 +141,8 @@ export class StreamSender {
       this.#framesTooShort = 0;
       return;
     }
+    // The others' frames are not made to measure for it.
+    if (shared.lane !== 0) return;
     if (shared.bytes < wish.bytes) {
       this.#framesTooShort++;
       if (this.#framesTooShort <= PATIENT_FRAMES || shared.packets < SHORT_TRAIN_PACKETS) return;
@@ -182,7 +163,7 @@ export class StreamSender {
       const run = this.#pacer.due(now);
       if (run === null) return;
       const { frame: shared, first, count, last } = run;
-      if (first === 0) this.#beganMs = now;
+      if (first === 0) this.#beganMs.set(shared, now);
       const { points } = shared.frame;
       for (let i = first; i < first + count; i++) {
         const payload = slotPayload(shared.slots, i);
@@ -209,7 +190,7 @@ export class StreamSender {
       this.#fit.onSent();
       this.counters.framesSent++;
       this.counters.pointsSent += points;
-      this.onFrameSent?.({ shared, sendMs: this.#now() - this.#beganMs });
+      this.onFrameSent?.({ shared, sendMs: this.#now() - (this.#beganMs.get(shared) ?? now) });
       shared.release();
     }
   }

@@ -1,11 +1,10 @@
+import { activeInput, toTwist } from '@farpoint/operator';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { shapeAxis } from './dead-zone.ts';
-import { activeInput } from './drive-input.ts';
 import { GamepadInput } from './gamepad-input.ts';
 import { HeadsetInput } from './headset-input.ts';
 import { KeyboardInput } from './keyboard-input.ts';
-import { toTwist } from './velocity-mapping.ts';
 
 const RESPONSE = { deadZone: 0.12, expo: 0.4 };
 const limits = { maxLinear: 1.2, maxAngular: 2 };

@@ -1,7 +1,7 @@
 /** A gamepad in the standard mapping: either stick, while a shoulder button is held. */
+
+import type { DriveInput, DriveWish, PressedButtons } from '@farpoint/operator';
 import { DEFAULT_STICK_RESPONSE, shapeAxis } from './dead-zone.ts';
-import type { DriveInput, PressedButtons } from './drive-input.ts';
-import type { DriveWish } from './velocity-mapping.ts';
 
 /** Shoulders and triggers of the standard mapping. */
 const GRIP_BUTTONS = [4, 5, 6, 7];

@@ -2,10 +2,10 @@
  * Headset controllers, WebXR's `xr-standard` mapping: thumbstick axes 2 and 3, the trigger is button 0, squeeze button 1, the
  * thumbstick's press button 3, A/X button 4, B/Y button 5. The hand that squeezes drives.
  */
+
+import type { DriveInput, DriveWish, PressedButtons } from '@farpoint/operator';
 import { DEFAULT_STICK_RESPONSE, shapeAxis } from './dead-zone.ts';
-import type { DriveInput, PressedButtons } from './drive-input.ts';
 import type { GamepadState } from './gamepad-input.ts';
-import type { DriveWish } from './velocity-mapping.ts';
 
 const TRIGGER = 0;
 const SQUEEZE = 1;

@@ -1,6 +1,5 @@
 /** W A S D or the arrows, while Space or Shift is held. Pure: told of keys by their code. */
-import type { DriveInput } from './drive-input.ts';
-import type { DriveWish } from './velocity-mapping.ts';
+import type { DriveInput, DriveWish } from '@farpoint/operator';
 
 const GRIPS: readonly string[] = ['Space', 'ShiftLeft', 'ShiftRight'];
 const FORWARD: readonly string[] = ['KeyW', 'ArrowUp'];

@@ -1,7 +1,7 @@
 /** The joystick on the screen: a finger on it is the dead-man grip. */
+
+import type { DriveInput, DriveWish } from '@farpoint/operator';
 import { shapeAxis } from './dead-zone.ts';
-import type { DriveInput } from './drive-input.ts';
-import type { DriveWish } from './velocity-mapping.ts';
 
 const RESPONSE = { deadZone: 0.08, expo: 0.4 };
 

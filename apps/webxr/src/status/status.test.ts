@@ -1,6 +1,6 @@
+import { lossOf } from '@farpoint/operator';
 import { commandRejections, driveStates, robotEndReasons } from '@farpoint/protocol';
 import { describe, expect, test } from 'vitest';
-import { lossOf } from '../session/session-loss.ts';
 import { driveWords, linkWords, rejectionWords, vrUnavailable, wordsOfLoss } from './words.ts';
 
 const live = {

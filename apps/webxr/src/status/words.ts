@@ -1,8 +1,7 @@
 /** What the page says, in plain words: one place for every state, refusal and failure a person may meet. */
+
+import type { SessionLoss, SessionPhase, SignalingState } from '@farpoint/operator';
 import type { CommandRejection, DriveState } from '@farpoint/protocol';
-import type { SessionPhase } from '../session/session-keeper.ts';
-import type { SessionLoss } from '../session/session-loss.ts';
-import type { SignalingState } from '../signaling/operator-signaling.ts';
 
 export type Tone = 'good' | 'neutral' | 'warning' | 'bad';
 

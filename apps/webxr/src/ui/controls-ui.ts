@@ -1,6 +1,5 @@
 /** Buttons, mouse, wheel and keys to what they do. */
-import { robotAfter } from '../drive/robot-switch.ts';
-import { LatencyError } from '../latency/latency-probe.ts';
+import { LatencyError, robotAfter } from '@farpoint/operator';
 import type { PageParts } from '../page-parts.ts';
 import { elements } from './elements.ts';
 import type { EstopUi } from './estop-ui.ts';
@@ -27,12 +26,12 @@ export class ControlsUi {
 
   start(): void {
     const app = this.#app;
-    elements.disconnect.addEventListener('click', () => app.leave());
+    elements.disconnect.addEventListener('click', () => app.client.leave());
     this.#estop.start();
     elements.latency.addEventListener('click', ({ timeStamp }) => this.act('latency-test', timeStamp));
     elements.view.addEventListener('click', () => this.act('view', performance.now()));
-    elements.take.addEventListener('click', () => app.driver.requestLease(true));
-    elements.release.addEventListener('click', () => app.driver.releaseLease());
+    elements.take.addEventListener('click', () => app.client.takeOver());
+    elements.release.addEventListener('click', () => app.client.driver.releaseLease());
     // A button that keeps the focus would take the space bar.
     for (const button of document.querySelectorAll<HTMLButtonElement>('#bar button, #drive button')) {
       button.addEventListener('click', () => button.blur());
@@ -40,6 +39,7 @@ export class ControlsUi {
     initRobotSwitcher((robotId) => app.choose(robotId));
     initSettingsDialog((scale) => {
       app.cloud.sizeScale = scale;
+      app.clouds.sizeScale = scale;
     });
     this.#startVr();
     this.#startLook();
@@ -52,7 +52,7 @@ export class ControlsUi {
         this.#estop.stop();
         return;
       case 'latency-test':
-        this.#app.latency.run(timeMs).then(
+        this.#app.client.latencyTest(timeMs).then(
           ({ mtpMs, firstMs }) =>
             notify(`Motion to photon ${mtpMs.toFixed(0)} ms (first points ${firstMs.toFixed(0)} ms)`, 'good'),
           (error: unknown) => {
@@ -73,9 +73,9 @@ export class ControlsUi {
   }
 
   #nextRobot(): void {
-    const { chosenRobotId, link } = this.#app;
+    const { chosenRobotId, robots } = this.#app.client;
     if (chosenRobotId === null) return;
-    const next = robotAfter(link.robots, chosenRobotId);
+    const next = robotAfter(robots, chosenRobotId);
     if (next === null) notify('No other robot is here.');
     else this.#app.choose(next.id);
   }

@@ -20,6 +20,7 @@ export const elements = {
   robotsEmpty: byId('robots-empty', HTMLElement),
   hud: byId('hud', HTMLElement),
   facts: byId('facts', HTMLElement),
+  sensors: byId('sensors', HTMLElement),
   pictures: byId('pictures', HTMLElement),
   notice: byId('notice', HTMLElement),
   drive: byId('drive', HTMLElement),

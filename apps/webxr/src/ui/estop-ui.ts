@@ -1,15 +1,16 @@
 /** The emergency stop: any press of stop latches it, whatever its state; only the other control, held, releases it. */
+
+import type { RobotClient } from '@farpoint/operator';
 import { type ReleaseControl, ReleaseHold } from '../drive/release-hold.ts';
-import type { PageParts } from '../page-parts.ts';
 import { elements } from './elements.ts';
 
 export class EstopUi {
-  readonly #app: Pick<PageParts, 'link' | 'driver'>;
+  readonly #client: RobotClient;
   readonly #hold = new ReleaseHold();
   #shown = '';
 
-  constructor(app: Pick<PageParts, 'link' | 'driver'>) {
-    this.#app = app;
+  constructor(client: RobotClient) {
+    this.#client = client;
   }
 
   start(): void {
@@ -36,8 +37,7 @@ export class EstopUi {
 
   stop(): void {
     this.#hold.cancel();
-    const { link } = this.#app;
-    if (link.phase === 'live') link.sendSession({ type: 'estop', latch: true });
+    this.#client.estop();
   }
 
   hold(control: ReleaseControl, down: boolean): void {
@@ -46,14 +46,10 @@ export class EstopUi {
 
   /** @param away no hand can be seen */
   tick(nowMs: number, away: boolean): void {
-    const { link, driver } = this.#app;
+    const { link } = this.#client;
     const latched = link.phase === 'live' && link.session.estop.latched;
     if (away) this.#hold.letGo();
-    if (this.#hold.tick(nowMs, latched)) {
-      // Who drives releases; where nobody does, whoever holds this is about to.
-      if (driver.holder === 'nobody') driver.requestLease(false);
-      link.sendSession({ type: 'estop', latch: false });
-    }
+    if (this.#hold.tick(nowMs, latched)) this.#client.releaseEstop();
     this.#show(latched);
   }
 

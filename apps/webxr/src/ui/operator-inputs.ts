@@ -1,5 +1,5 @@
 /** Every device the page listens to. What is held is let go when the page cannot hear it any more. */
-import type { DriveInput, PressedButtons } from '../drive/drive-input.ts';
+import type { DriveInput, PressedButtons } from '@farpoint/operator';
 import { GamepadInput } from '../drive/gamepad-input.ts';
 import { HeadsetInput, type XrController } from '../drive/headset-input.ts';
 import { KeyboardInput } from '../drive/keyboard-input.ts';

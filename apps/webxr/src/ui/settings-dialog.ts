@@ -1,4 +1,5 @@
-import { clampScale, ownSignalingUrl, parseSignalingUrl } from '../settings.ts';
+import { parseSignalingUrl } from '@farpoint/operator';
+import { clampScale, ownSignalingUrl } from '../settings.ts';
 import { tokenOrigin, withToken } from '../signaling-tokens.ts';
 import { loadStored, pageOrigin, store } from '../stored-settings.ts';
 import { elements } from './elements.ts';

@@ -1,11 +1,11 @@
 /** What the page shows of the link, the robot and the stream, a few times a second: on the screen and on the wrist. */
-import { robotAfter } from '../drive/robot-switch.ts';
+import { robotAfter } from '@farpoint/operator';
 import type { PageParts } from '../page-parts.ts';
 import type { CameraViews } from '../pictures/camera-views.ts';
 import { STALE_MS } from '../pictures/camera-views.ts';
-import type { ShownReading } from '../session/readings.ts';
+import type { PageStats } from '../status/page-stats.ts';
+import { type ShownReading, shownReading } from '../status/shown-readings.ts';
 import { driveWords, linkWords, type Words } from '../status/words.ts';
-import type { PageStats } from '../test-api.ts';
 import type { WristPanel } from '../view/wrist-panel.ts';
 import { WristPictures } from '../view/wrist-pictures.ts';
 import { elements } from './elements.ts';
@@ -52,7 +52,8 @@ export class StatusUi {
   }
 
   update(nowMs: number): void {
-    const { link, settings } = this.#app;
+    const { client, settings } = this.#app;
+    const { link } = client;
     const words =
       settings.signalingFault !== null && link.phase === 'none'
         ? ({ text: `Signaling address: ${settings.signalingFault}`, tone: 'bad' } as const)
@@ -61,7 +62,7 @@ export class StatusUi {
     const connected = link.phase !== 'none';
     elements.robots.hidden = connected;
     elements.disconnect.hidden = !connected;
-    showRobotSwitcher(link.robots, this.#app.chosenRobotId);
+    showRobotSwitcher(link.robots, client.chosenRobotId);
     elements.view.hidden = !connected;
     elements.drive.hidden = link.phase !== 'live';
     elements.hud.hidden = link.phase !== 'live';
@@ -71,7 +72,7 @@ export class StatusUi {
   }
 
   #showSession(nowMs: number): void {
-    const { driver } = this.#app;
+    const { driver } = this.#app.client;
     setPill(elements.holder, this.#holderWords());
     elements.take.hidden = driver.holder !== 'other';
     elements.release.hidden = driver.holder !== 'you';
@@ -79,7 +80,7 @@ export class StatusUi {
   }
 
   #holderWords(): Words {
-    const { driver } = this.#app;
+    const { driver } = this.#app.client;
     if (driver.holder === 'other') return { text: 'Someone else drives', tone: 'warning' };
     if (driver.holder === 'nobody') return { text: 'Nobody drives', tone: 'neutral' };
     return driver.stream.held
@@ -88,7 +89,7 @@ export class StatusUi {
   }
 
   #facts(nowMs: number): Fact[] {
-    const { link } = this.#app;
+    const { link } = this.#app.client;
     const { telemetry, estop, welcome } = link.session;
     const stats = this.#stats();
     const facts: Fact[] = [];
@@ -109,7 +110,7 @@ export class StatusUi {
         });
       }
     }
-    addReadings(facts, link.session.readings.list(nowMs));
+    addReadings(facts, link.session.readings.list(nowMs).map(shownReading));
     facts.push(...streamFacts(stats));
     if (telemetry !== null && telemetry.operators > 1) {
       facts.push({ name: 'Operators', value: String(telemetry.operators) });
@@ -119,7 +120,7 @@ export class StatusUi {
 
   #showWrist(words: Words): void {
     const stats = this.#stats();
-    const { chosenRobotId, link } = this.#app;
+    const { chosenRobotId, link } = this.#app.client;
     const { telemetry } = link.session;
     const next = robotAfter(link.robots, chosenRobotId);
     const drive = telemetry === null ? null : driveWords[telemetry.drive];
@@ -157,13 +158,11 @@ export class StatusUi {
 
 /** The page's figures now. */
 export function snapshot(app: PageParts): PageStats {
-  const { clock } = app.link.session;
-  const times = { rttMs: clock.lastRttMs, minRttMs: clock.minRttMs };
-  return app.stats.snapshot(app.cloud, times, app.stage.renderer.domElement);
+  return app.stats.snapshot(app.client.stats(), app.cloud, app.stage.renderer.domElement);
 }
 
 export function describeLink(app: PageParts, nowMs: number): Words {
-  const { link } = app;
+  const { link } = app.client;
   return linkWords({
     phase: link.phase,
     signaling: link.signaling,
@@ -171,7 +170,7 @@ export function describeLink(app: PageParts, nowMs: number): Words {
     lastLoss: link.lastLoss,
     maxOperators: link.maxOperators,
     silentMs: link.silentMs(nowMs),
-    pointsSilentMs: nowMs - app.lastPointsMs,
+    pointsSilentMs: nowMs - app.client.pointsAtMs,
     rateByReports: link.session.telemetry?.stream.feedback === 'reports',
   });
 }

@@ -1,7 +1,7 @@
 /** Renderer, scene and cameras. The frame loop does nothing but upload what has come, place the camera and draw. */
+
+import { type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud-view';
 import { Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
-import type { CloudView } from '../cloud/cloud-view.ts';
-import { opticalYaw, worldToThree } from './axes.ts';
 import { GroundGrid } from './ground-grid.ts';
 import { Look } from './look.ts';
 import { PoseFollower } from './pose-follower.ts';
@@ -24,7 +24,7 @@ export class Stage {
   readonly renderer: WebGLRenderer;
   readonly scene = new Scene();
   /** Everything in the robot's world, REP-103. */
-  readonly world = new Group();
+  readonly world = new RobotWorld();
   /** Carries the operator's head; three's axes. */
   readonly rig = new Group();
   readonly camera = new PerspectiveCamera(75, 1, NEAR_M, FAR_M);
@@ -44,8 +44,6 @@ export class Stage {
     // The head's place when VR begins is the robot's camera.
     this.renderer.xr.setReferenceSpaceType('local');
     this.scene.background = new Color(BACKGROUND);
-    this.world.matrixAutoUpdate = false;
-    this.world.matrix.copy(worldToThree());
     this.world.add(this.#marker.object);
     this.rig.add(this.camera);
     this.scene.add(this.world, this.rig, this.#grid.object);
@@ -79,14 +77,6 @@ export class Stage {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Pixels of one eye's picture, from top to bottom. */
-  get viewportHeight(): number {
-    const { xr, domElement } = this.renderer;
-    if (!xr.isPresenting) return domElement.height;
-    const eye = xr.getCamera().cameras[0];
-    return eye?.viewport?.w ?? domElement.height;
-  }
-
   /** The next pose is another robot's: go there at once. */
   forgetPose(): void {
     this.#follower.reset();
@@ -116,7 +106,6 @@ export class Stage {
       this.rig.rotation.y = follower.yaw;
     }
     this.#grid.centreOn(this.rig.position.x, this.rig.position.z);
-    cloud.viewportHeight = this.viewportHeight;
     if (!this.renderer.xr.isPresenting) this.#placeFlatCamera();
   }
 

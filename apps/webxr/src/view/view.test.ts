@@ -1,7 +1,7 @@
+import { bodyYaw, opticalYaw, worldToThree } from '@farpoint/cloud-view';
 import fc from 'fast-check';
 import { Quaternion, Vector3 } from 'three';
 import { describe, expect, test } from 'vitest';
-import { bodyYaw, opticalYaw, worldToThree } from './axes.ts';
 import { DEFAULT_FOV, Look, MAX_FOV, MIN_FOV } from './look.ts';
 import { PoseFollower, shortestTurn } from './pose-follower.ts';
 

@@ -49,7 +49,7 @@ export class WristPictures {
     for (const sheet of this.#sheets) {
       const { view, mesh, texture } = sheet;
       const { width, height } = view.canvas;
-      mesh.visible = view.takenMs !== null;
+      mesh.visible = view.takenAtMs !== null;
       if (!mesh.visible) continue;
       if (width !== sheet.width || height !== sheet.height) {
         // A texture keeps the size that it began with.

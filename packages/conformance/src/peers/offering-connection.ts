@@ -1,10 +1,8 @@
 /** The WebRTC half of a robot that speaks as the reference system's does: it offers, and streams packets of payload type 5. */
+
 import { Buffer } from 'node:buffer';
-import {
-  createReferencePeerConnection,
-  REFERENCE_PAYLOAD_TYPE,
-  referenceChannels,
-} from '@farpoint/reference-profile';
+import { REFERENCE_MEDIA } from '@farpoint/protocol';
+import { createReferencePeerConnection, referenceChannels } from '@farpoint/reference-profile';
 import { MediaStreamTrack, type RTCDataChannel, RtpHeader, RtpPacket } from 'werift';
 import { Inbox } from './inbox.ts';
 
@@ -91,7 +89,7 @@ export class OfferingConnection {
     this.#timestamp += timestampStep;
     payloads.forEach((payload, i) => {
       const header = new RtpHeader({
-        payloadType: REFERENCE_PAYLOAD_TYPE,
+        payloadType: REFERENCE_MEDIA.payloadType,
         sequenceNumber: this.#sequence++ & 0xffff,
         timestamp: this.#timestamp >>> 0,
         marker: i === payloads.length - 1,

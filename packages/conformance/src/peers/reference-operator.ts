@@ -7,8 +7,8 @@ import {
   referenceControlCodec,
   type Twist,
 } from '@farpoint/protocol';
-import { createReferencePeerConnection, referenceChannels, tapRtp } from '@farpoint/reference-profile';
-import { prepareSockets } from '@farpoint/webrtc';
+import { createReferencePeerConnection, referenceChannels } from '@farpoint/reference-profile';
+import { prepareSockets, tapRtp } from '@farpoint/webrtc';
 import { helloAtOnce } from '@farpoint/webrtc/testing';
 import type { RTCDataChannel, RTCPeerConnection } from 'werift';
 import { Inbox } from './inbox.ts';

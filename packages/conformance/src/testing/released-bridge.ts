@@ -12,8 +12,8 @@
  * - an offer that cannot be read ends the program.
  */
 import { Buffer } from 'node:buffer';
-import { createReferencePeerConnection, referenceChannels, tapRtp } from '@farpoint/reference-profile';
-import { prepareSockets } from '@farpoint/webrtc';
+import { createReferencePeerConnection, referenceChannels } from '@farpoint/reference-profile';
+import { prepareSockets, tapRtp } from '@farpoint/webrtc';
 import type { RTCDataChannel, RTCPeerConnection } from 'werift';
 import { WebSocket, type WebSocketServer } from 'ws';
 import { Inbox } from '../peers/inbox.ts';

@@ -33,14 +33,3 @@ export function faultOf(action: () => unknown): RosFault {
 export function cdr(...content: number[]): Uint8Array {
   return Uint8Array.of(0, 1, 0, 0, ...content);
 }
-
-/** Pseudorandom numbers below 1 from a seed (mulberry32). */
-export function randomOf(seed: number): () => number {
-  let state = seed;
-  return () => {
-    state = (state + 0x6d2b79f5) | 0;
-    let mixed = Math.imul(state ^ (state >>> 15), 1 | state);
-    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
-    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
-  };
-}

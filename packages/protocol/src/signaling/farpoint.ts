@@ -114,7 +114,10 @@ const robotEndFields = {
 
 const robotListing = z.strictObject({ id: robotIdSchema, name: displayNameSchema });
 /** A robot that is here now. */
-export type RobotListing = z.infer<typeof robotListing>;
+export interface RobotListing {
+  id: string;
+  name: string;
+}
 
 const robotsChanged = z.strictObject({
   type: z.literal('robots.changed'),
@@ -123,7 +126,11 @@ const robotsChanged = z.strictObject({
   /** Ids of who went. */
   gone: z.array(robotIdSchema),
 });
-export type RobotsChanged = z.infer<typeof robotsChanged>;
+export interface RobotsChanged {
+  type: 'robots.changed';
+  here: RobotListing[];
+  gone: string[];
+}
 
 const robotToService = z.discriminatedUnion('type', [
   z.strictObject({

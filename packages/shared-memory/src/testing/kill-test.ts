@@ -1,6 +1,7 @@
 /** Producer and reader as processes of their own, killed again and again while frames flow. */
 import { type ChildProcess, spawn } from 'node:child_process';
 import { join } from 'node:path';
+import { Random } from '@farpoint/network-sim/random';
 import { MappedFile } from '../mapped-file.ts';
 import { COUNT_BYTES, Counts } from './counts.ts';
 
@@ -41,8 +42,8 @@ export async function runKillTest(options: KillTestOptions): Promise<KillTestRes
   const log = join(folder, 'counts');
   using file = MappedFile.open(log, { bytes: COUNT_BYTES, create: true });
   const counts = new Counts(file);
-  const random = generator(seed);
-  const life = () => lifeMs[0] + random() * (lifeMs[1] - lifeMs[0]);
+  const random = new Random(seed, 0);
+  const life = () => lifeMs[0] + random.next() * (lifeMs[1] - lifeMs[0]);
   const args = ['--layout', layout, '--folder', folder, '--points', String(points), '--log', log];
   const sides = [new Side('marked-producer.ts', args), new Side('checking-reader.ts', args)] as const;
   const began = performance.now();
@@ -119,15 +120,4 @@ class Side {
     child.kill('SIGKILL');
     await ended;
   }
-}
-
-/** Mulberry32: numbers from 0 to 1, the same for the same seed. */
-function generator(seed: number): () => number {
-  let state = seed >>> 0;
-  return () => {
-    state = (state + 0x6d2b79f5) >>> 0;
-    let mixed = Math.imul(state ^ (state >>> 15), state | 1);
-    mixed ^= mixed + Math.imul(mixed ^ (mixed >>> 7), mixed | 61);
-    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
-  };
 }

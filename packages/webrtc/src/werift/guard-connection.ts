@@ -4,6 +4,7 @@ import { type Refusal, Refusals } from '../refusal.ts';
 import { guardDtls } from './guard-dtls.ts';
 import { guardIce } from './guard-ice.ts';
 import { guardSctp } from './guard-sctp.ts';
+import { useKeyObjects } from './key-objects.ts';
 import { expectMethods, WeriftShapeError } from './werift-shape.ts';
 
 export interface ConnectionGuardEvents {
@@ -35,6 +36,7 @@ export function guardConnection(connection: RTCPeerConnection, events: Connectio
   const createDtls = shape.createDtlsTransport.bind(connection);
   shape.createDtlsTransport = (options) => {
     const transport = createDtls(options);
+    useKeyObjects(transport);
     guardIce(transport, refusals);
     guardDtls(transport, refusals, (error) => events.onUnproven?.(error));
     return transport;

@@ -23,17 +23,20 @@ const prepared = new WeakSet<object>();
 export function prepareSockets(connection: RTCPeerConnection): void {
   for (const transport of connection.iceTransports) {
     const { protocols = [] } = transport.connection as unknown as IceShape;
-    for (const { transport: udp } of protocols) {
-      const socket = udp?.socket;
-      if (socket === undefined || typeof socket.on !== 'function' || prepared.has(socket)) continue;
-      prepared.add(socket);
-      socket.on('error', () => undefined);
-      try {
-        socket.setRecvBufferSize?.(RECEIVE_BUFFER_BYTES);
-      } catch {
-        // Not bound yet, or TCP: it does without.
-      }
-    }
+    for (const { transport: udp } of protocols) guardSocket(udp?.socket);
+  }
+}
+
+/** One of them, as it comes into use. Does nothing for what is no socket, or is prepared. */
+export function guardSocket(candidate: unknown): void {
+  const socket = candidate as Partial<UdpSocketShape> | undefined;
+  if (socket === undefined || typeof socket.on !== 'function' || prepared.has(socket)) return;
+  prepared.add(socket);
+  socket.on('error', () => undefined);
+  try {
+    socket.setRecvBufferSize?.(RECEIVE_BUFFER_BYTES);
+  } catch {
+    // Not bound yet, or TCP: it does without.
   }
 }
 

@@ -3,6 +3,7 @@
 
 mod organised_decoder;
 mod organised_encoder;
+mod organised_frame;
 mod unorganised;
 
 use farpoint_point_codec::points64::{InvalidCount, POINTS_PER_PACKET, SlotLayout, pack, unpack};

@@ -3,11 +3,12 @@
 use farpoint_organised_codec::packet::MAX_PACKET_BYTES;
 use farpoint_organised_codec::stream::DEPTH_UNIT;
 use farpoint_organised_codec::{
-    Budget, ColourMode, Encoder, Frame, Intrinsics, Misfit, Point, Settings, Source, StreamHeader, Validity,
-    check_grid, estimate_intrinsics, with_palette,
+    Budget, ColourMode, Encoder, Frame, Intrinsics, Misfit, Settings, StreamHeader, Validity, check_grid,
+    estimate_intrinsics, with_palette,
 };
 use wasm_bindgen::prelude::*;
-use wide::f32x4;
+
+use crate::organised_frame::OrganisedFrame;
 
 /// How many numbers [`OrganisedEncoder::report_ptr`] points to.
 const REPORT_LENGTH: usize = 20;
@@ -15,11 +16,7 @@ const REPORT_LENGTH: usize = 20;
 /// A frame, its coder and the packet slots it is coded into.
 #[wasm_bindgen]
 pub struct OrganisedEncoder {
-    width: usize,
-    height: usize,
-    frame: Vec<f32x4>,
-    depth: Vec<f32>,
-    colour: Vec<u32>,
+    frame: OrganisedFrame,
     encoder: Option<Encoder>,
     /// Of the last frame.
     settings: Settings,
@@ -46,11 +43,7 @@ impl OrganisedEncoder {
             return None;
         }
         Some(Self {
-            width,
-            height,
-            frame: vec![f32x4::ZERO; width * height],
-            depth: Vec::new(),
-            colour: Vec::new(),
+            frame: OrganisedFrame::new(width, height),
             encoder: None,
             settings: Settings::default(),
             stride,
@@ -63,25 +56,17 @@ impl OrganisedEncoder {
 
     /// 4 floats a point.
     pub fn frame_ptr(&self) -> *const f32 {
-        self.frame.as_ptr().cast()
+        self.frame.points().as_ptr().cast()
     }
 
     /// A float a pixel.
     pub fn depth_ptr(&mut self) -> *const f32 {
-        self.make_images();
-        self.depth.as_ptr()
+        self.frame.images().0.as_ptr()
     }
 
     /// 4 bytes a pixel.
     pub fn colour_ptr(&mut self) -> *const u32 {
-        self.make_images();
-        self.colour.as_ptr()
-    }
-
-    /// Both at the first call for either: memory that grows ends every view of it, so also of the other image.
-    fn make_images(&mut self) {
-        self.depth.resize(self.width * self.height, 0.0);
-        self.colour.resize(self.width * self.height, 0);
+        self.frame.images().1.as_ptr()
     }
 
     /// The slots of the last frame.
@@ -101,10 +86,6 @@ impl OrganisedEncoder {
         self.report.as_ptr()
     }
 
-    fn points(&self) -> &[Point] {
-        bytemuck::must_cast_slice(&self.frame)
-    }
-
     fn misfit(&mut self, misfit: Misfit) -> u32 {
         match misfit {
             Misfit::Shape => 1,
@@ -119,7 +100,7 @@ impl OrganisedEncoder {
 
     /// Finds the camera by the frame: 0, or 1 shape, 2 too few points, 3 no camera's focal length, 4 off the grid.
     pub fn estimate(&mut self) -> u32 {
-        match estimate_intrinsics(self.points(), self.width, self.height) {
+        match estimate_intrinsics(self.frame.points(), self.frame.width, self.frame.height) {
             Ok(Intrinsics { fx, fy, cx, cy }) => {
                 self.report[16..].copy_from_slice(&[fx, fy, cx, cy].map(f64::from));
                 0
@@ -130,7 +111,8 @@ impl OrganisedEncoder {
 
     /// Whether the frame lies on the camera's grid; as `estimate`.
     pub fn check(&mut self, fx: f32, fy: f32, cx: f32, cy: f32) -> u32 {
-        let result = check_grid(self.points(), self.width, self.height, &Intrinsics { fx, fy, cx, cy });
+        let OrganisedFrame { width, height, .. } = self.frame;
+        let result = check_grid(self.frame.points(), width, height, &Intrinsics { fx, fy, cx, cy });
         result.map_or_else(|misfit| self.misfit(misfit), |()| 0)
     }
 
@@ -152,15 +134,15 @@ impl OrganisedEncoder {
     ) -> Vec<u8> {
         let mut header = StreamHeader {
             id,
-            width: self.width as u16,
-            height: self.height as u16,
+            width: self.frame.width as u16,
+            height: self.frame.height as u16,
             intrinsics: Intrinsics { fx, fy, cx, cy },
             depth_unit: DEPTH_UNIT,
             palette: Vec::new(),
             index_frequencies: Vec::new(),
         };
         if palette {
-            match with_palette(header, self.source(images)) {
+            match with_palette(header, self.frame.source(images)) {
                 Some(found) => header = found,
                 None => return Vec::new(),
             }
@@ -172,14 +154,6 @@ impl OrganisedEncoder {
                 bytes
             }
             None => Vec::new(),
-        }
-    }
-
-    fn source(&self, images: bool) -> Source<'_> {
-        if images && self.depth.len() == self.frame.len() && self.colour.len() == self.frame.len() {
-            Source::Images { depth: &self.depth, colour: &self.colour }
-        } else {
-            Source::Points(self.points())
         }
     }
 
@@ -214,7 +188,7 @@ impl OrganisedEncoder {
             geometry_set: 0,
             colour_set: 0,
         };
-        let source = self.source(images);
+        let source = self.frame.source(images);
         if density > 0.0 {
             encoder.thin_to(source, &Validity { lambda, epsilon, near_distance }, density);
         } else {
@@ -244,7 +218,7 @@ impl OrganisedEncoder {
         let Some(mut encoder) = self.encoder.take() else { return false };
         let validity = Validity { lambda, epsilon, near_distance };
         let budget = Budget { bytes, validity, latency_test, palette };
-        let spent = encoder.encode_within(self.source(images), &budget);
+        let spent = encoder.encode_within(self.frame.source(images), &budget);
         match spent {
             Some(spent) => self.finish(encoder, &spent.frame, &spent.settings, spent.dropped, spent.passes),
             None => self.encoder = Some(encoder),
@@ -296,7 +270,7 @@ impl OrganisedEncoder {
     /// What the last frame would take in one packet of any length, bits, coded as most of it was; 0 before `begin`.
     pub fn bits_in_one_packet(&mut self, images: bool) -> f64 {
         let Some(mut encoder) = self.encoder.take() else { return 0.0 };
-        let bits = encoder.bits_in_one_packet(self.source(images), &self.settings);
+        let bits = encoder.bits_in_one_packet(self.frame.source(images), &self.settings);
         self.encoder = Some(encoder);
         bits
     }

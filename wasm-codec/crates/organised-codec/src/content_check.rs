@@ -3,7 +3,7 @@
 
 use wide::i16x8;
 
-use crate::lanes::LANES;
+use crate::lanes::{LANES, row_mask};
 use crate::packet::{PacketHeader, Span};
 use crate::tile::{ColourMode, Kind, TILE, Tile};
 
@@ -41,7 +41,7 @@ impl ContentCheck {
                 values = core::array::from_fn(|half| values[half] + indices[half] * INDEX_WEIGHT);
             }
             if tile.kind != Kind::Full || width < TILE {
-                values = core::array::from_fn(|half| values[half] & spread(bits >> (LANES * half)));
+                values = core::array::from_fn(|half| values[half] & row_mask(bits as u16, half));
             }
             own.add(values);
         }
@@ -72,11 +72,4 @@ impl ContentCheck {
 fn halves(row: &[i16; TILE]) -> [i16x8; 2] {
     let (left, right) = row.split_at(LANES);
     [left, right].map(|half| i16x8::from(*half.first_chunk::<LANES>().expect("eight")))
-}
-
-/// All bits of lane k where bit k is set.
-#[inline(always)]
-fn spread(bits: i16) -> i16x8 {
-    const OWN: i16x8 = i16x8::new([1, 2, 4, 8, 16, 32, 64, 128]);
-    (i16x8::splat(bits) & OWN).simd_eq(OWN)
 }

@@ -5,8 +5,7 @@ use wide::{f32x4, i16x8, i32x4};
 
 use crate::Point;
 use crate::lanes::{narrow, round};
-use crate::syntax::MAX_DEPTH;
-use crate::tile::{Grid, TILE};
+use crate::tile::{Grid, MAX_DEPTH, TILE};
 
 /// Beyond this int16 millimetres cannot follow, metres.
 pub const MAX_COORDINATE: f32 = 32.767;

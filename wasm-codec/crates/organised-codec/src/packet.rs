@@ -124,14 +124,25 @@ impl Span {
     /// As raw bits.
     #[must_use]
     pub fn to_raw(self, grid: Grid) -> [(u32, u32); 3] {
-        let octave = self.count.ilog2();
-        [(Self::first_bits(grid), self.first as u32), (4, octave), (octave, self.count as u32 ^ 1 << octave)]
+        let mut entries = [(0, 0); 3];
+        let mut at = 0;
+        self.code(grid, |bits, value| {
+            entries[at] = (bits, value);
+            at += 1;
+            value
+        });
+        entries
     }
 
     /// From raw bits.
     pub fn from_raw(grid: Grid, mut raw: impl FnMut(u32) -> u32) -> Self {
-        let first = raw(Self::first_bits(grid)) as usize;
-        Self { first, count: code_octaves(|bits, _| raw(bits), 0) as usize }
+        Self { first: 0, count: 0 }.code(grid, |bits, _| raw(bits))
+    }
+
+    /// Writes or reads a span by a coder of raw bits, which is given each value and returns the one that counts.
+    fn code(self, grid: Grid, mut raw: impl FnMut(u32, u32) -> u32) -> Self {
+        let first = raw(Self::first_bits(grid), self.first as u32) as usize;
+        Self { first, count: code_octaves(raw, self.count as u32) as usize }
     }
 }
 

@@ -9,8 +9,6 @@ use crate::tile::{Grid, Pattern};
 
 /// Bits of a thinned tile by pattern, as a share of the full one's; the last one is not sent at all.
 const SHARES: [f32; Pattern::COUNT as usize + 1] = [1.0, 0.61, 0.34, 0.3, 0.15, 0.095, 0.053, 0.036, 0.002];
-/// The pattern of a tile that is left out.
-pub(crate) const LEFT_OUT: Pattern = Pattern(Pattern::COUNT);
 /// Steps to an octave of depth and of validity.
 const RESOLUTION: usize = 16;
 /// Octaves of validity that are told apart.
@@ -149,7 +147,7 @@ impl Plan {
                 for tile in row {
                     self.take(means, tile);
                     let own = if shift == MOST_SHIFT {
-                        LEFT_OUT
+                        Pattern::LEFT_OUT
                     } else {
                         pattern(tile, self.halvings[tile], shift as f32 / RESOLUTION as f32)
                     };
@@ -179,7 +177,7 @@ impl Plan {
             None => return,
         };
         self.row_expected += self.costs[tile] * share * SHARES[usize::from(pattern.0)];
-        if pattern == LEFT_OUT {
+        if pattern == Pattern::LEFT_OUT {
             return;
         }
         if pattern.0 == 0 && self.shares[tile] != 0.0 && self.shares[tile] != share {

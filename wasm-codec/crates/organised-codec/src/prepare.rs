@@ -6,7 +6,6 @@ use crate::frame::Settings;
 use crate::lanes::deinterleave;
 use crate::load::Loaded;
 use crate::palette::Palette;
-use crate::plan::LEFT_OUT;
 use crate::tile::{ColourMode, Kind, LAST_TRANSFORMED, Pattern, TILE, Tile};
 use crate::transform::{PIXEL_SCALE, Quantisers, forward, plane_step, point_step};
 use crate::ycocg::{to_ycocg, to_ycocg8};
@@ -40,7 +39,7 @@ impl Preparer {
         tile.pattern = pattern;
         let (width, height) = (pattern.width(), pattern.height());
         tile.rows = [0; TILE];
-        if pattern == LEFT_OUT || loaded.valid == 0 {
+        if pattern == Pattern::LEFT_OUT || loaded.valid == 0 {
             tile.kind = Kind::Empty;
             return;
         }

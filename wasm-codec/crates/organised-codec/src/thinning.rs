@@ -1,6 +1,5 @@
 //! Which pattern each tile gets: the paper's validity of its depth (equations 4 and 5), far tiles thinned first.
 
-use crate::encoder::Encoder;
 use crate::load::Source;
 use crate::tile::{Grid, Pattern, TILE};
 
@@ -86,18 +85,19 @@ pub(crate) fn dither(tile: usize) -> f32 {
     (hash as f32 / 4_294_967_296.0).min(0.999)
 }
 
-impl Encoder {
-    /// Thins by validity alone: the nearest tiles keep `density` of their points, farther ones less.
-    pub fn thin_to(&mut self, source: Source<'_>, validity: &Validity, density: f32) {
-        if source.len() != self.grid.width * self.grid.height {
-            return;
-        }
-        let mut depths = Vec::new();
-        tile_depths(source, self.grid, &mut depths);
-        halvings(validity, &mut depths);
-        let shift = -density.clamp(1e-3, 1e6).log2();
-        for (tile, (own, halvings)) in self.patterns.iter_mut().zip(&depths).enumerate() {
-            *own = pattern(tile, *halvings, shift);
-        }
+/// Thins by validity alone: the nearest tiles keep `density` of their points, farther ones less.
+pub(crate) fn thin(
+    source: Source<'_>,
+    grid: Grid,
+    validity: &Validity,
+    density: f32,
+    patterns: &mut [Pattern],
+) {
+    let mut depths = Vec::new();
+    tile_depths(source, grid, &mut depths);
+    halvings(validity, &mut depths);
+    let shift = -density.clamp(1e-3, 1e6).log2();
+    for (tile, (own, halvings)) in patterns.iter_mut().zip(&depths).enumerate() {
+        *own = pattern(tile, *halvings, shift);
     }
 }

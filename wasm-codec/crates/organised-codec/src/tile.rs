@@ -59,6 +59,8 @@ pub struct Pattern(pub u8);
 impl Pattern {
     /// How many there are.
     pub const COUNT: u8 = 8;
+    /// Stands for the pattern of a tile that is left out.
+    pub(crate) const LEFT_OUT: Self = Self(Self::COUNT);
 
     /// Kept pixels in a row of kept pixels.
     #[inline(always)]
@@ -131,6 +133,11 @@ impl ColourMode {
 
 /// The coarsest pattern whose colours are transformed; the rest code each point's colour by itself.
 pub const LAST_TRANSFORMED: Pattern = Pattern(2);
+
+/// The largest quantised inverse depth.
+pub const MAX_DEPTH: i32 = 32_767;
+/// Levels of a block's mean and of single points' colours lie within ±this.
+pub const MAX_DC: i32 = 16_383;
 
 /// A block's quantised coefficients.
 #[derive(Clone, Copy)]

@@ -2,29 +2,11 @@
 
 mod common;
 
-use common::{Random, frame, header};
+use common::{Random, decode, frame, header, packets, valid};
 use farpoint_organised_codec::{
-    Budget, ColourMode, Decoder, Encoder, PacketError, Point, Settings, Source, StreamHeader, Validity, seal,
-    with_palette,
+    ColourMode, Decoder, Encoder, Settings, Source, Validity, seal, with_palette,
 };
 use proptest::prelude::*;
-
-fn valid(point: &Point) -> bool {
-    let [x, y, z, _] = *point;
-    z > 0.0 && z.is_finite() && x.abs() <= 32.767 && y.abs() <= 32.767 && z <= 32.767
-}
-
-fn packets(encoder: &Encoder) -> Vec<Vec<u8>> {
-    (0..encoder.packets().len()).map(|index| encoder.packet(index).to_vec()).collect()
-}
-
-fn decode(header: &StreamHeader, packets: &[Vec<u8>]) -> Decoder {
-    let mut decoder = Decoder::new(header.clone(), true).expect("a stream");
-    for packet in packets {
-        decoder.put(packet).expect("a packet");
-    }
-    decoder
-}
 
 fn settings() -> impl Strategy<Value = Settings> {
     (0_u8..8, 0_u8..4, 0_u8..32, 0_u8..8, 0_u8..4).prop_map(
@@ -160,52 +142,6 @@ proptest! {
             }
         }
     }
-
-    #[test]
-    fn a_budget_is_kept(seed: u64, bytes in 1500_usize..60_000, noise in 0.0_f32..0.05) {
-        keeps_budget(seed, bytes, noise)?;
-    }
-}
-
-/// A frame of few packets, where costs leap with what each of them holds; the last two rungs between which a budget lies differ
-/// in depth, and so by a quarter of the frame.
-#[test]
-fn a_budget_is_kept_where_a_packet_is_much_of_the_frame() {
-    let cases = [
-        (12_509_953_468_356_967_965, 7607, 0.000_730_669_5),
-        (2_725_861_886_277_449_863, 9836, 0.001_351_587_4),
-        (6_181_734_245_178_859_392, 8534, 0.001_205_727_7),
-        (3_606_367_585_788_038_529, 3108, 0.000_220_034_14),
-        (8_794_032_332_846_478_336, 7892, 0.000_612_390_8),
-        (971_891_323_124_341_166, 30_168, 0.000_783_501_2),
-    ];
-    for (seed, bytes, noise) in cases {
-        keeps_budget(seed, bytes, noise).expect("within 5 %");
-    }
-}
-
-fn keeps_budget(seed: u64, bytes: usize, noise: f32) -> Result<(), TestCaseError> {
-    let header = header(240, 200);
-    let points = frame(&header, seed, 0.05, noise, false);
-    let mut encoder = Encoder::new(header.clone()).expect("a stream");
-    let validity = Validity { near_distance: 1.0, ..Validity::default() };
-    let budget = Budget { bytes, validity, latency_test: false, palette: false };
-    for _ in 0..3 {
-        let spent = encoder.encode_within(Source::Points(&points), &budget).expect("a frame");
-        prop_assert!(spent.frame.bytes <= bytes + 1200, "{} of {bytes}", spent.frame.bytes);
-        if bytes > 2500 {
-            // Within 5 %, unless all there is takes less in the best quality.
-            let best = spent.settings.depth_level == 0;
-            let least = if best { 0 } else { bytes * 95 / 100 };
-            prop_assert!(spent.frame.bytes >= least, "{} of {bytes}", spent.frame.bytes);
-            prop_assert!(spent.frame.bytes <= bytes * 105 / 100, "{} of {bytes}", spent.frame.bytes);
-        }
-        let there = points.iter().filter(|point| valid(point)).count();
-        prop_assert_eq!(spent.frame.points + spent.frame.thinned + spent.dropped, there);
-        let decoder = decode(&header, &packets(&encoder));
-        prop_assert_eq!(decoder.points().len(), spent.frame.points);
-    }
-    Ok(())
 }
 
 #[test]
@@ -231,143 +167,4 @@ fn the_points_lie_where_the_depth_says() {
         let near = exact.iter().any(|own| own.iter().zip(point).all(|(a, b)| (a - b).abs() <= 3));
         assert!(near, "{point:?}");
     }
-}
-
-/// Where the check value is in the header, and where the states hold it.
-#[test]
-fn every_damaged_bit_is_told_or_does_nothing() {
-    let header = header(48, 32);
-    let points = frame(&header, 1, 0.1, 0.01, true);
-    let header = with_palette(header, Source::Points(&points)).expect("few colours");
-    let mut harmless = 0;
-    for mode in [ColourMode::None, ColourMode::Subsampled, ColourMode::Full, ColourMode::Palette] {
-        let mut encoder = Encoder::new(header.clone()).expect("a stream");
-        encoder.encode(Source::Points(&points), &Settings { mode, ..Settings::default() }).expect("a frame");
-        let mut decoder = Decoder::new(header.clone(), false).expect("a stream");
-        for packet in packets(&encoder) {
-            decoder.begin();
-            decoder.put(&packet).expect("a packet");
-            let points = decoder.points().to_vec();
-            for bit in 0..packet.len() * 8 {
-                let mut damaged = packet.clone();
-                damaged[bit / 8] ^= 1 << (bit % 8);
-                decoder.begin();
-                let told = decoder.put(&damaged).is_err();
-                // What is beyond its range is limited: now and then that makes the damage good.
-                assert!(told || decoder.points() == points, "{mode:?}, bit {bit}");
-                harmless += u32::from(!told);
-            }
-        }
-    }
-    assert!(harmless < 10, "{harmless}");
-}
-
-#[test]
-fn packets_that_are_cut_or_not_of_this_frame_are_told() {
-    let header = header(90, 60);
-    let points = frame(&header, 1, 0.1, 0.01, false);
-    let mut encoder = Encoder::new(header.clone()).expect("a stream");
-    encoder.encode(Source::Points(&points), &Settings::default()).expect("a frame");
-    let packet = encoder.packet(0).to_vec();
-    let mut decoder = Decoder::new(header.clone(), false).expect("a stream");
-    for length in 0..packet.len() {
-        assert!(decoder.put(&packet[..length]).is_err());
-    }
-    assert_eq!(decoder.put(&[0; 1201]), Err(PacketError::TooLong));
-    assert_eq!(decoder.points().len(), 0);
-    assert!(decoder.put(&packet).is_ok());
-    assert_eq!(decoder.put(&packet), Err(PacketError::Duplicate));
-    let mut other = Decoder::new(StreamHeader { id: 8, ..header }, false).expect("a stream");
-    assert_eq!(other.put(&packet), Err(PacketError::UnknownStream));
-}
-
-/// Packets that pass the check value and are wrong all the same: points or an error, and never more points than pixels.
-#[test]
-fn forged_packets_do_no_harm() {
-    let mut random = Random(7);
-    let header = with_palette(header(90, 60), Source::Points(&frame(&header(90, 60), 1, 0.1, 0.01, true)));
-    let header = header.expect("few colours");
-    let points = frame(&header, 1, 0.1, 0.01, true);
-    let mut encoder = Encoder::new(header.clone()).expect("a stream");
-    let mut decoder = Decoder::new(header, true).expect("a stream");
-    let mut accepted = 0;
-    for round in 0..3000_u32 {
-        if round % 100 == 0 {
-            let mode =
-                [ColourMode::Subsampled, ColourMode::Full, ColourMode::Palette][round as usize / 100 % 3];
-            encoder
-                .encode(Source::Points(&points), &Settings { mode, ..Settings::default() })
-                .expect("a frame");
-        }
-        let mut packet = if round % 3 == 0 {
-            let length = 17 + random.next() as usize % 1184;
-            let mut bytes: Vec<u8> = (0..length).map(|_| random.next() as u8).collect();
-            bytes[0] = 9;
-            bytes[1] &= 0x7f;
-            // The first tile: raw bits begin at the end.
-            bytes[length - 1] &= 0x0f;
-            bytes
-        } else {
-            let mut packet = encoder.packet(random.next() as usize % encoder.packets().len()).to_vec();
-            for _ in 0..1 + random.next() % 3 {
-                let at = random.next() as usize % packet.len();
-                packet[at] = random.next() as u8;
-            }
-            packet
-        };
-        seal(&mut packet);
-        decoder.begin();
-        accepted += u32::from(decoder.put(&packet).is_ok());
-        assert!(decoder.points().len() <= 90 * 60);
-    }
-    // The states' end tells nearly all that the check value was made to fit.
-    assert!(accepted < 300, "{accepted}");
-}
-
-/// A budget is met to 5 % from below where the frame has so much to tell, and to one packet from above.
-#[test]
-fn a_budget_is_met_and_a_steady_stream_takes_one_pass() {
-    let header = header(320, 240);
-    let mut steady = 0;
-    for bytes in [3_000, 8_000, 15_000, 25_000, 40_000, 60_000, 90_000] {
-        for latency_test in [false, true] {
-            let mut encoder = Encoder::new(header.clone()).expect("a stream");
-            let validity = Validity { near_distance: 1.0, ..Validity::default() };
-            let budget = Budget { bytes, validity, latency_test, palette: false };
-            for number in 0..6 {
-                let points = frame(&header, number, 0.05, 0.01, false);
-                let spent = encoder.encode_within(Source::Points(&points), &budget).expect("a frame");
-                let got = spent.frame.bytes;
-                assert!(got <= bytes + 1200, "frame {number}: {got} of {bytes}");
-                // Without colour a frame may not have so much to tell.
-                let everything = latency_test && bytes >= 40_000;
-                assert!(everything || got * 100 >= bytes * 95, "frame {number}: {got} of {bytes}");
-                if number >= 2 {
-                    // Where three packets make a frame, each is all finer or all coarser.
-                    assert!(
-                        bytes == 3_000 || spent.passes <= 3,
-                        "frame {number} of {bytes}: {} passes",
-                        spent.passes
-                    );
-                    steady += usize::from(spent.passes == 1);
-                }
-            }
-        }
-    }
-    assert!(steady >= 50, "{steady} of 56 frames in one pass");
-}
-
-/// Points are left out only where the whole frame at the coarsest rung is too dear.
-#[test]
-fn points_are_left_out_only_where_the_coarsest_frame_is_too_dear() {
-    let header = header(320, 240);
-    let mut encoder = Encoder::new(header.clone()).expect("a stream");
-    let mut thinned = Vec::new();
-    for bytes in [60_000, 30_000, 20_000, 8_000, 2_000] {
-        let budget = Budget { bytes, validity: Validity::default(), latency_test: false, palette: false };
-        let points = frame(&header, 1, 0.05, 0.01, false);
-        let spent = encoder.encode_within(Source::Points(&points), &budget).expect("a frame");
-        thinned.push(spent.frame.thinned > 0);
-    }
-    assert_eq!(thinned, [false, false, false, true, true]);
 }

@@ -1,40 +1,25 @@
 //! A frame of points into packets.
 
 use crate::Point;
-use crate::model::{Model, Start};
+use crate::contexts::SYMBOLS;
+use crate::model::Model;
 use crate::order::{Order, Sorter, bounds, is_ordered};
-use crate::packet::AttributeKind;
-use crate::packing::Plan;
-use crate::ports::{Counter, Estimate, Writer};
+use crate::packing::{Cloud, Packer, Plan};
+use crate::ports::{Counter, Estimate};
 use crate::predictor::Mode;
 use crate::quantise::{Attribute, GridPoint, find_levels, quantise};
 use crate::settings::{EncodeReport, InvalidSettings, Settings, check};
+use crate::start::{AttributeKind, Start};
 use crate::tables::{Table, all};
-use crate::thinning::Weights;
-
-/// A packet.
-#[derive(Clone, Copy)]
-pub(crate) struct Written {
-    pub offset: usize,
-    pub length: usize,
-    pub count: usize,
-    /// Mean square of the distance from the origin.
-    pub distance: f32,
-}
 
 /// Encodes frames; its memory is kept from one to the next.
 pub struct Encoder {
-    pub(crate) tables: Vec<Table>,
-    pub(crate) points: Vec<GridPoint>,
+    tables: Vec<Table>,
+    points: Vec<GridPoint>,
     order: Vec<u32>,
     other_order: Vec<u32>,
     sorter: Sorter,
-    pub(crate) weights: Weights,
-    pub(crate) kept: Vec<u32>,
-    pub(crate) writer: Writer,
-    pub(crate) words: Vec<u16>,
-    pub(crate) bytes: Vec<u8>,
-    pub(crate) written: Vec<Written>,
+    packer: Packer,
 }
 
 impl Default for Encoder {
@@ -53,12 +38,7 @@ impl Encoder {
             order: Vec::new(),
             other_order: Vec::new(),
             sorter: Sorter::default(),
-            weights: Weights::default(),
-            kept: Vec::new(),
-            writer: Writer::default(),
-            words: Vec::new(),
-            bytes: Vec::new(),
-            written: Vec::new(),
+            packer: Packer::default(),
         }
     }
 
@@ -67,8 +47,7 @@ impl Encoder {
     /// # Errors
     /// For settings out of range, and more than 2²⁴ points.
     pub fn encode(&mut self, frame: &[Point], settings: &Settings) -> Result<EncodeReport, InvalidSettings> {
-        self.bytes.clear();
-        self.written.clear();
+        self.packer.clear();
         check(frame, settings)?;
         self.points.clear();
         let rejected = quantise(frame, settings.attribute, settings.step_mm, &mut self.points);
@@ -80,44 +59,46 @@ impl Encoder {
         let mode = self.arrange(settings.order);
         let plan = Plan { mode, kind, top, step_mm: settings.step_mm, max_bytes: settings.max_packet_bytes };
 
-        let order = std::mem::take(&mut self.order);
-        self.pack(&order, plan);
-        if let Some(budget) = settings.budget_bytes.filter(|budget| self.bytes.len() > *budget) {
-            self.fit(&order, plan, budget, settings.lambda);
+        let cloud = Cloud { tables: &self.tables, points: &self.points, plan };
+        let packer = &mut self.packer;
+        packer.pack(cloud, &self.order);
+        if let Some(budget) = settings.budget_bytes.filter(|budget| packer.bytes.len() > *budget) {
+            packer.fit(cloud, &self.order, budget, settings.lambda);
         }
-        self.order = order;
         // Nearest first; equal ones as they were packed.
-        self.written.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        let written = &mut packer.written;
+        written.sort_by(|a, b| a.distance.total_cmp(&b.distance));
         if let Some(budget) = settings.budget_bytes {
-            while self.written.iter().map(|packet| packet.length).sum::<usize>() > budget {
-                self.written.pop();
+            while written.iter().map(|packet| packet.length).sum::<usize>() > budget {
+                written.pop();
             }
         }
-        let kept = self.written.iter().map(|packet| packet.count).sum();
+        let kept = written.iter().map(|packet| packet.count).sum();
         Ok(EncodeReport {
             kept,
             thinned: self.points.len() - kept,
             rejected,
-            packets: self.written.len(),
-            bytes: self.written.iter().map(|packet| packet.length).sum(),
+            packets: written.len(),
+            bytes: written.iter().map(|packet| packet.length).sum(),
         })
     }
 
     /// The packets of the last frame, those nearest to the origin first.
     pub fn packets(&self) -> impl ExactSizeIterator<Item = &[u8]> {
-        self.written.iter().map(|packet| &self.bytes[packet.offset..packet.offset + packet.length])
+        let Packer { bytes, written, .. } = &self.packer;
+        written.iter().map(|packet| &bytes[packet.offset..packet.offset + packet.length])
     }
 
     /// Where the packets lie in [`Encoder::bytes`]: offset, length and points of each, in the order of
     /// [`Encoder::packets`].
     pub fn extents(&self) -> impl ExactSizeIterator<Item = [usize; 3]> {
-        self.written.iter().map(|packet| [packet.offset, packet.length, packet.count])
+        self.packer.written.iter().map(|packet| [packet.offset, packet.length, packet.count])
     }
 
     /// The memory in which the packets lie.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
-        &self.bytes
+        &self.packer.bytes
     }
 
     /// Counts how often each table codes each symbol in a frame: for training.
@@ -129,7 +110,7 @@ impl Encoder {
         frame: &[Point],
         settings: &Settings,
         step_mode: bool,
-        counts: &mut [[u64; crate::SYMBOLS]],
+        counts: &mut [[u64; SYMBOLS]],
     ) -> Result<(), InvalidSettings> {
         self.encode(frame, settings)?;
         let mode = if step_mode { Mode::Step } else { self.arrange(settings.order) };

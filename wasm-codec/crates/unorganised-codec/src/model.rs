@@ -1,27 +1,13 @@
 //! What is coded for a point, in which contexts. One walk serves encoder and decoder: a [`Port`] either writes the value
 //! it is given, or gives the value it reads.
 
-use crate::packet::AttributeKind;
+use crate::contexts::{
+    ERRORS, FIRST, GEOMETRY, GREEN, GREEN_BASE, GREEN_ERRORS, INTENSITY, INTENSITY_BASE, OTHER, RED_BLUE,
+    RED_BLUE_BASE,
+};
 use crate::predictor::{Mode, Predictor};
 use crate::quantise::GridPoint;
-
-/// Contexts of the first coordinate.
-const FIRST: usize = 14;
-/// Contexts of each other coordinate: its own usual error × the error before it.
-const OTHER: usize = 10;
-const ERRORS: usize = 4;
-const GEOMETRY: usize = FIRST + 2 * OTHER * ERRORS;
-/// Contexts of an intensity, of green, and of red and blue.
-const INTENSITY: usize = 10;
-const GREEN: usize = 8;
-const RED_BLUE: usize = 8;
-const GREEN_ERRORS: usize = 3;
-
-const INTENSITY_BASE: usize = 2 * GEOMETRY;
-const GREEN_BASE: usize = INTENSITY_BASE + INTENSITY;
-const RED_BLUE_BASE: usize = GREEN_BASE + GREEN;
-/// Tables of the format.
-pub const TABLE_COUNT: usize = RED_BLUE_BASE + RED_BLUE * GREEN_ERRORS;
+use crate::start::{AttributeKind, Start};
 
 /// Where values go to or come from.
 pub trait Port {
@@ -68,19 +54,6 @@ struct AttributeModel {
     /// Colour before, 5-6-5.
     colour: u16,
     usual: [Usual; 3],
-}
-
-/// What a packet's first point and header fix.
-#[derive(Clone, Copy)]
-pub struct Start {
-    /// The predictor.
-    pub mode: Mode,
-    /// What the attribute is.
-    pub kind: AttributeKind,
-    /// Highest intensity level.
-    pub top: u8,
-    /// The packet's first point.
-    pub first: GridPoint,
 }
 
 impl Model {

@@ -1,10 +1,10 @@
 //! A packet's bytes: header, coded points, check value.
 
 use crate::crc32::crc32;
-use crate::decoder::Fault;
-use crate::model::Start;
+use crate::fault::Fault;
 use crate::predictor::Mode;
 use crate::quantise::GridPoint;
+use crate::start::{AttributeKind, Start};
 
 /// The most bytes a packet may have.
 pub const MAX_PACKET_BYTES: usize = 1200;
@@ -19,17 +19,6 @@ pub const CHECK_BYTES: usize = 4;
 /// The largest coordinate of a first point, in millimetres.
 const MAX_ORIGIN_MM: i32 = 500_100;
 const VERSION: u8 = 1;
-
-/// What is sent with each point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AttributeKind {
-    /// Nothing.
-    None,
-    /// A level of intensity.
-    Intensity,
-    /// 5-6-5 bits of colour.
-    Colour,
-}
 
 /// What the header says.
 #[derive(Clone, Copy)]

@@ -1,5 +1,6 @@
 //! Where an encoder's symbols go: into a packet, into an estimate of its size, or into counts to train tables.
 
+use crate::contexts::SYMBOLS;
 use crate::model::Port;
 use crate::rans;
 use crate::tables::{MAX_VALUE, Table, split};
@@ -81,7 +82,7 @@ impl Port for Estimate<'_> {
 
 /// Counts symbols.
 pub(crate) struct Counter<'a> {
-    pub counts: &'a mut [[u64; crate::SYMBOLS]],
+    pub counts: &'a mut [[u64; SYMBOLS]],
 }
 
 impl Port for Counter<'_> {

@@ -1,12 +1,10 @@
 //! Symbols and their static tables. A value 0…131071 is a symbol and raw bits: 0…15 stand for themselves; above, the
 //! symbol holds the exponent and the bit below the highest, the rest is raw.
 
-use crate::model::TABLE_COUNT;
+use crate::contexts::{SYMBOLS, TABLE_COUNT};
 use crate::rans::PROBABILITY_BITS;
 use crate::tables_data::FREQUENCIES;
 
-/// Symbols of a table.
-pub const SYMBOLS: usize = 42;
 /// The largest value that has a symbol.
 pub const MAX_VALUE: u32 = 131_071;
 const DIRECT: u32 = 16;

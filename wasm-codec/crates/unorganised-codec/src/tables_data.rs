@@ -1,7 +1,6 @@
 //! Written by `cargo run --release -p farpoint-unorganised-codec --example train_tables`; not to be edited.
 
-use crate::model::TABLE_COUNT;
-use crate::tables::SYMBOLS;
+use crate::contexts::{SYMBOLS, TABLE_COUNT};
 
 /// Probability of each symbol in 1/4096, table by table.
 #[rustfmt::skip]

@@ -1,11 +1,13 @@
 //! What the codec needs of vectors beside plain arithmetic, in a few instructions on every machine.
 
 use bytemuck::must_cast;
-use wide::{f32x4, i16x8, i32x4};
+use wide::{i16x8, i32x4};
 
+mod numbers;
 #[cfg_attr(target_arch = "x86_64", allow(dead_code, reason = "in part what SSE2 does better"))]
 #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
 mod portable;
+mod ranks;
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 mod sse2;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
@@ -20,6 +22,9 @@ use portable as shuffle;
 use sse2 as shuffle;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 use wasm as shuffle;
+
+pub use numbers::{narrow, round, round_low};
+pub use ranks::Ranks;
 
 /// Lanes of a wavefront.
 pub const LANES: usize = 8;
@@ -74,35 +79,10 @@ pub fn interleave(a: i16x8, b: i16x8) -> [i16x8; 2] {
     shuffle::interleave(a, b)
 }
 
-/// How many of some limits a number is above. The limits are 0 to 14.
-pub struct Ranks {
-    #[cfg_attr(not(all(target_arch = "wasm32", target_feature = "simd128")), allow(dead_code))]
-    table: [u8; 16],
-    #[cfg_attr(all(target_arch = "wasm32", target_feature = "simd128"), allow(dead_code))]
-    limits: &'static [i16],
-}
-
-impl Ranks {
-    /// Of such limits.
-    #[must_use]
-    pub const fn new(limits: &'static [i16]) -> Self {
-        let mut table = [0; 16];
-        let mut i = 0;
-        while i < 16 * limits.len() {
-            let (value, limit) = (i / limits.len(), limits[i % limits.len()]);
-            assert!(limit >= 0 && limit < 15);
-            table[value] += (value as i16 > limit) as u8;
-            i += 1;
-        }
-        Self { table, limits }
-    }
-
-    /// The ranks of numbers that are not negative.
-    #[inline(always)]
-    #[must_use]
-    pub fn of(&self, values: i16x8) -> i16x8 {
-        shuffle::rank(self, values)
-    }
+/// The ranks of numbers that are not negative.
+#[inline(always)]
+pub fn rank(ranks: &Ranks, values: i16x8) -> i16x8 {
+    shuffle::rank(ranks, values)
 }
 
 /// Every second lane of both, and the others: back from [`interleave`].
@@ -111,32 +91,20 @@ pub fn deinterleave(a: i16x8, b: i16x8) -> [i16x8; 2] {
     shuffle::deinterleave(a, b)
 }
 
-/// As 16 bits, limited to what those hold.
-#[inline(always)]
-pub fn narrow(low: i32x4, high: i32x4) -> i16x8 {
-    i16x8::from_i32x8_saturate(must_cast([low, high]))
-}
-
-/// 1.5 · 2²³: added to a float of at most 2²², it leaves the nearest whole number (of two, the even one) in the lowest bits.
-const MAGIC: f32 = 12_582_912.0;
-
-/// The nearest whole numbers, of two the even one, as 32 bits whose lower 16 are right; the numbers must lie within
-/// ±2²².
-#[inline(always)]
-pub fn round_low(numbers: f32x4) -> i32x4 {
-    must_cast(numbers + f32x4::splat(MAGIC))
-}
-
-/// The nearest whole numbers, of two the even one; the numbers must lie within ±2²².
-#[inline(always)]
-pub fn round(numbers: f32x4) -> i32x4 {
-    round_low(numbers) - i32x4::splat(MAGIC.to_bits() as i32)
-}
-
 /// `yes` where the mask's bits are set, else `no`.
 #[inline(always)]
 pub fn select(mask: i16x8, yes: i16x8, no: i16x8) -> i16x8 {
     (mask & yes) | (!mask & no)
+}
+
+/// Of a row of 16 bits the left (0) or the right half (1): all bits of lane k where the half's bit k is set.
+#[inline(always)]
+pub fn row_mask(row: u16, half: usize) -> i16x8 {
+    const BITS: [i16x8; 2] = [
+        i16x8::new([1, 2, 4, 8, 16, 32, 64, 128]),
+        i16x8::new([1 << 8, 2 << 8, 4 << 8, 8 << 8, 16 << 8, 32 << 8, 64 << 8, i16::MIN]),
+    ];
+    (i16x8::splat(row as i16) & BITS[half]).simd_eq(BITS[half])
 }
 
 /// Masks of a single lane.
@@ -160,9 +128,16 @@ mod tests {
     fn ranks_count_the_limits_below() {
         const RANKS: Ranks = Ranks::new(&[0, 1, 4, 14]);
         assert_eq!(
-            RANKS.of(i16x8::new([0, 1, 2, 4, 5, 14, 15, i16::MAX])).to_array(),
+            rank(&RANKS, i16x8::new([0, 1, 2, 4, 5, 14, 15, i16::MAX])).to_array(),
             [0, 1, 2, 2, 3, 3, 4, 4]
         );
+    }
+
+    #[test]
+    fn a_row_s_bits_become_lanes() {
+        let row = 0b1000_0001_0100_0010;
+        assert_eq!(row_mask(row, 0).to_array(), [0, -1, 0, 0, 0, 0, -1, 0]);
+        assert_eq!(row_mask(row, 1).to_array(), [-1, 0, 0, 0, 0, 0, 0, -1]);
     }
 
     #[test]

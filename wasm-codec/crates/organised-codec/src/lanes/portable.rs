@@ -3,7 +3,8 @@
 use bytemuck::must_cast;
 use wide::{i16x8, i32x4};
 
-use super::{Ranks, narrow};
+use super::numbers::narrow;
+use super::ranks::Ranks;
 
 #[inline(always)]
 pub fn follow(before: i16x8, lanes: i16x8) -> i16x8 {

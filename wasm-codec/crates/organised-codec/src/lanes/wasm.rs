@@ -3,7 +3,7 @@
 use core::arch::wasm32::{i8x16_swizzle, i16x8_shuffle};
 use wide::{i8x16, i16x8, i32x4};
 
-use super::Ranks;
+use super::ranks::Ranks;
 
 #[inline(always)]
 pub fn follow(before: i16x8, lanes: i16x8) -> i16x8 {

@@ -1,66 +1,9 @@
 //! From bytes to symbols and raw bits.
 
-use super::{
-    Coder, LOW, LOW_BITS, PROBABILITY_BITS, PlaneDecoder, RAW_BYTES, SPARE_BITS, STATES, TOTAL, WORDS,
-    code_escape,
-};
+use super::body::{Body, RawReader};
+use super::plane_decoder::PlaneDecoder;
+use super::{Coder, LOW, LOW_BITS, PROBABILITY_BITS, SPARE_BITS, STATES, TOTAL, WORDS, code_escape};
 use crate::tables::{DecoderTables, SHARE_MASK, SHARE_START, SHARE_SYMBOL};
-
-/// A packet's body as words from its beginning, with room for four to be read at once, and as bytes from its end.
-pub struct Body {
-    words: Box<[u16; WORDS + 4]>,
-    raw: Box<[u8; RAW_BYTES + 8]>,
-    length: usize,
-}
-
-impl Default for Body {
-    fn default() -> Self {
-        Self { words: Box::new([0; WORDS + 4]), raw: Box::new([0; RAW_BYTES + 8]), length: 0 }
-    }
-}
-
-impl Body {
-    /// Takes over a packet's bytes after its header, at most 2047.
-    pub fn load(&mut self, bytes: &[u8]) {
-        let bytes = &bytes[..bytes.len().min(RAW_BYTES - 1)];
-        for (word, pair) in self.words.iter_mut().zip(bytes.as_chunks::<2>().0) {
-            *word = u16::from_le_bytes(*pair);
-        }
-        let (first, eights) = bytes.as_rchunks::<8>();
-        let (raw_eights, _) = self.raw.as_chunks_mut::<8>();
-        for (own, eight) in raw_eights.iter_mut().zip(eights.iter().rev()) {
-            *own = u64::from_le_bytes(*eight).to_be_bytes();
-        }
-        for (own, byte) in self.raw[8 * eights.len()..].iter_mut().zip(first.iter().rev()) {
-            *own = *byte;
-        }
-        // What lies beyond is the same whatever packet came before.
-        if self.length > bytes.len() {
-            self.words[bytes.len() / 2..self.length.div_ceil(2)].fill(0);
-            self.raw[bytes.len()..self.length].fill(0);
-        }
-        self.length = bytes.len();
-    }
-}
-
-/// Raw bits, one after another. Beyond the end they are 0.
-#[derive(Clone, Copy)]
-pub(super) struct RawReader<'a> {
-    bytes: &'a [u8; RAW_BYTES + 8],
-    at: usize,
-}
-
-impl RawReader<'_> {
-    /// 32 bits at most.
-    #[inline(always)]
-    pub(super) fn take(&mut self, bits: u32) -> u32 {
-        let at = self.at / 8 % RAW_BYTES;
-        let eight: &[u8; 8] = self.bytes[at..at + 8].first_chunk().expect("eight bytes");
-        let window = u64::from_le_bytes(*eight) >> (self.at % 8);
-        self.at += bits as usize;
-        (window & ((1 << bits) - 1)) as u32
-    }
-}
 
 /// Reads a body. Past its end there are zeros; that it ended is told at the end.
 ///
@@ -84,7 +27,7 @@ impl<'a> Decoder<'a> {
     /// At a body's beginning.
     #[must_use]
     pub fn new(body: &'a Body, tables: &'a DecoderTables) -> Self {
-        let mut raw = RawReader { bytes: &body.raw, at: 0 };
+        let mut raw = RawReader::new(&body.raw);
         let states = core::array::from_fn(|_| {
             let bits = LOW_BITS + raw.take(4);
             1 << bits | raw.take(bits)
@@ -105,7 +48,7 @@ impl<'a> Decoder<'a> {
     /// True where more was read than there is.
     #[must_use]
     pub fn overrun(&self) -> bool {
-        2 * self.at + self.raw.at / 8 > self.length
+        2 * self.at + self.raw.at() / 8 > self.length
     }
 
     /// Takes out of the states what the encoder put there in the beginning, 60 bits.
@@ -124,7 +67,7 @@ impl<'a> Decoder<'a> {
     /// with, less what they held: 2¹⁵.
     #[must_use]
     pub fn finished(&self) -> bool {
-        let used = self.raw.at;
+        let used = self.raw.at();
         let rest = used.next_multiple_of(8) - used;
         2 * self.at + used.div_ceil(8) == self.length
             && { self.raw }.take(rest as u32) == 0

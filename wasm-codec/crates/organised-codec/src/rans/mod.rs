@@ -1,15 +1,19 @@
 //! The entropy coder: range asymmetric numeral systems (Duda, arXiv:1311.2540) with static tables of 9 bits, four states
 //! side by side, 16-bit words; and a stream of raw bits beside them.
 
+mod body;
 mod decoder;
+mod encoder_symbol;
 mod packet_tokens;
 mod plane_decoder;
 mod tile_tokens;
 
-pub use decoder::{Body, Decoder};
-pub use packet_tokens::{EncoderSymbol, Held, Mark, PacketTokens};
+pub use body::Body;
+pub use decoder::Decoder;
+pub use encoder_symbol::EncoderSymbol;
+pub use packet_tokens::{Held, Mark, PacketTokens};
 pub use plane_decoder::{PlaneDecoder, Step};
-pub use tile_tokens::{NO_TOKEN, TileTokens, token};
+pub use tile_tokens::{TileTokens, token};
 
 /// Bits of a probability: so few that what a decoder looks up for each slot of each context stays in the fastest memory. More
 /// would save 0.3 % of the bits of a frame at the most.
@@ -78,6 +82,9 @@ pub fn code_octaves(mut raw: impl FnMut(u32, u32) -> u32, number: u32) -> u32 {
 /// Where the state of a token begins, above its context and symbol.
 pub(crate) const STATE_SHIFT: u32 = 13;
 pub(crate) const TOKEN_MASK: usize = (1 << STATE_SHIFT) - 1;
+
+/// Stands for no token, where there is no pixel.
+pub const NO_TOKEN: i16 = -1;
 
 /// Words that a body may have, and more: a power of two.
 pub const WORDS: usize = 1024;

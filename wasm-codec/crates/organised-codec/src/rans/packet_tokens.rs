@@ -1,36 +1,8 @@
 //! A packet's symbols and raw bits, and how they become bytes.
 
-use super::{
-    LOW, LOW_BITS, PROBABILITY_BITS, SPARE_BITS, STATE_SHIFT, STATES, TOKEN_MASK, TOTAL, TileTokens, WORDS,
-};
+use super::encoder_symbol::RECIPROCAL_BITS;
+use super::{LOW, LOW_BITS, SPARE_BITS, STATE_SHIFT, STATES, TOKEN_MASK, TileTokens, WORDS};
 use crate::tables::EncoderTables;
-
-/// What coding a symbol takes: a reciprocal in place of the division.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct EncoderSymbol {
-    /// 2⁴⁰ / frequency, rounded up: exact for states below frequency · 2²².
-    reciprocal: u64,
-    /// The state from which on a word must go first.
-    limit: u32,
-    start: u16,
-    /// [`TOTAL`] − frequency.
-    rest: u16,
-}
-
-const RECIPROCAL_BITS: u32 = 40;
-
-impl EncoderSymbol {
-    /// For a symbol whose share of [`TOTAL`] begins at `start`.
-    #[must_use]
-    pub fn new(start: u32, frequency: u32) -> Self {
-        Self {
-            reciprocal: (1u64 << RECIPROCAL_BITS).div_ceil(u64::from(frequency)),
-            limit: frequency << (16 + LOW_BITS - PROBABILITY_BITS),
-            start: start as u16,
-            rest: TOTAL - frequency as u16,
-        }
-    }
-}
 
 /// The symbols and raw bits of a packet.
 #[derive(Default)]

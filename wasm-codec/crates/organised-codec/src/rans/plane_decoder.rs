@@ -3,7 +3,7 @@
 use bytemuck::must_cast;
 use wide::{i16x8, i32x4};
 
-use super::decoder::RawReader;
+use super::body::RawReader;
 use super::{LOW, PROBABILITY_BITS, STATES, TOTAL, WORDS, code_escape};
 use crate::contexts::CERTAIN;
 use crate::lanes::{LANES, expand, interleave, narrow, select};

@@ -3,7 +3,7 @@
 use bytemuck::must_cast;
 use wide::i16x8;
 
-use super::{Coder, STATE_SHIFT, TOKEN_MASK, code_escape};
+use super::{Coder, NO_TOKEN, STATE_SHIFT, TOKEN_MASK, code_escape};
 use crate::contexts::{FIRST_ROW_BIN, SHIFTED_BIN, SYMBOLS};
 use crate::lanes::{LANES, gather, select};
 use crate::tables::EncoderTables;
@@ -166,9 +166,6 @@ fn symbols(numbers: i16x8, [one, two, three]: [i16x8; 3]) -> (i16x8, i16x8) {
         high.min(i16x8::splat(13)) - high.simd_gt(i16x8::splat(20)) - high.simd_gt(i16x8::splat(84));
     (symbols, one | symbols.simd_gt(i16x8::splat(12)))
 }
-
-/// Stands for no token, where there is no pixel.
-pub const NO_TOKEN: i16 = -1;
 
 /// What a front notes of eight numbers of a row that a lane handles: negative where raw bits follow.
 #[inline(always)]

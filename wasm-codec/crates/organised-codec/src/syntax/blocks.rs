@@ -1,23 +1,13 @@
 //! A tile's colours: blocks of coefficients, or single points.
 
+use super::neighbours::{BlockEdge, NO_BLOCK, Neighbours};
 use super::number::{code_number, fold, residual_bin, unfold};
-use super::{MAX_DC, Neighbours};
 use crate::contexts::{COEFFICIENT, DC, LAST, LEAD, POINT};
 use crate::rans::{Coder, ESCAPES};
-use crate::tile::{Block, ColourMode, MAX_BLOCKS, Tile};
-
-/// What a block leaves to its neighbours.
-#[derive(Clone, Copy)]
-pub struct BlockEdge {
-    dc: i32,
-    count: i32,
-}
+use crate::tile::{Block, ColourMode, MAX_BLOCKS, MAX_DC, Tile};
 
 /// Levels lie within ±this.
 const MAX_MAGNITUDE: u32 = 4095;
-
-/// `dc` of no block.
-pub const NO_BLOCK: BlockEdge = BlockEdge { dc: i32::MIN, count: 0 };
 
 /// Codes the blocks of all planes.
 #[inline(never)]

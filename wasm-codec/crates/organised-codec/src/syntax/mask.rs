@@ -3,26 +3,13 @@
 use bytemuck::must_cast;
 use wide::i16x8;
 
-use super::TileCoder;
 use crate::contexts::{MASK, SYMBOLS};
 use crate::lanes::{LANES, follow};
 use crate::rans::Coder;
-use crate::tile::{Kind, TILE, Tile};
+use crate::tile::TILE;
 
 /// Pixels of a group.
 const GROUP: usize = 4;
-
-/// Codes the mask of a mixed tile; a full one has none.
-#[inline(never)]
-pub fn code_mask<C: TileCoder>(coder: &mut C, tile: &mut Tile) {
-    let (width, height) = (tile.pattern.width(), tile.pattern.height());
-    if tile.kind == Kind::Full {
-        tile.rows = [0; TILE];
-        tile.rows[..height].fill(((1_u32 << width) - 1) as u16);
-        return;
-    }
-    coder.mask(&mut tile.rows, width, height);
-}
 
 /// Groups of a row one after another, each row two groups behind the one above: so what a group looks at has been coded
 /// by then, and two groups at a time do not depend on each other.

@@ -2,111 +2,25 @@
 
 mod blocks;
 mod mask;
+mod neighbours;
 mod number;
 mod plane;
 mod rows;
+mod tile_coder;
 mod wavefront;
 
-use blocks::{BlockEdge, NO_BLOCK, code_blocks, code_points};
-use mask::code_mask;
+pub use neighbours::Neighbours;
+pub use tile_coder::TileCoder;
+
+use blocks::{code_blocks, code_points};
+use neighbours::{Edge, NO_EDGE};
 use number::{code_number, fold, unfold};
 use plane::{Channel, PlaneTask, Side};
 use wide::i16x8;
 
 use crate::contexts::{ANCHOR, KIND, PATTERN};
-use crate::rans::{Coder, Decoder, TileTokens, code_octaves};
-use crate::tile::{ColourMode, Kind, LAST_TRANSFORMED, Pattern, Place, Plane, TILE, Tile};
-
-/// A decoder finds a tile's masks and planes symbol by symbol; an encoder knows them, and finds many symbols at once.
-pub trait TileCoder: Coder {
-    /// Codes which pixels of the rows are valid.
-    fn mask(&mut self, rows: &mut [u16; TILE], width: usize, height: usize);
-    /// Codes a plane, gives pixels that are not valid what is predicted for them, and returns the lanes' activity.
-    fn plane(&mut self, plane: &mut Plane, task: &PlaneTask) -> i16x8;
-}
-
-impl TileCoder for Decoder<'_> {
-    fn mask(&mut self, rows: &mut [u16; TILE], width: usize, height: usize) {
-        self.with_copy(|decoder| mask::walk(decoder, rows, width, height));
-    }
-
-    fn plane(&mut self, plane: &mut Plane, task: &PlaneTask) -> i16x8 {
-        let [activity] = wavefront::decode([self], [plane], [task]);
-        activity
-    }
-}
-
-impl TileCoder for TileTokens {
-    fn mask(&mut self, rows: &mut [u16; TILE], width: usize, height: usize) {
-        if width == TILE && height == TILE {
-            self.push_mask(mask::tokens(rows));
-        } else {
-            self.with_copy(|tokens| mask::walk(tokens, rows, width, height));
-        }
-    }
-
-    #[inline(never)]
-    fn plane(&mut self, plane: &mut Plane, task: &PlaneTask) -> i16x8 {
-        rows::code(self, plane, task)
-    }
-}
-
-/// The largest quantised inverse depth.
-pub const MAX_DEPTH: i32 = 32_767;
-/// Levels of a mean lie within ±this.
-pub const MAX_DC: i32 = 16_383;
-
-/// Kind of no tile.
-const NO_KIND: usize = 3;
-
-/// What a tile leaves to the one on its right.
-#[derive(Clone, Copy)]
-struct Edge {
-    kind: usize,
-    /// False where there is nothing to predict from.
-    known: bool,
-    /// By channel.
-    sides: [Side; Channel::COUNT],
-    blocks: [[BlockEdge; 2]; 3],
-}
-
-const NO_EDGE: Edge =
-    Edge { kind: NO_KIND, known: false, sides: [[0; TILE]; Channel::COUNT], blocks: [[NO_BLOCK; 2]; 3] };
-
-/// What the tiles of a packet know of those before them.
-#[derive(Clone)]
-pub struct Neighbours {
-    left: Edge,
-    pattern: usize,
-    point: [i32; 3],
-    /// Depth at the upper right corner of the last tile that is not empty.
-    last_depth: Option<i16>,
-    /// Of the last block of each plane.
-    last_dc: [Option<i32>; 3],
-    /// By channel, lane by lane: the size of the last residual.
-    activity: [i16x8; Channel::COUNT],
-}
-
-impl Neighbours {
-    /// At the beginning of a packet: nothing.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self {
-            left: NO_EDGE,
-            pattern: 8,
-            point: [0; 3],
-            last_depth: None,
-            last_dc: [None; 3],
-            activity: [i16x8::ZERO; Channel::COUNT],
-        }
-    }
-}
-
-impl Default for Neighbours {
-    fn default() -> Self {
-        Self::new()
-    }
-}
+use crate::rans::{Coder, Decoder, code_octaves};
+use crate::tile::{ColourMode, Kind, LAST_TRANSFORMED, MAX_DEPTH, Pattern, Place, TILE, Tile};
 
 /// Codes a tile that is known.
 #[inline(always)]
@@ -147,6 +61,18 @@ pub fn code_head<C: TileCoder>(coder: &mut C, tile: &mut Tile, near: &mut Neighb
     near.pattern = usize::from(tile.pattern.0);
     code_mask(coder, tile);
     true
+}
+
+/// Codes the mask of a mixed tile; a full one has none.
+#[inline(never)]
+fn code_mask<C: TileCoder>(coder: &mut C, tile: &mut Tile) {
+    let (width, height) = (tile.pattern.width(), tile.pattern.height());
+    if tile.kind == Kind::Full {
+        tile.rows = [0; TILE];
+        tile.rows[..height].fill(((1_u32 << width) - 1) as u16);
+        return;
+    }
+    coder.mask(&mut tile.rows, width, height);
 }
 
 /// Codes a tile's planes, which follow its head.

@@ -3,7 +3,7 @@
 use wide::i16x8;
 
 use crate::contexts::{DEPTH, INDEX};
-use crate::lanes::Ranks;
+use crate::lanes::{Ranks, rank};
 use crate::tile::{ColourMode, Plane, TILE, Tile};
 
 /// What a tile tells of each pixel in a plane.
@@ -107,14 +107,14 @@ pub fn bins(l: i16x8, a: i16x8, d: i16x8, r: i16x8) -> (i16x8, [i16x8; 3]) {
     const RANKS: Ranks = Ranks::new(&[0, 1, 2, 4, 7, 12]);
     let gradient = (l - d).abs().saturating_add((a - d).abs()).saturating_add((r - a).abs());
     let shifted = [22, 45, 130].map(|limit| gradient.simd_gt(i16x8::splat(limit)));
-    (RANKS.of(gradient) - (shifted[0] + shifted[1] + shifted[2]), shifted)
+    (rank(&RANKS, gradient) - (shifted[0] + shifted[1] + shifted[2]), shifted)
 }
 
 /// Contexts by a bin and the size of the residual before.
 #[inline(always)]
 pub fn contexts(base: i16x8, bin: i16x8, activity: i16x8) -> i16x8 {
     const RANKS: Ranks = Ranks::new(&[0, 1, 4]);
-    base + (bin << 2) + RANKS.of(activity)
+    base + (bin << 2) + rank(&RANKS, activity)
 }
 
 /// 0, −1, 1, −2 … become 0, 1, 2, 3 ….

@@ -4,7 +4,7 @@ use wide::i16x8;
 
 use super::plane::{PlaneTask, bins, contexts, fold, predict, predict_one};
 use crate::contexts::FIRST_ROW_BIN;
-use crate::lanes::{LANES, follow, precede};
+use crate::lanes::{LANES, follow, precede, row_mask};
 use crate::rans::{NO_TOKEN, TileTokens, token};
 use crate::tile::{Plane, TILE};
 
@@ -67,10 +67,6 @@ fn fill(plane: &mut Plane, task: &PlaneTask) {
 /// Notes every pixel's token and number.
 #[inline(always)]
 fn note(plane: &mut Plane, task: &PlaneTask) -> i16x8 {
-    const BITS: [i16x8; 2] = [
-        i16x8::new([1, 2, 4, 8, 16, 32, 64, 128]),
-        i16x8::new([1 << 8, 2 << 8, 4 << 8, 8 << 8, 16 << 8, 32 << 8, 64 << 8, i16::MIN]),
-    ];
     let mut activity = task.activity.to_array();
     let base = i16x8::splat(task.base as i16);
     // Of the row above: its pixels, and what stood to the left of each.
@@ -107,7 +103,7 @@ fn note(plane: &mut Plane, task: &PlaneTask) -> i16x8 {
                 bins(to_left[half], above[half], above_left[half], above_right[half])
             };
             let numbers = fold(residuals[half]);
-            let missing = (BITS[half] & i16x8::splat(valid as i16)).simd_eq(i16x8::ZERO);
+            let missing = !row_mask(valid, half);
             let tokens = token(contexts(base, bin, before[half]), numbers, shifted, lane) | missing;
             plane.tokens_mut(y)[half * LANES..][..LANES].copy_from_slice(tokens.as_array());
             plane.numbers_mut(y)[half * LANES..][..LANES].copy_from_slice(numbers.as_array());

@@ -1,6 +1,7 @@
-//! Frames for the tests: a floor, a ball and noise, seen by a camera.
+//! What the tests share: frames (a floor, a ball and noise, seen by a camera), and their packets.
+#![allow(dead_code, reason = "each test uses a part of it")]
 
-use farpoint_organised_codec::{Intrinsics, Point, StreamHeader, stream};
+use farpoint_organised_codec::{Decoder, Encoder, Intrinsics, Point, StreamHeader, stream};
 
 pub struct Random(pub u64);
 
@@ -58,4 +59,24 @@ pub fn frame(header: &StreamHeader, seed: u64, holes: f32, noise: f32, grey: boo
             [x * z, y * z, z, f32::from_bits(rgba)]
         })
         .collect()
+}
+
+/// Whether a point can be sent.
+pub fn valid(point: &Point) -> bool {
+    let [x, y, z, _] = *point;
+    z > 0.0 && z.is_finite() && x.abs() <= 32.767 && y.abs() <= 32.767 && z <= 32.767
+}
+
+/// The packets of the last frame.
+pub fn packets(encoder: &Encoder) -> Vec<Vec<u8>> {
+    (0..encoder.packets().len()).map(|index| encoder.packet(index).to_vec()).collect()
+}
+
+/// A decoder that has taken all packets.
+pub fn decode(header: &StreamHeader, packets: &[Vec<u8>]) -> Decoder {
+    let mut decoder = Decoder::new(header.clone(), true).expect("a stream");
+    for packet in packets {
+        decoder.put(packet).expect("a packet");
+    }
+    decoder
 }

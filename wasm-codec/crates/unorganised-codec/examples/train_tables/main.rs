@@ -47,7 +47,7 @@ fn write(tables: &[[u16; SYMBOLS]]) -> std::io::Result<()> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut source = String::from(
         "//! Written by `cargo run --release -p farpoint-unorganised-codec --example train_tables`; not to be edited.\n\n\
-         use crate::model::TABLE_COUNT;\nuse crate::tables::SYMBOLS;\n\n\
+         use crate::contexts::{SYMBOLS, TABLE_COUNT};\n\n\
          /// Probability of each symbol in 1/4096, table by table.\n#[rustfmt::skip]\n\
          pub static FREQUENCIES: [[u16; SYMBOLS]; TABLE_COUNT] = [\n",
     );

@@ -1,0 +1,51 @@
+import { zeroTwist } from '@farpoint/protocol';
+import { afterEach, expect, it } from 'vitest';
+import type { TimedBaseState } from './base.ts';
+import { BaseThread } from './base-thread.ts';
+import { SnapshotReader } from './shared-snapshot.ts';
+
+let base: BaseThread;
+afterEach(() => base.close());
+
+const stateWhere = (is: (state: TimedBaseState) => boolean) =>
+  new Promise<TimedBaseState>((resolve) => {
+    base.onState = (state) => {
+      if (is(state)) resolve(state);
+    };
+  });
+
+it('drives when told, and stops by itself when it is not told again', async () => {
+  base = new BaseThread({ watchdogMs: 150 });
+  base.apply({ ...zeroTwist(), linear: { x: 0.3, y: 0, z: 0 } });
+  await stateWhere(({ twist }) => twist.linear.x > 0);
+  // Not repeated: the thread's own watchdog brakes.
+  await stateWhere(({ twist }) => twist.linear.x === 0);
+  expect(base.watchdogStops).toBe(1);
+});
+
+it('shows sensors the world that it stands in', async () => {
+  base = new BaseThread({ watchdogMs: 150 });
+  const world = new SnapshotReader(base.snapshot);
+  const { pose } = await stateWhere(() => true);
+  const first = world.read();
+  expect(first).toMatchObject({ x: pose.position.x, y: pose.position.y });
+  // People walk, whether the robot moves or not.
+  await stateWhere(() => (world.read()?.time ?? 0) > (first?.time ?? 0) + 0.2);
+  expect(world.read()?.bodies).not.toEqual(first?.bodies);
+});
+
+it('says that its thread is gone, once', async () => {
+  base = new BaseThread({ watchdogMs: 150 });
+  const failures: Error[] = [];
+  const failed = new Promise<void>((resolve) => {
+    base.onFailure = (error) => {
+      failures.push(error);
+      resolve();
+    };
+  });
+  // Not a velocity: what it throws ends the thread.
+  base.apply(null as never);
+  await failed;
+  await base.close();
+  expect(failures.map(({ message }) => message)).toEqual([expect.stringMatching(/thread ended/)]);
+});

@@ -1,0 +1,55 @@
+import { Worker } from 'node:worker_threads';
+import type { Twist } from '@farpoint/protocol';
+import { officeWorld } from '@farpoint/sim';
+import type { VelocitySink } from '../drive/velocity-sink.ts';
+import type { TimedBaseState } from './base.ts';
+import type { BaseOptions, BaseReport, BaseRequest, BaseWorkerData } from './base-messages.ts';
+import { makeSharedSnapshot } from './shared-snapshot.ts';
+
+/** The main thread's end of the simulated base: velocities go in, its state comes out, sensors share its world. */
+export class BaseThread implements VelocitySink {
+  readonly kind = 'simulated base';
+  /** Where sensors of the simulator find the world. */
+  readonly snapshot = makeSharedSnapshot(officeWorld().movers.length);
+  onState: ((state: TimedBaseState) => void) | null = null;
+  /** Called once, if the thread ends without having been asked to. */
+  onFailure: ((error: Error) => void) | null = null;
+  watchdogStops = 0;
+  readonly #worker: Worker;
+  readonly #ended: Promise<unknown>;
+  #closing = false;
+
+  constructor(options: BaseOptions) {
+    const workerData: BaseWorkerData = { ...options, snapshot: this.snapshot };
+    this.#worker = new Worker(new URL('./base-worker.ts', import.meta.url), { workerData });
+    this.#worker.on('message', ({ state, watchdogStops }: BaseReport) => {
+      this.watchdogStops = watchdogStops;
+      this.onState?.(state);
+    });
+    this.#worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));
+    this.#ended = new Promise((resolve) => this.#worker.once('exit', resolve));
+    void this.#ended.then((code) => this.#fail(`exit code ${code}`));
+  }
+
+  apply(twist: Twist): void {
+    this.#post({ type: 'twist', twist });
+  }
+
+  async close(): Promise<void> {
+    if (!this.#closing) {
+      this.#closing = true;
+      this.#post({ type: 'close' });
+    }
+    await this.#ended;
+  }
+
+  #post(request: BaseRequest): void {
+    this.#worker.postMessage(request);
+  }
+
+  #fail(detail: string): void {
+    if (this.#closing) return;
+    this.#closing = true;
+    this.onFailure?.(new Error(`the simulated base’s thread ended: ${detail}`));
+  }
+}

@@ -1,0 +1,33 @@
+import { randomBytes } from 'node:crypto';
+import type { DriveLimits } from '@farpoint/protocol';
+import { DriveGuard, type TakePolicy } from '@farpoint/safety';
+import type { Logger } from '@farpoint/service';
+import { EstopJournal } from './estop-journal.ts';
+
+export interface GuardOptions {
+  id: string;
+  limits: DriveLimits;
+  takePolicy: TakePolicy;
+  /** Where the robot remembers its emergency stop over restarts. */
+  stateFolder: string;
+}
+
+/** The drive guard, latched where the emergency stop outlives the last run, and the journal that will say so to the next. */
+export function openGuard(
+  { id, limits, takePolicy, stateFolder }: GuardOptions,
+  log: Logger,
+): { guard: DriveGuard; estop: EstopJournal } {
+  const guard = new DriveGuard({ limits, takePolicy, randomBytes: (count) => randomBytes(count) });
+  const estop = new EstopJournal(stateFolder, id, (error) =>
+    log.error({ err: error }, 'the emergency stop is not remembered: the next start will be latched'),
+  );
+  const { latched } = estop.start;
+  if (latched !== null) {
+    guard.latchEstop(latched.by);
+    log.warn(
+      { reason: latched.reason, detail: latched.detail },
+      'starts with the emergency stop latched: whoever drives must release it',
+    );
+  }
+  return { guard, estop };
+}

@@ -1,0 +1,114 @@
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { type Command, zeroTwist } from '@farpoint/protocol';
+import { DriveGuard, defaultDriveLimits } from '@farpoint/safety';
+import type { Logger } from '@farpoint/service';
+import { isAvailable, ReferenceControlReader } from '@farpoint/shared-memory';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { DriveStation } from './drive-station.ts';
+import { openSink } from './open-sink.ts';
+
+let folder: string;
+const open: { close(): void }[] = [];
+beforeEach(() => {
+  folder = mkdtempSync(join(tmpdir(), 'farpoint-sink-'));
+});
+afterEach(() => {
+  for (const each of open.splice(0)) void each.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+const errors: unknown[] = [];
+const log = { error: (detail: unknown) => errors.push(detail) } as unknown as Logger;
+
+function setUp(silenceMs = 60_000) {
+  const sink = openSink({ kind: 'shm', folder, mode: 0o600, silenceMs }, null, log);
+  const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
+  let nowMs = 1000;
+  const station = new DriveStation(
+    guard,
+    (twist) => sink.apply(twist, false),
+    () => nowMs,
+  );
+  const reader = new ReferenceControlReader(folder);
+  open.push(station, sink, reader);
+  const outcome = guard.requestLease('op', false, nowMs);
+  const lease = outcome.granted ? outcome.lease : '';
+  let sequence = 0;
+  const drive = (x: number) => {
+    const twist = { ...zeroTwist(), linear: { x, y: 0, z: 0 } };
+    const command: Command = {
+      type: 'command',
+      sequence: sequence++,
+      timeMs: nowMs,
+      lease,
+      deadMan: true,
+      twist,
+    };
+    guard.onCommand('op', command, nowMs);
+    station.apply();
+  };
+  const pass = (ms: number) => {
+    nowMs += ms;
+    station.apply();
+  };
+  return { sink, guard, station, reader, drive, pass };
+}
+
+describe.skipIf(!isAvailable())('velocity into shared memory (needs the addon: pnpm build:native)', () => {
+  it('gets what the guard lets through: a command, none beyond the limits, and zero on silence, with a counter that moves', () => {
+    const { reader, drive, pass } = setUp();
+    drive(0.3);
+    const first = reader.read();
+    expect(first?.twist).toEqual({ ...zeroTwist(), linear: { x: 0.3, y: 0, z: 0 } });
+    pass(40);
+    drive(100);
+    const second = reader.read();
+    expect(second?.twist.linear.x).toBe(0.3);
+    expect(second?.counter).toBeGreaterThan(first?.counter as number);
+    pass(defaultDriveLimits.watchdogMs);
+    expect(reader.read()?.twist).toEqual(zeroTwist());
+    expect(reader.read()?.counter).toBeGreaterThan(second?.counter as number);
+  });
+
+  it('is zero once the emergency stop is latched, and once it is closed', () => {
+    const { sink, guard, station, reader, drive } = setUp();
+    drive(0.3);
+    guard.latchEstop('operator');
+    station.apply();
+    expect(reader.read()?.twist).toEqual(zeroTwist());
+    sink.apply({ ...zeroTwist(), linear: { x: 0.1, y: 0, z: 0 } }, false);
+    sink.close();
+    expect(reader.read()?.twist).toEqual(zeroTwist());
+  });
+
+  it('becomes zero where this thread hangs with a velocity written', () => {
+    const { reader, drive } = setUp(5);
+    drive(0.3);
+    const deadline = performance.now() + 10_000;
+    while (reader.read()?.twist.linear.x !== 0 && performance.now() < deadline);
+    expect(reader.read()?.twist).toEqual(zeroTwist());
+  });
+
+  it('says once that the block cannot be written, and goes on when it can', () => {
+    const { drive, pass } = setUp();
+    rmSync(folder, { recursive: true });
+    drive(0.3);
+    pass(40);
+    expect(errors).toHaveLength(1);
+    expect(errors[0]).toMatchObject({ err: { code: 'absent' } });
+  });
+});
+
+describe('velocity to a base', () => {
+  it('is handed on to the one there is, and to nothing where there is none', () => {
+    const got: unknown[] = [];
+    const base = { kind: 'test', apply: (twist: unknown) => void got.push(twist), close: () => undefined };
+    const twist = { ...zeroTwist(), linear: { x: 0.1, y: 0, z: 0 } };
+    openSink({ kind: 'base' }, base, log).apply(twist, false);
+    expect(got).toEqual([twist]);
+    openSink({ kind: 'base' }, null, log).apply(twist, false);
+    expect(got).toHaveLength(1);
+  });
+});

@@ -1,0 +1,26 @@
+import type { Logger } from '@farpoint/service';
+import { ReferenceControlWriter } from '@farpoint/shared-memory';
+import type { RosDriveOptions } from './ros-drive-messages.ts';
+import { RosSink } from './ros-sink.ts';
+import { SharedMemorySink } from './shm-sink.ts';
+import type { VelocitySink } from './velocity-sink.ts';
+
+export type SinkOptions =
+  /** The simulated base, where there is one; else nothing moves. */
+  | { kind: 'base' }
+  /** The reference system's command block in shared memory. */
+  | { kind: 'shm'; folder: string; mode: number; silenceMs: number }
+  /** A topic of a ROS graph. */
+  | ({ kind: 'ros' } & RosDriveOptions);
+
+/** @throws {Error} saying what is missing */
+export function openSink(options: SinkOptions, base: VelocitySink | null, log: Logger): VelocitySink {
+  switch (options.kind) {
+    case 'base':
+      return base ?? { kind: 'none', apply: () => undefined, close: () => undefined };
+    case 'shm':
+      return new SharedMemorySink(new ReferenceControlWriter(options), log);
+    case 'ros':
+      return new RosSink(options, log);
+  }
+}

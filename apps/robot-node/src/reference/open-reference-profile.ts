@@ -1,0 +1,27 @@
+import type { Logger } from '@farpoint/service';
+import type { RobotOptions } from '../robot-configuration.ts';
+import type { RobotSessionHost } from '../session/robot-session-host.ts';
+import { makeRateController } from '../transport/make-rate-controller.ts';
+import { ReferenceProfile, type ReferenceProfileOptions } from './reference-profile.ts';
+
+type ReferenceProfileParts = Pick<ReferenceProfileOptions, 'packetLog' | 'sendLoop' | 'onBudgetChanged'> & {
+  peer: Omit<ReferenceProfileOptions['peer'], 'iceServers'>;
+};
+
+/** @returns `null` where the robot is not to show itself to the reference system's operators */
+export function openReferenceProfile(
+  options: RobotOptions,
+  { peer, ...parts }: ReferenceProfileParts,
+  host: RobotSessionHost,
+  log: Logger,
+): ReferenceProfile | null {
+  const { referenceSignaling: url, name, signaling, iceServers } = options;
+  if (url === undefined) return null;
+  const makeController = () => makeRateController(options, true);
+  const { ca } = signaling;
+  return new ReferenceProfile(
+    { url, ca, name, peer: { ...peer, iceServers }, makeController, ...parts },
+    host,
+    log,
+  );
+}

@@ -1,0 +1,91 @@
+import type { TimedBaseState } from '../base/base.ts';
+import { Capture, type CaptureError, type CaptureRecording } from '../capture/capture.ts';
+import type { FanOutOptions, FrameTarget } from '../session/frame-fan-out.ts';
+import { CloudSensor, type CloudSensorOptions } from './cloud-sensor.ts';
+import type { CloudClaim } from './cloud-shares.ts';
+
+export interface CloudSensorsEvents {
+  /** What the first sensor knows of the base. */
+  onState(state: TimedBaseState): void;
+  onFault(sensor: CloudSensor, detail: string): void;
+  /** A sensor's thread has ended; the others go on. */
+  onFailure(sensor: CloudSensor, error: CaptureError): void;
+}
+
+/** All of a robot's sources of clouds; the first is the one that latency tests, recordings and the reference profile use. */
+export class CloudSensors {
+  readonly all: readonly CloudSensor[];
+
+  /**
+   * Opens each source in a thread of its own.
+   *
+   * @param recording of the first one's clouds
+   * @throws {CaptureError} where one cannot be opened; none stays open then
+   */
+  static async open(
+    options: readonly CloudSensorOptions[],
+    recording: CaptureRecording | null,
+  ): Promise<Capture[]> {
+    const opening = options.map(({ capture }, i) => Capture.start(capture, i === 0 ? recording : null));
+    const opened = await Promise.allSettled(opening);
+    const failed = opened.find((result) => result.status === 'rejected');
+    const captures = opened.flatMap((result) => (result.status === 'fulfilled' ? [result.value] : []));
+    if (failed === undefined) return captures;
+    await Promise.all(captures.map((capture) => capture.close()));
+    throw failed.reason;
+  }
+
+  /** @param captures of the same sensors, in their order */
+  constructor(
+    options: readonly CloudSensorOptions[],
+    captures: readonly Capture[],
+    fanOut: Omit<FanOutOptions, 'capture' | 'sensor' | 'lane'>,
+    events: CloudSensorsEvents,
+  ) {
+    this.all = options.map((each, i) => {
+      const first = i === 0;
+      // What is measured and logged of frames is of the first sensor's: numbers of others would mix with them.
+      const { frameLog: _, onFrame: __, ...others } = fanOut;
+      const sensor = new CloudSensor(each, captures[i] as Capture, first ? fanOut : others);
+      const { capture } = sensor;
+      capture.onFault = (detail) => events.onFault(sensor, detail);
+      capture.onFailure = (error) => {
+        sensor.fail();
+        events.onFailure(sensor, error);
+      };
+      if (first) capture.onState = (state) => events.onState(state);
+      return sensor;
+    });
+  }
+
+  get first(): CloudSensor {
+    return this.all[0] as CloudSensor;
+  }
+
+  /** By sensor number. */
+  get claims(): readonly CloudClaim[] {
+    return this.all.map(({ claim }) => claim);
+  }
+
+  /** Faults of sources that may pass. */
+  get faults(): number {
+    return this.all.reduce((sum, { capture }) => sum + capture.faults, 0);
+  }
+
+  get framesWithoutBuffer(): number {
+    return this.all.reduce((sum, { capture }) => sum + capture.framesWithoutBuffer, 0);
+  }
+
+  updateBudgets(): void {
+    for (const sensor of this.all) sensor.updateBudget();
+  }
+
+  /** Tells what coded frames of the sensors that it wants are decoded with. */
+  announceTo(target: FrameTarget): void {
+    for (const sensor of this.all) sensor.announceTo(target);
+  }
+
+  async close(): Promise<void> {
+    await Promise.all(this.all.map(({ capture }) => capture.close()));
+  }
+}

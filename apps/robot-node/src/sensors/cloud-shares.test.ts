@@ -1,0 +1,65 @@
+import fc from 'fast-check';
+import { describe, expect, it } from 'vitest';
+import { type CloudClaim, cloudShare } from './cloud-shares.ts';
+
+const M = 1e6;
+const claim = (usefulBitsPerSecond: number, weight = 1, priority = 0): CloudClaim => ({
+  usefulBitsPerSecond,
+  weight,
+  priority,
+});
+
+describe('cloudShare', () => {
+  it('gives everything to a sensor that is alone, also beyond what it was known to use', () => {
+    expect(cloudShare(0, 40 * M, [claim(10 * M), claim(10 * M)], new Set([0]))).toBe(40 * M);
+  });
+
+  it('gives nothing to a sensor that is not wanted or not there', () => {
+    expect(cloudShare(1, 40 * M, [claim(10 * M), claim(10 * M)], new Set([0]))).toBe(0);
+    expect(cloudShare(5, 40 * M, [claim(10 * M)], new Set([0, 5]))).toBe(0);
+  });
+
+  it('gives the share of one that can use nothing any more to the others', () => {
+    const claims = [claim(Number.POSITIVE_INFINITY), claim(0)];
+    expect([0, 1].map((sensor) => cloudShare(sensor, 40 * M, claims, new Set([0, 1])))).toEqual([40 * M, 0]);
+  });
+
+  it('gives each as much as it can use where there is enough', () => {
+    const claims = [claim(30 * M, 3), claim(6 * M)];
+    expect([0, 1].map((sensor) => cloudShare(sensor, 50 * M, claims, new Set([0, 1])))).toEqual([
+      30 * M,
+      6 * M,
+    ]);
+  });
+
+  it('shares by weight where there is not, and by priority before that', () => {
+    const wanted = new Set([0, 1]);
+    const byWeight = [claim(Number.POSITIVE_INFINITY, 3), claim(Number.POSITIVE_INFINITY)];
+    expect(cloudShare(0, 9 * M, byWeight, wanted)).toBe(0.5 * M + 8 * M * 0.75);
+    const byPriority = [claim(30 * M, 1, 0), claim(30 * M, 1, 1)];
+    expect(cloudShare(0, 9 * M, byPriority, wanted)).toBe(8.5 * M);
+    expect(cloudShare(1, 9 * M, byPriority, wanted)).toBe(0.5 * M);
+  });
+
+  it('never gives more than there is', () => {
+    const claims = fc.array(
+      fc.record({
+        priority: fc.nat(2),
+        weight: fc.integer({ min: 1, max: 9 }),
+        usefulBitsPerSecond: fc.oneof(
+          fc.integer({ min: 0, max: 1e8 }),
+          fc.constant(Number.POSITIVE_INFINITY),
+        ),
+      }),
+      { minLength: 1, maxLength: 8 },
+    );
+    fc.assert(
+      fc.property(claims, fc.nat(1e8), (given, total) => {
+        const wanted = new Set(given.keys());
+        const shares = given.map((_, sensor) => cloudShare(sensor, total, given, wanted));
+        expect(shares.reduce((sum, share) => sum + share, 0)).toBeLessThanOrEqual(total * (1 + 1e-9) + 1e-6);
+      }),
+      { seed: 21 },
+    );
+  });
+});

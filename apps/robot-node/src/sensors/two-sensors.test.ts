@@ -1,0 +1,68 @@
+/** A robot with a camera and a LiDAR, as it runs, with the real signaling service. */
+import { LocalStack } from '@farpoint/local-stack';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { SignaledOperator } from '../testing/signaled-operator.ts';
+
+const ROBOT = 'two-sensors';
+const [CAMERA, LIDAR] = [0, 1];
+const ARGS = ['--sim-size', '64', '--sim-lidar', '--rate-control', 'fixed', '--bitrate-mbps', '100'];
+
+let stack: LocalStack;
+const operators: SignaledOperator[] = [];
+
+beforeAll(async () => {
+  stack = await LocalStack.start({ robots: [{ id: ROBOT, name: 'Two sensors', args: ARGS }] });
+}, 60_000);
+afterAll(async () => {
+  await stack.stop();
+}, 30_000);
+afterEach(async () => {
+  for (const operator of operators.splice(0)) await operator.close();
+});
+
+async function connect() {
+  const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+  operators.push(operator);
+  return operator.client;
+}
+
+describe('a robot with two sensors', { timeout: 30_000 }, () => {
+  it('names them, and sends the second one’s clouds to who asks for them alone', async () => {
+    const [client, other] = [await connect(), await connect()];
+    expect((await client.message('sensors')).sensors).toEqual([{ name: 'Camera' }, { name: 'LiDAR' }]);
+    client.sendSession({ type: 'sensors', sensors: [CAMERA, LIDAR] });
+    await client.until(() => client.completeFramesOf(LIDAR).length >= 5);
+    // Every beam that hits something: 16 rings of 900.
+    for (const { points } of client.completeFramesOf(LIDAR).slice(1)) expect(points).toBeGreaterThan(5000);
+    const cameraFrames = client.completeFramesOf(CAMERA).length;
+    expect(cameraFrames).toBeGreaterThan(client.completeFramesOf(LIDAR).length);
+    await other.until(() => other.completeFramesOf(CAMERA).length >= 5);
+    expect(other.completeFramesOf(LIDAR)).toEqual([]);
+    expect(client.malformedPackets).toBe(0);
+  });
+
+  it('switches each off and on without the other noticing', async () => {
+    const client = await connect();
+    client.sendSession({ type: 'sensors', sensors: [LIDAR] });
+    await client.until(() => client.completeFramesOf(LIDAR).length >= 3);
+    const before = client.completeFramesOf(CAMERA).length;
+    const count = client.completeFramesOf(LIDAR).length;
+    await client.until(() => client.completeFramesOf(LIDAR).length >= count + 5);
+    // What was under way when it was asked for no more.
+    expect(client.completeFramesOf(CAMERA).length - before).toBeLessThanOrEqual(2);
+    client.sendSession({ type: 'sensors', sensors: [CAMERA] });
+    const camera = client.completeFramesOf(CAMERA).length;
+    await client.until(() => client.completeFramesOf(CAMERA).length >= camera + 20);
+    client.sendSession({ type: 'sensors', sensors: [] });
+    await client.until(() => client.telemetry?.stream.framesPerSecond === 0);
+  });
+
+  it('tells for each sensor what its coded frames are decoded with', async () => {
+    const client = await connect();
+    client.sendSession({ type: 'sensors', sensors: [CAMERA, LIDAR] });
+    client.sendSession({ type: 'cloudFormats', formats: ['points64', 'organised', 'unorganised'] });
+    const camera = await client.message('cloudStream', ({ sensor }) => sensor === undefined);
+    const lidar = await client.message('cloudStream', ({ sensor }) => sensor === LIDAR);
+    expect([camera.format, lidar.format]).toEqual(['organised', 'unorganised']);
+  });
+});

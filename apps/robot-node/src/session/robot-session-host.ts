@@ -1,0 +1,87 @@
+import type { Command, LatencyMeasured, ProtocolError } from '@farpoint/protocol';
+import type { CommandVerdict, RejectedCommand } from '@farpoint/safety';
+import type { Logger } from '@farpoint/service';
+import type { DriveStation } from '../drive/drive-station.ts';
+import type { EstopJournal } from '../drive/estop-journal.ts';
+import type { CloudSensors } from '../sensors/cloud-sensors.ts';
+import type { RobotCounters } from '../telemetry/robot-counters.ts';
+import type { SessionRecording } from '../telemetry/session-recording.ts';
+import type { ConnectedOperator } from './connected-operator.ts';
+import type { OperatorSession, SessionHost } from './operator-session.ts';
+
+export interface RobotSessionHostParts {
+  drive: DriveStation;
+  estop: EstopJournal;
+  operators: () => ReadonlyMap<string, ConnectedOperator>;
+  sensors: () => CloudSensors;
+  counters: RobotCounters;
+  recording: SessionRecording | null;
+  log: Logger;
+  now: () => number;
+}
+
+/** What sessions ask of the robot, and what they tell it. */
+export class RobotSessionHost implements SessionHost {
+  readonly drive: DriveStation;
+  readonly #parts: RobotSessionHostParts;
+
+  constructor(parts: RobotSessionHostParts) {
+    this.drive = parts.drive;
+    this.#parts = parts;
+  }
+
+  now(): number {
+    return this.#parts.now();
+  }
+
+  leaseChanged(): void {
+    for (const { session } of this.#parts.operators().values()) session.sendLease();
+    this.#parts.sensors().updateBudgets();
+  }
+
+  operatorGone(id: string): void {
+    // Its wheels stand before anything else is said.
+    const leaseFreed = this.drive.guard.operatorGone(id);
+    this.drive.apply();
+    if (leaseFreed) this.leaseChanged();
+    this.#parts.sensors().updateBudgets();
+  }
+
+  estopChanged(): void {
+    const { estop, log, operators } = this.#parts;
+    const state = this.drive.guard.estopState();
+    estop.changed(state.by ?? null);
+    log.warn({ estop: state }, 'emergency stop changed');
+    for (const { session } of operators().values()) session.sendEstop();
+  }
+
+  latencyTestRequested(session: OperatorSession, id: number, commandMs: number): void {
+    const isNew = this.#parts.operators().get(session.id)?.askLatencyTest({ id, commandMs }) ?? false;
+    if (isNew) this.requestLatencyFrame();
+  }
+
+  requestLatencyFrame(): void {
+    this.#parts.sensors().first.capture.requestLatencyTest();
+  }
+
+  commandAccepted(): void {
+    this.#parts.counters.commandsAccepted++;
+  }
+
+  commandRejected(rejection: RejectedCommand): void {
+    this.#parts.counters.commandsRejected.add(rejection.reason);
+  }
+
+  commandJudged(session: OperatorSession, command: Command, verdict: CommandVerdict): void {
+    this.#parts.recording?.command(session.id, command, verdict);
+  }
+
+  latencyMeasured(session: OperatorSession, measured: LatencyMeasured): void {
+    this.#parts.recording?.latencyMeasured(session.id, measured);
+  }
+
+  messageRefused(channel: string, error: ProtocolError): void {
+    this.#parts.counters.messagesRefused.add(`${channel}:${error.code}`);
+    this.#parts.log.debug({ err: error, channel }, 'message refused');
+  }
+}

@@ -1,0 +1,69 @@
+import type { DriveGuard } from '@farpoint/safety';
+import { fileFault, JsonLinesFile, type Logger } from '@farpoint/service';
+import type { TimedBaseState } from '../base/base.ts';
+import type { ConnectedOperator } from '../session/connected-operator.ts';
+import type { RobotCounters } from './robot-counters.ts';
+import type { SessionRecording } from './session-recording.ts';
+import { streamStatistics } from './stream-statistics.ts';
+import type { TelemetrySender } from './telemetry-sender.ts';
+
+const TELEMETRY_MS = 50;
+const STATISTICS_MS = 100;
+
+export interface RobotReportsParts {
+  operators: ReadonlyMap<string, ConnectedOperator>;
+  counters: RobotCounters;
+  telemetry: TelemetrySender;
+  guard: DriveGuard;
+  recording: SessionRecording | null;
+  /** What is known of the base; `null` before anything is. */
+  state: () => TimedBaseState | null;
+  /** One JSON object a line; left out, none is written. */
+  statisticsFile?: string | undefined;
+  log: Logger;
+  now: () => number;
+}
+
+/** What the robot tells at a steady rhythm: telemetry to operators and the recording, statistics to a file. */
+export class RobotReports {
+  readonly #parts: RobotReportsParts;
+  readonly #timers: NodeJS.Timeout[] = [];
+  readonly #statistics: JsonLinesFile | null = null;
+
+  constructor(parts: RobotReportsParts) {
+    this.#parts = parts;
+    const { statisticsFile, recording, log } = parts;
+    if (statisticsFile !== undefined) {
+      this.#statistics = new JsonLinesFile(statisticsFile, (error) =>
+        log.error(
+          { remedy: 'set --stats to a file that can be written' },
+          `statistics are not written: ${fileFault(error) ?? error.message}`,
+        ),
+      );
+    }
+    if (this.#statistics !== null || recording !== null) {
+      this.#timers.push(setInterval(() => this.#writeStatistics(), STATISTICS_MS));
+    }
+    this.#timers.push(setInterval(() => this.#sendTelemetry(), TELEMETRY_MS));
+  }
+
+  async close(): Promise<void> {
+    for (const timer of this.#timers) clearInterval(timer);
+    await this.#statistics?.close();
+  }
+
+  #sendTelemetry(): void {
+    const { state, telemetry, recording, guard, operators, now } = this.#parts;
+    const known = state();
+    if (known === null) return;
+    telemetry.send(known, now());
+    recording?.telemetry(known, guard, operators.size);
+  }
+
+  #writeStatistics(): void {
+    const { operators, state, counters, recording, now } = this.#parts;
+    const lines = streamStatistics(operators.values(), state(), counters, now());
+    for (const line of lines) this.#statistics?.write(line);
+    recording?.estimates(lines);
+  }
+}

@@ -1,0 +1,39 @@
+import type { IceCandidate, IceServer } from '@farpoint/protocol';
+import type { CandidateRefusal, Refusal } from '@farpoint/webrtc';
+import type { CloudTransport } from './cloud-transport.ts';
+
+/** Why a connection ended. */
+export type PeerEnd =
+  | 'closed' // by us
+  | 'bad-answer' // the operator's SDP or its codecs cannot be used
+  | 'unproven-peer' // DTLS: another certificate than the answer names, or a key that it does not have
+  | 'not-connected' // no connection came about
+  | 'connection-lost' // ICE, DTLS or a channel ended
+  | 'silent' // nothing heard for too long
+  | 'not-reading'; // our reliable messages pile up
+
+export interface OperatorPeerOptions {
+  iceServers: readonly IceServer[];
+  /** Local UDP ports, both ends included; any where absent. */
+  portRange?: readonly [number, number] | undefined;
+  /** `relay`: by TURN servers only. */
+  icePolicy?: 'all' | 'relay' | undefined;
+  connectTimeoutMs: number;
+  /** There are pictures to send: a channel for them is opened. */
+  pictures?: boolean | undefined;
+  /** Something that came from the network was dropped unread. */
+  onRefused?: ((reason: Refusal) => void) | undefined;
+}
+
+export interface OperatorPeerEvents {
+  onCandidate(candidate: IceCandidate): void;
+  /** A candidate of the operator is left out; others may do. */
+  onCandidateRefused?(reason: CandidateRefusal, detail: string): void;
+  /** The path and our channels are up. */
+  onConnected(transport: CloudTransport): void;
+  onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void;
+  /** What was sent of pictures has nearly left. */
+  onPicturesLow?(): void;
+  /** The last event. `detail` is for people. */
+  onEnded(end: PeerEnd, detail: string): void;
+}

@@ -1,0 +1,160 @@
+/** Puts {@link FarpointTestApi} on the window. */
+
+import { bodyYaw, opticalYaw } from '@farpoint/cloud-view';
+import { LATENCY_TEST_COLOUR, type Pose } from '@farpoint/protocol';
+import { Quaternion, Vector3 } from 'three';
+import type { App } from '../app.ts';
+import { lastNotice } from '../ui/notice.ts';
+import { describeLink, snapshot } from '../ui/status-ui.ts';
+import { PacketRecord } from './packet-record.ts';
+import { ScriptInput } from './script-input.ts';
+import type { DrawnProbe, FarpointTestApi } from './test-api.ts';
+
+export function installTestApi(app: App): void {
+  const { client, cloud, stage } = app;
+  const { link, driver } = client;
+  const script = new ScriptInput();
+  driver.add(script);
+  let packets: PacketRecord | null = null;
+  client.on('cloud', (batch) => packets?.add(batch, performance.timeOrigin));
+  const api: FarpointTestApi = {
+    version: 1,
+    state() {
+      const { telemetry, estop } = link.session;
+      return {
+        signaling: link.signaling,
+        session: link.phase,
+        sessionsOpened: link.sessionsOpened,
+        lastLoss: link.lastLoss,
+        robotId: link.robotId,
+        robotListed: link.robotListed,
+        link: describeLink(app, performance.now()).text,
+        notice: lastNotice(),
+        holder: driver.holder,
+        estop: estop.latched,
+        drive: telemetry?.drive ?? null,
+        battery: telemetry?.battery?.percentage ?? null,
+        body: telemetry === null ? null : flatPose(telemetry.pose),
+        velocity:
+          telemetry === null
+            ? null
+            : { linear: telemetry.twist.linear.x, angular: telemetry.twist.angular.z },
+        driving: driver.stream.held && driver.holder === 'you',
+        input: driver.input?.name ?? null,
+        vr: app.vr.active,
+      };
+    },
+    stats: () => snapshot(app),
+    resetStats: () => {
+      client.statistics.resetDistributions();
+      app.stats.resetDistributions();
+    },
+    robots: () => link.robots,
+    connect(robotId, timeoutMs = 30_000) {
+      app.choose(robotId);
+      const stands = () => link.robotId === robotId && link.phase === 'live' && cloud.hasPoints;
+      return until(stands, timeoutMs, `no session with ${robotId}`);
+    },
+    disconnect: () => client.leave(),
+    requestLease: (take = false) => driver.requestLease(take),
+    estop: (latch) => link.sendSession({ type: 'estop', latch }),
+    latencyTest: () => client.latencyTest(),
+    latencyResults: () => client.statistics.results,
+    async drive(wish, ms) {
+      script.wish.forward = wish.forward;
+      script.wish.left = wish.left;
+      script.held = true;
+      driver.tick(performance.now());
+      await new Promise((resolve) => setTimeout(resolve, ms));
+      script.held = false;
+      driver.tick(performance.now());
+    },
+    limitBandwidth: (bitsPerSecond) => link.limitBandwidth(bitsPerSecond),
+    probe: () => probe(app),
+    cameras: () =>
+      app.cameras.views.map((view) => {
+        const { name, shown, canvas, pictures, failures } = view;
+        const ageMs = app.cameras.ageMs(view, performance.now());
+        return { name, shown, width: canvas.width, height: canvas.height, ageMs, pictures, failures };
+      }),
+    sensors: () =>
+      app.clouds.sensors.map(({ sensor, name, wanted }) => ({
+        ...{ name, wanted, points: app.clouds.drawnOf(sensor) },
+      })),
+    recordPackets(capacity) {
+      packets = capacity === null ? null : new PacketRecord(capacity);
+    },
+    recordedPackets() {
+      const { clock } = link.session;
+      const values = [...(packets?.values ?? [])];
+      for (let i = 2; i < values.length; i += 3)
+        values[i] = (values[i] as number) + (clock.offsetMs ?? Number.NaN);
+      return { values, minRttMs: clock.minRttMs };
+    },
+    pixel: (x, y) =>
+      new Promise((resolve) => {
+        app.frames.afterNextFrame(() => {
+          const { gl } = stage;
+          const bytes = new Uint8Array(4);
+          const column = Math.min(Math.floor(x * gl.drawingBufferWidth), gl.drawingBufferWidth - 1);
+          const row = Math.min(Math.floor((1 - y) * gl.drawingBufferHeight), gl.drawingBufferHeight - 1);
+          gl.readPixels(column, row, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+          resolve([bytes[0] as number, bytes[1] as number, bytes[2] as number]);
+        });
+      }),
+  };
+  window.farpoint = api;
+}
+
+function probe({ cloud }: App): DrawnProbe {
+  const { points, slots } = cloud.readBack();
+  const poses = [0, 1].map((slot) => {
+    const { unit, position, orientation } = cloud.pose(slot);
+    return {
+      unit,
+      position: new Vector3(position.x, position.y, position.z),
+      orientation: new Quaternion(orientation.x, orientation.y, orientation.z, orientation.w),
+    };
+  });
+  const min = new Vector3(1, 1, 1).multiplyScalar(Number.POSITIVE_INFINITY);
+  const max = min.clone().negate();
+  const point = new Vector3();
+  let count = 0;
+  let green = 0;
+  for (const [index, slot] of slots.entries()) {
+    if (slot === null) continue;
+    count++;
+    if ((points[index * 4 + 3] as number) === LATENCY_TEST_COLOUR) green++;
+    point.fromArray(points, index * 4).multiplyScalar(poses[slot]!.unit);
+    point.applyQuaternion(poses[slot]!.orientation).add(poses[slot]!.position);
+    min.min(point);
+    max.max(point);
+  }
+  const { x, y, z } = cloud.cameraPosition;
+  return {
+    points: count,
+    green,
+    bounds: count === 0 ? null : { min: min.toArray(), max: max.toArray() },
+    camera: cloud.hasPoints ? { x, y, z, yaw: opticalYaw(cloud.cameraOrientation, 0) } : null,
+    newestFrame: cloud.window.newestFrame,
+  };
+}
+
+function flatPose({ position, orientation }: Pose): { x: number; y: number; z: number; yaw: number } {
+  return { x: position.x, y: position.y, z: position.z, yaw: bodyYaw(orientation) };
+}
+
+function until(condition: () => boolean, timeoutMs: number, failure: string): Promise<void> {
+  return new Promise((resolve, reject) => {
+    const began = performance.now();
+    const timer = setInterval(() => {
+      if (condition()) {
+        clearInterval(timer);
+        resolve();
+      } else if (performance.now() - began > timeoutMs) {
+        clearInterval(timer);
+        reject(new Error(`${failure} within ${timeoutMs} ms`));
+      }
+    }, 20);
+  });
+}

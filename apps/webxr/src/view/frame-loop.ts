@@ -1,0 +1,83 @@
+/** The frame loop: when a picture is drawn, and how coarse where the machine cannot keep up. */
+import { type CloudView, DrawGate, DrawingGovernor, GpuCompletion } from '@farpoint/cloud-view';
+import type { RobotClient } from '@farpoint/operator';
+import type { Settings } from '../settings.ts';
+import type { PageStatistics } from '../status/page-stats.ts';
+import type { SensorClouds } from './sensor-clouds.ts';
+import type { Stage } from './stage.ts';
+import type { VrSession } from './vr-session.ts';
+
+export interface FrameLoopParts {
+  readonly settings: Settings;
+  readonly client: RobotClient;
+  readonly stage: Stage;
+  readonly cloud: CloudView;
+  readonly clouds: SensorClouds;
+  readonly stats: PageStatistics;
+  readonly vr: VrSession;
+  /** Before each picture in VR: controllers tell nothing by themselves. */
+  readHeadset(): void;
+}
+
+export class FrameLoop {
+  readonly #parts: FrameLoopParts;
+  readonly #completion: GpuCompletion;
+  readonly #gate = new DrawGate();
+  readonly #governor = new DrawingGovernor();
+  #afterDrawing: (() => void)[] = [];
+
+  constructor(parts: FrameLoopParts) {
+    this.#parts = parts;
+    this.#completion = new GpuCompletion(parts.stage.renderer);
+    this.#completion.onCost = (costMs) => this.#gate.onCost(costMs);
+  }
+
+  start(): void {
+    const { client, settings, stage } = this.#parts;
+    if (settings.drawEvery !== null) client.drawEvery(settings.drawEvery, settings.drawEvery);
+    stage.renderer.setAnimationLoop((nowMs) => this.#frame(nowMs));
+  }
+
+  /** Calls `act` within the next display frame, after it was drawn and before it is shown. */
+  afterNextFrame(act: () => void): void {
+    this.#afterDrawing.push(act);
+  }
+
+  /** A few times a second: draws less where the machine cannot keep up. */
+  govern(nowMs: number): void {
+    const { client, settings, stage, stats } = this.#parts;
+    if (document.hidden || client.phase !== 'live') this.#governor.pause();
+    else if (this.#governor.update(stats.displayFramesPerSecond, nowMs)) {
+      const { scale, every } = this.#governor.step;
+      stage.resolution = scale;
+      // A sample of a cloud is not thinned further: a few thousand points are not what is slow.
+      if (settings.drawEvery === null) client.drawEvery(every);
+    }
+  }
+
+  #frame(nowMs: number): void {
+    const { client, cloud, clouds, settings, stage, stats, vr } = this.#parts;
+    // In VR the headset's compositor keeps the pace.
+    if (!vr.active && this.#completion.busy) return;
+    const beganMs = performance.now();
+    cloud.update(beganMs);
+    clouds.update(beganMs);
+    if (!vr.active && !this.#gate.mayDraw(cloud.window.endedFrame, beganMs)) return;
+    this.#gate.onDraw(cloud.window.endedFrame, beganMs);
+    if (vr.active) this.#parts.readHeadset();
+    stage.prepare(cloud, nowMs);
+    stage.renderer.render(stage.scene, stage.camera);
+    // Only where a time is taken: waiting for the GPU costs frames.
+    if (client.latency.wantsTime || settings.canvas !== null) {
+      this.#completion.wait();
+      this.#gate.onCost(performance.now() - beganMs);
+    } else if (!vr.active) this.#completion.mark();
+    const endedMs = performance.now();
+    client.noteDrawn(endedMs);
+    stats.onDrawn(endedMs - beganMs);
+    if (this.#afterDrawing.length > 0) {
+      for (const act of this.#afterDrawing) act();
+      this.#afterDrawing = [];
+    }
+  }
+}

@@ -1,0 +1,268 @@
+/**
+ * The cloud on the GPU: takes batches as they come, uploads what is drawn in the frame loop, and tells what was drawn.
+ * Nothing is parsed and nothing allocated here.
+ */
+import type { Batch, DropCounts, DropReason, RobotClient } from '@farpoint/operator';
+import { BufferGeometry, Points, type RawShaderMaterial, Sphere, Vector3, type WebGLRenderer } from 'three';
+import { FrameWindow } from './frame-window.ts';
+import { GpuCompletion } from './gpu-completion.ts';
+import { createPointMaterial, spacingPerMetre } from './point-material.ts';
+import { PointRing } from './point-ring.ts';
+
+const FIRST_CAPACITY = 1 << 19;
+/** 128 MiB on the GPU. */
+const MAX_CAPACITY = 1 << 24;
+/** Batches that may wait for the next display frame; beyond it the oldest are dropped. */
+const MAX_WAITING = 40;
+/** Without points for so long the picture begins to turn grey, and so much later it is. */
+const STALE_AFTER_MS = 600;
+const STALE_FADE_MS = 1400;
+/** As of a camera that sees 90°, until a frame has told better. */
+const DEFAULT_EXTENT = 2;
+
+/** Where the clouds come from: a {@link RobotClient}, or something that behaves as one. */
+export type CloudSource = Pick<
+  RobotClient,
+  'on' | 'release' | 'noteUploaded' | 'noteDrawn' | 'pointsAtMs'
+> & {
+  readonly latency: Pick<RobotClient['latency'], 'wantsTime'>;
+};
+
+export interface CloudViewOptions {
+  /** Whose clouds are drawn; the first sensor's where left out. */
+  sensor?: number;
+}
+
+/**
+ * The clouds of one of a robot's sensors, as an object of a three.js scene. Its axes are the robot's world (REP-103: x forward, z up):
+ * add it to a {@link RobotWorld}. Call {@link update} before and {@link noteDrawn} after each rendering.
+ */
+export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
+  readonly window = new FrameWindow(FIRST_CAPACITY, MAX_CAPACITY);
+  /** Packets that were not drawn, by reason. */
+  readonly drops: DropCounts = {};
+  /** Frames of which some point was drawn, packets drawn and points that came in them, since the session began. */
+  frames = 0;
+  packets = 0;
+  points = 0;
+  /** How wide the robot's camera sees: side of its picture at 1 m, metres. */
+  imageExtent = DEFAULT_EXTENT;
+  readonly #renderer: WebGLRenderer;
+  readonly #source: CloudSource;
+  readonly #completion: GpuCompletion;
+  readonly #ring: PointRing;
+  readonly #uniforms: ReturnType<typeof createPointMaterial>['uniforms'];
+  readonly #waiting: Batch[] = [];
+  readonly #stop: (() => void)[];
+
+  /** @param renderer draws this object, and no other renderer does */
+  constructor(renderer: WebGLRenderer, source: CloudSource, { sensor = 0 }: CloudViewOptions = {}) {
+    const { material, uniforms } = createPointMaterial();
+    super(new BufferGeometry(), material);
+    this.#renderer = renderer;
+    this.#source = source;
+    this.#completion = new GpuCompletion(renderer);
+    this.#uniforms = uniforms;
+    uniforms.runs.value = this.window.runs;
+    this.#ring = new PointRing(
+      renderer.getContext() as WebGL2RenderingContext,
+      FIRST_CAPACITY,
+      (attribute) => {
+        // three wants a BufferAttribute by its types; it draws GLBufferAttribute all the same.
+        this.geometry.setAttribute('position', attribute as never);
+      },
+    );
+    this.geometry.boundingSphere = new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
+    this.frustumCulled = false;
+    this.visible = false;
+    const recreate = () => this.#recreate();
+    // three itself listens first, and has made its state anew by then.
+    renderer.domElement.addEventListener('webglcontextrestored', recreate);
+    this.#stop = [
+      source.on(sensor === 0 ? 'cloud' : `cloud:${sensor}`, (batch) => this.#enqueue(batch)),
+      source.on('session', () => this.forget()),
+      source.on('phase', (phase) => {
+        if (phase === 'none') this.forget();
+      }),
+      () => renderer.domElement.removeEventListener('webglcontextrestored', recreate),
+    ];
+  }
+
+  /** The operator's taste: 1 draws points as large as computed. */
+  set sizeScale(scale: number) {
+    this.#uniforms.sizeScale.value = scale;
+  }
+
+  /** Vertices that the next display frame draws, hidden ones of late packets included. */
+  get drawn(): number {
+    return this.window.tail - this.window.head;
+  }
+
+  /** Of the newest frame: where its camera stood, REP-103 world. */
+  get cameraPosition(): { x: number; y: number; z: number } {
+    return this.#uniforms.framePosition.value[this.window.newestSlot]!;
+  }
+  get cameraOrientation(): { x: number; y: number; z: number; w: number } {
+    return this.#uniforms.frameOrientation.value[this.window.newestSlot]!;
+  }
+  get hasPoints(): boolean {
+    return this.window.newestFrame !== null;
+  }
+
+  /** Pixels of one eye's picture, from top to bottom. */
+  get viewportHeight(): number {
+    const { xr, domElement } = this.#renderer;
+    if (!xr.isPresenting) return domElement.height;
+    return xr.getCamera().cameras[0]?.viewport?.w ?? domElement.height;
+  }
+
+  /** In the frame loop, before rendering: uploads what has come. @param nowMs `performance.now()` */
+  update(nowMs: number): void {
+    for (const batch of this.#waiting) {
+      this.#upload(batch);
+      this.#source.release(batch);
+    }
+    this.#waiting.length = 0;
+    const { head, tail, runCount } = this.window;
+    this.#uniforms.runCount.value = runCount;
+    this.#uniforms.viewportHeight.value = this.viewportHeight;
+    const stale = (nowMs - this.#source.pointsAtMs - STALE_AFTER_MS) / STALE_FADE_MS;
+    this.#uniforms.freshness.value = 1 - Math.min(Math.max(stale, 0), 1);
+    this.geometry.setDrawRange(head, tail - head);
+    this.visible = tail > head;
+  }
+
+  /** In the frame loop, after rendering: the client learns when the points that {@link update} uploaded were drawn. */
+  noteDrawn(): void {
+    // Only where a time is taken: waiting for the GPU costs frames.
+    if (this.#source.latency.wantsTime) this.#completion.wait();
+    this.#source.noteDrawn(performance.now());
+  }
+
+  /** Frees the GPU's memory and stops listening. */
+  override dispose(): void {
+    for (const stop of this.#stop) stop();
+    this.forget();
+    this.removeFromParent();
+    this.geometry.dispose();
+    this.material.dispose();
+    this.#ring.dispose();
+  }
+
+  /** Points lie on the GPU alone: no ray meets them. */
+  override raycast(): void {}
+
+  #enqueue(batch: Batch): void {
+    // Nobody would draw it.
+    if (document.hidden && !this.#renderer.xr.isPresenting) {
+      this.#source.release(batch);
+      return;
+    }
+    if (this.#waiting.length >= MAX_WAITING) {
+      const oldest = this.#waiting.shift()!;
+      this.#drop('page-behind', oldest.packets);
+      this.#source.release(oldest);
+    }
+    this.#waiting.push(batch);
+  }
+
+  #drop(reason: DropReason, packets = 1): void {
+    this.drops[reason] = (this.drops[reason] ?? 0) + packets;
+  }
+
+  /** What was drawn goes, and what waits to be: another session begins, or nobody wants these clouds any more. */
+  forget(): void {
+    for (const batch of this.#waiting) this.#source.release(batch);
+    this.#waiting.length = 0;
+    this.window.reset();
+    this.visible = false;
+    for (const reason of Object.keys(this.drops)) delete this.drops[reason as DropReason];
+    this.frames = 0;
+    this.packets = 0;
+    this.points = 0;
+  }
+
+  /** After a lost GPU context came back. */
+  #recreate(): void {
+    this.#ring.recreate();
+    this.window.reset();
+  }
+
+  /** Copies the drawn points out, for tests: x, y, z, colour int16 each. */
+  readBack(): { points: Int16Array; slots: (number | null)[] } {
+    const points = new Int16Array(this.drawn * 4);
+    if (points.length > 0) this.#ring.read(this.window.head, points);
+    const slots = Array.from({ length: this.drawn }, (_, i) => this.window.slotOf(this.window.head + i));
+    return { points, slots };
+  }
+
+  /** Pose of slot 0 or 1, and metres of one step of its coordinates. */
+  pose(slot: number): {
+    unit: number;
+    position: { x: number; y: number; z: number };
+    orientation: { x: number; y: number; z: number; w: number };
+  } {
+    return {
+      unit: this.#uniforms.frameUnit.value[slot]!,
+      position: this.#uniforms.framePosition.value[slot]!,
+      orientation: this.#uniforms.frameOrientation.value[slot]!,
+    };
+  }
+
+  #upload(batch: Batch): void {
+    const { window } = this;
+    const move = window.reserve(batch.pointCount);
+    if (move !== null) this.#ring.relocate(move);
+    // Packets that lie next to each other go in one write.
+    let first = 0;
+    let count = 0;
+    let vertex = window.tail;
+    let at = 0;
+    for (let packet = 0; packet < batch.packets; packet++) {
+      const points = batch.pointsOf(packet);
+      const frame = batch.frameNumber(packet);
+      const before = window.newestFrame;
+      const drop = window.accept(
+        frame,
+        batch.frameLength(packet),
+        batch.sequenceOffset(packet),
+        batch.sequenceLength(packet),
+        points,
+      );
+      if (drop === null) {
+        if (window.newestFrame !== before) this.#beginFrame(batch, packet);
+        count += points;
+        this.packets++;
+        this.points += batch.pointsCame(packet);
+        this.#source.noteUploaded(batch, packet);
+      } else {
+        this.#drop(drop);
+        if (count > 0) this.#ring.write(batch.points, first, count, vertex);
+        first = at + points;
+        count = 0;
+        vertex = window.tail;
+      }
+      at += points;
+    }
+    if (count > 0) this.#ring.write(batch.points, first, count, vertex);
+  }
+
+  #beginFrame(batch: Batch, packet: number): void {
+    this.frames++;
+    this.imageExtent = batch.imageExtent(packet);
+    const slot = this.window.newestSlot;
+    this.#uniforms.frameUnit.value[slot] = batch.unit(packet);
+    this.#uniforms.framePosition.value[slot]!.set(
+      batch.poseComponent(packet, 0),
+      batch.poseComponent(packet, 1),
+      batch.poseComponent(packet, 2),
+      spacingPerMetre(this.window.newestTotal, this.imageExtent, batch.cover(packet)),
+    );
+    this.#uniforms.frameOrientation.value[slot]!.set(
+      batch.poseComponent(packet, 3),
+      batch.poseComponent(packet, 4),
+      batch.poseComponent(packet, 5),
+      batch.poseComponent(packet, 6),
+    );
+  }
+}

@@ -1,0 +1,11 @@
+/**
+ * Draws the clouds that `@farpoint/operator` receives, in a three.js scene. Begin with {@link CloudView}.
+ *
+ * @module
+ */
+export { bodyYaw, opticalYaw, worldToThree } from './axes.ts';
+export { type CloudSource, CloudView } from './cloud-view.ts';
+export { DrawGate } from './draw-gate.ts';
+export { DrawingGovernor, type DrawingStep } from './drawing-governor.ts';
+export { GpuCompletion } from './gpu-completion.ts';
+export { RobotWorld } from './robot-world.ts';

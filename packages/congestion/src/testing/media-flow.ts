@@ -1,0 +1,276 @@
+import type { EventQueue, Path, Random, Stalls } from '@farpoint/network-sim';
+import { type PacketStatus, type TransportFeedback, TransportFeedbackAdapter } from '@farpoint/rtp';
+import { type PacedFrame, PacketPacer } from '../pacer.ts';
+import type { ProbeRequest, RateController, RateSnapshot } from '../rate-controller.ts';
+import { FlowRecord } from './flow-record.ts';
+
+export interface MediaFlowOptions {
+  name?: string;
+  controller: RateController;
+  forward: Path;
+  /** The way of the feedback. */
+  back: Path;
+  startMs?: number;
+  stopMs?: number;
+  /** Pauses: no frames between these times, ms. */
+  pauses?: readonly (readonly [number, number])[];
+  /** The most the source has to give in a frame, bytes; with `probes` false padding does not exceed it either. */
+  maxFrameBytes?: number;
+  /** Whether the source fulfils probes. Default true. */
+  probes?: boolean;
+  /** Whole frames at once, in place of pacing. */
+  bursts?: boolean;
+  /** The receiver gives its sums and no transport-wide feedback. */
+  reports?: boolean;
+  /** Bounds of the interval between two feedback messages, ms. */
+  feedbackMs?: readonly [number, number];
+  /** Feedback messages, 0–1, that come twice. */
+  duplicateFeedback?: number;
+  /** At these times the receiver's clock jumps by so much, ms. */
+  clockJumps?: readonly (readonly [number, number])[];
+  /** The receiver's clock runs faster by so many millionths. */
+  clockSkewPpm?: number;
+  /** When sender and receiver stand still; the arrivals' own delay by it is the forward path's. */
+  senderStalls?: Stalls | null;
+  receiverStalls?: Stalls | null;
+}
+
+interface SimFrame extends PacedFrame {
+  createdMs: number;
+}
+
+const PACKET_BYTES = 1244;
+const FRAME_MS = 1000 / 30;
+const TICK_MS = 25;
+/** Packets of the window that feedback is told of at most; more are lost from sight. */
+const RECEIVER_WINDOW = 1 << 15;
+
+/**
+ * A robot and an operator as the robot's sender and Chromium's receiver behave: frames at 30 a second, as large as the
+ * target allows, paced; feedback at intervals; a window and probes obeyed.
+ */
+export class MediaFlow {
+  readonly record: FlowRecord;
+  readonly #events: EventQueue;
+  readonly #random: Random;
+  readonly #options: MediaFlowOptions;
+  readonly #controller: RateController;
+  readonly #pacer = new PacketPacer<SimFrame>(1e6, { factor: 1 });
+  readonly #adapter = new TransportFeedbackAdapter();
+  readonly #startMs: number;
+  readonly #stopMs: number;
+  #sequence = 0;
+  #budgetBytes = 0;
+  #wakeMs = Number.POSITIVE_INFINITY;
+  #probeCluster = 0;
+  #probeBytesLeft = 0;
+  #probeNextMs = 0;
+  #probeRate = 0;
+  // The receiver: arrival times by unwrapped sequence number, until reported.
+  readonly #arrivals = new Float64Array(RECEIVER_WINDOW);
+  #highestArrived = -1;
+  #nextToReport = 0;
+  #received = 0;
+  #sentMs: number[] = [];
+
+  constructor(events: EventQueue, random: Random, options: MediaFlowOptions) {
+    this.#events = events;
+    this.#random = random;
+    this.#options = options;
+    this.#controller = options.controller;
+    this.#startMs = options.startMs ?? 0;
+    this.#stopMs = options.stopMs ?? Number.POSITIVE_INFINITY;
+    this.record = new FlowRecord(options.name ?? 'media');
+    this.#arrivals.fill(Number.NaN);
+    this.#senderAt(this.#startMs, () => {
+      this.#frame(this.#startMs);
+      this.#tick();
+    });
+    events.at(this.#startMs + this.#feedbackInterval(), () => this.#report());
+  }
+
+  get snapshot(): RateSnapshot {
+    return this.#controller.snapshot(this.#events.nowMs);
+  }
+
+  #frame(dueMs: number): void {
+    const now = this.#events.nowMs;
+    if (now >= this.#stopMs) {
+      this.#pacer.clear();
+      return;
+    }
+    const next = dueMs + FRAME_MS;
+    this.#senderAt(next, () => this.#frame(next));
+    if (this.#options.pauses?.some(([from, to]) => now >= from && now < to)) return;
+    const target = this.#controller.decision(now).targetBitsPerSecond;
+    const most = this.#options.maxFrameBytes ?? Number.POSITIVE_INFINITY;
+    const bytes = Math.min((target * FRAME_MS) / 8000, most);
+    // Whole packets; what is over goes to the next frame, as a planner in points would have it.
+    this.#budgetBytes = Math.min(this.#budgetBytes + bytes, bytes + PACKET_BYTES);
+    const count = Math.floor(this.#budgetBytes / PACKET_BYTES);
+    this.#budgetBytes -= count * PACKET_BYTES;
+    if (count === 0) return;
+    this.#pacer.enqueue({ packets: count, bytes: count * PACKET_BYTES, createdMs: now }, now);
+    this.#pump();
+  }
+
+  #tick(): void {
+    const now = this.#events.nowMs;
+    if (now >= this.#stopMs) return;
+    this.#controller.onTick(now);
+    this.record.sample(now, this.#controller);
+    this.#pump();
+    this.#senderAt(now + TICK_MS, () => this.#tick());
+  }
+
+  #pump(): void {
+    const now = this.#events.nowMs;
+    const decision = this.#controller.decision(now);
+    if (this.#options.probes !== false) this.#takeProbe(decision.probe, now);
+    const paced = this.#options.bursts ? 1e9 : decision.pacingBitsPerSecond;
+    const probing = this.#probeBytesLeft > 0;
+    this.#pacer.setRate(probing ? Math.max(this.#probeRate, paced) : paced);
+    for (;;) {
+      if (decision.bytesInFlight >= decision.congestionWindowBytes) return;
+      const run = this.#pacer.due(now);
+      if (run === null) break;
+      for (let i = 0; i < run.count; i++) this.#send(run.frame.createdMs, now);
+      this.#controller.decision(now);
+    }
+    while (this.#probeBytesLeft > 0 && this.#probeNextMs <= now + 1) this.#send(now, now);
+    const next = Math.min(
+      this.#pacer.nextDueMs ?? Number.POSITIVE_INFINITY,
+      this.#probeBytesLeft > 0 ? this.#probeNextMs : Number.POSITIVE_INFINITY,
+    );
+    // A wake-up for a rate that has changed meanwhile does no harm: pacer and probe know their own times.
+    if (next < Number.POSITIVE_INFINITY && (next < this.#wakeMs || this.#wakeMs <= now)) {
+      const at = Math.max(next, now + 0.25);
+      this.#wakeMs = at;
+      this.#senderAt(at, () => {
+        if (this.#wakeMs === at) this.#wakeMs = Number.POSITIVE_INFINITY;
+        this.#pump();
+      });
+    }
+  }
+
+  #takeProbe(probe: Readonly<ProbeRequest> | null, now: number): void {
+    if (probe === null) {
+      this.#probeBytesLeft = 0;
+      return;
+    }
+    if (probe.clusterId === this.#probeCluster) return;
+    this.#probeCluster = probe.clusterId;
+    this.#probeBytesLeft = probe.bytes;
+    this.#probeRate = probe.bitsPerSecond;
+    this.#probeNextMs = now;
+  }
+
+  #send(createdMs: number, now: number): void {
+    const cluster = this.#probeBytesLeft > 0 ? this.#probeCluster : 0;
+    if (cluster !== 0) {
+      this.#probeBytesLeft -= PACKET_BYTES;
+      this.#probeNextMs = Math.max(this.#probeNextMs, now - 2) + (PACKET_BYTES * 8000) / this.#probeRate;
+    }
+    const sequence = this.#sequence++;
+    if (this.#options.reports) this.#sentMs[sequence] = now;
+    this.#adapter.onPacketSent(sequence & 0xffff, PACKET_BYTES, now);
+    this.#controller.onPacketSent(sequence & 0xffff, PACKET_BYTES, now, cluster);
+    this.record.sent(PACKET_BYTES, now);
+    this.#options.forward.send(PACKET_BYTES, {
+      dropped: (reason) => this.record.dropped(now, reason),
+      delivered: (arrivalMs, queueMs) => {
+        this.record.delivered(PACKET_BYTES, now, arrivalMs, queueMs, createdMs);
+        this.#receive(sequence, arrivalMs);
+      },
+    });
+  }
+
+  #receive(sequence: number, arrivalMs: number): void {
+    if (sequence < this.#nextToReport) return;
+    this.#arrivals[sequence % RECEIVER_WINDOW] = this.#receiverClock(arrivalMs);
+    if (sequence > this.#highestArrived) this.#highestArrived = sequence;
+    this.#received++;
+  }
+
+  #receiverClock(atMs: number): number {
+    let clock = atMs * (1 + (this.#options.clockSkewPpm ?? 0) / 1e6) + 1e6;
+    for (const [when, by] of this.#options.clockJumps ?? []) if (atMs >= when) clock += by;
+    return clock;
+  }
+
+  #feedbackInterval(): number {
+    const [least, most] = this.#options.feedbackMs ?? [50, 62];
+    return least + (most - least) * this.#random.next();
+  }
+
+  #report(): void {
+    const now = this.#events.nowMs;
+    if (now > this.#stopMs + 5000) return;
+    const next = now + this.#feedbackInterval();
+    this.#events.at(this.#options.receiverStalls?.after(next) ?? next, () => this.#report());
+    if (this.#highestArrived < this.#nextToReport) return;
+    if (this.#options.reports) {
+      this.#sendSums();
+      return;
+    }
+    const packets: PacketStatus[] = [];
+    const first = Math.max(this.#nextToReport, this.#highestArrived - RECEIVER_WINDOW + 1);
+    for (let sequence = first; sequence <= this.#highestArrived; sequence++) {
+      const at = sequence % RECEIVER_WINDOW;
+      const arrival = this.#arrivals[at] as number;
+      const received = !Number.isNaN(arrival);
+      this.#arrivals[at] = Number.NaN;
+      // The format counts in steps of 250 µs.
+      packets.push({
+        sequence: sequence & 0xffff,
+        received,
+        arrivalUs: received ? Math.round(arrival * 4) * 250 : null,
+      });
+    }
+    this.#nextToReport = this.#highestArrived + 1;
+    const bytes = 60 + Math.ceil(packets.length * 1.25);
+    const feedback: TransportFeedback = {
+      senderSsrc: 1,
+      mediaSsrc: 2,
+      baseSequence: first & 0xffff,
+      referenceTimeUs: 0,
+      feedbackCount: 0,
+      packets,
+    };
+    const deliver = () => {
+      const results = this.#adapter.onFeedback(feedback, this.#events.nowMs);
+      if (results.length > 0) this.#controller.onFeedback(results, this.#events.nowMs);
+      this.#pump();
+    };
+    const twice = this.#random.chance(this.#options.duplicateFeedback ?? 0);
+    this.#options.back.send(bytes, {
+      dropped: () => {},
+      delivered: (arrivalMs) => {
+        this.#senderAt(arrivalMs, deliver);
+        if (twice) this.#senderAt(arrivalMs + 3, deliver);
+      },
+    });
+  }
+
+  /** As a receiver report has it: how many came, and the highest number. */
+  #sendSums(): void {
+    const highest = this.#highestArrived;
+    const packetsReceived = this.#received;
+    const deliver = () => {
+      const now = this.#events.nowMs;
+      const rttMs = now - (this.#sentMs[highest] as number);
+      const packetsLost = highest + 1 - packetsReceived;
+      this.#controller.onReceiverReport({ packetsReceived, packetsLost, source: 'rtcp', rttMs }, now);
+      this.#pump();
+    };
+    this.#options.back.send(80, {
+      dropped: () => {},
+      delivered: (arrivalMs) => this.#senderAt(arrivalMs, deliver),
+    });
+  }
+
+  /** What the sender's process is to do at a time. */
+  #senderAt(atMs: number, action: () => void): void {
+    this.#events.at(this.#options.senderStalls?.after(atMs) ?? atMs, action);
+  }
+}

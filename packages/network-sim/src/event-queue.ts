@@ -1,0 +1,21 @@
+import { TimeHeap } from './time-heap.ts';
+
+/** Virtual time: actions run in the order of their times, and of scheduling where times are equal. */
+export class EventQueue {
+  nowMs = 0;
+  readonly #actions = new TimeHeap<() => void>();
+
+  /** A time that has passed means now; Infinity means never. */
+  at(timeMs: number, action: () => void): void {
+    if (timeMs !== Number.POSITIVE_INFINITY) this.#actions.push(Math.max(timeMs, this.nowMs), action);
+  }
+
+  /** Runs everything up to and including this time. */
+  runUntil(timeMs: number): void {
+    while (this.#actions.headMs <= timeMs) {
+      this.nowMs = this.#actions.headMs;
+      this.#actions.shift()();
+    }
+    this.nowMs = timeMs;
+  }
+}

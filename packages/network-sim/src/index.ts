@@ -1,0 +1,15 @@
+export * from './capacity.ts';
+export * from './congestion-window.ts';
+export * from './cross-flow.ts';
+export * from './event-queue.ts';
+export * from './link-model.ts';
+export * from './link-statistics.ts';
+export { type BurstLoss, burstLossOf, type LossModel, PacketLoss } from './loss.ts';
+export * from './path.ts';
+export * from './profile.ts';
+export * from './random.ts';
+export * from './run-flow.ts';
+export * from './stalls.ts';
+export * from './tcp-flow.ts';
+export * from './trace.ts';
+export * from './virtual-link.ts';

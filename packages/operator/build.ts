@@ -1,0 +1,8 @@
+/** `pnpm --filter @farpoint/operator build`: writes `dist`, which `pnpm pack` puts in the tarball. */
+import { buildBrowserPackage } from '../../scripts/lib/browser-package.ts';
+
+await buildBrowserPackage({
+  folder: import.meta.dirname,
+  entries: ['index.ts', 'cloud/cloud-worker.ts', 'pictures/picture-worker.ts'],
+  assets: ['../../wasm-codec/pkg/farpoint_codec_bg.wasm'],
+});

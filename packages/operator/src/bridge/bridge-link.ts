@@ -1,0 +1,132 @@
+/** The page's link by way of a bridge: its sockets, and {@link BridgeSession} put together. */
+import type { Command, OperatorSessionMessage, RobotListing } from '@farpoint/protocol';
+import type { ToCloudWorker } from '../cloud/worker-messages.ts';
+import type { RobotLink, RobotLinkEvents } from '../link/robot-link.ts';
+import { RobotSession } from '../session/robot-session.ts';
+import type { SessionPhase } from '../session/session-keeper.ts';
+import type { SessionLoss } from '../session/session-loss.ts';
+import type { SignalingState } from '../signaling/signaling-state.ts';
+import { BridgeSession, type BridgeSessionActions } from './bridge-session.ts';
+import type { BridgeAddress } from './bridge-settings.ts';
+import { BridgeSocket } from './bridge-socket.ts';
+
+const TICK_MS = 100;
+
+export class BridgeLink implements RobotLink {
+  sessionsOpened = 0;
+  readonly lastLoss: SessionLoss | null = null;
+  readonly maxOperators = null;
+  readonly #address: BridgeAddress;
+  readonly #worker: Worker;
+  readonly #events: RobotLinkEvents;
+  readonly #control: BridgeSocket;
+  readonly #telemetry: BridgeSocket;
+  readonly #bridge: BridgeSession;
+  #session: RobotSession;
+  #generation = 0;
+  #timer: ReturnType<typeof setInterval> | undefined;
+
+  constructor(address: BridgeAddress, worker: Worker, events: RobotLinkEvents) {
+    this.#address = address;
+    this.#worker = worker;
+    this.#events = events;
+    this.#session = new RobotSession(events);
+    const onState = () => {
+      this.#bridge.onSockets(this.#control.open && this.#telemetry.open);
+      events.onSignaling(this.signaling);
+    };
+    this.#control = new BridgeSocket(address.control, {
+      onState,
+      onText: (text) => this.#bridge.onControl(text, performance.now()),
+    });
+    this.#telemetry = new BridgeSocket(address.telemetry, { onState, onText: () => undefined });
+    const actions: BridgeSessionActions = {
+      sendControl: (text) => this.#control.send(text),
+      sendTelemetry: (text) => this.#telemetry.send(text),
+      onRobots: (robots) => events.onRobots(robots),
+      onPhase: (phase) => {
+        if (phase === 'live') this.sessionsOpened++;
+        events.onPhase(phase);
+      },
+      onBegin: () => this.#begin(),
+      onRobotMessage: (text) => this.#session.onMessage('session', text, performance.now()),
+      onPath: (up) => events.onPath(up),
+    };
+    this.#bridge = new BridgeSession(actions, address.signaling);
+  }
+
+  start(): void {
+    this.#control.start();
+    this.#telemetry.start();
+    this.#timer = setInterval(() => this.#bridge.tick(performance.now()), TICK_MS);
+  }
+
+  close(): void {
+    this.disconnect();
+    clearInterval(this.#timer);
+    this.#control.close();
+    this.#telemetry.close();
+  }
+
+  connect(robotId: string): void {
+    this.#bridge.want(robotId);
+  }
+
+  disconnect(): void {
+    this.#bridge.want(null);
+  }
+
+  get phase(): SessionPhase {
+    return this.#bridge.phase;
+  }
+  get signaling(): SignalingState {
+    return this.#control.open && this.#telemetry.open ? 'ready' : 'waiting';
+  }
+  get robots(): readonly RobotListing[] {
+    return this.#bridge.robots;
+  }
+  get robotId(): string | null {
+    return this.#bridge.robotId;
+  }
+  get robotListed(): boolean {
+    return this.#bridge.robotListed;
+  }
+  get session(): RobotSession {
+    return this.#session;
+  }
+  get interrupted(): boolean {
+    return this.#bridge.interrupted;
+  }
+  silentMs(nowMs: number): number {
+    return this.#bridge.silentMs(nowMs);
+  }
+
+  sendCommand(command: Command): void {
+    this.#bridge.command(command, performance.now());
+  }
+
+  sendSession(message: OperatorSessionMessage): void {
+    this.#bridge.session(message);
+  }
+
+  /** The bridge itself reports to the robot. */
+  limitBandwidth(): void {}
+
+  onPoints(nowMs: number): void {
+    this.#bridge.onPoints(nowMs);
+  }
+
+  sendReport(): void {}
+
+  #begin(): void {
+    this.#generation++;
+    this.#session = new RobotSession(this.#events);
+    this.#events.onGeneration(this.#generation);
+    const message: ToCloudWorker = {
+      type: 'bridge',
+      url: this.#address.streaming,
+      generation: this.#generation,
+    };
+    this.#worker.postMessage(message);
+  }
+}

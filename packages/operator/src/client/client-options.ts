@@ -1,0 +1,22 @@
+import type { CloudFormat } from '@farpoint/protocol';
+import type { BridgeAddress } from '../bridge/bridge-settings.ts';
+import type { DriveInput } from '../drive/drive-input.ts';
+import type { TransformSupport } from '../peer/encoded-transform.ts';
+
+export interface RobotClientOptions {
+  /** WebSocket address of the signaling service's endpoint for operators. */
+  signalingUrl: string;
+  /** By which other operators and the robot's log know this one. */
+  name: string;
+  token: string | undefined;
+  /** `relay`: through TURN servers only. */
+  icePolicy: RTCIceTransportPolicy;
+  /** How this browser hands encoded frames to a worker. */
+  transform: TransformSupport;
+  /** Takes the stream from a bridge instead of from the robots themselves. */
+  bridge?: BridgeAddress | null;
+  /** The formats of clouds that the robot may choose from; all where left out. */
+  cloudFormats?: readonly CloudFormat[] | undefined;
+  /** Devices that drive, besides {@link RobotClient.drive}. The first whose grip is held drives. */
+  inputs?: readonly DriveInput[];
+}

@@ -1,0 +1,80 @@
+import { type CloudFormat, displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
+import { transformSupport } from '../peer/encoded-transform.ts';
+import { parseSignalingUrl } from '../signaling/signaling-url.ts';
+import { RobotClient } from './robot-client.ts';
+
+export interface ConnectOptions {
+  /** Address of the signaling service, e.g. `wss://robots.example.org`. */
+  signaling: string;
+  /** Id of the robot to connect to. Where left out, choose one of the `robots` event by {@link RobotClient.choose}. */
+  robot?: string | undefined;
+  /** The operator's token, where the service asks for one. */
+  token?: string | undefined;
+  /** By which other operators and the robot's log know this one; `Operator` where left out. */
+  name?: string | undefined;
+  /** `relay`: through TURN servers only. */
+  icePolicy?: RTCIceTransportPolicy | undefined;
+  /** The formats of clouds that the robot may choose from; all where left out. */
+  cloudFormats?: readonly CloudFormat[] | undefined;
+}
+
+/** Why {@link connect} cannot begin. */
+export type ConnectFailure =
+  | 'bad-signaling-address'
+  | 'bad-robot-id'
+  | 'bad-token'
+  | 'bad-name'
+  | 'no-webrtc' // this browser has none
+  | 'no-encoded-transform'; // this browser cannot hand encoded frames to a worker
+
+export class ConnectError extends Error {
+  override readonly name = 'ConnectError';
+  readonly reason: ConnectFailure;
+
+  constructor(reason: ConnectFailure, message: string) {
+    super(message);
+    this.reason = reason;
+  }
+}
+
+/** What {@link connect} was given, checked. @throws {ConnectError} */
+export function checkConnectOptions(options: ConnectOptions, securePage: boolean) {
+  const { signaling, robot, token, name = 'Operator', icePolicy = 'all', cloudFormats } = options;
+  const address = parseSignalingUrl(signaling, securePage);
+  if ('fault' in address) throw new ConnectError('bad-signaling-address', `signaling: ${address.fault}`);
+  if (robot !== undefined && !robotIdSchema.safeParse(robot).success)
+    throw new ConnectError('bad-robot-id', `robot: “${robot}” is not a robot's id`);
+  if (token !== undefined && !tokenSchema.safeParse(token).success)
+    throw new ConnectError('bad-token', 'token: not an operator’s token; use printable characters only');
+  if (!displayNameSchema.safeParse(name).success)
+    throw new ConnectError('bad-name', `name: “${name}” cannot be shown; use fewer, printable characters`);
+  return { signalingUrl: address.url, robot, token, name, icePolicy, cloudFormats };
+}
+
+/**
+ * Connects to a robot, and keeps the connection: lost paths, sessions and sockets are made anew until
+ * {@link RobotClient.close} is called. Listeners that are added at once miss no event.
+ *
+ * ```js
+ * const robot = connect({ signaling: 'wss://robots.example.org', robot: 'rover-1', token });
+ * robot.on('telemetry', ({ pose }) => show(pose));
+ * ```
+ *
+ * @throws {ConnectError} for options that cannot be, and where this browser lacks what a session needs
+ */
+export function connect(options: ConnectOptions): RobotClient {
+  const { robot, ...checked } = checkConnectOptions(options, globalThis.location?.protocol === 'https:');
+  if (typeof RTCPeerConnection === 'undefined')
+    throw new ConnectError('no-webrtc', 'this browser has no WebRTC: use a current Chrome, Edge or Safari');
+  const transform = transformSupport();
+  if (transform === 'none') {
+    const text = 'this browser lacks encoded transforms (RTCRtpScriptTransform): update it';
+    throw new ConnectError('no-encoded-transform', text);
+  }
+  const client = new RobotClient({ ...checked, transform });
+  queueMicrotask(() => {
+    client.start();
+    if (robot !== undefined && client.chosenRobotId === null) client.choose(robot);
+  });
+  return client;
+}

@@ -1,0 +1,19 @@
+import type { RobotLinkEvents } from '../link/robot-link.ts';
+import type { Emitter } from './emitter.ts';
+import type { RobotEvents } from './robot-events.ts';
+
+/** What the link tells and the client passes on as it is. */
+export function forwardedEvents(emitter: Emitter<RobotEvents>) {
+  return {
+    onSignaling: (state) => emitter.emit('signaling', state),
+    onRobots: (robots) => emitter.emit('robots', robots),
+    onLoss: (loss) => emitter.emit('loss', loss),
+    onRefusal: (message) => emitter.emit('refused', message),
+    onRejected: (rejected) => emitter.emit('commandRejected', rejected),
+    onEstop: (estop) => emitter.emit('estop', estop),
+    onSensors: (sensors) => emitter.emit('sensors', sensors),
+    onTelemetry: (telemetry) => emitter.emit('telemetry', telemetry),
+    onReading: (reading) => emitter.emit('reading', reading),
+    onRobotFault: (message) => emitter.emit('robotFault', message),
+  } satisfies Partial<RobotLinkEvents>;
+}

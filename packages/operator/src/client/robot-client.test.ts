@@ -1,0 +1,114 @@
+import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
+import { BATCH_BYTES, type Batch } from '../cloud/batch.ts';
+import type { FromCloudWorker, ToCloudWorker } from '../cloud/worker-messages.ts';
+import { RobotClient } from './robot-client.ts';
+
+/** Stands for the cloud worker. */
+class WorkerStub {
+  static last: WorkerStub;
+  onmessage: ((event: { data: FromCloudWorker }) => void) | null = null;
+  readonly told: ToCloudWorker[] = [];
+  ended = false;
+
+  constructor() {
+    WorkerStub.last = this;
+  }
+  postMessage(message: ToCloudWorker): void {
+    this.told.push(message);
+  }
+  terminate(): void {
+    this.ended = true;
+  }
+  say(message: FromCloudWorker): void {
+    this.onmessage?.({ data: message });
+  }
+}
+
+beforeEach(() => vi.stubGlobal('Worker', WorkerStub));
+afterEach(() => vi.unstubAllGlobals());
+
+function bench(): { client: RobotClient; worker: WorkerStub } {
+  const options = { signalingUrl: 'wss://x.org/operator', name: 'Operator', token: undefined } as const;
+  const client = new RobotClient({ ...options, icePolicy: 'all', transform: 'script-transform' });
+  return { client, worker: WorkerStub.last };
+}
+/** Points of a session; none has begun here, and the receiver counts from 0. */
+const batch = (generation: number, sensor = 0): FromCloudWorker => ({
+  ...{ type: 'batch', generation, sensor, packets: 0, points: 0 },
+  buffer: new ArrayBuffer(BATCH_BYTES),
+});
+
+describe('RobotClient', () => {
+  test('points that nobody takes go back to the worker, as those of an earlier session do', () => {
+    const { client, worker } = bench();
+    worker.say(batch(0));
+    expect(worker.told.map(({ type }) => type)).toEqual(['return']);
+    const taken: Batch[] = [];
+    client.on('cloud', (points) => taken.push(points));
+    worker.say(batch(0));
+    expect(taken).toHaveLength(1);
+    expect(worker.told).toHaveLength(1);
+    worker.say(batch(7));
+    expect(taken).toHaveLength(1);
+    expect(worker.told).toHaveLength(2);
+    client.release(taken[0] as Batch);
+    expect(worker.told).toHaveLength(3);
+  });
+
+  test('points of each sensor go to who draws it, and back where nobody does', () => {
+    const { client, worker } = bench();
+    const taken: [string, number][] = [];
+    client.on('cloud', ({ sensor }) => taken.push(['first', sensor]));
+    client.on('cloud:1', ({ sensor }) => taken.push(['second', sensor]));
+    for (const sensor of [0, 1, 2]) worker.say(batch(0, sensor));
+    expect(taken).toEqual([
+      ['first', 0],
+      ['second', 1],
+    ]);
+    expect(worker.told.map(({ type }) => type)).toEqual(['return']);
+  });
+
+  test('tells that the decoder cannot be loaded', () => {
+    const { client, worker } = bench();
+    const failed: unknown[] = [];
+    client.on('failed', (failure) => failed.push(failure));
+    worker.say({ type: 'failed', message: 'no WASM' });
+    expect(failed).toEqual([{ reason: 'cloud-worker', detail: 'no WASM' }]);
+  });
+
+  test('waits for the robot that was chosen', () => {
+    const { client } = bench();
+    const phases: string[] = [];
+    client.on('phase', (phase) => phases.push(phase));
+    client.choose('rover-1');
+    expect(client.chosenRobotId).toBe('rover-1');
+    client.leave();
+    expect(client.chosenRobotId).toBe(null);
+    expect(phases).toEqual(['waiting', 'none']);
+  });
+
+  test('a wish that is not renewed has been let go', () => {
+    const { client } = bench();
+    client.drive({ forward: 1, left: 0 });
+    expect(client.driver.input?.wish.forward).toBe(1);
+    client.tick(performance.now() + 1000);
+    expect(client.driver.input).toBe(null);
+    client.drive({ forward: 1, left: 0 });
+    client.stop();
+    expect(client.driver.input).toBe(null);
+  });
+
+  test('without a session nothing can be stopped or released, and the caller is told', () => {
+    const { client } = bench();
+    expect(client.estop()).toBe(false);
+    expect(client.releaseEstop()).toBe(false);
+  });
+
+  test('a closed client has ended its worker, and chooses no more', () => {
+    const { client, worker } = bench();
+    client.close();
+    expect(worker.ended).toBe(true);
+    client.choose('rover-1');
+    expect(client.chosenRobotId).toBe(null);
+  });
+});

@@ -1,0 +1,300 @@
+/** An operator's connection to robots: what they send, as events; what the operator wishes, as methods. */
+import type { RobotListing, Telemetry } from '@farpoint/protocol';
+import type { Batch } from '../cloud/batch.ts';
+import { CloudReceiver } from '../cloud/cloud-receiver.ts';
+import { ReadableFormats } from '../cloud/readable-formats.ts';
+import { Driver } from '../drive/driver.ts';
+import { presentRobot, RobotSwitch } from '../drive/robot-switch.ts';
+import type { DriveWish } from '../drive/velocity-mapping.ts';
+import { WishInput } from '../drive/wish-input.ts';
+import type { AgeOfStamp } from '../latency/frame-latency.ts';
+import { LatencyProbe, type LatencyReport } from '../latency/latency-probe.ts';
+import { openLink } from '../link/open-link.ts';
+import type { RobotLink, RobotLinkEvents } from '../link/robot-link.ts';
+import { PictureFeed } from '../pictures/picture-feed.ts';
+import type { SessionPhase } from '../session/session-keeper.ts';
+import { StreamStatistics, type StreamStats } from '../statistics/stream-statistics.ts';
+import type { RobotClientOptions } from './client-options.ts';
+import { Emitter } from './emitter.ts';
+import { forwardedEvents } from './forwarded-events.ts';
+import type { RobotEvents } from './robot-events.ts';
+
+const TICK_MS = 25;
+const STATISTICS_MS = 250;
+
+/** Use {@link connect} where one robot is driven; this class itself where an app has devices of its own. */
+export class RobotClient {
+  /** The link itself: signaling state, session state, what the robot has told in this session. */
+  readonly link: RobotLink;
+  /** Which device drives, and who holds the lease. */
+  readonly driver: Driver;
+  readonly latency: LatencyProbe;
+  readonly statistics: StreamStatistics;
+  /** When points came last, or the session's phase changed: `performance.now()`. */
+  pointsAtMs = 0;
+  readonly #emitter = new Emitter<RobotEvents>();
+  readonly #receiver: CloudReceiver;
+  readonly #pictures: PictureFeed;
+  readonly #wish = new WishInput();
+  readonly #switch: RobotSwitch;
+  readonly #formats: ReadableFormats;
+  #timer: ReturnType<typeof setInterval> | undefined;
+  #statisticsDueMs = 0;
+  #closed = false;
+
+  constructor(options: RobotClientOptions) {
+    this.#formats = new ReadableFormats(options.cloudFormats);
+    this.#receiver = new CloudReceiver({
+      onBatch: (batch) => this.#onBatch(batch),
+      onReport: (report) => {
+        this.statistics.onReport(report);
+        this.link.sendReport(report);
+      },
+      onStreamRefused: (format, detail) => {
+        console.warn('cloud stream:', format, detail);
+        this.#formats.refuse(format);
+        this.#tellFormats();
+      },
+      onFailed: (detail) => this.#emitter.emit('failed', { reason: 'cloud-worker', detail }),
+    });
+    const ageOf: AgeOfStamp = (stampUs, nowMs) => this.link.session.ageMs(stampUs, nowMs);
+    this.#pictures = new PictureFeed(ageOf, {
+      onPicture: (picture) => this.#emitter.emit('picture', picture),
+      onFault: (camera, detail) => this.#emitter.emit('pictureFault', { camera, detail }),
+    });
+    this.statistics = new StreamStatistics(ageOf);
+    this.link = openLink(options, this.#receiver.worker, this.#linkEvents());
+    this.driver = new Driver([...(options.inputs ?? []), this.#wish], {
+      sendCommand: (command) => this.link.sendCommand(command),
+      sendSession: (message) => this.link.sendSession(message),
+      onOtherDrives: () => this.#emitter.emit('otherDrives', undefined),
+    });
+    this.latency = new LatencyProbe(this.link, this.driver, (result) => {
+      this.statistics.onResult(result);
+      const { id, frameNumber, mtpMs, firstMs } = result;
+      this.link.sendSession({ type: 'latencyMeasured', id, frameNumber, mtpMs, firstMs });
+      this.#emitter.emit('latency', result);
+    });
+    this.#switch = new RobotSwitch({
+      letGo: () => this.driver.letGo(performance.now()),
+      connect: (robotId) => this.link.connect(robotId),
+    });
+  }
+
+  /**
+   * Calls `listener` for each event of the type, see {@link RobotEvents}. @returns a function that removes the listener
+   */
+  on<Type extends keyof RobotEvents>(type: Type, listener: (event: RobotEvents[Type]) => void): () => void {
+    return this.#emitter.on(type, listener);
+  }
+
+  /** Connects to the signaling service, and stays connected. */
+  start(): void {
+    if (this.#closed) return;
+    this.link.start();
+    this.#timer ??= setInterval(() => this.tick(performance.now()), TICK_MS);
+  }
+
+  /** Ends the session and frees everything. The client cannot be started again. */
+  close(): void {
+    this.#closed = true;
+    clearInterval(this.#timer);
+    this.#wish.release();
+    this.driver.letGo(performance.now());
+    this.latency.fail('no-session');
+    this.link.close();
+    this.#receiver.close();
+    this.#pictures.close();
+  }
+
+  get phase(): SessionPhase {
+    return this.link.phase;
+  }
+
+  /** The robots that the service lists now. */
+  get robots(): readonly RobotListing[] {
+    return this.link.robots;
+  }
+
+  /** The robot that is connected to, or will be once the present one stands. */
+  get chosenRobotId(): string | null {
+    return this.#switch.target ?? this.link.robotId;
+  }
+
+  /** What the robot measured last in this session. */
+  get telemetry(): Telemetry | null {
+    return this.link.session.telemetry;
+  }
+
+  /** Connects to this robot as soon as it is listed, and again whenever the session is lost. Another robot stops first. */
+  choose(robotId: string): void {
+    if (this.#closed) return;
+    this.#switch.choose(robotId, presentRobot(this.link, this.driver.holder), performance.now());
+  }
+
+  /** Ends the session. The client stays connected to the signaling service. */
+  leave(): void {
+    this.#switch.cancel();
+    this.link.disconnect();
+  }
+
+  /**
+   * Moves the robot. Call it again at least every 200 ms for as long as the operator holds on: a wish that is not renewed
+   * has been let go, and the robot stops. The first call asks for the lease where nobody drives.
+   */
+  drive(wish: DriveWish): void {
+    const nowMs = performance.now();
+    this.#wish.renew(wish, nowMs);
+    this.driver.tick(nowMs);
+  }
+
+  /** Lets go at once, without waiting for the wish to lapse. The lease is kept. */
+  stop(): void {
+    this.#wish.release();
+    this.driver.tick(performance.now());
+  }
+
+  /** Takes over from another operator. */
+  takeOver(): void {
+    this.driver.requestLease(true);
+  }
+
+  /**
+   * Latches the emergency stop. Nothing but {@link releaseEstop}, of whoever drives, releases it.
+   *
+   * @returns whether it was sent: not without a session. The `estop` event confirms it.
+   */
+  estop(): boolean {
+    if (this.link.phase !== 'live') return false;
+    this.link.sendSession({ type: 'estop', latch: true });
+    return true;
+  }
+
+  /**
+   * Asks the robot to release the emergency stop. Only who drives may: where nobody does, the lease is asked for first.
+   * Call it for a deliberate act alone, e.g. a button held for a second. @returns whether it was sent
+   */
+  releaseEstop(): boolean {
+    if (this.link.phase !== 'live') return false;
+    if (this.driver.holder === 'nobody') this.driver.requestLease(false);
+    this.link.sendSession({ type: 'estop', latch: false });
+    return true;
+  }
+
+  /** Asks for pictures of these cameras, and of no others. Indices in the list of the `cameras` event. */
+  watch(cameras: readonly number[]): void {
+    this.#pictures.watch(cameras);
+    this.link.sendSession({ type: 'pictures', cameras: [...cameras] });
+  }
+
+  /** Asks for the clouds of these sensors (numbers in the list of `sensors`), and of no others. At first: of the first. */
+  wantClouds(sensors: readonly number[]): void {
+    this.link.sendSession({ type: 'sensors', sensors: [...sensors] });
+  }
+
+  /**
+   * Measures motion to photon: until a green cloud that is asked for now has been drawn. What draws the clouds must tell
+   * by {@link noteUploaded} and {@link noteDrawn}; `CloudView` of `@farpoint/cloud-view` does.
+   *
+   * @throws {LatencyError}
+   */
+  latencyTest(startedAtMs = performance.now()): Promise<LatencyReport> {
+    return this.latency.run(startedAtMs);
+  }
+
+  limitBandwidth(bitsPerSecond: number): void {
+    this.link.limitBandwidth(bitsPerSecond);
+  }
+
+  /** Hands on one of every so many points: of coded clouds, and of `points64`, which is a sample already. */
+  drawEvery(every: number, everySample = 1): void {
+    this.#receiver.drawEvery(every, everySample);
+  }
+
+  stats(): StreamStats {
+    return this.statistics.snapshot(this.link.session.clock);
+  }
+
+  /** Gives back a batch of the `cloud` event. Its buffer is empty afterwards. */
+  release(batch: Batch): void {
+    this.#receiver.release(batch);
+  }
+
+  /** A packet's points were uploaded for the display frame being prepared. */
+  noteUploaded(batch: Batch, packet: number): void {
+    // Latencies are those of the first sensor.
+    if (batch.sensor !== 0) return;
+    this.statistics.onUploaded(batch, packet);
+    this.latency.onPacket(batch, packet);
+  }
+
+  /** The display frame with what {@link noteUploaded} told is finished. */
+  noteDrawn(nowMs: number): void {
+    this.latency.onDrawn(nowMs);
+    this.statistics.onDrawn(nowMs);
+  }
+
+  /** Called by the client's own timer. An app calls it right after reading its devices, too. */
+  tick(nowMs: number): void {
+    this.#wish.lapse(nowMs);
+    this.driver.tick(nowMs);
+    this.#switch.tick(presentRobot(this.link, this.driver.holder), nowMs);
+    this.latency.tick(nowMs);
+    if (nowMs < this.#statisticsDueMs) return;
+    this.#statisticsDueMs = nowMs + STATISTICS_MS;
+    this.statistics.tick(nowMs);
+  }
+
+  #linkEvents(): RobotLinkEvents {
+    const emitter = this.#emitter;
+    return {
+      ...forwardedEvents(emitter),
+      onPhase: (phase) => {
+        if (phase !== 'live') {
+          this.driver.reset();
+          this.latency.fail('no-session');
+        }
+        this.pointsAtMs = performance.now();
+        emitter.emit('phase', phase);
+      },
+      onPath: (up) => {
+        this.driver.onPath(performance.now());
+        emitter.emit('path', up);
+      },
+      onGeneration: (generation) => {
+        this.#receiver.begin(generation);
+        this.#pictures.reset();
+        this.statistics.reset();
+        emitter.emit('session', generation);
+      },
+      onWelcome: (welcome) => {
+        this.#tellFormats();
+        this.driver.onLimits(welcome.limits);
+        emitter.emit('welcome', welcome);
+      },
+      onLease: (lease) => {
+        this.driver.onLease(lease);
+        this.latency.onLease();
+        emitter.emit('lease', lease);
+      },
+      onLatencyFrame: (frame) => this.latency.onRobotFrame(frame),
+      onCloudStream: (stream) => this.#receiver.beginStream(stream),
+      onCameras: (cameras) => {
+        this.#pictures.reset();
+        emitter.emit('cameras', cameras);
+      },
+      onPicture: (picture, nowMs) => this.#pictures.add(picture, nowMs),
+    };
+  }
+
+  #onBatch(batch: Batch): void {
+    const type = batch.sensor === 0 ? 'cloud' : (`cloud:${batch.sensor}` as const);
+    if (!this.#emitter.emit(type, batch)) this.release(batch);
+    this.pointsAtMs = performance.now();
+    this.link.onPoints(this.pointsAtMs);
+  }
+
+  #tellFormats(): void {
+    this.link.sendSession({ type: 'cloudFormats', formats: this.#formats.list });
+  }
+}

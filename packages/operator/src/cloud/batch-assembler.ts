@@ -1,0 +1,201 @@
+/**
+ * What the cloud worker does, without the worker: takes RTP payloads, decodes them, fills batches and hands them over.
+ * The clock and the timer are arguments.
+ */
+import { type CloudFormat, MAX_SENSORS, PLACEMENT_BYTES } from '@farpoint/protocol';
+import type { Codec } from '@farpoint/wasm-codec';
+import type { Batch } from './batch.ts';
+import { BatchPool } from './batch-pool.ts';
+import { DecoderBacklog } from './decoder-backlog.ts';
+import { OrganisedPacketDecoder } from './organised-packet-decoder.ts';
+import type { BatchWriter, PacketDecoder } from './packet-decoder.ts';
+import { countDrop, type DropReason, PacketIntake } from './packet-intake.ts';
+import { Points64PacketDecoder } from './points64-packet-decoder.ts';
+import { UnorganisedPacketDecoder } from './unorganised-packet-decoder.ts';
+import type { FromCloudWorker } from './worker-messages.ts';
+
+/** A burst that has begun is handed over after so long at the latest, ms; a frame's last packet does not wait. */
+export const FLUSH_AFTER_MS = 4;
+/** With so many batches undrawn the page is slower than we are: fill buffers before handing over. */
+export const BATCHES_AHEAD = 6;
+const MAX_BATCHES = 48;
+const HEADER_BYTES = 16;
+
+export interface BatchAssemblerPort {
+  post(message: FromCloudWorker, transfer: Transferable[]): void;
+  /** As `performance.now()`, and when that was 0, ms since the epoch. */
+  nowMs(): number;
+  readonly timeOriginMs: number;
+  /** Calls `act` once after so long. */
+  setTimer(act: () => void, afterMs: number): number;
+  clearTimer(timer: number): void;
+}
+
+/** Of one sensor: `points64` always, coded formats once their stream header has come. */
+type Decoders = Partial<Record<CloudFormat, PacketDecoder & Partial<Disposable>>>;
+
+export class BatchAssembler implements BatchWriter {
+  readonly pool = new BatchPool(MAX_BATCHES);
+  /** Counts sessions; none has begun before 0. */
+  generation = -1;
+  every = 1;
+  everySample = 1;
+  readonly #port: BatchAssemblerPort;
+  readonly #backlog = new DecoderBacklog();
+  #intake = new PacketIntake();
+  /** By sensor number. */
+  #decoders: Decoders[] = [];
+  #batch: Batch | null = null;
+  /** Whose packets are in the batch, and of which sensor. */
+  #filling: PacketDecoder | null = null;
+  #sensor = 0;
+  #flushTimer: number | null = null;
+  #busyMs = 0;
+  #busyPackets = 0;
+  #reportedPackets = -1;
+
+  constructor(port: BatchAssemblerPort) {
+    this.#port = port;
+  }
+
+  /** A session's packets and its stream header come on different ways: whichever is first begins it. */
+  begin(generation: number, codec: Codec): void {
+    if (generation <= this.generation) return;
+    this.beginCounting(generation, new PacketIntake());
+    this.#filling?.abandon();
+    this.#filling = null;
+    this.#batch?.clear();
+    for (const decoders of this.#decoders) {
+      for (const decoder of Object.values(decoders)) decoder[Symbol.dispose]?.();
+    }
+    this.#decoders = Array.from({ length: MAX_SENSORS }, () => ({
+      points64: new Points64PacketDecoder(codec),
+    }));
+  }
+
+  /** A session whose packets are decoded elsewhere. @param intake counts them */
+  beginCounting(generation: number, intake: PacketIntake): void {
+    this.generation = generation;
+    this.#intake = intake;
+    this.#reportedPackets = -1;
+  }
+
+  /** What packets of a coded format are decoded with from now on. */
+  beginStream(codec: Codec, format: 'organised' | 'unorganised', header: Uint8Array, sensor = 0): void {
+    const decoders = this.#decoders[sensor];
+    if (decoders === undefined) return;
+    try {
+      const Decoder = format === 'organised' ? OrganisedPacketDecoder : UnorganisedPacketDecoder;
+      const decoder = new Decoder(codec, header);
+      if (this.#filling === decoders[format]) this.#flush();
+      decoders[format]?.[Symbol.dispose]?.();
+      decoders[format] = decoder;
+    } catch (error) {
+      const message = error instanceof Error ? error.message : String(error);
+      this.#port.post({ type: 'streamRefused', generation: this.generation, format, message }, []);
+    }
+  }
+
+  /**
+   * @param payload of one RTP packet
+   * @param rtpSequence 16 bits; absent where the browser does not tell
+   * @param receiveTimeMs when it came, as `nowMs`; NaN where the browser does not tell
+   */
+  take(payload: ArrayBuffer, rtpSequence: number | undefined, receiveTimeMs: number): void {
+    const beganMs = this.#port.nowMs();
+    const fault = this.#intake.take(new DataView(payload), rtpSequence);
+    if (fault === null) {
+      if (this.#backlog.isStale(beganMs - receiveTimeMs)) this.drop('decoder-behind');
+      else this.#decode(payload, this.#port.timeOriginMs + beganMs);
+    }
+    this.#busyMs += this.#port.nowMs() - beganMs;
+    this.#busyPackets++;
+  }
+
+  /** One of every so many points is handed on from now on. */
+  drawEvery(every: number, everySample: number): void {
+    this.#flush();
+    this.every = every;
+    this.everySample = everySample;
+  }
+
+  /** The page gave a buffer back. */
+  giveBack(buffer: ArrayBuffer): void {
+    this.pool.giveBack(buffer);
+    if (this.#batch !== null && this.#flushTimer === null && this.pool.out < BATCHES_AHEAD)
+      this.#scheduleFlush();
+  }
+
+  /** Hands a filled batch over. */
+  handOver({ buffer, packets, pointCount: points, sensor }: Batch): void {
+    const { generation } = this;
+    this.pool.sent();
+    this.#port.post({ type: 'batch', generation, sensor, packets, points, buffer }, [buffer]);
+  }
+
+  /** Tells the sums of the session, where packets have come since the last time. */
+  report(): void {
+    const { packetsReceived, bytesReceived, packetsLost, drops } = this.#intake;
+    if (this.generation < 0 || packetsReceived === this.#reportedPackets) return;
+    this.#reportedPackets = packetsReceived;
+    const decodeUs = this.#busyPackets === 0 ? 0 : (this.#busyMs * 1000) / this.#busyPackets;
+    this.#busyMs = 0;
+    this.#busyPackets = 0;
+    const sums = { packetsReceived, bytesReceived, packetsLost, drops, decodeUs };
+    this.#port.post({ type: 'report', generation: this.generation, ...sums }, []);
+  }
+
+  batchFor(wanted: number): Batch | null {
+    const batch = this.#batch;
+    if (batch !== null && (batch.full || (batch.pointCount > 0 && wanted > batch.room))) this.#flush();
+    this.#batch ??= this.pool.take();
+    if (this.#batch !== null) this.#batch.sensor = this.#sensor;
+    return this.#batch;
+  }
+
+  drop(reason: DropReason): void {
+    countDrop(this.#intake.drops, reason);
+  }
+
+  #decode(payload: ArrayBuffer, receivedAtMs: number): void {
+    const { header, placement } = this.#intake;
+    const decoder = this.#decoders[placement.sensor]?.[placement.format];
+    if (decoder === undefined) {
+      this.drop('no-stream');
+      return;
+    }
+    if (this.#filling !== decoder) {
+      this.#flush();
+      this.#filling = decoder;
+      this.#sensor = placement.sensor;
+    }
+    const bytes = new Uint8Array(payload, HEADER_BYTES, payload.byteLength - HEADER_BYTES - PLACEMENT_BYTES);
+    decoder.add(header, placement, bytes, receivedAtMs, this);
+    const lastOfFrame = header.sequenceOffset + header.sequenceLength === header.frameLength;
+    if (lastOfFrame && this.pool.out < BATCHES_AHEAD) this.#flush();
+    else this.#scheduleFlush();
+  }
+
+  #scheduleFlush(): void {
+    this.#flushTimer ??= this.#port.setTimer(() => {
+      this.#flushTimer = null;
+      const beganMs = this.#port.nowMs();
+      this.#filling?.settle(this);
+      this.#busyMs += this.#port.nowMs() - beganMs;
+      // Otherwise the next buffer that comes back, or a full one, brings it on its way.
+      if (this.pool.out < BATCHES_AHEAD) this.#flush();
+    }, FLUSH_AFTER_MS);
+  }
+
+  #flush(): void {
+    if (this.#flushTimer !== null) this.#port.clearTimer(this.#flushTimer);
+    this.#flushTimer = null;
+    // This may itself hand over batches that it fills.
+    this.#filling?.settle(this);
+    const batch = this.#batch;
+    if (batch === null || batch.packets === 0) return;
+    this.#filling?.finish(batch);
+    this.#batch = null;
+    this.handOver(batch);
+  }
+}

@@ -1,0 +1,159 @@
+/**
+ * Points on their way from the worker to the page: one buffer, handed over by transfer and given back empty.
+ *
+ *     0             `BATCH_PACKETS` entries of 80 bytes, one a packet, in the platform's byte order:
+ *                     0 f64 received, ms since the epoch    8 u32 frameNumber   12 u32 frameLength   16 u32 sequenceOffset
+ *                    20 u32 points    24 u32 captureTimeUs  28 u32 flags (1 = latency test)
+ *                    32 f32 ×3 position of the camera       44 f32 ×4 its orientation x, y, z, w
+ *                    60 f32 how wide the camera sees (image-extent.ts)
+ *                    64 u32 sequenceLength: the points that came, as bytes of the frame; `points` are those that are drawn
+ *                    68 f32 unit of the coordinates, metres       72 f32 cover: diameter of a point in mean distances
+ *     POINTS_OFFSET  the packets' points one after another, x, y, z in units and the colour's bits, int16 each
+ */
+import type { Placement, PointPacketHeader } from '@farpoint/protocol';
+
+export const BATCH_PACKETS = 128;
+const ENTRY_BYTES = 80;
+const WORDS = ENTRY_BYTES / 4;
+const POINTS_OFFSET = BATCH_PACKETS * ENTRY_BYTES;
+/** A packet of a coded format may hold any number of points: one that does not fit goes on in the next batch. */
+export const BATCH_POINTS = 65_536;
+export const BATCH_BYTES = POINTS_OFFSET + BATCH_POINTS * 8;
+export const ENTRY_LATENCY_TEST = 1;
+
+/** Samples are drawn at random, so that circles of c mean distances cover 1 − exp(−π·c²/4) of a surface: 96 % at 2. */
+export const SAMPLED_COVER = 2;
+
+/** How a packet's points are to be drawn. */
+export interface PointLook {
+  /** How wide the camera sees (image-extent.ts). */
+  imageExtent: number;
+  /** Metres of one step of a coordinate. */
+  unit: number;
+  /** Diameter in mean distances of the frame's points. */
+  cover: number;
+}
+
+/** Views of one buffer. */
+export class Batch {
+  readonly buffer: ArrayBuffer;
+  /** 4 per point. */
+  readonly points: Int16Array;
+  readonly #u32: Uint32Array;
+  readonly #f32: Float32Array;
+  readonly #f64: Float64Array;
+  /** Packets in use, and their points. */
+  packets = 0;
+  pointCount = 0;
+  /** Whose points they are: its number among the robot's sensors. */
+  sensor: number;
+
+  /** @param buffer `BATCH_BYTES` long */
+  constructor(buffer: ArrayBuffer, packets = 0, pointCount = 0, sensor = 0) {
+    this.buffer = buffer;
+    this.points = new Int16Array(buffer, POINTS_OFFSET);
+    this.#u32 = new Uint32Array(buffer, 0, POINTS_OFFSET / 4);
+    this.#f32 = new Float32Array(buffer, 0, POINTS_OFFSET / 4);
+    this.#f64 = new Float64Array(buffer, 0, POINTS_OFFSET / 8);
+    this.packets = packets;
+    this.pointCount = pointCount;
+    this.sensor = sensor;
+  }
+
+  get full(): boolean {
+    return this.packets === BATCH_PACKETS;
+  }
+
+  /** Points that still fit. */
+  get room(): number {
+    return BATCH_POINTS - this.pointCount;
+  }
+
+  /**
+   * Adds the entry of one packet, or of a part of one; its points are written by the caller, from the batch's point
+   * `pointCount` on. Must not be full.
+   *
+   * @param header tells the place in the frame, of all points that came
+   * @param points those that are drawn; no more than there is room for
+   */
+  add(
+    header: PointPacketHeader,
+    placement: Placement,
+    points: number,
+    receivedAtMs: number,
+    look: PointLook,
+  ): void {
+    const i = this.packets * WORDS;
+    this.#f64[i / 2] = receivedAtMs;
+    this.#u32[i + 2] = header.frameNumber;
+    this.#u32[i + 3] = header.frameLength;
+    this.#u32[i + 4] = header.sequenceOffset;
+    this.#u32[i + 5] = points;
+    this.#u32[i + 6] = placement.captureTimeUs;
+    this.#u32[i + 7] = placement.latencyTest ? ENTRY_LATENCY_TEST : 0;
+    const { position, orientation } = placement.pose;
+    this.#f32[i + 8] = position.x;
+    this.#f32[i + 9] = position.y;
+    this.#f32[i + 10] = position.z;
+    this.#f32[i + 11] = orientation.x;
+    this.#f32[i + 12] = orientation.y;
+    this.#f32[i + 13] = orientation.z;
+    this.#f32[i + 14] = orientation.w;
+    this.#f32[i + 15] = look.imageExtent;
+    this.#u32[i + 16] = header.sequenceLength;
+    this.#f32[i + 17] = look.unit;
+    this.#f32[i + 18] = look.cover;
+    this.packets++;
+    this.pointCount += points;
+  }
+
+  clear(): void {
+    this.packets = 0;
+    this.pointCount = 0;
+  }
+
+  receivedAtMs(packet: number): number {
+    return this.#f64[packet * (WORDS / 2)] as number;
+  }
+  frameNumber(packet: number): number {
+    return this.#u32[packet * WORDS + 2] as number;
+  }
+  frameLength(packet: number): number {
+    return this.#u32[packet * WORDS + 3] as number;
+  }
+  sequenceOffset(packet: number): number {
+    return this.#u32[packet * WORDS + 4] as number;
+  }
+  /** Points in this buffer. */
+  pointsOf(packet: number): number {
+    return this.#u32[packet * WORDS + 5] as number;
+  }
+  captureTimeUs(packet: number): number {
+    return this.#u32[packet * WORDS + 6] as number;
+  }
+  isLatencyTest(packet: number): boolean {
+    return ((this.#u32[packet * WORDS + 7] as number) & ENTRY_LATENCY_TEST) !== 0;
+  }
+  imageExtent(packet: number): number {
+    return this.#f32[packet * WORDS + 15] as number;
+  }
+  /** Bytes of the frame that the packet carried, 8 a point, drawn or not. */
+  sequenceLength(packet: number): number {
+    return this.#u32[packet * WORDS + 16] as number;
+  }
+  /** Points of the frame that the packet carried, drawn or not. */
+  pointsCame(packet: number): number {
+    return this.sequenceLength(packet) / 8;
+  }
+  /** Metres. */
+  unit(packet: number): number {
+    return this.#f32[packet * WORDS + 17] as number;
+  }
+  cover(packet: number): number {
+    return this.#f32[packet * WORDS + 18] as number;
+  }
+  /** Pose as 7 floats: position x, y, z, orientation x, y, z, w. */
+  poseComponent(packet: number, component: number): number {
+    return this.#f32[packet * WORDS + 8 + component] as number;
+  }
+}

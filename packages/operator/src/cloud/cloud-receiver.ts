@@ -1,0 +1,81 @@
+/** Owns the cloud worker: tells it what to decode, and takes its batches of points. */
+import type { CloudFormat, CloudStream } from '@farpoint/protocol';
+import { Batch } from './batch.ts';
+import type { FromCloudWorker, IntakeReport, ToCloudWorker } from './worker-messages.ts';
+
+export interface CloudReceiverEvents {
+  /** Points came. Whoever takes the batch gives it back by {@link CloudReceiver.release}. */
+  onBatch(batch: Batch): void;
+  /** Sums of the session, ten times a second while packets come. */
+  onReport(report: IntakeReport): void;
+  /** A coded stream that this browser cannot decode. */
+  onStreamRefused(format: CloudFormat, detail: string): void;
+  /** The worker, or its WebAssembly module, cannot be loaded. */
+  onFailed(detail: string): void;
+}
+
+export class CloudReceiver {
+  /** The receiver's encoded frames go here. */
+  readonly worker: Worker;
+  readonly #events: CloudReceiverEvents;
+  #generation = 0;
+
+  constructor(events: CloudReceiverEvents) {
+    this.#events = events;
+    this.worker = new Worker(new URL('./cloud-worker.ts', import.meta.url), { type: 'module' });
+    this.worker.onmessage = ({ data }: MessageEvent<FromCloudWorker>) => this.#onMessage(data);
+    this.worker.onerror = ({ message }) => events.onFailed(message);
+  }
+
+  /** A session begins. Batches and reports of an earlier one are dropped from now on. */
+  begin(generation: number): void {
+    this.#generation = generation;
+  }
+
+  /** What packets of a coded format are decoded with from now on. */
+  beginStream({ format, header, sensor = 0 }: Omit<CloudStream, 'type'>): void {
+    const bytes = Uint8Array.from(atob(header), (character) => character.charCodeAt(0));
+    const generation = this.#generation;
+    this.#post({ type: 'cloudStream', generation, sensor, format, header: bytes }, [bytes.buffer]);
+  }
+
+  /** Gives a batch back to the worker, which has a bounded number of them. Its buffer is empty afterwards. */
+  release({ buffer }: Batch): void {
+    this.#post({ type: 'return', buffer }, [buffer]);
+  }
+
+  /** Hands on one of every so many points: of coded clouds, and of `points64`, which is a sample already. */
+  drawEvery(every: number, everySample: number): void {
+    this.#post({ type: 'drawEvery', every, everySample }, []);
+  }
+
+  close(): void {
+    this.worker.terminate();
+  }
+
+  #post(message: ToCloudWorker, transfer: Transferable[]): void {
+    this.worker.postMessage(message, transfer);
+  }
+
+  #onMessage(message: FromCloudWorker): void {
+    switch (message.type) {
+      case 'batch': {
+        const batch = new Batch(message.buffer, message.packets, message.points, message.sensor);
+        if (message.generation === this.#generation) this.#events.onBatch(batch);
+        else this.release(batch);
+        return;
+      }
+      case 'report':
+        if (message.generation === this.#generation) this.#events.onReport(message);
+        return;
+      case 'streamRefused':
+        if (message.generation === this.#generation)
+          this.#events.onStreamRefused(message.format, message.message);
+        return;
+      case 'failed':
+        this.#events.onFailed(message.message);
+        return;
+      case 'ready':
+    }
+  }
+}

@@ -1,0 +1,77 @@
+import type { Placement, PointPacketHeader } from '@farpoint/protocol';
+import { BATCH_POINTS, type PointLook } from './batch.ts';
+import type { BatchWriter } from './packet-decoder.ts';
+
+/**
+ * Hands a decoded packet's points on, one of every `writer.every`. A packet that holds more than a batch goes on in the
+ * next ones: each part has its own place in the frame, as if it were a packet of its own.
+ */
+export class DecodedPoints {
+  readonly #part: PointPacketHeader = {
+    frameNumber: 0,
+    frameLength: 0,
+    sequenceOffset: 0,
+    sequenceLength: 0,
+  };
+
+  /** @param points 4 int16 each, the packet's points only */
+  write(
+    points: Int16Array,
+    header: PointPacketHeader,
+    placement: Placement,
+    receivedAtMs: number,
+    look: PointLook,
+    writer: BatchWriter,
+  ): void {
+    const { every } = writer;
+    const total = points.length / 4;
+    const part = this.#part;
+    part.frameNumber = header.frameNumber;
+    part.frameLength = header.frameLength;
+    for (let first = 0; first < total; ) {
+      const came = Math.min(total - first, BATCH_POINTS * every);
+      const drawn = Math.ceil(came / every);
+      const batch = writer.batchFor(drawn);
+      if (batch === null) {
+        writer.drop('no-buffer');
+        return;
+      }
+      const at = batch.pointCount * 4;
+      if (every === 1) batch.points.set(points.subarray(first * 4, (first + came) * 4), at);
+      else copyThinned(points, first, came, every, batch.points, at);
+      part.sequenceOffset = header.sequenceOffset + first * 8;
+      part.sequenceLength = came * 8;
+      batch.add(part, placement, drawn, receivedAtMs, look);
+      first += came;
+    }
+  }
+}
+
+/** Copies, from point `first` on, one of every so many of `came` points to index `at`. */
+export function copyThinned(
+  from: Int16Array,
+  first: number,
+  came: number,
+  every: number,
+  into: Int16Array,
+  at: number,
+): void {
+  let target = at;
+  for (let begin = 0; begin < came; begin += every) {
+    const source = (first + begin + chosenOf(Math.min(every, came - begin), begin)) * 4;
+    into[target] = from[source] as number;
+    into[target + 1] = from[source + 1] as number;
+    into[target + 2] = from[source + 2] as number;
+    into[target + 3] = from[source + 3] as number;
+    target += 4;
+  }
+}
+
+/**
+ * Which of `count` points is drawn, as if by chance: coded points come in rows of 16, of which every 16th would stand in
+ * lines with nothing between.
+ */
+function chosenOf(count: number, begin: number): number {
+  const mixed = Math.imul(begin ^ (begin >>> 7), 0x9e37_79b1);
+  return (Math.imul(mixed ^ (mixed >>> 15), 0x85eb_ca6b) >>> 8) % count;
+}

@@ -1,0 +1,78 @@
+/** Checks each received payload, counts what is dropped and why, and finds gaps in the RTP sequence. */
+import {
+  type CloudPayloadFault,
+  emptyPlacement,
+  emptyPointPacketHeader,
+  type Placement,
+  type PointPacketHeader,
+  readCloudPayload,
+} from '@farpoint/protocol';
+import { SequenceNumber, SequenceUnwrapper } from '@farpoint/rtp';
+import type { PacketFault, UnorganisedFault } from '@farpoint/wasm-codec';
+
+/** Why a packet is not drawn. The first are the wire format's and its codecs'. */
+export type DropReason =
+  | CloudPayloadFault
+  | PacketFault
+  | UnorganisedFault
+  | 'no-stream' // of a coded format whose stream header has not come
+  | 'bad-count' // decoded, but not into as many points as its header says
+  | 'decoder-behind' // packets come faster than they are decoded: this one waited too long
+  | 'no-buffer' // the page has not given buffers back: it draws too slowly
+  | 'page-behind' // handed to the page, but newer points came before it could draw
+  | 'late' // its frame was replaced on the screen already
+  | 'superseded' // its place in the picture was replaced already
+  | 'window-full'; // more fragments than can be drawn at once
+
+export type DropCounts = Partial<Record<DropReason, number>>;
+
+export function countDrop(counts: DropCounts, reason: DropReason, by = 1): void {
+  counts[reason] = (counts[reason] ?? 0) + by;
+}
+
+export class PacketIntake {
+  /** Of the last payload that {@link take} accepted; overwritten by the next. */
+  readonly header: PointPacketHeader = emptyPointPacketHeader();
+  readonly placement: Placement = emptyPlacement();
+  readonly drops: DropCounts = {};
+  readonly #sequence = new SequenceUnwrapper();
+  #firstSequence: number | null = null;
+  #highestSequence = 0;
+  #numberedPackets = 0;
+  packetsReceived = 0;
+  bytesReceived = 0;
+
+  /** Packets missing between the first and the highest sequence number, less those that came late. */
+  get packetsLost(): number {
+    if (this.#firstSequence === null) return 0;
+    // A duplicate can fill a gap in this sum, as in RFC 3550 A.3.
+    return Math.max(0, this.#highestSequence - this.#firstSequence + 1 - this.#numberedPackets);
+  }
+
+  /**
+   * Counts the packet and reads it into {@link header} and {@link placement}.
+   *
+   * @param rtpSequence 16 bits; absent where the browser does not tell
+   * @returns why it is dropped, or `null`
+   */
+  take(payload: DataView, rtpSequence: number | undefined): CloudPayloadFault | null {
+    this.packetsReceived++;
+    this.bytesReceived += payload.byteLength;
+    if (rtpSequence !== undefined) this.#follow(rtpSequence);
+    const fault = readCloudPayload(payload, this.header, this.placement);
+    if (fault !== null) countDrop(this.drops, fault);
+    return fault;
+  }
+
+  #follow(rtpSequence: number): void {
+    const sequence = this.#sequence.unwrap(SequenceNumber.of(rtpSequence));
+    this.#numberedPackets++;
+    if (this.#firstSequence === null) {
+      this.#firstSequence = sequence;
+      this.#highestSequence = sequence;
+    } else {
+      this.#firstSequence = Math.min(this.#firstSequence, sequence);
+      this.#highestSequence = Math.max(this.#highestSequence, sequence);
+    }
+  }
+}

@@ -1,0 +1,118 @@
+import type { Command, OperatorSessionMessage } from '@farpoint/protocol';
+import { describe, expect, test } from 'vitest';
+import { Driver } from './driver.ts';
+import { WishInput } from './wish-input.ts';
+
+function bench() {
+  const commands: Command[] = [];
+  const messages: OperatorSessionMessage[] = [];
+  let told = 0;
+  const hand = new WishInput();
+  const driver = new Driver([hand], {
+    sendCommand: (command) => commands.push(command),
+    sendSession: (message) => messages.push(message),
+    onOtherDrives: () => told++,
+  });
+  driver.onLimits({ maxLinear: 1, maxAngular: 1, watchdogMs: 150, maxCommandsPerSecond: 100 });
+  return { commands, messages, hand, driver, told: () => told };
+}
+
+describe('Driver', () => {
+  test('the first grip asks for the lease; with it the commands flow', () => {
+    const { commands, messages, hand, driver } = bench();
+    hand.held = true;
+    hand.wish.forward = 1;
+    for (const now of [0, 25, 50]) driver.tick(now);
+    expect(messages).toEqual([{ type: 'leaseRequest', take: false }]);
+    expect(commands).toEqual([]);
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    driver.tick(75);
+    expect(commands).toHaveLength(1);
+    expect(commands[0]?.twist.linear.x).toBe(1);
+  });
+
+  test('asks again while nobody answers, never to take over', () => {
+    const { messages, hand, driver, told } = bench();
+    hand.held = true;
+    for (let now = 0; now <= 1000; now += 25) driver.tick(now);
+    expect(messages).toHaveLength(3);
+    driver.onLease({ type: 'lease', holder: 'other' });
+    for (let now = 1000; now <= 2000; now += 25) driver.tick(now);
+    expect(messages).toHaveLength(3);
+    expect(told()).toBe(1);
+  });
+
+  test('a page that is not looked at lets go', () => {
+    const { commands, hand, driver } = bench();
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    hand.held = true;
+    hand.wish.forward = 1;
+    driver.tick(0);
+    driver.suspended = true;
+    for (let now = 25; now < 1000; now += 25) driver.tick(now);
+    expect(commands.slice(1).every((command) => !command.deadMan && command.twist.linear.x === 0)).toBe(true);
+    expect(commands.length).toBeLessThan(8);
+  });
+
+  test('letting go stops, gives the lease back, and counts nothing that stays held', () => {
+    const { commands, messages, hand, driver } = bench();
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    hand.held = true;
+    hand.wish.forward = 1;
+    driver.tick(0);
+    driver.letGo(25);
+    expect(commands.map(({ deadMan, twist }) => [deadMan, twist.linear.x])).toEqual([
+      [true, 1],
+      [false, 0],
+    ]);
+    expect(messages).toEqual([{ type: 'leaseRelease' }]);
+    // The next robot: the hand is still closed.
+    driver.reset();
+    driver.onLimits({ maxLinear: 1, maxAngular: 1, watchdogMs: 150, maxCommandsPerSecond: 100 });
+    driver.onLease({ type: 'lease', holder: 'nobody' });
+    for (let now = 50; now < 1000; now += 25) driver.tick(now);
+    expect([commands.length, messages.length]).toEqual([2, 1]);
+    hand.held = false;
+    driver.tick(1000);
+    hand.held = true;
+    driver.tick(1025);
+    expect(messages.at(-1)).toEqual({ type: 'leaseRequest', take: false });
+  });
+
+  test('a hand that holds while the path is lost moves nothing until it has opened', () => {
+    const { commands, hand, driver } = bench();
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    hand.held = true;
+    hand.wish.forward = 1;
+    driver.tick(0);
+    expect(commands.splice(0).map(({ deadMan }) => deadMan)).toEqual([true]);
+    driver.onPath(1000);
+    for (let now = 1025; now < 5000; now += 25) driver.tick(now);
+    // Opened and closed again while nothing could be heard of it.
+    hand.held = false;
+    driver.tick(5000);
+    hand.held = true;
+    driver.tick(5025);
+    driver.onPath(6000);
+    commands.splice(0);
+    for (let now = 6025; now < 9000; now += 25) driver.tick(now);
+    expect(commands.splice(0).every(({ deadMan, twist }) => !deadMan && twist.linear.x === 0)).toBe(true);
+    hand.held = false;
+    driver.tick(9025);
+    hand.held = true;
+    for (let now = 9050; now < 9150; now += 25) driver.tick(now);
+    // With rest first: the robot may have heard nothing of the open hand.
+    expect(commands.filter(({ deadMan }) => deadMan).map(({ twist }) => twist.linear.x)).toEqual([
+      0, 0, 1, 1,
+    ]);
+  });
+
+  test('without its lease nothing is sent', () => {
+    const { commands, hand, driver } = bench();
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    driver.onLease({ type: 'lease', holder: 'other' });
+    hand.held = true;
+    driver.tick(0);
+    expect(commands).toEqual([]);
+  });
+});

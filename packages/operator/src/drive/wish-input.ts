@@ -1,0 +1,31 @@
+/** A program's hand: its wish holds for a moment only, so that a program that hangs has let go. Time is an argument. */
+import type { DriveInput } from './drive-input.ts';
+import type { DriveWish } from './velocity-mapping.ts';
+
+/** A wish that is not renewed for so long has been let go, ms. */
+export const WISH_HOLDS_MS = 200;
+
+export class WishInput implements DriveInput {
+  readonly name = 'script';
+  readonly wish: DriveWish = { forward: 0, left: 0 };
+  held = false;
+  #renewedMs = 0;
+
+  renew({ forward, left }: DriveWish, nowMs: number): void {
+    this.wish.forward = forward;
+    this.wish.left = left;
+    this.held = true;
+    this.#renewedMs = nowMs;
+  }
+
+  release(): void {
+    this.held = false;
+    this.wish.forward = 0;
+    this.wish.left = 0;
+  }
+
+  /** Some times a second. */
+  lapse(nowMs: number): void {
+    if (this.held && nowMs - this.#renewedMs >= WISH_HOLDS_MS) this.release();
+  }
+}

@@ -1,0 +1,48 @@
+/**
+ * The operator's side of a Farpoint session, for browsers: signaling, the WebRTC connection, decoding of clouds and
+ * pictures in workers, drive commands, emergency stop and latency measurement. Begin with {@link connect}.
+ *
+ * @module
+ */
+
+// What the robot's events are made of.
+export type {
+  Cameras,
+  CloudFormat,
+  CommandRejected,
+  DriveLimits,
+  EstopState,
+  LeaseState,
+  Pose,
+  Reading,
+  RobotListing,
+  Telemetry,
+  Twist,
+  Welcome,
+} from '@farpoint/protocol';
+export { type BridgeAddress, parseBridge } from './bridge/bridge-settings.ts';
+export type { RobotClientOptions } from './client/client-options.ts';
+export { ConnectError, type ConnectFailure, type ConnectOptions, connect } from './client/connect.ts';
+export { RobotClient } from './client/robot-client.ts';
+export type { ClientFailure, RobotEvents } from './client/robot-events.ts';
+export { BATCH_BYTES, BATCH_PACKETS, BATCH_POINTS, Batch, type PointLook } from './cloud/batch.ts';
+export { DEFAULT_EXTENT } from './cloud/image-extent.ts';
+export type { DropCounts, DropReason } from './cloud/packet-intake.ts';
+export type { IntakeReport } from './cloud/worker-messages.ts';
+export { activeInput, type DriveInput, type PressedButtons } from './drive/drive-input.ts';
+export type { Driver } from './drive/driver.ts';
+export { robotAfter } from './drive/robot-switch.ts';
+export { type DriveWish, toTwist } from './drive/velocity-mapping.ts';
+export { LatencyError, type LatencyProbe, type LatencyReport } from './latency/latency-probe.ts';
+export type { LatencyFailure, LatencyResult } from './latency/latency-test.ts';
+export { type Distribution, SampleWindow } from './latency/sample-window.ts';
+export type { RobotLink } from './link/robot-link.ts';
+export { type TransformSupport, transformSupport } from './peer/encoded-transform.ts';
+export type { Picture } from './pictures/picture-feed.ts';
+export { type AgedReading, Readings } from './session/readings.ts';
+export type { RobotSession } from './session/robot-session.ts';
+export type { SessionPhase } from './session/session-keeper.ts';
+export { lossOf, type SessionLoss } from './session/session-loss.ts';
+export type { SignalingState } from './signaling/signaling-state.ts';
+export { parseSignalingUrl } from './signaling/signaling-url.ts';
+export type { StreamStatistics, StreamStats } from './statistics/stream-statistics.ts';

@@ -1,0 +1,133 @@
+/**
+ * Motion-to-photon as the paper measures it: an input event asks for a green cloud; the time runs until the end of the
+ * display frame that shows it. Two times are told: the first green points, and the whole green cloud (all its packets,
+ * or what came of it before the next frame began). No clock and no GPU here.
+ */
+export interface LatencyResult {
+  id: number;
+  /** Input event to the end of the display frame with the whole green cloud, ms. */
+  mtpMs: number;
+  /** … with its first points. */
+  firstMs: number;
+  /** Input event to the arrival of the last green packet, ms. */
+  arrivedMs: number;
+  /** Green points drawn, and in the whole frame. */
+  points: number;
+  totalPoints: number;
+  frameNumber: number;
+}
+
+/** Why a test has no result. */
+export type LatencyFailure =
+  | 'timeout' // the command, or every packet of its frame, was lost
+  | 'no-session'
+  | 'busy' // another test runs
+  | 'no-lease'; // somebody else drives
+
+interface Running {
+  id: number;
+  startedAtMs: number;
+  frameNumber: number | null;
+  points: number;
+  totalPoints: number;
+  firstMs: number | null;
+  arrivedMs: number;
+  /** Uploaded for the display frame that is being drawn. */
+  fresh: boolean;
+  /** No more of the frame will come. */
+  complete: boolean;
+}
+
+export class LatencyTest {
+  #running: Running | null = null;
+  #lastId = 0;
+
+  get runningId(): number | null {
+    return this.#running?.id ?? null;
+  }
+
+  /** @param startedAtMs the input event's time. @returns the id that the command must carry */
+  start(startedAtMs: number): number {
+    this.#lastId = (this.#lastId + 1) >>> 0;
+    this.#running = {
+      id: this.#lastId,
+      startedAtMs,
+      frameNumber: null,
+      points: 0,
+      totalPoints: 0,
+      firstMs: null,
+      arrivedMs: 0,
+      fresh: false,
+      complete: false,
+    };
+    return this.#lastId;
+  }
+
+  /** Gives up. */
+  cancel(): void {
+    this.#running = null;
+  }
+
+  /** A packet's points, which arrived at `receivedAtMs`, were uploaded for the display frame being prepared. */
+  onPacket(
+    isLatencyTest: boolean,
+    frameNumber: number,
+    points: number,
+    totalPoints: number,
+    receivedAtMs: number,
+  ): void {
+    const test = this.#running;
+    if (test === null || test.complete) return;
+    if (!isLatencyTest) {
+      // The frame after it has begun: what is missing of the green one was lost.
+      if (test.frameNumber !== null && ((frameNumber - test.frameNumber) | 0) > 0) test.complete = true;
+      return;
+    }
+    if (test.frameNumber === null) {
+      test.frameNumber = frameNumber;
+      test.totalPoints = totalPoints;
+    }
+    if (frameNumber !== test.frameNumber) return;
+    test.points += points;
+    test.arrivedMs = Math.max(test.arrivedMs, receivedAtMs - test.startedAtMs);
+    test.fresh = true;
+    if (test.points >= totalPoints) test.complete = true;
+  }
+
+  /** Whether the display frame being drawn must be timed: it shows new green points, or ends the test. */
+  get wantsTime(): boolean {
+    const test = this.#running;
+    return test !== null && test.frameNumber !== null && (test.fresh || test.complete);
+  }
+
+  /**
+   * The display frame with what {@link onPacket} told is finished on the GPU.
+   *
+   * @returns the result, where the test is over
+   */
+  onDrawn(nowMs: number): LatencyResult | null {
+    const test = this.#running;
+    if (test === null || test.frameNumber === null) return null;
+    if (test.fresh) {
+      test.firstMs ??= nowMs - test.startedAtMs;
+      this.#lastFreshMs = nowMs;
+    }
+    const hadFresh = test.fresh;
+    test.fresh = false;
+    if (!test.complete || test.firstMs === null) return null;
+    this.#running = null;
+    // Ended by the next frame's begin: the last green points were shown by an earlier display frame.
+    const endMs = hadFresh ? nowMs : this.#lastFreshMs;
+    return {
+      id: test.id,
+      mtpMs: endMs - test.startedAtMs,
+      firstMs: test.firstMs,
+      arrivedMs: test.arrivedMs,
+      points: test.points,
+      totalPoints: test.totalPoints,
+      frameNumber: test.frameNumber,
+    };
+  }
+
+  #lastFreshMs = 0;
+}

@@ -1,0 +1,12 @@
+import { BridgeLink } from '../bridge/bridge-link.ts';
+import type { RobotClientOptions } from '../client/client-options.ts';
+import type { RobotLink, RobotLinkEvents } from './robot-link.ts';
+import { WebRtcLink } from './webrtc-link.ts';
+
+/** @param worker decodes the clouds */
+export function openLink(options: RobotClientOptions, worker: Worker, events: RobotLinkEvents): RobotLink {
+  const { bridge = null } = options;
+  return bridge === null
+    ? new WebRtcLink({ ...options, worker }, events)
+    : new BridgeLink(bridge, worker, events);
+}

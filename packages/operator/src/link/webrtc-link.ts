@@ -1,0 +1,296 @@
+/** One robot's link: signaling, session keeper, peer connection and what comes over it, put together. */
+import {
+  type Command,
+  encodeBandwidth,
+  encodeJson,
+  type OperatorControlMessage,
+  type OperatorSessionMessage,
+  operatorControlCodec,
+  operatorSessionCodec,
+  type RobotListing,
+} from '@farpoint/protocol';
+import type { IntakeReport } from '../cloud/worker-messages.ts';
+import type { TransformSupport } from '../peer/encoded-transform.ts';
+import { RobotPeer } from '../peer/robot-peer.ts';
+import { RobotSession } from '../session/robot-session.ts';
+import { SessionKeeper, type SessionPhase } from '../session/session-keeper.ts';
+import type { SessionLoss } from '../session/session-loss.ts';
+import { OperatorSignaling, type SessionSignal } from '../signaling/operator-signaling.ts';
+import type { SignalingState } from '../signaling/signaling-state.ts';
+import { WebSocketPort } from '../signaling/web-socket-port.ts';
+import { watchNetwork } from './network-changes.ts';
+import { watchPageLifecycle } from './page-lifecycle.ts';
+import type { RobotLink, RobotLinkEvents } from './robot-link.ts';
+
+export interface WebRtcLinkOptions {
+  signalingUrl: string;
+  name: string;
+  token: string | undefined;
+  worker: Worker;
+  transform: TransformSupport;
+  /** `relay`: by TURN servers only. */
+  icePolicy: RTCIceTransportPolicy;
+}
+
+const TICK_MS = 250;
+const PROBE_MS = 500;
+
+export class WebRtcLink implements RobotLink {
+  readonly #options: WebRtcLinkOptions;
+  readonly #events: RobotLinkEvents;
+  readonly #signaling: OperatorSignaling;
+  readonly #keeper: SessionKeeper;
+  #peer: RobotPeer | null = null;
+  #generation = 0;
+  readonly #closed = new AbortController();
+  #session: RobotSession;
+  #robots: readonly RobotListing[] = [];
+  #reportSequence = 0;
+  #lastHeardMs = 0;
+  #probeDueMs = 0;
+  sessionsOpened = 0;
+  /** Requests for an ICE restart. */
+  resumesAsked = 0;
+  lastLoss: SessionLoss | null = null;
+  maxOperators: number | null = null;
+  /** The robot to come back to, while the page is put away. */
+  #left: string | null = null;
+
+  constructor(options: WebRtcLinkOptions, events: RobotLinkEvents) {
+    this.#options = options;
+    this.#events = events;
+    this.#session = new RobotSession(events);
+    const port = new WebSocketPort(options.signalingUrl, () => this.#signaling);
+    this.#signaling = new OperatorSignaling(
+      { name: options.name, token: options.token },
+      port,
+      {
+        onState: (state) => {
+          this.#keeper.onSignaling(state === 'ready', performance.now());
+          events.onSignaling(state);
+        },
+        onRobots: (robots) => {
+          this.#robots = robots;
+          this.#keeper.onRobots(robots, performance.now());
+          events.onRobots(robots);
+        },
+        onSession: (message) => this.#onSignal(message),
+        onFault: (error) => console.warn('signaling:', error.message),
+      },
+      Math.random,
+    );
+    this.#keeper = new SessionKeeper(
+      {
+        requestSession: (robotId) => this.#signaling.send({ type: 'session.open', robotId }),
+        resumeSession: (session, robotId) => {
+          const resumeKey = this.#session.welcome?.resumeKey;
+          // The path was lost before the robot had said anything, or it is one that resumes nothing.
+          if (resumeKey === undefined) return this.#keeper.onPeerFailed(performance.now());
+          this.resumesAsked++;
+          this.#signaling.ask({ type: 'session.resume', session, robotId, resumeKey });
+        },
+        closeSession: (session) => this.#signaling.send({ type: 'session.close', session }),
+        dropPeer: () => this.#dropPeer(),
+        onPhase: (phase) => {
+          if (phase === 'live') this.sessionsOpened++;
+          events.onPhase(phase);
+        },
+        onLoss: (loss) => {
+          this.lastLoss = loss;
+          events.onLoss(loss);
+        },
+        onPath: (up) => events.onPath(up),
+      },
+      Math.random,
+    );
+  }
+
+  start(): void {
+    this.#signaling.start();
+    const { signal } = this.#closed;
+    const timer = setInterval(() => this.#tick(performance.now()), TICK_MS);
+    signal.addEventListener('abort', () => clearInterval(timer));
+    watchNetwork((online) => {
+      // What is waiting need not wait any longer.
+      if (online) this.#signaling.retryNow();
+      this.#keeper.onNetworkChange(performance.now());
+    }, signal);
+    const page = { onLeave: () => this.#leave(), onReturn: () => this.#return() };
+    watchPageLifecycle(window, page, signal);
+  }
+
+  close(): void {
+    this.#closed.abort();
+    this.#leave();
+  }
+
+  /** Takes leave of the robot, which would else keep this session for a minute in case its path was lost. */
+  #leave(): void {
+    this.#left = this.robotId;
+    this.disconnect();
+    this.#signaling.stop();
+  }
+
+  #return(): void {
+    this.#signaling.start();
+    if (this.#left !== null) this.connect(this.#left);
+    this.#left = null;
+  }
+
+  connect(robotId: string): void {
+    this.#keeper.want(robotId, this.#robots, performance.now());
+  }
+
+  disconnect(): void {
+    this.#keeper.want(null, this.#robots, performance.now());
+  }
+
+  get phase(): SessionPhase {
+    return this.#keeper.phase;
+  }
+  get signaling(): SignalingState {
+    return this.#signaling.state;
+  }
+  get robots(): readonly RobotListing[] {
+    return this.#robots;
+  }
+  get robotId(): string | null {
+    return this.#keeper.robotId;
+  }
+  get robotListed(): boolean {
+    return this.#keeper.robotListed;
+  }
+  get session(): RobotSession {
+    return this.#session;
+  }
+  get interrupted(): boolean {
+    return this.#keeper.interrupted;
+  }
+  silentMs(nowMs: number): number {
+    return nowMs - this.#lastHeardMs;
+  }
+
+  /** On a path that carries nothing a command is lost, and would keep later ones waiting. */
+  sendCommand(command: Command): void {
+    if (!this.interrupted) this.#sendControl(command);
+  }
+
+  sendSession(message: OperatorSessionMessage): void {
+    this.#peer?.sendSession(encodeJson(operatorSessionCodec, message));
+  }
+
+  limitBandwidth(bitsPerSecond: number): void {
+    this.#peer?.sendBandwidth(encodeBandwidth(bitsPerSecond) as Uint8Array<ArrayBuffer>);
+  }
+
+  /** Points came. */
+  onPoints(nowMs: number): void {
+    this.#heard(nowMs);
+  }
+
+  sendReport(report: IntakeReport): void {
+    if (report.generation !== this.#generation || this.interrupted) return;
+    this.#reportSequence = (this.#reportSequence + 1) >>> 0;
+    const { packetsReceived, packetsLost, bytesReceived } = report;
+    this.#sendControl({
+      type: 'receiverReport',
+      sequence: this.#reportSequence,
+      packetsReceived,
+      packetsLost,
+      bytesReceived,
+    });
+  }
+
+  #sendControl(message: OperatorControlMessage): void {
+    this.#peer?.sendControl(encodeJson(operatorControlCodec, message));
+  }
+
+  #onSignal(message: SessionSignal): void {
+    const nowMs = performance.now();
+    switch (message.type) {
+      case 'session.opened': {
+        // The robot has accepted our request for a new path: its offer follows.
+        if (message.session === this.#keeper.session) return;
+        const ours = this.#keeper.onOpened(message.session, message.robotId);
+        if (!ours) this.#signaling.send({ type: 'session.close', session: message.session });
+        else this.#openPeer(message.session);
+        return;
+      }
+      case 'session.offer':
+        if (message.session !== this.#keeper.session) return;
+        this.#peer?.useIceServers(this.#signaling.iceServers, this.#options.icePolicy);
+        void this.#peer?.offer(message.sdp);
+        return;
+      case 'session.candidate':
+        if (message.session === this.#keeper.session) void this.#peer?.candidate(message.candidate);
+        return;
+      case 'session.closed': {
+        const { session, reason, maxOperators = null, detail } = message;
+        if (detail !== undefined) console.warn('session ended by the robot:', reason, detail);
+        if (reason === 'robot-full') this.maxOperators = maxOperators;
+        this.#keeper.onClosed(session, reason, nowMs);
+        return;
+      }
+      case 'session.resuming':
+        return;
+      case 'error':
+        // A session that stands needs no service: that it is unknown, or the robot away, is all right.
+        if (message.code !== 'unknown-session' && !(this.phase === 'live' && message.session !== undefined)) {
+          this.#events.onRefusal(message.message);
+        }
+        this.#keeper.onRefused(message.session, nowMs);
+    }
+  }
+
+  #openPeer(session: string): void {
+    this.#dropPeer();
+    this.#generation++;
+    this.#reportSequence = 0;
+    this.#session = new RobotSession(this.#events);
+    this.#events.onGeneration(this.#generation);
+    const { worker, transform, icePolicy } = this.#options;
+    const peer: RobotPeer = new RobotPeer(
+      { iceServers: this.#signaling.iceServers, icePolicy, worker, transform, generation: this.#generation },
+      {
+        onAnswer: (sdp) => this.#signaling.send({ type: 'session.answer', session, sdp }),
+        onCandidate: (candidate) => this.#signaling.send({ type: 'session.candidate', session, candidate }),
+        onConnected: () => {
+          this.#heard(performance.now());
+          this.#keeper.onPeerConnected(performance.now());
+        },
+        onMessage: (channel, data) => {
+          if (peer !== this.#peer) return;
+          const nowMs = performance.now();
+          this.#heard(nowMs);
+          // What the robot sends here answers our clock probes.
+          if (channel === 'control') this.#keeper.onAnswered(nowMs);
+          this.#session.onMessage(channel, data, nowMs);
+        },
+        onFailed: (detail) => {
+          if (peer !== this.#peer) return;
+          console.warn('peer:', detail);
+          this.#keeper.onPeerFailed(performance.now());
+        },
+      },
+    );
+    this.#peer = peer;
+  }
+
+  #dropPeer(): void {
+    this.#peer?.close();
+    this.#peer = null;
+  }
+
+  #heard(nowMs: number): void {
+    this.#lastHeardMs = nowMs;
+    this.#keeper.onHeard(nowMs);
+  }
+
+  #tick(nowMs: number): void {
+    this.#keeper.tick(nowMs);
+    if (this.#keeper.phase === 'live' && nowMs >= this.#probeDueMs) {
+      this.#probeDueMs = nowMs + PROBE_MS;
+      this.#sendControl({ type: 'clockProbe', id: this.#session.nextProbeId(), sentMs: nowMs });
+    }
+  }
+}

@@ -1,0 +1,119 @@
+import { writePictureChunk } from '@farpoint/protocol';
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import { RobotSession } from './robot-session.ts';
+
+function bench(): { session: RobotSession; told: string[] } {
+  const told: string[] = [];
+  const tell = (what: string) => () => {
+    told.push(what);
+  };
+  const session = new RobotSession({
+    onWelcome: tell('welcome'),
+    onLease: tell('lease'),
+    onRejected: tell('rejected'),
+    onEstop: tell('estop'),
+    onLatencyFrame: tell('latencyFrame'),
+    onCloudStream: tell('cloudStream'),
+    onTelemetry: tell('telemetry'),
+    onReading: tell('reading'),
+    onCameras: tell('cameras'),
+    onSensors: tell('sensors'),
+    onPicture: tell('picture'),
+    onRobotFault: tell('fault'),
+  });
+  return { session, told };
+}
+
+function telemetry(sequence: number): string {
+  const zero = { x: 0, y: 0, z: 0 };
+  return JSON.stringify({
+    type: 'telemetry',
+    sequence,
+    timeMs: 1,
+    pose: { position: zero, orientation: { ...zero, w: 1 } },
+    twist: { linear: zero, angular: zero },
+    drive: 'idle',
+    stages: { captureMs: 0, sampleMs: 0, packMs: 0, sendMs: 0 },
+    stream: {
+      frameNumber: 0,
+      framesPerSecond: 0,
+      pointsPerFrame: 0,
+      validPoints: 0,
+      bitsPerSecond: 0,
+      targetBitsPerSecond: 0,
+      droppedFrames: 0,
+    },
+    operators: 1,
+  });
+}
+
+describe('RobotSession', () => {
+  test('keeps what the robot tells', () => {
+    const { session, told } = bench();
+    session.onMessage('session', '{"type":"lease","holder":"you","lease":"abc"}', 0);
+    session.onMessage('session', '{"type":"estop","latched":true,"by":"robot"}', 0);
+    session.onMessage('session', new TextEncoder().encode('{"type":"fault","message":"no"}'), 0);
+    expect(session.lease).toEqual({ type: 'lease', holder: 'you', lease: 'abc' });
+    expect(session.estop.latched).toBe(true);
+    expect(told).toEqual(['lease', 'estop', 'fault']);
+  });
+
+  test('older telemetry that comes later is left out, also across the wrap', () => {
+    const { session, told } = bench();
+    for (const sequence of [0xffffffff, 0, 0xfffffffe, 0, 1]) {
+      session.onMessage('telemetry', telemetry(sequence), 0);
+    }
+    expect(session.telemetry?.sequence).toBe(1);
+    expect(told).toHaveLength(3);
+  });
+
+  test('puts pictures together, and takes any bytes for them', () => {
+    const { session, told } = bench();
+    const chunk = new Uint8Array(1200);
+    const header = {
+      format: 'jpeg',
+      camera: 0,
+      width: 4,
+      height: 3,
+      pictureId: 1,
+      captureTimeUs: 5,
+    } as const;
+    const length = writePictureChunk(header, Uint8Array.from([1, 2, 3]), 0, chunk);
+    const message = chunk.slice(0, length).buffer;
+    session.onMessage('pictures', message, 0);
+    expect(told).toEqual([]);
+    session.onMessage('session', '{"type":"cameras","cameras":[{"name":"Front"}]}', 0);
+    session.onMessage('pictures', message, 0);
+    session.onMessage('pictures', 'text', 0);
+    expect(told).toEqual(['cameras', 'picture']);
+    expect(session.malformed).toBe(1);
+    fc.assert(
+      fc.property(fc.uint8Array({ maxLength: 1300, size: 'max' }), (bytes) => {
+        session.onMessage('pictures', bytes, 0);
+      }),
+      { seed: 6, numRuns: 500 },
+    );
+  });
+
+  test('ages stamps by the robot’s clock', () => {
+    const { session } = bench();
+    expect(session.ageMs(0, 0)).toBe(null);
+    // 10 ms round trip, robot 1000 ms ahead.
+    session.onMessage('control', '{"type":"clockAnswer","id":1,"sentMs":100,"robotMs":1105}', 110);
+    expect(session.ageMs(1_105_000, 110)).toBeCloseTo(5, 6);
+  });
+
+  test('whatever comes on any channel is counted, not thrown', () => {
+    const { session } = bench();
+    fc.assert(
+      fc.property(
+        fc.constantFrom('session' as const, 'telemetry' as const, 'control' as const),
+        fc.oneof(fc.string(), fc.json(), fc.uint8Array()),
+        (channel, data) => session.onMessage(channel, data, 0),
+      ),
+      { seed: 5 },
+    );
+    expect(session.malformed).toBeGreaterThan(0);
+  });
+});

@@ -1,0 +1,148 @@
+/** What the robot has told on its channels in this session. Takes bytes and the time; no channel, no clock. */
+import {
+  ageOfStampMs,
+  type Cameras,
+  ClockOffset,
+  type CloudStream,
+  type CommandRejected,
+  clockAnswerCodec,
+  decodeJson,
+  type EstopState,
+  type LatencyFrame,
+  type LeaseState,
+  type MessageData,
+  PictureAssembler,
+  ProtocolError,
+  type Reading,
+  robotSessionCodec,
+  type Sensors,
+  sequenceDelta32,
+  type Telemetry,
+  telemetryCodec,
+  type Welcome,
+  type WholePicture,
+} from '@farpoint/protocol';
+import { Readings } from './readings.ts';
+
+/** Channels by which the robot speaks. */
+export type RobotChannel = 'session' | 'telemetry' | 'control' | 'pictures';
+
+export interface RobotSessionEvents {
+  onWelcome(welcome: Welcome): void;
+  onLease(lease: LeaseState): void;
+  onRejected(rejected: CommandRejected): void;
+  onEstop(estop: EstopState): void;
+  onLatencyFrame(frame: LatencyFrame): void;
+  onTelemetry(telemetry: Telemetry): void;
+  /** The newest of its topic. */
+  onReading(reading: Reading): void;
+  /** What coded packets are decoded with. */
+  onCloudStream(stream: CloudStream): void;
+  /** The cameras whose pictures can be asked for. */
+  onCameras(cameras: Cameras['cameras']): void;
+  /** The sensors whose clouds can be had; told by robots that have more than one. */
+  onSensors(sensors: Sensors['sensors']): void;
+  onPicture(picture: WholePicture, nowMs: number): void;
+  /** The robot could not use a message of ours. */
+  onRobotFault(message: string): void;
+}
+
+export class RobotSession {
+  welcome: Welcome | null = null;
+  lease: LeaseState = { type: 'lease', holder: 'nobody' };
+  estop: EstopState = { type: 'estop', latched: false };
+  telemetry: Telemetry | null = null;
+  /** What the robot's sensors and topics say. */
+  readonly readings = new Readings();
+  readonly pictures = new PictureAssembler();
+  readonly clock = new ClockOffset();
+  /** Messages that are not of the protocol. */
+  malformed = 0;
+  #probeId = 0;
+  readonly #events: RobotSessionEvents;
+
+  constructor(events: RobotSessionEvents) {
+    this.#events = events;
+  }
+
+  onMessage(channel: RobotChannel, data: MessageData, nowMs: number): void {
+    try {
+      if (channel === 'session') this.#onSession(data);
+      else if (channel === 'telemetry') this.#onTelemetry(data, nowMs);
+      else if (channel === 'pictures') this.#onPicture(data, nowMs);
+      else this.clock.add(decodeJson(clockAnswerCodec, data), nowMs);
+    } catch (error) {
+      if (!(error instanceof ProtocolError)) throw error;
+      this.malformed++;
+    }
+  }
+
+  nextProbeId(): number {
+    this.#probeId = (this.#probeId + 1) >>> 0;
+    return this.#probeId;
+  }
+
+  /** How long ago a stamp of the robot's clock was, ms; `null` until its clock is known. */
+  ageMs(stampUs: number, nowMs: number): number | null {
+    const { offsetMs } = this.clock;
+    return offsetMs === null ? null : ageOfStampMs(stampUs, nowMs + offsetMs);
+  }
+
+  #onSession(data: MessageData): void {
+    const message = decodeJson(robotSessionCodec, data);
+    switch (message.type) {
+      case 'welcome':
+        this.welcome = message;
+        this.#events.onWelcome(message);
+        return;
+      case 'lease':
+        this.lease = message;
+        this.#events.onLease(message);
+        return;
+      case 'rejected':
+        this.#events.onRejected(message);
+        return;
+      case 'estop':
+        this.estop = message;
+        this.#events.onEstop(message);
+        return;
+      case 'latencyFrame':
+        this.#events.onLatencyFrame(message);
+        return;
+      case 'cloudStream':
+        this.#events.onCloudStream(message);
+        return;
+      case 'cameras':
+        this.pictures.cameras = message.cameras.length;
+        this.#events.onCameras(message.cameras);
+        return;
+      case 'sensors':
+        this.#events.onSensors(message.sensors);
+        return;
+      case 'fault':
+        this.#events.onRobotFault(message.message);
+        return;
+    }
+  }
+
+  #onPicture(data: MessageData, nowMs: number): void {
+    if (typeof data === 'string') {
+      this.malformed++;
+      return;
+    }
+    const picture = this.pictures.take(data instanceof ArrayBuffer ? new Uint8Array(data) : data);
+    if (picture !== null) this.#events.onPicture(picture, nowMs);
+  }
+
+  #onTelemetry(data: MessageData, nowMs: number): void {
+    const telemetry = decodeJson(telemetryCodec, data);
+    if (telemetry.type === 'reading') {
+      if (this.readings.take(telemetry, nowMs)) this.#events.onReading(telemetry);
+      return;
+    }
+    // Unordered: an older one that comes later tells nothing.
+    if (this.telemetry !== null && sequenceDelta32(telemetry.sequence, this.telemetry.sequence) <= 0) return;
+    this.telemetry = telemetry;
+    this.#events.onTelemetry(telemetry);
+  }
+}

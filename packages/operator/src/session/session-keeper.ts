@@ -1,0 +1,215 @@
+/**
+ * Keeps one media session with the wanted robot alive, without a socket, a peer connection or a clock: told what happens,
+ * it decides when to open, keep, give up and open again. A session lives on while its peers hear each other, whatever
+ * becomes of signaling.
+ */
+
+import type { RobotEndReason, RobotListing } from '@farpoint/protocol';
+import { Backoff } from '@farpoint/timing';
+import { ResumePolicy } from './resume-policy.ts';
+import { lossOf, type SessionLoss } from './session-loss.ts';
+
+export type SessionPhase =
+  | 'none' // no robot is wanted
+  | 'waiting' // the wanted robot, or the signaling service, is not here
+  | 'opening' // asked for, until the peer connection stands
+  | 'live'; // the peer connection stands
+
+export interface SessionActions {
+  requestSession(robotId: string): void;
+  /** Ask the robot to restart ICE in the session that stands. */
+  resumeSession(session: string, robotId: string): void;
+  /** Tell the service; the session may already be unknown to it. */
+  closeSession(session: string): void;
+  /** Close the peer connection, if there is one. */
+  dropPeer(): void;
+  onPhase(phase: SessionPhase): void;
+  onLoss(loss: SessionLoss): void;
+  /** Within a live session: the path is lost (`false`), or carries again. */
+  onPath(up: boolean): void;
+}
+
+/** From the request to a peer connection. */
+const OPEN_TIMEOUT_MS = 15_000;
+/** Then the robot has given the session up too. */
+const SILENCE_LIMIT_MS = 60_000;
+
+export class SessionKeeper {
+  readonly #actions: SessionActions;
+  readonly #backoff: Backoff;
+  #phase: SessionPhase = 'none';
+  #robotId: string | null = null;
+  #session: string | null = null;
+  #signalingReady = false;
+  #listed = false;
+  #deadlineMs = Number.POSITIVE_INFINITY;
+  #retryAtMs = 0;
+  readonly #resume = new ResumePolicy();
+  #pathUp = false;
+
+  constructor(actions: SessionActions, random: () => number) {
+    this.#actions = actions;
+    this.#backoff = new Backoff({ firstMs: 500, mostMs: 5000, random });
+  }
+
+  get phase(): SessionPhase {
+    return this.#phase;
+  }
+  get robotId(): string | null {
+    return this.#robotId;
+  }
+  get session(): string | null {
+    return this.#session;
+  }
+  /** Whether the wanted robot is in the service's list. */
+  get robotListed(): boolean {
+    return this.#listed;
+  }
+
+  /** The peer connection stands, but nothing comes through. */
+  get interrupted(): boolean {
+    return this.#phase === 'live' && !this.#pathUp;
+  }
+
+  want(robotId: string | null, robots: readonly RobotListing[], nowMs: number): void {
+    if (robotId === this.#robotId) return;
+    if (this.#phase === 'opening' || this.#phase === 'live') this.#endSession();
+    this.#robotId = robotId;
+    this.#retryAtMs = 0;
+    this.#backoff.reset();
+    this.#listed = robots.some((robot) => robot.id === robotId);
+    this.#enter(robotId === null ? 'none' : 'waiting');
+    this.tick(nowMs);
+  }
+
+  onSignaling(ready: boolean, nowMs: number): void {
+    if (ready === this.#signalingReady) return;
+    this.#signalingReady = ready;
+    if (!ready) {
+      if (this.#phase === 'opening') this.#lose('signaling-lost', nowMs);
+      return;
+    }
+    this.#resume.onSignalingBack();
+    this.tick(nowMs);
+  }
+
+  onRobots(robots: readonly RobotListing[], nowMs: number): void {
+    const listed = robots.some((robot) => robot.id === this.#robotId);
+    // It is back: do not let an old failure delay it.
+    if (listed && !this.#listed) {
+      this.#retryAtMs = 0;
+      this.#backoff.reset();
+      this.#resume.onSignalingBack();
+    }
+    this.#listed = listed;
+    this.tick(nowMs);
+  }
+
+  /** The service opened a session. @returns false where it is not the one we wait for: close it */
+  onOpened(session: string, robotId: string): boolean {
+    if (this.#phase !== 'opening' || this.#session !== null || robotId !== this.#robotId) return false;
+    this.#session = session;
+    return true;
+  }
+
+  onClosed(session: string, reason: RobotEndReason, nowMs: number): void {
+    if (session !== this.#session) return;
+    // Only its signaling went; the peers may still hear each other.
+    if (reason === 'robot-left' && this.#phase === 'live') return;
+    this.#lose(lossOf[reason], nowMs);
+    // It is here, and new.
+    if (reason === 'unknown-session') this.#retryAtMs = 0;
+    this.tick(nowMs);
+  }
+
+  /** The service refused a request of ours. `session` where it named one. */
+  onRefused(session: string | undefined, nowMs: number): void {
+    if (this.#phase !== 'opening') return;
+    if (session === undefined ? this.#session === null : session === this.#session) {
+      this.#lose('refused', nowMs);
+    }
+  }
+
+  onPeerConnected(nowMs: number): void {
+    if (this.#phase !== 'opening') return;
+    this.#resume.begin(nowMs);
+    this.#pathUp = true;
+    this.#deadlineMs = Number.POSITIVE_INFINITY;
+    this.#enter('live');
+  }
+
+  /** Any packet or message of the robot. */
+  onHeard(nowMs: number): void {
+    this.#resume.onHeard(nowMs);
+    if (this.#phase !== 'live') return;
+    this.#backoff.reset();
+    this.#notePath(nowMs);
+  }
+
+  /** The robot answered a clock probe: it hears us. */
+  onAnswered(nowMs: number): void {
+    this.#resume.onAnswered(nowMs);
+  }
+
+  /** The browser has another network, or none. */
+  onNetworkChange(nowMs: number): void {
+    this.#resume.onNetworkChange(nowMs);
+    this.tick(nowMs);
+  }
+
+  onPeerFailed(nowMs: number): void {
+    if (this.#phase === 'opening' || this.#phase === 'live') this.#lose('connection-failed', nowMs);
+  }
+
+  /** Call at least twice a second. */
+  tick(nowMs: number): void {
+    if (this.#phase === 'opening' && nowMs >= this.#deadlineMs) this.#lose('not-connected', nowMs);
+    if (this.#phase === 'live') {
+      const canAsk = this.#signalingReady && this.#listed;
+      const ask = this.#resume.tick(nowMs, canAsk);
+      this.#notePath(nowMs);
+      if (this.#resume.silentMs(nowMs) >= SILENCE_LIMIT_MS) this.#lose('silent', nowMs);
+      else if (ask && this.#session !== null && this.#robotId !== null) {
+        this.#actions.resumeSession(this.#session, this.#robotId);
+      }
+    }
+    if (
+      this.#phase === 'waiting' &&
+      this.#robotId !== null &&
+      this.#signalingReady &&
+      this.#listed &&
+      nowMs >= this.#retryAtMs
+    ) {
+      this.#deadlineMs = nowMs + OPEN_TIMEOUT_MS;
+      this.#enter('opening');
+      this.#actions.requestSession(this.#robotId);
+    }
+  }
+
+  #notePath(nowMs: number): void {
+    const up = !this.#resume.lost(nowMs);
+    if (up === this.#pathUp) return;
+    this.#pathUp = up;
+    this.#actions.onPath(up);
+  }
+
+  #lose(loss: SessionLoss, nowMs: number): void {
+    this.#endSession();
+    this.#retryAtMs = nowMs + this.#backoff.nextMs();
+    this.#actions.onLoss(loss);
+    this.#enter('waiting');
+  }
+
+  #endSession(): void {
+    if (this.#session !== null) this.#actions.closeSession(this.#session);
+    this.#session = null;
+    this.#deadlineMs = Number.POSITIVE_INFINITY;
+    this.#actions.dropPeer();
+  }
+
+  #enter(phase: SessionPhase): void {
+    if (phase === this.#phase) return;
+    this.#phase = phase;
+    this.#actions.onPhase(phase);
+  }
+}

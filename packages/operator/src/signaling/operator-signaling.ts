@@ -1,0 +1,196 @@
+/**
+ * The operator's side of Farpoint's signaling, without a socket or a clock: what comes in are events, what goes out are
+ * calls on the port. Reconnects for ever.
+ */
+
+import {
+  applyRobotsChanged,
+  decodeJson,
+  encodeJson,
+  type IceServer,
+  type MessageData,
+  type OperatorToService,
+  operatorToServiceCodec,
+  PROTOCOL_VERSION,
+  ProtocolError,
+  type RobotListing,
+  type ServiceToOperator,
+  serviceToOperatorCodec,
+} from '@farpoint/protocol';
+import { Reconnect } from '@farpoint/timing';
+import type { SignalingState } from './signaling-state.ts';
+
+/** The socket and the timer. */
+export interface SignalingPort {
+  /** Opens a new socket; the machine has at most one. */
+  open(): void;
+  send(text: string): void;
+  close(): void;
+  /** Calls {@link OperatorSignaling.onTimer} once after `ms`; a later call replaces the earlier. */
+  setTimer(ms: number): void;
+}
+
+export interface SignalingEvents {
+  onState(state: SignalingState): void;
+  onRobots(robots: readonly RobotListing[]): void;
+  /** Every message about sessions, and errors. */
+  onSession(message: SessionSignal): void;
+  /** The service said something that is not of this protocol. */
+  onFault(error: ProtocolError): void;
+}
+
+export type SessionSignal = Exclude<
+  ServiceToOperator,
+  { type: 'operator.welcome' } | { type: 'robots' } | { type: 'robots.changed' }
+>;
+
+const REFUSED_RETRY_MS = 30_000;
+/** A question that the service answers by itself: without an answer by then the line is dead, ms. */
+const ANSWER_TIMEOUT_MS = 2000;
+
+export class OperatorSignaling {
+  readonly #port: SignalingPort;
+  readonly #events: SignalingEvents;
+  readonly #reconnect: Reconnect;
+  readonly #name: string;
+  readonly #token: string | undefined;
+  #state: SignalingState = 'stopped';
+  #answerDue = false;
+  #iceServers: readonly IceServer[] = [];
+  #robots: readonly RobotListing[] = [];
+
+  constructor(
+    identity: { name: string; token?: string | undefined },
+    port: SignalingPort,
+    events: SignalingEvents,
+    random: () => number,
+  ) {
+    this.#name = identity.name;
+    this.#token = identity.token;
+    this.#port = port;
+    this.#events = events;
+    this.#reconnect = new Reconnect(random);
+  }
+
+  get state(): SignalingState {
+    return this.#state;
+  }
+
+  /** What the service handed out at the last welcome. */
+  get iceServers(): readonly IceServer[] {
+    return this.#iceServers;
+  }
+
+  start(): void {
+    if (this.#state === 'stopped') this.#connect();
+  }
+
+  stop(): void {
+    if (this.#state === 'stopped') return;
+    this.#port.close();
+    this.#enter('stopped');
+  }
+
+  /** @returns whether it could be sent now */
+  send(message: OperatorToService): boolean {
+    if (this.#state !== 'ready') return false;
+    this.#port.send(encodeJson(operatorToServiceCodec, message));
+    return true;
+  }
+
+  /** Sends what the service answers at once. A line that stays silent then is given up, and made anew. */
+  ask(message: OperatorToService): boolean {
+    if (!this.send(message)) return false;
+    if (!this.#answerDue) this.#port.setTimer(ANSWER_TIMEOUT_MS);
+    this.#answerDue = true;
+    return true;
+  }
+
+  onOpen(): void {
+    if (this.#state !== 'connecting') return;
+    const token = this.#token === undefined ? {} : { token: this.#token };
+    const hello = {
+      type: 'operator.hello',
+      protocol: PROTOCOL_VERSION,
+      name: this.#name,
+      ...token,
+    } as const;
+    this.#port.send(encodeJson(operatorToServiceCodec, hello));
+  }
+
+  /** The socket is gone, whoever closed it. */
+  onClose(): void {
+    if (this.#state !== 'connecting' && this.#state !== 'ready') return;
+    this.#enter('waiting');
+    this.#port.setTimer(this.#reconnect.nextMs());
+  }
+
+  onTimer(): void {
+    if (this.#state === 'connecting') {
+      this.#port.close();
+      this.onClose();
+    } else if (this.#state === 'ready') {
+      if (!this.#answerDue) return;
+      this.#port.close();
+      this.#connect();
+    } else if (this.#state === 'waiting' || this.#state === 'refused') {
+      this.#connect();
+    }
+  }
+
+  /** The network came back, or the person asks: do not wait any longer. */
+  retryNow(): void {
+    if (this.#state === 'waiting' || this.#state === 'refused') this.#connect();
+  }
+
+  onMessage(data: MessageData): void {
+    if (this.#state !== 'connecting' && this.#state !== 'ready') return;
+    this.#answerDue = false;
+    let message: ServiceToOperator;
+    try {
+      message = decodeJson(serviceToOperatorCodec, data);
+    } catch (error) {
+      if (!(error instanceof ProtocolError)) throw error;
+      this.#events.onFault(error);
+      return;
+    }
+    switch (message.type) {
+      case 'operator.welcome':
+        this.#reconnect.reset();
+        this.#iceServers = message.iceServers;
+        this.#enter('ready');
+        return;
+      case 'robots':
+        this.#robots = message.robots;
+        this.#events.onRobots(this.#robots);
+        return;
+      case 'robots.changed':
+        this.#robots = applyRobotsChanged(this.#robots, message);
+        this.#events.onRobots(this.#robots);
+        return;
+      case 'error':
+        if (message.code === 'unauthorized') {
+          this.#port.close();
+          this.#enter('refused');
+          this.#port.setTimer(REFUSED_RETRY_MS);
+        }
+        this.#events.onSession(message);
+        return;
+      default:
+        this.#events.onSession(message);
+    }
+  }
+
+  #connect(): void {
+    this.#answerDue = false;
+    this.#enter('connecting');
+    this.#port.setTimer(this.#reconnect.timeoutMs);
+    this.#port.open();
+  }
+
+  #enter(state: SignalingState): void {
+    if (state === this.#state) return;
+    this.#state = state;
+    this.#events.onState(state);
+  }
+}

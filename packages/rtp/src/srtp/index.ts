@@ -1,0 +1,3 @@
+export * from './srtp-nonce.ts';
+export * from './srtp-opener.ts';
+export * from './srtp-sealer.ts';

@@ -1,0 +1,48 @@
+import type { PacketResult } from './packet-result.ts';
+import { SentPacketHistory } from './sent-packet-history.ts';
+import type { TransportFeedback } from './transport-feedback.ts';
+
+/** The reference time has 24 bits of 64 ms. */
+const REFERENCE_WRAP_US = 2 ** 24 * 64_000;
+
+/** Joins transport-wide feedback with what was sent, and makes its arrival times continuous. */
+export class TransportFeedbackAdapter {
+  readonly #history: SentPacketHistory;
+  #lastReferenceUs: number | null = null;
+  #wrapsUs = 0;
+  /** Packets that feedback named and the history did not know: reported twice, too old, or never sent. */
+  unknownPackets = 0;
+
+  constructor(history: SentPacketHistory = new SentPacketHistory()) {
+    this.#history = history;
+  }
+
+  onPacketSent(transportSequence: number, bytes: number, nowMs: number): void {
+    this.#history.add(transportSequence, bytes, nowMs);
+  }
+
+  /** @returns what became of each known packet, in the order of sequence numbers */
+  onFeedback(feedback: TransportFeedback, nowMs: number): PacketResult[] {
+    const last = this.#lastReferenceUs ?? feedback.referenceTimeUs;
+    const step = feedback.referenceTimeUs - last;
+    if (step < -REFERENCE_WRAP_US / 2) this.#wrapsUs += REFERENCE_WRAP_US;
+    else if (step > REFERENCE_WRAP_US / 2) this.#wrapsUs -= REFERENCE_WRAP_US;
+    this.#lastReferenceUs = feedback.referenceTimeUs;
+
+    const results: PacketResult[] = [];
+    for (const { sequence, arrivalUs } of feedback.packets) {
+      const sent = this.#history.take(sequence, nowMs);
+      if (sent === null) {
+        this.unknownPackets++;
+        continue;
+      }
+      results.push({
+        transportSequence: sequence,
+        bytes: sent.bytes,
+        sentMs: sent.sentMs,
+        arrivalUs: arrivalUs === null ? null : arrivalUs + this.#wrapsUs,
+      });
+    }
+    return results;
+  }
+}

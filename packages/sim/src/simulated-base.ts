@@ -1,0 +1,193 @@
+import type { Pose, Twist } from '@farpoint/protocol';
+import { Battery, type BatteryState } from './battery.ts';
+import { CollisionWorld, staticObstacles } from './collision.ts';
+import { DifferentialDrive, type RobotLimits } from './drive.ts';
+import { requireFinite, SimulationError } from './errors.ts';
+import { MovingBody } from './movers.ts';
+import { cos, sin, wrapAngle } from './trigonometry.ts';
+import type { WorldDescription } from './world.ts';
+import { basePose, type WorldSnapshot } from './world-snapshot.ts';
+
+/** Length of one internal step, seconds: 2 mm of travel at 1 m/s. */
+export const TIME_STEP = 0.002;
+const DOCK_REACH = 0.2;
+/** A call may not ask for more than this; it would block the process for long. */
+const MAX_SECONDS_PER_CALL = 600;
+
+export interface BaseState {
+  /** Simulated seconds since the start. */
+  time: number;
+  /** base_link in the world: on the floor, between the wheels. */
+  pose: Pose;
+  yaw: number;
+  /** Actual velocity in base_link. */
+  twist: Twist;
+  /** Radians turned since the start, and rad/s. */
+  wheelAngles: { left: number; right: number };
+  wheelSpeeds: { left: number; right: number };
+  battery: BatteryState;
+  /** Whether the robot touched something during the last `step`. */
+  collision: boolean;
+  /** Metres driven, forwards and backwards. */
+  odometryDistance: number;
+}
+
+/**
+ * A wheeled base in a world of walls, furniture, people and carts. Same commands, same steps: same motion, to the bit. No
+ * clock is read.
+ */
+export class SimulatedBase {
+  readonly world: WorldDescription;
+  readonly #drive: DifferentialDrive;
+  readonly #battery = new Battery();
+  readonly #collisions: CollisionWorld;
+  readonly #movers: MovingBody[];
+  #steps = 0;
+  #unspent = 0;
+  #position: { x: number; y: number };
+  #yaw: number;
+  #wheelAngles = { left: 0, right: 0 };
+  #distance = 0;
+  #collision = false;
+
+  /** @throws SimulationError for a world or limits that make no sense */
+  constructor(world: WorldDescription, limits?: Partial<RobotLimits>) {
+    this.world = world;
+    this.#drive = new DifferentialDrive(limits);
+    this.#movers = world.movers.map((mover) => new MovingBody(mover));
+    this.#collisions = new CollisionWorld(
+      staticObstacles(world),
+      this.#movers.map((body) => body.obstacle),
+    );
+    this.#position = { x: world.start.x, y: world.start.y };
+    this.#yaw = world.start.yaw;
+    if (this.clearance < 0) {
+      throw new SimulationError('bad-world', 'start', 'the robot would stand in something');
+    }
+  }
+
+  /**
+   * Sets the wanted velocity, kept until the next call: linear.x and angular.z, clamped to the limits.
+   *
+   * @throws SimulationError `not-finite`; the old command stays
+   */
+  setCommand(twist: Twist): void {
+    this.#drive.command(twist);
+  }
+
+  /**
+   * Lets time pass, in whole internal steps of 2 ms; what is left over counts towards the next call.
+   *
+   * @throws SimulationError for a duration that is not finite, negative or above ten minutes
+   */
+  step(seconds: number): void {
+    requireFinite(seconds, 'step');
+    if (seconds < 0 || seconds > MAX_SECONDS_PER_CALL) {
+      throw new SimulationError(
+        'out-of-range',
+        'step',
+        `${seconds} s is not between 0 and ${MAX_SECONDS_PER_CALL}`,
+      );
+    }
+    this.#unspent += seconds;
+    // A hair more, so that 500 calls of 0.002 s are 500 steps.
+    const steps = Math.floor(this.#unspent / TIME_STEP + 1e-6);
+    this.#unspent -= steps * TIME_STEP;
+    if (steps > 0) this.#collision = false;
+    for (let i = 0; i < steps; i++) this.#advance();
+  }
+
+  #advance(): void {
+    const drive = this.#drive;
+    const before = drive.linear;
+    for (const mover of this.#movers) mover.step(TIME_STEP, this.#position, drive.limits.radius);
+    drive.step(TIME_STEP, !this.#battery.empty);
+
+    // Along the chord of the arc: exact to third order in the step.
+    const heading = this.#yaw + (drive.angular * TIME_STEP) / 2;
+    const [c, s] = [cos(heading), sin(heading)];
+    const travel = drive.linear * TIME_STEP;
+    const from = this.#position;
+    const to = { x: from.x + travel * c, y: from.y + travel * s };
+    const { x, y, contact } = this.#collisions.move(from, to, drive.limits.radius);
+    if (contact) {
+      this.#collision = true;
+      // What is left of the speed is what was driven; contact never pushes.
+      const driven = ((x - from.x) * c + (y - from.y) * s) / TIME_STEP;
+      drive.linear = drive.linear > 0 ? clamp(driven, 0, drive.linear) : clamp(driven, drive.linear, 0);
+    }
+    this.#position = { x, y };
+    this.#yaw = wrapAngle(this.#yaw + drive.angular * TIME_STEP);
+    const wheels = drive.wheelSpeeds;
+    this.#wheelAngles.left += wheels.left * TIME_STEP;
+    this.#wheelAngles.right += wheels.right * TIME_STEP;
+    this.#distance += Math.abs(drive.linear) * TIME_STEP;
+    const acceleration = (drive.linear - before) / TIME_STEP;
+    this.#battery.step(TIME_STEP, drive.linear, drive.angular, acceleration, this.#docked);
+    this.#steps++;
+  }
+
+  get #docked(): boolean {
+    const { dock } = this.world;
+    if (!dock || Math.abs(this.#drive.linear) > 0.05) return false;
+    const [dx, dy] = [dock.x - this.#position.x, dock.y - this.#position.y];
+    return dx * dx + dy * dy < DOCK_REACH * DOCK_REACH;
+  }
+
+  /** Metres between the robot's edge and the nearest obstacle. */
+  get clearance(): number {
+    return this.#collisions.clearance(this.#position.x, this.#position.y) - this.#drive.limits.radius;
+  }
+
+  get state(): BaseState {
+    return {
+      time: this.#steps * TIME_STEP,
+      pose: basePose({ ...this.#position, yaw: this.#yaw }),
+      yaw: this.#yaw,
+      twist: this.#drive.twist,
+      wheelAngles: { ...this.#wheelAngles },
+      wheelSpeeds: this.#drive.wheelSpeeds,
+      battery: this.#battery.state,
+      collision: this.#collision,
+      odometryDistance: this.#distance,
+    };
+  }
+
+  /** What sensors see now. */
+  get snapshot(): WorldSnapshot {
+    return {
+      time: this.#steps * TIME_STEP,
+      ...this.#position,
+      yaw: this.#yaw,
+      bodies: this.#movers.map(({ obstacle: { x, y, cos, sin }, walked }) => ({ x, y, cos, sin, walked })),
+    };
+  }
+
+  /** Puts the robot somewhere else, at rest. @throws SimulationError when it would stand in something */
+  teleport(x: number, y: number, yaw: number): void {
+    requireFinite(x, 'teleport.x');
+    requireFinite(y, 'teleport.y');
+    requireFinite(yaw, 'teleport.yaw');
+    if (this.#collisions.clearance(x, y) < this.#drive.limits.radius) {
+      throw new SimulationError('out-of-range', 'teleport', `(${x}, ${y}) is not free`);
+    }
+    this.#position = { x, y };
+    this.#yaw = wrapAngle(yaw);
+    this.#drive.linear = 0;
+    this.#drive.angular = 0;
+  }
+
+  /** Where people and carts are. */
+  get movers(): readonly { name: string; x: number; y: number; walking: boolean }[] {
+    return this.#movers.map((body) => ({
+      name: body.mover.name,
+      x: body.obstacle.x,
+      y: body.obstacle.y,
+      walking: body.moving && body.mover.speed > 0,
+    }));
+  }
+}
+
+function clamp(value: number, low: number, high: number): number {
+  return Math.min(high, Math.max(low, value));
+}

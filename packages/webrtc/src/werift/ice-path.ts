@@ -1,0 +1,83 @@
+import { Buffer } from 'node:buffer';
+import type { Socket } from 'node:dgram';
+import type { RTCDtlsTransport } from 'werift';
+import { guardSocket } from './ice-sockets.ts';
+
+/** A socket on which more than this waits, bytes, gets no more for now: the kernel's queue is full already. */
+const MAX_SOCKET_BACKLOG = 524_288;
+
+interface UdpPath {
+  socket: Socket;
+  address: string;
+  port: number;
+}
+
+interface StunProtocolShape {
+  type: string;
+  transport: { type: string; closed: boolean; socket: Socket };
+}
+
+/** The peer as ICE sees it now: datagrams go straight to the socket where the path is plain UDP. */
+export class IcePath {
+  readonly #dtls: RTCDtlsTransport;
+  #udp: UdpPath | null = null;
+  #seen = '';
+  /** Datagrams that a relay or TCP path refused. */
+  failed = 0;
+
+  constructor(dtls: RTCDtlsTransport) {
+    this.#dtls = dtls;
+  }
+
+  /**
+   * Looks the selected pair up again; call before each burst.
+   *
+   * @returns false where nothing may be sent: no pair, the peer's consent (RFC 7675) has run out, a socket that is full
+   */
+  refresh(): boolean {
+    this.#udp = null;
+    const { connection } = this.#dtls.iceTransport;
+    const pair = connection.nominated;
+    if (pair === undefined || connection.state === 'closed' || connection.state === 'failed') return false;
+    if ('consentFresh' in connection && connection.consentFresh === false) return false;
+    const protocol = pair.protocol as unknown as Partial<StunProtocolShape>;
+    const transport = protocol.transport;
+    if (
+      protocol.type !== 'stun' ||
+      transport?.type !== 'udp' ||
+      typeof transport.socket?.send !== 'function'
+    ) {
+      return true;
+    }
+    if (transport.closed || transport.socket.getSendQueueSize() > MAX_SOCKET_BACKLOG) return false;
+    guardSocket(transport.socket);
+    this.#udp = { socket: transport.socket, address: pair.remoteAddr[0], port: pair.remoteAddr[1] };
+    return true;
+  }
+
+  /** @returns whether the peer was heard on the selected pair since the last call: data, or a connectivity check */
+  heardSinceLast(): boolean {
+    const pair = this.#dtls.iceTransport.connection.nominated;
+    if (pair === undefined) return false;
+    const seen = `${pair.id} ${pair.packetsReceived} ${pair.requestsReceived} ${pair.responsesReceived}`;
+    if (seen === this.#seen) return false;
+    this.#seen = seen;
+    return true;
+  }
+
+  /** Sends the parts as one datagram. They must not be changed before the next turn of the event loop. */
+  send(parts: readonly Buffer[]): void {
+    const udp = this.#udp;
+    if (udp !== null) {
+      udp.socket.send(parts as Buffer[], udp.port, udp.address);
+      return;
+    }
+    this.#dtls.iceTransport.connection.send(concat(parts)).catch(() => {
+      this.failed++;
+    });
+  }
+}
+
+function concat(parts: readonly Buffer[]): Buffer {
+  return Buffer.concat(parts as Buffer[]);
+}

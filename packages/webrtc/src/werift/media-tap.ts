@@ -1,0 +1,83 @@
+/** What we need of a connected werift DTLS transport to send and receive RTP ourselves: keys, and what it deciphers. */
+import { Buffer } from 'node:buffer';
+import { RTCP_TRANSPORT_FEEDBACK } from '@farpoint/rtp';
+import type { RTCDtlsTransport } from 'werift';
+import { WeriftShapeError } from './werift-shape.ts';
+
+const NO_RTCP = Buffer.alloc(0);
+/** What werift gets to parse instead of a packet: an RTP header of no stream that it knows. */
+const NO_RTP = Buffer.from([0x80, 0x7f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
+
+export interface SrtpKeys {
+  /** SRTP protection profile (RFC 5764 §4.1.2). */
+  profile: number;
+  /** Session key. */
+  key: Uint8Array;
+  /** Session salt; the first 12 bytes count. */
+  salt: Uint8Array;
+}
+
+type Deciphering = 'srtp' | 'srtcp';
+
+/** @throws {WeriftShapeError} for a werift that is built differently, and before DTLS has connected */
+export function srtpKeys(dtls: RTCDtlsTransport, direction: 'incoming' | 'outgoing'): SrtpKeys {
+  const context = direction === 'incoming' ? dtls.srtp?.remoteContext : dtls.srtp?.localContext;
+  if (context === undefined) throw new WeriftShapeError('no SRTP context after DTLS connected');
+  const { profile, srtpSessionKey: key, srtpSessionSalt: salt } = context;
+  if (!(key instanceof Uint8Array) || !(salt instanceof Uint8Array)) {
+    throw new WeriftShapeError('unknown SRTP key layout');
+  }
+  return { profile, key, salt };
+}
+
+/**
+ * Hands every decrypted RTCP compound packet to `tap`. Feedback on packets goes to it alone: werift would read it again,
+ * for packets that it never sent.
+ *
+ * @throws {WeriftShapeError}
+ */
+export function tapRtcp(dtls: RTCDtlsTransport, tap: (compound: Uint8Array) => void): void {
+  intercept(dtls, 'srtcp', (data, decipher) => {
+    const compound = decipher(data);
+    tap(compound);
+    return compound[1] === RTCP_TRANSPORT_FEEDBACK ? NO_RTCP : compound;
+  });
+}
+
+/** Hands every decrypted RTP packet to `tap`, header and all, before werift parses it. @throws {WeriftShapeError} */
+export function tapRtp(dtls: RTCDtlsTransport, tap: (packet: Buffer) => void): void {
+  intercept(dtls, 'srtp', (data, decipher) => {
+    const packet = decipher(data);
+    tap(packet);
+    return packet;
+  });
+}
+
+/**
+ * Hands every RTP packet to `take`, sealed as it came, and none to werift.
+ *
+ * @param take gets werift's own deciphering, for what it cannot open itself; that throws for what is not authentic
+ * @throws {WeriftShapeError}
+ */
+export function takeRtp(
+  dtls: RTCDtlsTransport,
+  take: (sealed: Buffer, decipher: (sealed: Buffer) => Buffer) => void,
+): void {
+  intercept(dtls, 'srtp', (data, decipher) => {
+    take(data, decipher);
+    return NO_RTP;
+  });
+}
+
+function intercept(
+  dtls: RTCDtlsTransport,
+  which: Deciphering,
+  by: (data: Buffer, decipher: (data: Buffer) => Buffer) => Buffer,
+): void {
+  const session = dtls[which];
+  if (typeof session?.decrypt !== 'function') {
+    throw new WeriftShapeError(`no ${which.toUpperCase()} context after DTLS connected`);
+  }
+  const decipher = session.decrypt;
+  session.decrypt = (data: Buffer) => by(data, decipher);
+}

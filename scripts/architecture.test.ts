@@ -1,0 +1,92 @@
+/** docs/architecture.md says which room may use which: here it is held against what the sources import. */
+import { dirname } from 'node:path';
+import { describe, expect, test } from 'vitest';
+import { cycles } from './lib/cycles.ts';
+import { importedFiles } from './lib/file-imports.ts';
+import { importedPackages } from './lib/package-imports.ts';
+import { allowedFolders, parseRooms } from './lib/rooms.ts';
+import { workspaceFiles as files, readWorkspaceFile as read } from './lib/workspace-files.ts';
+
+const MAX_LINES = 300;
+const DEVELOPERS = /\.test\.ts$|\/(?:testing|deploy|vectors)\/|(?:\.config|\/build)\.ts$/;
+
+const rooms = parseRooms(read('docs/architecture.md'));
+const manifests = files.filter((file) =>
+  /^(?:(?:packages|apps)\/[^/]+|wasm-codec|e2e|bench)\/package\.json$/.test(file),
+);
+const folders = manifests.map((file) => dirname(file));
+const folderOf = new Map(
+  manifests.map((file) => [(JSON.parse(read(file)) as { name: string }).name, dirname(file)]),
+);
+const sources = new Map(
+  files
+    .filter((file) => file.endsWith('.ts') && !file.endsWith('.d.ts') && !/\/(?:pkg|dist)\//.test(file))
+    .map((file) => [file, read(file)]),
+);
+
+/** Rooms that a room's sources use; its tests and what only developers run are left out. */
+function usedBy(folder: string): Map<string, string> {
+  const used = new Map<string, string>();
+  for (const [file, text] of sources) {
+    if (!file.startsWith(`${folder}/`) || DEVELOPERS.test(file)) continue;
+    for (const name of importedPackages(text)) {
+      const target = folderOf.get(name);
+      if (target !== undefined && target !== folder) used.set(target, file);
+    }
+  }
+  return used;
+}
+
+describe('the map', () => {
+  test('has a row for each folder of the workspace, and for no other', () => {
+    expect(rooms.map(({ folder }) => folder).sort()).toEqual([...folders].sort());
+  });
+
+  test.each(rooms)('$folder uses what it may', (room) => {
+    const allowed = allowedFolders(room, rooms);
+    const faults = [...usedBy(room.folder)].filter(([target]) => !allowed.has(target));
+    expect(faults.map(([target, file]) => `${file} uses ${target}`)).toEqual([]);
+  });
+
+  test('has no circle', () => {
+    expect(cycles(new Map(folders.map((folder) => [folder, usedBy(folder).keys()])))).toEqual([]);
+  });
+});
+
+test('every file that CONTRIBUTING.md names is there', () => {
+  const named = [...read('CONTRIBUTING.md').matchAll(/\]\(([\w./-]+\.ts)\)/g)].map(([, file]) => file!);
+  expect(named.length).toBeGreaterThanOrEqual(10);
+  expect(named.filter((file) => !sources.has(file))).toEqual([]);
+});
+
+/** What runs in a browser; a part of it that is for Node alone has an export of its own. */
+const BROWSER = /^(?:packages\/(?:protocol|timing|rtp|operator|cloud-view)|apps\/webxr)\/src\//;
+const FOR_NODE = /^packages\/rtp\/src\/srtp\//;
+
+test('what runs in a browser uses nothing of Node', () => {
+  const faults = [...sources]
+    .filter(([file]) => BROWSER.test(file) && !FOR_NODE.test(file) && !DEVELOPERS.test(file))
+    .filter(([, text]) => /from 'node:/.test(text))
+    .map(([file]) => file);
+  expect(faults).toEqual([]);
+});
+
+describe('sources', () => {
+  test('no file imports itself by way of others', () => {
+    const graph = new Map(
+      [...sources].map(([file, text]) => [
+        file,
+        [...importedFiles(file, text)].filter((target) => sources.has(target)),
+      ]),
+    );
+    expect(cycles(graph)).toEqual([]);
+  });
+
+  test(`none is longer than ${MAX_LINES} lines`, () => {
+    const long = [...sources]
+      .filter(([file]) => !/\.test\.ts$/.test(file))
+      .map(([file, text]) => ({ file, lines: text.split('\n').length - 1 }))
+      .filter(({ lines }) => lines > MAX_LINES);
+    expect(long).toEqual([]);
+  });
+});

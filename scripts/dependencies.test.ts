@@ -1,0 +1,103 @@
+/** What a package imports it declares, and what it declares it uses: else it works by luck, or installs what nobody needs. */
+import { dirname } from 'node:path';
+import { describe, expect, test } from 'vitest';
+import { parse } from 'yaml';
+import * as z from 'zod';
+import { importedPackages } from './lib/package-imports.ts';
+import { workspaceFiles as files, readWorkspaceFile as read } from './lib/workspace-files.ts';
+
+const record = z.record(z.string(), z.string()).default({});
+const manifestSchema = z.object({
+  name: z.string(),
+  dependencies: record,
+  devDependencies: record,
+  peerDependencies: record,
+  scripts: record,
+  /** Of a package that is published: what it imports of ours is bundled into it. */
+  publishConfig: z.object({}).optional(),
+});
+
+const packages = files
+  .filter((file) => /(^|\/)package\.json$/.test(file) && !file.includes('/fixtures/'))
+  .map((file) => ({ folder: dirname(file), ...manifestSchema.parse(JSON.parse(read(file))) }));
+/** The deepest package that a file lies in. */
+const ownerOf = (file: string) =>
+  packages
+    .filter(({ folder }) => folder === '.' || file.startsWith(`${folder}/`))
+    .reduce((best, each) => (each.folder.length >= best.folder.length || best.folder === '.' ? each : best));
+
+const SOURCE = /\.(?:ts|tsx|mts|js|mjs|cjs)$/;
+/** What only tests, benchmarks and builds run: devDependencies do for it. */
+const FOR_DEVELOPERS =
+  /^(?:bench|e2e|scripts)\/|\.test\.ts$|\/(?:testing|deploy)\/|(?:\.config|^[^/]*|\/build)\.ts$/;
+/** Their texts import what they themselves do not. */
+const EXAMPLES = [
+  'scripts/lib/package-imports.test.ts',
+  'scripts/lib/file-imports.test.ts',
+  'e2e/tests/own-page.spec.ts',
+];
+const sources = files.filter(
+  (file) => SOURCE.test(file) && !/(^|\/)(?:pkg|dist)\//.test(file) && !EXAMPLES.includes(file),
+);
+const byPackage = new Map(packages.map((each) => [each.name, [] as { file: string; text: string }[]]));
+for (const file of sources) byPackage.get(ownerOf(file).name)!.push({ file, text: read(file) });
+
+/** The test runner and its helper, which every package's tests find in the workspace's root. */
+const EVERYWHERE = new Set(['vitest', 'fast-check']);
+/** Ambient types, named in a tsconfig.json rather than imported. */
+const TYPES_OF_THE_PLATFORM = new Set(['@types/node', '@types/webxr']);
+/** The programs of packages that scripts run under another name. */
+const PROGRAMS: Readonly<Record<string, string>> = { '@biomejs/biome': 'biome', typescript: 'tsc' };
+/** Of the user's own installation, named by configuration. */
+const FOREIGN = new Set(['rclnodejs']);
+
+describe.each(packages)('$name', (manifest) => {
+  const own = byPackage.get(manifest.name)!;
+  const declared = {
+    ...manifest.devDependencies,
+    ...manifest.peerDependencies,
+    ...manifest.dependencies,
+  };
+
+  test('declares what it imports', () => {
+    const missing = own.flatMap(({ file, text }) => {
+      const developers = manifest.publishConfig !== undefined || FOR_DEVELOPERS.test(file);
+      return [...importedPackages(text)]
+        .filter((name) => name !== manifest.name && !FOREIGN.has(name))
+        .filter((name) => {
+          if (!developers) return !(name in manifest.dependencies || name in manifest.peerDependencies);
+          return !(name in declared || EVERYWHERE.has(name));
+        })
+        .map((name) => `${file}: ${name}`);
+    });
+    expect(missing).toEqual([]);
+  });
+
+  test('uses what it declares', () => {
+    const imported = new Set(own.flatMap(({ text }) => [...importedPackages(text)]));
+    const scripts = Object.values(manifest.scripts).join('\n');
+    const unused = Object.keys(declared).filter((name) => {
+      if (imported.has(name)) return false;
+      // Types are used by who uses what they describe.
+      const typed = /^@types\/(?<of>.+)$/.exec(name)?.groups?.of?.replace('__', '/');
+      if (typed !== undefined) {
+        const described = typed.includes('/') ? `@${typed}` : typed;
+        return !(imported.has(described) || TYPES_OF_THE_PLATFORM.has(name));
+      }
+      return !new RegExp(`(^|\\s)${PROGRAMS[name] ?? name}(\\s|$)`, 'm').test(scripts);
+    });
+    expect(unused).toEqual([]);
+  });
+});
+
+test('every version of the catalog is some package’s', () => {
+  const { catalog } = z.object({ catalog: record }).parse(parse(read('pnpm-workspace.yaml')));
+  const used = new Set(
+    packages.flatMap(({ dependencies, devDependencies }) =>
+      Object.entries({ ...devDependencies, ...dependencies })
+        .filter(([, version]) => version === 'catalog:')
+        .map(([name]) => name),
+    ),
+  );
+  expect(Object.keys(catalog).filter((name) => !used.has(name))).toEqual([]);
+});

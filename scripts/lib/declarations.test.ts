@@ -1,0 +1,54 @@
+import { expect, test } from 'vitest';
+import { publicDeclaration, references } from './declarations.ts';
+
+const name = (it: string) => (it === '@farpoint/protocol' ? '../protocol/index.js' : it);
+
+test('schemas go, the types beside them stay', () => {
+  const text = `import * as z from 'zod';
+import type { Pose } from './pose.ts';
+export interface Speed {
+    x: number;
+}
+export interface Codec<T> {
+    readonly schema: z.ZodType<T>;
+}
+export declare const speedSchema: z.ZodObject<{
+    x: z.ZodNumber;
+}, z.core.$strip>;
+declare const one: z.ZodString;
+export type One = z.infer<typeof one>;
+export declare const MOST: 5;
+`;
+  expect(publicDeclaration(text, name)).toEqual({
+    text: `import type { Pose } from './pose.js';
+export interface Speed {
+    x: number;
+}
+export interface Codec<T> {
+    readonly schema: unknown;
+}
+export type One = unknown;
+export declare const MOST: 5;
+`,
+    opaque: ['One'],
+  });
+});
+
+test('private packages are found beside, others by their name', () => {
+  const text = `import type { A } from '@farpoint/protocol';\nimport { B } from 'three';\nexport * from './c.ts';\n`;
+  const made = publicDeclaration(text, name).text;
+  expect(made).toContain("from '../protocol/index.js'");
+  expect(made).toContain("from 'three'");
+  expect(references(made)).toEqual(['../protocol/index.js', './c.js']);
+});
+
+test('a file of schemas alone stays a module', () => {
+  expect(
+    publicDeclaration("import * as z from 'zod';\nexport declare const a: z.ZodString;", name).text,
+  ).toBe('export {};');
+});
+
+test('an interface that is made of a schema is a fault', () => {
+  const text = 'export interface A {\n    one: z.infer<typeof one>;\n}';
+  expect(() => publicDeclaration(text, name)).toThrow('z.infer');
+});

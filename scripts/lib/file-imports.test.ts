@@ -1,0 +1,27 @@
+import { expect, test } from 'vitest';
+import { importedFiles } from './file-imports.ts';
+
+test('finds what a file imports by path, in whatever way, and nothing else', () => {
+  const source = `
+    import { a } from './a.ts';
+    import type { B } from '../b/b.ts';
+    import './c.css';
+    export * from "./d.ts";
+    const e = await import('./e.ts');
+    import { join } from 'node:path';
+    import { x } from '@farpoint/x';
+    /* import { f } from './f.ts'; */
+    // import { g } from './g.ts';
+    import {
+      h,
+    } from './h/h.ts';
+  `;
+  expect([...importedFiles('packages/p/src/main.ts', source)].sort()).toEqual([
+    'packages/p/b/b.ts',
+    'packages/p/src/a.ts',
+    'packages/p/src/c.css',
+    'packages/p/src/d.ts',
+    'packages/p/src/e.ts',
+    'packages/p/src/h/h.ts',
+  ]);
+});
