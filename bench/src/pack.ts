@@ -1,6 +1,6 @@
 /** `pnpm bench pack`: a kernel benchmark of the points64 layout. */
 import { parseArgs } from 'node:util';
-import { CloudDecoder, CloudEncoder, packetsFor } from '@farpoint/wasm-codec';
+import { CloudDecoder, Points64Encoder, packetsFor } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { packPlainly, unpackPlainly } from './pack-plain.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
@@ -33,7 +33,7 @@ export const bench: Bench = {
 
     const codec = await loadCodecFromDisk();
     const packets = packetsFor(count);
-    using encoder = new CloudEncoder(codec, raw);
+    using encoder = new Points64Encoder(codec, raw);
     using decoder = new CloudDecoder(codec, packets);
     encoder.frameBits.set(new Uint32Array(hallCloud(raw).frame.buffer));
     const { kept } = encoder.sample({ points: raw, count, seed: 1 });

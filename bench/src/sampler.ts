@@ -2,7 +2,7 @@
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
-import { CloudEncoder } from '@farpoint/wasm-codec';
+import { Points64Encoder } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { depthWeights, SamplingFit } from './sampling-fit.ts';
@@ -37,7 +37,7 @@ export const bench: Bench = {
     const rounds = numberOption('rounds', values.rounds, 1);
     const draws = numberOption('draws', values.draws, 1);
 
-    using encoder = new CloudEncoder(await loadCodecFromDisk(), points);
+    using encoder = new Points64Encoder(await loadCodecFromDisk(), points);
     const cloud = hallCloud(points);
     encoder.frameBits.set(new Uint32Array(cloud.frame.buffer));
     const sample = (seed: number) => encoder.sample({ points, count, lambda, seed });

@@ -1,4 +1,4 @@
-import { CloudEncoder } from '@farpoint/wasm-codec';
+import { Points64Encoder } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { describe, expect, test } from 'vitest';
 import { chiSquareTail, depthWeights, SamplingFit, type WeightParameters } from './sampling-fit.ts';
@@ -34,7 +34,7 @@ describe('the WASM sampler on a large cloud', async () => {
 
   /** Draws with `drawn` weights and compares with `expected` ones. */
   function pValue(drawn: WeightParameters, expected: WeightParameters, count: number): number {
-    using encoder = new CloudEncoder(codec, cloud.points);
+    using encoder = new Points64Encoder(codec, cloud.points);
     encoder.frameBits.set(new Uint32Array(cloud.frame.buffer));
     const fit = new SamplingFit(depths, depthWeights(depths, expected), count);
     for (let seed = 0; seed < 40; seed++) {

@@ -2,7 +2,7 @@
 import { writeFile } from 'node:fs/promises';
 import { basename } from 'node:path';
 import { parseArgs } from 'node:util';
-import { CloudEncoder, maxPoints } from '@farpoint/wasm-codec';
+import { maxPoints, Points64Encoder } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { type Panel, renderChart, type Series } from './plot/chart.ts';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
@@ -49,7 +49,7 @@ export const bench: Bench = {
     const cloud = values.cloud === undefined ? await simulatedCloud() : await pcdCloud(values.cloud);
     const { points } = cloud;
 
-    using encoder = new CloudEncoder(await loadCodecFromDisk(), points);
+    using encoder = new Points64Encoder(await loadCodecFromDisk(), points);
     encoder.frameBits.set(new Uint32Array(cloud.frame.buffer, 0, points * 4));
     const raw = encoder.sample({ points, count: points, seed: 0 });
     const edge = raw.maxDepth / BINS;

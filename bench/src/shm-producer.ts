@@ -63,9 +63,9 @@ function farpointPublisher(): (frame: number) => boolean {
     const colour =
       unpackRed664(mark) | (unpackGreen664(mark) << 8) | (unpackBlue664(mark) << 16) | 0xff000000;
     if (values.scene !== true) for (let i = 3; i < words.length; i += 4) words[i] = colour;
-    const captureMs = nowMs();
-    begun.push(captureMs);
-    producer.publish({ points: words }, { ...header, captureMs });
+    const capturedAtMs = nowMs();
+    begun.push(capturedAtMs);
+    producer.publish({ points: words }, { ...header, capturedAtMs });
     return true;
   };
 }

@@ -1,13 +1,4 @@
 export { CloudDecoder } from './cloud-decoder.ts';
-export {
-  CloudEncoder,
-  type ImageSamplingParameters,
-  type PackOptions,
-  type PackReport,
-  type RejectedPoints,
-  type SampleReport,
-  type SamplingParameters,
-} from './cloud-encoder.ts';
 export { type Codec, type CodecSource, loadCodec, loadCodecSync } from './codec.ts';
 export { CodecError, type CodecErrorCode } from './errors.ts';
 export { maxPoints, type PointBudget } from './max-points.ts';
@@ -23,6 +14,15 @@ export {
   type Pinhole,
   type Thinning,
 } from './organised-encoder.ts';
+export {
+  type ImageSamplingParameters,
+  type PackOptions,
+  type PackReport,
+  Points64Encoder,
+  type RejectedPoints,
+  type SampleReport,
+  type SamplingParameters,
+} from './points64-encoder.ts';
 export {
   BYTES_PER_POINT,
   DEFAULT_SLOT_LAYOUT,

@@ -17,7 +17,7 @@ import type { RobotOptions } from './robot-configuration.ts';
 import { type CloudSensor, failureReading } from './sensors/cloud-sensor.ts';
 import { CloudSensors } from './sensors/cloud-sensors.ts';
 import { inWorld } from './sensors/in-world.ts';
-import type { ConnectedOperator } from './session/connected-operator.ts';
+import type { OperatorSession } from './session/operator-session.ts';
 import { OperatorSessions } from './session/operator-sessions.ts';
 import { PathKeeper } from './session/path-keeper.ts';
 import { RobotSessionHost } from './session/robot-session-host.ts';
@@ -235,7 +235,7 @@ export class Robot {
     );
   }
 
-  get operators(): ReadonlyMap<string, ConnectedOperator> {
+  get operators(): ReadonlyMap<string, OperatorSession> {
     return this.#sessions.operators;
   }
 

@@ -2,9 +2,8 @@ import { runProgram, setNiceness } from '@farpoint/service';
 import { Notifier, notifyOrder } from '@farpoint/systemd';
 import { toRobotOptions } from './options/robot-options.ts';
 import { robotProgram } from './options/robot-program.ts';
-import { registerReferenceMetrics } from './reference/reference-metrics.ts';
 import { Robot } from './robot.ts';
-import { registerRobotMetrics } from './telemetry/robot-metrics.ts';
+import { registerRobotMetrics } from './telemetry/metrics/robot-metrics.ts';
 
 /** The capture thread gives a sign of life every 20 ms, unless a frame takes longer. */
 const MOST_CAPTURE_SILENCE_MS = 5000;
@@ -36,7 +35,6 @@ export async function run(): Promise<void> {
       void shutdown.end('the source failed', 1);
     };
     registerRobotMetrics(metrics, robot);
-    registerReferenceMetrics(metrics, robot);
     // Without signaling those who are connected go on: that is no failure of the robot.
     health.add('signaling', () => ({ ok: true, detail: { registered: robot.signaling.registered } }));
     health.add('operators', () => ({ ok: true, detail: { connected: robot.operators.size } }));

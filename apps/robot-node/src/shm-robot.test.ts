@@ -22,7 +22,7 @@ describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon
     folder = mkdtempSync(join(tmpdir(), 'farpoint-shm-robot-'));
     producer = new CloudProducer({ folder, format: 'points', maxPoints: POINTS });
     const points = Float32Array.from({ length: POINTS * 4 }, (_, i) => (i % 4 === 2 ? 2 : 0.5));
-    const header = { captureMs: null, width: 50, height: 30, pose: null, lens: null, latencyTest: false };
+    const header = { capturedAtMs: null, width: 50, height: 30, pose: null, lens: null, latencyTest: false };
     producing = setInterval(() => producer.publish({ points }, header), 20);
     const args = ['--source', 'shm', '--shm-folder', folder, '--sink', 'shm'];
     stack = await LocalStack.start({ robots: [{ id: ROBOT, name: 'Robot', args }] });

@@ -1,6 +1,6 @@
 /** `points64`, and Zstandard over its bytes. */
 import { zstdCompressSync, zstdDecompressSync } from 'node:zlib';
-import { CloudDecoder, CloudEncoder, type Codec, packetsFor } from '@farpoint/wasm-codec';
+import { CloudDecoder, type Codec, Points64Encoder, packetsFor } from '@farpoint/wasm-codec';
 import { type BenchCloud, blobPackets, type CodecRun, type DecodedCloud, write664 } from './adapter.ts';
 
 const POINTS = 150;
@@ -9,7 +9,7 @@ const POINT_BYTES = 8;
 /** The mandatory format; all points that it can hold, in the order they have. */
 export function points64(codec: Codec, cloud: BenchCloud): CodecRun {
   const total = cloud.frame.length / 4;
-  const encoder = new CloudEncoder(codec, total);
+  const encoder = new Points64Encoder(codec, total);
   const decoder = new CloudDecoder(codec, packetsFor(total));
   const words = new Uint32Array(cloud.frame.buffer, cloud.frame.byteOffset, cloud.frame.length);
   encoder.frameBits.set(words);
@@ -54,7 +54,7 @@ export function points64(codec: Codec, cloud: BenchCloud): CodecRun {
 
 /** One Zstandard blob over the packets of `points64`. */
 export function zstd(codec: Codec, cloud: BenchCloud): CodecRun {
-  const inner = new CloudEncoder(codec, cloud.frame.length / 4);
+  const inner = new Points64Encoder(codec, cloud.frame.length / 4);
   const words = new Uint32Array(cloud.frame.buffer, cloud.frame.byteOffset, cloud.frame.length);
   inner.frameBits.set(words);
   const total = cloud.frame.length / 4;

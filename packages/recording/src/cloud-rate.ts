@@ -14,19 +14,19 @@ export class CloudRate {
   }
 
   /** Whether the cloud of that time is recorded; asked twice of one, the answer is the same. */
-  takes(captureMs: number): boolean {
-    if (captureMs !== this.#latestMs) {
-      this.#latestMs = captureMs;
-      this.#latestTaken = this.#decide(captureMs);
+  takes(capturedAtMs: number): boolean {
+    if (capturedAtMs !== this.#latestMs) {
+      this.#latestMs = capturedAtMs;
+      this.#latestTaken = this.#decide(capturedAtMs);
     }
     return this.#latestTaken;
   }
 
-  #decide(captureMs: number): boolean {
+  #decide(capturedAtMs: number): boolean {
     if (this.#intervalMs === Number.POSITIVE_INFINITY) return false;
-    if (captureMs < this.#nextMs - this.#intervalMs * EARLY_SHARE) return false;
-    const late = captureMs - this.#nextMs > this.#intervalMs;
-    this.#nextMs = (late ? captureMs : this.#nextMs) + this.#intervalMs;
+    if (capturedAtMs < this.#nextMs - this.#intervalMs * EARLY_SHARE) return false;
+    const late = capturedAtMs - this.#nextMs > this.#intervalMs;
+    this.#nextMs = (late ? capturedAtMs : this.#nextMs) + this.#intervalMs;
     return true;
   }
 }

@@ -8,7 +8,7 @@ import type { CloudDone, CloudKind, CloudRecord, Lens } from './recorder-message
 const LIMITS = { underWay: 2, waiting: 4 };
 
 /** A captured cloud: as points, or as a depth camera's pictures. */
-export type TappedCloud = { cameraPose: Pose; captureMs: number } & (
+export type TappedCloud = { cameraPose: Pose; capturedAtMs: number } & (
   | { form: 'points'; points: Float32Array; count: number }
   | { form: 'images'; depth: Float32Array; colour: Uint32Array }
 );
@@ -62,8 +62,8 @@ export class CloudTap {
   }
 
   captured(cloud: TappedCloud, { width, height, camera }: TapGrid): void {
-    const { captureMs, cameraPose: pose } = cloud;
-    if (this.#ended || !this.#rates.captured.takes(captureMs)) return;
+    const { capturedAtMs, cameraPose: pose } = cloud;
+    if (this.#ended || !this.#rates.captured.takes(capturedAtMs)) return;
     const lane = this.#lanes.captured;
     if (cloud.form === 'points') {
       const { points, count } = cloud;
@@ -74,7 +74,7 @@ export class CloudTap {
       lane.push(
         count * 16,
         (buffer) => new Float32Array(buffer).set(points.subarray(0, count * 4)),
-        (stamp) => ({ type: 'points', ...stamp, captureMs, pose, count, width, height }),
+        (stamp) => ({ type: 'points', ...stamp, capturedAtMs, pose, count, width, height }),
       );
     } else if (camera !== null) {
       const { depth, colour } = cloud;
@@ -89,22 +89,22 @@ export class CloudTap {
           new Float32Array(buffer).set(depth);
           new Uint32Array(buffer).set(colour, width * height);
         },
-        (stamp) => ({ type: 'images', ...stamp, captureMs, pose, lens, width, height }),
+        (stamp) => ({ type: 'images', ...stamp, capturedAtMs, pose, lens, width, height }),
       );
     }
   }
 
   sent(
-    { captureMs, cameraPose: pose }: Pick<TappedCloud, 'captureMs' | 'cameraPose'>,
+    { capturedAtMs, cameraPose: pose }: Pick<TappedCloud, 'capturedAtMs' | 'cameraPose'>,
     frame: TappedPackets,
   ): void {
-    if (this.#ended || !this.#rates.sent.takes(captureMs)) return;
+    if (this.#ended || !this.#rates.sent.takes(capturedAtMs)) return;
     const { format, points, packets, slotBytes, streamHeader, copyPackets } = frame;
     this.#lanes.sent.push(
       packets * slotBytes,
       (buffer) => copyPackets(new Uint8Array(buffer), packets),
       (stamp) => ({
-        ...{ type: 'sent', ...stamp, captureMs, pose },
+        ...{ type: 'sent', ...stamp, capturedAtMs, pose },
         ...{ format, points, packets, slotBytes, streamHeader },
       }),
     );

@@ -23,7 +23,7 @@ export interface Lens {
 }
 
 interface RecordedStamp {
-  captureMs: number;
+  capturedAtMs: number;
   /** The optical frame in the world. */
   pose: Pose;
   /** Counts all there were: a gap is what was dropped. */
@@ -69,7 +69,7 @@ export interface PictureRecord {
   type: 'picture';
   /** Place in the list of cameras. */
   camera: number;
-  captureMs: number;
+  capturedAtMs: number;
   /** Counts all there were of the camera: a gap is what was dropped. */
   sequence: number;
   /** How many were, so far, of all cameras. */

@@ -85,7 +85,7 @@ export class RecordingWriter {
 
   /** @throws {Error} where nothing more can be written; {McapFileFull} where nothing more may be, as all of these */
   async addCloud(record: CloudRecord): Promise<void> {
-    const ns = this.#nsOf(record.captureMs);
+    const ns = this.#nsOf(record.capturedAtMs);
     const kind: CloudKind = record.type === 'sent' ? 'sent' : 'captured';
     this.dropped[kind] = record.dropped;
     this.#newestNs = ns;
@@ -122,7 +122,7 @@ export class RecordingWriter {
   /** @throws {Error} where nothing more can be written */
   async addPicture({
     camera,
-    captureMs,
+    capturedAtMs,
     sequence,
     dropped,
     format,
@@ -134,7 +134,7 @@ export class RecordingWriter {
       this.faults++;
       return;
     }
-    const ns = this.#nsOf(captureMs);
+    const ns = this.#nsOf(capturedAtMs);
     await this.file.add(of.channel, sequence >>> 0, ns, [compressedImage(ns, of.frame, format, file)]);
   }
 

@@ -58,7 +58,7 @@ async function record(path: string, compression: 'none' | 'zstd' = 'none'): Prom
   for (let k = 0; k < FRAMES; k++) {
     depth.fill(2 + k);
     depth[0] = Number.NaN;
-    const stamp = { cameraPose: poseAt(k), captureMs: k * 100 };
+    const stamp = { cameraPose: poseAt(k), capturedAtMs: k * 100 };
     tap.captured({ form: 'images', depth, colour, ...stamp }, GRID);
     recorder.picture(0, k * 100, 'jpeg', pictureOf(0, k));
     if (k % 3 === 0) recorder.picture(1, k * 100 + 40, 'png', pictureOf(1, k));
@@ -173,7 +173,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     const cloud = { form: 'points' as const, points: new Float32Array(40), count: 10 };
     for (let k = 0; k < 58; k++) {
       tap.captured(
-        { ...cloud, cameraPose: poseAt(0), captureMs: k * (1000 / 30) },
+        { ...cloud, cameraPose: poseAt(0), capturedAtMs: k * (1000 / 30) },
         { ...GRID, camera: null },
       );
       await written(tap);
@@ -207,7 +207,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       while (!ended) {
         recorder.json('telemetry', pushed, { pushed });
         tap.captured(
-          { form: 'points', points, count: 10_000, cameraPose: poseAt(0), captureMs: pushed++ },
+          { form: 'points', points, count: 10_000, cameraPose: poseAt(0), capturedAtMs: pushed++ },
           { ...GRID, camera: null },
         );
         await written(tap);
@@ -215,7 +215,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       // What comes later is nobody's.
       recorder.json('telemetry', pushed, {});
       tap.captured(
-        { form: 'points', points, count: 10_000, cameraPose: poseAt(0), captureMs: pushed },
+        { form: 'points', points, count: 10_000, cameraPose: poseAt(0), capturedAtMs: pushed },
         { ...GRID, camera: null },
       );
       expect(tap.pending).toBe(0);
@@ -249,7 +249,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     for (let k = 0; k < 50; k++) {
       const cloud = { form: 'points' as const, points, count: 10_000 };
       tap.captured(
-        { ...cloud, cameraPose: poseAt(0), captureMs: k },
+        { ...cloud, cameraPose: poseAt(0), capturedAtMs: k },
         { width: 10_000, height: 1, camera: null },
       );
     }

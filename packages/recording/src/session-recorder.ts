@@ -99,10 +99,10 @@ export class SessionRecorder {
   }
 
   /** A picture as operators are sent it. @param file its memory is the recorder's from now on */
-  picture(camera: number, captureMs: number, format: PictureFormat, file: Uint8Array<ArrayBuffer>): void {
+  picture(camera: number, capturedAtMs: number, format: PictureFormat, file: Uint8Array<ArrayBuffer>): void {
     if (!this.#writing) return;
     const sequence = this.#next(`picture ${camera}`);
-    this.#pictures.push({ type: 'picture', camera, captureMs, sequence, format, file });
+    this.#pictures.push({ type: 'picture', camera, capturedAtMs, sequence, format, file });
   }
 
   json(kind: JsonKind, timeMs: number, value: object): void {

@@ -67,7 +67,7 @@ const room: FrameRoom = {
   colour: new Uint32Array(MAX_POINTS),
 };
 const header = {
-  ...{ frame: 6, points: 12, captureMs: 123.456789, width: 4, height: 3, latencyTest: true },
+  ...{ frame: 6, points: 12, capturedAtMs: 123.456789, width: 4, height: 3, latencyTest: true },
   pose: { position: { x: 1.5, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } },
 };
 const lens = { fx: 2, fy: 2, cx: 1, cy: 1 };

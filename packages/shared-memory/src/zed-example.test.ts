@@ -73,8 +73,8 @@ describe.skipIf(python === null || ADDON_SUITE.skip)('the ZED’s example (needs
     using reader = CloudReader.open(folder);
     const frame = reader.read(room);
     expect(frame?.pose).toBeNull();
-    expect(frame?.captureMs).toBeGreaterThan(before - 41);
-    expect(frame?.captureMs).toBeLessThan(after - 39);
+    expect(frame?.capturedAtMs).toBeGreaterThan(before - 41);
+    expect(frame?.capturedAtMs).toBeLessThan(after - 39);
   });
 
   it('shows no picture of a camera that boots or whose picture is broken, and those of other warnings', () => {

@@ -127,7 +127,7 @@ def good_frame(name, fmt, max_points, frame, ns, width, height, position=None, q
     data = frame_bytes(frame, ns, width, height, bits, position or (0, 0, 0), q or (0, 0, 0, 0), lens or (0, 0, 0, 0), unit)
     assert len(data) == 128
     return {"name": name, "format": fmt, "maxPoints": max_points, "hex": data.hex(), "frame": {
-        "captureMs": None if ns == 0 else ns / 1e6, "width": width, "height": height,
+        "capturedAtMs": None if ns == 0 else ns / 1e6, "width": width, "height": height,
         "pose": None if position is None else {"position": dict(zip("xyz", position)), "orientation": dict(zip("xyzw", q))},
         "lens": None if lens is None else dict(zip(("fx", "fy", "cx", "cy"), lens)),
         "latencyTest": latency, "depthUnit": f32(unit)}}

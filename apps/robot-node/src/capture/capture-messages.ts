@@ -35,7 +35,7 @@ export type CaptureRequest =
   | { type: 'close' };
 
 /** One frame, ready to send; `buffer` is transferred. */
-export interface CapturedFrame extends EncodedFrame {
+export interface ReadyFrame extends EncodedFrame {
   type: 'frame';
   sensor: number;
   /** What frames like it could use at most, bit/s on the wire. */
@@ -46,8 +46,9 @@ export interface CapturedFrame extends EncodedFrame {
   latencyTest: boolean;
   /** How long until the next one, as planned, ms. */
   intervalMs: number;
-  /** Robot's clock when the cloud was taken, ms, and how long that took. */
+  /** Robot's clock when the cloud was taken, ms. */
   capturedAtMs: number;
+  /** How long taking it from the source took, ms. */
   captureMs: number;
   /** Of that, the thread's own processor time. */
   captureCpuMs: number;
@@ -57,7 +58,7 @@ export interface CapturedFrame extends EncodedFrame {
 
 export type CaptureReport =
   | { type: 'ready'; description: SourceDescription; cameras: readonly CameraDescription[] }
-  | CapturedFrame
+  | ReadyFrame
   /** What receivers of the coded frames that follow need. */
   | { type: 'stream'; stream: CodedStream }
   /** What the source knows of the base, and frames that found no free buffer so far. */
@@ -67,3 +68,6 @@ export type CaptureReport =
   /** What a topic says, for people. */
   | { type: 'reading'; reading: TopicReading }
   | { type: 'closed' };
+
+/** Where the capture thread's reports go; what is in `transfer` changes hands. */
+export type ReportSink = (report: CaptureReport, transfer?: ArrayBuffer[]) => void;

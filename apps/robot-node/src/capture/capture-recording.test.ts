@@ -9,7 +9,7 @@ import * as z from 'zod';
 import { NO_BUDGET } from '../encode/capture-budget.ts';
 import { CODED_FORMATS } from '../encode/plan.ts';
 import { Capture } from './capture.ts';
-import type { CapturedFrame, CaptureOptions } from './capture-messages.ts';
+import type { CaptureOptions, ReadyFrame } from './capture-messages.ts';
 import type { SourceOptions } from './open-source.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'farpoint-capture-recording-'));
@@ -57,7 +57,7 @@ async function recordFrames(source: SourceOptions, coded: boolean, count: number
     { source, ...OPTIONS },
     { clouds: recorder.clouds, perSecond: { captured: 1000, sent: 1000 } },
   );
-  const frames: CapturedFrame[] = [];
+  const frames: ReadyFrame[] = [];
   await new Promise<void>((resolve) => {
     capture.onFrame = (frame) => {
       frames.push({ ...frame });

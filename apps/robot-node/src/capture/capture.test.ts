@@ -6,7 +6,7 @@ import type { TimedBaseState } from '../base/base.ts';
 import { NO_BUDGET } from '../encode/capture-budget.ts';
 import { SLOT_BYTES, slotPayloadBytes } from '../encode/packetiser.ts';
 import { Capture, CaptureError } from './capture.ts';
-import type { CapturedFrame, CaptureOptions } from './capture-messages.ts';
+import type { CaptureOptions, ReadyFrame } from './capture-messages.ts';
 import type { SourceOptions } from './open-source.ts';
 
 const open: Capture[] = [];
@@ -31,8 +31,8 @@ async function start(source: SourceOptions, more: Partial<CaptureOptions> = {}):
 
 const sim: SourceOptions = { kind: 'sim', seed: 1, size: 64 };
 
-async function frames(capture: Capture, count: number, recycle = true): Promise<CapturedFrame[]> {
-  const got: CapturedFrame[] = [];
+async function frames(capture: Capture, count: number, recycle = true): Promise<ReadyFrame[]> {
+  const got: ReadyFrame[] = [];
   await new Promise<void>((resolve) => {
     capture.onFrame = (frame) => {
       if (got.length < count) got.push(recycle ? { ...frame, buffer: frame.buffer.slice(0) } : frame);
@@ -51,7 +51,7 @@ async function stateWhere(capture: Capture, is: (state: TimedBaseState) => boole
   });
 }
 
-function checkPayloads(frame: CapturedFrame): void {
+function checkPayloads(frame: ReadyFrame): void {
   const header = emptyPointPacketHeader();
   const placement = emptyPlacement();
   for (let i = 0; i < frame.packets; i++) {
@@ -69,7 +69,7 @@ describe('capture thread', () => {
   it('gives frames that can be sent as they are, numbered, on the robot’s clock', async () => {
     const capture = await start(sim);
     capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true });
-    const [a, b] = (await frames(capture, 2)) as [CapturedFrame, CapturedFrame];
+    const [a, b] = (await frames(capture, 2)) as [ReadyFrame, ReadyFrame];
     for (const frame of [a, b]) {
       expect(frame.points).toBeGreaterThan(0);
       checkPayloads(frame);
@@ -101,7 +101,7 @@ describe('capture thread', () => {
     const held = await frames(capture, 4, false);
     await stateWhere(capture, () => capture.framesWithoutBuffer > 0);
     const next = frames(capture, 1);
-    capture.recycle((held[0] as CapturedFrame).buffer);
+    capture.recycle((held[0] as ReadyFrame).buffer);
     const [frame] = await next;
     expect(frame?.frameNumber).toBe(4);
   });

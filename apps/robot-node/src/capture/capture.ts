@@ -4,7 +4,7 @@ import type { TopicReading } from '@farpoint/ros';
 import type { TimedBaseState } from '../base/base.ts';
 import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
-import type { CapturedFrame, CaptureOptions, CaptureReport, CaptureRequest } from './capture-messages.ts';
+import type { CaptureOptions, CaptureReport, CaptureRequest, ReadyFrame } from './capture-messages.ts';
 import type { CameraDescription, SourceDescription } from './frame-source.ts';
 
 /** The capture thread ended by itself. */
@@ -35,7 +35,7 @@ export class Capture {
   /** Cameras whose pictures can be had. */
   readonly cameras: readonly CameraDescription[];
   /** Gets each frame; it must give the buffer back with `recycle`. */
-  onFrame: ((frame: CapturedFrame) => void) | null = null;
+  onFrame: ((frame: ReadyFrame) => void) | null = null;
   /** Gets what receivers of coded frames need, before the first of them and at each change. */
   onStream: ((stream: CodedStream) => void) | null = null;
   onState: ((state: TimedBaseState) => void) | null = null;

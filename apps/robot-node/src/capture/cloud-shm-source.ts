@@ -118,12 +118,12 @@ export class CloudShmSource implements FrameSource {
   }
 
   #sourceFrame(frame: CloudFrame, nowMs: number, room: CaptureRoom): SourceFrame {
-    const { form, points: count, pose, captureMs } = frame;
+    const { form, points: count, pose, capturedAtMs } = frame;
     // The body is where it would be with the camera a camera without poses has: level, looking ahead, 1 m up.
     if (pose !== null) this.#state = { ...STANDING, pose: compose(pose, inverse(STATIC_CAMERA_POSE)) };
     const stamp = {
       cameraPose: pose ?? STATIC_CAMERA_POSE,
-      captureMs: Math.min(captureMs ?? this.#readyMs, nowMs),
+      capturedAtMs: Math.min(capturedAtMs ?? this.#readyMs, nowMs),
     };
     return form === 'images'
       ? { form, depth: room.depth, colour: room.colour, ...stamp }

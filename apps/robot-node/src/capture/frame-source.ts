@@ -62,7 +62,7 @@ export interface CaptureRoom {
 interface FrameStamp {
   /** The optical frame in the world. */
   cameraPose: Pose;
-  captureMs: number;
+  capturedAtMs: number;
   /** Whether this is the cloud that answers a latency test; left out, any may be. */
   latencyTest?: boolean;
 }

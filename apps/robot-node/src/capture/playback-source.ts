@@ -57,7 +57,7 @@ export class PlaybackSource implements FrameSource {
     const index = this.#next;
     this.#next = (index + 1) % this.#frames.length;
     const { cameraPose } = this.#frames[index] as RecordedFrame;
-    return { ...this.#cloud(index), cameraPose, captureMs: nowMs };
+    return { ...this.#cloud(index), cameraPose, capturedAtMs: nowMs };
   }
 
   close(): void {

@@ -105,7 +105,7 @@ describe.skipIf(typeof peers === 'string')(
         expect(facts).toEqual({ kind: 'file', format: 'png', width: WIDTH, height: HEIGHT });
         expect(origin).toMatch(new RegExp(`^${compressed}: byte \\d+$`));
       }
-      const captured = pictures.map(({ captureMs }) => captureMs);
+      const captured = pictures.map(({ capturedAtMs }) => capturedAtMs);
       expect(captured).toEqual(captured.toSorted((a, b) => a - b));
     });
 

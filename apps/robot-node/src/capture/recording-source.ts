@@ -82,7 +82,7 @@ export class RecordingSource implements FrameSource {
   capture(nowMs: number, _wishes: CaptureWishes, { points }: CaptureRoom): SourceFrame | null {
     const cloud = this.#player.take(points);
     if (cloud === null) return null;
-    return { form: 'points', points, ...cloud, captureMs: nowMs };
+    return { form: 'points', points, ...cloud, capturedAtMs: nowMs };
   }
 
   skip(): void {

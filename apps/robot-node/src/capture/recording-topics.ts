@@ -67,7 +67,7 @@ export class RecordingTopics {
     if (taker === null || !taker.wants(camera, now)) return;
     const { facts, data: picture } = readPicture(topic.type, topic.decode(data));
     const origin = `${topic.name}: byte ${offset}`;
-    taker.offer({ camera, captureMs: now - ageMs, facts, data: picture, origin });
+    taker.offer({ camera, capturedAtMs: now - ageMs, facts, data: picture, origin });
   }
 
   #camera(topic: string): number {

@@ -89,7 +89,7 @@ export class ReferenceShmSource implements FrameSource {
         points,
         count: frame.points,
         cameraPose: STATIC_CAMERA_POSE,
-        captureMs: this.#readyMs,
+        capturedAtMs: this.#readyMs,
         latencyTest,
       };
     } catch (error) {

@@ -47,7 +47,7 @@ export class RosPictureFeed {
       const { taker } = this;
       if (taker === null || !taker.wants(camera, receivedMs)) return;
       const { stampNs, facts, data } = readPicture(entry.type, decode(bytes));
-      taker.offer({ camera, captureMs: this.#captureTime(stampNs, receivedMs), facts, data });
+      taker.offer({ camera, capturedAtMs: this.#captureTime(stampNs, receivedMs), facts, data });
     });
   }
 }

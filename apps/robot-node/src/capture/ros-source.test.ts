@@ -118,7 +118,7 @@ describe('RosSource', () => {
       graph.say('/odom', ODOMETRY, odometry(0, 7));
       pass(40);
       const frame = capture();
-      expect(frame).toMatchObject({ form: 'points', count: 3, captureMs: 5000 });
+      expect(frame).toMatchObject({ form: 'points', count: 3, capturedAtMs: 5000 });
       // Body axes (x forward) come as optical ones (z forward), 1 m above a body that odometry places.
       expect(frame?.form === 'points' && [...frame.points.subarray(0, 3)]).toEqual([-2, -3, 1]);
       expect(frame?.cameraPose.position).toEqual({ x: 7, y: 0, z: 1 });
@@ -196,7 +196,7 @@ describe('RosSource', () => {
     });
     expect(source.description).toMatchObject({ width: 8, height: 6, capacity: 48 });
     const frame = capture();
-    expect(frame).toMatchObject({ form: 'images', captureMs: 5000 });
+    expect(frame).toMatchObject({ form: 'images', capturedAtMs: 5000 });
     expect(frame?.form === 'images' && frame.depth[0]).toBeCloseTo(1.028);
     expect(frame?.form === 'images' && frame.colour[0]).toBe(0xff04_0404);
     graph.say('/colour', IMAGE, imageOf(33, 'rgb8', 3));
@@ -266,7 +266,7 @@ describe('RosSource', () => {
     const { graph, capture, pass } = await setUp(table, (g) => g.say('/points', CLOUD, cloudOf(0, 3, 1)));
     graph.say('/points', CLOUD, { ...cloudOf(0, 3, 1), header: headerAt(-1_600_000_000_000) });
     pass(30);
-    expect(capture()).toMatchObject({ captureMs: 5000 });
+    expect(capture()).toMatchObject({ capturedAtMs: 5000 });
   });
 
   it.each([
@@ -325,11 +325,11 @@ describe('RosSource', () => {
       graph.say('/rear/compressed', COMPRESSED, compressed(10));
       expect(taken).toEqual([
         {
-          ...{ camera: 0, captureMs: 5020, bytes: 144 },
+          ...{ camera: 0, capturedAtMs: 5020, bytes: 144 },
           facts: { kind: 'raw', width: 8, height: 6, step: 24, encoding: 'rgb8', bigEndian: false },
         },
         {
-          ...{ camera: 1, captureMs: 5010, bytes: 15 },
+          ...{ camera: 1, capturedAtMs: 5010, bytes: 15 },
           facts: { kind: 'file', format: 'jpeg', width: 64, height: 48 },
         },
       ]);

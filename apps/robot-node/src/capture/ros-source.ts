@@ -85,7 +85,7 @@ export class RosSource implements FrameSource {
       cameras: pictures.map(cameraOf),
     };
     this.#pictures = new RosPictureFeed(graph, pictures, (stampNs, receivedMs) =>
-      this.#captureMs(stampNs, receivedMs, clock.now()),
+      this.#capturedAtMs(stampNs, receivedMs, clock.now()),
     );
     this.#pictures.onFault = (fault) => this.onFault?.(fault);
     feed.onFrame = () => this.onReady?.();
@@ -140,7 +140,7 @@ export class RosSource implements FrameSource {
     const { count, frameId, stampNs, receivedMs } = fed;
     const stamp = {
       cameraPose: this.#world.opticalPose(frameId, stampNs, this.#axes),
-      captureMs: this.#captureMs(stampNs, receivedMs, nowMs),
+      capturedAtMs: this.#capturedAtMs(stampNs, receivedMs, nowMs),
     };
     return this.description.camera === null
       ? { form: 'points', points: room.points, count, ...stamp }
@@ -167,7 +167,7 @@ export class RosSource implements FrameSource {
   }
 
   /** By its stamp, where that is of our clock and not long ago, else by its coming. */
-  #captureMs(stampNs: bigint, receivedMs: number, nowMs: number): number {
+  #capturedAtMs(stampNs: bigint, receivedMs: number, nowMs: number): number {
     const ageMs = Number(this.#clock.wallNs() - stampNs) / 1e6;
     const stamped = ageMs >= 0 && ageMs <= MOST_AGE_MS;
     return Math.min(stamped ? this.#clock.now() - ageMs : receivedMs, nowMs);

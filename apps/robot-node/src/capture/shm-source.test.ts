@@ -15,7 +15,7 @@ import { monotonicMs } from '../clock.ts';
 import { NO_BUDGET } from '../encode/capture-budget.ts';
 import { slotPayloadBytes } from '../encode/packetiser.ts';
 import { Capture } from './capture.ts';
-import type { CapturedFrame } from './capture-messages.ts';
+import type { ReadyFrame } from './capture-messages.ts';
 
 let folder: string;
 const open: { close(): unknown }[] = [];
@@ -60,8 +60,8 @@ const BUDGET = { ...NO_BUDGET, targetBitsPerSecond: 123_000_000, overheadBytes: 
 async function frameWhere(
   capture: Capture,
   produce: () => void,
-  is: (frame: CapturedFrame, mm: number[]) => boolean,
-): Promise<CapturedFrame> {
+  is: (frame: ReadyFrame, mm: number[]) => boolean,
+): Promise<ReadyFrame> {
   const timer = every(5, produce);
   try {
     return await new Promise((resolve) => {
@@ -77,11 +77,11 @@ async function frameWhere(
   }
 }
 
-function firstPoint({ buffer }: CapturedFrame): number[] {
+function firstPoint({ buffer }: ReadyFrame): number[] {
   return [...new Int16Array(buffer, 16, 3)];
 }
 
-function placementOf(frame: CapturedFrame) {
+function placementOf(frame: ReadyFrame) {
   const placement = emptyPlacement();
   const view = new DataView(frame.buffer, 0, slotPayloadBytes(new Uint8Array(frame.buffer), 0));
   expect(readCloudPayload(view, emptyPointPacketHeader(), placement)).toBeNull();
@@ -105,7 +105,7 @@ function packed(depth: number, colour: number): Uint8Array {
 }
 
 const GRID: Omit<FrameHeader, 'depthUnit'> = {
-  ...{ captureMs: null, width: 20, height: 15, pose: null, lens: null, latencyTest: false },
+  ...{ capturedAtMs: null, width: 20, height: 15, pose: null, lens: null, latencyTest: false },
 };
 
 describe.skipIf(!isAvailable())(
@@ -129,7 +129,7 @@ describe.skipIf(!isAvailable())(
       let stamp = 0;
       const produce = () => {
         stamp = monotonicMs() - 7;
-        producer.publish({ points: cloud(2, 300) }, { ...GRID, captureMs: stamp, pose });
+        producer.publish({ points: cloud(2, 300) }, { ...GRID, capturedAtMs: stamp, pose });
       };
       const frame = await frameWhere(capture, produce, (_, [, , z]) => z === 2000);
       expect(frame.points).toBe(300);

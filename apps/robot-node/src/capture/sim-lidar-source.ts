@@ -50,7 +50,7 @@ export class SimLidarSource implements FrameSource {
     const into = new Uint32Array(room.points.buffer, room.points.byteOffset, points.length);
     into.set(new Uint32Array(points.buffer, points.byteOffset, points.length));
     const count = points.length / 4;
-    return { form: 'points', points: room.points, count, cameraPose: pose, captureMs: nowMs };
+    return { form: 'points', points: room.points, count, cameraPose: pose, capturedAtMs: nowMs };
   }
 
   close(): void {

@@ -41,7 +41,7 @@ export class SimSource implements FrameSource {
   capture(nowMs: number): SourceFrame {
     const { depth, colour, cameraPose } = this.#camera.render(this.#world.newest, { points: false });
     const words = new Uint32Array(colour.buffer, colour.byteOffset, depth.length);
-    return { form: 'images', depth, colour: words, cameraPose, captureMs: nowMs };
+    return { form: 'images', depth, colour: words, cameraPose, capturedAtMs: nowMs };
   }
 
   close(): void {

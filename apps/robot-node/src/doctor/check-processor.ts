@@ -110,7 +110,7 @@ export async function timeCodec(now: () => number): Promise<number[]> {
     simulation.step(1 / 30);
     const { depth, colour, cameraPose } = simulation.renderFrame({ points: false });
     const words = new Uint32Array(colour.buffer, colour.byteOffset, depth.length);
-    const frame = { form: 'images', depth, colour: words, cameraPose, captureMs: now() } as const;
+    const frame = { form: 'images', depth, colour: words, cameraPose, capturedAtMs: now() } as const;
     const begin = now();
     encoder.take(frame, { fx, fy, cx, cy });
     encoder.encode(frame, i, BUDGET_BYTES, false);

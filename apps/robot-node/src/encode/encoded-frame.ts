@@ -49,7 +49,7 @@ export function placementOf(
 ): Placement {
   return {
     pose: frame.cameraPose,
-    captureTimeUs: Math.floor((frame.captureMs * 1000) % 0x1_0000_0000),
+    captureTimeUs: Math.floor((frame.capturedAtMs * 1000) % 0x1_0000_0000),
     latencyTest,
     saturated,
     sensor,

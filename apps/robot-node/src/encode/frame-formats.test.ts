@@ -10,7 +10,7 @@ const SIZE = 64;
 const CAMERA = { fx: 60, fy: 60, cx: 32, cy: 32 };
 const stamp = {
   cameraPose: { position: { x: 0, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } },
-  captureMs: 1000,
+  capturedAtMs: 1000,
 };
 const images: ImageFrame = {
   form: 'images',

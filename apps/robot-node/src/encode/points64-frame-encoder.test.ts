@@ -37,7 +37,7 @@ function cloud(count: number): PointFrame {
     count,
     cameraPose: { position: { x: 1, y: -2, z: 0.5 }, orientation: { x: 0, y: 0, z: 0.6, w: 0.8 } },
     // One second past the wrap of the microsecond stamp.
-    captureMs: 4_294_967.296 + 1000,
+    capturedAtMs: 4_294_967.296 + 1000,
   };
 }
 

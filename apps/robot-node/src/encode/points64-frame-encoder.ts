@@ -1,4 +1,4 @@
-import { CloudEncoder, type Codec, type SampleReport } from '@farpoint/wasm-codec';
+import { type Codec, Points64Encoder, type SampleReport } from '@farpoint/wasm-codec';
 import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/frame-source.ts';
 import {
   type EncodedFrame,
@@ -12,7 +12,7 @@ import { completePackets, Packetiser, SLOT_BYTES, SLOT_DATA_OFFSET } from './pac
 
 /** From a source's frame to finished `points64` packets: sample, pack, header and placement. */
 export class Points64FrameEncoder implements PacketSource {
-  readonly #encoder: CloudEncoder;
+  readonly #encoder: Points64Encoder;
   readonly #sampling: EncoderOptions;
   readonly #now: () => number;
   readonly #packetiser = new Packetiser();
@@ -25,7 +25,10 @@ export class Points64FrameEncoder implements PacketSource {
     now: () => number,
   ) {
     const { capacity, width, height, camera } = source;
-    this.#encoder = new CloudEncoder(codec, capacity, { stride: SLOT_BYTES, dataOffset: SLOT_DATA_OFFSET });
+    this.#encoder = new Points64Encoder(codec, capacity, {
+      stride: SLOT_BYTES,
+      dataOffset: SLOT_DATA_OFFSET,
+    });
     if (camera !== null) this.#encoder.setCamera({ width, height, ...camera });
     this.room = roomOf(this.#encoder);
     this.#sampling = sampling;

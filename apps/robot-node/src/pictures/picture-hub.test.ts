@@ -77,10 +77,10 @@ const facts = { kind: 'raw', width: 4, height: 2, step: 12, encoding: 'rgb8', bi
 it('makes a file of a picture, with the time at which it was taken', { timeout: 20_000 }, async () => {
   const { made, until, offer } = await setUp();
   // Beyond what 32 bits of microseconds say.
-  await offer({ captureMs: 5_000_000.5, facts, data: new Uint8Array(24).fill(99) });
+  await offer({ capturedAtMs: 5_000_000.5, facts, data: new Uint8Array(24).fill(99) });
   await until(() => made.length === 1);
   const [picture] = made as [ReadyPicture];
-  expect(picture).toMatchObject({ captureMs: 5_000_000.5, header: { camera: 0, width: 4, height: 2 } });
+  expect(picture).toMatchObject({ capturedAtMs: 5_000_000.5, header: { camera: 0, width: 4, height: 2 } });
   const file = Buffer.concat(picture.chunks.map((chunk) => chunk.subarray(PICTURE_CHUNK_HEADER_BYTES)));
   expect(file).toHaveLength(picture.fileBytes);
   expect(readPictureFile(file)).toEqual({ format: 'jpeg', width: 4, height: 2 });
@@ -91,8 +91,8 @@ it('says where a picture was read that cannot be shown, once for each thing that
 }, async () => {
   const { hub, made, warned, until, offer } = await setUp();
   for (const byte of [100, 200])
-    await offer({ captureMs: 0, facts, data: new Uint8Array(20), origin: `/front: byte ${byte}` });
-  await offer({ captureMs: 0, facts: { ...facts, encoding: 'nv21' }, data: new Uint8Array(24) });
+    await offer({ capturedAtMs: 0, facts, data: new Uint8Array(20), origin: `/front: byte ${byte}` });
+  await offer({ capturedAtMs: 0, facts: { ...facts, encoding: 'nv21' }, data: new Uint8Array(24) });
   await until(() => warned.length === 2);
   expect(warned).toMatchObject([
     {

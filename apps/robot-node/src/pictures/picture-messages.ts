@@ -44,7 +44,7 @@ export interface ReadyPicture {
   type: 'picture';
   header: PictureHeader;
   /** Robot's clock when it was taken, ms: the header's wraps. */
-  captureMs: number;
+  capturedAtMs: number;
   /** Of the file. */
   fileBytes: number;
   chunks: Uint8Array<ArrayBuffer>[];

@@ -30,7 +30,7 @@ function picture(camera: number, pictureId: number, chunks: number): ReadyPictur
       chunk.set([camera, pictureId]);
       return chunk;
     }),
-    ...{ captureMs: 0, fileBytes: chunks * 1140, longestSide: 640, untouched: false, workMs: 1 },
+    ...{ capturedAtMs: 0, fileBytes: chunks * 1140, longestSide: 640, untouched: false, workMs: 1 },
   };
 }
 

@@ -9,7 +9,7 @@ function setUp(most: (number | null)[] = [null, null]) {
   const tap = new PictureTap({ postMessage: (picture) => sent.push(structuredClone(picture)) }, most);
   const show = (camera: number, nowMs: number) => {
     if (!tap.wants(camera, nowMs)) return false;
-    tap.offer({ camera, captureMs: nowMs, facts, data: Uint8Array.from([camera, nowMs & 0xff]) });
+    tap.offer({ camera, capturedAtMs: nowMs, facts, data: Uint8Array.from([camera, nowMs & 0xff]) });
     return true;
   };
   return { tap, sent, show };
@@ -49,7 +49,7 @@ it('has one picture of a camera under way; the next is the newest, and those bet
   expect(show(1, 300)).toBe(true);
   tap.onReport({ type: 'done', camera: 0, room: new ArrayBuffer(8) });
   expect(show(0, 400)).toBe(true);
-  expect(sent.map(({ camera, captureMs, missed }) => [camera, captureMs, missed])).toEqual([
+  expect(sent.map(({ camera, capturedAtMs, missed }) => [camera, capturedAtMs, missed])).toEqual([
     [0, 0, 0],
     [1, 300, 0],
     [0, 400, 3],

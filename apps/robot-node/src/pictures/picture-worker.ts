@@ -46,12 +46,12 @@ tap.on('message', (offered: OfferedPicture) => {
 
 /** @throws {PictureLossError} */
 function makeReady(offered: OfferedPicture, plan: CameraPlan): ReadyPicture {
-  const { camera, captureMs } = offered;
+  const { camera, capturedAtMs } = offered;
   const began = threadCpuMs();
   const { format, width, height, bytes, untouched } = maker.make(offered, plan);
   const pictureId = nextIds[camera] ?? 0;
   nextIds[camera] = (pictureId + 1) >>> 0;
-  const captureTimeUs = Math.floor((captureMs * 1000) % 0x1_0000_0000);
+  const captureTimeUs = Math.floor((capturedAtMs * 1000) % 0x1_0000_0000);
   const header = { format, camera, width, height, pictureId, captureTimeUs };
   const room = new Uint8Array(pictureChunks(bytes.length) * MAX_PICTURE_CHUNK_BYTES);
   const chunks: Uint8Array<ArrayBuffer>[] = [];
@@ -60,7 +60,7 @@ function makeReady(offered: OfferedPicture, plan: CameraPlan): ReadyPicture {
     chunks.push(room.subarray(at, at + length));
   }
   return {
-    ...{ type: 'picture', header, captureMs, fileBytes: bytes.length, chunks, untouched },
+    ...{ type: 'picture', header, capturedAtMs, fileBytes: bytes.length, chunks, untouched },
     ...{ longestSide: plan.longestSide, workMs: threadCpuMs() - began },
   };
 }

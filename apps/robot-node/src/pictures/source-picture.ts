@@ -25,7 +25,7 @@ export interface SourcePicture {
   /** Place in the source's list of cameras. */
   camera: number;
   /** Robot's clock when it was taken, ms. */
-  captureMs: number;
+  capturedAtMs: number;
   facts: RawPicture | PictureFileFacts;
   /** Where it was read, for messages of what is wrong with it; of a live camera left out. */
   origin?: string;

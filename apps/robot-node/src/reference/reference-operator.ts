@@ -8,7 +8,7 @@ import {
   referenceControlCodec,
 } from '@farpoint/protocol';
 import type { FrameTarget } from '../session/frame-fan-out.ts';
-import type { SessionHost } from '../session/operator-session.ts';
+import type { SessionHost } from '../session/operator-messages.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
 import type { PeerEnd } from '../transport/peer-events.ts';
 import type { SendLoop } from '../transport/send-loop.ts';

@@ -1,6 +1,6 @@
 import { emptyPointPacketHeader, readPointPacketHeader } from '@farpoint/protocol';
 import { expect, it } from 'vitest';
-import type { CapturedFrame } from '../capture/capture-messages.ts';
+import type { ReadyFrame } from '../capture/capture-messages.ts';
 import { completePackets, SLOT_BYTES } from '../encode/packetiser.ts';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
 import { SharedFrame } from '../transport/shared-frame.ts';
@@ -27,7 +27,7 @@ function fakeInner(sent: Sent[]): CloudTransport {
 }
 
 /** Data bytes count up, so that a wrong place shows. */
-function capturedFrame(frameNumber: number, points: number): CapturedFrame {
+function capturedFrame(frameNumber: number, points: number): ReadyFrame {
   const packets = Math.ceil(points / 150);
   const slots = Uint8Array.from({ length: packets * SLOT_BYTES }, (_, i) => i & 0xff);
   completePackets(slots, frameNumber, points, {
@@ -45,7 +45,7 @@ function capturedFrame(frameNumber: number, points: number): CapturedFrame {
     packets,
     intervalMs: 33,
     capturedAtMs: 0,
-  } as CapturedFrame;
+  } as ReadyFrame;
 }
 
 it('sends the same blocks under headers of its own: whole packets, frames from 0, a clock of 90 kHz', () => {

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import type { CapturedFrame } from '../capture/capture-messages.ts';
+import type { ReadyFrame } from '../capture/capture-messages.ts';
 import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
 import type { CodedFormat } from '../encode/plan.ts';
@@ -44,7 +44,7 @@ const BOTH = ['organised', 'unorganised'] as const;
 function setUp(viewers: Viewer[], driver: string | null = null) {
   const budgets: CaptureBudget[] = [];
   const capture = {
-    onFrame: null as ((frame: CapturedFrame) => void) | null,
+    onFrame: null as ((frame: ReadyFrame) => void) | null,
     onStream: null as ((stream: { format: CodedFormat; header: Uint8Array }) => void) | null,
     setBudget: (budget: CaptureBudget) => void budgets.push(budget),
     recycle: () => undefined,
@@ -68,7 +68,7 @@ function setUp(viewers: Viewer[], driver: string | null = null) {
       ...{ capturedAtMs: 990, captureMs: 1, captureCpuMs: 1, readyMs: 1000, frameNumber: 1, packets: 1 },
       ...{ points: 10, validPoints: 10, sampleMs: 1, packMs: 1, format: 'points64' },
       rejected: { notFinite: 0, nonPositiveDepth: 0, outOfRange: 0, notDrawn: 0 },
-    } as unknown as CapturedFrame);
+    } as unknown as ReadyFrame);
   const received = (audience: FrameAudience) => {
     const before = viewers.map(({ frames }) => frames);
     frame(audience);

@@ -1,6 +1,6 @@
 import { isDeepStrictEqual } from 'node:util';
 import type { Capture } from '../capture/capture.ts';
-import type { CapturedFrame } from '../capture/capture-messages.ts';
+import type { ReadyFrame } from '../capture/capture-messages.ts';
 import { type CaptureBudget, type CodedBudget, NO_BUDGET } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
@@ -44,7 +44,7 @@ export interface FanOutOptions {
   counters: RobotCounters;
   stages: StageTimer;
   frameLog?: Pick<FrameLog, 'add'> | undefined;
-  onFrame?: ((frame: CapturedFrame) => void) | undefined;
+  onFrame?: ((frame: ReadyFrame) => void) | undefined;
   now: () => number;
   /** Coded formats may be used. */
   mayCode: boolean;
@@ -110,7 +110,7 @@ export class FrameFanOut {
     capture.setBudget(next);
   }
 
-  #onFrame(frame: CapturedFrame): void {
+  #onFrame(frame: ReadyFrame): void {
     const { capture, targets, sendLoop, counters, stages, now, sensor, lane } = this.#options;
     counters.frame(frame);
     this.#options.frameLog?.add(frame);

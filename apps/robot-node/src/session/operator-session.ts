@@ -1,246 +1,293 @@
-/** What one operator's messages mean, and what it is told. */
-import {
-  type CloudFormat,
-  type Command,
-  clockAnswerCodec,
-  decodeBandwidth,
-  decodeJson,
-  decodeStreamSwitch,
-  encodeJson,
-  type LatencyMeasured,
-  type OperatorSessionMessage,
-  operatorControlCodec,
-  operatorSessionCodec,
-  ProtocolError,
-  type ReceiverReport,
-  type RobotSessionMessage,
-  robotSessionCodec,
-  sequenceDelta32,
-} from '@farpoint/protocol';
-import { type CommandVerdict, type RejectedCommand, RejectionReporter } from '@farpoint/safety';
-import type { DriveStation } from '../drive/drive-station.ts';
+import type { RateController } from '@farpoint/congestion';
+import type { CloudFormat, IceCandidate, StageTimings, StreamStatus } from '@farpoint/protocol';
+import { BitRate, RateMeter } from '@farpoint/timing';
+import type { CandidateRefusal } from '@farpoint/webrtc';
+import type { CodedStream } from '../encode/coded-frame-encoder.ts';
+import type { CodedFormat } from '../encode/plan.ts';
+import type { ReadyPicture } from '../pictures/picture-messages.ts';
+import { PictureSender } from '../pictures/picture-sender.ts';
+import { type CloudClaim, cloudShare } from '../sensors/cloud-shares.ts';
+import { StageTimer } from '../telemetry/stage-timer.ts';
+import type { AnswerVerdict } from '../transport/answer-gate.ts';
+import type { CloudTransport } from '../transport/cloud-transport.ts';
+import { OperatorPeer } from '../transport/operator-peer.ts';
+import type { PacketLog } from '../transport/packet-log.ts';
+import type { OperatorPeerOptions, PeerEnd } from '../transport/peer-events.ts';
+import type { SendLoop } from '../transport/send-loop.ts';
+import type { SharedFrame } from '../transport/shared-frame.ts';
+import { StreamSender } from '../transport/stream-sender.ts';
+import type { FrameTarget } from './frame-fan-out.ts';
+import { type LatencyTest, LatencyTests } from './latency-tests.ts';
+import { OperatorMessages, type SessionHost } from './operator-messages.ts';
+import { PathBudget } from './path-budget.ts';
+import { RestartPolicy } from './restart-policy.ts';
+import { ResumeKey } from './resume-key.ts';
 
-/** Where a session's messages go. */
-export interface SessionLink {
-  sendSession(text: string): void;
-  sendControl(text: string): void;
+export interface OperatorSessionOptions {
+  /** The session's handle; also the operator's name towards the guard. */
+  session: string;
+  operatorName: string;
+  peer: OperatorPeerOptions;
+  /** @param transportFeedback whether the operator gives transport-wide feedback */
+  makeController: (transportFeedback: boolean) => RateController;
+  packetLog?: PacketLog | undefined;
+  /** Most of the path that pictures may take, 0–1. */
+  pictureShare: number;
+  /** What the robot's cloud sensors ask of a path, by number. */
+  claims: () => readonly CloudClaim[];
 }
 
-/** What a session asks of the robot. */
-export interface SessionHost {
-  readonly drive: DriveStation;
-  now(): number;
-  /** Everyone must be told who drives now. */
-  leaseChanged(): void;
-  estopChanged(): void;
-  latencyTestRequested(session: OperatorSession, id: number, commandMs: number): void;
-  /** For the counters. */
-  commandAccepted(): void;
-  commandRejected(rejection: RejectedCommand): void;
-  /** For a recording: each command, and what the guard said. */
-  commandJudged?(session: OperatorSession, command: Command, verdict: CommandVerdict): void;
-  /** For a recording: what an operator measured. */
-  latencyMeasured?(session: OperatorSession, measured: LatencyMeasured): void;
-  messageRefused(channel: string, error: ProtocolError): void;
+export interface OperatorSessionEvents {
+  onCandidate(candidate: IceCandidate): void;
+  onCandidateRefused(reason: CandidateRefusal, detail: string): void;
+  onConnected(): void;
+  /** Streaming began, paused, or may go at another rate or in another format. */
+  onBudgetChanged(): void;
+  /** The operator has said which formats it reads: it may need to know the stream. */
+  onCloudFormats(): void;
+  /** A green frame did not get through: another is needed. */
+  onLatencyFrameLost(): void;
+  onEnded(end: PeerEnd, detail: string): void;
 }
 
-/** How much of a malformed command's text goes into the report. */
-const MAX_DETAIL = 200;
-
-export class OperatorSession {
-  readonly id: string;
-  readonly operatorName: string;
-  /** Points are sent to this operator. */
-  streaming = true;
-  /** When the operator was last heard of on any channel, robot's clock, ms. */
-  heardMs: number;
-  onReceiverReport: ((report: ReceiverReport) => void) | null = null;
-  onReceiverLimit: ((bitsPerSecond: number) => void) | null = null;
-  onStreamSwitch: ((running: boolean) => void) | null = null;
-  onCloudFormats: ((formats: readonly CloudFormat[]) => void) | null = null;
-  onPictures: ((cameras: readonly number[]) => void) | null = null;
-  onSensors: ((sensors: readonly number[]) => void) | null = null;
+/** One operator: connection, session and stream. */
+export class OperatorSession implements FrameTarget {
+  readonly messages: OperatorMessages;
+  readonly peer: OperatorPeer;
+  readonly restarts = new RestartPolicy();
+  readonly resumeKey = new ResumeKey();
+  sender: StreamSender | null = null;
+  readonly #claims: OperatorSessionOptions['claims'];
+  /** The sensors whose clouds it wants. */
+  #sensors: ReadonlySet<number> = new Set([0]);
+  /** What the operator has said that it reads. */
+  #formats: ReadonlySet<CloudFormat> = new Set();
+  /** Nothing is heard: points would go nowhere. */
+  quiet = false;
   readonly #host: SessionHost;
-  readonly #link: SessionLink;
-  readonly #rejections = new RejectionReporter();
-  #lastReport: number | null = null;
+  readonly #sendLoop: SendLoop;
+  readonly #makeController: OperatorSessionOptions['makeController'];
+  readonly #packetLog: PacketLog | undefined;
+  readonly #events: OperatorSessionEvents;
+  readonly #frames = new RateMeter();
+  readonly #points = new RateMeter();
+  readonly #bytes = new RateMeter();
+  readonly #stages = new StageTimer();
+  readonly #budget: PathBudget;
+  readonly pictures: PictureSender;
+  readonly #tests = new LatencyTests();
+  #pathHeardMs = 0;
+  #framesSent = 0;
+  #pointsSent = 0;
+  #lastFrameNumber = 0;
+  #lastValidPoints = 0;
 
-  constructor(id: string, operatorName: string, host: SessionHost, link: SessionLink) {
-    this.id = id;
-    this.operatorName = operatorName;
+  constructor(
+    options: OperatorSessionOptions,
+    host: SessionHost,
+    sendLoop: SendLoop,
+    events: OperatorSessionEvents,
+  ) {
     this.#host = host;
-    this.#link = link;
-    this.heardMs = host.now();
+    this.#sendLoop = sendLoop;
+    this.#makeController = options.makeController;
+    this.#packetLog = options.packetLog;
+    this.#claims = options.claims;
+    this.#budget = new PathBudget(options.pictureShare);
+    this.#events = events;
+    this.peer = new OperatorPeer(options.peer, {
+      onCandidate: (candidate) => events.onCandidate(candidate),
+      onCandidateRefused: (reason, detail) => events.onCandidateRefused(reason, detail),
+      onConnected: (transport) => this.#onConnected(transport),
+      onMessage: (channel, data) => this.messages.onMessage(channel, data),
+      onPicturesLow: () => this.#sendPictures(),
+      onEnded: (end, detail) => this.#onEnded(end, detail),
+    });
+    this.pictures = new PictureSender(this.peer);
+    this.messages = new OperatorMessages(options.session, options.operatorName, host, this.peer);
+    this.messages.onReceiverReport = (report) => this.sender?.onReceiverReport(report);
+    this.messages.onReceiverLimit = (bitsPerSecond) => {
+      this.sender?.onReceiverLimit(bitsPerSecond);
+      events.onBudgetChanged();
+    };
+    this.messages.onStreamSwitch = (running) => {
+      if (!running) this.#clear();
+      events.onBudgetChanged();
+    };
+    this.messages.onSensors = (sensors) => {
+      this.#sensors = new Set(sensors);
+      events.onCloudFormats();
+      events.onBudgetChanged();
+    };
+    this.messages.onPictures = (cameras) => this.pictures.watch(cameras);
+    this.messages.onCloudFormats = (formats) => {
+      this.#formats = new Set(formats);
+      events.onCloudFormats();
+      events.onBudgetChanged();
+    };
   }
 
-  /** Who drives and whether anybody may: sent after the welcome and at each change. */
-  sendLease(): void {
-    this.send(this.#host.drive.guard.leaseState(this.id));
+  /** The operator's answer to our latest offer. Never throws. */
+  async answer(sdp: string): Promise<AnswerVerdict> {
+    const verdict = await this.peer.answer(sdp);
+    if (verdict === 'taken') this.restarts.onAnswer();
+    return verdict;
   }
 
-  sendEstop(): void {
-    this.send(this.#host.drive.guard.estopState());
+  /** Each format counts by itself. */
+  reads(format: CodedFormat): boolean {
+    return this.#formats.has(format);
   }
 
-  send(message: RobotSessionMessage): void {
-    this.#link.sendSession(encodeJson(robotSessionCodec, message));
+  /** As the guard knows it. */
+  get id(): string {
+    return this.messages.id;
   }
 
-  /** Reports of refusals that waited for their turn; call a few times a second. */
-  flushRejections(): void {
-    for (const report of this.#rejections.due(this.#host.now())) this.send(report);
+  /** Connected, not paused, and heard of. */
+  get streaming(): boolean {
+    return this.sender !== null && this.messages.streaming && !this.quiet;
   }
 
-  onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void {
-    this.heardMs = this.#host.now();
-    try {
-      if (channel === 'control') this.#onControl(data);
-      else if (channel === 'session') this.#onSession(data);
-      else this.#onBandwidth(data);
-    } catch (error) {
-      if (!(error instanceof ProtocolError)) throw error;
-      this.#host.messageRefused(channel, error);
-      // What was meant for the control channel should have been a command.
-      if (channel === 'control') this.#onMalformed(error);
-      else this.send({ type: 'fault', message: error.message.slice(0, 512) });
+  /** When anything was last heard from the operator, message, RTCP or connectivity check, robot's clock, ms. */
+  get heardMs(): number {
+    return Math.max(this.messages.heardMs, this.sender?.heardMs ?? 0, this.#pathHeardMs);
+  }
+
+  wants(sensor: number): boolean {
+    return this.#sensors.has(sensor);
+  }
+
+  /** What a sensor's points may take of the path, bit/s on the wire; 0 while there is none. */
+  cloudBitsPerSecond(sensor: number): number {
+    const { sender } = this;
+    if (sender === null) return 0;
+    const total = this.#budget.cloudBitsPerSecond(sender.targetBitsPerSecond) * sender.fit;
+    return cloudShare(sensor, total, this.#claims(), this.#sensors);
+  }
+
+  get watchedCameras(): ReadonlySet<number> {
+    return this.pictures.watched;
+  }
+
+  /** What pictures may take of the path, bit/s on the wire; 0 while there is none. */
+  get pictureBitsPerSecond(): number {
+    const { sender } = this;
+    return sender === null ? 0 : this.#budget.pictureBitsPerSecond(sender.targetBitsPerSecond);
+  }
+
+  offerPicture(picture: ReadyPicture): void {
+    if (this.streaming) this.pictures.offer(picture);
+  }
+
+  get droppedFrames(): number {
+    const drops = this.sender?.droppedFrames;
+    return drops === undefined ? 0 : drops.superseded + drops.overdue;
+  }
+
+  /** @returns false where the test is known */
+  askLatencyTest(test: LatencyTest): boolean {
+    return this.#tests.ask(test);
+  }
+
+  /** Sends the frame when its time comes; a green one answers the latency tests that wait. */
+  enqueue(shared: SharedFrame): void {
+    if (this.sender === null || !this.streaming) return;
+    const { frame } = shared;
+    const { frameNumber, points, capturedAtMs } = frame;
+    for (const { id, commandMs } of this.#tests.answeredBy(shared)) {
+      const moments = { commandMs, captureMs: capturedAtMs };
+      this.messages.send({ type: 'latencyFrame', id, frameNumber, points, ...moments });
     }
+    if (frame.sensor === 0) this.#lastValidPoints = frame.validPoints;
+    this.sender.enqueue(shared);
   }
 
-  #onBandwidth(data: string | Uint8Array): void {
-    if (typeof data === 'string')
-      throw new ProtocolError('invalid', 'bandwidth message', '', 'text, not bytes');
-    this.onReceiverLimit?.(decodeBandwidth(data));
+  announce({ format, header }: CodedStream, sensor: number): void {
+    const text = Buffer.from(header).toString('base64');
+    this.messages.send({ type: 'cloudStream', format, header: text, ...(sensor === 0 ? {} : { sensor }) });
   }
 
-  #onControl(data: string | Uint8Array): void {
-    const now = this.heardMs;
-    const message = decodeJson(operatorControlCodec, data);
-    switch (message.type) {
-      case 'command':
-        this.#onCommand(message, now);
-        break;
-      case 'clockProbe': {
-        const { id, sentMs } = message;
-        this.#link.sendControl(
-          encodeJson(clockAnswerCodec, { type: 'clockAnswer', id, sentMs, robotMs: this.#host.now() }),
-        );
-        this.#host.drive.guard.onClockProbe(this.id, sentMs, now);
-        break;
-      }
-      case 'receiverReport':
-        // They may overtake each other; an older one says nothing new.
-        if (this.#lastReport !== null && sequenceDelta32(message.sequence, this.#lastReport) <= 0) break;
-        this.#lastReport = message.sequence;
-        this.onReceiverReport?.(message);
-        break;
-    }
+  /** Every 25 ms. */
+  tick(): void {
+    if (this.peer.heardSinceLast()) this.#pathHeardMs = this.#host.now();
+    this.#budget.update(this.peer.messageBytesSent, this.pictures.bytesSent, this.#host.now());
+    this.#sendPictures();
+    this.sender?.tick();
+    this.messages.flushRejections();
   }
 
-  #onCommand(command: Command, now: number): void {
-    const { drive } = this.#host;
-    const verdict = drive.guard.onCommand(this.id, command, now);
-    this.#host.commandJudged?.(this, command, verdict);
-    // Also after a refusal: letting go of the grip stops the robot.
-    drive.apply();
-    if (!verdict.accepted) {
-      this.#reject(verdict, command.sequence);
-      return;
-    }
-    this.#host.commandAccepted();
-    if (command.latencyTest !== undefined) this.#host.latencyTestRequested(this, command.latencyTest, now);
+  /** What telemetry says of this operator's stream; call once for each telemetry message. */
+  status(captureStages: StageTimings, nowMs: number): { stages: StageTimings; stream: StreamStatus } {
+    this.#frames.update(this.#framesSent, nowMs);
+    this.#points.update(this.#pointsSent, nowMs);
+    this.#bytes.update(this.sender?.counters.bytesSent ?? 0, nowMs);
+    const framesPerSecond = this.#frames.perSecond;
+    return {
+      stages: { ...captureStages, sendMs: this.#stages.take().sendMs },
+      stream: {
+        frameNumber: this.#lastFrameNumber,
+        framesPerSecond,
+        pointsPerFrame: framesPerSecond > 0 ? this.#points.perSecond / framesPerSecond : 0,
+        validPoints: this.#lastValidPoints,
+        bitsPerSecond: BitRate.fromBytesPerSecond(this.#bytes.perSecond),
+        targetBitsPerSecond: this.sender?.targetBitsPerSecond ?? 0,
+        droppedFrames: this.droppedFrames,
+        ...(this.sender?.transportFeedback === false ? { feedback: 'reports' as const } : {}),
+      },
+    };
   }
 
-  #onMalformed(error: ProtocolError): void {
-    const verdict = this.#host.drive.guard.onMalformed(
-      this.id,
-      error.message.slice(0, MAX_DETAIL),
-      this.heardMs,
+  /** Telemetry tells of the first sensor's frames, and of all bytes. */
+  #countSent({ frame }: SharedFrame): void {
+    this.#lastFrameNumber = frame.frameNumber;
+    this.#framesSent++;
+    this.#pointsSent += frame.points;
+  }
+
+  #sendPictures(): void {
+    this.pictures.tick(this.#host.now(), this.streaming ? this.pictureBitsPerSecond : 0);
+  }
+
+  /** What waits to be sent is not wanted any more. */
+  #clear(): void {
+    this.sender?.clear();
+    this.pictures.clear();
+  }
+
+  #onConnected(transport: CloudTransport): void {
+    const sender = new StreamSender(transport, this.#makeController(transport.transportFeedback), () =>
+      this.#host.now(),
     );
-    this.#reject(verdict, undefined);
+    const log = this.#packetLog;
+    if (log !== undefined) sender.onPacketSent = (frame, offset, sentMs) => log.add(frame, offset, sentMs);
+    sender.onFrameSent = ({ shared, sendMs }) => {
+      this.#stages.add('sendMs', sendMs);
+      if (shared.frame.sensor === 0) this.#countSent(shared);
+      this.#tests.onSent(shared);
+    };
+    sender.onFrameDropped = (shared) => {
+      if (this.#tests.onLost(shared)) this.#events.onLatencyFrameLost();
+    };
+    sender.onRateChanged = () => {
+      this.#events.onBudgetChanged();
+      this.#sendLoop.run();
+    };
+    this.messages.heardMs = this.#host.now();
+    this.sender = sender;
+    this.#sendLoop.add(sender);
+    this.#events.onConnected();
   }
 
-  #reject(verdict: RejectedCommand, sequence: number | undefined): void {
-    this.#host.commandRejected(verdict);
-    const report = this.#rejections.add(verdict, sequence, this.#host.now());
-    if (report !== null) this.send(report);
-  }
-
-  #onSession(data: string | Uint8Array): void {
-    // The reference system's operators switch the stream with bare words.
-    if (typeof data === 'string' && !data.startsWith('{')) {
-      this.#switchStream(decodeStreamSwitch(data) === 'start');
-      return;
+  #onEnded(end: PeerEnd, detail: string): void {
+    const sender = this.sender;
+    this.sender = null;
+    this.#tests.clear();
+    this.pictures.clear();
+    if (sender !== null) {
+      this.#sendLoop.remove(sender);
+      sender.clear();
     }
-    this.#onRequest(decodeJson(operatorSessionCodec, data));
-  }
-
-  #onRequest(message: OperatorSessionMessage): void {
-    const { drive } = this.#host;
-    const { guard } = drive;
-    switch (message.type) {
-      case 'leaseRequest': {
-        const outcome = guard.requestLease(this.id, message.take, this.heardMs);
-        drive.apply();
-        if (outcome.granted) {
-          this.#host.leaseChanged();
-        } else {
-          this.send({ type: 'fault', message: outcome.detail });
-          this.sendLease();
-        }
-        break;
-      }
-      case 'leaseRelease': {
-        const released = guard.releaseLease(this.id);
-        drive.apply();
-        if (released) this.#host.leaseChanged();
-        else this.sendLease();
-        break;
-      }
-      case 'estop':
-        this.#onEstop(message.latch);
-        break;
-      case 'stream':
-        this.#switchStream(message.running);
-        break;
-      case 'cloudFormats':
-        this.onCloudFormats?.(message.formats);
-        break;
-      case 'pictures':
-        this.onPictures?.(message.cameras);
-        break;
-      case 'sensors':
-        this.onSensors?.(message.sensors);
-        break;
-      case 'latencyMeasured':
-        this.#host.latencyMeasured?.(this, message);
-        break;
-    }
-  }
-
-  #onEstop(latch: boolean): void {
-    const { drive } = this.#host;
-    if (latch) {
-      const changed = drive.guard.latchEstop('operator');
-      drive.apply();
-      if (changed) this.#host.estopChanged();
-      else this.sendEstop();
-      return;
-    }
-    const outcome = drive.guard.releaseEstop(this.id, this.heardMs);
-    drive.apply();
-    if (outcome.released) {
-      this.#host.estopChanged();
-    } else {
-      if (outcome.reason === 'not-lease-holder') {
-        this.send({ type: 'fault', message: 'only the operator who drives releases the emergency stop' });
-      }
-      this.sendEstop();
-    }
-  }
-
-  #switchStream(running: boolean): void {
-    if (this.streaming === running) return;
-    this.streaming = running;
-    this.onStreamSwitch?.(running);
+    this.#events.onEnded(end, detail);
   }
 }

@@ -6,8 +6,8 @@ import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
 import type { OperatorPeerOptions, PeerEnd } from '../transport/peer-events.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
-import { ConnectedOperator } from './connected-operator.ts';
-import type { SessionHost } from './operator-session.ts';
+import type { SessionHost } from './operator-messages.ts';
+import { OperatorSession } from './operator-session.ts';
 import type { ResumeRequest } from './path-keeper.ts';
 
 export interface OperatorSessionsOptions {
@@ -32,17 +32,17 @@ export interface OperatorSessionsOptions {
 export interface OperatorSessionsEvents {
   /** Somebody asks for a new path of a session, having lost the old one. */
   resume: (request: ResumeRequest, iceServers: readonly IceServer[]) => void;
-  connected: (operator: ConnectedOperator) => void;
+  connected: (operator: OperatorSession) => void;
   budgetChanged: () => void;
-  cloudFormats: (operator: ConnectedOperator) => void;
+  cloudFormats: (operator: OperatorSession) => void;
   latencyFrameLost: () => void;
   /** It is not among the operators any more. */
-  ended: (operator: ConnectedOperator) => void;
+  ended: (operator: OperatorSession) => void;
 }
 
 /** Sessions with operators, opened and closed as signaling says; each has a connection of its own. */
 export class OperatorSessions {
-  readonly operators = new Map<string, ConnectedOperator>();
+  readonly operators = new Map<string, OperatorSession>();
   readonly #options: OperatorSessionsOptions;
   readonly #events: OperatorSessionsEvents;
   #iceServers: readonly IceServer[] = [];
@@ -85,7 +85,7 @@ export class OperatorSessions {
   /** Takes leave of everyone. */
   close(): void {
     for (const operator of [...this.operators.values()]) {
-      const { id: session } = operator.session;
+      const { id: session } = operator.messages;
       this.#options.signaling.send({ type: 'session.close', session, reason: 'shutting-down' });
       operator.peer.close('closed', 'the robot is shutting down');
     }
@@ -122,7 +122,7 @@ export class OperatorSessions {
       return;
     }
     const log = this.#options.log.child({ session, operator: operatorName });
-    const operator = new ConnectedOperator(
+    const operator = new OperatorSession(
       {
         ...{ session, operatorName, packetLog, pictureShare },
         peer: { ...peer, iceServers: this.#iceServers },
@@ -158,9 +158,9 @@ export class OperatorSessions {
     }
   }
 
-  #ended(operator: ConnectedOperator, end: PeerEnd, detail: string, log: Logger): void {
+  #ended(operator: OperatorSession, end: PeerEnd, detail: string, log: Logger): void {
     const { counters, signaling } = this.#options;
-    const { id } = operator.session;
+    const { id } = operator.messages;
     this.operators.delete(id);
     this.#events.ended(operator);
     counters.sessionsEnded.add(end);

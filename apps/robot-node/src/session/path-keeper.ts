@@ -3,16 +3,16 @@ import type { Logger } from '@farpoint/service';
 import { TokenBucket } from '@farpoint/timing';
 import type { DriveStation } from '../drive/drive-station.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
-import type { ConnectedOperator } from './connected-operator.ts';
+import type { OperatorSession } from './operator-session.ts';
 import { type SilenceLimits, silenceStep } from './silence.ts';
 
 export type ResumeRequest = Extract<ServiceToRobot, { type: 'session.resume' }>;
 
 /** What is needed of an operator here. */
 export type KeptOperator = Pick<
-  ConnectedOperator,
-  'tick' | 'sender' | 'heardMs' | 'quiet' | 'session' | 'restarts' | 'resumeKey'
-> & { readonly peer: Pick<ConnectedOperator['peer'], 'connected' | 'close' | 'restart' | 'useIceServers'> };
+  OperatorSession,
+  'tick' | 'sender' | 'heardMs' | 'quiet' | 'messages' | 'restarts' | 'resumeKey'
+> & { readonly peer: Pick<OperatorSession['peer'], 'connected' | 'close' | 'restart' | 'useIceServers'> };
 
 export interface PathKeeperOptions {
   operators: ReadonlyMap<string, KeptOperator>;
@@ -49,7 +49,7 @@ export class PathKeeper {
       const step = silenceStep(silentMs, limits);
       if (step === 'none') continue;
       signaling.check();
-      if (step === 'release-lease' && drive.guard.releaseLease(operator.session.id)) {
+      if (step === 'release-lease' && drive.guard.releaseLease(operator.messages.id)) {
         drive.apply();
         leaseChanged();
       } else if (step === 'end') {

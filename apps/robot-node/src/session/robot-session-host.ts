@@ -6,13 +6,13 @@ import type { EstopJournal } from '../drive/estop-journal.ts';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { SessionRecording } from '../telemetry/session-recording.ts';
-import type { ConnectedOperator } from './connected-operator.ts';
-import type { OperatorSession, SessionHost } from './operator-session.ts';
+import type { OperatorMessages, SessionHost } from './operator-messages.ts';
+import type { OperatorSession } from './operator-session.ts';
 
 export interface RobotSessionHostParts {
   drive: DriveStation;
   estop: EstopJournal;
-  operators: () => ReadonlyMap<string, ConnectedOperator>;
+  operators: () => ReadonlyMap<string, OperatorSession>;
   sensors: () => CloudSensors;
   counters: RobotCounters;
   recording: SessionRecording | null;
@@ -35,7 +35,7 @@ export class RobotSessionHost implements SessionHost {
   }
 
   leaseChanged(): void {
-    for (const { session } of this.#parts.operators().values()) session.sendLease();
+    for (const { messages } of this.#parts.operators().values()) messages.sendLease();
     this.#parts.sensors().updateBudgets();
   }
 
@@ -52,11 +52,11 @@ export class RobotSessionHost implements SessionHost {
     const state = this.drive.guard.estopState();
     estop.changed(state.by ?? null);
     log.warn({ estop: state }, 'emergency stop changed');
-    for (const { session } of operators().values()) session.sendEstop();
+    for (const { messages } of operators().values()) messages.sendEstop();
   }
 
-  latencyTestRequested(session: OperatorSession, id: number, commandMs: number): void {
-    const isNew = this.#parts.operators().get(session.id)?.askLatencyTest({ id, commandMs }) ?? false;
+  latencyTestRequested({ id: operator }: OperatorMessages, id: number, commandMs: number): void {
+    const isNew = this.#parts.operators().get(operator)?.askLatencyTest({ id, commandMs }) ?? false;
     if (isNew) this.requestLatencyFrame();
   }
 
@@ -72,11 +72,11 @@ export class RobotSessionHost implements SessionHost {
     this.#parts.counters.commandsRejected.add(rejection.reason);
   }
 
-  commandJudged(session: OperatorSession, command: Command, verdict: CommandVerdict): void {
+  commandJudged(session: OperatorMessages, command: Command, verdict: CommandVerdict): void {
     this.#parts.recording?.command(session.id, command, verdict);
   }
 
-  latencyMeasured(session: OperatorSession, measured: LatencyMeasured): void {
+  latencyMeasured(session: OperatorMessages, measured: LatencyMeasured): void {
     this.#parts.recording?.latencyMeasured(session.id, measured);
   }
 

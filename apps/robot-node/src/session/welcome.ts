@@ -1,6 +1,6 @@
 import { type DriveLimits, PROTOCOL_VERSION } from '@farpoint/protocol';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
-import type { ConnectedOperator } from './connected-operator.ts';
+import type { OperatorSession } from './operator-session.ts';
 
 export interface WelcomeFacts {
   id: string;
@@ -12,13 +12,13 @@ export interface WelcomeFacts {
 
 /** The first messages of a session: what the robot is, who drives, and what there is to see. */
 export function welcome(
-  { session, resumeKey }: ConnectedOperator,
+  { messages, resumeKey }: OperatorSession,
   { id, name, limits, framesPerSecond }: WelcomeFacts,
   sensors: CloudSensors,
 ): void {
   const { description, cameras } = sensors.first.capture;
   const { width, height } = description;
-  session.send({
+  messages.send({
     type: 'welcome',
     protocol: PROTOCOL_VERSION,
     robotId: id,
@@ -27,10 +27,10 @@ export function welcome(
     stream: { format: 'points64', width, height, framesPerSecond },
     resumeKey: resumeKey.text,
   });
-  session.sendLease();
-  session.sendEstop();
-  if (cameras.length > 0) session.send({ type: 'cameras', cameras: cameras.map(({ name }) => ({ name })) });
+  messages.sendLease();
+  messages.sendEstop();
+  if (cameras.length > 0) messages.send({ type: 'cameras', cameras: cameras.map(({ name }) => ({ name })) });
   if (sensors.all.length > 1) {
-    session.send({ type: 'sensors', sensors: sensors.all.map(({ name }) => ({ name })) });
+    messages.send({ type: 'sensors', sensors: sensors.all.map(({ name }) => ({ name })) });
   }
 }

@@ -1,5 +1,5 @@
 import { writeFileSync } from 'node:fs';
-import type { CapturedFrame } from '../capture/capture-messages.ts';
+import type { ReadyFrame } from '../capture/capture-messages.ts';
 
 /** Frames kept: ten minutes at 30 a second. */
 const DEFAULT_CAPACITY = 18_000;
@@ -21,7 +21,7 @@ export class FrameLog {
     this.#rows = new Float64Array(capacity * 4);
   }
 
-  add({ frameNumber, capturedAtMs, readyMs, points }: CapturedFrame): void {
+  add({ frameNumber, capturedAtMs, readyMs, points }: ReadyFrame): void {
     const at = (this.#count % this.#capacity) * 4;
     this.#rows[at] = frameNumber;
     this.#rows[at + 1] = capturedAtMs;

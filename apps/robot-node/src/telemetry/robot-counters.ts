@@ -1,4 +1,4 @@
-import type { CapturedFrame } from '../capture/capture-messages.ts';
+import type { ReadyFrame } from '../capture/capture-messages.ts';
 
 /** Counts by a typed reason. */
 export class ReasonCounts {
@@ -49,7 +49,7 @@ export class RobotCounters {
   lastFramesPerSecond = 0;
   lastValidPoints = 0;
 
-  frame(frame: CapturedFrame): void {
+  frame(frame: ReadyFrame): void {
     this.framesCaptured++;
     this.pointsCaptured += frame.points;
     this.lastPoints = frame.points;

@@ -1,7 +1,7 @@
 import type { DriveGuard } from '@farpoint/safety';
 import { fileFault, JsonLinesFile, type Logger } from '@farpoint/service';
 import type { TimedBaseState } from '../base/base.ts';
-import type { ConnectedOperator } from '../session/connected-operator.ts';
+import type { OperatorSession } from '../session/operator-session.ts';
 import type { RobotCounters } from './robot-counters.ts';
 import type { SessionRecording } from './session-recording.ts';
 import { streamStatistics } from './stream-statistics.ts';
@@ -11,7 +11,7 @@ const TELEMETRY_MS = 50;
 const STATISTICS_MS = 100;
 
 export interface RobotReportsParts {
-  operators: ReadonlyMap<string, ConnectedOperator>;
+  operators: ReadonlyMap<string, OperatorSession>;
   counters: RobotCounters;
   telemetry: TelemetrySender;
   guard: DriveGuard;

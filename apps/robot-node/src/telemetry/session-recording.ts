@@ -10,7 +10,7 @@ import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { TimedBaseState } from '../base/base.ts';
 import type { Capture, CaptureRecording } from '../capture/capture.ts';
-import type { CapturedFrame } from '../capture/capture-messages.ts';
+import type { ReadyFrame } from '../capture/capture-messages.ts';
 import type { CameraDescription } from '../capture/frame-source.ts';
 import { monotonicMs } from '../clock.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
@@ -94,12 +94,12 @@ export class SessionRecording {
   }
 
   /** A picture as it was made for operators. */
-  picture({ header, captureMs, fileBytes, chunks }: ReadyPicture): void {
+  picture({ header, capturedAtMs, fileBytes, chunks }: ReadyPicture): void {
     const file = new Uint8Array(fileBytes);
     chunks.forEach((chunk, i) => {
       file.set(chunk.subarray(PICTURE_CHUNK_HEADER_BYTES), i * PICTURE_CHUNK_DATA_BYTES);
     });
-    this.#recorder.picture(header.camera, captureMs, header.format, file);
+    this.#recorder.picture(header.camera, capturedAtMs, header.format, file);
   }
 
   /** What the wheels are given. */
@@ -126,7 +126,7 @@ export class SessionRecording {
   }
 
   /** From a frame's capture to its packets, and to the thread that sends them. */
-  frame(frame: CapturedFrame): void {
+  frame(frame: ReadyFrame): void {
     const { frameNumber, format, points, packets, validPoints, latencyTest } = frame;
     const { capturedAtMs, readyMs, captureMs, sampleMs, packMs } = frame;
     const now = monotonicMs();

@@ -1,6 +1,6 @@
 import type { RateSnapshot } from '@farpoint/congestion';
 import type { TimedBaseState } from '../base/base.ts';
-import type { ConnectedOperator } from '../session/connected-operator.ts';
+import type { OperatorSession } from '../session/operator-session.ts';
 import type { RobotCounters } from './robot-counters.ts';
 
 /** One operator's stream at one moment, for measurements. Sums since the session began. */
@@ -24,17 +24,17 @@ export interface StreamStatistics extends RateSnapshot {
 }
 
 export function streamStatistics(
-  operators: Iterable<ConnectedOperator>,
+  operators: Iterable<OperatorSession>,
   state: TimedBaseState | null,
   { lastFramesPerSecond, lastPoints }: RobotCounters,
   timeMs: number,
 ): StreamStatistics[] {
   const lines: StreamStatistics[] = [];
-  for (const { session, sender, droppedFrames } of operators) {
+  for (const { id: session, sender, droppedFrames } of operators) {
     if (sender === null) continue;
     const { bytesSent, packetsSent, framesSent, pointsSent } = sender.counters;
     lines.push({
-      session: session.id,
+      session,
       timeMs,
       ...sender.rate,
       targetBitsPerSecond: sender.targetBitsPerSecond,

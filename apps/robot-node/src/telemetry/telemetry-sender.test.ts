@@ -1,7 +1,7 @@
 import { decodeJson, telemetryCodec, zeroTwist } from '@farpoint/protocol';
 import { DriveGuard, defaultDriveLimits } from '@farpoint/safety';
 import { describe, expect, it } from 'vitest';
-import type { ConnectedOperator } from '../session/connected-operator.ts';
+import type { OperatorSession } from '../session/operator-session.ts';
 import { ReadingBoard } from './reading-board.ts';
 import { StageTimer } from './stage-timer.ts';
 import { TelemetrySender } from './telemetry-sender.ts';
@@ -19,7 +19,7 @@ function secondAt(targetBitsPerSecond: number): { states: number; topics: string
     peer: { connected: true, sendTelemetry: (text: string) => heard.push(text) },
     sender: { targetBitsPerSecond },
     status: (stages: unknown) => ({ stages, stream: STREAM }),
-  } as unknown as ConnectedOperator;
+  } as unknown as OperatorSession;
   const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
   const readings = new ReadingBoard();
   for (const topic of ['/a', '/b', '/c']) readings.add({ topic, label: topic, level: 'ok', values: [] }, 0);

@@ -1,7 +1,7 @@
 import { encodeJson, type Telemetry, telemetryCodec } from '@farpoint/protocol';
 import type { DriveGuard } from '@farpoint/safety';
 import type { TimedBaseState } from '../base/base.ts';
-import type { ConnectedOperator } from '../session/connected-operator.ts';
+import type { OperatorSession } from '../session/operator-session.ts';
 import type { ReadingBoard } from './reading-board.ts';
 import type { StageTimer } from './stage-timer.ts';
 
@@ -11,14 +11,14 @@ const NARROW_EVERY = 4;
 
 /** Tells each operator the robot's state, what became of its stream, and readings, five a second at most. Call `send` 20 times a second. */
 export class TelemetrySender {
-  readonly #operators: ReadonlyMap<string, ConnectedOperator>;
+  readonly #operators: ReadonlyMap<string, OperatorSession>;
   readonly #guard: DriveGuard;
   readonly #stages: StageTimer;
   readonly #readings: ReadingBoard;
   #sequence = 0;
 
   constructor(
-    operators: ReadonlyMap<string, ConnectedOperator>,
+    operators: ReadonlyMap<string, OperatorSession>,
     guard: DriveGuard,
     stages: StageTimer,
     readings: ReadingBoard,

@@ -1,7 +1,7 @@
 import type { PacedFrame } from '@farpoint/congestion';
 import { CLOUD_MEDIA } from '@farpoint/protocol';
 import { rtpTimestamp } from '@farpoint/rtp';
-import type { CapturedFrame } from '../capture/capture-messages.ts';
+import type { ReadyFrame } from '../capture/capture-messages.ts';
 import { slotPayloadBytes } from '../encode/packetiser.ts';
 
 /** A frame takes one interval to send; the farthest points of one that takes so many are not waited for. */
@@ -9,7 +9,7 @@ const MOST_INTERVALS = 2;
 
 /** One captured frame on its way to several operators; its buffer goes back once the last of them let go of it. */
 export class SharedFrame implements PacedFrame {
-  readonly frame: CapturedFrame;
+  readonly frame: ReadyFrame;
   readonly slots: Uint8Array;
   readonly packets: number;
   /** On the wire, with the transport's headers. */
@@ -27,7 +27,7 @@ export class SharedFrame implements PacedFrame {
    *
    * @param lane of the pacer: frames of lower ones go first
    */
-  constructor(frame: CapturedFrame, overheadBytes: number, recycle: (buffer: ArrayBuffer) => void, lane = 0) {
+  constructor(frame: ReadyFrame, overheadBytes: number, recycle: (buffer: ArrayBuffer) => void, lane = 0) {
     this.lane = lane;
     this.frame = frame;
     this.slots = new Uint8Array(frame.buffer);

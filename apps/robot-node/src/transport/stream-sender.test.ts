@@ -7,7 +7,7 @@ import {
 import { emptyPlacement } from '@farpoint/protocol';
 import type { ReportBlock } from '@farpoint/rtp';
 import { describe, expect, it } from 'vitest';
-import type { CapturedFrame } from '../capture/capture-messages.ts';
+import type { ReadyFrame } from '../capture/capture-messages.ts';
 import { completePackets, SLOT_BYTES } from '../encode/packetiser.ts';
 import type { CloudTransport } from './cloud-transport.ts';
 import { SharedFrame } from './shared-frame.ts';
@@ -60,7 +60,7 @@ class RecordingTransport implements CloudTransport {
   }
 }
 
-function frame(points: number, capturedAtMs = 1000): CapturedFrame {
+function frame(points: number, capturedAtMs = 1000): ReadyFrame {
   const packets = Math.ceil(points / 150);
   const buffer = new ArrayBuffer(packets * SLOT_BYTES);
   const slots = new Uint8Array(buffer);
@@ -134,7 +134,7 @@ function stage(
   const transport = new RecordingTransport(now);
   const sender = new StreamSender(transport, controller, now);
   const recycled: ArrayBuffer[] = [];
-  const share = (captured: CapturedFrame) =>
+  const share = (captured: ReadyFrame) =>
     new SharedFrame(captured, transport.overheadBytes, (buffer) => recycled.push(buffer));
   /** Lets time pass as a timer would. */
   const runUntil = (endMs: number) => {

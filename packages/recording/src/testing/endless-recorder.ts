@@ -12,7 +12,7 @@ let k = 0;
 setInterval(() => {
   k++;
   tap.captured(
-    { form: 'points', points, count: 10_000, cameraPose, captureMs: k * 10 },
+    { form: 'points', points, count: 10_000, cameraPose, capturedAtMs: k * 10 },
     { width: 100, height: 100, camera: null },
   );
   recorder.json('telemetry', k * 10, { k });

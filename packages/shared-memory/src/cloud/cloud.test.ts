@@ -27,7 +27,7 @@ function keep<T extends Disposable>(made: T): T {
 const producer = (maxPoints = 100) => keep(new CloudProducer({ folder, format: 'points', maxPoints }));
 const reader = () => keep(CloudReader.open(folder));
 
-const FRAME = { captureMs: null, height: 1, pose: null, lens: null, latencyTest: false };
+const FRAME = { capturedAtMs: null, height: 1, pose: null, lens: null, latencyTest: false };
 const words = new Uint32Array(400);
 const room: FrameRoom = {
   points: new Float32Array(words.buffer),
@@ -45,7 +45,7 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     expect(read.read(room)).toBeNull();
     for (let i = 1; i <= 6; i++) publish(write, i);
     const pose = { position: { x: 1, y: 2, z: 3 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
-    const header = { captureMs: 12.5, width: 4, height: 3, pose, lens: null, latencyTest: true };
+    const header = { capturedAtMs: 12.5, width: 4, height: 3, pose, lens: null, latencyTest: true };
     write.publish({ points: new Uint32Array(48).fill(0x7fc00001) }, header);
     expect(read.read(room)).toEqual({ frame: 7, form: 'points', points: 12, ...header, depthUnit: 0 });
     // Bit for bit, NaNs too.

@@ -86,7 +86,7 @@ describe('cloud layout', () => {
     const frame = new Uint8Array(SLOT_HEADER_BYTES);
     const lens = { fx: 1, fy: 1, cx: 0, cy: 0 };
     writeFrameHeader(frame, 1, {
-      ...{ captureMs: 1, width: 10, height: 10, pose: null, lens, latencyTest: false, depthUnit: 0.001 },
+      ...{ capturedAtMs: 1, width: 10, height: 10, pose: null, lens, latencyTest: false, depthUnit: 0.001 },
     });
     const edits = (most: number) =>
       fc.array(fc.tuple(fc.nat({ max: most - 1 }), fc.nat({ max: 255 })), { maxLength: 6 });

@@ -48,7 +48,7 @@ export interface Lens {
 
 export interface FrameHeader {
   /** CLOCK_MONOTONIC, ms; `null` where the producer does not know. */
-  captureMs: number | null;
+  capturedAtMs: number | null;
   width: number;
   /** 1 where the points lie on no grid. */
   height: number;
@@ -151,12 +151,12 @@ export function parseHeader(bytes: Uint8Array, size: number, file: string): Clou
 /** Everything of a slot's header but the lock. */
 export function writeFrameHeader(bytes: Uint8Array, frame: number, header: FrameHeader): void {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const { captureMs, width, height, pose, lens, latencyTest, depthUnit } = header;
+  const { capturedAtMs, width, height, pose, lens, latencyTest, depthUnit } = header;
   const position = pose?.position ?? { x: 0, y: 0, z: 0 };
   const orientation = pose?.orientation ?? { x: 0, y: 0, z: 0, w: 0 };
   const camera = lens ?? { fx: 0, fy: 0, cx: 0, cy: 0 };
   view.setUint32(4, frame, true);
-  view.setBigUint64(8, captureMs === null ? 0n : BigInt(Math.round(captureMs * 1e6)), true);
+  view.setBigUint64(8, capturedAtMs === null ? 0n : BigInt(Math.round(capturedAtMs * 1e6)), true);
   view.setUint32(16, width, true);
   view.setUint32(20, height, true);
   const flags = (pose === null ? 0 : HAS_POSE) | (lens === null ? 0 : HAS_LENS);
@@ -216,7 +216,7 @@ export function parseFrameHeader(
     throw fault(120, `${depthUnit} metres a unit of depth`);
   const captureNs = view.getBigUint64(8, true);
   return {
-    captureMs: captureNs === 0n ? null : Number(captureNs) / 1e6,
+    capturedAtMs: captureNs === 0n ? null : Number(captureNs) / 1e6,
     width,
     height,
     pose,

@@ -14,7 +14,7 @@ let mark = process.pid * 1000;
 if (layout === 'farpoint') {
   const producer = new CloudProducer({ folder, format: 'points', maxPoints: points });
   const words = new Uint32Array(points * 4);
-  const header = { captureMs: null, width: points, height: 1, pose: null, lens: null, latencyTest: false };
+  const header = { capturedAtMs: null, width: points, height: 1, pose: null, lens: null, latencyTest: false };
   console.log('working');
   const produce = () => {
     fillWords(words, mark++);

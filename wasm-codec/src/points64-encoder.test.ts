@@ -1,9 +1,9 @@
 import fc from 'fast-check';
 import { beforeAll, describe, expect, test } from 'vitest';
-import { CloudEncoder, type SamplingParameters } from './cloud-encoder.ts';
 import type { Codec } from './codec.ts';
 import { CodecError } from './errors.ts';
 import { loadCodecFromDisk } from './load-node.ts';
+import { Points64Encoder, type SamplingParameters } from './points64-encoder.ts';
 
 let codec: Codec;
 beforeAll(async () => {
@@ -13,7 +13,7 @@ beforeAll(async () => {
 /** x, y, z, colour for each point. */
 type PlainPoint = [number, number, number, number];
 
-function fill(encoder: CloudEncoder, points: readonly PlainPoint[]): void {
+function fill(encoder: Points64Encoder, points: readonly PlainPoint[]): void {
   points.forEach(([x, y, z, colour], i) => {
     encoder.frame.set([x, y, z], i * 4);
     encoder.frameBits[i * 4 + 3] = colour;
@@ -37,7 +37,7 @@ function expectedBlock(points: readonly PlainPoint[], latencyTest: boolean): Uin
   return bytes;
 }
 
-function blockOf(encoder: CloudEncoder, packet: number, points: number): Uint8Array {
+function blockOf(encoder: Points64Encoder, packet: number, points: number): Uint8Array {
   const begin = packet * encoder.layout.stride + encoder.layout.dataOffset;
   return encoder.packets.slice(begin, begin + points * 8);
 }
@@ -60,10 +60,10 @@ function reasonFor([x, y, z]: PlainPoint, parameters: SamplingParameters): strin
   return far && parameters.outOfRange !== 'saturate' ? 'outOfRange' : 'valid';
 }
 
-describe('CloudEncoder', () => {
+describe('Points64Encoder', () => {
   test('counts, keeps and packs any points by the rules of the format', () => {
     const capacity = 400;
-    using encoder = new CloudEncoder(codec, capacity);
+    using encoder = new Points64Encoder(codec, capacity);
     const options = fc.record({
       points: fc.array(anyPoint, { maxLength: capacity }),
       count: fc.integer({ min: 0, max: 500 }),
@@ -112,7 +112,7 @@ describe('CloudEncoder', () => {
   });
 
   test('packs near bands of depth first, in raster order inside a band', () => {
-    using encoder = new CloudEncoder(codec, 8);
+    using encoder = new Points64Encoder(codec, 8);
     const depths = [9, 0.5, 3, 1.5, 20, 0.75, 1.25, 4];
     fill(
       encoder,
@@ -128,7 +128,7 @@ describe('CloudEncoder', () => {
   });
 
   test('gives the same choice for the same seed and another one for another', () => {
-    using encoder = new CloudEncoder(codec, 10_000);
+    using encoder = new Points64Encoder(codec, 10_000);
     const points = Array.from({ length: 10_000 }, (_, i): PlainPoint => [0, 0, 1 + i / 1000, i]);
     fill(encoder, points);
     const draw = (seed: number | bigint) => {
@@ -144,7 +144,7 @@ describe('CloudEncoder', () => {
 
   test('leaves headers and trailers alone', () => {
     const layout = { stride: 1300, dataOffset: 40 };
-    using encoder = new CloudEncoder(codec, 300, layout);
+    using encoder = new Points64Encoder(codec, 300, layout);
     fill(
       encoder,
       Array.from({ length: 300 }, (): PlainPoint => [1, 2, 3, 0xffffffff]),
@@ -161,8 +161,8 @@ describe('CloudEncoder', () => {
 
   test('gives of images the very packets that it gives of their points', () => {
     const [width, height, fx, fy, cx, cy] = [20, 30, 12, 13, 9.5, 14.5];
-    const byPoints = new CloudEncoder(codec, width * height);
-    const byImages = new CloudEncoder(codec, width * height);
+    const byPoints = new Points64Encoder(codec, width * height);
+    const byImages = new Points64Encoder(codec, width * height);
     byImages.setCamera({ width, height, fx, fy, cx, cy });
     for (let i = 0; i < width * height; i++) {
       const depth = i % 11 === 0 ? 0 : Math.fround(0.5 + ((i * 7919) % 1000) / 100);
@@ -183,7 +183,7 @@ describe('CloudEncoder', () => {
   });
 
   test('wants a camera that it has room for, before images', () => {
-    const encoder = new CloudEncoder(codec, 100);
+    const encoder = new Points64Encoder(codec, 100);
     const camera = { width: 10, height: 10, fx: 5, fy: 5, cx: 4.5, cy: 4.5 };
     expect(() => encoder.sampleImages({ count: 1, seed: 0 })).toThrow(
       expect.objectContaining({ code: 'no-stream' }),
@@ -198,10 +198,10 @@ describe('CloudEncoder', () => {
   });
 
   test('keeps working when the memory grows, and each encoder has its own frame', () => {
-    using first = new CloudEncoder(codec, 1000);
+    using first = new Points64Encoder(codec, 1000);
     const before = first.frame;
     fill(first, [[1, 2, 3, 0x123456]]);
-    using second = new CloudEncoder(codec, 2_000_000);
+    using second = new Points64Encoder(codec, 2_000_000);
     expect(before.length).toBe(0);
     fill(second, [[4, 5, 6, 0]]);
     expect(first.sample({ points: 1, count: 1, seed: 0 }).maxDepth).toBe(3);
@@ -221,7 +221,7 @@ describe('CloudEncoder', () => {
       return 'accepted';
     };
     for (const capacity of [0, -1, 1.5, Number.NaN, 2 ** 31]) {
-      expect(codeOf(() => new CloudEncoder(codec, capacity))).toBe('bad-capacity');
+      expect(codeOf(() => new Points64Encoder(codec, capacity))).toBe('bad-capacity');
     }
     for (const layout of [
       { stride: 1215, dataOffset: 16 },
@@ -229,9 +229,9 @@ describe('CloudEncoder', () => {
       { stride: 1e9, dataOffset: 0 },
       { stride: Number.NaN, dataOffset: 0 },
     ]) {
-      expect(codeOf(() => new CloudEncoder(codec, 10, layout))).toBe('bad-layout');
+      expect(codeOf(() => new Points64Encoder(codec, 10, layout))).toBe('bad-layout');
     }
-    using encoder = new CloudEncoder(codec, 10);
+    using encoder = new Points64Encoder(codec, 10);
     const good = { points: 1, count: 1, seed: 0 };
     fill(encoder, [[0, 0, 1, 0]]);
     const wrong: [Partial<SamplingParameters>, string][] = [

@@ -11,7 +11,7 @@ import { DriveGuard, defaultDriveLimits, type RejectedCommand } from '@farpoint/
 import fc from 'fast-check';
 import { afterEach, describe, expect, it } from 'vitest';
 import { DriveStation } from '../drive/drive-station.ts';
-import { OperatorSession, type SessionHost } from './operator-session.ts';
+import { OperatorMessages, type SessionHost } from './operator-messages.ts';
 
 const stations: DriveStation[] = [];
 afterEach(() => {
@@ -55,7 +55,7 @@ function robot() {
   function operator(id: string) {
     const inbox: RobotSessionMessage[] = [];
     const control: string[] = [];
-    const session = new OperatorSession(id, id, host, {
+    const session = new OperatorMessages(id, id, host, {
       // What leaves the robot must be readable by the other side's own decoder.
       sendSession: (text) => inbox.push(decodeJson(robotSessionCodec, text)),
       sendControl: (text) => control.push(text),
@@ -97,7 +97,7 @@ function robot() {
   };
 }
 
-describe('OperatorSession', () => {
+describe('OperatorMessages', () => {
   it('lets the lease holder drive and tells the other who does', () => {
     const { alice, bob, speed } = robot();
     const lease = alice.takeLease();

@@ -89,7 +89,7 @@ const MAX_SEED = 2n ** 64n - 1n;
  * The views are made anew when the module's memory has grown (because another encoder or decoder was made): take them
  * from the encoder for each frame and do not keep them.
  */
-export class CloudEncoder implements Disposable {
+export class Points64Encoder implements Disposable {
   readonly capacityPoints: number;
   readonly layout: Readonly<SlotLayout>;
   readonly #memory: Codec['memory'];

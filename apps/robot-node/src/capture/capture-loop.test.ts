@@ -1,0 +1,158 @@
+import { describe, expect, it } from 'vitest';
+import { NO_BUDGET } from '../encode/capture-budget.ts';
+import { CaptureLoop, type LoopFrames } from './capture-loop.ts';
+import type { CaptureReport } from './capture-messages.ts';
+import type { FrameSource } from './frame-source.ts';
+
+const STREAMING = { ...NO_BUDGET, type: 'budget', streaming: true } as const;
+const PAUSED = { ...NO_BUDGET, type: 'budget' } as const;
+
+/** A loop over a source and frames that only note what they are asked for, on a clock that stands until it is moved. */
+function setUp(ownRhythm = false) {
+  let nowMs = 1000;
+  const reports: CaptureReport[] = [];
+  const captures: number[] = [];
+  const skips: number[] = [];
+  let intervalMs: number | null = 50;
+  let hasRoom = true;
+  const source = {
+    state: { twist: null },
+    ...(ownRhythm ? { onReady: null, skip: (atMs: number) => skips.push(atMs) } : {}),
+    onFault: null,
+    close: () => reports.push({ type: 'fault', detail: 'source closed' }),
+  } as unknown as FrameSource;
+  const frames: LoopFrames = {
+    framesWithoutBuffer: 3,
+    get hasRoom() {
+      return hasRoom;
+    },
+    wishes: () => ({ bitsPerSecond: 0, latencyTest: false }),
+    capture: () => {
+      if (intervalMs !== null) captures.push(nowMs);
+      return intervalMs;
+    },
+    recycle: () => undefined,
+    requestLatencyTest: () => undefined,
+    close: () => undefined,
+  };
+  const send = (report: CaptureReport) => reports.push(report);
+  const loop = new CaptureLoop(source, frames, { framesPerSecond: 20, now: () => nowMs, send });
+  return {
+    ...{ loop, source, reports, captures, skips },
+    states: () => reports.filter(({ type }) => type === 'state').length,
+    plan: (ms: number | null) => {
+      intervalMs = ms;
+    },
+    fillBuffers: () => {
+      hasRoom = false;
+    },
+    ready: (ms = 0) => {
+      nowMs += ms;
+      source.onReady?.();
+    },
+    wait: (ms: number) => {
+      nowMs += ms;
+    },
+    /** Ticks as its owner does, until `ms` have passed. */
+    run: (ms: number) => {
+      const until = nowMs + ms;
+      while (nowMs < until) nowMs = Math.min(until, nowMs + Math.max(loop.tick(), 1));
+    },
+  };
+}
+
+describe('CaptureLoop over a source that can be asked at any time', () => {
+  it('captures nothing while nobody watches, then at the rhythm of the plan', () => {
+    const { loop, run, captures } = setUp();
+    loop.onRequest(PAUSED);
+    run(200);
+    expect(captures).toEqual([]);
+    loop.onRequest(STREAMING);
+    run(200);
+    expect(captures).toEqual([1200, 1250, 1300, 1350]);
+  });
+
+  it('does not make up for frames that a stall has cost', () => {
+    const { loop, run, wait, captures } = setUp();
+    loop.onRequest(STREAMING);
+    run(60);
+    wait(500);
+    run(60);
+    expect(captures).toEqual([1000, 1050, 1560, 1610]);
+  });
+
+  it('asks a source without a cloud again at the rate it was opened with', () => {
+    const { loop, run, plan, captures } = setUp();
+    loop.onRequest(STREAMING);
+    plan(null);
+    run(120);
+    plan(10);
+    run(55);
+    expect(captures).toEqual([1150, 1160, 1170]);
+  });
+});
+
+describe('CaptureLoop over a source with a rhythm of its own', () => {
+  it('takes each cloud that the plan has room for and lets the others go', () => {
+    const { loop, ready, captures, skips } = setUp(true);
+    loop.onRequest(STREAMING);
+    expect(captures).toEqual([1000]);
+    for (let i = 0; i < 6; i++) ready(25);
+    expect(captures).toEqual([1000, 1050, 1100, 1150]);
+    expect(skips).toEqual([1025, 1075, 1125]);
+  });
+
+  it('keeps a cloud until somebody watches, but not for long', () => {
+    const { loop, ready, wait, captures, skips } = setUp(true);
+    ready(500);
+    wait(40);
+    loop.onRequest(STREAMING);
+    expect(captures).toEqual([1540]);
+    loop.onRequest(PAUSED);
+    ready(500);
+    wait(51);
+    loop.onRequest(STREAMING);
+    expect([captures, skips]).toEqual([[1540], [2091]]);
+  });
+
+  it('lets a cloud go where all buffers are out', () => {
+    const { loop, ready, fillBuffers, captures, skips } = setUp(true);
+    loop.onRequest(STREAMING);
+    fillBuffers();
+    ready(100);
+    expect([captures, skips]).toEqual([[1000], [1100]]);
+  });
+});
+
+describe('CaptureLoop', () => {
+  it('tells a state at once where it changed, and else ten times a second', () => {
+    const { source, run, states } = setUp();
+    run(500);
+    expect(states()).toBe(5);
+    Object.assign(source, { state: { twist: null } });
+    run(20);
+    expect(states()).toBe(6);
+  });
+
+  it('tells a fault that repeats itself once, until there was a cloud again', () => {
+    const { loop, source, run, plan, reports } = setUp();
+    const faults = () => reports.flatMap((report) => (report.type === 'fault' ? [report.detail] : []));
+    for (let i = 0; i < 3; i++) source.onFault?.(new Error('no producer'));
+    expect(faults()).toEqual(['no producer']);
+    plan(50);
+    loop.onRequest(STREAMING);
+    run(10);
+    source.onFault?.(new Error('no producer'));
+    expect(faults()).toEqual(['no producer', 'no producer']);
+  });
+
+  it('captures nothing more once it is closed', () => {
+    const { loop, ready, captures, reports } = setUp(true);
+    loop.onRequest(STREAMING);
+    loop.onRequest({ type: 'close' });
+    ready(100);
+    expect(loop.closed).toBe(true);
+    expect(captures).toEqual([1000]);
+    expect(reports.slice(-2).map(({ type }) => type)).toEqual(['fault', 'closed']);
+  });
+});

@@ -1,0 +1,159 @@
+import type { BaseState } from '../base/base.ts';
+import { type CaptureBudget, NO_BUDGET } from '../encode/capture-budget.ts';
+import type { CaptureReport, CaptureRequest, ReportSink } from './capture-messages.ts';
+import type { FrameCapture } from './frame-capture.ts';
+import type { FrameSource } from './frame-source.ts';
+import { ReadyGate } from './ready-gate.ts';
+
+const STATE_INTERVAL_MS = 20;
+/** An unchanged state is repeated at this interval, as a sign of life, ms. */
+const UNCHANGED_STATE_INTERVAL_MS = 100;
+/** Longest time between two looks at a source that is asked for clouds, ms. */
+const MAX_WAIT_MS = 10;
+/** A cloud of a source with a rhythm of its own that has waited longer for an operator is let go, ms. */
+const MAX_READY_AGE_MS = 50;
+
+export interface CaptureLoopOptions {
+  /** The most the source may be asked for. */
+  framesPerSecond: number;
+  now: () => number;
+  send: ReportSink;
+}
+
+/** What the loop needs of a {@link FrameCapture}. */
+export type LoopFrames = Pick<
+  FrameCapture,
+  'capture' | 'close' | 'framesWithoutBuffer' | 'hasRoom' | 'recycle' | 'requestLatencyTest' | 'wishes'
+>;
+
+/**
+ * When clouds are captured: at the plan's rhythm where the source can be asked at any time, else as the source offers them,
+ * as many as the plan has room for. The owner calls {@link tick} and, after as many ms as that returns, again.
+ */
+export class CaptureLoop {
+  readonly #source: FrameSource;
+  readonly #frames: LoopFrames;
+  readonly #now: () => number;
+  readonly #send: ReportSink;
+  readonly #gate: ReadyGate;
+  /** Between two frames before the first plan, ms. */
+  readonly #defaultIntervalMs: number;
+  #budget: CaptureBudget = NO_BUDGET;
+  #nextFrameMs: number;
+  #nextStateMs = 0;
+  #toldState: BaseState | null = null;
+  #toldStateMs = 0;
+  /** Since when a source with a rhythm of its own has had a cloud ready. */
+  #readySinceMs: number | null = null;
+  #lastFault = '';
+  #closed = false;
+
+  constructor(source: FrameSource, frames: FrameCapture, { framesPerSecond, now, send }: CaptureLoopOptions) {
+    this.#source = source;
+    this.#frames = frames;
+    this.#now = now;
+    this.#send = send;
+    this.#defaultIntervalMs = 1000 / framesPerSecond;
+    this.#nextFrameMs = now();
+    this.#gate = new ReadyGate(now(), this.#defaultIntervalMs);
+    if (this.#ownRhythm) {
+      // A cloud may have come before anybody listened.
+      this.#readySinceMs = now();
+      source.onReady = () => {
+        this.#readySinceMs = this.#now();
+        this.#takeReady();
+      };
+    }
+    if (source.onFault !== undefined) source.onFault = ({ message }) => this.#onFault(message);
+    if (source.onReading !== undefined) source.onReading = (reading) => send({ type: 'reading', reading });
+  }
+
+  get closed(): boolean {
+    return this.#closed;
+  }
+
+  onRequest(request: Exclude<CaptureRequest, { type: 'pictures' }>): void {
+    switch (request.type) {
+      case 'budget':
+        this.#budget = request;
+        // A cloud may have waited for an operator.
+        this.#takeReady();
+        break;
+      case 'latencyTest':
+        this.#frames.requestLatencyTest();
+        break;
+      case 'recycle':
+        this.#frames.recycle(request.buffer);
+        break;
+      case 'close':
+        this.#closed = true;
+        this.#source.close();
+        this.#frames.close();
+        this.#send({ type: 'closed' });
+        break;
+    }
+  }
+
+  /** @returns when to call it again, ms from now */
+  tick(): number {
+    const now = this.#now();
+    if (!this.#ownRhythm && now >= this.#nextFrameMs) this.#captureAtPlan();
+    if (now >= this.#nextStateMs) {
+      this.#nextStateMs = now + STATE_INTERVAL_MS;
+      this.#tellState(now);
+    }
+    const after = this.#now();
+    if (this.#ownRhythm) return Math.max(this.#nextStateMs - after, 0);
+    return Math.min(Math.max(this.#nextFrameMs - after, 0), MAX_WAIT_MS);
+  }
+
+  /** It calls by itself when it has a cloud; ticks are for its state alone. */
+  get #ownRhythm(): boolean {
+    return this.#source.onReady !== undefined;
+  }
+
+  #captureAtPlan(): void {
+    const beganMs = this.#now();
+    const interval = (this.#budget.streaming ? this.#capture() : null) ?? this.#defaultIntervalMs;
+    // After a stall the rhythm starts anew; missed frames are not made up for.
+    const dueMs = beganMs - this.#nextFrameMs > interval ? beganMs : this.#nextFrameMs;
+    this.#nextFrameMs = Math.max(dueMs + interval, this.#now());
+  }
+
+  /** Takes or skips the cloud that is ready; while nobody watches it stays with the source. */
+  #takeReady(): void {
+    if (this.#readySinceMs === null || this.#closed || !this.#budget.streaming) return;
+    const now = this.#now();
+    const aged = now - this.#readySinceMs > MAX_READY_AGE_MS;
+    this.#readySinceMs = null;
+    if (aged || !this.#frames.hasRoom || !this.#gate.takes(now)) {
+      this.#source.skip?.(now, this.#frames.wishes(this.#budget));
+      return;
+    }
+    const interval = this.#capture();
+    if (interval !== null) this.#gate.taken(now, interval);
+  }
+
+  /** @returns the time until the next frame, ms; `null` where there was none */
+  #capture(): number | null {
+    const intervalMs = this.#frames.capture(this.#budget);
+    if (intervalMs !== null) this.#lastFault = '';
+    return intervalMs;
+  }
+
+  #tellState(now: number): void {
+    const { state } = this.#source;
+    if (state === this.#toldState && now - this.#toldStateMs < UNCHANGED_STATE_INTERVAL_MS) return;
+    this.#toldState = state;
+    this.#toldStateMs = now;
+    const { framesWithoutBuffer } = this.#frames;
+    const report: CaptureReport = { type: 'state', state: { ...state, timeMs: now }, framesWithoutBuffer };
+    this.#send(report);
+  }
+
+  /** A source that keeps failing the same way reports it once, until it gives a cloud again. */
+  #onFault(detail: string): void {
+    if (detail !== this.#lastFault) this.#send({ type: 'fault', detail });
+    this.#lastFault = detail;
+  }
+}

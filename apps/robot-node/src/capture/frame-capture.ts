@@ -1,0 +1,190 @@
+import { POINTS_PER_PACKET } from '@farpoint/protocol';
+import type { CloudTap } from '@farpoint/recording';
+import type { Codec } from '@farpoint/wasm-codec';
+import type { CaptureBudget } from '../encode/capture-budget.ts';
+import type { CodedStream } from '../encode/coded-frame-encoder.ts';
+import { type FormattedFrame, FrameFormats } from '../encode/frame-formats.ts';
+import { SLOT_BYTES } from '../encode/packetiser.ts';
+import { FramePlanner } from '../encode/plan.ts';
+import { BufferPool } from './buffer-pool.ts';
+import type { CaptureOptions, ReportSink } from './capture-messages.ts';
+import type { CapturePictures } from './capture-pictures.ts';
+import type { CaptureWishes, FrameSource, SourceFrame } from './frame-source.ts';
+
+/** One frame being sent, one waiting, one being filled; and one more, as some frames go out in two formats. */
+const BUFFERS = 4;
+/** Weight of the latest frame in the mean of what a frame costs. */
+const SMOOTHING = 0.1;
+
+/** The clocks that capturing reads, ms. */
+export interface CaptureClocks {
+  /** The robot's clock. */
+  now: () => number;
+  /** Processor time of this thread. */
+  threadCpu: () => number;
+}
+
+/** Takes one cloud at a time from the source, encodes it as the budget says, and sends its packets off in a pooled buffer. */
+export class FrameCapture {
+  readonly #source: FrameSource;
+  readonly #sensor: number;
+  readonly #clocks: CaptureClocks;
+  readonly #send: ReportSink;
+  readonly #pictures: CapturePictures;
+  readonly #recording: CloudTap | null;
+  readonly #pool: BufferPool;
+  readonly #formats: FrameFormats;
+  #frameNumber = 0;
+  /** The stream that the main thread knows. */
+  #stream: CodedStream | null = null;
+  /** The probe that the last enlarged frame was made for. */
+  #probeCluster = 0;
+  /** Mean time that a frame takes, ms. */
+  #workMs = 0;
+  #latencyTest = false;
+
+  constructor(
+    source: FrameSource,
+    codec: Codec,
+    options: Omit<CaptureOptions, 'source'>,
+    clocks: CaptureClocks,
+    send: ReportSink,
+    /** Where else clouds go. */
+    { pictures, recording }: { pictures: CapturePictures; recording: CloudTap | null },
+  ) {
+    const { description } = source;
+    const { plan, framesPerSecond, floorFraction, mostPoints, sampling, sensor } = options;
+    this.#source = source;
+    this.#sensor = sensor;
+    this.#clocks = clocks;
+    this.#send = send;
+    this.#pictures = pictures;
+    this.#recording = recording;
+    this.#pool = new BufferPool(BUFFERS, Math.ceil(description.capacity / POINTS_PER_PACKET) * SLOT_BYTES);
+    const planner = new FramePlanner({
+      policy: plan,
+      mostFramesPerSecond: Math.min(framesPerSecond, description.framesPerSecond ?? framesPerSecond),
+      anyRate: source.onReady === undefined,
+      ...{ floorFraction, mostPoints },
+    });
+    this.#formats = new FrameFormats(codec, description, { ...sampling, sensor }, planner, clocks.now);
+  }
+
+  /** Whether a buffer is free for the next frame. */
+  get hasRoom(): boolean {
+    return this.#pool.free > 0;
+  }
+
+  /** Frames not captured because all buffers were out. */
+  get framesWithoutBuffer(): number {
+    return this.#pool.refused;
+  }
+
+  /** Makes the next cloud a latency-test cloud. */
+  requestLatencyTest(): void {
+    this.#latencyTest = true;
+  }
+
+  /** Takes a frame's buffer back. */
+  recycle(buffer: ArrayBuffer): void {
+    this.#pool.release(buffer);
+  }
+
+  /** What the source is told. */
+  wishes({ targetBitsPerSecond }: CaptureBudget): CaptureWishes {
+    return { bitsPerSecond: targetBitsPerSecond, latencyTest: this.#latencyTest };
+  }
+
+  /**
+   * Captures and encodes one frame.
+   *
+   * @returns the time until the next one, ms; `null` where there was no cloud or no buffer
+   */
+  capture(budget: CaptureBudget): number | null {
+    const buffer = this.#pool.take();
+    if (buffer === null) return null;
+    this.#pool.release(buffer);
+    const { now, threadCpu } = this.#clocks;
+    const beganMs = now();
+    const cpuBefore = threadCpu();
+    const room = this.#formats.room(budget.coded.length > 0);
+    const frame = this.#source.capture(beganMs, this.wishes(budget), room);
+    if (frame === null) return null;
+    const taken = { captureMs: now() - beganMs, captureCpuMs: threadCpu() - cpuBefore };
+    const latencyTest = this.#latencyTest && frame.latencyTest !== false;
+    const frameNumber = this.#frameNumber;
+    const probeBytes = this.#probeBytes(budget);
+    const workMs = this.#workMs;
+    const encoded = this.#formats.encode(frame, { frameNumber, budget, probeBytes, workMs, latencyTest });
+    this.#frameNumber = (frameNumber + 1) >>> 0;
+    this.#announceStream();
+    const { intervalMs, usefulBitsPerSecond } = encoded;
+    const facts = {
+      usefulBitsPerSecond,
+      intervalMs,
+      latencyTest,
+      capturedAtMs: frame.capturedAtMs,
+      ...taken,
+    };
+    for (const formatted of encoded.frames) this.#sendFrame(formatted, facts);
+    if (frame.form === 'images') this.#pictures.offer(frame);
+    this.#record(frame, encoded.frames);
+    if (latencyTest) this.#latencyTest = false;
+    this.#workMs += (now() - beganMs - workMs) * (workMs === 0 ? 1 : SMOOTHING);
+    return intervalMs;
+  }
+
+  close(): void {
+    this.#pictures.close();
+    this.#recording?.close();
+  }
+
+  /** Each probe enlarges one frame. */
+  #probeBytes({ probe }: CaptureBudget): number {
+    if (probe === null || probe.clusterId === this.#probeCluster) return 0;
+    this.#probeCluster = probe.clusterId;
+    return probe.bytes;
+  }
+
+  /** Receivers must know a stream's header before its first packet. */
+  #announceStream(): void {
+    const { stream } = this.#formats;
+    if (stream === null || stream === this.#stream) return;
+    this.#stream = stream;
+    this.#send({ type: 'stream', stream });
+  }
+
+  #sendFrame({ encoded, audience, packets }: FormattedFrame, facts: FrameFacts): void {
+    const buffer = this.#pool.take();
+    if (buffer === null) return;
+    packets.copyPackets(new Uint8Array(buffer), encoded.packets);
+    const readyMs = this.#clocks.now();
+    const sensor = this.#sensor;
+    this.#send({ type: 'frame', ...encoded, ...facts, sensor, audience, buffer, readyMs }, [buffer]);
+  }
+
+  /** After the packets are on their way: recording delays only the next cloud. */
+  #record(frame: SourceFrame, formatted: readonly FormattedFrame[]): void {
+    const recording = this.#recording;
+    if (recording === null) return;
+    recording.captured(frame, this.#source.description);
+    for (const { encoded, packets } of formatted) {
+      const { format, points, packets: count } = encoded;
+      recording.sent(frame, {
+        ...{ format, points, packets: count, slotBytes: SLOT_BYTES },
+        streamHeader: format === 'points64' ? null : (this.#stream?.header ?? null),
+        copyPackets: (buffer, n) => packets.copyPackets(buffer, n),
+      });
+    }
+  }
+}
+
+/** What a frame's report says beside what came of encoding it. */
+interface FrameFacts {
+  usefulBitsPerSecond: number;
+  intervalMs: number;
+  latencyTest: boolean;
+  capturedAtMs: number;
+  captureMs: number;
+  captureCpuMs: number;
+}

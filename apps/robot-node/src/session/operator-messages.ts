@@ -1,0 +1,246 @@
+/** What one operator's messages mean, and what it is told. */
+import {
+  type CloudFormat,
+  type Command,
+  clockAnswerCodec,
+  decodeBandwidth,
+  decodeJson,
+  decodeStreamSwitch,
+  encodeJson,
+  type LatencyMeasured,
+  type OperatorSessionMessage,
+  operatorControlCodec,
+  operatorSessionCodec,
+  ProtocolError,
+  type ReceiverReport,
+  type RobotSessionMessage,
+  robotSessionCodec,
+  sequenceDelta32,
+} from '@farpoint/protocol';
+import { type CommandVerdict, type RejectedCommand, RejectionReporter } from '@farpoint/safety';
+import type { DriveStation } from '../drive/drive-station.ts';
+
+/** Where a session's messages go. */
+export interface SessionLink {
+  sendSession(text: string): void;
+  sendControl(text: string): void;
+}
+
+/** What a session asks of the robot. */
+export interface SessionHost {
+  readonly drive: DriveStation;
+  now(): number;
+  /** Everyone must be told who drives now. */
+  leaseChanged(): void;
+  estopChanged(): void;
+  latencyTestRequested(session: OperatorMessages, id: number, commandMs: number): void;
+  /** For the counters. */
+  commandAccepted(): void;
+  commandRejected(rejection: RejectedCommand): void;
+  /** For a recording: each command, and what the guard said. */
+  commandJudged?(session: OperatorMessages, command: Command, verdict: CommandVerdict): void;
+  /** For a recording: what an operator measured. */
+  latencyMeasured?(session: OperatorMessages, measured: LatencyMeasured): void;
+  messageRefused(channel: string, error: ProtocolError): void;
+}
+
+/** How much of a malformed command's text goes into the report. */
+const MAX_DETAIL = 200;
+
+export class OperatorMessages {
+  readonly id: string;
+  readonly operatorName: string;
+  /** Points are sent to this operator. */
+  streaming = true;
+  /** When the operator was last heard of on any channel, robot's clock, ms. */
+  heardMs: number;
+  onReceiverReport: ((report: ReceiverReport) => void) | null = null;
+  onReceiverLimit: ((bitsPerSecond: number) => void) | null = null;
+  onStreamSwitch: ((running: boolean) => void) | null = null;
+  onCloudFormats: ((formats: readonly CloudFormat[]) => void) | null = null;
+  onPictures: ((cameras: readonly number[]) => void) | null = null;
+  onSensors: ((sensors: readonly number[]) => void) | null = null;
+  readonly #host: SessionHost;
+  readonly #link: SessionLink;
+  readonly #rejections = new RejectionReporter();
+  #lastReport: number | null = null;
+
+  constructor(id: string, operatorName: string, host: SessionHost, link: SessionLink) {
+    this.id = id;
+    this.operatorName = operatorName;
+    this.#host = host;
+    this.#link = link;
+    this.heardMs = host.now();
+  }
+
+  /** Who drives and whether anybody may: sent after the welcome and at each change. */
+  sendLease(): void {
+    this.send(this.#host.drive.guard.leaseState(this.id));
+  }
+
+  sendEstop(): void {
+    this.send(this.#host.drive.guard.estopState());
+  }
+
+  send(message: RobotSessionMessage): void {
+    this.#link.sendSession(encodeJson(robotSessionCodec, message));
+  }
+
+  /** Reports of refusals that waited for their turn; call a few times a second. */
+  flushRejections(): void {
+    for (const report of this.#rejections.due(this.#host.now())) this.send(report);
+  }
+
+  onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void {
+    this.heardMs = this.#host.now();
+    try {
+      if (channel === 'control') this.#onControl(data);
+      else if (channel === 'session') this.#onSession(data);
+      else this.#onBandwidth(data);
+    } catch (error) {
+      if (!(error instanceof ProtocolError)) throw error;
+      this.#host.messageRefused(channel, error);
+      // What was meant for the control channel should have been a command.
+      if (channel === 'control') this.#onMalformed(error);
+      else this.send({ type: 'fault', message: error.message.slice(0, 512) });
+    }
+  }
+
+  #onBandwidth(data: string | Uint8Array): void {
+    if (typeof data === 'string')
+      throw new ProtocolError('invalid', 'bandwidth message', '', 'text, not bytes');
+    this.onReceiverLimit?.(decodeBandwidth(data));
+  }
+
+  #onControl(data: string | Uint8Array): void {
+    const now = this.heardMs;
+    const message = decodeJson(operatorControlCodec, data);
+    switch (message.type) {
+      case 'command':
+        this.#onCommand(message, now);
+        break;
+      case 'clockProbe': {
+        const { id, sentMs } = message;
+        this.#link.sendControl(
+          encodeJson(clockAnswerCodec, { type: 'clockAnswer', id, sentMs, robotMs: this.#host.now() }),
+        );
+        this.#host.drive.guard.onClockProbe(this.id, sentMs, now);
+        break;
+      }
+      case 'receiverReport':
+        // They may overtake each other; an older one says nothing new.
+        if (this.#lastReport !== null && sequenceDelta32(message.sequence, this.#lastReport) <= 0) break;
+        this.#lastReport = message.sequence;
+        this.onReceiverReport?.(message);
+        break;
+    }
+  }
+
+  #onCommand(command: Command, now: number): void {
+    const { drive } = this.#host;
+    const verdict = drive.guard.onCommand(this.id, command, now);
+    this.#host.commandJudged?.(this, command, verdict);
+    // Also after a refusal: letting go of the grip stops the robot.
+    drive.apply();
+    if (!verdict.accepted) {
+      this.#reject(verdict, command.sequence);
+      return;
+    }
+    this.#host.commandAccepted();
+    if (command.latencyTest !== undefined) this.#host.latencyTestRequested(this, command.latencyTest, now);
+  }
+
+  #onMalformed(error: ProtocolError): void {
+    const verdict = this.#host.drive.guard.onMalformed(
+      this.id,
+      error.message.slice(0, MAX_DETAIL),
+      this.heardMs,
+    );
+    this.#reject(verdict, undefined);
+  }
+
+  #reject(verdict: RejectedCommand, sequence: number | undefined): void {
+    this.#host.commandRejected(verdict);
+    const report = this.#rejections.add(verdict, sequence, this.#host.now());
+    if (report !== null) this.send(report);
+  }
+
+  #onSession(data: string | Uint8Array): void {
+    // The reference system's operators switch the stream with bare words.
+    if (typeof data === 'string' && !data.startsWith('{')) {
+      this.#switchStream(decodeStreamSwitch(data) === 'start');
+      return;
+    }
+    this.#onRequest(decodeJson(operatorSessionCodec, data));
+  }
+
+  #onRequest(message: OperatorSessionMessage): void {
+    const { drive } = this.#host;
+    const { guard } = drive;
+    switch (message.type) {
+      case 'leaseRequest': {
+        const outcome = guard.requestLease(this.id, message.take, this.heardMs);
+        drive.apply();
+        if (outcome.granted) {
+          this.#host.leaseChanged();
+        } else {
+          this.send({ type: 'fault', message: outcome.detail });
+          this.sendLease();
+        }
+        break;
+      }
+      case 'leaseRelease': {
+        const released = guard.releaseLease(this.id);
+        drive.apply();
+        if (released) this.#host.leaseChanged();
+        else this.sendLease();
+        break;
+      }
+      case 'estop':
+        this.#onEstop(message.latch);
+        break;
+      case 'stream':
+        this.#switchStream(message.running);
+        break;
+      case 'cloudFormats':
+        this.onCloudFormats?.(message.formats);
+        break;
+      case 'pictures':
+        this.onPictures?.(message.cameras);
+        break;
+      case 'sensors':
+        this.onSensors?.(message.sensors);
+        break;
+      case 'latencyMeasured':
+        this.#host.latencyMeasured?.(this, message);
+        break;
+    }
+  }
+
+  #onEstop(latch: boolean): void {
+    const { drive } = this.#host;
+    if (latch) {
+      const changed = drive.guard.latchEstop('operator');
+      drive.apply();
+      if (changed) this.#host.estopChanged();
+      else this.sendEstop();
+      return;
+    }
+    const outcome = drive.guard.releaseEstop(this.id, this.heardMs);
+    drive.apply();
+    if (outcome.released) {
+      this.#host.estopChanged();
+    } else {
+      if (outcome.reason === 'not-lease-holder') {
+        this.send({ type: 'fault', message: 'only the operator who drives releases the emergency stop' });
+      }
+      this.sendEstop();
+    }
+  }
+
+  #switchStream(running: boolean): void {
+    if (this.streaming === running) return;
+    this.streaming = running;
+    this.onStreamSwitch?.(running);
+  }
+}

@@ -1,0 +1,80 @@
+import type { RateSnapshot } from '@farpoint/congestion';
+import type { PulledMetrics } from '@farpoint/service';
+import type { Robot } from '../../robot.ts';
+import type { StreamSender } from '../../transport/stream-sender.ts';
+
+/** The paths to the operators that are connected now: what they carry, what was sent, resent and dropped. */
+export function addPathMetrics(metrics: PulledMetrics, { operators }: Pick<Robot, 'operators'>): void {
+  const senders = () => [...operators.values()].flatMap(({ sender }) => (sender === null ? [] : [sender]));
+  const total = (read: (sender: StreamSender) => number) => () =>
+    senders().reduce((sum, sender) => sum + read(sender), 0);
+  const byReason = (read: (sender: StreamSender) => Readonly<Record<string, number>>) => () =>
+    senders().flatMap((sender) => Object.entries(read(sender)));
+  /** Of the path that carries least: with one operator, of that one's. */
+  const narrowest = (read: (sender: StreamSender) => number) => () => {
+    const values = senders().map(read);
+    return values.length === 0 ? Number.NaN : Math.min(...values);
+  };
+  const rate = (read: (snapshot: RateSnapshot) => number) => narrowest((sender) => read(sender.rate));
+
+  metrics.gauge(
+    'packets_sent',
+    'Packets to operators connected now',
+    total((sender) => sender.counters.packetsSent),
+  );
+  metrics.gauge(
+    'bytes_sent',
+    'Bytes on the wire to operators connected now',
+    total((sender) => sender.counters.bytesSent),
+  );
+  metrics.gauge(
+    'packets_resent',
+    'Packets sent again because an operator connected now missed them',
+    total((sender) => sender.counters.packetsResent),
+  );
+  metrics.gauges(
+    'resends_refused',
+    'Missed packets that were not sent again, by reason, operators connected now',
+    'reason',
+    byReason((sender) => sender.resendRefusals),
+  );
+  metrics.gauges(
+    'frames_dropped',
+    'Frames that were not sent, or not to their end, by reason, operators connected now',
+    'reason',
+    byReason((sender) => sender.droppedFrames),
+  );
+  metrics.gauge(
+    'frames_superseded',
+    'Frames not sent because a newer one came first, operators connected now',
+    total(({ droppedFrames }) => droppedFrames.superseded + droppedFrames.overdue),
+  );
+  metrics.gauge(
+    'rate_estimate_bits_per_second',
+    'What the narrowest path is thought to carry',
+    rate((snapshot) => snapshot.estimateBitsPerSecond),
+  );
+  metrics.gauge(
+    'rate_target_bits_per_second',
+    'What the narrowest path is given',
+    narrowest((sender) => sender.targetBitsPerSecond),
+  );
+  metrics.gauge(
+    'rate_acknowledged_bits_per_second',
+    'What the receiver got lately',
+    rate((snapshot) => snapshot.ackedBitsPerSecond),
+  );
+  metrics.gauge(
+    'rate_queue_seconds',
+    'Estimated waiting time in the path’s queue',
+    rate((snapshot) => snapshot.queueMs / 1000),
+  );
+  metrics.gauge(
+    'rate_loss_ratio',
+    'Share of packets lost lately',
+    rate((snapshot) => snapshot.lossFraction),
+  );
+  metrics.gauges('rate_state', 'Operators by what their rate control is doing', 'state', () =>
+    senders().map((sender) => [sender.rate.state, 1]),
+  );
+}

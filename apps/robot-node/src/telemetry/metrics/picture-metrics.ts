@@ -1,0 +1,36 @@
+import type { PulledMetrics } from '@farpoint/service';
+import type { Robot } from '../../robot.ts';
+import type { OperatorSession } from '../../session/operator-session.ts';
+
+/** Cameras' pictures: made, lost, sent. None where the robot has no camera. */
+export function addPictureMetrics(metrics: PulledMetrics, { pictures, operators }: Robot): void {
+  if (pictures === null) return;
+  const made = pictures.counters;
+  const total = (read: (operator: OperatorSession) => number) => () =>
+    [...operators.values()].reduce((sum, operator) => sum + read(operator), 0);
+
+  metrics.sum('pictures_made', 'Pictures of cameras made ready to send', () => made.made);
+  metrics.sum('pictures_untouched', 'Of those, files sent as the camera gave them', () => made.untouched);
+  metrics.sum('picture_bytes', 'Bytes of the pictures made ready', () => made.bytes);
+  metrics.sum('picture_thread_seconds', 'Processor time of making pictures', () => made.workSeconds);
+  metrics.sum('picture_thread_restarts', 'Times the picture thread was started anew', () => made.restarts);
+  metrics.sums('pictures_lost', 'Pictures that were not made, by reason', 'reason', () =>
+    made.lost.entries(),
+  );
+  metrics.gauge(
+    'pictures_sent',
+    'Pictures sent to operators connected now',
+    total(({ pictures: sender }) => sender.picturesSent),
+  );
+  metrics.gauge(
+    'picture_bytes_sent',
+    'Bytes on the wire of pictures to operators connected now',
+    total(({ pictures: sender }) => sender.bytesSent),
+  );
+  metrics.gauges(
+    'pictures_unsent',
+    'Pictures that were not sent, or not to their end, by reason, operators connected now',
+    'reason',
+    () => [...operators.values()].flatMap(({ pictures: sender }) => Object.entries(sender.drops)),
+  );
+}

@@ -1,0 +1,12 @@
+import type { PulledMetrics } from '@farpoint/service';
+import type { Robot } from '../../robot.ts';
+
+/** The recording's size and what it had to leave out. None where nothing is recorded. */
+export function addRecordingMetrics(metrics: PulledMetrics, { recording }: Pick<Robot, 'recording'>): void {
+  if (recording === null) return;
+  metrics.sum('recording_messages', 'Messages recorded', () => recording.counts.messages);
+  metrics.sum('recording_bytes', 'Bytes of the recording', () => recording.counts.bytes);
+  metrics.sums('recording_dropped', 'Not recorded: the writer did not keep up, by kind', 'kind', () =>
+    Object.entries(recording.counts.dropped),
+  );
+}

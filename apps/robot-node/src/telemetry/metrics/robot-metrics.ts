@@ -1,0 +1,23 @@
+import { PulledMetrics, type Registry } from '@farpoint/service';
+import type { Robot } from '../../robot.ts';
+import { addDriveMetrics } from './drive-metrics.ts';
+import { addPathMetrics } from './path-metrics.ts';
+import { addPictureMetrics } from './picture-metrics.ts';
+import { addRecordingMetrics } from './recording-metrics.ts';
+import { addReferenceMetrics } from './reference-metrics.ts';
+import { addSensorMetrics } from './sensor-metrics.ts';
+import { addSessionMetrics } from './session-metrics.ts';
+import { addSignalingMetrics } from './signaling-metrics.ts';
+
+/** Puts everything that the robot counts on `/metrics`. */
+export function registerRobotMetrics(registry: Registry, robot: Robot): void {
+  const metrics = new PulledMetrics(registry, 'farpoint_robot');
+  addSessionMetrics(metrics, robot);
+  addSignalingMetrics(metrics, robot);
+  addDriveMetrics(metrics, robot);
+  addSensorMetrics(metrics, robot);
+  addPathMetrics(metrics, robot);
+  addPictureMetrics(metrics, robot);
+  addRecordingMetrics(metrics, robot);
+  addReferenceMetrics(metrics, robot);
+}

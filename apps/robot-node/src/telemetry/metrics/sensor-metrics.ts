@@ -1,0 +1,30 @@
+import type { PulledMetrics } from '@farpoint/service';
+import type { Robot } from '../../robot.ts';
+
+/** What the sensors captured, and what became of their points. */
+export function addSensorMetrics(metrics: PulledMetrics, { counters, sensors }: Robot): void {
+  metrics.sum('frames_captured', 'Clouds captured', () => counters.framesCaptured);
+  metrics.sum(
+    'frames_without_buffer',
+    'Clouds not captured: all buffers out',
+    () => sensors.framesWithoutBuffer,
+  );
+  metrics.sum(
+    'source_faults',
+    'Faults of the source that may pass: no producer, bad clouds',
+    () => sensors.faults,
+  );
+  metrics.sum('frames_stale', 'Clouds dropped: too old when ready', () => counters.framesStale);
+  metrics.sum('points_sent_per_frame_sum', 'Points of all captured frames', () => counters.pointsCaptured);
+  metrics.sums('points_rejected', 'Points not sent, by reason', 'reason', () =>
+    counters.pointsRejected.entries(),
+  );
+  metrics.sums('stage_seconds', 'Time spent, by stage', 'stage', () => counters.stageSeconds.entries());
+  metrics.gauge('points_per_frame', 'Points of the last frame', () => counters.lastPoints);
+  metrics.gauge('valid_points', 'Valid points of the last raw cloud', () => counters.lastValidPoints);
+  metrics.gauge(
+    'frames_per_second_planned',
+    'Frames a second that the plan has now',
+    () => counters.lastFramesPerSecond,
+  );
+}

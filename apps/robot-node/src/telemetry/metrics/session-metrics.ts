@@ -1,0 +1,34 @@
+import type { PulledMetrics } from '@farpoint/service';
+import type { Robot } from '../../robot.ts';
+
+/** Sessions of operators: how they came about, why they ended, and what was refused on the way. */
+export function addSessionMetrics(metrics: PulledMetrics, { counters, operators }: Robot): void {
+  const { sessionsEnded, resumesRefused, answersIgnored, candidatesRefused, datagramsRefused } = counters;
+  metrics.sum('sessions_opened', 'Sessions that operators asked for', () => counters.sessionsOpened);
+  metrics.sum('sessions_refused', 'Sessions refused: too many operators', () => counters.sessionsRefused);
+  metrics.sums('sessions_ended', 'Sessions that ended, by reason', 'reason', () => sessionsEnded.entries());
+  metrics.sum(
+    'ice_restarts',
+    'ICE restarts offered to operators that had lost their path',
+    () => counters.iceRestarts,
+  );
+  metrics.sums('resumes_refused', 'Requests to resume a session that were refused', 'reason', () =>
+    resumesRefused.entries(),
+  );
+  metrics.sums('answers_ignored', 'Answers that changed nothing, by reason', 'reason', () =>
+    answersIgnored.entries(),
+  );
+  metrics.sums('ice_candidates_refused', 'ICE candidates left out, by reason', 'reason', () =>
+    candidatesRefused.entries(),
+  );
+  metrics.sums(
+    'datagrams_refused',
+    'Datagrams and packets of sessions that were dropped unread, by reason',
+    'reason',
+    () => datagramsRefused.entries(),
+  );
+  metrics.sums('messages_refused', 'Unreadable messages, by channel and error', 'reason', () =>
+    counters.messagesRefused.entries(),
+  );
+  metrics.gauge('operators', 'Operators with a session', () => operators.size);
+}
