@@ -16,6 +16,8 @@ import { NO_BUDGET } from '../encode/capture-budget.ts';
 import { slotPayloadBytes } from '../encode/packetiser.ts';
 import { Capture } from './capture.ts';
 import type { ReadyFrame } from './capture-messages.ts';
+import type { CaptureRoom } from './frame-source.ts';
+import { ReferenceShmSource } from './reference-shm-source.ts';
 
 let folder: string;
 const open: { close(): unknown }[] = [];
@@ -235,34 +237,50 @@ describe.skipIf(!isAvailable())(
       expect(producer.wishes).toEqual({ bitsPerSecond: 123_000_000, latencyTest: false });
     });
 
-    it('reference: a latency test asks the producer for a green frame, and that is the one', async () => {
-      const producer = keep(new ReferenceFrameProducer(folder));
-      const capture = await start('reference');
-      capture.setBudget(BUDGET);
-      capture.requestLatencyTest();
-      const asked: boolean[] = [];
-      const produce = () => {
-        // Wishes come with the leave to publish: read before, they may be those of the frame before.
-        if (!producer.free) return;
-        const { latencyTest } = producer.wishes;
-        if (producer.publish(packed(1, latencyTest ? 0x03f0 : 0xffff))) asked.push(latencyTest);
+    describe('reference: a latency test', () => {
+      const GREEN = 0x03f0;
+      const wishes = { bitsPerSecond: 1e8, latencyTest: true };
+      const room: CaptureRoom = {
+        points: new Float32Array(150 * 4),
+        depth: new Float32Array(0),
+        colour: new Uint32Array(0),
       };
-      const frame = await frameWhere(capture, produce, ({ latencyTest }) => latencyTest);
-      expect(placementOf(frame).latencyTest).toBe(true);
-      expect(asked.filter(Boolean)).toHaveLength(1);
-    });
 
-    it('reference: a producer that knows no latency test is helped out', async () => {
-      const producer = keep(new ReferenceFrameProducer(folder));
-      const capture = await start('reference');
-      capture.setBudget(BUDGET);
-      capture.requestLatencyTest();
-      const frame = await frameWhere(
-        capture,
-        () => producer.publish(packed(1, 0xffff)),
-        ({ latencyTest }) => latencyTest,
-      );
-      expect(new Uint16Array(frame.buffer, 16 + 900, 1)[0]).toBe(0x03f0);
+      it('asks the producer for one green frame, and that is the one', async () => {
+        const producer = keep(new ReferenceFrameProducer(folder));
+        const source = keep(await ReferenceShmSource.open({ folder, waitMs: 10_000 }, () => 1000));
+        const asked: boolean[] = [];
+        const answers: (boolean | undefined)[] = [];
+        for (let i = 0; i < 4; i++) {
+          const { latencyTest } = producer.wishes;
+          asked.push(latencyTest);
+          expect(producer.publish(packed(1, latencyTest ? GREEN : 0xffff))).toBe(true);
+          answers.push(source.capture(1000 + i, { ...wishes, latencyTest: i < 2 }, room)?.latencyTest);
+        }
+        expect(asked).toEqual([false, true, false, false]);
+        expect(answers).toEqual([false, true, false, false]);
+      });
+
+      it('is answered by the next frame where the producer does not know it', async () => {
+        const producer = keep(new ReferenceFrameProducer(folder));
+        const source = keep(await ReferenceShmSource.open({ folder, waitMs: 10_000 }, () => 1000));
+        const answers = [0, 500, 501].map((ms) => {
+          producer.publish(packed(1, 0xffff));
+          return source.capture(1000 + ms, wishes, room)?.latencyTest;
+        });
+        expect(answers).toEqual([false, false, true]);
+      });
+
+      it('comes out of the capture thread green', async () => {
+        const producer = keep(new ReferenceFrameProducer(folder));
+        const capture = await start('reference');
+        capture.setBudget(BUDGET);
+        capture.requestLatencyTest();
+        const produce = () => producer.publish(packed(1, 0xffff));
+        const frame = await frameWhere(capture, produce, ({ latencyTest }) => latencyTest);
+        expect(placementOf(frame).latencyTest).toBe(true);
+        expect(new Uint16Array(frame.buffer, 16 + 900, 1)[0]).toBe(GREEN);
+      });
     });
 
     it('reference: with nobody watching the producer waits; then what is old is let go', async () => {
