@@ -1,11 +1,35 @@
 import { defineConfig } from 'vitest/config';
 
+const ROOMS = '{packages,apps,wasm-codec,bench,scripts}';
+const STACK = `${ROOMS}/**/*.stack.test.ts`;
+const NOT_OURS = ['**/node_modules/**', '**/dist/**', '**/target/**'];
+
 export default defineConfig({
   test: {
-    include: ['{packages,apps,wasm-codec,bench,scripts}/**/*.test.ts'],
     // No test measures time: a busy machine must not fail one.
     testTimeout: 30_000,
-    setupFiles: ['scripts/lib/test-setup.ts'],
-    exclude: ['**/node_modules/**', '**/dist/**', '**/target/**'],
+    projects: [
+      {
+        extends: true,
+        test: {
+          name: 'pure',
+          include: [`${ROOMS}/**/*.test.ts`],
+          exclude: [...NOT_OURS, STACK],
+          setupFiles: ['scripts/lib/test-setup.ts', 'scripts/lib/pure-guard.ts'],
+          // Nothing to isolate: modules are loaded once for all files, which is most of the time.
+          isolate: false,
+          pool: 'threads',
+        },
+      },
+      {
+        extends: true,
+        test: {
+          name: 'stack',
+          include: [STACK],
+          exclude: NOT_OURS,
+          setupFiles: ['scripts/lib/test-setup.ts'],
+        },
+      },
+    ],
   },
 });

@@ -37,6 +37,11 @@ async function runQuietly(program: string, args: string[]): Promise<StepResult> 
   return { ok: code === 0, output };
 }
 
+async function runVitest(project: 'pure' | 'stack'): Promise<StepResult> {
+  const { code, output } = await run('vitest', ['run', '--project', project], { echo: true });
+  return { ok: code === 0, tally: tallyVitest(output) };
+}
+
 async function runPlaywright(project: 'chromium' | 'firefox'): Promise<StepResult> {
   const args = ['--dir', 'e2e', 'exec', 'playwright', 'test', '--project', project];
   const { code, output } = await run('pnpm', args, { echo: true });
@@ -49,6 +54,11 @@ const steps: Step[] = [
     name: 'types',
     what: 'type check (tsc)',
     run: () => runQuietly('pnpm', ['run', 'typecheck']),
+  },
+  {
+    name: 'pure',
+    what: 'unit tests without processes, threads or sockets (vitest)',
+    run: () => runVitest('pure'),
   },
   {
     name: 'rust',
@@ -80,12 +90,9 @@ const steps: Step[] = [
     },
   },
   {
-    name: 'unit',
-    what: 'unit tests (vitest)',
-    run: async () => {
-      const { code, output } = await run('vitest', ['run'], { echo: true });
-      return { ok: code === 0, tally: tallyVitest(output) };
-    },
+    name: 'stack',
+    what: 'unit tests with processes, threads and sockets (vitest)',
+    run: () => runVitest('stack'),
   },
   { name: 'build', what: 'build what is deployed', run: () => runQuietly('node', ['scripts/build.ts']) },
   {
@@ -152,6 +159,11 @@ for (const [index, step] of chosen.entries()) {
 // A step that fails without a failing test of its own (a lint, a build) counts as one failure.
 const failed = Math.max(total.failed, faults.length);
 for (const fault of faults) console.log(fault);
+if (only?.join() === 'pure' && faults.length === 0) {
+  console.log(
+    'next: pnpm test --only lint,types,stack, then pnpm test for everything; one package: see CONTRIBUTING.md',
+  );
+}
 console.log(
   `\n${total.passed} passed, ${failed} failed${total.skipped > 0 ? `, ${total.skipped} skipped` : ''}`,
 );

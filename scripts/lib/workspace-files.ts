@@ -1,16 +1,23 @@
-import { execFileSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
+import { globSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from './run.ts';
 
-/** Paths of the files that git tracks or would track, from the repository's root. */
-export const workspaceFiles: readonly string[] = execFileSync(
-  'git',
-  ['ls-files', '--cached', '--others', '--exclude-standard'],
-  { cwd: root, encoding: 'utf8' },
-)
-  .split('\n')
-  .filter((file) => file !== '');
+/** What is installed or built; as in `.gitignore`. */
+const NOT_SOURCES = new Set([
+  ...['.git', '.farpoint', '.vitest', 'node_modules', '__pycache__', 'coverage'],
+  ...['build', 'dist', 'dist-testing', 'output', 'target'],
+]);
+
+/** Paths of the project's own files, from the repository's root, with `/` between folders. */
+export const workspaceFiles: readonly string[] = globSync('**', {
+  cwd: root,
+  exclude: ({ name }) => NOT_SOURCES.has(name),
+  withFileTypes: true,
+})
+  .filter((entry) => entry.isFile())
+  .map(({ parentPath, name }) =>
+    join(parentPath, name).slice(root.length).replaceAll('\\', '/').replace(/^\//, ''),
+  );
 
 export function readWorkspaceFile(file: string): string {
   return readFileSync(join(root, file), 'utf8');

@@ -1,8 +1,10 @@
-import { expect, test } from 'vitest';
-import { loadCodec, loadCodecSync } from './codec.ts';
-import { loadCodecFromDisk } from './load-node.ts';
+import { expect, test, vi } from 'vitest';
 
 test('a module that is none is refused, and the next source is tried', async () => {
+  // Another test may have loaded the module already.
+  vi.resetModules();
+  const { loadCodec, loadCodecSync } = await import('./codec.ts');
+  const { loadCodecFromDisk } = await import('./load-node.ts');
   await expect(loadCodec(new Uint8Array([1, 2, 3]))).rejects.toMatchObject({
     name: 'CodecError',
     code: 'not-loadable',

@@ -79,9 +79,13 @@ export function rgbdClouds(folder: string, most = 5): BenchCloud[] {
   );
 }
 
-/** What the simulated robot sees while it drives. */
-export async function simulatedClouds(count = 3): Promise<BenchCloud[]> {
-  const simulation = await Simulation.create({ seed: 1 });
+/**
+ * What the simulated robot sees while it drives.
+ *
+ * @param size of the picture, pixels a side
+ */
+export async function simulatedClouds(count = 3, size = 480): Promise<BenchCloud[]> {
+  const simulation = await Simulation.create({ seed: 1, camera: { width: size, height: size } });
   const command = zeroTwist();
   command.linear.x = 0.5;
   command.angular.z = 0.3;

@@ -1,4 +1,4 @@
-/** A small program for program.test.ts. */
+/** A small program for program.stack.test.ts. */
 import * as schema from './option-schemas.ts';
 import { defineOption, defineProgram } from './option-table.ts';
 import { adminOptions, runProgram } from './program.ts';

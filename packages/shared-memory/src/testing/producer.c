@@ -1,4 +1,4 @@
-/* Writes what src/producers.test.ts expects: `producer FOLDER points|depth16|depth32|reference|refusals`. C and C++. */
+/* Writes what src/producers.stack.test.ts expects: `producer FOLDER points|depth16|depth32|reference|refusals`. C and C++. */
 #include "../../include/farpoint_shm.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-"""Writes what src/producers.test.ts expects: `producer.py FOLDER points|depth16|depth32|reference|refusals|pack`."""
+"""Writes what src/producers.stack.test.ts expects: `producer.py FOLDER points|depth16|depth32|reference|refusals|pack`."""
 import json
 import os
 import sys

@@ -1,0 +1,34 @@
+/**
+ * Keeps the tests of the project `pure` pure: whatever starts a process or a thread, or opens a socket, throws. Such a
+ * test belongs in a file named `*.stack.test.ts`.
+ */
+import childProcess from 'node:child_process';
+import dgram from 'node:dgram';
+import { syncBuiltinESMExports } from 'node:module';
+import net from 'node:net';
+import workerThreads from 'node:worker_threads';
+
+function refuse(what: string): () => never {
+  // A plain function, since `Worker` is called with `new`.
+  return function refused(): never {
+    throw new Error(`a pure test may not ${what}: name the file *.stack.test.ts`);
+  };
+}
+
+const startProcess = refuse('start a process');
+const PROCESS_STARTERS = [
+  'exec',
+  'execFile',
+  'execFileSync',
+  'execSync',
+  'fork',
+  'spawn',
+  'spawnSync',
+] as const;
+for (const name of PROCESS_STARTERS) Object.assign(childProcess, { [name]: startProcess });
+Object.assign(workerThreads, { Worker: refuse('start a thread') });
+const openSocket = refuse('open a socket');
+Object.assign(net.Server.prototype, { listen: openSocket });
+Object.assign(net.Socket.prototype, { connect: openSocket });
+Object.assign(dgram.Socket.prototype, { bind: openSocket, connect: openSocket, send: openSocket });
+syncBuiltinESMExports();
