@@ -48,7 +48,7 @@ export class CaptureLoop {
   #lastFault = '';
   #closed = false;
 
-  constructor(source: FrameSource, frames: FrameCapture, { framesPerSecond, now, send }: CaptureLoopOptions) {
+  constructor(source: FrameSource, frames: LoopFrames, { framesPerSecond, now, send }: CaptureLoopOptions) {
     this.#source = source;
     this.#frames = frames;
     this.#now = now;
