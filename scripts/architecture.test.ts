@@ -71,6 +71,13 @@ test('what runs in a browser uses nothing of Node', () => {
   expect(faults).toEqual([]);
 });
 
+test('what runs in a browser has the small build of the schema library: zod/mini, not zod', () => {
+  const faults = [...sources]
+    .filter(([file, text]) => BROWSER.test(file) && /from 'zod'/.test(text))
+    .map(([file]) => file);
+  expect(faults).toEqual([]);
+});
+
 describe('sources', () => {
   test('no file imports itself by way of others', () => {
     const graph = new Map(

@@ -11,7 +11,25 @@ function scripts(build: string): string {
   return files.map((file) => readFileSync(join(folder, file), 'utf8')).join('\n');
 }
 
+/** The modules of which something is in a build's scripts. */
+function modules(build: string): string[] {
+  const folder = join(repositoryRoot, 'apps/webxr', build);
+  const maps = globSync('assets/*.js.map', { cwd: folder });
+  expect(maps, `${build}: run \`pnpm build\``).not.toEqual([]);
+  return maps.flatMap((file) => {
+    const { sources } = JSON.parse(readFileSync(join(folder, file), 'utf8')) as { sources: string[] };
+    return sources;
+  });
+}
+
 test('what tests do with the page is not in the page that is deployed', () => {
   expect(scripts('dist-testing')).toContain('latencyResults');
   expect(scripts('dist')).not.toContain('latencyResults');
+});
+
+test('the page has the small build of the schema library, and one language of its texts', () => {
+  const ofZod = modules('dist').flatMap((source) => source.split('/zod/v4/')[1] ?? []);
+  expect(ofZod).toContain('mini/schemas.js');
+  expect(ofZod.filter((module) => module.startsWith('classic/'))).toEqual([]);
+  expect(ofZod.filter((module) => module.startsWith('locales/'))).toEqual(['locales/en.js']);
 });

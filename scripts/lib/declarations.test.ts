@@ -4,18 +4,18 @@ import { publicDeclaration, references } from './declarations.ts';
 const name = (it: string) => (it === '@farpoint/protocol' ? '../protocol/index.js' : it);
 
 test('schemas go, the types beside them stay', () => {
-  const text = `import * as z from 'zod';
+  const text = `import * as z from 'zod/mini';
 import type { Pose } from './pose.ts';
 export interface Speed {
     x: number;
 }
 export interface Codec<T> {
-    readonly schema: z.ZodType<T>;
+    readonly schema: z.core.$ZodType<T>;
 }
-export declare const speedSchema: z.ZodObject<{
-    x: z.ZodNumber;
+export declare const speedSchema: z.ZodMiniObject<{
+    x: z.ZodMiniNumber<number>;
 }, z.core.$strip>;
-declare const one: z.ZodString;
+declare const one: z.ZodMiniString<string>;
 export type One = z.infer<typeof one>;
 export declare const MOST: 5;
 `;
@@ -44,7 +44,10 @@ test('private packages are found beside, others by their name', () => {
 
 test('a file of schemas alone stays a module', () => {
   expect(
-    publicDeclaration("import * as z from 'zod';\nexport declare const a: z.ZodString;", name).text,
+    publicDeclaration(
+      "import * as z from 'zod/mini';\nexport declare const a: z.ZodMiniString<string>;",
+      name,
+    ).text,
   ).toBe('export {};');
 });
 

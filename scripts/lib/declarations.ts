@@ -26,8 +26,8 @@ export function publicDeclaration(text: string, nameOf: (name: string) => string
       lines.push(line.replace(/= .*/, '= unknown;'));
     }
     inSchema ||= type !== undefined || /^(export )?declare const \w+: z\./.test(line);
-    if (!inSchema && !/ from 'zod';$/.test(line))
-      lines.push(line.replace(/\bz\.ZodType<[^<>]*>/g, 'unknown'));
+    if (!inSchema && !/ from 'zod\/mini';$/.test(line))
+      lines.push(line.replace(/\bz\.core\.\$ZodType<[^<>]*>/g, 'unknown'));
     // A statement ends with the first line that is not indented and ends with a semicolon.
     if (inSchema && /^\S.*;$/.test(line)) inSchema = false;
   }

@@ -1,30 +1,35 @@
 /** The page: what comes from the robot to the screen, what comes from the hands to the robot. */
 import { CloudView } from '@farpoint/cloud-view';
 import { RobotClient, type TransformSupport } from '@farpoint/operator';
-import type { PageParts } from './page-parts.ts';
-import { CameraViews } from './pictures/camera-views.ts';
+import { effect, untracked } from '@preact/signals-core';
+import { ReleaseHold } from './drive/release-hold.ts';
 import type { Settings } from './settings.ts';
-import { PageStatistics } from './status/page-stats.ts';
+import type { Notices } from './state/notices.ts';
+import { PageState } from './state/page-state.ts';
+import { PageStatistics, type PageStats } from './status/page-stats.ts';
 import { failureWords, leavingWords, rejectionWords, wordsOfLoss } from './status/words.ts';
 import { ControlsUi } from './ui/controls-ui.ts';
 import { elements } from './ui/elements.ts';
 import { EstopUi } from './ui/estop-ui.ts';
-import { notify, showFailure } from './ui/notice.ts';
 import { OperatorInputs } from './ui/operator-inputs.ts';
-import { showRobots } from './ui/robot-list.ts';
-import { showSensors } from './ui/sensor-switches.ts';
-import { StatusUi } from './ui/status-ui.ts';
+import { showPicturePanels } from './ui/picture-panels.ts';
+import { showRobotList } from './ui/robot-list.ts';
+import { showRobotSwitcher } from './ui/robot-switcher.ts';
+import { showSensorSwitches } from './ui/sensor-switches.ts';
+import { showStatus } from './ui/status-ui.ts';
 import { FrameLoop } from './view/frame-loop.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
 import { Stage } from './view/stage.ts';
 import { VrSession } from './view/vr-session.ts';
 import { WristPanel } from './view/wrist-panel.ts';
+import { showOnWrist } from './view/wrist-status.ts';
 
 const DRIVE_TICK_MS = 25;
 const STATUS_TICK_MS = 250;
 
-export class App implements PageParts {
+export class App {
   readonly settings: Settings;
+  readonly state: PageState;
   readonly stage: Stage;
   readonly cloud: CloudView;
   /** Those of a robot with several sensors. */
@@ -32,67 +37,68 @@ export class App implements PageParts {
   readonly client: RobotClient;
   readonly stats = new PageStatistics();
   readonly vr: VrSession;
-  readonly cameras: CameraViews;
   readonly frames: FrameLoop;
   readonly #inputs: OperatorInputs;
-  readonly #status: StatusUi;
+  readonly #controls: ControlsUi;
+  readonly #release = new ReleaseHold();
   readonly #estop: EstopUi;
 
   /** @throws {Error} without WebGL 2 */
-  constructor(settings: Settings, transform: TransformSupport) {
+  constructor(settings: Settings, transform: TransformSupport, notices: Notices) {
     this.settings = settings;
     this.stage = new Stage(elements.stage, settings.canvas);
-    const { renderer } = this.stage;
-    this.#inputs = new OperatorInputs(() => this.client.driver.tick(performance.now()));
+    const { renderer, world } = this.stage;
+    this.#inputs = new OperatorInputs({
+      onChange: () => this.client.driver.tick(performance.now()),
+      onAction: (action, timeMs) => this.#controls.act(action, timeMs),
+      onRelease: (control, held) => this.#estop.hold(control, held),
+      mayDrive: () => this.state.link.live.value,
+    });
     const { signalingUrl, name, token, icePolicy, bridge, mode } = settings;
     this.client = new RobotClient({
       ...{ signalingUrl, name, token, icePolicy, transform, bridge },
       cloudFormats: mode === 'points64' ? ['points64'] : undefined,
       inputs: this.#inputs.all,
     });
+    this.state = new PageState({
+      ...{ client: this.client, settings, notices, figures: () => this.figures() },
+      now: () => performance.now(),
+      newCanvas: () => document.createElement('canvas'),
+    });
+    const { sensors, pointScale } = this.state;
     this.cloud = new CloudView(renderer, this.client);
-    this.cloud.sizeScale = settings.pointScale;
-    this.stage.world.add(this.cloud);
+    world.add(this.cloud);
     this.clouds = new SensorClouds({
-      ...{ renderer, world: this.stage.world, client: this.client, first: this.cloud },
-      onChange: () => showSensors(this.clouds),
+      ...{ renderer, world, client: this.client, first: this.cloud, sensors, pointScale },
     });
-    this.clouds.sizeScale = settings.pointScale;
-    this.vr = new VrSession(renderer, (active) => this.#onVr(active));
-    this.cameras = new CameraViews({
-      onChange: () => this.#status.onCameras(),
-      onWatch: (cameras) => this.client.watch(cameras),
-      onPicture: () => this.#status.updatePictures(performance.now()),
-    });
-    this.#estop = new EstopUi(this.client);
-    this.#status = new StatusUi(this, new WristPanel(renderer, this.stage.rig), this.cameras);
-    const readHeadset = () => this.#inputs.readHeadset(this.vr.inputSources);
-    const { client, stage, cloud, clouds, stats, vr } = this;
+    this.vr = new VrSession(renderer);
+    this.#estop = new EstopUi(this.client, this.state.robot, this.#release);
+    const { client, state, stage, cloud, clouds, stats, vr } = this;
+    const choose = (robotId: string) => this.choose(robotId);
+    this.#controls = new ControlsUi({ client, state, stage, vr, estop: this.#estop, choose });
+    const readHeadset = () => this.#inputs.readHeadset(vr.inputSources);
     this.frames = new FrameLoop({ settings, client, stage, cloud, clouds, stats, vr, readHeadset });
   }
 
   start(): void {
     this.#listen();
     this.#listenToCanvas();
-    const controls = new ControlsUi(this, this.#estop);
-    controls.start();
-    this.#inputs.onAction = (action, timeMs) => controls.act(action, timeMs);
-    this.#inputs.onRelease = (control, held) => this.#estop.hold(control, held);
+    this.#controls.start();
     this.client.start();
     if (this.settings.robot !== null) this.client.choose(this.settings.robot);
+    this.#show();
     setInterval(() => {
       this.#inputs.poll();
       const away = this.#handsAway();
       this.#estop.tick(performance.now(), away);
-      if (this.vr.active) this.#status.showRelease(this.#estop.progress);
       this.client.driver.suspended = away;
       this.client.tick(performance.now());
     }, DRIVE_TICK_MS);
     setInterval(() => {
       const nowMs = performance.now();
       this.stats.tick(this.cloud, nowMs);
-      this.cameras.looking = this.vr.active || !document.hidden;
-      this.#status.update(nowMs);
+      this.state.looking.value = this.vr.active.value || !document.hidden;
+      this.state.sample();
       this.frames.govern(nowMs);
     }, STATUS_TICK_MS);
     this.frames.start();
@@ -101,64 +107,77 @@ export class App implements PageParts {
   /** Connects to this robot; another one is left standing first. */
   choose(robotId: string): void {
     this.client.choose(robotId);
-    if (this.client.chosenRobotId !== this.client.link.robotId) notify(leavingWords);
-    this.#updateStatus();
+    if (this.client.chosenRobotId !== this.client.link.robotId) this.state.notices.tell(leavingWords);
+    this.state.sample();
+  }
+
+  /** The figures of the stream and of the drawing, now. */
+  figures(): PageStats {
+    return this.stats.snapshot(this.client.stats(), this.cloud, this.stage.renderer.domElement);
+  }
+
+  #show(): void {
+    const { state, stage, vr } = this;
+    const { pointScale } = state;
+    const choose = (robotId: string) => this.choose(robotId);
+    state.sample();
+    showStatus(state);
+    showRobotList(state.link, choose);
+    showRobotSwitcher(state.link, choose);
+    showSensorSwitches(state.sensors);
+    showPicturePanels(state);
+    const panel = new WristPanel(stage.renderer, stage.rig);
+    showOnWrist({ state, panel, active: vr.active, releaseProgress: this.#release.progress });
+    effect(() => {
+      this.cloud.sizeScale = pointScale.value;
+    });
+    effect(() => {
+      const active = vr.active.value;
+      untracked(() => this.#inputs.releaseAll());
+      if (!active) stage.resize();
+    });
   }
 
   /** Commands may only come from hands that see what they do. */
   #handsAway(): boolean {
-    if (this.vr.active) return this.vr.hidden;
+    if (this.vr.active.value) return this.vr.hidden;
     return document.hidden || !document.hasFocus();
   }
 
   #listen(): void {
     const { client, stage } = this;
-    for (const type of ['signaling', 'path', 'lease', 'estop'] as const)
-      client.on(type, () => this.#updateStatus());
-    client.on('robots', (robots) => showRobots(robots, (robotId) => this.choose(robotId)));
+    const { notices } = this.state;
     client.on('phase', (phase) => {
       if (phase === 'none') stage.forgetPose();
-      this.#updateStatus();
     });
     client.on('session', () => {
-      this.cameras.setCameras([]);
-      this.clouds.setSensors([]);
       this.stats.reset();
       stage.forgetPose();
     });
-    client.on('loss', (loss) => notify(wordsOfLoss(loss, client.link.maxOperators), 'warning'));
-    client.on('refused', (message) => notify(message, 'warning'));
-    client.on('welcome', ({ name }) => notify(`Connected to ${name}`, 'good'));
+    client.on('telemetry', ({ pose }) => stage.setBody(pose));
+    client.on('loss', (loss) => notices.tell(wordsOfLoss(loss, client.link.maxOperators), 'warning'));
+    client.on('refused', (message) => notices.tell(message, 'warning'));
+    client.on('welcome', ({ name }) => notices.tell(`Connected to ${name}`, 'good'));
     client.on('commandRejected', ({ reason, detail }) => {
       console.info('command refused:', reason, detail);
-      notify(rejectionWords[reason], 'warning');
+      notices.tell(rejectionWords[reason], 'warning');
     });
-    client.on('otherDrives', () => notify(rejectionWords['not-lease-holder'], 'warning'));
-    client.on('sensors', (sensors) => this.clouds.setSensors(sensors));
-    client.on('cameras', (cameras) => this.cameras.setCameras(cameras));
-    client.on('picture', (picture) => this.cameras.show(picture));
-    client.on('pictureFault', ({ camera, detail }) => this.cameras.onFault(camera, detail));
-    client.on('telemetry', ({ pose }) => stage.setBody(pose));
-    client.on('robotFault', (message) => notify(`The robot says: ${message}`, 'warning'));
+    client.on('otherDrives', () => notices.tell(rejectionWords['not-lease-holder'], 'warning'));
+    client.on('robotFault', (message) => notices.tell(`The robot says: ${message}`, 'warning'));
     client.on('failed', ({ detail }) => {
       console.error('cloud worker:', detail);
-      showFailure(failureWords.workerFailed);
+      notices.failure.value = failureWords.workerFailed;
     });
-  }
-
-  #updateStatus(): void {
-    this.#status.update(performance.now());
   }
 
   #listenToCanvas(): void {
+    const { failure } = this.state.notices;
     new ResizeObserver(() => this.stage.resize()).observe(elements.stage);
-    elements.stage.addEventListener('webglcontextlost', () => showFailure(failureWords.contextLost));
-    elements.stage.addEventListener('webglcontextrestored', () => showFailure(null));
-  }
-
-  #onVr(active: boolean): void {
-    this.#inputs.releaseAll();
-    this.#status.onVr(active);
-    if (!active) this.stage.resize();
+    elements.stage.addEventListener('webglcontextlost', () => {
+      failure.value = failureWords.contextLost;
+    });
+    elements.stage.addEventListener('webglcontextrestored', () => {
+      failure.value = null;
+    });
   }
 }

@@ -2,33 +2,36 @@ import './ui/style.css';
 import { transformSupport } from '@farpoint/operator';
 import { App } from './app.ts';
 import { readSettings } from './settings.ts';
+import { Notices } from './state/notices.ts';
 import { failureWords } from './status/words.ts';
 import { loadStored, pageOrigin } from './stored-settings.ts';
-import { showFailure } from './ui/notice.ts';
+import { showNotices } from './ui/notice.ts';
 
 const settings = readSettings(new URLSearchParams(window.location.search), loadStored(), pageOrigin());
+const notices = new Notices();
 
 function start(): void {
   const transform = transformSupport();
   const isDirect = settings.bridge === null;
   if (isDirect && typeof RTCPeerConnection === 'undefined') {
-    showFailure(failureWords.noWebRtc);
+    notices.failure.value = failureWords.noWebRtc;
     return;
   }
   if (isDirect && transform === 'none') {
-    showFailure(failureWords.noTransform);
+    notices.failure.value = failureWords.noTransform;
     return;
   }
   try {
-    const app = new App(settings, transform);
+    const app = new App(settings, transform, notices);
     app.start();
     // Left out of the page that is deployed: `vite build --mode testing` makes one with it.
     if (import.meta.env.MODE === 'testing')
       void import('./testing/test-hooks.ts').then(({ installTestApi }) => installTestApi(app));
   } catch (error) {
     console.error(error);
-    showFailure(failureWords.noWebGl2);
+    notices.failure.value = failureWords.noWebGl2;
   }
 }
 
+showNotices(notices);
 start();

@@ -2,7 +2,7 @@
  * The `control` channel, opened by the operator, unordered and never retransmitted: what is late is worthless.
  * Operator → robot: commands, clock probes and receiver reports. Robot → operator: clock answers.
  */
-import * as z from 'zod';
+import * as z from 'zod/mini';
 import { type Twist, twistSchema } from './geometry.ts';
 import { handleSchema, uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
@@ -52,8 +52,8 @@ export interface ReceiverReport {
 
 export type OperatorControlMessage = Command | ClockProbe | ReceiverReport;
 
-const timeMsSchema = z.number().min(0).max(Number.MAX_SAFE_INTEGER);
-const countSchema = z.int().min(0);
+const timeMsSchema = z.number().check(z.minimum(0), z.maximum(Number.MAX_SAFE_INTEGER));
+const countSchema = z.int().check(z.minimum(0));
 
 export const commandSchema = z.strictObject({
   type: z.literal('command'),
@@ -62,8 +62,8 @@ export const commandSchema = z.strictObject({
   lease: handleSchema,
   deadMan: z.boolean(),
   twist: twistSchema,
-  latencyTest: uint32Schema.optional(),
-}) satisfies z.ZodType<Command>;
+  latencyTest: z.optional(uint32Schema),
+}) satisfies z.ZodMiniType<Command>;
 
 const clockProbeSchema = z.strictObject({
   type: z.literal('clockProbe'),

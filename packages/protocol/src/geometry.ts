@@ -1,4 +1,4 @@
-import * as z from 'zod';
+import * as z from 'zod/mini';
 
 // Named and laid out as ROS geometry_msgs; SI units; axes as in REP-103
 // (body and world: x forward, y left, z up; camera optical frame: z forward, x right, y down).
@@ -13,7 +13,7 @@ export interface Vector3 {
 /** Accepts what is within 1 % of unit length; a pose with any other quaternion means nothing. */
 export const quaternionSchema = z
   .strictObject({ x: z.number(), y: z.number(), z: z.number(), w: z.number() })
-  .refine((q) => Math.abs(Math.hypot(q.x, q.y, q.z, q.w) - 1) < 0.01, 'not a unit quaternion');
+  .check(z.refine((q) => Math.abs(Math.hypot(q.x, q.y, q.z, q.w) - 1) < 0.01, 'not a unit quaternion'));
 export interface Quaternion {
   x: number;
   y: number;

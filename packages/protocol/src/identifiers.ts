@@ -1,20 +1,22 @@
-import * as z from 'zod';
+import * as z from 'zod/mini';
 
 /** A robot's stable identity: a name that fits a URL, a topic and a file. */
 export const robotIdSchema = z
   .string()
-  .regex(/^[a-z0-9][a-z0-9._-]{0,63}$/, 'must be 1–64 of a–z 0–9 . _ - beginning with a letter or digit');
+  .check(
+    z.regex(/^[a-z0-9][a-z0-9._-]{0,63}$/, 'must be 1–64 of a–z 0–9 . _ - beginning with a letter or digit'),
+  );
 
 /** What people read. No control characters. */
 export const displayNameSchema = z
   .string()
-  .min(1)
-  .max(64)
-  .regex(/^[^\p{Cc}]*$/u, 'must have no control characters');
+  .check(z.minLength(1), z.maxLength(64), z.regex(/^[^\p{Cc}]*$/u, 'must have no control characters'));
 
 /** An opaque handle made by one peer and repeated by others. */
-export const handleSchema = z.string().regex(/^[A-Za-z0-9_-]{1,64}$/, 'must be 1–64 of A–Z a–z 0–9 _ -');
+export const handleSchema = z
+  .string()
+  .check(z.regex(/^[A-Za-z0-9_-]{1,64}$/, 'must be 1–64 of A–Z a–z 0–9 _ -'));
 
-export const tokenSchema = z.string().min(1).max(4096);
+export const tokenSchema = z.string().check(z.minLength(1), z.maxLength(4096));
 
-export const uint32Schema = z.int().min(0).max(0xffffffff);
+export const uint32Schema = z.int().check(z.minimum(0), z.maximum(0xffffffff));

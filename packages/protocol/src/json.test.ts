@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import * as z from 'zod';
+import * as z from 'zod/mini';
 import { ProtocolError } from './errors.ts';
 import { decodeJson, encodeJson, encodeJsonBytes, type JsonCodec } from './json.ts';
 

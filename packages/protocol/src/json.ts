@@ -1,8 +1,11 @@
-import type * as z from 'zod';
+import { en } from 'zod/locales';
+import * as z from 'zod/mini';
 import { ProtocolError } from './errors.ts';
 
 const utf8 = new TextDecoder('utf-8', { fatal: true });
 const utf8Encoder = new TextEncoder();
+/** The small build of the schema library has no texts of its own. */
+const { localeError } = en();
 
 /** Bytes or text as a socket or a data channel hands them over. */
 export type MessageData = string | ArrayBuffer | Uint8Array;
@@ -10,7 +13,7 @@ export type MessageData = string | ArrayBuffer | Uint8Array;
 export interface JsonCodec<T> {
   /** What the message is, for error texts. */
   readonly what: string;
-  readonly schema: z.ZodType<T>;
+  readonly schema: z.core.$ZodType<T>;
   /** Longest accepted message in bytes (UTF-16 units for text, which is never more bytes than ×3). */
   readonly maxBytes: number;
 }
@@ -25,7 +28,9 @@ export function decodeJson<T>(codec: JsonCodec<T>, data: MessageData): T {
   if (size > codec.maxBytes) {
     throw new ProtocolError('too-large', codec.what, '', `${size} bytes, at most ${codec.maxBytes} allowed`);
   }
-  const parsed = codec.schema.safeParse(parseJson(codec.what, toText(codec.what, data)));
+  const parsed = z.safeParse(codec.schema, parseJson(codec.what, toText(codec.what, data)), {
+    error: localeError,
+  });
   if (parsed.success) return parsed.data;
   const issue = parsed.error.issues[0];
   throw new ProtocolError(

@@ -2,7 +2,7 @@
  * A `reading` on the `telemetry` channel: what a sensor or a topic of the robot says, as short text for people. The newest
  * of each comes again every few seconds, so that one that is lost is missed by nobody.
  */
-import * as z from 'zod';
+import * as z from 'zod/mini';
 
 export const readingLevels = ['ok', 'warn', 'error'] as const;
 export type ReadingLevel = (typeof readingLevels)[number];
@@ -27,9 +27,11 @@ const { topic, label, values, name, text } = READING_LIMITS;
 
 export const readingSchema = z.strictObject({
   type: z.literal('reading'),
-  topic: z.string().min(1).max(topic),
-  label: z.string().min(1).max(label),
+  topic: z.string().check(z.minLength(1), z.maxLength(topic)),
+  label: z.string().check(z.minLength(1), z.maxLength(label)),
   level: z.enum(readingLevels),
-  values: z.array(z.tuple([z.string().max(name), z.string().max(text)])).max(values),
-  ageMs: z.number().min(0),
-}) satisfies z.ZodType<Reading>;
+  values: z
+    .array(z.tuple([z.string().check(z.maxLength(name)), z.string().check(z.maxLength(text))]))
+    .check(z.maxLength(values)),
+  ageMs: z.number().check(z.minimum(0)),
+}) satisfies z.ZodMiniType<Reading>;

@@ -2,17 +2,17 @@
  * The reference system's local WebSockets between its bridge and its web page: JSON text for control (8085) and telemetry
  * (8090); frames (8095) are N × 3 int16 coordinates, then N × u16 colours, little-endian, without a header.
  */
-import * as z from 'zod';
+import * as z from 'zod/mini';
 import { twistSchema } from './geometry.ts';
 import type { JsonCodec } from './json.ts';
 
-const robotId = z.int().min(0).max(0xffffffff);
+const robotId = z.int().check(z.minimum(0), z.maximum(0xffffffff));
 
 const pageToBridge = z.discriminatedUnion('type', [
-  z.object({ type: z.literal('initBridge'), url: z.string().max(2048) }),
+  z.object({ type: z.literal('initBridge'), url: z.string().check(z.maxLength(2048)) }),
   z.object({ type: z.literal('updateRobots') }),
   z.object({ type: z.literal('switchRobot'), robotId }),
-  z.object({ type: z.literal('switchMode'), mode: z.string().max(64) }),
+  z.object({ type: z.literal('switchMode'), mode: z.string().check(z.maxLength(64)) }),
 ]);
 export type ReferencePageToBridge = z.infer<typeof pageToBridge>;
 
@@ -20,7 +20,7 @@ const bridgeToPage = z.discriminatedUnion('type', [
   z.object({
     type: z.literal('updateRobots'),
     /** Null where there is none. */
-    robots: z.array(z.object({ id: robotId, name: z.string() })).nullable(),
+    robots: z.nullable(z.array(z.object({ id: robotId, name: z.string() }))),
   }),
   z.object({ type: z.literal('switchedRobot'), robotId }),
 ]);

@@ -1,4 +1,4 @@
-import * as z from 'zod';
+import * as z from 'zod/mini';
 import { type Twist, twistSchema } from './geometry.ts';
 import type { JsonCodec } from './json.ts';
 

@@ -1,7 +1,7 @@
 /**
  * The `session` channel, opened by the robot, ordered and reliable: who drives, what the stream is, what was refused.
  */
-import * as z from 'zod';
+import * as z from 'zod/mini';
 import { CLOUD_FORMATS, type CloudFormat } from './cloud-format.ts';
 import { type CommandRejection, commandRejections } from './control.ts';
 import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './identifiers.ts';
@@ -174,22 +174,21 @@ export type OperatorSessionMessage =
 
 export const PROTOCOL_VERSION = 1;
 
-const positive = z.number().positive();
-const sensorSchema = z
-  .int()
-  .min(0)
-  .max(MAX_SENSORS - 1);
+const positive = z.number().check(z.positive());
+const cameraSchema = z.int().check(z.minimum(0), z.maximum(MAX_CAMERAS - 1));
+const sensorSchema = z.int().check(z.minimum(0), z.maximum(MAX_SENSORS - 1));
 /** A palette of 256 colours with its tables is 2,210 bytes. */
 const MAX_STREAM_HEADER_BASE64 = 3200;
 /** A test that takes longer has failed. */
 const MAX_LATENCY_MS = 60_000;
+const latencyMsSchema = z.number().check(z.minimum(0), z.maximum(MAX_LATENCY_MS));
 
 export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
   what: 'robot session message',
   schema: z.discriminatedUnion('type', [
     z.strictObject({
       type: z.literal('welcome'),
-      protocol: z.int().min(1),
+      protocol: z.int().check(z.minimum(1)),
       robotId: robotIdSchema,
       name: displayNameSchema,
       limits: z.strictObject({
@@ -200,52 +199,52 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
       }),
       stream: z.strictObject({
         format: z.literal('points64'),
-        width: z.int().positive(),
-        height: z.int().positive(),
+        width: z.int().check(z.positive()),
+        height: z.int().check(z.positive()),
         framesPerSecond: positive,
       }),
-      resumeKey: handleSchema.optional(),
+      resumeKey: z.optional(handleSchema),
     }),
     z.strictObject({
       type: z.literal('lease'),
       holder: z.enum(['you', 'other', 'nobody']),
-      lease: handleSchema.optional(),
+      lease: z.optional(handleSchema),
     }),
     z.strictObject({
       type: z.literal('rejected'),
-      sequence: uint32Schema.optional(),
+      sequence: z.optional(uint32Schema),
       reason: z.enum(commandRejections),
-      detail: z.string().max(512),
-      count: z.int().min(1),
+      detail: z.string().check(z.maxLength(512)),
+      count: z.int().check(z.minimum(1)),
     }),
     z.strictObject({
       type: z.literal('estop'),
       latched: z.boolean(),
-      by: z.enum(['operator', 'robot']).optional(),
+      by: z.optional(z.enum(['operator', 'robot'])),
     }),
     z.strictObject({
       type: z.literal('latencyFrame'),
       id: uint32Schema,
       frameNumber: uint32Schema,
-      points: z.int().min(0),
+      points: z.int().check(z.minimum(0)),
       commandMs: z.number(),
       captureMs: z.number(),
     }),
     z.strictObject({
       type: z.literal('cloudStream'),
       format: z.enum(['organised', 'unorganised']),
-      header: z.base64().min(1).max(MAX_STREAM_HEADER_BASE64),
-      sensor: sensorSchema.optional(),
+      header: z.base64().check(z.minLength(1), z.maxLength(MAX_STREAM_HEADER_BASE64)),
+      sensor: z.optional(sensorSchema),
     }),
     z.strictObject({
       type: z.literal('cameras'),
-      cameras: z.array(z.strictObject({ name: displayNameSchema })).max(MAX_CAMERAS),
+      cameras: z.array(z.strictObject({ name: displayNameSchema })).check(z.maxLength(MAX_CAMERAS)),
     }),
     z.strictObject({
       type: z.literal('sensors'),
-      sensors: z.array(z.strictObject({ name: displayNameSchema })).max(MAX_SENSORS),
+      sensors: z.array(z.strictObject({ name: displayNameSchema })).check(z.maxLength(MAX_SENSORS)),
     }),
-    z.strictObject({ type: z.literal('fault'), message: z.string().max(512) }),
+    z.strictObject({ type: z.literal('fault'), message: z.string().check(z.maxLength(512)) }),
   ]),
   maxBytes: 4096,
 };
@@ -259,26 +258,22 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
     z.strictObject({ type: z.literal('stream'), running: z.boolean() }),
     z.strictObject({
       type: z.literal('cloudFormats'),
-      formats: z.array(z.enum(CLOUD_FORMATS)).max(CLOUD_FORMATS.length),
+      formats: z.array(z.enum(CLOUD_FORMATS)).check(z.maxLength(CLOUD_FORMATS.length)),
     }),
     z.strictObject({
       type: z.literal('pictures'),
-      cameras: z
-        .array(
-          z
-            .int()
-            .min(0)
-            .max(MAX_CAMERAS - 1),
-        )
-        .max(MAX_CAMERAS),
+      cameras: z.array(cameraSchema).check(z.maxLength(MAX_CAMERAS)),
     }),
-    z.strictObject({ type: z.literal('sensors'), sensors: z.array(sensorSchema).max(MAX_SENSORS) }),
+    z.strictObject({
+      type: z.literal('sensors'),
+      sensors: z.array(sensorSchema).check(z.maxLength(MAX_SENSORS)),
+    }),
     z.strictObject({
       type: z.literal('latencyMeasured'),
       id: uint32Schema,
       frameNumber: uint32Schema,
-      mtpMs: z.number().min(0).max(MAX_LATENCY_MS),
-      firstMs: z.number().min(0).max(MAX_LATENCY_MS),
+      mtpMs: latencyMsSchema,
+      firstMs: latencyMsSchema,
     }),
   ]),
   maxBytes: 1024,

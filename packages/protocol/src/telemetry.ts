@@ -1,5 +1,5 @@
 /** The `telemetry` channel, opened by the robot, unordered, short-lived: the robot's state, 20 times a second, and readings. */
-import * as z from 'zod';
+import * as z from 'zod/mini';
 import { type Pose, poseSchema, type Twist, twistSchema } from './geometry.ts';
 import { uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
@@ -66,8 +66,8 @@ export interface Telemetry {
   operators: number;
 }
 
-const nonNegative = z.number().min(0);
-const count = z.int().min(0);
+const nonNegative = z.number().check(z.minimum(0));
+const count = z.int().check(z.minimum(0));
 
 export type TelemetryMessage = Telemetry | Reading;
 
@@ -77,7 +77,9 @@ const telemetrySchema = z.strictObject({
   timeMs: nonNegative,
   pose: poseSchema,
   twist: twistSchema,
-  battery: z.strictObject({ voltage: nonNegative, percentage: z.number().min(0).max(1) }).optional(),
+  battery: z.optional(
+    z.strictObject({ voltage: nonNegative, percentage: z.number().check(z.minimum(0), z.maximum(1)) }),
+  ),
   drive: z.enum(driveStates),
   stages: z.strictObject({
     captureMs: nonNegative,
@@ -93,10 +95,10 @@ const telemetrySchema = z.strictObject({
     bitsPerSecond: nonNegative,
     targetBitsPerSecond: nonNegative,
     droppedFrames: count,
-    feedback: z.literal('reports').optional(),
+    feedback: z.optional(z.literal('reports')),
   }),
   operators: count,
-}) satisfies z.ZodType<Telemetry>;
+}) satisfies z.ZodMiniType<Telemetry>;
 
 export const telemetryCodec: JsonCodec<TelemetryMessage> = {
   what: 'telemetry message',

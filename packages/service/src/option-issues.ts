@@ -15,7 +15,7 @@ export interface ValueIssue {
 }
 
 /** @param value what the schema refused */
-export function valueIssues(schema: z.ZodType, error: z.ZodError, value: unknown): ValueIssue[] {
+export function valueIssues(schema: z.core.$ZodType, error: z.core.$ZodError, value: unknown): ValueIssue[] {
   const all = error.issues.flatMap((issue) => {
     const inside = steps(issue.path);
     if (issue.code === 'unrecognized_keys') {
@@ -85,7 +85,7 @@ function at(value: unknown, path: Steps): unknown {
 }
 
 /** Keys of the mapping at a path, as far as the schema shows them. */
-function knownKeys(schema: z.ZodType, path: Steps): string[] {
+function knownKeys(schema: z.core.$ZodType, path: Steps): string[] {
   let here: SchemaShape | undefined = (schema as unknown as { _zod: { def: SchemaShape } })._zod.def;
   for (const step of [...path, null]) {
     while (here?.innerType !== undefined || here?.out !== undefined)

@@ -69,7 +69,7 @@ export function choice<const T extends readonly [string, ...string[]]>(values: T
 }
 
 /** Text separated by commas, or a YAML list. */
-export function list<T>(element: z.ZodType<T>): z.ZodType<T[]> {
+export function list<T>(element: z.core.$ZodType<T>): z.ZodType<T[]> {
   return z.preprocess(
     (value) =>
       typeof value === 'string'
@@ -83,8 +83,8 @@ export function list<T>(element: z.ZodType<T>): z.ZodType<T[]> {
 }
 
 /** An option that may be left out altogether. Its default is `null`. */
-export function optional<T>(schema: z.ZodType<T>): z.ZodType<T | null> {
-  return schema.nullable();
+export function optional<T>(schema: z.core.$ZodType<T>): z.ZodType<T | null> {
+  return z.nullable(schema);
 }
 
 function numeric(

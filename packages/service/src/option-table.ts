@@ -3,8 +3,8 @@ import { choice, optional, text } from './option-schemas.ts';
 
 /** One option of a program. */
 export interface OptionSpec<T = unknown> {
-  /** From text or YAML to the value; see option-schemas.ts. */
-  readonly schema: z.ZodType<T>;
+  /** From text or YAML to the value; see option-schemas.ts. Of zod or of zod/mini, as those of the protocol are. */
+  readonly schema: z.core.$ZodType<T>;
   /** Used as it is: not run through the schema. */
   readonly default: NoInfer<T>;
   readonly help: string;

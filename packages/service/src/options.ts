@@ -1,4 +1,4 @@
-import type * as z from 'zod';
+import * as z from 'zod';
 import { type ConfigFile, readConfigFile } from './config-file.ts';
 import { helpText, parseFlags } from './flags.ts';
 import { type OptionMistake, throwMistakes } from './option-errors.ts';
@@ -67,7 +67,7 @@ export function resolveOptions<Table extends OptionTable>(
       values[key] = spec.default;
       return;
     }
-    const parsed = spec.schema.safeParse(given.raw);
+    const parsed = z.safeParse(spec.schema, given.raw);
     if (parsed.success) values[key] = parsed.data;
     else mistakes.push(...valueMistakes(place, given, parsed.error, file));
   };

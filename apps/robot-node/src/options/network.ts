@@ -10,7 +10,8 @@ const iceUrlSchema = z
 /** An address alone, or with credentials: an RTCIceServer. */
 const iceServer = z.preprocess(
   (value) => (typeof value === 'string' ? { urls: value } : value),
-  iceServerSchema.extend({
+  z.strictObject({
+    ...iceServerSchema.shape,
     urls: z.union([iceUrlSchema, z.array(iceUrlSchema)], 'must begin with stun:, turn: or turns:'),
   }),
 ) as z.ZodType<IceServer>;

@@ -1,3 +1,5 @@
+import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
+
 /** How long the release control is held, ms. */
 export const RELEASE_HOLD_MS = 1000;
 /** What one tick counts for at most, ms: a page that hung has not seen whether the hand let go. */
@@ -13,15 +15,13 @@ export class ReleaseHold {
   readonly #down = new Set<ReleaseControl>();
   /** The control that counts, from its first tick. */
   #by: ReleaseControl | null = null;
-  #heldMs = 0;
+  readonly #heldMs = signal(0);
   #tickMs = 0;
   /** Nothing counts until every control was let go. */
   #spent = false;
 
   /** 0 where nothing is held, 1 when it releases. */
-  get progress(): number {
-    return this.#heldMs / RELEASE_HOLD_MS;
-  }
+  readonly progress: ReadonlySignal<number> = computed(() => this.#heldMs.value / RELEASE_HOLD_MS);
 
   set(control: ReleaseControl, down: boolean): void {
     if (down) this.#down.add(control);
@@ -57,14 +57,14 @@ export class ReleaseHold {
       this.#restart(first);
       return false;
     }
-    this.#heldMs += passedMs;
-    if (this.#heldMs < RELEASE_HOLD_MS) return false;
+    this.#heldMs.value += passedMs;
+    if (this.#heldMs.value < RELEASE_HOLD_MS) return false;
     this.cancel();
     return true;
   }
 
   #restart(by: ReleaseControl | null): void {
     this.#by = by;
-    this.#heldMs = 0;
+    this.#heldMs.value = 0;
   }
 }

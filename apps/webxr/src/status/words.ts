@@ -1,7 +1,7 @@
 /** What the page says, in plain words: one place for every state, refusal and failure a person may meet. */
 
 import type { SessionLoss, SessionPhase, SignalingState } from '@farpoint/operator';
-import type { CommandRejection, DriveState } from '@farpoint/protocol';
+import type { CommandRejection, DriveState, LeaseState } from '@farpoint/protocol';
 
 export type Tone = 'good' | 'neutral' | 'warning' | 'bad';
 
@@ -55,6 +55,13 @@ const lossWords: Record<Exclude<SessionLoss, 'robot-full'>, string> = {
   'signaling-lost': 'The signaling service went away while connecting. Trying again…',
   refused: 'The service did not open a session. Trying again…',
 };
+
+/** Who drives. @param device that this operator drives with; `null` while no grip is held */
+export function holderWords(holder: LeaseState['holder'], device: string | null): Words {
+  if (holder === 'other') return { text: 'Someone else drives', tone: 'warning' };
+  if (holder === 'nobody') return { text: 'Nobody drives', tone: 'neutral' };
+  return { text: device === null ? 'You may drive' : `You drive (${device})`, tone: 'good' };
+}
 
 /** Why a session was given up. @param maxOperators how many the robot takes, where it has said so */
 export function wordsOfLoss(loss: SessionLoss, maxOperators: number | null): string {

@@ -4,8 +4,6 @@ import { bodyYaw, opticalYaw } from '@farpoint/cloud-view';
 import { LATENCY_TEST_COLOUR, type Pose } from '@farpoint/protocol';
 import { Quaternion, Vector3 } from 'three';
 import type { App } from '../app.ts';
-import { lastNotice } from '../ui/notice.ts';
-import { describeLink, snapshot } from '../ui/status-ui.ts';
 import { PacketRecord } from './packet-record.ts';
 import { ScriptInput } from './script-input.ts';
 import type { DrawnProbe, FarpointTestApi } from './test-api.ts';
@@ -28,8 +26,8 @@ export function installTestApi(app: App): void {
         lastLoss: link.lastLoss,
         robotId: link.robotId,
         robotListed: link.robotListed,
-        link: describeLink(app, performance.now()).text,
-        notice: lastNotice(),
+        link: app.state.link.line.value.text,
+        notice: app.state.notices.last.value?.text ?? null,
         holder: driver.holder,
         estop: estop.latched,
         drive: telemetry?.drive ?? null,
@@ -41,10 +39,10 @@ export function installTestApi(app: App): void {
             : { linear: telemetry.twist.linear.x, angular: telemetry.twist.angular.z },
         driving: driver.stream.held && driver.holder === 'you',
         input: driver.input?.name ?? null,
-        vr: app.vr.active,
+        vr: app.vr.active.value,
       };
     },
-    stats: () => snapshot(app),
+    stats: () => app.figures(),
     resetStats: () => {
       client.statistics.resetDistributions();
       app.stats.resetDistributions();
@@ -72,14 +70,13 @@ export function installTestApi(app: App): void {
     limitBandwidth: (bitsPerSecond) => link.limitBandwidth(bitsPerSecond),
     probe: () => probe(app),
     cameras: () =>
-      app.cameras.views.map((view) => {
-        const { name, shown, canvas, pictures, failures } = view;
-        const ageMs = app.cameras.ageMs(view, performance.now());
-        return { name, shown, width: canvas.width, height: canvas.height, ageMs, pictures, failures };
-      }),
+      app.state.pictures.views.value.map(({ camera, canvas, newest, ageMs, failures }) => ({
+        ...{ name: camera.name, shown: camera.on.value, width: canvas.width, height: canvas.height },
+        ...{ ageMs: ageMs.value, pictures: newest.value?.number ?? 0, failures },
+      })),
     sensors: () =>
-      app.clouds.sensors.map(({ sensor, name, wanted }) => ({
-        ...{ name, wanted, points: app.clouds.drawnOf(sensor) },
+      app.state.sensors.all.value.map(({ index, name, on }) => ({
+        ...{ name, wanted: on.value, points: app.clouds.drawnOf(index) },
       })),
     recordPackets(capacity) {
       packets = capacity === null ? null : new PacketRecord(capacity);

@@ -1,11 +1,12 @@
 /** Buttons, mouse, wheel and keys to what they do. */
-import { LatencyError, robotAfter } from '@farpoint/operator';
-import type { PageParts } from '../page-parts.ts';
+import { LatencyError, type RobotClient } from '@farpoint/operator';
+import { effect } from '@preact/signals-core';
+import type { PageState } from '../state/page-state.ts';
+import type { Stage } from '../view/stage.ts';
+import type { VrSession } from '../view/vr-session.ts';
 import { elements } from './elements.ts';
 import type { EstopUi } from './estop-ui.ts';
-import { notify } from './notice.ts';
 import type { Action } from './operator-inputs.ts';
-import { initRobotSwitcher } from './robot-switcher.ts';
 import { initSettingsDialog } from './settings-dialog.ts';
 
 const latencyFailureWords: Record<LatencyError['reason'], string> = {
@@ -15,51 +16,48 @@ const latencyFailureWords: Record<LatencyError['reason'], string> = {
   busy: 'A latency test runs already.',
 };
 
-export class ControlsUi {
-  readonly #app: PageParts;
-  readonly #estop: EstopUi;
+/** What is controlled. */
+export interface Controlled {
+  readonly client: RobotClient;
+  readonly state: PageState;
+  readonly stage: Pick<Stage, 'look' | 'camera'>;
+  readonly vr: VrSession;
+  readonly estop: EstopUi;
+  choose(robotId: string): void;
+}
 
-  constructor(app: PageParts, estop: EstopUi) {
-    this.#app = app;
-    this.#estop = estop;
+export class ControlsUi {
+  readonly #parts: Controlled;
+
+  constructor(parts: Controlled) {
+    this.#parts = parts;
   }
 
   start(): void {
-    const app = this.#app;
-    elements.disconnect.addEventListener('click', () => app.client.leave());
-    this.#estop.start();
+    const { client, state, estop } = this.#parts;
+    elements.disconnect.addEventListener('click', () => client.leave());
+    estop.start();
     elements.latency.addEventListener('click', ({ timeStamp }) => this.act('latency-test', timeStamp));
     elements.view.addEventListener('click', () => this.act('view', performance.now()));
-    elements.take.addEventListener('click', () => app.client.takeOver());
-    elements.release.addEventListener('click', () => app.client.driver.releaseLease());
+    elements.take.addEventListener('click', () => client.takeOver());
+    elements.release.addEventListener('click', () => client.driver.releaseLease());
     // A button that keeps the focus would take the space bar.
     for (const button of document.querySelectorAll<HTMLButtonElement>('#bar button, #drive button')) {
       button.addEventListener('click', () => button.blur());
     }
-    initRobotSwitcher((robotId) => app.choose(robotId));
-    initSettingsDialog((scale) => {
-      app.cloud.sizeScale = scale;
-      app.clouds.sizeScale = scale;
-    });
+    initSettingsDialog(state.pointScale);
     this.#startVr();
     this.#startLook();
   }
 
   act(action: Action, timeMs: number): void {
-    const { stage } = this.#app;
+    const { stage, estop } = this.#parts;
     switch (action) {
       case 'estop':
-        this.#estop.stop();
+        estop.stop();
         return;
       case 'latency-test':
-        this.#app.client.latencyTest(timeMs).then(
-          ({ mtpMs, firstMs }) =>
-            notify(`Motion to photon ${mtpMs.toFixed(0)} ms (first points ${firstMs.toFixed(0)} ms)`, 'good'),
-          (error: unknown) => {
-            if (!(error instanceof LatencyError)) throw error;
-            notify(latencyFailureWords[error.reason], 'warning');
-          },
-        );
+        this.#testLatency(timeMs);
         return;
       case 'recentre':
         stage.look.recentre();
@@ -72,34 +70,52 @@ export class ControlsUi {
     }
   }
 
+  #testLatency(startedAtMs: number): void {
+    const { client, state } = this.#parts;
+    client.latencyTest(startedAtMs).then(
+      ({ mtpMs, firstMs }) => {
+        const text = `Motion to photon ${mtpMs.toFixed(0)} ms (first points ${firstMs.toFixed(0)} ms)`;
+        state.notices.tell(text, 'good');
+      },
+      (error: unknown) => {
+        if (!(error instanceof LatencyError)) throw error;
+        state.notices.tell(latencyFailureWords[error.reason], 'warning');
+      },
+    );
+  }
+
   #nextRobot(): void {
-    const { chosenRobotId, robots } = this.#app.client;
-    if (chosenRobotId === null) return;
-    const next = robotAfter(robots, chosenRobotId);
-    if (next === null) notify('No other robot is here.');
-    else this.#app.choose(next.id);
+    const { link, notices } = this.#parts.state;
+    if (link.chosenRobotId.value === null) return;
+    const next = link.nextRobot.value;
+    if (next === null) notices.tell('No other robot is here.');
+    else this.#parts.choose(next.id);
   }
 
   #startVr(): void {
-    const { vr } = this.#app;
-    const offer = async (): Promise<void> => {
-      const reason = await vr.unavailable();
+    const { vr, state } = this.#parts;
+    effect(() => {
+      const reason = vr.unavailable.value;
       elements.vr.hidden = reason !== null;
-      elements.vrReason.hidden = reason === null;
-      elements.vrReason.textContent = reason;
-    };
-    void offer();
-    navigator.xr?.addEventListener('devicechange', () => void offer());
+      elements.vrReason.hidden = reason === null || reason === undefined;
+      elements.vrReason.textContent = reason ?? null;
+    });
+    effect(() => {
+      elements.vr.textContent = vr.active.value ? 'Leave VR' : 'Enter VR';
+    });
     elements.vr.addEventListener('click', () => {
       vr.toggle().catch((error: unknown) => {
-        notify(`VR could not be entered: ${error instanceof Error ? error.message : error}`, 'bad');
+        state.notices.tell(
+          `VR could not be entered: ${error instanceof Error ? error.message : error}`,
+          'bad',
+        );
       });
     });
   }
 
   #startLook(): void {
     const { stage } = elements;
-    const { look, camera } = this.#app.stage;
+    const { look, camera } = this.#parts.stage;
     const pointers = new Map<number, { x: number; y: number }>();
     stage.addEventListener('pointerdown', (event) => {
       stage.setPointerCapture(event.pointerId);

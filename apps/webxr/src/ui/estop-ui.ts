@@ -1,16 +1,20 @@
 /** The emergency stop: any press of stop latches it, whatever its state; only the other control, held, releases it. */
 
 import type { RobotClient } from '@farpoint/operator';
-import { type ReleaseControl, ReleaseHold } from '../drive/release-hold.ts';
+import { effect } from '@preact/signals-core';
+import type { ReleaseControl, ReleaseHold } from '../drive/release-hold.ts';
+import type { RobotState } from '../state/robot-state.ts';
 import { elements } from './elements.ts';
 
 export class EstopUi {
   readonly #client: RobotClient;
-  readonly #hold = new ReleaseHold();
-  #shown = '';
+  readonly #robot: RobotState;
+  readonly #hold: ReleaseHold;
 
-  constructor(client: RobotClient) {
+  constructor(client: RobotClient, robot: RobotState, hold: ReleaseHold) {
     this.#client = client;
+    this.#robot = robot;
+    this.#hold = hold;
   }
 
   start(): void {
@@ -28,11 +32,8 @@ export class EstopUi {
     }
     // A long touch is no wish for a menu.
     estopRelease.addEventListener('contextmenu', (event) => event.preventDefault());
-  }
-
-  /** How far the hold has come, 0–1. */
-  get progress(): number {
-    return this.#hold.progress;
+    effect(() => showLatched(this.#robot.estopLatched.value));
+    effect(() => showProgress(this.#hold.progress.value));
   }
 
   stop(): void {
@@ -46,25 +47,22 @@ export class EstopUi {
 
   /** @param away no hand can be seen */
   tick(nowMs: number, away: boolean): void {
-    const { link } = this.#client;
-    const latched = link.phase === 'live' && link.session.estop.latched;
     if (away) this.#hold.letGo();
-    if (this.#hold.tick(nowMs, latched)) this.#client.releaseEstop();
-    this.#show(latched);
+    if (this.#hold.tick(nowMs, this.#robot.estopLatched.value)) this.#client.releaseEstop();
   }
+}
 
-  #show(latched: boolean): void {
-    const share = this.progress.toFixed(2);
-    const key = `${latched} ${share}`;
-    if (key === this.#shown) return;
-    this.#shown = key;
-    const { estop, estopRelease, latency } = elements;
-    estop.setAttribute('aria-pressed', String(latched));
-    estop.querySelector('span')!.textContent = latched ? 'latched' : 'emergency';
-    estopRelease.hidden = !latched;
-    // Its place is needed, and there is nothing to drive for.
-    latency.hidden = latched;
-    estopRelease.style.setProperty('--held', share);
-    estopRelease.classList.toggle('held', share !== '0.00');
-  }
+function showLatched(latched: boolean): void {
+  const { estop, estopRelease, latency } = elements;
+  estop.setAttribute('aria-pressed', String(latched));
+  estop.querySelector('span')!.textContent = latched ? 'latched' : 'emergency';
+  estopRelease.hidden = !latched;
+  // Its place is needed, and there is nothing to drive for.
+  latency.hidden = latched;
+}
+
+function showProgress(progress: number): void {
+  const share = progress.toFixed(2);
+  elements.estopRelease.style.setProperty('--held', share);
+  elements.estopRelease.classList.toggle('held', share !== '0.00');
 }

@@ -20,20 +20,27 @@ const ACTION_KEYS: Readonly<Record<string, Action>> = {
 /** Held, it releases the emergency stop; so does Enter on the control itself. */
 const RELEASE_KEY = 'KeyR';
 
+export interface InputPort {
+  /** A grip or a stick has changed. */
+  onChange(): void;
+  onAction(action: Action, timeMs: number): void;
+  /** The control that releases the emergency stop is held, or let go. */
+  onRelease(control: ReleaseControl, held: boolean): void;
+  /** There is a robot to drive. */
+  mayDrive(): boolean;
+}
+
 export class OperatorInputs {
   readonly all: readonly DriveInput[];
-  onAction: (action: Action, timeMs: number) => void = () => undefined;
-  /** The control that releases the emergency stop is held, or let go. */
-  onRelease: (control: ReleaseControl, held: boolean) => void = () => undefined;
   readonly #keyboard = new KeyboardInput();
   readonly #gamepad = new GamepadInput();
   readonly #headset = new HeadsetInput();
   readonly #touch: TouchJoystick;
-  readonly #onChange: () => void;
+  readonly #port: InputPort;
 
-  constructor(onChange: () => void) {
-    this.#onChange = onChange;
-    this.#touch = new TouchJoystick(elements.joystick, elements.knob, onChange);
+  constructor(port: InputPort) {
+    this.#port = port;
+    this.#touch = new TouchJoystick(elements.joystick, elements.knob, () => port.onChange());
     this.all = [this.#headset, this.#touch, this.#gamepad, this.#keyboard];
     window.addEventListener('keydown', (event) => this.#onKey(event, true));
     window.addEventListener('keyup', (event) => this.#onKey(event, false));
@@ -47,8 +54,8 @@ export class OperatorInputs {
     this.#keyboard.releaseAll();
     this.#touch.release();
     this.#headset.release();
-    for (const control of ['key', 'pointer', 'headset'] as const) this.onRelease(control, false);
-    this.#onChange();
+    for (const control of ['key', 'pointer', 'headset'] as const) this.#port.onRelease(control, false);
+    this.#port.onChange();
   }
 
   /** Gamepads tell nothing by themselves. */
@@ -62,27 +69,27 @@ export class OperatorInputs {
   readHeadset(sources: Iterable<XrController>): void {
     const wasHeld = this.#headset.held;
     this.#buttons(this.#headset.read(sources), 'headset');
-    if (wasHeld !== this.#headset.held) this.#onChange();
+    if (wasHeld !== this.#headset.held) this.#port.onChange();
   }
 
   #buttons(pressed: PressedButtons, control: ReleaseControl): void {
-    if (pressed.estop) this.onAction('estop', performance.now());
-    this.onRelease(control, pressed.releaseHeld);
-    if (pressed.latencyTest) this.onAction('latency-test', performance.now());
-    if (pressed.nextRobot) this.onAction('next-robot', performance.now());
+    if (pressed.estop) this.#port.onAction('estop', performance.now());
+    this.#port.onRelease(control, pressed.releaseHeld);
+    if (pressed.latencyTest) this.#port.onAction('latency-test', performance.now());
+    if (pressed.nextRobot) this.#port.onAction('next-robot', performance.now());
   }
 
   #onKey(event: KeyboardEvent, down: boolean): void {
     const { target } = event;
     const typing = target instanceof HTMLInputElement && target.type !== 'range';
     const elsewhere = target instanceof HTMLInputElement || elements.settings.open;
-    const driving = !elements.drive.hidden && !elsewhere;
+    const driving = this.#port.mayDrive() && !elsewhere;
     // A key that goes up is let go, whatever has the focus by now.
     if (!down) {
-      if (event.code === RELEASE_KEY || event.code === 'Enter') this.onRelease('key', false);
+      if (event.code === RELEASE_KEY || event.code === 'Enter') this.#port.onRelease('key', false);
       if (!this.#keyboard.key(event.code, false)) return;
       if (driving) event.preventDefault();
-      this.#onChange();
+      this.#port.onChange();
       return;
     }
     if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -93,14 +100,14 @@ export class OperatorInputs {
     // Space on a focused button would press it; driving goes first once a robot is there.
     if (driving && this.#keyboard.key(event.code, true)) {
       event.preventDefault();
-      if (!event.repeat) this.#onChange();
+      if (!event.repeat) this.#port.onChange();
       return;
     }
     const action = ACTION_KEYS[event.code];
     if (action === undefined) return;
     // A letter would choose from the list as well.
     if (choosing) event.preventDefault();
-    if (!event.repeat) this.onAction(action, event.timeStamp);
+    if (!event.repeat) this.#port.onAction(action, event.timeStamp);
   }
 
   /** Keys of the emergency stop: they go before all others. @returns whether it was one */
@@ -110,10 +117,10 @@ export class OperatorInputs {
     const isSpaceOnControl = code === 'Space' && (target === estop || target === estopRelease);
     const isRelease = code === RELEASE_KEY || (code === 'Enter' && target === estopRelease);
     if (code === STOP_KEY || isSpaceOnControl) {
-      if (!event.repeat) this.onAction('estop', event.timeStamp);
+      if (!event.repeat) this.#port.onAction('estop', event.timeStamp);
     } else if (isRelease && !elements.settings.open) {
       // A key that repeats is no new press.
-      if (!event.repeat) this.onRelease('key', true);
+      if (!event.repeat) this.#port.onRelease('key', true);
     } else return false;
     // Neither a click on what has the focus, nor a choice from a list.
     event.preventDefault();

@@ -1,65 +1,67 @@
 /** The panels with the cameras' pictures: name, age, and a button that hides each. */
-import { type CameraView, type CameraViews, STALE_MS } from '../pictures/camera-views.ts';
+import { computed, effect } from '@preact/signals-core';
+import type { CameraView } from '../pictures/camera-pictures.ts';
+import type { PageState } from '../state/page-state.ts';
 import { elements } from './elements.ts';
 
 interface Panel {
   view: CameraView;
   figure: HTMLElement;
   age: HTMLElement;
+  button: HTMLButtonElement;
 }
 
-export class PicturePanels {
-  readonly #views: CameraViews;
-  #panels: Panel[] = [];
-
-  constructor(views: CameraViews) {
-    this.#views = views;
-  }
-
-  /** Other cameras, or others of them shown. */
-  rebuild(): void {
-    this.#panels = this.#views.views.map((view) => this.#make(view));
-    elements.pictures.replaceChildren(...this.#panels.map(({ figure }) => figure));
-    elements.pictures.hidden = this.#panels.length === 0;
-    this.update(performance.now());
-  }
-
-  /** What changes with time; call a few times a second. */
-  update(nowMs: number): void {
-    for (const { view, figure, age } of this.#panels) {
-      const ageMs = this.#views.ageMs(view, nowMs);
-      const stale = ageMs !== null && ageMs > STALE_MS;
-      const words = !view.shown ? 'hidden' : ageMs === null ? 'waiting' : ageWords(ageMs, stale);
-      if (age.textContent !== words) age.textContent = words;
-      figure.dataset.stale = String(view.shown && stale);
-      view.canvas.hidden = !view.shown || ageMs === null;
+export function showPicturePanels({ pictures, cameras }: PageState): void {
+  const panels = computed(() =>
+    pictures.views.value.map((view) => panelOf(view, () => cameras.toggle(view.camera.index))),
+  );
+  effect(() => {
+    elements.pictures.replaceChildren(...panels.value.map(({ figure }) => figure));
+    elements.pictures.hidden = panels.value.length === 0;
+  });
+  effect(() => {
+    for (const { view, button } of panels.value) {
+      const shown = view.camera.on.value;
+      button.textContent = shown ? '–' : '+';
+      button.ariaLabel = `${shown ? 'Hide' : 'Show'} ${view.camera.name}`;
     }
-  }
+  });
+  effect(() => {
+    for (const panel of panels.value) showAge(panel);
+  });
+}
 
-  #make(view: CameraView): Panel {
-    const figure = document.createElement('figure');
-    figure.dataset.camera = String(view.camera);
-    const caption = document.createElement('figcaption');
-    const name = document.createElement('span');
-    name.className = 'name';
-    name.textContent = view.name;
-    name.title = view.name;
-    const age = document.createElement('span');
-    age.className = 'age';
-    const button = document.createElement('button');
-    button.type = 'button';
-    button.className = 'quiet';
-    button.textContent = view.shown ? '–' : '+';
-    button.ariaLabel = `${view.shown ? 'Hide' : 'Show'} ${view.name}`;
-    button.addEventListener('click', () => {
-      // A button that keeps the focus would take the space bar.
-      button.blur();
-      this.#views.toggle(view);
-    });
-    caption.append(name, age, button);
-    figure.append(caption, view.canvas);
-    return { view, figure, age };
-  }
+function showAge({ view, figure, age }: Panel): void {
+  const shown = view.camera.on.value;
+  const ageMs = view.ageMs.value;
+  const stale = view.stale.value;
+  const words = !shown ? 'hidden' : ageMs === null ? 'waiting' : ageWords(ageMs, stale);
+  if (age.textContent !== words) age.textContent = words;
+  figure.dataset.stale = String(shown && stale);
+  view.canvas.hidden = !shown || ageMs === null;
+}
+
+function panelOf(view: CameraView, onToggle: () => void): Panel {
+  const figure = document.createElement('figure');
+  figure.dataset.camera = String(view.camera.index);
+  const caption = document.createElement('figcaption');
+  const name = document.createElement('span');
+  name.className = 'name';
+  name.textContent = view.camera.name;
+  name.title = view.camera.name;
+  const age = document.createElement('span');
+  age.className = 'age';
+  const button = document.createElement('button');
+  button.type = 'button';
+  button.className = 'quiet';
+  button.addEventListener('click', () => {
+    // A button that keeps the focus would take the space bar.
+    button.blur();
+    onToggle();
+  });
+  caption.append(name, age, button);
+  figure.append(caption, view.canvas);
+  return { view, figure, age, button };
 }
 
 function ageWords(ageMs: number, stale: boolean): string {

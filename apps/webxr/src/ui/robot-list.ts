@@ -1,27 +1,33 @@
+/** The robots that are here, to choose one from. */
 import type { RobotListing } from '@farpoint/protocol';
+import { effect } from '@preact/signals-core';
+import type { LinkState } from '../state/link-state.ts';
 import { elements } from './elements.ts';
 
-/** Shows who is here; keeps the focus where it was. */
-export function showRobots(robots: readonly RobotListing[], onChoose: (robotId: string) => void): void {
-  const { robotList, robotsEmpty } = elements;
-  const focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset.robot : '';
-  robotList.replaceChildren(
-    ...robots.map((robot) => {
-      const button = document.createElement('button');
-      button.dataset.robot = robot.id;
-      const name = document.createElement('span');
-      name.textContent = robot.name;
-      const id = document.createElement('small');
-      id.textContent = robot.id;
-      button.append(name, id);
-      button.addEventListener('click', () => onChoose(robot.id));
-      const item = document.createElement('li');
-      item.append(button);
-      return item;
-    }),
-  );
-  for (const button of robotList.querySelectorAll('button')) {
-    if (button.dataset.robot === focused) button.focus();
-  }
-  robotsEmpty.hidden = robots.length > 0;
+export function showRobotList({ robots }: LinkState, onChoose: (robotId: string) => void): void {
+  effect(() => {
+    const { robotList, robotsEmpty } = elements;
+    const { activeElement } = document;
+    const focused = activeElement instanceof HTMLElement ? activeElement.dataset.robot : '';
+    robotList.replaceChildren(...robots.value.map((robot) => itemOf(robot, onChoose)));
+    // Keeps the focus where it was.
+    for (const button of robotList.querySelectorAll('button')) {
+      if (button.dataset.robot === focused) button.focus();
+    }
+    robotsEmpty.hidden = robots.value.length > 0;
+  });
+}
+
+function itemOf(robot: RobotListing, onChoose: (robotId: string) => void): HTMLLIElement {
+  const button = document.createElement('button');
+  button.dataset.robot = robot.id;
+  const name = document.createElement('span');
+  name.textContent = robot.name;
+  const id = document.createElement('small');
+  id.textContent = robot.id;
+  button.append(name, id);
+  button.addEventListener('click', () => onChoose(robot.id));
+  const item = document.createElement('li');
+  item.append(button);
+  return item;
 }

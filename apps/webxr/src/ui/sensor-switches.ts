@@ -1,24 +1,27 @@
 /** A button for each sensor of a robot that has several: its clouds on or off. */
-import type { SensorClouds } from '../view/sensor-clouds.ts';
+import { effect } from '@preact/signals-core';
+import type { Switch, Switches } from '../state/switches.ts';
 import { elements } from './elements.ts';
 
-export function showSensors(clouds: SensorClouds): void {
+export function showSensorSwitches(switches: Switches): void {
   const { sensors } = elements;
-  sensors.hidden = clouds.sensors.length === 0;
-  sensors.replaceChildren(
-    ...clouds.sensors.map((cloud) => {
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.className = 'quiet';
-      button.textContent = cloud.name;
-      button.ariaPressed = String(cloud.wanted);
-      button.title = `${cloud.name}: clouds ${cloud.wanted ? 'on' : 'off'}`;
-      button.addEventListener('click', () => {
-        // A button that keeps the focus would take the space bar.
-        button.blur();
-        clouds.toggle(cloud);
-      });
-      return button;
-    }),
-  );
+  effect(() => {
+    sensors.hidden = switches.all.value.length === 0;
+    sensors.replaceChildren(...switches.all.value.map((sensor) => buttonOf(sensor, switches)));
+  });
+}
+
+function buttonOf({ index, name, on }: Switch, switches: Switches): HTMLButtonElement {
+  const button = document.createElement('button');
+  button.type = 'button';
+  button.className = 'quiet';
+  button.textContent = name;
+  button.ariaPressed = String(on.value);
+  button.title = `${name}: clouds ${on.value ? 'on' : 'off'}`;
+  button.addEventListener('click', () => {
+    // A button that keeps the focus would take the space bar.
+    button.blur();
+    switches.toggle(index);
+  });
+  return button;
 }

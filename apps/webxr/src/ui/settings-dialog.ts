@@ -1,11 +1,12 @@
 import { parseSignalingUrl } from '@farpoint/operator';
+import type { Signal } from '@preact/signals-core';
 import { clampScale, ownSignalingUrl } from '../settings.ts';
 import { tokenOrigin, withToken } from '../signaling-tokens.ts';
 import { loadStored, pageOrigin, store } from '../stored-settings.ts';
 import { elements } from './elements.ts';
 
-/** Wires the dialog. @param onPointScale while the slider moves */
-export function initSettingsDialog(onPointScale: (scale: number) => void): void {
+/** Wires the dialog. @param pointScale follows the slider while it moves */
+export function initSettingsDialog(pointScale: Signal<number>): void {
   const { settings: dialog, settingsOpen } = elements;
   const form = dialog.querySelector('form')!;
   const field = (name: string): HTMLInputElement => form.elements.namedItem(name) as HTMLInputElement;
@@ -37,10 +38,12 @@ export function initSettingsDialog(onPointScale: (scale: number) => void): void 
   field('token').addEventListener('input', () => {
     tokenTyped = true;
   });
-  field('pointScale').addEventListener('input', () => onPointScale(Number(field('pointScale').value)));
+  field('pointScale').addEventListener('input', () => {
+    pointScale.value = Number(field('pointScale').value);
+  });
   dialog.addEventListener('close', () => {
     if (dialog.returnValue !== 'save') {
-      onPointScale(clampScale(loadStored().pointScale));
+      pointScale.value = clampScale(loadStored().pointScale);
       return;
     }
     const at = service();

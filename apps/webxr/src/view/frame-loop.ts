@@ -57,21 +57,22 @@ export class FrameLoop {
 
   #frame(nowMs: number): void {
     const { client, cloud, clouds, settings, stage, stats, vr } = this.#parts;
+    const inVr = vr.active.peek();
     // In VR the headset's compositor keeps the pace.
-    if (!vr.active && this.#completion.busy) return;
+    if (!inVr && this.#completion.busy) return;
     const beganMs = performance.now();
     cloud.update(beganMs);
     clouds.update(beganMs);
-    if (!vr.active && !this.#gate.mayDraw(cloud.window.endedFrame, beganMs)) return;
+    if (!inVr && !this.#gate.mayDraw(cloud.window.endedFrame, beganMs)) return;
     this.#gate.onDraw(cloud.window.endedFrame, beganMs);
-    if (vr.active) this.#parts.readHeadset();
+    if (inVr) this.#parts.readHeadset();
     stage.prepare(cloud, nowMs);
     stage.renderer.render(stage.scene, stage.camera);
     // Only where a time is taken: waiting for the GPU costs frames.
     if (client.latency.wantsTime || settings.canvas !== null) {
       this.#completion.wait();
       this.#gate.onCost(performance.now() - beganMs);
-    } else if (!vr.active) this.#completion.mark();
+    } else if (!inVr) this.#completion.mark();
     const endedMs = performance.now();
     client.noteDrawn(endedMs);
     stats.onDrawn(endedMs - beganMs);

@@ -1,7 +1,9 @@
-/** The clouds of a robot with several sensors: which are wanted, and the objects that draw all but the first one's. */
+/** Draws the clouds of a robot with several sensors: all but the first one's, which has an object of its own. */
 import { CloudView } from '@farpoint/cloud-view';
 import type { RobotClient } from '@farpoint/operator';
+import { effect, type ReadonlySignal } from '@preact/signals-core';
 import type { Object3D, WebGLRenderer } from 'three';
+import type { Switches } from '../state/switches.ts';
 
 /**
  * Points of other sensors, beside what the first one's would be: they are few and far apart, and as large as their distances
@@ -9,88 +11,57 @@ import type { Object3D, WebGLRenderer } from 'three';
  */
 const SIZE_BESIDE_FIRST = 0.2;
 
-export interface SensorCloud {
-  readonly sensor: number;
-  readonly name: string;
-  wanted: boolean;
-}
-
 export interface SensorCloudsParts {
-  renderer: WebGLRenderer;
+  readonly renderer: WebGLRenderer;
   /** Where clouds are drawn. */
-  world: Object3D;
-  client: RobotClient;
+  readonly world: Object3D;
+  readonly client: RobotClient;
   /** Draws the first sensor's. */
-  first: CloudView;
-  /** Other sensors, or others of them wanted. */
-  onChange(): void;
+  readonly first: CloudView;
+  /** None for a robot with one sensor. */
+  readonly sensors: Switches;
+  readonly pointScale: ReadonlySignal<number>;
 }
 
 export class SensorClouds {
-  /** Empty for a robot with one sensor. */
-  sensors: readonly SensorCloud[] = [];
   readonly #parts: SensorCloudsParts;
   /** By sensor number. */
-  readonly #views = new Map<number, CloudView>();
-  /** Of whichever robot: what somebody has switched off stays off. */
-  readonly #unwanted = new Set<string>();
-  #sizeScale = 1;
+  #views: readonly CloudView[] = [];
 
   constructor(parts: SensorCloudsParts) {
     this.#parts = parts;
-  }
-
-  /** The robot has told of its sensors; with an empty list, a session begins or ends. */
-  setSensors(names: readonly { name: string }[]): void {
-    for (const [sensor, view] of this.#views) if (sensor > 0) view.dispose();
-    this.#views.clear();
-    const { renderer, world, client, first, onChange } = this.#parts;
-    this.sensors = names.map(({ name }, sensor) => ({ sensor, name, wanted: !this.#unwanted.has(name) }));
-    for (const { sensor } of this.sensors) {
-      const view = sensor === 0 ? first : new CloudView(renderer, client, { sensor });
-      this.#views.set(sensor, view);
-      if (sensor > 0) {
-        view.sizeScale = this.#sizeScale * SIZE_BESIDE_FIRST;
-        world.add(view);
-      }
-    }
-    if (this.sensors.length > 0) this.#want();
-    onChange();
-  }
-
-  /** One that is switched off costs the link nothing, and nothing of it is shown. */
-  toggle(cloud: SensorCloud): void {
-    cloud.wanted = !cloud.wanted;
-    if (cloud.wanted) this.#unwanted.delete(cloud.name);
-    else this.#unwanted.add(cloud.name);
-    this.#want();
-    this.#parts.onChange();
-  }
-
-  /** As {@link CloudView.sizeScale}, of all but the first. */
-  set sizeScale(scale: number) {
-    this.#sizeScale = scale;
-    for (const [sensor, view] of this.#views) {
-      if (sensor > 0) view.sizeScale = scale * SIZE_BESIDE_FIRST;
-    }
+    const { sensors, pointScale } = parts;
+    effect(() => this.#build(sensors.all.value.length));
+    effect(() => this.#scale(pointScale.value));
   }
 
   /** In the frame loop, before rendering. */
   update(nowMs: number): void {
-    for (const { sensor, wanted } of this.sensors) {
-      const view = this.#views.get(sensor);
+    for (const { index, on } of this.#parts.sensors.all.peek()) {
       // What was on its way when it was switched off is not shown either.
-      if (!wanted) view?.forget();
-      else if (sensor > 0) view?.update(nowMs);
+      if (!on.peek()) this.#views[index]?.forget();
+      else if (index > 0) this.#views[index]?.update(nowMs);
     }
   }
 
   /** Points that one sensor's view draws. */
   drawnOf(sensor: number): number {
-    return this.#views.get(sensor)?.drawn ?? 0;
+    return this.#views[sensor]?.drawn ?? 0;
   }
 
-  #want(): void {
-    this.#parts.client.wantClouds(this.sensors.flatMap(({ sensor, wanted }) => (wanted ? [sensor] : [])));
+  #build(sensors: number): void {
+    const { renderer, world, client, first, pointScale } = this.#parts;
+    for (const view of this.#views.slice(1)) view.dispose();
+    const others = Array.from(
+      { length: Math.max(sensors - 1, 0) },
+      (_, index) => new CloudView(renderer, client, { sensor: index + 1 }),
+    );
+    for (const view of others) world.add(view);
+    this.#views = sensors === 0 ? [] : [first, ...others];
+    this.#scale(pointScale.peek());
+  }
+
+  #scale(scale: number): void {
+    for (const view of this.#views.slice(1)) view.sizeScale = scale * SIZE_BESIDE_FIRST;
   }
 }

@@ -1,23 +1,24 @@
 /** Entering and leaving VR. */
+import { signal } from '@preact/signals-core';
 import type { WebGLRenderer } from 'three';
 import { vrUnavailable } from '../status/words.ts';
 
 export class VrSession {
+  readonly active = signal(false);
+  /** Why VR cannot be entered here, `null` where it can; `undefined` until that is known. */
+  readonly unavailable = signal<string | null | undefined>(undefined);
   readonly #renderer: WebGLRenderer;
-  readonly #onChange: (active: boolean) => void;
 
-  constructor(renderer: WebGLRenderer, onChange: (active: boolean) => void) {
+  constructor(renderer: WebGLRenderer) {
     this.#renderer = renderer;
-    this.#onChange = onChange;
-    renderer.xr.addEventListener('sessionstart', () => onChange(true));
-    renderer.xr.addEventListener('sessionend', () => onChange(false));
-  }
-
-  /** Why VR cannot be entered here, or `null`. */
-  async unavailable(): Promise<string | null> {
-    const { xr } = navigator;
-    const supported = (await xr?.isSessionSupported('immersive-vr').catch(() => false)) ?? false;
-    return vrUnavailable({ secure: isSecureContext, hasWebXr: xr !== undefined, supported });
+    renderer.xr.addEventListener('sessionstart', () => {
+      this.active.value = true;
+    });
+    renderer.xr.addEventListener('sessionend', () => {
+      this.active.value = false;
+    });
+    navigator.xr?.addEventListener('devicechange', () => void this.#ask());
+    void this.#ask();
   }
 
   /** Must be called from a press of a button. @throws what the browser says */
@@ -31,11 +32,6 @@ export class VrSession {
     const session = await navigator.xr?.requestSession('immersive-vr', { optionalFeatures: ['local-floor'] });
     if (session === undefined) return;
     await xr.setSession(session);
-    this.#onChange(true);
-  }
-
-  get active(): boolean {
-    return this.#renderer.xr.isPresenting;
   }
 
   get inputSources(): Iterable<XRInputSource> {
@@ -46,5 +42,12 @@ export class VrSession {
   get hidden(): boolean {
     const session = this.#renderer.xr.getSession();
     return session !== null && session.visibilityState !== 'visible';
+  }
+
+  async #ask(): Promise<void> {
+    const { xr } = navigator;
+    const supported = (await xr?.isSessionSupported('immersive-vr').catch(() => false)) ?? false;
+    const facts = { secure: isSecureContext, hasWebXr: xr !== undefined, supported };
+    this.unavailable.value = vrUnavailable(facts);
   }
 }

@@ -1,6 +1,7 @@
 /** The cameras' pictures in VR: beside the panel on the wrist, one above the other. */
+import { signal } from '@preact/signals-core';
 import { CanvasTexture, Group, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from 'three';
-import type { CameraView } from '../pictures/camera-views.ts';
+import type { CameraView } from '../pictures/camera-pictures.ts';
 
 const WIDTH_M = 0.2;
 const GAP_M = 0.012;
@@ -15,53 +16,52 @@ interface Sheet {
   texture: CanvasTexture;
   width: number;
   height: number;
-  pictures: number;
+  /** Number of the picture that the GPU has. */
+  picture: number;
 }
 
 export class WristPictures {
   readonly object = new Group();
-  #sheets: Sheet[] = [];
+  readonly #sheets = signal<readonly Sheet[]>([]);
 
   /** Other cameras, or others of them shown. */
   setViews(views: readonly CameraView[]): void {
-    for (const { mesh, texture } of this.#sheets) {
+    for (const { mesh, texture } of this.#sheets.peek()) {
       this.object.remove(mesh);
       mesh.geometry.dispose();
       mesh.material.dispose();
       texture.dispose();
     }
-    this.#sheets = views
-      .filter(({ shown }) => shown)
-      .slice(0, MOST_SHOWN)
-      .map((view) => {
-        const texture = new CanvasTexture(view.canvas);
-        texture.colorSpace = SRGBColorSpace;
-        const mesh = new Mesh(new PlaneGeometry(1, 1), new MeshBasicMaterial({ map: texture }));
-        mesh.visible = false;
-        this.object.add(mesh);
-        return { view, mesh, texture, width: 0, height: 0, pictures: 0 };
-      });
+    this.#sheets.value = views.slice(0, MOST_SHOWN).map((view) => {
+      const texture = new CanvasTexture(view.canvas);
+      texture.colorSpace = SRGBColorSpace;
+      const mesh = new Mesh(new PlaneGeometry(1, 1), new MeshBasicMaterial({ map: texture }));
+      mesh.visible = false;
+      this.object.add(mesh);
+      return { view, mesh, texture, width: 0, height: 0, picture: 0 };
+    });
   }
 
-  /** Hands new pictures to the GPU; call a few times a second, in VR only. */
-  update(isStale: (view: CameraView) => boolean): void {
+  /** Hands new pictures to the GPU; within an effect, in VR only. */
+  update(): void {
     let top = 0;
-    for (const sheet of this.#sheets) {
+    for (const sheet of this.#sheets.value) {
       const { view, mesh, texture } = sheet;
+      const newest = view.newest.value;
+      mesh.visible = newest !== null;
+      if (newest === null) continue;
       const { width, height } = view.canvas;
-      mesh.visible = view.takenAtMs !== null;
-      if (!mesh.visible) continue;
       if (width !== sheet.width || height !== sheet.height) {
         // A texture keeps the size that it began with.
         texture.dispose();
         Object.assign(sheet, { width, height });
       }
-      if (sheet.pictures !== view.pictures) texture.needsUpdate = true;
-      sheet.pictures = view.pictures;
+      if (sheet.picture !== newest.number) texture.needsUpdate = true;
+      sheet.picture = newest.number;
       const tall = (WIDTH_M * height) / width;
       mesh.scale.set(WIDTH_M, tall, 1);
       mesh.position.set(0, top + tall / 2, 0);
-      mesh.material.color.set(isStale(view) ? STALE_COLOUR : FRESH_COLOUR);
+      mesh.material.color.set(view.stale.value ? STALE_COLOUR : FRESH_COLOUR);
       top += tall + GAP_M;
     }
   }

@@ -1,4 +1,5 @@
 import { expect, test } from 'vitest';
+import * as z from 'zod/mini';
 import { encodeJsonBytes } from '../json.ts';
 import { MAX_SIGNALING_BYTES, type RobotToService, robotToServiceCodec } from './farpoint.ts';
 
@@ -6,7 +7,7 @@ const offerOf = (sdp: string): RobotToService => ({ type: 'session.offer', sessi
 
 test('an SDP has its bound, and one of it fits a message', () => {
   const longest = offerOf('x'.repeat(60_000));
-  expect(robotToServiceCodec.schema.safeParse(longest).success).toBe(true);
+  expect(z.safeParse(robotToServiceCodec.schema, longest).success).toBe(true);
   expect(encodeJsonBytes(robotToServiceCodec, longest).length).toBeLessThan(MAX_SIGNALING_BYTES);
-  expect(robotToServiceCodec.schema.safeParse(offerOf('x'.repeat(60_001))).success).toBe(false);
+  expect(z.safeParse(robotToServiceCodec.schema, offerOf('x'.repeat(60_001))).success).toBe(false);
 });

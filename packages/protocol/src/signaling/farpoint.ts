@@ -3,28 +3,28 @@
  * is one operator with one robot; the robot offers, the operator answers, ICE trickles, the service only introduces:
  * a session outlives the loss of either signaling socket for as long as its peers hear each other.
  */
-import * as z from 'zod';
+import * as z from 'zod/mini';
 import { displayNameSchema, handleSchema, robotIdSchema, tokenSchema } from '../identifiers.ts';
 import type { JsonCodec } from '../json.ts';
 
 export const MAX_SIGNALING_BYTES = 65_536;
 
-const sdpSchema = z.string().min(1).max(60_000);
+const sdpSchema = z.string().check(z.minLength(1), z.maxLength(60_000));
 
 /** RTCIceCandidateInit; an empty `candidate` ends the candidates. */
 export const iceCandidateSchema = z.strictObject({
-  candidate: z.string().max(1024),
-  sdpMid: z.string().max(64).nullable().optional(),
-  sdpMLineIndex: z.int().min(0).max(64).nullable().optional(),
-  usernameFragment: z.string().max(256).nullable().optional(),
+  candidate: z.string().check(z.maxLength(1024)),
+  sdpMid: z.optional(z.nullable(z.string().check(z.maxLength(64)))),
+  sdpMLineIndex: z.optional(z.nullable(z.int().check(z.minimum(0), z.maximum(64)))),
+  usernameFragment: z.optional(z.nullable(z.string().check(z.maxLength(256)))),
 });
 export type IceCandidate = z.infer<typeof iceCandidateSchema>;
 
 /** RTCIceServer, as the service hands it to both peers. */
 export const iceServerSchema = z.strictObject({
   urls: z.union([z.string(), z.array(z.string())]),
-  username: z.string().optional(),
-  credential: z.string().optional(),
+  username: z.optional(z.string()),
+  credential: z.optional(z.string()),
 });
 export type IceServer = z.infer<typeof iceServerSchema>;
 
@@ -84,8 +84,8 @@ export type SignalingErrorCode = (typeof signalingErrorCodes)[number];
 const error = z.strictObject({
   type: z.literal('error'),
   code: z.enum(signalingErrorCodes),
-  message: z.string().max(1024),
-  session: handleSchema.optional(),
+  message: z.string().check(z.maxLength(1024)),
+  session: z.optional(handleSchema),
 });
 
 const sessionOffer = z.strictObject({
@@ -107,9 +107,9 @@ const sessionClose = z.strictObject({ type: z.literal('session.close'), session:
 /** What may come with a robot's reason. */
 const robotEndFields = {
   /** With `robot-full`: how many operators it takes. */
-  maxOperators: z.int().min(0).max(1_000_000).optional(),
+  maxOperators: z.optional(z.int().check(z.minimum(0), z.maximum(1_000_000))),
   /** For people: what exactly was wrong. */
-  detail: z.string().max(300).optional(),
+  detail: z.optional(z.string().check(z.maxLength(300))),
 };
 
 const robotListing = z.strictObject({ id: robotIdSchema, name: displayNameSchema });
@@ -135,17 +135,17 @@ export interface RobotsChanged {
 const robotToService = z.discriminatedUnion('type', [
   z.strictObject({
     type: z.literal('robot.hello'),
-    protocol: z.int().min(1),
+    protocol: z.int().check(z.minimum(1)),
     id: robotIdSchema,
     name: displayNameSchema,
     /** Made by the robot, kept over reconnects: proves that a second socket for the same id is the same robot. */
     key: handleSchema,
-    token: tokenSchema.optional(),
+    token: z.optional(tokenSchema),
   }),
   /** `claim` where it answers a `session.resume`. */
-  sessionOffer.extend({ claim: handleSchema.optional() }),
+  z.extend(sessionOffer, { claim: z.optional(handleSchema) }),
   sessionCandidate,
-  sessionClose.extend({ reason: z.enum(robotCloseReasons).optional(), ...robotEndFields }),
+  z.extend(sessionClose, { reason: z.optional(z.enum(robotCloseReasons)), ...robotEndFields }),
   /** Does not resume a session; nothing else changes. */
   z.strictObject({
     type: z.literal('session.refuse'),
@@ -190,9 +190,9 @@ export type ServiceToRobot = z.infer<typeof serviceToRobot>;
 const operatorToService = z.discriminatedUnion('type', [
   z.strictObject({
     type: z.literal('operator.hello'),
-    protocol: z.int().min(1),
+    protocol: z.int().check(z.minimum(1)),
     name: displayNameSchema,
-    token: tokenSchema.optional(),
+    token: z.optional(tokenSchema),
   }),
   z.strictObject({ type: z.literal('session.open'), robotId: robotIdSchema }),
   /**

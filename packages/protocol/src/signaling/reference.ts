@@ -2,15 +2,19 @@
  * The reference system's signaling: JSON text, any path, robots on port 3001 and clients on port 3002. Robot ids are
  * integers from 0. Unknown fields are let through, as its own peers send some.
  */
-import * as z from 'zod';
+import * as z from 'zod/mini';
 import type { JsonCodec } from '../json.ts';
 
-const sdp = z.string().max(60_000);
-const robotId = z.int().min(0).max(0xffffffff);
-const candidate = z.string().max(1024);
+const sdp = z.string().check(z.maxLength(60_000));
+const robotId = z.int().check(z.minimum(0), z.maximum(0xffffffff));
+const candidate = z.string().check(z.maxLength(1024));
 
 const robotToService = z.discriminatedUnion('type', [
-  z.object({ type: z.literal('register'), name: z.string().max(256), sdpOffer: sdp.nullish() }),
+  z.object({
+    type: z.literal('register'),
+    name: z.string().check(z.maxLength(256)),
+    sdpOffer: z.nullish(sdp),
+  }),
   z.object({ type: z.literal('offer'), robotId, sdpOffer: sdp }),
   z.object({ type: z.literal('candidate'), robotId, candidate }),
   z.object({ type: z.literal('deregister'), robotId }),
@@ -28,8 +32,8 @@ const robotRecord = z.object({
   id: robotId,
   name: z.string(),
   /** Null for a robot that registered without one. */
-  sdpOffer: z.string().nullable(),
-  sdpAnswer: z.string().nullable(),
+  sdpOffer: z.nullable(z.string()),
+  sdpAnswer: z.nullable(z.string()),
   robotCandidates: z.array(z.string()),
   clientCandidates: z.array(z.string()),
 });
@@ -49,7 +53,7 @@ const serviceToClient = z.discriminatedUnion('type', [
   z.object({ type: z.literal('offer'), robotId, sdpOffer: sdp }),
   z.object({ type: z.literal('candidate'), robotId, candidate }),
   /** Sent at a robot's explicit farewell; the reference bridge knows only `deregistered`, so ours sends both. */
-  z.object({ type: z.literal('deregister'), robotId: robotId.optional() }),
+  z.object({ type: z.literal('deregister'), robotId: z.optional(robotId) }),
   z.object({ type: z.literal('deregistered'), robotId }),
 ]);
 export type ReferenceServiceToClient = z.infer<typeof serviceToClient>;

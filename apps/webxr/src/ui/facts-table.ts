@@ -1,12 +1,6 @@
 /** The table of figures over the picture: rows are made once, texts change. */
-import type { Tone } from '../status/words.ts';
+import type { Fact } from '../status/facts.ts';
 import { elements } from './elements.ts';
-
-export interface Fact {
-  name: string;
-  value: string;
-  tone?: Tone;
-}
 
 const rows = new Map<string, { term: HTMLElement; value: HTMLElement }>();
 let shownNames = '';

@@ -1,0 +1,37 @@
+/** The link: the signaling service, who is here, which robot is chosen, how the session with it stands. */
+import { type RobotClient, robotAfter } from '@farpoint/operator';
+import { computed } from '@preact/signals-core';
+import { linkWords, type Words } from '../status/words.ts';
+import type { Sampler } from './sampler.ts';
+
+export type LinkState = ReturnType<typeof linkState>;
+
+/** @param signalingFault why the signaling address that was given is not used; `null` where it is */
+export function linkState(client: RobotClient, samples: Sampler, signalingFault: string | null) {
+  const { link } = client;
+  const phase = samples.of(() => link.phase);
+  const robots = samples.of(() => link.robots);
+  const chosenRobotId = samples.of(() => client.chosenRobotId);
+  return {
+    robots,
+    chosenRobotId,
+    /** A robot is chosen, and connected to whenever it can be. */
+    connected: computed(() => phase.value !== 'none'),
+    /** A session stands. */
+    live: computed(() => phase.value === 'live'),
+    /** The robot after the chosen one; `null` where there is no other. */
+    nextRobot: computed(() => robotAfter(robots.value, chosenRobotId.value)),
+    /** All of it in one line. */
+    line: samples.of((atMs): Words => {
+      if (signalingFault !== null && link.phase === 'none')
+        return { text: `Signaling address: ${signalingFault}`, tone: 'bad' };
+      return linkWords({
+        ...{ phase: link.phase, signaling: link.signaling, robotListed: link.robotListed },
+        ...{ lastLoss: link.lastLoss, maxOperators: link.maxOperators },
+        silentMs: link.silentMs(atMs),
+        pointsSilentMs: atMs - client.pointsAtMs,
+        rateByReports: link.session.telemetry?.stream.feedback === 'reports',
+      });
+    }),
+  };
+}

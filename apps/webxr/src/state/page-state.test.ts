@@ -1,0 +1,219 @@
+import type { Picture, RobotClient, RobotEvents } from '@farpoint/operator';
+import { Readings } from '@farpoint/operator';
+import type { EstopState, LeaseState, RobotListing, Telemetry, Welcome } from '@farpoint/protocol';
+import { effect } from '@preact/signals-core';
+import { describe, expect, test } from 'vitest';
+import type { PageStats } from '../status/page-stats.ts';
+import { Notices } from './notices.ts';
+import { PageState } from './page-state.ts';
+
+type Phase = RobotEvents['phase'];
+
+/** Stands for the client: has what was put in, and says what it is told to. */
+class Client {
+  chosenRobotId: string | null = null;
+  pointsAtMs = 0;
+  readonly session = {
+    welcome: null as Welcome | null,
+    telemetry: null as Telemetry | null,
+    estop: { type: 'estop', latched: false } as EstopState,
+    readings: new Readings(),
+  };
+  readonly link = {
+    phase: 'none' as Phase,
+    signaling: 'ready' as const,
+    robots: [] as readonly RobotListing[],
+    ...{ robotListed: true, lastLoss: null, maxOperators: null, session: this.session },
+    silentMs: (nowMs: number) => nowMs - this.heardAtMs,
+  };
+  readonly driver = {
+    holder: 'nobody' as LeaseState['holder'],
+    stream: { held: false },
+    input: null as { name: string } | null,
+  };
+  heardAtMs = 0;
+  readonly watched: (readonly number[])[] = [];
+  readonly clouds: (readonly number[])[] = [];
+  readonly #listeners: [keyof RobotEvents, (event: never) => void][] = [];
+
+  readonly on: RobotClient['on'] = (type, listener) => {
+    this.#listeners.push([type, listener]);
+    return () => undefined;
+  };
+  watch(cameras: readonly number[]): void {
+    this.watched.push(cameras);
+  }
+  wantClouds(sensors: readonly number[]): void {
+    this.clouds.push(sensors);
+  }
+  say<Type extends keyof RobotEvents>(type: Type, event: RobotEvents[Type]): void {
+    for (const [heard, listener] of this.#listeners) if (heard === type) listener(event as never);
+  }
+  enter(phase: Phase): void {
+    this.link.phase = phase;
+    this.say('phase', phase);
+  }
+}
+
+class Bench {
+  readonly client = new Client();
+  nowMs = 0;
+  readonly state: PageState;
+
+  constructor(signalingFault: string | null = null) {
+    this.state = new PageState({
+      client: this.client as unknown as RobotClient,
+      settings: { signalingFault, pointScale: 1 },
+      notices: new Notices(),
+      figures: () => ({ framesDrawn: this.nowMs }) as PageStats,
+      now: () => this.nowMs,
+      newCanvas: () => ({ width: 0, height: 0, getContext: () => null }) as unknown as HTMLCanvasElement,
+    });
+  }
+
+  /** Time passes to the next sample. */
+  pass(ms: number): this {
+    this.nowMs += ms;
+    this.state.sample();
+    return this;
+  }
+}
+
+describe('the link', () => {
+  test('its line is right at each event, and grows graver with time', () => {
+    const { client, state } = new Bench();
+    const lines: string[] = [];
+    effect(() => {
+      lines.push(state.link.line.value.text);
+    });
+    client.chosenRobotId = 'r1';
+    client.enter('opening');
+    expect([state.link.connected.value, state.link.live.value]).toEqual([true, false]);
+    client.enter('live');
+    expect(lines).toEqual(['Signaling connected', 'Connecting to the robot…', 'Live']);
+    expect(state.link.live.value).toBe(true);
+  });
+
+  test('silence is told without any event', () => {
+    const bench = new Bench();
+    bench.client.enter('live');
+    expect(bench.state.link.line.value.text).toBe('Live');
+    expect(bench.pass(2000).state.link.line.value.text).toContain('lost for 2 s');
+  });
+
+  test('a signaling address that cannot be used is told while there is no session', () => {
+    const { client, state } = new Bench('no port');
+    expect(state.link.line.value).toEqual({ text: 'Signaling address: no port', tone: 'bad' });
+    client.enter('live');
+    expect(state.link.line.value.text).toBe('Live');
+  });
+
+  test('the next robot follows the chosen one', () => {
+    const { client, state } = new Bench();
+    client.chosenRobotId = 'a';
+    client.link.robots = [
+      { id: 'a', name: 'A' },
+      { id: 'b', name: 'B' },
+    ];
+    client.say('robots', client.link.robots);
+    expect(state.link.nextRobot.value?.id).toBe('b');
+  });
+});
+
+test('the emergency stop counts while there is a session', () => {
+  const { client, state } = new Bench();
+  client.session.estop = { type: 'estop', latched: true, by: 'robot' };
+  client.say('estop', client.session.estop);
+  expect(state.robot.estopLatched.value).toBe(false);
+  client.enter('live');
+  expect(state.robot.estopLatched.value).toBe(true);
+});
+
+test('who drives, and by which device', () => {
+  const bench = new Bench();
+  const { client, state } = bench;
+  expect(state.driving.line.value.text).toBe('Nobody drives');
+  client.driver.holder = 'you';
+  client.say('lease', { type: 'lease', holder: 'you' });
+  expect(state.driving.line.value.text).toBe('You may drive');
+  Object.assign(client.driver, { stream: { held: true }, input: { name: 'keyboard' } });
+  expect(bench.pass(250).state.driving.line.value.text).toBe('You drive (keyboard)');
+});
+
+test('figures stay as they are until the next sample', () => {
+  const bench = new Bench().pass(250);
+  const drawn = () => bench.state.figures.value.framesDrawn;
+  expect(drawn()).toBe(250);
+  bench.nowMs += 100;
+  expect(drawn()).toBe(250);
+  expect(bench.pass(0) && drawn()).toBe(350);
+});
+
+describe('what is asked of the robot', () => {
+  test('nothing while it has told of nothing', () => {
+    const { client, state } = new Bench();
+    client.say('session', 1);
+    state.looking.value = false;
+    expect([client.watched, client.clouds]).toEqual([[], []]);
+  });
+
+  test('pictures of cameras that are shown and looked at, anew in each session', () => {
+    const { client, state } = new Bench();
+    const cameras = [{ name: 'front' }, { name: 'rear' }];
+    client.say('cameras', cameras);
+    state.cameras.toggle(0);
+    state.looking.value = false;
+    state.looking.value = true;
+    client.say('session', 2);
+    client.say('cameras', cameras);
+    expect(client.watched).toEqual([[0, 1], [1], [], [1], [1]]);
+  });
+
+  test('clouds of sensors that are on', () => {
+    const { client, state } = new Bench();
+    client.say('sensors', [{ name: 'depth' }, { name: 'lidar' }]);
+    state.sensors.toggle(1);
+    state.sensors.toggle(0);
+    expect(client.clouds).toEqual([[0, 1], [0], []]);
+  });
+});
+
+describe('pictures', () => {
+  const picture = (camera: number, takenAtMs: number) => {
+    let closed = false;
+    const bitmap = { width: 4, height: 3, close: () => (closed = true) } as unknown as ImageBitmap;
+    return { picture: { camera, bitmap, takenAtMs } satisfies Picture, closed: () => closed };
+  };
+
+  test('age from when they were taken, and are stale after a second', () => {
+    const bench = new Bench();
+    const { client, state } = bench;
+    client.say('cameras', [{ name: 'front' }]);
+    const [view] = state.pictures.views.value;
+    expect([view?.ageMs.value, view?.stale.value]).toEqual([null, false]);
+    bench.nowMs = 90;
+    const first = picture(0, 10);
+    client.say('picture', first.picture);
+    expect(first.closed()).toBe(true);
+    // At once, and not only from the next sample on.
+    expect([view?.ageMs.value, view?.newest.value?.number, view?.canvas.width]).toEqual([80, 1, 4]);
+    bench.pass(1000);
+    expect([view?.ageMs.value, view?.stale.value]).toEqual([1080, true]);
+  });
+
+  test('of a camera that nobody knows are closed', () => {
+    const { client } = new Bench();
+    const lost = picture(3, 0);
+    client.say('picture', lost.picture);
+    expect(lost.closed()).toBe(true);
+  });
+
+  test('another session knows nothing of them', () => {
+    const { client, state } = new Bench();
+    client.say('cameras', [{ name: 'front' }]);
+    client.say('picture', picture(0, 0).picture);
+    client.say('session', 2);
+    client.say('cameras', [{ name: 'front' }]);
+    expect(state.pictures.views.value[0]?.newest.value).toBe(null);
+  });
+});

@@ -1,0 +1,18 @@
+/** What the robot has told of itself in this session. */
+import type { RobotClient } from '@farpoint/operator';
+import { shownReading } from '../status/shown-readings.ts';
+import type { Sampler } from './sampler.ts';
+
+export type RobotState = ReturnType<typeof robotState>;
+
+export function robotState({ link }: RobotClient, samples: Sampler) {
+  return {
+    /** `null` before its welcome. */
+    name: samples.of(() => link.session.welcome?.name ?? null),
+    telemetry: samples.of(() => link.session.telemetry),
+    readings: samples.of((atMs) => link.session.readings.list(atMs).map(shownReading)),
+    estop: samples.of(() => link.session.estop),
+    /** There is a session, and its emergency stop is on. */
+    estopLatched: samples.of(() => link.phase === 'live' && link.session.estop.latched),
+  };
+}

@@ -1,0 +1,65 @@
+import type { Telemetry } from '@farpoint/protocol';
+import { describe, expect, test } from 'vitest';
+import { sessionFacts } from './facts.ts';
+import type { PageStats } from './page-stats.ts';
+import { wristLines } from './wrist-lines.ts';
+
+const figures = {
+  ...{ pointsPerFrame: 12_345.6, framesPerSecond: 10, bitsPerSecond: 3_210_000, lossRate: 0 },
+  ...{ minRttMs: 42, frameLatencyMs: null, mtpMs: null },
+} as PageStats;
+const telemetry = {
+  drive: 'idle',
+  operators: 1,
+  twist: { linear: { x: 0.5, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -0.25 } },
+  battery: { voltage: 24.04, percentage: 0.2 },
+} as Telemetry;
+const open = { type: 'estop', latched: false } as const;
+const session = { name: 'Rover', telemetry, estop: open, readings: [], figures };
+const values = (facts: ReturnType<typeof sessionFacts>) =>
+  Object.fromEntries(facts.map(({ name, value }) => [name, value]));
+
+describe('the table of figures', () => {
+  test('says what is known, in order', () => {
+    expect(values(sessionFacts(session))).toEqual({
+      Robot: 'Rover',
+      State: 'Standing',
+      Speed: '0.50 m/s  -0.25 rad/s',
+      Battery: '20 %  24.0 V',
+      Points: '12,346 × 10/s',
+      Rate: '3.2 Mbit/s',
+      Loss: '0.0 %',
+      'Round trip': '42 ms',
+      'Frame age': '–',
+    });
+    const bare = sessionFacts({ ...session, name: null, telemetry: null });
+    expect(bare.map(({ name }) => name)).toEqual(['Points', 'Rate', 'Loss', 'Round trip', 'Frame age']);
+  });
+
+  test('a stop shows before telemetry tells of it, with who set it', () => {
+    const facts = sessionFacts({ ...session, estop: { ...open, latched: true, by: 'robot' } });
+    expect(values(facts).State).toBe('Emergency stop (by robot)');
+  });
+
+  test('a reading takes the battery’s place, and no other', () => {
+    const reading = (label: string) => ({ topic: `/${label}`, label, text: 'read', tone: 'bad' }) as const;
+    const facts = sessionFacts({ ...session, readings: [reading('Battery'), reading('Speed')] });
+    expect(values(facts)).toMatchObject({ Battery: 'read', Speed: '0.50 m/s  -0.25 rad/s' });
+    expect(values(facts)['Speed (/Speed)']).toBe('read');
+  });
+});
+
+test('on the wrist: the hint to release while the stop is on, else the battery and the next robot', () => {
+  const words = { text: 'Live', tone: 'good' } as const;
+  const facts = { link: words, driving: words, telemetry, estopLatched: false, figures };
+  const lines = wristLines({ ...facts, nextRobot: { id: 'b', name: 'B' } });
+  expect(lines.map(({ text }) => text)).toEqual([
+    'Live',
+    'Standing',
+    'Live',
+    '12.3k points  10/s  3.2 Mbit/s',
+    'rtt 42 ms  frame –  loss 0.0 %',
+    'Battery 20 %  press stick: B',
+  ]);
+  expect(wristLines({ ...facts, nextRobot: null, estopLatched: true }).at(-1)?.tone).toBe('bad');
+});

@@ -1,0 +1,91 @@
+/** The table of figures over the picture: what it says of a session. */
+import type { EstopState, Telemetry } from '@farpoint/operator';
+import type { PageStats } from './page-stats.ts';
+import type { ShownReading } from './shown-readings.ts';
+import { driveWords, type Tone } from './words.ts';
+
+export interface Fact {
+  name: string;
+  value: string;
+  tone?: Tone;
+}
+
+export interface SessionFacts {
+  /** The robot's; `null` before its welcome. */
+  name: string | null;
+  telemetry: Telemetry | null;
+  estop: EstopState;
+  readings: readonly ShownReading[];
+  figures: PageStats;
+}
+
+export function sessionFacts({ name, telemetry, estop, readings, figures }: SessionFacts): Fact[] {
+  const facts: Fact[] = [];
+  if (name !== null) facts.push({ name: 'Robot', value: name });
+  if (telemetry !== null) facts.push(...telemetryFacts(telemetry, estop));
+  addReadings(facts, readings);
+  facts.push(...streamFacts(figures));
+  if (telemetry !== null && telemetry.operators > 1) {
+    facts.push({ name: 'Operators', value: String(telemetry.operators) });
+  }
+  return facts;
+}
+
+function telemetryFacts(telemetry: Telemetry, estop: EstopState): Fact[] {
+  // Telemetry tells of a stop a moment later.
+  const drive = driveWords[estop.latched ? 'estop' : telemetry.drive];
+  const by = estop.latched && estop.by !== undefined ? ` (by ${estop.by})` : '';
+  const { linear, angular } = telemetry.twist;
+  const facts: Fact[] = [
+    { name: 'State', value: drive.text + by, tone: drive.tone },
+    { name: 'Speed', value: `${linear.x.toFixed(2)} m/s  ${angular.z.toFixed(2)} rad/s` },
+  ];
+  if (telemetry.battery !== undefined) {
+    const share = telemetry.battery.percentage;
+    facts.push({
+      name: 'Battery',
+      value: `${Math.round(share * 100)} %  ${telemetry.battery.voltage.toFixed(1)} V`,
+      tone: share < 0.1 ? 'bad' : share < 0.25 ? 'warning' : 'neutral',
+    });
+  }
+  return facts;
+}
+
+/** A reading of the battery says more than the telemetry's two figures; any other name that is there already stays whose it is. */
+function addReadings(facts: Fact[], readings: readonly ShownReading[]): void {
+  for (const { topic, label, text, tone } of readings) {
+    const there = facts.find(({ name }) => name === label);
+    if (there !== undefined && label === 'Battery') Object.assign(there, { value: text, tone });
+    else facts.push({ name: there === undefined ? label : `${label} (${topic})`, value: text, tone });
+  }
+}
+
+function streamFacts(figures: PageStats): Fact[] {
+  const facts: Fact[] = [
+    {
+      name: 'Points',
+      value: `${Math.round(figures.pointsPerFrame).toLocaleString('en')} × ${figures.framesPerSecond.toFixed(0)}/s`,
+    },
+    { name: 'Rate', value: `${mbps(figures)} Mbit/s` },
+    { name: 'Loss', value: `${(figures.lossRate * 100).toFixed(1)} %`, tone: lossTone(figures) },
+    { name: 'Round trip', value: ms(figures.minRttMs) },
+    { name: 'Frame age', value: ms(figures.frameLatencyMs?.p50) },
+  ];
+  if (figures.mtpMs !== null) {
+    const { p50, p95 } = figures.mtpMs;
+    facts.push({ name: 'Motion to photon', value: `${ms(p50)}  p95 ${ms(p95)}` });
+  }
+  return facts;
+}
+
+export function lossTone({ lossRate }: PageStats): Tone {
+  return lossRate > 0.05 ? 'warning' : 'neutral';
+}
+
+export function mbps({ bitsPerSecond }: PageStats): string {
+  return (bitsPerSecond / 1e6).toFixed(1);
+}
+
+export function ms(value: number | null | undefined): string {
+  return value === null || value === undefined ? '–' : `${value.toFixed(0)} ms`;
+}

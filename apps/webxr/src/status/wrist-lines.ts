@@ -1,0 +1,47 @@
+/** What the panel on the wrist says, line by line. */
+import type { RobotListing, Telemetry } from '@farpoint/operator';
+import { lossTone, mbps, ms } from './facts.ts';
+import type { PageStats } from './page-stats.ts';
+import { driveWords, type Words } from './words.ts';
+
+export interface WristFacts {
+  link: Words;
+  driving: Words;
+  telemetry: Telemetry | null;
+  estopLatched: boolean;
+  nextRobot: RobotListing | null;
+  figures: PageStats;
+}
+
+export function wristLines({
+  link,
+  driving,
+  telemetry,
+  estopLatched,
+  nextRobot,
+  figures,
+}: WristFacts): Words[] {
+  const { pointsPerFrame, framesPerSecond, minRttMs, frameLatencyMs, lossRate } = figures;
+  const thousands = (pointsPerFrame / 1000).toFixed(1);
+  const battery = telemetry?.battery;
+  const hints = [
+    battery === undefined ? 'Squeeze: drive  B: stop' : `Battery ${Math.round(battery.percentage * 100)} %`,
+    ...(nextRobot === null ? [] : [`press stick: ${nextRobot.name}`]),
+  ];
+  return [
+    link,
+    ...(telemetry === null ? [] : [driveWords[telemetry.drive]]),
+    driving,
+    {
+      text: `${thousands}k points  ${framesPerSecond.toFixed(0)}/s  ${mbps(figures)} Mbit/s`,
+      tone: 'neutral',
+    },
+    {
+      text: `rtt ${ms(minRttMs)}  frame ${ms(frameLatencyMs?.p50)}  loss ${(lossRate * 100).toFixed(1)} %`,
+      tone: lossTone(figures),
+    },
+    estopLatched
+      ? { text: 'Open hand, hold trigger 1 s: release', tone: 'bad' }
+      : { text: hints.join('  '), tone: 'neutral' },
+  ];
+}

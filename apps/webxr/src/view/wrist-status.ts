@@ -1,0 +1,41 @@
+/** What the operator sees in VR of the page's state: on the wrist, beside it the cameras' pictures. */
+import { effect, type ReadonlySignal } from '@preact/signals-core';
+import type { PageState } from '../state/page-state.ts';
+import { wristLines } from '../status/wrist-lines.ts';
+import type { WristPanel } from './wrist-panel.ts';
+import { WristPictures } from './wrist-pictures.ts';
+
+export interface WristStatusParts {
+  readonly state: PageState;
+  readonly panel: WristPanel;
+  /** In VR. */
+  readonly active: ReadonlySignal<boolean>;
+  /** Of the hold that releases the emergency stop, 0–1. */
+  readonly releaseProgress: ReadonlySignal<number>;
+}
+
+export function showOnWrist({ state, panel, active, releaseProgress }: WristStatusParts): void {
+  const { link, driving, robot, figures, pictures } = state;
+  const sheets = new WristPictures();
+  panel.addBeside(sheets.object);
+  effect(() => {
+    panel.visible = active.value;
+  });
+  effect(() => {
+    if (!active.value) return;
+    panel.show(
+      wristLines({
+        ...{ link: link.line.value, driving: driving.line.value, telemetry: robot.telemetry.value },
+        ...{ estopLatched: robot.estop.value.latched, nextRobot: link.nextRobot.value },
+        figures: figures.value,
+      }),
+    );
+  });
+  effect(() => {
+    if (active.value) panel.showProgress(releaseProgress.value);
+  });
+  effect(() => sheets.setViews(pictures.views.value.filter(({ camera }) => camera.on.value)));
+  effect(() => {
+    if (active.value) sheets.update();
+  });
+}
