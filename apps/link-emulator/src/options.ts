@@ -111,7 +111,7 @@ function directionalOptions(): OptionTable {
       table[name] = {
         ...spec,
         default: null,
-        help: `the same option without "${direction}-", only ${words}`,
+        help: `like the option without "${direction}-", but only ${words}`,
       };
     }
   }

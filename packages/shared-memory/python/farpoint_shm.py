@@ -202,7 +202,7 @@ class CloudProducer:
             if not all(map(math.isfinite, position)):
                 raise ValueError("a position that is not finite")
             if not abs(math.sqrt(sum(q * q for q in orientation)) - 1) < 0.01:
-                raise ValueError("an orientation that is no unit quaternion")
+                raise ValueError("an orientation that is not a unit quaternion")
         if lens is not None:
             flags |= _HAS_LENS
             if not (all(map(math.isfinite, lens)) and lens[0] > 0 and lens[1] > 0):

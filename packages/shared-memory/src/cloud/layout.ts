@@ -200,7 +200,7 @@ export function parseFrameHeader(
   if ((flags & HAS_POSE) !== 0) {
     const norm = Math.hypot(qx, qy, qz, qw);
     if (![px, py, pz].every(Number.isFinite)) throw fault(32, 'a position that is not finite');
-    if (!(Math.abs(norm - 1) < 0.01)) throw fault(56, 'an orientation that is no unit quaternion');
+    if (!(Math.abs(norm - 1) < 0.01)) throw fault(56, 'an orientation that is not a unit quaternion');
     pose = {
       position: { x: px, y: py, z: pz },
       orientation: { x: qx / norm, y: qy / norm, z: qz / norm, w: qw / norm },
