@@ -56,7 +56,7 @@ def _open(path, size, mode, exclusive):
             os.fchmod(fd, mode)
         status = os.fstat(fd)
         if not stat.S_ISREG(status.st_mode):
-            raise SharedMemoryError(f"{path}: it is no regular file")
+            raise SharedMemoryError(f"{path}: it is not a regular file")
         if status.st_mode & stat.S_IWOTH:
             raise SharedMemoryError(f"{path}: everybody may write it: chmod o-w it")
         if status.st_size != size:
@@ -225,7 +225,7 @@ class CloudProducer:
             fcntl.flock(former, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             os.close(former)
-            raise SharedMemoryError(f"{path}: another producer writes it") from None
+            raise SharedMemoryError(f"{path}: another producer is writing it") from None
         return former
 
     def _make(self, path, frames_per_second, mode):
