@@ -154,7 +154,7 @@ class SignalingService implements RunningSignaling {
   reload(): void {
     this.#files = readFiles(this.#options);
     for (const listener of this.#listeners) if (this.#files.tls !== null) listener.setTls(this.#files.tls);
-    this.#log.info('read certificate and tokens again');
+    this.#log.info('reloaded certificate and tokens');
   }
 
   close(): Promise<void> {

@@ -206,7 +206,7 @@ class CloudProducer:
         if lens is not None:
             flags |= _HAS_LENS
             if not (all(map(math.isfinite, lens)) and lens[0] > 0 and lens[1] > 0):
-                raise ValueError("focal lengths and principal point that cannot be")
+                raise ValueError("impossible focal lengths or principal point")
         elif self.format != "points":
             raise ValueError("depth needs its lens: fx, fy, cx, cy")
         unit = depth_unit if self.format == "depth16" else 0.0

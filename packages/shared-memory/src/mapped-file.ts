@@ -139,7 +139,7 @@ const SYSTEM_CODES: Readonly<Record<string, readonly [SharedMemoryErrorCode, str
   EACCES: ['not-permitted', 'the system does not permit it'],
   EPERM: ['not-permitted', 'the system does not permit it'],
   EROFS: ['not-permitted', 'the file system is read-only'],
-  EEXIST: ['in-use', 'it is there already'],
+  EEXIST: ['in-use', 'it already exists'],
   ELOOP: ['not-a-file', 'a symbolic link is not followed'],
   EISDIR: ['not-a-file', 'it is a folder'],
   FILE: ['not-a-file', 'it is not a regular file'],

@@ -47,24 +47,28 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
       0,
     );
 
-  sum('sessions_opened', 'Sessions that operators asked for', () => counters.sessionsOpened);
+  sum('sessions_opened', 'Sessions that operators requested', () => counters.sessionsOpened);
   const { recording } = robot;
   if (recording !== null) {
     sum('recording_messages', 'Messages recorded', () => recording.counts.messages);
     sum('recording_bytes', 'Bytes of the recording', () => recording.counts.bytes);
-    sumBy('recording_dropped', 'Not recorded: the writer did not keep up, by kind', 'kind', {
+    sumBy('recording_dropped', 'Items not recorded because the writer did not keep up, by kind', 'kind', {
       entries: () => Object.entries(recording.counts.dropped),
     });
   }
   const { pictures } = robot;
   if (pictures !== null) {
     const made = pictures.counters;
-    sum('pictures_made', 'Pictures of cameras made ready to send', () => made.made);
-    sum('pictures_untouched', 'Of those, files sent as the camera gave them', () => made.untouched);
-    sum('picture_bytes', 'Bytes of the pictures made ready', () => made.bytes);
-    sum('picture_thread_seconds', 'Processor time of making pictures', () => made.workSeconds);
-    sum('picture_thread_restarts', 'Times the picture thread was started anew', () => made.restarts);
-    sumBy('pictures_lost', 'Pictures that were not made, by reason', 'reason', made.lost);
+    sum('pictures_made', 'Camera pictures prepared for sending', () => made.made);
+    sum(
+      'pictures_untouched',
+      'Prepared pictures that are the camera’s own files, unchanged',
+      () => made.untouched,
+    );
+    sum('picture_bytes', 'Bytes of the prepared pictures', () => made.bytes);
+    sum('picture_thread_seconds', 'Processor time of the picture thread', () => made.workSeconds);
+    sum('picture_thread_restarts', 'Restarts of the picture thread', () => made.restarts);
+    sumBy('pictures_lost', 'Pictures that could not be prepared, by reason', 'reason', made.lost);
   }
   sum('sessions_refused', 'Sessions refused: too many operators', () => counters.sessionsRefused);
   sumBy('sessions_ended', 'Sessions that ended, by reason', 'reason', counters.sessionsEnded);
@@ -79,25 +83,29 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
     'reason',
     counters.resumesRefused,
   );
-  sumBy('answers_ignored', 'Answers that changed nothing, by reason', 'reason', counters.answersIgnored);
+  sumBy('answers_ignored', 'Answers that were ignored, by reason', 'reason', counters.answersIgnored);
   const { candidatesRefused } = counters;
-  sumBy('ice_candidates_refused', 'ICE candidates left out, by reason', 'reason', candidatesRefused);
+  sumBy('ice_candidates_refused', 'ICE candidates that were refused, by reason', 'reason', candidatesRefused);
   sumBy(
     'datagrams_refused',
     'Datagrams and packets of sessions that were dropped unread, by reason',
     'reason',
     counters.datagramsRefused,
   );
-  sumBy('signaling_errors', 'Errors that signaling told of, by code', 'code', counters.signalingErrors);
-  sum('signaling_disconnects', 'Times the line to signaling broke', () => signaling.disconnects);
-  sum('signaling_malformed', 'Messages of signaling that could not be read', () => signaling.malformed);
-  sum('commands_accepted', 'Drive commands obeyed', () => counters.commandsAccepted);
+  sumBy('signaling_errors', 'Errors reported by signaling, by code', 'code', counters.signalingErrors);
+  sum('signaling_disconnects', 'Lost connections to signaling', () => signaling.disconnects);
+  sum('signaling_malformed', 'Unreadable messages from signaling', () => signaling.malformed);
+  sum('commands_accepted', 'Drive commands accepted', () => counters.commandsAccepted);
   sumBy('commands_rejected', 'Drive commands refused, by reason', 'reason', counters.commandsRejected);
   sumBy('messages_refused', 'Unreadable messages, by channel and error', 'reason', counters.messagesRefused);
   sum('frames_captured', 'Clouds captured', () => counters.framesCaptured);
-  sum('frames_without_buffer', 'Clouds not captured: all buffers out', () => sensors.framesWithoutBuffer);
-  sum('source_faults', 'Faults of the source that may pass: no producer, bad clouds', () => sensors.faults);
-  sum('frames_stale', 'Clouds dropped: too old when ready', () => counters.framesStale);
+  sum(
+    'frames_without_buffer',
+    'Clouds not captured because no buffer was free',
+    () => sensors.framesWithoutBuffer,
+  );
+  sum('source_faults', 'Temporary faults of the source: no producer, bad clouds', () => sensors.faults);
+  sum('frames_stale', 'Clouds dropped because they were too old when ready', () => counters.framesStale);
   sum('points_sent_per_frame_sum', 'Points of all captured frames', () => counters.pointsCaptured);
   sumBy('points_rejected', 'Points not sent, by reason', 'reason', counters.pointsRejected);
   sumBy('stage_seconds', 'Time spent, by stage', 'stage', counters.stageSeconds);
@@ -122,7 +130,7 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   );
   gauge(
     'frames_per_second_planned',
-    'Frames a second that the plan has now',
+    'Frames a second that are planned now',
     () => counters.lastFramesPerSecond,
   );
   // Of the path that carries least: with one operator, of that one's.
@@ -134,15 +142,15 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   };
   gauge(
     'rate_estimate_bits_per_second',
-    'What the narrowest path is thought to carry',
+    'Estimated rate of the narrowest path',
     narrowest((rate) => rate.estimateBitsPerSecond),
   );
-  gauge('rate_target_bits_per_second', 'What the narrowest path is given', () =>
+  gauge('rate_target_bits_per_second', 'Target rate of the narrowest path', () =>
     Math.min(...[...robot.operators.values()].map(({ sender }) => sender?.targetBitsPerSecond ?? Number.NaN)),
   );
   gauge(
     'rate_acknowledged_bits_per_second',
-    'What the receiver got lately',
+    'Rate that recently arrived at the receiver',
     narrowest((rate) => rate.ackedBitsPerSecond),
   );
   gauge(
@@ -152,12 +160,12 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   );
   gauge(
     'rate_loss_ratio',
-    'Share of packets lost lately',
+    'Share of packets lost recently',
     narrowest((rate) => rate.lossFraction),
   );
   new Gauge({
     name: 'farpoint_robot_rate_state',
-    help: 'Operators by what their rate control is doing',
+    help: 'Operators by state of their rate control',
     labelNames: ['state'],
     registers: [registry],
     collect() {
@@ -168,7 +176,7 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   });
   gauge(
     'packets_resent',
-    'Packets sent again because an operator connected now missed them',
+    'Packets resent because an operator connected now missed them',
     overOperators((s) => s.counters.packetsResent),
   );
   const gaugeBy = (
@@ -192,17 +200,17 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   };
   gaugeBy(
     'resends_refused',
-    'Missed packets that were not sent again, by reason, operators connected now',
+    'Missed packets that were not resent, by reason, for operators connected now',
     (sender) => sender.resendRefusals,
   );
   gaugeBy(
     'frames_dropped',
-    'Frames that were not sent, or not to their end, by reason, operators connected now',
+    'Frames not sent, or only in part, by reason, for operators connected now',
     (sender) => sender.droppedFrames,
   );
   gauge(
     'frames_superseded',
-    'Frames not sent because a newer one came first, operators connected now',
+    'Frames not sent because a newer one replaced them, for operators connected now',
     overOperators((s) => s.droppedFrames.superseded + s.droppedFrames.overdue),
   );
   if (pictures === null) return;
@@ -214,7 +222,7 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   );
   new Gauge({
     name: 'farpoint_robot_pictures_unsent',
-    help: 'Pictures that were not sent, or not to their end, by reason, operators connected now',
+    help: 'Pictures not sent, or only in part, by reason, for operators connected now',
     labelNames: ['reason'],
     registers: [registry],
     collect() {
