@@ -44,7 +44,7 @@ async function main(): Promise<number> {
     return name === undefined ? 2 : 0;
   }
   if (!names.includes(name)) {
-    console.error(`bench: there is no benchmark \`${name}\`; there are ${names.join(', ')}`);
+    console.error(`bench: there is no benchmark \`${name}\`; the benchmarks are ${names.join(', ')}`);
     return 2;
   }
   try {

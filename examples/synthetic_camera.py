@@ -65,7 +65,7 @@ def main():
     parser.add_argument("--size", type=int, default=480, help="width and height, pixels")
     parser.add_argument("--fps", type=float, default=30.0)
     parser.add_argument("--folder", default="/dev/shm")
-    parser.add_argument("--frames", type=int, default=0, help="end after so many; 0: never")
+    parser.add_argument("--frames", type=int, default=0, help="end after this many frames; 0: never")
     options = parser.parse_args()
     scene = Scene(options.size)
     show = reference_output(scene, options) if options.layout == "reference" else farpoint_output(scene, options)

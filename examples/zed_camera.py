@@ -115,7 +115,7 @@ def main():
     parser.add_argument("--layout", choices=["farpoint", "reference"], default="farpoint")
     parser.add_argument("--fps", type=float, default=30.0)
     parser.add_argument("--size", type=int, default=480, help="width and height of the cloud")
-    parser.add_argument("--track", action="store_true", help="give the camera's pose")
+    parser.add_argument("--track", action="store_true", help="also write the camera's pose")
     parser.add_argument("--flip", action="store_true", help="the camera hangs upside down")
     parser.add_argument("--folder", default="/dev/shm")
     options = parser.parse_args()

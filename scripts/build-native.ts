@@ -15,7 +15,7 @@ const addons = {
 const asked = process.argv.slice(2);
 const unknown = asked.find((name) => !(name in addons));
 if (unknown !== undefined) {
-  console.error(`there is no addon ${unknown}; there are ${Object.keys(addons).join(' and ')}`);
+  console.error(`there is no addon ${unknown}; the addons are ${Object.keys(addons).join(' and ')}`);
   process.exit(2);
 }
 for (const [name, { buildAddon, ADDON_FILE, BUILD_REMEDY, what, optional }] of Object.entries(addons)) {

@@ -205,7 +205,7 @@ function main(): number {
   const known = WASM_CRATES.map((crate) => crate.name);
   const unknown = positionals.find((name) => !known.includes(name));
   if (unknown !== undefined) {
-    console.error(`build:wasm: no module \`${unknown}\`; there are ${known.join(', ')}`);
+    console.error(`build:wasm: there is no module \`${unknown}\`; the modules are ${known.join(', ')}`);
     return 2;
   }
   const crates = WASM_CRATES.filter(({ name }) => positionals.length === 0 || positionals.includes(name));

@@ -24,8 +24,8 @@ test.skipIf(process.platform !== 'linux')(
     const before = children(dev.pid!);
     const robot = before.find(({ command }) => command.includes('sim-1'));
     process.kill(robot!.pid, 'SIGKILL');
-    await seen(complaints, /^(sim-1 has ended \(SIGKILL\)); it is started again in/);
-    await seen(said, /^(sim-1 is up again)/);
+    await seen(complaints, /^(sim-1 has ended \(SIGKILL\)); restarting it in/);
+    await seen(said, /^(sim-1 is running again)/);
     expect((await fetch(url)).status).toBe(200);
     const after = new Set(children(dev.pid!).map(({ pid }) => pid));
     expect(before.filter(({ pid }) => !after.has(pid))).toEqual([robot]);

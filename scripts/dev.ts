@@ -30,7 +30,7 @@ const [signaling, referenceRobot, referenceClient, webPort, ...adminPorts] = por
   ...number[],
 ];
 for (const { wanted, port } of moved) {
-  console.log(`port ${wanted.port} is taken by ${holderOf(wanted.port)}: ${wanted.name} takes ${port}`);
+  console.log(`port ${wanted.port} is used by ${holderOf(wanted.port)}: ${wanted.name} uses ${port}`);
 }
 
 const onLine = (name: string, line: string): void => {
@@ -114,7 +114,7 @@ try {
 /** One that ends takes no other along: it is said, and it is started again. */
 function keep(first: ManagedProcess, start: () => Promise<ManagedProcess>): void {
   const { name } = first;
-  const again = (waitMs: number) => `; it is started again in ${(waitMs / 1000).toFixed(1)} s`;
+  const again = (waitMs: number) => `; restarting it in ${(waitMs / 1000).toFixed(1)} s`;
   void keepRunning(
     first,
     {
@@ -132,7 +132,7 @@ function keep(first: ManagedProcess, start: () => Promise<ManagedProcess>): void
       },
       onFailure: (error, waitMs) =>
         console.error(`${error instanceof Error ? error.message : String(error)}${again(waitMs)}`),
-      onStart: () => console.log(`${name} is up again`),
+      onStart: () => console.log(`${name} is running again`),
     },
     stopping.signal,
   );
@@ -167,7 +167,7 @@ async function portsOrExit({ port, robots }: DevOptions): Promise<ChosenPorts> {
     if (!(error instanceof PortTaken)) throw error;
     const { name, port: taken } = error.wanted;
     console.error(
-      `port ${taken} is taken by ${holderOf(taken)}: end it, or give ${name} another by --port N, or none`,
+      `port ${taken} is used by ${holderOf(taken)}: stop that program, or choose another port for ${name} with --port N, or leave out --port`,
     );
     process.exit(1);
   }

@@ -82,7 +82,7 @@ const steps: Step[] = [
         const { ok, output } = buildAddon();
         if (ok) continue;
         say(output.trim().split('\n').slice(-20).join('\n  '));
-        left.push(`${what} is not tested: ${BUILD_REMEDY}`);
+        left.push(`${what} is not tested; ${BUILD_REMEDY}`);
       }
       await ensureNumpy(say);
       if (dds.buildAddon().ok) await ensureDdsPeers(say);
@@ -149,7 +149,7 @@ for (const [index, step] of chosen.entries()) {
     faults.push(`${step.name}: failed`);
     console.log(`  ✗ failed after ${seconds} s`);
   } else if (result.skipped !== undefined) {
-    console.log(`  – left out in part: ${result.skipped}`);
+    console.log(`  – partly skipped: ${result.skipped}`);
     if (process.env.CI) faults.push(`${step.name}: ${result.skipped}`);
   } else {
     console.log(`  ✓ ${seconds} s`);

@@ -15,14 +15,15 @@ const USAGE = `pnpm bench bridge [--points 100000] [--fps 10] [--seconds 60] [--
        pnpm bench bridge --profile [--points 7500] [--fps 18] [--seconds 30] [--json]
 
 Real robot (simulated office) in the reference profile, signaling, bridge, and a reader of the streaming socket, each in its
-own process, no network between. Two runs of --seconds each: --points at --fps (rounded up to whole packets), then as many
-points at --fps as --mbps (10^6 bit/s on the wire, all headers counted) carry; --mbps 0 leaves that one out.
+own process, without a network between them. Two runs of --seconds each: --points at --fps (rounded up to whole packets),
+then as many points at --fps as --mbps (10^6 bit/s on the wire, including headers) carries; --mbps 0 skips the second run.
 
-emitMs: from the arrival of a frame's last packet in the bridge to its whole message in the reader; of that, handOverMs until
-the bridge has handed it to the socket. sendToReadMs: from the robot's send call of that packet to the reader. Frames that are not whole count in neither; see framesPartial.
+emitMs: from the arrival of a frame's last packet in the bridge to the complete message in the reader; handOverMs is the part
+until the bridge has handed it to the socket. sendToReadMs: from the robot's send call of that packet to the reader. Incomplete
+frames count in neither; see framesPartial.
 
---profile takes clouds from a camera's shared memory instead, with the robot's own rate control, and prints where the time of
-a frame goes, stage by stage, to the reader's whole message.`;
+--profile takes clouds from a camera's shared memory instead, with the robot's own rate control, and prints the time of each
+stage of a frame, up to the complete message in the reader.`;
 
 const WARM_UP_MS = 6000;
 const POINTS_PER_PACKET = 150;

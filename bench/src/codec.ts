@@ -16,12 +16,12 @@ import { type Bench, numberOption, printJson, printTable } from './report.ts';
 const USAGE = `pnpm bench codec [--cloud FILE.pcd]… [--rgbd DIR] [--codec NAME]… [--rounds 15] [--native] [--plot FILE.svg] [--json]
 
 Kernel benchmark, in one process. Encodes and decodes each cloud (default: frames of the simulated camera) with every
-codec, compares what comes out with what went in, point by point, and drops 1, 5 and 20 % of the packets.
+codec, compares the output with the input point by point, and drops 1, 5 and 20 % of the packets.
 
-Times are medians in WASM (zstd: native); with --native also of the Rust code itself, where Cargo is installed.
+Times are medians in WASM (zstd: native); with --native also of the native Rust code, if Cargo is installed.
 depthErrorMmPerZ2 is the worst error of depth (range, for a cloud without a grid) over its square. pointsLost and
 pointsWrong are shares, 0-1; a codec whose output is one blob loses the frame with any of its packets of 1200 bytes.
-Where a codec reorders points, each is compared with the nearest one, and colours are not. What \`organised\` decodes is
+If a codec reorders points, each is compared with the nearest one, and colours are not compared. The output of \`organised\` is
 compared as depth, before points are rounded to millimetres.`;
 
 export const bench: Bench = {

@@ -25,12 +25,12 @@ const USAGE = `pnpm bench congestion [--controller NAME,…] [--scenario TEXT] [
 
 Runs rate controllers (adaptive: ours; gcc: Google congestion control; fixed: 40 Mbit/s, halved by loss) over simulated
 links in virtual time: a 30 Hz source as large as the target allows, paced, with padding for probes; a drop-tail queue;
-feedback each 50–62 ms. --trace adds a link from a CSV file \`time_s,capacity_mbps\`; --scenario runs those whose name contains
-the text; --plot draws the step, and the trace where one is given.
+feedback every 50–62 ms. --trace adds a link from a CSV file \`time_s,capacity_mbps\`; --scenario runs the scenarios whose name
+contains the text; --plot draws the step, and the trace if one is given.
 
-used: arrived over what the link could carry, after 5 s. queue: waiting time of the packets sent after 5 s. overflow: of the packets
-sent, those the full queue dropped. until90: from the beginning (or the last rise) until 90 % of the link are used over 0.5 s.
-above100: how long packets kept coming out that had waited more than 100 ms, after the fall. share: of what both flows got.`;
+used: share of the link's capacity that arrived, after 5 s. queue: waiting time of the packets sent after 5 s. overflow: share
+of the sent packets that the full queue dropped. until90: from the start (or the last rise) until 90 % of the link is used over
+0.5 s. above100: how long after the fall packets still arrive that waited more than 100 ms. share: of what both flows got.`;
 
 const M = 1e6;
 const LINK = 41.44 * M;

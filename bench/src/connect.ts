@@ -8,10 +8,10 @@ import { distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench connect [--count 20] [--json]
 
-Real signaling and robot (simulated office), each in its own process, no network between. An operator in this process connects
---count times in each profile, one after the other. It begins the DTLS handshake as soon as its own connectivity checks are
-through, which may be before the robot's are. Farpoint's: from opening the signaling socket to the robot's welcome. Reference
-profile: from the clients' port of signaling to the open data channels, once the robot's offer stands.`;
+Real signaling and robot (simulated office), each in its own process, without a network between them. An operator in this
+process connects --count times in each profile, one after the other. It starts the DTLS handshake as soon as its own
+connectivity checks succeed, which may be before the robot's do. Farpoint profile: from opening the signaling socket to the
+robot's welcome. Reference profile: from the client port of signaling to the open data channels, once the robot's offer exists.`;
 
 const ROBOT = 'sim-1';
 const NAME = 'Simulated robot';

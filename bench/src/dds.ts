@@ -16,11 +16,11 @@ import { type Distribution, distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench dds [--peer fastdds|python] [--side 480] [--hz 10] [--seconds 20] [--mbps 20] [--reliability best-effort|reliable] [--json]
 
-A node of another maker's DDS publishes PointCloud2 of side × side points --hz times a second; the real robot process
+A node on another DDS implementation publishes PointCloud2 of side × side points --hz times a second. The real robot process
 (--source ros2 --sink ros2) samples them for --mbps and sends them to an operator in this process, who drives meanwhile.
-Latency: from the node's beginning to serialise a cloud to the robot's having its packets made. Every cloud has a colour of its
-own: torn counts frames that came with two. Drive: from the operator's command to the node's hearing that Twist. Round trip: of
-a Twist from a graph in this process to the node and back. Loopback.`;
+Latency: from when the node starts to serialise a cloud until the robot has its packets ready. Every cloud has its own colour:
+torn counts frames that arrived with two colours. Drive: from the operator's command until the node receives that Twist.
+Round trip: of a Twist from a graph in this process to the node and back. Loopback.`;
 
 const PEERS: Record<string, PeerKind> = { fastdds: 'Fast DDS', python: 'Python' };
 const ROBOT = 'dds-1';
@@ -30,7 +30,7 @@ const TWIST = 'geometry_msgs/msg/Twist';
 
 export const bench: Bench = {
   name: 'dds',
-  summary: 'a ROS 2 graph of another maker: latency of clouds to packets, velocities, round trip',
+  summary: 'a ROS 2 node on another DDS implementation: latency of clouds to packets, velocities, round trip',
   async run(argv) {
     const { values } = parseArgs({
       args: argv,

@@ -5,26 +5,25 @@ import { numberOption } from './report.ts';
 const USAGE = `pnpm bench link [options]
 
 Real robot (simulated office), signaling and headless Chromium; all packets between robot and browser pass an emulated link.
-The operator drives in circles and tests the latency again and again: from an input event to the end of the display frame
-that shows the whole green cloud (mtpMs), or its first points (mtpFirstMs). Figures are of the time after the first 5 s.
+The operator drives in circles and repeatedly tests the latency: from an input event to the end of the display frame that
+shows the whole green cloud (mtpMs) or its first points (mtpFirstMs). Figures cover the time after the first 5 s.
 
   --rate-mbps 41.44   capacity, both ways, 10^6 bit/s on the wire
-  --trace FILE        capacity from the robot over time, CSV time_s,capacity_mbps; the other way has 50 Mbit/s, and nothing
-                      while the trace has nothing
-  --rtt-ms 42.4       propagation, both ways together
+  --trace FILE        capacity from the robot over time, CSV time_s,capacity_mbps; the other direction has 50 Mbit/s, and no
+                      service while the trace has none
+  --rtt-ms 42.4       propagation delay, both ways together
   --jitter-ms 0  --loss 0  --burst-loss 0  --queue-ms 100
   --cross KIND        a competing flow from the robot's side: cubic, reno
-  --robots 1          so many robots stream over the same link, each to a page of its own; the first one is measured
-  --sensors 1         2: the robot has a LiDAR, too, and the operator wants both; latencies are those of the camera
-  --seconds 30        how long; a trace begins anew when the measurement begins
-  --mode points64     points64, or auto: the best format that both sides know, the whole cloud where the rate allows
-  --draw-every N      every N-th point that comes is drawn, all are decoded: where the GPU is a processor, drawing would
-                      be what is measured. 8 for points64, 192 for auto, some
-                      1,000 points a picture; 1 draws all
-  --fps 60            most frames a second that the camera is asked for
+  --robots 1          this many robots stream over the same link, each to its own page; the first one is measured
+  --sensors 1         2: the robot also has a LiDAR, and the operator watches both; latencies are those of the camera
+  --seconds 30        duration; a trace restarts when the measurement starts
+  --mode points64     points64, or auto: the best format that both sides support, with the whole cloud if the rate allows
+  --draw-every N      draw every N-th point; all are decoded. Without a GPU, the benchmark would otherwise measure the
+                      drawing. 8 for points64, 192 for auto: about 1,000 points a display frame; 1 draws all
+  --fps 60            maximum frames a second to request from the camera
   --plan latency      or paper: every frame, points by the paper's equations 2 and 3
   --rate-control adaptive   or fixed
-  --canvas 160x90     drawn by software: the stream is to be measured, not the renderer
+  --canvas 160x90     small, because it is drawn in software: the stream is to be measured, not the renderer
   --plot FILE.svg     capacity, estimate, delivered rate, latency, points and frames over time
   --json`;
 

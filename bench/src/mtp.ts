@@ -7,8 +7,8 @@ import { distribution, rounded } from './stats.ts';
 const USAGE = `pnpm bench mtp [--points 30000] [--fps 30] [--samples 100] [--mbps 300] [--canvas 160x90] [--json]
 
 Real signaling, robot (simulated office) and headless Chromium. Each sample is one latency test: from an input event to the
-end of the display frame that shows the whole green cloud (mtpMs), or its first points (mtpFirstMs). Input events come at
-times unrelated to the camera's. --mbps is what the robot may send; the camera has 480 × 480 points.`;
+end of the display frame that shows the whole green cloud (mtpMs) or its first points (mtpFirstMs). Input events are not
+synchronised with the camera. --mbps limits what the robot sends; the camera has 480 × 480 points.`;
 
 export const bench: Bench = {
   name: 'mtp',

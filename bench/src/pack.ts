@@ -14,7 +14,7 @@ again, in WASM and in plain JavaScript.`;
 
 export const bench: Bench = {
   name: 'pack',
-  summary: 'kernel: time to pack and unpack points64 packets, beside plain JavaScript',
+  summary: 'kernel: time to pack and unpack points64 packets, compared with plain JavaScript',
   async run(argv) {
     const { values } = parseArgs({
       args: argv,

@@ -7,8 +7,8 @@ import { type Bench, numberOption, printJson, printTable } from './report.ts';
 
 const USAGE = `pnpm bench picture --out FILE.png [--rate-mbps 8] [--rtt-ms 42.4] [--fps 10] [--seconds 10] [--size 640x480] [--json]
 
-Real robot (simulated office, standing), signaling and headless Chromium over an emulated link: what the operator sees after
---seconds as points64, left, and as auto, right.`;
+Real robot (simulated office, standing), signaling and headless Chromium over an emulated link. The picture shows what the
+operator sees after --seconds: left with points64, right with auto.`;
 
 interface Picture {
   mode: string;
@@ -21,7 +21,7 @@ interface Picture {
 
 export const bench: Bench = {
   name: 'picture',
-  summary: 'what an operator sees over a link, points64 beside the whole cloud',
+  summary: 'what an operator sees over a link: points64 compared with the whole cloud',
   async run(argv) {
     const { values } = parseArgs({
       args: argv,

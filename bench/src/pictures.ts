@@ -8,12 +8,12 @@ import { distribution, rounded, timeCalls } from './stats.ts';
 
 const USAGE = `pnpm bench pictures [--width 640] [--height 480] [--quality 70] [--rounds 200] [--json]
 
-Kernel benchmark, in one process, with a picture of the simulated camera: a JPEG written and read, and what becomes of a raw
-bgr8 image of that size that is shrunk by 1 and by 2.`;
+Kernel benchmark, in one process, with a picture of the simulated camera: writes and reads a JPEG, and turns a raw bgr8 image
+of that size into JPEGs at full and at half size.`;
 
 export const bench: Bench = {
   name: 'pictures',
-  summary: 'kernel: a camera’s picture made fit for the link: shrinking, JPEG',
+  summary: 'kernel: shrinking a camera’s picture and encoding it as JPEG',
   async run(argv) {
     const { values } = parseArgs({
       args: argv,

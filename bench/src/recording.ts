@@ -10,14 +10,15 @@ import { type LayoutResult, measure } from './shm.ts';
 
 const USAGE = `pnpm bench recording [--size 480] [--fps 30] [--captured-fps 30] [--seconds 60] [--mbps 20] [--pictures 0] [--compression none] [--folder FOLDER] [--json]
 
-A camera's process gives size × size points --fps times a second through shared memory; the robot sends them to an operator,
-first without a recording and then with one of everything: --captured-fps clouds a second as captured (16 bytes a point), all
-as sent, and the rest; with --pictures N also the camera's picture N times a second, as its operator is sent it. Latency: from the camera's beginning to write a frame to the robot's having its packets made. Memory:
-of the robot's process, in the first and in the last fifth of the time. Then the file is read back: every message is counted.`;
+A camera process writes size × size points --fps times a second to shared memory. The robot sends them to an operator, first
+without a recording, then while recording everything: --captured-fps captured clouds a second (16 bytes a point), all sent
+clouds, and all other topics; with --pictures N also the camera's picture N times a second, as sent to the operator.
+Latency: from when the camera starts to write a frame until the robot has its packets ready. Memory: of the robot process, in
+the first and the last fifth of the run. Afterwards the file is read back and every message is counted.`;
 
 export const bench: Bench = {
   name: 'recording',
-  summary: 'recording a session: latency it adds, memory over time, every message accounted for',
+  summary: 'recording a session: added latency, memory over time, a count of every message',
   async run(argv) {
     const { values } = parseArgs({
       args: argv,

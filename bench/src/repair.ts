@@ -15,8 +15,8 @@ import { type Bench, numberOption, printJson, printTable } from './report.ts';
 
 const USAGE = `pnpm bench repair [--loss 0.01,0.05] [--rtt-ms 40] [--mbps 20] [--seconds 15] [--robot="--mode points64 …"] [--json]
 
-Real robot (simulated office), signaling, and Chromium and Firefox one after the other, over an emulated link that loses
-packets both ways. --robot passes the robot further options. Repaired are packets that were missed, asked for and sent again.`;
+Real robot (simulated office), signaling, and Chromium and then Firefox, over an emulated link that loses packets both ways.
+--robot passes further options to the robot. Repaired packets are those that were missing, requested and resent.`;
 
 const WARM_UP_MS = 5000;
 const BROWSERS = ['chromium', 'firefox'] as const;
@@ -28,7 +28,7 @@ interface Visit {
 
 export const bench: Bench = {
   name: 'repair',
-  summary: 'lost packets, asked for and sent again, in Chromium and in Firefox',
+  summary: 'lost packets, requested and resent, in Chromium and in Firefox',
   async run(argv) {
     const { values } = parseArgs({
       args: argv,

@@ -13,10 +13,11 @@ import { distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench ros1 [--hz 10] [--seconds 20] [--mbps 20] [--as points|picture|images] [--json]
 
-A rospy node of a real ROS 1 master publishes PointCloud2 of 480 × 480 points, 20 bytes each, --hz times a second; the real
-robot process (--source ros1) samples them for --mbps and sends them to an operator in this process. With --as picture its
-CameraInfo is named, too, and the cloud is taken as a depth picture; with images depth (16UC1) and colour (rgb8) come as such. Latency: from the stamp, which the node takes right before
-it publishes, to the robot's having the packets made. Loopback.`;
+A rospy node under a real ROS 1 master publishes PointCloud2 of 480 × 480 points, 20 bytes each, --hz times a second. The
+real robot process (--source ros1) samples them for --mbps and sends them to an operator in this process. With --as picture
+the CameraInfo is named too, and the cloud is taken as a depth image; with --as images depth (16UC1) and colour (rgb8) come
+as images. Latency: from the stamp, which the node takes right before it publishes, until the robot has the packets ready.
+Loopback.`;
 
 const FORMS = ['points', 'picture', 'images'] as const;
 const ROBOT = 'ros-1';

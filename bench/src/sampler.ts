@@ -11,12 +11,12 @@ import { type Distribution, distribution, rounded, timeCalls } from './stats.ts'
 
 const USAGE = `pnpm bench sampler [--points 230400] [--n 30000] [--lambda 3] [--rounds 300] [--draws 40] [--json]
 
-Kernel benchmark, in one process. Chooses --n of --points points by the paper's depth weights, in WASM and, where Cargo
-is there, natively; compares --draws draws with the exact distribution (p-value of a chi-square test).`;
+Kernel benchmark, in one process. Chooses --n of --points points by the paper's depth weights, in WASM and, if Cargo is
+installed, natively; compares --draws draws with the exact distribution (p-value of a chi-square test).`;
 
 export const bench: Bench = {
   name: 'sampler',
-  summary: 'kernel: time of the depth-weighted sampling, and whether its distribution is right',
+  summary: 'kernel: time of the depth-weighted sampling, and a test of its distribution',
   async run(argv) {
     const { values } = parseArgs({
       args: argv,

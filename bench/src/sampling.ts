@@ -10,9 +10,9 @@ import { pcdCloud, simulatedCloud } from './sampling-clouds.ts';
 
 const USAGE = `pnpm bench sampling [--cloud FILE.pcd] [--fps 10] [--near 3.85] [--plot FILE.svg] [--json]
 
-Samples one cloud (the simulated camera's, or a PCD file's) at several bandwidths and values of lambda, and counts the
-points that are kept at each distance: with all points nearer than --near metres weighing the same (the paper's D), and
-with no such zone. Without --plot it prints the mean depth only.`;
+Samples one cloud (from the simulated camera or a PCD file) at several bandwidths and values of lambda, and counts the
+points kept at each distance: once with equal weights for all points nearer than --near metres (the paper's D), and once
+without such a zone. Without --plot it prints only the mean depth.`;
 
 const LAMBDAS = [0, 3, 7, 9];
 const MEGABITS = [10, 25, 50];

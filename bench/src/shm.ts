@@ -14,10 +14,10 @@ import { type Distribution, distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench shm [--layout both|reference|farpoint] [--size 480] [--fps 30] [--seconds 20] [--mbps 20] [--kill N [--seed 1]] [--json]
 
-A producer's process writes size × size points --fps times a second; the real robot process takes them, samples them for
---mbps (10^6 bit/s) and sends them to an operator in this process. Latency: from the producer's beginning to write a frame
-to the robot's having that frame's packets made. Every frame has a colour of its own: torn counts frames that came with two.
---kill N instead kills producer and reader at random, each a process, until N frames have been read and checked in full.`;
+A producer process writes size × size points --fps times a second; the real robot process samples them for --mbps (10^6
+bit/s) and sends them to an operator in this process. Latency: from when the producer starts to write a frame until the robot
+has the frame's packets ready. Every frame has its own colour: torn counts frames that arrived with two colours.
+--kill N instead kills the producer and reader processes at random until N frames have been read and checked in full.`;
 
 const LAYOUTS = ['reference', 'farpoint'] as const;
 type Layout = (typeof LAYOUTS)[number];

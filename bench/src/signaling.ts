@@ -9,12 +9,12 @@ import { distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench signaling [--robots 2000] [--operators 2000] [--rate 100] [--candidates 5] [--churn 1] [--json]
 
-Starts the signaling service as a process, and robots and operators on real loopback sockets in another. All connect; then
-every operator opens a session with a robot, at --rate sessions a second, and offer, answer and --candidates each way are
-relayed. Meanwhile --churn other robots a second come and go, so that every operator's list changes all the time.
+Starts the signaling service in one process, and robots and operators on real loopback sockets in another. All connect; then
+every operator opens a session with a robot, at --rate sessions a second, and the service relays offer, answer and
+--candidates each way. Meanwhile --churn other robots a second come and go, so every operator's list keeps changing.
 
-relayMs: from handing a message to the sender's socket until the receiver's has given it out, both timed in the clients'
-process. bytesPerConnection: growth of the service's resident memory over its connections, all of them idle.`;
+relayMs: from when a message is handed to the sender's socket until the receiver's socket delivers it, both timed in the
+clients' process. bytesPerConnection: growth of the service's resident memory per connection, with all of them idle.`;
 
 export const bench: Bench = {
   name: 'signaling',

@@ -7,8 +7,8 @@ import { distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench sim [--frames 300] [--fps 30] [--width 480] [--height 480] [--seed 1] [--json]
 
-Kernel benchmark, in one process. Drives the simulated robot through the hall of the office and takes --frames pictures,
---fps to the simulated second; cores is the processor time that this takes in real time.`;
+Kernel benchmark, in one process. Drives the simulated robot through the hall of the office and renders --frames frames,
+--fps per simulated second; cores is the processor load of doing this in real time.`;
 
 const WARM_UP = 60;
 

@@ -11,9 +11,10 @@ import { distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench transport [--mbps 40] [--seconds 20] [--fps 30] [--canvas 64x36] [--json]
 
-Real robot (simulated office, points64), signaling and headless Chromium, no network between. The robot fills --mbps (10^6
-bit/s on the wire, all headers counted). Delivery is from the socket's send call to the browser's worker, each packet; robot
-and browser clocks are aligned by the session's own clock probes. The canvas is tiny: this is about the stream.`;
+Real robot (simulated office, points64), signaling and headless Chromium, without a network between them. The robot fills
+--mbps (10^6 bit/s on the wire, including headers). Delivery is measured for each packet, from the socket's send call to the
+browser's worker; the session's own clock probes align the robot's and the browser's clocks. The canvas is tiny so that the
+stream is measured, not the drawing.`;
 
 const WARM_UP_MS = 2000;
 /** Besides the payload, each packet has: RTP header 12, extensions 12, SRTP tag 16, UDP 8, IPv4 20. */

@@ -12,7 +12,7 @@ test('what may be left out has its default', () => {
 
 test.each([
   [['--robot', '2'], '--robot is not an option (did you mean --robots?); `pnpm dev --help` lists them'],
-  [['2'], '"2" belongs to no option; `pnpm dev --help` lists them'],
+  [['2'], '"2" does not belong to an option; `pnpm dev --help` lists them'],
   [['-x'], '-x is not an option; `pnpm dev --help` lists them'],
   [['--robots'], '--robots needs a number after it; `pnpm dev --help` lists them'],
   [['--robots', 'two'], '--robots must be a whole number from 1 to 16, not "two"'],

@@ -4,13 +4,13 @@ import { closest } from '@farpoint/service';
 
 export const DEV_HELP = `pnpm dev [options]
 
-  --port N     port of the web app; left out, 5173 or the next that is free
-  --robots N   how many simulated robots, 1 to 16 (1)
-  --verbose    show what every program logs
+  --port N     port of the web app; default: 5173 or the next free one
+  --robots N   number of simulated robots, 1 to 16 (1)
+  --verbose    show the logs of every program
 
 Signaling listens on 3000 (Farpoint), 3001 and 3002 (reference protocol); robots answer /healthz and /metrics from 9410
-up. Of these ports the next free one is taken where another program has one, and that is said. A program that ends is
-started again.
+up. If another program uses one of these ports, the next free one is taken and reported. A program that ends is
+restarted.
 `;
 
 const OPTIONS = {
@@ -47,7 +47,7 @@ export function readDevOptions(argv: readonly string[]): DevOptions | null {
   });
   for (const token of tokens) {
     if (token.kind === 'positional')
-      throw new DevOptionError(`${JSON.stringify(token.value)} belongs to no option; ${SEE_HELP}`);
+      throw new DevOptionError(`${JSON.stringify(token.value)} does not belong to an option; ${SEE_HELP}`);
     if (token.kind !== 'option') continue;
     if (!Object.hasOwn(OPTIONS, token.name))
       throw new DevOptionError(

@@ -10,7 +10,7 @@ import { run } from './run.ts';
 export async function ensureChromium(say: (line: string) => void): Promise<string | null> {
   const found = findChromium();
   if (found !== null) return found;
-  say('no Chromium here; fetching the one that Playwright keeps');
+  say('Chromium is missing; fetching Playwright’s');
   // Its download is tried once: where its server is out of reach, the distribution's package serves as well.
   const env = { PLAYWRIGHT_DOWNLOAD_CONNECTION_TIMEOUT: '10000' };
   const fetched = await run('pnpm', ['--dir', 'e2e', 'exec', 'playwright', 'install', 'chromium'], {

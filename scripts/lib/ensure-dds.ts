@@ -17,11 +17,11 @@ export async function ensureDdsPeers(say: (line: string) => void): Promise<void>
   const fastDds = '#include <fastdds/dds/domain/DomainParticipant.hpp>';
   if (!(await compiles('c++', fastDds))) await aptInstall('libfastrtps-dev', say);
   if (!(await compiles('c++', fastDds)))
-    say('no Fast DDS: its tests are left out (apt-get install libfastrtps-dev g++)');
+    say('Fast DDS is missing: its tests are skipped (apt-get install libfastrtps-dev g++)');
   const candidates = [process.env.FARPOINT_DDS_PYTHON, join(FOLDER, 'bin', 'python3'), 'python3'];
   for (const python of candidates) if (python !== undefined && (await hasCyclone(python))) return;
   if (!existsSync(FOLDER)) {
-    say('no DDS for Python here; fetching it for the tests');
+    say('DDS for Python is missing; fetching it for the tests');
     await run('python3', ['-m', 'venv', FOLDER], { timeoutMs: 60_000 });
     const pip = join(FOLDER, 'bin', 'pip');
     await run(
@@ -33,7 +33,7 @@ export async function ensureDdsPeers(say: (line: string) => void): Promise<void>
     );
   }
   if (!(await hasCyclone(join(FOLDER, 'bin', 'python3'))))
-    say('no DDS for Python: its tests are left out (pip install cyclonedds)');
+    say('DDS for Python is missing: its tests are skipped (pip install cyclonedds)');
 }
 
 async function compiles(language: 'c' | 'c++', source: string): Promise<boolean> {

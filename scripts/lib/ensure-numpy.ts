@@ -10,13 +10,13 @@ export async function ensureNumpy(say: (line: string) => void): Promise<void> {
   const candidates = [process.env.FARPOINT_PYTHON, join(FOLDER, 'bin', 'python3'), 'python3'];
   for (const python of candidates) if (python !== undefined && (await hasNumpy(python))) return;
   if (!existsSync(FOLDER)) {
-    say('no numpy here; fetching it for the tests of the Python producer');
+    say('numpy is missing; fetching it for the tests of the Python producer');
     await run('python3', ['-m', 'venv', FOLDER], { timeoutMs: 60_000 });
     const pip = join(FOLDER, 'bin', 'pip');
     await run(pip, ['install', '--quiet', '--disable-pip-version-check', 'numpy'], { timeoutMs: 180_000 });
   }
   if (!(await hasNumpy(join(FOLDER, 'bin', 'python3'))))
-    say('no numpy: the tests of the Python producer are left out (apt-get install python3-numpy)');
+    say('numpy is missing: the tests of the Python producer are skipped (apt-get install python3-numpy)');
 }
 
 async function hasNumpy(python: string): Promise<boolean> {

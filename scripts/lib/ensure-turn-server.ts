@@ -5,7 +5,7 @@ import { run } from './run.ts';
 export async function ensureTurnServer(say: (line: string) => void): Promise<void> {
   if (await isThere()) return;
   await aptInstall('coturn', say);
-  if (!(await isThere())) say('no turnserver here: the relay test is left out (apt-get install coturn)');
+  if (!(await isThere())) say('turnserver is missing: the relay test is skipped (apt-get install coturn)');
 }
 
 async function isThere(): Promise<boolean> {

@@ -69,7 +69,9 @@ function rebuild(say: (line: string) => void): string | null {
     for (const built of buildWasm({ outOfTree: scratch, toolchain, log: say })) {
       const committed = readRecord(join(root, built.crate.outDir));
       if (committed?.toolchain !== built.record.toolchain) {
-        say(`${built.crate.name}: built; another toolchain than the recorded one, so bytes are not compared`);
+        say(
+          `${built.crate.name}: built; the toolchain differs from the recorded one, so bytes are not compared`,
+        );
         continue;
       }
       for (const file of [

@@ -163,7 +163,8 @@ export class Bridge {
       {
         onOpen: () => line.send({ type: 'getRobots' }),
         onMessage: (message) => this.roster.onSignaling(message),
-        onDown: (detail) => this.#log.warn({ url: this.#url, detail }, 'no line to signaling; trying again'),
+        onDown: (detail) =>
+          this.#log.warn({ url: this.#url, detail }, 'no connection to signaling; trying again'),
       },
     );
     return line;

@@ -83,7 +83,7 @@ await runProgram(program, async ({ options, log, health, metrics, shutdown, serv
     try {
       log.info(control(link, data, initial), 'told');
     } catch (error) {
-      log.error({ err: error }, 'a message of the parent process cannot be obeyed');
+      log.error({ err: error }, 'a message from the parent process cannot be executed');
     }
   });
   const cpu = process.cpuUsage();

@@ -15,7 +15,7 @@ export function registerLinkMetrics(registry: Registry, link: () => UdpLink) {
     'direction',
     'reason',
   ]);
-  const faults = counter('candidates_left_out_total', 'Candidates that cannot be led through the link', [
+  const faults = counter('candidates_left_out_total', 'Candidates that cannot be routed through the link', [
     'fault',
   ]);
   const queue = new Gauge({

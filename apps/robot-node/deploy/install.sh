@@ -1,13 +1,13 @@
 #!/bin/sh
-# Installs the robot from this checkout, to run under systemd. As root:
+# Installs the robot from this checkout as a systemd service. Run as root:
 #
 #   apps/robot-node/deploy/install.sh [--source KIND] [--dest DIR] [--files-only]
 #
-# --source KIND  of the configuration that is written where there is none (farpoint-robot init --help)
-# --dest DIR     installs below DIR instead of /, for images and for tests; nothing is started
-# --files-only   copies files and no more: no user, no packages from the network, no service
+# --source KIND  source for the configuration, which is written if there is none (farpoint-robot init --help)
+# --dest DIR     install below DIR instead of /, for images and tests; nothing is started
+# --files-only   only copy files: no user, no packages from the network, no service
 #
-# It may be run again to upgrade: configuration and secrets that are there stay as they are.
+# To upgrade, run it again: existing configuration and secrets are kept.
 set -eu
 
 say() { printf '%s\n' "$*"; }
@@ -19,21 +19,21 @@ while [ $# -gt 0 ]; do
     --source) source_kind=${2:?--source needs a kind}; shift 2 ;;
     --dest) dest=${2:?--dest needs a folder}; shift 2 ;;
     --files-only) files_only=yes; shift ;;
-    *) die "unknown argument $1; the head of this file has them all" ;;
+    *) die "unknown argument $1; the comment at the top of this file lists the arguments" ;;
   esac
 done
 
 here=$(cd "$(dirname "$0")" && pwd)
 repository=$(cd "$here/../../.." && pwd)
 opt=$dest/opt/farpoint
-[ -f "$repository/pnpm-lock.yaml" ] || die "run it from a checkout: $repository has no pnpm-lock.yaml"
+[ -f "$repository/pnpm-lock.yaml" ] || die "run it in a checkout: $repository has no pnpm-lock.yaml"
 if [ -z "$dest" ] && [ "$files_only" = no ]; then
   [ "$(id -u)" = 0 ] || die 'run it as root'
-  # systemctl alone may be there without it, as in a container.
-  [ -d /run/systemd/system ] || die 'systemd does not run here: docs/real-robot.md has the container'
+  # In a container, systemctl may exist although systemd does not run.
+  [ -d /run/systemd/system ] || die 'systemd does not run here: see docs/real-robot.md for the container'
 fi
 
-# Node that runs TypeScript as it is: the system's, or the one that the workspace carries.
+# A Node that runs TypeScript directly: the system's, or the workspace's.
 runs_typescript() {
   "$1" -e 'const [a, b] = process.versions.node.split("."); process.exit(a > 22 || (a == 22 && b >= 18) ? 0 : 1)' 2>/dev/null
 }
@@ -76,8 +76,8 @@ if [ "$files_only" = no ]; then
     export CI=1 npm_config_verify_deps_before_run=false
     npx -y pnpm@12 install --frozen-lockfile --prod --filter-prod '@farpoint/robot-node...'
   )
-  say 'building the addons for shared memory, systemd and, where its library is there, ROS 2'
-  # With the Node that its headers lie beside.
+  say 'building the addons for shared memory, systemd and, if its library is installed, ROS 2'
+  # With the Node whose headers are installed beside it.
   (cd "$opt" && "$node" scripts/build-native.ts)
 fi
 
@@ -91,13 +91,13 @@ if [ -z "$dest" ] && [ "$files_only" = no ]; then
     useradd --system --user-group --home-dir /var/lib/farpoint --no-create-home --shell /usr/sbin/nologin farpoint
   fi
   chgrp farpoint "$config"
-  sysctl -q -p /etc/sysctl.d/60-farpoint.conf || say 'the sizes of socket buffers stay as they are'
+  sysctl -q -p /etc/sysctl.d/60-farpoint.conf || say 'the socket buffer sizes were not changed'
   systemctl daemon-reload
   systemctl enable farpoint-robot
 fi
 if [ -z "$dest" ] && [ "$files_only" = no ] && systemctl -q is-active farpoint-robot; then
-  say 'done. The robot that runs is still the old one: `systemctl restart farpoint-robot` when nobody drives.'
+  say 'done. The running robot is still the old version: run `systemctl restart farpoint-robot` when nobody drives.'
   exit
 fi
 say "done. Next: edit $config and $dest/etc/farpoint/robot.env, run \`farpoint-robot doctor --config $config\`,"
-say 'then `systemctl start farpoint-robot`.'
+say 'then run `systemctl start farpoint-robot`.'

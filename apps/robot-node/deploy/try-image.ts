@@ -138,7 +138,7 @@ function tryDoctor(configured: readonly string[]): void {
   // What an emulated processor is too slow for says nothing about a real one.
   const slow = (check: string) => emulated && ['processor', 'codec', 'source'].includes(check);
   const said = faults.map(({ check, detail }) => `${check}: ${detail}`).join('; ');
-  check('the doctor finds nothing to mend', findings.length > 5 && faults.every((f) => slow(f.check)), said);
+  check('the doctor finds nothing to fix', findings.length > 5 && faults.every((f) => slow(f.check)), said);
 }
 
 /** Starts the robot as it would be for good, less every right that it can do without, and waits for its health. */

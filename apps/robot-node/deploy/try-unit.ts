@@ -126,7 +126,7 @@ async function tryUnit(): Promise<void> {
   check('each of its lines in the journal is a record of that priority', entries.every(isRecord));
   const asRobot = `systemd-run --pipe --wait --collect -q -p User=farpoint -p EnvironmentFile=/etc/farpoint/robot.env`;
   const doctor = inside(`${asRobot} farpoint-robot doctor --config /etc/farpoint/robot.yaml`);
-  check('the doctor finds nothing to mend', doctor.code === 0, doctor.output.split('\n').at(-1));
+  check('the doctor finds nothing to fix', doctor.code === 0, doctor.output.split('\n').at(-1));
   const exposure = inside(`systemd-analyze security ${UNIT} --no-pager`).output.split('\n').at(-1) ?? '';
   check('it is exposed little', exposure.includes('OK'), exposure.replace(/^\W*/, ''));
 

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Takes away what install.sh put there. As root: uninstall.sh [--dest DIR] [--purge]
+# Removes what install.sh installed. Run as root: uninstall.sh [--dest DIR] [--purge]
 #
-# --purge  configuration, secrets, recordings and the user too
+# --purge  also remove configuration, secrets, recordings and the user
 set -eu
 
 dest='' purge=no
@@ -21,10 +21,10 @@ rm -f "$dest/etc/systemd/system/farpoint-robot.service" "$dest/etc/sysctl.d/60-f
 if [ "$purge" = yes ]; then
   rm -rf "$dest/etc/farpoint" "$dest/var/lib/farpoint"
   if [ -z "$dest" ] && id farpoint >/dev/null 2>&1; then
-    # Nobody inherits them with the user's number.
+    # So that no later user with the same number inherits them.
     find /dev/shm -maxdepth 1 -user farpoint -delete
-    userdel farpoint || printf 'the user farpoint is still there: end its programs, then `userdel farpoint`\n'
+    userdel farpoint || printf 'the user farpoint still exists: stop its programs, then run `userdel farpoint`\n'
   fi
 fi
 if [ -z "$dest" ]; then systemctl daemon-reload; fi
-printf 'removed%s\n' "$([ "$purge" = yes ] && printf ', configuration and recordings too' || printf '; /etc/farpoint and /var/lib/farpoint are still there')"
+printf 'removed%s\n' "$([ "$purge" = yes ] && printf ', including configuration and recordings' || printf '; /etc/farpoint and /var/lib/farpoint were kept')"

@@ -20,11 +20,11 @@ describe('a robot that cannot start', () => {
     [['--source', 'pcd', '--path', missing], `pcd: ${missing} does not exist`, 'a PCD file'],
     [['--source', 'pcd', '--path', words], 'words.txt: PCD, line 1', 'a PCD file'],
     [['--source', 'rgbd', '--path', missing], `rgbd: ${missing} does not exist`, 'a folder of colour'],
-    [['--source', 'rgbd', '--path', words], `rgbd: ${words} is no folder`, 'a folder of colour'],
+    [['--source', 'rgbd', '--path', words], `rgbd: ${words} is not a folder`, 'a folder of colour'],
     [['--source', 'recording', '--path', missing], `recording: ${missing} does not exist`, 'an MCAP file'],
     [['--source', 'recording', '--path', words], 'neither MCAP nor a ROS 1 bag', 'an MCAP file'],
-    [['--record', words], `${words} is there already`, 'name another file'],
-    [['--record', join(missing, 'a.mcap')], `${missing} is no folder`, 'make it'],
+    [['--record', words], `${words} already exists`, 'name another file'],
+    [['--record', join(missing, 'a.mcap')], `${missing} is not a folder`, 'create it'],
   ])('%j: says so once, with what to do, and without a stack', async (args, detail, remedy) => {
     const robot = new LoggingProcess(program, [...args, '--admin-port', '0', '--sim-size', '16']);
     const said = await robot.logged(/^could not start: /);

@@ -29,7 +29,7 @@ test('runs alone, serves, and at SIGTERM says farewell and exits with 0', async 
   robot.send({ type: 'robot.hello', protocol: 1, id: 'r1', name: 'R', key: 'k' });
   await robot.until('robot.welcome');
   service.child.kill('SIGHUP'); // nothing to read again, nothing lost
-  await service.logged('read certificate and tokens again');
+  await service.logged('reloaded certificate and tokens');
   service.child.kill('SIGTERM');
   expect(await robot.until('error')).toMatchObject({ code: 'shutting-down' });
   expect((await robot.closed).code).toBe(1012);

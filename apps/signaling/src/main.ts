@@ -10,7 +10,7 @@ await runProgram(program, async ({ options, log, health, metrics, shutdown }) =>
     try {
       signaling.reload();
     } catch (error) {
-      log.error({ err: error }, 'could not read certificate and tokens again: the old ones stay in force');
+      log.error({ err: error }, 'could not reload certificate and tokens: the old ones stay in force');
     }
   });
 });

@@ -32,7 +32,7 @@ export function createObserver(log: Logger, registry: Registry, counts: () => Co
   });
   new Gauge({
     name: 'farpoint_signaling_robots',
-    help: 'Robots that are here, by protocol.',
+    help: 'Connected robots, by protocol.',
     labelNames: ['protocol'],
     registers,
     collect() {
@@ -43,7 +43,7 @@ export function createObserver(log: Logger, registry: Registry, counts: () => Co
   });
   new Gauge({
     name: 'farpoint_signaling_sessions',
-    help: 'Sessions that are being set up or running.',
+    help: 'Sessions being set up or running.',
     registers,
     collect() {
       this.set(counts().sessions);
@@ -68,7 +68,7 @@ export function createObserver(log: Logger, registry: Registry, counts: () => Co
   });
   const relaySeconds = new Histogram({
     name: 'farpoint_signaling_relay_seconds',
-    help: 'From reading a message to handing it to the socket of its receiver.',
+    help: 'Time from reading a message to handing it to the receiver’s socket.',
     buckets: [0.00002, 0.00005, 0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01, 0.05],
     registers,
   });

@@ -154,7 +154,7 @@ class SignalingService implements RunningSignaling {
   reload(): void {
     this.#files = readFiles(this.#options);
     for (const listener of this.#listeners) if (this.#files.tls !== null) listener.setTls(this.#files.tls);
-    this.#log.info('read certificate and tokens again');
+    this.#log.info('reloaded certificate and tokens');
   }
 
   close(): Promise<void> {
@@ -257,10 +257,10 @@ class SignalingService implements RunningSignaling {
     if (robots.open || operators.open) {
       this.#log.warn(
         { host, robots: robots.open ? 'open' : 'tokens', operators: operators.open ? 'open' : 'tokens' },
-        'anybody who reaches this address may come in: set --robot-tokens and --operator-tokens',
+        'anybody who can reach this address may connect: set --robot-tokens and --operator-tokens',
       );
     } else if (reference && referenceOpen) {
-      this.#log.warn({ host }, 'anybody who reaches the ports of the reference system may come in');
+      this.#log.warn({ host }, 'anybody who can reach the ports of the reference system may connect');
     }
   }
 }

@@ -147,7 +147,7 @@ function headerLines(file: Uint8Array): { lines: Map<string, Line>; dataOffset: 
     const [keyword = '', ...words] = text.split(/\s+/);
     if (!KEYWORDS.includes(keyword)) {
       const code = lines.size === 0 ? 'not-pcd' : 'bad-header';
-      throw new PcdError(code, `line ${number}`, `${shown(keyword)} is no header line`);
+      throw new PcdError(code, `line ${number}`, `${shown(keyword)} is not a header line`);
     }
     if (lines.has(keyword)) throw new PcdError('bad-header', `line ${number}`, `a second ${keyword} line`);
     lines.set(keyword, { number, words });

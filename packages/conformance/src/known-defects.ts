@@ -8,7 +8,7 @@ export const knownDefects = {
   'farewell-without-id': 'an explicit farewell is told without the robot’s id, and not as deregistered',
   'one-client': 'only the client that connected last is told of changes',
   'any-socket-for-any-robot': 'any robot’s socket may offer for another robot, or end its registration',
-  'garbage-ends-signaling': 'a message that is no JSON object ends the program',
+  'garbage-ends-signaling': 'a message that is not a JSON object ends the program',
   // Robot
   'streams-unasked': 'a robot that one operator started streams to the next one unasked',
   // Bridge
@@ -17,7 +17,7 @@ export const knownDefects = {
   'order-of-arrival': 'points stand in the order in which their packets came',
   'doubled-points': 'a packet that comes twice stands for two',
   'late-in-wrong-frame': 'a packet that comes late ends the frame of now',
-  'reads-what-is-no-packet': 'what is no packet is shown as points',
+  'reads-what-is-no-packet': 'data that is not a packet is shown as points',
   'shows-nobody': 'switchRobot with an unknown id hides the robot that is shown',
   'command-breaks-socket': 'a command for a robot whose channel is not open ends the page’s socket',
   'offer-ends-bridge': 'an offer that cannot be read ends the program',

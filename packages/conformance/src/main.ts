@@ -11,13 +11,13 @@ const USAGE = `pnpm conformance signaling [--robot URL] [--client URL]
 pnpm conformance robot --name NAME [--client URL]
 pnpm conformance bridge [--robot URL] [--client URL] [--control URL] [--telemetry URL] [--streaming URL]
 
-Runs the suite against a running implementation. URLs are those of the reference system on this machine unless told otherwise:
-robots' port ws://127.0.0.1:3001, clients' port :3002, the bridge's sockets :8085, :8090, :8095. A bridge is told the clients' port by
-initBridge. For the bridge no robot must be registered but those that the suite brings.
+Runs the suite against a running implementation. By default the URLs are those of the reference system on this machine: robot
+port ws://127.0.0.1:3001, client port :3002, the bridge's sockets :8085, :8090, :8095. initBridge tells a bridge the client
+port. During the bridge suite, no robots but the suite's own may be registered.
 
---level strict (default) asks for all that the protocol needs; --level reference for what the released programs do: what they get wrong
-is listed as a known defect, and no case is tried by which one of them would end. --json prints the results as JSON. Exit status 1 where
-a case fails, 2 for arguments that cannot be used.`;
+--level strict (default) requires everything that the protocol needs. --level reference requires what the released programs do:
+their faults are listed as known defects, and cases that would end one of them are not tried. --json prints the results as JSON.
+Exit status: 1 if a case fails, 2 for invalid arguments.`;
 
 function readArguments() {
   return parseArgs({

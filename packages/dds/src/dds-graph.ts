@@ -140,7 +140,8 @@ function namesOf({ topic, type }: { topic: string; type: string; qos: Qos }): {
   ddsType: string;
 } {
   const [ddsTopic, ddsType] = [toDdsTopic(topic), toDdsType(type)];
-  if (ddsTopic === null) throw new RosFault('unsupported', `${topic} is not a whole topic name`, { topic });
+  if (ddsTopic === null)
+    throw new RosFault('unsupported', `${topic} is not a complete topic name`, { topic });
   if (ddsType === null) throw new RosFault('unsupported', `${type} is not a message type`, { topic });
   return { ddsTopic, ddsType };
 }
@@ -149,12 +150,12 @@ function openingFault(error: unknown, { domain, interface: network }: DdsOptions
   const { code, message } = error as NodeJS.ErrnoException;
   if (code === 'CONFIGURATION') {
     const what = `DDS domain ${domain} is in use in this process with another configuration`;
-    return new RosFault('unavailable', what, { cause: error, remedy: 'give both the same options' });
+    return new RosFault('unavailable', what, { cause: error, remedy: 'give both graphs the same options' });
   }
   const at = network === undefined ? '' : ` on interface ${network}`;
   return new RosFault('unavailable', `DDS domain ${domain} could not be joined${at} (${said || message})`, {
     cause: error,
-    remedy: 'see that the network interface is there and that CYCLONEDDS_URI is right',
+    remedy: 'check that the network interface exists and that CYCLONEDDS_URI is correct',
   });
 }
 

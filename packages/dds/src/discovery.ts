@@ -103,7 +103,7 @@ function refusals(
     (what) =>
       new RosFault('refused', `${offering} has ${what} as ${asking} asks`, {
         topic,
-        remedy: 'ask for no more than is offered (qos)',
+        remedy: 'request no more than is offered (qos)',
       }),
   );
 }

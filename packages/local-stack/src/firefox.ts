@@ -31,5 +31,5 @@ export function firefoxMissing(): string | null {
       : firefoxNeedsDisplay && findProgram(['Xvfb']) === null
         ? 'no Xvfb for Firefox'
         : null;
-  return missing === null ? null : `${missing} here: its tests are left out (${FIREFOX_REMEDY})`;
+  return missing === null ? null : `${missing} here: its tests are skipped (${FIREFOX_REMEDY})`;
 }

@@ -61,7 +61,7 @@ export class BagRecording implements Recording {
       throw asRecordingError(error, bytes);
     }
     if (bag.header?.indexPosition === 0) {
-      throw new RecordingError('not-indexed', 'its recorder was killed; `rosbag reindex` cures it', {
+      throw new RecordingError('not-indexed', 'its recorder was killed; run `rosbag reindex` on it', {
         file: bytes.path,
         offset: 0,
       });

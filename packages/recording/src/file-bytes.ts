@@ -50,7 +50,7 @@ export class FileBytes {
       } catch (error) {
         throw new RecordingError('unreadable', detailOf(error), { ...where, cause: error });
       }
-      if (bytesRead === 0) throw new RecordingError('truncated', 'the file became shorter', where);
+      if (bytesRead === 0) throw new RecordingError('truncated', 'the file was truncated', where);
       at += bytesRead;
     }
     return bytes;

@@ -156,8 +156,6 @@ export class SessionRecorder {
   #fail(detail: string): void {
     if (this.#failed) return;
     this.#failed = true;
-    this.onFailure?.(
-      new RecordingError('unreadable', `not recorded any further: ${detail}`, { file: this.#path }),
-    );
+    this.onFailure?.(new RecordingError('unreadable', `recording stopped: ${detail}`, { file: this.#path }));
   }
 }

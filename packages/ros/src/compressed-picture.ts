@@ -13,12 +13,12 @@ const DEPTH = 'compressedDepth';
 export function compressedPicture({ format, data }: Pick<CompressedImage, 'format' | 'data'>): PictureFile {
   if (format.includes(DEPTH)) {
     throw new RosFault('unsupported', `a picture as ${DEPTH}`, {
-      remedy: 'take the topic of the raw depth picture',
+      remedy: 'name the topic of the raw depth image',
     });
   }
   const file = readPictureFile(data);
   if (file === 'truncated') {
-    throw new RosFault('bad-image', 'the picture ends before it says how large it is', {
+    throw new RosFault('bad-image', 'the picture ends before its size', {
       offset: data.length,
     });
   }

@@ -60,7 +60,7 @@ export function decoderOf(
   const told = typeof definition === 'string' ? parse(definition) : definition;
   const definitions = definitionsOf(version, type) ?? told;
   if (definitions === null) {
-    throw new RosFault('unsupported', `messages of the type ${type} are not known`);
+    throw new RosFault('unsupported', `the message type ${type} is unknown`);
   }
   return checkedReader(version === 1 ? 'ros1' : 'cdr', definitions);
 }

@@ -51,7 +51,7 @@ describe('definitionsFromFiles', () => {
 
   it('names the file that is missing or broken', () => {
     expect(() => definitionsFromFiles('arm_msgs/msg/Wrist', read)).toThrow(
-      'there is no arm_msgs/msg/Wrist.msg',
+      'arm_msgs/msg/Wrist.msg was not found',
     );
     expect(() => definitionsFromFiles('arm_msgs/msg/Broken', read)).toThrow(
       /arm_msgs\/msg\/Broken.msg cannot be read/,

@@ -36,7 +36,7 @@ function fromFile(name: string, read: ReadMessageFile): MessageDefinition {
   const [packageName = '', typeName = ''] = name.split('/');
   const file = `${packageName}/msg/${typeName}.msg`;
   const text = read(packageName, typeName);
-  if (text === null) throw new RosFault('unsupported', `there is no ${file}`);
+  if (text === null) throw new RosFault('unsupported', `${file} was not found`);
   let parsed: MessageDefinition[];
   try {
     parsed = parse(text, { ros2: true, skipTypeFixup: true });

@@ -49,9 +49,9 @@ export const STATIC_SUFFIX = '/tf_static';
 
 /** Names as both ROS 1 and ROS 2 allow them, with the leading slash. */
 const topicName = z
-  .string('must be a topic’s name')
+  .string('must be a topic name')
   .max(255, 'must be at most 255 characters long')
-  .regex(/^(\/[A-Za-z_][A-Za-z0-9_]*)+$/, 'must be a whole topic name such as /camera/points');
+  .regex(/^(\/[A-Za-z_][A-Za-z0-9_]*)+$/, 'must be a complete topic name such as /camera/points');
 
 /** `sensor_msgs/PointCloud2` or `sensor_msgs/msg/PointCloud2`; the latter is kept. */
 const typeName = z
@@ -121,12 +121,12 @@ const entry = z
       context.addIssue({
         code: 'custom',
         path: ['topic'],
-        message: 'cannot be shown as compressedDepth: name the topic of the raw depth picture',
+        message: 'cannot be shown as compressedDepth: name the topic of the raw depth image',
       });
       return z.NEVER;
     }
     if (type === undefined) {
-      context.addIssue({ code: 'custom', path: ['type'], message: `is needed where as is ${given.as}` });
+      context.addIssue({ code: 'custom', path: ['type'], message: `is needed for as: ${given.as}` });
       return z.NEVER;
     }
     if (types.length > 0 && !types.includes(type)) {
@@ -164,10 +164,10 @@ export const topicTableSchema = z
         fault(index, 'as', `there can be at most ${MAX_CAMERAS} of picture`);
       if (SINGLE.includes(as) && first(as) !== index) fault(index, 'as', `there can be only one ${as}`);
       if (entries.findIndex((each) => each.topic === topic) !== index)
-        fault(index, 'topic', `${topic} is there twice`);
+        fault(index, 'topic', `${topic} is listed twice`);
     });
     const depth = first('depth');
-    if (depth >= 0 && first('cloud') >= 0) fault(depth, 'as', 'depth and cloud cannot both be there');
+    if (depth >= 0 && first('cloud') >= 0) fault(depth, 'as', 'depth and cloud cannot both be given');
     if (depth >= 0 && first('cameraInfo') < 0) fault(depth, 'as', 'depth needs an entry cameraInfo');
     const colour = first('colour');
     if (colour >= 0 && depth < 0) fault(colour, 'as', 'colour needs an entry depth');
@@ -202,5 +202,5 @@ export function qosOf({ topic, as, qos }: TopicEntry): Qos {
 
 function unknownKeys(otherwise: string): z.core.$ZodErrorMap {
   return (issue) =>
-    issue.code === 'unrecognized_keys' ? `has what nobody knows: ${issue.keys.join(', ')}` : otherwise;
+    issue.code === 'unrecognized_keys' ? `has unknown keys: ${issue.keys.join(', ')}` : otherwise;
 }

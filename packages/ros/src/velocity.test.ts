@@ -30,7 +30,7 @@ describe('velocities', () => {
   it('refuses any other type', () => {
     expect(() => velocityWriter(2, 'std_msgs/msg/String')).toThrow(RosFault);
     expect(() => decoderOf(2, 'my_msgs/msg/Own', null)).toThrow(
-      'messages of the type my_msgs/msg/Own are not known',
+      'the message type my_msgs/msg/Own is unknown',
     );
   });
 });

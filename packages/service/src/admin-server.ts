@@ -62,7 +62,7 @@ export async function startAdminServer(
 ): Promise<AdminServer> {
   const server = createServer((request, response) => {
     if (!handler(request, response)) {
-      reply(request, response, 404, 'text/plain; charset=utf-8', 'here are /healthz and /metrics\n');
+      reply(request, response, 404, 'text/plain; charset=utf-8', 'this port serves /healthz and /metrics\n');
     }
   });
   await new Promise<void>((resolve, reject) => {

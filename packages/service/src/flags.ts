@@ -43,7 +43,7 @@ export function helpText(definition: ProgramDefinition<OptionTable>, places: rea
   const commands = Object.entries(definition.commands ?? {});
   if (commands.length === 0) return command.helpInformation();
   const lines = commands.map(([name, what]) => `  ${`${definition.name} ${name}`.padEnd(26)} ${what}\n`);
-  return `${command.helpInformation()}\nCommands, each with --help of its own:\n${lines.join('')}`;
+  return `${command.helpInformation()}\nCommands (each has its own --help):\n${lines.join('')}`;
 }
 
 function buildCommand(
@@ -54,12 +54,12 @@ function buildCommand(
   const command = new Command(definition.name)
     .description(
       `${definition.summary}\n\nEach option may be given as a flag, an environment variable, or a key of the ` +
-        `section "${definition.section}" of the configuration file; the first of these that has it counts. ` +
-        'Keys of the file are named only where they differ from the flag.',
+        `section "${definition.section}" of the configuration file; the first of these that gives it wins. ` +
+        'A key of the file is shown only if it differs from the flag.',
     )
     .usage('[options]')
     .version(definition.version, '--version', 'print the version')
-    .helpOption('-h, --help', 'print this')
+    .helpOption('-h, --help', 'print this help')
     .exitOverride()
     .configureOutput(silent)
     .configureHelp({ helpWidth: 110 });

@@ -55,7 +55,7 @@ export const commonOptions = {
     argument: 'FILE',
     env: 'FARPOINT_CONFIG',
     file: false,
-    help: `configuration file (YAML); ./${DEFAULT_CONFIG_PATH} is read where there is one`,
+    help: `configuration file (YAML); ./${DEFAULT_CONFIG_PATH} is read if it exists`,
   }),
   logLevel: defineOption({
     schema: choice(logLevels),
@@ -63,7 +63,7 @@ export const commonOptions = {
     argument: 'LEVEL',
     env: 'FARPOINT_LOG_LEVEL',
     file: 'log.level',
-    help: `least level that is logged: ${logLevels.join(', ')}`,
+    help: `lowest level to log: ${logLevels.join(', ')}`,
   }),
   logFormat: defineOption({
     schema: choice(logFormats),

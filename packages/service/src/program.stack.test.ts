@@ -34,8 +34,8 @@ test('a port that is taken is one line with what to do, without a stack, and exi
   server.close();
   expect(said).toMatchObject({
     level: 'fatal',
-    msg: expect.stringContaining(`127.0.0.1:${port} is taken by `) as string,
-    remedy: 'set --admin-port to another port, or end that program',
+    msg: expect.stringContaining(`127.0.0.1:${port} is already used by `) as string,
+    remedy: 'set --admin-port to another port, or stop that program',
   });
   expect(said).not.toHaveProperty('err');
 });

@@ -50,7 +50,7 @@ export class Shutdown {
     if (this.#ending === null) {
       void this.end(`received ${signal}`);
     } else {
-      this.#log.warn({ signal }, 'second signal: exiting at once');
+      this.#log.warn({ signal }, 'second signal: exiting immediately');
       this.#exit(128 + constants.signals[signal]);
     }
   }

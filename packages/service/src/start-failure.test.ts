@@ -27,28 +27,28 @@ const listen = { syscall: 'listen', address: '127.0.0.1' };
 
 test('a port that is taken: by whom, and which option moves it', () => {
   expect(of({ ...listen, code: 'EADDRINUSE', port: 3000 })).toBe(
-    '127.0.0.1:3000 is taken by node signaling/src/main.ts (process 42) → set --port to another port, or end that program',
+    '127.0.0.1:3000 is already used by node signaling/src/main.ts (process 42) → set --port to another port, or stop that program',
   );
   expect(of({ ...listen, code: 'EADDRINUSE', port: 9400 }, false)).toBe(
-    '127.0.0.1:9400 is taken by another program → set --admin-port to another port, or end that program',
+    '127.0.0.1:9400 is already used by another program → set --admin-port to another port, or stop that program',
   );
   expect(of({ ...listen, code: 'EADDRINUSE', port: 3001 })).toContain('→ choose another port');
 });
 
 test('an address that is another machine’s, a port for root only', () => {
   expect(of({ ...listen, code: 'EADDRNOTAVAIL', address: '10.9.9.9', port: 9400 })).toMatch(
-    /^10\.9\.9\.9 is no address of this machine → set --admin-host to/,
+    /^10\.9\.9\.9 is not an address of this machine → set --admin-host to/,
   );
-  expect(of({ ...listen, code: 'EACCES', port: 80 })).toContain('may not be listened on by this user');
-  expect(of({ ...listen, code: 'ESTRANGE', port: 80 })).toContain('cannot be listened on: ESTRANGE');
+  expect(of({ ...listen, code: 'EACCES', port: 80 })).toContain('this user may not listen on');
+  expect(of({ ...listen, code: 'ESTRANGE', port: 80 })).toContain('cannot listen on 127.0.0.1:80: ESTRANGE');
 });
 
 test('a file that is not there: which option names it', () => {
   expect(of({ syscall: 'open', code: 'ENOENT', path: '/data/a.mcap' })).toBe(
-    '/data/a.mcap does not exist → set --path to another',
+    '/data/a.mcap does not exist → set --path to another path',
   );
   expect(of({ syscall: 'scandir', code: 'ENOTDIR', path: '/etc/hosts' })).toMatch(
-    /^\/etc\/hosts is no folder.* → see that it is there/,
+    /^\/etc\/hosts is not a folder.* → check that it exists/,
   );
 });
 

@@ -42,7 +42,7 @@ export function startFailureOf<Table extends OptionTable>(
   });
   return new StartFailure(
     file,
-    named === '' ? 'see that it is there and that this user may use it' : `set ${named} to another`,
+    named === '' ? 'check that it exists and that this user may use it' : `set ${named} to another path`,
     { cause: error },
   );
 }
@@ -60,23 +60,23 @@ function listenWords(
     case 'EADDRINUSE': {
       const holder = holderOf(port);
       const by = holder === null ? 'another program' : `${holder.program} (process ${holder.pid})`;
-      return { detail: `${place} is taken by ${by}`, remedy: `${setPort}, or end that program` };
+      return { detail: `${place} is already used by ${by}`, remedy: `${setPort}, or stop that program` };
     }
     case 'EADDRNOTAVAIL':
     case 'ENOTFOUND': {
       const hosts = flagsOf(places, ({ key }) => /host$/i.test(key) && values[key] === host);
       return {
-        detail: `${host} is no address of this machine`,
-        remedy: `set ${hosts === '' ? 'the address' : hosts} to one that it has: 127.0.0.1 for this machine alone, 0.0.0.0 for all`,
+        detail: `${host} is not an address of this machine`,
+        remedy: `set ${hosts === '' ? 'the address' : hosts} to an address of this machine: 127.0.0.1 for local access only, 0.0.0.0 for all interfaces`,
       };
     }
     case 'EACCES':
       return {
-        detail: `${place} may not be listened on by this user`,
-        remedy: `${setPort}, above 1023, or give the program the right (CAP_NET_BIND_SERVICE)`,
+        detail: `this user may not listen on ${place}`,
+        remedy: `${setPort}, above 1023, or give the program the capability CAP_NET_BIND_SERVICE`,
       };
     default:
-      return { detail: `${place} cannot be listened on: ${code}`, remedy: setPort };
+      return { detail: `cannot listen on ${place}: ${code}`, remedy: setPort };
   }
 }
 

@@ -11,14 +11,14 @@ export function systemErrorOf(error: unknown): NodeJS.ErrnoException | null {
 
 const FILE_WORDS: Readonly<Record<string, string>> = {
   ENOENT: 'does not exist',
-  EEXIST: 'is there already',
+  EEXIST: 'already exists',
   EISDIR: 'is a folder, not a file',
-  ENOTDIR: 'is no folder, or lies in none',
-  EACCES: 'is not allowed to this user',
-  EPERM: 'is not allowed to this user',
-  EROFS: 'lies on a disk that is read only',
-  ENOSPC: 'has no room: the disk is full',
-  EMFILE: 'cannot be opened: too many files are open',
+  ENOTDIR: 'is not a folder, or not inside one',
+  EACCES: 'is not accessible to this user',
+  EPERM: 'is not accessible to this user',
+  EROFS: 'is on a read-only file system',
+  ENOSPC: 'cannot be written: the disk is full',
+  EMFILE: 'cannot be opened: too many open files',
 };
 
 /** One sentence about a file, without the system's own name for the fault where there is a plain one. */

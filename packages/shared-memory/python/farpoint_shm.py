@@ -56,7 +56,7 @@ def _open(path, size, mode, exclusive):
             os.fchmod(fd, mode)
         status = os.fstat(fd)
         if not stat.S_ISREG(status.st_mode):
-            raise SharedMemoryError(f"{path}: it is no regular file")
+            raise SharedMemoryError(f"{path}: it is not a regular file")
         if status.st_mode & stat.S_IWOTH:
             raise SharedMemoryError(f"{path}: everybody may write it: chmod o-w it")
         if status.st_size != size:
@@ -202,11 +202,11 @@ class CloudProducer:
             if not all(map(math.isfinite, position)):
                 raise ValueError("a position that is not finite")
             if not abs(math.sqrt(sum(q * q for q in orientation)) - 1) < 0.01:
-                raise ValueError("an orientation that is no unit quaternion")
+                raise ValueError("an orientation that is not a unit quaternion")
         if lens is not None:
             flags |= _HAS_LENS
             if not (all(map(math.isfinite, lens)) and lens[0] > 0 and lens[1] > 0):
-                raise ValueError("focal lengths and principal point that cannot be")
+                raise ValueError("impossible focal lengths or principal point")
         elif self.format != "points":
             raise ValueError("depth needs its lens: fx, fy, cx, cy")
         unit = depth_unit if self.format == "depth16" else 0.0
@@ -225,7 +225,7 @@ class CloudProducer:
             fcntl.flock(former, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             os.close(former)
-            raise SharedMemoryError(f"{path}: another producer writes it") from None
+            raise SharedMemoryError(f"{path}: another producer is writing it") from None
         return former
 
     def _make(self, path, frames_per_second, mode):

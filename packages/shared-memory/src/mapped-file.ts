@@ -139,12 +139,12 @@ const SYSTEM_CODES: Readonly<Record<string, readonly [SharedMemoryErrorCode, str
   EACCES: ['not-permitted', 'the system does not permit it'],
   EPERM: ['not-permitted', 'the system does not permit it'],
   EROFS: ['not-permitted', 'the file system is read-only'],
-  EEXIST: ['in-use', 'it is there already'],
+  EEXIST: ['in-use', 'it already exists'],
   ELOOP: ['not-a-file', 'a symbolic link is not followed'],
   EISDIR: ['not-a-file', 'it is a folder'],
-  FILE: ['not-a-file', 'it is no regular file'],
+  FILE: ['not-a-file', 'it is not a regular file'],
   ENOSPC: ['out-of-memory', 'the shared memory is full'],
-  ENOMEM: ['out-of-memory', 'there is no memory left'],
+  ENOMEM: ['out-of-memory', 'out of memory'],
 };
 
 /** The addon's error in this package's terms; mistakes of the caller stay what they are. */
@@ -170,10 +170,10 @@ export function translated(error: unknown, path: string, wantedBytes: number): u
         wantedBytes === 0 ? 'it is empty' : `it has ${number} bytes, not ${wantedBytes}`,
       );
     case 'FAULT':
-      return new SharedMemoryError('truncated', path, number, 'the file was cut short while it was used');
+      return new SharedMemoryError('truncated', path, number, 'the file was truncated while in use');
     case 'EMFILE':
     case 'EIO':
-      return new SharedMemoryError('io', path, null, `the system refuses it (${code})`);
+      return new SharedMemoryError('io', path, null, `the system refuses access (${code})`);
     case 'CLOSED':
       return new Error(`${path}: it was closed`);
     case 'RANGE':

@@ -114,7 +114,7 @@ export class CloudShmSource implements FrameSource {
         : width === this.description.width &&
           height === this.description.height &&
           (['fx', 'fy', 'cx', 'cy'] as const).every((key) => camera[key] === lens[key]);
-    if (!same) throw new Error('the camera in shared memory is another one: start the robot again');
+    if (!same) throw new Error('the camera in shared memory has changed: restart the robot');
   }
 
   #sourceFrame(frame: CloudFrame, nowMs: number, room: CaptureRoom): SourceFrame {

@@ -82,7 +82,7 @@ export class RosCloudFeed implements RosFeed {
       const { header } = cloud;
       if (shape.camera !== null && (cloud.width !== shape.width || cloud.height !== shape.height)) {
         const size = `${cloud.width} × ${cloud.height} points, ${shape.width} × ${shape.height} before`;
-        throw new RosFault('bad-cloud', size, { remedy: 'start the robot again' });
+        throw new RosFault('bad-cloud', size, { remedy: 'restart the robot' });
       }
       const count =
         shape.camera === null

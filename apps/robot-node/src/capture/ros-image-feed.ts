@@ -117,8 +117,7 @@ export class RosImageFeed implements RosFeed {
       height === before.height &&
       (['fx', 'fy', 'cx', 'cy'] as const).every((key) => camera[key] === before.camera[key]);
     // The encoder was made for the camera that there was.
-    if (!same)
-      throw new RosFault('bad-image', 'the camera is another one', { remedy: 'start the robot again' });
+    if (!same) throw new RosFault('bad-image', 'the camera has changed', { remedy: 'restart the robot' });
   }
 
   /** @throws {Error} where the message is no image */
@@ -161,7 +160,7 @@ function sized(image: Image, { width, height }: FeedShape): Image {
     'bad-image',
     `${image.width} × ${image.height} pixels, the camera has ${width} × ${height}`,
     {
-      remedy: 'take the pictures that are registered to that camera',
+      remedy: 'use the images that are registered to that camera',
     },
   );
 }

@@ -205,7 +205,7 @@ describe('RosSource', () => {
     expect(ready()).toBe(1);
     expect(capture()).toBeNull();
     expect(faults).toEqual([
-      '/depth: 4 × 3 pixels, the camera has 8 × 6; take the pictures that are registered to that camera',
+      '/depth: 4 × 3 pixels, the camera has 8 × 6; use the images that are registered to that camera',
     ]);
   });
 
@@ -270,7 +270,7 @@ describe('RosSource', () => {
   });
 
   it.each([
-    [[], /^no topic has clouds/],
+    [[], /^no topic is named for clouds/],
     [
       [{ topic: '/points', publishers: 1, type: 'sensor_msgs/msg/LaserScan' }],
       '/points: it has sensor_msgs/msg/LaserScan, not sensor_msgs/msg/PointCloud2',
@@ -281,7 +281,7 @@ describe('RosSource', () => {
     ],
     [
       [{ topic: '/points', publishers: 1, type: CLOUD }],
-      '/points: no message came within 0 s, though it is published',
+      '/points: no message within 0 s, although it is published',
     ],
   ])('says what did not come, and why (%#)', async (others, message) => {
     const topics = message instanceof RegExp ? [] : [{ topic: '/points', as: 'cloud' }];
@@ -349,7 +349,7 @@ describe('RosSource', () => {
       graph.sayBytes('/front/image_raw', Uint8Array.from([0, 1, 0, 0, 1, 2, 3]));
       expect(taken).toEqual([]);
       expect(faults[0]).toMatch(
-        /^\/rear\/compressed: a picture as compressedDepth; take the topic of the raw/,
+        /^\/rear\/compressed: a picture as compressedDepth; name the topic of the raw/,
       );
       expect(faults[1]).toMatch(/^\/front\/image_raw/);
     });

@@ -215,7 +215,9 @@ function openFeed(graph: RosGraph, topics: TopicTable, axes: CloudAxes | 'auto')
   if (cloud !== undefined) return new RosCloudFeed(graph, { cloud, cameraInfo, axes });
   if (depth !== undefined && cameraInfo !== undefined)
     return new RosImageFeed(graph, { depth, colour, cameraInfo });
-  throw new RosFault('unavailable', 'no topic has clouds', { remedy: 'name one as cloud, or one as depth' });
+  throw new RosFault('unavailable', 'no topic is named for clouds', {
+    remedy: 'name one as cloud, or one as depth',
+  });
 }
 
 async function firstFrame(feed: RosFeed, waitMs: number): Promise<void> {
@@ -242,7 +244,7 @@ function whyNothing(graph: RosGraph, feed: RosFeed, waitMs: number, last: RosFau
     return new RosFault('wrong-type', `it has ${seen.type}, not ${type}`, { topic });
   }
   if ((seen?.publishers ?? silent?.publishers ?? 0) > 0) {
-    return new RosFault('unavailable', `no message came ${within}, though it is published`, { topic });
+    return new RosFault('unavailable', `no message ${within}, although it is published`, { topic });
   }
   return new RosFault('unavailable', `nobody publishes it (${within})`, {
     topic,

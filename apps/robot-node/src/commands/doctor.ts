@@ -10,12 +10,12 @@ import type { CommandRim } from './init.ts';
 const HELP = `farpoint-robot doctor [--json] [any option of farpoint-robot]
 
 Checks the configuration, this machine, the network, the servers and the source, as a robot with these options would
-use them. A line each: ✓ it is well, ! look at it, ✗ mend it. For a moment the robot is registered with the signaling
-service under its id; one that is registered already stays so.
+use them. Each result is one line: ✓ passed, ! worth a look, ✗ must be fixed. The doctor briefly registers the robot's id
+with the signaling service; a robot that is already registered is not disturbed.
 
   --json   one JSON object: {ready, findings: [{check, verdict, detail, remedy}]}
 
-Exit code: 0 without ✗, else 1.
+Exit code: 0 if there is no ✗, else 1.
 `;
 
 /** @returns the exit code */

@@ -70,7 +70,7 @@ describe('init', () => {
     expect(run('--output', path)).toEqual({
       code: 1,
       out: '',
-      errors: `farpoint-robot init: ${path} is there already; --force replaces it\n`,
+      errors: `farpoint-robot init: ${path} already exists; --force replaces it\n`,
     });
     expect(readFileSync(path, 'utf8')).toBe('mine');
     expect(run('--output', path, '--force', '--source', 'shm').out).toContain(`doctor --config ${path}`);

@@ -13,11 +13,11 @@ export interface CommandRim {
 
 const HELP = `farpoint-robot init [--source KIND] [--output FILE] [--force]
 
-Writes a commented configuration file for a robot.
+Writes a configuration file for a robot, with a comment for each option.
 
-  --source KIND  what gives the clouds: ${SOURCE_KINDS.join(', ')} (default: sim)
-  --output FILE  which file to write (default: ${DEFAULT_CONFIG_PATH}); - for standard output
-  --force        replace a file that is there
+  --source KIND  source of the clouds: ${SOURCE_KINDS.join(', ')} (default: sim)
+  --output FILE  file to write (default: ${DEFAULT_CONFIG_PATH}); - for standard output
+  --force        replace an existing file
 `;
 
 /** @returns the exit code: 0, 1 where the file could not be written, 2 for a mistake in the arguments */
@@ -52,10 +52,10 @@ export function init(argv: readonly string[], { stdout, stderr }: CommandRim): n
     writeFileSync(values.output, text, { flag: values.force ? 'w' : 'wx', mode: 0o640 });
   } catch (error) {
     const { code, message } = error as NodeJS.ErrnoException;
-    if (code === 'EEXIST') return refuse(`${values.output} is there already; --force replaces it`, 1);
+    if (code === 'EEXIST') return refuse(`${values.output} already exists; --force replaces it`, 1);
     return refuse(`${values.output} cannot be written: ${message}`, 1);
   }
-  stdout.write(`${values.output} is written. Next: ${next(source, values.output)}\n`);
+  stdout.write(`Wrote ${values.output}. Next: ${next(source, values.output)}\n`);
   return 0;
 }
 

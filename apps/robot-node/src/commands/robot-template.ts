@@ -11,12 +11,12 @@ import type { SOURCE_KINDS } from '../options/source.ts';
 export type SourceKind = (typeof SOURCE_KINDS)[number];
 
 const HEAD = [
-  'Farpoint robot: its configuration.',
+  'Configuration of a Farpoint robot.',
   '',
-  'An option is taken from the command line, else from the environment, else from this file, else it has its default.',
-  'Lines that begin with "#" and a key show options at their defaults: take the "#" away to change them.',
-  'A key that is not known, or a value that is not allowed, is an error; `farpoint-robot doctor` checks the whole robot.',
-  'Secrets (signaling.token, signaling.key) are better given by the environment: FARPOINT_ROBOT_TOKEN, FARPOINT_ROBOT_KEY.',
+  'Each option is taken from the first that gives it: command line, environment, this file, default.',
+  'Lines that begin with "#" and a key show options at their defaults. To change one, remove the "#".',
+  'An unknown key or a value that is not allowed is an error. `farpoint-robot doctor` checks the whole robot.',
+  'Give secrets (signaling.token, signaling.key) in the environment: FARPOINT_ROBOT_TOKEN, FARPOINT_ROBOT_KEY.',
 ];
 
 /** What everyone decides, at its default. */

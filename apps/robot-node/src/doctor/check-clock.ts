@@ -18,12 +18,13 @@ export function checkMonotonicClock(host: Host, now: () => number): Result[] {
   const source = host.read('/sys/devices/system/clocksource/clocksource0/current_clocksource');
   const nanoseconds = ((last - begin) / READINGS) * 1e6;
   const what = `monotonic clock${source === null ? '' : ` (${source})`}, ${nanoseconds.toFixed(0)} ns a reading`;
-  if (backwards > 0) return [warn(`${what}, went back ${backwards} times`, 'another kernel or clocksource')];
+  if (backwards > 0)
+    return [warn(`${what}, went back ${backwards} times`, 'use another kernel or clocksource')];
   if (source !== null && SLOW_SOURCES.includes(source))
     return [
       warn(
         what,
-        'start the kernel with clocksource=tsc, or find out why it was given up: `dmesg | grep -i tsc`',
+        'start the kernel with clocksource=tsc, or find out why it was dropped: `dmesg | grep -i tsc`',
       ),
     ];
   return [ok(what)];
@@ -43,7 +44,10 @@ const MOST_OFFSET_MS = 2000;
 export function checkTimeOfDay(time: ServerTime | null): Result[] {
   if (time === null)
     return [
-      warn('the time of day was not compared with anyone’s', 'it is once the signaling service answers'),
+      warn(
+        'the time of day could not be checked',
+        'it is compared with the signaling service once that answers',
+      ),
     ];
   const { dateMs, askedMs, answeredMs } = time;
   // The server's second has begun somewhere in [date, date + 1 s).
@@ -52,6 +56,6 @@ export function checkTimeOfDay(time: ServerTime | null): Result[] {
   const seconds = `${Math.abs(offset / 1000).toFixed(1)} s ${offset > 0 ? 'ahead of' : 'behind'}`;
   const what = `time of day ${seconds} the signaling service, ± ${(uncertainty / 1000).toFixed(1)} s`;
   if (Math.abs(offset) > MOST_OFFSET_MS + uncertainty)
-    return [warn(what, '`timedatectl set-ntp true`: certificates and recordings need the right time')];
+    return [warn(what, '`timedatectl set-ntp true`: certificates and recordings need the correct time')];
   return [ok(what)];
 }

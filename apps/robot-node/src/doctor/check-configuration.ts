@@ -27,7 +27,7 @@ export function checkConfiguration(
     const results = error.mistakes.map(({ where, detail, found }) =>
       fail(
         `${where} ${detail}${found === undefined ? '' : `, not ${found}`}`,
-        'correct it; `farpoint-robot --help` has every option',
+        'correct it; `farpoint-robot --help` lists every option',
       ),
     );
     return { results, values: null, robot: null };
@@ -42,10 +42,14 @@ function describe({ configPath, sources, values, unknownEnvironment }: Resolved)
   const what = `${file}, ${count('environment')} from the environment, ${count('flag')} from the command line`;
   const results = [ok(what)];
   for (const name of unknownEnvironment)
-    results.push(warn(`the variable ${name} is not an option`, 'see its name in `farpoint-robot --help`'));
+    results.push(
+      warn(`the variable ${name} is not an option`, 'see `farpoint-robot --help` for the correct name'),
+    );
   const secret = sources.token === 'config' || sources.key === 'config' || sources.iceServers === 'config';
   if (configPath !== null && secret && values.token !== null && isPublic(configPath))
-    results.push(warn(`${configPath} has secrets and anybody may read it`, `\`chmod o-r ${configPath}\``));
+    results.push(
+      warn(`${configPath} contains secrets and everybody may read it`, `\`chmod o-r ${configPath}\``),
+    );
   return results;
 }
 

@@ -17,23 +17,23 @@ export function checkSharedMemory(source: SourceOptions, sink: SinkOptions): Res
   if (!isAvailable())
     return [
       fail(
-        'the addon is not there',
-        'a C compiler, make and Python 3, then `pnpm build:native` (Linux only)',
+        'the addon is not built',
+        'install a C compiler, make and Python 3, then run `pnpm build:native` (Linux only)',
       ),
     ];
   const folderStats = stats(folder);
   if (folderStats === null || !folderStats.isDirectory())
     return [
       fail(
-        `${folder} is no folder`,
-        'set source.shmFolder; /dev/shm is the usual one, in a container `--ipc=host` or a volume',
+        `${folder} is not a folder`,
+        'set source.shmFolder; /dev/shm is usual, in a container with `--ipc=host` or a volume',
       ),
     ];
   const results = [
     checkRoom(
       folder,
       EASY_SHARED_BYTES,
-      'a container has 64 MB unless told otherwise: `--ipc=host` or `--shm-size`',
+      'a container has 64 MB by default: use `--ipc=host` or `--shm-size`',
     ),
   ];
   const files = referenceFiles(folder);
@@ -44,7 +44,7 @@ export function checkSharedMemory(source: SourceOptions, sink: SinkOptions): Res
   if (sink.kind === 'shm') {
     results.push(...[files.control, files.busy].flatMap((file) => checkFile(file, true)));
     if (stats(files.control) === null && !may(folder, constants.W_OK))
-      results.push(fail(`${folder} may not be written`, 'run the robot as a user who may make files there'));
+      results.push(fail(`${folder} is not writable`, 'run the robot as a user who may create files there'));
   }
   return results;
 }
@@ -54,19 +54,19 @@ function checkFile(path: string, write: boolean): Result[] {
   const found = stats(path);
   if (found === null) return [];
   const owner = `of user ${found.uid}, mode ${(found.mode & 0o777).toString(8).padStart(4, '0')}`;
-  if (!found.isFile()) return [fail(`${path} is no file`, 'remove it')];
+  if (!found.isFile()) return [fail(`${path} is not a regular file`, 'remove it')];
   if ((found.mode & 0o002) !== 0)
     return [
       fail(
-        `${path} (${owner}) may be written by anybody and is refused`,
-        'its program should make it with mode 0600, or 0660 for a group',
+        `${path} (${owner}) is writable by everybody and is refused`,
+        'its program should create it with mode 0600, or 0660 for a group',
       ),
     ];
   if (!may(path, constants.R_OK | (write ? constants.W_OK : 0)))
     return [
       fail(
-        `${path} (${owner}) may not be ${write ? 'written' : 'read'} by user ${process.getuid?.()}`,
-        'run both programs as one user, or give it to a group that both are in (0660)',
+        `${path} (${owner}) is not ${write ? 'writable' : 'readable'} for user ${process.getuid?.()}`,
+        'run both programs as the same user, or give the file to a group that both are in (0660)',
       ),
     ];
   return [ok(`${path}, ${owner}`)];
@@ -76,17 +76,17 @@ function checkFile(path: string, write: boolean): Result[] {
 export function checkRecording(path: string | undefined): Result[] {
   if (path === undefined) return [];
   if (stats(path) !== null)
-    return [fail(`${path} is there already`, 'name another file: recordings are never written over')];
+    return [fail(`${path} already exists`, 'name another file: recordings are never overwritten')];
   const folder = dirname(path);
   if (!(stats(folder)?.isDirectory() ?? false))
-    return [fail(`${folder} is no folder`, 'make it, or set recording.file')];
+    return [fail(`${folder} is not a folder`, 'create it, or set recording.file')];
   if (!may(folder, constants.W_OK))
-    return [fail(`${folder} may not be written`, 'give it to the robot’s user')];
+    return [fail(`${folder} is not writable`, 'make the robot’s user its owner')];
   return [
     checkRoom(
       folder,
       EASY_RECORDING_BYTES,
-      'clouds take some 20 to 40 MB a second: make room, or set recording.max and recording.clouds',
+      'clouds take about 20 to 40 MB a second: free some space, or set recording.max and recording.clouds',
     ),
   ];
 }

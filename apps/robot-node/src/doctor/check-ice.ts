@@ -14,7 +14,10 @@ export function judgeIce(probed: readonly ProbedTarget[], policy: 'all' | 'relay
   const works = relays.some(({ answer }) => answer.outcome === 'answered');
   if (policy === 'relay' && !works)
     results.push(
-      fail('network.icePolicy is relay, and no TURN server works', 'set one up, or icePolicy: all'),
+      fail(
+        'network.icePolicy is relay, and no TURN server works',
+        'set up a TURN server, or set icePolicy: all',
+      ),
     );
   else if (relays.length === 0)
     results.push(
@@ -28,14 +31,15 @@ export function judgeIce(probed: readonly ProbedTarget[], policy: 'all' | 'relay
     results.push(
       warn(
         `of ${relays.length} TURN addresses the robot uses the first`,
-        'put the best one first; operators’ browsers try all',
+        'put the best one first; operators’ browsers try all of them',
       ),
     );
   const mapped = probed.flatMap(({ answer }) =>
     answer.outcome === 'answered' && answer.mapped !== null ? [host(answer.mapped)] : [],
   );
   const outside = [...new Set(mapped)];
-  if (outside.length > 0) results.push(ok(`UDP goes out; seen from there as ${outside.join(' and ')}`));
+  if (outside.length > 0)
+    results.push(ok(`outbound UDP works; seen from outside as ${outside.join(' and ')}`));
   return results;
 }
 
@@ -47,7 +51,7 @@ function judgeOne({ target, answer }: ProbedTarget): Result {
       return ok(
         answer.relayed === null
           ? `${url} answers in ${answer.milliseconds.toFixed(0)} ms`
-          : `${url} lends ${answer.relayed}, after ${answer.milliseconds.toFixed(0)} ms`,
+          : `${url} allocates ${answer.relayed}, after ${answer.milliseconds.toFixed(0)} ms`,
       );
     case 'silent':
       return fail(`${url} does not answer`, silentRemedy(kind, url));
@@ -63,16 +67,16 @@ function judgeOne({ target, answer }: ProbedTarget): Result {
 
 function silentRemedy(kind: string, url: string): string {
   const stream = /transport=tcp/.test(url) || url.startsWith('turns:');
-  const remedy = `is the ${kind} server up, and may ${stream ? 'TCP' : 'UDP'} go there? Check name, port and firewalls`;
+  const remedy = `is the ${kind} server running, and does ${stream ? 'TCP' : 'UDP'} reach it? Check name, port and firewalls`;
   return stream ? `${remedy}, then user name and credential` : remedy;
 }
 
 function refusedRemedy(status: number | null): string {
   if (status === 401 || status === 400)
-    return 'wrong user name or credential: at the signaling service turnSecret must be the server’s own, and the clocks right';
-  if (status === 486) return 'the user’s quota of allocations is used up: raise it at the server';
-  if (status === 508) return 'the server has no more ports: raise its range';
-  return 'check name and port, and the log of the server';
+    return 'wrong user name or credential: turnSecret at the signaling service must be the server’s own, and both clocks must be correct';
+  if (status === 486) return 'the user’s allocation quota is used up: raise it on the server';
+  if (status === 508) return 'the server has no free ports: extend its range';
+  return 'check name and port, and the server’s log';
 }
 
 const isTurn = ({ url }: IceTarget) => url.startsWith('turn');

@@ -12,8 +12,13 @@ export function checkNode(version: string, platform: string, architecture: strin
   const what = `Node ${version} on ${platform} ${architecture}`;
   const [leastMajor, leastMinor] = LEAST_NODE;
   if (major < leastMajor || (major === leastMajor && minor < leastMinor))
-    return [fail(what, `Node ${LEAST_NODE.join('.')} or newer is needed; ${TESTED_NODE} is what is tested`)];
-  if (major < TESTED_NODE) return [warn(what, `Node ${TESTED_NODE} is what is tested`)];
+    return [
+      fail(
+        what,
+        `Node ${LEAST_NODE.join('.')} or newer is needed; Node ${TESTED_NODE} is the tested version`,
+      ),
+    ];
+  if (major < TESTED_NODE) return [warn(what, `Node ${TESTED_NODE} is the tested version`)];
   return [ok(what)];
 }
 
@@ -23,15 +28,15 @@ const EASY_MEMORY = 512e6;
 export function checkMemory(host: Host): Result[] {
   const available =
     Number(/^MemAvailable:\s+(\d+) kB/m.exec(host.read('/proc/meminfo') ?? '')?.[1] ?? Number.NaN) * 1024;
-  if (Number.isNaN(available)) return [warn('free memory cannot be read', 'see that 512 MB are free')];
+  if (Number.isNaN(available)) return [warn('free memory cannot be read', 'make sure that 512 MB are free')];
   const limit = readNumber(host, '/sys/fs/cgroup/memory.max');
   const used = readNumber(host, '/sys/fs/cgroup/memory.current') ?? 0;
   const limited = limit !== null && limit - used < available;
   const free = limited ? limit - used : available;
-  const what = `${megabytes(free)} free${limited ? ` of the ${megabytes(limit)} this container or unit may take` : ''}`;
+  const what = `${megabytes(free)} free${limited ? ` of the ${megabytes(limit)} that this container or unit may use` : ''}`;
   if (free < LEAST_MEMORY)
-    return [fail(what, 'end other programs, or raise the limit: the robot needs 128 MB at least')];
-  if (free < EASY_MEMORY) return [warn(what, '512 MB or more leave room for large clouds and recordings')];
+    return [fail(what, 'end other programs, or raise the limit: the robot needs at least 128 MB')];
+  if (free < EASY_MEMORY) return [warn(what, 'large clouds and recordings need 512 MB or more')];
   return [ok(what)];
 }
 
@@ -47,7 +52,9 @@ export function checkSocketBuffers(host: Host, dds: boolean): Result[] {
   const receive = readNumber(host, '/proc/sys/net/core/rmem_max');
   const send = readNumber(host, '/proc/sys/net/core/wmem_default');
   if (receive === null || send === null)
-    return [warn('net.core.rmem_max and wmem_default cannot be read', 'in a container look on its host')];
+    return [
+      warn('net.core.rmem_max and wmem_default cannot be read', 'in a container, check them on its host'),
+    ];
   const wanted = dds ? WANTED_RECEIVE_DDS : WANTED_RECEIVE;
   const what = `receive up to ${receive} bytes, send ${send}`;
   const settings = [
@@ -55,5 +62,7 @@ export function checkSocketBuffers(host: Host, dds: boolean): Result[] {
     ...(send < WANTED_SEND ? [`net.core.wmem_default=${WANTED_SEND}`] : []),
   ];
   if (settings.length === 0) return [ok(what)];
-  return [warn(what, `bursts may be lost: \`sysctl -w ${settings.join(' ')}\`, kept in /etc/sysctl.d`)];
+  return [
+    warn(what, `bursts may be lost: \`sysctl -w ${settings.join(' ')}\`, and the same in /etc/sysctl.d`),
+  ];
 }

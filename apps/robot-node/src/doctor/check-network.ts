@@ -12,7 +12,7 @@ export interface OwnAddress {
 export function checkAddresses(addresses: readonly OwnAddress[]): Result[] {
   const usable = addresses.filter(({ internal, address }) => !internal && !address.startsWith('fe80:'));
   if (usable.length === 0)
-    return [warn('no network but this machine’s own', 'connect it: operators elsewhere cannot reach it')];
+    return [warn('no network but loopback', 'connect this machine: operators elsewhere cannot reach it')];
   return [ok(`candidates ${usable.map(({ name, address }) => `${address} (${name})`).join(', ')}`)];
 }
 
@@ -37,10 +37,10 @@ export async function checkUdpPorts(
     return [
       fail(
         `${what}: ${taken.join(', ')} cannot be bound`,
-        'choose ports above 1023 that no other program has',
+        'choose ports above 1023 that no other program uses',
       ),
     ];
-  return [ok(`${what} for operators; let them through this machine’s firewall`)];
+  return [ok(`${what} for operators; allow them in this machine’s firewall`)];
 }
 
 function isFree(port: number): Promise<boolean> {

@@ -21,9 +21,8 @@ export function checkProcessor(host: Host, { cores, model, load }: Load): Result
   const usable = Math.min(cores, quota ?? cores);
   const limited = usable < cores ? `, of which this container or unit may use ${usable.toFixed(1)}` : '';
   const what = `${cores} cores (${model})${limited}, load ${load.toFixed(1)}`;
-  if (usable < 2) results.push(warn(what, 'two cores or more: capture and sending run beside each other'));
-  else if (load > cores)
-    results.push(warn(what, 'more wants to run than there are cores: end other programs'));
+  if (usable < 2) results.push(warn(what, 'use two cores or more: capturing and sending run in parallel'));
+  else if (load > cores) results.push(warn(what, 'the load exceeds the cores: end other programs'));
   else results.push(ok(what));
 
   const slow = slowGovernors(host);
@@ -75,15 +74,15 @@ function checkHeat(host: Host): Result[] {
     host.read('/sys/devices/platform/soc/soc:firmware/get_throttled') ?? '0',
     16,
   );
-  const remedy = 'better cooling or power: a throttled core codes fewer frames';
+  const remedy = 'improve cooling or power: a throttled core encodes fewer frames';
   const results: Result[] = [];
   if (firmware > 0) results.push(warn(`the firmware has throttled (0x${firmware.toString(16)})`, remedy));
-  if (throttled > 0) results.push(warn(`throttled for heat ${throttled} times since the start`, remedy));
+  if (throttled > 0) results.push(warn(`throttled by heat ${throttled} times since the start`, remedy));
   if (hottest !== null)
     results.push(
       hottest >= HOT_CELSIUS
         ? warn(`${hottest.toFixed(0)} °C`, remedy)
-        : ok(`${hottest.toFixed(0)} °C at the hottest`),
+        : ok(`${hottest.toFixed(0)} °C at most`),
     );
   return results;
 }
@@ -125,7 +124,8 @@ export function judgeCodec(times: readonly number[]): Result[] {
   const warm = times.slice(times.length >> 1).sort((a, b) => a - b);
   const median = warm[warm.length >> 1] ?? Number.NaN;
   const what = `a frame of ${SIZE} × ${SIZE} points takes ${median.toFixed(1)} ms to encode`;
-  const remedy = 'fewer pixels, fewer frames a second, or a faster processor; see governor and heat';
+  const remedy =
+    'use fewer pixels, fewer frames a second, or a faster processor; see frequency governor and temperature';
   if (!(median < 100)) return [fail(what, remedy)];
   return [median > 33 ? warn(what, remedy) : ok(what)];
 }

@@ -24,11 +24,11 @@ export function judgeTopics(table: TopicTable, seen: readonly GraphTopic[], own:
     if (other !== undefined)
       return bad(
         `${topic} (${as}) is of type ${other.type}, not ${type}`,
-        'name its type in topics, or another topic',
+        'set its type in topics, or name another topic',
       );
     return bad(
       `${topic} (${as}): nobody publishes it`,
-      `start its node, or correct the name${alike(topic, seen)}`,
+      `start its node, or correct the topic name${alike(topic, seen)}`,
     );
   });
 }
@@ -43,14 +43,14 @@ function judgeVelocity(
   if ((same?.subscribers ?? 0) === 0) {
     return other !== undefined && other.subscribers > 0
       ? fail(`${topic} (velocity) is read as ${other.type}, not ${type}`, `set type: ${other.type} in topics`)
-      : warn(`${topic} (velocity): nobody listens`, 'start the base’s driver: nothing will move');
+      : warn(`${topic} (velocity): nobody subscribes`, 'start the base’s driver; without it nothing moves');
   }
   if (others > 0)
     return warn(
-      `${topic} (velocity) is published by ${others} others`,
-      'let twist_mux choose between them: give each a topic of its own',
+      `${topic} (velocity) is also published by ${others} other nodes`,
+      'let twist_mux choose between them: give each its own topic',
     );
-  return ok(`${topic} (velocity): listened to`);
+  return ok(`${topic} (velocity): subscribed`);
 }
 
 /** Topics of the same last name are what is usually meant. */
@@ -76,8 +76,8 @@ export function judgeHostname(options: GraphOptions): Result[] {
   if (!local(options.hostname) || local(new URL(options.masterUrl).hostname)) return [];
   return [
     fail(
-      `nodes elsewhere are told to reach us at ${options.hostname}`,
-      'set ROS_IP or ros.hostname to an address that they know',
+      `nodes on other machines are told to reach this robot at ${options.hostname}`,
+      'set ROS_IP or ros.hostname to an address that they can reach',
     ),
   ];
 }

@@ -19,20 +19,23 @@ export function judgeSignaling(
 ): Result[] {
   switch (answer.outcome) {
     case 'welcome': {
-      const results = [ok(`${url} takes robot ${id}, after ${answer.milliseconds.toFixed(0)} ms`)];
+      const results = [ok(`${url} accepts robot ${id}, after ${answer.milliseconds.toFixed(0)} ms`)];
       const { protocol, hostname } = new URL(url);
       const local = /^(localhost|127\.|\[::1\])/.test(hostname);
       if (protocol === 'ws:' && !local)
         results.push(
           warn(
-            'the line to it is not encrypted: token and offers can be read',
-            'wss:// and TLS at the service',
+            'the connection to it is not encrypted: token and offers can be read',
+            'use wss://, with TLS at the service',
           ),
         );
       const days = ((answer.certificateUntilMs ?? Number.POSITIVE_INFINITY) - nowMs) / DAY_MS;
       if (days < EASY_CERTIFICATE_DAYS)
         results.push(
-          warn(`its certificate runs out in ${Math.floor(days)} days`, 'renew it: without it nobody gets in'),
+          warn(
+            `its certificate expires in ${Math.floor(days)} days`,
+            'renew it: with an expired one nobody can connect',
+          ),
         );
       return results;
     }
@@ -40,13 +43,16 @@ export function judgeSignaling(
       return [judgeRefusal(url, id, answer.code, answer.detail, robotRuns)];
     case 'silent':
       return [
-        fail(`${url} is connected and says nothing`, 'is it Farpoint’s signaling service? Look into its log'),
+        fail(
+          `${url} accepts the connection and says nothing`,
+          'is it Farpoint’s signaling service? See its log',
+        ),
       ];
     case 'unreadable':
       return [
         fail(
-          `${url} does not speak our protocol: ${answer.detail}`,
-          'set signaling.url to Farpoint’s signaling service; its version must fit',
+          `${url} does not speak Farpoint’s protocol: ${answer.detail}`,
+          'set signaling.url to Farpoint’s signaling service, of a matching version',
         ),
       ];
     case 'unreachable':
@@ -67,19 +73,16 @@ function judgeRefusal(
     case 'robot-id-taken':
       return robotRuns
         ? ok(`${url}: robot ${id} is registered`)
-        : fail(
-            `${url}: a robot ${id} is registered already`,
-            'stop it where it runs, or give this one another id',
-          );
+        : fail(`${url}: a robot ${id} is already registered`, 'stop that robot, or give this one another id');
     case 'unauthorized':
       return fail(
         `${url} refuses robot ${id}: ${detail}`,
-        'set the token that the service has for this id: FARPOINT_ROBOT_TOKEN',
+        'set FARPOINT_ROBOT_TOKEN to the service’s token for this id',
       );
     case 'unsupported-protocol':
-      return fail(`${url} refuses: ${detail}`, 'bring robot and signaling service to the same version');
+      return fail(`${url} refuses: ${detail}`, 'update robot and signaling service to the same version');
     default:
-      return fail(`${url} refuses: ${code}: ${detail}`, 'look into the log of the signaling service');
+      return fail(`${url} refuses: ${code}: ${detail}`, 'see the signaling service’s log');
   }
 }
 
@@ -89,13 +92,13 @@ function unreachableRemedy(code: string, detail: string): string {
   if (code === 'ECONNREFUSED')
     return 'nothing listens there: check host and port in signaling.url, and start the service';
   if (/^(EHOSTUNREACH|ENETUNREACH|ETIMEDOUT)$/.test(code) || /timed out/.test(detail))
-    return 'check the way there: cable or radio, routes, firewalls';
+    return 'check the network path: cable or radio, routes, firewalls';
   if (code === 'CERT_HAS_EXPIRED' || code === 'CERT_NOT_YET_VALID')
-    return 'renew the service’s certificate, or set this machine’s time';
+    return 'renew the service’s certificate, or correct this machine’s time';
   if (/CERT|SIGNED|SIGNATURE|ISSUER/.test(code))
-    return 'name the authority that signed its certificate with signaling.tlsCa, or the host that it is for';
+    return 'set signaling.tlsCa to the authority that signed its certificate, or use the host name in the certificate';
   if (/EPROTO|SSL|TLS|hang up|ECONNRESET/.test(`${code} ${detail}`))
-    return 'does the service speak TLS there? wss:// does, ws:// does not';
+    return 'does the service use TLS there? wss:// needs it, ws:// does without';
   if (/server response/.test(detail))
     return 'something else answers there: check host and port in signaling.url';
   return 'check signaling.url';

@@ -30,32 +30,31 @@ export function judgeSource(trial: SourceTrial, wheelless: boolean, picturesOfCl
   if (frames === 0) {
     results.push(
       fail(
-        `${kind} (${grid}) opens and gives no frame`,
-        'does the camera’s program run, or its topic get messages?',
+        `${kind} (${grid}) opens but delivers no frame`,
+        'does the camera’s program run, or does its topic have messages?',
       ),
     );
   } else {
     const rate = frames > 1 ? (frames - 1) / seconds : 0;
     const what = `${kind}, ${grid}: ${rate.toFixed(1)} frames/s, ${validPoints} valid points, ${workMs.toFixed(1)} ms of work each`;
-    if (validPoints === 0) results.push(warn(what, 'is the lens covered, or everything out of range?'));
+    if (validPoints === 0) results.push(warn(what, 'is the lens covered, or is everything out of range?'));
     else if (rate < FEW_FRAMES_PER_SECOND)
-      results.push(warn(what, 'that is few to drive by: check the camera’s rate, and the processor'));
+      results.push(warn(what, 'too few to drive by: check the camera’s rate and the processor'));
     else results.push(ok(what));
   }
-  for (const fault of faults)
-    results.push(warn(`${kind}: ${fault}`, 'look into the log of the camera’s program'));
+  for (const fault of faults) results.push(warn(`${kind}: ${fault}`, 'see the log of the camera’s program'));
   if (picturesOfCloud && description.camera === null)
     results.push(
       warn(
-        'pictures.ofCloud shows nothing: this source gives points, without pictures',
-        'take it out, or take a source of a depth camera’s pictures',
+        'pictures.ofCloud has no effect: this source gives points, not images',
+        'remove it, or use a source with a depth camera’s images',
       ),
     );
   if (wheelless)
     results.push(
       warn(
-        'nobody can drive: this source has no wheels and sink.kind is source',
-        'set sink.kind, unless it is only to be watched',
+        'nobody can drive: this source has no wheels, and sink.kind is source',
+        'set sink.kind, unless operators should only watch',
       ),
     );
   return results;
@@ -72,14 +71,14 @@ function closedRemedy(source: SourceOptions, error: Error): string {
   if (source.kind === 'shm') {
     if (/build:native|Linux/.test(message)) return 'build the addon: `pnpm build:native`';
     if (/ENOENT|no such file/i.test(message))
-      return 'start the camera’s program, e.g. examples/zed_camera.py, and see that both name the same folder';
+      return 'start the camera’s program, e.g. examples/zed_camera.py, with the same folder as the robot';
     if (/permi|EACCES/i.test(message))
-      return 'run both as one user, or give the file to a group that both are in';
-    return 'start the camera’s program anew; docs/shared-memory.md has the layouts';
+      return 'run both as the same user, or give the file to a group that both are in';
+    return 'restart the camera’s program; docs/shared-memory.md describes the layouts';
   }
-  if (source.kind === 'ros') return '`farpoint-robot doctor` lists the topics; docs/ros.md has the rest';
-  if (source.kind === 'sim' || source.kind === 'sim-lidar') return 'report this';
-  if (/no such topic|not clouds/.test(message)) return 'set source.topic (--topic) to one of those';
+  if (source.kind === 'ros') return '`farpoint-robot doctor` lists the topics; see also docs/ros.md';
+  if (source.kind === 'sim' || source.kind === 'sim-lidar') return 'report this as a bug';
+  if (/no such topic|not clouds/.test(message)) return 'set source.topic (--topic) to one of these topics';
   if (/no cloud/.test(message))
     return 'play another file or topic (--path, --topic): clouds are recorded while an operator watches';
   return `set source.path (--path) to ${PLAYED[source.kind]}`;
@@ -87,6 +86,6 @@ function closedRemedy(source: SourceOptions, error: Error): string {
 
 const PLAYED = {
   pcd: 'a PCD file or a folder of them',
-  rgbd: 'a folder of colour and depth pictures as Open3D lays it out',
+  rgbd: 'a folder of colour and depth images in Open3D’s layout',
   recording: 'an MCAP file or a ROS 1 bag of version 2.0 (docs/recordings.md)',
 } as const;

@@ -132,8 +132,8 @@ async function checkSource(
   if (robotRuns && source.kind === 'shm' && source.layout === 'reference')
     return [
       warn(
-        'not tried: the robot that runs would lose frames',
-        'stop it and ask again, or see source_faults on its /metrics',
+        'not tried: the running robot would lose frames',
+        'stop it and run the doctor again, or see source_faults on its /metrics',
       ),
     ];
   try {

@@ -102,17 +102,17 @@ describe('the doctor’s program', () => {
       for (const [check, remedy] of [
         ['robot', 'set admin.port'],
         ['signaling', '→'],
-        ['STUN and TURN', 'is the STUN server up'],
+        ['STUN and TURN', 'is the STUN server running'],
         ['STUN and TURN', 'no TURN server works'],
         ['source', 'start the camera’s program'],
-        ['recording', 'make it'],
+        ['recording', 'create it'],
       ] as const) {
         expect(
           failed.some((line) => line.slice(2).startsWith(check) && line.includes(remedy)),
           `${check}: ${remedy}\n${out}`,
         ).toBe(true);
       }
-      expect(out).toMatch(/\n6 to mend/);
+      expect(out).toMatch(/\n6 to fix/);
     },
     90_000,
   );
@@ -126,7 +126,7 @@ describe('the doctor’s program', () => {
     expect(of(report, 'configuration').map(({ detail }) => detail.replace(folder, ''))).toEqual([
       '/robot.yaml:2: robot.soruce is not an option (did you mean robot.source?)',
       expect.stringMatching(
-        /^\/robot\.yaml:6: robot\.topics\.0\.topic must be a whole topic name .*, not "points"$/,
+        /^\/robot\.yaml:6: robot\.topics\.0\.topic must be a complete topic name .*, not "points"$/,
       ),
       expect.stringMatching(
         /^\/robot\.yaml:4: robot\.limits\.maxLinear must be a number from .*, not "fast"$/,
@@ -139,6 +139,6 @@ describe('the doctor’s program', () => {
 
   it('explains itself', async () => {
     const { code, out } = await doctor('', ['--help']);
-    expect([code, out]).toEqual([0, expect.stringContaining('✗ mend it')]);
+    expect([code, out]).toEqual([0, expect.stringContaining('✗ must be fixed')]);
   }, 30_000);
 });

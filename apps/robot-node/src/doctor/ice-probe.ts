@@ -42,11 +42,11 @@ export async function probeIce(target: IceTarget, withinMs: number, now: () => n
     if (greeted?.outcome === 'refused' && greeted.status !== 401) return greeted;
     const answer = await within(withinMs, allocate(turnServer, turnTransport, target, withinMs));
     if (answer.outcome === 'silent' && greeted !== null)
-      return { outcome: 'refused', status: 401, detail: 'it does not take user name and credential' };
+      return { outcome: 'refused', status: 401, detail: 'it does not accept the user name and credential' };
     return answer.outcome === 'answered' ? { ...answer, milliseconds: now() - begin } : answer;
   }
   if (stunServer === undefined)
-    return { outcome: 'unusable', detail: 'it is no address of a STUN or TURN server' };
+    return { outcome: 'unusable', detail: 'it is not the address of a STUN or TURN server' };
   const answer = await within(withinMs, request(stunServer, methods.BINDING));
   return answer.outcome === 'answered' ? { ...answer, milliseconds: now() - begin } : answer;
 }

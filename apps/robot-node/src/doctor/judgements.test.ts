@@ -98,7 +98,7 @@ describe('machine', () => {
     };
     const results = checkProcessor(host(hot), quad);
     expect(verdicts(results)).toEqual(['ok', 'warn', 'warn', 'warn']);
-    expect(results.map(({ detail }) => detail).join()).toMatch(/0x50005.*throttled for heat 5 times.*91 °C/);
+    expect(results.map(({ detail }) => detail).join()).toMatch(/0x50005.*throttled by heat 5 times.*91 °C/);
     const cool = { '/sys/class/thermal/thermal_zone0/temp': '45000' };
     expect(verdicts(checkProcessor(host(cool), quad))).toEqual(['ok', 'ok']);
   });
@@ -175,7 +175,7 @@ describe('source', () => {
     expect(verdicts(judgeSource({ ...trial, faults: ['torn'] }, false))).toEqual(['ok', 'warn']);
     expect(judgeSource(trial, true)[1]?.detail).toContain('nobody can drive');
     const points = { ...trial, description: { ...trial.description, camera: null } };
-    expect(judgeSource(points, false, true)[1]?.detail).toContain('pictures.ofCloud shows nothing');
+    expect(judgeSource(points, false, true)[1]?.detail).toContain('pictures.ofCloud has no effect');
     const camera = { fx: 1, fy: 1, cx: 0, cy: 0 };
     const images = { ...trial, description: { ...trial.description, camera } };
     expect(verdicts(judgeSource(images, false, true))).toEqual(['ok']);
@@ -228,10 +228,10 @@ describe('files', () => {
       expect(verdicts(checkSharedMemory(source, { kind: 'base' }))[1]).toBe('ok');
       rmSync(cloud);
       symlinkSync('/', cloud);
-      expect(checkSharedMemory(source, { kind: 'base' })[1]?.detail).toContain('is no file');
+      expect(checkSharedMemory(source, { kind: 'base' })[1]?.detail).toContain('is not a regular file');
       rmSync(cloud);
       expect(checkSharedMemory({ ...source, folder: '/nowhere' }, { kind: 'base' })[0]?.detail).toContain(
-        'is no folder',
+        'is not a folder',
       );
     },
   );
@@ -241,8 +241,8 @@ describe('files', () => {
     const path = join(folder, 'a.mcap');
     expect(verdicts(checkRecording(path))).not.toContain('fail');
     writeFileSync(path, '');
-    expect(checkRecording(path)[0]?.detail).toContain('is there already');
-    expect(checkRecording('/nowhere/b.mcap')[0]?.detail).toContain('is no folder');
+    expect(checkRecording(path)[0]?.detail).toContain('already exists');
+    expect(checkRecording('/nowhere/b.mcap')[0]?.detail).toContain('is not a folder');
   });
 });
 
@@ -273,7 +273,7 @@ describe('running and reporting', () => {
       '✓ node            Node 24\n',
       '✗ source          gone; away → start it\n',
     ]);
-    expect(summaryLine(findings)).toBe('1 to mend.\n');
+    expect(summaryLine(findings)).toBe('1 to fix.\n');
     expect(summaryLine([])).toBe('Ready.\n');
     expect(JSON.parse(jsonReport(findings))).toEqual({ ready: false, findings });
   });

@@ -154,7 +154,7 @@ describe('something else at the address of signaling', () => {
     const later = (days: number) => Date.now() + days * 86_400_000;
     expect(judgeSignaling('wss://x', 'r', welcome, false, Date.now())).toMatchObject([
       { verdict: 'ok' },
-      { verdict: 'warn', detail: 'its certificate runs out in 1 days' },
+      { verdict: 'warn', detail: 'its certificate expires in 1 days' },
     ]);
     expect(judgeSignaling('wss://x', 'r', welcome, false, later(-20))).toMatchObject([{ verdict: 'ok' }]);
     sockets.close();

@@ -13,8 +13,8 @@ export function findingLine({ check, verdict, detail, remedy }: Finding): string
 
 export function summaryLine(findings: readonly Finding[]): string {
   const { fail, warn } = countVerdicts(findings);
-  if (fail > 0) return `${fail} to mend${warn > 0 ? `, ${warn} to look at` : ''}.\n`;
-  return warn > 0 ? `Ready; ${warn} to look at.\n` : 'Ready.\n';
+  if (fail > 0) return `${fail} to fix${warn > 0 ? `, ${warn} worth a look` : ''}.\n`;
+  return warn > 0 ? `Ready; ${warn} worth a look.\n` : 'Ready.\n';
 }
 
 /** `--json`: one object. */

@@ -35,7 +35,7 @@ export async function checkRos(
     const fault = await askMaster(options.masterUrl, masterMs);
     if (fault !== null)
       return [
-        fail(`${name}: ${fault}`, 'start it (`roscore`), or set ROS_MASTER_URI or ros.master to where it is'),
+        fail(`${name}: ${fault}`, 'start it (`roscore`), or set ROS_MASTER_URI or ros.master to its address'),
       ];
   }
   try {
@@ -54,7 +54,7 @@ export async function checkRos(
   } catch (error) {
     const { what, remedy } =
       error instanceof RosFault ? error : { what: (error as Error).message, remedy: undefined };
-    return [fail(`${name}: ${what}`, remedy ?? 'docs/ros.md says what is needed')];
+    return [fail(`${name}: ${what}`, remedy ?? 'docs/ros.md lists what is needed')];
   }
 }
 
@@ -74,7 +74,7 @@ async function askMaster(url: string, withinMs: number): Promise<string | null> 
     });
     return (await answer.text()).includes('<methodResponse>')
       ? null
-      : 'something answers there that is no ROS master';
+      : 'what answers there is not a ROS master';
   } catch (error) {
     const { cause, name, message } = error as Error;
     if (name === 'TimeoutError') return 'it does not answer';

@@ -46,7 +46,7 @@ export function judgeRunning(found: RunningRobot, host: string, port: number): R
       ];
     }
     case 'taken':
-      return [fail(`${place} is taken by another program`, 'set admin.port, or end that program')];
+      return [fail(`${place} is used by another program`, 'set admin.port, or stop that program')];
     case 'refused':
       return [
         fail(

@@ -20,15 +20,15 @@ export function startFailure({ sensors, sink, record }: RobotOptions, error: unk
     return source === undefined ? error : failure(error, judgeClosedSource(source, error));
   }
   if (error instanceof RecordingError)
-    return failure(error, checkRecording(record?.path), 'set recording.file (--record) to another');
+    return failure(error, checkRecording(record?.path), 'set recording.file (--record) to another file');
   if (error instanceof SharedMemoryError)
     return failure(
       error,
       sources.flatMap((source) => checkSharedMemory(source, sink)),
-      'docs/shared-memory.md has the layouts',
+      'docs/shared-memory.md describes the layouts',
     );
   if (error instanceof RosFault)
-    return new StartFailure(error.what, error.remedy ?? 'docs/ros.md says what is needed', { cause: error });
+    return new StartFailure(error.what, error.remedy ?? 'docs/ros.md lists what is needed', { cause: error });
   return error;
 }
 

@@ -19,7 +19,7 @@ export function openGuard(
 ): { guard: DriveGuard; estop: EstopJournal } {
   const guard = new DriveGuard({ limits, takePolicy, randomBytes: (count) => randomBytes(count) });
   const estop = new EstopJournal(stateFolder, id, (error) =>
-    log.error({ err: error }, 'the emergency stop is not remembered: the next start will be latched'),
+    log.error({ err: error }, 'the emergency stop cannot be stored: the robot will start latched'),
   );
   const { latched } = estop.start;
   if (latched !== null) {

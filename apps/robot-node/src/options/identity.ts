@@ -7,18 +7,18 @@ export const identityOptions = {
     schema: robotIdSchema,
     default: 'robot-1',
     argument: 'ID',
-    help: 'the robot’s identity: a–z 0–9 . _ -',
+    help: 'the robot’s id at the signaling service: a–z 0–9 . _ -',
   }),
   name: defineOption({
     schema: displayNameSchema,
     default: 'Robot',
     argument: 'NAME',
-    help: 'what operators read',
+    help: 'name that operators see',
   }),
   niceness: defineOption({
     schema: schema.integer({ min: -20, max: 19 }),
     default: -5,
     argument: 'N',
-    help: 'of this process, where the system lets it: commands and packets should not wait for the processor',
+    help: 'priority of this process, if the system permits it; commands and packets should not wait for the processor',
   }),
 } satisfies OptionTable;

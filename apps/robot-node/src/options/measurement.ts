@@ -6,18 +6,18 @@ export const measurementOptions = optionGroup('measurement', {
     schema: schema.optional(schema.text()),
     default: null,
     argument: 'FILE',
-    help: 'for measurements: when each packet was sent, as CSV, written when the robot stops',
+    help: 'for measurements: write the time at which each packet was sent, as CSV, when the robot stops',
   }),
   frameLog: defineOption({
     schema: schema.optional(schema.text()),
     default: null,
     argument: 'FILE',
-    help: 'for measurements: when each frame was captured and ready, as CSV, written when the robot stops',
+    help: 'for measurements: write the times at which each frame was captured and ready, as CSV, when the robot stops',
   }),
   stats: defineOption({
     schema: schema.optional(schema.text()),
     default: null,
     argument: 'FILE',
-    help: 'for measurements: what each stream does in each 100 ms, one JSON object a line',
+    help: 'for measurements: write the statistics of each stream every 100 ms, one JSON object a line',
   }),
 });

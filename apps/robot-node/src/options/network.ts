@@ -52,19 +52,19 @@ export const networkOptions = optionGroup('network', {
     schema: schema.choice(['all', 'relay']),
     default: 'all',
     argument: 'POLICY',
-    help: 'relay: reach operators by TURN servers only',
+    help: 'all: any path to the operators; relay: only through TURN servers',
   }),
   iceServers: defineOption({
     schema: iceServers,
     default: [],
     argument: 'URLS',
     secret: true,
-    help: 'STUN or TURN servers besides those of the signaling service: addresses, or {urls, username, credential}',
+    help: 'STUN or TURN servers in addition to those of the signaling service: addresses, or {urls, username, credential}',
   }),
   udpPorts: defineOption({
     schema: schema.optional(portRange),
     default: null,
     argument: 'LOW-HIGH',
-    help: 'local UDP ports for operators’ connections; any where left out',
+    help: 'local UDP ports for operators’ connections; default: any',
   }),
 });

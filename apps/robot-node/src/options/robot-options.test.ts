@@ -89,7 +89,7 @@ describe('robot options', () => {
       /^--path \(or robot\.source\.path in farpoint\.yaml\) is needed for the source recording\nfarpoint\.yaml:2: robot\.signaling\.tlsCa cannot be read/,
     );
     expect(() => file('robot:\n  topics:\n    - {topic: points, as: cloud}\n')).toThrow(
-      'farpoint.yaml:3: robot.topics.0.topic must be a whole topic name such as /camera/points, not "points"',
+      'farpoint.yaml:3: robot.topics.0.topic must be a complete topic name such as /camera/points, not "points"',
     );
   });
 

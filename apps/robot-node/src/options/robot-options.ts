@@ -161,7 +161,7 @@ function describedTopics(
     return describeTopics(topics, readFrom([...rosMessages, ...sourcedFolders(process.env)]));
   } catch (error) {
     if (!(error instanceof RosFault)) throw error;
-    refuse(`${error.message}, in the folders of ros.messages or of a ROS that is sourced`);
+    refuse(`${error.message} (searched: the folders of ros.messages, and ROS where it is sourced)`);
     return topics;
   }
 }

@@ -39,12 +39,13 @@ const options = {
 
 export const robotProgram = defineProgram({
   name: 'farpoint-robot',
-  summary: 'The robot peer: captures point clouds, fits them to the link, streams them, obeys safe commands.',
+  summary:
+    'The robot peer: captures point clouds, fits them to the link, streams them, and executes safe commands.',
   version: '0.1.0',
   section: 'robot',
   commands: {
     init: 'writes a commented configuration file',
-    doctor: 'checks everything, and says what to do',
+    doctor: 'checks everything and says what to fix',
   },
   options,
 });

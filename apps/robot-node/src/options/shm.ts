@@ -7,18 +7,18 @@ export const shmOptions = optionGroup('source', {
     schema: schema.choice(['farpoint', 'reference']),
     default: 'farpoint',
     argument: 'LAYOUT',
-    help: 'shm: farpoint (frames as the camera gives them), or reference (the reference system’s packed points)',
+    help: 'shm: layout: farpoint (frames as the camera gives them), or reference (the reference system’s packed points)',
   }),
   shmFolder: defineOption({
     schema: schema.text(),
     default: DEFAULT_FOLDER,
     argument: 'FOLDER',
-    help: 'where the files of shared memory are, of source and sink',
+    help: 'folder of the shared-memory files, for both source and sink',
   }),
   shmWaitS: defineOption({
     schema: schema.number({ min: 0, max: 3600 }),
     default: 10,
     argument: 'SECONDS',
-    help: 'shm: how long to wait for the producer at the start',
+    help: 'shm: how long to wait for the producer at startup',
   }),
 });

@@ -11,7 +11,7 @@ export const simOptions = optionGroup('source', {
   simLidar: defineOption({
     schema: schema.boolean(),
     default: false,
-    help: 'gives the simulated robot a LiDAR beside its camera: 16 beams, 10 turns a second',
+    help: 'give the simulated robot a LiDAR in addition to its camera: 16 beams, 10 revolutions a second',
   }),
   simSize: defineOption({
     schema: schema.integer({ min: 16, max: 1024 }),

@@ -9,12 +9,12 @@ export const sinkOptions = optionGroup('sink', {
     default: 'source',
     argument: 'KIND',
     file: 'kind',
-    help: 'where velocities go: source (the simulator’s wheels), shm (the reference system’s command block), ros1, ros2 (the topic with as: velocity)',
+    help: 'where velocities go: source (the simulator’s wheels), shm (the reference system’s command block), ros1 or ros2 (the topic with as: velocity)',
   }),
   shmAccess: defineOption({
     schema: schema.choice(['owner', 'group']),
     default: 'owner',
     argument: 'WHO',
-    help: 'who may read and write the files that --sink shm makes: owner (0600), or group (0660)',
+    help: 'who may read and write the files that --sink shm creates: owner (0600), or group (0660)',
   }),
 });

@@ -9,12 +9,12 @@ export const sourceOptions = optionGroup('source', {
     default: 'sim',
     argument: 'KIND',
     file: 'kind',
-    help: 'where the points come from: sim (a simulated robot), pcd (recorded clouds), rgbd (recorded colour and depth pictures), shm (a camera’s producer, through shared memory), recording (an MCAP file or a ROS 1 bag), ros1, ros2 (topics of a ROS graph)',
+    help: 'where the points come from: sim (a simulated robot), pcd (recorded clouds), rgbd (recorded colour and depth images), shm (a camera’s program, through shared memory), recording (an MCAP file or a ROS 1 bag), ros1 or ros2 (topics of a ROS graph)',
   }),
   fps: defineOption({
     schema: schema.optional(schema.number({ min: 0.1, max: 120 })),
     default: null,
     argument: 'RATE',
-    help: 'most frames a second that the source is asked for; left out, 60 of the simulated camera, a recording’s own, 30 of others',
+    help: 'maximum frames a second to request from the source; default: 60 for the simulated camera, a recording’s own rate, 30 for others',
   }),
 });

@@ -8,6 +8,6 @@ export const topicsOptions = {
     default: [],
     flag: false,
     env: false,
-    help: 'ros1, ros2: the topics that the robot subscribes and publishes, and no others; recording: those of pictures and readings that are shown beside the clouds',
+    help: 'ros1, ros2: the only topics that the robot subscribes and publishes; recording: the topics of pictures and readings to show beside the clouds',
   }),
 };

@@ -79,7 +79,10 @@ export class ReferenceProfile {
         onMessage: (message) => this.#onMessage(message),
         onDown: (detail) => {
           this.#unlist();
-          this.#log.warn({ url: options.url, detail }, 'no line to the reference signaling; trying again');
+          this.#log.warn(
+            { url: options.url, detail },
+            'no connection to the reference signaling; trying again',
+          );
         },
       },
     );

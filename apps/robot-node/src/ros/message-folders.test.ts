@@ -55,7 +55,7 @@ it('says at the start which file is missing, and where to name its folder', () =
     `robot:\n  source: {kind: ros2}\n  ros: {messages: ${JSON.stringify(messages)}}\n  topics: ${JSON.stringify(TABLE)}\n`;
   expect(() => options(file('/nowhere'))).toThrow(OptionsError);
   expect(() => options(file('/nowhere'))).toThrow(
-    /robot\.topics \/grip: there is no arm_msgs\/msg\/Grip\.msg, in the folders of ros\.messages or of a ROS that is sourced/,
+    /robot\.topics \/grip: arm_msgs\/msg\/Grip\.msg was not found \(searched: the folders of ros\.messages/,
   );
   expect(options(file(folder)).sensors[0]?.capture.source).toMatchObject({
     topics: [{}, { definitions: [{ name: 'arm_msgs/Grip' }, { name: 'arm_msgs/Finger' }] }],

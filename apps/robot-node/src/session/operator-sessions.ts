@@ -112,7 +112,7 @@ export class OperatorSessions {
     const { host, signaling, counters } = this.#options;
     if (this.operators.has(session)) {
       // Its operator came by another way into a session that we have: that is what session.resume is for.
-      this.#options.log.warn({ session }, 'a session that is open was requested again');
+      this.#options.log.warn({ session }, 'an open session was requested again');
       return;
     }
     if (this.operators.size >= most) {

@@ -175,8 +175,8 @@ export class SignalingClient {
       const waitMs = this.#reconnect.nextMs();
       const facts = { url, code, detail: detail || reason.toString('utf8'), retryMs: Math.round(waitMs) };
       // Once until it is registered again: a robot may have the reference system's signaling only.
-      if (this.#missed) this.#log.debug(facts, 'still no line to signaling');
-      else this.#log.warn(facts, 'no line to signaling; trying again, in silence');
+      if (this.#missed) this.#log.debug(facts, 'still no connection to signaling');
+      else this.#log.warn(facts, 'no connection to signaling; will keep trying silently');
       this.#missed = true;
       this.#retry = setTimeout(() => this.#connect(), waitMs);
     });

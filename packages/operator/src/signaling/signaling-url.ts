@@ -8,7 +8,7 @@ export function parseSignalingUrl(text: string, securePage: boolean): { url: str
     return { fault: `“${text}” is not an address` };
   }
   if (url.protocol !== 'ws:' && url.protocol !== 'wss:')
-    return { fault: `“${text}” is no WebSocket address` };
+    return { fault: `“${text}” is not a WebSocket address` };
   if (securePage && url.protocol === 'ws:' && !isLoopback(url.hostname)) {
     return { fault: 'a page served by https can only use a wss: signaling address' };
   }

@@ -19,7 +19,7 @@ describe('which graph', () => {
   it.each([
     [{ sourced: false, installed: false }, 'no ROS 2 installation is sourced'],
     [{ installed: false }, 'rclnodejs is not installed'],
-    [{ needsDds: true }, 'rclnodejs cannot be told the network interface'],
+    [{ needsDds: true }, 'rclnodejs cannot be given a network interface'],
   ])('asked for by name, with %j, is a fault in one sentence', (missing, what) => {
     const choose = () => chooseRos2Graph('rclnodejs', { ...there, ...missing });
     expect(choose).toThrow(RosFault);

@@ -40,12 +40,12 @@ export function chooseRos2Graph(
   }
   if (!installed) {
     throw new RosFault('unavailable', 'rclnodejs is not installed', {
-      remedy: `with ROS sourced, \`npm install rclnodejs\` in a folder, and name its node_modules in NODE_PATH; or ${WITHOUT}`,
+      remedy: `with ROS sourced, run \`npm install rclnodejs\` in a folder and add its node_modules to NODE_PATH; or ${WITHOUT}`,
     });
   }
   if (needsDds) {
-    throw new RosFault('unavailable', 'rclnodejs cannot be told the network interface', {
-      remedy: `configure ROS’s own middleware and leave ros.interface out, or ${WITHOUT}`,
+    throw new RosFault('unavailable', 'rclnodejs cannot be given a network interface', {
+      remedy: `configure ROS’s own middleware and remove ros.interface, or ${WITHOUT}`,
     });
   }
   return 'rclnodejs';

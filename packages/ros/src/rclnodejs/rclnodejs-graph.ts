@@ -191,7 +191,7 @@ export class RclnodejsGraph implements RosGraph {
       member.before = { received: before.received + received, dropped: before.dropped + dropped };
       Object.assign(member, { received: 0, dropped: 0, others: 0 });
     }
-    this.onFault?.(new RosFault('lost', `${how}; it is started again`));
+    this.onFault?.(new RosFault('lost', `${how}; it will be restarted`));
     this.#startAgain();
   }
 

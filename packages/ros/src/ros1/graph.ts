@@ -70,7 +70,7 @@ class Ros1Graph implements RosGraph {
       if (this.#closed) return;
       this.#fault(
         new RosFault('lost', `the master has ended the node ${node.name}`, {
-          remedy: 'start the robot again; is there another of that name?',
+          remedy: 'restart the robot; does another node have that name?',
         }),
       );
       void this.close();
@@ -120,7 +120,7 @@ class Ros1Graph implements RosGraph {
   }
 
   subscribe({ topic, type }: SubscribeTo, onMessage: OnMessage): Subscription {
-    if (this.#subscriptions.has(topic)) throw new RosFault('refused', 'it is subscribed already', { topic });
+    if (this.#subscriptions.has(topic)) throw new RosFault('refused', 'it is already subscribed', { topic });
     const dataType = ros1TypeOf(type);
     const library = new LibrarySubscription({ name: topic, md5sum: '*', dataType, tcpNoDelay: true });
     let received = 0;
@@ -133,7 +133,7 @@ class Ros1Graph implements RosGraph {
       else if (theirs !== dataType) {
         const what = `it has ${ros2TypeOf(theirs)}, not ${type}`;
         this.#fault(
-          new RosFault('wrong-type', what, { topic, remedy: 'name its type in the table of topics' }),
+          new RosFault('wrong-type', what, { topic, remedy: 'set its type in the table of topics' }),
         );
       }
     });
@@ -171,7 +171,7 @@ class Ros1Graph implements RosGraph {
   advertise({ topic, type, qos }: AdvertiseAs): Publisher {
     const definitions = definitionsOf(1, type);
     if (definitions === null) throw new RosFault('unsupported', `publishing ${type}`, { topic });
-    if (this.#publications.has(topic)) throw new RosFault('refused', 'it is published already', { topic });
+    if (this.#publications.has(topic)) throw new RosFault('refused', 'it is already published', { topic });
     const latched = qos?.durability === 'transient-local';
     const publication = new Publication(
       ...([topic, md5(definitions), ros1TypeOf(type), latched, definitions] as const),
@@ -241,7 +241,7 @@ class Ros1Graph implements RosGraph {
       this.#masterLost = true;
       this.#fault(
         new RosFault('lost', `no ROS 1 master at ${this.#options.masterUrl}: ${detailOf(error)}`, {
-          remedy: 'start roscore, or name the master',
+          remedy: 'start roscore, or set ros.master',
           cause: error,
         }),
       );

@@ -105,7 +105,7 @@ function checkContent(content: FrameContent, format: CloudFormat, points: number
       : format !== 'points' &&
         content.depth.byteLength === points * (format === 'depth16' ? 2 : 4) &&
         content.colours.byteLength === points * 4;
-  if (!right) throw new RangeError(`this is no ${format} frame of ${points} points`);
+  if (!right) throw new RangeError(`this is not a ${format} frame of ${points} points`);
 }
 
 /** What is there already, whatever it is; its lock says whether its producer lives. */
@@ -143,5 +143,5 @@ function makeFile(path: string, header: CloudHeader, mode: number): MappedFile {
 }
 
 function inUse(path: string): SharedMemoryError {
-  return new SharedMemoryError('in-use', path, null, 'another producer writes it');
+  return new SharedMemoryError('in-use', path, null, 'another producer is writing it');
 }

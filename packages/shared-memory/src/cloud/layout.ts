@@ -134,7 +134,7 @@ export function parseHeader(bytes: Uint8Array, size: number, file: string): Clou
   const format = CLOUD_FORMATS[word(16) - 1];
   if (format === undefined) throw fault('bad-header', 16, `format ${word(16)} is unknown`);
   const slots = word(20);
-  if (!SLOT_COUNTS.includes(slots)) throw fault('bad-header', 20, `${slots} slots; 4, 8 or 16 there may be`);
+  if (!SLOT_COUNTS.includes(slots)) throw fault('bad-header', 20, `${slots} slots, not 4, 8 or 16`);
   const [slotBytes, maxPoints] = [word(24), word(28)];
   if (maxPoints < 1 || maxPoints > MAX_POINTS) throw fault('bad-header', 28, `${maxPoints} points a frame`);
   if (slotBytes % 64 !== 0 || slotBytes < SLOT_HEADER_BYTES + payloadBytes(format, maxPoints))
@@ -200,7 +200,7 @@ export function parseFrameHeader(
   if ((flags & HAS_POSE) !== 0) {
     const norm = Math.hypot(qx, qy, qz, qw);
     if (![px, py, pz].every(Number.isFinite)) throw fault(32, 'a position that is not finite');
-    if (!(Math.abs(norm - 1) < 0.01)) throw fault(56, 'an orientation that is no unit quaternion');
+    if (!(Math.abs(norm - 1) < 0.01)) throw fault(56, 'an orientation that is not a unit quaternion');
     pose = {
       position: { x: px, y: py, z: pz },
       orientation: { x: qx / norm, y: qy / norm, z: qz / norm, w: qw / norm },
@@ -208,7 +208,7 @@ export function parseFrameHeader(
   }
   const lens = (flags & HAS_LENS) === 0 ? null : { fx, fy, cx, cy };
   if (lens !== null && !(fx > 0 && fy > 0 && [fx, fy, cx, cy].every(Number.isFinite)))
-    throw fault(88, 'focal lengths and principal point that cannot be');
+    throw fault(88, 'impossible focal lengths or principal point');
   if (lens === null && format !== 'points')
     throw fault(24, 'depth without focal lengths and principal point');
   const depthUnit = view.getFloat32(120, true);

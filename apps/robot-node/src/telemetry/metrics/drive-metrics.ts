@@ -3,7 +3,7 @@ import type { Robot } from '../../robot.ts';
 
 /** Commands, and what the guard made of them. */
 export function addDriveMetrics(metrics: PulledMetrics, { counters, base }: Robot): void {
-  metrics.sum('commands_accepted', 'Drive commands obeyed', () => counters.commandsAccepted);
+  metrics.sum('commands_accepted', 'Drive commands accepted', () => counters.commandsAccepted);
   metrics.sums('commands_rejected', 'Drive commands refused, by reason', 'reason', () =>
     counters.commandsRejected.entries(),
   );

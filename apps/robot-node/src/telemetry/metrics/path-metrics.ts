@@ -29,39 +29,39 @@ export function addPathMetrics(metrics: PulledMetrics, { operators }: Pick<Robot
   );
   metrics.gauge(
     'packets_resent',
-    'Packets sent again because an operator connected now missed them',
+    'Packets resent because an operator connected now missed them',
     total((sender) => sender.counters.packetsResent),
   );
   metrics.gauges(
     'resends_refused',
-    'Missed packets that were not sent again, by reason, operators connected now',
+    'Missed packets that were not resent, by reason, for operators connected now',
     'reason',
     byReason((sender) => sender.resendRefusals),
   );
   metrics.gauges(
     'frames_dropped',
-    'Frames that were not sent, or not to their end, by reason, operators connected now',
+    'Frames not sent, or only in part, by reason, for operators connected now',
     'reason',
     byReason((sender) => sender.droppedFrames),
   );
   metrics.gauge(
     'frames_superseded',
-    'Frames not sent because a newer one came first, operators connected now',
+    'Frames not sent because a newer one replaced them, for operators connected now',
     total(({ droppedFrames }) => droppedFrames.superseded + droppedFrames.overdue),
   );
   metrics.gauge(
     'rate_estimate_bits_per_second',
-    'What the narrowest path is thought to carry',
+    'Estimated rate of the narrowest path',
     rate((snapshot) => snapshot.estimateBitsPerSecond),
   );
   metrics.gauge(
     'rate_target_bits_per_second',
-    'What the narrowest path is given',
+    'Target rate of the narrowest path',
     narrowest((sender) => sender.targetBitsPerSecond),
   );
   metrics.gauge(
     'rate_acknowledged_bits_per_second',
-    'What the receiver got lately',
+    'Rate that recently arrived at the receiver',
     rate((snapshot) => snapshot.ackedBitsPerSecond),
   );
   metrics.gauge(
@@ -71,10 +71,10 @@ export function addPathMetrics(metrics: PulledMetrics, { operators }: Pick<Robot
   );
   metrics.gauge(
     'rate_loss_ratio',
-    'Share of packets lost lately',
+    'Share of packets lost recently',
     rate((snapshot) => snapshot.lossFraction),
   );
-  metrics.gauges('rate_state', 'Operators by what their rate control is doing', 'state', () =>
+  metrics.gauges('rate_state', 'Operators by state of their rate control', 'state', () =>
     senders().map((sender) => [sender.rate.state, 1]),
   );
 }

@@ -9,12 +9,16 @@ export function addPictureMetrics(metrics: PulledMetrics, { pictures, operators 
   const total = (read: (operator: OperatorSession) => number) => () =>
     [...operators.values()].reduce((sum, operator) => sum + read(operator), 0);
 
-  metrics.sum('pictures_made', 'Pictures of cameras made ready to send', () => made.made);
-  metrics.sum('pictures_untouched', 'Of those, files sent as the camera gave them', () => made.untouched);
-  metrics.sum('picture_bytes', 'Bytes of the pictures made ready', () => made.bytes);
-  metrics.sum('picture_thread_seconds', 'Processor time of making pictures', () => made.workSeconds);
-  metrics.sum('picture_thread_restarts', 'Times the picture thread was started anew', () => made.restarts);
-  metrics.sums('pictures_lost', 'Pictures that were not made, by reason', 'reason', () =>
+  metrics.sum('pictures_made', 'Camera pictures prepared for sending', () => made.made);
+  metrics.sum(
+    'pictures_untouched',
+    'Prepared pictures that are the camera’s own files, unchanged',
+    () => made.untouched,
+  );
+  metrics.sum('picture_bytes', 'Bytes of the prepared pictures', () => made.bytes);
+  metrics.sum('picture_thread_seconds', 'Processor time of the picture thread', () => made.workSeconds);
+  metrics.sum('picture_thread_restarts', 'Restarts of the picture thread', () => made.restarts);
+  metrics.sums('pictures_lost', 'Pictures that could not be prepared, by reason', 'reason', () =>
     made.lost.entries(),
   );
   metrics.gauge(
@@ -29,7 +33,7 @@ export function addPictureMetrics(metrics: PulledMetrics, { pictures, operators 
   );
   metrics.gauges(
     'pictures_unsent',
-    'Pictures that were not sent, or not to their end, by reason, operators connected now',
+    'Pictures not sent, or only in part, by reason, for operators connected now',
     'reason',
     () => [...operators.values()].flatMap(({ pictures: sender }) => Object.entries(sender.drops)),
   );

@@ -6,7 +6,10 @@ export function addRecordingMetrics(metrics: PulledMetrics, { recording }: Pick<
   if (recording === null) return;
   metrics.sum('recording_messages', 'Messages recorded', () => recording.counts.messages);
   metrics.sum('recording_bytes', 'Bytes of the recording', () => recording.counts.bytes);
-  metrics.sums('recording_dropped', 'Not recorded: the writer did not keep up, by kind', 'kind', () =>
-    Object.entries(recording.counts.dropped),
+  metrics.sums(
+    'recording_dropped',
+    'Items not recorded because the writer did not keep up, by kind',
+    'kind',
+    () => Object.entries(recording.counts.dropped),
   );
 }

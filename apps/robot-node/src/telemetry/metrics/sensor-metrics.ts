@@ -6,15 +6,19 @@ export function addSensorMetrics(metrics: PulledMetrics, { counters, sensors }: 
   metrics.sum('frames_captured', 'Clouds captured', () => counters.framesCaptured);
   metrics.sum(
     'frames_without_buffer',
-    'Clouds not captured: all buffers out',
+    'Clouds not captured because no buffer was free',
     () => sensors.framesWithoutBuffer,
   );
   metrics.sum(
     'source_faults',
-    'Faults of the source that may pass: no producer, bad clouds',
+    'Temporary faults of the source: no producer, bad clouds',
     () => sensors.faults,
   );
-  metrics.sum('frames_stale', 'Clouds dropped: too old when ready', () => counters.framesStale);
+  metrics.sum(
+    'frames_stale',
+    'Clouds dropped because they were too old when ready',
+    () => counters.framesStale,
+  );
   metrics.sum('points_sent_per_frame_sum', 'Points of all captured frames', () => counters.pointsCaptured);
   metrics.sums('points_rejected', 'Points not sent, by reason', 'reason', () =>
     counters.pointsRejected.entries(),
@@ -24,7 +28,7 @@ export function addSensorMetrics(metrics: PulledMetrics, { counters, sensors }: 
   metrics.gauge('valid_points', 'Valid points of the last raw cloud', () => counters.lastValidPoints);
   metrics.gauge(
     'frames_per_second_planned',
-    'Frames a second that the plan has now',
+    'Frames a second that are planned now',
     () => counters.lastFramesPerSecond,
   );
 }

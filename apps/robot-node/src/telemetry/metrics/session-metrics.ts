@@ -4,7 +4,7 @@ import type { Robot } from '../../robot.ts';
 /** Sessions of operators: how they came about, why they ended, and what was refused on the way. */
 export function addSessionMetrics(metrics: PulledMetrics, { counters, operators }: Robot): void {
   const { sessionsEnded, resumesRefused, answersIgnored, candidatesRefused, datagramsRefused } = counters;
-  metrics.sum('sessions_opened', 'Sessions that operators asked for', () => counters.sessionsOpened);
+  metrics.sum('sessions_opened', 'Sessions that operators requested', () => counters.sessionsOpened);
   metrics.sum('sessions_refused', 'Sessions refused: too many operators', () => counters.sessionsRefused);
   metrics.sums('sessions_ended', 'Sessions that ended, by reason', 'reason', () => sessionsEnded.entries());
   metrics.sum(
@@ -15,10 +15,10 @@ export function addSessionMetrics(metrics: PulledMetrics, { counters, operators 
   metrics.sums('resumes_refused', 'Requests to resume a session that were refused', 'reason', () =>
     resumesRefused.entries(),
   );
-  metrics.sums('answers_ignored', 'Answers that changed nothing, by reason', 'reason', () =>
+  metrics.sums('answers_ignored', 'Answers that were ignored, by reason', 'reason', () =>
     answersIgnored.entries(),
   );
-  metrics.sums('ice_candidates_refused', 'ICE candidates left out, by reason', 'reason', () =>
+  metrics.sums('ice_candidates_refused', 'ICE candidates that were refused, by reason', 'reason', () =>
     candidatesRefused.entries(),
   );
   metrics.sums(
