@@ -34,6 +34,7 @@ const FOR_DEVELOPERS =
 const EXAMPLES = [
   'scripts/lib/package-imports.test.ts',
   'scripts/lib/file-imports.test.ts',
+  'scripts/published-packages.test.ts',
   'e2e/tests/own-page.spec.ts',
 ];
 const sources = files.filter(
