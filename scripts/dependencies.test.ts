@@ -49,6 +49,8 @@ const EVERYWHERE = new Set(['vitest', 'fast-check']);
 const TYPES_OF_THE_PLATFORM = new Set(['@types/node', '@types/webxr']);
 /** The programs of packages that scripts run under another name. */
 const PROGRAMS: Readonly<Record<string, string>> = { '@biomejs/biome': 'biome', typescript: 'tsc' };
+/** Peers that a tool asks for; nothing of ours imports them. */
+const ASKED_FOR: Readonly<Record<string, readonly string[]>> = { '@farpoint/api-pages': ['typescript'] };
 /** Of the user's own installation, named by configuration. */
 const FOREIGN = new Set(['rclnodejs']);
 
@@ -78,7 +80,7 @@ describe.each(packages)('$name', (manifest) => {
     const imported = new Set(own.flatMap(({ text }) => [...importedPackages(text)]));
     const scripts = Object.values(manifest.scripts).join('\n');
     const unused = Object.keys(declared).filter((name) => {
-      if (imported.has(name)) return false;
+      if (imported.has(name) || ASKED_FOR[manifest.name]?.includes(name)) return false;
       // Types are used by who uses what they describe.
       const typed = /^@types\/(?<of>.+)$/.exec(name)?.groups?.of?.replace('__', '/');
       if (typed !== undefined) {

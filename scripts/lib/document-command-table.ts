@@ -152,6 +152,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'cargo fmt --all': { because: 'needs Rust' },
   'cargo run --release -p xtask -- train-tables FILE': { because: 'needs Rust' },
   'cargo run --release -p farpoint-unorganised-codec --example train_tables': { because: 'needs Rust' },
+  'pnpm docs:api': { because: 'writes into the working tree' },
   'pnpm format': { because: 'writes into the working tree' },
   'pnpm exec vitest packages/protocol': { because: 'runs until it is ended, and every test of it' },
   'pnpm --dir e2e exec playwright test -g "in the headset"': {
