@@ -1,5 +1,5 @@
 /** What a package imports it declares, and what it declares it uses: else it works by luck, or installs what nobody needs. */
-import { dirname } from 'node:path';
+import { dirname, join } from 'node:path';
 import { describe, expect, test } from 'vitest';
 import { parse } from 'yaml';
 import * as z from 'zod';
@@ -16,6 +16,8 @@ const manifestSchema = z.object({
   /** Of a package that is published: what it imports of ours is bundled into it. */
   publishConfig: z.object({}).optional(),
 });
+
+const tsconfigSchema = z.object({ references: z.array(z.object({ path: z.string() })) });
 
 const packages = files
   .filter((file) => /(^|\/)package\.json$/.test(file) && !file.includes('/fixtures/'))
@@ -34,6 +36,7 @@ const FOR_DEVELOPERS =
 const EXAMPLES = [
   'scripts/lib/package-imports.test.ts',
   'scripts/lib/file-imports.test.ts',
+  'scripts/published-packages.stack.test.ts',
   'e2e/tests/own-page.spec.ts',
 ];
 const sources = files.filter(
@@ -48,6 +51,8 @@ const EVERYWHERE = new Set(['vitest', 'fast-check']);
 const TYPES_OF_THE_PLATFORM = new Set(['@types/node', '@types/webxr']);
 /** The programs of packages that scripts run under another name. */
 const PROGRAMS: Readonly<Record<string, string>> = { '@biomejs/biome': 'biome', typescript: 'tsc' };
+/** Peers that a tool asks for; nothing of ours imports them. */
+const ASKED_FOR: Readonly<Record<string, readonly string[]>> = { '@farpoint/api-pages': ['typescript'] };
 /** Of the user's own installation, named by configuration. */
 const FOREIGN = new Set(['rclnodejs']);
 
@@ -73,11 +78,24 @@ describe.each(packages)('$name', (manifest) => {
     expect(missing).toEqual([]);
   });
 
+  test.skipIf(!files.includes(`${manifest.folder}/tsconfig.json`) || manifest.folder === '.')(
+    'is compiled after what it declares',
+    () => {
+      const { references } = tsconfigSchema.parse(JSON.parse(read(`${manifest.folder}/tsconfig.json`)));
+      const folders = references.map(({ path }) => join(manifest.folder, path).replaceAll('\\', '/'));
+      const ours = packages.filter(({ name, folder }) => name in declared && folder !== '.');
+      // The scripts are no package.
+      expect(folders.filter((folder) => folder !== 'scripts').sort()).toEqual(
+        ours.map(({ folder }) => folder).sort(),
+      );
+    },
+  );
+
   test('uses what it declares', () => {
     const imported = new Set(own.flatMap(({ text }) => [...importedPackages(text)]));
     const scripts = Object.values(manifest.scripts).join('\n');
     const unused = Object.keys(declared).filter((name) => {
-      if (imported.has(name)) return false;
+      if (imported.has(name) || ASKED_FOR[manifest.name]?.includes(name)) return false;
       // Types are used by who uses what they describe.
       const typed = /^@types\/(?<of>.+)$/.exec(name)?.groups?.of?.replace('__', '/');
       if (typed !== undefined) {

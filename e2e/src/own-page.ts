@@ -4,6 +4,7 @@ import { createServer } from 'node:http';
 import type { AddressInfo } from 'node:net';
 import { extname, join, normalize } from 'node:path';
 import { repositoryRoot } from '@farpoint/local-stack';
+import { packPackage, publishedPackages } from '../../scripts/lib/published-packages.ts';
 import { run } from '../../scripts/lib/run.ts';
 
 /**
@@ -15,9 +16,8 @@ import { run } from '../../scripts/lib/run.ts';
 export async function installOwnPage(folder: string): Promise<void> {
   mkdirSync(folder, { recursive: true });
   cpSync(join(repositoryRoot, 'examples/own-page'), folder, { recursive: true });
-  for (const name of ['operator', 'cloud-view']) {
-    const tarball = join(folder, `farpoint-${name}.tgz`);
-    await pnpm(['pack', '--out', tarball], join(repositoryRoot, 'packages', name));
+  for (const each of publishedPackages) {
+    await packPackage(each, join(folder, `${each.name.replace(/^@/, '').replace('/', '-')}.tgz`));
   }
   const overrides = Object.fromEntries(
     ['three', '@types/three'].map((name) => [

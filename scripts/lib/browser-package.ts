@@ -16,6 +16,7 @@ import {
 } from 'node:fs';
 import { basename, dirname, join, relative, resolve } from 'node:path';
 import { build } from 'esbuild';
+import { bundledPackages, licenceTexts } from './bundled-licences.ts';
 import { publicDeclaration, references } from './declarations.ts';
 
 export interface BrowserPackage {
@@ -40,8 +41,9 @@ export async function buildBrowserPackage(spec: BrowserPackage): Promise<void> {
 }
 
 async function bundle({ folder, entries, external = [] }: BrowserPackage, dist: string): Promise<void> {
-  await build({
+  const { metafile } = await build({
     absWorkingDir: folder,
+    metafile: true,
     entryPoints: Object.fromEntries(entries.map((entry) => [basename(entry, '.ts'), `src/${entry}`])),
     outdir: dist,
     bundle: true,
@@ -69,6 +71,8 @@ async function bundle({ folder, entries, external = [] }: BrowserPackage, dist: 
       },
     ],
   });
+  const licences = licenceTexts(bundledPackages(Object.keys(metafile.inputs)), folder);
+  if (licences !== null) writeFileSync(join(dist, 'THIRD_PARTY_LICENSES.txt'), licences);
 }
 
 /** The index of each package that is bundled, by name: of the workspace's packages in `devDependencies`. */
@@ -102,8 +106,8 @@ function declare(spec: BrowserPackage, dist: string): void {
   const bundled = bundledIndexes(spec);
   const config = join(dist, 'tsconfig.json');
   const compilerOptions = {
-    ...{ noEmit: false, emitDeclarationOnly: true, declaration: true, types: [] },
-    ...{ rootDir: root, outDir: out },
+    ...{ composite: false, incremental: false, declaration: true, types: [] },
+    ...{ rootDir: root, outDir: out, tsBuildInfoFile: null },
     paths: Object.fromEntries([...bundled].map(([name, file]) => [name, [file]])),
   };
   const include = ['../src/index.ts'];

@@ -47,11 +47,13 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'npx -y pnpm@12 dev': { help: true, because: 'runs until it is ended, and every test of it' },
   'npx -y pnpm@12 test': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm test': { help: true, because: 'runs until it is ended, and every test of it' },
-  'pnpm test --only lint,types,unit': {
+  'pnpm test --only lint,types,stack': {
     help: true,
     because: 'runs until it is ended, and every test of it',
   },
   'pnpm test --help': { help: true },
+  'pnpm test:pure': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm --filter @farpoint/rtp test': { because: 'runs until it is ended, and every test of it' },
   'pnpm robot': robot,
   'pnpm signaling': { up: 'listening', also: FREE_SIGNALING },
   'pnpm bridge': { up: 'health and metrics', also: FREE_BRIDGE },
@@ -152,6 +154,10 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'cargo fmt --all': { because: 'needs Rust' },
   'cargo run --release -p xtask -- train-tables FILE': { because: 'needs Rust' },
   'cargo run --release -p farpoint-unorganised-codec --example train_tables': { because: 'needs Rust' },
+  'pnpm release': { help: true, because: 'writes into the working tree' },
+  'pnpm release --dry-run': { help: true, because: 'builds for minutes' },
+  'pnpm release --help': { help: true },
+  'pnpm docs:api': { because: 'writes into the working tree' },
   'pnpm format': { because: 'writes into the working tree' },
   'pnpm exec vitest packages/protocol': { because: 'runs until it is ended, and every test of it' },
   'pnpm --dir e2e exec playwright test -g "in the headset"': {

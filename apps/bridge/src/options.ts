@@ -1,6 +1,7 @@
 import { POINTS_PER_PACKET } from '@farpoint/protocol';
 import { adminOptions, defineOption, defineProgram, type OptionValues, schema } from '@farpoint/service';
 import * as z from 'zod';
+import manifest from '../package.json' with { type: 'json' };
 import type { BridgeOptions } from './bridge.ts';
 
 const bits = schema.number({ min: 10_000, max: 2_000_000_000 });
@@ -18,7 +19,7 @@ export const program = defineProgram({
   name: 'farpoint-bridge',
   summary:
     "The reference system's headset-side bridge: connects to its robots by WebRTC and to its web page by local WebSockets.",
-  version: '0.1.0',
+  version: manifest.version,
   section: 'bridge',
   options: {
     signaling: defineOption({

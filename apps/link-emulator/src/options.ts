@@ -8,6 +8,7 @@ import {
   schema,
 } from '@farpoint/service';
 import * as z from 'zod';
+import manifest from '../package.json' with { type: 'json' };
 import { outages, steps } from './capacity-options.ts';
 
 const ms = schema.number({ min: 0, max: 600_000 });
@@ -122,7 +123,7 @@ export const program = defineProgram({
   name: 'farpoint-link',
   summary:
     'Puts a bad network between a robot and its operators: a signaling proxy that routes all their packets through an emulated link. Point the robot at it.',
-  version: '0.1.0',
+  version: manifest.version,
   section: 'link',
   options: {
     signaling: defineOption({

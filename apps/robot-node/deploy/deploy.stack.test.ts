@@ -15,6 +15,7 @@ import type { AddressInfo } from 'node:net';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import manifest from '../package.json' with { type: 'json' };
 import { baseImageOf } from './debian-base.ts';
 
 const here = import.meta.dirname;
@@ -24,6 +25,7 @@ const has = (program: string, ...args: string[]) => spawnSync(program, args).err
 const systemd = has('systemd-analyze', '--version');
 const compiler = has('cc', '--version') && has('make', '--version') && has('python3', '--version');
 const LONG_MS = 300_000;
+const versionLine = `farpoint-robot ${manifest.version}\n`;
 
 let folder: string;
 beforeAll(() => {
@@ -79,7 +81,7 @@ describe.skipIf(!compiler)('install.sh (needs a C compiler, make and Python 3)',
       const robot = join(dest, 'usr/local/bin/farpoint-robot');
       expect(run(robot, ['--version'], { cwd: '/' })).toEqual({
         status: 0,
-        output: 'farpoint-robot 0.1.0\n',
+        output: versionLine,
       });
       const config = join(dest, 'etc/farpoint/robot.yaml');
       const secrets = join(dest, 'etc/farpoint/robot.env');
@@ -214,7 +216,7 @@ describe('the image', () => {
         dockerfile.find(({ name }) => name === 'ENTRYPOINT')?.text ?? '[]',
       ) as string[];
       const main = (entry[1] ?? '').replace(/^\/app/, app);
-      expect(run(process.execPath, [main, '--version'], { cwd: '/' }).output).toBe('farpoint-robot 0.1.0\n');
+      expect(run(process.execPath, [main, '--version'], { cwd: '/' }).output).toBe(versionLine);
       const missing = run(process.execPath, [main], {
         cwd: '/',
         env: { FARPOINT_CONFIG: '/etc/farpoint/nothing.yaml' },

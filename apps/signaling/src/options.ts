@@ -1,6 +1,7 @@
 import { type IceServer, iceServerSchema, MAX_SIGNALING_BYTES } from '@farpoint/protocol';
 import { defineOption, defineProgram, type OptionValues, schema } from '@farpoint/service';
 import * as z from 'zod';
+import manifest from '../package.json' with { type: 'json' };
 
 const iceServers = z.preprocess((value, context) => {
   if (typeof value !== 'string') return value;
@@ -17,7 +18,7 @@ const count = schema.integer({ min: 1 });
 export const program = defineProgram({
   name: 'farpoint-signaling',
   summary: 'Introduces robots and operators: Farpoint sessions, and the signaling of the reference system.',
-  version: '0.1.0',
+  version: manifest.version,
   section: 'signaling',
   options: {
     host: defineOption({

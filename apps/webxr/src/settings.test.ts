@@ -33,7 +33,7 @@ describe('readSettings', () => {
 
   test('a bad address is told, and the default used', () => {
     const settings = read('signaling=ftp://x');
-    expect(settings.signalingFault).toContain('no WebSocket address');
+    expect(settings.signalingFault).toContain('is not a WebSocket address');
     expect(settings.signalingUrl).toBe('wss://x.org:8443/operator');
   });
 

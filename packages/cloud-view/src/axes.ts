@@ -12,6 +12,9 @@ export function worldToThree(): Matrix4 {
 /**
  * Heading of an optical frame (z forward) in the world: angle about z, counter-clockwise from x, radians; `fallback`
  * where it looks straight up or down.
+ *
+ * @param q unit quaternion
+ * @param fallback radians
  */
 export function opticalYaw(q: Pick<Quaternion, 'x' | 'y' | 'z' | 'w'>, fallback: number): number {
   // The frame's z axis in the world.
@@ -20,7 +23,11 @@ export function opticalYaw(q: Pick<Quaternion, 'x' | 'y' | 'z' | 'w'>, fallback:
   return Math.hypot(x, y) < 1e-3 ? fallback : Math.atan2(y, x);
 }
 
-/** Heading of a body frame (x forward), radians. */
+/**
+ * Heading of a body frame (x forward) in the world: angle about z, counter-clockwise from x, radians.
+ *
+ * @param q unit quaternion
+ */
 export function bodyYaw(q: { x: number; y: number; z: number; w: number }): number {
   return Math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
 }

@@ -2,8 +2,17 @@
  * The cloud on the GPU: takes batches as they come, uploads what is drawn in the frame loop, and tells what was drawn.
  * Nothing is parsed and nothing allocated here.
  */
-import type { Batch, DropCounts, DropReason, RobotClient } from '@farpoint/operator';
+import type {
+  Batch,
+  DropCounts,
+  DropReason,
+  Vector3 as Position,
+  Quaternion,
+  RobotClient,
+} from '@farpoint/operator';
 import { BufferGeometry, Points, type RawShaderMaterial, Sphere, Vector3, type WebGLRenderer } from 'three';
+import type { CloudSource, CloudViewOptions } from './cloud-source.ts';
+import type { DrawnPoints, FramePose } from './drawn-points.ts';
 import { FrameWindow } from './frame-window.ts';
 import { GpuCompletion } from './gpu-completion.ts';
 import { createPointMaterial, spacingPerMetre } from './point-material.ts';
@@ -20,30 +29,20 @@ const STALE_FADE_MS = 1400;
 /** As of a camera that sees 90°, until a frame has told better. */
 const DEFAULT_EXTENT = 2;
 
-/** Where the clouds come from: a {@link RobotClient}, or something that behaves as one. */
-export type CloudSource = Pick<
-  RobotClient,
-  'on' | 'release' | 'noteUploaded' | 'noteDrawn' | 'pointsAtMs'
-> & {
-  readonly latency: Pick<RobotClient['latency'], 'wantsTime'>;
-};
-
-export interface CloudViewOptions {
-  /** Whose clouds are drawn; the first sensor's where left out. */
-  sensor?: number;
-}
-
 /**
  * The clouds of one of a robot's sensors, as an object of a three.js scene. Its axes are the robot's world (REP-103: x forward, z up):
  * add it to a {@link RobotWorld}. Call {@link update} before and {@link noteDrawn} after each rendering.
  */
 export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
+  /** Which of the received points are drawn. */
   readonly window = new FrameWindow(FIRST_CAPACITY, MAX_CAPACITY);
   /** Packets that were not drawn, by reason. */
   readonly drops: DropCounts = {};
-  /** Frames of which some point was drawn, packets drawn and points that came in them, since the session began. */
+  /** Frames of which some point was drawn, since the session began. */
   frames = 0;
+  /** Packets drawn, since the session began. */
   packets = 0;
+  /** Points that came in the packets drawn, since the session began. */
   points = 0;
   /** How wide the robot's camera sees: side of its picture at 1 m, metres. */
   imageExtent = DEFAULT_EXTENT;
@@ -55,7 +54,11 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   readonly #waiting: Batch[] = [];
   readonly #stop: (() => void)[];
 
-  /** @param renderer draws this object, and no other renderer does */
+  /**
+   * @param renderer draws this object, and no other renderer does
+   * @param source a {@link RobotClient}
+   * @param options whose clouds are drawn
+   */
   constructor(renderer: WebGLRenderer, source: CloudSource, { sensor = 0 }: CloudViewOptions = {}) {
     const { material, uniforms } = createPointMaterial();
     super(new BufferGeometry(), material);
@@ -98,13 +101,15 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     return this.window.tail - this.window.head;
   }
 
-  /** Of the newest frame: where its camera stood, REP-103 world. */
-  get cameraPosition(): { x: number; y: number; z: number } {
+  /** Of the newest frame: where its camera stood, metres, REP-103 world. */
+  get cameraPosition(): Position {
     return this.#uniforms.framePosition.value[this.window.newestSlot]!;
   }
-  get cameraOrientation(): { x: number; y: number; z: number; w: number } {
+  /** Of the newest frame: how its camera's optical frame (z forward, x right, y down) was turned, as a unit quaternion. */
+  get cameraOrientation(): Quaternion {
     return this.#uniforms.frameOrientation.value[this.window.newestSlot]!;
   }
+  /** Whether any frame has come in this session. */
   get hasPoints(): boolean {
     return this.window.newestFrame !== null;
   }
@@ -116,7 +121,11 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     return xr.getCamera().cameras[0]?.viewport?.w ?? domElement.height;
   }
 
-  /** In the frame loop, before rendering: uploads what has come. @param nowMs `performance.now()` */
+  /**
+   * In the frame loop, before rendering: uploads what has come.
+   *
+   * @param nowMs `performance.now()`
+   */
   update(nowMs: number): void {
     for (const batch of this.#waiting) {
       this.#upload(batch);
@@ -189,19 +198,19 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   }
 
   /** Copies the drawn points out, for tests: x, y, z, colour int16 each. */
-  readBack(): { points: Int16Array; slots: (number | null)[] } {
+  readBack(): DrawnPoints {
     const points = new Int16Array(this.drawn * 4);
     if (points.length > 0) this.#ring.read(this.window.head, points);
     const slots = Array.from({ length: this.drawn }, (_, i) => this.window.slotOf(this.window.head + i));
     return { points, slots };
   }
 
-  /** Pose of slot 0 or 1, and metres of one step of its coordinates. */
-  pose(slot: number): {
-    unit: number;
-    position: { x: number; y: number; z: number };
-    orientation: { x: number; y: number; z: number; w: number };
-  } {
+  /**
+   * The pose of a frame that is drawn.
+   *
+   * @param slot 0 or 1
+   */
+  pose(slot: number): FramePose {
     return {
       unit: this.#uniforms.frameUnit.value[slot]!,
       position: this.#uniforms.framePosition.value[slot]!,

@@ -11,13 +11,17 @@ const MAX_HOLD_MS = 50;
 /** Weight of the latest cost in the running mean. */
 const SMOOTHING = 0.2;
 
+/** Decides whether a flat screen is drawn at a display frame, from what a picture costs the GPU. */
 export class DrawGate {
   #costMs = 0;
   #lastDrawMs = Number.NEGATIVE_INFINITY;
   #lastEnded: number | null = null;
 
   /**
+   * Asks before each display frame.
+   *
    * @param endedFrame the newest frame of the robot of which no more is waited for; `null` where there is none
+   * @param nowMs `performance.now()`
    * @returns whether to draw now
    */
   mayDraw(endedFrame: number | null, nowMs: number): boolean {
@@ -26,13 +30,18 @@ export class DrawGate {
     );
   }
 
-  /** A picture was begun. */
+  /**
+   * A picture was begun.
+   *
+   * @param endedFrame as in {@link mayDraw}
+   * @param nowMs `performance.now()`
+   */
   onDraw(endedFrame: number | null, nowMs: number): void {
     this.#lastEnded = endedFrame;
     this.#lastDrawMs = nowMs;
   }
 
-  /** The GPU took so long for a picture. */
+  /** The GPU took this long for a picture, ms. */
   onCost(costMs: number): void {
     this.#costMs += (costMs - this.#costMs) * SMOOTHING;
   }

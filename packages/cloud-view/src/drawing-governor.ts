@@ -2,6 +2,8 @@
  * How much is drawn: fewer points of a whole cloud, and on a flat screen fewer pixels, where the machine cannot keep up. A
  * late picture is worse than a coarse one. No clock here.
  */
+
+/** How much is drawn. */
 export interface DrawingStep {
   /** Share of the screen's own resolution. */
   scale: number;
@@ -24,6 +26,7 @@ const FAST_FOR_MS = 6000;
 /** After a step up that was too much, the next is tried only after so long. */
 const PATIENCE_MS = 60_000;
 
+/** Chooses how much is drawn from the display frames a second that the machine reaches. */
 export class DrawingGovernor {
   #step = 0;
   #slowSinceMs: number | null = null;
@@ -31,12 +34,16 @@ export class DrawingGovernor {
   #steppedUpMs = Number.NEGATIVE_INFINITY;
   #noUpBeforeMs = Number.NEGATIVE_INFINITY;
 
+  /** How much is to be drawn now. */
   get step(): DrawingStep {
     return DRAWING_STEPS[this.#step] as DrawingStep;
   }
 
   /**
+   * Call it about once a second.
+   *
    * @param displayFps display frames a second over the last second
+   * @param nowMs `performance.now()`
    * @returns whether {@link step} has changed
    */
   update(displayFps: number, nowMs: number): boolean {

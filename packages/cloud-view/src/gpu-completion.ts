@@ -1,6 +1,7 @@
 /** Whether the GPU has drawn what it was given. */
 import type { WebGLRenderer } from 'three';
 
+/** Tells whether the GPU has drawn what it was given. */
 export class GpuCompletion {
   /** Told how long each picture took from its marking, ms, as far as {@link busy} was asked. */
   onCost: ((costMs: number) => void) | null = null;
@@ -9,6 +10,7 @@ export class GpuCompletion {
   readonly #pixel = new Uint8Array(4);
   readonly #renderer: WebGLRenderer;
 
+  /** @param renderer of WebGL 2, by which everything is drawn */
   constructor(renderer: WebGLRenderer) {
     this.#renderer = renderer;
   }

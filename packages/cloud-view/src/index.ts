@@ -1,11 +1,13 @@
 /**
  * Draws the clouds that `@farpoint/operator` receives, in a three.js scene. Begin with {@link CloudView}.
  *
- * @module
+ * @module cloud-view
  */
 export { bodyYaw, opticalYaw, worldToThree } from './axes.ts';
-export { type CloudSource, CloudView } from './cloud-view.ts';
+export type { CloudSource, CloudViewOptions } from './cloud-source.ts';
+export { CloudView } from './cloud-view.ts';
 export { DrawGate } from './draw-gate.ts';
 export { DrawingGovernor, type DrawingStep } from './drawing-governor.ts';
+export type { DrawnPoints, FramePose } from './drawn-points.ts';
 export { GpuCompletion } from './gpu-completion.ts';
 export { RobotWorld } from './robot-world.ts';

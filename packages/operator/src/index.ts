@@ -2,22 +2,32 @@
  * The operator's side of a Farpoint session, for browsers: signaling, the WebRTC connection, decoding of clouds and
  * pictures in workers, drive commands, emergency stop and latency measurement. Begin with {@link connect}.
  *
- * @module
+ * @module operator
  */
 
 // What the robot's events are made of.
 export type {
+  Battery,
   Cameras,
   CloudFormat,
   CommandRejected,
+  CommandRejection,
   DriveLimits,
+  DriveState,
   EstopState,
+  LatencyFrame,
   LeaseState,
   Pose,
+  Quaternion,
   Reading,
+  ReadingLevel,
   RobotListing,
+  Sensors,
+  StageTimings,
+  StreamStatus,
   Telemetry,
   Twist,
+  Vector3,
   Welcome,
 } from '@farpoint/protocol';
 export { type BridgeAddress, parseBridge } from './bridge/bridge-settings.ts';
@@ -44,5 +54,5 @@ export type { RobotSession } from './session/robot-session.ts';
 export type { SessionPhase } from './session/session-keeper.ts';
 export { lossOf, type SessionLoss } from './session/session-loss.ts';
 export type { SignalingState } from './signaling/signaling-state.ts';
-export { parseSignalingUrl } from './signaling/signaling-url.ts';
+export { parseSignalingUrl, type SignalingAddress } from './signaling/signaling-url.ts';
 export type { StreamStatistics, StreamStats } from './statistics/stream-statistics.ts';

@@ -4,6 +4,11 @@
  */
 
 export const CLOUD_FORMATS = ['points64', 'organised', 'unorganised'] as const;
+/**
+ * How a packet's points are written; the formats are described in the protocol.
+ *
+ * @useDeclaredType
+ */
 export type CloudFormat = (typeof CLOUD_FORMATS)[number];
 
 /** The number on the wire (placement.ts). */

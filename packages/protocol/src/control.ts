@@ -108,4 +108,9 @@ export const commandRejections = [
   'estop-latched', // the emergency stop must be released first
   'rate-limited', // more commands a second than the robot reads
 ] as const;
+/**
+ * Why the robot did not act on a command.
+ *
+ * @useDeclaredType
+ */
 export type CommandRejection = (typeof commandRejections)[number];

@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { clockAnswerCodec, operatorControlCodec } from './control.ts';
 import { decodeJson, type JsonCodec } from './json.ts';
-import { operatorSessionCodec, robotSessionCodec } from './session-messages.ts';
+import { operatorSessionCodec, robotSessionCodec } from './session-codecs.ts';
 import {
   operatorToServiceCodec,
   robotToServiceCodec,

@@ -4,9 +4,13 @@ import * as z from 'zod/mini';
 // (body and world: x forward, y left, z up; camera optical frame: z forward, x right, y down).
 
 export const vector3Schema = z.strictObject({ x: z.number(), y: z.number(), z: z.number() });
+/** Three components, geometry_msgs/Vector3. What uses it says the unit. */
 export interface Vector3 {
+  /** Along the first axis: forward in the world and in a body, to the right in an optical frame. */
   x: number;
+  /** Along the second axis: to the left in the world and in a body, down in an optical frame. */
   y: number;
+  /** Along the third axis: up in the world and in a body, forward in an optical frame. */
   z: number;
 }
 
@@ -14,24 +18,35 @@ export interface Vector3 {
 export const quaternionSchema = z
   .strictObject({ x: z.number(), y: z.number(), z: z.number(), w: z.number() })
   .check(z.refine((q) => Math.abs(Math.hypot(q.x, q.y, q.z, q.w) - 1) < 0.01, 'not a unit quaternion'));
+/** Unit quaternion, geometry_msgs/Quaternion. */
 export interface Quaternion {
+  /** First component of the vector part. */
   x: number;
+  /** Second component of the vector part. */
   y: number;
+  /** Third component of the vector part. */
   z: number;
+  /** Scalar part. */
   w: number;
 }
 
 /** Position in metres and orientation, geometry_msgs/Pose. */
 export const poseSchema = z.strictObject({ position: vector3Schema, orientation: quaternionSchema });
+/** Position and orientation of a frame in the world, geometry_msgs/Pose. */
 export interface Pose {
+  /** Metres. */
   position: Vector3;
+  /** From the frame's axes to the world's. */
   orientation: Quaternion;
 }
 
 /** Linear velocity in m/s and angular velocity in rad/s, geometry_msgs/Twist. */
 export const twistSchema = z.strictObject({ linear: vector3Schema, angular: vector3Schema });
+/** Velocity, geometry_msgs/Twist. */
 export interface Twist {
+  /** m/s. */
   linear: Vector3;
+  /** rad/s, about each axis. */
   angular: Vector3;
 }
 

@@ -21,6 +21,7 @@ export * from './reading.ts';
 export * from './reference-bridge.ts';
 export * from './reference-control.ts';
 export * from './sequence.ts';
+export * from './session-codecs.ts';
 export * from './session-messages.ts';
 export * from './signaling/farpoint.ts';
 export * from './signaling/reference.ts';

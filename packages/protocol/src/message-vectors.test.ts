@@ -6,7 +6,7 @@ import { clockAnswerCodec, commandRejections, operatorControlCodec } from './con
 import { ProtocolError } from './errors.ts';
 import { decodeJson, encodeJson, encodeJsonBytes, type JsonCodec, type MessageData } from './json.ts';
 import { referenceControlCodec } from './reference-control.ts';
-import { operatorSessionCodec, robotSessionCodec } from './session-messages.ts';
+import { operatorSessionCodec, robotSessionCodec } from './session-codecs.ts';
 import {
   operatorEndReasons,
   operatorToServiceCodec,

@@ -5,17 +5,25 @@
 import * as z from 'zod/mini';
 
 export const readingLevels = ['ok', 'warn', 'error'] as const;
+/**
+ * Whether people should look at a reading.
+ *
+ * @useDeclaredType
+ */
 export type ReadingLevel = (typeof readingLevels)[number];
 
 /** Lengths in UTF-16 units; together they keep the longest reading within a telemetry message. */
 export const READING_LIMITS = { topic: 255, label: 40, values: 10, name: 36, text: 60 } as const;
 
+/** What a sensor or a topic of the robot says, as short text for people. */
 export interface Reading {
+  /** Tells the message from others. */
   type: 'reading';
   /** Tells readings apart. */
   topic: string;
   /** What people read beside the values. */
   label: string;
+  /** Whether people should look at it. */
   level: ReadingLevel;
   /** Name and value, most telling first; a name may be empty. */
   values: [string, string][];

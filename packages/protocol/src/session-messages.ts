@@ -1,13 +1,8 @@
 /**
  * The `session` channel, opened by the robot, ordered and reliable: who drives, what the stream is, what was refused.
  */
-import * as z from 'zod/mini';
-import { CLOUD_FORMATS, type CloudFormat } from './cloud-format.ts';
-import { type CommandRejection, commandRejections } from './control.ts';
-import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './identifiers.ts';
-import type { JsonCodec } from './json.ts';
-import { MAX_CAMERAS } from './picture-chunk.ts';
-import { MAX_SENSORS } from './placement.ts';
+import type { CloudFormat } from './cloud-format.ts';
+import type { CommandRejection } from './control.ts';
 
 /** What the robot allows. Nothing on the wire raises any of it. */
 export interface DriveLimits {
@@ -23,27 +18,48 @@ export interface DriveLimits {
 
 /** First message of the robot on every session. */
 export interface Welcome {
+  /** Tells the message from others. */
   type: 'welcome';
+  /** Version of the protocol that the robot speaks. */
   protocol: number;
+  /** The robot's id at the signaling service. */
   robotId: string;
+  /** The robot's name, for people. */
   name: string;
+  /** What the robot allows. */
   limits: DriveLimits;
-  stream: { format: 'points64'; width: number; height: number; framesPerSecond: number };
+  /** The first sensor's clouds before they are sampled. */
+  stream: {
+    /** The format that every operator reads. */
+    format: 'points64';
+    /** Of the raw cloud, points; those of the camera's picture where there is one. */
+    width: number;
+    /** Of the raw cloud, points. */
+    height: number;
+    /** Frames captured a second. */
+    framesPerSecond: number;
+  };
   /** Proves to the robot that a `session.resume` comes from this session's operator. Left out: it cannot be resumed. */
   resumeKey?: string | undefined;
 }
 
-/** Who may drive. `lease` is there only for the operator who holds it. */
+/** Who may drive. */
 export interface LeaseState {
+  /** Tells the message from others. */
   type: 'lease';
+  /** Who holds the lease. */
   holder: 'you' | 'other' | 'nobody';
+  /** Names the lease in commands; there only for the operator who holds it. */
   lease?: string | undefined;
 }
 
+/** The robot refused a command. */
 export interface CommandRejected {
+  /** Tells the message from others. */
   type: 'rejected';
   /** The command's sequence number where it could be read. */
   sequence?: number | undefined;
+  /** Why it was refused, for programs. */
   reason: CommandRejection;
   /** For people: what and where. */
   detail: string;
@@ -51,8 +67,11 @@ export interface CommandRejected {
   count: number;
 }
 
+/** The emergency stop. */
 export interface EstopState {
+  /** Tells the message from others. */
   type: 'estop';
+  /** Whether it is latched: the robot does not move. */
   latched: boolean;
   /** Who set it, where it is latched. */
   by?: 'operator' | 'robot' | undefined;
@@ -60,12 +79,17 @@ export interface EstopState {
 
 /** Which frame answers a latency test. */
 export interface LatencyFrame {
+  /** Tells the message from others. */
   type: 'latencyFrame';
+  /** Number of the test, as the command had it. */
   id: number;
+  /** The frame that answers. */
   frameNumber: number;
+  /** Points that are sent of it. */
   points: number;
-  /** Robot's monotonic clock, ms: when the command came, when the frame was captured. */
+  /** When the command came, by the robot's monotonic clock, ms. */
   commandMs: number;
+  /** When the frame was captured, by the robot's monotonic clock, ms. */
   captureMs: number;
 }
 
@@ -84,8 +108,13 @@ export interface CloudStream {
 
 /** The robot's cameras whose pictures it can send; a camera's place in the list is its number. Sent after the welcome. */
 export interface Cameras {
+  /** Tells the message from others. */
   type: 'cameras';
-  cameras: { name: string }[];
+  /** In the order of their numbers. */
+  cameras: {
+    /** For people. */
+    name: string;
+  }[];
 }
 
 /**
@@ -93,8 +122,13 @@ export interface Cameras {
  * welcome by a robot that has more than one.
  */
 export interface Sensors {
+  /** Tells the message from others. */
   type: 'sensors';
-  sensors: { name: string }[];
+  /** In the order of their numbers. */
+  sensors: {
+    /** For people. */
+    name: string;
+  }[];
 }
 
 /** A message of the operator that the robot could not use, other than a command. */
@@ -173,108 +207,3 @@ export type OperatorSessionMessage =
   | LatencyMeasured;
 
 export const PROTOCOL_VERSION = 1;
-
-const positive = z.number().check(z.positive());
-const cameraSchema = z.int().check(z.minimum(0), z.maximum(MAX_CAMERAS - 1));
-const sensorSchema = z.int().check(z.minimum(0), z.maximum(MAX_SENSORS - 1));
-/** A palette of 256 colours with its tables is 2,210 bytes. */
-const MAX_STREAM_HEADER_BASE64 = 3200;
-/** A test that takes longer has failed. */
-const MAX_LATENCY_MS = 60_000;
-const latencyMsSchema = z.number().check(z.minimum(0), z.maximum(MAX_LATENCY_MS));
-
-export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
-  what: 'robot session message',
-  schema: z.discriminatedUnion('type', [
-    z.strictObject({
-      type: z.literal('welcome'),
-      protocol: z.int().check(z.minimum(1)),
-      robotId: robotIdSchema,
-      name: displayNameSchema,
-      limits: z.strictObject({
-        maxLinear: positive,
-        maxAngular: positive,
-        watchdogMs: positive,
-        maxCommandsPerSecond: positive,
-      }),
-      stream: z.strictObject({
-        format: z.literal('points64'),
-        width: z.int().check(z.positive()),
-        height: z.int().check(z.positive()),
-        framesPerSecond: positive,
-      }),
-      resumeKey: z.optional(handleSchema),
-    }),
-    z.strictObject({
-      type: z.literal('lease'),
-      holder: z.enum(['you', 'other', 'nobody']),
-      lease: z.optional(handleSchema),
-    }),
-    z.strictObject({
-      type: z.literal('rejected'),
-      sequence: z.optional(uint32Schema),
-      reason: z.enum(commandRejections),
-      detail: z.string().check(z.maxLength(512)),
-      count: z.int().check(z.minimum(1)),
-    }),
-    z.strictObject({
-      type: z.literal('estop'),
-      latched: z.boolean(),
-      by: z.optional(z.enum(['operator', 'robot'])),
-    }),
-    z.strictObject({
-      type: z.literal('latencyFrame'),
-      id: uint32Schema,
-      frameNumber: uint32Schema,
-      points: z.int().check(z.minimum(0)),
-      commandMs: z.number(),
-      captureMs: z.number(),
-    }),
-    z.strictObject({
-      type: z.literal('cloudStream'),
-      format: z.enum(['organised', 'unorganised']),
-      header: z.base64().check(z.minLength(1), z.maxLength(MAX_STREAM_HEADER_BASE64)),
-      sensor: z.optional(sensorSchema),
-    }),
-    z.strictObject({
-      type: z.literal('cameras'),
-      cameras: z.array(z.strictObject({ name: displayNameSchema })).check(z.maxLength(MAX_CAMERAS)),
-    }),
-    z.strictObject({
-      type: z.literal('sensors'),
-      sensors: z.array(z.strictObject({ name: displayNameSchema })).check(z.maxLength(MAX_SENSORS)),
-    }),
-    z.strictObject({ type: z.literal('fault'), message: z.string().check(z.maxLength(512)) }),
-  ]),
-  maxBytes: 4096,
-};
-
-export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
-  what: 'operator session message',
-  schema: z.discriminatedUnion('type', [
-    z.strictObject({ type: z.literal('leaseRequest'), take: z.boolean() }),
-    z.strictObject({ type: z.literal('leaseRelease') }),
-    z.strictObject({ type: z.literal('estop'), latch: z.boolean() }),
-    z.strictObject({ type: z.literal('stream'), running: z.boolean() }),
-    z.strictObject({
-      type: z.literal('cloudFormats'),
-      formats: z.array(z.enum(CLOUD_FORMATS)).check(z.maxLength(CLOUD_FORMATS.length)),
-    }),
-    z.strictObject({
-      type: z.literal('pictures'),
-      cameras: z.array(cameraSchema).check(z.maxLength(MAX_CAMERAS)),
-    }),
-    z.strictObject({
-      type: z.literal('sensors'),
-      sensors: z.array(sensorSchema).check(z.maxLength(MAX_SENSORS)),
-    }),
-    z.strictObject({
-      type: z.literal('latencyMeasured'),
-      id: uint32Schema,
-      frameNumber: uint32Schema,
-      mtpMs: latencyMsSchema,
-      firstMs: latencyMsSchema,
-    }),
-  ]),
-  maxBytes: 1024,
-};

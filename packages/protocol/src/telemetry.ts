@@ -13,8 +13,14 @@ export const driveStates = [
   'estop', // the emergency stop is latched
   'blocked', // in contact with an obstacle
 ] as const;
+/**
+ * Why the robot stands still, or that it does not.
+ *
+ * @useDeclaredType
+ */
 export type DriveState = (typeof driveStates)[number];
 
+/** State of the robot's battery. */
 export interface Battery {
   /** Volts. */
   voltage: number;
@@ -24,8 +30,11 @@ export interface Battery {
 
 /** Mean milliseconds a frame spent in each stage over the last telemetry interval. */
 export interface StageTimings {
+  /** Reading or rendering the cloud. */
   captureMs: number;
+  /** Choosing the points that are sent. */
   sampleMs: number;
+  /** Writing or coding the packets. */
   packMs: number;
   /** From the first packet sent to the last. */
   sendMs: number;
@@ -33,11 +42,15 @@ export interface StageTimings {
 
 /** What left the robot for this operator, and what did not. Rates over the last second. */
 export interface StreamStatus {
+  /** The newest frame that was sent; wraps at 2³². */
   frameNumber: number;
+  /** Frames sent a second. */
   framesPerSecond: number;
+  /** Points sent in a frame, mean. */
   pointsPerFrame: number;
   /** Points of the raw cloud that were valid. */
   validPoints: number;
+  /** Sent a second. */
   bitsPerSecond: number;
   /** What the rate controller allows. */
   targetBitsPerSecond: number;
@@ -47,7 +60,9 @@ export interface StreamStatus {
   feedback?: 'reports' | undefined;
 }
 
+/** The robot's state, 20 times a second. */
 export interface Telemetry {
+  /** Tells the message from others. */
   type: 'telemetry';
   /** Counts up, wraps at 2³². */
   sequence: number;
@@ -59,8 +74,11 @@ export interface Telemetry {
   twist: Twist;
   /** Absent where the robot has no battery gauge. */
   battery?: Battery | undefined;
+  /** Why the robot stands still, or that it does not. */
   drive: DriveState;
+  /** How long a frame takes on the robot. */
   stages: StageTimings;
+  /** What leaves the robot for this operator. */
   stream: StreamStatus;
   /** How many operators are connected. */
   operators: number;

@@ -1,5 +1,6 @@
 /** The robot program's options, put together: see the file of each group. */
 import { adminOptions, defineProgram, type OptionTable, type OptionValues } from '@farpoint/service';
+import manifest from '../../package.json' with { type: 'json' };
 import { identityOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';
 import { measurementOptions } from './measurement.ts';
@@ -41,7 +42,7 @@ export const robotProgram = defineProgram({
   name: 'farpoint-robot',
   summary:
     'The robot peer: captures point clouds, fits them to the link, streams them, and executes safe commands.',
-  version: '0.1.0',
+  version: manifest.version,
   section: 'robot',
   commands: {
     init: 'writes a commented configuration file',

@@ -1,7 +1,10 @@
 /** Where the bridge's three sockets are. */
 export interface BridgeAddress {
+  /** WebSocket address for commands. */
   control: string;
+  /** WebSocket address for the robot's state. */
   telemetry: string;
+  /** WebSocket address for point clouds. */
   streaming: string;
   /** Clients' port of the signaling service that the bridge is to use; `null`: the one that it uses. */
   signaling: string | null;
@@ -10,8 +13,9 @@ export interface BridgeAddress {
 const PORTS = { control: 8085, telemetry: 8090, streaming: 8095 };
 
 /**
- * `ws://localhost`, or with other ports than usual `ws://localhost:8085,8090,8095` (control, telemetry, streaming).
+ * Reads the address of a bridge: `ws://localhost`, or with other ports than usual `ws://localhost:8085,8090,8095` (control, telemetry, streaming).
  *
+ * @param text the bridge's address
  * @param signaling an address too: the released bridge has none before a page tells it
  * @returns `null` where it is no such address
  */

@@ -3,11 +3,13 @@ import type { BridgeAddress } from '../bridge/bridge-settings.ts';
 import type { DriveInput } from '../drive/drive-input.ts';
 import type { TransformSupport } from '../peer/encoded-transform.ts';
 
+/** What a {@link RobotClient} is made with. {@link connect} fills it in for most pages. */
 export interface RobotClientOptions {
   /** WebSocket address of the signaling service's endpoint for operators. */
   signalingUrl: string;
   /** By which other operators and the robot's log know this one. */
   name: string;
+  /** The operator's token, where the service asks for one. */
   token: string | undefined;
   /** `relay`: through TURN servers only. */
   icePolicy: RTCIceTransportPolicy;

@@ -3,6 +3,7 @@ import { transformSupport } from '../peer/encoded-transform.ts';
 import { parseSignalingUrl } from '../signaling/signaling-url.ts';
 import { RobotClient } from './robot-client.ts';
 
+/** What {@link connect} needs to know. */
 export interface ConnectOptions {
   /** Address of the signaling service, e.g. `wss://robots.example.org`. */
   signaling: string;
@@ -24,11 +25,16 @@ export type ConnectFailure =
   | 'bad-robot-id'
   | 'bad-token'
   | 'bad-name'
-  | 'no-webrtc' // this browser has none
-  | 'no-encoded-transform'; // this browser cannot hand encoded frames to a worker
+  /** This browser has none. */
+  | 'no-webrtc'
+  /** This browser cannot hand encoded frames to a worker. */
+  | 'no-encoded-transform';
 
+/** Thrown by {@link connect}. The message says in words what is wrong. */
 export class ConnectError extends Error {
+  /** Tells the class where `instanceof` cannot. */
   override readonly name = 'ConnectError';
+  /** What is wrong, for programs. */
   readonly reason: ConnectFailure;
 
   constructor(reason: ConnectFailure, message: string) {

@@ -10,25 +10,30 @@ import { WishInput } from '../drive/wish-input.ts';
 import type { AgeOfStamp } from '../latency/frame-latency.ts';
 import { LatencyProbe, type LatencyReport } from '../latency/latency-probe.ts';
 import { openLink } from '../link/open-link.ts';
-import type { RobotLink, RobotLinkEvents } from '../link/robot-link.ts';
+import type { RobotLink } from '../link/robot-link.ts';
 import { PictureFeed } from '../pictures/picture-feed.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import { StreamStatistics, type StreamStats } from '../statistics/stream-statistics.ts';
 import type { RobotClientOptions } from './client-options.ts';
 import { Emitter } from './emitter.ts';
-import { forwardedEvents } from './forwarded-events.ts';
+import { linkEvents } from './link-events.ts';
 import type { RobotEvents } from './robot-events.ts';
 
 const TICK_MS = 25;
 const STATISTICS_MS = 250;
 
-/** Use {@link connect} where one robot is driven; this class itself where an app has devices of its own. */
+/**
+ * An operator's connection to robots: what they send, as events; what the operator wishes, as methods. Use {@link connect} where
+ * one robot is driven; this class itself where an app has devices of its own.
+ */
 export class RobotClient {
   /** The link itself: signaling state, session state, what the robot has told in this session. */
   readonly link: RobotLink;
   /** Which device drives, and who holds the lease. */
   readonly driver: Driver;
+  /** Runs latency tests. */
   readonly latency: LatencyProbe;
+  /** What is counted and measured about the stream. */
   readonly statistics: StreamStatistics;
   /** When points came last, or the session's phase changed: `performance.now()`. */
   pointsAtMs = 0;
@@ -42,6 +47,7 @@ export class RobotClient {
   #statisticsDueMs = 0;
   #closed = false;
 
+  /** Makes a client that does nothing until {@link start} is called. */
   constructor(options: RobotClientOptions) {
     this.#formats = new ReadableFormats(options.cloudFormats);
     this.#receiver = new CloudReceiver({
@@ -63,7 +69,16 @@ export class RobotClient {
       onFault: (camera, detail) => this.#emitter.emit('pictureFault', { camera, detail }),
     });
     this.statistics = new StreamStatistics(ageOf);
-    this.link = openLink(options, this.#receiver.worker, this.#linkEvents());
+    this.link = openLink(
+      options,
+      this.#receiver.worker,
+      linkEvents(this, {
+        emitter: this.#emitter,
+        receiver: this.#receiver,
+        pictures: this.#pictures,
+        tellFormats: () => this.#tellFormats(),
+      }),
+    );
     this.driver = new Driver([...(options.inputs ?? []), this.#wish], {
       sendCommand: (command) => this.link.sendCommand(command),
       sendSession: (message) => this.link.sendSession(message),
@@ -82,7 +97,9 @@ export class RobotClient {
   }
 
   /**
-   * Calls `listener` for each event of the type, see {@link RobotEvents}. @returns a function that removes the listener
+   * Calls `listener` for each event of the type, see {@link RobotEvents}.
+   *
+   * @returns a function that removes the listener
    */
   on<Type extends keyof RobotEvents>(type: Type, listener: (event: RobotEvents[Type]) => void): () => void {
     return this.#emitter.on(type, listener);
@@ -107,6 +124,7 @@ export class RobotClient {
     this.#pictures.close();
   }
 
+  /** Where the session with the chosen robot stands. */
   get phase(): SessionPhase {
     return this.link.phase;
   }
@@ -172,7 +190,9 @@ export class RobotClient {
 
   /**
    * Asks the robot to release the emergency stop. Only who drives may: where nobody does, the lease is asked for first.
-   * Call it for a deliberate act alone, e.g. a button held for a second. @returns whether it was sent
+   * Call it for a deliberate act alone, e.g. a button held for a second.
+   *
+   * @returns whether it was sent: not without a session. The `estop` event confirms it.
    */
   releaseEstop(): boolean {
     if (this.link.phase !== 'live') return false;
@@ -196,12 +216,14 @@ export class RobotClient {
    * Measures motion to photon: until a green cloud that is asked for now has been drawn. What draws the clouds must tell
    * by {@link noteUploaded} and {@link noteDrawn}; `CloudView` of `@farpoint/cloud-view` does.
    *
-   * @throws {LatencyError}
+   * @param startedAtMs when the operator acted, `performance.now()`
+   * @throws {LatencyError} where there is no session, another test runs, somebody else drives, or nothing came within 3 s
    */
   latencyTest(startedAtMs = performance.now()): Promise<LatencyReport> {
     return this.latency.run(startedAtMs);
   }
 
+  /** Asks the robot to send no more than this, bit/s; through a bridge it does nothing. */
   limitBandwidth(bitsPerSecond: number): void {
     this.link.limitBandwidth(bitsPerSecond);
   }
@@ -211,6 +233,7 @@ export class RobotClient {
     this.#receiver.drawEvery(every, everySample);
   }
 
+  /** Rates, losses, round trips and latencies of the stream now. */
   stats(): StreamStats {
     return this.statistics.snapshot(this.link.session.clock);
   }
@@ -228,13 +251,21 @@ export class RobotClient {
     this.latency.onPacket(batch, packet);
   }
 
-  /** The display frame with what {@link noteUploaded} told is finished. */
+  /**
+   * The display frame with what {@link noteUploaded} told is finished.
+   *
+   * @param nowMs `performance.now()`
+   */
   noteDrawn(nowMs: number): void {
     this.latency.onDrawn(nowMs);
     this.statistics.onDrawn(nowMs);
   }
 
-  /** Called by the client's own timer. An app calls it right after reading its devices, too. */
+  /**
+   * Called by the client's own timer. An app calls it right after reading its devices, too.
+   *
+   * @param nowMs `performance.now()`
+   */
   tick(nowMs: number): void {
     this.#wish.lapse(nowMs);
     this.driver.tick(nowMs);
@@ -243,48 +274,6 @@ export class RobotClient {
     if (nowMs < this.#statisticsDueMs) return;
     this.#statisticsDueMs = nowMs + STATISTICS_MS;
     this.statistics.tick(nowMs);
-  }
-
-  #linkEvents(): RobotLinkEvents {
-    const emitter = this.#emitter;
-    return {
-      ...forwardedEvents(emitter),
-      onPhase: (phase) => {
-        if (phase !== 'live') {
-          this.driver.reset();
-          this.latency.fail('no-session');
-        }
-        this.pointsAtMs = performance.now();
-        emitter.emit('phase', phase);
-      },
-      onPath: (up) => {
-        this.driver.onPath(performance.now());
-        emitter.emit('path', up);
-      },
-      onGeneration: (generation) => {
-        this.#receiver.begin(generation);
-        this.#pictures.reset();
-        this.statistics.reset();
-        emitter.emit('session', generation);
-      },
-      onWelcome: (welcome) => {
-        this.#tellFormats();
-        this.driver.onLimits(welcome.limits);
-        emitter.emit('welcome', welcome);
-      },
-      onLease: (lease) => {
-        this.driver.onLease(lease);
-        this.latency.onLease();
-        emitter.emit('lease', lease);
-      },
-      onLatencyFrame: (frame) => this.latency.onRobotFrame(frame),
-      onCloudStream: (stream) => this.#receiver.beginStream(stream),
-      onCameras: (cameras) => {
-        this.#pictures.reset();
-        emitter.emit('cameras', cameras);
-      },
-      onPicture: (picture, nowMs) => this.#pictures.add(picture, nowMs),
-    };
   }
 
   #onBatch(batch: Batch): void {

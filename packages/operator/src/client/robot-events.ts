@@ -45,7 +45,7 @@ export interface RobotEvents {
   estop: EstopState;
   /** The grip was taken, but another operator drives. */
   otherDrives: undefined;
-  /** Pose, velocity, drive state, battery; ten times a second. */
+  /** Pose, velocity, drive state, battery; 20 times a second. */
   telemetry: Telemetry;
   /** What a sensor or topic of the robot says. */
   reading: Reading;
@@ -56,7 +56,12 @@ export interface RobotEvents {
   /** A picture of a camera that is watched. */
   picture: Picture;
   /** A file of this camera that cannot be decoded. */
-  pictureFault: { camera: number; detail: string };
+  pictureFault: {
+    /** Index in the list of the `cameras` event. */
+    camera: number;
+    /** For people: what is wrong. */
+    detail: string;
+  };
   /**
    * Decoded points of the first sensor, each packet with the pose of its frame. Whoever takes the batch gives it back by
    * {@link RobotClient.release}: there is a bounded number of them. Register at most one listener that takes batches.
@@ -69,5 +74,10 @@ export interface RobotEvents {
   /** The robot could not use a message of ours, in its own words. */
   robotFault: string;
   /** The client cannot work in this browser or with this server. */
-  failed: { reason: ClientFailure; detail: string };
+  failed: {
+    /** What failed, for programs. */
+    reason: ClientFailure;
+    /** For people: what is wrong. */
+    detail: string;
+  };
 }

@@ -12,12 +12,14 @@
  */
 import type { Placement, PointPacketHeader } from '@farpoint/protocol';
 
+/** Most packets that a batch holds. */
 export const BATCH_PACKETS = 128;
 const ENTRY_BYTES = 80;
 const WORDS = ENTRY_BYTES / 4;
 const POINTS_OFFSET = BATCH_PACKETS * ENTRY_BYTES;
 /** A packet of a coded format may hold any number of points: one that does not fit goes on in the next batch. */
 export const BATCH_POINTS = 65_536;
+/** Size of a batch's buffer, bytes. */
 export const BATCH_BYTES = POINTS_OFFSET + BATCH_POINTS * 8;
 export const ENTRY_LATENCY_TEST = 1;
 
@@ -34,21 +36,32 @@ export interface PointLook {
   cover: number;
 }
 
-/** Views of one buffer. */
+/**
+ * Decoded points of one sensor, in one buffer: an entry for each packet, then the points of all packets one after another. The
+ * accessors that take a `packet` expect its index, 0 to `packets` − 1.
+ */
 export class Batch {
+  /** The memory behind all views, `BATCH_BYTES` long. Detached once the batch is released. */
   readonly buffer: ArrayBuffer;
-  /** 4 per point. */
+  /** Four numbers a point: x, y and z in steps of {@link unit}, in the axes of the camera's optical frame, and the colour's bits. */
   readonly points: Int16Array;
   readonly #u32: Uint32Array;
   readonly #f32: Float32Array;
   readonly #f64: Float64Array;
-  /** Packets in use, and their points. */
+  /** Packets in use. */
   packets = 0;
+  /** Points of all packets in use. */
   pointCount = 0;
   /** Whose points they are: its number among the robot's sensors. */
   sensor: number;
 
-  /** @param buffer `BATCH_BYTES` long */
+  /**
+   * @param buffer `BATCH_BYTES` long
+   * @param packets in use already
+   * @param pointCount points of those
+   * @param sensor whose points they are
+   * @throws {RangeError} where the buffer is too small
+   */
   constructor(buffer: ArrayBuffer, packets = 0, pointCount = 0, sensor = 0) {
     this.buffer = buffer;
     this.points = new Int16Array(buffer, POINTS_OFFSET);
@@ -60,6 +73,7 @@ export class Batch {
     this.sensor = sensor;
   }
 
+  /** Whether no further packet fits. */
   get full(): boolean {
     return this.packets === BATCH_PACKETS;
   }
@@ -74,7 +88,10 @@ export class Batch {
    * `pointCount` on. Must not be full.
    *
    * @param header tells the place in the frame, of all points that came
+   * @param placement pose of the camera, capture time and flags of the frame
    * @param points those that are drawn; no more than there is room for
+   * @param receivedAtMs ms since the epoch
+   * @param look how the points are to be drawn
    */
   add(
     header: PointPacketHeader,
@@ -107,33 +124,41 @@ export class Batch {
     this.pointCount += points;
   }
 
+  /** Empties the batch. The points stay in the buffer until they are overwritten. */
   clear(): void {
     this.packets = 0;
     this.pointCount = 0;
   }
 
+  /** When the packet arrived, ms since the epoch. */
   receivedAtMs(packet: number): number {
     return this.#f64[packet * (WORDS / 2)] as number;
   }
+  /** Number of the frame that the packet belongs to; wraps at 2³². */
   frameNumber(packet: number): number {
     return this.#u32[packet * WORDS + 2] as number;
   }
+  /** Size of the whole frame, bytes, 8 a point. */
   frameLength(packet: number): number {
     return this.#u32[packet * WORDS + 3] as number;
   }
+  /** Where the packet's points begin in the frame, bytes, 8 a point. */
   sequenceOffset(packet: number): number {
     return this.#u32[packet * WORDS + 4] as number;
   }
-  /** Points in this buffer. */
+  /** Points of the packet in this batch. */
   pointsOf(packet: number): number {
     return this.#u32[packet * WORDS + 5] as number;
   }
+  /** When the robot captured the frame, by its monotonic clock, µs; wraps at 2³². */
   captureTimeUs(packet: number): number {
     return this.#u32[packet * WORDS + 6] as number;
   }
+  /** Whether the frame answers a latency test. */
   isLatencyTest(packet: number): boolean {
     return ((this.#u32[packet * WORDS + 7] as number) & ENTRY_LATENCY_TEST) !== 0;
   }
+  /** How wide the camera sees: side of its picture at a distance of 1 m, metres. */
   imageExtent(packet: number): number {
     return this.#f32[packet * WORDS + 15] as number;
   }
@@ -145,14 +170,19 @@ export class Batch {
   pointsCame(packet: number): number {
     return this.sequenceLength(packet) / 8;
   }
-  /** Metres. */
+  /** One step of a coordinate, metres. */
   unit(packet: number): number {
     return this.#f32[packet * WORDS + 17] as number;
   }
+  /** Diameter at which a point is to be drawn, in mean distances between the frame's points. */
   cover(packet: number): number {
     return this.#f32[packet * WORDS + 18] as number;
   }
-  /** Pose as 7 floats: position x, y, z, orientation x, y, z, w. */
+  /**
+   * The camera's pose when the frame was captured, in the world (REP-103).
+   *
+   * @param component 0–2: position x, y, z in metres; 3–6: orientation x, y, z, w
+   */
   poseComponent(packet: number, component: number): number {
     return this.#f32[packet * WORDS + 8 + component] as number;
   }

@@ -15,15 +15,24 @@ export type DropReason =
   | CloudPayloadFault
   | PacketFault
   | UnorganisedFault
-  | 'no-stream' // of a coded format whose stream header has not come
-  | 'bad-count' // decoded, but not into as many points as its header says
-  | 'decoder-behind' // packets come faster than they are decoded: this one waited too long
-  | 'no-buffer' // the page has not given buffers back: it draws too slowly
-  | 'page-behind' // handed to the page, but newer points came before it could draw
-  | 'late' // its frame was replaced on the screen already
-  | 'superseded' // its place in the picture was replaced already
-  | 'window-full'; // more fragments than can be drawn at once
+  /** Of a coded format whose stream header has not come. */
+  | 'no-stream'
+  /** Decoded, but not into as many points as its header says. */
+  | 'bad-count'
+  /** Packets come faster than they are decoded: this one waited too long. */
+  | 'decoder-behind'
+  /** The page has not given buffers back: it draws too slowly. */
+  | 'no-buffer'
+  /** Handed to the page, but newer points came before it could draw. */
+  | 'page-behind'
+  /** Its frame was replaced on the screen already. */
+  | 'late'
+  /** Its place in the picture was replaced already. */
+  | 'superseded'
+  /** More fragments than can be drawn at once. */
+  | 'window-full';
 
+/** How many packets were dropped, by reason; a reason that never occurred is absent. */
 export type DropCounts = Partial<Record<DropReason, number>>;
 
 export function countDrop(counts: DropCounts, reason: DropReason, by = 1): void {

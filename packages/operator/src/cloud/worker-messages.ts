@@ -44,10 +44,15 @@ export type FromCloudWorker =
 
 /** Sums since the session began. */
 export interface IntakeReport {
+  /** Counts sessions: the same as that of the `session` event. */
   generation: number;
+  /** Packets that arrived, dropped ones included. */
   packetsReceived: number;
+  /** Bytes of their RTP payloads. */
   bytesReceived: number;
+  /** Packets missing in the RTP sequence, less those that came late. */
   packetsLost: number;
+  /** Packets that arrived and were not decoded, by reason. */
   drops: DropCounts;
   /** Mean µs the worker spent on a packet since the last report. */
   decodeUs: number;

@@ -14,7 +14,12 @@ export interface DriverPort {
 /** While the grip is held and nobody drives, the lease is asked for this often. */
 const LEASE_RETRY_MS = 500;
 
+/**
+ * Turns the operator's hands into commands: chooses the device that drives, asks for the lease and decides what is sent when.
+ * {@link RobotClient} makes one and calls it; an app reads {@link input} and {@link holder}.
+ */
 export class Driver {
+  /** The commands that are sent. */
   readonly stream = new CommandStream();
   readonly #port: DriverPort;
   readonly #inputs: DriveInput[];
@@ -25,6 +30,10 @@ export class Driver {
   #toldOther = false;
   #mustOpen = false;
 
+  /**
+   * @param inputs devices that may drive; more can be added
+   * @param port where commands and requests go
+   */
   constructor(inputs: readonly DriveInput[], port: DriverPort) {
     this.#inputs = [...inputs];
     this.#port = port;
@@ -35,11 +44,12 @@ export class Driver {
     this.#inputs.push(input);
   }
 
-  /** The device that drives now. */
+  /** The device that drives now; `null` where no grip is held. */
   get input(): DriveInput | null {
     return this.#input;
   }
 
+  /** Who holds the lease, as the robot said last. */
   get holder(): LeaseState['holder'] {
     return this.#holder;
   }
@@ -52,10 +62,12 @@ export class Driver {
     this.#toldOther = false;
   }
 
+  /** The robot told its limits: wishes are scaled to them from now on. */
   onLimits(limits: DriveLimits): void {
     this.stream.setLimits(limits);
   }
 
+  /** The robot told who drives. */
   onLease(lease: LeaseState): void {
     this.#holder = lease.holder;
     this.stream.setLease(lease.holder === 'you' ? (lease.lease ?? null) : null);
@@ -66,10 +78,16 @@ export class Driver {
     this.#suspended = suspended;
   }
 
+  /**
+   * Asks the robot for the lease.
+   *
+   * @param take whether to take it from another operator
+   */
   requestLease(take: boolean): void {
     this.#port.sendSession({ type: 'leaseRequest', take });
   }
 
+  /** Gives the lease back. */
   releaseLease(): void {
     this.#port.sendSession({ type: 'leaseRelease' });
   }
@@ -77,6 +95,8 @@ export class Driver {
   /**
    * Stops and gives the lease back. What is held now counts as let go until every hand has been open once: it must not
    * move the next robot.
+   *
+   * @param nowMs `performance.now()`
    */
   letGo(nowMs: number): void {
     this.#mustOpen = true;
@@ -89,6 +109,8 @@ export class Driver {
   /**
    * The path to the robot is lost, or carries again. What is held counts as let go until every hand has been open once: a
    * hand that waited must not move the robot by itself.
+   *
+   * @param nowMs `performance.now()`
    */
   onPath(nowMs: number): void {
     this.#mustOpen = true;
@@ -96,7 +118,11 @@ export class Driver {
     this.tick(nowMs);
   }
 
-  /** At the stream's rate, and at once when the grip or the stick changes. */
+  /**
+   * Reads the devices and sends what is due. Call it at the stream's rate, and at once when the grip or the stick changes.
+   *
+   * @param nowMs `performance.now()`
+   */
   tick(nowMs: number): void {
     if (this.#mustOpen) this.#mustOpen = this.#inputs.some((input) => input.held);
     this.#input = this.#suspended || this.#mustOpen ? null : activeInput(this.#inputs, this.#input);

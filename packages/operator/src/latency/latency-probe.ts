@@ -5,11 +5,17 @@ import type { Driver } from '../drive/driver.ts';
 import type { RobotLink } from '../link/robot-link.ts';
 import { type LatencyFailure, type LatencyResult, LatencyTest } from './latency-test.ts';
 
-export type LatencyReport = LatencyResult & { robot: LatencyFrame | null };
+/** The result of a latency test, with the robot's part of it. */
+export type LatencyReport = LatencyResult & {
+  /** What the robot told of the frame that answered; `null` where its message was lost. */
+  robot: LatencyFrame | null;
+};
 
-/** Thrown to whoever asked for a test without a result. */
+/** Thrown where a latency test has no result. */
 export class LatencyError extends Error {
+  /** Tells the class where `instanceof` cannot. */
   override readonly name = 'LatencyError';
+  /** Why there is no result. */
   readonly reason: LatencyFailure;
 
   constructor(reason: LatencyFailure) {
@@ -32,6 +38,7 @@ const TIMEOUT_MS = 3000;
 /** A request that the robot has not confirmed is sent again after so long, as every command is: messages get lost. */
 const REPEAT_MS = 50;
 
+/** Runs latency tests over a link. {@link RobotClient} makes one and calls it; an app calls {@link RobotClient.latencyTest}. */
 export class LatencyProbe {
   readonly #link: RobotLink;
   readonly #driver: Driver;
@@ -39,6 +46,11 @@ export class LatencyProbe {
   readonly #test = new LatencyTest();
   #waiting: Waiting | null = null;
 
+  /**
+   * @param link to the robot
+   * @param driver holds the lease that a test needs
+   * @param onResult told of each result
+   */
   constructor(link: RobotLink, driver: Driver, onResult: (result: LatencyResult) => void) {
     this.#link = link;
     this.#driver = driver;
@@ -46,10 +58,10 @@ export class LatencyProbe {
   }
 
   /**
-   * One test at a time.
+   * Runs a test. Only one can run at a time.
    *
    * @param startedAtMs when the operator acted. Where the lease must be asked for first, the time runs from its coming.
-   * @throws {LatencyError}
+   * @throws {LatencyError} where there is no session, another test runs, somebody else drives, or nothing came within 3 s
    */
   run(startedAtMs: number): Promise<LatencyReport> {
     if (this.#waiting !== null) return Promise.reject(new LatencyError('busy'));
@@ -69,16 +81,23 @@ export class LatencyProbe {
     });
   }
 
+  /** The robot told who drives: a test that waits for the lease begins or fails. */
   onLease(): void {
     if (this.#waiting?.needsLease !== true) return;
     if (this.#driver.stream.lease !== null) this.#send(performance.now());
     else if (this.#driver.holder === 'other') this.fail('no-lease');
   }
 
+  /** The robot told which frame answers a test. */
   onRobotFrame(frame: LatencyFrame): void {
     if (this.#waiting !== null && frame.id === this.#test.runningId) this.#waiting.robot = frame;
   }
 
+  /**
+   * A packet's points were uploaded for the display frame being prepared.
+   *
+   * @param packet index in the batch
+   */
   onPacket(batch: Batch, packet: number): void {
     this.#test.onPacket(
       batch.isLatencyTest(packet),
@@ -89,10 +108,16 @@ export class LatencyProbe {
     );
   }
 
+  /** Whether the display frame being drawn must be timed. */
   get wantsTime(): boolean {
     return this.#test.wantsTime;
   }
 
+  /**
+   * The display frame with what {@link onPacket} told is finished.
+   *
+   * @param nowMs `performance.now()`
+   */
   onDrawn(nowMs: number): void {
     const result = this.#test.onDrawn(nowMs);
     if (result === null) return;
@@ -103,6 +128,11 @@ export class LatencyProbe {
     waiting?.resolve({ ...result, robot: waiting.robot });
   }
 
+  /**
+   * Repeats a request that got lost and gives up in time. Call it some times a second.
+   *
+   * @param nowMs `performance.now()`
+   */
   tick(nowMs: number): void {
     const waiting = this.#waiting;
     if (waiting === null) return;
@@ -110,6 +140,7 @@ export class LatencyProbe {
     else if (nowMs >= waiting.repeatMs && waiting.robot === null) this.#request(nowMs);
   }
 
+  /** Ends the running test, if there is one, without a result. */
   fail(reason: LatencyFailure): void {
     const waiting = this.#waiting;
     this.#waiting = null;

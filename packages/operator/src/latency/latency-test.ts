@@ -3,26 +3,34 @@
  * display frame that shows it. Two times are told: the first green points, and the whole green cloud (all its packets,
  * or what came of it before the next frame began). No clock and no GPU here.
  */
+
+/** What a latency test measured. Times run from the input event. */
 export interface LatencyResult {
+  /** Number of the test. */
   id: number;
   /** Input event to the end of the display frame with the whole green cloud, ms. */
   mtpMs: number;
-  /** … with its first points. */
+  /** Input event to the end of the display frame with the first green points, ms. */
   firstMs: number;
   /** Input event to the arrival of the last green packet, ms. */
   arrivedMs: number;
-  /** Green points drawn, and in the whole frame. */
+  /** Green points drawn. */
   points: number;
+  /** Green points in the whole frame. */
   totalPoints: number;
+  /** The green frame. */
   frameNumber: number;
 }
 
 /** Why a test has no result. */
 export type LatencyFailure =
-  | 'timeout' // the command, or every packet of its frame, was lost
+  /** The command, or every packet of its frame, was lost. */
+  | 'timeout'
   | 'no-session'
-  | 'busy' // another test runs
-  | 'no-lease'; // somebody else drives
+  /** Another test runs. */
+  | 'busy'
+  /** Somebody else drives. */
+  | 'no-lease';
 
 interface Running {
   id: number;

@@ -1,11 +1,16 @@
-/** The last samples of a quantity and their distribution. Adding allocates nothing. */
+/** How the samples of a quantity are distributed, in the quantity's unit. */
 export interface Distribution {
+  /** Median. */
   p50: number;
+  /** 95th percentile. */
   p95: number;
+  /** 99th percentile. */
   p99: number;
+  /** Largest sample. */
   max: number;
 }
 
+/** The last samples of a quantity and their distribution. Adding allocates nothing. */
 export class SampleWindow {
   readonly #samples: Float64Array;
   #count = 0;
@@ -20,15 +25,17 @@ export class SampleWindow {
     return Math.min(this.#count, this.#samples.length);
   }
 
+  /** Adds a sample; the oldest goes where there is no room. */
   add(value: number): void {
     this.#samples[this.#count++ % this.#samples.length] = value;
   }
 
+  /** Forgets all samples. */
   clear(): void {
     this.#count = 0;
   }
 
-  /** By nearest rank; `null` without samples. */
+  /** Percentiles by nearest rank; `null` without samples. */
   distribution(): Distribution | null {
     if (this.length === 0) return null;
     const sorted = this.#samples.slice(0, this.length).sort();

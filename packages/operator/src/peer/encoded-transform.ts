@@ -1,15 +1,19 @@
 /** How this browser lets a worker take a receiver's encoded frames, if it does. */
 import type { CloudTransformOptions, ToCloudWorker } from '../cloud/worker-messages.ts';
 
+/** How this browser hands a receiver's encoded frames to a worker. */
 export type TransformSupport =
-  | 'script-transform' // RTCRtpScriptTransform: WebRTC Encoded Transform
-  | 'encoded-streams' // createEncodedStreams: Chromium before 2025, Quest browsers before 42
+  /** RTCRtpScriptTransform: WebRTC Encoded Transform. */
+  | 'script-transform'
+  /** CreateEncodedStreams: Chromium before 2025, Quest browsers before 42. */
+  | 'encoded-streams'
   | 'none';
 
 interface EncodedStreamsReceiver extends RTCRtpReceiver {
   createEncodedStreams(): { readable: ReadableStream<RTCEncodedAudioFrame>; writable: WritableStream };
 }
 
+/** Tells how this browser hands encoded frames to a worker. With `none` it cannot receive clouds. */
 export function transformSupport(): TransformSupport {
   if (typeof RTCRtpReceiver === 'undefined') return 'none';
   if (typeof RTCRtpScriptTransform !== 'undefined') return 'script-transform';

@@ -1,7 +1,9 @@
 /** What the robot's sensors and topics say: the newest reading of each topic. */
 import type { Reading } from '@farpoint/protocol';
 
+/** A reading and its age. */
 export interface AgedReading {
+  /** As the robot sent it. */
   reading: Reading;
   /** Since the robot read it, ms. */
   ageMs: number;
@@ -10,6 +12,7 @@ export interface AgedReading {
 /** A robot has no more topics for people. */
 const MOST_TOPICS = 64;
 
+/** The newest reading of each topic of one robot. */
 export class Readings {
   readonly #newest = new Map<string, { reading: Reading; readAtMs: number }>();
 
@@ -29,7 +32,11 @@ export class Readings {
     return true;
   }
 
-  /** In the order in which the topics came first. */
+  /**
+   * The newest reading of each topic, in the order in which the topics came first.
+   *
+   * @param nowMs this browser's clock
+   */
   list(nowMs: number): AgedReading[] {
     return [...this.#newest.values()].map(({ reading, readAtMs }) => ({ reading, ageMs: nowMs - readAtMs }));
   }

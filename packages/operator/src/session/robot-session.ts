@@ -47,24 +47,37 @@ export interface RobotSessionEvents {
   onRobotFault(message: string): void;
 }
 
+/** What the robot has told in this session. {@link RobotLink} makes one for each session. */
 export class RobotSession {
+  /** The robot's first message; `null` until it has come. */
   welcome: Welcome | null = null;
+  /** Who drives. */
   lease: LeaseState = { type: 'lease', holder: 'nobody' };
+  /** Whether the emergency stop is latched. */
   estop: EstopState = { type: 'estop', latched: false };
+  /** What the robot measured last; `null` before its first telemetry. */
   telemetry: Telemetry | null = null;
   /** What the robot's sensors and topics say. */
   readonly readings = new Readings();
+  /** Puts the cameras' pictures together from their messages. */
   readonly pictures = new PictureAssembler();
+  /** Estimate of the robot's clock. */
   readonly clock = new ClockOffset();
-  /** Messages that are not of the protocol. */
+  /** Messages that are not of the protocol and were left out. */
   malformed = 0;
   #probeId = 0;
   readonly #events: RobotSessionEvents;
 
+  /** @param events told of each message */
   constructor(events: RobotSessionEvents) {
     this.#events = events;
   }
 
+  /**
+   * Takes a message of the robot. One that is not of the protocol is counted and left out.
+   *
+   * @param nowMs when it arrived, `performance.now()`
+   */
   onMessage(channel: RobotChannel, data: MessageData, nowMs: number): void {
     try {
       if (channel === 'session') this.#onSession(data);
@@ -77,12 +90,18 @@ export class RobotSession {
     }
   }
 
+  /** Number for the next clock probe; wraps at 2³². */
   nextProbeId(): number {
     this.#probeId = (this.#probeId + 1) >>> 0;
     return this.#probeId;
   }
 
-  /** How long ago a stamp of the robot's clock was, ms; `null` until its clock is known. */
+  /**
+   * How long ago a stamp of the robot's clock was, ms; `null` until its clock is known.
+   *
+   * @param stampUs of the robot's monotonic clock, µs, modulo 2³²
+   * @param nowMs `performance.now()`
+   */
   ageMs(stampUs: number, nowMs: number): number | null {
     const { offsetMs } = this.clock;
     return offsetMs === null ? null : ageOfStampMs(stampUs, nowMs + offsetMs);

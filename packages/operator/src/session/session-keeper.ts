@@ -9,11 +9,16 @@ import { Backoff } from '@farpoint/timing';
 import { ResumePolicy } from './resume-policy.ts';
 import { lossOf, type SessionLoss } from './session-loss.ts';
 
+/** Where the session with the wanted robot stands. */
 export type SessionPhase =
-  | 'none' // no robot is wanted
-  | 'waiting' // the wanted robot, or the signaling service, is not here
-  | 'opening' // asked for, until the peer connection stands
-  | 'live'; // the peer connection stands
+  /** No robot is wanted. */
+  | 'none'
+  /** The wanted robot, or the signaling service, is not here. */
+  | 'waiting'
+  /** Asked for, until the peer connection stands. */
+  | 'opening'
+  /** The peer connection stands. */
+  | 'live';
 
 export interface SessionActions {
   requestSession(robotId: string): void;

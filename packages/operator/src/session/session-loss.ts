@@ -2,20 +2,33 @@ import type { RobotEndReason } from '@farpoint/protocol';
 
 /** Why a session was given up. */
 export type SessionLoss =
-  | 'not-connected' // no peer connection came about in time
-  | 'connection-failed' // ICE, DTLS or a channel ended
-  | 'robot-full' // it takes no more operators
-  | 'robot-restarted' // it does not know the session any more
-  | 'robot-stopped' // it was shut down
-  | 'robot-left' // it went away before the peers had met
-  | 'bad-answer' // it cannot use what this browser answered
-  | 'unproven-peer' // somebody between the peers, or another certificate than this browser named
-  | 'not-reading' // its messages piled up
-  | 'unheard' // it heard nothing of this page for long
+  /** No peer connection came about in time. */
+  | 'not-connected'
+  /** ICE, DTLS or a channel ended. */
+  | 'connection-failed'
+  /** It takes no more operators. */
+  | 'robot-full'
+  /** It does not know the session any more. */
+  | 'robot-restarted'
+  /** It was shut down. */
+  | 'robot-stopped'
+  /** It went away before the peers had met. */
+  | 'robot-left'
+  /** It cannot use what this browser answered. */
+  | 'bad-answer'
+  /** Somebody between the peers, or another certificate than this browser named. */
+  | 'unproven-peer'
+  /** Its messages piled up. */
+  | 'not-reading'
+  /** It heard nothing of this page for long. */
+  | 'unheard'
   | 'closed-by-robot'
-  | 'silent' // nothing heard for long
-  | 'signaling-lost' // before the peers had met
-  | 'refused'; // the service would not open it
+  /** Nothing heard for long. */
+  | 'silent'
+  /** Before the peers had met. */
+  | 'signaling-lost'
+  /** The service would not open it. */
+  | 'refused';
 
 /** What a robot's reason is to the page. */
 export const lossOf: Readonly<Record<RobotEndReason, SessionLoss>> = {

@@ -1,5 +1,22 @@
-/** Accepts `host`, `host:port`, http, https, ws and wss addresses; adds what is missing. */
-export function parseSignalingUrl(text: string, securePage: boolean): { url: string } | { fault: string } {
+/** The WebSocket address of a signaling service's endpoint for operators, or why a text is none. */
+export type SignalingAddress =
+  | {
+      /** The whole address. */
+      url: string;
+    }
+  | {
+      /** For people: what is wrong. */
+      fault: string;
+    };
+
+/**
+ * Reads the address of a signaling service: accepts `host`, `host:port`, http, https, ws and wss addresses, and adds what is
+ * missing.
+ *
+ * @param text as a person wrote it
+ * @param securePage whether the page was served by https: it may use `wss:` only, except on the loopback interface
+ */
+export function parseSignalingUrl(text: string, securePage: boolean): SignalingAddress {
   const withScheme = /^[a-z]+:\/\//i.test(text) ? text : `${securePage ? 'wss' : 'ws'}://${text}`;
   let url: URL;
   try {

@@ -11,24 +11,29 @@ import { type Distribution, SampleWindow } from '../latency/sample-window.ts';
 
 /** Times in ms, rates a second. */
 export interface StreamStats {
-  /** Since the session began. */
+  /** Packets that arrived since the session began. */
   packetsReceived: number;
+  /** Packets that were lost since the session began. */
   packetsLost: number;
+  /** Bytes that arrived since the session began. */
   bytesReceived: number;
+  /** Packets that arrived and were not decoded since the session began, by reason. */
   drops: DropCounts;
-  /** Over the last second. */
+  /** Rate of arrival over the last second. */
   bitsPerSecond: number;
   /** Share of packets lost over the last seconds, 0–1. */
   lossRate: number;
-  /** Round trip of the latest clock probe, and the shortest of the last. */
+  /** Round trip of the latest clock probe; `null` before the first answer. */
   rttMs: number | null;
+  /** Shortest round trip among the last clock probes; `null` before the first answer. */
   minRttMs: number | null;
   /** Capture to the worker, each packet. */
   deliveryMs: Distribution | null;
   /** Capture to the end of the display frame with the frame's last points. */
   frameLatencyMs: Distribution | null;
-  /** Motion to photon: until the whole green cloud was drawn, and until its first points were. */
+  /** Motion to photon: until the whole green cloud was drawn. */
   mtpMs: Distribution | null;
+  /** Motion to photon: until the first points of the green cloud were drawn. */
   mtpFirstMs: Distribution | null;
   /** Mean µs the worker spent on a packet. */
   decodeUs: number;
@@ -37,6 +42,7 @@ export interface StreamStats {
 const MAX_RESULTS = 1000;
 const LOSS_WINDOW_MS = 3000;
 
+/** Counts and measures the stream, from the network to the display. {@link RobotClient} makes one and calls it. */
 export class StreamStatistics {
   readonly #ageOf: AgeOfStamp;
   readonly #delivery = new SampleWindow(8192);
@@ -50,6 +56,7 @@ export class StreamStatistics {
   /** Latency tests, the oldest forgotten. */
   readonly results: LatencyResult[] = [];
 
+  /** @param ageOf how long ago a stamp of the robot's clock was, ms */
   constructor(ageOf: AgeOfStamp) {
     this.#ageOf = ageOf;
     this.#frameLatency = new FrameLatency(ageOf);
@@ -71,11 +78,16 @@ export class StreamStatistics {
     this.#mtpFirst.clear();
   }
 
+  /** The cloud worker reported its sums. */
   onReport(report: IntakeReport): void {
     this.#report = report;
   }
 
-  /** A packet's points were uploaded for the display frame being prepared. */
+  /**
+   * A packet's points were uploaded for the display frame being prepared.
+   *
+   * @param packet index in the batch
+   */
   onUploaded(batch: Batch, packet: number): void {
     const captureUs = batch.captureTimeUs(packet);
     const age = this.#ageOf(captureUs, batch.receivedAtMs(packet) - performance.timeOrigin);
@@ -88,11 +100,16 @@ export class StreamStatistics {
     );
   }
 
-  /** The display frame is finished. */
+  /**
+   * The display frame is finished.
+   *
+   * @param nowMs `performance.now()`
+   */
   onDrawn(nowMs: number): void {
     this.#frameLatency.onDrawn(nowMs);
   }
 
+  /** A latency test ended. */
   onResult(result: LatencyResult): void {
     this.#mtp.add(result.mtpMs);
     this.#mtpFirst.add(result.firstMs);
@@ -100,13 +117,22 @@ export class StreamStatistics {
     if (this.results.length > MAX_RESULTS) this.results.shift();
   }
 
-  /** A few times a second. */
+  /**
+   * Updates the rates. Call it a few times a second.
+   *
+   * @param nowMs `performance.now()`
+   */
   tick(nowMs: number): void {
     this.#bytes.update(this.#report?.bytesReceived ?? 0, nowMs);
     this.#lost.update(this.#report?.packetsLost ?? 0, nowMs);
     this.#received.update(this.#report?.packetsReceived ?? 0, nowMs);
   }
 
+  /**
+   * Everything as it is now.
+   *
+   * @param clock tells the round trips
+   */
   snapshot(clock: Pick<ClockOffset, 'lastRttMs' | 'minRttMs'>): StreamStats {
     const lost = this.#lost.perSecond;
     const sent = lost + this.#received.perSecond;

@@ -115,7 +115,9 @@ const robotEndFields = {
 const robotListing = z.strictObject({ id: robotIdSchema, name: displayNameSchema });
 /** A robot that is here now. */
 export interface RobotListing {
+  /** Its id at the signaling service. */
   id: string;
+  /** Its name, for people. */
   name: string;
 }
 

@@ -1,0 +1,69 @@
+/** What becomes of the link's events in a client: its parts are told, and its listeners. */
+import type { CloudReceiver } from '../cloud/cloud-receiver.ts';
+import type { Driver } from '../drive/driver.ts';
+import type { LatencyProbe } from '../latency/latency-probe.ts';
+import type { RobotLinkEvents } from '../link/robot-link.ts';
+import type { PictureFeed } from '../pictures/picture-feed.ts';
+import type { StreamStatistics } from '../statistics/stream-statistics.ts';
+import type { Emitter } from './emitter.ts';
+import { forwardedEvents } from './forwarded-events.ts';
+import type { RobotEvents } from './robot-events.ts';
+
+/** Of a client. Read when an event comes: some are made after the link. */
+export interface LinkedClient {
+  readonly driver: Driver;
+  readonly latency: LatencyProbe;
+  readonly statistics: StreamStatistics;
+  pointsAtMs: number;
+}
+
+/** Parts that a client keeps to itself. */
+export interface ClientParts {
+  readonly emitter: Emitter<RobotEvents>;
+  readonly receiver: CloudReceiver;
+  readonly pictures: PictureFeed;
+  /** Tells the robot which formats can be read here. */
+  tellFormats(): void;
+}
+
+export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkEvents {
+  const { emitter, receiver, pictures } = parts;
+  return {
+    ...forwardedEvents(emitter),
+    onPhase: (phase) => {
+      if (phase !== 'live') {
+        client.driver.reset();
+        client.latency.fail('no-session');
+      }
+      client.pointsAtMs = performance.now();
+      emitter.emit('phase', phase);
+    },
+    onPath: (up) => {
+      client.driver.onPath(performance.now());
+      emitter.emit('path', up);
+    },
+    onGeneration: (generation) => {
+      receiver.begin(generation);
+      pictures.reset();
+      client.statistics.reset();
+      emitter.emit('session', generation);
+    },
+    onWelcome: (welcome) => {
+      parts.tellFormats();
+      client.driver.onLimits(welcome.limits);
+      emitter.emit('welcome', welcome);
+    },
+    onLease: (lease) => {
+      client.driver.onLease(lease);
+      client.latency.onLease();
+      emitter.emit('lease', lease);
+    },
+    onLatencyFrame: (frame) => client.latency.onRobotFrame(frame),
+    onCloudStream: (stream) => receiver.beginStream(stream),
+    onCameras: (cameras) => {
+      pictures.reset();
+      emitter.emit('cameras', cameras);
+    },
+    onPicture: (picture, nowMs) => pictures.add(picture, nowMs),
+  };
+}

@@ -1,0 +1,114 @@
+/** The messages of the `session` channel as JSON: what is read is checked. */
+import * as z from 'zod/mini';
+import { CLOUD_FORMATS } from './cloud-format.ts';
+import { commandRejections } from './control.ts';
+import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './identifiers.ts';
+import type { JsonCodec } from './json.ts';
+import { MAX_CAMERAS } from './picture-chunk.ts';
+import { MAX_SENSORS } from './placement.ts';
+import type { OperatorSessionMessage, RobotSessionMessage } from './session-messages.ts';
+
+const positive = z.number().check(z.positive());
+const cameraSchema = z.int().check(z.minimum(0), z.maximum(MAX_CAMERAS - 1));
+const sensorSchema = z.int().check(z.minimum(0), z.maximum(MAX_SENSORS - 1));
+/** A palette of 256 colours with its tables is 2,210 bytes. */
+const MAX_STREAM_HEADER_BASE64 = 3200;
+/** A test that takes longer has failed. */
+const MAX_LATENCY_MS = 60_000;
+const latencyMsSchema = z.number().check(z.minimum(0), z.maximum(MAX_LATENCY_MS));
+
+export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
+  what: 'robot session message',
+  schema: z.discriminatedUnion('type', [
+    z.strictObject({
+      type: z.literal('welcome'),
+      protocol: z.int().check(z.minimum(1)),
+      robotId: robotIdSchema,
+      name: displayNameSchema,
+      limits: z.strictObject({
+        maxLinear: positive,
+        maxAngular: positive,
+        watchdogMs: positive,
+        maxCommandsPerSecond: positive,
+      }),
+      stream: z.strictObject({
+        format: z.literal('points64'),
+        width: z.int().check(z.positive()),
+        height: z.int().check(z.positive()),
+        framesPerSecond: positive,
+      }),
+      resumeKey: z.optional(handleSchema),
+    }),
+    z.strictObject({
+      type: z.literal('lease'),
+      holder: z.enum(['you', 'other', 'nobody']),
+      lease: z.optional(handleSchema),
+    }),
+    z.strictObject({
+      type: z.literal('rejected'),
+      sequence: z.optional(uint32Schema),
+      reason: z.enum(commandRejections),
+      detail: z.string().check(z.maxLength(512)),
+      count: z.int().check(z.minimum(1)),
+    }),
+    z.strictObject({
+      type: z.literal('estop'),
+      latched: z.boolean(),
+      by: z.optional(z.enum(['operator', 'robot'])),
+    }),
+    z.strictObject({
+      type: z.literal('latencyFrame'),
+      id: uint32Schema,
+      frameNumber: uint32Schema,
+      points: z.int().check(z.minimum(0)),
+      commandMs: z.number(),
+      captureMs: z.number(),
+    }),
+    z.strictObject({
+      type: z.literal('cloudStream'),
+      format: z.enum(['organised', 'unorganised']),
+      header: z.base64().check(z.minLength(1), z.maxLength(MAX_STREAM_HEADER_BASE64)),
+      sensor: z.optional(sensorSchema),
+    }),
+    z.strictObject({
+      type: z.literal('cameras'),
+      cameras: z.array(z.strictObject({ name: displayNameSchema })).check(z.maxLength(MAX_CAMERAS)),
+    }),
+    z.strictObject({
+      type: z.literal('sensors'),
+      sensors: z.array(z.strictObject({ name: displayNameSchema })).check(z.maxLength(MAX_SENSORS)),
+    }),
+    z.strictObject({ type: z.literal('fault'), message: z.string().check(z.maxLength(512)) }),
+  ]),
+  maxBytes: 4096,
+};
+
+export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
+  what: 'operator session message',
+  schema: z.discriminatedUnion('type', [
+    z.strictObject({ type: z.literal('leaseRequest'), take: z.boolean() }),
+    z.strictObject({ type: z.literal('leaseRelease') }),
+    z.strictObject({ type: z.literal('estop'), latch: z.boolean() }),
+    z.strictObject({ type: z.literal('stream'), running: z.boolean() }),
+    z.strictObject({
+      type: z.literal('cloudFormats'),
+      formats: z.array(z.enum(CLOUD_FORMATS)).check(z.maxLength(CLOUD_FORMATS.length)),
+    }),
+    z.strictObject({
+      type: z.literal('pictures'),
+      cameras: z.array(cameraSchema).check(z.maxLength(MAX_CAMERAS)),
+    }),
+    z.strictObject({
+      type: z.literal('sensors'),
+      sensors: z.array(sensorSchema).check(z.maxLength(MAX_SENSORS)),
+    }),
+    z.strictObject({
+      type: z.literal('latencyMeasured'),
+      id: uint32Schema,
+      frameNumber: uint32Schema,
+      mtpMs: latencyMsSchema,
+      firstMs: latencyMsSchema,
+    }),
+  ]),
+  maxBytes: 1024,
+};
