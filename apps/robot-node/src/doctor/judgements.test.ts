@@ -222,7 +222,7 @@ describe('files', () => {
       chmodSync(cloud, 0o666);
       expect(checkSharedMemory(source, { kind: 'base' })[1]).toMatchObject({
         verdict: 'fail',
-        detail: expect.stringContaining('mode 0666) may be written by anybody') as string,
+        detail: expect.stringContaining('mode 0666) is writable by everybody') as string,
       });
       chmodSync(cloud, 0o640);
       expect(verdicts(checkSharedMemory(source, { kind: 'base' }))[1]).toBe('ok');

@@ -1,6 +1,6 @@
 import type { ReadyPicture } from './picture-messages.ts';
 
-/** Why a picture was not sent to this operator, or not to its end. */
+/** Why this operator did not get a picture, or not all of it. */
 export type PictureDropReason =
   | 'superseded' // a newer one of its camera came before its turn
   | 'backlog' // what was sent before has not left yet
@@ -8,9 +8,9 @@ export type PictureDropReason =
 
 /** The operator's channel for pictures. */
 export interface PictureLink {
-  /** Bytes that wait to leave. */
+  /** Bytes queued for sending. */
   readonly picturesBuffered: number;
-  /** @returns bytes on the wire, all headers counted; 0 where it was not sent */
+  /** @returns bytes on the wire, all headers counted; 0 if it was not sent */
   sendPicture(chunk: Uint8Array): number;
 }
 
