@@ -99,6 +99,10 @@ export class ReferenceOperator implements FrameTarget {
     return sensor === 0;
   }
 
+  probesWith(sensor: number): boolean {
+    return this.wants(sensor);
+  }
+
   cloudBitsPerSecond(): number {
     const { sender } = this;
     return sender === null ? 0 : sender.targetBitsPerSecond * sender.fit;

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { type CloudClaim, cloudShare } from './cloud-shares.ts';
+import { type CloudClaim, cloudShare, probingSensor } from './cloud-shares.ts';
 
 const M = 1e6;
 const claim = (usefulBitsPerSecond: number, weight = 1, priority = 0): CloudClaim => ({
@@ -61,5 +61,21 @@ describe('cloudShare', () => {
       }),
       { seed: 21 },
     );
+  });
+});
+
+describe('probingSensor', () => {
+  const claims = [claim(Number.POSITIVE_INFINITY, 1, 1), claim(8 * M, 1, 0), claim(8 * M, 1, 0)];
+
+  it('is the most important of those that are wanted, the first of equals', () => {
+    expect(probingSensor(claims, new Set([0, 1, 2]))).toBe(1);
+    expect(probingSensor(claims, new Set([0, 2]))).toBe(2);
+    expect(probingSensor(claims, new Set([0]))).toBe(0);
+  });
+
+  it('is none that has failed, and none where none is wanted', () => {
+    expect(probingSensor([claim(0), claim(M, 1, 3)], new Set([0, 1]))).toBe(1);
+    expect(probingSensor([claim(0)], new Set([0]))).toBeNull();
+    expect(probingSensor(claims, new Set())).toBeNull();
   });
 });

@@ -15,6 +15,22 @@ export interface CloudClaim {
 const LEAST_BITS_PER_SECOND = BitRate.fromMbps(0.5);
 
 /**
+ * The sensor whose frames carry the padding of a path's probes: the most important one that sends anything.
+ *
+ * @param claims by sensor number
+ * @param wanted sensor numbers
+ * @returns its number, `null` where none of those that are wanted sends
+ */
+export function probingSensor(claims: readonly CloudClaim[], wanted: ReadonlySet<number>): number | null {
+  let best: { number: number; priority: number } | null = null;
+  for (const [number, { priority, usefulBitsPerSecond }] of claims.entries()) {
+    if (!wanted.has(number) || usefulBitsPerSecond <= 0) continue;
+    if (best === null || priority < best.priority) best = { number, priority };
+  }
+  return best?.number ?? null;
+}
+
+/**
  * Shares what a path has for clouds among the sensors that its operator wants.
  *
  * @param claims by sensor number

@@ -12,7 +12,9 @@ class Viewer implements FrameTarget {
   streaming = true;
   readonly #bitsPerSecond: number;
   readonly formats: readonly CodedFormat[];
-  readonly sender = null;
+  sender: FrameTarget['sender'] = null;
+  /** The sensor that its probes go with. */
+  probed = 0;
   frames = 0;
   readonly announced: string[] = [];
 
@@ -27,6 +29,9 @@ class Viewer implements FrameTarget {
   }
   wants(sensor: number): boolean {
     return sensor === 0;
+  }
+  probesWith(sensor: number): boolean {
+    return sensor === this.probed;
   }
   cloudBitsPerSecond(): number {
     return this.#bitsPerSecond;
@@ -137,4 +142,14 @@ it('a stream is told to those who read its format', () => {
   const { capture } = setUp(viewers);
   capture.onStream?.({ format: 'organised', header: new Uint8Array(1) });
   expect(viewers.map(({ announced }) => announced)).toEqual([['organised'], []]);
+});
+
+it('a probe enlarges the frames of one sensor, where one path decides', () => {
+  const probeWish = { clusterId: 4, bytes: 9000 };
+  const viewers = ['a', 'b'].map((id) => new Viewer(id, 1e6, []));
+  for (const viewer of viewers) viewer.sender = { probeWish, overheadBytes: 0 } as Viewer['sender'];
+  expect(setUp(viewers, 'a').budget?.probe).toEqual(probeWish);
+  expect(setUp(viewers).budget?.probe).toBeNull();
+  for (const viewer of viewers) viewer.probed = 1;
+  expect(setUp(viewers, 'a').budget?.probe).toBeNull();
 });

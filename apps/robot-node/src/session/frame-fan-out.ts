@@ -24,6 +24,8 @@ export interface FrameTarget {
   wants(sensor: number): boolean;
   /** What the clouds of this sensor may take of its path, bit/s on the wire. */
   cloudBitsPerSecond(sensor: number): number;
+  /** Whether this sensor's frames are enlarged where the path's rate control probes for a higher rate. */
+  probesWith(sensor: number): boolean;
   reads(format: CodedFormat): boolean;
   readonly sender: Pick<StreamSender, 'probeWish' | 'overheadBytes'> | null;
   enqueue(shared: SharedFrame): void;
@@ -88,7 +90,9 @@ export class FrameFanOut {
     const readers = driven.filter((target) => coded.some(({ format }) => target.reads(format)));
     const deciding = readers.length > 0 ? readers : driven;
     // One path at a time can be tried with larger frames: they go to everyone.
-    const probe = deciding.length === 1 && sensor === 0 ? (deciding[0]?.sender?.probeWish ?? null) : null;
+    const [only] = deciding;
+    const probing = deciding.length === 1 && only?.probesWith(sensor) === true;
+    const probe = probing ? (only.sender?.probeWish ?? null) : null;
     const next: CaptureBudget = {
       coded,
       targetBitsPerSecond: deciding.length === 0 ? 0 : narrowest(deciding, sensor),

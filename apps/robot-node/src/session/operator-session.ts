@@ -6,7 +6,7 @@ import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { CodedFormat } from '../encode/plan.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
 import { PictureSender } from '../pictures/picture-sender.ts';
-import { type CloudClaim, cloudShare } from '../sensors/cloud-shares.ts';
+import { type CloudClaim, cloudShare, probingSensor } from '../sensors/cloud-shares.ts';
 import { StageTimer } from '../telemetry/stage-timer.ts';
 import type { AnswerVerdict } from '../transport/answer-gate.ts';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
@@ -156,6 +156,10 @@ export class OperatorSession implements FrameTarget {
 
   wants(sensor: number): boolean {
     return this.#sensors.has(sensor);
+  }
+
+  probesWith(sensor: number): boolean {
+    return probingSensor(this.#claims(), this.#sensors) === sensor;
   }
 
   /** What a sensor's points may take of the path, bit/s on the wire; 0 while there is none. */
