@@ -1,8 +1,7 @@
 /** The thread that writes a recording: converting and writing megabytes a frame must delay nothing else. */
 import { type MessagePort, parentPort, workerData } from 'node:worker_threads';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
-import { detailOf } from './errors.ts';
-import { McapFileFull } from './mcap-file-writer.ts';
+import { Recorder } from './recorder.ts';
 import type {
   CloudDone,
   CloudRecord,
@@ -13,116 +12,37 @@ import type {
 import { RecordingWriter } from './recording-writer.ts';
 import { SentCloudDecoder } from './sent-cloud.ts';
 
-/** What was recorded survives the end of the process after this long, ms; so often the recording tells of itself. */
 const FLUSH_MS = 500;
-/** How long the capture thread has for its last clouds after the others have said all, ms. */
+/** How long the capture thread has for its last clouds after all others have closed, ms. */
 const LINGER_MS = 2000;
-/** … and the end of the machine, each so many times. */
-const SYNC_EVERY = 10;
 
 const port = parentPort;
 if (port === null) throw new Error('recorder-worker.ts runs as a worker only');
 const { clouds, ...options } = workerData as RecorderOptions & { clouds: MessagePort };
 const send = (report: RecorderReport) => port.postMessage(report);
-
 const writer = await RecordingWriter.create(options, new SentCloudDecoder(await loadCodecFromDisk()));
-let failed = false;
-/** The file has all that it may, and is closed. */
-let full = false;
-let flushes = 0;
-let syncing = false;
-/** One thing after the other. */
-let tail: Promise<void> = Promise.resolve();
+const recorder = new Recorder(writer, send);
+const flushing = setInterval(() => void recorder.flush(), FLUSH_MS);
 
-function tell(): void {
-  const { faults, dropped } = writer;
-  const { messages, bytes } = writer.file;
-  const { captured, sent } = dropped;
-  send({ type: 'written', messages, bytes, faults, dropped: { captured, sent } });
-}
-
-async function addOwnState(): Promise<void> {
-  if (writer.file.messages > 0) await writer.addOwnState();
-}
-
-function inTurn(work: () => Promise<void>): Promise<void> {
-  tail = tail.then(async () => {
-    if (failed || full) return;
-    try {
-      await work().catch(endIfFull);
-    } catch (error) {
-      failed = true;
-      send({ type: 'failed', detail: detailOf(error) });
-    }
-  });
-  return tail;
-}
-
-async function endIfFull(error: unknown): Promise<void> {
-  if (!(error instanceof McapFileFull)) throw error;
-  full = true;
-  await writer.file.close();
-  tell();
-  send({ type: 'full' });
-}
-
-clouds.on('message', (record: CloudRecord) => {
+clouds.on('message', async (record: CloudRecord) => {
+  await recorder.addCloud(record);
   const { buffer } = record;
   const kind = record.type === 'sent' ? 'sent' : 'captured';
-  // Its memory goes back once the chunk that refers to it is written; also after a failure.
-  void inTurn(() => writer.addCloud(record)).then(() => {
-    const done: CloudDone = { kind, buffer, ended: full };
-    clouds.postMessage(done, [buffer]);
-  });
+  const done: CloudDone = { kind, buffer, ended: recorder.full };
+  clouds.postMessage(done, [buffer]);
 });
-
-/** The capture thread has said all. */
 const cloudsEnd = new Promise<void>((resolve) => clouds.once('close', resolve));
 
-const flushing = setInterval(() => {
-  void inTurn(async () => {
-    await addOwnState();
-    await writer.file.flush();
-    tell();
-    if (++flushes % SYNC_EVERY !== 0 || syncing) return;
-    syncing = true;
-    // Nothing waits for it: a slow disk shows in what is dropped.
-    void writer.file
-      .sync()
-      .catch(() => {})
-      .finally(() => {
-        syncing = false;
-      });
-  });
-}, FLUSH_MS);
-
-port.on('message', (request: RecorderRequest) => {
-  if (request.type === 'cameras') {
-    void inTurn(async () => writer.addCameras(request.cameras));
-    return;
-  }
-  if (request.type === 'picture') {
-    void inTurn(() => writer.addPicture(request)).then(() => send({ type: 'done', kind: 'pictures' }));
-    return;
-  }
+port.on('message', async (request: RecorderRequest) => {
   if (request.type !== 'close') {
-    void inTurn(() => writer.addEvent(request)).then(() => send({ type: 'done', kind: 'events' }));
+    recorder.onRequest(request);
     return;
   }
   clearInterval(flushing);
   setTimeout(() => clouds.close(), LINGER_MS).unref();
-  void cloudsEnd
-    .then(() =>
-      inTurn(async () => {
-        await addOwnState();
-        await writer.file.close();
-      }),
-    )
-    .then(() => {
-      tell();
-      send({ type: 'closed' });
-      clouds.close();
-      port.close();
-    });
+  await cloudsEnd;
+  await recorder.close();
+  send({ type: 'closed' });
+  port.close();
 });
 send({ type: 'ready' });

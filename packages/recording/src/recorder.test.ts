@@ -1,0 +1,74 @@
+import { describe, expect, it } from 'vitest';
+import { McapFileFull } from './mcap-file-writer.ts';
+import { Recorder, type RecorderTarget } from './recorder.ts';
+import type { CloudRecord, RecorderReport } from './recorder-messages.ts';
+
+const CLOUD = { type: 'sent' } as CloudRecord;
+
+/** A recorder whose file only notes what is done to it; `answer` decides how each cloud ends. */
+function setUp(answer: (cloud: number) => Promise<void> = async () => undefined) {
+  const done: string[] = [];
+  const reports: RecorderReport[] = [];
+  const note = (what: string) => async () => void done.push(what);
+  let clouds = 0;
+  const writer: RecorderTarget = {
+    faults: 0,
+    dropped: { captured: 1, sent: 2, pictures: 3 },
+    addCloud: async () => {
+      const cloud = clouds++;
+      await answer(cloud);
+      done.push(`cloud ${cloud}`);
+    },
+    addCameras: () => void done.push('cameras'),
+    addPicture: note('picture'),
+    addEvent: note('event'),
+    addOwnState: note('state'),
+    file: { messages: 7, bytes: 900, flush: note('flush'), sync: note('sync'), close: note('close') },
+  };
+  return { recorder: new Recorder(writer, (report) => reports.push(report)), done, reports };
+}
+
+describe('Recorder', () => {
+  it('does one thing after the other, however long one takes', async () => {
+    const first = Promise.withResolvers<void>();
+    const { recorder, done } = setUp((cloud) => (cloud === 0 ? first.promise : Promise.resolve()));
+    const clouds = [recorder.addCloud(CLOUD), recorder.addCloud(CLOUD)];
+    const closed = recorder.close();
+    expect(done).toEqual([]);
+    first.resolve();
+    await Promise.all([...clouds, closed]);
+    expect(done).toEqual(['cloud 0', 'cloud 1', 'state', 'close']);
+  });
+
+  it('reports what is written at each flush, and syncs at every tenth', async () => {
+    const { recorder, done, reports } = setUp();
+    for (let i = 0; i < 20; i++) await recorder.flush();
+    expect(done.filter((what) => what === 'sync')).toHaveLength(2);
+    expect(reports).toHaveLength(20);
+    expect(reports[0]).toEqual({
+      ...{ type: 'written', messages: 7, bytes: 900, faults: 0 },
+      dropped: { captured: 1, sent: 2 },
+    });
+  });
+
+  it('closes a full file and writes nothing more', async () => {
+    const { recorder, done, reports } = setUp(async (cloud) => {
+      if (cloud === 1) throw new McapFileFull();
+    });
+    for (let i = 0; i < 3; i++) await recorder.addCloud(CLOUD);
+    await recorder.flush();
+    expect(recorder.full).toBe(true);
+    expect(done).toEqual(['cloud 0', 'close']);
+    expect(reports.map(({ type }) => type)).toEqual(['written', 'full']);
+  });
+
+  it('reports a failure once, and still gives the memory of clouds back', async () => {
+    const { recorder, done, reports } = setUp(async () => {
+      throw new Error('no space left on device');
+    });
+    await recorder.addCloud(CLOUD);
+    await recorder.addCloud(CLOUD);
+    expect(done).toEqual([]);
+    expect(reports).toEqual([{ type: 'failed', detail: 'no space left on device' }]);
+  });
+});
