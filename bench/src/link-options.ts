@@ -15,7 +15,7 @@ shows the whole green cloud (mtpMs) or its first points (mtpFirstMs). Figures co
   --jitter-ms 0  --loss 0  --burst-loss 0  --queue-ms 100
   --cross KIND        a competing flow from the robot's side: cubic, reno
   --robots 1          this many robots stream over the same link, each to its own page; the first one is measured
-  --sensors 1         2: the robot also has a LiDAR, and the operator watches both; latencies are those of the camera
+  --sensors 1         cloud sensors of the robot, all watched: its camera, and LiDARs; latencies of the motion are the camera's
   --seconds 30        duration; a trace restarts when the measurement starts
   --mode points64     points64, or auto: the best format that both sides support, with the whole cloud if the rate allows
   --draw-every N      draw every N-th point; all are decoded. Without a GPU, the benchmark would otherwise measure the
@@ -72,7 +72,8 @@ export function readLinkOptions(argv: string[]) {
   const robots = numberOption('robots', values.robots, 1);
   const fps = numberOption('fps', values.fps, 1);
   const sensors = numberOption('sensors', values.sensors, 1);
-  if (sensors !== 1 && sensors !== 2) throw new Error(`--sensors is \`${values.sensors}\`, not 1 or 2`);
+  if (!Number.isInteger(sensors) || sensors < 1 || sensors > 8)
+    throw new Error(`--sensors is \`${values.sensors}\`, not a number from 1 to 8`);
   const { mode } = values;
   return { values: { ...values, mode }, rateMbps, seconds, drawEvery, robots, fps, sensors };
 }

@@ -28,6 +28,7 @@ import {
 } from './link-run.ts';
 import { startLiveStack } from './live-stack.ts';
 import { type Bench, distributionCells, printJson, printTable } from './report.ts';
+import { sensorRows } from './sensor-rows.ts';
 import { distribution, rounded } from './stats.ts';
 
 /** Begins with the link's own start: the rate is still being found. */
@@ -54,7 +55,7 @@ export const bench: Bench = {
       name: `Simulated robot ${i + 1}`,
       args: [
         ...['--fps', String(fps), '--plan', values.plan, '--rate-control', values['rate-control']],
-        ...['--mode', values.mode, ...(sensors === 2 ? ['--sim-lidar'] : [])],
+        ...['--mode', values.mode, ...(sensors > 1 ? ['--sim-lidars', String(sensors - 1)] : [])],
         ...['--bitrate-mbps', '200', '--stats', robotFiles[i] as string],
       ],
     });
@@ -105,14 +106,14 @@ export const bench: Bench = {
       console.error(`${seconds} s`);
       // A trace may begin without service: connections are made over a quiet link.
       link.tell({ type: 'reset' });
+      const sensorsBefore = await page.evaluate(() => window.farpoint.stats().sensors);
       const zeroMs = monotonicMs();
       const [cpuBefore, stagesBefore] = [cpu(), await stages()];
       const { series, latencies } = await drivePage(page, seconds);
       const endMs = monotonicMs();
       const [cpuAfter, stagesAfter] = [cpu(), await stages()];
       const statistics = await page.evaluate(() => window.farpoint.stats());
-      const drawn = await page.evaluate(() => window.farpoint.sensors());
-      for (const { name, points } of drawn) console.error(`${name}: ${points} points drawn at the end`);
+      const named = await page.evaluate(() => window.farpoint.sensors());
       await stack.robot('sim-1').stop();
       await live.close();
 
@@ -153,6 +154,7 @@ export const bench: Bench = {
         delivery: partOf('delivery'),
         display: partOf('display'),
       };
+      const perSensor = sensorRows(named, statistics.sensors, sensorsBefore, (endMs - zeroMs) / 1000);
       const mtpFirstMs = rounded(distribution(answered.map(({ firstMs }) => firstMs as number)), 1);
       const result = {
         bench: 'link',
@@ -210,6 +212,7 @@ export const bench: Bench = {
         renderMs: statistics.renderMs,
         framesDropped: grown(robotSamples.map(({ framesDropped }) => framesDropped)),
         canvas: values.canvas,
+        sensors: perSensor,
       };
 
       printTable(
@@ -252,6 +255,16 @@ export const bench: Bench = {
           ],
         ],
       );
+      if (sensors > 1) {
+        printTable(
+          ['sensor', 'points a frame', 'frames/s', 'frame latency, ms: p50', 'p95', 'p99', 'max', 'share'],
+          perSensor.map((row) => [
+            ...[row.name, row.pointsPerFrame, row.framesPerSecond],
+            ...distributionCells(row.frameLatencyMs),
+            row.share,
+          ]),
+        );
+      }
       for (const { startS, endS, stoppedAfterMs, resumedAfterMs, words } of result.outages) {
         console.log(
           `no service ${startS}–${endS} s: stood after ${stoppedAfterMs ?? '–'} ms, points again after ${resumedAfterMs ?? '–'} ms; the page: ${words.join(' · ')}`,

@@ -1,7 +1,7 @@
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
-const LIDAR_ROBOT = { ...simulatedRobot, args: [...simulatedRobot.args, '--sim-lidar'] };
+const LIDAR_ROBOT = { ...simulatedRobot, args: [...simulatedRobot.args, '--sim-lidars', '1'] };
 
 test('a camera and a LiDAR in one session: both drawn, each switched off and on without the other', async ({
   page,

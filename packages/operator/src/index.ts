@@ -55,4 +55,5 @@ export type { SessionPhase } from './session/session-keeper.ts';
 export { lossOf, type SessionLoss } from './session/session-loss.ts';
 export type { SignalingState } from './signaling/signaling-state.ts';
 export { parseSignalingUrl, type SignalingAddress } from './signaling/signaling-url.ts';
+export type { SensorStats } from './statistics/sensor-statistics.ts';
 export type { StreamStatistics, StreamStats } from './statistics/stream-statistics.ts';

@@ -11,6 +11,8 @@ import { STANDING } from './playback-source.ts';
 
 export interface SimLidarSourceOptions {
   seed: number;
+  /** Which of the robot's LiDARs this is: each has its own height and noise. */
+  index?: number;
   /** The base's thread writes the world here. If undefined, the robot stays at its start and nothing moves. */
   snapshot?: SharedArrayBuffer | undefined;
 }
@@ -18,7 +20,10 @@ export interface SimLidarSourceOptions {
 /** Rotations per second. */
 const TURNS_PER_SECOND = 10;
 
-/** The simulated robot's LiDAR. */
+/** Where the robot's LiDARs sit, metres above base_link: the first on the mast, the others below it. */
+const HEIGHTS = [1.1, 0.35, 0.7, 0.9, 0.5, 0.25, 1];
+
+/** A LiDAR of the simulated robot. */
 export class SimLidarSource implements FrameSource {
   readonly description: SourceDescription;
   readonly state = STANDING;
@@ -39,9 +44,11 @@ export class SimLidarSource implements FrameSource {
     };
   }
 
-  static async create({ seed, snapshot }: SimLidarSourceOptions): Promise<SimLidarSource> {
+  static async create({ seed, index = 0, snapshot }: SimLidarSourceOptions): Promise<SimLidarSource> {
     const world = officeWorld();
-    return new SimLidarSource(await SimulatedLidar.create({ world, seed }), new SharedWorld(world, snapshot));
+    const up = HEIGHTS[index % HEIGHTS.length] as number;
+    const lidar = await SimulatedLidar.create({ world, seed: seed + index }, { up });
+    return new SimLidarSource(lidar, new SharedWorld(world, snapshot));
   }
 
   capture(nowMs: number, _wishes: CaptureWishes, room: CaptureRoom): SourceFrame {

@@ -97,10 +97,13 @@ function toSensors(values: RobotOptionValues, topics: TopicEntry[]): CloudSensor
     picturesOfCloud: values.picturesOfCloud,
   };
   const main: CloudSensorOptions = { name: 'Camera', capture, priority: 0, weight: 1 };
-  if (values.source !== 'sim' || !values.simLidar) return [main];
-  const source: SourceOptions = { kind: 'sim-lidar', seed: values.simSeed };
-  const lidar: CaptureOptions = { ...capture, sensor: 1, source, picturesOfCloud: false };
-  return [main, { name: 'LiDAR', capture: lidar, priority: 1, weight: 1 }];
+  if (values.source !== 'sim') return [main];
+  const lidars = Array.from({ length: values.simLidars }, (_, index): CloudSensorOptions => {
+    const source: SourceOptions = { kind: 'sim-lidar', seed: values.simSeed, index };
+    const lidar: CaptureOptions = { ...capture, sensor: index + 1, source, picturesOfCloud: false };
+    return { name: index === 0 ? 'LiDAR' : `LiDAR ${index + 1}`, capture: lidar, priority: 1, weight: 1 };
+  });
+  return [main, ...lidars];
 }
 
 function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, detail: string) => void): void {

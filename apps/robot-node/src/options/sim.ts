@@ -1,4 +1,5 @@
 /** The simulated robot. */
+import { MAX_SENSORS } from '@farpoint/protocol';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 
 export const simOptions = optionGroup('source', {
@@ -8,10 +9,11 @@ export const simOptions = optionGroup('source', {
     argument: 'SEED',
     help: 'seed of the simulated robot’s sensor noise',
   }),
-  simLidar: defineOption({
-    schema: schema.boolean(),
-    default: false,
-    help: 'give the simulated robot a LiDAR in addition to its camera: 16 beams, 10 revolutions a second',
+  simLidars: defineOption({
+    schema: schema.integer({ min: 0, max: MAX_SENSORS - 1 }),
+    default: 0,
+    argument: 'N',
+    help: 'number of LiDARs of the simulated robot, in addition to its camera: 16 beams, 10 revolutions a second each',
   }),
   simSize: defineOption({
     schema: schema.integer({ min: 16, max: 1024 }),

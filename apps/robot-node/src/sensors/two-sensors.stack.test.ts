@@ -5,7 +5,7 @@ import { SignaledOperator } from '../testing/signaled-operator.ts';
 
 const ROBOT = 'two-sensors';
 const [CAMERA, LIDAR] = [0, 1];
-const ARGS = ['--sim-size', '64', '--sim-lidar', '--rate-control', 'fixed', '--bitrate-mbps', '100'];
+const ARGS = ['--sim-size', '64', '--sim-lidars', '1', '--rate-control', 'fixed', '--bitrate-mbps', '100'];
 
 let stack: LocalStack;
 const operators: SignaledOperator[] = [];

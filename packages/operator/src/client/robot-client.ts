@@ -245,9 +245,9 @@ export class RobotClient {
 
   /** A packet's points were uploaded for the display frame being prepared. */
   noteUploaded(batch: Batch, packet: number): void {
-    // Latencies are those of the first sensor.
-    if (batch.sensor !== 0) return;
     this.statistics.onUploaded(batch, packet);
+    // Latency tests are answered by the first sensor.
+    if (batch.sensor !== 0) return;
     this.latency.onPacket(batch, packet);
   }
 

@@ -5,9 +5,10 @@ import { BitRate, RateMeter } from '@farpoint/timing';
 import type { Batch } from '../cloud/batch.ts';
 import type { DropCounts } from '../cloud/packet-intake.ts';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
-import { type AgeOfStamp, FrameLatency } from '../latency/frame-latency.ts';
+import type { AgeOfStamp } from '../latency/frame-latency.ts';
 import type { LatencyResult } from '../latency/latency-test.ts';
 import { type Distribution, SampleWindow } from '../latency/sample-window.ts';
+import { SensorStatistics, type SensorStats } from './sensor-statistics.ts';
 
 /** Times in ms, rates a second. */
 export interface StreamStats {
@@ -27,9 +28,9 @@ export interface StreamStats {
   rttMs: number | null;
   /** Shortest round trip among the last clock probes; `null` before the first answer. */
   minRttMs: number | null;
-  /** Capture to the worker, each packet. */
+  /** Capture to the worker, each packet of the first sensor. */
   deliveryMs: Distribution | null;
-  /** Capture to the end of the display frame with the frame's last points. */
+  /** Capture to the end of the display frame with the frame's last points, first sensor. */
   frameLatencyMs: Distribution | null;
   /** Motion to photon: until the whole green cloud was drawn. */
   mtpMs: Distribution | null;
@@ -37,6 +38,8 @@ export interface StreamStats {
   mtpFirstMs: Distribution | null;
   /** Mean µs the worker spent on a packet. */
   decodeUs: number;
+  /** What was drawn of each sensor, by number. */
+  sensors: SensorStats[];
 }
 
 const MAX_RESULTS = 1000;
@@ -46,12 +49,13 @@ const LOSS_WINDOW_MS = 3000;
 export class StreamStatistics {
   readonly #ageOf: AgeOfStamp;
   readonly #delivery = new SampleWindow(8192);
-  readonly #frameLatency: FrameLatency;
   readonly #mtp = new SampleWindow(MAX_RESULTS);
   readonly #mtpFirst = new SampleWindow(MAX_RESULTS);
   readonly #bytes = new RateMeter();
   readonly #lost = new RateMeter(LOSS_WINDOW_MS);
   readonly #received = new RateMeter(LOSS_WINDOW_MS);
+  /** By sensor number; made at a sensor's first packet. */
+  readonly #sensors: SensorStatistics[] = [];
   #report: IntakeReport | null = null;
   /** Latency tests, the oldest forgotten. */
   readonly results: LatencyResult[] = [];
@@ -59,7 +63,6 @@ export class StreamStatistics {
   /** @param ageOf how long ago a stamp of the robot's clock was, ms */
   constructor(ageOf: AgeOfStamp) {
     this.#ageOf = ageOf;
-    this.#frameLatency = new FrameLatency(ageOf);
   }
 
   /** A new session. */
@@ -67,13 +70,13 @@ export class StreamStatistics {
     this.#report = null;
     for (const meter of [this.#bytes, this.#lost, this.#received]) meter.reset();
     this.#delivery.clear();
-    this.#frameLatency.reset();
+    this.#sensors.length = 0;
   }
 
   /** Distributions begin anew. */
   resetDistributions(): void {
     this.#delivery.clear();
-    this.#frameLatency.reset();
+    for (const sensor of this.#sensors) sensor.resetDistribution();
     this.#mtp.clear();
     this.#mtpFirst.clear();
   }
@@ -89,15 +92,13 @@ export class StreamStatistics {
    * @param packet index in the batch
    */
   onUploaded(batch: Batch, packet: number): void {
-    const captureUs = batch.captureTimeUs(packet);
-    const age = this.#ageOf(captureUs, batch.receivedAtMs(packet) - performance.timeOrigin);
+    // No gaps: every sensor up to the highest has statistics.
+    while (this.#sensors.length <= batch.sensor) this.#sensors.push(new SensorStatistics(this.#ageOf));
+    this.#sensors[batch.sensor]?.onUploaded(batch, packet);
+    if (batch.sensor !== 0) return;
+    const receivedMs = batch.receivedAtMs(packet) - performance.timeOrigin;
+    const age = this.#ageOf(batch.captureTimeUs(packet), receivedMs);
     if (age !== null) this.#delivery.add(age);
-    this.#frameLatency.onPacket(
-      batch.frameNumber(packet),
-      captureUs,
-      batch.pointsCame(packet),
-      batch.frameLength(packet) / 8,
-    );
   }
 
   /**
@@ -106,7 +107,7 @@ export class StreamStatistics {
    * @param nowMs `performance.now()`
    */
   onDrawn(nowMs: number): void {
-    this.#frameLatency.onDrawn(nowMs);
+    for (const sensor of this.#sensors) sensor.onDrawn(nowMs);
   }
 
   /** A latency test ended. */
@@ -146,10 +147,11 @@ export class StreamStatistics {
       rttMs: clock.lastRttMs,
       minRttMs: clock.minRttMs,
       deliveryMs: this.#delivery.distribution(),
-      frameLatencyMs: this.#frameLatency.distribution,
+      frameLatencyMs: this.#sensors[0]?.frameLatencyMs ?? null,
       mtpMs: this.#mtp.distribution(),
       mtpFirstMs: this.#mtpFirst.distribution(),
       decodeUs: this.#report?.decodeUs ?? 0,
+      sensors: this.#sensors.map((sensor, number) => sensor.snapshot(number)),
     };
   }
 }

@@ -1,0 +1,61 @@
+import type { Batch } from '../cloud/batch.ts';
+import { type AgeOfStamp, FrameLatency } from '../latency/frame-latency.ts';
+import type { Distribution } from '../latency/sample-window.ts';
+
+/** What was drawn of one sensor's clouds since the session began. */
+export interface SensorStats {
+  /** The sensor's number. */
+  sensor: number;
+  /** Frames of which some point was drawn. */
+  frames: number;
+  /** Points that came in the packets that were drawn. */
+  points: number;
+  /** Packets that were drawn. */
+  packets: number;
+  /** Capture to the end of the display frame with the frame's last points, ms. */
+  frameLatencyMs: Distribution | null;
+}
+
+/** Counts one sensor's clouds, from the decoder to the display. */
+export class SensorStatistics {
+  readonly #latency: FrameLatency;
+  #frame: number | null = null;
+  #frames = 0;
+  #points = 0;
+  #packets = 0;
+
+  /** @param ageOf how long ago a stamp of the robot's clock was, ms */
+  constructor(ageOf: AgeOfStamp) {
+    this.#latency = new FrameLatency(ageOf);
+  }
+
+  /** Capture to the end of the display frame with the frame's last points, ms. */
+  get frameLatencyMs(): Distribution | null {
+    return this.#latency.distribution;
+  }
+
+  /** The distribution begins anew; the sums go on. */
+  resetDistribution(): void {
+    this.#latency.reset();
+  }
+
+  /** @param packet index in the batch */
+  onUploaded(batch: Batch, packet: number): void {
+    const frame = batch.frameNumber(packet);
+    if (frame !== this.#frame) this.#frames++;
+    this.#frame = frame;
+    const came = batch.pointsCame(packet);
+    this.#points += came;
+    this.#packets++;
+    this.#latency.onPacket(frame, batch.captureTimeUs(packet), came, batch.frameLength(packet) / 8);
+  }
+
+  onDrawn(nowMs: number): void {
+    this.#latency.onDrawn(nowMs);
+  }
+
+  snapshot(sensor: number): SensorStats {
+    const [frames, points, packets] = [this.#frames, this.#points, this.#packets];
+    return { sensor, frames, points, packets, frameLatencyMs: this.frameLatencyMs };
+  }
+}
