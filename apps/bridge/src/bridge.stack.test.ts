@@ -193,6 +193,7 @@ it('keeps showing its robot while 50 others come at once, half of them with offe
     socket.on('open', () => socket.send(JSON.stringify({ type: 'register', name: `other ${i}`, sdpOffer })));
     return socket;
   });
+  await Promise.all(others.map((socket) => socket.readyState === WebSocket.OPEN || once(socket, 'open')));
   const control = await page(made.ports.control);
   const until = async (count: number) => {
     control.send({ type: 'updateRobots' });
