@@ -112,7 +112,7 @@ test('the robot process is killed and restarted: the page says so and comes back
 
   await stack.robot('sim-1').kill();
   await operator.expectState('robotListed', false);
-  await expect(page.getByText(/lost|away|restarted/i).first()).toBeVisible();
+  await expect(page.getByText(/lost|offline|restarted/i).first()).toBeVisible();
 
   await stack.restartRobot('sim-1');
   await operator.expectState('session', 'live');

@@ -46,8 +46,8 @@ test('a full robot is said to be full, with how many it takes, and lets in who w
   const first = await OperatorPage.open(firstPage, stack, options);
   await first.expectState('session', 'live');
   const second = await OperatorPage.open(secondPage, stack, { robot: simulatedRobot.id });
-  await expect(secondPage.locator('#notice')).toContainText('full: it takes one operator at most');
-  await expect(secondPage.locator('#link')).toContainText('full: it takes one operator at most');
+  await expect(secondPage.locator('#notice')).toContainText('full: it accepts one operator at most');
+  await expect(secondPage.locator('#link')).toContainText('full: it accepts one operator at most');
   await second.screenshot(testInfo, 'full');
   expect((await second.state()).lastLoss).toBe('robot-full');
   await firstPage.close({ runBeforeUnload: true });
