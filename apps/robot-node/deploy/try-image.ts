@@ -1,12 +1,14 @@
 /**
- * Tries the container image, as root, on a machine that may have no registry of images: makes the Dockerfile's base of Debian's
- * and Node's packages, builds the image from this checkout, and runs it as docs/real-robot.md says: what it answers, with
- * signaling and operators on the host, with a camera's shared memory on the host, its health, and how it stops.
+ * Tries the container image, as root, on a machine that may have no image registry. Makes the Dockerfile's base from
+ * Debian's and Node's packages, builds the image from this checkout, and runs it as docs/real-robot.md says. Checks
+ * its answers to --help and to a missing configuration, a robot with signaling and operators on the host, a camera's
+ * shared memory on the host, the health check, and the shutdown.
  *
  *   node apps/robot-node/deploy/try-image.ts [--arch amd64|arm64] [--folder FOLDER]
  *
- * --arch is this machine's unless told otherwise; another one is emulated (Debian: qemu-user-static). FOLDER is kept, and what
- * is in it used again. Needs podman, debootstrap, packages from the network, and 4 GB of disk; some 4 minutes, emulated 15.
+ * --arch defaults to this machine's; another one is emulated (Debian: qemu-user-static). FOLDER is kept, and its
+ * contents are reused. Needs podman, debootstrap, packages from the network, and 4 GB of disk. Takes some 4 minutes,
+ * emulated 15.
  */
 import { execFileSync, spawn, spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -31,7 +33,7 @@ const { values } = parseArgs({
 if (values.arch !== 'amd64' && values.arch !== 'arm64') throw new Error('--arch is amd64 or arm64');
 const architecture: Architecture = values.arch;
 const emulated = architecture !== own;
-/** How much longer than on a real processor anything may take. */
+/** Factor by which everything may take longer than on a real processor. */
 const patience = emulated ? 10 : 1;
 
 const missing = ['podman', 'debootstrap', 'npm'].filter((program) => spawnSync(program, ['--version']).error);
@@ -53,13 +55,19 @@ function check(what: string, is: boolean, detail = ''): void {
   console.log(`${is ? '✓' : '✗'} ${what}${detail === '' ? '' : ` (${detail})`}`);
 }
 
-/** The kernel hands that processor's programs to an emulator which it opened beforehand (F), since a container has none. */
+/**
+ * The kernel runs the other architecture's programs with an emulator that it opened beforehand (flag F), because the
+ * container does not contain one.
+ */
 function emulatorIsThere(): boolean {
   const entry = `/proc/sys/fs/binfmt_misc/qemu-${architecture === 'arm64' ? 'aarch64' : 'x86_64'}`;
   return existsSync(entry) && /^flags: .*F/m.test(readFileSync(entry, 'utf8'));
 }
 
-/** Runs the image as docs/real-robot.md does; with low limits, since not every machine lets podman raise them to its own. */
+/**
+ * Runs the image as docs/real-robot.md does, but with low limits: not every machine lets podman raise the limits to
+ * its own.
+ */
 function run(flags: readonly string[], ...command: string[]): Ended {
   const limits = ['--ulimit', 'nofile=4096:4096', '--ulimit', 'nproc=4096:4096'];
   const host = ['--network', 'host', '--ipc', 'host', '--arch', architecture, '--pull', 'never'];
@@ -72,7 +80,7 @@ function build(): void {
   const root = join(folder, 'base');
   console.log(`making ${image.name} for ${architecture} in ${root}`);
   makeBase(root, architecture, image);
-  // Imported anew it would be another image, and nothing of a former build be used again.
+  // Importing the base again would make a different image, so that no earlier build could be reused.
   if (podman.command('image', 'exists', image.name).code !== 0) {
     const archive = join(folder, 'base.tar');
     execFileSync('tar', ['-C', root, '-cf', archive, '.']);
@@ -117,7 +125,7 @@ function tryAnswers(): void {
   writeFileSync(join(etc, 'robot.yaml'), written.stdout);
 }
 
-/** @returns flags that give a container the configuration */
+/** @returns flags that pass the configuration to a container */
 async function configure(stack: LocalStack): Promise<string[]> {
   const environment = {
     SIGNALING: stack.signalingUrl,
@@ -135,13 +143,13 @@ function tryDoctor(configured: readonly string[]): void {
     findings: { check: string; verdict: string; detail: string }[];
   };
   const faults = findings.filter(({ verdict }) => verdict === 'fail');
-  // What an emulated processor is too slow for says nothing about a real one.
+  // A check that fails because the emulated processor is too slow says nothing about a real one.
   const slow = (check: string) => emulated && ['processor', 'codec', 'source'].includes(check);
   const said = faults.map(({ check, detail }) => `${check}: ${detail}`).join('; ');
   check('the doctor finds nothing to fix', findings.length > 5 && faults.every((f) => slow(f.check)), said);
 }
 
-/** Starts the robot as it would be for good, less every right that it can do without, and waits for its health. */
+/** Starts the robot as in production, without any privilege that it does not need, and waits until it is healthy. */
 async function start(flags: readonly string[], ...command: string[]): Promise<void> {
   const strict = ['--read-only', '--cap-drop', 'all', '--security-opt', 'no-new-privileges'];
   const { code, stderr } = run(['-d', '--name', ROBOT, ...strict, ...flags], ...command);
@@ -197,7 +205,7 @@ async function tryOperator(signaling: string, drives: boolean): Promise<void> {
   await operator.close();
 }
 
-/** A camera's program on the host gives clouds to the robot in the container. */
+/** Checks that a camera program on the host can pass clouds to the robot in the container. */
 async function tryCamera(configured: readonly string[], signaling: string): Promise<void> {
   const candidates = [
     process.env.FARPOINT_PYTHON,

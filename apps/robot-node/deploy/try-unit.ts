@@ -1,10 +1,11 @@
 /**
- * Tries the unit under a real systemd, as root: makes a Debian system in a folder, boots it in a container, installs the
- * robot there from this checkout as docs/real-robot.md says, and looks how it starts, fails, comes back and goes away.
+ * Tries the unit under a real systemd, as root. Makes a Debian system in a folder, boots it in a container, installs
+ * the robot there from this checkout as docs/real-robot.md says, and checks how it starts, fails, recovers and is
+ * removed.
  *
  *   node apps/robot-node/deploy/try-unit.ts [FOLDER]    FOLDER is kept, and used again if it is there
  *
- * Needs debootstrap, systemd-nspawn (Debian: systemd-container) and packages from the network; some 3 minutes.
+ * Needs debootstrap, systemd-nspawn (Debian: systemd-container) and packages from the network. Takes some 3 minutes.
  */
 import { type ChildProcess, execFileSync, spawn, spawnSync } from 'node:child_process';
 import { chmodSync, copyFileSync, cpSync, existsSync, mkdirSync, mkdtempSync, rmSync } from 'node:fs';
@@ -32,7 +33,7 @@ function check(what: string, is: boolean, detail = ''): void {
   console.log(`${is ? '✓' : '✗'} ${what}${detail === '' ? '' : ` (${detail})`}`);
 }
 
-/** Runs a shell's line in the container; its exit code and all that it said. */
+/** Runs a shell command in the container. @returns its exit code and all its output */
 function inside(line: string): { code: number | null; output: string } {
   const leader = execFileSync('pgrep', ['-P', String(started.container?.pid)], { encoding: 'utf8' }).trim();
   const env = ['PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin', 'HOME=/root'];
@@ -44,7 +45,7 @@ function inside(line: string): { code: number | null; output: string } {
 
 const show = (property: string): string => inside(`systemctl show -P ${property} ${UNIT}`).output;
 
-/** @returns how long it took, s; `null` where it was not so within `mostS` */
+/** @returns how long it took until the condition was true, s; `null` if it was not within `mostS` */
 async function until(is: () => boolean, mostS: number): Promise<number | null> {
   for (const start = performance.now(); ; await wait(100)) {
     const seconds = (performance.now() - start) / 1000;
@@ -53,14 +54,14 @@ async function until(is: () => boolean, mostS: number): Promise<number | null> {
   }
 }
 
-/** A Debian with systemd, and with this Node and its npm. */
+/** A Debian system with systemd, this Node and its npm. */
 function makeSystem(): void {
   if (existsSync(join(folder, 'usr/local/bin/npx'))) return;
   console.log(`making a Debian system in ${folder}`);
   execFileSync('debootstrap', ['--variant=minbase', `--include=${PACKAGES}`, 'bookworm', folder], {
     stdio: ['ignore', 'ignore', 'inherit'],
   });
-  // It is the container's root: its users must get in.
+  // The folder is the container's root, so its users must have access.
   chmodSync(folder, 0o755);
   const npx = execFileSync('readlink', ['-f', execFileSync('which', ['npx'], { encoding: 'utf8' }).trim()]);
   const npm = join(folder, 'usr/local/lib/node_modules/npm');
@@ -158,7 +159,7 @@ async function tryUnit(): Promise<void> {
   check('leaves nothing', /^id: \S+ no such user$/.test(left.output), left.output.replaceAll('\n', ' '));
 }
 
-/** Is it a record of ours, at the journal's priority for its level? */
+/** Whether the entry is one of our records, with the journal's priority for its level. */
 function isRecord(entry: string): boolean {
   try {
     const { MESSAGE, PRIORITY } = JSON.parse(entry) as { MESSAGE: string; PRIORITY: string };

@@ -3,7 +3,8 @@
 const [, , command] = process.argv;
 const rest = process.argv.slice(3);
 
-// What a command does not need it does not load. What hangs when the doctor is done ends with it.
+// Commands load only the modules that they need. Anything still hanging when the doctor is done ends with the
+// process.
 if (command === 'init') process.exitCode = (await import('./commands/init.ts')).init(rest, process);
 else if (command === 'doctor')
   process.exit(await (await import('./commands/doctor.ts')).doctor(rest, process));

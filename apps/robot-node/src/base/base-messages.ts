@@ -1,14 +1,14 @@
-/** What the main thread and the base's thread say to each other. */
+/** Messages between the main thread and the base's thread. */
 import type { Twist } from '@farpoint/protocol';
 import type { TimedBaseState } from './base.ts';
 
 export interface BaseOptions {
-  /** Without a word on the velocity for this long the base stands. */
+  /** The base stops after this long without a velocity, ms. */
   watchdogMs: number;
 }
 
 export interface BaseWorkerData extends BaseOptions {
-  /** For what sensors draw. */
+  /** The newest state of the world, for the simulated sensors. */
   snapshot: SharedArrayBuffer;
 }
 
@@ -16,6 +16,6 @@ export type BaseRequest = { type: 'twist'; twist: Twist } | { type: 'close' };
 
 export interface BaseReport {
   state: TimedBaseState;
-  /** How often silence has stopped it. */
+  /** How often the watchdog has stopped the base. */
   watchdogStops: number;
 }

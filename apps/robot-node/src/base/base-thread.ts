@@ -6,13 +6,16 @@ import type { TimedBaseState } from './base.ts';
 import type { BaseOptions, BaseReport, BaseRequest, BaseWorkerData } from './base-messages.ts';
 import { makeSharedSnapshot } from './shared-snapshot.ts';
 
-/** The main thread's end of the simulated base: velocities go in, its state comes out, sensors share its world. */
+/**
+ * The main thread's end of the simulated base. It takes velocities and returns the base's state. Sensors share its
+ * world.
+ */
 export class BaseThread implements VelocitySink {
   readonly kind = 'simulated base';
-  /** Where sensors of the simulator find the world. */
+  /** Simulated sensors read the world from here. */
   readonly snapshot = makeSharedSnapshot(officeWorld().movers.length);
   onState: ((state: TimedBaseState) => void) | null = null;
-  /** Called once, if the thread ends without having been asked to. */
+  /** Called once if the thread ends unexpectedly. */
   onFailure: ((error: Error) => void) | null = null;
   watchdogStops = 0;
   readonly #worker: Worker;

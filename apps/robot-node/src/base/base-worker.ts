@@ -1,4 +1,4 @@
-/** The simulated base's thread: by itself it stops the wheels when the main thread hangs. */
+/** The simulated base's thread. It stops the wheels by itself when the main thread hangs. */
 import { parentPort, workerData } from 'node:worker_threads';
 import { officeWorld, SimulatedBase } from '@farpoint/sim';
 import { monotonicMs } from '../clock.ts';
@@ -7,7 +7,7 @@ import { RealTimeBase } from './real-time-base.ts';
 import { SnapshotWriter } from './shared-snapshot.ts';
 import { Wheels } from './wheels.ts';
 
-/** How old a sensor's view of the world may be. */
+/** Maximum age of the world that the sensors see. */
 const TICK_MS = 4;
 const REPORT_MS = 20;
 

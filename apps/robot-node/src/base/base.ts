@@ -1,24 +1,24 @@
 import type { Battery, Pose, Twist } from '@farpoint/protocol';
 
-/** What a base knows of itself. */
+/** What a base reports about itself. */
 export interface BaseState {
-  /** base_link in the world. */
+  /** Pose of base_link in the world. */
   pose: Pose;
   /** Actual velocity, in base_link. */
   twist: Twist;
   battery: Battery | null;
-  /** Touching an obstacle. */
+  /** Whether the base touches an obstacle. */
   contact: boolean;
 }
 
-/** When it was so, on the robot's clock. */
+/** The time of the state, on the robot's clock. */
 export interface TimedBaseState extends BaseState {
   timeMs: number;
 }
 
-/** Wheels that only a simulation has: time and a wanted velocity in, a place out. */
+/** The wheels of a simulated robot: takes time and a requested velocity, gives a pose. */
 export interface Base {
-  /** Lets time pass until `nowMs`, the robot's clock; the velocity wanted in the meantime is `twist`. */
+  /** Advances to `nowMs` (robot's clock) at the velocity `twist`. */
   advance(nowMs: number, twist: Twist): void;
   readonly state: BaseState;
 }

@@ -2,7 +2,7 @@ import type { Twist } from '@farpoint/protocol';
 import type { SimulatedBase } from '@farpoint/sim';
 import type { Base, BaseState } from './base.ts';
 
-/** After a stall the simulated robot does not catch up with more than this, s. */
+/** The most that the simulated robot catches up after a stall, s. */
 const MAX_STEP_S = 0.25;
 
 /** The simulator's base, in real time. */

@@ -1,6 +1,6 @@
 /**
- * The newest snapshot of the simulated world in memory that threads share: the base's thread writes, sensors' threads read.
- * A sequence lock: the count is odd while it is being written, and another afterwards.
+ * The newest snapshot of the simulated world, in memory shared among threads. The base's thread writes it, sensors'
+ * threads read it. A sequence lock protects it: the counter is odd during a write, and differs after it.
  */
 import {
   readSnapshot,
@@ -11,17 +11,17 @@ import {
   writeSnapshot,
 } from '@farpoint/sim';
 
-/** Where the count stands; the numbers begin after it. */
+/** The counter is in the header; the snapshot's numbers follow. */
 const HEADER_BYTES = 8;
-/** Writing takes microseconds: a reader that met it so often has met a writer that died in it. */
+/** A write takes microseconds. After this many attempts, the writer must have died while writing. */
 const MOST_TRIES = 1000;
 
-/** @param movers people and carts of the world */
+/** @param movers number of people and carts in the world */
 export function makeSharedSnapshot(movers: number): SharedArrayBuffer {
   return new SharedArrayBuffer(HEADER_BYTES + snapshotNumbers(movers) * Float64Array.BYTES_PER_ELEMENT);
 }
 
-/** There is one for each memory. */
+/** Only one writer may exist per memory. */
 export class SnapshotWriter {
   readonly #count: Int32Array;
   readonly #numbers: Float64Array;
@@ -49,7 +49,7 @@ export class SnapshotReader {
     this.#copy = new Float64Array(this.#shared.length);
   }
 
-  /** @returns the newest one, whole; `null` before the first, and after a writer that died while it wrote */
+  /** @returns the newest consistent snapshot; `null` before the first one, and if the writer died during a write */
   read(): WorldSnapshot | null {
     for (let i = 0; i < MOST_TRIES; i++) {
       const before = Atomics.load(this.#count, 0);
@@ -62,12 +62,12 @@ export class SnapshotReader {
   }
 }
 
-/** The world as a simulated sensor sees it: the newest snapshot, or the start of the world before there is one. */
+/** The world as a simulated sensor sees it: the newest snapshot, or the initial state before there is one. */
 export class SharedWorld {
   readonly #reader: SnapshotReader | null;
   #newest: WorldSnapshot;
 
-  /** @param memory left out, the robot stands at the start and nothing moves */
+  /** @param memory if undefined, the robot stays at its start and nothing moves */
   constructor(world: WorldDescription, memory: SharedArrayBuffer | undefined) {
     this.#reader = memory === undefined ? null : new SnapshotReader(memory);
     this.#newest = new SimulatedBase(world).snapshot;

@@ -3,11 +3,11 @@ import { Watchdog } from '@farpoint/safety';
 import type { Base } from './base.ts';
 
 /**
- * Drives a base by velocities that must be repeated: without a word for the watchdog's time it stands. So it stops by itself
- * where the thread that decides hangs. Time is an argument.
+ * Drives a base with velocities that must be refreshed. After the watchdog's time without one, it stops the base.
+ * Thus the base stops by itself if the thread that decides hangs. Time is an argument.
  */
 export class Wheels {
-  /** How often silence stopped it while it was to move. */
+  /** How often the watchdog stopped the base while it was to move. */
   stops = 0;
   readonly #base: Base;
   readonly #watchdog: Watchdog;
@@ -18,14 +18,14 @@ export class Wheels {
     this.#watchdog = new Watchdog(watchdogMs);
   }
 
-  /** A word on the velocity. What was driven until now was driven under the old one. */
+  /** Takes a velocity. The time until now counts as driven with the previous one. */
   apply(twist: Twist, nowMs: number): void {
     this.advance(nowMs);
     this.#twist = twist;
     this.#watchdog.feed(nowMs);
   }
 
-  /** Lets time pass, and looks whether there was silence. */
+  /** Advances time, and checks the watchdog. */
   advance(nowMs: number): void {
     const { deadlineMs } = this.#watchdog;
     if (deadlineMs !== null && this.#watchdog.expired(nowMs)) {

@@ -1,4 +1,4 @@
-/** A fixed number of equal buffers that travel between two threads and come back. */
+/** A fixed number of buffers of equal size that travel to another thread and come back. */
 export class BufferPool {
   readonly #free: ArrayBuffer[];
   readonly #bytes: number;
@@ -11,17 +11,17 @@ export class BufferPool {
     this.#free = Array.from({ length: count }, () => new ArrayBuffer(bytes));
   }
 
-  /** How many are here. */
+  /** Number of buffers that are available. */
   get free(): number {
     return this.#free.length;
   }
 
-  /** How often `take` found none. */
+  /** How often `take` found no buffer. */
   get refused(): number {
     return this.#refused;
   }
 
-  /** A buffer, or `null` where all are out: the reader is behind. */
+  /** Takes a buffer; `null` if none is available because the reader is behind. */
   take(): ArrayBuffer | null {
     const buffer = this.#free.pop() ?? null;
     if (buffer === null) this.#refused++;

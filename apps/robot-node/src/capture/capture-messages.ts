@@ -1,4 +1,4 @@
-/** What the main thread and the capture worker say to each other. */
+/** Messages between the main thread and the capture worker. */
 import type { MessagePort } from 'node:worker_threads';
 import type { TopicReading } from '@farpoint/ros';
 import type { TimedBaseState } from '../base/base.ts';
@@ -11,16 +11,16 @@ import type { CameraDescription, SourceDescription } from './frame-source.ts';
 import type { SourceOptions } from './open-source.ts';
 
 export interface CaptureOptions {
-  /** Its number among the robot's sensors. */
+  /** The sensor's index on this robot. */
   sensor: number;
   source: SourceOptions;
-  /** The most the source may be asked for. */
+  /** The highest frame rate that the source may be asked for. */
   framesPerSecond: number;
   plan: PlanPolicy;
   sampling: Omit<SamplingOptions, 'depthMeasure'>;
   floorFraction: number;
   mostPoints: number;
-  /** Also give the colour pictures of the camera that clouds come from, where it is one. */
+  /** Also offer the colour pictures of the camera that the clouds come from, if they come from one. */
   picturesOfCloud?: boolean;
 }
 
@@ -28,46 +28,46 @@ export type CaptureRequest =
   | ({ type: 'budget' } & CaptureBudget)
   /** Make the next captured frame a latency-test frame. */
   | { type: 'latencyTest' }
-  /** A frame's buffer, no longer needed. */
+  /** Returns a frame's buffer that is no longer needed. */
   | { type: 'recycle'; buffer: ArrayBuffer }
-  /** Pictures go to this port from now on. */
+  /** Sends pictures to this port from now on. */
   | { type: 'pictures'; port: MessagePort }
   | { type: 'close' };
 
-/** One frame, ready to send; `buffer` is transferred. */
+/** A frame that is ready to send; `buffer` is transferred. */
 export interface ReadyFrame extends EncodedFrame {
   type: 'frame';
   sensor: number;
-  /** What frames like it could use at most, bit/s on the wire. */
+  /** The highest bit rate that frames like this one could use, bit/s on the wire. */
   usefulBitsPerSecond: number;
   audience: FrameAudience;
   /** Packets in slots of 1248 bytes. */
   buffer: ArrayBuffer;
   latencyTest: boolean;
-  /** How long until the next one, as planned, ms. */
+  /** Planned time until the next frame, ms. */
   intervalMs: number;
-  /** Robot's clock when the cloud was taken, ms. */
+  /** When the cloud was taken, robot's clock, ms. */
   capturedAtMs: number;
-  /** How long taking it from the source took, ms. */
+  /** How long it took to get the cloud from the source, ms. */
   captureMs: number;
-  /** Of that, the thread's own processor time. */
+  /** The thread's own processor time within `captureMs`. */
   captureCpuMs: number;
-  /** Robot's clock when its packets were made, ms. */
+  /** When the packets were ready, robot's clock, ms. */
   readyMs: number;
 }
 
 export type CaptureReport =
   | { type: 'ready'; description: SourceDescription; cameras: readonly CameraDescription[] }
   | ReadyFrame
-  /** What receivers of the coded frames that follow need. */
+  /** What receivers need before the coded frames that follow. */
   | { type: 'stream'; stream: CodedStream }
-  /** What the source knows of the base, and frames that found no free buffer so far. */
+  /** The source's view of the base, and the number of frames dropped so far for lack of a free buffer. */
   | { type: 'state'; state: TimedBaseState; framesWithoutBuffer: number }
-  /** Something is wrong with the source that may pass. */
+  /** A fault of the source that may be temporary. */
   | { type: 'fault'; detail: string }
-  /** What a topic says, for people. */
+  /** A topic's message as text for people. */
   | { type: 'reading'; reading: TopicReading }
   | { type: 'closed' };
 
-/** Where the capture thread's reports go; what is in `transfer` changes hands. */
+/** Where the capture thread sends its reports. Buffers in `transfer` change owner. */
 export type ReportSink = (report: CaptureReport, transfer?: ArrayBuffer[]) => void;

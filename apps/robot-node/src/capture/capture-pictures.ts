@@ -5,21 +5,21 @@ import type { CameraDescription, FrameSource, ImageFrame } from './frame-source.
 
 const CLOUD_CAMERA: CameraDescription = { name: 'Camera', most: null, ofCloud: true };
 
-/** The pictures of a capture thread: those of its source's cameras, and the colour pictures that its clouds come with. */
+/** The pictures of a capture thread: from its source's cameras, and the colour pictures that its clouds come with. */
 export class CapturePictures {
   readonly cameras: readonly CameraDescription[];
   readonly #source: FrameSource;
   #tap: PictureTap | null = null;
   #port: MessagePort | null = null;
 
-  /** @param ofCloud also offer the colour pictures of the camera that clouds come from, where it is one */
+  /** @param ofCloud also offer the colour pictures of the camera that the clouds come from, if they come from one */
   constructor(source: FrameSource, ofCloud: boolean) {
     const { cameras = [], camera } = source.description;
     this.cameras = ofCloud && camera !== null ? [...cameras, CLOUD_CAMERA] : cameras;
     this.#source = source;
   }
 
-  /** Pictures go to this port from now on; the one before is closed. */
+  /** Sends pictures to this port from now on, and closes the previous one. */
   use(port: MessagePort): void {
     const tap = new PictureTap(
       port,
@@ -30,7 +30,7 @@ export class CapturePictures {
     this.#port = port;
     port.on('message', (report: TapReport) => {
       tap.onReport(report);
-      // A replaced port may still have messages under way.
+      // Messages from a replaced port may still be in flight.
       if (report.type === 'rates' && this.#tap === tap) this.#source.watchPictures?.(report.perSecond);
     });
     this.#source.usePictures?.(tap);

@@ -1,6 +1,6 @@
 /**
- * The capture thread: source → sampler → packets. Rendering and encoding take milliseconds at a time; here they never
- * delay the thread that paces packets and reads commands.
+ * The capture thread: source → sampler → packets. Rendering and encoding take milliseconds at a time. In this thread
+ * they never delay the thread that paces packets and reads commands.
  */
 import { parentPort, workerData } from 'node:worker_threads';
 import { CloudTap } from '@farpoint/recording';

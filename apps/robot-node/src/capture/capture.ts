@@ -7,10 +7,10 @@ import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { CaptureOptions, CaptureReport, CaptureRequest, ReadyFrame } from './capture-messages.ts';
 import type { CameraDescription, SourceDescription } from './frame-source.ts';
 
-/** The capture thread ended by itself. */
+/** The capture thread ended unexpectedly. */
 export class CaptureError extends Error {
   override readonly name = 'CaptureError';
-  /** Whose: its number among the robot's sensors. */
+  /** The sensor's index on this robot. */
   readonly sensor: number;
 
   constructor(sensor: number, message: string, options?: ErrorOptions) {
@@ -21,33 +21,33 @@ export class CaptureError extends Error {
 
 type Introduction = Extract<CaptureReport, { type: 'ready' }>;
 
-/** Where clouds are recorded. */
+/** Records the clouds of a capture thread. */
 export interface CaptureRecording {
-  /** Of a `SessionRecorder`; it goes to the capture thread. */
+  /** Port of a `SessionRecorder`; it is transferred to the capture thread. */
   clouds: MessagePort;
-  /** Clouds recorded a second at most; 0 records none. */
+  /** Highest number of clouds recorded per second, by kind; 0 records none. */
   perSecond: Readonly<Record<CloudKind, number>>;
 }
 
 /** The main thread's end of the capture worker. */
 export class Capture {
   readonly description: SourceDescription;
-  /** Cameras whose pictures can be had. */
+  /** Cameras whose pictures are available. */
   readonly cameras: readonly CameraDescription[];
-  /** Gets each frame; it must give the buffer back with `recycle`. */
+  /** Called with each frame. The callee must return the buffer with `recycle`. */
   onFrame: ((frame: ReadyFrame) => void) | null = null;
-  /** Gets what receivers of coded frames need, before the first of them and at each change. */
+  /** Called with what receivers of coded frames need, before the first of these frames and at each change. */
   onStream: ((stream: CodedStream) => void) | null = null;
   onState: ((state: TimedBaseState) => void) | null = null;
-  /** Called once, if the thread ends without having been asked to. */
+  /** Called once if the thread ends unexpectedly. */
   onFailure: ((error: CaptureError) => void) | null = null;
-  /** Called at each new thing that is wrong with the source and may pass. */
+  /** Called at each new fault of the source that may be temporary. */
   onFault: ((detail: string) => void) | null = null;
-  /** How often that was. */
+  /** Number of those faults. */
   faults = 0;
-  /** Gets what the robot's topics say, for people. */
+  /** Called with readings of the robot's topics, for people. */
   onReading: ((reading: TopicReading) => void) | null = null;
-  /** Frames not captured because all buffers were out. */
+  /** Frames not captured because no buffer was free. */
   framesWithoutBuffer = 0;
   readonly #sensor: number;
   readonly #worker: Worker;
@@ -78,7 +78,7 @@ export class Capture {
     worker.on('exit', (code) => this.#fail(`exit code ${code}`));
   }
 
-  /** @throws {CaptureError} where the source cannot be opened, saying why */
+  /** @throws {CaptureError} if the source cannot be opened, with the reason */
   static async start(options: CaptureOptions, recording: CaptureRecording | null = null): Promise<Capture> {
     const { sensor } = options;
     const worker = new Worker(new URL('./capture-worker.ts', import.meta.url), {
@@ -105,7 +105,7 @@ export class Capture {
     this.#post({ type: 'budget', ...budget });
   }
 
-  /** Pictures of `cameras` go to this port from now on. */
+  /** Sends the pictures of `cameras` to this port from now on. */
   usePictures(port: MessagePort): void {
     this.#post({ type: 'pictures', port }, [port]);
   }

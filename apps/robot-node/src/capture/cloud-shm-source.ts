@@ -25,7 +25,7 @@ export interface CloudShmOptions {
 
 const WATCH_TIMEOUT_MS = 100;
 
-/** Farpoint's own layout in shared memory: the newest frame, its grid, its pose and its capture time. */
+/** Farpoint's own layout in shared memory: the newest frame with its grid, pose and capture time. */
 export class CloudShmSource implements FrameSource {
   readonly description: SourceDescription;
   onReady: (() => void) | null = null;
@@ -58,11 +58,12 @@ export class CloudShmSource implements FrameSource {
     });
   }
 
-  /** @throws {SharedMemoryError} where there is no producer in time */
+  /** @throws {SharedMemoryError} if no producer appears in time */
   static async open({ folder, waitMs }: CloudShmOptions, now: () => number): Promise<CloudShmSource> {
     const begin = now();
     const reader = await openWhenThere(() => CloudReader.open(folder), waitMs);
-    // The first frame says whether there are a grid and a lens; a slow camera's is not waited for beyond the time given.
+    // The first frame shows whether there are a grid and a lens. A slow camera's first frame is not awaited beyond
+    // the given time.
     const room = roomFor(reader.header.maxPoints);
     let first = reader.read(room);
     while (first === null && now() - begin < waitMs) {
@@ -76,7 +77,7 @@ export class CloudShmSource implements FrameSource {
     return this.#state;
   }
 
-  /** @throws {Error} where a producer with another camera or larger frames has taken over */
+  /** @throws {Error} if a producer with another camera or larger frames has taken over */
   capture(nowMs: number, _wishes: CaptureWishes, room: CaptureRoom): SourceFrame | null {
     let frame: CloudFrame | null;
     try {
@@ -105,7 +106,7 @@ export class CloudShmSource implements FrameSource {
     this.#link.close();
   }
 
-  /** The encoder was made for one camera: with another one the robot is started anew. */
+  /** The encoder was made for one camera. Another camera needs a restart of the robot. */
   #checkCamera({ lens, width, height }: CloudFrame): void {
     const { camera } = this.description;
     const same =
@@ -119,7 +120,7 @@ export class CloudShmSource implements FrameSource {
 
   #sourceFrame(frame: CloudFrame, nowMs: number, room: CaptureRoom): SourceFrame {
     const { form, points: count, pose, capturedAtMs } = frame;
-    // The body is where it would be with the camera a camera without poses has: level, looking ahead, 1 m up.
+    // Assume the mounting of a camera without poses: level, looking ahead, 1 m above the base.
     if (pose !== null) this.#state = { ...STANDING, pose: compose(pose, inverse(STATIC_CAMERA_POSE)) };
     const stamp = {
       cameraPose: pose ?? STATIC_CAMERA_POSE,

@@ -1,87 +1,87 @@
-/** Where clouds come from. A source lives in the capture worker; its times are the robot's clock, ms. */
+/** Where clouds come from. A source lives in the capture worker. Its times are on the robot's clock, ms. */
 import type { Pose } from '@farpoint/protocol';
 import type { TopicEntry, TopicReading } from '@farpoint/ros';
 import type { Pinhole } from '@farpoint/wasm-codec';
 import type { BaseState } from '../base/base.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
 
-/** A camera whose pictures can be shown. */
+/** A camera whose pictures can be shown to the operator. */
 export interface CameraDescription {
-  /** What people read. */
+  /** The name shown to people. */
   name: string;
-  /** Most pictures a second that are to be looked at; `null`: as many as come. */
+  /** Highest useful number of pictures per second; `null`: no limit. */
   most: number | null;
-  /** It is the one that the clouds come from. */
+  /** Set for the camera that the clouds come from. */
   ofCloud?: true;
 }
 
-/** Of a camera's name. */
+/** Maximum length of a camera's name. */
 const MOST_NAME = 64;
 
-/** The camera whose pictures a topic has, as people read it; of a long topic, its end. */
+/** The camera of a topic, with a name for people. A long topic is cut to its end. */
 export function cameraOf({ topic, label, most }: TopicEntry): CameraDescription {
   return { name: (label ?? topic).slice(-MOST_NAME), most };
 }
 
 export interface SourceDescription {
-  /** What it is, for people, e.g. `sim`. */
+  /** The kind of source, for people, e.g. `sim`. */
   kind: string;
-  /** The grid of its clouds; height 1 where they have none. */
+  /** The grid of its clouds; height 1 if they have none. */
   width: number;
   height: number;
-  /** Most points of a frame. */
+  /** Maximum number of points in a frame. */
   capacity: number;
-  /** The camera of frames that come as images, `null` where they come as points. */
+  /** The camera of frames that come as images; `null` for frames that come as points. */
   camera: Pinhole | null;
-  /** What the sampler takes as depth: `range` for sensors that look all around. */
+  /** What the sampler uses as depth: `range` for sensors that look in all directions. */
   depthMeasure: 'z' | 'range';
-  /** What it gives at most, frames a second, where it says so itself. */
+  /** The source's highest frame rate, frames/s, if it knows. */
   framesPerSecond?: number;
-  /** Cameras whose pictures it can give, beside its clouds. */
+  /** Cameras whose pictures it offers besides its clouds. */
   cameras?: readonly CameraDescription[];
 }
 
-/** What a source that makes its clouds to measure is told. */
+/** Requests to a source that can adapt its clouds. */
 export interface CaptureWishes {
-  /** The rate that clouds should fit, bit/s. */
+  /** The bit rate that clouds should fit, bit/s. */
   bitsPerSecond: number;
   /** Make the next cloud green. */
   latencyTest: boolean;
 }
 
-/** Where a source may put its cloud, to spare a copy: the encoder's own memory, good until the next cloud. */
+/** Where a source may put its cloud, to avoid a copy: the encoder's own memory, valid until the next cloud. */
 export interface CaptureRoom {
-  /** As in {@link PointFrame}, for as many points as the description's capacity. */
+  /** Laid out as in {@link PointFrame}, for as many points as the description's capacity. */
   points: Float32Array;
-  /** As in {@link ImageFrame}; empty without a camera. */
+  /** Laid out as in {@link ImageFrame}; empty without a camera. */
   depth: Float32Array;
   colour: Uint32Array;
 }
 
 /** What every cloud carries. */
 interface FrameStamp {
-  /** The optical frame in the world. */
+  /** Pose of the optical frame in the world. */
   cameraPose: Pose;
   capturedAtMs: number;
-  /** Whether this is the cloud that answers a latency test; left out, any may be. */
+  /** Whether this cloud answers a latency test. If undefined, any cloud may. */
   latencyTest?: boolean;
 }
 
-/** A cloud as points. They are a view that the next capture may overwrite. */
+/** A cloud as points: a view that the next capture may overwrite. */
 export interface PointFrame extends FrameStamp {
   form: 'points';
   /** x, y, z in metres in the optical frame; the fourth word's bytes are R, G, B, A. */
   points: Float32Array;
-  /** How many are filled. */
+  /** Number of points filled in. */
   count: number;
 }
 
-/** A cloud as a depth camera's pictures, of the size and camera that the description says. Views, as above. */
+/** A cloud as a depth camera's images, with the description's size and camera. Views, as in {@link PointFrame}. */
 export interface ImageFrame extends FrameStamp {
   form: 'images';
-  /** Along z, metres; not valid: 0, negative, NaN or infinite. */
+  /** Depth along z, metres. Invalid pixels are 0, negative, NaN or infinite. */
   depth: Float32Array;
-  /** R, G, B, A of each pixel, R lowest. */
+  /** R, G, B, A of each pixel, with R in the lowest byte. */
   colour: Uint32Array;
 }
 
@@ -89,30 +89,30 @@ export type SourceFrame = PointFrame | ImageFrame;
 
 export interface FrameSource {
   readonly description: SourceDescription;
-  /** Called once, when somebody listens to what it tells. */
+  /** Called once, when the callbacks are set. */
   start?(): void;
   /**
-   * Takes one cloud now; `null` where there is none.
+   * Takes the current cloud; `null` if there is none.
    *
-   * @throws {Error} where the source is broken for good
+   * @throws {Error} if the source has failed permanently
    */
   capture(nowMs: number, wishes: CaptureWishes, room: CaptureRoom): SourceFrame | null;
   /**
-   * Of a source with a rhythm of its own: called at each new cloud. It is called again once that was taken or let go.
-   * Where there is no such member, the worker asks at its own rhythm.
+   * For a source that sets its own frame rate: called at each new cloud, and not again until that cloud has been
+   * taken or skipped. For a source without this member, the worker asks at its own rate.
    */
   onReady?: (() => void) | null;
-  /** Lets the cloud go that is ready. */
+  /** Discards the cloud that is ready. */
   skip?(nowMs: number, wishes: CaptureWishes): void;
-  /** Called for what may pass: a producer that is gone, a cloud that cannot be read. */
+  /** Called for faults that may be temporary: a missing producer, an unreadable cloud. */
   onFault?: ((error: Error) => void) | null;
-  /** Called for what else the robot's topics say, for people. */
+  /** Called with readings of the robot's other topics, for people. */
   onReading?: ((reading: TopicReading) => void) | null;
-  /** Where pictures go from now on. */
+  /** Sets the receiver of pictures. */
   usePictures?(taker: PictureTaker): void;
-  /** Which cameras are watched, pictures a second; 0: nobody looks. */
+  /** How many pictures per second each camera should give; 0: nobody watches it. */
   watchPictures?(perSecond: readonly number[]): void;
-  /** What it knows of the base that carries it. */
+  /** The source's view of the base that carries it. */
   readonly state: BaseState;
   close(): void;
 }

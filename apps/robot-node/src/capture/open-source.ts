@@ -11,7 +11,7 @@ import { RosSource, type RosSourceOptions } from './ros-source.ts';
 import { SimLidarSource, type SimLidarSourceOptions } from './sim-lidar-source.ts';
 import { SimSource, type SimSourceOptions } from './sim-source.ts';
 
-/** Which source to open; plain data, so that it can be handed to the worker. */
+/** Which source to open. Plain data, so that it can be passed to the worker. */
 export type SourceOptions =
   | ({ kind: 'sim' } & SimSourceOptions)
   | ({ kind: 'sim-lidar' } & SimLidarSourceOptions)

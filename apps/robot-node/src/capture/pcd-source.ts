@@ -8,9 +8,9 @@ import { PlaybackSource, STATIC_CAMERA_POSE } from './playback-source.ts';
 export type PcdFrame = 'optical' | 'body';
 
 export interface PcdSourceOptions {
-  /** A `.pcd` file, or a folder of them, played in the order of their names. */
+  /** A `.pcd` file, or a folder of them, played in name order. */
   path: string;
-  /** `auto`: optical where the first cloud is a grid, as depth cameras give it, else body, as LiDARs do. */
+  /** `auto`: optical if the first cloud is a grid, as from a depth camera, otherwise body, as from a LiDAR. */
   frame: PcdFrame | 'auto';
 }
 
@@ -49,7 +49,7 @@ export function openPcdSource({ path, frame }: PcdSourceOptions): FrameSource {
   );
 }
 
-/** Turns the points in place: x_optical = −y, y_optical = −z, z_optical = x. */
+/** Converts the points in place: x_optical = −y, y_optical = −z, z_optical = x. */
 export function bodyToOptical(points: Float32Array): void {
   for (let i = 0; i < points.length; i += 4) {
     const x = points[i] as number;

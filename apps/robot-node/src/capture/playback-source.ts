@@ -2,33 +2,33 @@ import { type Pose, zeroTwist } from '@farpoint/protocol';
 import type { BaseState } from '../base/base.ts';
 import type { FrameSource, ImageFrame, PointFrame, SourceDescription, SourceFrame } from './frame-source.ts';
 
-/** A decoded cloud: points or images, as the source describes. */
+/** A decoded cloud: points or images, as the source's description says. */
 export type RecordedCloud =
   | Pick<PointFrame, 'form' | 'points' | 'count'>
   | Pick<ImageFrame, 'form' | 'depth' | 'colour'>;
 
-/** One recorded cloud, decoded when it is needed. */
+/** A recorded cloud, decoded on demand. */
 export interface RecordedFrame {
-  /** What it is read from, for errors. */
+  /** The name of its file, for errors. */
   name: string;
-  /** @throws {Error} where it cannot be read */
+  /** @throws {Error} if it cannot be read */
   load(): RecordedCloud;
   cameraPose: Pose;
 }
 
-/** Decoded frames that are kept, bytes; beyond it frames are decoded each time. */
+/** Bytes of decoded frames to keep. Frames beyond this are decoded each time. */
 const CACHE_BYTES = 512 * 1024 * 1024;
 
-/** Optical axes as REP-103 has them (z forward, x right, y down), looking along +x of a world with z up. */
+/** Optical axes as in REP-103 (z forward, x right, y down), looking along +x of a world with z up. */
 const LOOKING_AHEAD = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };
 
-/** Where a camera without poses stands: 1 m above the world's origin, looking along +x. */
+/** Pose of a camera without poses: 1 m above the world's origin, looking along +x. */
 export const STATIC_CAMERA_POSE: Pose = {
   position: { x: 0, y: 0, z: 1 },
   orientation: LOOKING_AHEAD,
 };
 
-/** The state of what has no wheels and knows no place. */
+/** The state of a source that has no wheels and no pose. */
 export const STANDING: BaseState = {
   pose: { position: { x: 0, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } },
   twist: zeroTwist(),
@@ -36,7 +36,7 @@ export const STANDING: BaseState = {
   contact: false,
 };
 
-/** Recorded clouds, one for each capture, over and over. It has no wheels. */
+/** Plays recorded clouds in a loop, one per capture. It has no wheels. */
 export class PlaybackSource implements FrameSource {
   readonly description: SourceDescription;
   readonly state = STANDING;
@@ -45,7 +45,7 @@ export class PlaybackSource implements FrameSource {
   #cachedBytes = 0;
   #next = 0;
 
-  /** @throws {Error} where there is no frame, or one of those that are kept cannot be read: said now, not in mid-stream */
+  /** @throws {Error} if there is no frame, or if a cached frame cannot be read: at start, not in mid-stream */
   constructor(description: SourceDescription, frames: readonly RecordedFrame[]) {
     if (frames.length === 0) throw new Error(`${description.kind}: no frames`);
     this.description = description;

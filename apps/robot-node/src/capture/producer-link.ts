@@ -1,11 +1,14 @@
-/** A producer that comes and goes: its files are opened when they are there, watched, and opened anew when replaced. */
+/**
+ * The link to a producer that may come and go: opens its files when they appear, watches them, and reopens them when
+ * they are replaced.
+ */
 import { type MappedFile, SharedMemoryError, Watch, type WatchOrder } from '@farpoint/shared-memory';
 
-/** A missing producer is looked for so often, ms. */
+/** Interval between attempts to find a missing producer, ms. */
 const RETRY_MS = 200;
 
 export interface ProducerFiles {
-  /** False once they were replaced. */
+  /** False once the files have been replaced. */
   readonly current: boolean;
   close(): void;
 }
@@ -17,7 +20,7 @@ export interface ProducerLinkOptions<Files extends ProducerFiles> {
   /** What to wait for next. @throws {SharedMemoryError} */
   order(files: Files): WatchOrder;
   onReady(): void;
-  /** The files cannot be used as they are; it goes on trying. */
+  /** Called when the files cannot be used as they are. The link keeps trying. */
   onFault(error: SharedMemoryError): void;
 }
 
@@ -28,7 +31,7 @@ export class ProducerLink<Files extends ProducerFiles> {
   #retry: NodeJS.Timeout | null = null;
   #closed = false;
 
-  /** @param files opened already */
+  /** @param files already opened */
   constructor(files: Files, options: ProducerLinkOptions<Files>) {
     this.#options = options;
     this.#files = files;
@@ -41,7 +44,7 @@ export class ProducerLink<Files extends ProducerFiles> {
     return this.#files;
   }
 
-  /** Call once a frame has been taken or let go. */
+  /** Call this once a frame has been taken or skipped. */
   waitForNext(): void {
     if (this.#files === null) return;
     try {
@@ -51,7 +54,7 @@ export class ProducerLink<Files extends ProducerFiles> {
     }
   }
 
-  /** What was thrown while the files were used. Anything but a fault of the files is thrown on. */
+  /** Takes an error that was thrown while the files were used. Rethrows it unless it is a fault of the files. */
   lost(error: unknown): void {
     if (!(error instanceof SharedMemoryError)) throw error;
     this.#options.onFault(error);
@@ -97,9 +100,9 @@ export class ProducerLink<Files extends ProducerFiles> {
 }
 
 /**
- * Opens a producer's files as soon as they are there.
+ * Opens a producer's files as soon as they exist.
  *
- * @throws {SharedMemoryError} what was wrong last, where they are not there in time; `unavailable` at once
+ * @throws {SharedMemoryError} the last fault, if they cannot be opened in time; `unavailable` immediately
  */
 export async function openWhenThere<Files>(open: () => Files, waitMs: number): Promise<Files> {
   const deadline = performance.now() + waitMs;

@@ -1,4 +1,4 @@
-/** One topic whose messages are told to people, live or recorded. */
+/** A topic whose messages are shown to people, live or recorded. */
 import {
   DiagnosticBoard,
   RateLimit,
@@ -25,17 +25,23 @@ export class ReadingTopic {
     return READING_ROLES.includes(as);
   }
 
-  /** Diagnostics come from many nodes, each with its part: all are read, and together they are told as often as allowed. */
+  /**
+   * Diagnostics come from many nodes, each with its part. All are read, and merged into readings at the permitted
+   * rate.
+   */
   get readsAll(): boolean {
     return this.#board !== null;
   }
 
-  /** @returns whether the message that comes now is to be read */
+  /** @returns whether to read the message that arrives now */
   admits(nowMs: number): boolean {
     return this.readsAll || this.#limit.admits(nowMs);
   }
 
-  /** Of an admitted message. @returns `null` where it is not the time to tell it @throws {Error} where the message is none */
+  /**
+   * Takes an admitted message. @returns `null` if it is too early for the next reading @throws {Error} if the message
+   * is invalid
+   */
   take(message: unknown, nowMs: number): TopicReading | null {
     if (this.#board === null) return readingOf(this.#entry, message);
     const told = this.#board.take(message, nowMs);

@@ -13,26 +13,29 @@ import type {
 import { RecordingTopics } from './recording-topics.ts';
 
 export interface RecordingSourceOptions extends Omit<PlayOptions, 'along'> {
-  /** Of it, what are pictures and readings. */
+  /** The topics to read pictures and readings from. */
   topics: TopicTable;
 }
 
-/** Of a recording with a single cloud. */
+/** Assumed frame rate of a recording with a single cloud. */
 const UNKNOWN_FPS = 30;
 
-/** Plays a recording's clouds at their times, with the pictures and readings that the table of topics names. It has no wheels: velocities change nothing. */
+/**
+ * Plays a recording's clouds at their times, with the pictures and readings that the topic table names. It has no
+ * wheels: velocities change nothing.
+ */
 export class RecordingSource implements FrameSource {
   readonly description: SourceDescription;
   onReady: (() => void) | null = null;
   onFault: ((error: Error) => void) | null = null;
   onReading: ((reading: TopicReading) => void) | null = null;
-  /** Called when there is nothing more to play. */
+  /** Called at the end of the recording. */
   onEnd: (() => void) | null = null;
   readonly #player: CloudPlayer;
   readonly #topics: RecordingTopics;
-  /** What is wrong before it begins; `null` once it has begun. */
+  /** Faults found before playback starts; `null` once it has started. */
   #found: readonly Error[];
-  /** Of each topic beside the clouds what was last wrong with it. */
+  /** For each topic other than the clouds, its last reported fault. */
   readonly #told = new Map<string, string>();
 
   private constructor(player: CloudPlayer, topics: RecordingTopics, missing: readonly Error[]) {
@@ -101,7 +104,7 @@ export class RecordingSource implements FrameSource {
     void this.#player.close();
   }
 
-  /** A topic all of whose pictures are wrong in one way is told of once. */
+  /** Reports a topic once if all its pictures have the same fault. */
   #tell(error: RecordingError): void {
     const { topic, code, detail } = error;
     if (topic !== undefined && this.#topics.names.includes(topic)) {
@@ -117,7 +120,7 @@ function playClock(now: () => number): PlayClock {
   return {
     now,
     wait: async (ms, signal) => {
-      // An abort ends the wait: whoever waits looks at the signal.
+      // Aborting ends the wait. The caller checks the signal.
       await delay(ms, undefined, { signal }).catch(() => {});
     },
   };

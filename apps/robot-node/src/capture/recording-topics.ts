@@ -1,4 +1,4 @@
-/** What a recording has beside its clouds for people to see: pictures and readings, of the topics that the table names. */
+/** What a recording holds for people besides its clouds: pictures and readings from the topics that the table names. */
 import { type RecordedMessage, type RecordedTopic, RecordingError } from '@farpoint/recording';
 import type { TopicEntry, TopicReading, TopicTable } from '@farpoint/ros';
 import { PICTURE_TYPES, readPicture } from '../pictures/picture-message.ts';
@@ -28,7 +28,7 @@ export class RecordingTopics {
     return [...this.#pictures.map(({ topic }) => topic), ...this.#readings.keys()];
   }
 
-  /** What the table names and the recording does not have; the rest plays. */
+  /** Topics that the table names and the recording lacks. The others are played. */
   missing(file: string, recorded: readonly RecordedTopic[]): RecordingError[] {
     const pictures = recorded.filter(({ type }) => PICTURE_TYPES.includes(type)).map(({ name }) => name);
     const others = `with pictures: ${pictures.join(', ') || 'none'}`;
@@ -44,7 +44,7 @@ export class RecordingTopics {
     return faults;
   }
 
-  /** @param perSecond of each camera; 0: nobody watches */
+  /** @param perSecond pictures per second for each camera; 0: nobody watches */
   watch(perSecond: readonly number[]): void {
     this.#perSecond = perSecond;
   }
@@ -53,7 +53,7 @@ export class RecordingTopics {
     return this.#readings.has(topic) || (this.#perSecond[this.#camera(topic)] ?? 0) > 0;
   }
 
-  /** @param ageMs how much earlier it was due @throws {Error} where it cannot be read */
+  /** @param ageMs how much earlier it was due @throws {Error} if it cannot be read */
   take({ topic, data, offset }: RecordedMessage, ageMs: number): void {
     const now = this.#now();
     const reading = this.#readings.get(topic.name);

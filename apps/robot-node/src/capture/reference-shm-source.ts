@@ -21,19 +21,21 @@ export interface ReferenceShmOptions {
 }
 
 const LOOK_MS = 0.5;
-/** Looks are made more rarely the longer nothing has come: after so long, every so often, ms. */
+/** The longer nothing has arrived, the less often it is polled: [idle time, polling interval], ms. */
 const IDLE_LOOKS: readonly (readonly [number, number])[] = [
   [10_000, 20],
   [1000, 5],
 ];
 const WATCH_TIMEOUT_MS = 100;
-/** Share of the usual time between two frames in which none is looked for. */
+/** Share of the usual frame interval during which there is no polling. */
 const QUIET_SHARE = 0.6;
 const SMOOTHING = 0.2;
-/** A producer that does not know the latency flag: then a frame is made green here, ms. */
+/** If a producer does not answer the latency flag within this time, the robot makes a frame green itself, ms. */
 const LATENCY_ANSWER_MS = 500;
 
-/** The reference system's producer: packed points, taken when its flag is up. It says neither pose nor capture time. */
+/**
+ * The reference system's producer: packed points, taken when its flag is set. It gives neither pose nor capture time.
+ */
 export class ReferenceShmSource implements FrameSource {
   readonly description: SourceDescription = {
     kind: 'shm (reference layout)',
@@ -70,7 +72,7 @@ export class ReferenceShmSource implements FrameSource {
     });
   }
 
-  /** @throws {SharedMemoryError} where there is no producer in time */
+  /** @throws {SharedMemoryError} if no producer appears in time */
   static async open({ folder, waitMs }: ReferenceShmOptions, now: () => number): Promise<ReferenceShmSource> {
     const consumer = await openWhenThere(() => ReferenceFrameConsumer.open(folder), waitMs);
     return new ReferenceShmSource(consumer, folder, now);
@@ -111,7 +113,7 @@ export class ReferenceShmSource implements FrameSource {
     this.#link.close();
   }
 
-  /** The producer is asked for one green frame, not for green frames until one has come. */
+  /** Asks the producer for one green frame only, not for green frames until one arrives. */
   #tell(nowMs: number, { bitsPerSecond, latencyTest }: CaptureWishes): CaptureWishes {
     const ask = latencyTest && this.#askedMs === null;
     if (ask) this.#askedMs = nowMs;

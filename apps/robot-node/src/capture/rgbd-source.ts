@@ -13,8 +13,8 @@ import { PlaybackSource, STATIC_CAMERA_POSE } from './playback-source.ts';
 
 export interface RgbdSourceOptions {
   /**
-   * A folder of `color_*.jpg` and `depth_*.png` (16 bits, millimetres) in pairs, `camera_primesense.json` or another
-   * single `camera*.json`, and optionally `odometry.log` or `trajectory.log`, as Open3D lays them out.
+   * A folder of paired `color_*.jpg` and `depth_*.png` (16 bits, millimetres), `camera_primesense.json` or another
+   * single `camera*.json`, and optionally `odometry.log` or `trajectory.log`, as laid out by Open3D.
    */
   path: string;
 }
@@ -57,7 +57,7 @@ export function openRgbdSource({ path }: RgbdSourceOptions): FrameSource {
 }
 
 /**
- * The files' world has axes of its own: it is laid so that the first camera stands where a camera without poses does, and
+ * The files' world has its own axes. It is placed so that the first camera is where a camera without poses would be;
  * the others move relative to it.
  */
 function cameraPoses(path: string, count: number): Pose[] {

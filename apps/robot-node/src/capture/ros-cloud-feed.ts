@@ -21,17 +21,17 @@ import type { CaptureRoom } from './frame-source.ts';
 import type { FedFrame, FeedShape, RosFeed } from './ros-feed.ts';
 import { type Listener, listen, listenBytes } from './ros-listener.ts';
 
-/** Clouds of a LiDAR differ in size: room for how many times the first, and for how many at least. */
+/** A LiDAR's clouds vary in size. Room for this many times the first cloud, and at least this many points. */
 const HEADROOM = 2;
 const LEAST_CAPACITY = 131_072;
-/** How far a point of a grid may lie beside its pixel, pixels. */
+/** The most that a point of a grid may deviate from its pixel, pixels. */
 const MOST_OFF = 1.5;
 const POINTS_CHECKED = 64;
 const WORD_BYTES = 4;
 
 export interface CloudFeedOptions {
   cloud: TopicEntry;
-  /** With it, clouds on its grid are taken as the pictures that they are. */
+  /** If given, clouds on this camera's grid are treated as images. */
   cameraInfo: TopicEntry | undefined;
   axes: CloudAxes | 'auto';
 }
@@ -42,7 +42,7 @@ interface WaitingCloud {
   receivedMs: number;
 }
 
-/** Clouds of one topic, LiDAR’s or a depth camera’s: the newest is kept. */
+/** Clouds of one topic, from a LiDAR or a depth camera. Only the newest is kept. */
 export class RosCloudFeed implements RosFeed {
   readonly listeners: Listener[] = [];
   shape: FeedShape | null = null;
@@ -86,7 +86,7 @@ export class RosCloudFeed implements RosFeed {
       }
       const count =
         shape.camera === null
-          ? // What is asked for is made, and may move what was given out before: ask for one form alone.
+          ? // Each form is created when it is read, and this may move the other. Read only one.
             this.#decoder.decode(cloud, shape.axes, room.points)
           : this.#decoder.decodeImages(cloud, room.depth, room.colour);
       return { count, frameId: header.frame_id, stampNs: stampNs(header.stamp), receivedMs };
@@ -108,7 +108,7 @@ export class RosCloudFeed implements RosFeed {
   }
 
   #keep(bytes: Uint8Array, receivedMs: number): void {
-    // The grid’s camera decides what frames are: nothing is shown before it is known.
+    // The camera decides the form of the frames, so nothing is shown before it is known.
     if (this.shape === null && this.#options.cameraInfo !== undefined && this.#camera === null) return;
     let slot = this.#slots.keep(bytes, this.#lead);
     let cloud: PointCloud2;
@@ -116,7 +116,7 @@ export class RosCloudFeed implements RosFeed {
       cloud = pointCloud2Schema.parse(this.#decode(slot.bytes));
       const off = cloud.data.byteOffset % WORD_BYTES;
       if (off !== 0) {
-        // The points are read as words where they lie as such; with the same header the next cloud does at once.
+        // Aligned points are read as words without a copy. The next cloud with the same header is then aligned.
         this.#lead = (this.#lead + WORD_BYTES - off) % WORD_BYTES;
         this.#slots.release(slot);
         slot = this.#slots.keep(bytes, this.#lead);
@@ -132,7 +132,7 @@ export class RosCloudFeed implements RosFeed {
     this.onFrame?.();
   }
 
-  /** @throws {RosFault} where the cloud is none */
+  /** @throws {RosFault} if the message is not a valid cloud */
   #shapeOf(cloud: PointCloud2): FeedShape {
     const count = checkedCount(cloud);
     const { width, height, header } = cloud;
@@ -157,7 +157,7 @@ export class RosCloudFeed implements RosFeed {
     return shape;
   }
 
-  /** @returns `null` where each point lies at its pixel */
+  /** @returns why the cloud is not an image; `null` if each point lies at its pixel */
   #whyNoPicture(cloud: PointCloud2, axes: CloudAxes, info: CameraInfo, camera: Pinhole): string | null {
     const { width, height } = cloud;
     if (axes !== 'optical') return `the frame ${cloud.header.frame_id} is not optical`;

@@ -1,22 +1,22 @@
-/** Where a ROS source’s frames come from: a topic of clouds, or one of depth and one of colour. */
+/** Where a ROS source's frames come from: a topic of clouds, or topics of depth and colour images. */
 import type { CloudAxes, Pinhole, RosFault } from '@farpoint/ros';
 import type { CaptureRoom } from './frame-source.ts';
 import type { Listener } from './ros-listener.ts';
 
-/** What all frames of a feed have in common. */
+/** Properties shared by all frames of a feed. */
 export interface FeedShape {
   width: number;
   height: number;
-  /** Most points of a frame. */
+  /** Maximum number of points in a frame. */
   capacity: number;
-  /** Of frames that come as images. */
+  /** The camera of frames that come as images. */
   camera: Pinhole | null;
   axes: CloudAxes;
 }
 
-/** Of one frame, what is not in the room that it was put into. */
+/** Facts about a frame whose data was put into the room. */
 export interface FedFrame {
-  /** How many points; of images, how many pixels. */
+  /** Number of points; for images, number of pixels. */
   count: number;
   frameId: string;
   stampNs: bigint;
@@ -26,14 +26,14 @@ export interface FedFrame {
 
 export interface RosFeed {
   readonly listeners: readonly Listener[];
-  /** Known once the first frame is there. */
+  /** `null` until the first frame arrives. */
   readonly shape: FeedShape | null;
-  /** Called at each new frame, which takes the place of one that is still there. */
+  /** Called at each new frame, which replaces one that has not been taken. */
   onFrame: (() => void) | null;
   onFault: ((fault: RosFault) => void) | null;
-  /** Puts the newest frame into the room; `null` where there is none. @throws {RosFault} where it cannot be read */
+  /** Puts the newest frame into the room; `null` if there is none. @throws {RosFault} if it cannot be read */
   take(room: CaptureRoom): FedFrame | null;
-  /** Lets it go. */
+  /** Discards the newest frame. */
   skip(): void;
   close(): void;
 }

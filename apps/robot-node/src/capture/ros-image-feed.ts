@@ -40,7 +40,7 @@ interface CameraShape {
   camera: Pinhole;
 }
 
-/** Depth pictures with the colour pictures taken together with them, of one camera. */
+/** Depth images of one camera, paired with the colour images taken at the same time. */
 export class RosImageFeed implements RosFeed {
   readonly listeners: Listener[] = [];
   shape: FeedShape | null = null;
@@ -116,11 +116,11 @@ export class RosImageFeed implements RosFeed {
       width === before.width &&
       height === before.height &&
       (['fx', 'fy', 'cx', 'cy'] as const).every((key) => camera[key] === before.camera[key]);
-    // The encoder was made for the camera that there was.
+    // The encoder was made for the previous camera.
     if (!same) throw new RosFault('bad-image', 'the camera has changed', { remedy: 'restart the robot' });
   }
 
-  /** @throws {Error} where the message is no image */
+  /** @throws {Error} if the message is not a valid image */
   #keep(bytes: Uint8Array, receivedMs: number): Picture {
     const slot = this.#slots.keep(bytes);
     try {
@@ -141,7 +141,7 @@ export class RosImageFeed implements RosFeed {
     const { width, height, camera } = this.#camera;
     this.shape ??= { width, height, capacity: width * height, camera, axes: 'optical' };
     this.skip();
-    // The colour picture may belong to the next pair, too.
+    // The next pair may use the same colour image.
     if (pair.colour !== null) this.#slots.retain(pair.colour.slot);
     this.#waiting = pair;
     this.onFrame?.();
@@ -153,7 +153,7 @@ export class RosImageFeed implements RosFeed {
   }
 }
 
-/** @throws {RosFault} where it is not of the camera’s size */
+/** @throws {RosFault} if it does not have the camera's size */
 function sized(image: Image, { width, height }: FeedShape): Image {
   if (image.width === width && image.height === height) return image;
   throw new RosFault(

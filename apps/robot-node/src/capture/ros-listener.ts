@@ -1,23 +1,23 @@
-/** Messages of one topic of the table: no more of them than it allows, what is wrong with them said. */
+/** Receives the messages of one topic from the table. Limits their rate and reports their faults. */
 import { decoderOf, qosOf, RateLimit, RosFault, type RosGraph, type TopicEntry } from '@farpoint/ros';
 
 export interface Listener {
   readonly entry: TopicEntry;
-  /** Messages that came. */
+  /** Number of messages received. */
   readonly received: number;
   readonly publishers: number;
   close(): void;
 }
 
 export interface ListenOptions {
-  /** Messages that may wait in the graph. */
+  /** Number of messages that may wait in the graph. */
   queue: number;
-  /** Limit them, before they are decoded; default `true`. */
+  /** Whether to limit the rate, before decoding; default `true`. */
   limited?: boolean;
   onFault: (fault: RosFault) => void;
 }
 
-/** @param take gets the message, good only during the call; what it throws is told as a fault */
+/** @param take gets the message, valid only during the call; what it throws is reported as a fault */
 export function listen(
   graph: RosGraph,
   entry: TopicEntry,
@@ -32,9 +32,9 @@ export function listen(
 }
 
 /**
- * The same of messages that are kept, and decoded where they are kept.
+ * As {@link listen}, for messages that are kept and decoded elsewhere.
  *
- * @param take gets the bytes, good only during the call, and what the publisher says that they are
+ * @param take gets the bytes, valid only during the call, and the publisher's description of them
  */
 export function listenBytes(
   graph: RosGraph,

@@ -3,10 +3,10 @@ import { readPicture } from '../pictures/picture-message.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
 import { type Listener, listenBytes } from './ros-listener.ts';
 
-/** When a message's picture was taken, robot's clock, ms. */
+/** When a message's picture was taken, on the robot's clock, ms. */
 export type CaptureTime = (stampNs: bigint, receivedMs: number) => number;
 
-/** Pictures for people to look at. A topic that nobody watches is not subscribed. */
+/** Pictures for people to look at. A topic that nobody watches has no subscription. */
 export class RosPictureFeed {
   onFault: ((fault: RosFault) => void) | null = null;
   taker: PictureTaker | null = null;
@@ -15,14 +15,17 @@ export class RosPictureFeed {
   readonly #listeners = new Map<number, Listener>();
   readonly #captureTime: CaptureTime;
 
-  /** @param entries the topics; a camera's number is its place among them */
+  /** @param entries the topics; the index among them is the camera's number */
   constructor(graph: RosGraph, entries: readonly TopicEntry[], captureTime: CaptureTime) {
     this.#graph = graph;
     this.#entries = entries;
     this.#captureTime = captureTime;
   }
 
-  /** Subscribes what is to be shown, and nothing else. @param perSecond of each camera; 0: nobody watches */
+  /**
+   * Subscribes to the watched topics and no others. @param perSecond pictures per second for each camera; 0: nobody
+   * watches
+   */
   watch(perSecond: readonly number[]): void {
     for (const [camera, entry] of this.#entries.entries()) {
       const listener = this.#listeners.get(camera);
@@ -42,7 +45,7 @@ export class RosPictureFeed {
   #listen(camera: number, entry: TopicEntry): Listener {
     const decode = decoderOf(this.#graph.version, entry.type, null);
     const onFault = (fault: RosFault) => this.onFault?.(fault);
-    // How many are taken is the taker's to say.
+    // The receiver limits the rate.
     return listenBytes(this.#graph, entry, { queue: 1, limited: false, onFault }, (bytes, receivedMs) => {
       const { taker } = this;
       if (taker === null || !taker.wants(camera, receivedMs)) return;

@@ -1,4 +1,4 @@
-/** Clouds, places and readings of a live ROS graph, as its topic table allows. */
+/** Clouds, poses and readings from a live ROS graph, as the topic table allows. */
 
 import {
   type CloudAxes,
@@ -29,7 +29,7 @@ import { RosPictureFeed } from './ros-picture-feed.ts';
 
 export interface RosSourceOptions {
   topics: TopicTable;
-  /** Axes of the clouds’ frame; `auto`: optical where its name says so (REP-103), else body. */
+  /** Axes of the clouds' frame. `auto`: optical if the frame's name says so (REP-103), otherwise body. */
   axes: CloudAxes | 'auto';
   /** How long to wait for the first frame, ms. */
   waitMs: number;
@@ -38,13 +38,13 @@ export interface RosSourceOptions {
 export interface RosClock {
   /** Robot’s clock, ms. */
   now(): number;
-  /** Time of day, ns since 1970, as stamps have it. */
+  /** Time of day, ns since 1970, as in stamps. */
   wallNs(): bigint;
 }
 
-/** A stamp older than this is of another clock, or of a picture that waited: then the time of its coming counts, ms. */
+/** An older stamp is from another clock, or from a picture that was delayed. The arrival time is then used, ms. */
 const MOST_AGE_MS = 500;
-/** Messages of state that may wait in the graph. */
+/** Number of state messages that may wait in the graph. */
 const STATE_QUEUE = 100;
 const STATE_ROLES = ['pose', 'tf', 'battery'];
 
@@ -96,9 +96,9 @@ export class RosSource implements FrameSource {
   }
 
   /**
-   * Subscribes the table’s topics and waits for the first frame. The graph is the source’s from then on.
+   * Subscribes to the table's topics and waits for the first frame. The source owns the graph from then on.
    *
-   * @throws {RosFault} saying what did not come and what may be wrong
+   * @throws {RosFault} saying what did not arrive and the possible causes
    */
   static async open(graph: RosGraph, options: RosSourceOptions, clock: RosClock): Promise<RosSource> {
     const { topics, axes, waitMs } = options;
@@ -166,7 +166,7 @@ export class RosSource implements FrameSource {
     void this.#graph.close();
   }
 
-  /** By its stamp, where that is of our clock and not long ago, else by its coming. */
+  /** The stamp's time if it is recent and on our clock, otherwise the arrival time. */
   #capturedAtMs(stampNs: bigint, receivedMs: number, nowMs: number): number {
     const ageMs = Number(this.#clock.wallNs() - stampNs) / 1e6;
     const stamped = ageMs >= 0 && ageMs <= MOST_AGE_MS;
@@ -174,7 +174,7 @@ export class RosSource implements FrameSource {
   }
 }
 
-/** The topics that say where the robot is and how it does. */
+/** The topics that report the robot's pose and state. */
 class StateTopics {
   readonly world = new WorldState();
   onFault: ((fault: RosFault) => void) | null = null;
@@ -204,7 +204,7 @@ class StateTopics {
   }
 }
 
-/** @throws {RosFault} where the table has no clouds */
+/** @throws {RosFault} if the table has no clouds */
 function openFeed(graph: RosGraph, topics: TopicTable, axes: CloudAxes | 'auto'): RosFeed {
   const [cloud, depth, colour, cameraInfo] = [
     topicAs(topics, 'cloud'),
@@ -231,7 +231,7 @@ async function firstFrame(feed: RosFeed, waitMs: number): Promise<void> {
   });
 }
 
-/** What did not come, and why as far as it shows. */
+/** What did not arrive, and why, as far as known. */
 function whyNothing(graph: RosGraph, feed: RosFeed, waitMs: number, last: RosFault | null): RosFault {
   if (last !== null) return last;
   const silent = feed.listeners.find(({ received }) => received === 0) ?? feed.listeners[0];

@@ -11,11 +11,11 @@ import { STANDING } from './playback-source.ts';
 
 export interface SimLidarSourceOptions {
   seed: number;
-  /** The base's thread writes the world here; left out, the robot stands at the start and nothing moves. */
+  /** The base's thread writes the world here. If undefined, the robot stays at its start and nothing moves. */
   snapshot?: SharedArrayBuffer | undefined;
 }
 
-/** Turns a second. */
+/** Rotations per second. */
 const TURNS_PER_SECOND = 10;
 
 /** The simulated robot's LiDAR. */
@@ -46,7 +46,7 @@ export class SimLidarSource implements FrameSource {
 
   capture(nowMs: number, _wishes: CaptureWishes, room: CaptureRoom): SourceFrame {
     const { points, pose } = this.#lidar.turn(this.#world.newest);
-    // As words: copying a colour as a float may change the bits of a NaN.
+    // Copied as words: copying a colour as a float may change the bits of a NaN.
     const into = new Uint32Array(room.points.buffer, room.points.byteOffset, points.length);
     into.set(new Uint32Array(points.buffer, points.byteOffset, points.length));
     const count = points.length / 4;

@@ -5,13 +5,13 @@ import { STANDING } from './playback-source.ts';
 
 export interface SimSourceOptions {
   seed: number;
-  /** Pixels of the square camera, a multiple of 4. */
+  /** Side of the square image in pixels, a multiple of 4. */
   size: number;
-  /** The base's thread writes the world here; left out, the robot stands at the start and nothing moves. */
+  /** The base's thread writes the world here. If undefined, the robot stays at its start and nothing moves. */
   snapshot?: SharedArrayBuffer | undefined;
 }
 
-/** The simulated robot's depth camera: it draws the world as the base has it. */
+/** The simulated robot's depth camera. Renders the world from the base's state. */
 export class SimSource implements FrameSource {
   readonly description: SourceDescription;
   readonly state = STANDING;

@@ -1,4 +1,4 @@
-/** `farpoint-robot doctor`: checks everything that a robot needs, and says what to do. */
+/** `farpoint-robot doctor`: checks everything that a robot needs, and says what to do about each fault. */
 import { checkConfiguration } from '../doctor/check-configuration.ts';
 import { configurationCheck, machineChecks, robotChecks } from '../doctor/checks.ts';
 import { type Finding, runCheck } from '../doctor/finding.ts';

@@ -1,11 +1,11 @@
-/** `farpoint-robot init`: writes a configuration file with everything in it, explained. It asks nothing. */
+/** `farpoint-robot init`: writes a configuration file with every option, explained. It asks no questions. */
 import { writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { DEFAULT_CONFIG_PATH } from '@farpoint/service';
 import { SOURCE_KINDS } from '../options/source.ts';
 import { robotTemplate, type SourceKind } from './robot-template.ts';
 
-/** What a command may use of the process. */
+/** The parts of the process that a command may use. */
 export interface CommandRim {
   stdout: { write(text: string): unknown };
   stderr: { write(text: string): unknown };
@@ -20,7 +20,7 @@ Writes a configuration file for a robot, with a comment for each option.
   --force        replace an existing file
 `;
 
-/** @returns the exit code: 0, 1 where the file could not be written, 2 for a mistake in the arguments */
+/** @returns the exit code: 0, 1 if the file could not be written, 2 for a mistake in the arguments */
 export function init(argv: readonly string[], { stdout, stderr }: CommandRim): number {
   const refuse = (message: string, code: number): number => {
     stderr.write(`farpoint-robot init: ${message}\n`);
@@ -48,7 +48,7 @@ export function init(argv: readonly string[], { stdout, stderr }: CommandRim): n
     return 0;
   }
   try {
-    // Whoever may read it learns a token that is written into it.
+    // The file may hold a token: limit who can read it.
     writeFileSync(values.output, text, { flag: values.force ? 'w' : 'wx', mode: 0o640 });
   } catch (error) {
     const { code, message } = error as NodeJS.ErrnoException;

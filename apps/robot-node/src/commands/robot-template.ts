@@ -19,7 +19,7 @@ const HEAD = [
   'Give secrets (signaling.token, signaling.key) in the environment: FARPOINT_ROBOT_TOKEN, FARPOINT_ROBOT_KEY.',
 ];
 
-/** What everyone decides, at its default. */
+/** Options that every robot decides, at their defaults. */
 const ALWAYS = [
   'id',
   'name',
@@ -32,7 +32,7 @@ const ALWAYS = [
   'bitrateMbps',
 ] as const;
 
-/** As the drivers of cameras and bases name them. */
+/** The names that drivers of cameras and bases commonly use. */
 const ROS_TOPICS = [
   { topic: '/camera/depth_registered/points', as: 'cloud' },
   { topic: '/camera/depth_registered/camera_info', as: 'cameraInfo' },

@@ -1,8 +1,10 @@
-/** The clocks: one that never goes back for everything that is timed, and the time of day for certificates and logs. */
+/**
+ * Checks the clocks: the monotonic clock for everything that is timed, and the time of day for certificates and logs.
+ */
 import { ok, type Result, warn } from './finding.ts';
 import type { Host } from './host.ts';
 
-/** Reading them takes a trip to slow hardware, thousands of times a second. */
+/** Reading these clocks accesses slow hardware, thousands of times a second. */
 const SLOW_SOURCES = ['hpet', 'acpi_pm', 'jiffies', 'refined-jiffies', 'pit'];
 const READINGS = 20_000;
 
@@ -31,16 +33,16 @@ export function checkMonotonicClock(host: Host, now: () => number): Result[] {
 }
 
 export interface ServerTime {
-  /** `Date` of its answer: whole seconds, ms since 1970. */
+  /** `Date` of the server's answer: whole seconds, ms since 1970. */
   dateMs: number;
-  /** Our time of day when we asked and when it answered, ms since 1970. */
+  /** Our time of day when we sent the request and when the answer arrived, ms since 1970. */
   askedMs: number;
   answeredMs: number;
 }
 
 const MOST_OFFSET_MS = 2000;
 
-/** @param time `null` where no server told it */
+/** @param time `null` if no server gave the time */
 export function checkTimeOfDay(time: ServerTime | null): Result[] {
   if (time === null)
     return [
@@ -50,7 +52,7 @@ export function checkTimeOfDay(time: ServerTime | null): Result[] {
       ),
     ];
   const { dateMs, askedMs, answeredMs } = time;
-  // The server's second has begun somewhere in [date, date + 1 s).
+  // The server's time was within [date, date + 1 s).
   const offset = (askedMs + answeredMs) / 2 - (dateMs + 500);
   const uncertainty = 500 + (answeredMs - askedMs) / 2;
   const seconds = `${Math.abs(offset / 1000).toFixed(1)} s ${offset > 0 ? 'ahead of' : 'behind'}`;

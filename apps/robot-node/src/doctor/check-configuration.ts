@@ -1,4 +1,4 @@
-/** The configuration: every mistake by name, and where its values are from. */
+/** Checks the configuration: names every mistake, and says where the values come from. */
 import { statSync } from 'node:fs';
 import { OptionsError, type ResolvedOptions, resolveOptions } from '@farpoint/service';
 import { toRobotOptions } from '../options/robot-options.ts';
@@ -8,7 +8,7 @@ import { fail, ok, type Result, warn } from './finding.ts';
 
 export interface Configuration {
   results: Result[];
-  /** `null` where something is wrong with it. */
+  /** `null` if the configuration has a mistake. */
   values: RobotOptionValues | null;
   robot: RobotOptions | null;
 }

@@ -1,4 +1,4 @@
-/** Files that robot and camera, wheels or recording share: may we, and is there room? */
+/** Checks the files that the robot shares with a camera, wheels or a recording: permissions and free space. */
 import { accessSync, constants, type Stats, statfsSync, statSync } from 'node:fs';
 import { dirname } from 'node:path';
 import { cloudFile, isAvailable, referenceFiles } from '@farpoint/shared-memory';
@@ -10,7 +10,7 @@ import { megabytes } from './host.ts';
 const EASY_SHARED_BYTES = 64e6;
 const EASY_RECORDING_BYTES = 5e9;
 
-/** The addon, the folder, and the files of those who are there already. */
+/** Checks the addon, the folder, and the files of programs that are already running. */
 export function checkSharedMemory(source: SourceOptions, sink: SinkOptions): Result[] {
   const folder = source.kind === 'shm' ? source.folder : sink.kind === 'shm' ? sink.folder : null;
   if (folder === null) return [];
@@ -49,7 +49,7 @@ export function checkSharedMemory(source: SourceOptions, sink: SinkOptions): Res
   return results;
 }
 
-/** What is made once the robot starts: there is nothing wrong with a file that is not there yet. */
+/** Checks a file that the robot creates at its start: a missing file is no fault. */
 function checkFile(path: string, write: boolean): Result[] {
   const found = stats(path);
   if (found === null) return [];
@@ -72,7 +72,7 @@ function checkFile(path: string, write: boolean): Result[] {
   return [ok(`${path}, ${owner}`)];
 }
 
-/** @param path the file to be written, `undefined` where nothing is recorded */
+/** @param path the file to be written; `undefined` if nothing is recorded */
 export function checkRecording(path: string | undefined): Result[] {
   if (path === undefined) return [];
   if (stats(path) !== null)

@@ -1,4 +1,4 @@
-/** What the answers of STUN and TURN servers mean for reaching operators. */
+/** Judges from the answers of STUN and TURN servers whether operators can be reached. */
 import { fail, ok, type Result, warn } from './finding.ts';
 import type { IceAnswer, IceTarget } from './ice-probe.ts';
 
@@ -7,7 +7,7 @@ export interface ProbedTarget {
   answer: IceAnswer;
 }
 
-/** @param policy `relay`: without TURN nobody is reached */
+/** @param policy with `relay`, no operator can be reached without TURN */
 export function judgeIce(probed: readonly ProbedTarget[], policy: 'all' | 'relay'): Result[] {
   const results = probed.map(judgeOne);
   const relays = probed.filter(({ target }) => isTurn(target));
@@ -26,7 +26,7 @@ export function judgeIce(probed: readonly ProbedTarget[], policy: 'all' | 'relay
         'operators behind strict firewalls and on many mobile links need one: set turnUrls at the signaling service',
       ),
     );
-  // The stack takes one of each kind.
+  // The ICE stack uses one server of each kind.
   if (relays.length > 1)
     results.push(
       warn(

@@ -1,8 +1,8 @@
-/** Node, memory, and what the kernel gives sockets. */
+/** Checks Node, memory, and the socket buffers that the kernel allows. */
 import { fail, ok, type Result, warn } from './finding.ts';
 import { type Host, megabytes, readNumber } from './host.ts';
 
-/** Runs TypeScript as it is. */
+/** The first version that runs TypeScript directly. */
 const LEAST_NODE = [22, 18] as const;
 const TESTED_NODE = 24;
 
@@ -40,14 +40,14 @@ export function checkMemory(host: Host): Result[] {
   return [ok(what)];
 }
 
-/** What the sockets of media ask for. */
+/** The receive buffer that media sockets request, bytes. */
 const WANTED_RECEIVE = 2 * 1024 * 1024;
-/** Clouds and pictures of ROS 2 come in bursts of a megabyte and more. */
+/** ROS 2's clouds and pictures come in bursts of a megabyte and more. */
 const WANTED_RECEIVE_DDS = 8 * 1024 * 1024;
-/** Linux's own default: some 15 ms of a 60 Mbit/s stream. */
+/** Linux's default, bytes: some 15 ms of a 60 Mbit/s stream. */
 const WANTED_SEND = 212_992;
 
-/** @param dds whether clouds come by DDS */
+/** @param dds whether clouds come through DDS */
 export function checkSocketBuffers(host: Host, dds: boolean): Result[] {
   const receive = readNumber(host, '/proc/sys/net/core/rmem_max');
   const send = readNumber(host, '/proc/sys/net/core/wmem_default');

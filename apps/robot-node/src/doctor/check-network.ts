@@ -1,4 +1,4 @@
-/** What this machine can offer operators by itself: addresses, and ports to listen on. */
+/** Checks what this machine offers operators without a server: addresses, and ports to listen on. */
 import { createSocket } from 'node:dgram';
 import { fail, ok, type Result, warn } from './finding.ts';
 
@@ -16,10 +16,10 @@ export function checkAddresses(addresses: readonly OwnAddress[]): Result[] {
   return [ok(`candidates ${usable.map(({ name, address }) => `${address} (${name})`).join(', ')}`)];
 }
 
-/** Ports that an operator's connection may take. */
+/** Number of ports that one operator's connection may use. */
 const PORTS_AN_OPERATOR = 4;
 
-/** @param range `null`: any */
+/** @param range `null`: any port */
 export async function checkUdpPorts(
   range: readonly [number, number] | null,
   operators: number,

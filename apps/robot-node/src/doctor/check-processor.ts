@@ -1,4 +1,4 @@
-/** Cores, their governor, their heat; and how long the codec takes on them. */
+/** Checks cores, their governor and temperature, and the codec's speed on them. */
 import { Simulation } from '@farpoint/sim';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { OrganisedFrameEncoder } from '../encode/organised-frame-encoder.ts';
@@ -8,7 +8,7 @@ import { type Host, readNumber } from './host.ts';
 export interface Load {
   cores: number;
   model: string;
-  /** Of the last minute: programs that ran or wanted to. */
+  /** Load average of the last minute: programs that ran or were ready to. */
   load: number;
 }
 
@@ -37,13 +37,13 @@ export function checkProcessor(host: Host, { cores, model, load }: Load): Result
   return results;
 }
 
-/** Cores that the control group allows, or `null`. */
+/** Number of cores that the control group allows; `null` without a limit. */
 function cpuQuota(host: Host): number | null {
   const [quota, period] = (host.read('/sys/fs/cgroup/cpu.max') ?? '').split(' ').map(Number);
   return quota !== undefined && period !== undefined && quota > 0 && period > 0 ? quota / period : null;
 }
 
-/** Those under which a core stays slow; drivers that choose by themselves call theirs `powersave` too. */
+/** Governors that keep a core slow. Drivers that choose the frequency themselves also call theirs `powersave`. */
 function slowGovernors(host: Host): string[] {
   const found = new Set<string>();
   for (const name of host.list(CPU)) {
@@ -69,7 +69,7 @@ function checkHeat(host: Host): Result[] {
     .map((name) => readNumber(host, `/sys/class/thermal/${name}/temp`))
     .filter((milli) => milli !== null);
   const hottest = zones.length === 0 ? null : Math.max(...zones) / 1000;
-  // A Raspberry Pi's firmware: bits 0–3 now, 16–19 since the start.
+  // A Raspberry Pi's firmware: bits 0–3 are the present state, bits 16–19 the state since boot.
   const firmware = Number.parseInt(
     host.read('/sys/devices/platform/soc/soc:firmware/get_throttled') ?? '0',
     16,
@@ -92,7 +92,7 @@ const SIZE = 480;
 /** 24 Mbit/s at 30 frames a second. */
 const BUDGET_BYTES = 100_000;
 
-/** Codes a few simulated frames as the robot would. */
+/** Encodes a few simulated frames as the robot would. */
 export async function timeCodec(now: () => number): Promise<number[]> {
   const simulation = await Simulation.create({ seed: 1, camera: { width: SIZE, height: SIZE } });
   const { fx, fy, cx, cy } = simulation.intrinsics;
@@ -119,7 +119,7 @@ export async function timeCodec(now: () => number): Promise<number[]> {
   return times;
 }
 
-/** @param times of the frames in order, ms; the first ones also warm the machine up */
+/** @param times of the frames in order, ms; the first frames also warm up the machine */
 export function judgeCodec(times: readonly number[]): Result[] {
   const warm = times.slice(times.length >> 1).sort((a, b) => a - b);
   const median = warm[warm.length >> 1] ?? Number.NaN;

@@ -1,14 +1,14 @@
-/** What a ROS graph has of the topics that the robot is to touch. */
+/** Compares a ROS graph with the topics that the robot is to use. */
 import type { GraphTopic, TopicEntry, TopicTable } from '@farpoint/ros';
 import type { GraphOptions } from '../ros/open-graph.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
 
-/** Without these there is no cloud. */
+/** Without these topics there is no cloud. */
 const NEEDED: readonly TopicEntry['as'][] = ['cloud', 'depth', 'cameraInfo'];
 
 /**
- * @param seen what discovery has found
- * @param own publishers of velocities that are the robot's own: one where it runs
+ * @param seen the topics that discovery has found
+ * @param own number of the robot's own velocity publishers: one while the robot runs
  */
 export function judgeTopics(table: TopicTable, seen: readonly GraphTopic[], own: number): Result[] {
   return table.map((entry) => {
@@ -53,7 +53,7 @@ function judgeVelocity(
   return ok(`${topic} (velocity): subscribed`);
 }
 
-/** Topics of the same last name are what is usually meant. */
+/** Topics with the same last name, because these are usually what was meant. */
 function alike(topic: string, seen: readonly GraphTopic[]): string {
   const last = topic.slice(topic.lastIndexOf('/'));
   const near = seen
@@ -62,14 +62,14 @@ function alike(topic: string, seen: readonly GraphTopic[]): string {
   return near.length === 0 ? '' : ` (there is ${near.slice(0, 3).join(', ')})`;
 }
 
-/** What the graph was asked to be, for people. */
+/** The requested graph, as text for people. */
 export function graphName(options: GraphOptions): string {
   return options.kind === 'ros1'
     ? `ROS 1, master ${options.masterUrl}`
     : `ROS 2, domain ${options.domain ?? process.env.ROS_DOMAIN_ID ?? '0'}`;
 }
 
-/** Others connect to the address that we tell them. */
+/** Other nodes connect to the address that we announce. */
 export function judgeHostname(options: GraphOptions): Result[] {
   if (options.kind !== 'ros1') return [];
   const local = (host: string) => /^(localhost|127\.|\[?::1)/.test(host);

@@ -1,4 +1,4 @@
-/** What the signaling service's answer means, and what to do about it. */
+/** Judges the signaling service's answer, and says what to do about it. */
 import type { SignalingErrorCode } from '@farpoint/protocol';
 import { fail, ok, type Result, warn } from './finding.ts';
 import type { SignalingAnswer } from './signaling-probe.ts';
@@ -7,7 +7,7 @@ const EASY_CERTIFICATE_DAYS = 14;
 const DAY_MS = 86_400_000;
 
 /**
- * @param robotRuns whether a robot runs on this machine: it has the id then
+ * @param robotRuns whether a robot runs on this machine, which then has the id
  * @param nowMs the time of day, ms since 1970
  */
 export function judgeSignaling(

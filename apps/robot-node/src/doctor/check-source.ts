@@ -1,4 +1,4 @@
-/** What came of trying the source. */
+/** Judges the trial of the source. */
 import { fileFault } from '@farpoint/service';
 import type { SourceOptions } from '../capture/open-source.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
@@ -6,12 +6,12 @@ import { asDoctor } from './ros-probe.ts';
 import type { SourceTrial } from './source-trial.ts';
 
 const FEW_FRAMES_PER_SECOND = 5;
-/** Longest that the doctor waits for a camera's program, ms. */
+/** The longest that the doctor waits for a camera's program, ms. */
 const MOST_WAIT_MS = 3000;
-/** Discovery comes before the first message. */
+/** The longest wait for ROS, ms: discovery precedes the first message. */
 const MOST_ROS_WAIT_MS = 6000;
 
-/** The source as it is tried: nobody waits long for a producer. */
+/** The source's options for the trial, with short waits for a producer. */
 export function trialSource(source: SourceOptions): SourceOptions {
   if (source.kind === 'shm') return { ...source, waitMs: Math.min(source.waitMs, MOST_WAIT_MS) };
   if (source.kind !== 'ros') return source;
@@ -19,8 +19,8 @@ export function trialSource(source: SourceOptions): SourceOptions {
 }
 
 /**
- * @param wheelless whether velocities go nowhere
- * @param picturesOfCloud whether its colour pictures are to be shown
+ * @param wheelless whether velocities have no sink
+ * @param picturesOfCloud whether the cloud's colour pictures are to be shown
  */
 export function judgeSource(trial: SourceTrial, wheelless: boolean, picturesOfCloud = false): Result[] {
   const { description, frames, seconds, validPoints, workMs, faults } = trial;
@@ -60,7 +60,7 @@ export function judgeSource(trial: SourceTrial, wheelless: boolean, picturesOfCl
   return results;
 }
 
-/** Of one that does not open. */
+/** Judges a source that does not open. */
 export function judgeClosedSource(source: SourceOptions, error: Error): Result[] {
   const detail = fileFault(error) ?? error.message;
   return [fail(`${source.kind}: ${detail}`, closedRemedy(source, error))];

@@ -1,4 +1,4 @@
-/** Every check of the doctor, in the order in which a fault is cheapest to understand. */
+/** All checks of the doctor, ordered so that the fault that is easiest to understand is reported first. */
 
 import { cpus, loadavg, networkInterfaces } from 'node:os';
 import type { IceServer } from '@farpoint/protocol';
@@ -25,12 +25,12 @@ import { trySource } from './source-trial.ts';
 /** Longest wait for a server, ms. */
 const ANSWER_MS = 5000;
 const WATCH_MS = 2000;
-/** What a check may take beyond the waits inside it, ms. */
+/** Time that a check may take in addition to its waits, ms. */
 const SLACK_MS = 2000;
 
 const now = () => performance.now();
 
-/** Those that need no configuration. */
+/** Checks that need no configuration. */
 export function machineChecks(host: Host, dds: boolean): Check[] {
   const quick = (name: string, run: Check['run']): Check => ({ name, withinMs: SLACK_MS, run });
   return [
@@ -52,7 +52,7 @@ export function configurationCheck({ results }: Configuration): Check {
   return { name: 'configuration', withinMs: SLACK_MS, run: () => results };
 }
 
-/** Those of a robot that is configured. What one learns the later ones use: they run in this order. */
+/** Checks of a configured robot. They run in this order, because later ones use the results of earlier ones. */
 export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Check[] {
   let running: RunningRobot = { state: 'stands' };
   let serviceServers: readonly IceServer[] = [];

@@ -1,14 +1,14 @@
-/** What the doctor finds, and the bounds within which it looks. */
+/** The doctor's findings, and the time limits of its checks. */
 
 export type Verdict = 'ok' | 'warn' | 'fail';
 
 export interface Finding {
-  /** What was looked at, e.g. `signaling`. */
+  /** What was checked, e.g. `signaling`. */
   check: string;
   verdict: Verdict;
-  /** What was found: one sentence, with figures and their units. */
+  /** The finding: one sentence, with figures and their units. */
   detail: string;
-  /** What to do about it; of warnings and failures. */
+  /** What to do about it, for warnings and failures. */
   remedy?: string;
 }
 
@@ -21,12 +21,12 @@ export const fail = (detail: string, remedy: string): Result => ({ verdict: 'fai
 
 export interface Check {
   name: string;
-  /** How long it may take: beyond that it has failed, whatever hangs. */
+  /** Time limit, ms. A check that takes longer has failed. */
   withinMs: number;
   run(): Promise<readonly Result[]> | readonly Result[];
 }
 
-/** Never throws, and never takes longer than the check may. */
+/** Runs a check. Never throws, and never exceeds the check's time limit. */
 export async function runCheck({ name, withinMs, run }: Check): Promise<Finding[]> {
   let timer: NodeJS.Timeout | undefined;
   const late = new Promise<readonly Result[]>((resolve) => {

@@ -1,10 +1,10 @@
-/** What the checks read of the machine: small files of /proc and /sys. Tests give them a machine of their own. */
+/** What the checks read from the machine: small files of /proc and /sys. Tests substitute a machine of their own. */
 import { readdirSync, readFileSync } from 'node:fs';
 
 export interface Host {
-  /** Trimmed text, or `null` where it cannot be read. */
+  /** The trimmed text; `null` if the file cannot be read. */
   read(path: string): string | null;
-  /** Names in a folder; none where it cannot be read. */
+  /** Names in a folder; empty if it cannot be read. */
   list(path: string): string[];
 }
 
@@ -25,7 +25,7 @@ export const thisHost: Host = {
   },
 };
 
-/** A number in a file, or `null`. */
+/** A number in a file; `null` if there is none. */
 export function readNumber(host: Host, path: string): number | null {
   const text = host.read(path);
   const value = Number(text);

@@ -1,4 +1,4 @@
-/** Asks STUN and TURN servers for what an operator's connection will ask of them. */
+/** Asks STUN and TURN servers for what an operator's connection will need from them. */
 import type { IceServer } from '@farpoint/protocol';
 import { classes, createTurnClient, Message, methods, parseIceServers, StunProtocol } from 'werift';
 
@@ -10,22 +10,25 @@ export interface IceTarget {
 }
 
 export type IceAnswer =
-  /** `mapped`: what the server sees us as; `relayed`: what it lends us, of TURN. */
+  /** `mapped`: our address as the server sees it; `relayed`: the address that a TURN server allocates for us. */
   | { outcome: 'answered'; mapped: string | null; relayed: string | null; milliseconds: number }
   | { outcome: 'silent' }
-  /** `status` as STUN has it, e.g. 401; `null` where it is not STUN that refuses. */
+  /** `status`: STUN's error code, e.g. 401; `null` if the refusal does not come from STUN. */
   | { outcome: 'refused'; status: number | null; detail: string }
-  /** Not an address that can be used. */
+  /** The address cannot be used. */
   | { outcome: 'unusable'; detail: string };
 
-/** One target for each address. */
+/** One target per address. */
 export function iceTargets(servers: readonly IceServer[]): IceTarget[] {
   return servers.flatMap(({ urls, username = '', credential = '' }) =>
     (Array.isArray(urls) ? urls : [urls]).map((url) => ({ url, username, credential })),
   );
 }
 
-/** A binding of a STUN server, an allocation of a TURN server, by the robot's own means. Never throws. */
+/**
+ * Requests a binding from a STUN server or an allocation from a TURN server, with the robot's own ICE stack. Never
+ * throws.
+ */
 export async function probeIce(target: IceTarget, withinMs: number, now: () => number): Promise<IceAnswer> {
   const { url, username, credential } = target;
   const {
@@ -35,7 +38,8 @@ export async function probeIce(target: IceTarget, withinMs: number, now: () => n
   } = parseIceServers([{ urls: url, username, credential }]);
   const begin = now();
   if (turnServer !== undefined) {
-    // The stack drops a server's second refusal, which no key has signed: whether it lives is asked for by itself.
+    // The stack drops a server's second refusal because it is not signed with a key. A separate request tells whether
+    // the server is alive.
     const greeted =
       turnTransport === 'udp' ? await within(withinMs, request(turnServer, methods.ALLOCATE)) : null;
     if (greeted?.outcome === 'silent') return greeted;
@@ -88,7 +92,7 @@ async function request(server: Address, method: methods): Promise<IceAnswer> {
   }
 }
 
-/** Protocol 17 in the first byte, as the attribute has it. */
+/** Protocol 17 (UDP) in the first byte, as in the REQUESTED-TRANSPORT attribute. */
 const UDP_TRANSPORT = 0x11000000;
 
 type Address = readonly [host: string, port: number];

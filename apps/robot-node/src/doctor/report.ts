@@ -1,13 +1,13 @@
-/** The doctor's findings as people and as programs read them. */
+/** The doctor's report for people and for programs. */
 import type { Finding, Verdict } from './finding.ts';
 
 const SIGNS: Record<Verdict, string> = { ok: '✓', warn: '!', fail: '✗' };
 const NAME_WIDTH = 15;
 
-/** One line, and the remedy in the same line. */
+/** The finding and its remedy in one line. */
 export function findingLine({ check, verdict, detail, remedy }: Finding): string {
   const what = remedy === undefined ? detail : `${detail} → ${remedy}`;
-  // A message from elsewhere may have lines of its own.
+  // A message from another program may contain newlines.
   return `${SIGNS[verdict]} ${check.padEnd(NAME_WIDTH)} ${what.replaceAll(/\s*\n\s*/g, '; ')}\n`;
 }
 
@@ -17,7 +17,7 @@ export function summaryLine(findings: readonly Finding[]): string {
   return warn > 0 ? `Ready; ${warn} worth a look.\n` : 'Ready.\n';
 }
 
-/** `--json`: one object. */
+/** `--json`: a single object. */
 export function jsonReport(findings: readonly Finding[]): string {
   const { fail } = countVerdicts(findings);
   return `${JSON.stringify({ ready: fail === 0, findings }, null, 2)}\n`;

@@ -1,28 +1,28 @@
-/** Joins the robot's ROS graph and looks around. */
+/** Joins the robot's ROS graph and inspects it. */
 import { RosFault, type TopicTable } from '@farpoint/ros';
 import type { RobotOptions } from '../robot-configuration.ts';
 import { type GraphOptions, openGraph, ros2GraphOf } from '../ros/open-graph.ts';
 import { graphName, judgeHostname, judgeTopics } from './check-ros.ts';
 import { fail, ok, type Result } from './finding.ts';
 
-/** Discovery is given this long to find every topic of the table, ms. */
+/** Time that discovery has to find every topic of the table, ms. */
 const DISCOVERY_MS = 3000;
 const LOOK_MS = 100;
 
-/** The graph that source or sink take part in, `null` where neither does. */
+/** The graph that the source or sink joins; `null` if neither does. */
 export function graphOf({ sensors, sink }: RobotOptions): GraphOptions | null {
   for (const { capture } of sensors) if (capture.source.kind === 'ros') return capture.source.graph;
   return sink.kind === 'ros' ? sink.graph : null;
 }
 
-/** With a name of its own: of two nodes with one name a master ends the first. */
+/** Options with a different node name, because a ROS master ends the first of two nodes with the same name. */
 export function asDoctor(options: GraphOptions): GraphOptions {
   return { ...options, name: `${options.name ?? 'farpoint'}_doctor` };
 }
 
 /**
- * @param own as of {@link judgeTopics}
- * @param masterMs for an answer of the ROS 1 master
+ * @param own see {@link judgeTopics}
+ * @param masterMs time limit for an answer from the ROS 1 master
  */
 export async function checkRos(
   options: GraphOptions,
@@ -63,7 +63,7 @@ function carriedBy(options: GraphOptions): string {
   return ros2GraphOf(options) === 'dds' ? ', DDS' : `, rclnodejs with ROS ${process.env.ROS_DISTRO}`;
 }
 
-/** @returns what is wrong with the master, or `null` */
+/** @returns what is wrong with the master; `null` if nothing is */
 async function askMaster(url: string, withinMs: number): Promise<string | null> {
   const call =
     '<?xml version="1.0"?><methodCall><methodName>getPid</methodName><params><param><value><string>/farpoint_doctor</string></value></param></params></methodCall>';

@@ -1,4 +1,4 @@
-/** Is the robot at work on this machine? Its health endpoint says so. */
+/** Asks the health endpoint whether the robot is running on this machine. */
 import { createServer } from 'node:net';
 import * as z from 'zod';
 import { fail, ok, type Result } from './finding.ts';
@@ -11,9 +11,9 @@ const healthSchema = z.object({
 
 export type RunningRobot =
   | { state: 'runs'; uptimeSeconds: number; operators: number; healthy: boolean }
-  /** Another program has its port. */
+  /** Another program uses the port. */
   | { state: 'taken' }
-  /** The port cannot be had at all. */
+  /** The port cannot be opened at all. */
   | { state: 'refused'; detail: string }
   | { state: 'stands' };
 
@@ -61,7 +61,7 @@ export function judgeRunning(found: RunningRobot, host: string, port: number): R
   }
 }
 
-/** `null` where it is free, else why it cannot be had. */
+/** @returns `null` if the port is free, otherwise why it cannot be opened */
 function tryBind(host: string, port: number): Promise<string | null> {
   return new Promise((resolve) => {
     const server = createServer();

@@ -1,4 +1,4 @@
-/** Registers with the signaling service as the robot would, for a moment, and hears what it says. */
+/** Registers with the signaling service for a moment, as the robot would, and reports its answer. */
 import { randomBytes } from 'node:crypto';
 import { request as httpRequest } from 'node:http';
 import { request as httpsRequest } from 'node:https';
@@ -19,27 +19,28 @@ import type { ServerTime } from './check-clock.ts';
 
 export type SignalingTarget = Pick<SignalingOptions, 'url' | 'id' | 'name' | 'token' | 'ca'>;
 
-/** What came of it. */
+/** The outcome of the probe. */
 export type SignalingAnswer =
   | {
       outcome: 'welcome';
       iceServers: readonly IceServer[];
       milliseconds: number;
-      /** When its certificate runs out, ms since 1970; `null` without TLS. */
+      /** When the service's certificate expires, ms since 1970; `null` without TLS. */
       certificateUntilMs: number | null;
     }
   | { outcome: 'refused'; code: SignalingErrorCode; detail: string }
-  /** No WebSocket came about; `code` as the system or TLS names it, `''` where neither does. */
+  /** The WebSocket could not be opened; `code` as the system or TLS names it, `''` if neither does. */
   | { outcome: 'unreachable'; code: string; detail: string }
-  /** One came about, and nothing was said in time. */
+  /** The WebSocket was opened, but no message arrived in time. */
   | { outcome: 'silent' }
-  /** What was said is no message of ours. */
+  /** The message that arrived is not one of ours. */
   | { outcome: 'unreadable'; detail: string };
 
 /**
- * A random key makes sure that a robot that is registered under this id stays so: we are refused, not it.
+ * Uses a random key, so that a robot already registered under this id stays registered: the service refuses us, not
+ * it.
  *
- * @param withinMs for all of it
+ * @param withinMs time limit for everything
  */
 export function probeSignaling(
   target: SignalingTarget,
@@ -60,7 +61,7 @@ export function probeSignaling(
       clearTimeout(timer);
       resolve(answer);
       socket.close();
-      // Who does not answer the closing is left alone.
+      // A service that does not answer the close is not waited for.
       setTimeout(() => socket.terminate(), 200).unref();
     };
     const timer = setTimeout(() => end({ outcome: 'silent' }), withinMs);
@@ -91,14 +92,14 @@ export function probeSignaling(
     });
     socket.on('error', (error) => {
       const { code = '', message } = error as NodeJS.ErrnoException;
-      // With several addresses only the code says what each of them had.
+      // With several addresses, only the code says what failed.
       end({ outcome: 'unreachable', code, detail: message || code });
     });
     socket.on('close', (code) => end({ outcome: 'unreadable', detail: `closed with code ${code}` }));
   });
 }
 
-/** The service's `Date`, or `null`. */
+/** The service's `Date`; `null` if there is none. */
 export function askTime(
   target: SignalingTarget,
   withinMs: number,

@@ -1,4 +1,4 @@
-/** Opens the source as the robot would, in a thread of its own, and watches what it gives. */
+/** Opens the source as the robot would, in its own thread, and observes its frames. */
 import { Capture } from '../capture/capture.ts';
 import type { CaptureOptions } from '../capture/capture-messages.ts';
 import type { SourceDescription } from '../capture/frame-source.ts';
@@ -7,22 +7,22 @@ import { CODED_FORMATS } from '../encode/plan.ts';
 export interface SourceTrial {
   description: SourceDescription;
   frames: number;
-  /** Between the first and the last frame, s. */
+  /** Time between the first and the last frame, s. */
   seconds: number;
-  /** Of the last frame: points that could be sent. */
+  /** Points of the last frame that could be sent. */
   validPoints: number;
-  /** How long it took to take and to encode a frame, ms, mean. */
+  /** Mean time to capture and encode a frame, ms. */
   workMs: number;
   faults: readonly string[];
 }
 
-/** More than any camera takes: the trial is of the source, not of a link. */
+/** More than any camera needs: the trial tests the source, not a link. */
 const BITS_PER_SECOND = 200e6;
 const PACKET_OVERHEAD_BYTES = 60;
 
 /**
- * @param watchMs how long to watch once it is open
- * @throws {CaptureError} where it cannot be opened, saying why
+ * @param watchMs how long to observe the source once it is open
+ * @throws {CaptureError} if it cannot be opened, with the reason
  */
 export async function trySource(options: CaptureOptions, watchMs: number): Promise<SourceTrial> {
   const capture = await Capture.start(options);
@@ -61,7 +61,7 @@ export async function trySource(options: CaptureOptions, watchMs: number): Promi
     await Promise.race([watched, broken]);
   } finally {
     clearTimeout(timer);
-    // A source that hangs at its end is not waited for: the program ends anyhow.
+    // Do not wait for a source that hangs while closing: the program ends anyway.
     void capture.close();
   }
   return { description: capture.description, ...trial, seconds: (lastMs - firstMs) / 1000, faults };

@@ -1,4 +1,4 @@
-/** Why the robot could not start, in the words that the doctor has for it. */
+/** Explains why the robot could not start, in the doctor's words. */
 import { RecordingError } from '@farpoint/recording';
 import { RosFault } from '@farpoint/ros';
 import { StartFailure } from '@farpoint/service';
@@ -11,7 +11,7 @@ import type { Result } from './finding.ts';
 
 /**
  * @param error thrown by the robot's start
- * @returns a StartFailure that says what to do, or what was thrown where the doctor has no words for it
+ * @returns a StartFailure that says what to do, or `error` itself if the doctor has no explanation
  */
 export function startFailure({ sensors, sink, record }: RobotOptions, error: unknown): unknown {
   const sources = sensors.map(({ capture }) => capture.source);
@@ -32,7 +32,7 @@ export function startFailure({ sensors, sink, record }: RobotOptions, error: unk
   return error;
 }
 
-/** By the first failed result; where everything looks well by now, by what was thrown. */
+/** Uses the first failed result, or the original error if every check passes by now. */
 function failure(error: Error, results: readonly Result[], otherwise = ''): StartFailure {
   const found = results.find(({ verdict }) => verdict === 'fail');
   return new StartFailure(found?.detail ?? error.message, found?.remedy ?? otherwise, { cause: error });

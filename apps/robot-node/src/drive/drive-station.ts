@@ -1,12 +1,12 @@
 import type { Twist } from '@farpoint/protocol';
 import type { DriveGuard } from '@farpoint/safety';
 
-/** The worker's own watchdog must hear from us well within its time. */
+/** Refresh interval, ms: well within the time of the worker's own watchdog. */
 const REFRESH_MS = 40;
 
 /**
- * Carries the guard's velocity to the wheels: at once when something changed, again at the guard's own deadline, and at
- * a steady rhythm so that the wheels notice when this thread hangs.
+ * Carries the guard's velocity to the wheels: immediately after a change, at the guard's own deadline, and at a fixed
+ * interval, so that the wheels notice when this thread hangs.
  */
 export class DriveStation {
   readonly guard: DriveGuard;
@@ -22,7 +22,7 @@ export class DriveStation {
     this.#refresh = setInterval(() => this.apply(), REFRESH_MS);
   }
 
-  /** Call after every change of the guard. */
+  /** Call this after every change of the guard. */
   apply(): void {
     const now = this.#now();
     this.#setTwist(this.guard.velocityAt(now));
@@ -30,7 +30,7 @@ export class DriveStation {
     this.#deadline = null;
     const deadlineMs = this.guard.nextDeadlineMs;
     if (deadlineMs === null || deadlineMs <= now) return;
-    // Timers may fire a little early: then `apply` arms another.
+    // Timers may fire slightly early; `apply` then arms another one.
     this.#deadline = setTimeout(() => this.apply(), Math.ceil(deadlineMs - now));
   }
 

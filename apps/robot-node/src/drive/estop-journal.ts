@@ -1,6 +1,7 @@
 /**
- * Remembers the emergency stop over the robot's restarts, and whether the last run ended in order. A reset must not start
- * the machine (ISO 13850, 4.1.4), and a crash is no release: after either the robot starts with its emergency stop latched.
+ * Remembers the emergency stop across restarts of the robot, and whether the last run ended cleanly. A reset must not
+ * start the machine (ISO 13850, 4.1.4), and a crash does not release the stop. After either, the robot starts with
+ * its emergency stop latched.
  */
 import { mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -9,7 +10,7 @@ import { z } from 'zod';
 
 const runSchema = z.strictObject({
   version: z.literal(1),
-  /** Set for as long as the robot runs. */
+  /** True while the robot runs. */
   running: z.boolean(),
   /** Who latched the emergency stop; `null` while it is released. */
   latchedBy: z.enum(['operator', 'robot']).nullable(),
@@ -25,7 +26,7 @@ export type LatchedStart =
   | 'unwritable'; // nothing can be remembered, so that the next start could not tell a crash
 
 export interface RunStart {
-  /** `null`: nothing speaks against driving. */
+  /** `null`: the robot may start unlatched. */
   latched: { by: EstopSource; reason: LatchedStart; detail: string } | null;
 }
 
@@ -37,11 +38,11 @@ export class EstopJournal {
   #ended = false;
 
   /**
-   * Reads what the last run left, and notes that another one runs.
+   * Reads the state that the last run left, and records that a new run has begun.
    *
-   * @param folder made where it is not there
-   * @param robotId names the file: robots of one machine may share the folder
-   * @param onFault a change could not be written; the robot goes on, and the next start is latched
+   * @param folder created if it does not exist
+   * @param robotId names the file, because robots on one machine may share the folder
+   * @param onFault called if a change could not be written; the robot goes on, and its next start is latched
    */
   constructor(folder: string, robotId: string, onFault: (error: Error) => void) {
     this.#path = join(folder, `${robotId}.run.json`);
@@ -58,14 +59,14 @@ export class EstopJournal {
     this.start = { latched };
   }
 
-  /** The emergency stop was latched or released. */
+  /** Records that the emergency stop was latched or released. */
   changed(latchedBy: EstopSource | null): void {
     if (this.#ended || latchedBy === this.#latchedBy) return;
     this.#latchedBy = latchedBy;
     this.#tryWrite(true);
   }
 
-  /** The run ends in order. Nothing is noted after it. */
+  /** Records a clean end of the run. Nothing is recorded after it. */
   end(): void {
     if (this.#ended) return;
     this.#ended = true;
@@ -80,7 +81,7 @@ export class EstopJournal {
     }
   }
 
-  /** A reader finds the old file or the new one, never half of one. */
+  /** Replaces the file atomically: a reader finds either the old or the new file. */
   #write(running: boolean): void {
     const run: Run = { version: 1, running, latchedBy: this.#latchedBy };
     const draft = `${this.#path}.new`;

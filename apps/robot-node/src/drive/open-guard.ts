@@ -8,11 +8,14 @@ export interface GuardOptions {
   id: string;
   limits: DriveLimits;
   takePolicy: TakePolicy;
-  /** Where the robot remembers its emergency stop over restarts. */
+  /** Where the robot remembers its emergency stop across restarts. */
   stateFolder: string;
 }
 
-/** The drive guard, latched where the emergency stop outlives the last run, and the journal that will say so to the next. */
+/**
+ * Creates the drive guard, latched if the emergency stop outlives the last run, and the journal that preserves it for
+ * the next run.
+ */
 export function openGuard(
   { id, limits, takePolicy, stateFolder }: GuardOptions,
   log: Logger,

@@ -6,7 +6,7 @@ import { SharedMemorySink } from './shm-sink.ts';
 import type { VelocitySink } from './velocity-sink.ts';
 
 export type SinkOptions =
-  /** The simulated base, where there is one; else nothing moves. */
+  /** The simulated base if there is one; otherwise nothing moves. */
   | { kind: 'base' }
   /** The reference system's command block in shared memory. */
   | { kind: 'shm'; folder: string; mode: number; silenceMs: number }

@@ -1,4 +1,4 @@
-/** What the main thread and the thread that publishes velocities say to each other. */
+/** Messages between the main thread and the thread that publishes velocities. */
 import type { Twist } from '@farpoint/protocol';
 import type { TopicEntry } from '@farpoint/ros';
 import type { GraphOptions } from '../ros/open-graph.ts';
@@ -6,16 +6,16 @@ import type { GraphOptions } from '../ros/open-graph.ts';
 export interface RosDriveOptions {
   graph: GraphOptions;
   entry: TopicEntry;
-  /** Without a word for so long the velocity is zero, ms. */
+  /** After this long without a velocity, zero is published, ms. */
   silenceMs: number;
 }
 
 export type RosDriveRequest = { type: 'twist'; twist: Twist; hold: boolean } | { type: 'close' };
 
 export type RosDriveReport =
-  /** Something is wrong that may pass. */
+  /** A fault that may be temporary. */
   | { type: 'fault'; detail: string }
-  /** How many nodes listen to the velocity, at each change. */
+  /** The number of nodes that subscribe to the velocity, at each change. */
   | { type: 'listeners'; count: number }
-  /** It cannot be published at all. */
+  /** Publishing is impossible. */
   | { type: 'failed'; detail: string };

@@ -1,5 +1,5 @@
 /**
- * The thread that publishes velocities: by itself it makes them zero when the main thread hangs, which no timer of the
+ * The thread that publishes velocities. It publishes zero by itself when the main thread hangs, which no timer in the
  * main thread could do.
  */
 import { parentPort, workerData } from 'node:worker_threads';
@@ -20,7 +20,7 @@ try {
   const graph = await openGraph(options.graph, 'drive');
   let lastFault = '';
   graph.onFault = ({ message }) => {
-    // While it is tried again and again it is said once.
+    // Report a fault once, not at every retry.
     if (message !== lastFault) send({ type: 'fault', detail: message });
     lastFault = message;
   };

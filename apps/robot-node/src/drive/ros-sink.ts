@@ -5,7 +5,7 @@ import type { Logger } from '@farpoint/service';
 import type { RosDriveOptions, RosDriveReport, RosDriveRequest } from './ros-drive-messages.ts';
 import type { VelocitySink } from './velocity-sink.ts';
 
-/** Publishes velocities to a ROS graph, from a thread of its own. */
+/** Publishes velocities to a ROS graph from its own thread. */
 export class RosSink implements VelocitySink {
   readonly kind: string;
   readonly #worker: Worker;
@@ -40,7 +40,7 @@ export class RosSink implements VelocitySink {
     });
   }
 
-  /** Whether anybody listens. */
+  /** Reports whether any node subscribes. */
   tellReadings(listener: (reading: TopicReading) => void): void {
     this.#onReading = listener;
     if (this.#reading !== null) listener(this.#reading);
@@ -50,7 +50,7 @@ export class RosSink implements VelocitySink {
     this.#post({ type: 'twist', twist, hold: estop });
   }
 
-  /** Ends when the last zero has been handed to the graph. */
+  /** Resolves when the last zero has been handed to the graph. */
   async close(): Promise<void> {
     this.#post({ type: 'close' });
     await this.#ended;

@@ -1,4 +1,7 @@
-/** Velocities as a ROS topic wants them: steady while driven, zero at once on silence, and then none, for others to drive. */
+/**
+ * Publishes velocities as a ROS topic expects them: at a steady rate while driven, zero immediately on silence, and
+ * then nothing, so that others can drive.
+ */
 import { isZeroTwist, type Twist, zeroTwist } from '@farpoint/protocol';
 import {
   type Publisher,
@@ -12,7 +15,7 @@ import { Watchdog } from '@farpoint/safety';
 
 export interface RosVelocityOptions {
   entry: TopicEntry;
-  /** Without a word for so long the velocity is zero, ms. */
+  /** After this long without a velocity, zero is published, ms. */
   silenceMs: number;
   /** Robot’s clock, ms. */
   now: () => number;
@@ -20,26 +23,29 @@ export interface RosVelocityOptions {
   wallNs: () => bigint;
 }
 
-/** Zeros that are published after the last motion, ms: a base that lost one hears others, then Nav2 may drive. */
+/**
+ * How long zeros are published after the last motion, ms. A base that loses one receives others; afterwards Nav2 may
+ * drive.
+ */
 const TAIL_MS = 1000;
-/** While nothing is heard, zeros come so often, ms. */
+/** Interval between zeros during silence, ms. */
 const REPEAT_MS = 40;
 const FRAME = 'base_link';
 
-/** Call `apply` at each word on the velocity, and at a steady rhythm; `tick` at least every few ms of the silence time. */
+/** Call `apply` at each velocity and at a steady rate. Call `tick` at least every few ms of the silence time. */
 export class RosVelocity {
-  /** How often silence made it zero. */
+  /** How often silence made the velocity zero. */
   silences = 0;
   readonly #publisher: Publisher;
   readonly #write: VelocityWriter;
   readonly #options: RosVelocityOptions;
   #twist: Twist = zeroTwist();
   readonly #watchdog: Watchdog;
-  /** Zeros are published until then. */
+  /** Zeros are published until this time. */
   #tailEndMs = Number.NEGATIVE_INFINITY;
   #sentMs = Number.NEGATIVE_INFINITY;
 
-  /** @throws {RosFault} where the graph refuses the topic */
+  /** @throws {RosFault} if the graph refuses the topic */
   constructor(graph: RosGraph, options: RosVelocityOptions) {
     this.#options = options;
     this.#watchdog = new Watchdog(options.silenceMs);
@@ -52,7 +58,7 @@ export class RosVelocity {
     return this.#publisher.subscribers;
   }
 
-  /** @param hold publish zeros for as long as this is said: an emergency stop is meant for other drivers, too */
+  /** @param hold publish zeros for as long as this is true, because an emergency stop also applies to other drivers */
   apply(twist: Twist, hold: boolean): void {
     const now = this.#options.now();
     this.#watchdog.feed(now);
@@ -61,10 +67,10 @@ export class RosVelocity {
     this.#publish(now);
   }
 
-  /** Looks whether there was silence. */
+  /** Checks for silence. */
   tick(): void {
     const now = this.#options.now();
-    // Before the first word there is nothing to repeat.
+    // Before the first velocity there is nothing to repeat.
     if (!this.#wasFed || !this.#watchdog.expired(now)) return;
     if (!isZeroTwist(this.#twist)) {
       this.silences++;
@@ -74,7 +80,7 @@ export class RosVelocity {
     if (now - this.#sentMs >= REPEAT_MS) this.#publish(now);
   }
 
-  /** Zero, and lets go of the topic. */
+  /** Publishes zero and releases the topic. */
   close(): void {
     if (this.#wasFed && this.#options.now() < this.#tailEndMs) this.#send(zeroTwist());
     this.#publisher.close();

@@ -3,7 +3,7 @@ import type { Logger } from '@farpoint/service';
 import type { ReferenceControlWriter } from '@farpoint/shared-memory';
 import type { VelocitySink } from './velocity-sink.ts';
 
-/** Writes the command block; a native thread makes it zero where this process's threads hang. */
+/** Writes the command block. A native thread sets it to zero when this process's threads hang. */
 export class SharedMemorySink implements VelocitySink {
   readonly kind = 'shm';
   readonly #writer: ReferenceControlWriter;
@@ -20,7 +20,7 @@ export class SharedMemorySink implements VelocitySink {
       this.#writer.write(twist);
       this.#failing = false;
     } catch (error) {
-      // It is tried again with the next beat; what reads the block stops once its counter stands still.
+      // The next beat retries. Whatever reads the block stops when its counter stands still.
       if (!this.#failing) this.#log.error({ err: error }, 'the velocity could not be written');
       this.#failing = true;
     }

@@ -1,31 +1,31 @@
 import type { CodedFormat } from './plan.ts';
 
-/** What the stream may take. */
+/** The share of the path that the stream may use. */
 export interface CaptureBudget {
   targetBitsPerSecond: number;
   /** Bytes that the transport adds to each payload. */
   overheadBytes: number;
-  /** With nobody watching nothing is captured. */
+  /** If nobody is watching, nothing is captured. */
   streaming: boolean;
   /**
-   * The rate control wants to try the link: one frame, the next, is to have at least so many bytes on the wire. Each
-   * `clusterId` is one such wish.
+   * The rate controller wants to probe the link: one frame, the next, should have at least this many bytes on the
+   * wire. Each `clusterId` is one such request.
    */
   probe: { clusterId: number; bytes: number } | null;
-  /** The coded formats that may be used, where they fit a frame: each is read by somebody who decides. */
+  /** Coded formats that may be used if they fit a frame. Each is read by at least one operator whose path decides. */
   coded: readonly CodedBudget[];
 }
 
-/** What frames in one coded format may take. */
+/** What frames in one coded format may use. */
 export interface CodedBudget {
   format: CodedFormat;
-  /** Of those who decide and read it, bit/s. */
+  /** Bit rate for those operators that read this format and whose paths decide, bit/s. */
   targetBitsPerSecond: number;
-  /** Beside them: what those may be sent who do not read it, as `points64`, bit/s; `null` where there are none. */
+  /** Bit rate in addition, for `points64` to those who do not read this format, bit/s; `null` if there are none. */
   plainBitsPerSecond: number | null;
 }
 
-/** Nobody watches. */
+/** The budget when nobody is watching. */
 export const NO_BUDGET: CaptureBudget = {
   targetBitsPerSecond: 0,
   overheadBytes: 0,

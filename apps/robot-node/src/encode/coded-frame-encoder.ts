@@ -5,13 +5,15 @@ import { OrganisedFrameEncoder } from './organised-frame-encoder.ts';
 import type { CodedFormat } from './plan.ts';
 import { UnorganisedFrameEncoder } from './unorganised-frame-encoder.ts';
 
-/** What receivers need before a format's packets. */
+/** What receivers need before the packets of a format. */
 export interface CodedStream {
   format: CodedFormat;
   header: Uint8Array;
 }
 
-/** The best of our own formats for a frame: `organised` where it lies on a camera's grid, else `unorganised`. */
+/**
+ * Encodes a frame in the best of our own formats: `organised` if it lies on a camera's grid, otherwise `unorganised`.
+ */
 export class CodedFrameEncoder {
   readonly #codec: Codec;
   readonly #source: SourceDescription;
@@ -30,12 +32,12 @@ export class CodedFrameEncoder {
     this.#organised = source.height > 1 ? this.#makeOrganised() : null;
   }
 
-  /** Where the next frame is best put: into the memory of the encoder of the last. */
+  /** The best place for the next frame: the memory of the encoder that the last frame used. */
   get room(): CaptureRoom {
     return (this.#last ?? this.#organised ?? this.#makeUnorganised()).room;
   }
 
-  /** What the next frame will most likely be coded in; `null` where none of `allowed` comes into question. */
+  /** The most likely format of the next frame; `null` if none of `allowed` is possible. */
   likelyFormat(allowed: readonly CodedFormat[]): CodedFormat | null {
     const last = this.#stream?.format;
     if (last !== undefined && allowed.includes(last)) return last;
@@ -43,7 +45,7 @@ export class CodedFrameEncoder {
     return this.#source.camera === null && allowed.includes('unorganised') ? 'unorganised' : null;
   }
 
-  /** Of the last frame; another object where it changed. */
+  /** The stream of the last frame. A new object whenever it changes. */
   get stream(): CodedStream | null {
     return this.#stream;
   }
@@ -52,7 +54,7 @@ export class CodedFrameEncoder {
    * @param allowed the formats that somebody reads
    * @param budgetBytes for the data of all packets
    * @param latencyTest makes the whole frame green
-   * @returns `null` where there is no format for this frame but `points64`
+   * @returns `null` if `points64` is the only format for this frame
    * @throws {CodecError} for a frame beyond the capacity
    */
   encode(
@@ -64,7 +66,7 @@ export class CodedFrameEncoder {
   ): EncodedFrame | null {
     const fits = allowed.includes('organised') && this.#organised?.take(frame, this.#source.camera) === true;
     if (!fits && !allowed.includes('unorganised')) return null;
-    // Making the other encoder may move the codec's memory, and with it a frame that lies there.
+    // Creating the other encoder may move the codec's memory, and with it a frame that lies there.
     const kept =
       !fits && frame.form === 'points' && this.#unorganised === null
         ? { ...frame, points: frame.points.slice(0, frame.count * 4) }
@@ -94,7 +96,7 @@ export class CodedFrameEncoder {
     return this.#unorganised;
   }
 
-  /** `null` for a grid that is larger than the format's. */
+  /** `null` for a grid that is too large for the format. */
   #makeOrganised(): OrganisedFrameEncoder | null {
     try {
       return new OrganisedFrameEncoder(this.#codec, this.#source, this.#sampling, this.#now);

@@ -11,13 +11,13 @@ export interface SamplingOptions {
   depthMeasure: 'z' | 'range';
 }
 
-/** What an encoder is made with. */
+/** Options for creating an encoder. */
 export interface EncoderOptions extends SamplingOptions {
-  /** The sensor's number, for the placement. */
+  /** The sensor's number, written to the placement. */
   sensor: number;
 }
 
-/** What came of encoding one frame; its packets wait in the encoder. */
+/** The result of encoding one frame. Its packets wait in the encoder. */
 export interface EncodedFrame {
   format: CloudFormat;
   frameNumber: number;
@@ -27,14 +27,14 @@ export interface EncodedFrame {
   validPoints: number;
   rejected: RejectedPoints;
   saturated: number;
-  /** Choosing points, and turning them into packets, ms. */
+  /** Time to choose points and turn them into packets, ms. */
   sampleMs: number;
   packMs: number;
 }
 
-/** A frame's packets lie in its encoder until the next. */
+/** Holds a frame's packets until the next frame. */
 export interface PacketSource {
-  /** The codec's own memory: a frame that lies there already is not copied. */
+  /** The codec's own memory. A frame that already lies there is not copied. */
   readonly room: CaptureRoom;
   /** Copies the packets of the last encoded frame out of the codec's memory. */
   copyPackets(into: Uint8Array, packets: number): void;
@@ -58,8 +58,8 @@ export function placementOf(
 }
 
 /**
- * Views of an encoder's memory, taken when they are asked for: what nobody asks for is not made. Making the images
- * may move the points given out before, so ask for points or for images.
+ * Views of an encoder's memory, each created when it is first read. Creating the images may move the points view
+ * created before, so read either points or images.
  */
 export function roomOf(encoder: {
   frame: Float32Array;

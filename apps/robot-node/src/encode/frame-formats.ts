@@ -6,7 +6,7 @@ import type { EncodedFrame, EncoderOptions, PacketSource } from './encoded-frame
 import type { CodedFormat, FramePlanner, PlanInput } from './plan.ts';
 import { Points64FrameEncoder } from './points64-frame-encoder.ts';
 
-/** Whom a frame is for: those who read a coded format, those who do not, or everyone. */
+/** The operators that a frame is for: those who read a coded format, those who do not, or everyone. */
 export type FrameAudience = 'everyone' | { readers: CodedFormat } | { others: CodedFormat };
 
 export interface FormattedFrame {
@@ -18,17 +18,17 @@ export interface FormattedFrame {
 export interface FormatRequest {
   frameNumber: number;
   budget: CaptureBudget;
-  /** Bytes of a train of packets that the rate control waits for; 0 for none. */
+  /** Bytes of the packet train that the rate controller wants; 0 for none. */
   probeBytes: number;
-  /** Processor time that a frame takes, ms. */
+  /** Processor time per frame, ms. */
   workMs: number;
   latencyTest: boolean;
 }
 
 export interface FormattedFrames {
-  /** Until the next, as planned, ms. */
+  /** Planned time until the next frame, ms. */
   intervalMs: number;
-  /** What frames like it could use at most, bit/s on the wire. */
+  /** The highest bit rate that frames like this one could use, bit/s on the wire. */
   usefulBitsPerSecond: number;
   frames: FormattedFrame[];
 }
@@ -38,7 +38,7 @@ export class FrameFormats {
   readonly #planner: FramePlanner;
   readonly #points64: Points64FrameEncoder;
   readonly #makeCoded: () => CodedFrameEncoder;
-  /** Made when first wanted: it is megabytes of memory. */
+  /** Created when first needed, because it takes megabytes of memory. */
   #coded: CodedFrameEncoder | null = null;
 
   constructor(
@@ -54,20 +54,20 @@ export class FrameFormats {
     this.#makeCoded = () => new CodedFrameEncoder(codec, source, options, now);
   }
 
-  /** What receivers of coded frames need; another object where it changed. */
+  /** What receivers of coded frames need. A new object whenever it changes. */
   get stream(): CodedStream | null {
     return this.#coded?.stream ?? null;
   }
 
-  /** Memory of the codec's own for the next frame. @param coded it will be encoded in a coded format */
+  /** Codec memory for the next frame. @param coded whether it will be encoded in a coded format */
   room(coded: boolean): CaptureRoom {
-    // Made before a frame lies in the codec's memory: making it may move that memory.
+    // Create the encoder before a frame lies in the codec's memory, because creating it may move that memory.
     if (coded) this.#coded ??= this.#makeCoded();
     return (coded ? this.#coded : null)?.room ?? this.#points64.room;
   }
 
   /**
-   * The packets of each of `frames` lie in its encoder until the next call.
+   * The packets of each of `frames` remain in its encoder until the next call.
    *
    * @throws {CodecError} for a frame beyond the source's capacity
    */
@@ -89,7 +89,7 @@ export class FrameFormats {
     const frames: FormattedFrame[] = [formatted];
     const plain = budget.coded.find((one) => one.format === format)?.plainBitsPerSecond ?? null;
     if (plain !== null) {
-      // At the frame rate of the others: whoever reads only this has a stream that is wasteful enough.
+      // Use the coded stream's frame rate: `points64` takes enough of the link as it is.
       const points = this.#planner.pointsAt(framesPerSecond, { ...input, targetBitsPerSecond: plain });
       const encoded = this.#points64.encode(frame, frameNumber, points, latencyTest);
       frames.push({ encoded, audience: { others: format }, packets: this.#points64 });
@@ -98,7 +98,7 @@ export class FrameFormats {
     return { intervalMs: 1000 / framesPerSecond, usefulBitsPerSecond, frames };
   }
 
-  /** @returns `null` where nobody reads a coded format that fits the frame */
+  /** @returns `null` if nobody reads a coded format that fits the frame */
   #encodeCoded(
     frame: SourceFrame,
     { frameNumber, budget, latencyTest }: FormatRequest,

@@ -10,7 +10,7 @@ import {
 } from './encoded-frame.ts';
 import { Packetiser, SLOT_BYTES, SLOT_DATA_OFFSET } from './packetiser.ts';
 
-/** From a depth camera's frame to finished `organised` packets (docs/organised-codec.md). */
+/** Encodes a depth camera's frame into complete `organised` packets (docs/organised-codec.md). */
 export class OrganisedFrameEncoder implements PacketSource {
   readonly #encoder: OrganisedEncoder;
   readonly #sampling: EncoderOptions;
@@ -18,10 +18,10 @@ export class OrganisedFrameEncoder implements PacketSource {
   readonly #packetiser = new Packetiser();
   readonly room: CaptureRoom;
   #camera: Pinhole | null = null;
-  /** The stream's header, `null` before the first frame that fits. */
+  /** The stream's header; `null` before the first frame that fits. */
   header: Uint8Array | null = null;
 
-  /** @throws {CodecError} for a grid that is larger than the format's */
+  /** @throws {CodecError} for a grid that is too large for the format */
   constructor(
     codec: Codec,
     source: Pick<SourceDescription, 'width' | 'height'>,
@@ -40,10 +40,10 @@ export class OrganisedFrameEncoder implements PacketSource {
   }
 
   /**
-   * Takes the frame in, and begins a stream where it is the first of its camera.
+   * Takes a frame. Begins a new stream at the first frame of a camera.
    *
-   * @param camera of images; that of points is estimated from them
-   * @returns false where the points do not lie on a camera's grid
+   * @param camera of images; for points, it is estimated from them
+   * @returns false if the points do not lie on a camera's grid
    */
   take(frame: SourceFrame, camera: Pinhole | null): boolean {
     const encoder = this.#encoder;
@@ -70,7 +70,7 @@ export class OrganisedFrameEncoder implements PacketSource {
   }
 
   /**
-   * Encodes the frame taken in.
+   * Encodes the frame that was taken.
    *
    * @param budgetBytes for the data of all packets
    * @param latencyTest makes the whole frame green

@@ -1,4 +1,4 @@
-/** Puts header and placement around the data that a codec has left in a frame's slots. */
+/** Adds header and placement to the data that a codec has written to a frame's slots. */
 import {
   BYTES_PER_POINT,
   MAX_POINT_DATA_BYTES,
@@ -10,9 +10,12 @@ import {
   writePointPacketHeader,
 } from '@farpoint/protocol';
 
-/** One packet's room: header, data and placement (at most 1244 bytes), and in the last two bytes the payload's length. */
+/**
+ * Room for one packet: header, data and placement (at most 1244 bytes), and the payload's length in the last two
+ * bytes.
+ */
 export const SLOT_BYTES = 1248;
-/** Where a codec puts a slot's data. */
+/** Offset of the codec's data in a slot. */
 export const SLOT_DATA_OFFSET = POINT_PACKET_HEADER_BYTES;
 const LENGTH_OFFSET = SLOT_BYTES - 2;
 
@@ -27,12 +30,12 @@ export function slotPayloadBytes(slots: Uint8Array, index: number): number {
   return (slots[at] as number) | ((slots[at + 1] as number) << 8);
 }
 
-/** Where in its frame a slot's packet lies, as its header says. */
+/** The sequence offset of a slot's packet within its frame, from its header. */
 export function slotSequenceOffset(slots: Uint8Array, index: number): number {
   return new DataView(slots.buffer, slots.byteOffset + index * SLOT_BYTES).getUint32(8, true);
 }
 
-/** Completes the packets of one frame in place: tell it how many points and bytes of data each slot holds. */
+/** Completes the packets of one frame in place. The caller says how many points and bytes of data each slot holds. */
 export class Packetiser {
   readonly #header = { frameNumber: 0, frameLength: 0, sequenceOffset: 0, sequenceLength: 0 };
   #view: DataView = new DataView(new ArrayBuffer(0));
@@ -41,8 +44,8 @@ export class Packetiser {
   #point = 0;
 
   /**
-   * @param slots packet i at byte i × SLOT_BYTES, its data already at SLOT_DATA_OFFSET of it
-   * @param points of the whole frame
+   * @param slots packet i starts at byte i × SLOT_BYTES; its data is already at SLOT_DATA_OFFSET
+   * @param points number of points in the whole frame
    */
   begin(slots: Uint8Array, frameNumber: number, points: number, placement: Placement): void {
     this.#view = new DataView(slots.buffer, slots.byteOffset, slots.byteLength);
@@ -53,7 +56,7 @@ export class Packetiser {
     this.#point = 0;
   }
 
-  /** The next slot. */
+  /** Completes the next slot. */
   add(points: number, dataBytes: number): void {
     const at = this.#count * SLOT_BYTES;
     const header = this.#header;
@@ -68,7 +71,7 @@ export class Packetiser {
 }
 
 /**
- * A whole frame of `points64`.
+ * Completes a whole frame of `points64`.
  *
  * @returns the number of packets
  */

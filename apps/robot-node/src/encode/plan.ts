@@ -1,10 +1,11 @@
 /**
- * From a bit rate, counted on the wire, to frames a second and points a frame. Two policies:
+ * Turns a bit rate, counted on the wire, into frames per second and points per frame. Two policies:
  *
- * - `paper`: every frame of the source, as many points as the paper's equations 2 and 3 say.
- * - `latency`: as many frames a second as can still be read as pictures. What an operator waits for is the next capture
- *   and the sending of one frame; both last as long as a frame interval, so smaller frames halve them. The floor is one
- *   packet a frame: on a link that carries nothing, commands and telemetry matter more than the paper's floor of points.
+ * - `paper`: every frame of the source, with the number of points from the paper's equations 2 and 3.
+ * - `latency`: as many frames per second as still make readable pictures. An operator waits for the next capture and
+ *   then for one frame to be sent. Each lasts a frame interval, so halving the frames halves the wait. The floor is
+ *   one packet per frame: on a link that carries nothing, commands and telemetry matter more than the paper's floor
+ *   of points.
  */
 
 import {
@@ -22,26 +23,26 @@ export type PlanPolicy = (typeof PLAN_POLICIES)[number];
 
 export interface PlanOptions {
   policy: PlanPolicy;
-  /** What the source can give, frames a second. */
+  /** The source's highest frame rate, frames/s. */
   mostFramesPerSecond: number;
-  /** It gives a frame whenever it is asked: what this computer can do need not be a whole fraction of that. */
+  /** The source gives a frame whenever it is asked, so the rate need not be a whole fraction of the highest. */
   anyRate: boolean;
-  /** Equation 3's fraction of the raw cloud a second that is sent whatever the rate; for the policy `paper`. */
+  /** Equation 3's fraction of the raw cloud per second that is sent at any bit rate; for the policy `paper`. */
   floorFraction: number;
-  /** The configuration's own limit of points a frame. */
+  /** The configured limit of points per frame. */
   mostPoints: number;
 }
 
 export interface PlanInput {
-  /** What the stream may take on the wire, all headers counted, bit/s. */
+  /** The stream's bit rate on the wire, all headers counted, bit/s. */
   targetBitsPerSecond: number;
-  /** Points of the raw cloud. */
+  /** Number of points in the raw cloud. */
   rawPoints: number;
   /** Bytes that the transport adds to each payload: RTP, SRTP, UDP, IP. */
   overheadBytes: number;
-  /** The rate control wants to try the link with a train of so many bytes on the wire; 0 for none. */
+  /** The rate controller wants to probe the link with a train of this many bytes on the wire; 0 for none. */
   probeBytes: number;
-  /** How long the capture thread works on a frame, by the clock: whatever else keeps the processors busy counts, ms. */
+  /** Wall-clock time that the capture thread takes per frame, ms. It includes waiting for busy processors. */
   workMs: number;
 }
 
@@ -52,44 +53,47 @@ export const CODED_FORMATS: readonly CodedFormat[] = ['organised', 'unorganised'
 
 export interface FramePlan {
   framesPerSecond: number;
-  /** Whole packets' worth. */
+  /** A multiple of whole packets. */
   points: number;
 }
 
-/** The same for a coded format, whose bits a point depend on the frame. */
+/** The plan for a coded format, whose bits per point depend on the frame. */
 export interface CodedPlan {
   framesPerSecond: number;
-  /** For the data of all packets. */
+  /** Bytes for the data of all packets. */
   budgetBytes: number;
 }
 
-/** Fewer points do not make a picture of a room: rather fewer frames. */
+/** Fewer points do not make a picture of a room. The frame rate drops instead. */
 const LEAST_POINTS = 3000;
 const LEAST_BYTES = LEAST_POINTS;
-/** … but the world must still move, frames a second. */
+/** Lowest frame rate at which the world still appears to move, frames/s. */
 const LEAST_FRAMES_PER_SECOND = 10;
-/** A higher frame rate is chosen only where it can be kept when the link gives a little less. */
+/** A higher frame rate is chosen only if it can be kept when the link carries slightly less. */
 const UPWARD_MARGIN = 1.25;
-/** The capture thread also reads commands, moves the robot and must not fall behind: share of its time for frames. */
+/**
+ * The share of its time that the capture thread may spend on frames. It also reads commands and moves the robot, and
+ * must not fall behind.
+ */
 const MOST_LOAD = 0.7;
-/** Of a source that need not give so many: on a computer that is full, each further frame makes all of them later. */
+/** For a source without a fixed rate: on a fully loaded computer, each additional frame delays all of them. */
 const MOST_LOAD_AT_ANY_RATE = 0.5;
-/** What a coded frame needs, bits for each point of the raw cloud. */
+/** What a coded frame needs, bits per point of the raw cloud. */
 interface CodedNeed {
-  /** The frame is whole, if coarse: below, rather fewer frames. */
+  /** The frame is complete but coarse. Below this, the frame rate drops instead. */
   whole: number;
-  /** As fine as a depth camera itself is, by far: what the link has more makes the stream quicker, not finer. */
+  /** Much finer than a depth camera's own precision. Any higher rate makes the stream faster, not finer. */
   enough: number;
 }
 const CODED_NEEDS: Readonly<Record<CodedFormat, CodedNeed>> = {
-  // Cameras' frames within 0.5 mm · z² and with colours of 34 dB take 1.9 to 2.3 bits.
+  // Camera frames within 0.5 mm · z², with colours at 34 dB, take 1.9 to 2.3 bits.
   organised: { whole: 1.6, enough: 2.4 },
-  // Its step is fixed, so that only the number of points can change.
+  // The step is fixed, so that only the number of points can change.
   unorganised: { whole: 16, enough: 64 },
 };
-/** A coded frame may come out so much smaller than its budget; one that is to carry a train must not. */
+/** A coded frame may turn out smaller than its budget by this factor; one that carries a probe train must not. */
 const CODED_SLACK = 1.06;
-/** A probe may make a frame so much larger than planned, at most. */
+/** A probe may enlarge a frame by at most this factor. */
 const MOST_PROBE_FACTOR = 8;
 
 export class FramePlanner {
@@ -101,12 +105,12 @@ export class FramePlanner {
     this.#framesPerSecond = options.mostFramesPerSecond;
   }
 
-  /** The plan for the frame that is captured now. */
+  /** The plan for the frame that is being captured. */
   plan(input: PlanInput): FramePlan {
     const { policy, mostFramesPerSecond, floorFraction, mostPoints } = this.#options;
     const { rawPoints } = input;
     const wireBytes = wireBytesOfPacket(input.overheadBytes);
-    // Of each packet's bytes on the wire only the points count for the equation.
+    // Of a packet's bytes on the wire, only the points count in the equation.
     const pointBitsPerSecond = (input.targetBitsPerSecond * MAX_POINT_DATA_BYTES) / wireBytes;
     const most = Math.floor(mostPoints / POINTS_PER_PACKET) * POINTS_PER_PACKET;
     if (policy === 'paper') {
@@ -123,7 +127,7 @@ export class FramePlanner {
     return { framesPerSecond, points: this.pointsAt(framesPerSecond, input) };
   }
 
-  /** Points of a frame at this frame rate: what the rate allows, or the train that the rate control waits for. */
+  /** Points per frame at this frame rate: what the bit rate allows, or enough for the rate controller's probe train. */
   pointsAt(framesPerSecond: number, input: PlanInput): number {
     const wireBytes = wireBytesOfPacket(input.overheadBytes);
     const most = Math.floor(this.#options.mostPoints / POINTS_PER_PACKET) * POINTS_PER_PACKET;
@@ -142,7 +146,8 @@ export class FramePlanner {
   }
 
   /**
-   * The plan for a frame in a coded format: as many frames a second as are whole, each as fine as the rate allows.
+   * The plan for a frame in a coded format: as many whole frames per second as possible, each as fine as the bit rate
+   * allows.
    */
   planCoded(format: CodedFormat, input: PlanInput): CodedPlan {
     const { rawPoints } = input;
@@ -163,7 +168,7 @@ export class FramePlanner {
     };
   }
 
-  /** The most that frames like this one can use, all headers counted, bit/s. */
+  /** The highest bit rate that frames like this one can use, all headers counted, bit/s. */
   usefulBitsPerSecond(format: CloudFormat, { rawPoints, overheadBytes }: PlanInput): number {
     const { mostFramesPerSecond, mostPoints } = this.#options;
     const plain = format === 'points64';
@@ -172,8 +177,8 @@ export class FramePlanner {
   }
 
   /**
-   * The source's rate, or a whole fraction of it: cameras can be asked for every second picture, not for every 1.3rd. Of a
-   * source that gives a frame whenever it is asked, as many more as there is time for.
+   * The source's rate, or a whole fraction of it: a camera can give every second picture, but not every 1.3rd. For a
+   * source that gives a frame whenever it is asked, as many as there is time for.
    */
   #chooseFrameRate(
     pointsPerSecond: number,
@@ -199,7 +204,7 @@ export class FramePlanner {
   }
 }
 
-/** A full packet with all its headers. */
+/** Size of a full packet with all its headers, bytes. */
 export function wireBytesOfPacket(overheadBytes: number): number {
   return POINT_PACKET_HEADER_BYTES + MAX_POINT_DATA_BYTES + PLACEMENT_BYTES + overheadBytes;
 }

@@ -10,7 +10,7 @@ import {
 } from './encoded-frame.ts';
 import { completePackets, Packetiser, SLOT_BYTES, SLOT_DATA_OFFSET } from './packetiser.ts';
 
-/** From a source's frame to finished `points64` packets: sample, pack, header and placement. */
+/** Encodes a source's frame into complete `points64` packets: sample, pack, add header and placement. */
 export class Points64FrameEncoder implements PacketSource {
   readonly #encoder: Points64Encoder;
   readonly #sampling: EncoderOptions;
@@ -36,7 +36,7 @@ export class Points64FrameEncoder implements PacketSource {
   }
 
   /**
-   * @param count how many points to send at most
+   * @param count maximum number of points to send
    * @param latencyTest makes the whole frame green
    * @throws {CodecError} for a frame beyond the capacity
    */
@@ -50,7 +50,7 @@ export class Points64FrameEncoder implements PacketSource {
       if (!isSameMemory(frame.colour, encoder.colour)) encoder.colour.set(frame.colour);
       sampled = encoder.sampleImages(parameters);
     } else {
-      // As words: copying a colour as a float may change the bits of a NaN.
+      // Copied as words: copying a colour as a float may change the bits of a NaN.
       const words = new Uint32Array(frame.points.buffer, frame.points.byteOffset, frame.count * 4);
       if (!isSameMemory(words, encoder.frameBits)) encoder.frameBits.set(words);
       sampled = encoder.sample({ ...parameters, points: frame.count });

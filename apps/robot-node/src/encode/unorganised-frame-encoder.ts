@@ -10,14 +10,14 @@ import {
 } from './encoded-frame.ts';
 import { Packetiser, SLOT_BYTES, SLOT_DATA_OFFSET } from './packetiser.ts';
 
-/** A coordinate is wrong by half of it at most, mm. */
+/** Quantisation step, mm. The error of a coordinate is at most half of it. */
 const STEP_MM = 10;
-/** What int16 holds of the receiver's units. */
+/** The largest multiple of the receiver's unit that int16 holds. */
 const MOST_UNITS = 32_767;
-/** A coordinate beyond this is refused by the format, m. */
+/** The format refuses coordinates beyond this, m. */
 const MOST_METRES = 500;
 
-/** From a frame of points without a grid to finished `unorganised` packets (docs/unorganised-codec.md). */
+/** Encodes a frame of points without a grid into complete `unorganised` packets (docs/unorganised-codec.md). */
 export class UnorganisedFrameEncoder implements PacketSource {
   readonly #encoder: UnorganisedEncoder;
   readonly #lambda: number;
@@ -27,7 +27,7 @@ export class UnorganisedFrameEncoder implements PacketSource {
   readonly room: CaptureRoom;
   #slots = new Uint8Array(0);
   #unitMm = 0;
-  /** The stream's header: the unit that receivers keep coordinates in. It grows where a frame reaches farther. */
+  /** The stream's header, with the unit of the receivers' coordinates. The unit grows when a frame extends further. */
   header: Uint8Array | null = null;
 
   constructor(codec: Codec, capacity: number, sampling: EncoderOptions, now: () => number) {
@@ -94,7 +94,7 @@ export class UnorganisedFrameEncoder implements PacketSource {
     into.set(this.#slots.subarray(0, packets * SLOT_BYTES));
   }
 
-  /** The finest whole unit, a power of two of millimetres, in which the farthest point fits. */
+  /** Chooses the finest unit, a power of two in millimetres, in which the farthest point fits. */
   #chooseUnit({ points, count }: PointFrame): void {
     let most = 0;
     for (let i = 0; i < count * 4; i += 4) {

@@ -1,4 +1,4 @@
-/** Who the robot is, and what it is to the system it runs on. */
+/** The robot's identity, and its role in the system that it runs on. */
 import { displayNameSchema, robotIdSchema } from '@farpoint/protocol';
 import { defineOption, type OptionTable, schema } from '@farpoint/service';
 

@@ -1,4 +1,4 @@
-/** What keeps the robot safe, and who may drive. */
+/** The safety limits, and how many operators may connect. */
 import { defaultDriveLimits } from '@farpoint/safety';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 

@@ -1,4 +1,4 @@
-/** Ways to the operators. */
+/** Network paths to the operators. */
 import { type IceServer, iceServerSchema } from '@farpoint/protocol';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';
@@ -7,7 +7,7 @@ const iceUrlSchema = z
   .string('must be an address')
   .regex(/^(stun|turns?):\S+$/, 'must begin with stun:, turn: or turns:');
 
-/** An address alone, or with credentials: an RTCIceServer. */
+/** An RTCIceServer: an address alone, or with credentials. */
 const iceServer = z.preprocess(
   (value) => (typeof value === 'string' ? { urls: value } : value),
   z.strictObject({
@@ -16,7 +16,7 @@ const iceServer = z.preprocess(
   }),
 ) as z.ZodType<IceServer>;
 
-/** A list of a file; text is addresses with commas between them, or the list as JSON. */
+/** In a file, a list. As text, addresses separated by commas, or the list as JSON. */
 const iceServers = z.preprocess(
   (value, context) => {
     if (typeof value !== 'string') return value;
@@ -35,7 +35,7 @@ const iceServers = z.preprocess(
   z.array(iceServer, 'must be a list'),
 ) as z.ZodType<IceServer[]>;
 
-/** `40000-40100`: from the first to the last. */
+/** `40000-40100`: first and last port. */
 const portRange = z.preprocess(
   (value, context) => {
     const match = /^(\d{1,5})-(\d{1,5})$/.exec(String(value));

@@ -1,4 +1,4 @@
-/** Cameras' pictures for the operator to look at, beside the cloud. */
+/** Camera pictures that operators see beside the cloud. */
 import { MAX_PICTURE_SIDE } from '@farpoint/protocol';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 

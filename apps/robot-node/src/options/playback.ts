@@ -1,4 +1,4 @@
-/** Clouds from files: what is played, and how. */
+/** Clouds from files: which files, and how they are played. */
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 
 export const playbackOptions = optionGroup('source', {

@@ -2,7 +2,7 @@
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 
 export const RECORDED_CLOUDS = ['sent', 'captured', 'both', 'none'] as const;
-/** A file with nothing but its topics has some 20 kB. */
+/** A file that contains only its topics takes some 20 kB. */
 const LEAST_BYTES = 1_000_000;
 
 export const recordingOptions = optionGroup('recording', {

@@ -1,4 +1,4 @@
-/** From values that are right one by one to what the robot is made of. */
+/** Turns option values that are valid one by one into the parts of the robot. */
 import { randomBytes } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
@@ -14,13 +14,13 @@ import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { stateFolder } from './state.ts';
 
-/** Where it is not said: what the source is asked for at most. A recording has a rate of its own, which is kept to. */
+/** The highest rate asked of the source if not configured. A recording has its own rate, which is kept. */
 const DEFAULT_FPS: Partial<Record<RobotOptionValues['source'], number>> = { sim: 60, recording: 120 };
 
-/** How messages name the place of an option's value. */
+/** How messages say where an option's value comes from. */
 export type Where = (key: RobotOptionKey) => string;
 
-/** @throws {OptionsError} with all that only shows when options are seen together, and files that cannot be read */
+/** @throws {OptionsError} with all faults that only show when options are combined, and files that cannot be read */
 export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOptions {
   const mistakes: OptionMistake[] = [];
   const refuse = (key: RobotOptionKey, detail: string) => mistakes.push({ where: where(key), detail });
@@ -84,7 +84,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   };
 }
 
-/** The main source of clouds first. */
+/** The main source of clouds comes first. */
 function toSensors(values: RobotOptionValues, topics: TopicEntry[]): CloudSensorOptions[] {
   const capture: CaptureOptions = {
     sensor: 0,
@@ -151,7 +151,7 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
   }
 }
 
-/** ROS 1's publishers tell what their messages hold; ROS 2's do not. */
+/** ROS 1's publishers describe their messages; ROS 2's do not. */
 function describedTopics(
   { source, topics, rosMessages }: RobotOptionValues,
   refuse: (detail: string) => void,
@@ -183,7 +183,7 @@ function toSink(values: RobotOptionValues): SinkOptions {
 
 function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): GraphOptions {
   const { env } = process;
-  // What a node may not be called becomes _.
+  // Characters that a node name may not contain become _.
   const name = values.rosName ?? `farpoint_${values.id.replaceAll(/[^A-Za-z0-9_]/g, '_')}`;
   if (kind === 'ros2') {
     const { rosDomain, rosInterface, rosPeers, rosReach } = values;

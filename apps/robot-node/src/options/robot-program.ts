@@ -1,4 +1,4 @@
-/** The robot program's options, put together: see the file of each group. */
+/** All options of the robot program. Each group has its own file. */
 import { adminOptions, defineProgram, type OptionTable, type OptionValues } from '@farpoint/service';
 import { identityOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';

@@ -1,4 +1,4 @@
-/** The robot as a node of a ROS graph: its source’s, its sink’s, or both. */
+/** The robot as a node of a ROS graph, for its source, its sink, or both. */
 import { interfaceSchema, MOST_DOMAIN, machineSchema } from '@farpoint/dds';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';

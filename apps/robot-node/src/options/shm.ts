@@ -1,4 +1,4 @@
-/** Clouds of a producer in shared memory. */
+/** Clouds from a producer in shared memory. */
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import { DEFAULT_FOLDER } from '@farpoint/shared-memory';
 

@@ -1,4 +1,4 @@
-/** The line to the signaling service. */
+/** The connection to the signaling service. */
 import { handleSchema, tokenSchema } from '@farpoint/protocol';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';

@@ -1,4 +1,4 @@
-/** Where the robot keeps what must outlive it. */
+/** Where the robot stores state that must outlive the process. */
 import { homedir } from 'node:os';
 import { join } from 'node:path';
 import { defineOption, type OptionTable, schema } from '@farpoint/service';
@@ -12,7 +12,7 @@ export const stateOptions = {
   }),
 } satisfies OptionTable;
 
-/** @param env `STATE_DIRECTORY` as systemd.exec(5) sets it, `XDG_STATE_HOME` of the XDG base directories */
+/** @param env `STATE_DIRECTORY` as set by systemd.exec(5), `XDG_STATE_HOME` from the XDG base directories */
 export function stateFolder(stateDir: string | null, env: NodeJS.ProcessEnv): string {
   if (stateDir !== null) return stateDir;
   const ofService = env.STATE_DIRECTORY?.split(':')[0];

@@ -1,4 +1,4 @@
-/** What operators are sent. */
+/** What operators receive. */
 import { POINTS_PER_PACKET } from '@farpoint/protocol';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import { PLAN_POLICIES } from '../encode/plan.ts';
@@ -43,7 +43,8 @@ export const streamOptions = optionGroup('stream', {
   }),
   lambda: defineOption({
     schema: schema.number({ min: 0, max: 64 }),
-    // As the reference system ships. With 3 and more, a budget below the points nearer than D leaves nothing beyond it.
+    // As in the reference system's release. From 3 on, a budget below the number of points nearer than D leaves
+    // nothing beyond D.
     default: 1,
     argument: 'L',
     help: 'how fast a point’s weight falls with depth; 0 samples evenly',

@@ -1,4 +1,4 @@
-/** The topics of ROS that the robot may touch: only the file has them. */
+/** The ROS topics that the robot may use. They can be set only in the configuration file. */
 import { topicTableSchema } from '@farpoint/ros';
 import { defineOption } from '@farpoint/service';
 

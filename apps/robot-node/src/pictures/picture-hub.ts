@@ -1,4 +1,4 @@
-/** The main thread's end of pictures: the picture thread, what it is to make, and who gets what it made. */
+/** The main thread's end of pictures. Owns the picture thread, tells it what to make, and distributes the results. */
 import { MessageChannel, Worker } from 'node:worker_threads';
 import type { Logger } from '@farpoint/service';
 import type { Capture } from '../capture/capture.ts';
@@ -6,13 +6,13 @@ import { ReasonCounts } from '../telemetry/robot-counters.ts';
 import type { CameraPlan, PictureReport, PictureRequest, ReadyPicture } from './picture-messages.ts';
 import { PicturePlanner, type PicturePolicy } from './picture-plan.ts';
 
-/** Who may watch. */
+/** An operator who may watch pictures. */
 export interface PictureTarget {
-  /** As the guard knows it. */
+  /** The operator's id, as known to the guard. */
   readonly id: string;
   readonly streaming: boolean;
   readonly watchedCameras: ReadonlySet<number>;
-  /** What pictures may take of its path, bit/s on the wire. */
+  /** The share of the operator's path for pictures, bit/s on the wire. */
   readonly pictureBitsPerSecond: number;
   offerPicture(picture: ReadyPicture): void;
 }
@@ -21,9 +21,9 @@ export interface PictureHubOptions {
   policy: PicturePolicy;
   capture: Pick<Capture, 'cameras' | 'usePictures'>;
   targets: () => Iterable<PictureTarget>;
-  /** Whose path decides how large pictures are; `null` where nobody drives. */
+  /** The operator whose path decides the size of pictures; `null` if nobody drives. */
   driver: () => string | null;
-  /** Gets each picture, whoever it goes to. */
+  /** Called with each picture, for whichever operators it is. */
   onMade: (picture: ReadyPicture) => void;
   log: Logger;
 }
@@ -33,13 +33,13 @@ const PLAN_MS = 250;
 
 export interface PictureCounters {
   made: number;
-  /** Of those, files that went on as they came. */
+  /** Of these, files that were passed on unchanged. */
   untouched: number;
   bytes: number;
   /** Processor time of the picture thread, s. */
   workSeconds: number;
   lost: ReasonCounts;
-  /** Times that the picture thread was started anew. */
+  /** Number of restarts of the picture thread. */
   restarts: number;
 }
 
@@ -63,7 +63,7 @@ export class PictureHub {
     this.#start();
   }
 
-  /** Plans anew, a few times a second at most. */
+  /** Updates the plans, at most a few times a second. */
   tick(nowMs: number): void {
     if (nowMs - this.#plannedMs < PLAN_MS) return;
     this.#plannedMs = nowMs;
@@ -71,7 +71,8 @@ export class PictureHub {
       ({ streaming, watchedCameras }) => streaming && watchedCameras.size > 0,
     );
     const driver = watching.find(({ id }) => id === this.#options.driver());
-    // One encode for all: the driver's path decides, without a driver the narrowest.
+    // Each picture is encoded once for everyone. The driver's path decides; without a driver, the narrowest path
+    // does.
     const deciding = driver === undefined ? watching : [driver];
     const narrowest = Math.min(...deciding.map(({ pictureBitsPerSecond }) => pictureBitsPerSecond));
     const shown = this.#planners.map((_, camera) =>
@@ -100,7 +101,7 @@ export class PictureHub {
     worker.on('error', (error) => this.#options.log.error({ err: error }, 'the picture thread failed'));
     worker.on('exit', () => {
       if (this.#closed) return;
-      // Pictures are no reason to stop a robot.
+      // A failure with pictures must not stop the robot.
       this.counters.restarts++;
       this.#worker = null;
       this.#restart = setTimeout(() => this.#start(), RESTART_MS);
@@ -121,7 +122,7 @@ export class PictureHub {
       const { camera, reason, count, detail, origin } = report;
       counters.lost.add(reason, count);
       if (detail === '' || this.#lastDetail[camera] === detail) return;
-      // While it goes on it is said once.
+      // A fault that persists is reported once.
       this.#lastDetail[camera] = detail;
       const { name } = this.#options.capture.cameras[camera] ?? { name: String(camera) };
       this.#options.log.warn({ camera: name, reason, detail, origin }, 'a picture cannot be shown');

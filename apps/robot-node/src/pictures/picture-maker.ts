@@ -15,7 +15,7 @@ export interface MadePicture {
   width: number;
   height: number;
   bytes: Uint8Array;
-  /** The source's own file, as it was. */
+  /** Whether this is the source's own file, unchanged. */
   untouched: boolean;
 }
 
@@ -32,7 +32,7 @@ export class PictureLossError extends Error {
 
 const HEADER = { stamp: { sec: 0, nanosec: 0 }, frame_id: '' };
 
-/** Makes a file that fits the plan of a source's picture. */
+/** Makes a file from a source's picture that fits the plan. */
 export class PictureMaker {
   readonly #codec: Pick<PictureCodec, 'encodeJpeg' | 'decode'>;
   readonly #filter = new ShrinkingFilter();

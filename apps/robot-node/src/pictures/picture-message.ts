@@ -1,4 +1,7 @@
-/** Messages that hold a picture, of ROS and of Foxglove, live or recorded, as sources give pictures. */
+/**
+ * Reads messages that hold a picture, from ROS and Foxglove, live or recorded, into the form in which sources give
+ * pictures.
+ */
 import {
   compressedImageSchema,
   compressedPicture,
@@ -21,13 +24,13 @@ const READERS: ReadonlyMap<string, ReadMessage> = new Map([
   ...FOXGLOVE_COMPRESSED_IMAGE_TYPES.map((type) => [type, readFoxgloveCompressed] as const),
 ]);
 
-/** Types of messages that hold a picture, as ROS 2 writes them; those of JSON and Protobuf as they are. */
+/** Types of messages that hold a picture. CDR types are named as in ROS 2; JSON and Protobuf types as they are. */
 export const PICTURE_TYPES: readonly string[] = [...READERS.keys()];
 
 /**
  * @param type one of {@link PICTURE_TYPES}
- * @param message decoded; the picture's data is a part of it
- * @throws {Error} where it is not what its type says, {@link RosFault} for a file that is neither JPEG nor PNG
+ * @param message decoded; the returned picture shares its data
+ * @throws {Error} if the message does not match its type, {@link RosFault} for a file that is neither JPEG nor PNG
  */
 export function readPicture(type: string, message: unknown): PictureMessage {
   const read = READERS.get(type);

@@ -1,21 +1,21 @@
-/** What the capture thread, the picture thread and the main thread say to each other of pictures. */
+/** Messages about pictures between the capture thread, the picture thread and the main thread. */
 import type { PictureHeader } from '@farpoint/protocol';
 import type { SourcePicture } from './source-picture.ts';
 
-/** What is to be made of a camera's pictures now. */
+/** How to make a camera's pictures. */
 export interface CameraPlan {
-  /** At most so many a second; 0 where nobody watches. */
+  /** Highest number of pictures per second; 0 if nobody watches. */
   perSecond: number;
-  /** Pixels; larger ones are shrunk by a whole factor. */
+  /** Pixels. Larger pictures are shrunk by a whole factor. */
   longestSide: number;
-  /** Of JPEG, 1–100. */
+  /** JPEG quality, 1–100. */
   quality: number;
-  /** A file that is larger, in bytes or pixels of a side, is made anew; others go on as they are. */
+  /** A file with more bytes, or with a longer side in pixels, is re-encoded. Others are passed on unchanged. */
   mostFileBytes: number;
   mostFileSide: number;
 }
 
-/** Why a picture was not sent to anybody. */
+/** Why a picture was sent to nobody. */
 export type PictureLoss =
   | 'busy' // the one before was still being made
   | 'unsupported' // an encoding or a format that nobody here reads
@@ -26,32 +26,32 @@ export type PictureLoss =
 /** Capture thread to picture thread; `data` is transferred. */
 export interface OfferedPicture extends Omit<SourcePicture, 'data'> {
   data: Uint8Array<ArrayBuffer>;
-  /** Pictures of this camera that were let go since the last one: it was busy. */
+  /** Number of this camera's pictures dropped since the last one, because the picture thread was busy. */
   missed: number;
 }
 
 /** Picture thread to capture thread. */
 export type TapReport =
   | { type: 'rates'; perSecond: readonly number[] }
-  /** The last picture of this camera is done; its memory comes back. */
+  /** The last picture of this camera is done; returns its memory. */
   | { type: 'done'; camera: number; room: ArrayBuffer };
 
 /** Main thread to picture thread. */
 export type PictureRequest = { type: 'plans'; plans: readonly CameraPlan[] };
 
-/** A picture, cut into the messages that carry it. */
+/** A picture, divided into the messages that carry it. */
 export interface ReadyPicture {
   type: 'picture';
   header: PictureHeader;
-  /** Robot's clock when it was taken, ms: the header's wraps. */
+  /** When it was taken, robot's clock, ms. The header's time wraps; this does not. */
   capturedAtMs: number;
-  /** Of the file. */
+  /** Size of the file. */
   fileBytes: number;
   chunks: Uint8Array<ArrayBuffer>[];
-  /** Longest side that the plan asked for, and whether the source's own file was taken as it is. */
+  /** The longest side that the plan asked for, and whether the source's own file was used unchanged. */
   longestSide: number;
   untouched: boolean;
-  /** Processor time that it took, ms. */
+  /** Processor time to make it, ms. */
   workMs: number;
 }
 

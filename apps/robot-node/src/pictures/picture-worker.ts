@@ -1,4 +1,7 @@
-/** The picture thread: pictures from the capture thread, made fit for the link, to the main thread. */
+/**
+ * The picture thread: takes pictures from the capture thread, fits them to the link, and passes them to the main
+ * thread.
+ */
 import { type MessagePort, parentPort, workerData } from 'node:worker_threads';
 import { PictureCodec } from '@farpoint/pictures';
 import { MAX_PICTURE_CHUNK_BYTES, pictureChunks, writePictureChunk } from '@farpoint/protocol';
