@@ -1,6 +1,7 @@
 /**
- * Builds a package of this workspace into what `pnpm pack` puts in its tarball: ES modules with their workers and WASM
- * beside them, and type declarations. Private packages of the workspace are bundled, so that the tarball installs alone.
+ * Builds a package of this workspace into what `pnpm pack` puts into its tarball: ES modules with their workers and
+ * WASM, and type declarations. Private packages of the workspace are bundled, so that the tarball can be installed
+ * alone.
  */
 import { spawnSync } from 'node:child_process';
 import {
@@ -19,17 +20,17 @@ import { build } from 'esbuild';
 import { publicDeclaration, references } from './declarations.ts';
 
 export interface BrowserPackage {
-  /** Of the package. */
+  /** The package's folder. */
   folder: string;
-  /** Modules that are addressed by themselves, below `src`: the package's own, and its workers. */
+  /** Modules with their own address, below `src`: the package's entry points and its workers. */
   entries: readonly string[];
-  /** Packages that the built modules import by name. All others of the workspace that it needs are bundled. */
+  /** Packages that the built modules import by name. All other workspace packages are bundled. */
   external?: readonly string[];
-  /** Files that the modules load at run time, from the package's folder. */
+  /** Files that the modules load at run time, relative to the package's folder. */
   assets?: readonly string[];
 }
 
-/** @throws {Error} with what the compiler says */
+/** @throws {Error} with the compiler's message */
 export async function buildBrowserPackage(spec: BrowserPackage): Promise<void> {
   const dist = join(spec.folder, 'dist');
   rmSync(dist, { recursive: true, force: true });
@@ -54,7 +55,7 @@ async function bundle({ folder, entries, external = [] }: BrowserPackage, dist: 
     external: [...external],
     plugins: [
       {
-        // All modules lie in one folder: what they find beside themselves lies there, too.
+        // All modules are in one folder, so what they look for beside themselves must be there, too.
         name: 'assets-beside',
         setup: ({ onLoad }) =>
           onLoad({ filter: /\.[jt]s$/ }, ({ path }) => {
@@ -71,7 +72,7 @@ async function bundle({ folder, entries, external = [] }: BrowserPackage, dist: 
   });
 }
 
-/** The index of each package that is bundled, by name: of the workspace's packages in `devDependencies`. */
+/** The index of each bundled package by name: the workspace packages in `devDependencies`. */
 function bundledIndexes({ folder, external = [] }: BrowserPackage): Map<string, string> {
   const { devDependencies = {} } = readManifest(folder);
   const names = Object.keys(devDependencies).filter(
@@ -90,7 +91,7 @@ interface Manifest {
   exports?: Record<string, string>;
 }
 
-/** Our own file. */
+/** Reads a manifest of our own. */
 function readManifest(folder: string): Manifest {
   return JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8')) as Manifest;
 }
@@ -116,7 +117,7 @@ function declare(spec: BrowserPackage, dist: string): void {
   const visit = (file: string): void => {
     if (reached.has(file)) return;
     reached.add(file);
-    // A declaration that was written, not made.
+    // A declaration file that was written by hand.
     if (!existsSync(file)) {
       mkdirSync(dirname(file), { recursive: true });
       cpSync(join(root, relative(out, file)), file);
@@ -137,7 +138,7 @@ function declare(spec: BrowserPackage, dist: string): void {
   }
   const own = dirname(place(join(folder, 'src/index.ts')));
   for (const file of reached) if (file.startsWith(own)) refuseHidden(file, hidden);
-  // Those of a package that needs no other are whole.
+  // Declarations of a package without external dependencies must be complete.
   const strict = [
     '--ignoreConfig',
     '--noEmit',
@@ -152,7 +153,7 @@ function declare(spec: BrowserPackage, dist: string): void {
   if (external.length === 0) compile(folder, [...strict, place(join(folder, 'src/index.ts'))]);
 }
 
-/** @throws {Error} where the package's own declarations name a type of which users could see nothing */
+/** @throws {Error} if the package's own declarations name a type whose contents users cannot see */
 function refuseHidden(file: string, hidden: ReadonlySet<string>): void {
   for (const [name] of readFileSync(file, 'utf8').matchAll(/\b[A-Z]\w+\b/g)) {
     if (hidden.has(name))
