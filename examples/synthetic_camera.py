@@ -86,7 +86,7 @@ def farpoint_output(scene, options):
         depth, colours = scene.at(seconds)
         room = producer.begin()
         if options.format == "points":
-            # As words: a colour's bits may be those of a NaN.
+            # Copied as words: a colour's bits may be those of a NaN.
             room.view(np.uint32)[...] = scene.points(depth, colours).view(np.uint32)
         else:
             room[0][...] = depth * 1000 if options.format == "depth16" else depth
