@@ -3,9 +3,9 @@
 
     python3 examples/zed_camera.py [--layout farpoint|reference] [--fps 30] [--size 480] [--track] [--flip] [--folder /dev/shm]
 
-The ZED SDK (https://www.stereolabs.com/developers), version 5, brings the module pyzed. --fps is how often a cloud is given, up to
-the camera's 30. --track gives each cloud the camera's pose, by the SDK's positional tracking. It ends where the camera fails or
-goes away: let what supervises it start it again.
+The ZED SDK (https://www.stereolabs.com/developers), version 5, contains the module pyzed. --fps sets the number of clouds per
+second, up to the camera's 30. --track adds the camera's pose to each cloud, from the SDK's positional tracking. The program
+ends when the camera fails or disappears: let a supervisor restart it.
 """
 import argparse
 import os
@@ -49,7 +49,7 @@ def multiply(a, b):
 
 
 def demand(sl, status, what):
-    """Ends where a call failed. Codes below SUCCESS are warnings: it was done, if not quite as asked."""
+    """Exits if a call failed. Codes below SUCCESS are warnings: the call was carried out, though not exactly as requested."""
     if status.value > sl.ERROR_CODE.SUCCESS.value:
         sys.exit(f"{what}: {status!r}")
     if status != sl.ERROR_CODE.SUCCESS:
@@ -80,7 +80,7 @@ class Zed:
         self.cloud, self.pose = sl.Mat(), sl.Pose()
 
     def grab(self):
-        """The next cloud, float32 of shape (size, size, 4) with the colour's bytes in the fourth, and when it was taken."""
+        """The next cloud, float32 of shape (size, size, 4) with the colour's bytes in the fourth element, and its capture time."""
         sl = self.sl
         status = self.camera.grab(self.runtime)
         if status.name in NO_PICTURE:
