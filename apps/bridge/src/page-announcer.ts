@@ -11,7 +11,7 @@ export interface ShownRobots {
 }
 
 export class PageAnnouncer {
-  /** The list that every page has. An absent list counts as an empty one. */
+  /** The list that every page has, as text. Pages assume an empty list before the first. */
   #list: string = listText([]);
   #selected: number | null = null;
 
