@@ -94,7 +94,7 @@ export class HubConnection<Message, Entry> implements Connection {
 
   shutDown(): void {
     if (this.#ended) return;
-    this.#sendError('shutting-down', 'the service is restarting: come back in a moment');
+    this.#sendError('shutting-down', 'the service is restarting: reconnect in a moment');
     this.#end(closeCodes.serviceRestart, 'service restart');
   }
 

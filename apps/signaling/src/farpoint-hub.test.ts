@@ -256,7 +256,7 @@ describe('sessions', () => {
     const refusal = {
       type: 'error',
       code: 'unknown-session',
-      message: 'not a session of yours',
+      message: 'you have no such session',
       session: handle,
     };
     expect(otherRobot.take()).toEqual([refusal, refusal, refusal]);
@@ -461,7 +461,9 @@ describe('sessions', () => {
     const o = operator();
     o.take();
     o.send({ type: 'session.open', robotId: 'nobody' });
-    expect(o.take()).toEqual([{ type: 'error', code: 'unknown-robot', message: 'robot nobody is not here' }]);
+    expect(o.take()).toEqual([
+      { type: 'error', code: 'unknown-robot', message: 'robot nobody is not connected' },
+    ]);
   });
 
   test('are limited for each side, and are released when closed', () => {

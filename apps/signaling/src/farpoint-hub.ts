@@ -96,7 +96,9 @@ export class FarpointHub {
     const joined = this.#registry.join(entry);
     if (!joined.ok) {
       const why =
-        joined.reason === 'full' ? 'no room for another robot' : `robot ${hello.id} is here with another key`;
+        joined.reason === 'full'
+          ? 'no room for another robot'
+          : `robot ${hello.id} is already connected with another key`;
       end(joined.reason, why, { fatal: true });
       return 'refused';
     }
@@ -132,7 +134,7 @@ export class FarpointHub {
   ): OperatorEntry | 'refused' {
     if (hello.protocol !== PROTOCOL_VERSION) return unsupported(hello.protocol, end);
     if (!this.#options.access().operators.allows(hello.token, null)) {
-      end('unauthorized', 'operators need a token here', { fatal: true });
+      end('unauthorized', 'this service requires a token from operators', { fatal: true });
       return 'refused';
     }
     this.#operators++;
@@ -152,7 +154,7 @@ export class FarpointHub {
 }
 
 function unsupported(protocol: number, refuse: Refuse): 'refused' {
-  refuse('unsupported-protocol', `protocol ${protocol} is not spoken here; ${PROTOCOL_VERSION} is`, {
+  refuse('unsupported-protocol', `protocol ${protocol} is not supported; use ${PROTOCOL_VERSION}`, {
     fatal: true,
   });
   return 'refused';

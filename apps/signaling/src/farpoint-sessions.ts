@@ -36,8 +36,8 @@ type Claim = ResumeClaim<RobotEntry, OperatorEntry>;
 
 /** What an operator is told if its session is not resumed. */
 const refusalWords = {
-  'wrong-resume-key': 'the robot refused: this is not the key that it gave to the operator of this session',
-  'resume-too-soon': 'the robot has just offered, or not yet connected: ask again in a second',
+  'wrong-resume-key': 'the robot refused: the key does not belong to the operator of this session',
+  'resume-too-soon': 'the robot has just sent an offer, or is not connected yet: ask again in a second',
 } as const;
 
 /** Relays what robots and operators say about their sessions to the other side. */
@@ -123,7 +123,7 @@ export class FarpointSessions {
     const robot = this.#options.registry.get(robotId);
     if (robot === undefined) {
       // Not a fault: the robot may have left a moment ago.
-      refuse('unknown-robot', `robot ${robotId} is not here`, { fault: false });
+      refuse('unknown-robot', `robot ${robotId} is not connected`, { fault: false });
       return;
     }
     const session = this.#sessions.open(robot, operator);
@@ -149,12 +149,12 @@ export class FarpointSessions {
   ): void {
     const robot = this.#options.registry.get(robotId);
     if (robot === undefined) {
-      refuse('unknown-robot', `robot ${robotId} is not here`, { session: handle, fault: false });
+      refuse('unknown-robot', `robot ${robotId} is not connected`, { session: handle, fault: false });
       return;
     }
     const known = this.#sessions.get(handle);
     if (known !== null && known.robot.id !== robotId) {
-      refuse('unknown-session', 'not a session of yours', { session: handle, fault: false });
+      refuse('unknown-session', 'you have no such session', { session: handle, fault: false });
       return;
     }
     if (!this.#sessions.hasRoom(robot, operator, known)) {
@@ -181,7 +181,7 @@ export class FarpointSessions {
     const known = this.#sessions.get(handle);
     const fits = known === null || known.robot.id === robot.id;
     if (!fits || !this.#sessions.hasRoom(robot, operator, known)) {
-      refuse('unknown-session', 'not a session of yours', { session: handle, fault: false });
+      refuse('unknown-session', 'you have no such session', { session: handle, fault: false });
       return null;
     }
     let session = known;
@@ -212,7 +212,7 @@ export class FarpointSessions {
   }
 
   #tooMany(robotId: string, refuse: Refuse, session?: string): void {
-    refuse('too-many-sessions', `no more sessions with robot ${robotId}: close one first`, {
+    refuse('too-many-sessions', `too many sessions with robot ${robotId}: close one first`, {
       ...(session === undefined ? {} : { session }),
       fault: false,
     });
@@ -222,7 +222,7 @@ export class FarpointSessions {
     const session = this.#sessions.find(handle, owner);
     // Not a fault: the other side may have closed it a moment ago.
     if (session === null) {
-      refuse('unknown-session', 'not a session of yours', { session: handle, fault: false });
+      refuse('unknown-session', 'you have no such session', { session: handle, fault: false });
     }
     return session;
   }
