@@ -33,7 +33,7 @@ describe('readSettings', () => {
 
   test('reports a bad signaling address and uses the default', () => {
     const settings = read('signaling=ftp://x');
-    expect(settings.signalingFault).toContain('not a WebSocket address');
+    expect(settings.signalingFault).toContain('is not a WebSocket address');
     expect(settings.signalingUrl).toBe('wss://x.org:8443/operator');
   });
 

@@ -212,26 +212,29 @@ describe('files', () => {
   const source = { kind: 'shm', layout: 'farpoint', folder, waitMs: 0 } as const;
   const sink = { kind: 'shm', folder, mode: 0o600, silenceMs: 150 } as const;
 
-  it.skipIf(!isAvailable())('of shared memory: faults are named (needs the addon: pnpm build:native)', () => {
-    expect(checkSharedMemory({ kind: 'sim', seed: 1, size: 64 }, { kind: 'base' })).toEqual([]);
-    expect(verdicts(checkSharedMemory(source, sink)).filter((verdict) => verdict === 'fail')).toEqual([]);
-    const cloud = join(folder, 'farpoint_cloud');
-    writeFileSync(cloud, '');
-    chmodSync(cloud, 0o666);
-    expect(checkSharedMemory(source, { kind: 'base' })[1]).toMatchObject({
-      verdict: 'fail',
-      detail: expect.stringContaining('mode 0666) may be written by anybody') as string,
-    });
-    chmodSync(cloud, 0o640);
-    expect(verdicts(checkSharedMemory(source, { kind: 'base' }))[1]).toBe('ok');
-    rmSync(cloud);
-    symlinkSync('/', cloud);
-    expect(checkSharedMemory(source, { kind: 'base' })[1]?.detail).toContain('is not a regular file');
-    rmSync(cloud);
-    expect(checkSharedMemory({ ...source, folder: '/nowhere' }, { kind: 'base' })[0]?.detail).toContain(
-      'is not a folder',
-    );
-  });
+  it.skipIf(!isAvailable())(
+    'of shared memory: each fault in them is reported by its name (needs the addon: pnpm build:native)',
+    () => {
+      expect(checkSharedMemory({ kind: 'sim', seed: 1, size: 64 }, { kind: 'base' })).toEqual([]);
+      expect(verdicts(checkSharedMemory(source, sink)).filter((verdict) => verdict === 'fail')).toEqual([]);
+      const cloud = join(folder, 'farpoint_cloud');
+      writeFileSync(cloud, '');
+      chmodSync(cloud, 0o666);
+      expect(checkSharedMemory(source, { kind: 'base' })[1]).toMatchObject({
+        verdict: 'fail',
+        detail: expect.stringContaining('mode 0666) may be written by anybody') as string,
+      });
+      chmodSync(cloud, 0o640);
+      expect(verdicts(checkSharedMemory(source, { kind: 'base' }))[1]).toBe('ok');
+      rmSync(cloud);
+      symlinkSync('/', cloud);
+      expect(checkSharedMemory(source, { kind: 'base' })[1]?.detail).toContain('is not a regular file');
+      rmSync(cloud);
+      expect(checkSharedMemory({ ...source, folder: '/nowhere' }, { kind: 'base' })[0]?.detail).toContain(
+        'is not a folder',
+      );
+    },
+  );
 
   it('of recordings', () => {
     expect(checkRecording(undefined)).toEqual([]);
