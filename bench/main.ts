@@ -1,6 +1,6 @@
 /**
- * `pnpm bench <name> [options]`: runs one benchmark. Each is a module `bench/src/<name>.ts` that exports `bench`; it is
- * loaded only when asked for.
+ * `pnpm bench <name> [options]`: runs one benchmark. Each is a module `bench/src/<name>.ts` that exports `bench`, and
+ * is loaded only on demand.
  */
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -9,7 +9,7 @@ import type { Bench } from './src/report.ts';
 
 const FOLDER = join(import.meta.dirname, 'src');
 
-/** The names of the benchmarks: the modules that export one. Nothing is loaded. */
+/** The names of the benchmarks, which are the modules that export one. Loads nothing. */
 function benchNames(): string[] {
   return readdirSync(FOLDER)
     .filter((file) => file.endsWith('.ts') && !file.endsWith('.test.ts'))

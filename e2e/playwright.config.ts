@@ -4,10 +4,11 @@ import { defineConfig } from '@playwright/test';
 export default defineConfig({
   projects: [
     { name: 'chromium', testDir: 'tests', outputDir: 'output/chromium' },
-    // Playwright's runner alone: Firefox itself is driven by WebDriver BiDi (FirefoxBrowser of @farpoint/local-stack).
+    // Uses only Playwright's runner. Firefox itself is driven through WebDriver BiDi (FirefoxBrowser of
+    // @farpoint/local-stack).
     { name: 'firefox', testDir: 'firefox', outputDir: 'output/firefox' },
   ],
-  // One stack and one software-rendered browser at a time: two would only slow each other down.
+  // One stack and one software-rendered browser at a time, because two would slow each other down.
   workers: 1,
   retries: 0,
   timeout: 120_000,

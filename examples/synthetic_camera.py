@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A camera that is none: a moving scene as a depth camera would see it, through shared memory.
+"""A synthetic camera: a moving scene as a depth camera would see it, through shared memory.
 
     python3 examples/synthetic_camera.py [--layout farpoint|reference] [--format points|depth16|depth32]
                                          [--size 480] [--fps 30] [--folder /dev/shm] [--frames N]
@@ -23,7 +23,7 @@ WALL_M, FLOOR_M, BALL_M = 4.0, 1.2, 0.35
 
 
 class Scene:
-    """A wall, a floor, and a ball that swings before them. The camera looks along z, x right, y down."""
+    """A wall, a floor, and a ball that swings in front of them. The camera looks along z, with x right and y down."""
 
     def __init__(self, size):
         focal = 0.6 * size
@@ -86,7 +86,7 @@ def farpoint_output(scene, options):
         depth, colours = scene.at(seconds)
         room = producer.begin()
         if options.format == "points":
-            # As words: a colour's bits may be those of a NaN.
+            # Copied as words: a colour's bits may be those of a NaN.
             room.view(np.uint32)[...] = scene.points(depth, colours).view(np.uint32)
         else:
             room[0][...] = depth * 1000 if options.format == "depth16" else depth

@@ -3,9 +3,9 @@
 
     python3 examples/zed_camera.py [--layout farpoint|reference] [--fps 30] [--size 480] [--track] [--flip] [--folder /dev/shm]
 
-The ZED SDK (https://www.stereolabs.com/developers), version 5, brings the module pyzed. --fps is how often a cloud is given, up to
-the camera's 30. --track gives each cloud the camera's pose, by the SDK's positional tracking. It ends where the camera fails or
-goes away: let what supervises it start it again.
+The ZED SDK (https://www.stereolabs.com/developers), version 5, contains the module pyzed. --fps sets the number of clouds per
+second, up to the camera's 30. --track adds the camera's pose to each cloud, from the SDK's positional tracking. The program
+ends when the camera fails or disappears: let a supervisor restart it.
 """
 import argparse
 import os
@@ -20,10 +20,11 @@ except ImportError:
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "packages", "shared-memory", "python"))
 from farpoint_shm import CloudProducer, ReferenceProducer, pack_points, sample_points  # noqa: E402
 
-# From optical axes (z forward, x right, y down) to the world's (x forward, y left, z up), as x, y, z, w.
+# Rotation from optical axes (z forward, x right, y down) to the world's (x forward, y left, z up), as x, y, z, w.
 OPTICAL_IN_WORLD = (-0.5, 0.5, -0.5, 0.5)
 CAMERA_FPS = 30
-# Warnings of a grab that leaves nothing to show, by name, since not every SDK has them. After others there is a picture.
+# Warnings after which a grab has no picture, by name, because not every SDK has them. After other warnings it has
+# one.
 NO_PICTURE = ("CAMERA_REBOOTING", "CORRUPTED_FRAME")
 
 
@@ -48,7 +49,7 @@ def multiply(a, b):
 
 
 def demand(sl, status, what):
-    """Ends where a call failed. Codes below SUCCESS are warnings: it was done, if not quite as asked."""
+    """Exits if a call failed. Codes below SUCCESS are warnings: the call was carried out, though not exactly as requested."""
     if status.value > sl.ERROR_CODE.SUCCESS.value:
         sys.exit(f"{what}: {status!r}")
     if status != sl.ERROR_CODE.SUCCESS:
@@ -79,20 +80,20 @@ class Zed:
         self.cloud, self.pose = sl.Mat(), sl.Pose()
 
     def grab(self):
-        """The next cloud, float32 of shape (size, size, 4) with the colour's bytes in the fourth, and when it was taken."""
+        """The next cloud, float32 of shape (size, size, 4) with the colour's bytes in the fourth element, and its capture time."""
         sl = self.sl
         status = self.camera.grab(self.runtime)
         if status.name in NO_PICTURE:
-            # While the camera boots this comes at once.
+            # While the camera boots, grabs return immediately.
             time.sleep(0.01)
             return None
         if status.value > sl.ERROR_CODE.SUCCESS.value:
             sys.exit(f"the camera gives no more pictures: {status!r}")
-        # The SDK's clock is the system's: its age is taken off the monotonic one.
+        # The SDK uses the system clock: subtract the image's age from the monotonic time.
         now = self.camera.get_timestamp(sl.TIME_REFERENCE.CURRENT).get_nanoseconds()
         age_ns = now - self.camera.get_timestamp(sl.TIME_REFERENCE.IMAGE).get_nanoseconds()
         capture_ns = time.monotonic_ns() - max(0, age_ns)
-        # By position: the third argument has had two names.
+        # Passed by position, because the third argument has had two names.
         status = self.camera.retrieve_measure(self.cloud, sl.MEASURE.XYZRGBA, sl.MEM.CPU, self.resolution)
         if status.value > sl.ERROR_CODE.SUCCESS.value:
             sys.exit(f"no cloud of {self.resolution.width} × {self.resolution.height} to be had: {status!r}")
@@ -124,7 +125,7 @@ def main():
     due = time.monotonic()
     while True:
         grabbed = zed.grab()
-        # The camera has its own rate: a cloud is due, or it is not.
+        # The camera has its own rate. Skip a frame for which no cloud is due.
         if grabbed is None or time.monotonic() < due - 0.5 / CAMERA_FPS:
             continue
         show(*grabbed)
@@ -135,7 +136,7 @@ def farpoint_output(zed, options):
     producer = CloudProducer(options.size, options.size, "points", min(options.fps, CAMERA_FPS), options.folder)
 
     def show(cloud, capture_ns):
-        # As words: a colour's bits may be those of a NaN.
+        # Copied as words: a colour's bits may be those of a NaN.
         producer.begin().view(np.uint32)[...] = cloud.view(np.uint32)
         position, orientation = zed.world_pose()
         producer.publish(capture_ns, position, orientation, zed.lens)
@@ -148,7 +149,7 @@ def reference_output(options):
     generator = np.random.default_rng()
 
     def show(cloud, _capture_ns):
-        # With nobody watching the robot takes nothing; the camera goes on, so that the next cloud is a new one.
+        # While nobody watches, the robot takes nothing. The camera goes on, so that the next cloud is a recent one.
         wishes = producer.wait(timeout_s=0.01)
         if wishes is None:
             return

@@ -1,4 +1,4 @@
-/** docs/architecture.md says which room may use which: here it is held against what the sources import. */
+/** Compares the table of dependencies in docs/architecture.md with what the sources import. */
 import { dirname } from 'node:path';
 import { describe, expect, test } from 'vitest';
 import { cycles } from './lib/cycles.ts';
@@ -24,7 +24,7 @@ const sources = new Map(
     .map((file) => [file, read(file)]),
 );
 
-/** Rooms that a room's sources use; its tests and what only developers run are left out. */
+/** The folders that a folder's sources use, except in tests and developer tools. */
 function usedBy(folder: string): Map<string, string> {
   const used = new Map<string, string>();
   for (const [file, text] of sources) {
@@ -38,32 +38,32 @@ function usedBy(folder: string): Map<string, string> {
 }
 
 describe('the map', () => {
-  test('has a row for each folder of the workspace, and for no other', () => {
+  test('has a row for each folder of the workspace and for no others', () => {
     expect(rooms.map(({ folder }) => folder).sort()).toEqual([...folders].sort());
   });
 
-  test.each(rooms)('$folder uses what it may', (room) => {
+  test.each(rooms)('$folder uses only what it may', (room) => {
     const allowed = allowedFolders(room, rooms);
     const faults = [...usedBy(room.folder)].filter(([target]) => !allowed.has(target));
     expect(faults.map(([target, file]) => `${file} uses ${target}`)).toEqual([]);
   });
 
-  test('has no circle', () => {
+  test('has no cycle', () => {
     expect(cycles(new Map(folders.map((folder) => [folder, usedBy(folder).keys()])))).toEqual([]);
   });
 });
 
-test('every file that CONTRIBUTING.md names is there', () => {
+test('every file that CONTRIBUTING.md names exists', () => {
   const named = [...read('CONTRIBUTING.md').matchAll(/\]\(([\w./-]+\.ts)\)/g)].map(([, file]) => file!);
   expect(named.length).toBeGreaterThanOrEqual(10);
   expect(named.filter((file) => !sources.has(file))).toEqual([]);
 });
 
-/** What runs in a browser; a part of it that is for Node alone has an export of its own. */
+/** Sources that run in a browser. Parts for Node only have an export of their own. */
 const BROWSER = /^(?:packages\/(?:protocol|timing|rtp|operator|cloud-view)|apps\/webxr)\/src\//;
 const FOR_NODE = /^packages\/rtp\/src\/srtp\//;
 
-test('what runs in a browser uses nothing of Node', () => {
+test('browser code uses nothing of Node', () => {
   const faults = [...sources]
     .filter(([file]) => BROWSER.test(file) && !FOR_NODE.test(file) && !DEVELOPERS.test(file))
     .filter(([, text]) => /from 'node:/.test(text))
@@ -71,7 +71,7 @@ test('what runs in a browser uses nothing of Node', () => {
   expect(faults).toEqual([]);
 });
 
-test('what runs in a browser has the small build of the schema library: zod/mini, not zod', () => {
+test('browser code uses the small build of the schema library: zod/mini, not zod', () => {
   const faults = [...sources]
     .filter(([file, text]) => BROWSER.test(file) && /from 'zod'/.test(text))
     .map(([file]) => file);
@@ -79,7 +79,7 @@ test('what runs in a browser has the small build of the schema library: zod/mini
 });
 
 describe('sources', () => {
-  test('no file imports itself by way of others', () => {
+  test('no file imports itself through others', () => {
     const graph = new Map(
       [...sources].map(([file, text]) => [
         file,
@@ -89,7 +89,7 @@ describe('sources', () => {
     expect(cycles(graph)).toEqual([]);
   });
 
-  test(`none is longer than ${MAX_LINES} lines`, () => {
+  test(`no file is longer than ${MAX_LINES} lines`, () => {
     const long = [...sources]
       .filter(([file]) => !/\.test\.ts$/.test(file))
       .map(([file, text]) => ({ file, lines: text.split('\n').length - 1 }))

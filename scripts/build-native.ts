@@ -1,6 +1,6 @@
 /**
- * `pnpm build:native [shared-memory] [systemd] [dds]`: builds the native addons. Without a name all; then DDS, which needs a library
- * that not every robot has, may be missing.
+ * `pnpm build:native [shared-memory] [systemd] [dds]`: builds the native addons; without a name, all of them. In that
+ * case DDS may be missing, because it needs a library that not every robot has.
  */
 import * as dds from '../packages/dds/src/build.ts';
 import * as sharedMemory from '../packages/shared-memory/src/build.ts';

@@ -1,8 +1,8 @@
 /**
  * `pnpm build:wasm [--check] [--out-of-tree DIR] [NAME…]`: builds the WASM modules that are committed beside their
- * users; all of them, or those named (`farpoint_codec`).
+ * users: all of them, or those named (`farpoint_codec`).
  *
- *     --check            only compares the hash recorded with each module with its sources (needs no Rust)
+ *     --check            only compares each module's recorded hash with its sources (needs no Rust)
  *     --out-of-tree DIR  writes DIR/<name>/ and leaves the committed files alone
  */
 import { spawnSync } from 'node:child_process';
@@ -27,11 +27,11 @@ const ROOT = resolve(import.meta.dirname, '..');
 const require = createRequire(import.meta.url);
 const RECORD = 'sources.json';
 
-/** Kept with every committed module. */
+/** Stored with every committed module. */
 export interface WasmRecord {
   /** SHA-256 over the sources (see wasm-sources.ts). */
   sources: string;
-  /** Compiler, wasm-bindgen and wasm-opt: with the same ones the same sources give the same bytes. */
+  /** Compiler, wasm-bindgen and wasm-opt. With the same versions, the same sources give the same bytes. */
   toolchain: string;
   /** SHA-256 of `<name>_bg.wasm`. */
   wasm: string;
@@ -44,7 +44,7 @@ export interface StaleModule {
   reason: 'missing' | 'sources-changed' | 'module-changed';
 }
 
-/** What is stale among the committed modules; empty when all is well. Needs no Rust. */
+/** The stale ones among the committed modules. Needs no Rust. */
 export function checkFresh(root: string = ROOT, crates: readonly WasmCrate[] = WASM_CRATES): StaleModule[] {
   const stale: StaleModule[] = [];
   for (const crate of crates) {
@@ -61,15 +61,15 @@ export function checkFresh(root: string = ROOT, crates: readonly WasmCrate[] = W
 }
 
 export interface BuildOptions {
-  /** Writes `<outOfTree>/<name>/` in place of the committed folders. */
+  /** Writes `<outOfTree>/<name>/` instead of the committed folders. */
   outOfTree?: string;
-  /** Default: all of the table. */
+  /** Default: all crates of the table. */
   crates?: readonly WasmCrate[];
   toolchain?: WasmToolchain;
   log?: (line: string) => void;
 }
 
-/** A built module: where it lies and what was recorded with it. */
+/** A built module: its location and its record. */
 export interface BuiltModule {
   crate: WasmCrate;
   folder: string;
@@ -79,7 +79,7 @@ export interface BuiltModule {
 /**
  * Builds every module of the table.
  *
- * @throws NoWasmToolchainError, or an Error that names the step that failed
+ * @throws NoWasmToolchainError, or an Error naming the step that failed
  */
 export function buildWasm(options: BuildOptions = {}): BuiltModule[] {
   const log = options.log ?? (() => {});
@@ -88,11 +88,11 @@ export function buildWasm(options: BuildOptions = {}): BuiltModule[] {
   log(`toolchain: ${toolchain.version} (${toolchain.kind})`);
 
   const crates = options.crates ?? WASM_CRATES;
-  // All of them whichever are wanted: what is compiled together shares its features, and other features are other bytes.
+  // Always all crates: crates compiled together share features, and other features would give other bytes.
   const packages = WASM_CRATES.flatMap((crate) => ['-p', crate.package]);
-  // Its own folder: another compiler's leftovers would make Cargo start anew each time.
+  // A separate folder: after another compiler, Cargo would rebuild everything each time.
   const target = join(workspace, 'target', 'wasm');
-  // A check must not change the lock file; a developer's build may, after a change of the dependencies.
+  // A check must not change the lock file. A developer's build may do so after a change of dependencies.
   const locked = options.outOfTree === undefined ? [] : ['--locked'];
   log(`compiling ${crates.map((crate) => crate.package).join(', ')}`);
   run(
@@ -131,7 +131,7 @@ export function buildWasm(options: BuildOptions = {}): BuiltModule[] {
   });
 }
 
-/** The record kept with a module, or null where there is none to read. */
+/** The record stored with a module; null if there is no readable one. */
 export function readRecord(folder: string): WasmRecord | null {
   try {
     const value: unknown = JSON.parse(readFileSync(join(folder, RECORD), 'utf8'));
@@ -144,7 +144,7 @@ export function readRecord(folder: string): WasmRecord | null {
   }
 }
 
-/** SIMD, and no path of this machine in the module: it has the same bytes wherever it is built. */
+/** Enables SIMD, and removes this machine's paths, so that the module has the same bytes wherever it is built. */
 function rustFlags(toolchain: WasmToolchain, workspace: string): string {
   const cargoHome = process.env.CARGO_HOME ?? join(homedir(), '.cargo');
   const flags = [
@@ -161,7 +161,7 @@ function optimise(module: string): void {
   const tool = join(require.resolve('binaryen/package.json'), '..', 'bin', 'wasm-opt');
   const features = ['simd', 'bulk-memory', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals'];
   const enabled = [...features, 'reference-types', 'multivalue'].map((feature) => `--enable-${feature}`);
-  // More than that makes the codec 5 % slower: LLVM has seen to it that what runs often is laid out well.
+  // More optimisation makes the codec 5 % slower, because LLVM has already laid out hot code well.
   run(
     process.execPath,
     [tool, '-O1', '--strip-debug', '--strip-producers', ...enabled, module, '-o', module],
@@ -181,7 +181,7 @@ function hasRustc(): boolean {
 }
 
 function run(command: string, args: string[], cwd: string, env: Record<string, string> = {}): void {
-  // Cargo's own progress goes to standard error.
+  // Cargo writes its progress to standard error.
   const stdio: ['ignore', 'ignore', 'inherit'] = ['ignore', 'ignore', 'inherit'];
   const result = spawnSync(command, args, { cwd, stdio, env: { ...process.env, ...env } });
   if (result.error !== undefined) throw new Error(`${command}: ${result.error.message}`);

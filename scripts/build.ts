@@ -1,4 +1,4 @@
-/** `pnpm build`: what is deployed: the signaling bundle and the static web app. */
+/** `pnpm build`: builds what is deployed: the signaling bundle and the static web app. */
 import { run } from './lib/run.ts';
 
 for (const name of ['@farpoint/signaling', '@farpoint/webxr']) {

@@ -1,4 +1,7 @@
-/** What a package imports it declares, and what it declares it uses: else it works by luck, or installs what nobody needs. */
+/**
+ * Checks that a package declares everything it imports, and uses everything it declares. Otherwise it works by luck,
+ * or installs things that nobody needs.
+ */
 import { dirname, join } from 'node:path';
 import { describe, expect, test } from 'vitest';
 import { parse } from 'yaml';
@@ -13,7 +16,7 @@ const manifestSchema = z.object({
   devDependencies: record,
   peerDependencies: record,
   scripts: record,
-  /** Of a package that is published: what it imports of ours is bundled into it. */
+  /** Present in published packages. Their imports of our own packages are bundled. */
   publishConfig: z.object({}).optional(),
 });
 
@@ -22,17 +25,17 @@ const tsconfigSchema = z.object({ references: z.array(z.object({ path: z.string(
 const packages = files
   .filter((file) => /(^|\/)package\.json$/.test(file) && !file.includes('/fixtures/'))
   .map((file) => ({ folder: dirname(file), ...manifestSchema.parse(JSON.parse(read(file))) }));
-/** The deepest package that a file lies in. */
+/** The innermost package that contains a file. */
 const ownerOf = (file: string) =>
   packages
     .filter(({ folder }) => folder === '.' || file.startsWith(`${folder}/`))
     .reduce((best, each) => (each.folder.length >= best.folder.length || best.folder === '.' ? each : best));
 
 const SOURCE = /\.(?:ts|tsx|mts|js|mjs|cjs)$/;
-/** What only tests, benchmarks and builds run: devDependencies do for it. */
+/** Files that run only in tests, benchmarks and builds, for which devDependencies are enough. */
 const FOR_DEVELOPERS =
   /^(?:bench|e2e|scripts)\/|\.test\.ts$|\/(?:testing|deploy)\/|(?:\.config|^[^/]*|\/build)\.ts$/;
-/** Their texts import what they themselves do not. */
+/** Their texts contain imports that they do not make themselves. */
 const EXAMPLES = [
   'scripts/lib/package-imports.test.ts',
   'scripts/lib/file-imports.test.ts',
@@ -45,15 +48,15 @@ const sources = files.filter(
 const byPackage = new Map(packages.map((each) => [each.name, [] as { file: string; text: string }[]]));
 for (const file of sources) byPackage.get(ownerOf(file).name)!.push({ file, text: read(file) });
 
-/** The test runner and its helper, which every package's tests find in the workspace's root. */
+/** The test runner and its helper, which the tests of every package find in the workspace's root. */
 const EVERYWHERE = new Set(['vitest', 'fast-check']);
-/** Ambient types, named in a tsconfig.json rather than imported. */
+/** Ambient types, which a tsconfig.json names instead of an import. */
 const TYPES_OF_THE_PLATFORM = new Set(['@types/node', '@types/webxr']);
-/** The programs of packages that scripts run under another name. */
+/** Programs whose names differ from their packages'. */
 const PROGRAMS: Readonly<Record<string, string>> = { '@biomejs/biome': 'biome', typescript: 'tsc' };
-/** Peers that a tool asks for; nothing of ours imports them. */
+/** Peer dependencies that only a tool needs; nothing of ours imports them. */
 const ASKED_FOR: Readonly<Record<string, readonly string[]>> = { '@farpoint/api-pages': ['typescript'] };
-/** Of the user's own installation, named by configuration. */
+/** Packages from the user's own installation, named by configuration. */
 const FOREIGN = new Set(['rclnodejs']);
 
 describe.each(packages)('$name', (manifest) => {
@@ -96,7 +99,7 @@ describe.each(packages)('$name', (manifest) => {
     const scripts = Object.values(manifest.scripts).join('\n');
     const unused = Object.keys(declared).filter((name) => {
       if (imported.has(name) || ASKED_FOR[manifest.name]?.includes(name)) return false;
-      // Types are used by who uses what they describe.
+      // Type packages are used by whoever uses the package that they describe.
       const typed = /^@types\/(?<of>.+)$/.exec(name)?.groups?.of?.replace('__', '/');
       if (typed !== undefined) {
         const described = typed.includes('/') ? `@${typed}` : typed;
@@ -108,7 +111,7 @@ describe.each(packages)('$name', (manifest) => {
   });
 });
 
-test('every version of the catalog is some package’s', () => {
+test('every version in the catalog is used by a package', () => {
   const { catalog } = z.object({ catalog: record }).parse(parse(read('pnpm-workspace.yaml')));
   const used = new Set(
     packages.flatMap(({ dependencies, devDependencies }) =>

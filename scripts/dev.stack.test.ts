@@ -1,4 +1,4 @@
-/** `pnpm dev` as people run it. Others may have its usual ports: it takes what is free. */
+/** `pnpm dev` as people run it. Its usual ports may be taken; it then uses free ones. */
 import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { createInterface } from 'node:readline';
@@ -11,7 +11,7 @@ afterEach(() => {
 });
 
 test.skipIf(process.platform !== 'linux')(
-  'one robot that is killed is reported and back; signaling and page live on',
+  'reports and restarts a robot that is killed; signaling and page live on',
   async () => {
     dev = spawn(process.execPath, ['scripts/dev.ts'], {
       cwd: repositoryRoot,
@@ -36,7 +36,7 @@ test.skipIf(process.platform !== 'linux')(
   60_000,
 );
 
-test('a mistake on its command line is one sentence', () => {
+test('reports a mistake on its command line in one sentence', () => {
   const { status, stderr } = spawnSync(process.execPath, ['scripts/dev.ts', '--robot', '2'], {
     ...{ cwd: repositoryRoot, encoding: 'utf8' },
   });
@@ -46,7 +46,7 @@ test('a mistake on its command line is one sentence', () => {
   );
 });
 
-/** What the first group of the pattern found in the next line that fits. */
+/** What the pattern's first group matched in the next line that fits. */
 async function seen(lines: AsyncIterator<string>, pattern: RegExp): Promise<string> {
   for (;;) {
     const line = await lines.next();

@@ -1,6 +1,6 @@
 /**
- * `pnpm dev`: the whole local stack: signaling, one simulated robot and the web app. Prints the address to open; Ctrl-C
- * stops everything.
+ * `pnpm dev`: runs the whole local stack: signaling, one simulated robot and the web app. Prints the address to open.
+ * Ctrl-C stops everything.
  */
 import { setTimeout as delay } from 'node:timers/promises';
 import {
@@ -17,10 +17,10 @@ import { portHolder } from '@farpoint/service';
 import { Backoff } from '@farpoint/timing';
 import { DEV_HELP, type DevOptions, readDevOptions } from './lib/dev-options.ts';
 
-/** The usual port of a robot's own, 9400, stays free for one that is started beside these. */
+/** Leaves a robot's usual port, 9400, free for one that is started beside these. */
 const FIRST_ADMIN_PORT = 9410;
 const FIRST_WEB_PORT = 5173;
-/** Of a program that failed, so many of its last lines are shown. */
+/** Number of last lines shown from a program that failed. */
 const SHOWN_LINES = 8;
 
 const options = optionsOrExit();
@@ -48,7 +48,7 @@ async function stop(code: number): Promise<void> {
   await stack?.stop();
   process.exit(code);
 }
-/** Ctrl-C may come twice: from the terminal, and from pnpm, which hands it on. */
+/** Ctrl-C may arrive twice: from the terminal, and from pnpm, which forwards it. */
 const SAME_SIGNAL_MS = 500;
 let askedMs = 0;
 for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP'] as const) {
@@ -58,7 +58,7 @@ for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP'] as const) {
       if (signal === 'SIGINT') console.log('\nstopping');
       void stop(0);
     } else if (performance.now() - askedMs > SAME_SIGNAL_MS) {
-      // Asked again: at once. Exiting takes all programs along, which being ended by a signal would not.
+      // A second Ctrl-C exits immediately. Exiting ends all programs, which dying from a signal would not.
       process.exit(1);
     }
   });
@@ -111,7 +111,7 @@ try {
   }
 }
 
-/** One that ends takes no other along: it is said, and it is started again. */
+/** Restarts a program that ends, and reports it. The others go on. */
 function keep(first: ManagedProcess, start: () => Promise<ManagedProcess>): void {
   const { name } = first;
   const again = (waitMs: number) => `; restarting it in ${(waitMs / 1000).toFixed(1)} s`;
@@ -122,7 +122,7 @@ function keep(first: ManagedProcess, start: () => Promise<ManagedProcess>): void
       backoff: new Backoff({ firstMs: 500, mostMs: 10_000, random: Math.random }),
       now: () => performance.now(),
       wait: async (ms, signal) => {
-        // An abort ends the wait: whoever waits looks at the signal.
+        // Aborting ends the wait. The caller checks the signal.
         await delay(ms, undefined, { signal }).catch(() => {});
       },
       onEnd: ({ output }, exit, waitMs) => {

@@ -1,4 +1,4 @@
-/** Every command that stands in README and documents: it runs where it can, and its options are the program's own. */
+/** Tests every command in README and documents: each runs if it can, and its options are the program's own. */
 import { spawn, spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -22,13 +22,13 @@ const texts = [...new Set(found.map(({ text }) => text))];
 const folder = mkdtempSync(join(tmpdir(), 'farpoint-documents-'));
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
-test('each command is known to the table, and each of the table stands in a document', () => {
+test('each command is in the table, and each in the table is in a document', () => {
   const unknown = found.filter(({ text }) => TREATMENTS[text] === undefined);
   expect(unknown.map(({ file, line, text }) => `${file}:${line}: ${text}`)).toEqual([]);
   expect(Object.keys(TREATMENTS).filter((text) => !texts.includes(text))).toEqual([]);
 });
 
-test('programs are started by their scripts: Node from 18 on does for everybody', () => {
+test('programs are started through their scripts, so that Node 18 or newer is enough', () => {
   const direct = found.filter(({ text }) => /\bnode (apps|packages|scripts|bench)\/\S+\.ts/.test(text));
   const allowed = direct.filter(({ text }) => text.includes('pnpm@12 exec node '));
   expect(direct.map(({ text }) => text)).toEqual(allowed.map(({ text }) => text));
@@ -39,7 +39,7 @@ const known = texts.flatMap((text) => {
   return treatment === undefined ? [] : [{ text, treatment }];
 });
 
-describe('files and scripts that commands name are there', () => {
+describe('files and scripts that commands name exist', () => {
   test.each(known)('$text', ({ text }) => {
     const words = shellWords(text);
     for (const word of words) {
@@ -71,7 +71,7 @@ describe('a command’s options are the program’s', () => {
   );
 
   function helpOf({ file, args }: Program): string {
-    // Of a benchmark, a suite or a command of the robot it is the help of that.
+    // For a benchmark, a suite or a command of the robot, use the help of that.
     const sub = /^[a-z]/.test(args[0] ?? '') ? args.slice(0, 1) : [];
     const key = [file, ...sub].join(' ');
     const cached = helps.get(key);
@@ -80,7 +80,7 @@ describe('a command’s options are the program’s', () => {
       ...{ cwd: folder, encoding: 'utf8' },
     });
     expect(status, key).toBe(0);
-    // What the robot's doctor takes are the robot's options, too.
+    // The robot's doctor accepts the robot's options, too.
     const rest = /any option of farpoint-robot/.test(stdout) ? helpOf({ file, args: [] }) : '';
     helps.set(key, stdout + rest);
     return stdout + rest;
@@ -102,14 +102,14 @@ describe('a command runs', () => {
 });
 
 interface Program {
-  /** Within the repository. */
+  /** Path within the repository. */
   file: string;
   args: string[];
 }
 
 type Running = Extract<Treatment, { up: unknown }> | Extract<Treatment, { refused: unknown }>;
 
-/** The script of `pnpm <script>`, by whatever way pnpm is called. */
+/** The script of `pnpm <script>`, however pnpm is called. */
 function scriptOf(words: readonly string[]): { name: string; args: string[] } | null {
   const at = words.findIndex((word) => /^pnpm(@\d+)?$/.test(word));
   const [name, ...args] = at < 0 ? [] : words.slice(at + 1);
@@ -129,15 +129,15 @@ function programOf(words: readonly string[]): Program {
   return { file: 'apps/signaling/src/main.ts', args: words.slice(signaling + 1) };
 }
 
-/** With its own words first: of an option that is given twice the last counts. */
+/** The document's own words come first: if an option is given twice, the last one counts. */
 async function runs({ file, args }: Program, treatment: Running): Promise<{ said: string[]; code: unknown }> {
   const fill = 'fill' in treatment ? treatment.fill : undefined;
-  // Dots at the end stand for what people add, dots after an option for its value.
+  // Dots at the end stand for additions by the reader; dots after an option stand for its value.
   const own = args.at(-1) === '…' && !/^--token$/.test(args.at(-2) ?? '') ? args.slice(0, -1) : args;
   const words = own.map((word) => fill?.[word] ?? word);
   const child = spawn(process.execPath, [join(root, file), ...words, ...(treatment.also ?? [])], {
     cwd: folder,
-    // Not where the person who runs the tests keeps a robot's state.
+    // A folder of its own, away from the robot state of the person who runs the tests.
     env: { ...process.env, XDG_STATE_HOME: folder },
     stdio: ['ignore', 'pipe', 'pipe'],
   });
@@ -154,10 +154,10 @@ async function runs({ file, args }: Program, treatment: Running): Promise<{ said
   return { said, code };
 }
 
-/** Whether a help, or a program's text, has this option: as a word of its own. */
+/** Whether a help text or a program contains this option as a separate word. */
 function names(source: string, option: string): boolean {
   const escaped = option.replaceAll(/[.*+?^${}()|[\]\\]/g, '\\$&');
   const spelled = new RegExp(`(?<![\\w-])${escaped}(?![\\w-])`);
-  // Programs that use parseArgs have the bare name.
+  // Programs that use parseArgs contain the bare name.
   return spelled.test(source) || new RegExp(`^\\s*'?${escaped.replace(/^--/, '')}'?: \\{`, 'm').test(source);
 }

@@ -1,4 +1,7 @@
-/** The structure of the Rust sources: no cycle of files inside a crate, no file too long to read at a sitting. */
+/**
+ * Checks the structure of the Rust sources: no cycles of files within a crate, and no file that is too long to read
+ * in one go.
+ */
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
@@ -8,7 +11,7 @@ import { rustFileGraph } from './lib/rust-modules.ts';
 import { CARGO_WORKSPACE } from './wasm-table.ts';
 
 const MAX_LINES = 300;
-/** Written by programs. */
+/** Generated files. */
 const GENERATED = ['crates/unorganised-codec/src/tables_data.rs'];
 
 const workspace = join(root, CARGO_WORKSPACE);
@@ -18,7 +21,7 @@ const files = readdirSync(workspace, { recursive: true, encoding: 'utf8' })
   .sort();
 const read = (file: string) => readFileSync(join(workspace, file), 'utf8');
 
-/** Folders with a `lib.rs` or `main.rs`: libraries, programs, examples of several files. */
+/** Folders with a `lib.rs` or `main.rs`: libraries, programs, and examples with several files. */
 const crates = files.flatMap((file) => /^(.*)\/(?:lib|main)\.rs$/.exec(file)?.[1] ?? []);
 
 test('there are crates to check', () => {
@@ -26,7 +29,7 @@ test('there are crates to check', () => {
   expect(crates).toContain('xtask/src');
 });
 
-describe('no file of a crate uses itself by way of others', () => {
+describe('no file of a crate uses itself through others', () => {
   test.each(crates)('%s', (crate) => {
     const own = files.filter((file) => file.startsWith(`${crate}/`));
     const sources = new Map(own.map((file) => [file.slice(crate.length + 1), read(file)]));
@@ -41,7 +44,7 @@ describe('no file of a crate uses itself by way of others', () => {
   });
 });
 
-test(`no Rust source has more than ${MAX_LINES} lines, but for generated ones`, () => {
+test(`no Rust source has more than ${MAX_LINES} lines, except generated ones`, () => {
   const lengths = files
     .filter((file) => !GENERATED.includes(file))
     .map((file) => [file, lines(read(file))] as const);

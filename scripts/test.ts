@@ -1,6 +1,6 @@
 /**
- * `pnpm test`: everything that must hold, in the order in which a fault is cheapest to find. Each step says what it
- * does and how long it took; a step that cannot proceed says what is missing and the command that cures it.
+ * `pnpm test`: runs all checks, in the order in which a fault is cheapest to find. Each step says what it does and
+ * how long it took. A step that cannot run says what is missing, and which command fixes that.
  */
 import { parseArgs } from 'node:util';
 import { CHROMIUM_REMEDY } from '@farpoint/local-stack';
@@ -18,7 +18,7 @@ import { testRust } from './lib/test-rust.ts';
 
 interface StepResult {
   ok: boolean;
-  /** Why the step did not run, with the remedy; the whole run fails where `CI` is set. */
+  /** Why the step did not run, with the remedy. If `CI` is set, the whole run then fails. */
   skipped?: string;
   tally?: Tally;
   output?: string;
@@ -156,7 +156,7 @@ for (const [index, step] of chosen.entries()) {
   }
 }
 
-// A step that fails without a failing test of its own (a lint, a build) counts as one failure.
+// A step that fails without a failing test (a lint, a build) counts as one failure.
 const failed = Math.max(total.failed, faults.length);
 for (const fault of faults) console.log(fault);
 if (only?.join() === 'pure' && faults.length === 0) {

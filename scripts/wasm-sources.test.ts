@@ -12,7 +12,7 @@ const file = (path: string, text: string): SourceFile => ({ path, bytes: Buffer.
 describe('hashSources', () => {
   const files = [file('a.rs', 'fn a() {}\n'), file('b.rs', 'fn b() {}\n')];
 
-  test('does not depend on the order of the files nor on their line ends', () => {
+  test('does not depend on the order of the files or on their line endings', () => {
     expect(hashSources([...files].reverse())).toBe(hashSources(files));
     const windows = files.map(({ path, bytes }) =>
       file(path, Buffer.from(bytes).toString().replaceAll('\n', '\r\n')),
@@ -51,14 +51,14 @@ describe('checkFresh', () => {
     }
     const folder = join(root, crate.outDir);
     cpSync(join(repository, crate.outDir), folder, { recursive: true });
-    // Fresh whatever state the checkout's own module is in.
+    // Valid whatever state the checkout's own module is in.
     const record = JSON.parse(readFileSync(join(folder, 'sources.json'), 'utf8')) as Record<string, string>;
     record.sources = hashSources(sourcesOf(root, crate));
     writeFileSync(join(folder, 'sources.json'), JSON.stringify(record));
   });
   afterEach(() => rmSync(root, { recursive: true }));
 
-  test('passes what is built from its sources', () => {
+  test('accepts a module that was built from its sources', () => {
     expect(checkFresh(root, [crate])).toEqual([]);
   });
 

@@ -1,35 +1,34 @@
 /**
- * The hash that ties a committed WASM module to the sources it was built from, so that a stale module is found
- * without a Rust compiler.
+ * The hash that ties a committed WASM module to its sources, so that a stale module is found without a Rust compiler.
  */
 import { createHash } from 'node:crypto';
 import { type Dirent, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { CARGO_WORKSPACE, type WasmCrate } from './wasm-table.ts';
 
-/** A source file: its path from the workspace's root with `/` between the parts, and its bytes. */
+/** A source file: its path from the workspace's root, with `/` between parts, and its bytes. */
 export interface SourceFile {
   path: string;
   bytes: Uint8Array;
 }
 
-/** Folders inside a crate that never reach the module. */
+/** Folders inside a crate that do not affect the module. */
 const LEFT_OUT = new Set(['target', 'tests', 'benches', 'examples', 'proptest-regressions']);
 
-/** SHA-256 (hex) over the files in the order of their paths; line ends count as LF. */
+/** SHA-256 (hex) over the files in the order of their paths; line endings count as LF. */
 export function hashSources(files: readonly SourceFile[]): string {
   const hash = createHash('sha256');
   const sorted = [...files].sort((a, b) => (a.path < b.path ? -1 : a.path > b.path ? 1 : 0));
   for (const file of sorted) {
     const text = Buffer.from(file.bytes).toString('utf8').replaceAll('\r\n', '\n');
-    // Lengths before contents: no two different sets of files give the same bytes.
+    // Lengths precede contents, so that no two different sets of files give the same bytes.
     hash.update(`${file.path}\n${Buffer.byteLength(text)}\n`);
     hash.update(text);
   }
   return hash.digest('hex');
 }
 
-/** The files a module is built from: its crates, the workspace's manifest and lock file, and xtask. */
+/** The files that a module is built from: its crates, the workspace's manifest and lock file, and xtask. */
 export function sourcesOf(root: string, crate: WasmCrate): SourceFile[] {
   const workspace = join(root, CARGO_WORKSPACE);
   const files: SourceFile[] = [];

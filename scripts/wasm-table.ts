@@ -5,9 +5,9 @@ export interface WasmCrate {
   package: string;
   /** The library's name: `<name>.js` and `<name>_bg.wasm` are written. */
   name: string;
-  /** Where the files are committed, from the repository's root. */
+  /** Folder of the committed files, from the repository's root. */
   outDir: string;
-  /** The crates (folders of `wasm-codec/crates`) whose sources end up in the module. */
+  /** The crates (folders of `wasm-codec/crates`) whose sources are part of the module. */
   crates: readonly string[];
 }
 

@@ -1,4 +1,4 @@
-/** Finds a Rust compiler for `wasm32-unknown-unknown`, by the ways that work on ordinary machines. */
+/** Finds a Rust compiler for `wasm32-unknown-unknown`, in the ways that work on ordinary machines. */
 import { spawnSync } from 'node:child_process';
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { homedir } from 'node:os';
@@ -8,19 +8,19 @@ import { rootCommand } from './lib/root-command.ts';
 export const WASM_TARGET = 'wasm32-unknown-unknown';
 
 const DEBIAN_RUSTC = '/usr/bin/rustc';
-/** Debian's newer compiler (made for browsers), the sources of its standard library, and its linker. */
+/** Debian's newer compiler (packaged for browsers), the sources of its standard library, and its linker. */
 const DEBIAN_PACKAGES = ['rustc-web', 'rust-web-src', 'rust-web-llvm', 'lld-22'];
 
 export interface WasmToolchain {
-  /** Which way it was found. */
+  /** How it was found. */
   kind: 'rustup' | 'debian';
   /** `rustc --version`, in full. */
   version: string;
-  /** The compiler's own files: these paths must not show in what it makes. */
+  /** The compiler's own files. Their paths must not appear in its output. */
   sysroot: string;
   /** The Cargo that drives it. */
   cargo: string;
-  /** Environment variables for Cargo, on top of the present ones. */
+  /** Environment variables for Cargo, in addition to the present ones. */
   env: Record<string, string>;
   /** Options for `cargo build`, after `--target`. */
   cargoArgs: string[];
@@ -28,15 +28,15 @@ export interface WasmToolchain {
   rustFlags: string[];
 }
 
-/** No toolchain: `message` is one sentence that says what is missing and the command that cures it. */
+/** There is no toolchain. `message` is one sentence that says what is missing and which command fixes it. */
 export class NoWasmToolchainError extends Error {
   override readonly name = 'NoWasmToolchainError';
 }
 
 export interface FindOptions {
-  /** May install what is missing (`rustup target add`, `apt-get install`). Default true. */
+  /** Whether missing parts may be installed (`rustup target add`, `apt-get install`). Default true. */
   install?: boolean;
-  /** Is told what is being installed. */
+  /** Called with a line about each installation. */
   log?: (line: string) => void;
 }
 
@@ -50,7 +50,7 @@ export function findWasmToolchain(options: FindOptions = {}): WasmToolchain {
     const ready = rustupToolchain(cargo);
     if (ready !== null) return ready;
   }
-  // Before rustup may try its server: on machines that cannot reach it, Debian's compiler is already there.
+  // Tried before rustup contacts its server: machines that cannot reach it may already have Debian's compiler.
   const debian = debianToolchain(cargo);
   if (debian !== null) return debian;
 
@@ -77,7 +77,7 @@ function rustupToolchain(cargo: string): WasmToolchain | null {
   return { kind: 'rustup', version, sysroot, cargo, env: {}, cargoArgs: [], rustFlags: [] };
 }
 
-/** Debian ships no standard library for WASM of that version; Cargo builds it from Debian's sources. */
+/** Debian has no WASM standard library for that version; Cargo builds it from Debian's sources. */
 function debianToolchain(cargo: string | null): WasmToolchain | null {
   const linker = debianLinker();
   if (cargo === null || linker === null || !existsSync(DEBIAN_RUSTC)) return null;
@@ -90,14 +90,14 @@ function debianToolchain(cargo: string | null): WasmToolchain | null {
     version,
     sysroot,
     cargo,
-    // A released compiler builds the standard library only when told that this is meant.
+    // A released compiler builds the standard library only with this explicit permission.
     env: { RUSTC: DEBIAN_RUSTC, RUSTC_BOOTSTRAP: '1' },
     cargoArgs: ['-Zbuild-std=std,panic_abort'],
     rustFlags: [`-Clinker=${linker}`],
   };
 }
 
-/** The linker of the newest LLVM that is installed: Debian keeps each version in a folder of its own. */
+/** The linker of the newest installed LLVM. Debian keeps each version in its own folder. */
 function debianLinker(): string | null {
   const versions = existsSync('/usr/lib') ? readdirSync('/usr/lib') : [];
   const linkers = versions
@@ -122,7 +122,7 @@ function installDebianPackages(withCargo: boolean, log: (line: string) => void):
     );
   };
   const wanted = ['install', '-y', '--no-install-recommends', ...packages];
-  // A machine's package lists may be old or empty: the second try is after an update.
+  // A machine's package lists may be old or empty, so the second attempt follows an update.
   return apt(wanted) || (apt(['update']) && apt(wanted));
 }
 
@@ -142,7 +142,7 @@ function findCargo(): string | null {
   return null;
 }
 
-/** Debian itself: its derivatives do not all have these packages. */
+/** Debian itself, because not all of its derivatives have these packages. */
 function isDebian(): boolean {
   try {
     return /^ID=["']?debian["']?$/m.test(readFileSync('/etc/os-release', 'utf8'));

@@ -1,11 +1,11 @@
 import { readFileSync } from 'node:fs';
 import { defineConfig } from 'vite';
 
-// A headset on the LAN needs https for WebXR: give a certificate that it trusts.
+// A headset on the LAN needs https for WebXR, with a certificate that it trusts.
 const { FARPOINT_HTTPS_CERT: cert, FARPOINT_HTTPS_KEY: key, FARPOINT_WEB_PORT: port } = process.env;
 
 export default defineConfig(({ mode }) => ({
-  // Works under whatever path it is served.
+  // Works under any path.
   base: './',
   server: {
     port: port === undefined ? 5173 : Number(port),
@@ -17,9 +17,9 @@ export default defineConfig(({ mode }) => ({
   worker: { format: 'es' },
   build: {
     target: 'es2022',
-    // The WASM module stays a file: it is compiled while it streams in.
+    // The WASM module stays a file, so that it compiles while it streams in.
     assetsInlineLimit: 0,
-    // The page with `window.farpoint`, for tests and benchmarks.
+    // The testing build includes `window.farpoint`, for tests and benchmarks.
     outDir: mode === 'testing' ? 'dist-testing' : 'dist',
     sourcemap: true,
     chunkSizeWarningLimit: 900,

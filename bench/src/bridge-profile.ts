@@ -1,4 +1,7 @@
-/** `pnpm bench bridge --profile`: where the time of a small frame goes, from a camera's shared memory to a page's socket. */
+/**
+ * `pnpm bench bridge --profile`: measures where the time of a small frame goes, from a camera's shared memory to a
+ * page's socket.
+ */
 import { type ChildProcess, fork, spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
@@ -19,7 +22,7 @@ export interface ProfileOptions {
   json: boolean;
 }
 
-/** When one frame came to each place, ms on the machine's clock. */
+/** When one frame reached each stage, ms on the machine's clock. */
 interface FrameTimes {
   captured: number;
   ready: number;
@@ -40,7 +43,7 @@ const STAGES: readonly [name: string, from: keyof FrameTimes, to: keyof FrameTim
   ['in all', 'captured', 'read'],
 ];
 
-/** Rate control and plan are the robot's own: nothing tells it how much the path carries. */
+/** Rate control and plan are the robot's defaults: it does not know how much the path carries. */
 export async function profile({ points, fps, seconds, json }: ProfileOptions): Promise<void> {
   buildAddon();
   const folder = mkdtempSync('/dev/shm/farpoint-profile-');
@@ -51,7 +54,7 @@ export async function profile({ points, fps, seconds, json }: ProfileOptions): P
     process.execPath,
     [
       ...[join(import.meta.dirname, 'shm-producer.ts'), '--layout', 'farpoint', '--folder', folder],
-      // As many points as are sent: the reference system's producer, too, has drawn them already.
+      // As many points as are sent: the reference system's producer has already sampled them, too.
       ...['--fps', String(fps), '--size', String(Math.ceil(Math.sqrt(points) / 4) * 4), '--scene'],
     ],
     { stdio: ['ignore', 'inherit', 'inherit'] },
@@ -121,7 +124,7 @@ export async function profile({ points, fps, seconds, json }: ProfileOptions): P
   }
 }
 
-/** The robot's frames, its packets, the bridge's frames and the reader's messages, each in order. */
+/** Joins the robot's frames, its packets, the bridge's frames and the reader's messages, each in order. */
 function joined(
   captured: ReturnType<typeof readFrameLog>,
   packetLog: string,
@@ -146,7 +149,7 @@ function joined(
     const packets = sent.get(frameNumber);
     const arrival = read[n];
     if (packets === undefined || arrival === undefined || points < expectedPoints) return;
-    // Frame numbers begin anew with each connection: the frame that was ready last is the one that is sent.
+    // Frame numbers restart with each connection, so the frame that was ready last is the one sent.
     while ((captured[at + 1]?.readyMs ?? Number.POSITIVE_INFINITY) <= packets.first) at++;
     const frame = captured[at];
     if (frame === undefined || frame.readyMs > packets.first) return;

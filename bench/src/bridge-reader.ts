@@ -1,24 +1,27 @@
 /**
- * A page's streaming socket in a process of its own: when each message was there to its last byte. Reads into one buffer
- * and keeps nothing, so that its own memory does not delay what it measures. Run as a child; tells its parent `ready`, and
- * on any message from it `{arrivals}`.
+ * A page's streaming socket in its own process. Records when the last byte of each message arrived. It reads into one
+ * buffer and keeps nothing, so that its own memory does not delay what it measures. Run as a child process: it sends
+ * `ready` to its parent, and answers any message with `{arrivals}`.
  */
 import { connect } from 'node:net';
 import { setNiceness } from '@farpoint/service';
 
 const [port] = process.argv.slice(2).map(Number);
 if (port === undefined) throw new Error('usage: bridge-reader PORT');
-// The page's machine is not the robot's: it does not wait while the robot computes.
+// A page's machine is not the robot's, so the reader must not wait while the robot computes.
 try {
   setNiceness(-5);
 } catch {
-  // Without the right to, it waits now and then.
+  // Without the privilege, it sometimes has to wait.
 }
 
 const MAX_ARRIVALS = 100_000;
 const HEADER_END = Buffer.from('\r\n\r\n');
 const arrivals: { atMs: number; bytes: number }[] = [];
-/** The present WebSocket frame (RFC 6455 §5.2): its header's bytes so far, and what is left of its payload. */
+/**
+ * The current WebSocket frame (RFC 6455 §5.2): the bytes of its header so far, and the remaining bytes of its
+ * payload.
+ */
 const header = Buffer.alloc(10);
 let headerBytes = 0;
 let payloadLeft = 0;
@@ -28,7 +31,7 @@ let upgraded = false;
 function onBytes(chunk: Buffer): void {
   let at = 0;
   if (!upgraded) {
-    // The service answers in one piece and sends nothing before the next frame of the robot.
+    // The service answers in one piece, and sends nothing before the robot's next frame.
     at = chunk.indexOf(HEADER_END) + HEADER_END.length;
     if (!chunk.toString('latin1').startsWith('HTTP/1.1 101')) throw new Error('no WebSocket');
     upgraded = true;

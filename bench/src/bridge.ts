@@ -142,7 +142,7 @@ async function run(packets: number, fps: number, seconds: number): Promise<RunRe
           '--max-points',
           String(packets * POINTS_PER_PACKET),
         ],
-        // A little more than the frames need: the pace leaves a pause before the next.
+        // Slightly more than the frames need, so that pacing leaves a pause before the next frame.
         ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', (mbps * 1.05).toFixed(2)],
       ],
     });
@@ -150,7 +150,7 @@ async function run(packets: number, fps: number, seconds: number): Promise<RunRe
       env,
       args: ['--stats', frameFile, '--start-bits-per-second', '200e6', '--max-bits-per-second', '200e6'],
     });
-    // A session of its own, so that its priority counts (sched(7), autogroup).
+    // In a session of its own, so that its priority takes effect (sched(7), autogroup).
     reader = fork(new URL('./bridge-reader.ts', import.meta.url), [String(bridge.ports.streaming)], {
       detached: true,
     });
@@ -220,7 +220,10 @@ interface Joined {
   expectedPoints: number;
 }
 
-/** The bridge's frames, the reader's messages (one for each frame that went to a page, in order), the robot's packets. */
+/**
+ * Joins the bridge's frames, the reader's messages (one for each frame sent to a page, in order) and the robot's
+ * packets.
+ */
 function join3(
   records: readonly BridgeFrame[],
   read: readonly { atMs: number; bytes: number }[],
@@ -239,7 +242,7 @@ function join3(
     expectedPoints: 0,
   };
   const delivered = records.filter(({ pages }) => pages > 0);
-  // Those before the reader came went to nobody.
+  // Frames before the reader connected reached nobody.
   const arrivalOf = new Map(delivered.map((record, i) => [record, read[i]]));
   for (const record of records) {
     if (record.lastPacketMs < fromMs || record.lastPacketMs >= toMs) continue;

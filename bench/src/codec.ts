@@ -1,4 +1,7 @@
-/** `pnpm bench codec`: what the point codecs make of clouds, how fast, and what packet loss does to them. */
+/**
+ * `pnpm bench codec`: size and quality of clouds from the point codecs, the codecs' speed, and the effect of packet
+ * loss.
+ */
 import { writeFile } from 'node:fs/promises';
 import { parseArgs } from 'node:util';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
@@ -45,7 +48,7 @@ export const bench: Bench = {
     });
     if (values.help) return console.log(USAGE);
     const rounds = numberOption('rounds', values.rounds, 1);
-    // `--cloud a.pcd b.pcd` as well as `--cloud a.pcd --cloud b.pcd`.
+    // Accepts `--cloud a.pcd b.pcd` as well as `--cloud a.pcd --cloud b.pcd`.
     const clouds: BenchCloud[] = [
       ...[...values.cloud, ...positionals].map(pcdCloud),
       ...(values.rgbd === undefined ? [] : rgbdClouds(values.rgbd)),
@@ -112,12 +115,15 @@ export const bench: Bench = {
   },
 };
 
-/** Every codec's settings that make sense for a cloud, made one at a time, for they take memory; or why there is none. */
+/**
+ * For every codec, the settings that make sense for a cloud, or why there are none. Runs are created one at a time,
+ * because they take memory.
+ */
 async function codecMakers(): Promise<Record<string, (cloud: BenchCloud) => (() => CodecRun | string)[]>> {
   const codec = await loadCodecFromDisk();
   const dracoModules = await loadDraco();
   await loadMeshopt();
-  // What int16 can hold: millimetres for a camera, centimetres for a LiDAR.
+  // Chosen to fit int16: millimetres for a camera, centimetres for a LiDAR.
   const coarse = (cloud: BenchCloud) => (cloud.depth === 'range' ? 10 : 1);
   return {
     points64: (cloud) => [() => points64(codec, cloud)],

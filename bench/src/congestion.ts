@@ -39,7 +39,7 @@ const CONTROLLERS: Record<string, () => RateController> = {
   gcc: () => new GccController(),
   fixed: () => new FixedRateController({ bitsPerSecond: 40 * M }),
 };
-/** What is plotted of a scenario: an outcome for each controller. */
+/** The outcomes of one scenario that are plotted, one per controller. */
 type Runs = Map<string, Outcome>;
 
 interface Case extends Scenario {
@@ -191,7 +191,7 @@ function measure(one: Case, outcome: Outcome): Record<string, Cell> {
   };
 }
 
-/** Rates above, queueing delay below: two panels. */
+/** Two panels: rates above, queueing delay below. */
 function panels(one: Case, runs: Runs): Panel[] {
   const seconds = (steps: readonly CapacityStep[]) =>
     [...steps.map((s) => s.atMs), one.durationMs].map((t) => t / 1000);
@@ -228,7 +228,7 @@ function mostWaited(flow: FlowRecord, fromMs: number, toMs: number): number {
 
 function traceCase(file: string): Case {
   const { steps: capacity } = parseTrace(readFileSync(file, 'utf8'), 'hold');
-  // A cellular base station keeps a long queue for each user.
+  // A cellular base station has a long queue for each user.
   return {
     name: `trace ${file.split('/').at(-1)}`,
     durationMs: capacity.at(-1)!.atMs,

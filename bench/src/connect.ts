@@ -1,4 +1,4 @@
-/** `pnpm bench connect`: how long a session takes to come about. */
+/** `pnpm bench connect`: how long it takes to establish a session. */
 import { parseArgs } from 'node:util';
 import { ReferenceOperator } from '@farpoint/conformance';
 import { LocalStack } from '@farpoint/local-stack';
@@ -35,7 +35,7 @@ export const bench: Bench = {
       env: { FARPOINT_LOG_LEVEL: 'warn' },
     });
     try {
-      // It makes one offer at a time, and the next one when that operator has gone.
+      // The robot makes one offer at a time, and the next one when that operator has left.
       const offered = async (connected: number) => {
         while ((await metric(stack, 'reference_offers')) <= connected) {
           await new Promise((resolve) => setTimeout(resolve, 20));
@@ -75,7 +75,7 @@ async function metric(stack: LocalStack, name: string): Promise<number> {
   return Number(line?.split(' ').at(-1) ?? 0);
 }
 
-/** @param connect gives what closes the connection again */
+/** @param connect returns a function that closes the connection again */
 async function times(
   count: number,
   connect: () => Promise<() => Promise<unknown>>,

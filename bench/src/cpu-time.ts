@@ -9,7 +9,7 @@ interface ProcessTimes {
   seconds: number;
 }
 
-/** @returns seconds of processor time so far, or `null` where there is no /proc */
+/** @returns seconds of processor time so far, or `null` without /proc */
 export function cpuSecondsOfTree(pid: number): number | null {
   const processes = readProcesses();
   if (processes === null) return null;
@@ -35,20 +35,20 @@ function readProcesses(): Map<number, ProcessTimes> | null {
     try {
       processes.set(Number(name), parseStat(readFileSync(`/proc/${name}/stat`, 'utf8')));
     } catch {
-      // It ended in between.
+      // The process has ended meanwhile.
     }
   }
   return processes;
 }
 
-/** proc(5): the fields after the name, which stands in brackets and may hold anything. */
+/** proc(5): the fields after the name, which is in brackets and may contain anything. */
 export function parseStat(stat: string): ProcessTimes {
   const fields = stat.slice(stat.lastIndexOf(')') + 2).split(' ');
   const [parent, user, system] = [fields[1], fields[11], fields[12]].map(Number) as [number, number, number];
   return { parent, seconds: (user + system) / TICKS_PER_SECOND };
 }
 
-/** Mean cores used between two readings; `null` where there is no /proc. */
+/** Mean number of cores used between two readings; `null` without /proc. */
 export function coresBetween(before: number | null, after: number | null, elapsedMs: number): number | null {
   return before === null || after === null
     ? null

@@ -1,4 +1,7 @@
-/** `pnpm bench dds`: clouds from another maker's ROS 2 node to the robot's packets, and velocities back to it. */
+/**
+ * `pnpm bench dds`: clouds from a ROS 2 node of another implementation to the robot's packets, and velocities back to
+ * it.
+ */
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -107,7 +110,7 @@ interface DdsResult {
   robotCpu: number | null;
   peerCpu: number | null;
   commands: number;
-  /** Velocities of those commands that the node heard. */
+  /** Velocities that the node received, out of the commands sent. */
   twists: number;
 }
 
@@ -155,7 +158,7 @@ async function measure({ command, side, hz, seconds, mbps, reliability }: Run): 
     const elapsedMs = endMs - beginMs;
     const frames = readFrameLog(frameLog).filter(({ readyMs }) => readyMs >= beginMs && readyMs < endMs);
     return {
-      // The stamp is of the node's beginning to make the message; the robot tells it by its own clock.
+      // The stamp is the time at which the node began to make the message; the robot converts it to its own clock.
       latencyMs: rounded(distribution(frames.map(({ capturedMs, readyMs }) => readyMs - capturedMs)), 2),
       driveMs: rounded(distribution(driving.latenciesMs), 2),
       roundTripMs,
@@ -187,7 +190,7 @@ robot:
 `;
 }
 
-/** Commands at 50 Hz, each with a speed of its own, so that the Twist that comes of it is known. */
+/** Commands at 50 Hz, each with a different speed, so that each resulting Twist can be identified. */
 class Driving {
   commands = 0;
   latenciesMs: number[] = [];
@@ -197,7 +200,7 @@ class Driving {
 
   constructor({ client }: SignaledOperator, peer: Peer, lease: string) {
     this.#timer = setInterval(() => {
-      // Thousandths of a metre a second, from 0.05 up.
+      // Thousandths of a metre per second, from 0.05 m/s up.
       this.#speed = 50 + ((this.#speed + 1) % 100);
       this.#sentMs.set(this.#speed, nowMs());
       this.commands++;
@@ -222,7 +225,7 @@ class Driving {
   }
 }
 
-/** Of Twists that go to the node and come back, one at a time. */
+/** Round trips of Twists to the node and back, one at a time. */
 async function roundTrips(domain: number): Promise<Distribution> {
   const graph = new DdsGraph({ domain, localhostOnly: true, env: {} });
   const write = velocityWriter(2, TWIST);
@@ -232,7 +235,7 @@ async function roundTrips(domain: number): Promise<Distribution> {
   const zero = { x: 0, y: 0, z: 0 };
   const bytes = write({ linear: zero, angular: zero }, 0n, '');
   const times: number[] = [];
-  // The first ones find the way.
+  // The first ones include discovery.
   for (let i = 0; i < 300; i++) {
     const had = heard;
     const begin = nowMs();

@@ -12,7 +12,7 @@ import {
   utilisationOf,
 } from './link-analysis.ts';
 
-/** Bins of 100 ms from second 0 on. */
+/** Bins of 100 ms, starting at second 0. */
 function bins(
   capacities: readonly number[],
   of: (capacity: number, i: number) => Partial<LinkBin> = () => ({}),
@@ -31,11 +31,11 @@ function bins(
   }));
 }
 const times = (count: number, value: number) => Array<number>(count).fill(value);
-/** Of so many Mbit/s in one bin. */
+/** Bytes per bin at this rate. */
 const bytes = (mbps: number) => (mbps * 1e6 * BIN_MS) / 8000;
 
 describe('outagesOf', () => {
-  it('takes blips for part of an outage, and short silences for none', () => {
+  it('counts brief service as part of an outage, and ignores brief silence', () => {
     const capacity = [
       ...times(20, 9),
       ...times(15, 0),
@@ -51,7 +51,7 @@ describe('outagesOf', () => {
 });
 
 describe('utilisation and share', () => {
-  it('are of the capacity, and of what left the link', () => {
+  it('are shares of the capacity, and of what left the link', () => {
     const run = bins(times(10, 20), () => ({ deliveredBytes: bytes(12), crossBytes: bytes(4) }));
     expect(utilisationOf(run)).toBeCloseTo(0.6);
     expect(shareOf(run)).toBeCloseTo(0.75);
@@ -59,7 +59,7 @@ describe('utilisation and share', () => {
 });
 
 describe('queues', () => {
-  it('count each packet', () => {
+  it('weight each packet equally', () => {
     const run = bins(times(100, 20), (_, i) => ({
       deliveredPackets: i < 90 ? 10 : 1000,
       queueMsMean: i < 90 ? 1 : 50,
@@ -72,7 +72,7 @@ describe('queues', () => {
 });
 
 describe('capacityRises', () => {
-  it('finds a step although one bin holds both rates, and the time to use it', () => {
+  it('finds a step even if one bin contains both rates, and the time to use it', () => {
     const capacity = [...times(50, 8), 30, ...times(80, 40)];
     const run = bins(capacity, (mbps, i) => ({ deliveredBytes: bytes(i < 71 ? 8 : 0.95 * mbps) }));
     const rises = capacityRises(run);
@@ -81,18 +81,18 @@ describe('capacityRises', () => {
     expect(rises[0]?.recoverySeconds).toBeCloseTo(2.5, 1);
   });
 
-  it('says where the new rate was never used', () => {
+  it('reports a new rate that was never used', () => {
     const run = bins([...times(50, 8), ...times(80, 40)], () => ({ deliveredBytes: bytes(8) }));
     expect(capacityRises(run).map(({ recoverySeconds }) => recoverySeconds)).toEqual([null]);
   });
 
-  it('takes no notice of a capacity that wanders', () => {
+  it('ignores a capacity that drifts', () => {
     expect(capacityRises(bins(Array.from({ length: 300 }, (_, i) => 10 + 8 * Math.sin(i / 7))))).toEqual([]);
   });
 });
 
 describe('describeOutages', () => {
-  it('tells when the robot stood and when points came again, in a new session too', () => {
+  it('reports when the robot stopped and when points resumed, also in a new session', () => {
     const robot = [0, 100, 200, 300].map((timeMs) => ({ timeMs, speed: timeMs < 200 ? 0.4 : 0, turn: 0 }));
     const page = [0, 2000, 2100, 2200, 2300].map((timeMs, i) => ({
       timeMs,
@@ -108,7 +108,7 @@ describe('describeOutages', () => {
 });
 
 describe('grown', () => {
-  it('adds up sums that begin anew', () => {
+  it('adds up totals that restart', () => {
     expect(grown([5, 9, 2, 3])).toBe(7);
   });
 });

@@ -1,8 +1,8 @@
-/** What a run over an emulated link shows: pure functions of what the link, the robot and the page wrote down. */
+/** Analyses a run over an emulated link: pure functions of the records from the link, the robot and the page. */
 
 /** One line of `farpoint-link --stats`: one direction in 100 ms. */
 export interface LinkBin {
-  /** CLOCK_MONOTONIC, ms, of its beginning. */
+  /** Start of the bin on CLOCK_MONOTONIC, ms. */
   timeMs: number;
   /** Mean; `null` without a bottleneck. */
   capacityMbps: number | null;
@@ -17,19 +17,19 @@ export interface LinkBin {
 
 export const BIN_MS = 100;
 
-/** Times on the same clock, ms. */
+/** A time span on the same clock, ms. */
 export interface TimeSpan {
   fromMs: number;
   toMs: number;
 }
 
-/** Below this a link carries no stream, Mbit/s. */
+/** Below this capacity a link carries no stream, Mbit/s. */
 const DEAD_MBPS = 0.5;
-/** A shorter sign of life does not end an outage; a shorter silence is none. */
+/** Service that is shorter than this does not end an outage, and shorter silence does not begin one, ms. */
 const BLIP_MS = 300;
 const LEAST_OUTAGE_MS = 1500;
 
-/** When the link carried nothing. */
+/** The times at which the link carried nothing. */
 export function outagesOf(bins: readonly Pick<LinkBin, 'timeMs' | 'capacityMbps'>[]): TimeSpan[] {
   const spans: TimeSpan[] = [];
   for (const { timeMs, capacityMbps } of bins) {
@@ -41,7 +41,7 @@ export function outagesOf(bins: readonly Pick<LinkBin, 'timeMs' | 'capacityMbps'
   return spans.filter(({ fromMs, toMs }) => toMs - fromMs >= LEAST_OUTAGE_MS);
 }
 
-/** Share of the capacity that the peers' packets took, the competing flow's part counted as theirs to take. */
+/** Share of the capacity used by the peers' packets. What a competing flow uses counts as available to them. */
 export function utilisationOf(bins: readonly LinkBin[]): number {
   let bytes = 0;
   let capacity = 0;
@@ -53,14 +53,14 @@ export function utilisationOf(bins: readonly LinkBin[]): number {
   return bytes / capacity;
 }
 
-/** Share of what left the link that was the peers', besides a competing flow. */
+/** Share of the delivered bytes that belonged to the peers rather than to a competing flow. */
 export function shareOf(bins: readonly LinkBin[]): number {
   const own = bins.reduce((sum, bin) => sum + bin.deliveredBytes, 0);
   const cross = bins.reduce((sum, bin) => sum + bin.crossBytes, 0);
   return own / (own + cross);
 }
 
-/** Queueing delay over all packets, to the grain of the bins: each counts with its bin's mean. */
+/** Queueing delay over all packets, with the resolution of the bins: each packet counts with its bin's mean. */
 export function queueQuantiles(bins: readonly LinkBin[]): {
   p50: number;
   p95: number;
@@ -85,7 +85,7 @@ export function queueQuantiles(bins: readonly LinkBin[]): {
   };
 }
 
-/** The longest time in one piece for which the queue was longer than `limitMs`, ms. */
+/** Longest continuous time for which the queueing delay exceeded `limitMs`, ms. */
 export function longestQueueAbove(bins: readonly LinkBin[], limitMs: number): number {
   let longest = 0;
   let current = 0;
@@ -96,31 +96,31 @@ export function longestQueueAbove(bins: readonly LinkBin[], limitMs: number): nu
   return longest;
 }
 
-/** The capacity changes for good by at least this factor … */
+/** A step changes the capacity permanently by at least this factor … */
 const STEP_FACTOR = 1.5;
-/** … which means: the means of so long before and after. */
+/** … comparing the means over this long before and after. */
 const STEP_MS = 3000;
-/** Delivery is looked at over so long. */
+/** Time over which delivery is averaged. */
 const SMOOTH_MS = 500;
 
 export interface CapacityRise {
   timeMs: number;
   fromMbps: number;
   toMbps: number;
-  /** Until 90 % of the new capacity was used; `null`: not before the next change or the end. */
+  /** Time until 90 % of the new capacity was used; `null`: not before the next change or the end. */
   recoverySeconds: number | null;
 }
 
-/** Steps up of the capacity, and how long it took to use them. Capacities that never stand still have none. */
+/** Upward steps of the capacity, and how long it took to use them. A capacity that varies all the time has none. */
 export function capacityRises(bins: readonly LinkBin[]): CapacityRise[] {
   const side = STEP_MS / BIN_MS;
   const capacity = bins.map((bin) => bin.capacityMbps ?? Number.NaN);
   const rises: CapacityRise[] = [];
-  // The bin before may hold the change itself.
+  // The bin before may contain the change itself.
   for (let i = side + 1; i + side <= bins.length; i++) {
     const before = capacity.slice(i - 1 - side, i - 1);
     const after = capacity.slice(i, i + side);
-    // Steps only: constant on both sides.
+    // Steps only: the capacity must be constant on both sides.
     if (Math.max(...before) > Math.min(...before) * 1.02 || Math.max(...after) > Math.min(...after) * 1.02)
       continue;
     const [fromMbps, toMbps] = [before[0] as number, after[0] as number];
@@ -162,7 +162,7 @@ export interface RobotSample {
   turn: number;
 }
 
-/** What the page wrote down every 100 ms, on the robot's clock. Sums since its session began. */
+/** The page's records every 100 ms, on the robot's clock. Totals since its session began. */
 export interface PageSample {
   timeMs: number;
   packetsReceived: number;
@@ -176,11 +176,11 @@ export interface PageSample {
 export interface Outage {
   startS: number;
   endS: number;
-  /** From its beginning until the robot stood; `null`: it never did. */
+  /** From the outage's start until the robot stood still; `null` if it never did. */
   stoppedAfterMs: number | null;
-  /** From its end until points came again; `null`: not within the run. */
+  /** From the outage's end until points resumed; `null` if they did not within the run. */
   resumedAfterMs: number | null;
-  /** What the page said of the link in the meantime. */
+  /** The page's texts about the link in the meantime. */
   words: string[];
 }
 
@@ -199,7 +199,7 @@ export function describeOutages(
     for (let i = 1; i < page.length; i++) {
       const [last, now] = [page[i - 1] as PageSample, page[i] as PageSample];
       if (now.timeMs < toMs) continue;
-      // Sums begin anew with a new session.
+      // Totals restart with a new session.
       const came =
         now.packetsReceived - (now.packetsReceived < last.packetsReceived ? 0 : last.packetsReceived);
       if (came > 0 && now.session === 'live') {
@@ -223,7 +223,7 @@ export function describeOutages(
   });
 }
 
-/** Growth of sums that may begin anew. */
+/** Growth of totals that may restart. */
 export function grown(values: readonly number[]): number {
   let sum = 0;
   for (let i = 1; i < values.length; i++) {
@@ -241,7 +241,7 @@ function round(value: number): number {
   return Number(value.toFixed(1));
 }
 
-/** The worst; `null` where one never came about. */
+/** The largest; `null` if any is `null`. */
 export function worst(times: readonly (number | null)[]): number | null {
   return times.some((time) => time === null) ? null : Math.max(...(times as number[]));
 }

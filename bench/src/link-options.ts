@@ -1,4 +1,4 @@
-/** What `pnpm bench link` is asked for. */
+/** The options of `pnpm bench link`. */
 import { parseArgs } from 'node:util';
 import { numberOption } from './report.ts';
 
@@ -27,10 +27,10 @@ shows the whole green cloud (mtpMs) or its first points (mtpFirstMs). Figures co
   --plot FILE.svg     capacity, estimate, delivered rate, latency, points and frames over time
   --json`;
 
-/** About a thousand points a display frame, of a sample and of a whole cloud. */
+/** About a thousand points per display frame, for a sample and for a whole cloud. */
 const DRAW_EVERY = { points64: '8', auto: '192' } as const;
 
-/** @returns `null` where only the usage was asked for @throws {Error} naming the option */
+/** @returns `null` if only the usage was requested @throws {Error} naming the option */
 export function readLinkOptions(argv: string[]) {
   const { values } = parseArgs({
     args: argv,

@@ -1,9 +1,9 @@
-/** Times of a capacity trace in which the link carries nothing. */
+/** Times at which the link of a capacity trace carries nothing. */
 import { readFileSync } from 'node:fs';
 import { parseTrace } from '@farpoint/network-sim';
 import { outagesOf } from './link-analysis.ts';
 
-/** Seconds of the trace without service, in which nothing comes back either. */
+/** Seconds of the trace without service, in which nothing is returned either. */
 export function traceOutages(path: string): { from: number; to: number }[] {
   const { steps } = parseTrace(readFileSync(path, 'utf8'));
   const capacities = steps.map(({ atMs, mbps }) => ({ timeMs: atMs, capacityMbps: mbps }));

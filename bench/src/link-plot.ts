@@ -1,4 +1,4 @@
-/** The run over time, as the paper's figure 6 shows its field tests. */
+/** Plots a run over time, as figure 6 of the paper does for its field tests. */
 import { BIN_MS, type LinkBin, type RobotSample, type TimeSpan } from './link-analysis.ts';
 import type { LatencySample } from './link-run.ts';
 import { renderChart } from './plot/chart.ts';

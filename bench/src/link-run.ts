@@ -1,4 +1,4 @@
-/** Drives one robot through the emulated link and writes down what happens. */
+/** Drives one robot through the emulated link and records what happens. */
 import { readFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
 import type { LinkBin, PageSample, RobotSample } from './link-analysis.ts';
@@ -6,10 +6,10 @@ import type { LinkBin, PageSample, RobotSample } from './link-analysis.ts';
 export interface LatencySample {
   /** When the operator acted, on the robot's clock, ms. */
   timeMs: number;
-  /** `null`: no answer came. */
+  /** `null`: no answer arrived. */
   mtpMs: number | null;
   firstMs: number | null;
-  /** Where it went, ms; `null` where the robot's part is not known. */
+  /** The parts of the latency, ms; `null` if the robot's part is unknown. */
   parts: LatencyParts | null;
 }
 
@@ -17,11 +17,11 @@ export interface LatencySample {
 export interface LatencyParts {
   /** From the input event to the robot. */
   command: number;
-  /** Until the camera's next picture. */
+  /** Until the camera's next image. */
   captureWait: number;
-  /** Picture, sampling, packing, sending and the link, to the last packet's arrival. */
+  /** Capture, sampling, packing, sending and the link, until the last packet's arrival. */
   delivery: number;
-  /** To the end of the display frame. */
+  /** Until the end of the display frame. */
   display: number;
 }
 
@@ -35,7 +35,7 @@ export function monotonicMs(): number {
   return Number(process.hrtime.bigint()) / 1e6;
 }
 
-/** What to add to the page's `performance.now()` for {@link monotonicMs}. Both are on this machine. */
+/** What to add to the page's `performance.now()` to get {@link monotonicMs}. Both clocks are on this machine. */
 export async function clockOffsetOf(page: Page): Promise<number> {
   let best = { tookMs: Number.POSITIVE_INFINITY, offset: 0 };
   for (let i = 0; i < 10; i++) {
@@ -48,8 +48,8 @@ export async function clockOffsetOf(page: Page): Promise<number> {
 }
 
 /**
- * Drives in circles and tests the latency again and again, at times unrelated to the camera's, for so long. A lost session
- * is left to the page to mend.
+ * Drives in circles for `seconds` and repeats latency tests, at times unrelated to the camera's. Leaves it to the
+ * page to restore a lost session.
  */
 export async function drivePage(page: Page, seconds: number): Promise<PageRun> {
   const offset = await clockOffsetOf(page);
@@ -69,14 +69,14 @@ export async function drivePage(page: Page, seconds: number): Promise<PageRun> {
       if (session === 'live' && holder === 'nobody') farpoint.requestLease();
     }, 100);
     const driving = (async () => {
-      // Let go now and then: after a break the robot wants the grip to be held anew.
+      // Let go from time to time: after an interruption, the robot wants the grip to be released once.
       while (performance.now() < end) {
         await farpoint.drive({ forward: 0.4, left: 0.5 }, 900);
         await pause(100);
       }
     })();
     for (let i = 0; performance.now() < end; i++) {
-      // The golden ratio's sequence falls evenly over the camera's period.
+      // The golden ratio's sequence is spread evenly over the camera's period.
       await pause(60 + ((i * 0.618034) % 1) * 80);
       const timeMs = performance.now();
       const result = await farpoint.latencyTest().catch(() => null);
@@ -120,7 +120,7 @@ interface PageLatency {
   robot: { commandMs: number; captureMs: number } | null;
 }
 
-/** Lines of JSON; a last line that was cut off is left out. */
+/** Reads lines of JSON; ignores a truncated last line. */
 export function readLines<T>(path: string): T[] {
   const text = readFileSync(path, 'utf8');
   return text
@@ -134,14 +134,14 @@ export function readRobotSamples(path: string): RobotSample[] {
   return readLines<RobotSample>(path);
 }
 
-/** From the robot to the operator, in one run of the link. */
+/** The direction from the robot to the operator, in one run of the link. */
 export function readUplink(path: string): LinkBin[] {
   return readLines<LinkBin & { type: string; direction: string }>(path).filter(
     ({ type, direction }) => type === 'bin' && direction === 'up',
   );
 }
 
-/** Sums of a Prometheus counter by its label. */
+/** Values of a Prometheus counter by its label. */
 export async function scrape(url: string, name: string, label: string): Promise<Record<string, number>> {
   const text = await (await fetch(`${url}/metrics`)).text();
   const sums: Record<string, number> = {};

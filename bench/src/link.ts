@@ -31,12 +31,12 @@ import { type Bench, distributionCells, printJson, printTable } from './report.t
 import { sensorRows } from './sensor-rows.ts';
 import { distribution, rounded } from './stats.ts';
 
-/** Begins with the link's own start: the rate is still being found. */
+/** Excluded from the start of the link on, because the rate is still being found. */
 const WARM_UP_MS = 5000;
 const DOWNLINK_MBPS = 50;
-/** Before a trace begins. */
+/** Capacity before a trace begins. */
 const CONNECT_MBPS = 10;
-/** A test that is under way when the service ends or begins says nothing of the link with service. */
+/** A latency test in progress when the service ends or begins says nothing about the link in service. */
 const MARGIN_MS = 500;
 
 export const bench: Bench = {
@@ -104,7 +104,7 @@ export const bench: Bench = {
       });
       const stages = () => scrape(adminUrl, 'farpoint_robot_stage_seconds_total', 'stage');
       console.error(`${seconds} s`);
-      // A trace may begin without service: connections are made over a quiet link.
+      // A trace may begin without service, so connections are made over an unloaded link.
       link.tell({ type: 'reset' });
       const sensorsBefore = await page.evaluate(() => window.farpoint.stats().sensors);
       const zeroMs = monotonicMs();

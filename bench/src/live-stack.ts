@@ -1,4 +1,4 @@
-/** The whole stack as an operator has it: the real programs, and the built page in a headless Chromium. */
+/** The whole stack as an operator has it: the real programs and the built page in a headless Chromium. */
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import {
@@ -14,13 +14,13 @@ import { type Browser, type BrowserServer, chromium, type Page } from '@playwrig
 
 export interface LiveStackOptions {
   robot: RobotSpec;
-  /** Pixels of the page's canvas. Small: there is no GPU here, and it is the stream that is measured. */
+  /** Size of the page's canvas in pixels. It is small, because there is no GPU and only the stream is measured. */
   canvas: string;
-  /** More settings of the page's address. */
+  /** Additional parameters of the page's address. */
   query?: string;
-  /** A bad network between the robots and everybody else. */
+  /** A bad network between the robots and everything else. */
   link?: EmulatedLinkSpec;
-  /** What the link carries until it is told otherwise (`reset`), Mbit/s; as its options say where left out. */
+  /** Capacity of the link until `reset`, Mbit/s; default: as its options say. */
   connectAtMbps?: number;
   /** Robots besides the one that is driven. */
   otherRobots?: RobotSpec[];
@@ -29,12 +29,12 @@ export interface LiveStackOptions {
 
 export interface LiveStack {
   stack: LocalStack;
-  /** `null` without a link in the options. */
+  /** `null` if the options have no link. */
   link: EmulatedLink | null;
   page: Page;
-  /** Another page, connected to another robot. */
+  /** Opens another page, connected to another robot. */
   openPage(robotId: string): Promise<Page>;
-  /** Process id of the browser; its renderer, GPU and network processes are children of it. */
+  /** Process id of the browser. Its renderer, GPU and network processes are its children. */
   browserPid: number;
   close(): Promise<void>;
 }
@@ -68,7 +68,7 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
     server = await chromium.launchServer(chromiumLaunchOptions());
     log('starting the browser');
     const browser: Browser = await chromium.connect(server.wsEndpoint());
-    // No larger than the canvas: the browser composes its window in software too.
+    // No larger than the canvas, because the browser composes its window in software, too.
     const [width, height] = options.canvas.split('x').map(Number) as [number, number];
     const openPage = async (robotId: string): Promise<Page> => {
       const page = await browser.newPage({

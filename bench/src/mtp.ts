@@ -1,4 +1,4 @@
-/** `pnpm bench mtp`: motion-to-photon of the whole stack on this machine, with no network between. */
+/** `pnpm bench mtp`: motion-to-photon latency of the whole stack on this machine, without a network in between. */
 import { parseArgs } from 'node:util';
 import { startLiveStack } from './live-stack.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
@@ -49,7 +49,8 @@ export const bench: Bench = {
       await page.evaluate(() => window.farpoint.latencyTest());
       await page.evaluate(() => window.farpoint.resetStats());
       console.error(`${samples} latency tests`);
-      // Pauses from a fixed sequence (the golden ratio's), so that events fall evenly over the camera's period.
+      // The pauses follow a fixed sequence (the golden ratio's), so that events are spread evenly over the camera's
+      // period.
       const results = await page.evaluate(async (count) => {
         const results = [];
         for (let i = 0; i < count; i++) {

@@ -1,4 +1,4 @@
-/** points64 in plain JavaScript: what the WASM codec is measured against. */
+/** points64 in plain JavaScript, as the baseline for the WASM codec. */
 import type { SlotLayout } from '@farpoint/wasm-codec';
 
 const POINTS_PER_PACKET = 150;
@@ -35,7 +35,7 @@ function millimetres(metres: number): number {
   return Math.max(-32767, Math.min(32767, rounded));
 }
 
-/** Unpacks slots into x, y, z, colour bits, four int16 a point. */
+/** Unpacks slots into x, y, z and colour bits, four int16 per point. */
 export function unpackPlainly(
   slots: DataView,
   counts: Uint16Array,

@@ -1,7 +1,7 @@
 /** Joins the robot's log of sent packets with the page's record of received ones. */
 import { readFileSync } from 'node:fs';
 
-/** Sent times by packet, from the robot's `--packet-log`. */
+/** Send times by packet, from the robot's `--packet-log`. */
 export type SentTimes = ReadonlyMap<string, number>;
 
 export function readPacketLog(path: string): SentTimes {
@@ -17,7 +17,7 @@ export function readPacketLog(path: string): SentTimes {
 
 /**
  * @param received frame number, sequence offset and arrival (ms), packet after packet
- * @returns arrival minus sending of each packet that both know, ms
+ * @returns time from sending to arrival of each packet in both records, ms
  */
 export function deliveryTimes(sent: SentTimes, received: readonly number[]): number[] {
   const times: number[] = [];

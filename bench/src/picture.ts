@@ -1,4 +1,4 @@
-/** `pnpm bench picture`: the same view over the same link, in each mode, side by side. */
+/** `pnpm bench picture`: the same view over the same link in each mode, side by side. */
 import { writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { decode, encode } from 'fast-png';
@@ -61,7 +61,7 @@ export const bench: Bench = {
           window.farpoint.stats(),
         );
         const png = await live.page.locator('canvas').first().screenshot({
-          // Nothing but the cloud: the page's own elements lie over the canvas.
+          // Hide everything but the cloud: the page's elements are drawn over the canvas.
           style:
             'body > :not(canvas) { visibility: hidden !important } canvas { visibility: visible !important }',
         });

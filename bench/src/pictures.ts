@@ -1,4 +1,4 @@
-/** `pnpm bench pictures`: a kernel benchmark of what the robot does with a camera's picture. */
+/** `pnpm bench pictures`: a kernel benchmark of how the robot processes a camera's picture. */
 import { parseArgs } from 'node:util';
 import { PictureCodec, ShrinkingFilter } from '@farpoint/pictures';
 import { pictureRows } from '@farpoint/ros';

@@ -1,4 +1,7 @@
-/** `pnpm bench recording`: what recording costs the robot, whether its memory stays flat, whether everything is there. */
+/**
+ * `pnpm bench recording`: what recording costs the robot, whether its memory use stays constant, and whether the
+ * recording is complete.
+ */
 import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -127,7 +130,7 @@ export const bench: Bench = {
   },
 };
 
-/** Reads every message; what is missing shows in the recorder's own words of itself. */
+/** Reads every message. Missing messages show in the recorder's own counts. */
 async function readBack(path: string) {
   const recording = await openRecording(path);
   const counts = new Map<string, number>();
@@ -149,7 +152,7 @@ async function readBack(path: string) {
     recording.topics.map(({ name, messages }) => {
       const read = counts.get(name) ?? 0;
       if (read !== messages) throw new Error(`${name}: ${read} of ${messages} messages can be read`);
-      // Of pictures all cameras are counted together.
+      // The pictures of all cameras are counted together.
       const kind = name.split('/')[2] ?? '';
       const mb = Number(((bytes.get(name) ?? 0) / 1e6).toFixed(1));
       return [name, { messages: read, dropped: dropped[kind] ?? 0, mb }];
@@ -168,7 +171,7 @@ function mean(values: readonly number[]): number {
   return Math.round(values.reduce((sum, value) => sum + value, 0) / values.length);
 }
 
-/** Memory that a process has now, 10^6 bytes (Linux). */
+/** Current resident memory of a process, 10^6 bytes (Linux). */
 function residentMb(pid: number): number {
   const line = /^VmRSS:\s+(\d+) kB$/m.exec(readFileSync(`/proc/${pid}/status`, 'utf8'));
   return (Number(line?.[1] ?? Number.NaN) * 1024) / 1e6;

@@ -1,4 +1,4 @@
-/** `pnpm bench repair`: what each browser asks for again, what it gets, and what it misses for good, on a lossy link. */
+/** `pnpm bench repair`: on a lossy link, what each browser requests again, what it gets, and what it finally lacks. */
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import {

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { formatTable, numberOption } from './report.ts';
 
-test('a table lines up its columns, numbers to the right', () => {
+test('a table aligns its columns, with numbers to the right', () => {
   expect(
     formatTable(
       ['what', 'ms', 'points'],

@@ -6,13 +6,13 @@ export interface Bench {
   name: string;
   /** One line for the list of benchmarks. */
   summary: string;
-  /** Runs it with the arguments after the name; throws an Error with a clear message where it cannot. */
+  /** Runs the benchmark with the arguments after its name. Throws an Error with a clear message if it cannot. */
   run(argv: string[]): Promise<void>;
 }
 
 export type Cell = string | number | null | undefined;
 
-/** A table for people: columns as wide as their widest cell, numbers to the right. */
+/** A table for people: each column as wide as its widest cell, with numbers to the right. */
 export function formatTable(header: readonly string[], rows: readonly (readonly Cell[])[]): string {
   const text = rows.map((row) => row.map(formatCell));
   const numeric = header.map((_, c) => rows.every((row) => typeof row[c] !== 'string'));
@@ -38,7 +38,7 @@ export function distributionCells(values: Distribution): number[] {
   return [values.p50, values.p95, values.p99, values.max];
 }
 
-/** Prints one JSON object on a line of its own: to be called last, when `--json` is given. */
+/** Prints one JSON object on its own line. Call this last, if `--json` is given. */
 export function printJson(result: Record<string, unknown>): void {
   console.log(JSON.stringify(result));
 }

@@ -1,8 +1,11 @@
-/** What became of a robot's frames: its own log of them, the colours in which they arrived, the memory they took. */
+/**
+ * What happened to a robot's frames: the robot's log of them, the colours in which they arrived, and the memory they
+ * took.
+ */
 import { readFileSync } from 'node:fs';
 import { emptyPointPacketHeader, readPointPacketHeader } from '@farpoint/protocol';
 
-/** The colours in which frames arrived: one each, or it was torn. */
+/** The colours of the frames that arrived. A frame with more than one colour is torn. */
 export class FrameColours {
   torn = 0;
   packets = 0;
@@ -45,7 +48,7 @@ export function readFrameLog(path: string): LoggedFrame[] {
   });
 }
 
-/** The most memory a process has had, 10^6 bytes (Linux). */
+/** Peak memory of a process, 10^6 bytes (Linux). */
 export function residentPeakMb(pid: number): number {
   const line = /^VmHWM:\s+(\d+) kB$/m.exec(readFileSync(`/proc/${pid}/status`, 'utf8'));
   return Math.round((Number(line?.[1] ?? Number.NaN) * 1024) / 1e6);

@@ -84,7 +84,7 @@ export const bench: Bench = {
   },
 };
 
-/** The same sampler compiled for this machine's processor; null where that cannot be done. */
+/** Times the same sampler compiled for this machine's processor; null if that is impossible. */
 function nativeTimes(points: number, count: number, rounds: number): Distribution | null {
   const workspace = join(import.meta.dirname, '../../wasm-codec');
   const result = spawnSync(

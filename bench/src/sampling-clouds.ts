@@ -1,14 +1,14 @@
-/** The clouds of the sampling plot: from the simulated camera or from a PCD file. */
+/** The clouds of the sampling plot, from the simulated camera or from a PCD file. */
 import { readFile } from 'node:fs/promises';
 import { Simulation } from '@farpoint/sim';
 import { PCDLoader } from 'three/examples/jsm/loaders/PCDLoader.js';
 import type { SceneCloud } from './sampling-scene.ts';
 
-/** What the simulated robot's camera sees from where it starts. */
+/** What the simulated robot's camera sees at its start. */
 export async function simulatedCloud(): Promise<SceneCloud> {
   const simulation = await Simulation.create({ seed: 1 });
   const { points } = simulation.renderFrame();
-  // A copy of bytes: floats might change the colours' bits.
+  // Copied as bytes, because copying floats might change the colours' bits.
   const frame = new Float32Array(
     Uint8Array.from(new Uint8Array(points.buffer, points.byteOffset, points.byteLength)).buffer,
   );
@@ -16,9 +16,9 @@ export async function simulatedCloud(): Promise<SceneCloud> {
 }
 
 /**
- * A PCD file (ASCII, binary or compressed), its coordinates taken as an optical frame: z forward.
+ * A PCD file (ASCII, binary or compressed). Its coordinates are taken as an optical frame: z forward.
  *
- * @throws Error that names the file
+ * @throws Error naming the file
  */
 export async function pcdCloud(file: string): Promise<SceneCloud> {
   const bytes = await readFile(file);

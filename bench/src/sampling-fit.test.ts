@@ -6,7 +6,7 @@ import { hallCloud, validDepths } from './sampling-scene.ts';
 
 describe('chiSquareTail', () => {
   test.each([
-    // Critical values from the usual tables.
+    // Critical values from standard tables.
     [3.841, 1, 0.05],
     [10.828, 1, 0.001],
     [5.991, 2, 0.05],
@@ -17,7 +17,7 @@ describe('chiSquareTail', () => {
     expect(chiSquareTail(x, degrees) / tail).toBeCloseTo(1, 2);
   });
 
-  test('is 1 at nothing and falls to 0', () => {
+  test('is 1 at zero and falls to 0', () => {
     expect(chiSquareTail(0, 7)).toBe(1);
     expect(chiSquareTail(1e4, 7)).toBe(0);
   });
@@ -55,7 +55,7 @@ describe('the WASM sampler on a large cloud', async () => {
     expect(pValue(parameters, parameters, count)).toBeGreaterThan(0.001);
   });
 
-  test('a slightly other distribution is noticed', () => {
+  test('detects a slightly different distribution', () => {
     const wrong = { ...paper, lambda: 1.1, nearDistance: 0 };
     expect(pValue({ ...wrong, lambda: 1 }, wrong, 8000)).toBeLessThan(1e-4);
   });

@@ -1,11 +1,13 @@
 /**
- * Whether drawn points fit the distribution they should have: the paper's weights, drawn successively without replacement.
+ * Tests whether drawn points fit the expected distribution: the paper's weights, drawn successively without
+ * replacement.
  *
- * In a large population the draw equals "every point whose exponential clock of rate v rings before time t", with t such
- * that N clocks have rung. Where N is large, t hardly varies, the number drawn from a class of points is normally
- * distributed, and its mean and covariance are known (Rosén, "Asymptotic theory for successive sampling", 1972):
- * with π = 1 − exp(−v t) and Σπ = N, the mean of a class is Σπ, and what varies is Σ(drawn − π) less the class's share of
- * the total's excess, since the total is fixed. The statistic is the squared deviation in units of that covariance.
+ * In a large population, the draw is equivalent to "every point whose exponential clock of rate v rings before time
+ * t", with t such that N clocks have rung. For large N, t hardly varies, the number of points drawn from a class is
+ * normally distributed, and its mean and covariance are known (Rosén, "Asymptotic theory for successive sampling",
+ * 1972). With π = 1 − exp(−v t) and Σπ = N, the mean of a class is Σπ. Its deviation is Σ(drawn − π) minus the
+ * class's share of the total's excess, because the total is fixed. The statistic is the squared deviation in units of
+ * that covariance.
  */
 
 export interface WeightParameters {
@@ -15,7 +17,7 @@ export interface WeightParameters {
   nearDistance: number;
 }
 
-/** The paper's v (equations 4 and 5) of each depth, scaled so that the largest is 1. */
+/** The paper's v (equations 4 and 5) for each depth, scaled so that the largest is 1. */
 export function depthWeights(depths: ArrayLike<number>, parameters: WeightParameters): Float64Array {
   const { lambda, epsilon, nearDistance } = parameters;
   let deepest = 0;
@@ -26,26 +28,29 @@ export function depthWeights(depths: ArrayLike<number>, parameters: WeightParame
   return weights.map((weight, i) => ((depths[i] as number) < nearDistance ? 1 : weight / heaviest));
 }
 
-/** For one draw: the expected number of points, its variance were the total free, and its derivative by time. */
+/**
+ * For one draw: the expected number of points, its variance if the total were free, and its derivative with respect
+ * to time.
+ */
 interface DepthClass {
   mean: number;
   variance: number;
   slope: number;
 }
 
-/** Counts draws by classes of depth and compares them with the distribution of `draws` independent draws of `count`. */
+/** Counts draws by depth class, and compares them with the distribution of independent draws of `count` points. */
 export class SamplingFit {
   readonly #classOf: Uint16Array;
   readonly #classes: DepthClass[];
   readonly #counts: Float64Array;
   #draws = 0;
 
-  /** @param weights the points' v; `count` of them are drawn each time */
+  /** @param weights the points' v; `count` points are drawn each time */
   constructor(depths: ArrayLike<number>, weights: Float64Array, count: number, classes = 20) {
     const time = ringingTime(weights, count);
     const variance = weights.map((v) => Math.exp(-v * time) * -Math.expm1(-v * time));
     const total = variance.reduce((sum, value) => sum + value, 0);
-    // Classes of equal variance, in order of depth.
+    // Classes of equal variance, ordered by depth.
     const order = Uint32Array.from(depths, (_, i) => i).sort(
       (a, b) => (depths[a] as number) - (depths[b] as number),
     );
@@ -74,12 +79,12 @@ export class SamplingFit {
     this.#draws++;
   }
 
-  /** The probability of a deviation as large as the one seen, or a larger one, when the draws are right. */
+  /** The probability of a deviation at least as large as the observed one if the draws are correct. */
   pValue(): number {
     const classes = this.#classes;
     const slopes = classes.reduce((sum, { slope }) => sum + slope, 0);
     const variances = classes.reduce((sum, { variance }) => sum + variance, 0);
-    // The counts add up to a constant: one of them says nothing new.
+    // The counts add up to a constant, so one of them carries no information.
     const free = classes.length - 1;
     const covariance = Array.from({ length: free }, (_, j) =>
       Array.from({ length: free }, (_, k) => {
@@ -115,7 +120,7 @@ function ringingTime(weights: Float64Array, count: number): number {
   return (low + high) / 2;
 }
 
-/** Solves a symmetric positive definite system by Gaussian elimination; changes its arguments. */
+/** Solves a symmetric positive definite system by Gaussian elimination. Modifies its arguments. */
 function solve(matrix: number[][], right: readonly number[]): number[] {
   const n = right.length;
   const rows = matrix.map((row, i) => [...row, right[i] as number]);
@@ -136,11 +141,14 @@ function solve(matrix: number[][], right: readonly number[]): number[] {
   return solution;
 }
 
-/** P(X ≥ x) for a chi-square distributed X with `degrees` degrees of freedom, by the finite sums for whole degrees. */
+/**
+ * P(X ≥ x) for a chi-square distributed X with `degrees` degrees of freedom, from the finite sums for integer
+ * degrees.
+ */
 export function chiSquareTail(x: number, degrees: number): number {
   if (!(x > 0)) return 1;
   const half = x / 2;
-  // Q(a + 1, y) = Q(a, y) + yᵃ e⁻ʸ / Γ(a + 1), from Q(1, y) = e⁻ʸ or Q(½, y) = erfc(√y).
+  // Q(a + 1, y) = Q(a, y) + yᵃ e⁻ʸ / Γ(a + 1), starting from Q(1, y) = e⁻ʸ or Q(½, y) = erfc(√y).
   let a = degrees % 2 === 0 ? 1 : 0.5;
   let tail = degrees % 2 === 0 ? Math.exp(-half) : complementaryError(Math.sqrt(half));
   let term = degrees % 2 === 0 ? Math.exp(-half) * half : 2 * Math.sqrt(half / Math.PI) * Math.exp(-half);
@@ -152,7 +160,7 @@ export function chiSquareTail(x: number, degrees: number): number {
   return Math.min(1, tail);
 }
 
-/** erfc(x) for x ≥ 0: the series of erf below 3, the continued fraction from there. */
+/** erfc(x) for x ≥ 0: the series of erf below 3, the continued fraction above. */
 function complementaryError(x: number): number {
   if (x < 3) {
     let term = x;

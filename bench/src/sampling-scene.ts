@@ -1,15 +1,15 @@
-/** Clouds to measure with. */
+/** Clouds for measurements. */
 import { Random } from '@farpoint/network-sim';
 
 export interface SceneCloud {
-  /** x, y, z in metres and colour bits for each point, as the encoder takes them. */
+  /** x, y, z in metres and colour bits of each point, as the encoder takes them. */
   frame: Float32Array;
   points: number;
 }
 
 /**
- * A depth camera's view along a hall with pillars, of `points` points in rows of 480: depths of 0.6 to 16 m, one point in
- * twenty missing (NaN), as such cameras have it.
+ * A depth camera's view along a hall with pillars: `points` points in rows of 480, at depths of 0.6 to 16 m. One
+ * point in twenty is missing (NaN), as is usual with such cameras.
  */
 export function hallCloud(points: number, seed = 1): SceneCloud {
   const uniform = new Random(seed, 0);
@@ -18,7 +18,7 @@ export function hallCloud(points: number, seed = 1): SceneCloud {
   const frame = new Float32Array(points * 4);
   const bits = new Uint32Array(frame.buffer);
   for (let i = 0; i < points; i++) {
-    // Rays of a camera with a view of 80° each way, 1.2 m above the floor.
+    // Rays of a camera with a field of view of 80° in both directions, 1.2 m above the floor.
     const x = (((i % width) + 0.5) / width - 0.5) * 1.68;
     const y = ((Math.floor(i / width) + 0.5) / height - 0.5) * 1.68;
     const floor = y > 0 ? 1.2 / y : Infinity;

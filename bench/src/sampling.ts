@@ -1,4 +1,4 @@
-/** `pnpm bench sampling`: how many points survive the sampling at which distance (the paper's figures 4 and 5). */
+/** `pnpm bench sampling`: how many points survive sampling at each distance (the paper's figures 4 and 5). */
 import { writeFile } from 'node:fs/promises';
 import { basename } from 'node:path';
 import { parseArgs } from 'node:util';
@@ -23,7 +23,7 @@ interface Curve {
   lambda: number;
   mbps: number;
   kept: number;
-  /** Points in each bin of depth. */
+  /** Number of points in each depth bin. */
   counts: number[];
   meanDepth: number;
 }
@@ -119,7 +119,7 @@ function plot(
   raw: readonly number[],
   curves: readonly Curve[],
 ): string {
-  // A step holds until the next edge: the last value is repeated at the end.
+  // A step holds until the next edge, so the last value is repeated at the end.
   const steps = (counts: readonly number[]) => [...counts, counts.at(-1) ?? 0];
   const axes = { xLabel: 'depth (m)', yLabel: `points per ${(edges[1] as number).toFixed(2)} m` };
   const cloud: Series = { label: 'raw cloud', x: edges, y: steps(raw), shape: 'area' };

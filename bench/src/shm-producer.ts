@@ -1,6 +1,7 @@
 /**
- * A depth camera's producer for `pnpm bench shm`: one picture of the simulated office, at a steady rate, every frame in one
- * colour of its own, with --scene in the scene's own colours. It notes when it began to write each frame, and writes the notes to a file when it is told to end.
+ * A depth camera's producer for `pnpm bench shm`: one image of the simulated office at a constant rate, each frame in
+ * a single colour of its own, or with --scene in the scene's colours. It records when it began to write each frame,
+ * and writes the records to a file when it is told to end.
  */
 import { writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
@@ -74,7 +75,7 @@ function referencePublisher(): (frame: number) => boolean {
   const producer = new ReferenceFrameProducer(values.folder);
   const packed = pack();
   return (frame) => {
-    // As the reference's own producer: nothing is made before the last frame was taken.
+    // Like the reference system's producer: makes nothing before the last frame was taken.
     if (!producer.free) return false;
     const values16 = new Uint16Array(packed.buffer);
     for (let block = 0; block < values16.length; block += 600)
@@ -84,7 +85,7 @@ function referencePublisher(): (frame: number) => boolean {
   };
 }
 
-/** The scene's points that can be sent, again and again until there are as many as the camera has pixels. */
+/** The points of the scene that can be sent, repeated until there are as many as the camera has pixels. */
 function pack(): Uint8Array {
   const valid: number[] = [];
   for (let i = 0; i < count; i++) if ((scene.points[i * 4 + 2] as number) > 0) valid.push(i);

@@ -30,7 +30,7 @@ export interface LayoutResult {
   framesProduced: number;
   frames: number;
   torn: number;
-  /** Packets in which that was looked for. */
+  /** Number of packets checked for it. */
   packetsChecked: number;
   rssMbMax: number;
   robotCpu: number | null;
@@ -98,7 +98,7 @@ export const bench: Bench = {
     printJson({
       bench: 'shm',
       ...{ points: size * size, fps, seconds, mbps },
-      // Of the layouts that were measured, the worst.
+      // Of the layouts measured, the worst.
       latencyMs: worst.latencyMs,
       framesPerSecond: Math.min(...all.map((result) => result.framesPerSecond)),
       torn: all.reduce((sum, result) => sum + result.torn, 0),
@@ -114,11 +114,11 @@ export interface ShmRun {
   seconds: number;
   mbps: number;
   /**
-   * The operator watches the camera's pictures, too; clouds then come in the scene's colours, and torn ones are not looked
-   * for. The robot's options must give pictures.
+   * Whether the operator also watches the camera's pictures. Clouds then have the scene's colours, and torn ones are
+   * not detected. The robot's options must enable pictures.
    */
   pictures?: boolean;
-  /** More options of the robot's. */
+  /** Additional options for the robot. */
   robotArgs?: string[];
   /** Called each second. */
   onSecond?: (robotPid: number) => void;
@@ -180,7 +180,7 @@ export async function measure(
     const within = (ms: number) => ms >= beginMs && ms < endMs;
     const begun = readFileSync(producerLog, 'utf8').split('\n').map(Number);
     const frames = readFrameLog(frameLog).filter(({ readyMs }) => within(readyMs));
-    // The reference layout carries no time: its frame is the last one that was begun before it was noticed.
+    // The reference layout carries no time. A frame is taken to be the last one begun before it was noticed.
     const latencies = frames.map(
       ({ capturedMs, readyMs }) => readyMs - (lastBefore(begun, capturedMs + 0.001) ?? Number.NaN),
     );
@@ -238,7 +238,7 @@ function summedKills(results: Partial<Record<Layout, KillTestResult>>): { frames
   return { frames: sum(({ frames }) => frames), torn: sum(({ torn }) => torn) };
 }
 
-/** The last of ascending times that is not after `limit`. */
+/** The last of the ascending times that is not after `limit`. */
 function lastBefore(times: readonly number[], limit: number): number | undefined {
   let [low, high] = [0, times.length];
   while (low < high) {

@@ -1,7 +1,8 @@
 /**
- * The other side of `pnpm bench signaling`, in a process of its own: many robots and operators on real sockets. Started
- * with its plan as JSON in argv, prints its result as one line of JSON. Both ends of every relay are here, so that one
- * clock times it: from handing a message to the sender's socket until the receiver's socket has given it out.
+ * The clients of `pnpm bench signaling`, in their own process: many robots and operators on real sockets. It is
+ * started with its plan as JSON in argv, and prints its result as one line of JSON. Both ends of every relay are in
+ * this process, so that a single clock times it: from handing a message to the sender's socket until the receiver's
+ * socket emits it.
  */
 import { monitorEventLoopDelay } from 'node:perf_hooks';
 import { WebSocket } from 'ws';
@@ -12,9 +13,12 @@ export interface ClientPlan {
   operators: number;
   /** Sessions begun per second. */
   rate: number;
-  /** Candidates each way in a session. */
+  /** Candidates in each direction per session. */
   candidates: number;
-  /** Robots per second that hang up and come back while sessions are set up; they are none of those in sessions. */
+  /**
+   * Robots per second that disconnect and reconnect while sessions are set up. They are not among the robots in
+   * sessions.
+   */
   churn: number;
 }
 
@@ -23,21 +27,21 @@ export interface ClientResult {
   /** From session.open to session.opened. */
   openMs: number[];
   relayMs: Record<'session.offer' | 'session.answer' | 'session.candidate', number[]>;
-  /** How late this process itself was at its timers while sessions were set up, p99: part of every time above. */
+  /** How late this process's own timers were while sessions were set up, p99. All times above include this. */
   lateMsP99: number;
   lists: number;
   listMegabytes: number;
-  /** Descriptions of what went wrong, counted. */
+  /** Descriptions of errors, with counts. */
   errors: Record<string, number>;
 }
 
-/** What the parent asks for between the phases, and is told of. */
+/** Messages to the parent between the phases. */
 export type PhaseMessage = 'connected' | 'done';
 
 const CONNECTING_AT_ONCE = 64;
 const PHASE_TIMEOUT_MS = 120_000;
 const LIST = Buffer.from('{"type":"robots');
-// As long as werift's and Chromium's are.
+// As long as those of werift and Chromium.
 const SDP = `v=0\r\n${'a=rtcp-fb:96 transport-cc\r\n'.repeat(100)}`;
 const CANDIDATE =
   'candidate:1 1 udp 2122260223 192.168.178.21 54321 typ host generation 0 ufrag abcd network-id 1 ';
@@ -59,7 +63,7 @@ const result: ClientResult = {
   listMegabytes: 0,
   errors: {},
 };
-/** Sockets that we close ourselves. */
+/** Sockets that this process closes itself. */
 const leaving = new WeakSet<WebSocket>();
 let closing = false;
 
@@ -67,7 +71,7 @@ function fault(what: string): void {
   result.errors[what] = (result.errors[what] ?? 0) + 1;
 }
 
-/** A socket that has been welcomed. */
+/** Opens a socket and waits for its welcome. */
 function connect(
   url: string,
   path: string,
@@ -87,7 +91,7 @@ function connect(
     });
     socket.on('message', (data: Buffer) => {
       const now = performance.now();
-      // Thousands of lists and changes to them: a page reads each, this process only needs to know that they came.
+      // Thousands of lists and changes arrive. A page reads each; this process only needs to know that they came.
       if (data.subarray(0, LIST.length).equals(LIST)) {
         result.lists++;
         result.listMegabytes += data.length / 1e6;
@@ -103,7 +107,7 @@ function connect(
   });
 }
 
-/** The time a text says it was sent at. */
+/** The send time that a text contains. */
 function sentAt(text: string | undefined): number {
   return Number(text?.slice(text.lastIndexOf(' ') + 1));
 }
@@ -208,7 +212,7 @@ async function run(plan: ClientPlan): Promise<void> {
   for (const socket of [...robots, ...operators]) socket?.terminate();
 }
 
-/** `count` tasks, at most {@link CONNECTING_AT_ONCE} at a time. */
+/** Runs `count` tasks, at most {@link CONNECTING_AT_ONCE} at a time. */
 async function inParallel(count: number, task: (index: number) => Promise<void>): Promise<void> {
   let next = 0;
   await Promise.all(
@@ -218,7 +222,7 @@ async function inParallel(count: number, task: (index: number) => Promise<void>)
   );
 }
 
-/** Tells the parent that a phase is over and waits until it has measured what it wants to. */
+/** Tells the parent that a phase is over, and waits until it has taken its measurements. */
 function tellParent(phase: PhaseMessage): Promise<void> {
   return new Promise((resolve) => {
     process.once('message', () => resolve());

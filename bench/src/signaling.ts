@@ -1,4 +1,4 @@
-/** `pnpm bench signaling`: many robots and operators at the real signaling service. */
+/** `pnpm bench signaling`: many robots and operators on the real signaling service. */
 import { type ChildProcess, fork } from 'node:child_process';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';

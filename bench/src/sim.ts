@@ -43,7 +43,7 @@ export const bench: Bench = {
     let processor = process.cpuUsage();
     for (let frame = -WARM_UP; frame < frames; frame++) {
       if (frame === 0) processor = process.cpuUsage();
-      // There and back, looking about.
+      // Back and forth, while turning.
       command.linear.x = frame % 240 < 120 ? 0.5 : -0.5;
       command.angular.z = frame % 60 < 30 ? 0.3 : -0.3;
       simulation.setCommand(command);

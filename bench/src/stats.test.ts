@@ -13,11 +13,11 @@ test('a distribution does not depend on the order of the values', () => {
   expect(distribution(values)).toEqual({ p50: 50, p95: 95, p99: 99, max: 100 });
 });
 
-test('no values give no numbers', () => {
+test('gives no numbers without values', () => {
   expect(JSON.stringify(distribution([]))).toBe('{"p50":null,"p95":null,"p99":null,"max":null}');
 });
 
-test('rounding keeps the wanted decimals', () => {
+test('rounding keeps the requested decimals', () => {
   expect(rounded({ p50: 1.23456, p95: 2, p99: 3.00049, max: 4.9996 })).toEqual({
     p50: 1.235,
     p95: 2,

@@ -1,4 +1,4 @@
-/** What benchmarks say about many measurements. */
+/** Summary statistics of benchmarks. */
 
 export interface Distribution {
   p50: number;
@@ -7,7 +7,7 @@ export interface Distribution {
   max: number;
 }
 
-/** The value that a fraction `q` of the ascending values do not exceed, interpolated; NaN where there are none. */
+/** The value that a share `q` of the ascending values do not exceed, interpolated; NaN without values. */
 export function quantile(sorted: ArrayLike<number>, q: number): number {
   if (sorted.length === 0) return Number.NaN;
   const at = q * (sorted.length - 1);
@@ -17,7 +17,7 @@ export function quantile(sorted: ArrayLike<number>, q: number): number {
   return low + (high - low) * (at - below);
 }
 
-/** NaN (`null` in JSON) where there are no values. */
+/** NaN (`null` in JSON) without values. */
 export function distribution(values: Iterable<number>): Distribution {
   const sorted = Float64Array.from(values).sort();
   return {
@@ -28,15 +28,13 @@ export function distribution(values: Iterable<number>): Distribution {
   };
 }
 
-/** The distribution with `digits` decimals, for output. */
+/** The distribution rounded to `digits` decimals, for output. */
 export function rounded(values: Distribution, digits = 3): Distribution {
   const round = (value: number) => Number(value.toFixed(digits));
   return { p50: round(values.p50), p95: round(values.p95), p99: round(values.p99), max: round(values.max) };
 }
 
-/**
- * Times a synchronous function, in milliseconds: `warmup` calls that do not count, then `rounds` that do.
- */
+/** Times a synchronous function, in milliseconds: `warmup` calls that do not count, then `rounds` calls that do. */
 export function timeCalls(call: (round: number) => void, rounds: number, warmup = 30): Float64Array {
   for (let round = 0; round < warmup; round++) call(round);
   const times = new Float64Array(rounds);

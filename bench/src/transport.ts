@@ -1,4 +1,4 @@
-/** `pnpm bench transport`: the point stream from the robot process to the browser's worker, held at one rate. */
+/** `pnpm bench transport`: the point stream from the robot process to the browser's worker, at a fixed rate. */
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -17,7 +17,7 @@ browser's worker; the session's own clock probes align the robot's and the brows
 stream is measured, not the drawing.`;
 
 const WARM_UP_MS = 2000;
-/** Besides the payload, each packet has: RTP header 12, extensions 12, SRTP tag 16, UDP 8, IPv4 20. */
+/** Bytes per packet in addition to the payload: RTP header 12, extensions 12, SRTP tag 16, UDP 8, IPv4 20. */
 const WIRE_OVERHEAD_BYTES = 68;
 
 export const bench: Bench = {

@@ -1,13 +1,16 @@
-/** The operator's page in an unchanged Firefox, which hides its addresses behind mDNS names and trickles TCP candidates. */
+/**
+ * The operator's page in an unmodified Firefox, which hides its addresses behind mDNS names and trickles TCP
+ * candidates.
+ */
 import { expect, test } from '../src/firefox-test.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { simulatedRobot } from '../src/stack-test.ts';
 
 const CONNECTIONS = 10;
-/** An operator waits a moment; one mDNS look-up that is waited for takes ten seconds. */
+/** Connecting must be this fast. Waiting for a single mDNS look-up would take ten seconds. */
 const MOST_SECONDS = 5;
 
-/** The whole of what its camera sees, at a rate that a software renderer can follow. */
+/** The whole of the camera's view, at a rate that a software renderer can follow. */
 const wholeRobot = {
   id: 'whole',
   name: 'Whole cloud',
@@ -35,7 +38,7 @@ test(`connects ${CONNECTIONS} times in a row`, async ({ firefoxPage, startStack 
   expect(Math.max(...seconds)).toBeLessThan(MOST_SECONDS);
 });
 
-test('sees the whole cloud, drives, and stops at once', async ({ firefoxPage, startStack }, testInfo) => {
+test('sees the whole cloud, drives, and stops immediately', async ({ firefoxPage, startStack }, testInfo) => {
   const stack = await startStack({ robots: [wholeRobot] });
   const operator = await OperatorPage.open(firefoxPage, stack, {
     robot: wholeRobot.id,
@@ -43,7 +46,7 @@ test('sees the whole cloud, drives, and stops at once', async ({ firefoxPage, st
     every: '1',
   });
   await operator.expectPoints(10_000);
-  // 480 × 480 pixels, about 15 % of which a stereo camera does not see.
+  // 480 × 480 pixels, about 15 % of which a stereo camera cannot see.
   await expect.poll(async () => (await operator.stats()).pointsPerFrame).toBeGreaterThan(170_000);
   const { 'no-stream': _, ...drops } = (await operator.stats()).drops;
   expect(drops).toEqual({});
@@ -53,7 +56,7 @@ test('sees the whole cloud, drives, and stops at once', async ({ firefoxPage, st
   await operator.holdForward();
   await operator.expectState('holder', 'you');
   await operator.expectMovedFrom(start, 0.3);
-  // Stop, with the keys still held.
+  // Stop while the keys are still held.
   await firefoxPage.keyboard.press('x');
   await operator.expectState('estop', true);
   await operator.expectStanding();

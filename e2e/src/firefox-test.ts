@@ -2,7 +2,7 @@ import { FirefoxBrowser, firefoxMissing } from '@farpoint/local-stack';
 import type { Page } from 'puppeteer-core';
 import { test as base } from './stack-test.ts';
 
-/** Tests in Firefox; they skip, saying why, where it cannot be had. */
+/** Tests in Firefox. They are skipped, with the reason, if Firefox is unavailable. */
 export const test = base.extend<{ firefoxPage: Page }, { firefox: FirefoxBrowser | string }>({
   firefox: [
     async ({ browserName: _ }, use) => {

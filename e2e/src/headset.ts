@@ -3,7 +3,7 @@ import type { Page } from '@playwright/test';
 
 const require = createRequire(import.meta.url);
 
-/** What the tests use of the emulated headset (iwer's XRDevice). */
+/** The parts of the emulated headset (iwer's XRDevice) that the tests use. */
 interface EmulatedDevice {
   stereoEnabled: boolean;
   position: { set(x: number, y: number, z: number): void };
@@ -28,7 +28,7 @@ declare global {
 
 export type Hand = 'left' | 'right';
 
-/** A Meta Quest 3 emulated in the page; put on before the page loads. */
+/** A Meta Quest 3 emulated in the page. Put it on before the page loads. */
 export class Headset {
   readonly #page: Page;
 
@@ -46,7 +46,7 @@ export class Headset {
     return new Headset(page);
   }
 
-  /** @param x right, @param y back (as WebXR has it: pushing forward is −1) */
+  /** @param x right @param y back (as in WebXR: pushing forward is −1) */
   async thumbstick(hand: Hand, x: number, y: number): Promise<void> {
     await this.#page.evaluate(
       ([hand, x, y]) => window.emulatedHeadset.controllers[hand]?.updateAxes('thumbstick', x, y),
@@ -54,7 +54,7 @@ export class Headset {
     );
   }
 
-  /** @param at right, up, back, metres; the eyes are at 1.6 m */
+  /** @param at right, up, back, metres; the eyes are at a height of 1.6 m */
   async place(hand: Hand, at: [x: number, y: number, z: number]): Promise<void> {
     await this.#page.evaluate(([hand, at]) => window.emulatedHeadset.controllers[hand]?.position.set(...at), [
       hand,

@@ -2,7 +2,7 @@ import type { Locator } from '@playwright/test';
 import { expect } from '@playwright/test';
 
 /**
- * Every one of the elements is wholly on the screen, and none covers another.
+ * Expects that each of the elements is entirely on the screen, and that none covers another.
  *
  * @returns their ids
  */

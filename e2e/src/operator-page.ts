@@ -5,21 +5,21 @@ import { expect, type TestInfo } from '@playwright/test';
 export interface OpenOptions {
   robot?: string;
   token?: string;
-  /** Where the page finds signaling, if not where it came from. */
+  /** Where the page finds signaling; default: where it was loaded from. */
   signaling?: string;
-  /** `relay`: by TURN servers only. */
+  /** `relay`: through TURN servers only. */
   ice?: 'relay';
-  /** Fixed size of its canvas, `WIDTHxHEIGHT`: a small one leaves the processor to others. */
+  /** Fixed size of the canvas, `WIDTHxHEIGHT`. A small one leaves more processor time for the rest. */
   canvas?: string;
   /** Refuse coded clouds. */
   mode?: 'points64';
-  /** Draw every so many-th point of coded clouds. */
+  /** Draw only every n-th point of coded clouds. */
   every?: string;
   /** Take the stream from this bridge. */
   bridge?: string;
 }
 
-/** What both Playwright's pages and Puppeteer's in Firefox can do. */
+/** What both Playwright's pages and Puppeteer's in Firefox support. */
 export interface BrowserPage {
   goto(url: string): Promise<unknown>;
   waitForFunction(holds: () => boolean): Promise<unknown>;
@@ -28,7 +28,7 @@ export interface BrowserPage {
   readonly keyboard: BrowserKeyboard;
 }
 
-/** Keys by what they write: the one way that both know. */
+/** Names keys by the text they produce, which is the only way that both support. */
 interface BrowserKeyboard {
   down(key: Key): Promise<void>;
   up(key: Key): Promise<void>;
@@ -39,7 +39,7 @@ const FORWARD = 'w';
 const RELEASE_ESTOP = 'r';
 type Key = typeof DEAD_MAN | typeof FORWARD | typeof RELEASE_ESTOP;
 
-/** The operator's page as a test uses it: real keys and buttons, and `window.farpoint` to look inside. */
+/** The operator's page as a test uses it: real keys and buttons, and `window.farpoint` to inspect it. */
 export class OperatorPage {
   readonly page: BrowserPage;
 
@@ -71,12 +71,12 @@ export class OperatorPage {
     return this.page.evaluate(() => window.farpoint.probe());
   }
 
-  /** Waits until a fact of the page's state is as it should be. */
+  /** Waits until a part of the page's state has this value. */
   async expectState<Key extends keyof PageState>(key: Key, value: PageState[Key]): Promise<void> {
     await expect.poll(async () => (await this.state())[key], { message: `state.${key}` }).toEqual(value);
   }
 
-  /** Waits until the robot's points are drawn, and go on coming. */
+  /** Waits until the robot's points are drawn, and more keep arriving. */
   async expectPoints(least = 1000): Promise<void> {
     await this.expectState('session', 'live');
     await expect
@@ -85,7 +85,7 @@ export class OperatorPage {
     await this.expectFrames(5);
   }
 
-  /** Waits until more than so many further frames of the robot are drawn. */
+  /** Waits until more than this many further frames of the robot have been drawn. */
   async expectFrames(more: number): Promise<void> {
     const { framesDrawn } = await this.stats();
     await expect
@@ -93,14 +93,14 @@ export class OperatorPage {
       .toBeGreaterThan(framesDrawn + more);
   }
 
-  /** base_link in the world; the robot's telemetry must have come. */
+  /** Pose of base_link in the world. The robot's telemetry must have arrived. */
   async body(): Promise<{ x: number; y: number; yaw: number }> {
     const { body } = await this.state();
     if (body === null) throw new Error('no telemetry of the robot yet');
     return body;
   }
 
-  /** Waits until the robot has moved so far from where it was, metres. */
+  /** Waits until the robot has moved at least this far from a position, metres. */
   async expectMovedFrom(from: { x: number; y: number }, least: number): Promise<void> {
     await expect
       .poll(
@@ -113,7 +113,7 @@ export class OperatorPage {
       .toBeGreaterThan(least);
   }
 
-  /** Waits until the robot measures that it stands. */
+  /** Waits until the robot measures that it stands still. */
   async expectStanding(): Promise<void> {
     await expect
       .poll(
@@ -126,7 +126,7 @@ export class OperatorPage {
       .toBe(0);
   }
 
-  /** Holds the dead man and drives forward until {@link releaseKeys}. The first grip asks for the lease. */
+  /** Holds the dead-man key and drives forward until {@link releaseKeys}. The first grip requests the lease. */
   async holdForward(): Promise<void> {
     await this.page.keyboard.down(DEAD_MAN);
     await this.page.keyboard.down(FORWARD);
@@ -144,7 +144,7 @@ export class OperatorPage {
     await this.page.keyboard.up(RELEASE_ESTOP);
   }
 
-  /** Keeps a picture of the page with the test's output. */
+  /** Saves a screenshot of the page with the test's output. */
   async screenshot(testInfo: TestInfo, name: string): Promise<Buffer> {
     return Buffer.from(await this.page.screenshot({ path: testInfo.outputPath(`${name}.png`) }));
   }

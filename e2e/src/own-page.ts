@@ -1,4 +1,4 @@
-/** A project of somebody else's: `examples/own-page`, with the packages installed from their tarballs. */
+/** A third party's project: `examples/own-page`, with the packages installed from their tarballs. */
 import { cpSync, existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import type { AddressInfo } from 'node:net';
@@ -8,10 +8,10 @@ import { packPackage, publishedPackages } from '../../scripts/lib/published-pack
 import { run } from '../../scripts/lib/run.ts';
 
 /**
- * Builds and packs both packages, and installs them into a copy of the example. Nothing is fetched: three.js is this
- * workspace's.
+ * Builds and packs both packages, and installs them into a copy of the example. Nothing is downloaded: three.js comes
+ * from this workspace.
  *
- * @param folder where the copy goes
+ * @param folder destination of the copy
  */
 export async function installOwnPage(folder: string): Promise<void> {
   mkdirSync(folder, { recursive: true });
@@ -25,12 +25,12 @@ export async function installOwnPage(folder: string): Promise<void> {
       `link:${join(repositoryRoot, 'packages/cloud-view/node_modules', name)}`,
     ]),
   );
-  // JSON is YAML, too.
+  // JSON is valid YAML.
   writeFileSync(join(folder, 'pnpm-workspace.yaml'), JSON.stringify({ overrides }));
   await pnpm(['add', '--offline', '@types/three'], folder);
 }
 
-/** What TypeScript says of a module that imports the installed packages; empty where all is well. */
+/** TypeScript's errors for a module that imports the installed packages; empty if there are none. */
 export async function typeFaults(folder: string, module: string): Promise<string> {
   writeFileSync(join(folder, 'typed.ts'), module);
   const options = [
@@ -58,7 +58,7 @@ const TYPES: Readonly<Record<string, string>> = {
   '.wasm': 'application/wasm',
 };
 
-/** Serves a folder's files on a free port of the loopback interface, as any static server would. */
+/** Serves a folder's files on a free loopback port, like any static server. */
 export async function serveFolder(folder: string): Promise<{ url: string; close: () => void }> {
   const server = createServer(({ url }, response) => {
     const path = normalize(new URL(url ?? '/', 'http://localhost').pathname);

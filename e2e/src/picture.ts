@@ -1,12 +1,12 @@
 import type { Page } from '@playwright/test';
 
-/** What a part of a screenshot holds. */
+/** Facts about a part of a screenshot. */
 export interface PictureFacts {
-  /** Share of pixels that differ from the picture's most frequent colour by more than 24 in some channel, 0–1. */
+  /** Share of pixels that differ from the most frequent colour by more than 24 in some channel, 0–1. */
   drawnShare: number;
-  /** Share of pixels that are the latency test's green, 0–1. */
+  /** Share of pixels with the latency test's green, 0–1. */
   greenShare: number;
-  /** How many of the 512 colours of 3 bits a channel occur in at least 0.05 % of the pixels. */
+  /** How many of the 512 colours with 3 bits per channel occur in at least 0.05 % of the pixels. */
   colours: number;
 }
 
@@ -21,7 +21,7 @@ export interface Part {
 export const leftEye: Part = { left: 0, top: 0, width: 0.5, height: 1 };
 export const rightEye: Part = { left: 0.5, top: 0, width: 0.5, height: 1 };
 
-/** Reads parts of a PNG, in a blank page of the same browser: it has the decoder. */
+/** Reads parts of a PNG in a blank page of the same browser, which has the decoder. */
 export async function readPicture(page: Page, png: Buffer, parts: Part[]): Promise<PictureFacts[]> {
   const reader = await page.context().newPage();
   try {
@@ -31,7 +31,7 @@ export async function readPicture(page: Page, png: Buffer, parts: Part[]): Promi
   }
 }
 
-/** Share of pixels in which two parts of one picture (of equal size) differ visibly, 0–1. */
+/** Share of pixels in which two parts of the same size differ visibly, 0–1. */
 export async function differingShare(page: Page, png: Buffer, a: Part, b: Part): Promise<number> {
   const reader = await page.context().newPage();
   try {

@@ -5,28 +5,28 @@ import { type Ros1Node, Ros1Peers } from '@farpoint/ros/testing/ros1';
 import { test as base } from '@playwright/test';
 import { OperatorPage } from './operator-page.ts';
 
-/** The web app, built with `window.farpoint`; `pnpm build` makes it. */
+/** The web app, built with `window.farpoint`. `pnpm build` makes it. */
 export const webRoot = join(repositoryRoot, 'apps', 'webxr', 'dist-testing');
 
-/** Recorded clouds that lie beside the repository on some machines; tests that use them skip where they are absent. */
+/** Recorded clouds that exist beside the repository on some machines. Tests that use them are skipped elsewhere. */
 export const cloudsFolder = join(repositoryRoot, '..', 'shared', 'data', 'clouds');
 
 export interface StackFixtures {
   /** Starts a stack of the real programs that lasts as long as the test. */
   startStack: (spec?: Partial<StackSpec>) => Promise<LocalStack>;
-  /** Starts a stack with {@link simulatedRobot} and opens the page on it; its points are drawn. */
+  /** Starts a stack with {@link simulatedRobot} and opens the page on it. Points are being drawn when it resolves. */
   openRobot: () => Promise<{ stack: LocalStack; operator: OperatorPage }>;
   /**
-   * Starts a ROS 1 master, rospy nodes, and a robot among them, and opens the page on it; its points are drawn. The test
-   * skips where there is no rospy.
+   * Starts a ROS 1 master, rospy nodes and a robot among them, and opens the page on it. Points are being drawn when
+   * it resolves. The test is skipped without rospy.
    */
   openRos1Robot: (graph: Ros1Graph) => Promise<{ nodes: Ros1Node[]; operator: OperatorPage }>;
 }
 
 export interface Ros1Graph {
-  /** Name of each node, and its parts of `ros1_node.py` with commas between them. */
+  /** Name of each node, and its parts of `ros1_node.py`, separated by commas. */
   nodes: readonly (readonly [name: string, parts: string])[];
-  /** The robot's, beside `/points` and their `/camera_info`. */
+  /** The robot's topics, besides `/points` and their `/camera_info`. */
   topics: readonly object[];
   /** Where velocities go; `source`: nowhere. */
   sink?: 'ros1' | 'source';
@@ -38,7 +38,7 @@ export const simulatedRobot = {
   args: ['--source', 'sim', '--sim-seed', '1', '--mode', 'points64', '--max-points', '15000'],
 };
 
-/** Two of them, light enough to stream one after the other. */
+/** Two robots, light enough to stream one after the other. */
 export const twoRobots = [1, 2].map((n) => ({
   id: `sim-${n}`,
   name: `Simulated robot ${n}`,
@@ -103,7 +103,7 @@ export const test = base.extend<StackFixtures>({
         ros: { master: peers.masterUrl, hostname: '127.0.0.1' },
       };
       const config = testInfo.outputPath('farpoint.yaml');
-      // JSON is YAML, too.
+      // JSON is valid YAML.
       writeFileSync(config, JSON.stringify({ robot }));
       const stack = await startStack({
         robots: [{ id: 'ros-1', name: 'Robot in a ROS graph', args: ['--config', config] }],

@@ -3,10 +3,10 @@ import { OperatorPage } from '../src/operator-page.ts';
 import { readPicture } from '../src/picture.ts';
 import { expect, simulatedRobot, test, twoRobots } from '../src/stack-test.ts';
 
-/** Robots also in the reference profile, and the bridge between them and the page. */
+/** Robots that also offer the reference profile, and the bridge between them and the page. */
 const inReferenceProfile = <T extends object>(robot: T) => ({ ...robot, reference: true });
 
-test('through the bridge: see the robot’s world, drive it, stop it, measure; beside an operator of Farpoint’s', async ({
+test('through the bridge: see the robot’s world, drive it, stop it and measure, beside a Farpoint operator', async ({
   page,
   context,
   startStack,
@@ -22,7 +22,7 @@ test('through the bridge: see the robot’s world, drive it, stop it, measure; b
     expect(room?.drawnShare).toBeGreaterThan(0.15);
     expect(room?.colours).toBeGreaterThan(20);
 
-    // Directly and through the bridge at once. What this one is told of is where the robot is.
+    // Directly and through the bridge at the same time. The direct one shows where the robot is.
     const watcher = await OperatorPage.open(await context.newPage(), stack, {
       robot: simulatedRobot.id,
       canvas: '64x36',
@@ -37,7 +37,7 @@ test('through the bridge: see the robot’s world, drive it, stop it, measure; b
     await operator.releaseKeys();
     await watcher.expectStanding();
 
-    // The page's own stop: nothing that is held moves the robot, until it is released and the hand was open.
+    // The page's own stop: held keys do not move the robot until the stop is released and the grip was let go.
     await page.keyboard.press('KeyX');
     await operator.expectState('estop', true);
     const stopped = await watcher.body();
@@ -59,7 +59,7 @@ test('through the bridge: see the robot’s world, drive it, stop it, measure; b
   }
 });
 
-test('through the bridge: from one robot to another, and back when the bridge was away', async ({
+test('through the bridge: switch from one robot to another, and recover after the bridge was away', async ({
   page,
   startStack,
 }) => {

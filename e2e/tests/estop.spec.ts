@@ -4,7 +4,7 @@ import { expectOnScreenAndApart } from '../src/layout.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
-/** Each change of the robot's emergency stop, as its own journal has it. */
+/** Each change of the robot's emergency stop, as recorded in its journal. */
 function changes(lines: readonly string[]): boolean[] {
   return lines
     .filter((line) => line.includes('emergency stop changed'))
@@ -12,8 +12,8 @@ function changes(lines: readonly string[]): boolean[] {
 }
 
 /**
- * Begins to hold the control that releases, and ends it in the page itself, once it shows that much progress: however slow the
- * machine, it is let go before a second is over.
+ * Starts holding the release control, and lets go from within the page at a given progress: however slow the machine
+ * is, the control is let go before a second has passed.
  */
 function holdInPart(
   page: Page,
@@ -39,7 +39,7 @@ function holdInPart(
   );
 }
 
-test('STOP only ever latches, however it is pressed and however often; a hold of a second releases it', async ({
+test('STOP only latches, however it is pressed and however often; a hold of one second releases it', async ({
   page,
   startStack,
 }) => {
@@ -53,12 +53,12 @@ test('STOP only ever latches, however it is pressed and however often; a hold of
   const stop = page.locator('#estop');
   const release = page.locator('#estop-release');
   await expect(release).toBeHidden();
-  // Without a stop there is nothing to release.
+  // Without a latched stop there is nothing to release.
   await page.keyboard.down('KeyR');
   await operator.expectFrames(40);
   await page.keyboard.up('KeyR');
 
-  // Space on the focused button stops; it neither clicks nor grips.
+  // Space on the focused button stops. It neither clicks the button nor acts as the grip.
   await stop.focus();
   await page.keyboard.down('Space');
   await operator.expectState('estop', true);
@@ -74,7 +74,7 @@ test('STOP only ever latches, however it is pressed and however often; a hold of
     () => stop.press('Enter'),
     () => release.press('Space'),
     () => page.locator('#settings-open').press('KeyX'),
-    // Pressed, and the finger slides off.
+    // Pressed, and then the finger slides off.
     async () => {
       await stop.hover();
       await page.mouse.down();
@@ -84,13 +84,13 @@ test('STOP only ever latches, however it is pressed and however often; a hold of
   ];
   for (const press of presses) {
     await press();
-    // More than a second: a calm press is no release either.
+    // Longer than a second: a slow press does not release either.
     await operator.expectFrames(35);
     expect(await operator.state()).toMatchObject({ estop: true, drive: 'estop' });
   }
   expect(changes(lines)).toEqual([true]);
 
-  // Let go early, nearly at the end, or stopped in the middle of it: held on to, it releases nothing either.
+  // Let go early, near the end, or stopped in the middle of the hold: holding on afterwards does not release either.
   for (const progress of [0.2, 0.8]) {
     await holdInPart(page, 'key', 'up', progress);
     await holdInPart(page, 'pointer', 'up', progress);
@@ -105,7 +105,7 @@ test('STOP only ever latches, however it is pressed and however often; a hold of
   await release.press('Enter');
   expect(changes(lines)).toEqual([true]);
 
-  // Held: by key, by Enter on the control, by pointer.
+  // Held by key, by Enter on the control, and by pointer.
   await operator.releaseEstop();
   expect(changes(lines)).toEqual([true, false]);
   await page.keyboard.press('KeyX');
@@ -123,7 +123,7 @@ test('STOP only ever latches, however it is pressed and however often; a hold of
   expect(changes(lines)).toEqual([true, false, true, false, true, false]);
 });
 
-test('whoever presses STOP just after somebody else’s press stops, too', async ({
+test('pressing STOP just after somebody else has pressed it stops, too', async ({
   page,
   context,
   startStack,
@@ -194,7 +194,7 @@ test('on a gamepad and in the headset: B stops, another button held releases', a
     await headset.button('right', 'b-button', 0);
     await operator.expectFrames(20);
   }
-  // A fist.
+  // A fist: grip and trigger together.
   await headset.button('right', 'squeeze', 1);
   await headset.button('right', 'trigger', 1);
   await operator.expectFrames(40);
@@ -216,7 +216,7 @@ for (const [width, height] of [
   [1280, 720],
   [3840, 2160],
 ] as const) {
-  test(`latched, every control is on a screen ${width} wide and none covers another`, async ({
+  test(`while latched, every control is on a screen ${width} pixels wide and none covers another`, async ({
     browser,
     startStack,
   }, testInfo) => {

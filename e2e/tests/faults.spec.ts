@@ -3,11 +3,11 @@ import { chromium } from '@playwright/test';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, test, twoRobots } from '../src/stack-test.ts';
 
-/** m/s and m/s²: the simulated robot's own. */
+/** m/s and m/s²: the simulated robot's limits. */
 const MAX_SPEED = 1;
 const DECELERATION = 2;
 const WATCHDOG_S = 0.15;
-/** What the watcher's page knows of the robot may be this old. */
+/** The watcher's page may know the robot's state with this much delay, s. */
 const OBSERVATION_S = 0.3;
 
 test('the robot stops by itself when the browser that drives it is killed', async ({ openRobot }) => {
@@ -22,7 +22,7 @@ test('the robot stops by itself when the browser that drives it is killed', asyn
     await driver.holdForward();
     await watcher.expectMovedFrom(start, 0.3);
     await server.kill();
-    // From here on no command can come.
+    // From here on, no command can arrive.
     const atKill = await watcher.body();
     await watcher.expectStanding();
     const stopped = await watcher.body();
@@ -35,7 +35,7 @@ test('the robot stops by itself when the browser that drives it is killed', asyn
   }
 });
 
-test('two robots: the operator goes over in one action; the robot left behind stands, the other waits for the hand to open', async ({
+test('two robots: the operator switches in one action; the first robot stops, the other waits until the grip is released', async ({
   page,
   startStack,
 }) => {
@@ -47,7 +47,7 @@ test('two robots: the operator goes over in one action; the robot left behind st
   await operator.holdForward();
   await operator.expectMovedFrom(start, 0.3);
 
-  // While it drives, and the keys stay held.
+  // While it drives, with the keys still held.
   const began = performance.now();
   const left = await operator.body();
   await page.getByRole('combobox', { name: 'Robot' }).selectOption('sim-2');
@@ -60,14 +60,14 @@ test('two robots: the operator goes over in one action; the robot left behind st
   expect(other.x).toBeCloseTo(start.x, 5);
   expect(other.y).toBeCloseTo(start.y, 5);
 
-  // The hand opens and closes: now the other one drives.
+  // The grip is released and pressed again: now the other robot drives.
   await operator.releaseKeys();
   await operator.holdForward();
   await operator.expectMovedFrom(other, 0.3);
   await operator.releaseKeys();
   await operator.expectStanding();
 
-  // Back by a key. The first robot stands where it braked.
+  // Back with a key. The first robot is where it braked.
   await page.keyboard.press('KeyN');
   await operator.expectState('robotId', 'sim-1');
   await operator.expectPoints();
@@ -82,7 +82,7 @@ test('two robots: the operator goes over in one action; the robot left behind st
   await expect(page.getByRole('button', { name: /Simulated robot 2/ })).toBeVisible();
 });
 
-test('signaling is killed and restarted while driving: the drive goes on, the service comes back', async ({
+test('signaling is killed and restarted while driving: driving continues, and the service comes back', async ({
   openRobot,
 }) => {
   const { stack, operator } = await openRobot();
@@ -104,7 +104,7 @@ test('signaling is killed and restarted while driving: the drive goes on, the se
   expect((await operator.state()).sessionsOpened).toBe(1);
 });
 
-test('the robot process is killed and restarted: the page says so and comes back by itself, stopped until somebody releases it', async ({
+test('the robot process is killed and restarted: the page says so and reconnects, and the robot stays stopped until released', async ({
   page,
   openRobot,
 }) => {
@@ -112,13 +112,14 @@ test('the robot process is killed and restarted: the page says so and comes back
 
   await stack.robot('sim-1').kill();
   await operator.expectState('robotListed', false);
-  await expect(page.getByText(/lost|away|restarted/i).first()).toBeVisible();
+  await expect(page.getByText(/lost|offline|restarted/i).first()).toBeVisible();
 
   await stack.restartRobot('sim-1');
   await operator.expectState('session', 'live');
   await operator.expectPoints();
   expect((await operator.state()).sessionsOpened).toBe(2);
-  // It did not end in order: it starts with its emergency stop latched, and whoever drives means to release it.
+  // The robot did not end cleanly. It starts with its emergency stop latched, until the driver releases it on
+  // purpose.
   await operator.expectState('estop', true);
   const start = await operator.body();
   await operator.holdForward();

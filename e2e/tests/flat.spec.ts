@@ -26,7 +26,7 @@ test('on a flat screen: choose the robot, see its world, drive it with the keybo
   await operator.expectStanding();
   await operator.screenshot(testInfo, 'after-driving');
 
-  // Forward is along the heading it had.
+  // Forward means along its initial heading.
   const end = await operator.body();
   const heading = Math.atan2(end.y - start.y, end.x - start.x);
   expect(Math.cos(heading - start.yaw)).toBeGreaterThan(0.99);
@@ -42,7 +42,7 @@ test('without the dead-man key nothing moves', async ({ page, openRobot }) => {
   expect(Math.hypot(end.x - start.x, end.y - start.y)).toBe(0);
 });
 
-test('the latency test turns the next cloud green and tells motion-to-photon', async ({
+test('the latency test turns the next cloud green and reports motion-to-photon latency', async ({
   page,
   openRobot,
 }) => {
@@ -53,7 +53,7 @@ test('the latency test turns the next cloud green and tells motion-to-photon', a
   expect(result.robot?.frameNumber).toBe(result.frameNumber);
   expect(result.firstMs).toBeGreaterThan(0);
   expect(result.mtpMs).toBeGreaterThanOrEqual(result.firstMs);
-  // As an operator asks for it.
+  // As an operator requests it.
   await page.keyboard.press('KeyL');
   await expect.poll(() => page.evaluate(() => window.farpoint.latencyResults().length)).toBe(2);
 });
@@ -68,7 +68,7 @@ test('the emergency stop latches until it is released on purpose', async ({ page
   await operator.expectStanding();
   await operator.expectState('drive', 'estop');
 
-  // Keys still held do not move it, nor do keys pressed anew.
+  // Neither held keys nor newly pressed keys move it.
   await operator.releaseKeys();
   const stopped = await operator.body();
   await operator.holdForward();

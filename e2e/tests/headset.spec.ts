@@ -7,7 +7,7 @@ test('in the headset: both eyes show the room, the thumbstick drives, the world 
   page,
   startStack,
 }, testInfo) => {
-  // λ = 0 draws near and far alike, so that the far wall can be measured against.
+  // λ = 0 samples near and far points alike, so that the far wall can be used for measurements.
   const stack = await startStack({
     robots: [{ ...simulatedRobot, args: [...simulatedRobot.args, '--lambda', '0'] }],
   });
@@ -24,7 +24,7 @@ test('in the headset: both eyes show the room, the thumbstick drives, the world 
     expect(eye?.drawnShare).toBeGreaterThan(0.2);
     expect(eye?.colours).toBeGreaterThan(15);
   }
-  // Two eyes, not one picture twice.
+  // Two eyes, not the same picture twice.
   expect(await differingShare(page, before, leftEye, rightEye)).toBeGreaterThan(0.02);
 
   const start = await operator.body();
@@ -38,7 +38,7 @@ test('in the headset: both eyes show the room, the thumbstick drives, the world 
   await operator.expectPoints(5000);
   await operator.screenshot(testInfo, 'both-eyes-after-driving');
 
-  // The camera moved as the wheels did; what it sees of the world stayed where it is.
+  // The camera moved with the wheels; what it sees of the world stayed in place.
   const end = await operator.body();
   const drawnAfter = await operator.probe();
   const moved = { x: end.x - start.x, y: end.y - start.y };
@@ -48,7 +48,7 @@ test('in the headset: both eyes show the room, the thumbstick drives, the world 
   const floorAfter = drawnAfter.bounds?.min[2] ?? Number.NaN;
   expect(Math.abs(floorAfter - floorBefore)).toBeLessThan(0.3);
 
-  // Turning left: the yaw grows (REP-103).
+  // Turning left increases the yaw (REP-103).
   await headset.button('right', 'squeeze', 1);
   await headset.thumbstick('right', -1, 0);
   await expect
@@ -58,7 +58,7 @@ test('in the headset: both eyes show the room, the thumbstick drives, the world 
   await operator.expectStanding();
 });
 
-test('in the headset: a press of the stick goes over to the next robot, without leaving VR', async ({
+test('in the headset: pressing the stick switches to the next robot, without leaving VR', async ({
   page,
   startStack,
 }) => {

@@ -3,7 +3,7 @@ import type { Page } from '@playwright/test';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
-/** It keeps an operator of whom nothing is heard for a minute: what ends sooner was told to end. */
+/** This robot keeps a silent operator for a minute. Whatever ends sooner was told to end. */
 const robotForOne = { ...simulatedRobot, args: [...simulatedRobot.args, '--max-operators', '1'] };
 const options = { robot: simulatedRobot.id, canvas: '64x36' };
 
@@ -23,7 +23,7 @@ const ways: [how: string, leave: (page: Page) => Promise<unknown>][] = [
   ['it is left by a link to elsewhere', (page) => page.goto('data:text/html,elsewhere')],
 ];
 
-test('an operator whose page goes makes room at once', async ({ context, startStack }) => {
+test('an operator whose page closes makes room immediately', async ({ context, startStack }) => {
   const stack = await startStack({ robots: [robotForOne] });
   for (const [how, leave] of ways) {
     const page = await context.newPage();
@@ -37,7 +37,7 @@ test('an operator whose page goes makes room at once', async ({ context, startSt
   }
 });
 
-test('a full robot is said to be full, with how many it takes, and lets in who waited once there is room', async ({
+test('the page says that a robot is full and how many operators it accepts, and connects once there is room', async ({
   context,
   startStack,
 }, testInfo) => {
@@ -46,15 +46,18 @@ test('a full robot is said to be full, with how many it takes, and lets in who w
   const first = await OperatorPage.open(firstPage, stack, options);
   await first.expectState('session', 'live');
   const second = await OperatorPage.open(secondPage, stack, { robot: simulatedRobot.id });
-  await expect(secondPage.locator('#notice')).toContainText('full: it takes one operator at most');
-  await expect(secondPage.locator('#link')).toContainText('full: it takes one operator at most');
+  await expect(secondPage.locator('#notice')).toContainText('full: it accepts one operator at most');
+  await expect(secondPage.locator('#link')).toContainText('full: it accepts one operator at most');
   await second.screenshot(testInfo, 'full');
   expect((await second.state()).lastLoss).toBe('robot-full');
   await firstPage.close({ runBeforeUnload: true });
   await second.expectState('session', 'live');
 });
 
-test('a page that the browser puts away leaves, and comes back with it', async ({ page, startStack }) => {
+test('a page that the browser caches leaves the robot, and reconnects when it is restored', async ({
+  page,
+  startStack,
+}) => {
   const stack = await startStack({ robots: [robotForOne] });
   const operator = await OperatorPage.open(page, stack, options);
   await operator.expectPoints();

@@ -15,7 +15,7 @@ interface Bin {
   deliveredPackets: number;
 }
 
-test('over an emulated link: points flow, each as late as the link has it, and nothing goes around it', async ({
+test('over an emulated link: points arrive with the link’s delay, and nothing bypasses it', async ({
   page,
   startStack,
 }, testInfo) => {
@@ -30,7 +30,8 @@ test('over an emulated link: points flow, each as late as the link has it, and n
     await stack.startRobot({ ...simulatedRobot, args: [...simulatedRobot.args, ...args] });
     const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
     await operator.expectPoints();
-    // The clocks' offset is known to half of what the best round trip was late by: the first ones can be later than that.
+    // The offset of the clocks is known to within half of the best round trip's excess delay, so the first points can
+    // seem later than they are.
     await expect
       .poll(async () => (await operator.stats()).deliveryMs?.p50)
       .toBeGreaterThanOrEqual(ONE_WAY_MS);
@@ -38,14 +39,14 @@ test('over an emulated link: points flow, each as late as the link has it, and n
     expect(minRttMs).toBeGreaterThanOrEqual(2 * ONE_WAY_MS);
     expect(packetsReceived).toBeGreaterThan(100);
 
-    // The robot drives over it too.
+    // The robot can be driven over it, too.
     const start = await operator.body();
     await operator.holdForward();
     await operator.expectMovedFrom(start, 0.3);
     await operator.releaseKeys();
     await operator.expectStanding();
 
-    // What the link swallows reaches nobody: there is no other way.
+    // What the link drops reaches nobody, because there is no other path.
     link.tell({ type: 'blackhole', direction: 'both', active: true });
     await expect.poll(async () => (await operator.state()).link).toContain('Connection lost');
     const { packetsReceived: last } = await operator.stats();
@@ -61,7 +62,7 @@ test('over an emulated link: points flow, each as late as the link has it, and n
     const up = bins.filter(({ direction }) => direction === 'up');
     const carried = up.reduce((sum, { deliveredPackets }) => sum + deliveredPackets, 0);
     expect(carried).toBeGreaterThan(Math.max(packetsReceived, last));
-    // One packet may have begun in the bin before.
+    // One packet may have begun in the previous bin.
     for (const { deliveredBytes } of up) {
       expect(deliveredBytes).toBeLessThanOrEqual(CAPACITY_MBPS * 12_500 + 1500);
     }
@@ -70,7 +71,7 @@ test('over an emulated link: points flow, each as late as the link has it, and n
   }
 });
 
-test('a browser that hides its addresses behind mDNS names is led through the link all the same', async ({
+test('a browser that hides its addresses behind mDNS names is also led through the link', async ({
   startStack,
 }) => {
   const options = chromiumLaunchOptions();

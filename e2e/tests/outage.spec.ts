@@ -3,14 +3,14 @@ import type { TestInfo } from '@playwright/test';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
-/** What the operator waits at most, once the network is back; as much again for a machine under load. */
+/** The longest that an operator waits once the network is back. A loaded machine gets the same again. */
 const RESUMED_MS = 2000;
 const LOADED_MS = 2000;
 
 const linkArgs = ['--rate-mbps', '20', '--rtt-ms', '30'];
 const robotArgs = [...simulatedRobot.args, '--bitrate-mbps', '6'];
 
-/** ms from now until the page has drawn a frame that was not there before. */
+/** Time until the page has drawn a new frame, ms. */
 async function msToNextFrame(operator: OperatorPage): Promise<number> {
   return operator.page.evaluate(async () => {
     const began = performance.now();
@@ -28,10 +28,13 @@ function note(testInfo: TestInfo, what: string, ms: number): void {
   console.log(`  ${what}: ${Math.round(ms)} ms`);
 }
 
-/** After the outage: same session, the robot stands though the keys are held, and drives when they are pressed anew. */
+/**
+ * After the outage: the session is the same, the robot stands although the keys are held, and drives when they are
+ * pressed again.
+ */
 async function expectDriveAgain(operator: OperatorPage): Promise<void> {
   expect(await operator.state()).toMatchObject({ session: 'live', sessionsOpened: 1, driving: false });
-  // What the page knew last was how it drove.
+  // The page's last information was that the robot was driving.
   await operator.expectStanding();
   const stood = await operator.body();
   await operator.expectFrames(15);
@@ -46,7 +49,7 @@ async function expectDriveAgain(operator: OperatorPage): Promise<void> {
   await operator.expectStanding();
 }
 
-test('the network is away for 33 s: the page says so, everything resumes in the same session, held keys move nothing', async ({
+test('after 33 s without a network, everything resumes in the same session; the page says so, and held keys move nothing', async ({
   page,
   startStack,
 }, testInfo) => {
@@ -73,7 +76,7 @@ test('the network is away for 33 s: the page says so, everything resumes in the 
     expect(resumedMs).toBeLessThan(RESUMED_MS + LOADED_MS);
     await expectDriveAgain(operator);
 
-    // Clocks and latency are right again.
+    // Clocks and latency are correct again.
     const { minRttMs } = await operator.stats();
     expect(minRttMs).toBeGreaterThanOrEqual(30);
     await operator.page.evaluate(() => window.farpoint.requestLease());
@@ -85,7 +88,7 @@ test('the network is away for 33 s: the page says so, everything resumes in the 
   }
 });
 
-test('signaling is away with the network, its sockets frozen: resumes as soon', async ({
+test('signaling is down with the network, its sockets frozen: resumes just as fast', async ({
   page,
   startStack,
 }, testInfo) => {
@@ -105,7 +108,7 @@ test('signaling is away with the network, its sockets frozen: resumes as soon', 
     await operator.holdForward();
     await operator.expectMovedFrom(start, 0.2);
 
-    // No packet and no FIN: as when a mobile link goes.
+    // No packet and no FIN, as when a mobile link is lost.
     process.kill(link.process.pid, 'SIGSTOP');
     await expect.poll(async () => (await operator.state()).signaling).not.toBe('ready');
     await page.waitForTimeout(6000);
@@ -119,7 +122,7 @@ test('signaling is away with the network, its sockets frozen: resumes as soon', 
   }
 });
 
-test('every address changes: ICE restarts on new ones, in the same session', async ({
+test('all addresses change: ICE restarts with new ones, in the same session', async ({
   page,
   startStack,
 }, testInfo) => {

@@ -2,7 +2,7 @@ import { installOwnPage, serveFolder, typeFaults } from '../src/own-page.ts';
 import { readPicture } from '../src/picture.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
-/** What the example's page leaves for this test. */
+/** What the example's page exposes for this test. */
 interface OwnPage {
   robot: {
     telemetry: { pose: { position: { x: number; y: number } }; twist: { linear: { x: number } } } | null;
@@ -11,7 +11,7 @@ interface OwnPage {
   view: { drawn: number; frames: number };
 }
 
-/** Uses the packages' types as a page in TypeScript would. */
+/** Uses the packages' types as a TypeScript page would. */
 const TYPED = `
 import { CloudView, RobotWorld } from '@farpoint/cloud-view';
 import { type ConnectError, connect, type RobotClient } from '@farpoint/operator';
@@ -27,11 +27,11 @@ export const reason = (error: ConnectError): 'bad-token' | null => (error.reason
 robot.on('weather', () => undefined);
 // @ts-expect-error: a robot's id is text
 robot.choose(1);
-// @ts-expect-error: an event is no any
+// @ts-expect-error: events are not any
 robot.on('telemetry', (telemetry): string => telemetry);
 `;
 
-test('a page of one’s own drives a robot with the packages from their tarballs', async ({
+test('a custom page drives a robot with the packages from their tarballs', async ({
   page,
   startStack,
 }, testInfo) => {

@@ -3,7 +3,7 @@ import { join } from 'node:path';
 import { repositoryRoot } from '@farpoint/local-stack';
 import { expect, test } from '@playwright/test';
 
-/** The scripts of one build of the page, all in one. */
+/** All scripts of one build of the page, joined. */
 function scripts(build: string): string {
   const folder = join(repositoryRoot, 'apps/webxr', build);
   const files = globSync('assets/*.js', { cwd: folder });
@@ -11,7 +11,7 @@ function scripts(build: string): string {
   return files.map((file) => readFileSync(join(folder, file), 'utf8')).join('\n');
 }
 
-/** The modules of which something is in a build's scripts. */
+/** The modules that have code in a build's scripts. */
 function modules(build: string): string[] {
   const folder = join(repositoryRoot, 'apps/webxr', build);
   const maps = globSync('assets/*.js.map', { cwd: folder });
@@ -22,12 +22,12 @@ function modules(build: string): string[] {
   });
 }
 
-test('what tests do with the page is not in the page that is deployed', () => {
+test('the deployed page does not contain the test interface', () => {
   expect(scripts('dist-testing')).toContain('latencyResults');
   expect(scripts('dist')).not.toContain('latencyResults');
 });
 
-test('the page has the small build of the schema library, and one language of its texts', () => {
+test('the page has the small build of the schema library, with a single language', () => {
   const ofZod = modules('dist').flatMap((source) => source.split('/zod/v4/')[1] ?? []);
   expect(ofZod).toContain('mini/schemas.js');
   expect(ofZod.filter((module) => module.startsWith('classic/'))).toEqual([]);

@@ -14,7 +14,7 @@ test('on a phone held upright every control is on the screen and none covers ano
   );
   await expect(page.getByRole('button', { name: 'Disconnect' })).toBeVisible();
   await expect(page.getByRole('button', { name: 'Settings' })).toBeVisible();
-  // The words about the link are not cut.
+  // The text about the link is not truncated.
   expect(await page.locator('#link').evaluate((link) => link.scrollWidth - link.clientWidth)).toBe(0);
   expect((await expectOnScreenAndApart(controls, { width: 360, height: 740 })).length).toBeGreaterThan(5);
   await page.getByRole('button', { name: 'Disconnect' }).tap();

@@ -15,7 +15,7 @@ const camera = async (page: Page, name: string) => {
   return found;
 };
 
-/** Colours of the panel's canvas at shares of its width, half-way down. */
+/** Colours of the panel's canvas at shares of its width, at half its height. */
 const colours = (page: Page, name: string, places: number[]) =>
   panel(page, name)
     .locator('canvas')
@@ -27,7 +27,7 @@ const colours = (page: Page, name: string, places: number[]) =>
       ]);
     }, places);
 
-/** The same of JPEG files. */
+/** The same for JPEG files. */
 const coloursOfFiles = (page: Page, files: Uint8Array[], places: number[]) =>
   page.evaluate(
     async ({ texts, at }) => {
@@ -74,7 +74,7 @@ test('the simulated camera’s picture is shown, live, and can be hidden', async
   expect(new Set(seen.map((colour) => colour.map((value) => value >> 4).join())).size).toBeGreaterThan(5);
   await operator.screenshot(testInfo, 'picture');
 
-  // What the robot sees changes as it turns.
+  // The robot's view changes as it turns.
   await page.evaluate(() => window.farpoint.requestLease());
   await operator.expectState('holder', 'you');
   await page.evaluate(() => window.farpoint.drive({ forward: 0, left: 1 }, 1500));
@@ -85,7 +85,7 @@ test('the simulated camera’s picture is shown, live, and can be hidden', async
     })
     .toBeGreaterThan(1000);
 
-  // Hidden, it is not sent either.
+  // A hidden picture is not sent either.
   await page.getByRole('button', { name: 'Hide Camera' }).click();
   await expect(panel(page, 'Camera').locator('canvas')).toBeHidden();
   await expect(panel(page, 'Camera').locator('.age')).toHaveText('hidden');
@@ -105,7 +105,7 @@ test('the simulated camera’s picture is shown, live, and can be hidden', async
   await expect.poll(async () => (await camera(page, 'Camera')).pictures).toBeGreaterThan(pictures + 2);
 });
 
-test('a recording of the robot shows the pictures that were seen', async ({ page, startStack }, testInfo) => {
+test('a recording of the robot shows the recorded pictures', async ({ page, startStack }, testInfo) => {
   const path = testInfo.outputPath('drive.mcap');
   const places = Array.from({ length: 40 }, (_, i) => (i + 0.5) / 40);
   const recorded = await startStack({
@@ -128,7 +128,7 @@ test('a recording of the robot shows the pictures that were seen', async ({ page
     { topic: '/farpoint/telemetry', as: 'text', type: 'std_msgs/String', label: 'Recorded' },
   ];
   writeFileSync(config, JSON.stringify({ robot: { source: { kind: 'recording', path }, topics } }));
-  // A rate that takes the files as they are.
+  // A rate at which the files pass unchanged.
   const args = ['--config', config, '--mode', 'points64', '--max-points', '15000', '--rate-control', 'fixed'];
   const stack = await startStack({ robots: [{ id: 'played-1', name: 'A recording', args }] });
   const operator = await OperatorPage.open(page, stack, { robot: 'played-1' });
@@ -136,7 +136,7 @@ test('a recording of the robot shows the pictures that were seen', async ({ page
   await expect.poll(async () => (await camera(page, 'Front')).pictures).toBeGreaterThan(3);
   expect(await camera(page, 'Front')).toMatchObject({ width: 480, height: 480, failures: 0 });
 
-  // What the panel shows is one of them, to the pixel, and as it plays on another.
+  // The panel shows one of them, exact to the pixel, and later another.
   const rows = (await coloursOfFiles(page, files, places)).map((row) => row.join(' '));
   const seen = new Set<number>();
   await expect
@@ -148,11 +148,11 @@ test('a recording of the robot shows the pictures that were seen', async ({ page
     .toBeGreaterThan(3);
   await expect(page.locator('#facts dt', { hasText: 'Recorded' }).locator('+ dd')).toContainText('x');
   await operator.screenshot(testInfo, 'recorded-picture');
-  // A camera that the recording does not have keeps nothing from being played.
+  // A camera that the recording lacks does not prevent playback.
   await expect(panel(page, 'Rear').locator('.age')).toHaveText('waiting');
 });
 
-test('over a link of 3 Mbit/s pictures come small, and clouds keep their share', async ({
+test('over a link of 3 Mbit/s, pictures are small and clouds keep their share', async ({
   page,
   startStack,
 }) => {
@@ -215,7 +215,7 @@ test('in the headset the picture is beside the panel on the wrist', async ({
   await operator.expectPoints();
   await page.getByRole('button', { name: /VR/ }).click();
   await operator.expectState('vr', true);
-  // Up, where there is nothing behind it.
+  // Upwards, where there is nothing behind it.
   await headset.place('left', [-0.12, 1.92, -0.45]);
   const drawnAbove = async (name: string) => {
     await operator.expectFrames(20);
@@ -231,7 +231,7 @@ test('in the headset the picture is beside the panel on the wrist', async ({
   expect(shown - (await drawnAbove('headset-no-picture'))).toBeGreaterThan(0.1);
 });
 
-test('pictures of a ROS 1 graph: raw ones shrunk, a silent one marked, a broken one harmless', async ({
+test('pictures from a ROS 1 graph: raw ones are shrunk, a silent camera is marked, a broken one is harmless', async ({
   page,
   openRos1Robot,
 }, testInfo) => {
@@ -260,7 +260,7 @@ test('pictures of a ROS 1 graph: raw ones shrunk, a silent one marked, a broken 
     for (const [c, value] of bar.entries())
       expect(Math.abs(value - (expected[i]?.[c] as number)), `bar ${i}`).toBeLessThan(20);
 
-  // The page goes on, and says nothing but that nothing came.
+  // The page goes on, and only reports that no picture has arrived.
   await expect.poll(async () => (await camera(page, 'Rear')).failures).toBeGreaterThan(3);
   expect((await camera(page, 'Rear')).pictures).toBe(0);
   await expect(panel(page, 'Rear').locator('.age')).toHaveText('waiting');

@@ -2,7 +2,7 @@ import { writeFileSync } from 'node:fs';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, test } from '../src/stack-test.ts';
 
-test('a refused token is said in plain words, and the right one cures it', async ({
+test('the page explains a refused token, and the right one solves the problem', async ({
   page,
   startStack,
 }, testInfo) => {
@@ -30,7 +30,7 @@ test('without a headset the page says why there is no VR', async ({ page, startS
   await expect(page.getByRole('button', { name: 'Enter VR' })).toBeHidden();
 });
 
-test('a link to another signaling service is not sent the token of this one', async ({
+test('a link to another signaling service does not send it this service’s token', async ({
   page,
   startStack,
 }, testInfo) => {
@@ -50,14 +50,14 @@ test('a link to another signaling service is not sent the token of this one', as
       expect(hello).toEqual({ type: 'operator.hello', protocol: 1, name: 'Operator' });
   };
 
-  // As earlier pages kept it: a single one.
+  // A single token, as earlier versions of the page stored it.
   const operator = await OperatorPage.open(page, stack);
   await page.evaluate((t) => localStorage.setItem('farpoint.settings', JSON.stringify({ token: t })), token);
   await elsewhere();
   await OperatorPage.open(page, stack);
   await operator.expectState('signaling', 'ready');
 
-  // As this page keeps it.
+  // As this version stores it.
   await page.getByRole('button', { name: 'Settings' }).click();
   await expect(page.getByLabel('Token')).toHaveValue(token);
   await page.getByLabel('Signaling service').fill('wss://elsewhere.example');

@@ -2,7 +2,7 @@ import { freePorts, hasTurnServer, TURN_REMEDY, TurnServer } from '@farpoint/loc
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
-test('by a TURN relay alone: points flow, commands arrive; a relay that is restarted is found again', async ({
+test('through a TURN relay only: points and commands arrive, and a restarted relay is found again', async ({
   page,
   startStack,
 }) => {
@@ -27,7 +27,7 @@ test('by a TURN relay alone: points flow, commands arrive; a relay that is resta
     await operator.releaseKeys();
     await operator.expectStanding();
 
-    // There is no other way, and the relay's memory of both peers is gone with it.
+    // There is no other path, and the relay has forgotten both peers.
     await turn.stop();
     await expect.poll(async () => (await operator.state()).link).toContain('Connection lost');
     await turn.start();

@@ -22,7 +22,7 @@ test('a robot in a ROS 1 graph: its cloud, its readings, and driving it', async 
   await expect(fact('Battery')).toHaveText('75 % · 25.1 V');
   await expect(fact('Gripper')).toHaveText('21.5');
   await expect(fact('Diagnostics')).toContainText('left motor: 71 degrees, which is too warm');
-  // Long words do not hide the picture.
+  // Long texts do not hide the picture.
   const panel = await page.locator('#facts').boundingBox();
   expect(panel?.width).toBeLessThan(400);
   await operator.screenshot(testInfo, 'ros');

@@ -28,7 +28,7 @@ test('a camera and a LiDAR in one session: both drawn, each switched off and on 
   await page.getByRole('button', { name: 'Camera' }).click();
   await expect.poll(drawn).toEqual([false, true]);
 
-  // The robot drives on with what is left, and the choice outlives the session.
+  // The robot can be driven with the remaining sensor, and the choice outlives the session.
   const start = await operator.body();
   await operator.holdForward();
   await operator.expectMovedFrom(start, 0.2);
@@ -39,7 +39,10 @@ test('a camera and a LiDAR in one session: both drawn, each switched off and on 
 });
 
 for (const width of [360, 1280, 3840]) {
-  test(`the sensors' switches are on a screen ${width} wide`, async ({ page, startStack }, testInfo) => {
+  test(`the sensors' switches are on a screen ${width} pixels wide`, async ({
+    page,
+    startStack,
+  }, testInfo) => {
     await page.setViewportSize({ width, height: width === 360 ? 740 : Math.round((width * 9) / 16) });
     const stack = await startStack({ robots: [LIDAR_ROBOT] });
     const operator = await OperatorPage.open(page, stack, { robot: LIDAR_ROBOT.id });
@@ -47,7 +50,7 @@ for (const width of [360, 1280, 3840]) {
     for (const name of ['Camera', 'LiDAR']) {
       const button = page.getByRole('button', { name, exact: true });
       await expect(button).toBeInViewport({ ratio: 1 });
-      // Nothing lies over it.
+      // Nothing covers it.
       await button.click({ trial: true });
     }
     await page.screenshot({ path: testInfo.outputPath(`sensors-${width}.png`) });

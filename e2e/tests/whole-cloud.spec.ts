@@ -6,29 +6,29 @@ import { cloudsFolder, expect, test } from '../src/stack-test.ts';
 
 const SMALL = '320x180';
 
-/** The whole of what its camera sees, at a rate that a software renderer can follow. */
+/** The whole of the camera's view, at a rate that a software renderer can follow. */
 const wholeRobot = {
   id: 'whole',
   name: 'Whole cloud',
   args: ['--source', 'sim', '--sim-seed', '1', '--fps', '8', '--start-mbps', '20', '--bitrate-mbps', '30'],
 };
 
-test('the whole cloud comes by itself, stands where it was captured, and answers a latency test', async ({
+test('the whole cloud arrives, stays where it was captured, and answers a latency test', async ({
   page,
   startStack,
 }, testInfo) => {
   const stack = await startStack({ robots: [wholeRobot] });
   const operator = await OperatorPage.open(page, stack, { robot: wholeRobot.id, canvas: SMALL, every: '1' });
   await operator.expectPoints(10_000);
-  // 480 × 480 pixels, about 15 % of which a stereo camera does not see.
+  // 480 × 480 pixels, about 15 % of which a stereo camera cannot see.
   await expect.poll(async () => (await operator.stats()).pointsPerFrame).toBeGreaterThan(170_000);
   const { drops, packetsLost } = await operator.stats();
   expect(packetsLost).toBe(0);
-  // Before the stream's header came, some packets may have.
+  // Some packets may have arrived before the stream's header.
   const { 'no-stream': _, ...others } = drops;
   expect(others).toEqual({});
 
-  // The page's own buttons cover little of it; three frames fill the first ring of vertices.
+  // The page's controls cover little of it. Three frames fill the first ring of vertices.
   await operator.expectFrames(5);
   const [facts] = await readPicture(page, await operator.screenshot(testInfo, 'whole'), [
     { left: 0, top: 0, width: 1, height: 1 },
@@ -36,7 +36,7 @@ test('the whole cloud comes by itself, stands where it was captured, and answers
   expect(facts?.drawnShare).toBeGreaterThan(0.4);
   expect(facts?.colours).toBeGreaterThan(50);
 
-  // A room of 20 m at most, with the robot in it.
+  // A room of at most 20 m, with the robot in it.
   const { bounds, camera } = await operator.probe();
   if (bounds === null || camera === null) throw new Error('nothing is drawn');
   for (const axis of [0, 1, 2] as const) {
@@ -52,7 +52,10 @@ test('the whole cloud comes by itself, stands where it was captured, and answers
   expect(result.points).toBe(result.totalPoints);
 });
 
-test('who reads points64 only gets that, beside one who gets everything', async ({ page, startStack }) => {
+test('an operator that reads only points64 gets it, beside one that gets everything', async ({
+  page,
+  startStack,
+}) => {
   const stack = await startStack({ robots: [wholeRobot] });
   const whole = await OperatorPage.open(page, stack, { robot: wholeRobot.id, canvas: SMALL, every: '8' });
   await whole.expectPoints(10_000);
@@ -64,11 +67,11 @@ test('who reads points64 only gets that, beside one who gets everything', async 
   });
   await plain.expectPoints();
   await expect.poll(async () => (await plain.stats()).pointsPerFrame).toBeLessThan(80_000);
-  // The page that is not looked at draws nothing; the robot goes on sending it everything.
+  // The page in the background draws nothing, but the robot keeps sending it everything.
   await page.bringToFront();
   await whole.expectFrames(5);
   await expect.poll(async () => (await whole.stats()).pointsPerFrame).toBeGreaterThan(170_000);
-  // Who drives decides: now everyone gets points64.
+  // The driver decides: now everyone gets points64.
   await other.bringToFront();
   await plain.holdForward();
   await expect.poll(async () => (await plain.state()).holder).toBe('you');
@@ -80,7 +83,7 @@ for (const { name, least } of [
   { name: 'kinect-room', least: 150_000 },
   { name: 'lidar-street', least: 60_000 },
 ]) {
-  test(`a real cloud comes whole: ${name}`, async ({ page, startStack }, testInfo) => {
+  test(`a real cloud arrives whole: ${name}`, async ({ page, startStack }, testInfo) => {
     test.skip(!existsSync(cloudsFolder), `no recordings at ${cloudsFolder}`);
     const source = ['--source', 'pcd', '--path', join(cloudsFolder, `${name}.pcd`)];
     const rates = ['--fps', '5', '--start-mbps', '30', '--bitrate-mbps', '60'];

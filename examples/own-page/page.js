@@ -17,7 +17,7 @@ renderer.setAnimationLoop((nowMs) => {
   renderer.render(scene, camera);
   view.noteDrawn();
 });
-// The robot moves while W is held. A wish that is not renewed within 200 ms has been let go.
+// The robot moves while W is held. It stops when a request is not renewed within 200 ms.
 const held = new Set();
 addEventListener('keydown', ({ code }) => held.add(code));
 addEventListener('keyup', ({ code }) => held.delete(code));

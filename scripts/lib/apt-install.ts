@@ -1,7 +1,10 @@
 import { rootCommand } from './root-command.ts';
 import { run } from './run.ts';
 
-/** Installs a package of the distribution, where there is apt and we may. Whether it worked is for the caller to see. */
+/**
+ * Installs a package of the distribution, if apt and the necessary rights are available. The caller checks whether it
+ * worked.
+ */
 export async function aptInstall(name: string, say: (line: string) => void): Promise<void> {
   const asRoot = rootCommand();
   if (asRoot === null || (await run('apt-get', ['--version'])).code !== 0) return;

@@ -1,6 +1,7 @@
 /**
- * Builds a package of this workspace into what `pnpm pack` puts in its tarball: ES modules with their workers and WASM
- * beside them, and type declarations. Private packages of the workspace are bundled, so that the tarball installs alone.
+ * Builds a package of this workspace into what `pnpm pack` puts into its tarball: ES modules with their workers and
+ * WASM, and type declarations. Private packages of the workspace are bundled, so that the tarball can be installed
+ * alone.
  */
 import { spawnSync } from 'node:child_process';
 import {
@@ -20,17 +21,17 @@ import { bundledPackages, licenceTexts } from './bundled-licences.ts';
 import { publicDeclaration, references } from './declarations.ts';
 
 export interface BrowserPackage {
-  /** Of the package. */
+  /** The package's folder. */
   folder: string;
-  /** Modules that are addressed by themselves, below `src`: the package's own, and its workers. */
+  /** Modules with their own address, below `src`: the package's entry points and its workers. */
   entries: readonly string[];
-  /** Packages that the built modules import by name. All others of the workspace that it needs are bundled. */
+  /** Packages that the built modules import by name. All other workspace packages are bundled. */
   external?: readonly string[];
-  /** Files that the modules load at run time, from the package's folder. */
+  /** Files that the modules load at run time, relative to the package's folder. */
   assets?: readonly string[];
 }
 
-/** @throws {Error} with what the compiler says */
+/** @throws {Error} with the compiler's message */
 export async function buildBrowserPackage(spec: BrowserPackage): Promise<void> {
   const dist = join(spec.folder, 'dist');
   rmSync(dist, { recursive: true, force: true });
@@ -56,7 +57,7 @@ async function bundle({ folder, entries, external = [] }: BrowserPackage, dist: 
     external: [...external],
     plugins: [
       {
-        // All modules lie in one folder: what they find beside themselves lies there, too.
+        // All modules are in one folder, so what they look for beside themselves must be there, too.
         name: 'assets-beside',
         setup: ({ onLoad }) =>
           onLoad({ filter: /\.[jt]s$/ }, ({ path }) => {
@@ -75,7 +76,7 @@ async function bundle({ folder, entries, external = [] }: BrowserPackage, dist: 
   if (licences !== null) writeFileSync(join(dist, 'THIRD_PARTY_LICENSES.txt'), licences);
 }
 
-/** The index of each package that is bundled, by name: of the workspace's packages in `devDependencies`. */
+/** The index of each bundled package by name: the workspace packages in `devDependencies`. */
 function bundledIndexes({ folder, external = [] }: BrowserPackage): Map<string, string> {
   const { devDependencies = {} } = readManifest(folder);
   const names = Object.keys(devDependencies).filter(
@@ -94,7 +95,7 @@ interface Manifest {
   exports?: Record<string, string>;
 }
 
-/** Our own file. */
+/** Reads a manifest of our own. */
 function readManifest(folder: string): Manifest {
   return JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8')) as Manifest;
 }
@@ -120,7 +121,7 @@ function declare(spec: BrowserPackage, dist: string): void {
   const visit = (file: string): void => {
     if (reached.has(file)) return;
     reached.add(file);
-    // A declaration that was written, not made.
+    // A declaration file that was written by hand.
     if (!existsSync(file)) {
       mkdirSync(dirname(file), { recursive: true });
       cpSync(join(root, relative(out, file)), file);
@@ -141,7 +142,7 @@ function declare(spec: BrowserPackage, dist: string): void {
   }
   const own = dirname(place(join(folder, 'src/index.ts')));
   for (const file of reached) if (file.startsWith(own)) refuseHidden(file, hidden);
-  // Those of a package that needs no other are whole.
+  // Declarations of a package without external dependencies must be complete.
   const strict = [
     '--ignoreConfig',
     '--noEmit',
@@ -156,7 +157,7 @@ function declare(spec: BrowserPackage, dist: string): void {
   if (external.length === 0) compile(folder, [...strict, place(join(folder, 'src/index.ts'))]);
 }
 
-/** @throws {Error} where the package's own declarations name a type of which users could see nothing */
+/** @throws {Error} if the package's own declarations name a type whose contents users cannot see */
 function refuseHidden(file: string, hidden: ReadonlySet<string>): void {
   for (const [name] of readFileSync(file, 'utf8').matchAll(/\b[A-Z]\w+\b/g)) {
     if (hidden.has(name))

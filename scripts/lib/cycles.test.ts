@@ -5,12 +5,12 @@ import { cycles } from './cycles.ts';
 const graphOf = (edges: Record<string, string[]>) => new Map(Object.entries(edges));
 
 describe('cycles', () => {
-  test('an acyclic graph has none, however often its paths meet', () => {
+  test('finds none in an acyclic graph, however often its paths meet', () => {
     expect(cycles(graphOf({ a: ['b', 'c'], b: ['d'], c: ['d'], d: [] }))).toEqual([]);
     expect(cycles(new Map())).toEqual([]);
   });
 
-  test('finds every group of nodes that reach each other, without those that only lead there', () => {
+  test('finds every group of nodes that reach each other, without nodes that only lead there', () => {
     const graph = graphOf({ start: ['a', 'x'], a: ['b'], b: ['c'], c: ['a', 'end'], x: ['y'], y: ['x'] });
     expect(cycles(graph)).toEqual([
       ['a', 'b', 'c'],

@@ -1,13 +1,13 @@
 /** Dependency cycles of a directed graph: its strongly connected components (Tarjan 1972). */
 
 /**
- * The groups of nodes that reach each other, and nodes with an edge to themselves; empty for an acyclic graph. Nodes that
- * appear only as a target count too. Groups and their nodes come in the order in which the graph names them.
+ * The groups of nodes that reach each other, and nodes with an edge to themselves; empty for an acyclic graph. Nodes
+ * that appear only as targets count, too. Groups and their nodes are in the order in which the graph names them.
  */
 export function cycles<Node>(graph: ReadonlyMap<Node, Iterable<Node>>): Node[][] {
   /** When the search first reached each node. */
   const reached = new Map<Node, number>();
-  /** The earliest node on the stack that each one reaches. */
+  /** The earliest node on the stack that each node reaches. */
   const lowest = new Map<Node, number>();
   const stack: Node[] = [];
   const onStack = new Set<Node>();
@@ -19,7 +19,7 @@ export function cycles<Node>(graph: ReadonlyMap<Node, Iterable<Node>>): Node[][]
     .map((group) => group.sort((a, b) => (reached.get(a) ?? 0) - (reached.get(b) ?? 0)))
     .sort((a, b) => first(a) - first(b));
 
-  // The search keeps its own stack of calls: a long chain of imports must not exhaust the program's.
+  // The search has its own call stack, because a long chain of imports must not exhaust the program's.
   function visit(start: Node): void {
     const calls = [enter(start)];
     for (let call = calls.at(-1); call !== undefined; call = calls.at(-1)) {

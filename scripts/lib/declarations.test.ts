@@ -3,7 +3,7 @@ import { publicDeclaration, references } from './declarations.ts';
 
 const name = (it: string) => (it === '@farpoint/protocol' ? '../protocol/index.js' : it);
 
-test('schemas go, the types beside them stay', () => {
+test('removes schemas, and keeps the types beside them', () => {
   const text = `import * as z from 'zod/mini';
 import type { Pose } from './pose.ts';
 export interface Speed {
@@ -34,7 +34,7 @@ export declare const MOST: 5;
   });
 });
 
-test('private packages are found beside, others by their name', () => {
+test('refers to private packages by path, to others by name', () => {
   const text = `import type { A } from '@farpoint/protocol';\nimport { B } from 'three';\nexport * from './c.ts';\n`;
   const made = publicDeclaration(text, name).text;
   expect(made).toContain("from '../protocol/index.js'");
@@ -42,7 +42,7 @@ test('private packages are found beside, others by their name', () => {
   expect(references(made)).toEqual(['../protocol/index.js', './c.js']);
 });
 
-test('a file of schemas alone stays a module', () => {
+test('keeps a file that has only schemas a module', () => {
   expect(
     publicDeclaration(
       "import * as z from 'zod/mini';\nexport declare const a: z.ZodMiniString<string>;",
@@ -51,7 +51,7 @@ test('a file of schemas alone stays a module', () => {
   ).toBe('export {};');
 });
 
-test('an interface that is made of a schema is a fault', () => {
+test('refuses an interface that is derived from a schema', () => {
   const text = 'export interface A {\n    one: z.infer<typeof one>;\n}';
   expect(() => publicDeclaration(text, name)).toThrow('z.infer');
 });

@@ -1,19 +1,19 @@
-/** Rewrites TypeScript's declarations for a tarball: no `.ts` addresses, no private packages, no schemas. */
+/** Rewrites TypeScript declarations for a tarball: without `.ts` addresses, private packages and schemas. */
 
 const SPECIFIER = /(\bfrom '|\bimport\(['"])([^'"]+)(['"])/g;
 
 export interface PublicDeclaration {
   text: string;
-  /** Types that are made of a schema's: nobody outside can see what they hold. */
+  /** Types derived from a schema. Users of the package cannot see their contents. */
   opaque: string[];
 }
 
 /**
- * A declaration file as users of the package get it. Schemas are left out with the library that they are made of: the
- * types beside them say the same. Types that are made of a schema become `unknown`.
+ * Makes the declaration file that users of the package get. Schemas are removed together with their library, because
+ * the types beside them say the same. Types derived from a schema become `unknown`.
  *
- * @param nameOf the address of a package's declarations; the name itself where it stays
- * @throws {Error} where something else is made of a schema
+ * @param nameOf the address of a package's declarations, or its unchanged name
+ * @throws {Error} if anything else is derived from a schema
  */
 export function publicDeclaration(text: string, nameOf: (name: string) => string): PublicDeclaration {
   const opaque: string[] = [];
@@ -28,12 +28,12 @@ export function publicDeclaration(text: string, nameOf: (name: string) => string
     inSchema ||= type !== undefined || /^(export )?declare const \w+: z\./.test(line);
     if (!inSchema && !/ from 'zod\/mini';$/.test(line))
       lines.push(line.replace(/\bz\.core\.\$ZodType<[^<>]*>/g, 'unknown'));
-    // A statement ends with the first line that is not indented and ends with a semicolon.
+    // A statement ends with the first unindented line that ends with a semicolon.
     if (inSchema && /^\S.*;$/.test(line)) inSchema = false;
   }
   const used = lines.find((line) => /\bz\.[A-Za-z]/.test(line));
   if (used !== undefined) throw new Error(`a public type needs the schema library: ${used.trim()}`);
-  // Without an export it would be no module.
+  // Without an export the file would not be a module.
   if (!lines.some((line) => line.startsWith('export'))) lines.push('export {};');
   const address = (_: string, before: string, name: string, after: string) =>
     before + (name.startsWith('.') ? name.replace(/\.ts$/, '.js') : nameOf(name)) + after;

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { DevOptionError, readDevOptions } from './dev-options.ts';
 
-test('what may be left out has its default', () => {
+test('options have defaults', () => {
   expect(readDevOptions([])).toEqual({ port: null, robots: 1, verbose: false });
   expect(readDevOptions(['--robots', '2', '--port=8080', '--verbose'])).toEqual({
     ...{ port: 8080, robots: 2, verbose: true },

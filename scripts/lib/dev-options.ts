@@ -1,4 +1,4 @@
-/** What `pnpm dev` can be told. */
+/** The options of `pnpm dev`. */
 import { parseArgs } from 'node:util';
 import { closest } from '@farpoint/service';
 
@@ -22,7 +22,7 @@ const OPTIONS = {
 const NAMES = Object.keys(OPTIONS).map((name) => `--${name}`);
 
 export interface DevOptions {
-  /** `null`: any that is free. */
+  /** `null`: any free port. */
   port: number | null;
   robots: number;
   verbose: boolean;
@@ -34,7 +34,7 @@ export class DevOptionError extends Error {
 }
 
 /**
- * @returns `null` where help is asked for
+ * @returns `null` if help was requested
  * @throws {DevOptionError}
  */
 export function readDevOptions(argv: readonly string[]): DevOptions | null {

@@ -1,4 +1,4 @@
-/** What becomes of each command of the documents when they are tested. One that is not here, or no longer there, fails the test. */
+/** How each command in the documents is tested. A command missing here, or no longer in a document, fails the test. */
 
 /** Why a command cannot run where tests run. */
 export type Obstacle =
@@ -14,15 +14,15 @@ export type Obstacle =
   | 'needs Rust';
 
 export type Treatment =
-  /** It runs as it stands until it logs this; `also` keeps it off ports and services of others. */
+  /** Runs as written until it logs this. `also` keeps it off other programs' ports and services. */
   | { up: string | RegExp; also?: readonly string[]; fill?: Readonly<Record<string, string>> }
-  /** It runs as it stands and cannot start here, for this reason. */
+  /** Runs as written and cannot start here, for this reason. */
   | { refused: RegExp; also?: readonly string[] }
-  /** Its program's help names each of its options. */
+  /** Its program's help must name each of its options. */
   | { help: true; because?: Obstacle }
-  /** This file names each of its options. */
+  /** This file must name each of its options. */
   | { options: string; because: Obstacle }
-  /** Nothing but that its files and its script are there. */
+  /** Only its files and its script must exist. */
   | { because: Obstacle };
 
 const ALONE = ['--admin-port', '0', '--signaling', 'ws://127.0.0.1:9'];
@@ -43,7 +43,7 @@ const NO_PRODUCER = ['--shm-folder', '/dev/shm/farpoint-without-a-producer', '--
 const shm: Treatment = { refused: /^could not start: shm: /, also: [...ALONE, ...NO_PRODUCER] };
 
 export const TREATMENTS: Readonly<Record<string, Treatment>> = {
-  // The local stack, and the programs one by one.
+  // The local stack, and its programs one by one.
   'npx -y pnpm@12 dev': { help: true, because: 'runs until it is ended, and every test of it' },
   'npx -y pnpm@12 test': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm test': { help: true, because: 'runs until it is ended, and every test of it' },
@@ -92,7 +92,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'python3 examples/synthetic_camera.py': SYNTHETIC,
   'python3 examples/synthetic_camera.py --layout reference --fps 18': SYNTHETIC,
 
-  // What is installed.
+  // Installation.
   'sudo apps/robot-node/deploy/install.sh --source shm': {
     options: 'apps/robot-node/deploy/install.sh',
     because: 'needs root',
@@ -142,7 +142,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'docker run -d --name farpoint-signaling --restart unless-stopped --read-only --cap-drop ALL -p 127.0.0.1:3000:3000 -v /etc/farpoint:/etc/farpoint:ro -e FARPOINT_SIGNALING_OPERATOR_TOKENS=/etc/farpoint/operator-tokens.yaml farpoint-signaling':
     { because: 'needs a container engine' },
 
-  // Building, and what it needs.
+  // Building, and its prerequisites.
   'npx -y pnpm@12 build': { because: 'builds for minutes' },
   'npx -y pnpm@12 build:native': { because: 'builds for minutes' },
   'npx -y pnpm@12 build:native dds': { because: 'builds for minutes' },

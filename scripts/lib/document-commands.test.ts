@@ -26,7 +26,7 @@ pnpm: not shell
    \`\`\`
 `;
 
-test('fenced shell blocks and what prose names', () => {
+test('finds commands in fenced shell blocks and in prose', () => {
   expect(documentCommands(markdown)).toEqual([
     { text: 'pnpm bench mtp', line: 2 },
     { text: 'pnpm dev', line: 5 },
@@ -37,7 +37,7 @@ test('fenced shell blocks and what prose names', () => {
   ]);
 });
 
-test('words as a shell parts them', () => {
+test('splits words as a shell does', () => {
   expect(shellWords('pnpm robot --name "Behind 8 Mbit/s" --id \'a b\' x')).toEqual([
     'pnpm',
     'robot',

@@ -1,13 +1,13 @@
-/** The commands that stand in the documents: what people copy into a shell. */
+/** Finds the commands in the documents that people copy into a shell. */
 
 export interface DocumentCommand {
-  /** As it stands there, without its comment, a space where there were several or the line went on. */
+  /** As written, without its comment, and with one space for several or for a line continuation. */
   text: string;
-  /** From 1. */
+  /** Counts from 1. */
   line: number;
 }
 
-/** What one line of prose calls by name is a command where it begins like this and goes on. */
+/** An inline code span in prose is a command if it begins like this and continues. */
 const INLINE =
   /^(npx -y pnpm@12|pnpm|node|sudo|docker|systemctl|journalctl|curl|python3|cargo|apt-get|farpoint-\w+) \S/;
 const FENCE = /^\s*```(\w*)\s*$/;
@@ -17,7 +17,7 @@ const HERE_DOCUMENT = /<<'?(\w+)'?/;
 /** Commands in fenced shell blocks, and those that prose names between backticks. */
 export function documentCommands(markdown: string): DocumentCommand[] {
   const found: DocumentCommand[] = [];
-  /** Language of the block that a line is in. */
+  /** Language of the block that contains the line. */
   let block: string | null = null;
   let begun: DocumentCommand | null = null;
   let hereEnd: string | null = null;
@@ -50,7 +50,7 @@ export function documentCommands(markdown: string): DocumentCommand[] {
   return found;
 }
 
-/** Words of a command as a shell parts them; of what a shell does beside that only quotes. */
+/** Splits a command into words as a shell does. Of the shell's other features, it supports only quotes. */
 export function shellWords(command: string): string[] {
   return [...command.matchAll(/"([^"]*)"|'([^']*)'|(\S+)/g)].map(
     ([, double, single, plain]) => double ?? single ?? plain ?? '',

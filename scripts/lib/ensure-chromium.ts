@@ -3,15 +3,15 @@ import { aptInstall } from './apt-install.ts';
 import { run } from './run.ts';
 
 /**
- * Finds a Chromium, or installs one: Playwright's own, else the distribution's package.
+ * Finds a Chromium or installs one: Playwright's own, or else the distribution's package.
  *
- * @returns its path, or `null` where neither could be installed
+ * @returns its path, or `null` if neither could be installed
  */
 export async function ensureChromium(say: (line: string) => void): Promise<string | null> {
   const found = findChromium();
   if (found !== null) return found;
   say('Chromium is missing; fetching Playwright’s');
-  // Its download is tried once: where its server is out of reach, the distribution's package serves as well.
+  // Its download is tried once. If the server is out of reach, the distribution's package will do.
   const env = { PLAYWRIGHT_DOWNLOAD_CONNECTION_TIMEOUT: '10000' };
   const fetched = await run('pnpm', ['--dir', 'e2e', 'exec', 'playwright', 'install', 'chromium'], {
     env,
@@ -23,7 +23,7 @@ export async function ensureChromium(say: (line: string) => void): Promise<strin
   return (await starts(installed)) ? installed : null;
 }
 
-/** A browser that lacks its libraries is there but does not start. */
+/** A browser that lacks libraries exists but does not start. */
 async function starts(path: string | null): Promise<boolean> {
   return path !== null && (await run(path, ['--version'], { timeoutMs: 30_000 })).code === 0;
 }

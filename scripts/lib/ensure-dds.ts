@@ -3,16 +3,20 @@ import { join } from 'node:path';
 import { aptInstall } from './apt-install.ts';
 import { root, run } from './run.ts';
 
-/** Python with a DDS of its own, which the tests take as another maker's; `FARPOINT_DDS_PYTHON` names another. */
+/**
+ * A Python with its own DDS, which the tests use as another implementation; `FARPOINT_DDS_PYTHON` names another one.
+ */
 const FOLDER = join(root, '.farpoint', 'python-dds');
 
-/** CycloneDDS, which the addon is built over, where it can be installed. */
+/** Installs CycloneDDS, on which the addon is built, if possible. */
 export async function ensureCycloneDds(say: (line: string) => void): Promise<void> {
   if (process.env.CYCLONEDDS_HOME !== undefined || (await compiles('c', '#include <dds/dds.h>'))) return;
   await aptInstall('cyclonedds-dev', say);
 }
 
-/** The other makers' DDS that the tests speak to: Fast DDS and Python's. The tests that need them say so where they are missing. */
+/**
+ * Installs the other DDS implementations for the tests: Fast DDS and Python's. Tests that need a missing one say so.
+ */
 export async function ensureDdsPeers(say: (line: string) => void): Promise<void> {
   const fastDds = '#include <fastdds/dds/domain/DomainParticipant.hpp>';
   if (!(await compiles('c++', fastDds))) await aptInstall('libfastrtps-dev', say);

@@ -4,7 +4,7 @@ import { aptInstall } from './apt-install.ts';
 /**
  * Finds Firefox, and on Linux a display for it, or installs them.
  *
- * @returns what is missing all the same, with its remedy, or `null`
+ * @returns what is still missing, with its remedy, or `null`
  */
 export async function ensureFirefox(say: (line: string) => void): Promise<string | null> {
   if (findFirefox() === null) await aptInstall('firefox-esr', say);

@@ -2,10 +2,10 @@ import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { root, run } from './run.ts';
 
-/** Where the tests' own Python lives; `FARPOINT_PYTHON` names another. */
+/** Folder of the tests' own Python; `FARPOINT_PYTHON` names another one. */
 const FOLDER = join(root, '.farpoint', 'python');
 
-/** Finds a Python with numpy, or makes one. The tests that need it say so where it is missing. */
+/** Finds a Python with numpy, or makes one. Tests that need it say so if it is missing. */
 export async function ensureNumpy(say: (line: string) => void): Promise<void> {
   const candidates = [process.env.FARPOINT_PYTHON, join(FOLDER, 'bin', 'python3'), 'python3'];
   for (const python of candidates) if (python !== undefined && (await hasNumpy(python))) return;

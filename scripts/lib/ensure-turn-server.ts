@@ -1,7 +1,7 @@
 import { aptInstall } from './apt-install.ts';
 import { run } from './run.ts';
 
-/** Finds coturn, or installs it. The test that needs it says so where it is missing. */
+/** Finds coturn, or installs it. The test that needs it says so if it is missing. */
 export async function ensureTurnServer(say: (line: string) => void): Promise<void> {
   if (await isThere()) return;
   await aptInstall('coturn', say);

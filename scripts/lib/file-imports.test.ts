@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { importedFiles } from './file-imports.ts';
 
-test('finds what a file imports by path, in whatever way, and nothing else', () => {
+test('finds the files that a file imports by path, in every form, and nothing else', () => {
   const source = `
     import { a } from './a.ts';
     import type { B } from '../b/b.ts';

@@ -1,10 +1,10 @@
-/** Which files a TypeScript source imports by a relative path, types included. Pure. */
+/** Finds the files that a TypeScript source imports by relative path, including types. Pure. */
 import { posix } from 'node:path';
 
 const RELATIVE = /(?:\bfrom|^\s*import|\bimport\()\s*['"](?<specifier>\.{1,2}\/[^'"\n]+)['"]/gm;
 const COMMENTS = /\/\*[\s\S]*?\*\/|^\s*\/\/.*$/gm;
 
-/** @returns the imported files, from the same root as `file`; whether they exist is not looked at */
+/** @returns the imported files, relative to the same root as `file`; does not check that they exist */
 export function importedFiles(file: string, source: string): Set<string> {
   const text = source.replace(COMMENTS, '');
   const files = new Set<string>();

@@ -1,14 +1,14 @@
 import { expect, test } from 'vitest';
 import { importedPackages, packageOf } from './package-imports.ts';
 
-test('a specifier is its package’s, whatever lies below', () => {
+test('a specifier belongs to its package, whatever its subpath', () => {
   expect(packageOf('three/addons/loaders/GLTFLoader.js')).toBe('three');
   expect(packageOf('@farpoint/network-sim/random')).toBe('@farpoint/network-sim');
   for (const none of ['./a.ts', '../a.ts', '/a.ts', '#a', 'node:fs', 'fs', 'data:text/javascript,1'])
     expect(packageOf(none)).toBeNull();
 });
 
-test('every way to import counts, comments do not', () => {
+test('finds every form of import, but none in comments', () => {
   const source = `
 /** import 'commented'; */
 import one from 'one';

@@ -1,4 +1,4 @@
-/** Which packages a source file imports, and which its text names. Pure. */
+/** Finds the packages that a source file imports, and those that its text names. Pure. */
 import { isBuiltin } from 'node:module';
 
 /** `from '…'`, `import '…'`, `import('…')`, `require('…')`, `import.meta.resolve('…')`, `require.resolve('…')`. */
@@ -16,7 +16,7 @@ export function packageOf(specifier: string): string | null {
   return first!.startsWith('@') ? `${first}/${second}` : first!;
 }
 
-/** The packages that a TypeScript or JavaScript source imports, in whatever way. */
+/** The packages that a TypeScript or JavaScript source imports, in any form. */
 export function importedPackages(source: string): Set<string> {
   const text = source.replace(COMMENTS, '');
   const packages = new Set<string>();

@@ -1,6 +1,6 @@
 /**
- * Keeps the tests of the project `pure` pure: whatever starts a process or a thread, or opens a socket, throws. Such a
- * test belongs in a file named `*.stack.test.ts`.
+ * Keeps the tests of the project `pure` pure: starting a process or a thread, or opening a socket, throws. A test
+ * that needs one belongs in a file named `*.stack.test.ts`.
  */
 import childProcess from 'node:child_process';
 import dgram from 'node:dgram';
@@ -9,7 +9,7 @@ import net from 'node:net';
 import workerThreads from 'node:worker_threads';
 
 function refuse(what: string): () => never {
-  // A plain function, since `Worker` is called with `new`.
+  // A plain function, because `Worker` is called with `new`.
   return function refused(): never {
     throw new Error(`a pure test may not ${what}: name the file *.stack.test.ts`);
   };

@@ -1,8 +1,11 @@
-/** The table of rooms in docs/architecture.md: the folders of the workspace, and which others each may use. Pure. */
+/**
+ * Reads the table of packages and dependencies in docs/architecture.md: the workspace's folders, and which others
+ * each may use. Pure.
+ */
 
 export interface Room {
   folder: string;
-  /** Last parts of folders' names; `null`: every room of a row above. */
+  /** Last parts of the folders' names; `null`: every folder in the rows above. */
   mayUse: readonly string[] | null;
 }
 
@@ -19,7 +22,7 @@ export function parseRooms(markdown: string): Room[] {
   });
 }
 
-/** Folders that `room` may use. */
+/** The folders that `room` may use. */
 export function allowedFolders(room: Room, rooms: readonly Room[]): Set<string> {
   if (room.mayUse === null) return new Set(rooms.slice(0, rooms.indexOf(room)).map(({ folder }) => folder));
   const { mayUse } = room;

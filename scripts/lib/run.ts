@@ -6,21 +6,21 @@ import { fileURLToPath } from 'node:url';
 export const root = fileURLToPath(new URL('../..', import.meta.url)).replace(/[\\/]$/, '');
 
 export interface RunResult {
-  /** Exit status; 127 where the program is not there, 128 and more where a signal ended it. */
+  /** Exit code; 127 if the program is missing, 128 or more if a signal ended it. */
   code: number;
-  /** Standard output and error, in the order they came. */
+  /** Standard output and standard error, in the order in which they arrived. */
   output: string;
 }
 
 export interface RunOptions {
   cwd?: string;
   env?: Record<string, string>;
-  /** Pass the output on as it comes, as well as keeping it. */
+  /** Pass output on as it arrives, in addition to collecting it. */
   echo?: boolean;
   timeoutMs?: number;
 }
 
-/** Runs a program found on PATH or in the workspace's `node_modules/.bin`. Never throws for what the program does. */
+/** Runs a program from PATH or from the workspace's `node_modules/.bin`. Never throws, whatever the program does. */
 export function run(program: string, args: string[], options: RunOptions = {}): Promise<RunResult> {
   return new Promise((resolve) => {
     const child = spawn(program, args, {

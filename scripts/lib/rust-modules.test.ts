@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { rustFileGraph } from './rust-modules.ts';
 
-/** The graph of a crate as plain lists. */
+/** A crate's graph as plain arrays. */
 function graphOf(sources: Record<string, string>): Record<string, string[]> {
   const graph = rustFileGraph(new Map(Object.entries(sources)));
   return Object.fromEntries([...graph].map(([file, targets]) => [file, [...targets].sort()]));
@@ -34,7 +34,7 @@ describe('rustFileGraph', () => {
     expect(graph['a.rs']).toEqual(['b/c.rs', 'b/mod.rs', 'd.rs']);
   });
 
-  test('takes a re-export for an alias of what it names', () => {
+  test('treats a re-export as an alias of what it names', () => {
     const graph = graphOf({
       'lib.rs': 'mod rans;\npub(crate) use rans::Coder;',
       'rans/mod.rs': 'mod coder;\npub use coder::Coder;\npub const TOTAL: u32 = 1;',
@@ -49,7 +49,7 @@ describe('rustFileGraph', () => {
     });
   });
 
-  test('counts a re-export that the file uses itself', () => {
+  test('counts a re-export that its own file uses', () => {
     const graph = graphOf({
       'lib.rs': 'mod coder;\npub use coder::Coder;\npub fn f() -> Coder { todo!() }',
       'coder.rs': 'pub struct Coder;',
@@ -57,7 +57,7 @@ describe('rustFileGraph', () => {
     expect(graph['lib.rs']).toEqual(['coder.rs']);
   });
 
-  test('counts paths in code, by child modules and by imported ones', () => {
+  test('counts paths in code that start at child or imported modules', () => {
     const graph = graphOf({
       'main.rs': 'mod a;\nmod b;\nfn main() { a::run(); crate::c::stop(); std::process::exit(0) }',
       'a.rs': 'use crate::b;\npub fn run() { b::go() }',
@@ -68,7 +68,7 @@ describe('rustFileGraph', () => {
     expect(graph['a.rs']).toEqual(['b.rs', 'c.rs']);
   });
 
-  test('takes every one of several imports by the same name', () => {
+  test('follows all of several imports with the same name', () => {
     const graph = graphOf({
       'lib.rs':
         '#[cfg(unix)]\nuse one as system;\n#[cfg(windows)]\nuse two as system;\nfn f() { system::g() }',
@@ -78,7 +78,7 @@ describe('rustFileGraph', () => {
     expect(graph['lib.rs']).toEqual(['one.rs', 'two.rs']);
   });
 
-  test('leaves out tests, comments, strings and other crates', () => {
+  test('ignores tests, comments, strings and other crates', () => {
     const graph = graphOf({
       'lib.rs': '',
       'a.rs': [
@@ -98,7 +98,7 @@ describe('rustFileGraph', () => {
     expect(graph['a.rs']).toEqual([]);
   });
 
-  test('an inline module is part of its file', () => {
+  test('treats an inline module as part of its file', () => {
     const graph = graphOf({
       'lib.rs': '',
       'a.rs': 'mod inner { use super::Own; use super::super::b::Other; }\nstruct Own;',

@@ -1,20 +1,20 @@
-/** Which source files of a Rust crate use which others. */
+/** Finds which source files of a Rust crate use which others. */
 import { parseRust, type RustImport, type RustModule } from './rust-source.ts';
 
-/** Far more aliases in a row than a crate has. */
+/** Limit for chains of aliases, far above what a crate has. */
 const MAX_ALIASES = 8;
 
 interface Module {
-  /** Segments from the crate's root. */
+  /** Path segments from the crate's root. */
   path: readonly string[];
   file: string;
   content: RustModule;
 }
 
 /**
- * The files that each file of a crate uses: the ones that define what its `use` lines and paths name. A re-export
- * (`pub use`) is an alias: whoever names it uses the file that defines the item, and so does a file whose own code names what
- * it re-exports. Declaring a module (`mod name;`) is no use.
+ * The files that each file of a crate uses: those that define what its `use` lines and paths name. A re-export (`pub
+ * use`) is an alias: code that names it uses the file that defines the item. So does a file whose own code names what
+ * it re-exports. Declaring a module (`mod name;`) does not count as use.
  *
  * @param sources text of every file by its path below the crate's root, with `/`: `lib.rs`, `rans/mod.rs`
  */
@@ -45,7 +45,7 @@ function addModule(modules: Map<string, Module>, path: string[], file: string, c
   for (const [name, inline] of content.inline) addModule(modules, [...path, name], file, inline);
 }
 
-/** The files that define what a path names inside a module; none for another crate's items and for the language's. */
+/** The files that define what a path inside a module names; none for items of other crates and of the language. */
 function filesOf(
   modules: ReadonlyMap<string, Module>,
   from: Module,
@@ -60,7 +60,7 @@ function filesOf(
   const isKnown = at([...from.path, first]) !== undefined || importsOf(from, first).length > 0;
   return isKnown ? within(from, path) : [];
 
-  /** Follows a path from a module that it begins in. */
+  /** Follows a path from its starting module. */
   function within(module: Module | undefined, segments: readonly string[]): string[] {
     const [name, ...others] = segments;
     if (module === undefined) return [];
@@ -74,7 +74,7 @@ function filesOf(
   }
 }
 
-/** What a name stands for in a module; several paths where it depends on the target. */
+/** What a name means in a module; several paths if it depends on the target. */
 function importsOf(module: Module, name: string): string[][] {
   return module.content.imports.filter((each) => each.name === name).map(({ path }) => path);
 }

@@ -1,4 +1,4 @@
-/** What a Rust source declares and names of modules: enough to follow its paths, without a Rust compiler. */
+/** Reads which modules a Rust source declares and names: enough to follow its paths, without a Rust compiler. */
 
 /** A name that `use` brings into a module. */
 export interface RustImport {
@@ -9,19 +9,19 @@ export interface RustImport {
   exported: boolean;
 }
 
-/** A module's content; inline modules (`mod name { … }`) are modules of their own. */
+/** A module's content. Inline modules (`mod name { … }`) are separate modules. */
 export interface RustModule {
-  /** Modules in files of their own (`mod name;`). */
+  /** Modules in their own files (`mod name;`). */
   declared: string[];
   inline: Map<string, RustModule>;
   imports: RustImport[];
-  /** Paths of at least two segments in code: `crate::rans::encode`, `mask::walk`. */
+  /** Paths in code with at least two segments: `crate::rans::encode`, `mask::walk`. */
   paths: string[][];
   /** Every identifier in code, outside `use`. */
   names: Set<string>;
 }
 
-/** Reads a source file. What stands under `#[cfg(test)]` is left out: tests may use any module. */
+/** Parses a source file. Skips items under `#[cfg(test)]`, because tests may use any module. */
 export function parseRust(text: string): RustModule {
   return new Parser(tokensOf(text)).module();
 }
@@ -49,7 +49,7 @@ class Parser {
     this.tokens = tokens;
   }
 
-  /** Reads up to the end, or to the brace that closes an inline module. */
+  /** Parses up to the end, or to the brace that closes an inline module. */
   module(): RustModule {
     const module: RustModule = { declared: [], inline: new Map(), imports: [], paths: [], names: new Set() };
     let depth = 0;
@@ -78,14 +78,14 @@ class Parser {
     return this.tokens[this.at];
   }
 
-  /** After `#`: what stands between the brackets, without blanks. */
+  /** After `#`: the text between the brackets, without blanks. */
   private attribute(): string {
     const start = this.at + 1;
     this.skipBrackets();
     return this.tokens.slice(start, this.at - 1).join('');
   }
 
-  /** Skips an item with its further attributes: up to a semicolon, or over its block. */
+  /** Skips an item and its further attributes: up to a semicolon, or over its block. */
   private skipItem(): void {
     for (let token = this.peek(); token !== undefined; token = this.peek()) {
       if ('([{'.includes(token)) this.skipBrackets();
@@ -94,7 +94,7 @@ class Parser {
     }
   }
 
-  /** Skips from an opening bracket to behind the one that closes it. */
+  /** Skips from an opening bracket to after its closing bracket. */
   private skipBrackets(): void {
     let depth = 0;
     do {
@@ -114,7 +114,7 @@ class Parser {
     else if (opening === '{') into.inline.set(name, this.module());
   }
 
-  /** Just behind `use`: whether `pub` or `pub(…)` stands before it. */
+  /** Called just after `use`: whether `pub` or `pub(…)` precedes it. */
   private isExported(): boolean {
     const before = this.tokens[this.at - 2];
     return (
@@ -158,7 +158,7 @@ class Parser {
     yield { name, path };
   }
 
-  /** A path in code, from its first segment on. */
+  /** A path in code, starting at its first segment. */
   private path(first: string): string[] {
     const path = [first];
     while (this.peek() === '::' && IDENTIFIER.test(this.tokens[this.at + 1] ?? '')) {

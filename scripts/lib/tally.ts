@@ -1,4 +1,4 @@
-/** How many tests ran, read from the summaries that the test runners print. */
+/** Counts tests from the summaries that the test runners print. */
 export interface Tally {
   passed: number;
   failed: number;
@@ -29,7 +29,7 @@ export function tallyVitest(output: string): Tally {
   return readCounts(/^\s*Tests\s+(.*)$/m.exec(plain(output))?.[1] ?? '');
 }
 
-/** Reads Playwright's closing lines, `3 passed (12.0s)`, `1 failed`, `2 skipped`; a flaky test counts as failed. */
+/** Reads Playwright's last lines, `3 passed (12.0s)`, `1 failed`, `2 skipped`; a flaky test counts as failed. */
 export function tallyPlaywright(output: string): Tally {
   const lines = plain(output)
     .split('\n')

@@ -8,13 +8,13 @@ import { root, run } from './run.ts';
 export interface RustResult {
   ok: boolean;
   output: string;
-  /** What could not be run here, with the remedy. The hashes of the committed modules are checked all the same. */
+  /** What could not run here, with the remedy. The hashes of the committed modules are checked regardless. */
   skipped?: string;
 }
 
 /**
- * The Rust part of the tests: the committed modules match their sources; they build from source, and to the same bytes
- * where the compiler is the recorded one; format, clippy, unit tests.
+ * The Rust part of the tests. The committed modules match their sources. They build from source, and with the
+ * recorded compiler to the same bytes. Format, clippy, unit tests.
  */
 export async function testRust(say: (line: string) => void): Promise<RustResult> {
   const stale = checkFresh();
@@ -61,7 +61,7 @@ export async function testRust(say: (line: string) => void): Promise<RustResult>
   return { ok: true, output, ...(skipped.length > 0 ? { skipped: skipped.join(' ') } : {}) };
 }
 
-/** Builds every module anew beside the committed ones. Returns what is wrong, or `null`. */
+/** Builds every module separately from the committed ones. @returns what is wrong, or `null` */
 function rebuild(say: (line: string) => void): string | null {
   const toolchain = findWasmToolchain({ log: say });
   const scratch = mkdtempSync(join(tmpdir(), 'farpoint-rebuild-'));

@@ -2,13 +2,13 @@ import { globSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from './run.ts';
 
-/** What is installed or built; as in `.gitignore`. */
+/** Installed or built files; as in `.gitignore`. */
 const NOT_SOURCES = new Set([
   ...['.git', '.farpoint', '.vitest', 'node_modules', '__pycache__', 'coverage'],
   ...['build', 'dist', 'dist-testing', 'output', 'target'],
 ]);
 
-/** Paths of the project's own files, from the repository's root, with `/` between folders. */
+/** Paths of the project's own files, relative to the repository's root, with `/` between folders. */
 export const workspaceFiles: readonly string[] = globSync('**', {
   cwd: root,
   exclude: ({ name }) => NOT_SOURCES.has(name),

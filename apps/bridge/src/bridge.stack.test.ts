@@ -1,4 +1,4 @@
-/** The bridge against the real signaling service and robots that speak as the reference system's do. */
+/** The bridge against the real signaling service and robots that behave like the reference system's. */
 
 import { once } from 'node:events';
 import { get, type IncomingMessage } from 'node:http';
@@ -56,7 +56,7 @@ async function page(port: number, origin?: string) {
   return { socket, next, send: (message: unknown) => socket.send(JSON.stringify(message)) };
 }
 
-/** A frame of 200 points, each with its robot's mark as x, in two packets of the reference profile. */
+/** A frame of 200 points in two packets of the reference profile. Each point has its robot's mark as x. */
 function frame(number: number, mark: number): Buffer[] {
   return [0, 150].map((first) => {
     const count = Math.min(150, 200 - first);
@@ -75,19 +75,19 @@ function frame(number: number, mark: number): Buffer[] {
 
 const markOf = (data: string | Buffer) => (typeof data === 'string' ? null : data.readInt16LE(0));
 
-it('shows one robot, switches, passes commands on, reports bandwidth; garbage hurts nobody', async () => {
+it('shows one robot, switches, passes commands on, reports bandwidth, and survives garbage', async () => {
   const first = await robot('first');
   const made = await bridge();
   const control = await page(made.ports.control);
   const telemetry = await page(made.ports.telemetry);
   const streaming = await page(made.ports.streaming);
   const command = { linear: { x: 0.25, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -0.5 } };
-  // Before any channel is open: dropped.
+  // No channel is open yet, so this is dropped.
   telemetry.send({ type: 'command', command });
   await first.heard('start');
   const second = await robot('second');
   await second.heard('stop');
-  // What cannot be answered, and what is no message.
+  // An unusable offer, and an invalid message.
   const bad = await robot('bad');
   bad.signal({ type: 'offer', robotId: bad.id, sdpOffer: 'v=0\r\nm=nonsense' });
   for (const { socket } of [control, telemetry, streaming]) {
@@ -106,12 +106,12 @@ it('shows one robot, switches, passes commands on, reports bandwidth; garbage hu
   await control.next((data) => data === `{"type":"switchedRobot","robotId":${second.id}}`);
   await first.heard('stop');
   await second.heard('start');
-  // Who does not heed the word is not shown either.
+  // A robot that ignores `stop` is not shown either.
   first.sendFrame(frame(1, 1));
   second.sendFrame(frame(0, 2));
   expect(markOf(await streaming.next(() => true))).toBe(2);
 
-  // It comes back under another id.
+  // It comes back with another id.
   await second.close();
   const again = await robot('second');
   expect(again.id).not.toBe(second.id);
@@ -120,35 +120,35 @@ it('shows one robot, switches, passes commands on, reports bandwidth; garbage hu
   expect(markOf(await streaming.next(() => true))).toBe(3);
 }, 30_000);
 
-it('tells a page of the reference system, which says nothing but initBridge, all that it must know', async () => {
+it('tells a page of the reference system, which sends only initBridge, everything it needs', async () => {
   const made = await bridge();
   const url = `ws://127.0.0.1:${stack.ports.referenceClient}`;
   const early = await page(made.ports.control);
-  // The same address as in use, be it without the slash.
+  // The address already in use, though without the slash.
   early.send({ type: 'initBridge', url });
   expect(await early.next(() => true)).toBe('{"type":"updateRobots","robots":null}');
   expect(await early.next(() => true)).toBe('{"type":"updateRobots","robots":null}');
   const { id } = await robot('shown');
   const list = JSON.stringify({ type: 'updateRobots', robots: [{ id, name: 'shown' }] });
   const switched = JSON.stringify({ type: 'switchedRobot', robotId: id });
-  // The page looks the robot up in its last list: the list goes first.
+  // The page looks the robot up in its last list, so the list must come first.
   expect([await early.next(() => true), await early.next(() => true)]).toEqual([list, switched]);
-  // Loaded anew: it comes again, and says the same again.
+  // When the page is reloaded, it connects and sends the same again.
   const late = await page(made.ports.control);
   expect([await late.next(() => true), await late.next(() => true)]).toEqual([list, switched]);
   for (let i = 0; i < 3; i++) {
     late.send({ type: 'initBridge', url });
     expect(await late.next(() => true)).toBe(list);
   }
-  // One that is no address changes nothing.
+  // An invalid address changes nothing.
   late.send({ type: 'initBridge', url: 'nowhere' });
   expect(await late.next(() => true)).toBe(list);
-  // Another service, where nobody is: an empty list, and no robot.
+  // Another service without robots: an empty list, and no robot.
   late.send({ type: 'initBridge', url: 'ws://127.0.0.1:1' });
   expect(await late.next(() => true)).toBe('{"type":"updateRobots","robots":null}');
 });
 
-it('refuses pages of other origins, and says what lets them in', async () => {
+it('refuses pages from other origins, and says how to allow them', async () => {
   const lines: string[] = [];
   const stream = { write: (line: string) => void lines.push(line) };
   const log = createLogger({ name: 'bridge', level: 'info', format: 'json', stream });
@@ -168,7 +168,7 @@ it('refuses pages of other origins, and says what lets them in', async () => {
   await page(made.ports.telemetry, 'https://own.example');
 });
 
-/** Body of the answer to a page that is turned away. */
+/** The response body for a refused page. */
 async function refusalOf(port: number, origin: string): Promise<string> {
   const headers = {
     Connection: 'Upgrade',
@@ -181,7 +181,7 @@ async function refusalOf(port: number, origin: string): Promise<string> {
   return (await response.toArray()).join('');
 }
 
-it('keeps showing its robot while 50 others come at once, half of them with offers that are none, and go', async () => {
+it('keeps showing its robot while 50 others come and go at once, half of them with invalid offers', async () => {
   const shown = await robot('shown');
   const made = await bridge();
   const streaming = await page(made.ports.streaming);

@@ -1,4 +1,7 @@
-/** The bridge put together: signaling on one side, every robot's connection in the middle, a page's three sockets on the other. */
+/**
+ * The whole bridge: signaling on one side, the connections of all robots in the middle, a page's three sockets on the
+ * other.
+ */
 
 import {
   decodeJson,
@@ -24,7 +27,7 @@ import { listMessage, PageAnnouncer } from './page-announcer.ts';
 import { RobotRoster, type RosterOptions } from './robot-roster.ts';
 
 export interface BridgeOptions extends Omit<RosterOptions, 'now'> {
-  /** Client port of the signaling service; a page's initBridge names another. */
+  /** The signaling service's port for clients. A page's initBridge can name another service. */
   signaling: string;
   host: string;
   controlPort: number;
@@ -33,15 +36,15 @@ export interface BridgeOptions extends Omit<RosterOptions, 'now'> {
   allowedOrigins: readonly string[];
 }
 
-/** A frame that was given to pages. Times are the clock's that the bridge was opened with, ms. */
+/** A frame that was sent to pages. Times are in ms on the clock that the bridge was opened with. */
 export interface FrameRecord {
   frameNumber: number;
   points: number;
   expectedPoints: number;
   lastPacketMs: number;
-  /** Handed to the sockets. */
+  /** When it was handed to the sockets. */
   emittedMs: number;
-  /** Pages it went to. */
+  /** Number of pages that it was sent to. */
   pages: number;
 }
 
@@ -50,11 +53,11 @@ type SignalingLine = MessageLine<ReferenceServiceToClient, ReferenceClientToServ
 const TICK_MS = 250;
 const MAX_REFUSED_ORIGINS = 100;
 const CONTROL_BACKLOG_BYTES = 1_048_576;
-/** A page that has not read the frame before is not sent another. */
+/** A page with more unread bytes than this is not sent another frame. */
 const STREAMING_BACKLOG_BYTES = 65_536;
 
 export class Bridge {
-  /** Frames given to pages, and for how long the last one was held after its last packet, ms. */
+  /** Number of frames sent to pages, and how long the last one was held after its last packet, ms. */
   frames = 0;
   lastEmitMs = 0;
   messagesRefused = 0;
@@ -66,7 +69,7 @@ export class Bridge {
   readonly #refusedOrigins = new Set<string>();
   readonly #tick: NodeJS.Timeout;
   readonly #announcer = new PageAnnouncer();
-  /** A reference signaling tells changes to the client that came last only: pages may have the list fetched anew. */
+  /** A reference signaling service reports changes only to the newest client, so pages may ask for the list again. */
   readonly #refreshes = new TokenBucket({ perSecond: 1, burst: 2 });
   #control!: LocalSocketServer;
   #telemetry!: LocalSocketServer;
@@ -95,7 +98,7 @@ export class Bridge {
     this.#line = this.#openLine();
   }
 
-  /** @throws {Error} where a port cannot be listened on */
+  /** @throws {Error} if a port cannot be opened */
   static async open(options: BridgeOptions, log: Logger, now: () => number): Promise<Bridge> {
     const bridge = new Bridge(options, log, now);
     const { host, allowedOrigins, controlPort, telemetryPort, streamingPort } = options;
@@ -143,7 +146,7 @@ export class Bridge {
     this.#line.close();
     clearInterval(this.#tick);
     this.roster.close();
-    // Where a port was taken the later ones were never opened.
+    // If a port was taken, the later ones were never opened.
     for (const server of [this.#control, this.#telemetry, this.#streaming] as (
       | LocalSocketServer
       | undefined
@@ -181,7 +184,7 @@ export class Bridge {
     this.onFrame?.({ frameNumber, points, expectedPoints, lastPacketMs, emittedMs, pages });
   }
 
-  /** A page comes again and again: said once for each origin. */
+  /** A page retries again and again: log each origin once. */
   #onRefused(origin: string): void {
     if (this.#refusedOrigins.has(origin) || this.#refusedOrigins.size >= MAX_REFUSED_ORIGINS) return;
     this.#refusedOrigins.add(origin);
@@ -196,14 +199,14 @@ export class Bridge {
     switch (message?.type) {
       case 'initBridge':
         this.#init(message.url);
-        // Whatever the address: the reference system's page asks by nothing else.
+        // Whatever the address is: the reference system's page has no other way to ask.
         this.#tellRobots(reply);
         break;
       case 'updateRobots':
         this.#tellRobots(reply);
         break;
       case 'switchRobot':
-        // Told again where it is shown already: the page may be a new one.
+        // Send it again even if the robot is already shown, because the page may be new.
         if (this.roster.selected === message.robotId) this.#greet(reply);
         else if (!this.roster.select(message.robotId)) this.#tellRobots(reply);
         break;
@@ -241,7 +244,7 @@ export class Bridge {
       this.#control?.broadcast(encodeJson(referenceBridgeToPageCodec, message), CONTROL_BACKLOG_BYTES);
   }
 
-  /** All that a page which has just come must know. */
+  /** Sends everything that a new page must know. */
   #greet(send: Send): void {
     this.#announce();
     for (const message of this.#announcer.present(this.roster))
@@ -255,7 +258,7 @@ export class Bridge {
   }
 }
 
-/** The same text for the same address; `null` where it is none. */
+/** Normalises an address, so that equal addresses give equal text; `null` if it is invalid. */
 function signalingUrl(text: string): string | null {
   const url = URL.parse(text);
   return url !== null && /^wss?:$/.test(url.protocol) ? url.href : null;

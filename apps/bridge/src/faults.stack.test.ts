@@ -1,4 +1,4 @@
-/** The bridge on a bad day: lossy links, a service that restarts, robots that come again, flood or lie. */
+/** The bridge under faults: lossy links, a restarting service, robots that reconnect, flood or lie. */
 import {
   knownFrame,
   type ReadFrame,
@@ -44,7 +44,7 @@ async function bridge(): Promise<{ made: Bridge; streaming: SocketPeer; control:
   return { made, streaming: await open(made.ports.streaming), control: await open(made.ports.control) };
 }
 
-/** Sends frames from `from` on, 50 a second, until the returned function is called. */
+/** Sends frames numbered from `from`, 50 a second, until the returned function is called. */
 function stream(sender: ReferenceRobot, from: number, points = 600): () => number {
   let frame = from;
   const timer = setInterval(() => sender.sendFrame(knownFrame(frame++, points)), 20);
@@ -55,7 +55,7 @@ function stream(sender: ReferenceRobot, from: number, points = 600): () => numbe
   };
 }
 
-/** The next frame of these numbers. */
+/** The next frame with a number in this range. */
 async function nextFrame(streaming: SocketPeer, from: number, to = from + 10_000): Promise<ReadFrame> {
   for (;;) {
     const read = readKnownFrame(await streaming.bytes());
@@ -64,7 +64,7 @@ async function nextFrame(streaming: SocketPeer, from: number, to = from + 10_000
 }
 
 describe('bridge', { timeout: 30_000 }, () => {
-  it('on a link that loses, reorders and doubles packets: no point in a wrong frame or place, none twice', async () => {
+  it('puts no point into a wrong frame or place, and none in twice, on a link that loses, reorders and duplicates packets', async () => {
     const profile = {
       ...idealProfile,
       delayMs: 2,
@@ -90,21 +90,21 @@ describe('bridge', { timeout: 30_000 }, () => {
     for (const [i, { frame, places, strays }] of frames.entries()) {
       expect(strays).toBe(0);
       expect(new Set(places).size).toBe(places.length);
-      // In their own order, and frame after frame.
+      // In order within each frame, and frame after frame.
       expect(places.every((place, at) => at === 0 || place > (places[at - 1] as number))).toBe(true);
       if (i > 0) expect(frame).toBe((frames[i - 1] as ReadFrame).frame + 1);
     }
     const received = frames.reduce((sum, { places }) => sum + places.length, 0);
-    // Two in a hundred were lost; what was asked for again came in time but for few.
+    // Two in a hundred were lost; almost all retransmissions arrived in time.
     expect(received / (frames.length * points)).toBeGreaterThan(0.97);
     const { shown: connection } = made.roster;
     expect(connection?.packetsRecovered).toBeGreaterThan(0);
-    // Every point that came, in time, was given out.
+    // Every point that arrived in time was sent to the page.
     const { drops } = connection!.assembler;
     expect(Object.keys(drops).filter((reason) => reason !== 'duplicate' && reason !== 'late')).toEqual([]);
   });
 
-  it('goes on showing its robot while signaling is away, and finds it again by its name', async () => {
+  it('keeps showing its robot while signaling is down, and finds it again by name', async () => {
     const shown = await robot('shown');
     const { made, streaming } = await bridge();
     await shown.heard('start');
@@ -112,14 +112,14 @@ describe('bridge', { timeout: 30_000 }, () => {
     await nextFrame(streaming, 0);
     await stack.signaling.kill();
     await stack.startSignaling();
-    // A robot of another name has its old id now.
+    // A robot with another name now has the old id.
     const other = await robot('other');
     expect(other.id).toBe(shown.id);
     await other.heard('stop');
     const reached = stop();
     shown.sendFrame(knownFrame(reached, 600));
     expect((await nextFrame(streaming, reached)).strays).toBe(0);
-    // It comes back as another registration: one connection is enough.
+    // It comes back with another registration, but one connection is enough.
     const again = await robot('shown');
     await again.heard('start');
     again.sendFrame(knownFrame(20_000, 600));
@@ -127,7 +127,7 @@ describe('bridge', { timeout: 30_000 }, () => {
     expect(made.roster.size).toBe(2);
   });
 
-  it('lets a robot go whose registration and points have both ended', async () => {
+  it('removes a robot when its registration and its points have both ended', async () => {
     const shown = await robot('shown');
     const { made, control } = await bridge();
     await shown.heard('start');
@@ -136,7 +136,7 @@ describe('bridge', { timeout: 30_000 }, () => {
     expect(made.roster.size).toBe(0);
   });
 
-  it('takes another connection that its robot offers under the same id', async () => {
+  it('accepts a new connection that its robot offers under the same id', async () => {
     const shown = await robot('shown');
     const { streaming } = await bridge();
     await shown.heard('start');
@@ -144,12 +144,12 @@ describe('bridge', { timeout: 30_000 }, () => {
     await nextFrame(streaming, 0);
     await shown.reconnect();
     await shown.heard('start');
-    // Its frames count from 0 again.
+    // Frame numbers start at 0 again.
     shown.sendFrame(knownFrame(0, 300));
     expect((await nextFrame(streaming, 0)).places.length).toBe(300);
   });
 
-  it('shows its robot while another floods it and heeds no word, and a third registers over and over', async () => {
+  it('shows its robot while another floods it and ignores stop, and a third keeps registering', async () => {
     const shown = await robot('shown');
     const { made, streaming } = await bridge();
     await shown.heard('start');
@@ -175,7 +175,7 @@ describe('bridge', { timeout: 30_000 }, () => {
     expect(made.roster.shown?.packetsRefused).toBe(0);
   });
 
-  it('does not break off where a page stops reading: it misses frames, others do not', async () => {
+  it('goes on when a page stops reading: that page misses frames, others do not', async () => {
     const shown = await robot('shown');
     const { made, streaming } = await bridge();
     const asleep = await SocketPeer.open(`ws://127.0.0.1:${made.ports.streaming}/`);

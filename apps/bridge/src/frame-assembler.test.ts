@@ -5,7 +5,7 @@ import { type AssembledFrame, FrameAssembler } from './frame-assembler.ts';
 
 const BLOCK = 150;
 
-/** Points whose coordinates say which frame and which place they belong to. */
+/** Points whose coordinates say which frame and place they belong to. */
 function packet(frameNumber: number, total: number, first: number, padded = true): Uint8Array {
   const count = Math.min(BLOCK, total - first);
   const bytes = new Uint8Array(padded ? 1216 : 16 + 8 * count + 28);
@@ -28,7 +28,7 @@ function packetsOf(frameNumber: number, total: number): Uint8Array[] {
   return Array.from({ length: Math.ceil(total / BLOCK) }, (_, i) => packet(frameNumber, total, i * BLOCK));
 }
 
-/** The places of a frame's points, after checking that each carries its own frame and colour. */
+/** The places of a frame's points, after checking that each carries the right frame and colour. */
 function placesOf(frame: AssembledFrame): number[] {
   const { bytes, points } = frame;
   expect(bytes.byteLength).toBe(points * 8);
@@ -51,7 +51,7 @@ function assembler(reorderMs = 20, maxPoints = 10_000) {
 }
 
 describe('FrameAssembler', () => {
-  it('gives a frame out with the packet that completes it, be it the first of the frame', () => {
+  it('emits a frame at the packet that completes it, even if that is the frame’s first packet', () => {
     const { made, frames } = assembler();
     const [a, b, c] = packetsOf(7, 400) as [Uint8Array, Uint8Array, Uint8Array];
     made.accept(c, 0);
@@ -62,7 +62,7 @@ describe('FrameAssembler', () => {
     expect(made.accept(a, 3)).toBe('late');
   });
 
-  it('gives out what came of a frame once its end has been seen for long enough, without the next frame', () => {
+  it('emits an incomplete frame some time after its end was seen, without the next frame', () => {
     const { made, frames } = assembler(20);
     const [a, , c] = packetsOf(0, 400) as [Uint8Array, Uint8Array, Uint8Array];
     made.accept(a, 0);
@@ -80,7 +80,7 @@ describe('FrameAssembler', () => {
     expect(made.nextDueMs).toBeNull();
   });
 
-  it('is overtaken by a whole later frame at once, and keeps the order', () => {
+  it('lets a complete later frame overtake immediately, and keeps the order', () => {
     const { made, frames } = assembler();
     made.accept(packet(3, 400, 0), 0);
     for (const later of packetsOf(4, 300)) made.accept(later, 1);
@@ -90,14 +90,14 @@ describe('FrameAssembler', () => {
     ]);
   });
 
-  it('follows a counter that wraps, and one that begins anew', () => {
+  it('follows a counter that wraps, and one that restarts', () => {
     const { made, frames } = assembler();
     for (const number of [0xffffffff, 0, 1]) made.accept(packet(number, 10, 0, false), 0);
     for (const number of [5000, 0]) made.accept(packet(number, 10, 0), 0);
     expect(frames.map((frame) => frame.frameNumber)).toEqual([0xffffffff, 0, 1, 5000, 0]);
   });
 
-  it('keeps what stands when a packet lies about its frame', () => {
+  it('keeps the frame when a packet contradicts it', () => {
     const { made, frames } = assembler();
     made.accept(packet(1, 300, 0), 0);
     expect(made.accept(packet(1, 450, 150), 0)).toBe('inconsistent');
@@ -107,7 +107,7 @@ describe('FrameAssembler', () => {
     expect(frames.map(placesOf)).toEqual([[...Array(300).keys()]]);
   });
 
-  it('with 2 % lost, 5 % reordered and 5 % doubled: every point received is given out once, in its frame and place', () => {
+  it('with 2 % lost, 5 % reordered and 5 % duplicated: emits every received point once, in its frame and place', () => {
     fc.assert(
       fc.property(
         fc.array(fc.nat(99), { minLength: 400, maxLength: 400 }),
@@ -135,7 +135,7 @@ describe('FrameAssembler', () => {
             received.add(`${view.getUint32(0, true)}:${view.getUint32(8, true)}`);
           }
           made.expire(1e9);
-          // The last frame ends unseen where its last packet is lost.
+          // If the last frame's last packet is lost, nothing marks its end.
           for (const bytes of packetsOf(10, 150)) made.accept(bytes, 1e9);
           const given = frames.filter((frame) => frame.frameNumber < 10);
           const places = given.map(placesOf);
@@ -155,7 +155,7 @@ describe('FrameAssembler', () => {
     );
   });
 
-  it('takes any bytes', () => {
+  it('accepts any bytes', () => {
     fc.assert(
       fc.property(fc.array(fc.uint8Array({ maxLength: 1300 }), { maxLength: 30 }), (packets) => {
         const { made } = assembler();

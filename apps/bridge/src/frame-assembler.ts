@@ -1,6 +1,6 @@
 /**
- * Frames from packets, by frame number and offset: whatever is lost, doubled or out of order, a point lands in its own
- * frame and place or nowhere. Pure: bytes and time are arguments.
+ * Assembles frames from packets, by frame number and offset. Whatever is lost, duplicated or out of order, each point
+ * lands in its own frame and place or nowhere. Pure: bytes and time are arguments.
  */
 import {
   BYTES_PER_POINT,
@@ -12,7 +12,7 @@ import {
 } from '@farpoint/protocol';
 import { type FrameBuffer, FrameBuffers } from './frame-buffers.ts';
 
-/** Why a packet adds nothing. */
+/** Why a packet adds nothing to a frame. */
 export type AssemblyDrop =
   | PointPacketFault
   | 'too-many-points' // its frame is larger than this bridge takes
@@ -24,17 +24,17 @@ export interface AssembledFrame {
   frameNumber: number;
   /** N × 3 int16 coordinates, then N × u16 colours, little-endian: the bridge's streaming message. */
   bytes: Uint8Array;
-  /** The bytes are no longer looked at: to be called once. Who never calls it keeps them. */
+  /** To be called once, when the bytes are no longer in use. Until then they are kept. */
   release: () => void;
   points: number;
-  /** Points that the whole frame has. */
+  /** Number of points in the whole frame. */
   expectedPoints: number;
 }
 
 export interface AssemblerOptions {
   /** Larger frames are refused. */
   maxPoints: number;
-  /** How long an overtaken frame may wait for packets that overtook each other, ms. */
+  /** How long an overtaken frame waits for reordered packets, ms. */
   reorderMs: number;
 }
 
@@ -43,18 +43,18 @@ interface OpenFrame {
   readonly total: number;
   readonly buffer: FrameBuffer;
   points: number;
-  /** When its last packet, or one of a later frame, was seen; null before that. */
+  /** When its last packet or one of a later frame was seen; `null` before that. */
   overtakenMs: number | null;
 }
 
-/** Frames under way at once; more and the oldest is given out as it is. */
+/** Maximum number of frames in progress. Beyond it, the oldest is emitted as it is. */
 const MAX_OPEN = 3;
-/** A frame number this far back is not late: the robot counts anew. */
+/** A frame number this far back is not a late frame: the robot has restarted its count. */
 const RESTART_FRAMES = 300;
 
 /**
- * A frame is given out in the moment it is complete. An incomplete one is given out when a later frame is complete, or
- * `reorderMs` after its last packet or any of a later frame has come.
+ * A frame is emitted as soon as it is complete. An incomplete frame is emitted when a later frame is complete, or
+ * `reorderMs` after its last packet or any packet of a later frame arrived.
  */
 export class FrameAssembler {
   readonly drops: Partial<Record<AssemblyDrop, number>> = {};
@@ -64,7 +64,7 @@ export class FrameAssembler {
   readonly #emit: (frame: AssembledFrame) => void;
   readonly #header = emptyPointPacketHeader();
   readonly #buffers = new FrameBuffers(MAX_OPEN + 1);
-  /** In order of their numbers. */
+  /** In order of frame number. */
   readonly #open: OpenFrame[] = [];
   #lastGiven: number | null = null;
 
@@ -73,14 +73,14 @@ export class FrameAssembler {
     this.#emit = emit;
   }
 
-  /** @param payload an RTP payload: header, block, anything after it @returns why it adds nothing, or `null` */
+  /** @param payload an RTP payload: header, block, and possibly more @returns why it adds nothing, or `null` */
   accept(payload: Uint8Array, nowMs: number): AssemblyDrop | null {
     const drop = this.#accept(payload, nowMs);
     if (drop !== null) this.drops[drop] = (this.drops[drop] ?? 0) + 1;
     return drop;
   }
 
-  /** When {@link expire} has something to do, or `null`. */
+  /** When {@link expire} has something to do; `null` if it has not. */
   get nextDueMs(): number | null {
     let due: number | null = null;
     for (const { overtakenMs } of this.#open) {
@@ -89,7 +89,7 @@ export class FrameAssembler {
     return due === null ? null : due + this.#options.reorderMs;
   }
 
-  /** Gives out what has waited long enough. */
+  /** Emits the frames that have waited long enough. */
   expire(nowMs: number): void {
     const last = this.#open.findLastIndex(
       ({ overtakenMs }) => overtakenMs !== null && nowMs - overtakenMs >= this.#options.reorderMs,
@@ -97,7 +97,7 @@ export class FrameAssembler {
     this.#giveOut(last + 1);
   }
 
-  /** Forgets frames under way, as when another robot is chosen. */
+  /** Discards frames in progress, for example when another robot is chosen. */
   clear(): void {
     for (const { buffer } of this.#open.splice(0)) this.#buffers.giveBack(buffer);
   }
@@ -140,7 +140,7 @@ export class FrameAssembler {
     return null;
   }
 
-  /** @returns `null` where the frame has another length */
+  /** @returns `null` if the frame has another length */
   #frame(number: number, total: number): OpenFrame | null {
     let at = this.#open.length;
     while (at > 0) {
@@ -165,7 +165,7 @@ export class FrameAssembler {
     for (const frame of this.#open.splice(0, count)) {
       this.#lastGiven = frame.number;
       const giveBack = () => this.#buffers.giveBack(frame.buffer);
-      // Nothing came but what was refused.
+      // All packets of the frame were refused.
       if (frame.points === 0) {
         giveBack();
         continue;
@@ -184,7 +184,7 @@ export class FrameAssembler {
   }
 }
 
-/** The points that came, without gaps, in their order; memory of its own. */
+/** The received points without gaps, in order, in memory of their own. */
 function compact({ buffer: { bytes, seen }, points, total }: OpenFrame): Uint8Array {
   const out = new Uint8Array(points * BYTES_PER_POINT);
   let to = 0;

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { FrameBuffers } from './frame-buffers.ts';
 
-it('uses memory again, with room for frames a little larger, and marks nothing as seen', () => {
+it('reuses memory, with room for slightly larger frames, and marks nothing as seen', () => {
   const buffers = new FrameBuffers(1);
   const first = buffers.take(100);
   first.seen.fill(1);
@@ -10,7 +10,7 @@ it('uses memory again, with room for frames a little larger, and marks nothing a
   expect(second.bytes.buffer).toBe(first.bytes.buffer);
   expect(second.bytes.length).toBe(960);
   expect([...second.seen]).toEqual(Array(120).fill(0));
-  // Larger ones get their own; only so many free ones are kept.
+  // A larger frame gets new memory. Only a limited number of free buffers are kept.
   const third = buffers.take(1000);
   buffers.giveBack(second);
   buffers.giveBack(third);

@@ -1,9 +1,12 @@
-/** Memory for frames under way, used again: a frame is about a megabyte, and new ones ten times a second keep the collector busy. */
+/**
+ * Reusable memory for frames in progress. A frame takes about a megabyte, and allocating ten a second keeps the
+ * garbage collector busy.
+ */
 
 export interface FrameBuffer {
-  /** As long as asked for. What was in it before may still be there. */
+  /** Has the requested length. Its previous contents may still be there. */
   readonly bytes: Uint8Array;
-  /** One for each point, all 0. */
+  /** One byte per point, all 0. */
   readonly seen: Uint8Array;
   readonly memory: FrameMemory;
 }
@@ -14,14 +17,14 @@ interface FrameMemory {
 }
 
 const BYTES_PER_POINT = 8;
-/** Frames that are seldom larger than the last ones need no memory of their own. */
+/** Extra room, so that slightly larger frames can reuse the memory. */
 const SPARE = 1.25;
 
 export class FrameBuffers {
   readonly #free: FrameMemory[] = [];
   readonly #most: number;
 
-  /** @param most free ones that are kept */
+  /** @param most maximum number of free buffers to keep */
   constructor(most: number) {
     this.#most = most;
   }
@@ -36,7 +39,7 @@ export class FrameBuffers {
     return { bytes: memory.bytes.subarray(0, points * BYTES_PER_POINT), seen, memory };
   }
 
-  /** Nobody looks at it any more. Once only. */
+  /** Returns a buffer that is no longer in use. Call this once only. */
   giveBack({ memory }: FrameBuffer): void {
     if (this.#free.length < this.#most) this.#free.push(memory);
   }

@@ -1,22 +1,25 @@
-/** A WebSocket server for pages on this machine: bound to loopback unless told otherwise, Origin checked. */
+/**
+ * A WebSocket server for pages on this machine. It binds to loopback unless configured otherwise, and checks the
+ * Origin.
+ */
 import type { AddressInfo } from 'node:net';
 import { WebSocket, WebSocketServer } from 'ws';
 
 export interface LocalSocketServerOptions {
   host: string;
   port: number;
-  /** Beside pages served from this machine. */
+  /** In addition to pages served from this machine. */
   allowedOrigins: readonly string[];
   maxMessageBytes: number;
 }
 
-/** To the page of one socket, unless it has not read so much of what was sent before. */
+/** Sends to the page on one socket, unless more than `maxBacklogBytes` of earlier data are unread. */
 export type Send = (data: string, maxBacklogBytes: number) => void;
 
 export interface LocalSocketEvents {
   onOpen?: (send: Send) => void;
   onMessage?: (data: string | Uint8Array, send: Send) => void;
-  /** A page whose origin is not allowed was turned away. */
+  /** A page was refused because of its origin. */
   onRefused?: (origin: string) => void;
 }
 
@@ -24,7 +27,7 @@ const MAX_SOCKETS = 16;
 const MAX_SHOWN_ORIGIN = 200;
 const LOCAL_HOSTS = new Set(['localhost', '127.0.0.1', '[::1]']);
 
-/** Browsers always name the page's origin; programs on this machine need not. */
+/** Browsers always send the page's origin; programs on this machine need not. */
 export function originAllowed(origin: string | undefined, allowed: readonly string[]): boolean {
   if (origin === undefined || allowed.includes(origin)) return true;
   try {
@@ -35,7 +38,7 @@ export function originAllowed(origin: string | undefined, allowed: readonly stri
   }
 }
 
-/** Says how to let the page in; it goes into the log and into the body of the refusal. */
+/** Says how to allow the page, for the log and the body of the refusal. */
 export function originRefusal(origin: string): string {
   return `pages of ${origin} may not connect: start the bridge with --allowed-origins ${origin} to allow them\n`;
 }
@@ -61,7 +64,7 @@ export class LocalSocketServer {
     });
   }
 
-  /** @throws {Error} where the address cannot be listened on */
+  /** @throws {Error} if the address cannot be opened */
   static async open(
     options: LocalSocketServerOptions,
     events: LocalSocketEvents,
@@ -95,10 +98,10 @@ export class LocalSocketServer {
   }
 
   /**
-   * To every page that has read all but so many bytes of what was sent before.
+   * Sends to every page that has no more than `maxBacklogBytes` of unread data.
    *
-   * @param onDone called once, when no socket looks at the data any more
-   * @returns how many pages those are
+   * @param onDone called once, when no socket uses the data any longer
+   * @returns the number of these pages
    */
   broadcast(
     data: string | Uint8Array,
@@ -119,7 +122,7 @@ export class LocalSocketServer {
     return reached;
   }
 
-  /** @param onDone called once where it was sent, be it with an error */
+  /** @param onDone called once when the data was sent or the attempt failed */
   #send(
     socket: WebSocket,
     data: string | Uint8Array,

@@ -7,7 +7,7 @@ const first = { id: 0, name: 'first' };
 const second = { id: 1, name: 'second' };
 
 describe('PageAnnouncer', () => {
-  it('names a robot before it says that it is shown', () => {
+  it('lists a robot before saying that it is shown', () => {
     const announcer = new PageAnnouncer();
     expect(announcer.changes({ robots: [first], selected: 0 })).toEqual([
       { type: 'updateRobots', robots: [first] },
@@ -25,7 +25,7 @@ describe('PageAnnouncer', () => {
     ]);
   });
 
-  it('tells all to a page that knows nothing, and no switched robot where there is none', () => {
+  it('tells a new page everything, and no switched robot if there is none', () => {
     const announcer = new PageAnnouncer();
     expect(announcer.present({ robots: [], selected: null })).toEqual([
       { type: 'updateRobots', robots: null },
@@ -36,7 +36,7 @@ describe('PageAnnouncer', () => {
     ]);
   });
 
-  it('never switches to a robot that the last list does not name, whatever changes', () => {
+  it('never switches to a robot that is missing from the last list', () => {
     const state = fc.record({
       robots: fc.uniqueArray(fc.record({ id: fc.nat(4), name: fc.constantFrom('a', 'b') }), {
         selector: ({ id }) => id,

@@ -1,6 +1,6 @@
 /**
- * What pages are told of robots. The reference system's page looks a switched robot up in the list that it was sent last,
- * and breaks where it is not there: a list that names the robot always goes first. Pure.
+ * What pages are told about robots. The reference system's page looks a switched robot up in the last list that it
+ * was sent, and fails if the robot is missing. A list that names the robot is therefore always sent first. Pure.
  */
 import type { ReferenceBridgeToPage } from '@farpoint/protocol';
 
@@ -11,11 +11,11 @@ export interface ShownRobots {
 }
 
 export class PageAnnouncer {
-  /** The list that every page has; `null` is said for an empty one. */
+  /** The list that every page has, as text. Pages assume an empty list before the first. */
   #list: string = listText([]);
   #selected: number | null = null;
 
-  /** What is new to pages that were told all before, in the order in which it must be said. */
+  /** What is new to pages that were up to date, in the order in which it must be sent. */
   changes(now: ShownRobots): ReferenceBridgeToPage[] {
     const list = listText(now.robots);
     const messages: ReferenceBridgeToPage[] = list === this.#list ? [] : [listMessage(now)];
@@ -26,7 +26,7 @@ export class PageAnnouncer {
     return messages;
   }
 
-  /** All of it, for a page that was told nothing. */
+  /** Everything, for a page that has been told nothing. */
   present(now: ShownRobots): ReferenceBridgeToPage[] {
     const selected = shownRobot(now);
     return selected === null ? [listMessage(now)] : [listMessage(now), switchMessage(selected)];
@@ -37,7 +37,7 @@ function listText(robots: ShownRobots['robots']): string {
   return JSON.stringify(robots.map(({ id, name }) => [id, name]));
 }
 
-/** The protocol has no word for "none is shown any more". */
+/** The protocol has no message for "no robot is shown any longer". */
 function shownRobot({ robots, selected }: ShownRobots): number | null {
   return robots.some(({ id }) => id === selected) ? selected : null;
 }

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { ReceiverLimit } from './receiver-limit.ts';
 
-it('grows to twice what comes, holds at a little loss, gives way at much, and stays within its bounds', () => {
+it('grows to twice the received rate, holds at low loss, falls at high loss, and stays within its bounds', () => {
   const limit = new ReceiverLimit({ startBitsPerSecond: 10e6, maxBitsPerSecond: 50e6 });
   for (let i = 0; i < 100; i++) limit.onFrame(0, 12e6);
   expect(limit.bitsPerSecond).toBe(24e6);

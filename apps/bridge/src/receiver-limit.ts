@@ -1,6 +1,7 @@
 /**
- * What the bridge tells a robot it may send: from loss and the rate received, as the loss-based half of Google's
- * congestion control does (Carlucci et al., 2016, §4.2). Delay is the sender's to judge, by transport-wide feedback.
+ * The rate limit that the bridge reports to a robot. It is computed from loss and the received rate, like the
+ * loss-based half of Google's congestion control (Carlucci et al., 2016, §4.2). Delay is left to the sender, which
+ * has transport-wide feedback.
  */
 export interface ReceiverLimitOptions {
   startBitsPerSecond: number;
@@ -10,7 +11,7 @@ export interface ReceiverLimitOptions {
 const HIGH_LOSS = 0.1;
 const LOW_LOSS = 0.02;
 const GROWTH = 1.05;
-/** Room above what comes: a robot that sends little says nothing of the path. */
+/** Factor above the received rate: a robot that sends little does not reveal the path's rate. */
 const HEADROOM = 2;
 
 export class ReceiverLimit {
@@ -23,10 +24,10 @@ export class ReceiverLimit {
   }
 
   /**
-   * One frame was received, or what is left of it.
+   * Takes the statistics of a frame that was received, entirely or in part.
    *
-   * @param lossRate share of its points that did not come, 0–1
-   * @param receivedBitsPerSecond of late
+   * @param lossRate share of its points that did not arrive, 0–1
+   * @param receivedBitsPerSecond recent rate
    */
   onFrame(lossRate: number, receivedBitsPerSecond: number): number {
     const { startBitsPerSecond, maxBitsPerSecond } = this.#options;

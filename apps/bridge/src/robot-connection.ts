@@ -1,4 +1,4 @@
-/** One robot's WebRTC connection. Whatever it sends or fails at concerns nobody but itself. */
+/** The WebRTC connection to one robot. Whatever the robot sends, and whatever fails, affects only this connection. */
 import { Buffer } from 'node:buffer';
 import { encodeBandwidth, encodeJsonBytes, referenceControlCodec, type Twist } from '@farpoint/protocol';
 import { createReferencePeerConnection, referenceChannels } from '@farpoint/reference-profile';
@@ -19,9 +19,9 @@ export interface RobotConnectionOptions {
 
 export interface RobotConnectionEvents {
   onCandidate: (candidate: string) => void;
-  /** @param lastPacketMs when the last of its packets came */
+  /** @param lastPacketMs when the last packet of the frame arrived */
   onFrame: (frame: AssembledFrame, lastPacketMs: number) => void;
-  /** The word channel is open: it may be told whether to stream. */
+  /** The channel for `start` and `stop` is open. */
   onReady: () => void;
   onFailed: (detail: string) => void;
 }
@@ -29,18 +29,18 @@ export interface RobotConnectionEvents {
 /** Why a command was not passed on. */
 export type CommandDrop = 'channel-not-open' | 'backlog';
 
-/** A command that would wait behind others is worse than none. */
+/** Commands are dropped beyond this backlog, bytes: a command that waits behind others is worse than none. */
 const MAX_COMMAND_BACKLOG = 4096;
 const MAX_REPORT_BACKLOG = 4096;
-/** IP, UDP, RTP and SRTP of one packet, bytes. */
+/** IP, UDP, RTP and SRTP overhead per packet, bytes. */
 const OVERHEAD_BYTES = 64;
 
 export class RobotConnection {
   readonly assembler: FrameAssembler;
   packets = 0;
-  /** Of the robot's, left out. */
+  /** Number of the robot's candidates that were left out. */
   candidatesRefused = 0;
-  /** What came to its sockets and was dropped unread. */
+  /** Number of datagrams that were dropped unread. */
   datagramsRefused = 0;
   readonly #options: RobotConnectionOptions;
   readonly #events: RobotConnectionEvents;
@@ -105,7 +105,7 @@ export class RobotConnection {
     });
   }
 
-  /** Frames are put together only while it is shown; its packets are not even opened otherwise. */
+  /** Whether the robot is shown. Only then are its packets decrypted and assembled into frames. */
   get shown(): boolean {
     return this.#shown;
   }
@@ -115,17 +115,17 @@ export class RobotConnection {
     if (this.#receiver !== null) this.#receiver.paused = !shown;
   }
 
-  /** The path stood when it was last looked at. */
+  /** Whether the path was up at the last check. */
   get connected(): boolean {
     return !this.#closed && this.#connection.connectionState === 'connected';
   }
 
-  /** When points last came of it while it was shown, ms. */
+  /** When points last arrived while it was shown, ms. */
   get lastPacketMs(): number {
     return this.#lastPacketMs;
   }
 
-  /** Packets that came while it was not shown, or were none. */
+  /** Packets that arrived while it was not shown, or were invalid. */
   get packetsRefused(): number {
     return this.#receiver?.refused ?? 0;
   }
@@ -138,12 +138,15 @@ export class RobotConnection {
     return this.#receiver?.requests.recovered ?? 0;
   }
 
-  /** Also for a renegotiation. @returns the SDP answer, or `null` where the offer cannot be used: it has failed then */
+  /**
+   * Answers an offer, also for a renegotiation. @returns the SDP answer, or `null` if the offer is unusable; the
+   * connection has then failed
+   */
   async answer(offer: string): Promise<string | null> {
     try {
       await this.#candidates.describe('offer', offer);
       const answer = await this.#connection.createAnswer();
-      // Resolves only when every candidate is gathered; they follow one by one.
+      // Resolves only when all candidates have been gathered; they are sent one by one.
       this.#connection.setLocalDescription(answer).catch((error: unknown) => this.#fail(textOf(error)));
       return this.#closed ? null : answer.sdp;
     } catch (error) {
@@ -152,17 +155,20 @@ export class RobotConnection {
     }
   }
 
-  /** At any time: it waits for the offer. Never throws: one that cannot be used is counted, others may do. */
+  /**
+   * May be called at any time: a candidate waits for the offer. Never throws: unusable candidates are counted, and
+   * others may work.
+   */
   addCandidate(candidate: string): void {
     if (!this.#closed) this.#candidates.add({ candidate, sdpMLineIndex: 0 });
   }
 
-  /** Does nothing before the channel is open: `onReady` tells when. */
+  /** Does nothing before the channel is open; see `onReady`. */
   tell(word: 'start' | 'stop'): void {
     this.#send(this.#words, word);
   }
 
-  /** @returns why it was dropped, or `null` */
+  /** @returns why the command was dropped, or `null` */
   command(twist: Twist): CommandDrop | null {
     const channel = this.#control;
     if (channel === null || channel.readyState !== 'open') return 'channel-not-open';
@@ -180,7 +186,7 @@ export class RobotConnection {
     this.#connection.close().catch(() => undefined);
   }
 
-  /** Takes the stream over from werift. */
+  /** Takes over the stream from werift. */
   #receive(): void {
     const dtls = this.#connection.dtlsTransports[0];
     if (dtls === undefined || this.#receiver !== null || this.#closed) return;

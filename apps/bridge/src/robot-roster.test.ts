@@ -30,7 +30,7 @@ function roster() {
     },
   );
   cleanups.push(() => made.close());
-  /** So many in all. */
+  /** Waits until this many connections have failed. */
   const failed = async (count: number) => {
     while (made.failed < count) await once(failures, 'failed');
   };
@@ -41,7 +41,7 @@ function listed(id: number, sdpOffer: string): ReferenceRobot {
   return { id, name: 'robot', sdpOffer, sdpAnswer: null, robotCandidates: [], clientCandidates: [] };
 }
 
-it('answers an offer once, however often a service lists it', async () => {
+it('answers an offer once, however often the service lists it', async () => {
   const { made, failed } = roster();
   // Registered twice on one socket, as the reference signaling lists it: 0 is a registration that has ended.
   const robots = [listed(0, 'v=0\r\nm=nonsense'), listed(1, 'v=0\r\nm=nonsense')];
@@ -49,13 +49,13 @@ it('answers an offer once, however often a service lists it', async () => {
   await failed(2);
   made.onSignaling({ type: 'robots', robots });
   expect([made.size, made.failed]).toEqual([0, 2]);
-  // Its next offer is another.
+  // The next offer is a different one.
   made.onSignaling({ type: 'robots', robots: [listed(0, 'v=0\r\nm=other'), robots[1] as ReferenceRobot] });
   expect(made.size).toBe(1);
   await failed(3);
 });
 
-it('asks who is left where a service does not say who took leave', () => {
+it('asks for the list if a service does not say which robot left', () => {
   const { made, sent } = roster();
   made.onSignaling({ type: 'deregister' });
   expect(sent).toEqual([{ type: 'getRobots' }]);

@@ -1,7 +1,7 @@
 /**
- * The robots that the bridge knows: who is here as signaling tells it, a connection to each, and which of them is shown. A
- * robot whose registration ends while its points still come is kept until they end, or until it is here again by its name:
- * signaling introduces, it does not carry.
+ * The robots that the bridge knows: those listed by signaling, a connection to each, and which of them is shown. A
+ * robot whose registration ends while its points still arrive is kept until they stop, or until the robot registers
+ * again under the same name. Signaling only introduces peers; the stream does not depend on it.
  */
 import { createHash } from 'node:crypto';
 import type { ReferenceClientToService, ReferenceServiceToClient } from '@farpoint/protocol';
@@ -14,7 +14,7 @@ export interface RosterOptions extends RobotConnectionOptions {
 }
 
 export interface RosterEvents {
-  /** To signaling. */
+  /** Sends a message to the signaling service. */
   send(message: ReferenceClientToService): void;
   onFrame(frame: AssembledFrame, lastPacketMs: number): void;
   onRobotsChanged(): void;
@@ -26,15 +26,15 @@ interface Robot {
   readonly name: string;
   offer: string;
   readonly connection: RobotConnection;
-  /** Its registration has ended. */
+  /** Whether its registration has ended. */
   orphan: boolean;
 }
 
-/** An orphan of which no points come for so long is let go, ms. */
+/** An orphan without points for this long is removed, ms. */
 const ORPHAN_SILENCE_MS = 3000;
-/** Ids of orphans whose own id another robot has now; the service counts up from 0. */
+/** Ids for orphans whose own id now belongs to another robot. The service counts up from 0. */
 const FIRST_ORPHAN_ID = 0x8000_0000;
-/** Answered offers that are remembered. */
+/** Number of answered offers to remember. */
 const MAX_SPENT_OFFERS = 1000;
 
 export class RobotRoster {
@@ -46,8 +46,8 @@ export class RobotRoster {
   readonly #selection: RobotSelection;
   #nextOrphanId = FIRST_ORPHAN_ID;
   /**
-   * Offers that were answered: a second answer fits nothing. The reference signaling goes on listing registrations that have
-   * ended, and its robot would take such an answer for one to its newer offer.
+   * Offers that have been answered and must not be answered again. The reference signaling keeps listing
+   * registrations that have ended, and its robot would take a second answer for one to its newer offer.
    */
   readonly #spent = new Set<string>();
 
@@ -83,14 +83,14 @@ export class RobotRoster {
     return this.#robots.get(this.#selection.selected ?? -1)?.connection ?? null;
   }
 
-  /** Of all robots now. */
+  /** Sum of a value over the connections of all robots. */
   sum(read: (connection: RobotConnection) => number): number {
     let total = 0;
     for (const { connection } of this.#robots.values()) total += read(connection);
     return total;
   }
 
-  /** @returns false where there is no such robot */
+  /** @returns false if there is no such robot */
   select(robotId: number): boolean {
     return this.#selection.select(robotId);
   }
@@ -99,7 +99,7 @@ export class RobotRoster {
     switch (message.type) {
       case 'robots': {
         const offers = new Map(message.robots.map(({ id, sdpOffer }) => [id, sdpOffer]));
-        // After a restart of the service the same id may be another robot, and none may be here yet.
+        // After a restart of the service, the same id may belong to another robot, or the list may still be empty.
         for (const [id, robot] of [...this.#robots]) if (offers.get(id) !== robot.offer) this.#leave(id);
         for (const { id, name, sdpOffer, robotCandidates } of message.robots)
           this.#add(id, name, sdpOffer, robotCandidates);
@@ -120,9 +120,9 @@ export class RobotRoster {
         break;
       }
       case 'deregister':
-        // It took leave.
+        // The robot deregistered.
         if (message.robotId !== undefined) this.#remove(message.robotId);
-        // Not every service says which robot that was.
+        // Some services do not say which robot deregistered.
         else this.#events.send({ type: 'getRobots' });
         break;
       case 'deregistered':
@@ -131,7 +131,7 @@ export class RobotRoster {
     }
   }
 
-  /** A few times a second. */
+  /** Call this a few times a second. */
   tick(nowMs: number): void {
     for (const [id, { orphan, connection }] of [...this.#robots]) {
       if (orphan && !(connection.connected && nowMs - connection.lastPacketMs < ORPHAN_SILENCE_MS))
@@ -139,7 +139,7 @@ export class RobotRoster {
     }
   }
 
-  /** Forgets all, as where another service is named. */
+  /** Forgets all robots, for example when another service is named. */
   clear(): void {
     for (const id of [...this.#robots.keys()]) this.#remove(id);
   }
@@ -152,13 +152,13 @@ export class RobotRoster {
   #onOffer(id: number, offer: string): void {
     const robot = this.#robots.get(id);
     if (robot === undefined || robot.orphan) {
-      // It has failed, or came without an offer: the list says its name.
+      // It has failed, or came without an offer. The list has its name.
       this.#events.send({ type: 'getRobots' });
     } else if (sessionOf(offer) === sessionOf(robot.offer)) {
       robot.offer = offer;
       void this.#answer(id, robot);
     } else {
-      // Not a change of the connection that stands, but another.
+      // A different offer means another connection, not a change of the existing one.
       this.#remove(id);
       this.#add(id, robot.name, offer, []);
     }
@@ -167,7 +167,7 @@ export class RobotRoster {
   #add(id: number, name: string, offer: string | null, candidates: readonly string[]): void {
     if (offer === null) return;
     const present = this.#robots.get(id);
-    // It is listed again: its registration has not ended after all.
+    // The robot is listed again, so its registration has not ended after all.
     if (present?.offer === offer) present.orphan = false;
     if (present?.orphan === false || this.#spent.has(spentKey(id, offer))) return;
     if (present !== undefined) this.#rekey(id, present);
@@ -198,7 +198,7 @@ export class RobotRoster {
     const id = this.#idOf(connection);
     if (id === null) return;
     const { name } = this.#robots.get(id) as Robot;
-    // The same robot is here again: its old connection has done its duty.
+    // The same robot is here again, so its old connection is no longer needed.
     for (const [other, robot] of [...this.#robots])
       if (other !== id && robot.orphan && robot.name === name) this.#remove(other);
     connection.tell(this.#selection.wordFor(id));
@@ -212,7 +212,7 @@ export class RobotRoster {
     if (sdpAnswer !== null) this.#events.send({ type: 'answer', robotId: id, sdpAnswer });
   }
 
-  /** Its registration has ended. */
+  /** Handles the end of a registration. */
   #leave(id: number): void {
     const robot = this.#robots.get(id);
     if (robot === undefined || robot.orphan) return;
@@ -246,7 +246,10 @@ function spentKey(id: number, offer: string): string {
   return `${id} ${createHash('sha256').update(offer).digest('base64')}`;
 }
 
-/** What stays the same while a peer connection is negotiated anew: the session's id (RFC 8866 §5.2) and the certificate. */
+/**
+ * The parts that stay the same when a peer connection is renegotiated: the session's id (RFC 8866 §5.2) and the
+ * certificate.
+ */
 function sessionOf(sdp: string): string {
   const session = /^o=\S+ (\S+)/m.exec(sdp)?.[1] ?? '';
   const fingerprint = /^a=fingerprint:(.*)$/m.exec(sdp)?.[1]?.trim() ?? '';

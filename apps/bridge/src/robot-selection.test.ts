@@ -13,7 +13,7 @@ function selection() {
 }
 
 describe('RobotSelection', () => {
-  it('shows the first robot, then the one that is chosen', () => {
+  it('shows the first robot, then the chosen one', () => {
     const { made, streaming, shown } = selection();
     made.add(0, 'a');
     made.add(1, 'b');
@@ -25,7 +25,7 @@ describe('RobotSelection', () => {
     expect([made.wordFor(0), made.wordFor(1)]).toEqual(['stop', 'start']);
   });
 
-  it('finds the chosen robot again by its name, whether it comes back before or after it is gone', () => {
+  it('finds the chosen robot again by name, whether it registers before or after its old entry ends', () => {
     const { made, shown } = selection();
     made.add(0, 'a');
     made.add(1, 'b');

@@ -1,21 +1,21 @@
-/** Which of the robots streams: one at most. Pure; what it decides is carried out by the rim. */
+/** Decides which of the robots streams: at most one. Pure; the caller carries the decisions out. */
 
 export interface SelectionEvents {
-  /** `start` for the one that is shown, `stop` for every other. */
+  /** `start` for the robot that is shown, `stop` for every other. */
   onSwitch: (robotId: number, word: 'start' | 'stop') => void;
-  /** Another robot is shown now; `null` where none is. */
+  /** The shown robot has changed; `null` if none is shown. */
   onSelected: (robotId: number | null) => void;
 }
 
 /**
- * The first robot to come is shown until one is chosen. A chosen robot that goes and comes back by the same name, under
- * another id as the protocol has it, is shown again.
+ * The first robot to appear is shown until another one is chosen. If the chosen robot leaves and comes back with the
+ * same name, it is shown again. The protocol then gives it another id.
  */
 export class RobotSelection {
   selected: number | null = null;
   readonly #events: SelectionEvents;
   readonly #names = new Map<number, string>();
-  /** Name of the robot that was chosen, or came first. */
+  /** Name of the robot that was chosen or appeared first. */
   #wanted: string | null = null;
 
   constructor(events: SelectionEvents) {
@@ -35,13 +35,13 @@ export class RobotSelection {
     this.#names.delete(id);
     if (this.selected !== id) return;
     this.selected = null;
-    // Its other connection may be here already.
+    // Its new connection may already be here.
     const same = this.robots.find(({ name }) => name === this.#wanted);
     if (same === undefined) this.#events.onSelected(null);
     else this.select(same.id);
   }
 
-  /** The same robot is known by another id from now on; the first is free. */
+  /** Changes a robot's id, which makes the old id free. */
   rekey(from: number, to: number): void {
     const name = this.#names.get(from);
     if (name === undefined) return;
@@ -52,7 +52,7 @@ export class RobotSelection {
     this.#events.onSelected(to);
   }
 
-  /** @returns false where there is no such robot: nothing changes then */
+  /** @returns false if there is no such robot; nothing changes then */
   select(id: number): boolean {
     const name = this.#names.get(id);
     if (name === undefined) return false;
@@ -66,7 +66,7 @@ export class RobotSelection {
     return true;
   }
 
-  /** What a robot whose channel has just opened is to be told. */
+  /** What to tell a robot whose channel has just opened. */
   wordFor(id: number): 'start' | 'stop' {
     return id === this.selected ? 'start' : 'stop';
   }

@@ -1,6 +1,6 @@
 /**
- * The points' RTP stream of one connected robot, opened and answered by us: werift copies and parses each packet several
- * times, keeps no replay window, and tells the sender nothing true of lost packets.
+ * The points' RTP stream from one connected robot, decrypted and acknowledged by us. werift copies and parses each
+ * packet several times, has no replay window, and reports lost packets wrongly to the sender.
  */
 
 import { Buffer } from 'node:buffer';
@@ -12,21 +12,21 @@ import type { RTCDtlsTransport } from 'werift';
 
 export interface RtpReceiverOptions {
   now: () => number;
-  /** How long a packet may be overtaken before it is asked for again, ms. */
+  /** How long to wait for a reordered packet before requesting it again, ms. */
   reorderMs: number;
 }
 
-/** Often enough for a rate control that reacts to feedback, ms. */
+/** Feedback interval, ms: short enough for a rate controller that reacts to feedback. */
 const FEEDBACK_MS = 20;
 const AGAIN_MS = 25;
 const MOST_REQUESTS = 2;
-/** A frame is seldom longer on its way. */
+/** A packet is not requested again after this long, ms: frames are seldom in flight for longer. */
 const USELESS_MS = 150;
 export class RtpReceiver {
   packets = 0;
-  /** No RTP, of another payload type, not to be opened, or while paused. */
+  /** Packets that were not RTP, had another payload type, could not be decrypted, or arrived while paused. */
   refused = 0;
-  /** Packets are left unopened: nothing of them is wanted. */
+  /** While true, packets are not decrypted, because nothing of them is needed. */
   paused = false;
   readonly requests: LossRequests;
   readonly #options: RtpReceiverOptions;
@@ -35,7 +35,7 @@ export class RtpReceiver {
   readonly #opener: SrtpOpener | null;
   readonly #feedback = new ArrivalFeedback();
   readonly #header = emptyRtpHeader();
-  /** Ours in RTCP: any number will do. */
+  /** Our SSRC in RTCP; any number will do. */
   readonly #ssrc = 1;
   #mediaSsrc = 0;
   #timer: NodeJS.Timeout | null = null;
@@ -110,7 +110,7 @@ export class RtpReceiver {
   }
 
   #send(bytes: Uint8Array): void {
-    // werift seals and sends whatever serialises.
+    // werift encrypts and sends any object with `serialize`.
     const packet = { serialize: () => Buffer.from(bytes.buffer, bytes.byteOffset, bytes.byteLength) };
     this.#dtls.sendRtcp([packet] as never).catch(() => undefined);
   }

@@ -1,8 +1,8 @@
-/** Capacities over time as options. */
+/** Options that describe capacities over time. */
 import type { CapacityStep, Outage } from '@farpoint/network-sim';
 import * as z from 'zod';
 
-/** `10-15,30-36` in seconds, rising. */
+/** `10-15,30-36`: time spans in seconds, ascending. */
 export const outages = z.preprocess(
   (value) => (typeof value === 'number' ? String(value) : value),
   z.string('must be text').transform((text, context): Outage[] => {
@@ -23,7 +23,7 @@ export const outages = z.preprocess(
   }),
 ) as z.ZodType<Outage[]>;
 
-/** `0:41.44,30:8` seconds and Mbit/s, rising from 0. */
+/** `0:41.44,30:8`: seconds and Mbit/s, ascending from 0. */
 export const steps = z.string('must be text').transform((text, context): CapacityStep[] => {
   const list = text.split(',').map((part) => /^\s*(\d+(?:\.\d+)?):(\d+(?:\.\d+)?)\s*$/.exec(part));
   const read = list.map((match) => ({ atMs: Number(match?.[1]) * 1000, mbps: Number(match?.[2]) }));

@@ -15,7 +15,7 @@ function open(): UdpLink {
   return link;
 }
 
-test('a message changes what it names, in the direction that it names', () => {
+test('a message changes the members and direction that it names', () => {
   const link = open();
   control(link, { type: 'set', direction: 'up', rateMbps: 3, delayMs: 7, queueMs: 50 }, initial);
   expect(link.models.up.profile).toEqual({
@@ -29,7 +29,7 @@ test('a message changes what it names, in the direction that it names', () => {
   expect(link.models.down.offer(100, monotonicMs(), 0)).toBe('blackhole');
 });
 
-test('what is no message of control, or cannot be, leaves the link as it was', () => {
+test('an invalid message leaves the link unchanged', () => {
   const link = open();
   expect(() => control(link, { type: 'set', direction: 'sideways' }, initial)).toThrow(ZodError);
   expect(() => control(link, { type: 'set', direction: 'up', loss: 3 }, initial)).toThrow(
@@ -38,7 +38,7 @@ test('what is no message of control, or cannot be, leaves the link as it was', (
   expect(link.models.up.profile).toBe(idealProfile);
 });
 
-test('a reset brings back what the options said', () => {
+test('a reset restores the options', () => {
   const link = open();
   const options = { up: { ...idealProfile, capacity: constantCapacity(3) }, down: idealProfile };
   control(link, { type: 'set', direction: 'both', rateMbps: 10, loss: 0.5 }, options);

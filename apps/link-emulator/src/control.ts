@@ -1,16 +1,16 @@
-/** What a parent process may say over Node's IPC channel while the link runs. */
+/** Messages with which a parent process controls the link through Node's IPC channel. */
 import { type Direction, directions, monotonicMs, type UdpLink } from '@farpoint/link-emulator';
 import { type CapacitySpec, constantCapacity, type LinkProfile } from '@farpoint/network-sim';
 import * as z from 'zod';
 
 const direction = z.enum(['up', 'down', 'both']);
 
-/** Every member that is there replaces the profile's. Times in milliseconds. */
+/** Every member that is present replaces the profile's value. Times in milliseconds. */
 export const controlSchema = z.discriminatedUnion('type', [
   z.strictObject({
     type: z.literal('set'),
     direction,
-    /** From when on, on CLOCK_MONOTONIC; at once where left out. */
+    /** When the change takes effect, on CLOCK_MONOTONIC; immediately if undefined. */
     atMs: z.number().optional(),
     /** `null`: no bottleneck. */
     rateMbps: z.number().min(0).nullable().optional(),
@@ -22,16 +22,16 @@ export const controlSchema = z.discriminatedUnion('type', [
   }),
   z.strictObject({ type: z.literal('pause'), direction, paused: z.boolean() }),
   z.strictObject({ type: z.literal('blackhole'), direction, active: z.boolean() }),
-  /** The second 0 of traces, steps and outages is now. */
+  /** Sets second 0 of traces, steps and outages to now. */
   z.strictObject({ type: z.literal('restart') }),
-  /** As the options have it again, and second 0 is now. */
+  /** Restores the options, and sets second 0 to now. */
   z.strictObject({ type: z.literal('reset') }),
 ]);
 export type ControlMessage = z.infer<typeof controlSchema>;
 
 /**
- * @param initial the link as the options have it
- * @throws {z.ZodError | ProfileError | CapacityError} leaving the link as it was
+ * @param initial the link as described by the options
+ * @throws {z.ZodError | ProfileError | CapacityError} the link is then unchanged
  */
 export function control(
   link: UdpLink,

@@ -1,4 +1,4 @@
-/** The link that the options describe. */
+/** Builds the link that the options describe. */
 import { readFileSync } from 'node:fs';
 import type { Direction, DirectionOptions } from '@farpoint/link-emulator';
 import {
@@ -17,7 +17,7 @@ import { OptionsError } from '@farpoint/service';
 import type * as z from 'zod';
 import type { DirectionalKey, directional, LinkOptions } from './options.ts';
 
-/** The value for one direction: its own, else that of both. */
+/** The value for one direction: its own, or else the value for both. */
 function optionsOf(options: LinkOptions, direction: Direction) {
   const all = options as unknown as Readonly<Record<string, unknown>>;
   return <Key extends DirectionalKey>(key: Key): z.output<(typeof directional)[Key]['schema']> =>
@@ -26,7 +26,7 @@ function optionsOf(options: LinkOptions, direction: Direction) {
     >;
 }
 
-/** @throws {OptionsError} for what only shows when options are seen together, or a trace that cannot be read */
+/** @throws {OptionsError} for faults that only show when options are combined, or a trace that cannot be read */
 export function directionOf(options: LinkOptions, direction: Direction): DirectionOptions {
   const value = optionsOf(options, direction);
   const burst = value('burstLoss') ?? 0;
@@ -51,7 +51,7 @@ export function directionOf(options: LinkOptions, direction: Direction): Directi
     const startMs = linkStartMs + crossStartMs;
     if (kind === 'none') return [];
     if (kind === 'cbr') return [new CbrFlow(value('crossMbps') ?? 1, startMs)];
-    // Acknowledgements come back over the other direction, which they do not load.
+    // Acknowledgements return over the other direction, but are not counted as its load.
     const other = direction === 'up' ? 'down' : 'up';
     const ackDelayMs = optionsOf(options, other)('delayMs') ?? options.rttMs / 2;
     return [new TcpFlow({ congestionControl: kind, startMs, ackDelayMs: Math.max(ackDelayMs, 1) })];
@@ -70,7 +70,7 @@ function burstOf(rate: number, length: number) {
 function capacityOf(options: LinkOptions, direction: Direction): CapacitySpec {
   const value = optionsOf(options, direction);
   const own = optionsOf({ ...options, rateMbps: null, steps: null, trace: null } as LinkOptions, direction);
-  // What is said of one direction goes before what is said of both, whichever way it is said.
+  // An option for one direction takes precedence over any option for both, whichever form they have.
   const ofOne = own('rateMbps') !== null || own('steps') !== null || own('trace') !== null;
   const pick = ofOne ? own : value;
   const [trace, list, rate] = [pick('trace'), pick('steps'), pick('rateMbps')];

@@ -2,7 +2,7 @@ import type { Direction, UdpLink } from '@farpoint/link-emulator';
 import { dropReasons, type LinkBin } from '@farpoint/network-sim';
 import { Counter, Gauge, type Registry } from '@farpoint/service';
 
-/** Sums of what the bins tell. `link` may only be asked once the program is up. */
+/** Registers totals of the bins. `link` may be called only once the program is running. */
 export function registerLinkMetrics(registry: Registry, link: () => UdpLink) {
   const registers = [registry];
   const counter = <Name extends string>(name: string, help: string, labelNames: Name[]) =>

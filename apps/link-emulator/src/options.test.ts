@@ -18,7 +18,7 @@ function read(...argv: string[]) {
   return { up: directionOf(values, 'up').profile, down: directionOf(values, 'down').profile };
 }
 
-test('what is said of both directions holds for each, what is said of one goes first', () => {
+test('an option for both directions applies to each; one for a single direction takes precedence', () => {
   const { up, down } = read('--rate-mbps', '8', '--rtt-ms', '60', '--loss', '0.02', '--down-loss', '0');
   expect(up).toMatchObject({ delayMs: 30, loss: 0.02, queue: { ms: 100 } });
   expect(down).toMatchObject({ delayMs: 30, loss: 0 });

@@ -15,7 +15,7 @@ const ms = schema.number({ min: 0, max: 600_000 });
 const probability = schema.number({ min: 0, max: 1 });
 const signalingUrl = z.url({ protocol: /^wss?$/, error: 'must be a ws:// or wss:// address' });
 
-/** What can be set for both directions at once and for one. */
+/** Options that can be set for both directions at once and for one direction. */
 export const directional = {
   rateMbps: {
     schema: schema.optional(schema.number({ min: 0, max: 100_000 })),

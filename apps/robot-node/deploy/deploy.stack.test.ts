@@ -1,4 +1,4 @@
-/** What puts the robot on a machine: unit, install script, image; as far as this machine lets it be tried. */
+/** Tests what installs the robot on a machine: unit, install script and image, as far as this machine allows. */
 import { execFileSync, spawn, spawnSync } from 'node:child_process';
 import {
   cpSync,
@@ -33,7 +33,7 @@ beforeAll(() => {
 });
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
-/** Runs it; its exit code and all that it said. */
+/** Runs a program. @returns its exit code and all its output */
 function run(program: string, args: string[], options: { cwd?: string; env?: Record<string, string> } = {}) {
   const env = { ...process.env, npm_config_prefer_offline: 'true', ...options.env };
   const { status, stdout, stderr } = spawnSync(program, args, { ...options, env, encoding: 'utf8' });
@@ -41,23 +41,23 @@ function run(program: string, args: string[], options: { cwd?: string; env?: Rec
 }
 
 describe.skipIf(!systemd)('the unit (needs systemd-analyze)', () => {
-  it('is one that systemd understands', () => {
-    // The program that it names is not installed here.
+  it('is accepted by systemd', () => {
+    // The program that the unit names is not installed here.
     const path = join(folder, 'farpoint-robot.service');
     writeFileSync(path, readFileSync(unit, 'utf8').replace(/^ExecStart=\S+/m, 'ExecStart=/bin/true'));
     expect(run('systemd-analyze', ['verify', '--man=no', path])).toEqual({ status: 0, output: '' });
   });
 
-  it('exposes little: at most 2.0 of 10 by systemd’s own measure', () => {
+  it('has an exposure level of at most 2.0 of 10 in systemd’s own analysis', () => {
     const { output } = run('systemd-analyze', ['security', '--offline=true', '--no-pager', unit]);
     const exposure = /Overall exposure level for \S+: ([\d.]+)/.exec(output)?.[1];
     expect(Number(exposure)).toBeLessThanOrEqual(2);
   });
 });
 
-it('the unit keeps what the robot cannot do without', () => {
+it('the unit keeps the access that the robot needs', () => {
   const text = readFileSync(unit, 'utf8');
-  // Own addresses, the machine's shared memory, files shared by group, restarts, words to systemd.
+  // Own addresses, the machine's shared memory, files shared by group, restarts, messages to systemd.
   for (const line of [
     'AF_NETLINK',
     'PrivateIPC=no',
@@ -72,7 +72,7 @@ it('the unit keeps what the robot cannot do without', () => {
 
 describe.skipIf(!compiler)('install.sh (needs a C compiler, make and Python 3)', () => {
   it(
-    'installs a robot that runs, keeps what was changed at an upgrade, and goes away again',
+    'installs a robot that runs, keeps changed files at an upgrade, and uninstalls completely',
     () => {
       const dest = join(folder, 'root');
       const install = (...args: string[]) => run(join(here, 'install.sh'), ['--dest', dest, ...args]);
@@ -96,7 +96,7 @@ describe.skipIf(!compiler)('install.sh (needs a C compiler, make and Python 3)',
         findings: { check: string; verdict: string; detail: string }[];
       };
       expect(findings.find(({ check }) => check === 'source')).toMatchObject({ verdict: 'ok' });
-      // The addons came along: without that of shared memory this would be a failure of its own.
+      // The addons were installed: without the one for shared memory, this check would fail.
       expect(findings.find(({ check }) => check === 'shared memory')?.detail).toContain('free in /dev/shm');
 
       writeFileSync(config, 'robot: {id: mine}\n');
@@ -128,7 +128,7 @@ describe.skipIf(!compiler)('install.sh (needs a C compiler, make and Python 3)',
   });
 });
 
-/** The instructions of a Dockerfile, continued lines joined. */
+/** The instructions of a Dockerfile, with continued lines joined. */
 function instructions(path: string): { name: string; text: string }[] {
   const lines = readFileSync(path, 'utf8')
     .replaceAll(/^#.*\n/gm, '')
@@ -148,7 +148,7 @@ function instructions(path: string): { name: string; text: string }[] {
 describe('the image', () => {
   const dockerfile = instructions(join(here, '..', 'Dockerfile'));
 
-  it('comes from standard images alone, runs as nobody special, and says how it is', () => {
+  it('uses standard images only, runs unprivileged, and has a health check', () => {
     const images = dockerfile.filter(({ name }) => name === 'FROM').map(({ text }) => text.split(' ')[0]);
     for (const image of images) expect(image).toMatch(/^node:\d+-[a-z]+-slim$/);
     const last = dockerfile.slice(dockerfile.findLastIndex(({ name }) => name === 'FROM'));
@@ -156,7 +156,7 @@ describe('the image', () => {
     expect(last.find(({ name }) => name === 'HEALTHCHECK')?.text).toContain('/healthz');
   });
 
-  it.skipIf(!has('bash', '--version'))('is healthy where the robot says so, and only there', async () => {
+  it.skipIf(!has('bash', '--version'))('is healthy exactly when the robot says so', async () => {
     const text = dockerfile.find(({ name }) => name === 'HEALTHCHECK')?.text ?? '';
     const [program = '', ...args] = JSON.parse(text.slice(text.indexOf('['))) as string[];
     const asked = (port: number) =>
@@ -174,7 +174,7 @@ describe('the image', () => {
     expect(await asked(port)).toBe(0);
     answer = 503;
     expect(await asked(port)).toBe(1);
-    // It hangs: bash says by the code that the time was up.
+    // The request hangs: bash's exit code says that it timed out.
     answer = 0;
     expect(await asked(port)).toBeGreaterThan(0);
     server.closeAllConnections();
@@ -182,14 +182,14 @@ describe('the image', () => {
     expect(await asked(port)).toBe(1);
   });
 
-  it('has a base whose Node and Debian try-image.ts can tell', () => {
+  it('has a base image whose Node and Debian versions try-image.ts can read', () => {
     const base = baseImageOf(readFileSync(join(here, '..', 'Dockerfile'), 'utf8'));
     expect(base).toEqual({ name: 'node:24-bookworm-slim', node: '24', release: 'bookworm' });
     expect(() => baseImageOf('FROM alpine:3\n')).toThrow('not built upon');
   });
 
   it.skipIf(!compiler)(
-    'is built by steps that work on a clean copy of the tree (needs a C compiler, make and Python 3)',
+    'has build steps that work on a clean copy of the tree (needs a C compiler, make and Python 3)',
     () => {
       const src = join(folder, 'src');
       const app = join(folder, 'app');
@@ -231,7 +231,7 @@ describe('the image', () => {
   );
 });
 
-/** What the build is given: the tree as git knows it, less what is not sent. */
+/** Copies what the build is given: the files that git tracks, minus those in .dockerignore. */
 function copyTree(to: string): void {
   const ignored = readFileSync(join(here, '..', 'Dockerfile.dockerignore'), 'utf8')
     .split('\n')

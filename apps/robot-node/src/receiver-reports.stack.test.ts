@@ -1,4 +1,7 @@
-/** An operator whose WebRTC stack gives no transport-wide feedback is not starved: its RTCP receiver reports do. */
+/**
+ * An operator whose WebRTC stack gives no transport-wide feedback still gets a full stream: RTCP receiver reports are
+ * used instead.
+ */
 import { LocalStack } from '@farpoint/local-stack';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { SignaledOperator } from './testing/signaled-operator.ts';
@@ -15,7 +18,7 @@ afterAll(async () => {
 }, 30_000);
 
 describe('without transport-wide feedback', { timeout: 60_000 }, () => {
-  it('the rate grows by receiver reports, and the robot says so', async () => {
+  it('the rate grows from receiver reports, and the robot says so', async () => {
     const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT, { transportFeedback: false });
     const { client } = operator;
     await client.until(() => client.telemetry?.stream.feedback === 'reports');
@@ -26,7 +29,7 @@ describe('without transport-wide feedback', { timeout: 60_000 }, () => {
     await operator.close();
   });
 
-  it('with it, nothing is said', async () => {
+  it('with it, the robot says nothing', async () => {
     const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
     const { client } = operator;
     await client.until(() => (client.telemetry?.stream.targetBitsPerSecond ?? 0) > 0);

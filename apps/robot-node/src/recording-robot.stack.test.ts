@@ -1,4 +1,4 @@
-/** The robot program that records, and the one that plays it: processes, signaling, WebRTC. */
+/** The robot program recording, and then playing the recording: processes, signaling, WebRTC. */
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -19,7 +19,7 @@ const PICTURES = '/farpoint/pictures/Camera';
 const cloudSchema = z.object({ width: z.int(), height: z.int(), point_step: z.literal(16) });
 
 async function withRobot(id: string, options: string[], use: (operator: SignaledOperator) => Promise<void>) {
-  // What a busy computer lets through is not what is asked here.
+  // This test does not check how much a busy computer lets through.
   const args = [...options, '--rate-control', 'fixed'];
   const stack = await LocalStack.start({ robots: [{ id, name: 'Robot', args }] });
   try {
@@ -51,7 +51,7 @@ describe('robot process that records', { timeout: 60_000 }, () => {
       await client.until(() => (client.telemetry?.pose.position.x ?? 0) > start + 0.3);
       clearInterval(timer);
       client.sendSession({ type: 'latencyMeasured', id: 1, frameNumber: 7, mtpMs: 98.5, firstMs: 91 });
-      // Without its lease: refused.
+      // A command without a lease is refused.
       client.drive('0'.repeat(32), 0.3);
       await client.until(() => client.telemetry?.drive === 'watchdog');
     });
@@ -66,7 +66,7 @@ describe('robot process that records', { timeout: 60_000 }, () => {
     for (const name of ['/farpoint/telemetry', '/farpoint/estimates', '/farpoint/cmd_vel', '/odom', '/tf'])
       expect(messagesOf(name), name).toBeGreaterThan(5);
 
-    // Every point that was sent is there.
+    // Every point that was sent is in the recording.
     const [sentPoints, toldPoints]: [number[], number[]] = [[], []];
     const verdicts = { accepted: 0, refused: 0 };
     const measured: unknown[] = [];
@@ -90,7 +90,7 @@ describe('robot process that records', { timeout: 60_000 }, () => {
         verdicts[accepted ? 'accepted' : 'refused']++;
       }
     }
-    // To the byte what the operator got.
+    // Byte for byte what the operator got.
     for (const bytes of seen) expect(pictures.some((file) => file.equals(bytes))).toBe(true);
     expect(sentPoints).toEqual(toldPoints);
     expect(sentPoints).toContain(600);
@@ -100,7 +100,7 @@ describe('robot process that records', { timeout: 60_000 }, () => {
     await recording.close();
   });
 
-  it('plays what was recorded, from where it was, with the pictures and readings that are named', async () => {
+  it('plays a recording at its recorded poses, with the configured pictures and readings', async () => {
     const config = join(folder, 'farpoint.yaml');
     const entries = [
       { topic: PICTURES, as: 'picture', label: 'Front' },
@@ -119,12 +119,12 @@ describe('robot process that records', { timeout: 60_000 }, () => {
       await client.until(() => client.completeFrames.length >= 10);
       expect(client.malformedPackets).toBe(0);
       expect(client.completeFrames.every((frame) => frame.points === 300)).toBe(true);
-      // The robot’s pose is the recorded one: it moves without anybody driving.
+      // The robot's pose is the recorded one: it moves although nobody drives.
       await client.until(() => (client.telemetry?.twist.linear.x ?? 0) > 0.2);
     });
   });
 
-  it('does not start over a recording that is there, and says so', async () => {
+  it('refuses to overwrite an existing recording, and says so', async () => {
     const args = ['--sim-size', '64', '--record', path];
     await expect(withRobot(RECORDED, args, async () => {})).rejects.toThrow();
   });

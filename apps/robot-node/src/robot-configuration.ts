@@ -9,41 +9,41 @@ import type { SignalingOptions } from './signaling/signaling-client.ts';
 import type { RecordingOptions } from './telemetry/session-recording.ts';
 import type { RateControlOptions } from './transport/make-rate-controller.ts';
 
-/** All that a robot is made of. */
+/** Everything that a robot is made of. */
 export interface RobotOptions extends RateControlOptions {
   id: string;
   name: string;
   signaling: Pick<SignalingOptions, 'url' | 'key' | 'token' | 'ca'>;
   /** Sources of clouds, the main one first. */
   sensors: readonly CloudSensorOptions[];
-  /** Simulated wheels; `null` where the real ones are. */
+  /** Simulated wheels; `null` for real ones. */
   base: BaseOptions | null;
   /** What moves the wheels. */
   sink: SinkOptions;
   limits: DriveLimits;
   takePolicy: TakePolicy;
-  /** Where the robot remembers its emergency stop over restarts. */
+  /** Where the robot remembers its emergency stop across restarts. */
   stateFolder: string;
-  /** Robots' port of a reference signaling service; its operators prove nothing of themselves. */
+  /** The reference signaling service's port for robots. Its operators are not authenticated. */
   referenceSignaling?: string | undefined;
-  /** `auto`: our own coded formats to whoever reads them; `points64`: that to everyone. */
+  /** `auto`: our own coded formats for everyone who reads them; `points64`: only `points64`, for everyone. */
   mode: StreamMode;
   pictures: PicturePolicy;
   maxOperators: number;
-  /** An operator of whom nothing is heard for this long is gone, ms. */
+  /** An operator that has not been heard from for this long is gone, ms. */
   silenceMs: number;
   connectTimeoutMs: number;
-  /** Besides those of the signaling service. */
+  /** In addition to those from the signaling service. */
   iceServers: IceServer[];
   portRange?: readonly [number, number] | undefined;
-  /** `relay`: media by TURN servers only. */
+  /** `relay`: media through TURN servers only. */
   icePolicy: 'all' | 'relay';
   /** File for a log of every packet sent, written when the robot closes. */
   packetLog?: string | undefined;
   /** File for a log of every frame, written when the robot closes. */
   frameLog?: string | undefined;
-  /** File for what each stream does in each 100 ms, one JSON object a line. */
+  /** File for the statistics of each stream in each 100 ms, one JSON object per line. */
   statisticsFile?: string | undefined;
-  /** What everything is recorded in; left out, nothing is. */
+  /** Where everything is recorded; if undefined, nothing is recorded. */
   record?: RecordingOptions | undefined;
 }

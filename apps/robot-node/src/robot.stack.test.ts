@@ -1,4 +1,4 @@
-/** The robot program as it runs, with the real signaling service: processes, sockets, WebRTC. */
+/** The real robot program with the real signaling service: processes, sockets, WebRTC. */
 
 import { once } from 'node:events';
 import { LocalStack } from '@farpoint/local-stack';
@@ -8,7 +8,7 @@ import { WebSocket } from 'ws';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 
 const ROBOT = 'sim-1';
-/** At a fixed rate: a busy machine delays packets as a bad link does, which then carries no pictures. */
+/** At a fixed rate: a busy machine delays packets like a bad link, which then carries no pictures. */
 const ARGS = [
   '--rate-control',
   'fixed',
@@ -53,7 +53,7 @@ async function until(is: () => Promise<boolean>): Promise<void> {
   while (!(await is())) await new Promise((resolve) => setTimeout(resolve, 20));
 }
 
-/** Commands at 50 Hz, as a page sends them, until `is` holds. */
+/** Sends commands at 50 Hz, as a page does, until `is` holds. */
 async function driveUntil(operator: SignaledOperator, lease: string, linear: number, is: () => boolean) {
   const timer = setInterval(() => operator.client.drive(lease, linear), 20);
   await operator.client.until(is);
@@ -83,7 +83,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     expect(client.telemetry).toMatchObject({ drive: 'idle', operators: 1 });
   });
 
-  it('sends pictures of its camera to who asks for them, and to nobody else', async () => {
+  it('sends its camera’s pictures only to operators that request them', async () => {
     const [{ client }, { client: other }] = [await connect(), await connect()];
     expect((await client.message('cameras')).cameras).toEqual([{ name: 'Camera' }]);
     client.sendSession({ type: 'pictures', cameras: [0] });
@@ -93,11 +93,11 @@ describe('robot process', { timeout: 30_000 }, () => {
     expect(readPictureFile(picture.bytes)).toEqual({ format: 'jpeg', width: 64, height: 64 });
     expect(other.pictures.size).toBe(0);
     expect(await metric('pictures_made_total')).toBeGreaterThanOrEqual(2);
-    // Those that were not sent gave way to newer ones.
+    // Those that were not sent were superseded by newer ones.
     expect(await metric('pictures_sent')).toBeGreaterThanOrEqual(1);
     client.sendSession({ type: 'pictures', cameras: [] });
     const made = () => metric('pictures_made_total');
-    // What is under way is made; then no more.
+    // Pictures in progress are finished; then no more are made.
     await until(async () => {
       const before = await made();
       const { framesPerSecond } = client.telemetry?.stream ?? { framesPerSecond: 0 };
@@ -107,7 +107,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     });
   });
 
-  it('drives under a lease and stands still once the commands end', async () => {
+  it('drives under a lease, and stands still once the commands end', async () => {
     const operator = await connect();
     const { client } = operator;
     const lease = await client.takeLease();
@@ -146,7 +146,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     expect(await metric('commands_rejected_total', '{reason="malformed"}')).toBeGreaterThanOrEqual(1);
   });
 
-  it('lets a second operator watch the same frames, and no third', async () => {
+  it('lets a second operator watch the same frames, but not a third', async () => {
     const [driver, watcher] = [await connect(), await connect()];
     await driver.client.takeLease();
     await watcher.client.message('lease', (message) => message.holder === 'other');
@@ -164,7 +164,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     expect(await metric('sessions_refused_total')).toBe(refused + 1);
   });
 
-  it('a stranger who knows the session’s handle, and not its key, disturbs nobody', async () => {
+  it('a stranger who knows the session’s handle but not its key cannot disturb anybody', async () => {
     const operator = await connect();
     const { client, session } = operator;
     await client.until(() => client.completeFrames.length > 0);
@@ -183,7 +183,7 @@ describe('robot process', { timeout: 30_000 }, () => {
       await until(async () => told.at(-1)?.type === 'error');
       expect(told.splice(0).at(-1)).toMatchObject({ code: 'wrong-resume-key', session });
     }
-    // Not bound to it, it can end nothing, and put nothing in.
+    // Without being bound to the session, the stranger can neither end it nor send anything into it.
     const candidate = { candidate: 'candidate:1 1 udp 2130706431 127.0.0.1 9 typ host', sdpMid: '0' };
     for (const message of [
       { type: 'session.close', session },
@@ -201,7 +201,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     expect(await metric('ice_restarts_total')).toBe(restarts);
     expect(await metric('resumes_refused_total', '{reason="wrong-resume-key"}')).toBe(4);
 
-    // The same from a new socket with the right key gets its new path.
+    // The same request from a new socket with the right key gets a new path.
     await operator.resume();
     await operator.until(({ type }) => type === 'session.resuming');
     await until(async () => (await metric('ice_restarts_total')) === restarts + 1);
@@ -209,7 +209,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     await client.until(() => client.packets > packets + 20);
   });
 
-  it('says why it ends a session: an answer that it cannot use, one that was open before it was restarted', async () => {
+  it('says why it ends a session: an unusable answer, or a session from before its restart', async () => {
     const operator = await connect();
     const { session } = operator;
     await operator.close();
@@ -243,7 +243,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     socket.terminate();
   });
 
-  it('sends organised frames to who reads those alone, and points64 beside them to who does not', async () => {
+  it('sends organised frames to an operator that reads only those, and points64 to another that does not', async () => {
     const [{ client: reads }, { client: plain }] = [await connect(), await connect()];
     const newest = new Map<object, number>();
     for (const client of [reads, plain]) {
@@ -253,7 +253,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     expect(await reads.message('cloudStream')).toMatchObject({ format: 'organised' });
     await reads.until(() => newest.get(reads) === 2);
     await plain.until(() => newest.get(plain) === 1 && plain.completeFrames.length > 2);
-    // It fits no format that is left.
+    // The frame fits none of the remaining formats.
     reads.sendSession({ type: 'cloudFormats', formats: ['points64', 'unorganised'] });
     await reads.until(() => newest.get(reads) === 1);
     expect(plain.session.some(({ type }) => type === 'cloudStream')).toBe(false);
@@ -290,7 +290,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     await until(async () => (await metric('operators')) === 0);
   });
 
-  it('keeps streaming while signaling is away, and is found again when it is back', async () => {
+  it('keeps streaming while signaling is down, and is listed again afterwards', async () => {
     const { client } = await connect();
     await stack.signaling.kill();
     await until(async () => (await metric('signaling_registered')) === 0);
@@ -311,7 +311,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     const operator = await connect();
     const { client } = operator;
     await client.until(() => client.completeFrames.length > 0);
-    // A crash is no release: nobody moves it before somebody means it to.
+    // A crash does not release the stop: nobody can move the robot before somebody releases it on purpose.
     expect(await client.message('estop')).toMatchObject({ latched: true, by: 'robot' });
     const lease = await client.takeLease();
     client.drive(lease, 0.3);
@@ -321,7 +321,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     await driveUntil(operator, lease, 0.3, () => (client.telemetry?.twist.linear.x ?? 0) > 0.1);
   });
 
-  it('ends in order when asked to', async () => {
+  it('ends cleanly when asked to', async () => {
     const { client } = await connect();
     await client.until(() => client.completeFrames.length > 0);
     const { code } = await stack.robot(ROBOT).stop();

@@ -1,4 +1,4 @@
-/** The robot program in a ROS 1 graph, as it runs: a real master, rospy nodes, signaling, WebRTC. */
+/** The real robot program in a ROS 1 graph: a real master, rospy nodes, signaling, WebRTC. */
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -68,20 +68,20 @@ describe.skipIf(python === null)(
       while (!is()) await new Promise((resolve) => setTimeout(resolve, 2));
     };
     const silentFor = () => performance.now() - (base.heard.at(-1)?.atMs ?? 0);
-    /** Commands at 50 Hz, as a page sends them, until `is` holds. */
+    /** Sends commands at 50 Hz, as a page does, until `is` holds. */
     async function driveUntil(lease: string, linear: number, is: () => boolean): Promise<void> {
       const timer = setInterval(() => operator.client.drive(lease, linear), 20);
       await until(is);
       clearInterval(timer);
     }
 
-    /** In motion, by a hand that has just been opened. */
+    /** Drives with a grip that was released first. */
     async function drive(lease: string): Promise<void> {
       operator.client.drive(lease, 0);
       await driveUntil(lease, 0.25, () => base.heard.at(-1)?.x === 0.25 && silentFor() < 50);
     }
 
-    it('streams the clouds, placed by odometry, and tells its velocity and battery', async () => {
+    it('streams the clouds, placed by odometry, and reports its velocity and battery', async () => {
       const { client } = operator;
       await client.until(() => client.completeFrames.length > 5);
       expect(client.malformedPackets).toBe(0);
@@ -105,7 +105,7 @@ describe.skipIf(python === null)(
       });
     });
 
-    it('streams depth and colour pictures of one camera', async () => {
+    it('streams depth and colour images of one camera', async () => {
       const node = await peers.startNode('rgbd', 'rgbd');
       const config = join(folder, 'rgbd.yaml');
       writeFileSync(config, pictures(peers.masterUrl));
@@ -117,7 +117,7 @@ describe.skipIf(python === null)(
       const watcher = await SignaledOperator.connect(stack.signalingUrl, 'ros-2');
       const colours = new Set<number>();
       watcher.client.onCloudPacket = (payload) => {
-        // The first point's colour comes after the coordinates of all: 6 bits red, 6 green, 4 blue.
+        // The first point's colour follows the coordinates of all points: 6 bits red, 6 green, 4 blue.
         const points = payload.readUInt32LE(12) / 8;
         colours.add(payload.readUInt16LE(16 + points * 6));
       };
@@ -128,14 +128,14 @@ describe.skipIf(python === null)(
       await node.kill();
     });
 
-    it('drives: steady while commanded, zero on silence, then none, so that others may drive', async () => {
+    it('publishes steadily while commanded, zero on silence, then nothing, so that others can drive', async () => {
       expect(base.heard).toEqual([]);
       const lease = await operator.client.takeLease();
       await driveUntil(lease, 0.25, () => base.heard.filter(({ x }) => x === 0.25).length >= 25);
       const lastWishMs = performance.now();
       await until(() => base.heard.at(-1)?.x === 0);
       const stopped = base.heard.find(({ x, atMs }) => x === 0 && atMs >= lastWishMs);
-      // The watchdog's 150 ms, and what two busy processors add.
+      // The watchdog's 150 ms, and the delay added by two busy processors.
       expect((stopped?.atMs ?? 0) - lastWishMs).toBeLessThan(400);
       await until(() => silentFor() > 500);
       const zeros = base.heard.filter(({ x, atMs }) => x === 0 && atMs >= lastWishMs);
@@ -143,7 +143,7 @@ describe.skipIf(python === null)(
       expect(zeros.length).toBeLessThan(40);
     });
 
-    it('goes on when the camera’s node comes back', async () => {
+    it('continues when the camera’s node comes back', async () => {
       await camera.kill();
       const { client } = operator;
       camera = await peers.startNode('cloud,state', 'camera');
@@ -151,7 +151,7 @@ describe.skipIf(python === null)(
       await client.until(() => client.frames.size > before + 5);
     });
 
-    it('tells operators whether anybody listens to the velocity', async () => {
+    it('tells operators whether any node subscribes to the velocity', async () => {
       const { client } = operator;
       const wheels = () => client.readings.get('/cmd_vel');
       await client.until(() => wheels()?.level === 'ok');
@@ -163,14 +163,14 @@ describe.skipIf(python === null)(
       await client.until(() => wheels()?.level === 'ok');
     });
 
-    it('ends with zero when it is told to end', async () => {
+    it('publishes zero when it is asked to end', async () => {
       const lease = await operator.client.takeLease();
       await drive(lease);
       await stack.robot(ROBOT).stop();
       await until(() => base.heard.at(-1)?.x === 0);
     });
 
-    it('is heard no more when it is killed: then the base’s own time limit counts', async () => {
+    it('publishes nothing more when it is killed: then the base’s own timeout applies', async () => {
       await operator.close();
       await stack.restartRobot(ROBOT);
       operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);

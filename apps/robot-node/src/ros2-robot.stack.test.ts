@@ -1,4 +1,7 @@
-/** The robot program between a ROS 2 graph of another maker and an operator, as it runs: processes, signaling, WebRTC. */
+/**
+ * The real robot program between a ROS 2 graph of another implementation and an operator: processes, signaling,
+ * WebRTC.
+ */
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -14,9 +17,9 @@ import { SignaledOperator } from './testing/signaled-operator.ts';
 const ROBOT = 'ros2-1';
 const SIDE = 48;
 const WATCHDOG_MS = 150;
-/** What the machine may be late by, busy with other tests. */
+/** Delay to allow for on a machine that is busy with other tests. */
 const SLACK_MS = 250;
-/** The picture is asked for reliably: a busy machine's sockets lose parts of each large message. */
+/** The picture is requested reliably, because a busy machine's sockets lose parts of each large message. */
 const CONFIGURATION = `
 robot:
   source: { kind: ros2 }
@@ -45,7 +48,7 @@ for (const kind of kinds) {
       peer = await Peer.start(command as string[], {
         ...{ domain: testDomain(), cloud: 'rt/points', side: SIDE, hz: 20, twist: 'rt/cmd_vel' },
       });
-      // At a fixed rate: a busy machine delays packets as a bad link does, which then carries no pictures.
+      // At a fixed rate: a busy machine delays packets like a bad link, which then carries no pictures.
       const args = ['--config', config, '--watchdog-ms', String(WATCHDOG_MS), '--rate-control', 'fixed'];
       stack = await LocalStack.start({ robots: [{ id: ROBOT, name: 'Robot', args }] });
       operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
@@ -63,7 +66,7 @@ for (const kind of kinds) {
     };
     const speed = () => peer.twists.at(-1)?.x ?? null;
 
-    /** Commands at 50 Hz, as a page sends them, until `is` holds. @returns when the last one went, ms */
+    /** Sends commands at 50 Hz, as a page does, until `is` holds. @returns when the last one was sent, ms */
     async function driveUntil(lease: string, linear: number, is: () => boolean): Promise<number> {
       let lastMs = 0;
       const timer = setInterval(() => {
@@ -96,7 +99,7 @@ for (const kind of kinds) {
       const timer = setInterval(() => camera.publish(picture), 250);
       try {
         expect((await client.message('cameras')).cameras).toEqual([{ name: 'Front' }]);
-        // Nobody has asked for it: it is not even subscribed.
+        // Nobody has requested it, so it is not subscribed.
         expect(camera.subscribers).toBe(0);
         client.sendSession({ type: 'pictures', cameras: [0] });
         await client.until(() => (client.pictures.get(0)?.pictureId ?? 0) >= 2);
@@ -112,7 +115,7 @@ for (const kind of kinds) {
       }
     });
 
-    it('publishes what the operator commands, zero within the watchdog’s time on silence, and as it ends', {
+    it('publishes the operator’s commands, zero within the watchdog’s time on silence, and zero when it ends', {
       timeout: 30_000,
     }, async () => {
       const lease = await operator.client.takeLease();
@@ -121,7 +124,7 @@ for (const kind of kinds) {
       const zero = peer.twists.findLast(({ x }) => x !== 0);
       const first = peer.twists[peer.twists.indexOf(zero as (typeof peer.twists)[number]) + 1];
       expect((first?.ms ?? Number.NaN) - lastMs).toBeLessThan(WATCHDOG_MS + SLACK_MS);
-      // It is alive: the next command is obeyed.
+      // The robot is alive: it obeys the next command.
       await driveUntil(lease, 0.125, () => speed() === 0.125);
       expect(await stack.robot(ROBOT).stop()).toMatchObject({ code: 0 });
       await until(() => speed() === 0);

@@ -1,4 +1,4 @@
-/** The robot program under systemd: a stand-in for its socket hears what it says. */
+/** The robot program under systemd: a stand-in for systemd's socket receives its messages. */
 import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
 import { mkdtempSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -26,7 +26,7 @@ describe.skipIf(!available())('under systemd (needs the addon, pnpm build:native
     for (const child of children) child.kill('SIGKILL');
   });
 
-  it('the robot says when it is up, that it lives, and that it ends', async () => {
+  it('the robot reports that it is up, that it is alive, and that it is ending', async () => {
     const listener = spawn('python3', ['-c', LISTENER, SOCKET], { stdio: ['ignore', 'pipe', 'inherit'] });
     children.push(listener);
     const heard = createInterface({ input: listener.stdout })[Symbol.asyncIterator]();

@@ -5,12 +5,12 @@ import { robotProgram } from './options/robot-program.ts';
 import { Robot } from './robot.ts';
 import { registerRobotMetrics } from './telemetry/metrics/robot-metrics.ts';
 
-/** The capture thread gives a sign of life every 20 ms, unless a frame takes longer. */
+/** The capture thread reports every 20 ms, unless a frame takes longer. */
 const MOST_CAPTURE_SILENCE_MS = 5000;
-/** The start may take this beyond the wait for a producer or a topic. */
+/** Time that the start may take in addition to the wait for a producer or a topic. */
 const START_MS = 30_000;
 
-/** Runs the robot until a signal. */
+/** Runs the robot until it receives a signal. */
 export async function run(): Promise<void> {
   await runProgram(robotProgram, async ({ options, where, log, health, metrics, shutdown, serveAdmin }) => {
     try {
@@ -35,11 +35,11 @@ export async function run(): Promise<void> {
       void shutdown.end('the source failed', 1);
     };
     registerRobotMetrics(metrics, robot);
-    // Without signaling those who are connected go on: that is no failure of the robot.
+    // Connected operators go on without signaling, so its loss is not a failure of the robot.
     health.add('signaling', () => ({ ok: true, detail: { registered: robot.signaling.registered } }));
     health.add('operators', () => ({ ok: true, detail: { connected: robot.operators.size } }));
     await serveAdmin({ host: options.adminHost, port: options.adminPort });
-    // A thread that hangs, this one or that of capture, is not spoken for: systemd starts the robot again.
+    // If this thread or the capture thread hangs, the watchdog is not fed, and systemd restarts the robot.
     systemd?.ready(
       () => robot.captureSilenceMs < MOST_CAPTURE_SILENCE_MS,
       () =>

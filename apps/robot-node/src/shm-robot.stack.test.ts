@@ -1,4 +1,4 @@
-/** The robot program with a camera and wheels in shared memory, as it runs: processes, signaling, WebRTC. */
+/** The real robot program with a camera and wheels in shared memory: processes, signaling, WebRTC. */
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -44,7 +44,7 @@ describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon
     while (!is()) await new Promise((resolve) => setTimeout(resolve, 2));
   };
 
-  /** Commands at 50 Hz, as a page sends them, until `is` holds. */
+  /** Sends commands at 50 Hz, as a page does, until `is` holds. */
   async function driveUntil(lease: string, linear: number, is: () => boolean): Promise<void> {
     const timer = setInterval(() => operator.client.drive(lease, linear), 20);
     await until(is);
@@ -57,14 +57,14 @@ describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon
     expect(client.malformedPackets).toBe(0);
   });
 
-  it('writes what the operator commands, zero on silence, and zero when it ends', {
+  it('writes the operator’s commands, zero on silence, and zero when it ends', {
     timeout: 30_000,
   }, async () => {
     const lease = await operator.client.takeLease();
     expect(speed()).toBe(0);
     await driveUntil(lease, 0.25, () => speed() === 0.25);
     await until(() => speed() === 0);
-    // It is alive: the counter goes on, and the next command is obeyed.
+    // The robot is alive: the counter advances, and the next command is obeyed.
     const counter = wheels.read()?.counter ?? 0;
     await until(() => (wheels.read()?.counter ?? 0) > counter + 2);
     await driveUntil(lease, 0.25, () => speed() === 0.25);

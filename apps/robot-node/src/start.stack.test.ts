@@ -1,4 +1,4 @@
-/** The robot program where it cannot start: one line that says what is wrong and what to do, in JSON as in text. */
+/** The robot program when it cannot start: one line that says what is wrong and what to do, in JSON and in text. */
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -34,7 +34,7 @@ describe('a robot that cannot start', () => {
     expect(said).not.toHaveProperty('err');
   });
 
-  it('in text: the line ends with an arrow and the remedy', () => {
+  it('as text, the line ends with an arrow and the remedy', () => {
     const args = [program, '--source', 'pcd', '--path', missing, '--log-format', 'text'];
     const { stdout, status } = spawnSync(process.execPath, args, { encoding: 'utf8' });
     expect(status).toBe(1);

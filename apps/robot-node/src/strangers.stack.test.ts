@@ -1,4 +1,4 @@
-/** Who was not let in changes nothing: bytes on loopback against the robot program as it runs, while somebody drives. */
+/** Strangers cannot disturb a session: bytes on loopback against the real robot program while somebody drives. */
 import { createSocket, type Socket } from 'node:dgram';
 import { once } from 'node:events';
 import { isIPv6 } from 'node:net';
@@ -28,7 +28,7 @@ afterAll(async () => {
 beforeEach(async () => {
   driver = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
   const lease = await driver.client.takeLease();
-  // Round and round: there is always room for it.
+  // In circles, so that there is always room.
   const twist = { linear: { x: 0.1, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0.5 } };
   timer = setInterval(() => driver.client.drive(lease, 0.1, { twist }), 20);
   await driver.client.until(() => driver.client.telemetry?.drive === 'driving');
@@ -40,7 +40,7 @@ afterEach(async () => {
   await Promise.all([driver, ...others.splice(0)].map((operator) => operator.close()));
 });
 
-/** The driver's session is the one it was, and obeyed. */
+/** The driver still has the same session and is obeyed. */
 async function expectDriving(): Promise<void> {
   const { client } = driver;
   const { sequence = 0 } = client.telemetry ?? {};
@@ -81,7 +81,7 @@ function clientHello(): Buffer {
 }
 
 describe('strangers', { timeout: 30_000 }, () => {
-  it('a peer without its certificate’s key is not let in, and the same peer with it is', async () => {
+  it('refuses a peer without its certificate’s key, and accepts the same peer with it', async () => {
     const signatureHash = { hash: 4, signature: 3 } as const;
     const [own, other] = await Promise.all([0, 0].map(() => createSelfSignedCertificate(signatureHash)));
     const keys = { certPem: own?.certPem ?? '', keyPem: other?.keyPem ?? '', signatureHash };
@@ -102,7 +102,7 @@ describe('strangers', { timeout: 30_000 }, () => {
     await expectDriving();
   });
 
-  it('plaintext alerts and hellos do not touch a session, wherever they come from', async () => {
+  it('ignores plaintext alerts and hellos during a session, wherever they come from', async () => {
     const { connection } = driver.client.connection.iceTransports[0]!;
     const [host, port] = connection.nominated!.remoteAddr;
     const socket = await openStranger(host);
@@ -110,7 +110,7 @@ describe('strangers', { timeout: 30_000 }, () => {
     const foreign = await metric('datagrams_refused', refused('unknown-source'));
     for (const datagram of [PLAIN_ALERT, clientHello()]) {
       socket.send(datagram, port, host);
-      // As one would who forges the operator's address.
+      // As from somebody who forges the operator's address.
       await connection.send(datagram);
     }
     await untilMetric('datagrams_refused', refused('dtls-plaintext'), plain + 2);
@@ -118,7 +118,7 @@ describe('strangers', { timeout: 30_000 }, () => {
     await expectDriving();
   });
 
-  it('an unsealed connectivity check is not answered, and takes the path from nobody', async () => {
+  it('does not answer an unauthenticated connectivity check, and keeps the path', async () => {
     const { connection } = driver.client.connection.iceTransports[0]!;
     const [host, port] = connection.nominated!.remoteAddr;
     const socket = await openStranger(host);
@@ -136,7 +136,7 @@ describe('strangers', { timeout: 30_000 }, () => {
     expect(answers).toBe(0);
   });
 
-  it('malformed SCTP of one operator ends neither the process nor another’s session', async () => {
+  it('survives malformed SCTP from one operator without harm to another’s session', async () => {
     const guest = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
     others.push(guest);
     const before = await metric('datagrams_refused', refused('sctp-malformed'));

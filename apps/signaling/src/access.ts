@@ -1,16 +1,16 @@
 import { createHash, timingSafeEqual } from 'node:crypto';
 
-/** Tokens as read from a file: those good for one robot id, and those good for any. */
+/** Tokens read from a file: those valid for a single robot id, and those valid for any. */
 export interface TokenSet {
   readonly bound: ReadonlyMap<string, readonly string[]>;
   readonly free: readonly string[];
 }
 
-/** Decides who may come in. Keeps digests only, and compares every one of them in constant time. */
+/** Decides who may connect. Stores digests only, and compares all of them in constant time. */
 export class AccessList {
   readonly #entries: readonly { digest: Buffer; id: string | null }[];
 
-  /** @param tokens null lets everybody in */
+  /** @param tokens null admits everybody */
   constructor(tokens: TokenSet | null) {
     this.#entries =
       tokens === null
@@ -24,10 +24,10 @@ export class AccessList {
     this.open = tokens === null;
   }
 
-  /** Nobody needs a token. */
+  /** Whether no token is needed. */
   readonly open: boolean;
 
-  /** May the bearer come in as `id`? `null`: as anybody, which any token allows. */
+  /** Whether the bearer may connect as `id`. `null`: under any id, which every token permits. */
   allows(token: string | undefined, id: string | null): boolean {
     if (this.open) return true;
     if (token === undefined) return false;

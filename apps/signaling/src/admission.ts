@@ -7,7 +7,7 @@ export interface AdmissionLimits {
   readonly maxConnectionsPerAddress: number;
 }
 
-/** Counts connections, in all and by address, and says when there are enough. */
+/** Counts connections in total and by address, and limits them. */
 export class Admission {
   readonly #limits: AdmissionLimits;
   readonly #byAddress = new Map<string, number>();
@@ -21,14 +21,14 @@ export class Admission {
     return this.#total;
   }
 
-  /** Why another connection from there is not welcome, or null. */
+  /** Why another connection from this address is refused, or null. */
   refusal(address: string): Extract<RejectReason, `too-many-connections${string}`> | null {
     if (this.#total >= this.#limits.maxConnections) return 'too-many-connections';
     const here = this.#byAddress.get(addressKey(address)) ?? 0;
     return here >= this.#limits.maxConnectionsPerAddress ? 'too-many-connections-per-address' : null;
   }
 
-  /** @returns gives the place back; to be called once */
+  /** @returns releases the place; call it once */
   enter(address: string): () => void {
     const key = addressKey(address);
     this.#total++;
@@ -42,7 +42,7 @@ export class Admission {
   }
 }
 
-/** Whom an address stands for: an IPv4 host, or the /64 that an IPv6 host has all to itself. */
+/** The host that an address stands for: an IPv4 address, or the /64 prefix that a single IPv6 host usually has. */
 export function addressKey(address: string): string {
   if (isIPv4(address)) return address;
   const [head = '', tail] = address.split('::', 2);
@@ -55,7 +55,7 @@ export function addressKey(address: string): string {
   return `${groups.slice(0, 4).join(':')}::/64`;
 }
 
-/** The peer's address: of the socket, or as the last proxy before us saw it. */
+/** The peer's address: the socket's, or the one that the last proxy before us saw. */
 export function peerAddress(request: IncomingMessage, trustProxy: boolean): string {
   const forwarded = request.headers['x-forwarded-for'];
   const last = typeof forwarded === 'string' ? forwarded.split(',').at(-1)?.trim() : undefined;

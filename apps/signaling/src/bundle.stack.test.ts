@@ -20,7 +20,7 @@ const start = (args: string[]) =>
 
 const anyPorts = ['--port', '0', '--reference-robot-port', '0', '--reference-client-port', '0'];
 
-test('runs alone, serves, and at SIGTERM says farewell and exits with 0', async () => {
+test('runs alone, serves, and at SIGTERM tells its peers and exits with 0', async () => {
   expect(readdirSync(folder)).toEqual(['signaling.mjs']);
   const service = start(anyPorts);
   const { signaling } = await service.logged('listening');
@@ -36,7 +36,7 @@ test('runs alone, serves, and at SIGTERM says farewell and exits with 0', async 
   expect(await service.exited).toBe(0);
 });
 
-test('a file that is missing is one sentence and exit code 2', async () => {
+test('reports a missing file in one sentence, with exit code 2', async () => {
   const service = start([...anyPorts, '--robot-tokens', '/nix']);
   expect(await service.exited).toBe(2);
   expect(service.errors).toMatch(

@@ -29,7 +29,7 @@ describe('tokens', () => {
     expect(parseTokens(content, true)).toEqual(tokens);
   });
 
-  test('names of operators bind nothing', () => {
+  test('operator names do not bind tokens', () => {
     expect(parseTokens('Ada Lovelace: abc', false)).toEqual(free('abc'));
   });
 
@@ -52,7 +52,7 @@ describe('tokens', () => {
     expect(thrown).not.toContain('secret');
   });
 
-  test('open lets everybody in; an empty set nobody', () => {
+  test('without tokens everybody is admitted; with an empty set, nobody', () => {
     expect(new AccessList(null).allows(undefined, 'r1')).toBe(true);
     const closed = new AccessList(free());
     expect(closed.open).toBe(false);
@@ -60,7 +60,7 @@ describe('tokens', () => {
     expect(closed.allows('', null)).toBe(false);
   });
 
-  test('a token bound to one robot is good for that one and for coming in at all', () => {
+  test('a token bound to one robot is valid for that robot and for connecting at all', () => {
     const list = new AccessList({ bound: new Map([['r1', ['abc']]]), free: [] });
     expect([list.allows('abc', 'r1'), list.allows('abc', 'r2'), list.allows('abc', null)]).toEqual([
       true,
@@ -71,7 +71,7 @@ describe('tokens', () => {
 });
 
 describe('admission', () => {
-  test('counts in all and by address, and gives places back', () => {
+  test('counts in total and by address, and releases places', () => {
     const admission = new Admission({ maxConnections: 3, maxConnectionsPerAddress: 2 });
     const leave = admission.enter('192.0.2.1');
     admission.enter('192.0.2.1');
@@ -95,7 +95,7 @@ describe('admission', () => {
   });
 });
 
-test('TURN credentials as coturn checks them', () => {
+test('creates TURN credentials as coturn checks them', () => {
   // echo -n 1700003600:r1 | openssl dgst -sha1 -hmac secret -binary | base64
   expect(
     turnCredentials({ urls: ['turn:a'], secret: 'secret', ttlSeconds: 3600 }, 'r1', 1_700_000_000.7),

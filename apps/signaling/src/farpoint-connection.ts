@@ -11,7 +11,7 @@ import { MessageGuard, type MessageLimits } from './message-guard.ts';
 import type { Observer } from './observer.ts';
 import { type Connection, closeCodes, type Peer } from './peer.ts';
 
-/** Answers with an error. */
+/** Replies with an error. */
 export type Refuse = (
   code: SignalingErrorCode,
   message: string,
@@ -19,7 +19,7 @@ export type Refuse = (
     session?: string;
     /** Closes the connection. */
     fatal?: boolean;
-    /** Counts against a peer that does nothing right (default true). */
+    /** Whether it counts as a fault against the peer (default true). */
     fault?: boolean;
   },
 ) => void;
@@ -28,20 +28,20 @@ export interface HubConnectionOptions {
   readonly clock: Clock;
   readonly observer: Observer;
   readonly limits: MessageLimits & {
-    /** How long a socket may take to say who it is. */
+    /** How long a socket may take to send its hello. */
     readonly helloTimeoutMs: number;
   };
 }
 
 export interface Handlers<Message, Entry> {
-  /** The first message: who is it? null where it is no hello. */
+  /** Handles the first message. null if it is not a hello. */
   hello(message: Message, refuse: Refuse): Entry | 'refused' | null;
-  /** @returns the type of a message that was relayed */
+  /** @returns the type of the message if it was relayed */
   message(entry: Entry, message: Message, refuse: Refuse): string | null;
   left(entry: Entry): void;
 }
 
-/** What both kinds of sockets have in common: hello first and in time, refusals, faults, the end. */
+/** What both kinds of sockets have in common: the hello and its deadline, refusals, faults, the end. */
 export class HubConnection<Message, Entry> implements Connection {
   readonly #peer: Peer;
   readonly #role: 'robot' | 'operator';
@@ -64,7 +64,7 @@ export class HubConnection<Message, Entry> implements Connection {
     this.#options = options;
     this.#handlers = handlers;
     this.#guard = new MessageGuard(codec, options.limits, (refusal, detail) =>
-      // The guard has counted the fault.
+      // The guard has already counted the fault.
       this.#refuse(refusal, detail, { fault: false }),
     );
     this.#cancelHello = options.clock.after(options.limits.helloTimeoutMs, () => {
@@ -94,7 +94,7 @@ export class HubConnection<Message, Entry> implements Connection {
 
   shutDown(): void {
     if (this.#ended) return;
-    this.#sendError('shutting-down', 'the service is restarting: come back in a moment');
+    this.#sendError('shutting-down', 'the service is restarting: reconnect in a moment');
     this.#end(closeCodes.serviceRestart, 'service restart');
   }
 
@@ -124,7 +124,7 @@ export class HubConnection<Message, Entry> implements Connection {
   #sendError(code: SignalingErrorCode, detail: string, session?: string): void {
     const message = detail.slice(0, 1024);
     const error = { type: 'error', code, message, ...(session === undefined ? {} : { session }) } as const;
-    // Operators get the same.
+    // Operators get the same message.
     this.#peer.send(encodeJson<ServiceToRobot>(serviceToRobotCodec, error));
   }
 

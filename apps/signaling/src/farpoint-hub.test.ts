@@ -41,7 +41,7 @@ function setup(options: { robots?: AccessList; operators?: AccessList } = {}) {
     client.send({ type: 'operator.hello', protocol: 1, name, ...more });
     return client;
   };
-  /** A robot and an operator with a session, everything so far taken. */
+  /** A robot and an operator with a session, with all messages so far taken. */
   const session = (id = 'r1') => {
     const r = robot(id);
     const o = operator();
@@ -54,7 +54,7 @@ function setup(options: { robots?: AccessList; operators?: AccessList } = {}) {
 }
 
 describe('hello', () => {
-  test('a robot is welcomed and listed, an operator is welcomed with the list', () => {
+  test('welcomes and lists a robot; welcomes an operator with the list', () => {
     const { robot, operator } = setup();
     const r = robot('r1');
     expect(r.take()).toEqual([
@@ -91,7 +91,7 @@ describe('hello', () => {
     expect(client.peer.closed?.code).toBe(1008);
   });
 
-  test('in time, or gone before, leaves no timer', () => {
+  test('leaves no timer if it comes in time or the socket closes first', () => {
     const { hub, clock, robot } = setup();
     robot('r1');
     new FakeClient((peer) => hub.robot(peer)).connection.closed();
@@ -99,14 +99,14 @@ describe('hello', () => {
     expect(clock.pending).toBe(0);
   });
 
-  test('of another protocol version is refused', () => {
+  test('is refused for another protocol version', () => {
     const { robot } = setup();
     const r = robot('r1', 'k', { protocol: 2 });
     expect(r.types()).toEqual(['unsupported-protocol']);
     expect(r.peer.closed?.code).toBe(1008);
   });
 
-  test('comes once', () => {
+  test('must come only once', () => {
     const { robot } = setup();
     const r = robot('r1');
     r.take();
@@ -114,7 +114,7 @@ describe('hello', () => {
     expect(r.types()).toEqual(['malformed']);
   });
 
-  test('half a surrogate pair in a name is listed as U+FFFD', () => {
+  test('replaces half a surrogate pair in a name by U+FFFD', () => {
     const { operator, robot } = setup();
     robot('r1', 'k', { name: 'a\ud800' });
     expect(operator().take()[1]).toEqual({ type: 'robots', robots: [{ id: 'r1', name: 'a\ufffd' }] });
@@ -141,7 +141,7 @@ describe('robot ids', () => {
     expect(newer.types()).toEqual(['robot.welcome']);
     expect(r.peer.closed?.code).toBe(1008);
     expect(o.take()).toEqual([{ type: 'session.closed', session: handle, reason: 'robot-left' }]);
-    // The older socket's end changes nothing any more.
+    // The end of the older socket no longer changes anything.
     r.connection.closed();
     clock.advance(1000);
     expect(o.take()).toEqual([]);
@@ -156,7 +156,7 @@ describe('robot ids', () => {
     expect(robot('r1', 'b').types()).toEqual(['robot.welcome']);
   });
 
-  test('there is room for so many robots only, but a known one may come back', () => {
+  test('limits the number of robots, but lets a known one come back', () => {
     const { robot } = setup();
     for (const id of ['a', 'b', 'c']) robot(id);
     const d = robot('d');
@@ -183,7 +183,7 @@ describe('tokens', () => {
     expect(r.peer.closed === null).toBe(answer === 'robot.welcome');
   });
 
-  test('operators need theirs', () => {
+  test('operators need a token, too', () => {
     const { operator } = setup({ robots, operators });
     expect(operator('Ada', { token: 'operator-token' }).types()).toEqual(['operator.welcome', 'robots']);
     for (const more of [{}, { token: 'any-robot' }, { token: 'operator-toke' }]) {
@@ -239,7 +239,7 @@ describe('sessions', () => {
     expect([r.types(), o.types()]).toEqual([['malformed', 'malformed'], ['malformed']]);
   });
 
-  test('belong to their two sockets: nobody else can relay into them or close them', () => {
+  test('belong to their two sockets: nobody else can relay in them or close them', () => {
     const { session, robot, operator } = setup();
     const { r, o, handle } = session('r1');
     const otherRobot = robot('r2');
@@ -256,7 +256,7 @@ describe('sessions', () => {
     const refusal = {
       type: 'error',
       code: 'unknown-session',
-      message: 'not a session of yours',
+      message: 'you have no such session',
       session: handle,
     };
     expect(otherRobot.take()).toEqual([refusal, refusal, refusal]);
@@ -264,7 +264,7 @@ describe('sessions', () => {
     expect([r.take(), o.take()]).toEqual([[], []]);
   });
 
-  test('closed by either side, the other one is told', () => {
+  test('when closed by one side, are reported as closed to the other', () => {
     const { session, observer } = setup();
     const first = session('r1');
     first.o.send({ type: 'session.close', session: first.handle });
@@ -282,7 +282,7 @@ describe('sessions', () => {
     expect(observer.sessionEnds).toEqual(['closed-by-operator', 'closed-by-robot']);
   });
 
-  test('closed by the robot with a reason: the operator is told it', () => {
+  test('when closed by the robot, report its reason to the operator', () => {
     const { session, observer } = setup();
     const { r, o, handle } = session();
     const reason = { reason: 'robot-full', maxOperators: 4 };
@@ -314,7 +314,7 @@ describe('sessions', () => {
       robotId,
       resumeKey: 'key',
     });
-    /** The claim of the only thing that the robot was asked. */
+    /** The claim in the robot's only message. */
     const claimOf = (robot: FakeClient, session: string): string => {
       const [asked, ...more] = robot.take();
       expect(more).toEqual([]);
@@ -323,7 +323,7 @@ describe('sessions', () => {
     };
     const offer = (session: string, claim: string) => ({ type: 'session.offer', session, sdp: 'v=0', claim });
 
-    test('by its own socket, by a newer one, and where the service has forgotten it', () => {
+    test('by its own socket, by a newer one, and if the service has forgotten it', () => {
       const { session, operator, robot, hub, observer } = setup();
       const { r, o, handle } = session('r1');
       const resuming = { type: 'session.resuming', session: handle };
@@ -335,7 +335,7 @@ describe('sessions', () => {
       expect(o.take()).toEqual([resuming]);
       r.send(offer(handle, claimOf(r, handle)));
       expect(o.take()).toEqual(accepted);
-      // A newer socket of the same operator, while the old one is half-open.
+      // A newer socket of the same operator while the old one is half-open.
       const o2 = operator();
       o2.take();
       o2.send(resume(handle));
@@ -344,7 +344,7 @@ describe('sessions', () => {
       expect(o2.take()).toEqual(accepted);
       o.connection.closed();
       expect(r.take()).toEqual([]);
-      // And one of the robot.
+      // And a newer socket of the robot.
       const r2 = robot('r1');
       r2.take();
       expect(o2.take()).toEqual([{ type: 'session.closed', session: handle, reason: 'robot-left' }]);
@@ -357,7 +357,7 @@ describe('sessions', () => {
     });
 
     test.each(['wrong-resume-key', 'resume-too-soon'])(
-      '%s: told to who asked, and nothing else changes',
+      '%s: reported to the asker, and nothing else changes',
       (code) => {
         const { session, operator, hub } = setup();
         const { r, o, handle } = session('r1');
@@ -366,7 +366,7 @@ describe('sessions', () => {
         stranger.send(resume(handle));
         expect(stranger.types()).toEqual(['session.resuming']);
         const claim = claimOf(r, handle);
-        // While the robot has not judged, and after it: the session is whose it was.
+        // Before and after the robot's judgement, the session belongs to the same operator.
         for (const judged of [false, true]) {
           stranger.send({ type: 'session.close', session: handle });
           stranger.send({ type: 'session.answer', session: handle, sdp: 'v=0' });
@@ -380,7 +380,7 @@ describe('sessions', () => {
             { type: 'error', code, message: expect.any(String), session: handle },
           ]);
         }
-        // Judged once: the claim is spent.
+        // A claim can be judged only once.
         r.send(offer(handle, claim));
         expect([stranger.take(), o.types()]).toEqual([[], ['session.offer']]);
         stranger.connection.closed();
@@ -388,7 +388,7 @@ describe('sessions', () => {
       },
     );
 
-    test('two at once: the robot says which of them it means', () => {
+    test('two at once: the robot says which claim it answers', () => {
       const { session, operator } = setup();
       const { r, handle } = session('r1');
       const [stranger, genuine] = [operator(), operator()];
@@ -404,7 +404,7 @@ describe('sessions', () => {
       expect(stranger.types()).toEqual(['wrong-resume-key']);
     });
 
-    test('a robot that does not have the session ends it for who asked', () => {
+    test('a robot without the session ends it for the asker', () => {
       const { session, operator, hub } = setup();
       const { r, o, handle } = session('r1');
       const other = operator();
@@ -422,7 +422,7 @@ describe('sessions', () => {
       expect([r.take(), hub.counts.sessions]).toEqual([[], 0]);
     });
 
-    test('a claim ends with the socket that made it, and with that of its robot', () => {
+    test('a claim ends with the socket that made it, or with its robot’s', () => {
       const { session, operator, robot } = setup();
       const { r, o, handle } = session('r1');
       const gone = operator();
@@ -440,7 +440,7 @@ describe('sessions', () => {
       expect(waiting.types()).toEqual(['session.resuming']);
     });
 
-    test('cannot be with another robot, or one that is not here', () => {
+    test('cannot be with another robot, or with one that is not connected', () => {
       const { session, robot } = setup();
       const { r, o, handle } = session('r1');
       const other = robot('r2');
@@ -461,10 +461,12 @@ describe('sessions', () => {
     const o = operator();
     o.take();
     o.send({ type: 'session.open', robotId: 'nobody' });
-    expect(o.take()).toEqual([{ type: 'error', code: 'unknown-robot', message: 'robot nobody is not here' }]);
+    expect(o.take()).toEqual([
+      { type: 'error', code: 'unknown-robot', message: 'robot nobody is not connected' },
+    ]);
   });
 
-  test('are limited for each side, and free again once closed', () => {
+  test('are limited for each side, and are released when closed', () => {
     const { robot, operator, hub } = setup();
     robot('r1');
     robot('r2');
@@ -487,7 +489,7 @@ describe('sessions', () => {
 });
 
 describe('lists of robots', () => {
-  test('every operator is told when robots come, go, or change their name', () => {
+  test('tells every operator when robots come, go or change their names', () => {
     const { robot, operator, clock } = setup();
     const o = operator();
     o.take();
@@ -504,7 +506,7 @@ describe('lists of robots', () => {
   });
 });
 
-describe('what is no message of the protocol', () => {
+describe('what is not a message of the protocol', () => {
   const junk: [string, string | Uint8Array][] = [
     ['text', 'hello?'],
     ['null', 'null'],
@@ -521,7 +523,7 @@ describe('what is no message of the protocol', () => {
     ['JSON as binary', new TextEncoder().encode('{"type":"session.close","session":"s1"}')],
   ];
 
-  test.each(junk)('%s is refused and harms nobody', (_, data) => {
+  test.each(junk)('%s is refused without harm to others', (_, data) => {
     const { session, hub } = setup();
     const { r, o, handle } = session();
     r.connection.receive(data);
@@ -532,14 +534,14 @@ describe('what is no message of the protocol', () => {
     new FakeClient((peer) => hub.robot(peer)).connection.receive(data);
   });
 
-  test('too long a message is refused', () => {
+  test('a message that is too long is refused', () => {
     const { session } = setup();
     const { r, handle } = session();
     r.send({ type: 'session.offer', session: handle, sdp: 'x'.repeat(5000) });
     expect(r.types()).toEqual(['too-large']);
   });
 
-  test('many of them and the socket is closed, its sessions end once it is gone', () => {
+  test('after too many, the socket is closed; its sessions end once it is gone', () => {
     const { session, observer } = setup();
     const { r, o } = session();
     for (let i = 0; i < 7; i++) r.connection.receive('x');
@@ -550,7 +552,7 @@ describe('what is no message of the protocol', () => {
     expect(o.types()).toEqual(['session.closed']);
   });
 
-  test('a key given twice reaches the other side once, with the value that was checked', () => {
+  test('a duplicate key reaches the other side once, with the value that was validated', () => {
     const { session } = setup();
     const { r, o, handle } = session();
     r.connection.receive(`{"type":"session.offer","session":"evil","session":"${handle}","sdp":"v=0"}`);
@@ -558,20 +560,20 @@ describe('what is no message of the protocol', () => {
   });
 });
 
-test('too many messages are dropped, said once, and forgiven after a pause', () => {
+test('surplus messages are dropped and reported once, and accepted again after a pause', () => {
   const { session, clock } = setup();
   const { r, o, handle } = session();
   for (let i = 0; i < 22; i++) {
     r.send({ type: 'session.candidate', session: handle, candidate: { candidate: `c${i}` } });
   }
-  expect(o.take()).toHaveLength(19); // 20 at once, of which one was the hello
+  expect(o.take()).toHaveLength(19); // 20 at once, one of which was the hello
   expect(r.types()).toEqual(['rate-limited']);
-  clock.advance(100); // a tenth of a second at 10 a second
+  clock.advance(100); // a tenth of a second at 10 per second
   r.send({ type: 'session.offer', session: handle, sdp: 'v=0' });
   expect(o.types()).toEqual(['session.offer']);
 });
 
-test('at shutdown everybody is told to come back, and closed with 1012', () => {
+test('at shutdown, tells everybody to reconnect, and closes with 1012', () => {
   const { session, hub } = setup();
   const { r, o } = session();
   const newcomer = new FakeClient((peer) => hub.operator(peer));

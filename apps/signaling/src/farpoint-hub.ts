@@ -19,7 +19,7 @@ export interface FarpointHubOptions extends HubConnectionOptions {
   readonly listIntervalMs: number;
   readonly listBytesPerSecond: number;
   readonly access: () => { readonly robots: AccessList; readonly operators: AccessList };
-  /** What a peer of this name is told to use for ICE. */
+  /** The ICE servers that a peer with this name should use. */
   readonly iceServers: (name: string) => IceServer[];
   readonly makeHandle: () => string;
 }
@@ -52,7 +52,7 @@ export class FarpointHub {
     this.#feed.stop();
   }
 
-  /** A socket on `/robot`. */
+  /** Handles a socket on `/robot`. */
   robot(peer: Peer): Connection {
     return new HubConnection<RobotToService, RobotEntry>(peer, 'robot', robotToServiceCodec, this.#options, {
       hello: (message, end) => (message.type === 'robot.hello' ? this.#robotHello(peer, message, end) : null),
@@ -61,7 +61,7 @@ export class FarpointHub {
     });
   }
 
-  /** A socket on `/operator`. */
+  /** Handles a socket on `/operator`. */
   operator(peer: Peer): Connection {
     return new HubConnection<OperatorToService, OperatorEntry>(
       peer,
@@ -96,7 +96,9 @@ export class FarpointHub {
     const joined = this.#registry.join(entry);
     if (!joined.ok) {
       const why =
-        joined.reason === 'full' ? 'no room for another robot' : `robot ${hello.id} is here with another key`;
+        joined.reason === 'full'
+          ? 'no room for another robot'
+          : `robot ${hello.id} is already connected with another key`;
       end(joined.reason, why, { fatal: true });
       return 'refused';
     }
@@ -112,7 +114,7 @@ export class FarpointHub {
   }
 
   #robotLeft(robot: RobotEntry): void {
-    // Its place may have been taken by a newer socket, which then has had its sessions ended.
+    // A newer socket may have taken its place. Its sessions have then already been ended.
     if (!this.#registry.leave(robot)) return;
     this.#options.observer.robotLeft('robot', robot.id);
     this.#sessions.endAll(robot, 'robot-left');
@@ -132,7 +134,7 @@ export class FarpointHub {
   ): OperatorEntry | 'refused' {
     if (hello.protocol !== PROTOCOL_VERSION) return unsupported(hello.protocol, end);
     if (!this.#options.access().operators.allows(hello.token, null)) {
-      end('unauthorized', 'operators need a token here', { fatal: true });
+      end('unauthorized', 'this service requires a token from operators', { fatal: true });
       return 'refused';
     }
     this.#operators++;
@@ -152,7 +154,7 @@ export class FarpointHub {
 }
 
 function unsupported(protocol: number, refuse: Refuse): 'refused' {
-  refuse('unsupported-protocol', `protocol ${protocol} is not spoken here; ${PROTOCOL_VERSION} is`, {
+  refuse('unsupported-protocol', `protocol ${protocol} is not supported; use ${PROTOCOL_VERSION}`, {
     fatal: true,
   });
   return 'refused';

@@ -16,7 +16,7 @@ import { type ResumeClaim, ResumeClaims } from './resume-claims.ts';
 import type { RobotEntry, RobotRegistry } from './robot-registry.ts';
 import { type Session, type SessionLimits, SessionTable } from './session-table.ts';
 
-/** An operator that is here now. */
+/** A connected operator. */
 export interface OperatorEntry {
   readonly name: string;
   readonly peer: Peer;
@@ -34,13 +34,13 @@ type FromOperator = Exclude<OperatorToService, { type: 'operator.hello' }>;
 type HubSession = Session<RobotEntry, OperatorEntry>;
 type Claim = ResumeClaim<RobotEntry, OperatorEntry>;
 
-/** What an operator is told whose session is not resumed. */
+/** What an operator is told if its session is not resumed. */
 const refusalWords = {
-  'wrong-resume-key': 'the robot refused: this is not the key that it gave to the operator of this session',
-  'resume-too-soon': 'the robot has just offered, or not yet connected: ask again in a second',
+  'wrong-resume-key': 'the robot refused: the key does not belong to the operator of this session',
+  'resume-too-soon': 'the robot has just sent an offer, or is not connected yet: ask again in a second',
 } as const;
 
-/** What robots and operators say of their sessions, led to the other side. */
+/** Relays what robots and operators say about their sessions to the other side. */
 export class FarpointSessions {
   readonly #options: FarpointSessionsOptions;
   readonly #sessions: SessionTable<RobotEntry, OperatorEntry>;
@@ -57,7 +57,7 @@ export class FarpointSessions {
     return this.#sessions.size;
   }
 
-  /** @returns the type of a message that was relayed */
+  /** @returns the type of the message if it was relayed */
   fromRobot(robot: RobotEntry, message: FromRobot, refuse: Refuse): string | null {
     if (message.type === 'session.refuse') {
       this.#refuseClaim(robot, message);
@@ -82,7 +82,7 @@ export class FarpointSessions {
     return message.type;
   }
 
-  /** @returns the type of a message that was relayed */
+  /** @returns the type of the message if it was relayed */
   fromOperator(operator: OperatorEntry, message: FromOperator, refuse: Refuse): string | null {
     if (message.type === 'session.open') {
       this.#open(operator, message.robotId, refuse);
@@ -122,8 +122,8 @@ export class FarpointSessions {
   #open(operator: OperatorEntry, robotId: string, refuse: Refuse): void {
     const robot = this.#options.registry.get(robotId);
     if (robot === undefined) {
-      // No fault: it may have left a moment ago.
-      refuse('unknown-robot', `robot ${robotId} is not here`, { fault: false });
+      // Not a fault: the robot may have left a moment ago.
+      refuse('unknown-robot', `robot ${robotId} is not connected`, { fault: false });
       return;
     }
     const session = this.#sessions.open(robot, operator);
@@ -132,15 +132,15 @@ export class FarpointSessions {
       return;
     }
     this.#options.observer.sessionOpened(session.handle, robot.id, operator.name);
-    // The operator first: it must know the handle before an offer can come.
+    // The operator first, because it must know the handle before an offer can arrive.
     toOperator(operator.peer, { type: 'session.opened', session: session.handle, robotId });
     toRobot(robot.peer, { type: 'session.request', session: session.handle, operator: operator.name });
   }
 
   /**
-   * Asks the robot to restart ICE in a session that its peers may still have, though this service may have forgotten it
-   * with an earlier socket of theirs. Nothing changes before the robot has found the asker's key to be the session's: who has
-   * merely heard the handle disturbs nobody.
+   * Asks the robot to restart ICE in a session that its peers may still have, even if this service has forgotten it
+   * with an earlier socket of theirs. Nothing changes until the robot has confirmed that the asker's key belongs to
+   * the session, so that merely knowing the handle is not enough to disturb anybody.
    */
   #resume(
     operator: OperatorEntry,
@@ -149,12 +149,12 @@ export class FarpointSessions {
   ): void {
     const robot = this.#options.registry.get(robotId);
     if (robot === undefined) {
-      refuse('unknown-robot', `robot ${robotId} is not here`, { session: handle, fault: false });
+      refuse('unknown-robot', `robot ${robotId} is not connected`, { session: handle, fault: false });
       return;
     }
     const known = this.#sessions.get(handle);
     if (known !== null && known.robot.id !== robotId) {
-      refuse('unknown-session', 'not a session of yours', { session: handle, fault: false });
+      refuse('unknown-session', 'you have no such session', { session: handle, fault: false });
       return;
     }
     if (!this.#sessions.hasRoom(robot, operator, known)) {
@@ -172,18 +172,21 @@ export class FarpointSessions {
     });
   }
 
-  /** The robot has accepted a claim: the session is bound to the sockets of now. @returns what its offer goes on in */
+  /**
+   * Binds a session to the present sockets, because the robot has accepted a claim. @returns the session in which its
+   * offer continues
+   */
   #bind(claim: Claim, refuse: Refuse): HubSession | null {
     const { session: handle, robot, operator } = claim;
     const known = this.#sessions.get(handle);
     const fits = known === null || known.robot.id === robot.id;
     if (!fits || !this.#sessions.hasRoom(robot, operator, known)) {
-      refuse('unknown-session', 'not a session of yours', { session: handle, fault: false });
+      refuse('unknown-session', 'you have no such session', { session: handle, fault: false });
       return null;
     }
     let session = known;
     if (session === null || session.operator !== operator || session.robot !== robot) {
-      // The socket it was opened by may be half-open still, or gone.
+      // The socket that opened it may be half-open or gone.
       if (session !== null) this.#end(session, 'operator-left');
       session = this.#sessions.open(robot, operator, handle);
       this.#options.observer.sessionOpened(handle, robot.id, operator.name);
@@ -192,7 +195,7 @@ export class FarpointSessions {
     return session;
   }
 
-  /** The robot does not resume the session for who asked. Nobody else is told. */
+  /** The robot refuses to resume the session for the asker. Nobody else is told. */
   #refuseClaim(robot: RobotEntry, message: Extract<RobotToService, { type: 'session.refuse' }>): void {
     const { session, code } = message;
     const claim = this.#claims.take(message.claim, session, robot);
@@ -209,7 +212,7 @@ export class FarpointSessions {
   }
 
   #tooMany(robotId: string, refuse: Refuse, session?: string): void {
-    refuse('too-many-sessions', `no more sessions with robot ${robotId}: close one first`, {
+    refuse('too-many-sessions', `too many sessions with robot ${robotId}: close one first`, {
       ...(session === undefined ? {} : { session }),
       fault: false,
     });
@@ -217,9 +220,9 @@ export class FarpointSessions {
 
   #find(owner: RobotEntry | OperatorEntry, handle: string, refuse: Refuse): HubSession | null {
     const session = this.#sessions.find(handle, owner);
-    // No fault: the other side may have closed it a moment ago.
+    // Not a fault: the other side may have closed it a moment ago.
     if (session === null) {
-      refuse('unknown-session', 'not a session of yours', { session: handle, fault: false });
+      refuse('unknown-session', 'you have no such session', { session: handle, fault: false });
     }
     return session;
   }
@@ -229,7 +232,7 @@ export class FarpointSessions {
     this.#options.observer.sessionClosed(session.handle, reason);
   }
 
-  /** One side has left: tells every other side. */
+  /** Ends all sessions of a side that has left, and tells the other sides. */
   endAll(owner: RobotEntry | OperatorEntry, reason: 'robot-left' | 'operator-left'): void {
     this.#claims.drop(owner);
     for (const { handle, robot, operator } of this.#sessions.closeAll(owner)) {
@@ -241,7 +244,8 @@ export class FarpointSessions {
   }
 }
 
-// Encoded anew from what was validated: the original text could hold a key twice, and readers differ on which one counts.
+// Encodes the validated message again. The original text could contain a key twice, and readers disagree on which one
+// counts.
 export function toRobot(peer: Peer, message: ServiceToRobot): void {
   peer.send(encodeJson(serviceToRobotCodec, message));
 }

@@ -1,6 +1,6 @@
-/** Something that is alive as long as it answers. */
+/** Something that must answer to count as alive. */
 export interface Pulse {
-  /** Heard from since the last beat? */
+  /** Whether it has been heard from since the last beat. */
   alive: boolean;
   ping(): void;
   dead(): void;
@@ -9,8 +9,9 @@ export interface Pulse {
 const SLOTS = 20;
 
 /**
- * Pings every member once an interval and gives up those that have not been heard of since: a half-open socket goes
- * within two intervals. Members are spread over the interval: thousands of pings at once would hold up relays.
+ * Pings every member once per interval, and gives up those that have not answered since: a half-open socket is
+ * removed within two intervals. Members are spread over the interval, because thousands of pings at once would delay
+ * relaying.
  */
 export class Heartbeat {
   readonly #slots: Set<Pulse>[] = Array.from({ length: SLOTS }, () => new Set());
@@ -23,14 +24,14 @@ export class Heartbeat {
     this.#timer.unref();
   }
 
-  /** @returns removes it */
+  /** @returns a function that removes the member */
   add(member: Pulse): () => void {
     const slot = this.#slots[this.#next++ % SLOTS]!;
     slot.add(member);
     return () => slot.delete(member);
   }
 
-  /** Does one slot. */
+  /** Processes one slot. */
   beat(): void {
     for (const member of this.#slots[this.#tick++ % SLOTS]!) {
       if (!member.alive) {

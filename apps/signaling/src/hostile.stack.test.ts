@@ -24,7 +24,7 @@ beforeEach(async () => {
 });
 afterEach(() => service.stop());
 
-/** Those who did nothing wrong notice nothing. */
+/** Well-behaved peers must notice nothing. */
 async function expectBystandersWell(): Promise<void> {
   await service.expectSession(robot, 'bystander', operator);
   referenceRobot.send({ type: 'candidate', robotId: 0, candidate: 'candidate:well' });
@@ -39,7 +39,10 @@ const doors = [
   ['/', 'referenceClient'],
 ] as const;
 
-/** Sends each on sockets of its own, one door after the other, until the service closes them or all are sent. */
+/**
+ * Sends each message on sockets of its own, to one endpoint after the other, until the service closes them or all are
+ * sent.
+ */
 async function attack(messages: readonly (string | Uint8Array)[], hello: boolean): Promise<void> {
   for (const [path, port] of doors) {
     const socket = await service.open(service.url(path, port));
@@ -47,7 +50,7 @@ async function attack(messages: readonly (string | Uint8Array)[], hello: boolean
       socket.send({ type: 'robot.hello', protocol: 1, id: 'evil', name: 'e', key: 'k' });
     if (hello && path === '/operator') socket.send({ type: 'operator.hello', protocol: 1, name: 'e' });
     for (const message of messages) socket.socket.send(message);
-    // In order after all of it: answered with a pong, or the socket is closed by then.
+    // The ping is processed in order, after everything else: either a pong arrives, or the socket is closed by then.
     const answered = new Promise<void>((resolve) => socket.socket.once('pong', () => resolve()));
     if (socket.socket.readyState === socket.socket.OPEN) socket.socket.ping();
     await Promise.race([answered, socket.closed]);
@@ -72,7 +75,7 @@ const valid = [
   { type: 'answer', robotId: 0, sdpAnswer: 'x' },
 ];
 
-/** A message of the protocol with one of its values replaced or removed, or a byte of its text changed. */
+/** A message of the protocol with one value replaced or removed, or one byte of its text changed. */
 const mutated = fc.oneof(
   fc.tuple(fc.constantFrom(...valid), fc.nat(), fc.anything({ maxDepth: 2 })).map(([message, at, value]) => {
     const keys = Object.keys(message);
@@ -98,7 +101,7 @@ test('random bytes and text', async () => {
   await expectBystandersWell();
 });
 
-test('messages of the protocol, damaged', async () => {
+test('damaged messages of the protocol', async () => {
   const messages = fc.array(mutated, { minLength: 1, maxLength: 8 });
   await fc.assert(
     fc.asyncProperty(messages, fc.boolean(), async (list, hello) => attack(list, hello)),
@@ -107,7 +110,7 @@ test('messages of the protocol, damaged', async () => {
   await expectBystandersWell();
 });
 
-test('what has killed such services before', async () => {
+test('inputs that have crashed such services before', async () => {
   await attack(
     ['null', 'undefined', '[]', '{}', '0', '""', 'true', '{"type":null}', '{"type":"__proto__"}'],
     true,
@@ -119,7 +122,7 @@ test('what has killed such services before', async () => {
   await expectBystandersWell();
 });
 
-test('messages beyond the longest are refused; far beyond, the socket is closed with 1009', async () => {
+test('messages above the limit are refused; far above it, the socket is closed with 1009', async () => {
   const long = await service.operator();
   await long.until('robots');
   long.socket.send('x'.repeat(70_000));
@@ -145,7 +148,7 @@ test('text that is not UTF-8 and frames that break RFC 6455 close the socket', a
   await expectBystandersWell();
 });
 
-test('half a handshake, or a wrong one, harms nobody', async () => {
+test('an incomplete or wrong handshake harms nobody', async () => {
   for (const request of [
     'GET /robot HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\r\n',
     'GET /robot HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: x\r\nSec-WebSocket-Version: 99\r\n\r\n',
@@ -162,14 +165,14 @@ test('half a handshake, or a wrong one, harms nobody', async () => {
   await expectBystandersWell();
 });
 
-test('a flood of pings that is not read is cut off', async () => {
+test('a flood of pings whose answers are not read is cut off', async () => {
   const socket = await service.operator();
   for (let i = 0; i < 60; i++) socket.socket.ping();
   await socket.closed;
   await expectBystandersWell();
 });
 
-test('another robot can neither be spoken for nor taken', async () => {
+test('another robot can be neither impersonated nor taken over', async () => {
   const evil = await service.referenceRobot('Eve');
   const { robotId } = await evil.until('registered');
   expect(robotId).toBe(1);

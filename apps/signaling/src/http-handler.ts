@@ -2,7 +2,7 @@ import type { RequestListener } from 'node:http';
 import type { createAdminHandler } from '@farpoint/service';
 import { webRoot } from './web-root.ts';
 
-/** Health and metrics, then the files of `folder` where one is given, else 404. */
+/** Serves health and metrics, then the files of `folder` if given, otherwise 404. */
 export function httpHandler(
   admin: ReturnType<typeof createAdminHandler>,
   folder: string | null,

@@ -1,7 +1,7 @@
 import { createHmac } from 'node:crypto';
 import type { IceServer } from '@farpoint/protocol';
 
-/** A TURN server that shares a secret with us (coturn's `use-auth-secret`). */
+/** A TURN server that shares a secret with this service (coturn's `use-auth-secret`). */
 export interface TurnRest {
   readonly urls: readonly string[];
   readonly secret: string;
@@ -9,8 +9,8 @@ export interface TurnRest {
 }
 
 /**
- * Credentials that a TURN server checks without knowing the user: `username = expiry:name`,
- * `credential = base64(HMAC-SHA1(secret, username))` (draft-uberti-behave-turn-rest-00).
+ * Credentials that a TURN server can check without a user database: `username = expiry:name`, `credential =
+ * base64(HMAC-SHA1(secret, username))` (draft-uberti-behave-turn-rest-00).
  *
  * @param nowSeconds Unix time
  */

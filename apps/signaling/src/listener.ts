@@ -15,7 +15,7 @@ export interface TlsFiles {
   readonly key: Buffer;
 }
 
-/** What becomes of a request for a WebSocket. */
+/** What to do with a request for a WebSocket. */
 export type UpgradeDecision =
   | { readonly accept: (socket: WebSocket) => void }
   | { readonly status: number; readonly reason: string };
@@ -32,7 +32,7 @@ export interface ListenerOptions {
   readonly upgrade: (request: IncomingMessage) => UpgradeDecision;
 }
 
-/** One port: HTTP(S) and WebSockets on it. */
+/** One port with HTTP(S) and WebSockets. */
 export class Listener {
   readonly port: number;
   readonly #server: Server | TlsServer;
@@ -42,7 +42,7 @@ export class Listener {
     this.port = (server.address() as AddressInfo).port;
   }
 
-  /** @throws {Error} where the address cannot be listened on (EADDRINUSE, EACCES …) or the certificate is not one */
+  /** @throws {Error} if the address cannot be opened (EADDRINUSE, EACCES …) or the certificate is invalid */
   static async open(options: ListenerOptions): Promise<Listener> {
     const timeouts = {
       headersTimeout: 10_000,
@@ -55,11 +55,11 @@ export class Listener {
         ? createServer(timeouts, options.http)
         : createTlsServer({ ...timeouts, ...options.tls }, options.http);
     server.maxConnections = options.maxSockets;
-    // `closeTimeout` is missing from the types of ws.
+    // The types of ws lack `closeTimeout`.
     const webSocketOptions: ServerOptions & { closeTimeout: number } = {
       noServer: true,
       clientTracking: false,
-      // Costs hundreds of kilobytes a connection, for messages of a few.
+      // Compression would cost hundreds of kilobytes per connection, for messages of a few.
       perMessageDeflate: false,
       maxPayload: options.maxPayload,
       maxFragments: 1024,
@@ -72,7 +72,7 @@ export class Listener {
       socket.on('error', () => socket.destroy());
       const decision = options.upgrade(request);
       if ('status' in decision) refuse(socket, decision.status, decision.reason);
-      // Answers what is no proper WebSocket handshake with 400 itself.
+      // ws itself answers an invalid WebSocket handshake with 400.
       else webSockets.handleUpgrade(request, socket, head, decision.accept);
     });
     server.on('clientError', (_error, socket) => {
@@ -89,15 +89,15 @@ export class Listener {
     return new Listener(server);
   }
 
-  /** New connections get the new certificate, existing ones keep theirs. */
+  /** Sets the certificate for new connections; existing ones keep theirs. */
   setTls(tls: TlsFiles): void {
     if ('setSecureContext' in this.#server) this.#server.setSecureContext(tls);
   }
 
-  /** Takes no new connections; WebSockets live on. */
+  /** Stops accepting connections; open WebSockets stay. */
   async close(): Promise<void> {
     const closed = new Promise<void>((resolve) => this.#server.close(() => resolve()));
-    // Plain HTTP connections only: upgraded ones are no longer the server's.
+    // Plain HTTP connections only: the server no longer owns upgraded ones.
     this.#server.closeAllConnections();
     await closed;
   }

@@ -37,7 +37,7 @@ function versions(peer: FakePeer): unknown[] {
 }
 
 describe('listing feed', () => {
-  test('sends the list at once to who is new, and then all that it misses', () => {
+  test('sends a new subscriber the list immediately, and then everything that it lacks', () => {
     const { clock, change, add } = setup();
     const peer = add();
     expect(peer.take()).toEqual([{ version: 0 }]);
@@ -53,7 +53,7 @@ describe('listing feed', () => {
     expect(add().take()).toEqual([{ version: 3 }]);
   });
 
-  test('sends a first change at once, further ones together once the interval is over', () => {
+  test('sends a first change immediately, and further ones together after the interval', () => {
     const { clock, change, add } = setup();
     const peer = add();
     versions(peer);
@@ -85,22 +85,22 @@ describe('listing feed', () => {
     }
   });
 
-  test('a big round goes out in slices within the byte rate, and everybody ends with the newest', () => {
-    // Each list counts for about 4.1 kB: two a slice, 100 kB/s.
+  test('sends a big round in slices within the byte rate, and everybody ends with the newest list', () => {
+    // Each list counts for about 4.1 kB: two per slice, 100 kB/s.
     const { clock, change, add } = setup({ sliceBytes: 8000, bytesPerSecond: 100_000 });
     const peers = Array.from({ length: 10 }, add);
     for (const peer of peers) versions(peer);
     change();
     clock.advance(0);
     expect(peers.flatMap(versions)).toEqual([1, 1]);
-    change(); // in the middle of a round: the rest get the newer list already
+    change(); // in the middle of a round: the rest already get the newer list
     clock.advance(85);
     expect(peers.flatMap(versions)).toEqual([2, 2]);
     clock.advance(2000);
     expect(peers.flatMap(versions)).toEqual([2, 2, 2, 2, 2, 2, 2, 2]);
   });
 
-  test('passes over who does not read, and comes back with the newest', () => {
+  test('skips a peer that does not read, and later sends it the newest list', () => {
     const { clock, change, add } = setup();
     const [slow, fast] = [add(), add()];
     versions(slow);
@@ -116,7 +116,7 @@ describe('listing feed', () => {
     expect(versions(slow)).toEqual([2]);
   });
 
-  test('forgets who left, and does nothing once stopped', () => {
+  test('forgets peers that left, and does nothing once stopped', () => {
     const { clock, change, add, feed } = setup();
     const [gone, here] = [add(), add()];
     versions(gone);

@@ -5,32 +5,33 @@ import type { Peer } from './peer.ts';
 export interface ListingSource {
   /** Grows with every change. */
   readonly version: number;
-  /** The list, as a message. */
+  /** The whole list as a message. */
   whole(): Uint8Array;
-  /** What brings the list of an earlier version up to date, as a message. */
+  /** The changes since an earlier version, as a message. */
   since(version: number): Uint8Array;
 }
 
 export interface ListingFeedOptions {
   readonly clock: Clock;
   readonly listing: ListingSource;
-  /** Least time between two rounds, ms. */
+  /** Minimum time between two rounds, ms. */
   readonly intervalMs: number;
-  /** All lists together may take this much: each slice is followed by a pause that sees to it. */
+  /** Byte rate limit for all lists together. A pause after each slice enforces it. */
   readonly bytesPerSecond: number;
-  /** Bytes sent before other work gets its turn. */
+  /** Bytes to send before other work gets its turn. */
   readonly sliceBytes?: number;
-  /** A peer with more bytes waiting than this is passed over until it has caught up. */
+  /** A peer with a backlog above this is skipped until it has caught up. */
   readonly maxBacklogBytes?: number;
 }
 
-/** What one message costs beside its bytes: a system call, about as long as copying this much. */
+/** Cost of a message in addition to its bytes: a system call takes about as long as copying this much. */
 const MESSAGE_COST_BYTES = 4096;
 
 /**
- * Keeps operators' lists of robots fresh: the whole list once, then what changes. A change goes out at once when all was
- * quiet; under many changes there is at most one round per interval, each operator gets all that it misses in one
- * message, and a big round goes out in slices with pauses between, so that neither relays nor the network wait behind it.
+ * Keeps operators' lists of robots up to date: first the whole list, then its changes. After a quiet period, a change
+ * is sent immediately. When there are many changes, there is at most one round per interval, and each operator gets
+ * everything that it lacks in one message. A big round is sent in slices with pauses in between, so that it delays
+ * neither relaying nor the network.
  */
 export class ListingFeed {
   readonly #clock: Clock;
@@ -39,7 +40,7 @@ export class ListingFeed {
   readonly #bytesPerMs: number;
   readonly #sliceBytes: number;
   readonly #maxBacklogBytes: number;
-  /** Each subscriber with the version it has. */
+  /** Each subscriber with the version that it has. */
   readonly #subscribers = new Map<Peer, number>();
   #queue: Peer[] = [];
   #earliest = Number.NEGATIVE_INFINITY;
@@ -55,7 +56,7 @@ export class ListingFeed {
     this.#maxBacklogBytes = options.maxBacklogBytes ?? 65_536;
   }
 
-  /** Sends the list now, and later what changes in it. */
+  /** Sends the list now, and its changes later. */
   add(peer: Peer): void {
     this.#send(peer, this.#listing.whole());
   }
@@ -64,10 +65,10 @@ export class ListingFeed {
     this.#subscribers.delete(peer);
   }
 
-  /** The list has changed. */
+  /** Call this when the list has changed. */
   changed(): void {
     this.#changed = true;
-    // A round that is under way is followed by another.
+    // A round in progress is followed by another one.
     if (this.#cancel === null) this.#schedule();
   }
 
@@ -94,7 +95,7 @@ export class ListingFeed {
       const has = this.#subscribers.get(peer);
       if (has === undefined || has === this.#listing.version) continue;
       if (peer.backlog > this.#maxBacklogBytes) {
-        this.#changed = true; // it is behind: once more in the next round
+        this.#changed = true; // it is behind: try again in the next round
         continue;
       }
       const message = this.#listing.since(has);

@@ -12,7 +12,7 @@ export interface LiveSocketsOptions {
   readonly observer: Observer;
 }
 
-/** Every WebSocket that is open, from its acceptance to its end. */
+/** All open WebSockets, from acceptance to end. */
 export class LiveSockets {
   readonly #options: LiveSocketsOptions;
   readonly #heartbeat: Heartbeat;
@@ -31,12 +31,12 @@ export class LiveSockets {
     this.#heartbeat = new Heartbeat(options.heartbeatMs);
   }
 
-  /** How many there are of each role; the same object at every call. */
+  /** Number of sockets by role; the same object at every call. */
   get byRole(): Readonly<Record<Role, number>> {
     return this.#byRole;
   }
 
-  /** @param connect makes the hub's end of it */
+  /** @param connect creates the hub's end of the connection */
   accept(socket: WebSocket, role: Role, address: string, connect: (peer: Peer) => Connection): void {
     const { maxBacklogBytes, admission, observer } = this.#options;
     const peer = new SocketPeer(socket, {
@@ -59,7 +59,9 @@ export class LiveSockets {
     });
   }
 
-  /** Tells every peer that the service goes, waits for them to hang up for `waitMs`, then cuts. */
+  /**
+   * Tells every peer that the service is stopping, waits up to `waitMs` for them to hang up, then closes all sockets.
+   */
   async shutDown(waitMs: number): Promise<void> {
     this.#heartbeat.stop();
     for (const connection of [...this.#live.values()]) connection.shutDown();

@@ -2,18 +2,18 @@ import { decodeJson, type JsonCodec, type MessageData, ProtocolError } from '@fa
 import { TokenBucket } from '@farpoint/timing';
 
 export interface MessageLimits {
-  /** Longest accepted message, bytes. */
+  /** Maximum size of an accepted message, bytes. */
   readonly maxMessageBytes: number;
-  /** Messages a socket may send, in the long run and at once. */
+  /** Rate limit of a socket's messages: sustained and burst. */
   readonly messagesPerSecond: number;
   readonly messageBurst: number;
-  /** So many refused messages and the socket is closed. */
+  /** A socket is closed after this many refused messages. */
   readonly maxFaults: number;
 }
 
 export type Refusal = 'malformed' | 'too-large' | 'rate-limited';
 
-/** Stands between a socket and its hub: lets through only messages of the protocol, and not too many of them. */
+/** Stands between a socket and its hub. Passes only messages of the protocol, and limits their rate. */
 export class MessageGuard<T> {
   readonly #codec: JsonCodec<T>;
   readonly #maxFaults: number;
@@ -24,8 +24,8 @@ export class MessageGuard<T> {
   #limited = false;
 
   /**
-   * @param refuse is told of each refused message, but of a run of rate-limited ones only once
-   * @param options.binary JSON may come in binary messages too
+   * @param refuse is called for each refused message, but only once for a run of rate-limited ones
+   * @param options.binary JSON is also accepted in binary messages
    */
   constructor(
     codec: JsonCodec<T>,
@@ -40,7 +40,7 @@ export class MessageGuard<T> {
     this.#refuse = refuse;
   }
 
-  /** So many faults that the socket should be closed. */
+  /** Whether there were so many faults that the socket should be closed. */
   get exhausted(): boolean {
     return this.#faults >= this.#maxFaults;
   }
@@ -50,7 +50,7 @@ export class MessageGuard<T> {
     this.#faults++;
   }
 
-  /** The message, or null where it was refused. */
+  /** The message, or null if it was refused. */
   read(data: MessageData, nowMs: number): T | null {
     if (!this.#bucket.take(nowMs)) {
       this.#faults++;

@@ -2,7 +2,7 @@ import { Counter, Gauge, Histogram, type Logger, type Registry } from '@farpoint
 import { TokenBucket } from '@farpoint/timing';
 import type { Observer, RejectReason, Role } from './observer.ts';
 
-/** Worth a line in the log each: somebody tried what they may not. */
+/** Refusals that get a log line each: somebody tried something forbidden. */
 const NOTABLE: ReadonlySet<RejectReason> = new Set([
   'unauthorized',
   'robot-id-taken',
@@ -18,7 +18,7 @@ export interface Counts {
   readonly sessions: number;
 }
 
-/** Makes metrics and log lines of what the core reports. */
+/** Turns what the core reports into metrics and log lines. */
 export function createObserver(log: Logger, registry: Registry, counts: () => Counts): Observer {
   const registers = [registry];
   new Gauge({
@@ -78,7 +78,7 @@ export function createObserver(log: Logger, registry: Registry, counts: () => Co
     labelNames: ['role', 'reason'],
     registers,
   });
-  // A peer that misbehaves must not be able to fill the log.
+  // A misbehaving peer must not be able to fill the log.
   const notable = new TokenBucket({ perSecond: 5, burst: 50 });
 
   return {

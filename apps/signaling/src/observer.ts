@@ -16,14 +16,14 @@ export type RejectReason =
   | 'origin'
   | 'unknown-path';
 
-/** What the core reports as it happens; the rim makes metrics and logs of it. */
+/** Receives the core's events, to turn them into metrics and log lines. */
 export interface Observer {
-  /** A robot is here. */
+  /** A robot has connected. */
   robotJoined(role: Role, id: string | number, address: string, tookOver: boolean): void;
   robotLeft(role: Role, id: string | number): void;
   sessionOpened(session: string, robotId: string, operator: string): void;
   sessionClosed(session: string, reason: string): void;
-  /** A message went through, `ms` after it came in. */
+  /** A message was relayed `ms` after it arrived. */
   relayed(type: string, ms: number): void;
   rejected(role: Role, reason: RejectReason, detail: string): void;
 }

@@ -135,7 +135,7 @@ export const program = defineProgram({
       help: 'maximum WebSockets from one IPv4 address or one IPv6 /64',
     }),
     maxRobots: defineOption({
-      // A list of them, each with the longest id and name, must fit what operators accept (1 MiB).
+      // A list of this many robots, each with the longest id and name, must fit into what operators accept (1 MiB).
       schema: schema.integer({ min: 1, max: 4900 }),
       default: 4000,
       argument: 'N',
@@ -218,7 +218,7 @@ export const program = defineProgram({
 
 export type SignalingOptions = OptionValues<typeof program.options>;
 
-/** Every option at its default. */
+/** All options at their defaults. */
 export function defaultOptions(): SignalingOptions {
   return Object.fromEntries(
     Object.entries(program.options).map(([key, spec]) => [key, spec.default]),

@@ -1,25 +1,25 @@
 import type { MessageData } from '@farpoint/protocol';
 
-/** The other end of one socket, as the core sees it: no socket in sight. */
+/** The other end of a socket, as the core sees it: independent of real sockets. */
 export interface Peer {
   /** Unique in this process, for logs. */
   readonly id: number;
   /** IP address, for logs. */
   readonly address: string;
-  /** Bytes accepted and not yet handed to the network. */
+  /** Bytes accepted but not yet handed to the network. */
   readonly backlog: number;
   /** Queues one text message (bytes must be UTF-8). Never throws; does nothing once the peer is closed. */
   send(message: string | Uint8Array): void;
-  /** Closes the connection with a WebSocket close code (RFC 6455 §7.4). `closed()` follows in its own time. */
+  /** Closes the connection with a WebSocket close code (RFC 6455 §7.4). `closed()` is called later. */
   close(code: number, reason: string): void;
 }
 
-/** What a hub makes of a peer: the rim feeds it and tells it of the end. */
+/** A hub's end of a connection. The socket's owner passes in messages and the end. */
 export interface Connection {
   receive(data: MessageData): void;
-  /** The socket is gone. Called exactly once. */
+  /** The socket has closed. Called exactly once. */
   closed(): void;
-  /** The service is going: say so and close. */
+  /** The service is stopping: tell the peer and close. */
   shutDown(): void;
 }
 

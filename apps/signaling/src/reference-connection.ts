@@ -52,7 +52,7 @@ export abstract class ReferenceConnection<Message> implements Connection {
     this.end(closeCodes.goingAway, 'service restart');
   }
 
-  /** @returns the type of a message that was relayed */
+  /** @returns the type of the message if it was relayed */
   protected abstract handle(message: Message): string | null;
   protected abstract left(): void;
 

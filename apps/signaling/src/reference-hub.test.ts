@@ -38,7 +38,7 @@ const record = (id: number, more: Json = {}): Json => ({
 });
 
 describe('the message sequence', () => {
-  test('register: ids from 0, clients are told', () => {
+  test('register: ids count from 0, and clients are told', () => {
     const { client, robot } = setup();
     const c = client();
     const [first, second] = [robot(), robot('Elle')];
@@ -71,7 +71,7 @@ describe('the message sequence', () => {
     }
   });
 
-  test('getRobots: a late joiner gets offer, answer and all candidates so far', () => {
+  test('getRobots: a late client gets the offer, the answer and all candidates so far', () => {
     const { client, robot } = setup();
     const r = robot();
     const early = client();
@@ -94,7 +94,7 @@ describe('the message sequence', () => {
     expect(c.take()).toEqual([{ type: 'robots', robots: [] }]);
   });
 
-  test('a new offer has not been answered', () => {
+  test('a new offer counts as unanswered', () => {
     const { client, robot } = setup();
     const r = robot();
     const c = client();
@@ -105,7 +105,7 @@ describe('the message sequence', () => {
     expect(c.take()).toEqual([{ type: 'robots', robots: [record(0, { sdpOffer: 'again' })] }]);
   });
 
-  test('deregister says both words, with the id; a closed socket says deregistered', () => {
+  test('deregister sends both messages, with the id; a closed socket sends deregistered', () => {
     const { client, robot } = setup();
     const [first, second] = [robot(), robot()];
     const c = client();
@@ -146,7 +146,7 @@ describe('the message sequence', () => {
     expect(c.take()).toEqual([{ type: 'register', robot: record(0, { sdpOffer: null }) }]);
   });
 
-  test('JSON in binary messages is read too', () => {
+  test('JSON in binary messages is accepted, too', () => {
     const { client, robot } = setup();
     robot();
     const c = client();
@@ -155,7 +155,7 @@ describe('the message sequence', () => {
   });
 });
 
-describe('nobody speaks for another robot', () => {
+describe('a peer cannot speak for another robot', () => {
   test.each([
     { type: 'offer', robotId: 0, sdpOffer: 'evil' },
     { type: 'candidate', robotId: 0, candidate: 'evil' },
@@ -184,7 +184,7 @@ describe('nobody speaks for another robot', () => {
 });
 
 describe('limits', () => {
-  test('candidates are buffered up to a number, the oldest go', () => {
+  test('candidates are buffered up to a limit; the oldest are dropped', () => {
     const { client, robot } = setup();
     const r = robot();
     for (let i = 0; i < 6; i++) r.send({ type: 'candidate', robotId: 0, candidate: `r${i}` });
@@ -195,7 +195,7 @@ describe('limits', () => {
     ]);
   });
 
-  test('so many robots and no more', () => {
+  test('the number of robots is limited', () => {
     const { robot } = setup();
     for (let i = 0; i < 3; i++) robot();
     const fourth = robot();
@@ -203,7 +203,7 @@ describe('limits', () => {
     expect(fourth.peer.closed?.code).toBe(1013);
   });
 
-  test('an answer for a robot that is gone is dropped without harm', () => {
+  test('an answer to a robot that has left is dropped without harm', () => {
     const { client, observer } = setup();
     const c = client();
     c.send({ type: 'answer', robotId: 0, sdpAnswer: 'late' });
@@ -211,13 +211,13 @@ describe('limits', () => {
     expect(observer.rejects).toEqual(['reference-client: unknown-robot']);
   });
 
-  test('an answer to no offer changes nothing, nor does one to a registration that has ended', () => {
+  test('ignores an answer without an offer, and one to a registration that has ended', () => {
     const { client, socket, observer } = setup();
     const r = socket();
     const c = client();
     r.send({ type: 'register', name: 'Diane' });
     c.send({ type: 'answer', robotId: 0, sdpAnswer: 'to what?' });
-    // It begins anew on the same socket.
+    // It registers again on the same socket.
     r.send({ type: 'register', name: 'Diane', sdpOffer: 'offer of Diane' });
     r.take();
     c.take();
@@ -248,7 +248,7 @@ describe('limits', () => {
     expect(c.take()).toEqual([{ type: 'candidate', robotId: 1, candidate: 'fine' }]);
   });
 
-  test('at shutdown sockets are closed with 1001', () => {
+  test('at shutdown, closes sockets with 1001', () => {
     const { client, robot } = setup();
     for (const one of [client(), robot()]) {
       one.connection.shutDown();

@@ -18,7 +18,7 @@ import { ReferenceConnection, type ReferenceConnectionOptions } from './referenc
 export interface ReferenceHubOptions extends ReferenceConnectionOptions {
   readonly limits: MessageLimits & {
     readonly maxRobots: number;
-    /** Buffered for late joiners, each way; the oldest go first. */
+    /** Number of candidates buffered for late clients in each direction; the oldest are dropped first. */
     readonly maxCandidatesPerRobot: number;
   };
 }
@@ -26,14 +26,14 @@ export interface ReferenceHubOptions extends ReferenceConnectionOptions {
 interface Entry {
   readonly peer: Peer;
   readonly record: ReferenceRobot;
-  /** The record as JSON until it changes: lists are put together from these. */
+  /** The record as JSON, until it changes. Lists are assembled from these. */
   json: string | null;
 }
 
 /**
- * The reference system's signaling for its own robots and bridges (see `@farpoint/protocol`, signaling/reference.ts):
- * every client sees every robot and may answer it; a robot's socket speaks for its own robot only. The protocol has no
- * error messages: what is refused is counted and dropped, and a socket that sends nothing else is closed.
+ * The reference system's signaling for its own robots and bridges (see `@farpoint/protocol`, signaling/reference.ts).
+ * Every client sees every robot and may answer it. A robot's socket speaks only for its own robot. The protocol has
+ * no error messages: refused messages are counted and dropped, and a socket that sends nothing else is closed.
  */
 export class ReferenceHub {
   readonly #options: ReferenceHubOptions;
@@ -50,18 +50,18 @@ export class ReferenceHub {
     return { robots: this.#robots.size, clients: this.#clients.size };
   }
 
-  /** A socket on the robots' port. */
+  /** Handles a socket on the port for robots. */
   robot(peer: Peer): Connection {
     return new RobotConnection(peer, this, this.#options);
   }
 
-  /** A socket on the clients' port: it is told of changes from now on. */
+  /** Handles a socket on the port for clients, which is told of changes from now on. */
   client(peer: Peer): Connection {
     this.#clients.add(peer);
     return new ClientConnection(peer, this, this.#options);
   }
 
-  /** @returns the new robot's id, or null where there is no room */
+  /** @returns the new robot's id, or null if there is no room */
   register(peer: Peer, name: string, sdpOffer: string | null): number | null {
     if (this.#robots.size >= this.#options.limits.maxRobots) return null;
     const id = this.#nextId++;
@@ -74,7 +74,7 @@ export class ReferenceHub {
     return id;
   }
 
-  /** @param explicit the robot said so, rather than just being gone */
+  /** @param explicit the robot deregistered itself, rather than disappearing */
   deregister(id: number, explicit: boolean): void {
     if (!this.#robots.delete(id)) return;
     this.#listing = null;
@@ -87,7 +87,7 @@ export class ReferenceHub {
     const record = this.#change(id);
     if (record === null) return;
     record.sdpOffer = sdpOffer;
-    record.sdpAnswer = null; // it answered the offer before
+    record.sdpAnswer = null; // the answer was to the previous offer
     this.#toClients({ type: 'offer', robotId: id, sdpOffer });
   }
 
@@ -108,7 +108,7 @@ export class ReferenceHub {
     return null;
   }
 
-  /** @returns false where there is no such robot */
+  /** @returns false if there is no such robot */
   clientCandidate(id: number, candidate: string): boolean {
     const record = this.#change(id);
     if (record === null) return false;
@@ -117,7 +117,7 @@ export class ReferenceHub {
     return true;
   }
 
-  /** The message `robots`, encoded once until something changes. */
+  /** The message `robots`, encoded once per change. */
   listing(): Uint8Array {
     if (this.#listing === null) {
       const robots: string[] = [];
@@ -156,7 +156,7 @@ export class ReferenceHub {
 
 class RobotConnection extends ReferenceConnection<ReferenceRobotToService> {
   readonly #hub: ReferenceHub;
-  /** The one robot this socket may speak for. */
+  /** The only robot that this socket may speak for. */
   #robotId: number | null = null;
 
   constructor(peer: Peer, hub: ReferenceHub, options: ReferenceHubOptions) {
@@ -174,7 +174,7 @@ class RobotConnection extends ReferenceConnection<ReferenceRobotToService> {
 
   protected handle(message: ReferenceRobotToService): string | null {
     if (message.type === 'register') {
-      if (this.#robotId !== null) this.#hub.deregister(this.#robotId, false); // it begins anew
+      if (this.#robotId !== null) this.#hub.deregister(this.#robotId, false); // it registers again
       this.#robotId = this.#hub.register(this.peer, message.name, message.sdpOffer ?? null);
       if (this.#robotId === null) {
         this.refuse('full', 'no room for another robot', false);
@@ -237,7 +237,7 @@ class ClientConnection extends ReferenceConnection<ReferenceClientToService> {
     }
   }
 
-  /** No fault: the robot may have left a moment ago. */
+  /** Not a fault: the robot may have left a moment ago. */
   #refuse(reason: 'unknown-robot' | 'no-offer', { type, robotId }: { type: string; robotId: number }): null {
     return this.refuse(reason, `${type} for robot ${robotId}`, false);
   }

@@ -16,7 +16,7 @@ test('a claim is judged once, by its robot, for its session', () => {
   expect(claims.take(handle, 's', robot)).toBeNull();
 });
 
-test('whoever claims without end holds few of them, and those of others stay', () => {
+test('limits the claims of each operator, and keeps those of others', () => {
   const { claims, robot, ada, eve } = setUp(2);
   const adas = claims.add('s', robot, ada);
   for (let i = 0; i < 50; i++) claims.add('s', robot, eve);

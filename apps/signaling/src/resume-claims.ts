@@ -1,4 +1,7 @@
-/** Somebody who says that a session is its own, until the robot has judged it. Owners are whatever identifies a socket. */
+/**
+ * An operator's claim that a session belongs to it, until the robot has judged it. Owners are whatever identifies a
+ * socket.
+ */
 export interface ResumeClaim<Robot, Operator> {
   readonly handle: string;
   readonly session: string;
@@ -6,13 +9,13 @@ export interface ResumeClaim<Robot, Operator> {
   readonly operator: Operator;
 }
 
-/** The claims that wait for a robot's judgement: while one waits, the session stays with whom it belongs to. */
+/** Claims waiting for a robot's judgement. Meanwhile, the session stays with its present owner. */
 export class ResumeClaims<Robot extends object, Operator extends object> {
   readonly #most: number;
   readonly #makeHandle: () => string;
   readonly #claims = new Map<string, ResumeClaim<Robot, Operator>>();
 
-  /** @param most of one operator: its older ones give way */
+  /** @param most maximum number of claims per operator; its oldest are dropped */
   constructor(most: number, makeHandle: () => string) {
     this.#most = most;
     this.#makeHandle = makeHandle;
@@ -22,7 +25,7 @@ export class ResumeClaims<Robot extends object, Operator extends object> {
     return this.#claims.size;
   }
 
-  /** A newer claim of the same operator on the same session replaces the older. */
+  /** A newer claim by the same operator on the same session replaces the older one. */
   add(session: string, robot: Robot, operator: Operator): ResumeClaim<Robot, Operator> {
     const own = [...this.#claims.values()].filter((claim) => claim.operator === operator);
     const [oldest] = own;
@@ -34,7 +37,7 @@ export class ResumeClaims<Robot extends object, Operator extends object> {
     return claim;
   }
 
-  /** The claim that this robot judges, which then waits no more. */
+  /** Removes and returns the claim that this robot has judged. */
   take(handle: string, session: string, robot: Robot): ResumeClaim<Robot, Operator> | null {
     const claim = this.#claims.get(handle);
     if (claim === undefined || claim.session !== session || claim.robot !== robot) return null;
@@ -42,7 +45,7 @@ export class ResumeClaims<Robot extends object, Operator extends object> {
     return claim;
   }
 
-  /** One side is gone. */
+  /** Drops all claims of a side that has left. */
   drop(owner: Robot | Operator): void {
     for (const [handle, claim] of this.#claims) {
       if (claim.robot === owner || claim.operator === owner) this.#claims.delete(handle);

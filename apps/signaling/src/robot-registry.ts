@@ -1,7 +1,7 @@
 import type { Peer } from './peer.ts';
 import { VersionedListing } from './versioned-listing.ts';
 
-/** A robot that is here now. */
+/** A connected robot. */
 export interface RobotEntry {
   readonly id: string;
   readonly name: string;
@@ -10,16 +10,16 @@ export interface RobotEntry {
 }
 
 export type JoinResult =
-  /** `previous`: the older socket of the same robot, whose place was taken. */
+  /** `previous`: the robot's older socket, which was replaced. */
   | {
       readonly ok: true;
       readonly previous: RobotEntry | null;
-      /** The list has changed. */
+      /** Whether the list has changed. */
       readonly listed: boolean;
     }
   | { readonly ok: false; readonly reason: 'robot-id-taken' | 'full' };
 
-/** The robots that are here now, by id. */
+/** The connected robots by id. */
 export class RobotRegistry {
   readonly #robots = new Map<string, RobotEntry>();
   readonly #maxRobots: number;
@@ -47,7 +47,7 @@ export class RobotRegistry {
     return { ok: true, previous, listed };
   }
 
-  /** Removes exactly this entry: not a newer one that took its place. */
+  /** Removes exactly this entry, but not a newer one that has replaced it. */
   leave(entry: RobotEntry): boolean {
     if (this.#robots.get(entry.id) !== entry) return false;
     this.#robots.delete(entry.id);

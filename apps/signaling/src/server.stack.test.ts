@@ -29,7 +29,7 @@ function file(name: string, content: string): string {
 }
 
 describe('Farpoint over real sockets', () => {
-  test('a session from list to close', async () => {
+  test('runs a session from listing to close', async () => {
     await start();
     const operator = await service.operator();
     expect(await operator.next()).toEqual({ type: 'robots', robots: [] });
@@ -44,7 +44,7 @@ describe('Farpoint over real sockets', () => {
     expect(await operator.next()).toEqual({ type: 'robots.changed', here: [], gone: ['r1'] });
   });
 
-  test('a robot that comes back with its key takes over from its older socket', async () => {
+  test('lets a returning robot with its key take over from its older socket', async () => {
     await start();
     const operator = await service.operator();
     const older = await service.robot('r1');
@@ -56,7 +56,7 @@ describe('Farpoint over real sockets', () => {
     await service.expectSession(newer, 'r1', operator);
   });
 
-  test('another key is refused and closed', async () => {
+  test('refuses and closes a robot with another key', async () => {
     await start();
     await service.robot('r1');
     const thief = await service.open(service.url('/robot'));
@@ -65,20 +65,20 @@ describe('Farpoint over real sockets', () => {
     expect((await thief.closed).code).toBe(1008);
   });
 
-  test('who says nothing is closed', async () => {
+  test('closes a socket that sends nothing', async () => {
     await start({ helloTimeoutMs: 20 });
     const mute = await service.open(service.url('/operator'));
     expect(await mute.next()).toMatchObject({ code: 'hello-first' });
     expect((await mute.closed).code).toBe(1008);
   });
 
-  test('a socket that answers no pings gives its id free', async () => {
+  test('frees the id of a socket that does not answer pings', async () => {
     await start({ heartbeatMs: 100 });
     const operator = await service.operator();
     await operator.next();
     const robot = await service.robot('r1');
     await operator.until('robots.changed');
-    // As after a lost link: the connection is open and nothing is read from it.
+    // As after a lost link: the connection is open, but nothing is read from it.
     robot.socket.pause();
     expect(await operator.until('robots.changed')).toEqual({
       type: 'robots.changed',
@@ -87,7 +87,7 @@ describe('Farpoint over real sockets', () => {
     });
   });
 
-  test('who does not read is disconnected, and only that one', async () => {
+  test('disconnects a peer that does not read, and only that one', async () => {
     const metrics = createMetrics();
     await start({ maxBacklogBytes: 65_536, messagesPerSecond: 1e6, messageBurst: 1e6 }, { metrics });
     const robot = await service.robot('r1');
@@ -136,7 +136,7 @@ describe('the reference protocol over real sockets', () => {
     expect(await client.next()).toEqual({ type: 'deregistered', robotId: 0 });
   });
 
-  test('a robot whose socket closes is deregistered', async () => {
+  test('deregisters a robot whose socket closes', async () => {
     await start();
     const client = await service.referenceClient();
     const robot = await service.referenceRobot();
@@ -155,7 +155,7 @@ describe('tokens', () => {
   const robotTokens = file('robots.yaml', 'r1: token-of-r1\n');
   const operatorTokens = file('operators.txt', 'operator-token\n');
 
-  test('are asked for on every port', async () => {
+  test('are required on every port', async () => {
     await start({ robotTokens, operatorTokens });
     const robot = await service.robot('r1', { token: 'token-of-r1' });
     await service.expectSession(robot, 'r1', await service.operator({ token: 'operator-token' }));
@@ -179,13 +179,13 @@ describe('tokens', () => {
     await client.until('register');
   });
 
-  test('not on the reference ports if those are declared open', async () => {
+  test('are not required on the reference ports if those are declared open', async () => {
     await start({ robotTokens, operatorTokens, referenceOpen: true });
     await service.referenceClient();
     expect(await (await service.referenceRobot()).next()).toEqual({ type: 'registered', robotId: 0 });
   });
 
-  test('are read again at reload; a broken file leaves the old ones', async () => {
+  test('are read again at reload; a broken file leaves the old ones in force', async () => {
     const path = file('changing.txt', 'first-token');
     await start({ operatorTokens: path });
     file('changing.txt', 'second-token');
@@ -196,7 +196,7 @@ describe('tokens', () => {
     await service.operator({ token: 'second-token' });
   });
 
-  test('from a file that is not there are a clear error', async () => {
+  test('give a clear error if their file is missing', async () => {
     await expect(TestService.start({ robotTokens: join(folder, 'nix') })).rejects.toThrow(
       /^--robot-tokens names a file that cannot be read: .*nix does not exist/,
     );
@@ -204,7 +204,7 @@ describe('tokens', () => {
 });
 
 describe('admission', () => {
-  test('unknown paths, foreign origins, too many from one address', async () => {
+  test('refuses unknown paths, foreign origins, and too many connections from one address', async () => {
     await start({ allowedOrigins: ['https://teleop.example'], maxConnectionsPerAddress: 2 });
     await expect(service.open(service.url('/'))).rejects.toThrow('404');
     const from = (origin: string) => service.open(service.url('/operator'), { origin });
@@ -217,14 +217,14 @@ describe('admission', () => {
     await service.operator();
   });
 
-  test('too many in all', async () => {
+  test('refuses too many connections in total', async () => {
     await start({ maxConnections: 1 });
     await service.robot('r1');
     await expect(service.referenceClient()).rejects.toThrow('503');
     expect((await fetch(service.http('/healthz'))).status).toBe(503);
   });
 
-  test('behind a proxy, addresses are those the proxy saw', async () => {
+  test('uses the addresses that the proxy saw', async () => {
     await start({ maxConnectionsPerAddress: 1, trustProxy: true });
     const via = (forwarded: string) =>
       service.open(service.url('/operator'), { headers: { 'x-forwarded-for': forwarded } });
@@ -233,7 +233,7 @@ describe('admission', () => {
     await via('192.0.2.2');
   });
 
-  test('a port in use is an error and leaves nothing open', async () => {
+  test('fails on a port in use, and leaves nothing open', async () => {
     await start();
     const { signaling } = service.service.ports;
     await expect(TestService.start({ referenceClientPort: signaling })).rejects.toThrow('EADDRINUSE');
@@ -241,7 +241,7 @@ describe('admission', () => {
 });
 
 describe('HTTP', () => {
-  test('health and metrics know what goes on', async () => {
+  test('reports health and metrics', async () => {
     const metrics = createMetrics();
     const health = new Health();
     await start({}, { metrics, health });
@@ -272,7 +272,7 @@ describe('HTTP', () => {
     }
   });
 
-  test('serves the web app with its headers, and nothing outside of it', async () => {
+  test('serves the web app with its headers, and nothing outside it', async () => {
     const root = join(folder, 'web');
     mkdirSync(join(root, 'assets'), { recursive: true });
     writeFileSync(join(root, 'index.html'), '<title>Farpoint</title>');
@@ -297,13 +297,13 @@ describe('HTTP', () => {
     expect((await fetch(service.http('/healthz'))).status).toBe(200);
   });
 
-  test('a web root without a page is a clear error', async () => {
+  test('gives a clear error for a web root without a page', async () => {
     await expect(TestService.start({ webRoot: folder })).rejects.toThrow(
       /^--web-root names a folder without index.html/,
     );
   });
 
-  test('what is not HTTP gets a 400', async () => {
+  test('answers anything but HTTP with 400', async () => {
     await start();
     const socket = connect(service.service.ports.signaling, '127.0.0.1');
     socket.end('\x16\x03\x01 hello\r\n\r\n');
@@ -313,7 +313,7 @@ describe('HTTP', () => {
   });
 });
 
-test('TLS on every port, and a new certificate at reload', async () => {
+test('uses TLS on every port, and a new certificate after a reload', async () => {
   const make = (name: string): { tlsCert: string; tlsKey: string } => {
     const { key: tlsKey, cert: tlsCert } = selfSigned(folder, name);
     return { tlsCert, tlsKey };
@@ -338,7 +338,7 @@ test('TLS on every port, and a new certificate at reload', async () => {
 });
 
 describe('shutdown', () => {
-  test('tells everybody, closes with 1012 or 1001, and takes nobody new', async () => {
+  test('tells everybody, closes with 1012 or 1001, and accepts no new connections', async () => {
     await start();
     const [robot, operator, client] = [
       await service.robot('r1'),
@@ -355,7 +355,7 @@ describe('shutdown', () => {
     await expect(fetch(`http://127.0.0.1:${signaling}/healthz`)).rejects.toThrow();
   });
 
-  test('does not wait longer than the deadline for who does not hang up', async () => {
+  test('does not wait beyond the deadline for peers that do not hang up', async () => {
     await start({ shutdownMs: 20 });
     const robot = await service.robot('r1');
     robot.socket.pause();

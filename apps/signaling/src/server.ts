@@ -22,7 +22,7 @@ import type { Connection, Peer } from './peer.ts';
 import { ReferenceHub } from './reference-hub.ts';
 import { readFiles, type ServiceFiles } from './service-files.ts';
 
-/** What a program lends the service; tests may leave it out. */
+/** What the program provides to the service; tests may omit it. */
 export interface SignalingRim {
   readonly log?: Logger;
   readonly health?: Health;
@@ -37,9 +37,9 @@ export interface SignalingPorts {
 
 export interface RunningSignaling {
   readonly ports: SignalingPorts;
-  /** Reads certificate and tokens again. @throws {OptionsError} leaving the old ones in force */
+  /** Reads the certificate and tokens again. @throws {OptionsError} the old ones then stay in force */
   reload(): void;
-  /** Tells every peer, waits for them to hang up for `shutdownMs`, then cuts. */
+  /** Tells every peer, waits up to `shutdownMs` for them to hang up, then closes all sockets. */
   close(): Promise<void>;
 }
 
@@ -50,7 +50,7 @@ const LOOPBACK = /^(127\.|::1$|localhost$)/;
  * Starts the service.
  *
  * @param given options that differ from their defaults
- * @throws {OptionsError} for files that are missing or wrong; {Error} where a port cannot be listened on
+ * @throws {OptionsError} for missing or invalid files; {Error} if a port cannot be opened
  */
 export async function startSignaling(
   given: Partial<SignalingOptions> = {},
@@ -180,7 +180,7 @@ class SignalingService implements RunningSignaling {
         host,
         port,
         tls: this.#files.tls,
-        // A little too long is told so; far too long is cut off.
+        // A message slightly above the limit gets an error; one far above it closes the connection.
         maxPayload: 2 * maxMessageBytes,
         maxSockets: maxConnections + 256,
         closeTimeoutMs: shutdownMs,
@@ -205,7 +205,7 @@ class SignalingService implements RunningSignaling {
     }
   }
 
-  /** Any path. Its protocol has no tokens: where some are set, one must be in the URL. */
+  /** Accepts any path. The reference protocol has no tokens: if tokens are configured, one must be in the URL. */
   #upgradeReference(
     request: IncomingMessage,
     url: URL,

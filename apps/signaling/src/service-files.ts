@@ -6,7 +6,7 @@ import type { TlsFiles } from './listener.ts';
 import type { SignalingOptions } from './options.ts';
 import { parseTokens } from './token-file.ts';
 
-/** What the options name files for; read at start and again at each reload. */
+/** The contents of the files that the options name; read at start and at each reload. */
 export interface ServiceFiles {
   readonly tls: TlsFiles | null;
   readonly robots: AccessList;
@@ -14,9 +14,9 @@ export interface ServiceFiles {
 }
 
 /**
- * Reads certificate and tokens.
+ * Reads the certificate and tokens.
  *
- * @throws {OptionsError} that names the option of a file that is missing or wrong
+ * @throws {OptionsError} naming the option whose file is missing or invalid
  */
 export function readFiles(options: SignalingOptions): ServiceFiles {
   const { tlsCert, tlsKey, robotTokens, operatorTokens } = options;

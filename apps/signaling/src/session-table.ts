@@ -1,4 +1,4 @@
-/** One operator with one robot. Owners are whatever identifies a socket. */
+/** A session of one operator with one robot. Owners are whatever identifies a socket. */
 export interface Session<Robot, Operator> {
   readonly handle: string;
   readonly robot: Robot;
@@ -10,7 +10,7 @@ export interface SessionLimits {
   readonly maxSessionsPerRobot: number;
 }
 
-/** The sessions that are being set up or running, found by handle, by robot and by operator. */
+/** The sessions being set up or running, found by handle, by robot and by operator. */
 export class SessionTable<Robot extends object, Operator extends object> {
   readonly #limits: SessionLimits;
   readonly #makeHandle: () => string;
@@ -28,8 +28,8 @@ export class SessionTable<Robot extends object, Operator extends object> {
   }
 
   /**
-   * @param handle of a session that its peers have and this table has forgotten
-   * @returns null where either side has as many sessions as it may have
+   * @param handle the handle of a session that its peers have and this table has forgotten
+   * @returns null if either side has its maximum number of sessions
    */
   open(robot: Robot, operator: Operator, handle = this.#makeHandle()): Session<Robot, Operator> | null {
     if (!this.hasRoom(robot, operator)) return null;
@@ -40,7 +40,7 @@ export class SessionTable<Robot extends object, Operator extends object> {
     return session;
   }
 
-  /** @param replaced a session that ends in the same moment */
+  /** @param replaced a session that ends at the same moment */
   hasRoom(robot: Robot, operator: Operator, replaced: Session<Robot, Operator> | null = null): boolean {
     const count = (owner: Robot | Operator) =>
       (this.#byOwner.get(owner)?.size ?? 0) -
@@ -50,13 +50,13 @@ export class SessionTable<Robot extends object, Operator extends object> {
     );
   }
 
-  /** The session of this handle, if `owner` is one of its two sides. */
+  /** The session with this handle, if `owner` is one of its two sides. */
   find(handle: string, owner: Robot | Operator): Session<Robot, Operator> | null {
     const session = this.#sessions.get(handle);
     return session !== undefined && (session.robot === owner || session.operator === owner) ? session : null;
   }
 
-  /** The session of this handle, whoever its sides are. */
+  /** The session with this handle, whoever its sides are. */
   get(handle: string): Session<Robot, Operator> | null {
     return this.#sessions.get(handle) ?? null;
   }
@@ -67,7 +67,7 @@ export class SessionTable<Robot extends object, Operator extends object> {
     this.#release(session.operator, session);
   }
 
-  /** Closes all sessions of one side and returns them. */
+  /** Closes and returns all sessions of one side. */
   closeAll(owner: Robot | Operator): Session<Robot, Operator>[] {
     const sessions = [...(this.#byOwner.get(owner) ?? [])];
     for (const session of sessions) this.close(session);

@@ -7,7 +7,7 @@ export interface SocketPeerOptions {
   readonly id: number;
   readonly address: string;
   readonly maxBacklogBytes: number;
-  /** Disconnected because it does not read, or does not answer pings. */
+  /** Called when the peer is disconnected because it does not read or does not answer pings. */
   readonly onDropped: (reason: 'slow-consumer' | 'no-pong') => void;
 }
 
@@ -36,7 +36,7 @@ export class SocketPeer implements Peer, Pulse {
     const socket = this.#socket;
     if (socket.readyState !== socket.OPEN) return;
     const backlog = socket.bufferedAmount;
-    // A single message may be longer than the bound, as long as nothing waits before it.
+    // A single message may exceed the limit if nothing is queued before it.
     if (backlog > 0 && backlog + message.length > this.#options.maxBacklogBytes) {
       this.#drop('slow-consumer');
       return;
@@ -45,7 +45,7 @@ export class SocketPeer implements Peer, Pulse {
   }
 
   close(code: number, reason: string): void {
-    // ws cuts the connection itself where the peer does not answer the close (closeTimeout).
+    // ws itself cuts the connection if the peer does not answer the close (closeTimeout).
     this.#socket.close(code, reason);
   }
 
@@ -61,26 +61,27 @@ export class SocketPeer implements Peer, Pulse {
     this.#drop('no-pong');
   }
 
-  /** Hands the socket's messages and its end to the hub. */
+  /** Passes the socket's messages and its end to the hub. */
   attach(connection: Connection, onClosed: () => void): void {
     const socket = this.#socket;
     const pings = new TokenBucket({ perSecond: 10, burst: 50 });
     socket.on('message', (data: RawData, binary: boolean) => {
       this.alive = true;
-      // A Buffer: ws's default binaryType is nodebuffer, and it has checked that text is UTF-8.
+      // A Buffer: ws's default binaryType is nodebuffer, and ws has checked that text is UTF-8.
       const bytes = data as Buffer;
       connection.receive(binary ? bytes : bytes.toString('utf8'));
     });
     socket.on('pong', () => {
       this.alive = true;
     });
-    // Answered by us and not by ws, so that a flood of them that reads no answers does not fill memory.
+    // Answered here rather than by ws, so that a flood of pings whose answers are not read cannot fill the memory.
     socket.on('ping', (data: Buffer) => {
       this.alive = true;
       if (!pings.take(performance.now()) || this.backlog > this.#options.maxBacklogBytes) socket.terminate();
       else if (socket.readyState === socket.OPEN) socket.pong(data);
     });
-    // A breach of the WebSocket protocol, or too long a message: ws closes with the right code, we need do nothing.
+    // A violation of the WebSocket protocol or a message that is too long: ws closes with the right code, so there is
+    // nothing to do.
     socket.on('error', () => {});
     socket.on('close', () => {
       connection.closed();

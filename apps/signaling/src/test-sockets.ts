@@ -28,7 +28,7 @@ export class TestSocket {
     });
   }
 
-  /** @throws {Error} `Unexpected server response: 403` and the like where the service refuses */
+  /** @throws {Error} `Unexpected server response: 403` and the like if the service refuses */
   static async open(
     url: string,
     options: ConstructorParameters<typeof WebSocket>[2] = {},
@@ -45,7 +45,7 @@ export class TestSocket {
     this.socket.send(JSON.stringify(message));
   }
 
-  /** The next message that came, or will come; `null` once the socket is closed and all are read. */
+  /** The next message, waiting if necessary; `null` once the socket is closed and all messages are read. */
   async next(): Promise<Json | null> {
     for (;;) {
       const message = this.#inbox.shift();
@@ -55,7 +55,7 @@ export class TestSocket {
     }
   }
 
-  /** The next message of this type, passing over others. */
+  /** The next message of this type; skips others. */
   async until(type: string): Promise<Json> {
     for (;;) {
       const message = await this.next();

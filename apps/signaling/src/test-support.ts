@@ -1,9 +1,9 @@
-/** For tests of the core: time, peers and observer without sockets. */
+/** For tests of the core: time, peers and observers without sockets. */
 import type { Clock } from './clock.ts';
 import type { Observer, RejectReason, Role } from './observer.ts';
 import type { Connection, Peer } from './peer.ts';
 
-/** Time that stands until told to go on. */
+/** Time that stands still until a test advances it. */
 export class FakeClock implements Clock {
   #now = 0;
   #timers: { at: number; call: () => void }[] = [];
@@ -20,7 +20,7 @@ export class FakeClock implements Clock {
     };
   }
 
-  /** Lets time pass, calling back what falls due, in order. */
+  /** Advances time, and runs what falls due, in order. */
   advance(ms: number): void {
     const end = this.#now + ms;
     for (;;) {
@@ -45,9 +45,9 @@ export class FakePeer implements Peer {
   readonly id = FakePeer.#next++;
   readonly address = '192.0.2.1';
   backlog = 0;
-  /** What it was sent and a test has not taken yet. */
+  /** Messages sent to it that the test has not yet taken. */
   inbox: Json[] = [];
-  /** Code and reason, once the service closed it. */
+  /** Code and reason, if the service has closed it. */
   closed: { code: number; reason: string } | null = null;
 
   send(message: string | Uint8Array): void {
@@ -69,12 +69,12 @@ export class FakePeer implements Peer {
   }
 }
 
-/** Somebody at the other end of a {@link FakePeer}. */
+/** The client at the other end of a {@link FakePeer}. */
 export class FakeClient {
   readonly peer = new FakePeer();
   readonly connection: Connection;
 
-  /** @param connect the hub's end */
+  /** @param connect creates the hub's end */
   constructor(connect: (peer: FakePeer) => Connection) {
     this.connection = connect(this.peer);
   }
@@ -88,7 +88,7 @@ export class FakeClient {
     return this.peer.take();
   }
 
-  /** Of everything since the last call, the types, or of errors the codes. */
+  /** For everything since the last call: the message types, and the codes of errors. */
   types(): unknown[] {
     return this.take().map((message) => message.code ?? message.type);
   }

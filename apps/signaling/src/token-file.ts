@@ -3,11 +3,11 @@ import { parse } from 'yaml';
 import type { TokenSet } from './access.ts';
 
 /**
- * Reads tokens: a list (YAML, JSON, or just one a line) of tokens good for any id, or a mapping from id to its token or
- * tokens. Lines that begin with # are comments.
+ * Reads tokens: a list (YAML, JSON, or one per line) of tokens valid for any id, or a mapping from ids to their token
+ * or tokens. Lines that begin with # are comments.
  *
  * @param bound ids of a mapping are robot ids and bind the token; otherwise they are names for people
- * @throws {Error} that names the entry at fault, never the token
+ * @throws {Error} naming the entry at fault, but never the token
  */
 export function parseTokens(content: string, bound: boolean): TokenSet {
   let value: unknown;

@@ -11,7 +11,7 @@ import { VersionedListing } from './versioned-listing.ts';
 
 const read = (bytes: Uint8Array): ServiceToOperator => decodeJson(serviceToOperatorCodec, bytes);
 
-test('tells what came, went and changed since a version, each robot once', () => {
+test('reports what was added, removed and changed since a version, each robot once', () => {
   const robots = new Map([['a', { id: 'a', name: 'A', key: 'secret' }]]);
   const listing = new VersionedListing(robots);
   expect(read(listing.whole())).toEqual({ type: 'robots', robots: [{ id: 'a', name: 'A' }] });
@@ -27,21 +27,21 @@ test('tells what came, went and changed since a version, each robot once', () =>
   expect(read(listing.since(version + 2))).toEqual({ type: 'robots.changed', here: [], gone: ['a'] });
 });
 
-test('is encoded once for all who have the same version', () => {
+test('is encoded once for everyone with the same version', () => {
   const listing = new VersionedListing(new Map());
   listing.changed('a');
   expect(listing.since(0)).toBe(listing.since(0));
   expect(listing.whole()).toBe(listing.whole());
 });
 
-test('whoever is too far behind gets the whole list', () => {
+test('sends the whole list to whoever is too far behind', () => {
   const listing = new VersionedListing(new Map([['a', { id: 'a', name: 'A' }]]), 4);
   for (let i = 0; i < 9; i++) listing.changed(`r${i}`);
   expect(read(listing.since(4)).type).toBe('robots');
   expect(read(listing.since(5)).type).toBe('robots.changed');
 });
 
-test('whatever happens, and however late one asks, the changes lead to the list', () => {
+test('applying the changes always gives the list, whatever happens and however late they are requested', () => {
   const step = fc.record({ id: fc.constantFrom('a', 'b', 'c', 'd'), name: fc.constantFrom('x', 'y', null) });
   fc.assert(
     fc.property(fc.array(fc.record({ step, asks: fc.nat(3) }), { maxLength: 60 }), (steps) => {

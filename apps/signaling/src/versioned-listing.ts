@@ -5,20 +5,20 @@ import {
   serviceToOperatorCodec,
 } from '@farpoint/protocol';
 
-/** The list of robots as messages, and what has changed in it since any of its later versions. */
+/** The list of robots as messages, and the changes since any recent version. */
 export class VersionedListing {
   readonly #robots: ReadonlyMap<string, RobotListing>;
   readonly #remembered: number;
-  /** Ids in the order of their changes: the one at index i made version `#oldest + i + 1`. */
+  /** Ids in the order of their changes: index i led to version `#oldest + i + 1`. */
   #changes: string[] = [];
   #oldest = 0;
   #whole: Uint8Array | null = null;
-  /** Encoded once for all operators that have the same version. */
+  /** Encoded once for all operators with the same version. */
   readonly #since = new Map<number, Uint8Array>();
 
   /**
-   * @param robots read whenever a message is made; entries may hold more than the list tells
-   * @param remembered changes that are kept; who is further behind gets the whole list
+   * @param robots read whenever a message is made; entries may contain more than the list sends
+   * @param remembered number of changes to keep; an operator that is further behind gets the whole list
    */
   constructor(robots: ReadonlyMap<string, RobotListing>, remembered = 1024) {
     this.#robots = robots;
@@ -29,10 +29,10 @@ export class VersionedListing {
     return this.#oldest + this.#changes.length;
   }
 
-  /** This robot came, went or changed its name. */
+  /** Call this when a robot was added, removed or renamed. */
   changed(id: string): void {
     this.#changes.push(id);
-    // Forgotten by halves, so that a change costs the same however many are remembered.
+    // Half of the changes are dropped at once, so that the cost of a change does not depend on how many are kept.
     if (this.#changes.length > 2 * this.#remembered) {
       this.#oldest += this.#changes.length - this.#remembered;
       this.#changes = this.#changes.slice(-this.#remembered);
@@ -47,7 +47,7 @@ export class VersionedListing {
     return this.#whole;
   }
 
-  /** The message `robots.changed` that brings the list of this version up to date, or `robots` where it is too old. */
+  /** The message `robots.changed` that updates a list of this version, or `robots` if the version is too old. */
   since(version: number): Uint8Array {
     if (version < this.#oldest) return this.whole();
     let message = this.#since.get(version);

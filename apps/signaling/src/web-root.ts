@@ -8,7 +8,7 @@ const CONTENT_SECURITY_POLICY = [
   "default-src 'self'",
   "script-src 'self' 'wasm-unsafe-eval'",
   "worker-src 'self' blob:",
-  // The signaling service may be another host than the page's.
+  // The signaling service may be on another host than the page.
   "connect-src 'self' ws: wss: blob: data:",
   "img-src 'self' data: blob:",
   "media-src 'self' blob:",
@@ -18,7 +18,10 @@ const CONTENT_SECURITY_POLICY = [
   "frame-ancestors 'self'",
 ].join('; ');
 
-/** Serves a built web app; calls `next` for what is not in it. The folder is read once: restart after a new build. */
+/**
+ * Serves a built web app; calls `next` for paths that are not in it. The folder is read once: restart after a new
+ * build.
+ */
 export function webRoot(
   folder: string,
 ): (request: IncomingMessage, response: ServerResponse, next: () => void) => void {
@@ -38,7 +41,7 @@ export function webRoot(
       response.setHeader('Referrer-Policy', 'no-referrer');
       response.setHeader('Content-Security-Policy', CONTENT_SECURITY_POLICY);
       response.setHeader('Permissions-Policy', 'xr-spatial-tracking=(self), gamepad=(self)');
-      // Cross-origin isolated: precise clocks and shared memory.
+      // Cross-origin isolation allows precise clocks and shared memory.
       response.setHeader('Cross-Origin-Opener-Policy', 'same-origin');
       response.setHeader('Cross-Origin-Embedder-Policy', 'require-corp');
       response.setHeader('Cross-Origin-Resource-Policy', 'same-origin');

@@ -1,4 +1,4 @@
-/** The page: what comes from the robot to the screen, what comes from the hands to the robot. */
+/** The page: shows on the screen what the robot sends, and sends the robot what the operator's hands do. */
 import { CloudView } from '@farpoint/cloud-view';
 import { RobotClient, type TransformSupport } from '@farpoint/operator';
 import { effect, untracked } from '@preact/signals-core';
@@ -32,7 +32,7 @@ export class App {
   readonly state: PageState;
   readonly stage: Stage;
   readonly cloud: CloudView;
-  /** Those of a robot with several sensors. */
+  /** The clouds of a robot with several sensors. */
   readonly clouds: SensorClouds;
   readonly client: RobotClient;
   readonly stats = new PageStatistics();
@@ -104,14 +104,14 @@ export class App {
     this.frames.start();
   }
 
-  /** Connects to this robot; another one is left standing first. */
+  /** Connects to this robot. A robot that was chosen before is stopped first. */
   choose(robotId: string): void {
     this.client.choose(robotId);
     if (this.client.chosenRobotId !== this.client.link.robotId) this.state.notices.tell(leavingWords);
     this.state.sample();
   }
 
-  /** The figures of the stream and of the drawing, now. */
+  /** Current figures of the stream and of the drawing. */
   figures(): PageStats {
     return this.stats.snapshot(this.client.stats(), this.cloud, this.stage.renderer.domElement);
   }
@@ -138,7 +138,7 @@ export class App {
     });
   }
 
-  /** Commands may only come from hands that see what they do. */
+  /** Commands may come only from an operator who can see their effect. */
   #handsAway(): boolean {
     if (this.vr.active.value) return this.vr.hidden;
     return document.hidden || !document.hasFocus();
@@ -163,7 +163,7 @@ export class App {
       notices.tell(rejectionWords[reason], 'warning');
     });
     client.on('otherDrives', () => notices.tell(rejectionWords['not-lease-holder'], 'warning'));
-    client.on('robotFault', (message) => notices.tell(`The robot says: ${message}`, 'warning'));
+    client.on('robotFault', (message) => notices.tell(`The robot reports: ${message}`, 'warning'));
     client.on('failed', ({ detail }) => {
       console.error('cloud worker:', detail);
       notices.failure.value = failureWords.workerFailed;

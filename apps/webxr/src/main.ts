@@ -24,7 +24,7 @@ function start(): void {
   try {
     const app = new App(settings, transform, notices);
     app.start();
-    // Left out of the page that is deployed: `vite build --mode testing` makes one with it.
+    // The deployed page leaves this out. `vite build --mode testing` includes it.
     if (import.meta.env.MODE === 'testing')
       void import('./testing/test-hooks.ts').then(({ installTestApi }) => installTestApi(app));
   } catch (error) {

@@ -8,12 +8,12 @@ const read = (query: string, stored = {}, page = served) =>
   readSettings(new URLSearchParams(query), stored, page);
 
 describe('readSettings', () => {
-  test('the service that serves the page, or port 3000 beside a development server', () => {
+  test('defaults to the service that serves the page, or to port 3000 beside a development server', () => {
     expect(read('').signalingUrl).toBe('wss://x.org:8443/operator');
     expect(read('', {}, dev).signalingUrl).toBe('ws://localhost:3000/operator');
   });
 
-  test('the address goes before what is stored, which goes before the default', () => {
+  test('prefers the page address to the stored settings, and these to the defaults', () => {
     const stored = {
       signaling: 'wss://stored.org',
       tokens: new Map([['wss://stored.org', 's']]),
@@ -31,13 +31,13 @@ describe('readSettings', () => {
     });
   });
 
-  test('a bad address is told, and the default used', () => {
+  test('reports a bad signaling address and uses the default', () => {
     const settings = read('signaling=ftp://x');
     expect(settings.signalingFault).toContain('is not a WebSocket address');
     expect(settings.signalingUrl).toBe('wss://x.org:8443/operator');
   });
 
-  test('robot ids and canvas sizes that cannot be are left out', () => {
+  test('ignores invalid robot ids and canvas sizes', () => {
     expect(read('robot=sim-1&canvas=640x360')).toMatchObject({
       robot: 'sim-1',
       canvas: { width: 640, height: 360 },
@@ -49,7 +49,7 @@ describe('readSettings', () => {
   });
 });
 
-describe('a token goes only where it was given for', () => {
+describe('a token is sent only to the service that it was given for', () => {
   const tokens = new Map([
     ['wss://x.org:8443', 'own'],
     ['wss://stored.org', 'stored'],
@@ -63,22 +63,22 @@ describe('a token goes only where it was given for', () => {
     ['signaling=wss://x.org.elsewhere.org:8443', undefined],
     ['signaling=wss://x.org.elsewhere.org:8443', undefined],
     ['signaling=wss://stored.org', 'stored'],
-    // With the token comes the service that it is for.
+    // The token belongs to the service that comes with it.
     ['signaling=wss://elsewhere.org&token=theirs', 'theirs'],
     ['token=given', 'given'],
-    // The address beside it is none: nobody knows whose it is.
+    // The address beside the token is invalid, so it is unknown which service the token is for.
     ['signaling=ftp://elsewhere.org&token=theirs', 'own'],
   ])('?%s', (query, token) => {
     expect(read(query, { tokens }).token).toBe(token);
   });
 
-  test('one in a link to the page is not for a service that was chosen in the settings', () => {
+  test('does not use a token from the page’s link for a service chosen in the settings', () => {
     const stored = { signaling: 'wss://stored.org', tokens };
     expect(read('token=given', stored).token).toBe('stored');
     expect(read('', stored).token).toBe('stored');
   });
 
-  test('the single token of earlier visits is the page’s own service’s', () => {
+  test('assigns the single token of earlier versions to the page’s own service', () => {
     const stored = parseStored('{"token":"old","signaling":""}', ownSignalingUrl(served));
     expect(read('', stored).token).toBe('old');
     expect(read('signaling=wss://elsewhere.org', stored).token).toBeUndefined();
@@ -87,7 +87,7 @@ describe('a token goes only where it was given for', () => {
   });
 });
 
-test('parseStored takes only what is of the right kind', () => {
+test('parseStored accepts only values of the right type', () => {
   const own = ownSignalingUrl(served);
   const nothing = { tokens: new Map() };
   expect(parseStored(null, own)).toEqual(nothing);

@@ -1,4 +1,4 @@
-/** What the page is told by its address and what it remembers: checked here, trusted elsewhere. */
+/** The page's settings, from its address and from local storage. They are checked here and trusted everywhere else. */
 
 import { type BridgeAddress, parseBridge, parseSignalingUrl } from '@farpoint/operator';
 import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
@@ -12,7 +12,7 @@ export interface StoredSettings {
   pointScale?: number | undefined;
 }
 
-/** Where the page comes from. */
+/** Where the page was loaded from. */
 export interface PageOrigin {
   protocol: string;
   hostname: string;
@@ -23,30 +23,30 @@ export interface PageOrigin {
 export interface Settings {
   /** WebSocket address of the operators' endpoint. */
   signalingUrl: string;
-  /** Why the address that was given is not used; `null` where all is well. */
+  /** Why the given address cannot be used; `null` if it can, or if none was given. */
   signalingFault: string | null;
   token: string | undefined;
   name: string;
-  /** Take the stream from a bridge instead of from the robots themselves. */
+  /** The bridge that the stream comes from; `null` to connect to robots directly. */
   bridge: BridgeAddress | null;
-  /** Connect to it as soon as it is there. */
+  /** Id of the robot to connect to as soon as it is listed. */
   robot: string | null;
-  /** `relay`: by TURN servers only. */
+  /** `relay`: connect through TURN servers only. */
   icePolicy: 'all' | 'relay';
   /** Fixed size of the canvas in pixels, for benchmarks. */
   canvas: { width: number; height: number } | null;
   /** `points64`: refuse the coded formats. */
   mode: 'auto' | 'points64';
-  /** Draw every so many-th point only, for benchmarks where the GPU is an emulated one; `null`: as many as can be drawn. */
+  /** Draw only every n-th point, for benchmarks with an emulated GPU; `null`: draw as many as possible. */
   drawEvery: number | null;
   pointScale: number;
 }
 
-/** Port of the signaling service, where the page is served by something else. */
+/** Port of the signaling service if something else serves the page. */
 export const DEFAULT_SIGNALING_PORT = 3000;
 const MAX_CANVAS = 8192;
 
-/** The page's own signaling service: the one that serves it, or that stands beside a development server. */
+/** The page's own signaling service: the one that serves the page, or the one beside a development server. */
 export function ownSignalingUrl(page: PageOrigin): string {
   const host = page.isDevServer ? `${page.hostname || 'localhost'}:${DEFAULT_SIGNALING_PORT}` : page.host;
   return `${page.protocol === 'https:' ? 'wss' : 'ws'}://${host}/operator`;
@@ -61,7 +61,7 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
   const given = asked === undefined ? null : parseSignalingUrl(asked, secure);
   const signalingUrl = given !== null && 'url' in given ? given.url : own;
   const name = nonEmpty(query.get('name')) ?? nonEmpty(stored.name) ?? 'Operator';
-  // A token in the query is for the service that it came with: the one beside it in the query, else the page's own.
+  // A token in the query belongs to the service in the query, or else to the page's own service.
   const cameFor = inQuery === undefined ? own : given !== null && 'url' in given ? given.url : null;
   const isForHere = cameFor !== null && tokenOrigin(cameFor) === tokenOrigin(signalingUrl);
   const token =
@@ -88,8 +88,8 @@ function parseEvery(text: string | null): number | null {
 }
 
 /**
- * What of local storage can be used. Pages once kept a single token, and did not say for which service: it is taken for that
- * of `ownUrl` alone.
+ * The usable part of local storage. Earlier versions of the page stored a single token and did not say for which
+ * service. Such a token is used for `ownUrl` only.
  */
 export function parseStored(text: string | null, ownUrl: string): StoredSettings {
   let value: unknown;

@@ -2,13 +2,13 @@ import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { parseTokens, tokenOrigin, withToken } from './signaling-tokens.ts';
 
-test('an address takes the token of its scheme, host and port', () => {
+test('a token belongs to a scheme, host and port', () => {
   expect(tokenOrigin('wss://x.org/operator?a=b')).toBe('wss://x.org');
   expect(tokenOrigin('wss://user@x.org:443/')).toBe('wss://x.org');
   expect(tokenOrigin('ws://127.0.0.1:3000/operator')).toBe('ws://127.0.0.1:3000');
 });
 
-test('of what is stored only origins of services with usable tokens count', () => {
+test('reads only origins of services with usable tokens from storage', () => {
   const stored = JSON.parse(
     '{"wss://x.org":"a","wss://x.org/":"b","https://x.org":"c","x.org":"d","wss://y.org":"","wss://z.org":7,"__proto__":"e"}',
   );
@@ -21,7 +21,7 @@ test('of what is stored only origins of services with usable tokens count', () =
   );
 });
 
-test('a service has one token; an empty one forgets it; the oldest give way', () => {
+test('keeps one token per service; an empty token removes it; the oldest are dropped', () => {
   const one = withToken(new Map([['wss://a', '1']]), 'wss://b', '2');
   expect([...withToken(one, 'wss://a', '3')]).toEqual([
     ['wss://b', '2'],

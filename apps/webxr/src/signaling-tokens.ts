@@ -1,18 +1,21 @@
-/** Operators' tokens, each kept for the signaling service that it was given for: no other service is ever sent it. */
+/** Operators' tokens. Each belongs to one signaling service and is never sent to another. */
 import { tokenSchema } from '@farpoint/protocol';
 
-/** By origin of the service's address, e.g. `wss://robots.example.org`. */
+/** Keyed by the origin of the service's address, e.g. `wss://robots.example.org`. */
 export type SignalingTokens = ReadonlyMap<string, string>;
 
-/** The oldest are forgotten. */
+/** Beyond this number, the oldest tokens are dropped. */
 const MOST_ORIGINS = 32;
 
-/** Whose token an address takes: scheme, host and port. @param url of the service, as `readSettings` gives it */
+/**
+ * The key of a service's token: scheme, host and port. @param url address of the service, as `readSettings` returns
+ * it
+ */
 export function tokenOrigin(url: string): string {
   return new URL(url).origin;
 }
 
-/** What of a stored object can be used. */
+/** The usable entries of a stored object. */
 export function parseTokens(value: unknown): SignalingTokens {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) return new Map();
   return new Map(
@@ -24,7 +27,7 @@ export function parseTokens(value: unknown): SignalingTokens {
   );
 }
 
-/** @param token empty forgets it */
+/** @param token an empty token removes the entry */
 export function withToken(tokens: SignalingTokens, origin: string, token: string): SignalingTokens {
   const next = new Map(tokens);
   next.delete(origin);

@@ -1,4 +1,4 @@
-/** The browser's part of the settings: where the page comes from, and what it keeps between visits. */
+/** The settings that come from the browser: the page's origin and its local storage. */
 import { ownSignalingUrl, type PageOrigin, parseStored, type StoredSettings } from './settings.ts';
 
 const KEY = 'farpoint.settings';
@@ -8,7 +8,7 @@ export function pageOrigin(): PageOrigin {
   return { protocol, hostname, host, isDevServer: import.meta.env.DEV };
 }
 
-/** What this browser remembers; nothing where it may not. */
+/** The settings stored in this browser. Empty if the page may not use local storage. */
 export function loadStored(): StoredSettings {
   try {
     return parseStored(localStorage.getItem(KEY), ownSignalingUrl(pageOrigin()));
@@ -22,6 +22,6 @@ export function store(settings: StoredSettings): void {
     const tokens = Object.fromEntries(settings.tokens ?? []);
     localStorage.setItem(KEY, JSON.stringify({ ...settings, tokens }));
   } catch {
-    // Private browsing: the settings hold for this visit by the address only.
+    // Private browsing: without storage, settings last for this visit only, in the page's address.
   }
 }

@@ -1,61 +1,64 @@
 /** What the codec benchmark needs of a codec. */
 
-/** A frame, its points in file or raster order. */
+/** A frame with its points in file or raster order. */
 export interface BenchCloud {
   name: string;
-  /** 1 for height where there is no grid. */
+  /** If there is no grid, the height is 1. */
   width: number;
   height: number;
-  /** Of the depth camera; null where the file does not say. */
+  /** Of the depth camera; null if the file does not contain them. */
   intrinsics: { fx: number; fy: number; cx: number; cy: number } | null;
-  /** x, y, z in metres and the attribute's bits, four words a point; NaN where nothing was measured. */
+  /** x, y, z in metres and the attribute's bits, four words per point. NaN marks missing measurements. */
   frame: Float32Array;
-  /** What the fourth word is: bytes R, G, B, 255 from the lowest, or an intensity 0…255. */
+  /** Contents of the fourth word: bytes R, G, B, 255 from the lowest, or an intensity 0…255. */
   attribute: 'colour' | 'intensity';
-  /** `z`: optical axes. `range`: a sensor at the origin that looks about it. */
+  /** `z`: optical axes. `range`: a sensor at the origin that looks in all directions. */
   depth: 'z' | 'range';
   /** Indices of the points that are finite and not at depth 0, ascending. */
   valid: Uint32Array;
 }
 
-/** What comes out of a decoder. */
+/** A decoder's output. */
 export interface DecodedCloud {
   points: number;
-  /** Metres, three a point. */
+  /** Metres, three numbers per point. */
   metres: Float64Array | Float32Array;
-  /** R, G, B a point, or the intensity thrice. */
+  /** R, G, B per point, or the intensity three times. */
   rgb: Uint8Array;
-  /** Index in the frame of each point; null where the codec reorders: the nearest one is taken. */
+  /** Each point's index in the frame; null if the codec reorders points, which are then matched to the nearest. */
   source: Uint32Array | null;
 }
 
-/** One codec at one setting, made ready for one cloud. */
+/** A codec at one setting, prepared for one cloud. */
 export interface CodecRun extends Disposable {
   codec: string;
   setting: string;
-  /** True where one lost packet loses the frame. */
+  /** True if one lost packet loses the frame. */
   blob: boolean;
-  /** Default true; false where the setting sends no colour. */
+  /** Default true; false if the setting sends no colour. */
   hasColour?: boolean;
-  /** The times of the same code outside WASM. */
+  /** Times of the same code outside WASM. */
   native?(rounds: number): { encodeMs: number; decodeMs: number };
   /** Timed. */
   encode(): void;
-  /** What must follow {@link encode} here but would not in a program. Not timed. */
+  /** Work that must follow {@link encode} here, but not in a real program. Not timed. */
   settle?(): void;
-  /** Bytes of each packet of the last {@link encode}; 1200 at most, a blob cut up so. */
+  /** Size of each packet of the last {@link encode}, bytes: at most 1200, into which a blob is cut. */
   packetBytes(): number[];
-  /** Decodes the packets with these indices, in this order. Timed with all of them. */
+  /** Decodes the packets with these indices, in this order. Timed with all packets. */
   decode(packets: readonly number[]): void;
-  /** What the last {@link decode} gave. */
+  /** The result of the last {@link decode}. */
   decoded(): DecodedCloud;
-  /** Bits that packets which need no other take more than one packet of any length, as a share of that; where the codec tells. */
+  /**
+   * Extra bits of independent packets compared with a single packet of any length, as a share; if the codec reports
+   * it.
+   */
   independenceCost?(): number;
-  /** Passes over the frame that the last {@link encode} took, where there is a budget. */
+  /** Passes over the frame in the last {@link encode}, if there is a budget. */
   passes?(): number;
 }
 
-/** Bytes of a packet's block. */
+/** Size of a packet's block, bytes. */
 export const PACKET_BYTES = 1200;
 
 /** The sizes of a blob's packets. */
@@ -67,7 +70,7 @@ export function blobPackets(bytes: number): number[] {
   ];
 }
 
-/** 6-6-4 bits (R highest) to R, G, B at the middle of each bin. */
+/** 6-6-4 bits (R highest) to R, G, B at the centre of each bin. */
 export function write664(bits: number, rgb: Uint8Array, at: number): void {
   rgb[at] = ((bits >> 10) & 63) * 4 + 2;
   rgb[at + 1] = ((bits >> 4) & 63) * 4 + 2;

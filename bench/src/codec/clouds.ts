@@ -1,4 +1,4 @@
-/** The clouds of the codec benchmark: PCD files, a folder of RGB-D pictures, or the simulated camera's frames. */
+/** The clouds of the codec benchmark: PCD files, a folder of RGB-D images, or the simulated camera's frames. */
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import {
@@ -13,7 +13,7 @@ import { zeroTwist } from '@farpoint/protocol';
 import { Simulation } from '@farpoint/sim';
 import type { BenchCloud } from './adapter.ts';
 
-/** @throws Error that names the file */
+/** @throws Error naming the file */
 export function pcdCloud(file: string): BenchCloud {
   if (!existsSync(file)) throw new Error(`${file}: there is no such file`);
   const bytes = readFileSync(file);
@@ -36,7 +36,7 @@ export function pcdCloud(file: string): BenchCloud {
   }
 }
 
-/** 0…1 and 0…255 as they are, else the largest becomes 255. */
+/** Keeps ranges 0…1 and 0…255; otherwise scales the largest value to 255. */
 function writeIntensity(intensity: Float32Array, points: Float32Array): void {
   const words = new Uint32Array(points.buffer, points.byteOffset, points.length);
   let most = 0;
@@ -48,9 +48,9 @@ function writeIntensity(intensity: Float32Array, points: Float32Array): void {
 }
 
 /**
- * A folder as Open3D lays it out: `color_*.jpg`, `depth_*.png`, `camera*.json`.
+ * A folder as laid out by Open3D: `color_*.jpg`, `depth_*.png`, `camera*.json`.
  *
- * @throws Error that names what is missing
+ * @throws Error naming what is missing
  */
 export function rgbdClouds(folder: string, most = 5): BenchCloud[] {
   if (!existsSync(folder)) throw new Error(`${folder}: there is no such folder`);
@@ -80,9 +80,9 @@ export function rgbdClouds(folder: string, most = 5): BenchCloud[] {
 }
 
 /**
- * What the simulated robot sees while it drives.
+ * What the simulated robot sees as it drives.
  *
- * @param size of the picture, pixels a side
+ * @param size side of the image in pixels
  */
 export async function simulatedClouds(count = 3, size = 480): Promise<BenchCloud[]> {
   const simulation = await Simulation.create({ seed: 1, camera: { width: size, height: size } });
@@ -96,7 +96,7 @@ export async function simulatedClouds(count = 3, size = 480): Promise<BenchCloud
       simulation.step(1 / 30);
     }
     const { points } = simulation.renderFrame();
-    // A copy of bytes: floats might change the colours' bits.
+    // Copied as bytes, because copying floats might change the colours' bits.
     const bytes = Uint8Array.from(new Uint8Array(points.buffer, points.byteOffset, points.byteLength));
     const { width, height } = simulation.intrinsics;
     clouds.push(

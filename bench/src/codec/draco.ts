@@ -1,4 +1,4 @@
-/** Google Draco's point clouds, as npm's draco3d (WASM) has them. */
+/** Google Draco's point cloud codec, from npm's draco3d (WASM). */
 import draco3d, {
   type DecoderModule,
   type DracoInt8Array,
@@ -9,7 +9,7 @@ import draco3d, {
 } from 'draco3d';
 import { type BenchCloud, blobPackets, type CodecRun } from './adapter.ts';
 
-/** What the module has beyond its published types. */
+/** Members of the module that its published types lack. */
 interface PointEncoderModule extends Omit<EncoderModule, 'Encoder'> {
   PointCloudBuilder: new () => PointCloudBuilder;
   PointCloud: new () => PointCloud;
@@ -28,7 +28,7 @@ export async function loadDraco(): Promise<Draco> {
   return { encoder, decoder: await draco3d.createDecoderModule({}) };
 }
 
-/** @param speed 10 is fastest and keeps the order; below, points are sorted into a k-d tree. */
+/** @param speed 10 is the fastest and keeps the order; below 10, points are sorted into a k-d tree */
 export function draco(
   { encoder, decoder }: Draco,
   cloud: BenchCloud,
@@ -81,7 +81,7 @@ export function draco(
         for (const object of [builder, points, coder]) encoder.destroy(object);
       }
     },
-    // Byte by byte, which is all that this build offers.
+    // Byte by byte, because this build offers nothing else.
     settle() {
       const bytes = out;
       if (bytes !== null) blob = Int8Array.from({ length }, (_, i) => bytes.GetValue(i));

@@ -1,4 +1,4 @@
-/** What is left of a frame when packets are lost. */
+/** What remains of a frame when packets are lost. */
 
 import { Random } from '@farpoint/network-sim';
 import type { BenchCloud, CodecRun } from './adapter.ts';
@@ -8,18 +8,18 @@ export type LossRate = '1' | '5' | '20';
 const RATES: readonly LossRate[] = ['1', '5', '20'];
 
 export interface LossResult {
-  /** Share of the sent points that did not come, 0–1. */
+  /** Share of the sent points that did not arrive, 0–1. */
   pointsLost: number;
-  /** Share of the points that came which lie further from their place than any does without loss, 0–1. */
+  /** Share of the received points that are further from their place than any point is without loss, 0–1. */
   pointsWrong: number;
 }
 
-/** Frames that are decoded, to see whether a point is wrong. */
+/** Number of frames decoded to look for wrong points. */
 const DECODED_SEEDS = 3;
-/** Frames over which the points that come are counted, packet by packet. */
+/** Number of frames over which received points are counted, packet by packet. */
 const COUNTED_SEEDS = 1000;
 
-/** @param worstM how far off a point may be: the most without loss */
+/** @param worstM tolerance for a point: the largest error without loss */
 export function measureLoss(
   cloud: BenchCloud,
   run: CodecRun,
@@ -42,7 +42,7 @@ export function measureLoss(
       run.decode(present);
       const decoded = run.decoded();
       const expected = present.reduce((sum, packet) => sum + (points[packet] as number), 0);
-      // A packet that gives other points among others than alone would not be decodable alone.
+      // A packet that decodes differently among others than alone is not independently decodable.
       if (decoded.points !== expected) throw new Error(`${decoded.points} points in place of ${expected}`);
       came += decoded.points;
       wrong += verify(cloud, decoded, worstM * 1.001 + 1e-6).wrong;
@@ -59,7 +59,7 @@ export function measureLoss(
   return Object.fromEntries(results) as Record<LossRate, LossResult>;
 }
 
-/** Each packet's points, decoded alone. */
+/** Number of points in each packet, decoded alone. */
 function pointsOfPackets(run: CodecRun, packets: number): number[] {
   return Array.from({ length: packets }, (_, packet) => {
     run.decode([packet]);
@@ -67,7 +67,7 @@ function pointsOfPackets(run: CodecRun, packets: number): number[] {
   });
 }
 
-/** The packets that come, in a random order. */
+/** The packets that arrive, in random order. */
 function survivors(packets: number, lossRate: number, seed: number): number[] {
   const random = new Random(seed, 0);
   const come: number[] = [];

@@ -23,9 +23,9 @@ function measure(made: CodecRun | string, of = cloud): CodecRow {
   return measureCodec(of, run, 1);
 }
 
-// Each codes and decodes the frame dozens of times, which a busy computer does slowly.
+// Each encodes and decodes the frame dozens of times, which is slow on a busy computer.
 describe('the codecs on a frame of the simulated camera', { timeout: 30_000 }, () => {
-  it('points64: 64 bits, half a millimetre', () => {
+  it('points64: 64 bits, errors within half a millimetre', () => {
     const row = measure(points64(codec, cloud));
     expect([row.bitsPerPoint, row.sentPoints, row.maxPacketBytes]).toEqual([64, cloud.valid.length, 1200]);
     expect(row.depthErrorMm).toBeLessThan(0.51);
@@ -33,7 +33,7 @@ describe('the codecs on a frame of the simulated camera', { timeout: 30_000 }, (
     expect(row.loss['20'].pointsLost).toBeCloseTo(0.2, 1);
   });
 
-  it('unorganised: within half a step, nothing in a wrong place under loss', () => {
+  it('unorganised: errors within half a step, no misplaced points under loss', () => {
     const row = measure(unorganised(codec, cloud, 5));
     expect(row.sentPoints).toBe(cloud.valid.length);
     expect(row.bitsPerPoint).toBeLessThan(15);
@@ -43,7 +43,7 @@ describe('the codecs on a frame of the simulated camera', { timeout: 30_000 }, (
     expect(Object.values(row.loss).map(({ pointsWrong }) => pointsWrong)).toEqual([0, 0, 0]);
   });
 
-  it('organised: within the error of its level, nothing in a wrong place under loss', () => {
+  it('organised: errors within the level’s bound, no misplaced points under loss', () => {
     const row = measure(organised(codec, cloud, { name: '', options: { depthLevel: 3 } }));
     expect(row.depthErrorMmPerZ2).toBeLessThan(0.51);
     expect(row.maxPacketBytes).toBeLessThanOrEqual(1200);
@@ -53,14 +53,14 @@ describe('the codecs on a frame of the simulated camera', { timeout: 30_000 }, (
     );
   });
 
-  it('zstd: one blob, lost with any packet', () => {
+  it('zstd: one blob, lost if any packet is lost', () => {
     expect(measure(zstd(codec, cloud)).loss['20'].pointsLost).toBeGreaterThan(0.99);
   });
 });
 
 const street = fileURLToPath(new URL('../../../../shared/data/clouds/lidar-street.pcd', import.meta.url));
 describe.skipIf(!existsSync(street))('a recorded LiDAR sweep (skipped without ../shared/data)', () => {
-  it('takes under 16 bits a point with its intensity, on a grid of 10 mm', () => {
+  it('takes less than 16 bits per point with intensity, on a grid of 10 mm', () => {
     const sweep = pcdCloud(street);
     const row = measure(unorganised(codec, sweep, 10), sweep);
     expect(row.bitsPerPoint).toBeLessThan(16);

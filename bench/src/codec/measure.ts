@@ -1,4 +1,4 @@
-/** One codec on one cloud. */
+/** Measures one codec on one cloud. */
 import { distribution, timeCalls } from '../stats.ts';
 import type { BenchCloud, CodecRun } from './adapter.ts';
 import { type LossRate, type LossResult, measureLoss } from './loss.ts';
@@ -8,32 +8,32 @@ export interface CodecRow {
   cloud: string;
   codec: string;
   setting: string;
-  /** Points of the cloud that were measured at all. */
+  /** Number of points in the cloud that have a measurement. */
   validPoints: number;
-  /** Those that the codec sends: fewer where its format cannot hold some. */
+  /** Number of points sent: fewer if the format cannot represent some. */
   sentPoints: number;
-  /** Of a sent point. */
+  /** Bits per sent point. */
   bitsPerPoint: number;
   depthErrorMmPerZ2: number;
   depthErrorMm: number;
   colorPsnrDb: number | null;
   encodeMs: number;
   decodeMs: number;
-  /** Outside WASM; only where asked for and the codec has it. */
+  /** Outside WASM; only if requested and supported by the codec. */
   nativeEncodeMs?: number;
   nativeDecodeMs?: number;
   packets: number;
   maxPacketBytes: number;
-  /** What it costs in bits that each packet is decodable alone, as a share; where the codec tells. */
+  /** Extra bits because each packet is decodable alone, as a share; if the codec reports it. */
   independenceCost?: number;
-  /** Passes over a frame that a budget took, in a steady stream. */
+  /** Passes over a frame to meet a budget, in a steady stream. */
   passes?: number;
-  /** One lost packet loses the frame. */
+  /** Whether one lost packet loses the frame. */
   blob: boolean;
   loss: Record<LossRate, LossResult>;
 }
 
-/** Calls until WASM runs as it goes on: V8 compiles it anew while it runs. */
+/** Calls until WASM runs at its final speed, because V8 recompiles it while it runs. */
 const WARM_UP = 20;
 
 export function measureCodec(cloud: BenchCloud, run: CodecRun, rounds: number, native = false): CodecRow {
@@ -46,7 +46,7 @@ export function measureCodec(cloud: BenchCloud, run: CodecRun, rounds: number, n
   const { depthErrorMmPerZ2, depthErrorMm, worstM, colorPsnrDb } = verify(cloud, decoded);
   const loss = measureLoss(cloud, run, decoded.points, worstM);
   const median = (call: () => void) => distribution(timeCalls(call, rounds, WARM_UP)).p50;
-  // Coding a frame anew may give other packets, where the coder learns from it.
+  // Encoding a frame again may give different packets if the encoder learns from it.
   const decodeMs = median(() => run.decode(all));
   const encodeMs = median(() => run.encode());
   const outside = native ? run.native?.(rounds) : undefined;

@@ -1,4 +1,4 @@
-/** meshoptimizer's vertex codec over int16 coordinates and 6-6-4 colours, 8 bytes a point. */
+/** meshoptimizer's vertex codec over int16 coordinates and 6-6-4 colours, 8 bytes per point. */
 import { MeshoptDecoder, MeshoptEncoder } from 'meshoptimizer';
 import { type BenchCloud, blobPackets, type CodecRun, write664 } from './adapter.ts';
 
@@ -6,7 +6,7 @@ export async function loadMeshopt(): Promise<void> {
   await Promise.all([MeshoptEncoder.ready, MeshoptDecoder.ready]);
 }
 
-/** Call {@link loadMeshopt} before. Points beyond ±32767 steps are not supported: choose the step for the cloud. */
+/** Call {@link loadMeshopt} first. Points beyond ±32767 steps are not supported: choose the step for the cloud. */
 export function meshopt(cloud: BenchCloud, stepMm: number): CodecRun {
   const { valid, frame } = cloud;
   const words = new Int16Array(valid.length * 4);

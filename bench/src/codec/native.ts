@@ -1,4 +1,4 @@
-/** Times of the same Rust code outside WASM: builds and runs the crate's own measuring example. */
+/** Times the same Rust code outside WASM: builds and runs the measuring example of the crate. */
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -13,7 +13,7 @@ export interface NativeTimes {
 
 const WORKSPACE = resolve(import.meta.dirname, '../../../wasm-codec');
 
-/** @throws Error with Cargo's last words */
+/** @throws Error with the end of Cargo's output */
 export function nativeUnorganised(cloud: BenchCloud, stepMm: number, rounds: number): NativeTimes {
   const attribute = cloud.attribute === 'colour' ? 'colour' : 'intensity8';
   return measured('farpoint-unorganised-codec', [points(cloud)], (file) => [
@@ -24,7 +24,7 @@ export function nativeUnorganised(cloud: BenchCloud, stepMm: number, rounds: num
   ]);
 }
 
-/** @throws Error with Cargo's last words */
+/** @throws Error with the end of Cargo's output */
 export function nativeOrganised(
   cloud: BenchCloud,
   camera: Pinhole,
@@ -50,7 +50,7 @@ function points({ frame }: BenchCloud): Uint8Array {
   return new Uint8Array(frame.buffer, frame.byteOffset, frame.byteLength);
 }
 
-/** Builds and runs a crate's measuring example with a file of these parts. */
+/** Builds and runs a crate's measuring example with a file made of these parts. */
 function measured(
   crate: string,
   parts: readonly Uint8Array[],

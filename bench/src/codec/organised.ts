@@ -13,7 +13,7 @@ import { verify } from './verify.ts';
 export interface OrganisedSetting {
   name: string;
   options: OrganisedOptions;
-  /** In place of a way to code colours: the one with the fewest bits that keeps them as good as this, dB. */
+  /** Instead of a fixed colour coding: the one with the fewest bits that has at least this quality, dB. */
   psnrDb?: number;
 }
 
@@ -33,14 +33,14 @@ export const ORGANISED_SETTINGS: readonly OrganisedSetting[] = [
   { name: 'budget of 125,000 bytes', options: { budgetBytes: 125_000 } },
 ];
 
-/** @returns the run, or why the cloud is not one for this codec or this setting */
+/** @returns the run, or why the cloud does not suit this codec or this setting */
 export function organised(codec: Codec, cloud: BenchCloud, setting: OrganisedSetting): CodecRun | string {
   return setting.psnrDb === undefined
     ? organisedAs(codec, cloud, setting)
     : cheapest(codec, cloud, setting, setting.psnrDb);
 }
 
-/** Of half chroma, full chroma and palette the one with the fewest bytes that is good enough. */
+/** Of half chroma, full chroma and palette, the one with the fewest bytes that is good enough. */
 function cheapest(
   codec: Codec,
   cloud: BenchCloud,
@@ -68,7 +68,7 @@ function cheapest(
     return true;
   };
   for (const chroma of ['half', 'full'] as const) {
-    // Colours get better from quality to quality: the coarsest that is good enough, by halving.
+    // Colours improve with the quality value. Bisect for the coarsest that is good enough.
     let [good, bad] = [-1, 32];
     while (bad - good > 1) {
       const quality = (good + bad) >> 1;
@@ -105,11 +105,11 @@ function organisedAs(
     throw error;
   }
   const decoder = new OrganisedDecoder(codec, header);
-  // Says which pixel each point is of; the other one is timed.
+  // This decoder also says which pixel each point belongs to; the other decoder is timed.
   const witness = new OrganisedDecoder(codec, header, { images: true });
   let [packets, passes] = [0, 0];
   let wanted: readonly number[] = [];
-  // Two by two, as the page does.
+  // In pairs, as the page does.
   const put = (into: OrganisedDecoder, indices: readonly number[]) => {
     into.begin();
     for (let i = 0; i < indices.length; i += 2) {
@@ -130,7 +130,7 @@ function organisedAs(
     encode() {
       ({ packets, passes } = encoder.encode(options));
     },
-    // A budget is met by what the frames before have taught: as in a stream.
+    // Encoders meet a budget with what they learned from earlier frames, as in a stream.
     settle() {
       if (options.budgetBytes !== undefined) for (let frame = 0; frame < 8; frame++) run.encode();
     },

@@ -1,11 +1,11 @@
-/** Rate, distortion and speed of the codecs as a picture. */
+/** Plots rate, distortion and speed of the codecs. */
 import { PALETTE, type Panel, renderChart, type Series } from '../plot/chart.ts';
 import type { CodecRow } from './measure.ts';
 
-/** Where what is exact is drawn. */
+/** Where lossless results are drawn, dB. */
 const LOSSLESS_DB = 60;
 
-/** For each cloud: depth error and colour over the bits of a point, and the time of a frame. */
+/** For each cloud: depth error and colour quality over bits per point, and time per frame. */
 export function plotCodecs(rows: readonly CodecRow[]): string {
   const codecs = [...new Set(rows.map((row) => row.codec))];
   const clouds = [...new Set(rows.map((row) => row.cloud))];

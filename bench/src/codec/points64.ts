@@ -6,7 +6,7 @@ import { type BenchCloud, blobPackets, type CodecRun, type DecodedCloud, write66
 const POINTS = 150;
 const POINT_BYTES = 8;
 
-/** The mandatory format; all points that it can hold, in the order they have. */
+/** The mandatory format, with all points that it can represent, in their order. */
 export function points64(codec: Codec, cloud: BenchCloud): CodecRun {
   const total = cloud.frame.length / 4;
   const encoder = new Points64Encoder(codec, total);
@@ -23,7 +23,8 @@ export function points64(codec: Codec, cloud: BenchCloud): CodecRun {
     setting: '1 mm, 6-6-4',
     blob: false,
     encode() {
-      // All weigh the same and all are wanted: nothing is drawn, only what cannot be held is left out.
+      // Equal weights and a budget for all points: nothing is sampled; only points that the format cannot represent
+      // are left out.
       ({ kept } = encoder.sample({
         points: total,
         count: total,
@@ -52,7 +53,7 @@ export function points64(codec: Codec, cloud: BenchCloud): CodecRun {
   };
 }
 
-/** One Zstandard blob over the packets of `points64`. */
+/** One Zstandard blob over the `points64` packets. */
 export function zstd(codec: Codec, cloud: BenchCloud): CodecRun {
   const inner = new Points64Encoder(codec, cloud.frame.length / 4);
   const words = new Uint32Array(cloud.frame.buffer, cloud.frame.byteOffset, cloud.frame.length);
@@ -109,7 +110,7 @@ export function zstd(codec: Codec, cloud: BenchCloud): CodecRun {
   };
 }
 
-/** Millimetres and 6-6-4 bits. An intensity was sent as a colour whose red it is. */
+/** Millimetres and 6-6-4 bits. An intensity was sent as the red of a colour. */
 function fromWords(points: Int16Array, cloud: BenchCloud, source: Uint32Array): DecodedCloud {
   const count = points.length / 4;
   const metres = new Float64Array(count * 3);

@@ -15,7 +15,7 @@ export function unorganised(codec: Codec, cloud: BenchCloud, stepMm: number): Co
   encoder.frameBits.set(words);
   let packets = 0;
   let indices: readonly number[] = [];
-  /** First point of each packet among those sent, where the order of the frame was kept. */
+  /** For each packet, its first point among those sent, if the frame's order was kept. */
   let firsts: number[] = [];
   const sent = sentPoints(cloud);
   const intensity = cloud.attribute === 'intensity';
@@ -31,7 +31,7 @@ export function unorganised(codec: Codec, cloud: BenchCloud, stepMm: number): Co
         attribute: intensity ? 'intensity8' : 'colour',
       }));
     },
-    // Packets lie in memory as they were packed, and are sent nearest first.
+    // Packets are stored in the order in which they were packed, and are sent nearest first.
     settle() {
       const packed = Array.from({ length: packets }, (_, i) => i);
       packed.sort((a, b) => encoder.packet(a).byteOffset - encoder.packet(b).byteOffset);
@@ -69,7 +69,7 @@ export function unorganised(codec: Codec, cloud: BenchCloud, stepMm: number): Co
         source.set(sent.subarray(first, first + points), at);
         at += points;
       }
-      // Where the encoder has sorted the points they are matched by their place.
+      // If the encoder has sorted the points, they are matched by position.
       return { points: count, metres, rgb, source: isSource(source, metres, cloud, stepMm) ? source : null };
     },
     [Symbol.dispose]() {
@@ -87,7 +87,7 @@ function sentPoints(cloud: BenchCloud): Uint32Array {
   });
 }
 
-/** Whether all points lie where their sources do. */
+/** Whether all points are at their sources' positions. */
 function isSource(source: Uint32Array, metres: Float32Array, cloud: BenchCloud, stepMm: number): boolean {
   return source.every((index, i) =>
     [0, 1, 2].every((axis) => {

@@ -34,7 +34,7 @@ function decoded(source: Uint32Array | null, shift = 0) {
 }
 
 describe('verify', () => {
-  it('finds nothing wrong with a copy, matched by identity or by place', () => {
+  it('finds no error in a copy, matched by identity or by position', () => {
     for (const source of [cloud().valid, null]) {
       const { worstM, colorPsnrDb, wrong } = verify(cloud(), decoded(source), 1e-4);
       expect(worstM).toBeLessThan(1e-5);
@@ -42,14 +42,14 @@ describe('verify', () => {
     }
   });
 
-  it('finds the one point that is off, in millimetres and per square of its depth', () => {
+  it('finds a single wrong point, in millimetres and per square of its depth', () => {
     const result = verify(cloud(), decoded(cloud().valid, 0.02), 0.01);
     expect(result.depthErrorMm).toBeCloseTo(20, 6);
     expect(result.depthErrorMmPerZ2).toBeCloseTo(5, 6);
     expect(result.wrong).toBe(1);
   });
 
-  it('measures the noise of colours', () => {
+  it('measures colour noise', () => {
     const off = decoded(cloud().valid);
     off.rgb.forEach((value, i) => {
       off.rgb[i] = value + 1;
@@ -59,7 +59,7 @@ describe('verify', () => {
 });
 
 describe('measureLoss', () => {
-  it('loses a blob with any of its packets, and of others what was in the packets', () => {
+  it('loses a blob with any of its packets, and otherwise only what was in the lost packets', () => {
     const all = decoded(cloud().valid);
     let got = all;
     const run = {

@@ -1,20 +1,20 @@
-/** What a decoder gave, point by point against what went in. */
+/** Compares a decoder's output point by point with the input. */
 import type { BenchCloud, DecodedCloud } from './adapter.ts';
 
 export interface Verified {
-  /** Largest |error in depth| / depth², millimetres per square metre. */
+  /** Largest |depth error| / depth², millimetres per square metre. */
   depthErrorMmPerZ2: number;
-  /** Largest |error in depth|, millimetres. */
+  /** Largest |depth error|, millimetres. */
   depthErrorMm: number;
-  /** Largest distance of a point from where it was, metres. */
+  /** Largest distance of a point from its original position, metres. */
   worstM: number;
-  /** Over all points that came; null where it is not known which is which. Exact ones count as 99 dB. */
+  /** Over all received points; null if they cannot be matched. Exact colours count as 99 dB. */
   colorPsnrDb: number | null;
   /** Points further from their source than allowed. */
   wrong: number;
 }
 
-/** @param allowedM where a point further off is wrong; default: none is */
+/** @param allowedM distance beyond which a point counts as wrong; default: none does */
 export function verify(cloud: BenchCloud, decoded: DecodedCloud, allowedM = Infinity): Verified {
   const { frame } = cloud;
   const bytes = new Uint8Array(frame.buffer, frame.byteOffset, frame.byteLength);
@@ -31,7 +31,7 @@ export function verify(cloud: BenchCloud, decoded: DecodedCloud, allowedM = Infi
     const depth = depthOf(cloud, frame, source * 4);
     const error = Math.abs(depthOf(cloud, decoded.metres, i * 3) - depth) * 1000;
     depthError = Math.max(depthError, error);
-    // A point at the sensor itself is none of the cloud's, though some files have one.
+    // A point at the sensor itself is not part of the cloud, though some files have one.
     if (depth > 1e-3) perZ2 = Math.max(perZ2, error / (depth * depth));
     for (let channel = 0; channel < 3; channel++) {
       const byte = source * 16 + 12 + (cloud.attribute === 'colour' ? channel : 0);
@@ -60,11 +60,14 @@ function depthOf(cloud: BenchCloud, values: ArrayLike<number>, index: number): n
 
 const CELL_M = 0.05;
 
-/** The nearest point of the cloud for each decoded one, within 5 to 10 cm; beyond that any (and so an error to see). */
+/**
+ * The nearest point of the cloud for each decoded one, within 5 to 10 cm; beyond that, any point, whose error is then
+ * visible.
+ */
 function nearest(cloud: BenchCloud, decoded: DecodedCloud): Uint32Array {
   const { frame } = cloud;
   const cells = new Map<number, number[]>();
-  // 2^16 cells an axis: ±1600 m.
+  // 2^16 cells per axis: ±1600 m.
   const key = (x: number, y: number, z: number) =>
     ((x + 32_768) * 65_536 + (y + 32_768)) * 65_536 + (z + 32_768);
   const cell = (metres: number) => Math.floor(metres / CELL_M);

@@ -1,35 +1,35 @@
 import { LinkCapacity } from './link-capacity.ts';
 import type { BandwidthUsage } from './overuse-detector.ts';
 
-/** What is left of the incoming rate after over-use. */
+/** Factor applied to the incoming rate after over-use. */
 const BETA = 0.85;
-/** Growth per second, far from convergence. */
+/** Growth factor per second, far from convergence. */
 const ETA = 1.08;
-/** What the controller needs beyond a round trip until it sees what it has done, ms (`response_time_ms`). */
+/** Time beyond a round trip until the controller sees its own effect, ms (`response_time_ms`). */
 const RESPONSE_MS = 100;
-/** Over-use is not put down to the last change for longer than this, ms. */
+/** Over-use is attributed to the last change for no longer than this, ms. */
 const MOST_WAIT_MS = 200;
-/** Where less than this part of the estimate arrives, it is not put down to it at all. */
+/** If less than this share of the estimate arrives, over-use is not attributed to the last change at all. */
 const COLLAPSE = 0.5;
-/** What a frame is divided into, near convergence. */
+/** Assumed frame rate for the size of a packet near convergence. */
 const FRAMES_PER_SECOND = 30;
 const PACKET_BITS = 1200 * 8;
-/** The least growth, bit/s per s near convergence; bit/s at a time far from it. */
+/** Minimum growth: bit/s per s near convergence; bit/s per update far from it. */
 const LEAST_ADDITIVE = 4000;
 const LEAST_MULTIPLICATIVE = 1000;
-/** The estimate does not grow beyond so many times the incoming rate, and a little, bit/s. */
+/** The estimate does not exceed the incoming rate times this factor, plus AHEAD_BITS bit/s. */
 const AHEAD = 1.5;
 const AHEAD_BITS = 10_000;
 
 /**
- * Rate control (draft-ietf-rmcat-gcc-02, section 5.5): additive or multiplicative increase, multiplicative decrease, and the
- * state machine. As in libwebrtc over-use only leads to a decrease where the estimate has not changed for a response time:
- * before that it may be what the last change has done.
+ * Rate control (draft-ietf-rmcat-gcc-02, section 5.5): additive or multiplicative increase, multiplicative decrease,
+ * and the state machine. As in libwebrtc, over-use leads to a decrease only if the estimate has not changed for a
+ * response time. Before that, it may be the result of the last change.
  */
 export class AimdRate {
   /** `A_hat`, bit/s. */
   estimate: number;
-  /** `hold` while queues are being emptied. A decrease is over at once and leads to it. */
+  /** `hold` while queues drain. A decrease takes effect immediately and leads to `hold`. */
   state: 'increase' | 'hold' = 'increase';
   readonly #least: number;
   readonly #most: number;
@@ -42,7 +42,7 @@ export class AimdRate {
     this.#most = mostBitsPerSecond;
   }
 
-  /** @param incoming `R_hat`, bit/s; NaN where it is not known */
+  /** @param incoming `R_hat`, bit/s; NaN if unknown */
   update(usage: BandwidthUsage, incoming: number, roundTripMs: number, nowMs: number): void {
     if (usage === 'over') {
       const waitMs = Math.min(roundTripMs + RESPONSE_MS, MOST_WAIT_MS);
@@ -61,7 +61,7 @@ export class AimdRate {
     this.#increase(incoming, roundTripMs, nowMs);
   }
 
-  /** A probe has told the rate. */
+  /** Sets the rate that a probe has found. */
   set(bitsPerSecond: number, nowMs: number): void {
     this.estimate = Math.min(Math.max(bitsPerSecond, this.#least), this.#most);
     this.#changedMs = nowMs;
@@ -70,11 +70,11 @@ export class AimdRate {
   #decrease(incoming: number, nowMs: number): void {
     this.state = 'hold';
     if (Number.isNaN(incoming)) {
-      // Nothing is known but that it is too much.
+      // All that is known is that the rate is too high.
       this.set(this.estimate / 2, nowMs);
       return;
     }
-    // While a queue is emptied more arrives than is sent; then what the path was known to carry says more.
+    // While a queue drains, more arrives than is sent. The known capacity of the path is then a better guide.
     const isMore = BETA * incoming > this.estimate && this.#capacity.isKnown;
     const full = isMore ? this.#capacity.estimate : incoming;
     if (this.#capacity.isFarAbove(incoming)) this.#capacity.reset();

@@ -21,7 +21,7 @@ function run(more: Partial<Scenario> = {}) {
   return { outcome, flow, used: (from: number, to: number) => utilisation(outcome, flow, from, to) };
 }
 
-describe('on simulated links, as libwebrtc’s does', () => {
+describe('on simulated links, like libwebrtc’s', () => {
   test('finds a steady link within a second and stays just below it', () => {
     const { flow, used } = run();
     expect(used(1000, 3000)).toBeGreaterThan(0.7);
@@ -29,7 +29,7 @@ describe('on simulated links, as libwebrtc’s does', () => {
     expect(queueQuantiles(flow, 5000, 15_000, [0.95])[0]).toBeLessThan(10);
   });
 
-  test('yields to a link that falls, and empties the queue', () => {
+  test('follows a falling capacity, and drains the queue', () => {
     const capacity = [...SCENARIO.capacity, { atMs: 8000, mbps: 5 }];
     const { flow, used } = run({ capacity });
     expect(msAboveQueue(flow, 100, 8000, 15_000)).toBeLessThan(2500);
@@ -37,16 +37,16 @@ describe('on simulated links, as libwebrtc’s does', () => {
     expect(used(12_000, 15_000)).toBeGreaterThan(0.5);
   });
 
-  test('is not troubled by 5 % loss, and gives way to 20 %', () => {
+  test('tolerates 5 % loss, and yields to 20 %', () => {
     expect(run({ loss: 0.05 }).used(5000, 15_000)).toBeGreaterThan(0.5);
     expect(run({ loss: 0.2 }).used(10_000, 15_000)).toBeLessThan(0.05);
   });
 
-  test('takes jitter for jitter', () => {
+  test('does not mistake jitter for congestion', () => {
     expect(run({ tailMs: 3 }).used(5000, 15_000)).toBeGreaterThan(0.6);
   });
 
-  test('begins anew after an outage', () => {
+  test('starts again after an outage', () => {
     const capacity = [...SCENARIO.capacity, { atMs: 5000, mbps: 0 }, { atMs: 8000, mbps: 20 }];
     expect(run({ capacity }).used(10_000, 15_000)).toBeGreaterThan(0.5);
   });
@@ -57,7 +57,7 @@ test('the same run gives the same numbers', () => {
   expect(a.flow.target).toEqual(b.flow.target);
 });
 
-test('the receiver’s limit holds', () => {
+test('obeys the receiver’s limit', () => {
   const controller = new GccController({ startBitsPerSecond: 3e6 });
   controller.onReceiverLimit(1e6, 0);
   expect(controller.decision(0).targetBitsPerSecond).toBe(1e6);

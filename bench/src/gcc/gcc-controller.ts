@@ -22,15 +22,16 @@ export interface GccOptions {
   maxBitsPerSecond?: number;
 }
 
-/** The point pacer's own factor; libwebrtc's 2.5 would send whole frames in bursts. */
+/** The same factor as the point pacer's; libwebrtc's 2.5 would send whole frames in bursts. */
 const PACING = 1.1;
-/** After so long without feedback the delay begins anew, ms. */
+/** After this long without feedback, delay measurement restarts, ms. */
 const STALE_MS = 2000;
 const FIRST_ROUND_TRIP_MS = 200;
 
 /**
- * Google congestion control, written from draft-ietf-rmcat-gcc-02 with libwebrtc's trend line in place of the Kalman filter:
- * what AdaptiveRateController is compared with. Delay and loss each give a rate; the lower one counts (section 6).
+ * Google congestion control, written from draft-ietf-rmcat-gcc-02, with libwebrtc's trend line instead of the Kalman
+ * filter. AdaptiveRateController is compared with it. Delay and loss each give a rate; the lower one counts (section
+ * 6).
  */
 export class GccController implements RateController {
   readonly #most: number;
@@ -82,7 +83,7 @@ export class GccController implements RateController {
     this.#loss.onReport(results.length, lost, this.#rate.estimate);
   }
 
-  /** Transport-wide feedback says more. */
+  /** Ignored, because transport-wide feedback says more. */
   onReceiverReport(_report: ReceiverSums, _nowMs: number): void {}
 
   onReceiverLimit(bitsPerSecond: number, _nowMs: number): void {
@@ -144,7 +145,7 @@ export class GccController implements RateController {
     }
   }
 
-  /** The path has not been heard of for long: what was measured before says nothing of now. */
+  /** Forgets earlier measurements, which are meaningless after a long silence. */
   #forget(): void {
     this.#groups.reset();
     this.#trendline = new Trendline();

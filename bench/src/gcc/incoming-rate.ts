@@ -1,13 +1,13 @@
-/** The window `T`, ms; on a fast path so many packets, which are less. */
+/** The window `T`, ms. On a fast path, the last MOST_PACKETS packets, which span less. */
 const WINDOW_MS = 1000;
 const MOST_PACKETS = 500;
-/** What is told at the least from: packets. */
+/** Minimum number of packets for a rate. */
 const LEAST_PACKETS = 10;
 
 /**
- * The rate of what arrives, `R_hat` (draft-ietf-rmcat-gcc-02, section 5.5): over the last packets. As in libwebrtc the
- * longest gap does not count, for paths hold packets back and let them go at once; and it is never told to be more than was
- * sent in the time.
+ * The incoming rate, `R_hat` (draft-ietf-rmcat-gcc-02, section 5.5), over the latest packets. As in libwebrtc, the
+ * longest gap does not count, because paths hold packets back and then release them at once. The result never exceeds
+ * the sending rate of the same packets.
  */
 export class IncomingRate {
   readonly #sent = new Float64Array(MOST_PACKETS);
@@ -25,11 +25,11 @@ export class IncomingRate {
     while (arrivedMs - (this.#arrived[this.#first % MOST_PACKETS] as number) > WINDOW_MS) this.#first++;
   }
 
-  /** Bit/s; NaN while too little has arrived. */
+  /** Bit/s; NaN while too few packets have arrived. */
   get bitsPerSecond(): number {
     if (this.#end - this.#first < LEAST_PACKETS) return Number.NaN;
     let bytes = 0;
-    // The first packet came before the time that is counted.
+    // The first packet arrived before the measured time span.
     for (let i = this.#first + 1; i < this.#end; i++) bytes += this.#bytes[i % MOST_PACKETS] as number;
     const elapsedMs = Math.max(this.#spanMs(this.#sent), this.#spanMs(this.#arrived));
     return elapsedMs > 0 ? (bytes * 8000) / elapsedMs : Number.NaN;
@@ -39,7 +39,7 @@ export class IncomingRate {
     this.#first = this.#end;
   }
 
-  /** From first to last, but for the longest gap. */
+  /** From first to last packet, minus the longest gap. */
   #spanMs(times: Float64Array): number {
     let span = 0;
     let longest = 0;

@@ -1,13 +1,13 @@
 import { expect, test } from 'vitest';
 import { LinkCapacity } from './link-capacity.ts';
 
-test('nothing is far from a capacity that is unknown', () => {
+test('no rate is far from an unknown capacity', () => {
   const capacity = new LinkCapacity();
   expect(capacity.isKnown).toBe(false);
   expect([capacity.isFarAbove(1), capacity.isFarBelow(1e9)]).toEqual([false, false]);
 });
 
-test('the first sample is believed, later ones move it by a twentieth', () => {
+test('the first sample sets it; later ones move it by a twentieth', () => {
   const capacity = new LinkCapacity();
   capacity.add(10e6);
   expect(capacity.estimate).toBe(10e6);
@@ -17,7 +17,7 @@ test('the first sample is believed, later ones move it by a twentieth', () => {
   expect(capacity.isKnown).toBe(false);
 });
 
-test('three standard deviations: those of few samples at first, more where they differ', () => {
+test('uses three standard deviations: the minimum for few samples, more if samples differ', () => {
   const capacity = new LinkCapacity();
   capacity.add(10e6);
   const margin = 3 * Math.sqrt(0.4 * 10_000) * 1000;

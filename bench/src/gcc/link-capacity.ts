@@ -1,15 +1,19 @@
-/** The newest sample's weight: a smoothing factor of 0.95. */
+/** Weight of the newest sample: a smoothing factor of 0.95. */
 const WEIGHT = 0.05;
-/** Bounds of the samples' variance over their mean, kbit/s, as libwebrtc has them: few samples tell no spread. */
+/**
+ * Bounds of the samples' variance over their mean, kbit/s, as in libwebrtc, because a few samples do not show the
+ * spread.
+ */
 const LEAST_SPREAD = 0.4;
 const MOST_SPREAD = 2.5;
 
 /**
- * Mean and spread of what arrived when the path was full (draft-ietf-rmcat-gcc-02, section 5.5): while the incoming rate is
- * within three standard deviations of it, the sender is near convergence. Nothing is far from an unknown one.
+ * Mean and spread of the incoming rate when the path was full (draft-ietf-rmcat-gcc-02, section 5.5). While the
+ * incoming rate is within three standard deviations of it, the sender is near convergence. No rate is far from an
+ * unknown capacity.
  */
 export class LinkCapacity {
-  /** Bit/s; NaN: unknown. */
+  /** Bit/s; NaN if unknown. */
   estimate = Number.NaN;
   #spread = LEAST_SPREAD;
 
@@ -25,7 +29,7 @@ export class LinkCapacity {
     return bitsPerSecond < this.estimate - this.#marginBits;
   }
 
-  /** The path was full at this rate. */
+  /** Records that the path was full at this rate. */
   add(bitsPerSecond: number): void {
     this.estimate = this.isKnown ? this.estimate + WEIGHT * (bitsPerSecond - this.estimate) : bitsPerSecond;
     const errorKbit = (bitsPerSecond - this.estimate) / 1000;

@@ -10,24 +10,24 @@ function after(lostOf1000: number): number {
   return loss.estimate / 1e6;
 }
 
-describe('by what was lost since the last report', () => {
-  test('less than 2 %: 5 % more', () => {
+describe('by the loss since the last report', () => {
+  test('less than 2 %: raises the rate by 5 %', () => {
     expect(after(0)).toBeCloseTo(10.5);
     expect(after(19)).toBeCloseTo(10.5);
   });
 
-  test('2 to 10 %: as it is', () => {
+  test('2 to 10 %: keeps the rate', () => {
     expect(after(20)).toBe(10);
     expect(after(100)).toBe(10);
   });
 
-  test('more than 10 %: less by half of it', () => {
+  test('more than 10 %: lowers the rate by half the loss', () => {
     expect(after(101)).toBeCloseTo(10 * (1 - 0.0505));
     expect(after(1000)).toBeCloseTo(5);
   });
 });
 
-test('few packets wait for the next report where some are lost', () => {
+test('waits for the next report if few packets were sent and some lost', () => {
   const loss = new LossController(10e6, 1e5);
   loss.onReport(10, 10, FAR);
   expect(loss.estimate).toBe(10e6);
@@ -37,7 +37,7 @@ test('few packets wait for the next report where some are lost', () => {
   expect(loss.estimate).toBe(7.5e6 * 1.05);
 });
 
-test('never above what the delay allows, nor below the least', () => {
+test('never exceeds the delay-based rate or falls below the minimum', () => {
   const loss = new LossController(10e6, 1e5);
   loss.onReport(100, 0, 4e6);
   expect(loss.estimate).toBe(4e6);
@@ -45,7 +45,7 @@ test('never above what the delay allows, nor below the least', () => {
   expect(loss.estimate).toBe(1e5);
 });
 
-test('a probe raises it and never lowers it', () => {
+test('is raised and never lowered by a probe', () => {
   const loss = new LossController(10e6, 1e5);
   loss.raise(20e6);
   expect(loss.estimate).toBe(20e6);

@@ -1,15 +1,15 @@
-/** Of the packets since the last report: below the first the rate grows, above the second it is cut. */
+/** Share of packets lost since the last report: the rate grows below LOW and falls above HIGH. */
 const LOW = 0.02;
 const HIGH = 0.1;
 const GROWTH = 1.05;
-/** Packets that a fraction is told from. Where some of fewer are lost, they wait for the next report. */
+/** Minimum number of packets for a loss share. If fewer were sent and some lost, they are added to the next report. */
 const LEAST_PACKETS = 20;
 
-/** Loss-based control (draft-ietf-rmcat-gcc-02, section 6), with each feedback message as a report. */
+/** Loss-based control (draft-ietf-rmcat-gcc-02, section 6). Each feedback message counts as a report. */
 export class LossController {
   /** `As_hat`, bit/s. */
   estimate: number;
-  /** Of the last report, 0–1. */
+  /** Loss share of the last report, 0–1. */
   fraction = 0;
   readonly #least: number;
   #packets = 0;
@@ -21,8 +21,8 @@ export class LossController {
   }
 
   /**
-   * @param packets that the report speaks of, lost ones among them
-   * @param delayBased what the delay allows, bit/s: never exceeded, for what is not sent is not tried
+   * @param packets number of packets that the report covers, including lost ones
+   * @param delayBased the delay-based rate, bit/s; never exceeded, because a rate that is not sent is not tested
    */
   onReport(packets: number, lost: number, delayBased: number): void {
     this.#packets += packets;
@@ -37,7 +37,7 @@ export class LossController {
     this.estimate = Math.max(Math.min(this.estimate, delayBased), this.#least);
   }
 
-  /** A probe has told that so much gets through, bit/s. */
+  /** Raises the rate to what a probe has shown to get through, bit/s. */
   raise(bitsPerSecond: number): void {
     this.estimate = Math.max(this.estimate, bitsPerSecond);
   }

@@ -1,11 +1,11 @@
 import { AdaptiveThreshold } from './adaptive-threshold.ts';
 
-/** What the delay says of the path: queues grow (`over`), are being emptied (`under`), or neither. */
+/** What delay says about the path: queues grow (`over`), drain (`under`), or neither. */
 export type BandwidthUsage = 'normal' | 'over' | 'under';
 
-/** Over-use must have lasted so long, ms (`overuse_time_th`). */
+/** Minimum duration of over-use, ms (`overuse_time_th`). */
 const OVERUSE_MS = 10;
-/** The slope is weighed by libwebrtc's gain and by the number of groups, up to so many. */
+/** The slope is multiplied by libwebrtc's gain and by the number of groups, up to a maximum. */
 const GAIN = 4;
 const MOST_GROUPS = 60;
 
@@ -18,18 +18,18 @@ export class OveruseDetector {
 
   /**
    * @param slope of the delay, see {@link Trendline}
-   * @param groups that it was drawn from
-   * @param sentDeltaMs the time the newest group stands for
+   * @param groups number of groups behind the slope
+   * @param sentDeltaMs time that the newest group spans
    */
   update(slope: number, groups: number, sentDeltaMs: number, arrivedMs: number): void {
     if (groups < 2) return;
     const trend = Math.min(groups, MOST_GROUPS) * slope * GAIN;
     const threshold = this.#threshold.value;
     if (trend > threshold) {
-      // The threshold was passed somewhere within the first group's time.
+      // The threshold was exceeded somewhere within the first group's time.
       const isFirst = Number.isNaN(this.#overMs);
       this.#overMs = isFirst ? sentDeltaMs / 2 : this.#overMs + sentDeltaMs;
-      // A queue that grows more slowly than it did is no over-use.
+      // A queue that grows more slowly than before is not over-use.
       if (!isFirst && this.#overMs > OVERUSE_MS && slope >= this.#lastSlope) {
         this.#overMs = 0;
         this.usage = 'over';

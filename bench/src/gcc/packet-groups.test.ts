@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { PacketGroups } from './packet-groups.ts';
 
-/** Adds packets; the deltas, sent and arrival, of each group that is whole. */
+/** Adds packets. @returns the deltas, sent and arrival, of each complete group */
 function deltas(packets: readonly (readonly [sentMs: number, arrivalMs: number])[]): number[][] {
   const groups = new PacketGroups();
   const out: number[][] = [];
@@ -10,7 +10,7 @@ function deltas(packets: readonly (readonly [sentMs: number, arrivalMs: number])
   return out;
 }
 
-test('packets of 5 ms are a group; groups are compared by their last packets', () => {
+test('packets within 5 ms form a group; groups are compared by their last packets', () => {
   const packets = [0, 2, 5, 10, 12, 20, 30].map((sent) => [sent, 100 + 1.5 * sent] as const);
   expect(deltas(packets)).toEqual([
     [7, 10.5],
@@ -18,8 +18,8 @@ test('packets of 5 ms are a group; groups are compared by their last packets', (
   ]);
 });
 
-test('what a path held back and let go at once joins the group', () => {
-  // Sent each 6 ms; the second to the fourth were held until 40.
+test('packets that a path holds back and releases at once join the group', () => {
+  // Sent every 6 ms; the second to fourth were held back.
   const arrivals = [100, 140, 140.5, 141, 147, 153];
   const packets = arrivals.map((arrival, i) => [6 * i, arrival] as const);
   expect(deltas(packets)).toEqual([
@@ -28,12 +28,12 @@ test('what a path held back and let go at once joins the group', () => {
   ]);
 });
 
-test('but for no longer than 100 ms', () => {
+test('a held-back group lasts no longer than 100 ms', () => {
   const held = Array.from({ length: 60 }, (_, i) => [6 * i, 100 + 4 * i] as const);
   expect(deltas(held).map(([sent]) => sent)).toEqual([150]);
 });
 
-test('a packet that was overtaken by a later group says nothing', () => {
+test('ignores a packet that was overtaken by a later group', () => {
   const packets = [
     [0, 100],
     [10, 110],
@@ -47,7 +47,7 @@ test('a packet that was overtaken by a later group says nothing', () => {
   ]);
 });
 
-test('after a reset it begins anew', () => {
+test('starts again after a reset', () => {
   const groups = new PacketGroups();
   expect([0, 10, 20].map((ms) => groups.add(ms, ms))).toEqual([false, false, true]);
   groups.reset();

@@ -1,17 +1,20 @@
-/** Packets sent within so long of their group's first one are one group, ms (`burst_time`). */
+/** Packets sent within this time of their group's first packet form one group, ms (`burst_time`). */
 const BURST_MS = 5;
-/** A group that a queue let go all at once ends after so long, ms. */
+/** Longest duration of a group that a queue releases at once, ms. */
 const LONGEST_BURST_MS = 100;
 
 /**
- * Pre-filtering (draft-ietf-rmcat-gcc-02, sections 5.1 and 5.2): delay is compared from group to group, for the packets of
- * a burst tell of nothing but the burst. What a path held back and let go at once, as a radio does, joins its group too.
+ * Pre-filtering (draft-ietf-rmcat-gcc-02, sections 5.1 and 5.2). Delay is compared from group to group, because the
+ * packets of a burst show only the burst itself. Packets that a path, such as a radio link, holds back and releases
+ * at once join their group, too.
  */
 export class PacketGroups {
-  /** Between the last packets of the two newest whole groups, ms: by the sender's clock, and by the receiver's. */
+  /**
+   * Time between the last packets of the two newest complete groups, ms, on the sender's clock and on the receiver's.
+   */
   sentDeltaMs = 0;
   arrivalDeltaMs = 0;
-  /** When the newest whole group was there, by the receiver's clock, ms. */
+  /** When the newest complete group arrived, on the receiver's clock, ms. */
   arrivedMs = 0;
   #firstSentMs = Number.NaN;
   #firstArrivalMs = 0;
@@ -21,9 +24,9 @@ export class PacketGroups {
   #previousArrivalMs = 0;
 
   /**
-   * The next packet that arrived, in sending order.
+   * Adds the next packet that arrived, in sending order.
    *
-   * @returns whether it began a new group and the deltas are those of the one before it
+   * @returns whether it began a new group, so that the deltas are those of the previous one
    */
   add(sentMs: number, arrivalMs: number): boolean {
     if (Number.isNaN(this.#firstSentMs)) {
@@ -58,7 +61,7 @@ export class PacketGroups {
     this.#lastArrivalMs = arrivalMs;
   }
 
-  /** It left together with the group's last packet, or came hard upon it after less delay. */
+  /** Whether it was sent together with the group's last packet, or followed it closely with less delay. */
   #isLetGo(sentMs: number, arrivalMs: number): boolean {
     if (sentMs === this.#lastSentMs) return true;
     const sinceMs = arrivalMs - this.#lastArrivalMs;

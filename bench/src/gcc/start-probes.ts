@@ -1,21 +1,22 @@
-/** The first two trains, in parts of the rate at the start; later ones in parts of the rate found. */
+/** Rates of the first two trains as multiples of the initial rate; of later ones as multiples of the rate found. */
 const FIRST_FACTOR = 3;
 const SECOND_FACTOR = 6;
 const LATER_FACTOR = 2;
-/** A train that finds this part of its own rate is followed by another. */
+/** A train that finds at least this share of its own rate is followed by another one. */
 const GO_ON = 0.7;
-/** The search ends where a train has not been answered for so long, ms. */
+/** The search ends if a train has not been answered for this long, ms. */
 const PATIENCE_MS = 1000;
 const TRAIN_MS = 15;
 const TRAIN_BYTES = 6000;
-/** A train that arrives at less than this part of the rate it was sent at has found the path's rate, */
+/** A train that arrives at less than this share of its sending rate has found the path's rate … */
 const UNLIMITED = 0.9;
-/** of which so much is planned for. */
+/** … of which this share is then used. */
 const KEEP = 0.95;
 
 /**
- * The search for the rate at the start, by trains of packets: at three and six times the first rate, then at twice what was
- * found, until a train finds less than 70 % of its own rate. The draft knows no probes; libwebrtc begins so.
+ * The search for the path's rate at the start, with trains of packets: at three and six times the initial rate, then
+ * at twice the rate found, until a train finds less than 70 % of its own rate. The draft has no probes; libwebrtc
+ * starts this way.
  */
 export class StartProbes {
   readonly #secondRate: number;
@@ -40,7 +41,7 @@ export class StartProbes {
     return this.#rate;
   }
 
-  /** A train's length, bytes. */
+  /** Length of a train, bytes. */
   static bytes(bitsPerSecond: number): number {
     return Math.max((bitsPerSecond * TRAIN_MS) / 8000, TRAIN_BYTES);
   }

@@ -2,7 +2,7 @@ import { Random } from '@farpoint/network-sim';
 import { expect, test } from 'vitest';
 import { Trendline } from './trendline.ts';
 
-/** The slope after groups each 10 ms whose delay grows by `gradient` ms per ms. */
+/** The slope after groups every 10 ms whose delay grows by `gradient` ms per ms. */
 function slopeAfter(groups: number, gradient: number, noiseMs = 0): number {
   const trendline = new Trendline();
   const random = new Random(1, 0);
@@ -16,25 +16,25 @@ function slopeAfter(groups: number, gradient: number, noiseMs = 0): number {
   return slope;
 }
 
-test('tells no slope before its window of 20 groups is full', () => {
+test('gives no slope before its window of 20 groups is full', () => {
   expect(slopeAfter(19, 0.2)).toBe(0);
   expect(slopeAfter(20, 0.2)).toBeGreaterThan(0.05);
 });
 
 test.each([0.01, 0.1, 0.5, -0.1, -0.3])('finds a gradient of %f', (gradient) => {
-  // Per ms of arrival; the smoothing lags, and has caught up after 100 groups.
+  // Per ms of arrival. The smoothing lags, but has caught up after 100 groups.
   expect(slopeAfter(100, gradient)).toBeCloseTo(gradient / (1 + gradient), 4);
 });
 
-test('an even delay has none', () => {
+test('gives slope 0 for a constant delay', () => {
   expect(slopeAfter(100, 0)).toBe(0);
 });
 
-test('noise of ± 2 ms hardly moves it', () => {
+test('is hardly moved by noise of ± 2 ms', () => {
   expect(Math.abs(slopeAfter(200, 0, 4))).toBeLessThan(0.01);
 });
 
-test('groups that all arrived at one time leave the slope as it was', () => {
+test('keeps its slope if all groups arrived at the same time', () => {
   const trendline = new Trendline();
   for (let i = 0; i < 40; i++) expect(trendline.add(10, 0, 500)).toBe(0);
 });

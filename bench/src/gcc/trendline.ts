@@ -1,12 +1,12 @@
-/** Groups that the line is fitted to. */
+/** Number of groups that the line is fitted to. */
 const WINDOW = 20;
-/** What is kept of the smoothed delay with each group. */
+/** Share of the smoothed delay that is kept with each group. */
 const SMOOTHING = 0.9;
 
 /**
- * The trend of the one-way delay: a straight line, by least squares, through the smoothed delay over the arrival times of
- * the last groups. It stands in the place of the draft's Kalman filter (draft-ietf-rmcat-gcc-02, section 5.3), as in
- * libwebrtc since 2016.
+ * The trend of the one-way delay: a least-squares line through the smoothed delay over the arrival times of the
+ * latest groups. It replaces the draft's Kalman filter (draft-ietf-rmcat-gcc-02, section 5.3), as in libwebrtc since
+ * 2016.
  */
 export class Trendline {
   readonly #times = new Float64Array(WINDOW);
@@ -17,12 +17,15 @@ export class Trendline {
   #smoothedMs = 0;
   #slope = 0;
 
-  /** Groups since the beginning. */
+  /** Number of groups so far. */
   get count(): number {
     return this.#count;
   }
 
-  /** @returns the slope, ms of delay per ms: the part by which more is sent than gets through; 0 until the window is full */
+  /**
+   * @returns the slope, ms of delay per ms: the share by which more is sent than gets through; 0 until the window is
+   * full
+   */
   add(sentDeltaMs: number, arrivalDeltaMs: number, arrivedMs: number): number {
     if (this.#count === 0) this.#firstMs = arrivedMs;
     this.#delayMs += arrivalDeltaMs - sentDeltaMs;

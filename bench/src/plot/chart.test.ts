@@ -16,7 +16,7 @@ describe('linearScale', () => {
     expect(scale.pixel(9.7)).toBe(92);
   });
 
-  test('has ticks without rounding dust, and bears an empty range', () => {
+  test('has ticks without rounding errors, and accepts an empty range', () => {
     expect(linearScale([0, 0.7], [0, 1], 7).ticks()).toEqual([0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
     expect(linearScale([3, 3], [0, 1], 4).pixel(3)).toBe(0);
   });
@@ -36,7 +36,7 @@ test('tick labels are short', () => {
   expect([0, 0.25, 9000, 12_500, 3e6].map(tickLabel)).toEqual(['0', '0.25', '9000', '12.5k', '3M']);
 });
 
-test('a chart holds its series, breaks lines at gaps and escapes its texts', () => {
+test('a chart draws its series, breaks lines at gaps and escapes texts', () => {
   const svg = renderChart({
     title: 'a < b & "c"',
     panels: [

@@ -1,4 +1,4 @@
-/** Charts of lines over a common axis, in a row of panels, as an SVG document. */
+/** Line charts with a common x axis, in rows of panels, as an SVG document. */
 import { linearScale, tickLabel } from './scale.ts';
 import { element, escapeText, linePath } from './svg.ts';
 
@@ -8,11 +8,11 @@ export interface Series {
   x: ArrayLike<number>;
   y: ArrayLike<number>;
   /**
-   * `line` (default); `step`: y holds until the next x; `area`: a filled step, for what the others are compared with;
-   * `points`: a dot at each.
+   * `line` (default); `step`: y holds until the next x; `area`: a filled step, for a reference; `points`: a dot at
+   * each value.
    */
   shape?: 'line' | 'step' | 'area' | 'points';
-  /** Default: the next of the palette; areas are grey. */
+  /** Default: the next colour of the palette; areas are grey. */
   colour?: string;
   dashed?: boolean;
 }
@@ -30,24 +30,24 @@ export interface Panel {
   yLabel: string;
   series: readonly Series[];
   spans?: readonly Span[];
-  /** Default: from the series; y from 0 unless values are negative. */
+  /** Default: from the series; y starts at 0 unless values are negative. */
   xRange?: readonly [number, number];
   yRange?: readonly [number, number];
 }
 
 export interface Chart {
   title: string;
-  /** Under the title: what was measured, with what settings. */
+  /** Shown below the title: what was measured, and with which settings. */
   subtitle?: string;
   panels: readonly Panel[];
-  /** Panels in a row; default all of them. */
+  /** Panels per row; default: all in one row. */
   columns?: number;
-  /** Pixels of one panel. */
+  /** Width of one panel in pixels. */
   panelWidth?: number;
   panelHeight?: number;
 }
 
-/** Okabe and Ito's colours, which people with any kind of colour vision can tell apart. */
+/** Okabe and Ito's palette, which is distinguishable with any kind of colour vision. */
 export const PALETTE = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#000000'];
 const AREA_COLOUR = '#d5d9de';
 const INK = '#24292f';
@@ -56,7 +56,7 @@ const MARGIN = { top: 30, right: 14, bottom: 46, left: 62 };
 const HEADER = 62;
 const LEGEND_ROW = 18;
 
-/** @returns an SVG document on a white ground, so that it reads on dark pages too */
+/** @returns an SVG document with a white background, so that it is readable on dark pages, too */
 export function renderChart(chart: Chart): string {
   const columns = chart.columns ?? chart.panels.length;
   const rows = Math.ceil(chart.panels.length / columns);
@@ -213,7 +213,7 @@ function renderSeries(
   return element('path', { d: linePath(points), ...line, 'stroke-dasharray': dash });
 }
 
-/** In the upper right, where the curves of most plots are low; on a ground of its own where they are not. */
+/** In the upper right, where most curves are low; with a background for those that are not. */
 function renderLegend(series: readonly Series[], colours: readonly string[], right: number): string {
   const longest = Math.max(0, ...series.map((one) => one.label.length));
   const width = 34 + longest * 6.4;

@@ -1,4 +1,4 @@
-/** From values to pixels, and the round numbers in between. */
+/** Maps values to pixels, and chooses round numbers for ticks. */
 
 export interface Scale {
   readonly low: number;
@@ -7,7 +7,7 @@ export interface Scale {
   ticks(): number[];
 }
 
-/** A scale from `low`–`high` to `from`–`to` pixels; the range is widened to round numbers unless `exact`. */
+/** Maps `low`–`high` to `from`–`to` pixels. The range is widened to round numbers unless `exact`. */
 export function linearScale(
   range: readonly [number, number],
   pixels: readonly [number, number],
@@ -29,20 +29,20 @@ export function linearScale(
     ticks: () => {
       const first = Math.ceil(low / step - 1e-9);
       const count = Math.floor(high / step + 1e-9) - first + 1;
-      // Products, not sums: no error adds up.
+      // Products rather than sums, so that rounding errors do not accumulate.
       return Array.from({ length: count }, (_, i) => Number(((first + i) * step).toPrecision(12)));
     },
   };
 }
 
-/** The smallest of 1, 2 and 5 times a power of ten that is at least `least`. */
+/** The smallest number that is 1, 2 or 5 times a power of ten and at least `least`. */
 export function roundStep(least: number): number {
   const power = 10 ** Math.floor(Math.log10(least));
   const factor = [1, 2, 5, 10].find((candidate) => candidate * power >= least * (1 - 1e-9)) ?? 10;
   return factor * power;
 }
 
-/** 1200 → `1.2k`: short enough for an axis. */
+/** Short labels for an axis: 1200 → `1.2k`. */
 export function tickLabel(value: number): string {
   const magnitude = Math.abs(value);
   if (magnitude >= 1e6) return `${Number((value / 1e6).toPrecision(4))}M`;

@@ -1,4 +1,4 @@
-/** The little of SVG that the plots need, written as text. */
+/** The few parts of SVG that the plots need, written as text. */
 
 export type Attributes = Record<string, string | number | undefined>;
 

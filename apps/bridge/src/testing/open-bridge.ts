@@ -2,7 +2,7 @@ import { type Logger, silentLogger } from '@farpoint/service';
 import { Bridge, type BridgeOptions } from '../bridge.ts';
 import { monotonicMs } from '../clock.ts';
 
-/** A bridge on free ports of this machine, for tests. @param signaling the clients' port */
+/** A bridge on free ports of this machine, for tests. @param signaling the service's port for clients */
 export function openBridge(
   signaling: number,
   options: Partial<BridgeOptions> = {},

@@ -14,27 +14,27 @@ const stateWhere = (is: (state: TimedBaseState) => boolean) =>
     };
   });
 
-it('drives when told, and stops by itself when it is not told again', async () => {
+it('drives on a velocity, and stops by itself when it is not refreshed', async () => {
   base = new BaseThread({ watchdogMs: 150 });
   base.apply({ ...zeroTwist(), linear: { x: 0.3, y: 0, z: 0 } });
   await stateWhere(({ twist }) => twist.linear.x > 0);
-  // Not repeated: the thread's own watchdog brakes.
+  // The velocity is not repeated, so the thread's own watchdog brakes.
   await stateWhere(({ twist }) => twist.linear.x === 0);
   expect(base.watchdogStops).toBe(1);
 });
 
-it('shows sensors the world that it stands in', async () => {
+it('shows its world to sensors', async () => {
   base = new BaseThread({ watchdogMs: 150 });
   const world = new SnapshotReader(base.snapshot);
   const { pose } = await stateWhere(() => true);
   const first = world.read();
   expect(first).toMatchObject({ x: pose.position.x, y: pose.position.y });
-  // People walk, whether the robot moves or not.
+  // People walk whether the robot moves or not.
   await stateWhere(() => (world.read()?.time ?? 0) > (first?.time ?? 0) + 0.2);
   expect(world.read()?.bodies).not.toEqual(first?.bodies);
 });
 
-it('says that its thread is gone, once', async () => {
+it('reports once that its thread has ended', async () => {
   base = new BaseThread({ watchdogMs: 150 });
   const failures: Error[] = [];
   const failed = new Promise<void>((resolve) => {
@@ -43,7 +43,7 @@ it('says that its thread is gone, once', async () => {
       resolve();
     };
   });
-  // Not a velocity: what it throws ends the thread.
+  // Not a velocity: the error that it causes ends the thread.
   base.apply(null as never);
   await failed;
   await base.close();

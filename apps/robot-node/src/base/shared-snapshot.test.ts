@@ -8,7 +8,7 @@ function shared() {
   return { base, memory, writer: new SnapshotWriter(memory), reader: new SnapshotReader(memory) };
 }
 
-it('has nothing before the first, then always the newest', () => {
+it('is empty before the first snapshot, then returns the newest', () => {
   const { base, writer, reader } = shared();
   expect(reader.read()).toBeNull();
   writer.write(base.snapshot);
@@ -18,10 +18,10 @@ it('has nothing before the first, then always the newest', () => {
   expect(reader.read()).toEqual(base.snapshot);
 });
 
-it('gives nothing out that is half written', () => {
+it('never returns a half-written snapshot', () => {
   const { base, memory, writer, reader } = shared();
   writer.write(base.snapshot);
-  // As if the writer had died in the middle.
+  // As if the writer had died during a write.
   Atomics.add(new Int32Array(memory, 0, 1), 0, 1);
   expect(reader.read()).toBeNull();
 });

@@ -6,7 +6,7 @@ import { Wheels } from './wheels.ts';
 const WATCHDOG_MS = 150;
 const forward: Twist = { ...zeroTwist(), linear: { x: 1, y: 0, z: 0 } };
 
-/** Counts the milliseconds that it drove. */
+/** Counts the milliseconds for which it drove. */
 class Odometer implements Base {
   drivenMs = 0;
   #lastMs = 0;
@@ -34,7 +34,7 @@ it('drives while the velocity is repeated', () => {
   expect(wheels.stops).toBe(0);
 });
 
-it('stops at the watchdog’s time to the millisecond, however late it looks', () => {
+it('stops exactly at the watchdog’s time, however late it checks', () => {
   wheels.apply(forward, 0);
   wheels.advance(5000);
   expect(base.drivenMs).toBe(WATCHDOG_MS);
@@ -43,21 +43,21 @@ it('stops at the watchdog’s time to the millisecond, however late it looks', (
   expect(wheels.stops).toBe(1);
 });
 
-it('stops in time also where the next word comes first', () => {
+it('stops in time even if the next velocity arrives before the check', () => {
   wheels.apply(forward, 0);
   wheels.apply(forward, 400);
   wheels.advance(450);
   expect(base.drivenMs).toBe(WATCHDOG_MS + 50);
 });
 
-it('stands until it was told to move, and silence after a zero is no stop', () => {
+it('stands until it gets a velocity, and does not count silence after a zero as a stop', () => {
   wheels.advance(300);
   wheels.apply(zeroTwist(), 300);
   wheels.advance(900);
   expect([base.drivenMs, wheels.stops]).toEqual([0, 0]);
 });
 
-it('drives under the old velocity until the new one comes', () => {
+it('drives with the old velocity until the new one arrives', () => {
   wheels.apply(forward, 0);
   wheels.apply(zeroTwist(), 100);
   wheels.advance(120);

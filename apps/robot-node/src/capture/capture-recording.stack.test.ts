@@ -27,7 +27,7 @@ const OPTIONS: Omit<CaptureOptions, 'source'> = {
 
 interface Recorded {
   points: number;
-  /** Of x, y and z: least and most, over points that are some. */
+  /** Smallest and largest x, y and z of the valid points. */
   least: number[];
   most: number[];
   stamp: string;
@@ -49,7 +49,7 @@ function measure(message: unknown): Recorded {
   return { points, least, most, stamp: JSON.stringify(header.stamp) };
 }
 
-/** Captures `count` frames while recording; gives them and what was recorded of them. */
+/** Captures `count` frames while recording. @returns them and what was recorded of them */
 async function recordFrames(source: SourceOptions, coded: boolean, count: number) {
   const path = join(folder, `${source.kind}-${coded}.mcap`);
   const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
@@ -121,12 +121,12 @@ describe('capture thread that is recorded', { timeout: 30_000 }, () => {
         const [asSent, asCaptured] = [sent[i], captured[i]] as [Recorded, Recorded];
         expect(asSent.points).toBe(frame.points);
         expect(asSent.stamp).toBe(asCaptured.stamp);
-        // All points went out, so the clouds reach as far.
+        // All points were sent, so the clouds have the same bounds.
         if (frame.points !== asCaptured.points) return;
         for (const end of ['least', 'most'] as const) {
           asSent[end].forEach((sentMetres, axis) => {
             const metres = asCaptured[end][axis] as number;
-            // Of the organised format the step grows with the distance.
+            // The step of the organised format grows with the distance.
             expect(Math.abs(sentMetres - metres)).toBeLessThan(step + (coded ? 0.1 * Math.abs(metres) : 0));
           });
         }

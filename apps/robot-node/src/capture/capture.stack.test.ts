@@ -66,7 +66,7 @@ function checkPayloads(frame: ReadyFrame): void {
 }
 
 describe('capture thread', () => {
-  it('gives frames that can be sent as they are, numbered, on the robot’s clock', async () => {
+  it('gives numbered frames that are ready to send, with times on the robot’s clock', async () => {
     const capture = await start(sim);
     capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true });
     const [a, b] = (await frames(capture, 2)) as [ReadyFrame, ReadyFrame];
@@ -78,24 +78,24 @@ describe('capture thread', () => {
     expect(b.capturedAtMs).toBeGreaterThan(a.capturedAtMs);
   });
 
-  it('keeps to the point budget', async () => {
+  it('stays within the point budget', async () => {
     const capture = await start(sim, { mostPoints: 450 });
     capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 1e9, overheadBytes: 68, streaming: true });
     const [frame] = await frames(capture, 1);
     expect(frame?.points).toBe(450);
   });
 
-  it('captures nothing while nobody watches', async () => {
+  it('captures nothing while nobody is watching', async () => {
     const capture = await start(sim);
     let count = 0;
     capture.onFrame = () => count++;
-    // Twenty reports of the state later there could have been many frames.
+    // There could have been many frames during twenty reports of the state.
     let reports = 0;
     await stateWhere(capture, () => ++reports === 20);
     expect(count).toBe(0);
   });
 
-  it('holds no more frames than it has buffers, and goes on when one comes back', async () => {
+  it('holds no more frames than it has buffers, and continues when one is returned', async () => {
     const capture = await start(sim);
     capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true });
     const held = await frames(capture, 4, false);
@@ -114,7 +114,7 @@ describe('capture thread', () => {
     expect(got.filter((frame) => frame.latencyTest)).toHaveLength(1);
   });
 
-  it('says what is wrong with a source that cannot be opened', async () => {
+  it('says why a source cannot be opened', async () => {
     await expect(start({ kind: 'pcd', path: '/nowhere/cloud.pcd', frame: 'auto' })).rejects.toThrow(
       CaptureError,
     );

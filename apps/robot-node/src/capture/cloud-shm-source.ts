@@ -120,7 +120,7 @@ export class CloudShmSource implements FrameSource {
 
   #sourceFrame(frame: CloudFrame, nowMs: number, room: CaptureRoom): SourceFrame {
     const { form, points: count, pose, capturedAtMs } = frame;
-    // Place the body as under a camera without poses: level, looking ahead, 1 m above the ground.
+    // Assume the mounting of a camera without poses: level, looking ahead, 1 m above the base.
     if (pose !== null) this.#state = { ...STANDING, pose: compose(pose, inverse(STATIC_CAMERA_POSE)) };
     const stamp = {
       cameraPose: pose ?? STATIC_CAMERA_POSE,

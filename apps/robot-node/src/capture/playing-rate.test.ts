@@ -1,4 +1,4 @@
-/** A recording is played with all of its clouds, by counts and a clock of its own. */
+/** Checks that a recording plays with all of its clouds, by counting, and with its own clock. */
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -21,7 +21,7 @@ const folder = mkdtempSync(join(tmpdir(), 'farpoint-playing-rate-'));
 afterAll(() => rmSync(folder, { recursive: true }));
 
 const at = (ms: number) => START_NS + BigInt(Math.round(ms * 1000)) * 1000n;
-/** Recorded all the while; the clouds only while an operator watched. */
+/** Recorded all the time, unlike the clouds, which are recorded only while an operator watches. */
 const telemetry = {
   ...{
     topic: '/farpoint/telemetry',
@@ -35,7 +35,7 @@ const telemetry = {
   })),
 };
 
-/** As a robot's recording has it that records clouds as sent alone. */
+/** As in a robot's recording that contains only clouds as sent. */
 const unused = {
   ...{ topic: '/farpoint/captured', type: 'sensor_msgs/msg/PointCloud2', schema: POINT_CLOUD2_SCHEMA },
   messages: [],
@@ -54,7 +54,7 @@ async function recording(name: string, times: readonly number[]): Promise<string
   return writeFile(join(folder, name), await mcapOfTopics([telemetry, unused, clouds]));
 }
 
-/** The robot's own default, and what the capture thread makes of it. */
+/** The robot's default rate, and what the capture thread makes of it. */
 async function play(
   path: string,
 ): Promise<{ framesPerSecond: number | null; played: number; taken: number }> {
@@ -98,7 +98,7 @@ async function play(
   return { framesPerSecond, played: player.played, taken };
 }
 
-/** 60 a second for 2 s, up to 3 ms early or late, as a busy camera's. */
+/** 60 clouds/s for 2 s, up to 3 ms early or late, like a busy camera's. */
 const jittered = Array.from({ length: 120 }, (_, k) => 25_000 + (k * 1000) / 60 + ((k * 7) % 7) - 3);
 
 test.each([
@@ -112,7 +112,7 @@ test.each([
   expect([played, taken]).toEqual([times.length, times.length]);
 });
 
-test('clouds that come unevenly: hardly any is left out', async () => {
+test('clouds at uneven intervals: hardly any is left out', async () => {
   const { taken } = await play(await recording('jittered', jittered));
   expect(taken).toBeGreaterThan(0.95 * jittered.length);
 });

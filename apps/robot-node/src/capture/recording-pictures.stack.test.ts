@@ -1,4 +1,4 @@
-/** Pictures and readings of recordings, as a robot that plays them shows them. */
+/** Pictures and readings from recordings, as shown by a robot that plays them. */
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -27,7 +27,7 @@ afterEach(() => {
   for (const source of sources.splice(0)) source.close();
 });
 
-/** Plays it to the end with somebody who watches every camera. */
+/** Plays the recording to its end with a watcher for every camera. */
 async function play(path: string, table: object[], { watched = true } = {}) {
   const now = () => performance.now();
   const source = await RecordingSource.open({ ...PLAY, path, topics: topicTableSchema.parse(table) }, now);
@@ -63,7 +63,7 @@ async function play(path: string, table: object[], { watched = true } = {}) {
 
 const peers = Peers.install();
 describe.skipIf(typeof peers === 'string')(
-  `pictures that PyPI’s libraries wrote ${typeof peers === 'string' ? `(${peers})` : ''}`,
+  `pictures written by libraries from PyPI ${typeof peers === 'string' ? `(${peers})` : ''}`,
   { timeout: 60_000 },
   () => {
     beforeAll(() => (peers as Peers).writePictures(folder), 400_000);
@@ -110,7 +110,7 @@ describe.skipIf(typeof peers === 'string')(
     });
 
     it.each(['ros1.bag', 'ros2.mcap'])(
-      '%s: says which topics have pictures where the table names another; nobody watching, none is read',
+      '%s: says which topics have pictures if the table names another; reads none while nobody watches',
       async (file) => {
         const { faults, pictures, clouds } = await play(
           join(folder, file),
@@ -154,7 +154,7 @@ describe('pictures and readings of a recording', () => {
   const write = async (name: string, topics: TestTopic[]) =>
     writeFile(join(folder, name), await mcapOfTopics([clouds, ...topics]));
 
-  it('broken ones are told of with file, topic and byte, each way of being broken once, and the rest plays', async () => {
+  it('reports broken messages with file, topic and byte, once per fault, and plays the rest', async () => {
     const messages = Array.from({ length: 20 }, (_, k) => {
       const broken: (Uint8Array | undefined)[] = [];
       broken[3] = text({});
@@ -185,7 +185,7 @@ describe('pictures and readings of a recording', () => {
     expect(played.faults.filter((fault) => fault.includes('neither JPEG nor PNG'))).toHaveLength(1);
   });
 
-  it('readings are told as the live ones are', async () => {
+  it('reports readings as live ones are reported', async () => {
     const battery: TestTopic = {
       ...{ topic: '/battery', type: 'battery', ...json },
       messages: [10, 20].map((ms) => ({ logNs: at(ms), data: text({ voltage: 25.1, percentage: 0.75 }) })),
@@ -208,7 +208,7 @@ describe('pictures and readings of a recording', () => {
     ]);
   });
 
-  it('what is named and not there the robot’s log says, too', { timeout: 20_000 }, async () => {
+  it('the robot’s log, too, names topics that the recording lacks', { timeout: 20_000 }, async () => {
     const path = await write('nothing.mcap', []);
     const topics = topicTableSchema.parse([{ topic: '/front', as: 'picture' }]);
     const capture = await Capture.start({

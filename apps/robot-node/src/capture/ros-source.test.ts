@@ -18,7 +18,7 @@ const headerAt = (ms: number, frame_id = OPTICAL) => ({
   seq: 0,
 });
 
-/** A cloud of x, y, z: of a LiDAR as a line, of a camera as its grid at a depth of 2 m. */
+/** A cloud of x, y, z: a line for a LiDAR, the grid at a depth of 2 m for a camera. */
 function cloudOf(ms: number, width: number, height: number, frame = OPTICAL, point = at(2)) {
   const data = new Float32Array(width * height * 3);
   for (let i = 0; i < width * height; i++) data.set(point(i % width, Math.floor(i / width)), i * 3);
@@ -29,7 +29,7 @@ function cloudOf(ms: number, width: number, height: number, frame = OPTICAL, poi
     data: new Uint8Array(data.buffer),
   };
 }
-/** Where the pixel’s point is at a depth, with the camera below. */
+/** The pixel's point at a depth, for the camera below. */
 function at(z: number) {
   return (u: number, v: number) => [((u - 4) / 10) * z, ((v - 3) / 10) * z, z];
 }
@@ -100,7 +100,7 @@ async function setUp(
 
 describe('RosSource', () => {
   it.each([1, 2] as const)(
-    'gives a LiDAR’s clouds of ROS %i as points, where odometry places them',
+    'gives a LiDAR’s clouds from ROS %i as points, placed by odometry',
     async (version) => {
       const table = [
         { topic: '/points', as: 'cloud' },
@@ -119,7 +119,7 @@ describe('RosSource', () => {
       pass(40);
       const frame = capture();
       expect(frame).toMatchObject({ form: 'points', count: 3, capturedAtMs: 5000 });
-      // Body axes (x forward) come as optical ones (z forward), 1 m above a body that odometry places.
+      // Body axes (x forward) become optical axes (z forward), 1 m above a body placed by odometry.
       expect(frame?.form === 'points' && [...frame.points.subarray(0, 3)]).toEqual([-2, -3, 1]);
       expect(frame?.cameraPose.position).toEqual({ x: 7, y: 0, z: 1 });
       expect(source.state).toMatchObject({ pose: { position: { x: 7 } }, twist: { linear: { x: 0.25 } } });
@@ -131,7 +131,7 @@ describe('RosSource', () => {
     },
   );
 
-  it('subscribes what the table names and nothing else', async () => {
+  it('subscribes only to what the table names', async () => {
     const table = [
       { topic: '/points', as: 'cloud', most: 10 },
       { topic: '/tf_static', as: 'tf' },
@@ -146,13 +146,13 @@ describe('RosSource', () => {
     expect(graph.advertised).toEqual([]);
   });
 
-  it('gives a depth camera’s cloud as pictures where its camera is named', async () => {
+  it('gives a depth camera’s cloud as images if its camera is named', async () => {
     const table = [
       { topic: '/points', as: 'cloud' },
       { topic: '/info', as: 'cameraInfo' },
     ];
     const { source, capture } = await setUp(table, (g) => {
-      // Before the camera is known no cloud is taken.
+      // No cloud is taken before the camera is known.
       g.say('/points', CLOUD, cloudOf(0, 8, 6));
       g.say('/info', INFO, info(0));
       g.say('/points', CLOUD, cloudOf(30, 8, 6));
@@ -166,7 +166,7 @@ describe('RosSource', () => {
     expect(frame?.form === 'images' && [...frame.depth]).toEqual(Array(48).fill(2));
   });
 
-  it('gives points, and says why, where a grid is not that camera’s', async () => {
+  it('gives points, and says why, if the grid is not that camera’s', async () => {
     const table = [
       { topic: '/points', as: 'cloud' },
       { topic: '/info', as: 'cameraInfo' },
@@ -183,7 +183,7 @@ describe('RosSource', () => {
     expect(capture()).toMatchObject({ form: 'points', count: 48 });
   });
 
-  it('puts depth and colour of one instant together', async () => {
+  it('pairs depth and colour images of the same instant', async () => {
     const table = [
       { topic: '/depth', as: 'depth' },
       { topic: '/colour', as: 'colour' },
@@ -209,7 +209,7 @@ describe('RosSource', () => {
     ]);
   });
 
-  it('goes on after messages that are none, naming topic and byte', async () => {
+  it('goes on after malformed messages, naming topic and byte', async () => {
     const table = [{ topic: '/points', as: 'cloud' }];
     const { graph, capture, faults } = await setUp(table, (g) => g.say('/points', CLOUD, cloudOf(0, 3, 1)));
     capture();
@@ -224,7 +224,7 @@ describe('RosSource', () => {
     expect(capture()).toMatchObject({ count: 3 });
   });
 
-  it('tells readings at the rate that the table allows', async () => {
+  it('reports readings at the rate that the table allows', async () => {
     const table = [
       { topic: '/points', as: 'cloud' },
       { topic: '/temperature', as: 'text', type: 'std_msgs/Float32', most: 2, label: 'Temperature' },
@@ -243,7 +243,7 @@ describe('RosSource', () => {
         values: [['', `${i}`]],
       })),
     );
-    // Each node tells its own part: they are put together.
+    // Each node sends its own part; the parts are merged.
     const diagnostics = (level: number, name: string) => ({
       header: headerAt(0),
       status: [{ level, name, message: 'm', hardware_id: '', values: [] }],
@@ -261,7 +261,7 @@ describe('RosSource', () => {
     });
   });
 
-  it('takes the time of coming where a stamp is of another clock', async () => {
+  it('uses the arrival time if a stamp is from another clock', async () => {
     const table = [{ topic: '/points', as: 'cloud' }];
     const { graph, capture, pass } = await setUp(table, (g) => g.say('/points', CLOUD, cloudOf(0, 3, 1)));
     graph.say('/points', CLOUD, { ...cloudOf(0, 3, 1), header: headerAt(-1_600_000_000_000) });
@@ -304,7 +304,7 @@ describe('RosSource', () => {
     const compressed = (ms: number, format = 'jpeg') => ({ header: headerAt(ms), format, data: jpeg });
     const COMPRESSED = 'sensor_msgs/msg/CompressedImage';
 
-    it('are subscribed while somebody watches, and given to who wants them', async () => {
+    it('are subscribed to while somebody watches, and given to whoever wants them', async () => {
       const { source, graph, faults, pass } = await setUp(table, first, { version });
       expect(source.description.cameras).toEqual([
         { name: 'Front', most: null },
@@ -340,7 +340,7 @@ describe('RosSource', () => {
       expect(faults).toEqual([]);
     });
 
-    it('that cannot be read are faults with their topic', async () => {
+    it('that cannot be read are reported as faults with their topic', async () => {
       const { source, graph, faults } = await setUp(table, first, { version });
       const taken: unknown[] = [];
       source.usePictures({ wants: () => true, offer: (picture) => taken.push(picture) });

@@ -1,4 +1,4 @@
-/** Producers in shared memory, through the real capture thread. */
+/** Producers in shared memory, read by the real capture thread. */
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -31,7 +31,7 @@ afterEach(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-/** Until the test ends, at the latest. */
+/** Repeats until the test ends, at the latest. */
 function every(ms: number, produce: () => void): NodeJS.Timeout {
   const timer = setInterval(produce, ms);
   timers.push(timer);
@@ -58,7 +58,7 @@ async function start(layout: 'farpoint' | 'reference', waitMs = 10_000): Promise
 
 const BUDGET = { ...NO_BUDGET, targetBitsPerSecond: 123_000_000, overheadBytes: 68, streaming: true };
 
-/** Calls `produce` again and again until such a frame comes out; what came before is no matter. */
+/** Calls `produce` repeatedly until a frame matches; ignores earlier frames. */
 async function frameWhere(
   capture: Capture,
   produce: () => void,
@@ -94,7 +94,7 @@ function cloud(z: number, points: number): Float32Array {
   return Float32Array.from({ length: points * 4 }, (_, i) => (i % 4 === 2 ? z : i % 4 === 3 ? 0 : 0.5));
 }
 
-/** One block of the reference's packed points, all at (1, 2, depth) mm. */
+/** One block of the reference system's packed points, all at (1, 2, depth) mm. */
 function packed(depth: number, colour: number): Uint8Array {
   const block = new DataView(new ArrayBuffer(1200));
   for (let i = 0; i < 150; i++) {
@@ -114,7 +114,7 @@ describe.skipIf(!isAvailable())(
   'sources in shared memory (need the addon: pnpm build:native)',
   { timeout: 30_000 },
   () => {
-    it('farpoint: frames with grid, pose and capture time come out as packets', async () => {
+    it('farpoint: turns frames with grid, pose and capture time into packets', async () => {
       const producer = keep(
         new CloudProducer({ folder, format: 'points', maxPoints: 300, framesPerSecond: 30 }),
       );
@@ -144,7 +144,7 @@ describe.skipIf(!isAvailable())(
       expect(state.x).not.toBe(0);
     });
 
-    it('farpoint: a camera’s grid comes out as images’ points', async () => {
+    it('farpoint: turns a camera’s grid into the points of images', async () => {
       const lens = { fx: 10, fy: 10, cx: 9.5, cy: 7 };
       const producer = keep(new CloudProducer({ folder, format: 'depth16', maxPoints: 300 }));
       const content = { depth: new Uint16Array(300).fill(2000), colours: new Uint8Array(1200) };
@@ -165,7 +165,7 @@ describe.skipIf(!isAvailable())(
       clearInterval(timer);
     });
 
-    it('farpoint: heals when the producer is followed by another, and says what is wrong meanwhile', async () => {
+    it('farpoint: recovers when another producer takes over, and reports the fault meanwhile', async () => {
       const first = keep(new CloudProducer({ folder, format: 'points', maxPoints: 300 }));
       first.publish({ points: cloud(1, 300) }, GRID);
       const capture = await start('farpoint');
@@ -184,7 +184,7 @@ describe.skipIf(!isAvailable())(
       expect(capture.faults).toBeGreaterThanOrEqual(1);
     });
 
-    it('farpoint: ends, saying why, where another producer’s frames are too large', async () => {
+    it('farpoint: ends with a reason if another producer’s frames are too large', async () => {
       const first = keep(new CloudProducer({ folder, format: 'points', maxPoints: 100 }));
       first.publish({ points: cloud(1, 100) }, { ...GRID, width: 100, height: 1 });
       const capture = await start('farpoint');
@@ -199,7 +199,7 @@ describe.skipIf(!isAvailable())(
     });
 
     it.each(['reference', 'farpoint'] as const)(
-      '%s: goes on after a frame that was there first',
+      '%s: goes on after a frame that existed before it started',
       async (layout) => {
         const mine = layout === 'reference' ? keep(new ReferenceFrameProducer(folder)) : null;
         const ours =
@@ -221,7 +221,7 @@ describe.skipIf(!isAvailable())(
       },
     );
 
-    it('reference: packed points come out as packets, and the producer learns the rate', async () => {
+    it('reference: turns packed points into packets, and tells the producer the rate', async () => {
       const producer = keep(new ReferenceFrameProducer(folder));
       const capture = await start('reference');
       expect(capture.description).toMatchObject({ capacity: 230_400, height: 1 });
@@ -246,7 +246,7 @@ describe.skipIf(!isAvailable())(
         colour: new Uint32Array(0),
       };
 
-      it('asks the producer for one green frame, and that is the one', async () => {
+      it('asks the producer for one green frame, and that frame is the answer', async () => {
         const producer = keep(new ReferenceFrameProducer(folder));
         const source = keep(await ReferenceShmSource.open({ folder, waitMs: 10_000 }, () => 1000));
         const asked: boolean[] = [];
@@ -261,7 +261,7 @@ describe.skipIf(!isAvailable())(
         expect(answers).toEqual([false, true, false, false]);
       });
 
-      it('is answered by the next frame where the producer does not know it', async () => {
+      it('is answered by the next frame if the producer does not support it', async () => {
         const producer = keep(new ReferenceFrameProducer(folder));
         const source = keep(await ReferenceShmSource.open({ folder, waitMs: 10_000 }, () => 1000));
         const answers = [0, 500, 501].map((ms) => {
@@ -271,7 +271,7 @@ describe.skipIf(!isAvailable())(
         expect(answers).toEqual([false, false, true]);
       });
 
-      it('comes out of the capture thread green', async () => {
+      it('gives a green frame from the capture thread', async () => {
         const producer = keep(new ReferenceFrameProducer(folder));
         const capture = await start('reference');
         capture.setBudget(BUDGET);
@@ -283,7 +283,7 @@ describe.skipIf(!isAvailable())(
       });
     });
 
-    it('reference: with nobody watching the producer waits; then what is old is let go', async () => {
+    it('reference: while nobody watches, the producer waits; afterwards the old frame is discarded', async () => {
       const producer = keep(new ReferenceFrameProducer(folder));
       const capture = await start('reference');
       expect(producer.publish(packed(1, 0))).toBe(true);
@@ -303,7 +303,7 @@ describe.skipIf(!isAvailable())(
       expect(firstPoint(frame)[2]).toBe(2);
     });
 
-    it('reference: an impossible length is a fault that passes', async () => {
+    it('reference: an impossible length is a temporary fault', async () => {
       const producer = keep(new ReferenceFrameProducer(folder));
       const capture = await start('reference');
       capture.setBudget(BUDGET);
@@ -324,7 +324,7 @@ describe.skipIf(!isAvailable())(
     });
 
     it.each(['farpoint', 'reference'] as const)(
-      '%s: says which file is missing where no producer comes',
+      '%s: says which file is missing if there is no producer',
       async (layout) => {
         const file = layout === 'farpoint' ? 'farpoint_cloud' : 'shared_pc';
         await expect(start(layout, 0)).rejects.toThrow(`${join(folder, file)}: there is no such file`);
@@ -334,7 +334,7 @@ describe.skipIf(!isAvailable())(
 );
 
 describe.skipIf(isAvailable())('sources in shared memory, without the addon', () => {
-  it('say in one sentence what to do', async () => {
+  it('says in one sentence what to do', async () => {
     await expect(start('farpoint')).rejects.toThrow('pnpm build:native');
   });
 });

@@ -14,7 +14,7 @@ beforeAll(() => {
 });
 afterAll(() => rmSync(folder, { recursive: true }));
 
-/** Runs it; what it wrote, and its exit code. */
+/** Runs `init`. @returns what it wrote, and its exit code */
 function run(...argv: string[]) {
   let out = '';
   let errors = '';
@@ -25,19 +25,19 @@ function run(...argv: string[]) {
   return { code, out, errors };
 }
 
-/** What the robot takes from a file of this text. */
+/** The values that the robot reads from a file with this text. */
 function values(text: string | null): Record<string, unknown> {
   const resolved = resolveOptions(robotProgram, { argv: [], env: {}, readFile: () => text });
   if (resolved.action !== 'run') throw new Error('printed');
   return resolved.values;
 }
 
-/** Every `#key:` line in force. */
+/** Enables every `#key:` line. */
 const uncommented = (text: string) => text.replaceAll(/^( *)#(\w+:)/gm, '$1$2');
 const defaults = values(null);
 
 describe('the file that init writes', () => {
-  it('is the defaults, as it is and with every line in force', () => {
+  it('gives the defaults, both as it is and with every line enabled', () => {
     const text = robotTemplate('sim');
     expect(values(text)).toEqual(defaults);
     expect(uncommented(text)).not.toBe(text);
@@ -50,7 +50,7 @@ describe('the file that init writes', () => {
     expect(values(uncommented(text))).toEqual(values(text));
   });
 
-  it('has every option that its source has, each explained', () => {
+  it('has every option of its source, each explained', () => {
     const lines = robotTemplate('shm').split('\n');
     for (const key of ['url', 'token', 'shmWaitS', 'maxLinear', 'iceServers', 'topics', 'port', 'level']) {
       const index = lines.findIndex((line) => new RegExp(`^ +#?${key}:`).test(line));
@@ -61,7 +61,7 @@ describe('the file that init writes', () => {
 });
 
 describe('init', () => {
-  it('writes a file once, and again where it is forced', () => {
+  it('writes a file once, and overwrites it only with --force', () => {
     const path = join(folder, 'robot.yaml');
     expect(run('--output', path)).toMatchObject({ code: 0, errors: '' });
     expect(readFileSync(path, 'utf8')).toBe(robotTemplate('sim'));

@@ -22,7 +22,7 @@ const twist = 'geometry_msgs/msg/Twist';
 const odometry = seen('/odom', 'nav_msgs/msg/Odometry', 1);
 
 describe('topics', () => {
-  it('warns of pictures that are not there, or of the other type', () => {
+  it('warns of pictures that are missing or have another type', () => {
     const pictures = topicTableSchema.parse([
       { topic: '/front/image_raw', as: 'picture' },
       { topic: '/rear', as: 'picture' },
@@ -68,17 +68,17 @@ describe('topics', () => {
     ).toBe(verdicts);
   });
 
-  it('the robot’s own publisher is no other', () => {
+  it('does not count the robot’s own publisher as another', () => {
     expect(judgeTopics(table, [seen('/cmd_vel', twist, 1, 1)], 1)[2]?.verdict).toBe('ok');
   });
 
-  it('a topic of the same last name is what was meant', () => {
+  it('suggests a topic with the same last name', () => {
     expect(judgeTopics(table, [seen('/zed/camera/points', cloud, 1)], 0)[0]?.remedy).toContain(
       '(there is /zed/camera/points)',
     );
   });
 
-  it('an address that only this machine knows', () => {
+  it('warns of an address that only this machine can resolve', () => {
     const ros1 = {
       kind: 'ros1',
       name: 'r',
@@ -92,7 +92,7 @@ describe('topics', () => {
   });
 });
 
-it('a master that is not there is a failure with a remedy', async () => {
+it('a missing master is a failure with a remedy', async () => {
   const results = await checkRos(
     { kind: 'ros1', name: 'r', hostname: 'localhost', masterUrl: 'http://127.0.0.1:1' },
     table,
@@ -107,7 +107,7 @@ describe.skipIf(python === null)(`a real master (${missing ?? 'found'})`, () => 
   let peers: Ros1Peers | null = null;
   afterAll(() => peers?.close());
 
-  it('answers, and has none of the topics', async () => {
+  it('answers, and none of the topics exist', async () => {
     peers = await Ros1Peers.open(python as string);
     await peers.startCore();
     const options = {
@@ -131,7 +131,7 @@ describe.skipIf(python === null)(`a real master (${missing ?? 'found'})`, () => 
 
 const peerCommand = isAvailable() ? findPeer('Python') : null;
 it.skipIf(peerCommand === null)(
-  `a ROS 2 graph with another maker’s camera (needs pnpm build:native dds and ${PEER_REMEDY.Python})`,
+  `a ROS 2 graph with a camera of another implementation (needs pnpm build:native dds and ${PEER_REMEDY.Python})`,
   async () => {
     const peer = await Peer.start(peerCommand ?? [], {
       ...{ domain: testDomain(), cloud: 'rt/points', side: 16, hz: 20, twist: 'rt/cmd_vel' },

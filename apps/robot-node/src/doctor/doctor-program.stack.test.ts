@@ -1,4 +1,4 @@
-/** The doctor as it is run: the real program, beside real servers and none. */
+/** The real doctor program, with and without real servers. */
 import { spawn } from 'node:child_process';
 import { createSocket } from 'node:dgram';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
@@ -45,7 +45,7 @@ interface Report {
 const of = ({ findings }: Report, check: string) => findings.filter((finding) => finding.check === check);
 
 describe('the doctor’s program', () => {
-  it('finds a robot ready: signaling with tokens, a TURN server where one is installed, a simulated camera', async () => {
+  it('finds a robot ready: signaling with tokens, a TURN server if installed, a simulated camera', async () => {
     const [port] = await freePorts(1);
     const turn = hasTurnServer() ? new TurnServer(port as number) : null;
     await turn?.start();
@@ -76,7 +76,7 @@ describe('the doctor’s program', () => {
   }, 60_000);
 
   it.skipIf(!isAvailable())(
-    'is held up by nothing that hangs, and names all of it (needs the addon: pnpm build:native)',
+    'is not blocked by anything that hangs, and names all of it (needs the addon: pnpm build:native)',
     async () => {
       const mute = createServer(() => undefined).listen(0, '127.0.0.1');
       const blackHole = createSocket('udp4').bind(0, '127.0.0.1');
@@ -117,7 +117,7 @@ describe('the doctor’s program', () => {
     90_000,
   );
 
-  it('names every mistake of a configuration with its line, and checks the machine all the same', async () => {
+  it('names every mistake in a configuration with its line, and still checks the machine', async () => {
     const yaml =
       'robot:\n  soruce: {kind: sim}\n  limits:\n    maxLinear: fast\n  topics:\n    - {topic: points, as: cloud}\n';
     const { code, out } = await doctor(yaml, ['--json', '--watchdog-ms', '9']);

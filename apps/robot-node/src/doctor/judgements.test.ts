@@ -1,4 +1,4 @@
-/** What the doctor makes of machines that are not this one. */
+/** The doctor's judgements of machines other than this one. */
 import { chmodSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -17,7 +17,7 @@ import { findingLine, jsonReport, summaryLine } from './report.ts';
 import { judgeRunning } from './running-robot.ts';
 import type { SourceTrial } from './source-trial.ts';
 
-/** A machine of these files. */
+/** A machine with these files. */
 function host(files: Record<string, string>): Host {
   return {
     read: (path) => files[path] ?? null,
@@ -66,7 +66,7 @@ describe('machine', () => {
     expect(results[0]?.detail).toContain(detail);
   });
 
-  it('socket buffers: more for clouds by DDS', () => {
+  it('socket buffers: larger for clouds through DDS', () => {
     const files = { '/proc/sys/net/core/rmem_max': '4194304', '/proc/sys/net/core/wmem_default': '212992' };
     expect(verdicts(checkSocketBuffers(host(files), false))).toEqual(['ok']);
     expect(checkSocketBuffers(host(files), true)[0]?.remedy).toContain('net.core.rmem_max=8388608`');
@@ -103,7 +103,7 @@ describe('machine', () => {
     expect(verdicts(checkProcessor(host(cool), quad))).toEqual(['ok', 'ok']);
   });
 
-  it('codec: the median once warm', () => {
+  it('codec: the median after warm-up', () => {
     expect(judgeCodec([90, 80, 10, 11, 12, 9])[0]).toMatchObject({
       verdict: 'ok',
       detail: expect.stringContaining('11.0 ms') as string,
@@ -113,7 +113,7 @@ describe('machine', () => {
     expect(verdicts(judgeCodec([]))).toEqual(['fail']);
   });
 
-  it('clocks: one that goes back, one that is slow to read, one that is wrong', () => {
+  it('clocks: one that runs backwards, one that is slow to read, one that is wrong', () => {
     let reading = 0;
     const forth = () => reading++;
     const source = '/sys/devices/system/clocksource/clocksource0/current_clocksource';
@@ -181,7 +181,7 @@ describe('source', () => {
     expect(verdicts(judgeSource(images, false, true))).toEqual(['ok']);
   });
 
-  it('that does not open, and that is not waited for long', () => {
+  it('fails to open, after a short wait', () => {
     expect(trialSource(shm)).toEqual({ ...shm, waitMs: 3000 });
     expect(judgeClosedSource(shm, new Error('/dev/shm/farpoint_cloud: ENOENT'))[0]?.remedy).toContain(
       'start the camera',
@@ -200,7 +200,7 @@ describe('source', () => {
   });
 });
 
-it('a free port for health has no address yet: none is printed', () => {
+it('prints no health address for a port that is not yet chosen', () => {
   const [result] = judgeRunning({ state: 'stands' }, '127.0.0.1', 0);
   expect(result).toMatchObject({ verdict: 'ok', detail: expect.stringContaining('the log says which') });
   expect(result?.detail).not.toContain(':0');
@@ -213,7 +213,7 @@ describe('files', () => {
   const sink = { kind: 'shm', folder, mode: 0o600, silenceMs: 150 } as const;
 
   it.skipIf(!isAvailable())(
-    'of shared memory: what is wrong with them has a name (needs the addon: pnpm build:native)',
+    'of shared memory: each fault in them is reported by its name (needs the addon: pnpm build:native)',
     () => {
       expect(checkSharedMemory({ kind: 'sim', seed: 1, size: 64 }, { kind: 'base' })).toEqual([]);
       expect(verdicts(checkSharedMemory(source, sink)).filter((verdict) => verdict === 'fail')).toEqual([]);
@@ -247,7 +247,7 @@ describe('files', () => {
 });
 
 describe('running and reporting', () => {
-  it('a check that hangs, throws, or rejects is a failure of that check alone', async () => {
+  it('a check that hangs, throws or rejects fails without affecting the others', async () => {
     const never = new Promise<Result[]>(() => undefined);
     const hung = await runCheck({ name: 'a', withinMs: 20, run: () => never });
     expect(hung).toMatchObject([{ check: 'a', verdict: 'fail', detail: 'no answer within 0.02 s' }]);
@@ -264,7 +264,7 @@ describe('running and reporting', () => {
     ).toContain('also');
   });
 
-  it('is a line each, or JSON', () => {
+  it('prints one line per finding, or JSON', () => {
     const findings = [
       { check: 'node', verdict: 'ok', detail: 'Node 24' },
       { check: 'source', verdict: 'fail', detail: 'gone\n  away', remedy: 'start it' },

@@ -1,4 +1,4 @@
-/** The doctor's probes of servers, against real ones. */
+/** The doctor's probes, against real servers. */
 import { createHmac } from 'node:crypto';
 import { createSocket, type Socket } from 'node:dgram';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -41,7 +41,7 @@ describe('a real signaling service', () => {
   const probe = (id: string, token: string | null) =>
     probeSignaling({ url: stack.signalingUrl, id, name: 'Rover', token, ca: null }, LONG_MS, now);
 
-  it('takes a robot with its token, and tells the servers for ICE and the time', async () => {
+  it('accepts a robot with its token, and gives the ICE servers and the time', async () => {
     const answer = await probe('rover-1', 'the-token');
     expect(answer).toMatchObject({ outcome: 'welcome', iceServers: [{ urls: 'stun:127.0.0.1:9' }] });
     expect(judgeSignaling(stack.signalingUrl, 'rover-1', answer, false, Date.now())).toMatchObject([
@@ -65,7 +65,7 @@ describe('a real signaling service', () => {
     });
   });
 
-  it('keeps a robot that is registered, which is well where it is this one', async () => {
+  it('keeps a robot that is registered, which is fine if it is this one', async () => {
     const answer = await probe('robot-2', 'other');
     expect(answer).toMatchObject({ outcome: 'refused', code: 'robot-id-taken' });
     expect(judgeSignaling('ws://x', 'robot-2', answer, false, Date.now())[0]?.verdict).toBe('fail');
@@ -80,7 +80,7 @@ describe('a real signaling service', () => {
     expect(health.checks.signaling.detail).toEqual({ registered: true });
   });
 
-  it('that is killed cannot be reached', async () => {
+  it('is reported as unreachable when it is killed', async () => {
     const [port] = await freePorts(1);
     const url = `ws://127.0.0.1:${port}`;
     const answer = await probeSignaling({ url, id: 'r', name: 'R', token: null, ca: null }, LONG_MS, now);
@@ -98,7 +98,7 @@ describe('something else at the address of signaling', () => {
     for (const close of closers) close();
   });
 
-  it('that takes connections and says nothing holds nobody up', async () => {
+  it('does not block the doctor if it accepts connections and says nothing', async () => {
     const server = createServer(() => undefined).listen(0, 'localhost');
     closers.push(() => server.close());
     await new Promise((resolve) => server.once('listening', resolve));
@@ -126,7 +126,7 @@ describe('something else at the address of signaling', () => {
     expect(judgeSignaling('ws://x', 'r', answer, false, Date.now())[0]?.verdict).toBe('fail');
   });
 
-  it('that has a certificate nobody vouches for is named, and taken with tlsCa', async () => {
+  it('is named if its certificate is not trusted, and accepted with tlsCa', async () => {
     const folder = mkdtempSync(join(tmpdir(), 'farpoint-doctor-tls-'));
     closers.push(() => rmSync(folder, { recursive: true }));
     const { key, cert } = selfSigned(folder, 'localhost');
@@ -183,7 +183,7 @@ describe.skipIf(!hasTurnServer())(`a real coturn (where missing: ${TURN_REMEDY})
     return { username, credential: createHmac('sha1', turn.secret).update(username).digest('base64') };
   };
 
-  it('lends an address, binds, refuses the wrong credential, and is missed when it is gone', async () => {
+  it('allocates an address, answers a binding request, refuses wrong credentials, and is reported when it is gone', async () => {
     const stun = `stun:${turn.address}:${turn.port}`;
     const silent = `turn:127.0.0.1:${blackHole.address().port}?transport=udp`;
     const targets = iceTargets([
@@ -218,7 +218,7 @@ describe.skipIf(!hasTurnServer())(`a real coturn (where missing: ${TURN_REMEDY})
   }, 60_000);
 });
 
-it('an address of no server is refused as such', async () => {
+it('rejects an invalid server address', async () => {
   const [target] = iceTargets([{ urls: 'stun:' }]);
   const answer = await probeIce(target!, SOON_MS, now);
   expect(judgeIce([{ target: target!, answer }], 'all')[0]?.verdict).toBe('fail');

@@ -31,7 +31,7 @@ function station() {
 }
 
 describe('DriveStation', () => {
-  it('applies a change at once', () => {
+  it('applies a change immediately', () => {
     const { guard, drive, command, now, speeds } = station();
     guard.onCommand('op', command(0, 0.5), now());
     drive.apply();
@@ -61,7 +61,7 @@ describe('DriveStation', () => {
     drive.close();
   });
 
-  it('is silent once closed', () => {
+  it('sends nothing once closed', () => {
     const { guard, drive, applied, command, now } = station();
     guard.onCommand('op', command(0, 0.5), now());
     drive.apply();

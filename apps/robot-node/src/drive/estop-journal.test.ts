@@ -16,22 +16,22 @@ afterEach(() => rmSync(folder, { recursive: true, force: true }));
 const open = (id = 'robot-1', at = folder) => new EstopJournal(at, id, (error) => faults.push(error));
 
 describe('EstopJournal', () => {
-  it('lets the first run and one after an orderly end drive', () => {
+  it('starts unlatched on the first run and after a clean end', () => {
     const first = open();
     expect(first.start.latched).toBeNull();
     first.end();
     expect(open().start.latched).toBeNull();
   });
 
-  it('latches after a run that did not end', () => {
+  it('latches after a run that did not end cleanly', () => {
     open();
     expect(open().start.latched).toMatchObject({ by: 'robot', reason: 'unclean-exit' });
-    // Nobody has released it: it stays latched over as many crashes, or orderly ends, as there are.
+    // Nobody has released it, so it stays latched over any number of crashes or clean ends.
     open().end();
     expect(open().start.latched).toMatchObject({ by: 'robot', reason: 'was-latched' });
   });
 
-  it('keeps a latch over an orderly end, and forgets a released one', () => {
+  it('keeps a latched stop over a clean end, and forgets a released one', () => {
     const first = open();
     first.changed('operator');
     first.end();
@@ -43,7 +43,7 @@ describe('EstopJournal', () => {
     expect(open().start.latched).toBeNull();
   });
 
-  it('latches for what it cannot read, whatever it is', () => {
+  it('latches if the file cannot be read, whatever it contains', () => {
     fc.assert(
       fc.property(fc.oneof(fc.string(), fc.json()), (text) => {
         writeFileSync(join(folder, 'robot-1.run.json'), text);
@@ -53,7 +53,7 @@ describe('EstopJournal', () => {
     );
   });
 
-  it('latches where it cannot write, and tells of later faults', () => {
+  it('latches if it cannot write, and reports later faults', () => {
     const file = join(folder, 'no-folder');
     writeFileSync(file, '');
     const journal = open('robot-1', join(file, 'below'));
@@ -62,7 +62,7 @@ describe('EstopJournal', () => {
     expect(faults).toHaveLength(1);
   });
 
-  it('has a file for each robot, and leaves no other', () => {
+  it('keeps one file per robot, and leaves no others', () => {
     open('a').end();
     open('b');
     expect(open('a').start.latched).toBeNull();

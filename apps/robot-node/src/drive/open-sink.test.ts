@@ -57,7 +57,7 @@ function setUp(silenceMs = 60_000) {
 }
 
 describe.skipIf(!isAvailable())('velocity into shared memory (needs the addon: pnpm build:native)', () => {
-  it('gets what the guard lets through: a command, none beyond the limits, and zero on silence, with a counter that moves', () => {
+  it('gets what the guard lets through: a command within the limits, zero on silence, and a counter that advances', () => {
     const { reader, drive, pass } = setUp();
     drive(0.3);
     const first = reader.read();
@@ -72,7 +72,7 @@ describe.skipIf(!isAvailable())('velocity into shared memory (needs the addon: p
     expect(reader.read()?.counter).toBeGreaterThan(second?.counter as number);
   });
 
-  it('is zero once the emergency stop is latched, and once it is closed', () => {
+  it('becomes zero when the emergency stop latches, and on closing', () => {
     const { sink, guard, station, reader, drive } = setUp();
     drive(0.3);
     guard.latchEstop('operator');
@@ -83,7 +83,7 @@ describe.skipIf(!isAvailable())('velocity into shared memory (needs the addon: p
     expect(reader.read()?.twist).toEqual(zeroTwist());
   });
 
-  it('becomes zero where this thread hangs with a velocity written', () => {
+  it('becomes zero if this thread hangs after writing a velocity', () => {
     const { reader, drive } = setUp(5);
     drive(0.3);
     const deadline = performance.now() + 10_000;
@@ -91,7 +91,7 @@ describe.skipIf(!isAvailable())('velocity into shared memory (needs the addon: p
     expect(reader.read()?.twist).toEqual(zeroTwist());
   });
 
-  it('says once that the block cannot be written, and goes on when it can', () => {
+  it('reports once that the block cannot be written, and continues when it can be', () => {
     const { drive, pass } = setUp();
     rmSync(folder, { recursive: true });
     drive(0.3);
@@ -102,7 +102,7 @@ describe.skipIf(!isAvailable())('velocity into shared memory (needs the addon: p
 });
 
 describe('velocity to a base', () => {
-  it('is handed on to the one there is, and to nothing where there is none', () => {
+  it('is passed to the base if there is one, otherwise to nothing', () => {
     const got: unknown[] = [];
     const base = { kind: 'test', apply: (twist: unknown) => void got.push(twist), close: () => undefined };
     const twist = { ...zeroTwist(), linear: { x: 0.1, y: 0, z: 0 } };

@@ -1,4 +1,4 @@
-/** The thread that publishes velocities, with a real master and a rospy node that listens. */
+/** The thread that publishes velocities, with a real master and a rospy subscriber. */
 import { type Twist, zeroTwist } from '@farpoint/protocol';
 import { topicTableSchema } from '@farpoint/ros';
 import { Ros1Peers } from '@farpoint/ros/testing/ros1';
@@ -19,7 +19,7 @@ describe.skipIf(python === null)(`ROS sink (${missing ?? 'rosmaster, rospy'})`, 
   }, 60_000);
   afterAll(() => peers.close());
 
-  it('is zero within the silence time while the main thread hangs', async () => {
+  it('publishes zero within the silence time while the main thread hangs', async () => {
     const node = await peers.startNode('velocity', 'base');
     const [entry] = topicTableSchema.parse([{ topic: '/cmd_vel', as: 'velocity' }]);
     if (entry === undefined) throw new Error('no entry');
@@ -34,7 +34,7 @@ describe.skipIf(python === null)(`ROS sink (${missing ?? 'rosmaster, rospy'})`, 
     const timer = setInterval(() => sink.apply(ahead, false), 40);
     while (!node.heard.some(({ x }) => x === 0.3)) await new Promise((resolve) => setTimeout(resolve, 5));
     const hangAt = Date.now();
-    // Nothing of this thread runs meanwhile.
+    // Nothing runs in this thread meanwhile.
     Atomics.wait(new Int32Array(new SharedArrayBuffer(4)), 0, 0, HANG_MS);
     clearInterval(timer);
     while (!node.heard.some(({ x }) => x === 0)) await new Promise((resolve) => setTimeout(resolve, 5));

@@ -16,7 +16,7 @@ function setUp(type = TWIST) {
   const velocity = new RosVelocity(graph, { entry, silenceMs: 150, now: () => nowMs, wallNs });
   const decode = decoderOf(2, type, null);
   const messages = () => (graph.published.get('/cmd_vel') ?? []).map((bytes) => decode(bytes) as Twist);
-  /** Time passes; the thread looks every 10 ms, and the main thread speaks every 40 ms where it is given a velocity. */
+  /** Advances time. The thread checks every 10 ms; the main thread applies `twist` every 40 ms, unless it is `null`. */
   const pass = (ms: number, twist: Twist | null, hold = false) => {
     for (let i = 0; i < ms; i += 10) {
       nowMs += 10;
@@ -38,7 +38,7 @@ describe('RosVelocity', () => {
     expect(messages()).toEqual([]);
   });
 
-  it('publishes at a steady rate while driven, then zeros for a second, then nothing: others may drive', () => {
+  it('publishes at a steady rate while driven, then zeros for a second, then nothing, so that others can drive', () => {
     const { pass, xs } = setUp();
     pass(1000, ahead(0.4));
     expect(xs()).toEqual(Array(25).fill(0.4));
@@ -49,7 +49,7 @@ describe('RosVelocity', () => {
     expect(new Set(after)).toEqual(new Set([0]));
   });
 
-  it('is zero by itself at once when nothing is heard, and falls silent', () => {
+  it('publishes zero by itself on silence, and then nothing', () => {
     const { velocity, pass, xs } = setUp();
     pass(400, ahead(0.4));
     const driven = xs().length;
@@ -61,20 +61,20 @@ describe('RosVelocity', () => {
     pass(5000, null);
     const zeros = xs().slice(driven);
     expect(new Set(zeros)).toEqual(new Set([0]));
-    // 1 s from the last motion on, at the pace of driving.
+    // From 1 s after the last motion, at the rate of driving.
     expect(zeros.length).toBeLessThanOrEqual(25);
     expect(zeros.length).toBeGreaterThanOrEqual(15);
     pass(1000, ahead(0.2));
     expect(xs().at(-1)).toBe(0.2);
   });
 
-  it('publishes zeros as long as the emergency stop is latched, also where it never drove', () => {
+  it('publishes zeros while the emergency stop is latched, even if it never drove', () => {
     const { pass, xs } = setUp();
     pass(4000, zeroTwist(), true);
     expect(xs()).toEqual(Array(100).fill(0));
   });
 
-  it('ends with a zero when it is closed in motion, with nothing where others may be driving', () => {
+  it('publishes a final zero when closed in motion, and nothing if others may be driving', () => {
     const moving = setUp();
     moving.pass(200, ahead(0.3));
     moving.velocity.close();

@@ -12,14 +12,14 @@ export interface CaptureBudget {
    * wire. Each `clusterId` is one such request.
    */
   probe: { clusterId: number; bytes: number } | null;
-  /** Coded formats that may be used if they fit a frame. At least one operator who counts for the rate reads each. */
+  /** Coded formats that may be used if they fit a frame. Each is read by at least one operator whose path decides. */
   coded: readonly CodedBudget[];
 }
 
 /** What frames in one coded format may use. */
 export interface CodedBudget {
   format: CodedFormat;
-  /** Bit rate for the operators who count and read this format, bit/s. */
+  /** Bit rate for those operators that read this format and whose paths decide, bit/s. */
   targetBitsPerSecond: number;
   /** Bit rate in addition, for `points64` to those who do not read this format, bit/s; `null` if there are none. */
   plainBitsPerSecond: number | null;

@@ -55,7 +55,7 @@ function encode(
     .frames.map(({ encoded, audience }: FormattedFrame) => [encoded.format, audience]);
 }
 
-it('a camera’s picture is organised for who reads that, whatever else is read', () => {
+it('encodes a camera’s image as organised for everyone who reads it, whatever else they read', () => {
   expect(encode(images, ['organised'])).toEqual([['organised', { readers: 'organised' }]]);
   expect(encode(images, ['organised', 'unorganised'])).toEqual([['organised', { readers: 'organised' }]]);
   expect(encode(images, ['organised'], 1e6)).toEqual([
@@ -64,7 +64,7 @@ it('a camera’s picture is organised for who reads that, whatever else is read'
   ]);
 });
 
-it('other clouds are unorganised for who reads that', () => {
+it('encodes other clouds as unorganised for everyone who reads it', () => {
   expect(encode(lidar, ['unorganised'])).toEqual([['unorganised', { readers: 'unorganised' }]]);
   expect(encode(lidar, ['organised', 'unorganised'], 1e6)).toEqual([
     ['unorganised', { readers: 'unorganised' }],
@@ -72,7 +72,7 @@ it('other clouds are unorganised for who reads that', () => {
   ]);
 });
 
-it('where nobody reads what fits, everyone gets points64', () => {
+it('sends points64 to everyone if nobody reads a format that fits', () => {
   expect(encode(images, ['unorganised'])).toEqual([['points64', 'everyone']]);
   expect(encode(lidar, ['organised'], 1e6)).toEqual([['points64', 'everyone']]);
   expect(encode(images, [])).toEqual([['points64', 'everyone']]);

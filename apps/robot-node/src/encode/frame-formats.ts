@@ -89,7 +89,7 @@ export class FrameFormats {
     const frames: FormattedFrame[] = [formatted];
     const plain = budget.coded.find((one) => one.format === format)?.plainBitsPerSecond ?? null;
     if (plain !== null) {
-      // Use the frame rate of the coded stream: `points64` readers already use more of the link than enough.
+      // Use the coded stream's frame rate: `points64` takes enough of the link as it is.
       const points = this.#planner.pointsAt(framesPerSecond, { ...input, targetBitsPerSecond: plain });
       const encoded = this.#points64.encode(frame, frameNumber, points, latencyTest);
       frames.push({ encoded, audience: { others: format }, packets: this.#points64 });

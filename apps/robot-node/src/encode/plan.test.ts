@@ -24,7 +24,7 @@ const wireBitsPerSecond = (points: number, framesPerSecond: number) =>
 describe('FramePlanner, as the paper', () => {
   const paper = () => planner({ policy: 'paper', mostFramesPerSecond: 30 });
 
-  it('fills the rate on the wire with whole packets, and not one more', () => {
+  it('fills the rate on the wire with whole packets, and no more', () => {
     const { points, framesPerSecond } = paper().plan(INPUT);
     expect(framesPerSecond).toBe(30);
     expect(points % 150).toBe(0);
@@ -32,28 +32,28 @@ describe('FramePlanner, as the paper', () => {
     expect(wireBitsPerSecond(points + 150, 30)).toBeGreaterThan(40e6);
   });
 
-  it('sends no more than there is, and than is allowed', () => {
+  it('sends no more than the cloud has, and no more than is allowed', () => {
     expect(paper().plan({ ...INPUT, rawPoints: 1000 }).points).toBe(900);
     expect(planner({ policy: 'paper', mostFramesPerSecond: 30, mostPoints: 10_000 }).plan(INPUT).points).toBe(
       9900,
     );
   });
 
-  it('keeps the floor of 10 % of the raw cloud a second', () => {
-    // 23,040 points a second, 768 a frame: five packets.
+  it('keeps the floor of 10 % of the raw cloud per second', () => {
+    // 23,040 points per second, 768 per frame: five packets.
     expect(paper().plan({ ...INPUT, targetBitsPerSecond: 0 }).points).toBe(750);
   });
 });
 
 describe('FramePlanner, for latency', () => {
-  it('takes every frame of the source where the link carries it', () => {
+  it('takes every frame of the source if the link carries it', () => {
     const { points, framesPerSecond } = planner().plan(INPUT);
     expect(framesPerSecond).toBe(60);
     expect(wireBitsPerSecond(points, 60)).toBeLessThanOrEqual(40e6);
     expect(wireBitsPerSecond(points + 150, 60)).toBeGreaterThan(40e6);
   });
 
-  it('rather sends fewer frames than pictures of next to nothing, but at least 10 a second', () => {
+  it('sends fewer frames rather than frames of too few points, but at least 10 a second', () => {
     const at = (mbps: number) =>
       planner().plan({ ...INPUT, targetBitsPerSecond: mbps * 1e6 }).framesPerSecond;
     expect([20, 8, 5, 4, 1, 0].map(at)).toEqual([60, 30, 20, 15, 10, 10]);
@@ -62,11 +62,11 @@ describe('FramePlanner, for latency', () => {
     ).toBe(5);
   });
 
-  it('sends one packet a frame where there is no rate at all', () => {
+  it('sends one packet per frame if the rate is zero', () => {
     expect(planner().plan({ ...INPUT, targetBitsPerSecond: 0 }).points).toBe(150);
   });
 
-  it('does not go to and fro between two frame rates', () => {
+  it('does not alternate between two frame rates', () => {
     const plan = planner();
     const rates = [14, 12, 14, 12, 14, 18, 14].map(
       (mbps) => plan.plan({ ...INPUT, targetBitsPerSecond: mbps * 1e6 }).framesPerSecond,
@@ -74,12 +74,12 @@ describe('FramePlanner, for latency', () => {
     expect(rates).toEqual([60, 30, 30, 30, 30, 60, 60]);
   });
 
-  it('leaves the thread time to breathe', () => {
+  it('leaves the capture thread spare time', () => {
     expect(planner().plan({ ...INPUT, workMs: 20 }).framesPerSecond).toBe(30);
     expect(planner().plan({ ...INPUT, workMs: 200 }).framesPerSecond).toBe(10);
   });
 
-  it('asks a source that gives a frame at any time as often as the thread has time', () => {
+  it('asks a source without a fixed rate as often as the thread has time', () => {
     const at = (workMs: number) => planner({ anyRate: true }).plan({ ...INPUT, workMs }).framesPerSecond;
     expect(at(5)).toBe(60);
     expect(at(10)).toBeCloseTo(50);
@@ -90,18 +90,18 @@ describe('FramePlanner, for latency', () => {
     expect(coded.framesPerSecond * coded.budgetBytes * 8).toBeLessThan(INPUT.targetBitsPerSecond);
   });
 
-  it('makes a frame large enough for the train that the rate control asks for', () => {
+  it('makes a frame large enough for the requested probe train', () => {
     const small = { ...INPUT, targetBitsPerSecond: 2e6 };
     const plain = planner().plan(small).points;
     const probing = planner().plan({ ...small, probeBytes: 40_000 }).points;
     expect(plain).toBeLessThan(3200);
     expect((probing / 150) * wireBytesOfPacket(68)).toBeGreaterThanOrEqual(40_000);
-    // … but not without bounds.
+    // … but not without limit.
     expect(planner().plan({ ...small, probeBytes: 1e9 }).points).toBeLessThanOrEqual(8 * 3200);
     expect(planner({ mostPoints: 600 }).plan({ ...small, probeBytes: 40_000 }).points).toBe(600);
   });
 
-  it('never plans more than the rate, except one packet a frame', () => {
+  it('never plans more than the rate, except one packet per frame', () => {
     const numbers = fc.record({
       targetBitsPerSecond: fc.integer({ min: 0, max: 300_000_000 }),
       rawPoints: fc.integer({ min: 0, max: 400_000 }),
@@ -129,19 +129,19 @@ describe('FramePlanner, for latency', () => {
 describe('FramePlanner, coded', () => {
   const dataBits = ({ framesPerSecond, budgetBytes }: CodedPlan) => framesPerSecond * budgetBytes * 8;
 
-  it('sends whole frames, finer before more often, and no finer than can be seen', () => {
+  it('sends whole frames, prefers finer to more frequent ones, and none finer than can be seen', () => {
     const at = (mbps: number, workMs = 5) =>
       planner().planCoded('organised', { ...INPUT, targetBitsPerSecond: mbps * 1e6, workMs });
     expect(at(100)).toEqual({ framesPerSecond: 60, budgetBytes: Math.floor((230_400 * 2.4) / 8) });
     expect(at(8).framesPerSecond).toBe(15);
-    // What is left of the rate then is less than a frame's share of it.
+    // The rest of the rate is less than a frame's share of it.
     expect(dataBits(at(8))).toBeGreaterThan(7e6);
     expect(dataBits(at(8))).toBeLessThan(8e6);
     expect(at(1).framesPerSecond).toBe(10);
     expect(at(100, 20).framesPerSecond).toBe(30);
   });
 
-  it('leaves more bits to clouds without a grid', () => {
+  it('gives more bits to clouds without a grid', () => {
     const input = { ...INPUT, rawPoints: 60_000, targetBitsPerSecond: 20e6 };
     const { framesPerSecond, budgetBytes } = planner({ mostFramesPerSecond: 10 }).planCoded(
       'unorganised',
@@ -151,7 +151,7 @@ describe('FramePlanner, coded', () => {
     expect((budgetBytes * 8) / 60_000).toBeGreaterThan(30);
   });
 
-  it('never plans more than the rate but one packet a frame, and makes room for a probe', () => {
+  it('never plans more than the rate, except one packet per frame, and makes room for a probe', () => {
     fc.assert(
       fc.property(
         fc.integer({ min: 0, max: 300_000_000 }),
@@ -168,8 +168,8 @@ describe('FramePlanner, coded', () => {
     expect(planner().planCoded('organised', probing).budgetBytes).toBeGreaterThan(17_000);
   });
 
-  it('carries a whole train though the frame comes out as small as a budget allows', () => {
-    // The rate of a link that a frame of the finest kind does not fill.
+  it('carries a whole probe train even if the frame is as small as its budget allows', () => {
+    // A link's rate that a frame of the finest quality does not fill.
     const probing = { ...INPUT, targetBitsPerSecond: 28e6, probeBytes: 79_000 };
     const { budgetBytes } = planner().planCoded('organised', probing);
     const packets = (0.955 * budgetBytes) / MAX_POINT_DATA_BYTES;

@@ -28,7 +28,7 @@ function cloud(count: number): PointFrame {
     points[i * 4] = i / 100;
     points[i * 4 + 1] = -i / 300;
     points[i * 4 + 2] = 1 + i / 200;
-    // Among them bit patterns that are NaN as floats.
+    // Some of these bit patterns are NaN as floats.
     words[i * 4 + 3] = (i * 2_654_435_761) >>> 0;
   }
   return {
@@ -36,12 +36,12 @@ function cloud(count: number): PointFrame {
     points,
     count,
     cameraPose: { position: { x: 1, y: -2, z: 0.5 }, orientation: { x: 0, y: 0, z: 0.6, w: 0.8 } },
-    // One second past the wrap of the microsecond stamp.
+    // One second after the microsecond timestamp wraps.
     capturedAtMs: 4_294_967.296 + 1000,
   };
 }
 
-/** The format's plain statement: what the packets of a frame of which every point is sent must be. */
+/** A plain implementation of the format: the packets of a frame of which every point is sent. */
 function expectedPayload(frame: PointFrame, frameNumber: number, index: number): Uint8Array {
   const first = index * 150;
   const count = Math.min(150, frame.count - first);
@@ -70,7 +70,7 @@ function expectedPayload(frame: PointFrame, frameNumber: number, index: number):
 }
 
 describe('Points64FrameEncoder', () => {
-  it.each([1, 149, 150, 151, 450, 701])('makes the very bytes of the protocol for %i points', (count) => {
+  it.each([1, 149, 150, 151, 450, 701])('makes exactly the protocol’s bytes for %i points', (count) => {
     const encoder = new Points64FrameEncoder(codec, SOURCE, sampling, () => 0);
     const frame = cloud(count);
     for (const frameNumber of [0, 1]) {
@@ -85,7 +85,7 @@ describe('Points64FrameEncoder', () => {
     }
   });
 
-  it('makes of a camera’s images what it makes of their points', () => {
+  it('gives the same result for a camera’s images and for their points', () => {
     const [width, height, camera] = [40, 25, { fx: 30, fy: 31, cx: 19.5, cy: 12.5 }];
     const { points, ...stamp } = cloud(width * height);
     const depth = Float32Array.from({ length: width * height }, (_, i) => (i % 9 === 0 ? 0 : 1 + i / 200));
@@ -128,7 +128,7 @@ describe('Points64FrameEncoder', () => {
     expect(isLatencyTestBlock(view, 16, 1200)).toBe(true);
   });
 
-  it('sends nothing of a frame without a valid point', () => {
+  it('sends nothing for a frame without a valid point', () => {
     const encoder = new Points64FrameEncoder(codec, SOURCE, sampling, () => 0);
     const frame = cloud(10);
     frame.points.fill(Number.NaN);

@@ -1,4 +1,4 @@
-/** Whatever the file says, it is taken, or refused with every mistake named by its line. */
+/** Whatever the file contains is either accepted, or refused with every mistake named by its line. */
 import { OptionsError, optionPlaces, resolveOptions } from '@farpoint/service';
 import fc from 'fast-check';
 import { expect, it } from 'vitest';
@@ -47,7 +47,7 @@ const names = fc.oneof(
   fc.string({ minLength: 1, maxLength: 8 }),
 );
 
-/** `{ 'a.b': 1 }` → `{ a: { b: 1 } }`; where two disagree the later one stays. */
+/** `{ 'a.b': 1 }` → `{ a: { b: 1 } }`. If two keys conflict, the later one stays. */
 function nested(entries: readonly (readonly [string, unknown])[]): object {
   const root: Record<string, unknown> = Object.create(null) as Record<string, unknown>;
   for (const [key, value] of entries) {
@@ -61,7 +61,7 @@ function nested(entries: readonly (readonly [string, unknown])[]): object {
   return root;
 }
 
-it('any mapping of known and unknown keys to anything', () => {
+it('accepts or refuses any mapping of known and unknown keys to any values', () => {
   let [taken, refused] = [0, 0];
   fc.assert(
     fc.property(fc.array(fc.tuple(names, values), { maxLength: 8 }), (entries) => {

@@ -58,7 +58,7 @@ describe('robot options', () => {
     expect(robot().sink).toEqual({ kind: 'base' });
   });
 
-  it('give UDP ports as a range', () => {
+  it('take UDP ports as a range', () => {
     expect(robot('--udp-ports', '40000-40010').portRange).toEqual([40_000, 40_010]);
   });
 
@@ -76,7 +76,7 @@ describe('robot options', () => {
     ]);
   });
 
-  it('take everything from groups of the file, naming what is wrong together by its line', () => {
+  it('take everything from groups in the file, and name conflicting options by their lines', () => {
     expect(
       file('robot: {limits: {maxLinear: 0.2}, stream: {bitrateMbps: 20}, network: {udpPorts: 5-9}}'),
     ).toMatchObject({
@@ -93,7 +93,7 @@ describe('robot options', () => {
     );
   });
 
-  it('take pictures and readings of a recording from the table of topics, and pictures of other files not', () => {
+  it('take pictures and readings of a recording from the topic table, but no pictures of other files', () => {
     const topics = '[{topic: /front, as: picture}, {topic: /diagnostics, as: diagnostics}]';
     const recording = `robot: {source: {kind: recording, path: a.mcap}, topics: ${topics}}`;
     expect(file(recording).sensors[0]?.capture.source).toMatchObject({
@@ -108,7 +108,7 @@ describe('robot options', () => {
     );
   });
 
-  it('hide credentials where they are wrong', () => {
+  it('hide credentials in errors', () => {
     expect(() => robot('--ice-servers', '[{"urls":"turn:a","credential":5,"secret":"x"}]')).toThrow(
       /^--ice-servers\.0\.\w+ .*text$/m,
     );

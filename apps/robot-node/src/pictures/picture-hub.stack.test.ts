@@ -1,4 +1,4 @@
-/** The hub with its real thread: what is made of a picture, and what is said of one that cannot be shown. */
+/** The hub with its real thread: makes pictures, and reports those that cannot be shown. */
 import type { MessagePort } from 'node:worker_threads';
 import { PICTURE_CHUNK_HEADER_BYTES, readPictureFile } from '@farpoint/protocol';
 import { createLogger } from '@farpoint/service';
@@ -13,7 +13,7 @@ afterEach(async () => {
   for (const hub of hubs.splice(0)) await hub.close();
 });
 
-/** A hub that somebody watches, and the tap that a capture thread would have. */
+/** A hub with a watcher, and the tap that a capture thread would have. */
 async function setUp() {
   const made: ReadyPicture[] = [];
   const warned: unknown[] = [];
@@ -62,7 +62,7 @@ async function setUp() {
   hub.tick(0);
   let nowMs = 0;
   const offer = async (picture: Omit<SourcePicture, 'camera'>) => {
-    // A plan comes, and the picture before is done, some time.
+    // Wait until a plan arrives and the previous picture is done.
     await until(() => {
       nowMs += 1000;
       return tap?.wants(0, nowMs) === true;
@@ -74,9 +74,9 @@ async function setUp() {
 
 const facts = { kind: 'raw', width: 4, height: 2, step: 12, encoding: 'rgb8', bigEndian: false } as const;
 
-it('makes a file of a picture, with the time at which it was taken', { timeout: 20_000 }, async () => {
+it('makes a file from a picture, with its capture time', { timeout: 20_000 }, async () => {
   const { made, until, offer } = await setUp();
-  // Beyond what 32 bits of microseconds say.
+  // More than 32 bits of microseconds can hold.
   await offer({ capturedAtMs: 5_000_000.5, facts, data: new Uint8Array(24).fill(99) });
   await until(() => made.length === 1);
   const [picture] = made as [ReadyPicture];
@@ -86,7 +86,7 @@ it('makes a file of a picture, with the time at which it was taken', { timeout: 
   expect(readPictureFile(file)).toEqual({ format: 'jpeg', width: 4, height: 2 });
 });
 
-it('says where a picture was read that cannot be shown, once for each thing that is wrong', {
+it('says where an unusable picture was read, once for each fault', {
   timeout: 20_000,
 }, async () => {
   const { hub, made, warned, until, offer } = await setUp();

@@ -31,7 +31,7 @@ function lossOf(act: () => unknown): string {
 }
 
 describe('PictureMaker', () => {
-  it('makes a JPEG of pixels, shrunk by a whole factor', () => {
+  it('makes a JPEG from pixels, shrunk by a whole factor', () => {
     const made = maker.make({ facts: raw(160, 90), data: orange(160 * 90) }, plan);
     expect(made).toMatchObject({ format: 'jpeg', width: 53, height: 30, untouched: false });
     expect(readPictureFile(made.bytes)).toEqual({ format: 'jpeg', width: 53, height: 30 });
@@ -40,7 +40,7 @@ describe('PictureMaker', () => {
       expect(Math.abs((rgba[channel] as number) - value)).toBeLessThan(6);
   });
 
-  it('leaves a file as it is where it fits, and else makes it anew', () => {
+  it('keeps a file that fits, and otherwise re-encodes it', () => {
     const pixels = { width: 64, height: 48, rgba: new Uint8Array(64 * 48 * 4).fill(99) };
     const jpeg = codec.encodeJpeg(pixels, 90);
     const facts = { kind: 'file', format: 'jpeg', width: 64, height: 48 } as const;

@@ -5,7 +5,7 @@ import { PicturePlanner, pictureAllowance } from './picture-plan.ts';
 const policy = { perSecond: 10, longestSide: 640, quality: 70, share: 0.15 };
 
 describe('pictureAllowance', () => {
-  it('is nothing on a poor path, the share on a good one, and never more than data channels carry', () => {
+  it('is zero on a poor path, the full share on a good one, and never more than data channels carry', () => {
     expect(pictureAllowance(0.5e6, 0.15)).toBe(0);
     expect(pictureAllowance(1e6, 0.15) / 1e6).toBeLessThan(0.03);
     expect(pictureAllowance(4e6, 0.15)).toBe(0.6e6);
@@ -13,7 +13,7 @@ describe('pictureAllowance', () => {
     expect(pictureAllowance(500e6, 0.15)).toBe(3e6);
   });
 
-  it('never falls where the path carries more, and is within the share', () => {
+  it('never falls as the path’s rate grows, and stays within the share', () => {
     const rate = fc.double({ min: 0, max: 1e9, noNaN: true });
     fc.assert(
       fc.property(rate, rate, fc.double({ min: 0.01, max: 0.5, noNaN: true }), (a, b, share) => {
@@ -26,13 +26,13 @@ describe('pictureAllowance', () => {
 });
 
 describe('PicturePlanner', () => {
-  it('takes full size and rate where there is room', () => {
+  it('plans full size and rate if there is room', () => {
     const planner = new PicturePlanner(policy);
     planner.onMade(20_000, 640);
     expect(planner.plan(3e6)).toMatchObject({ perSecond: 10, longestSide: 640, quality: 70 });
   });
 
-  it('first takes fewer, then smaller, and stops without a share', () => {
+  it('first plans fewer pictures, then smaller ones, and stops without a share', () => {
     const planner = new PicturePlanner(policy);
     planner.onMade(30_000, 640);
     expect(planner.plan(1e6)).toMatchObject({ longestSide: 640 });
@@ -42,7 +42,7 @@ describe('PicturePlanner', () => {
     expect(planner.plan(0).perSecond).toBe(0);
   });
 
-  it('does not go back and forth between two sizes', () => {
+  it('does not alternate between two sizes', () => {
     const planner = new PicturePlanner(policy);
     planner.onMade(30_000, 640);
     const sides = [0.6, 0.5, 0.6, 0.5, 0.7].map((mbps) => planner.plan(mbps * 1e6).longestSide);
@@ -50,7 +50,7 @@ describe('PicturePlanner', () => {
     expect(planner.plan(0.9e6).longestSide).toBe(640);
   });
 
-  it('never plans more bytes than there are', () => {
+  it('never plans more bytes than are available', () => {
     fc.assert(
       fc.property(
         fc.integer({ min: 500, max: 600_000 }),

@@ -42,7 +42,7 @@ function setUp(cameras = [0, 1]) {
 }
 
 describe('PictureSender', () => {
-  it('sends no more than it may, whatever is offered, and clouds keep their share of a poor path', () => {
+  it('sends no more than allowed, whatever is offered, and leaves clouds their share of a poor path', () => {
     for (const target of [0.4e6, 1e6, 2e6, 8e6]) {
       const { channel, sender } = setUp([0]);
       const allowed = pictureAllowance(target, 0.15);
@@ -51,7 +51,7 @@ describe('PictureSender', () => {
         sender.tick(ms, allowed);
       }
       const bitsPerSecond = (channel.bytes * 8) / 20;
-      // One chunk and 100 ms of credit are what may be taken ahead.
+      // One chunk and 100 ms of credit may be sent ahead.
       expect(bitsPerSecond).toBeLessThanOrEqual(allowed * 1.005 + (1293 * 8) / 20);
       expect(target - bitsPerSecond).toBeGreaterThan(target * 0.84);
       if (target <= 0.5e6) expect(channel.bytes).toBe(0);
@@ -59,7 +59,7 @@ describe('PictureSender', () => {
     }
   });
 
-  it('sends a picture whole before the next, cameras in turn, the newest of each', () => {
+  it('sends one whole picture after another, cameras in turn, the newest of each', () => {
     const { channel, sender } = setUp();
     sender.tick(0, 1e6);
     sender.offer(picture(0, 1, 2));
@@ -75,7 +75,7 @@ describe('PictureSender', () => {
     expect(sender.drops).toEqual({ superseded: 1, backlog: 0, overdue: 0 });
   });
 
-  it('leaves a picture out while the channel is full, and waits within one', () => {
+  it('skips a picture while the channel is full, and pauses within one', () => {
     const { channel, sender } = setUp();
     sender.tick(0, 1e6);
     channel.picturesBuffered = 10_000;
@@ -95,7 +95,7 @@ describe('PictureSender', () => {
     expect(channel.chunks.length).toBeGreaterThan(begun);
   });
 
-  it('gives a picture up that takes too long, and one that is refused', () => {
+  it('gives up a picture that takes too long, and one that is refused', () => {
     const { channel, sender } = setUp();
     sender.tick(0, 50_000);
     sender.offer(picture(0, 1, 30));
@@ -109,7 +109,7 @@ describe('PictureSender', () => {
     expect(sender.picturesSent).toBe(0);
   });
 
-  it('takes only what is watched', () => {
+  it('accepts only pictures of watched cameras', () => {
     const { channel, sender } = setUp([1]);
     sender.tick(0, 1e6);
     sender.offer(picture(0, 1, 1));
@@ -119,7 +119,7 @@ describe('PictureSender', () => {
     expect(channel.chunks).toEqual([]);
   });
 
-  it('holds one picture a camera, and accounts for each', () => {
+  it('holds one picture per camera, and accounts for each', () => {
     const step = fc.tuple(fc.nat(2), fc.integer({ min: 1, max: 30 }), fc.nat(200));
     fc.assert(
       fc.property(

@@ -15,12 +15,13 @@ export interface PictureLink {
 }
 
 /**
- * More waiting than this, and no chunk follows, bytes: messages share the association, and what waits here they wait for.
+ * No chunk is sent while more than this is queued, bytes. Messages share the association and would have to wait for
+ * it.
  */
 const MOST_BUFFERED = 2400;
-/** Credit is saved up for so long, ms. */
+/** The longest time for which unused credit is saved, ms. */
 const BURST_MS = 100;
-/** A picture that took so long to send is not worth its rest, ms. */
+/** The rest of a picture that has taken this long to send is dropped, ms. */
 const OVERDUE_MS = 1500;
 
 interface Sending {
@@ -30,8 +31,9 @@ interface Sending {
 }
 
 /**
- * One operator's pictures: of each camera the newest waits, one after another goes out, chunk by chunk, at the rate that is
- * left to pictures. It owns no timer: call `tick` often, and whenever the channel has room again.
+ * One operator's pictures. The newest picture of each camera waits for its turn. Pictures are sent one after another,
+ * chunk by chunk, at the rate that is left for pictures. The sender owns no timer: call `tick` often, and whenever
+ * the channel has room again.
  */
 export class PictureSender {
   /** Cameras that the operator wants to see. */
@@ -40,7 +42,7 @@ export class PictureSender {
   bytesSent = 0;
   readonly drops: Record<PictureDropReason, number> = { superseded: 0, backlog: 0, overdue: 0 };
   readonly #link: PictureLink;
-  /** By camera, in the order of their turns. */
+  /** By camera, in the order in which they will be sent. */
   readonly #waiting = new Map<number, ReadyPicture>();
   #sending: Sending | null = null;
   #creditBytes = 0;
@@ -58,12 +60,12 @@ export class PictureSender {
   offer(picture: ReadyPicture): void {
     const { camera } = picture.header;
     if (!this.watched.has(camera)) return;
-    // It keeps its turn: a fast camera does not push a slow one back.
+    // The camera keeps its place in the queue, so that a fast camera does not push back a slow one.
     if (this.#waiting.has(camera)) this.drops.superseded++;
     this.#waiting.set(camera, picture);
   }
 
-  /** Sends what is due. @param bitsPerSecond what pictures may take now; 0 holds everything back */
+  /** Sends what is due. @param bitsPerSecond the present rate for pictures; 0 holds everything back */
   tick(nowMs: number, bitsPerSecond: number): void {
     this.#fill(nowMs, bitsPerSecond);
     while (this.#creditBytes > 0) {
@@ -89,7 +91,7 @@ export class PictureSender {
     }
   }
 
-  /** Lets go of everything: nobody looks. */
+  /** Drops everything, because nobody is watching. */
   clear(): void {
     this.#waiting.clear();
     this.#sending = null;
@@ -117,7 +119,7 @@ export class PictureSender {
     const bytesPerMs = bitsPerSecond / 8000;
     const elapsed = this.#filledMs === null ? 0 : Math.max(0, nowMs - this.#filledMs);
     this.#filledMs = nowMs;
-    // Nothing is begun on credit that is not there; the last chunk may overdraw it by a little.
+    // A chunk is sent only while there is credit; the last one may overdraw it slightly.
     this.#creditBytes = Math.min(this.#creditBytes + elapsed * bytesPerMs, bytesPerMs * BURST_MS);
   }
 }

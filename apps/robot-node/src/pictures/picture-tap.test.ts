@@ -15,12 +15,12 @@ function setUp(most: (number | null)[] = [null, null]) {
   return { tap, sent, show };
 }
 
-it('wants nothing until somebody watches, and then no more than is planned', () => {
+it('wants nothing until somebody watches, and then no more than planned', () => {
   const { tap, sent, show } = setUp();
   expect(show(0, 0)).toBe(false);
   tap.onReport({ type: 'rates', perSecond: [5, 0] });
   for (let ms = 0; ms < 10_000; ms += 20) {
-    // Plans come anew all the time.
+    // Plans are updated all the time.
     if (ms % 260 === 0) tap.onReport({ type: 'rates', perSecond: [5 + (ms % 3) / 10, 0] });
     show(0, ms);
     expect(show(1, ms)).toBe(false);
@@ -30,7 +30,7 @@ it('wants nothing until somebody watches, and then no more than is planned', () 
   expect(sent.length).toBeLessThanOrEqual(53);
 });
 
-it('keeps to what the topic allows', () => {
+it('stays within the topic’s limit', () => {
   const { tap, sent, show } = setUp([2, null]);
   tap.onReport({ type: 'rates', perSecond: [10, 10] });
   for (let ms = 0; ms < 10_000; ms += 100) {
@@ -41,7 +41,7 @@ it('keeps to what the topic allows', () => {
   expect(sent.length).toBeLessThanOrEqual(21);
 });
 
-it('has one picture of a camera under way; the next is the newest, and those between are counted', () => {
+it('has one picture per camera in progress; takes the newest next, and counts those skipped', () => {
   const { tap, sent, show } = setUp();
   tap.onReport({ type: 'rates', perSecond: [10, 10] });
   expect(show(0, 0)).toBe(true);

@@ -2,30 +2,30 @@ import { RateLimit } from '@farpoint/ros';
 import type { OfferedPicture, TapReport } from './picture-messages.ts';
 import type { PictureTaker, SourcePicture } from './source-picture.ts';
 
-/** Where offered pictures go: the port of the picture thread. */
+/** The port of the picture thread, which gets the offered pictures. */
 export interface TapPort {
   postMessage(picture: OfferedPicture, transfer: ArrayBuffer[]): void;
 }
 
 interface Camera {
   limit: RateLimit | null;
-  /** One of its pictures is with the picture thread. */
+  /** Whether the picture thread is working on a picture of this camera. */
   busy: boolean;
   missed: number;
-  /** Memory of the last picture, for the next one. */
+  /** Memory of the last picture, reused for the next one. */
   room: ArrayBuffer | null;
 }
 
 /**
- * The capture thread's end: of each camera one picture at a time is with the picture thread, and the next that comes after
- * it is done is the next. So none waits and grows old, and what is not wanted costs nothing.
+ * The capture thread's end of pictures. The picture thread gets one picture per camera at a time. When it is done, it
+ * gets the next one to arrive. So no picture waits and ages, and unwanted pictures cost nothing.
  */
 export class PictureTap implements PictureTaker {
   readonly #port: TapPort;
   readonly #cameras: Camera[];
   readonly #most: readonly (number | null)[];
 
-  /** @param most pictures a second that each camera's own topic allows */
+  /** @param most pictures per second that each camera's topic allows; `null`: no limit */
   constructor(port: TapPort, most: readonly (number | null)[]) {
     this.#port = port;
     this.#most = most;

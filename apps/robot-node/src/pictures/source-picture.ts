@@ -1,19 +1,19 @@
-/** A camera's picture as its source has it, and how sources come to give them. */
+/** A camera's picture as its source gives it, and the interface through which sources give pictures. */
 import type { PictureFormat } from '@farpoint/protocol';
 
-/** Pixels, as sensor_msgs/Image has them. */
+/** Raw pixels, as in sensor_msgs/Image. */
 export interface RawPicture {
   kind: 'raw';
   width: number;
   height: number;
-  /** Bytes from one row to the next. */
+  /** Number of bytes from one row to the next. */
   step: number;
-  /** Of sensor_msgs/image_encodings. */
+  /** An encoding from sensor_msgs/image_encodings. */
   encoding: string;
   bigEndian: boolean;
 }
 
-/** A file; its own header gives format and size. */
+/** An image file. Its own header gives format and size. */
 export interface PictureFileFacts {
   kind: 'file';
   format: PictureFormat;
@@ -22,20 +22,20 @@ export interface PictureFileFacts {
 }
 
 export interface SourcePicture {
-  /** Place in the source's list of cameras. */
+  /** Index in the source's list of cameras. */
   camera: number;
-  /** Robot's clock when it was taken, ms. */
+  /** When it was taken, robot's clock, ms. */
   capturedAtMs: number;
   facts: RawPicture | PictureFileFacts;
-  /** Where it was read, for messages of what is wrong with it; of a live camera left out. */
+  /** Where it was read, for error messages; absent for a live camera. */
   origin?: string;
-  /** Good only during the call. */
+  /** Valid only during the call. */
   data: Uint8Array;
 }
 
-/** Takes pictures from a source that is asked first: what nobody wants need not even be read. */
+/** Takes pictures from a source. The source asks first, so that it need not even read pictures that nobody wants. */
 export interface PictureTaker {
-  /** Whether the picture of this camera that comes now is wanted; it is then to be offered. */
+  /** Whether the picture of this camera that arrives now is wanted and should be offered. */
   wants(camera: number, nowMs: number): boolean;
   offer(picture: SourcePicture): void;
 }

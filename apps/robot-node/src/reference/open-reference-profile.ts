@@ -8,7 +8,7 @@ type ReferenceProfileParts = Pick<ReferenceProfileOptions, 'packetLog' | 'sendLo
   peer: Omit<ReferenceProfileOptions['peer'], 'iceServers'>;
 };
 
-/** @returns `null` where the robot is not to show itself to the reference system's operators */
+/** @returns `null` if the robot is not to be visible to the reference system's operators */
 export function openReferenceProfile(
   options: RobotOptions,
   { peer, ...parts }: ReferenceProfileParts,

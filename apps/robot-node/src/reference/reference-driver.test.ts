@@ -16,7 +16,7 @@ function forward(x: number, z = 0): Twist {
 }
 
 describe('ReferenceDriver', () => {
-  it('takes a free lease with the first wish for motion, and gives it back after 2 s without one', () => {
+  it('takes a free lease at the first request for motion, and releases it after 2 s without one', () => {
     const { guard, driver } = setUp();
     expect(driver.onTwist(zeroTwist(), 0)).toBe('ignored');
     expect(guard.leaseHolder).toBeNull();
@@ -27,7 +27,7 @@ describe('ReferenceDriver', () => {
     expect(guard.leaseHolder).toBeNull();
   });
 
-  it('is refused where another drives, beyond the limits, and while the emergency stop is latched', () => {
+  it('is refused while another drives, beyond the limits, and while the emergency stop is latched', () => {
     const { guard, driver } = setUp();
     guard.requestLease('operator', false, 0);
     expect(driver.onTwist(forward(0.5), 0)).toMatchObject({ accepted: false, reason: 'not-lease-holder' });
@@ -38,7 +38,7 @@ describe('ReferenceDriver', () => {
     expect(guard.velocityAt(40)).toEqual(zeroTwist());
   });
 
-  it('asks for a green frame by linear.z, without moving and without the lease; not while another drives', () => {
+  it('requests a green frame through linear.z, without motion or lease, but not while another drives', () => {
     const { guard, driver } = setUp();
     expect(driver.onTwist(forward(0.5, 1), 0)).toBe('latency-test');
     expect(guard.leaseHolder).toBeNull();
@@ -48,38 +48,38 @@ describe('ReferenceDriver', () => {
     expect(driver.onTwist(forward(0, 1), 1000)).toBe('too-many-tests');
   });
 
-  it('after a stall takes what was held back for a stop, and obeys again what is spoken after it', () => {
+  it('treats a burst after a stall as a stop, and obeys commands sent after it', () => {
     const { guard, driver } = setUp();
     for (let t = 0; t <= 100; t += 20) driver.onTwist(forward(0.5), t);
     expect(guard.velocityAt(300)).toEqual(zeroTwist());
-    // 15 commands of the last 300 ms, all at once.
+    // 15 commands from the last 300 ms, all at once.
     for (let i = 0; i < 15; i++) driver.onTwist(forward(0.5), 400 + i * 0.1);
     expect(driver.bursts).toBe(14);
     expect(guard.velocityAt(402)).toEqual(zeroTwist());
     driver.onTwist(forward(0.5), 420);
     expect(guard.velocityAt(420).linear.x).toBe(0.5);
-    // Messages that a busy moment brought together are no stall.
+    // Messages that a busy moment brought together are not a stall.
     for (const t of [440, 440.5, 460])
       expect(driver.onTwist(forward(0.5), t)).toMatchObject({ accepted: true });
   });
 
-  it('after 1 s of silence wants the hand open once: a zero, or 2 s without a wish on a path that lives', () => {
+  it('after 1 s of silence, needs an open hand once: a zero, or 2 s without a request on a live path', () => {
     const refused = { accepted: false, reason: 'let-go-first' };
     const { driver } = setUp();
     driver.onTwist(forward(0.5), 0);
     expect(driver.onTwist(forward(0.5), 1500)).toMatchObject(refused);
     driver.onTwist(zeroTwist(), 1520);
     expect(driver.onTwist(forward(0.5), 1540)).toMatchObject({ accepted: true });
-    // No zero was said, but everything else went on coming.
+    // No zero was sent, but everything else kept arriving.
     expect(driver.tick(4000, true)).toBe(true);
     expect(driver.onTwist(forward(0.5), 4020)).toMatchObject({ accepted: true });
-    // The path was lost: the hand may still hold.
+    // The path was lost, so the hand may still hold the stick.
     driver.tick(5000, false);
     expect(driver.tick(7000, true)).toBe(true);
     expect(driver.onTwist(forward(0.5), 7020)).toMatchObject(refused);
   });
 
-  it('whatever comes and whenever: within the limits, and still after the watchdog time', () => {
+  it('stays within the limits and stops after the watchdog time, whatever arrives and when', () => {
     const component = fc.oneof(fc.constant(0), fc.double({ min: -3, max: 3, noNaN: true }));
     const step = fc.record({
       waitMs: fc.double({ min: 0, max: 400, noNaN: true }),

@@ -1,7 +1,7 @@
 /**
- * From the reference system's bare twists to commands that the robot's guard judges like any other. The reference
- * protocol has no lease, no dead-man grip, no sequence number and no time of sending; what stands for them is made here,
- * always on the side of standing still.
+ * Turns the reference system's plain twists into commands, which the robot's guard then judges like any others. The
+ * reference protocol has no lease, dead-man grip, sequence number or send time. This class supplies substitutes, and
+ * errs on the side of standing still.
  */
 
 import { type Command, isZeroTwist, type Twist, zeroTwist } from '@farpoint/protocol';
@@ -9,23 +9,23 @@ import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
 import { TokenBucket } from '@farpoint/timing';
 
 /**
- * Without a wish for motion for so long the lease is given back, as nobody can ask for it, and the hand counts as open: not
- * every operator of this kind says zero.
+ * After this long without a request for motion, the lease is released, because nobody can ask for it, and the grip
+ * counts as open. Not every reference operator sends a zero.
  */
 const LEASE_AFTER_MOTION_MS = 2000;
-/** Two messages so close were not spoken so close: they stood in a queue. */
+/** Messages that arrive this close together were not sent so close together: they waited in a queue. */
 const BURST_SPACING_MS = 4;
 const LATENCY_TESTS_PER_SECOND = 10;
 
 export type ReferenceVerdict =
-  /** The guard has judged. */
+  /** The guard's verdict. */
   | CommandVerdict
   | 'latency-test' // make the next frame green
   | 'too-many-tests'
   | 'ignored'; // a zero of one who does not drive
 
 export class ReferenceDriver {
-  /** Commands that came out of a queue all at once: each was taken for a stop. */
+  /** Commands that arrived in a burst from a queue. Each was treated as a stop. */
   bursts = 0;
   readonly #id: string;
   readonly #guard: DriveGuard;
@@ -34,10 +34,10 @@ export class ReferenceDriver {
   #lastMs = Number.NEGATIVE_INFINITY;
   #afterGap = false;
   #lastMotionMs = Number.NEGATIVE_INFINITY;
-  /** Since then nothing at all was heard for a while: the hand may still hold. */
+  /** The operator was silent for a while after its last motion, so it may still be holding the stick. */
   #pathWasSilent = false;
 
-  /** @param id its name towards the guard */
+  /** @param id the operator's id for the guard */
   constructor(id: string, guard: DriveGuard) {
     this.#id = id;
     this.#guard = guard;
@@ -65,10 +65,10 @@ export class ReferenceDriver {
   }
 
   /**
-   * Every so often.
+   * Call this at regular intervals.
    *
-   * @param pathLives something was heard of the operator lately, on whatever channel
-   * @returns whether the lease was given back
+   * @param pathLives whether anything was received from the operator lately, on any channel
+   * @returns whether the lease was released
    */
   tick(nowMs: number, pathLives: boolean): boolean {
     if (!pathLives) this.#pathWasSilent = true;
@@ -77,8 +77,9 @@ export class ReferenceDriver {
   }
 
   /**
-   * The channel is reliable and ordered: after a stall all that was held back comes at once, without saying how old it is.
-   * What follows a silence that has stopped the robot, and is followed itself without a pause, is such a queue.
+   * The channel is reliable and ordered. After a stall, everything that was held back arrives at once, and does not
+   * say how old it is. Messages count as such a queue if they follow a silence that stopped the robot, and follow
+   * each other without a pause.
    */
   #stoodInQueue(nowMs: number): boolean {
     const sinceMs = nowMs - this.#lastMs;
@@ -98,7 +99,7 @@ export class ReferenceDriver {
       type: 'command',
       sequence: this.#sequence,
       timeMs: nowMs,
-      // A handle that nobody holds, where this operator holds none.
+      // A handle that belongs to nobody, if this operator has no lease.
       lease: state.holder === 'you' && state.lease !== undefined ? state.lease : 'none',
       deadMan: !isZeroTwist(twist),
       twist,

@@ -2,11 +2,11 @@ import { POINTS_PER_PACKET } from '@farpoint/protocol';
 import { SharedFrame } from '../transport/shared-frame.ts';
 
 /**
- * A frame as the reference profile sends it: whole packets only. It shares the other's buffer and holds it until it is let
- * go itself. Points beyond the last whole packet, the farthest, are left out.
+ * A frame as the reference profile sends it: whole packets only. It shares the original frame's buffer and holds it
+ * until it is released itself. It leaves out the points beyond the last whole packet, which are the farthest.
  *
- * @param overheadBytes what the reference transport adds to each payload on the wire
- * @returns `null` where there is no whole packet. Its maker must `release` it
+ * @param overheadBytes bytes that the reference transport adds to each payload on the wire
+ * @returns `null` if there is no whole packet. The caller must `release` the frame
  */
 export function toReferenceFrame(shared: SharedFrame, overheadBytes: number): SharedFrame | null {
   const packets = Math.floor(shared.frame.points / POINTS_PER_PACKET);

@@ -21,14 +21,14 @@ import { ReferencePeer, type ReferencePeerOptions } from './reference-peer.ts';
 import { ReferenceTransport } from './reference-transport.ts';
 import { ReportedLimit } from './reported-limit.ts';
 
-/** What it asks of the robot. */
+/** What a reference operator needs from the robot. */
 export type ReferenceHost = Pick<
   SessionHost,
   'drive' | 'now' | 'leaseChanged' | 'commandAccepted' | 'commandRejected' | 'messageRefused'
 > & { requestLatencyFrame(): void };
 
 export interface ReferenceOperatorOptions {
-  /** Its name towards the guard; of no Farpoint session. */
+  /** The operator's id for the guard. No Farpoint session has this id. */
   id: string;
   peer: ReferencePeerOptions;
   controller: RateController;
@@ -38,12 +38,14 @@ export interface ReferenceOperatorOptions {
 export interface ReferenceOperatorEvents {
   onCandidate(candidate: string): void;
   onConnected(): void;
-  /** Streaming began, paused, or may go at another rate. */
+  /** Streaming began or paused, or the rate changed. */
   onBudgetChanged(): void;
   onEnded(end: PeerEnd, detail: string): void;
 }
 
-/** Nothing heard for so long: points would go nowhere; does not drive; is gone, ms. */
+/**
+ * After this long without hearing from the operator, ms: points are no longer sent; it no longer drives; it is gone.
+ */
 const QUIET_MS = 2000;
 const LEASE_MS = 1000;
 const GONE_MS = 5000;
@@ -59,7 +61,7 @@ export class ReferenceOperator implements FrameTarget {
   readonly #options: ReferenceOperatorOptions;
   readonly #events: ReferenceOperatorEvents;
   #limit: ReportedLimit | null = null;
-  /** As the reference system's robot: nothing before it is told to. */
+  /** As with the reference system's robot, nothing is sent before the operator starts the stream. */
   #started = false;
   #quiet = false;
   #heardMs = 0;
@@ -85,7 +87,7 @@ export class ReferenceOperator implements FrameTarget {
     });
   }
 
-  /** The reference profile has one format. */
+  /** The reference profile has a single format. */
   reads(): boolean {
     return false;
   }
@@ -94,7 +96,7 @@ export class ReferenceOperator implements FrameTarget {
     return this.sender !== null && this.#started && !this.#quiet;
   }
 
-  /** The reference profile knows of one sensor. */
+  /** The reference profile has a single sensor. */
   wants(sensor: number): boolean {
     return sensor === 0;
   }
@@ -121,7 +123,7 @@ export class ReferenceOperator implements FrameTarget {
     frame.release();
   }
 
-  /** Every 25 ms. */
+  /** Call this every 25 ms. */
   tick(): void {
     const now = this.#host.now();
     if (this.peer.heardSinceLast()) this.#heardMs = now;
@@ -176,7 +178,7 @@ export class ReferenceOperator implements FrameTarget {
     this.#events.onBudgetChanged();
   }
 
-  /** Text or the same bytes: the reference system's robot does not tell them apart. */
+  /** Text or the same bytes: the reference system's robot treats both alike. */
   #onWord(data: string | Uint8Array): void {
     const word = typeof data === 'string' ? data : new TextDecoder().decode(data.subarray(0, 16));
     const started = decodeStreamSwitch(word) === 'start';

@@ -1,4 +1,4 @@
-/** The WebRTC connection with one operator of the reference system: the robot offers, the operator answers, ICE trickles. */
+/** The WebRTC connection with a reference operator: the robot offers, the operator answers, ICE trickles. */
 
 import type { IceServer } from '@farpoint/protocol';
 import { REFERENCE_MEDIA } from '@farpoint/protocol';
@@ -19,14 +19,14 @@ export interface ReferencePeerOptions {
   iceServers: readonly IceServer[];
   portRange?: readonly [number, number] | undefined;
   icePolicy: 'all' | 'relay';
-  /** From the answer on. */
+  /** Time limit for connecting, counted from the answer, ms. */
   connectTimeoutMs: number;
-  /** Something that came from the network was dropped unread. */
+  /** Called when something from the network was dropped unread. */
   onRefused?: ((reason: Refusal) => void) | undefined;
 }
 
 export interface ReferencePeerEvents {
-  /** Kept from its first to its last, to be told again after the answer. */
+  /** Called with each candidate. They are kept from first to last, and sent again after the answer. */
   onCandidate(candidate: string): void;
   onConnected(transport: SrtpCloudTransport): void;
   onMessage(channel: 'control' | 'bandwidth' | 'words', data: string | Uint8Array): void;
@@ -35,11 +35,11 @@ export interface ReferencePeerEvents {
 }
 
 export class ReferencePeer {
-  /** What was found so far: the reference system's bridge hears only those that are told after its answer. */
+  /** The candidates found so far. The reference system's bridge ignores those that it gets before its answer. */
   readonly candidates: string[] = [];
-  /** Of the operator's, left out. */
+  /** Number of the operator's candidates that were left out. */
   candidatesRefused = 0;
-  /** Channels that the operator opened and the profile does not know. */
+  /** Number of channels that the operator opened and that the profile does not have. */
   unknownChannels = 0;
   readonly #options: ReferencePeerOptions;
   readonly #events: ReferencePeerEvents;
@@ -101,12 +101,12 @@ export class ReferencePeer {
     return this.#state;
   }
 
-  /** Whether the operator was heard on the path since the last call, be it by a connectivity check. */
+  /** Whether anything was heard from the operator on the path since the last call, including connectivity checks. */
   heardSinceLast(): boolean {
     return this.#transport?.heardSinceLast() ?? false;
   }
 
-  /** Empty before it is made. */
+  /** Empty until the offer is made. */
   get offerSdp(): string {
     return this.#offerSdp;
   }
@@ -114,7 +114,7 @@ export class ReferencePeer {
   async offer(): Promise<string> {
     const description = await this.#connection.createOffer();
     dropDefaultStun(this.#cloud.dtlsTransport);
-    // Resolves only when every candidate is gathered.
+    // Resolves only when all candidates have been gathered.
     this.#connection.setLocalDescription(description).catch((error: unknown) => {
       this.close('not-connected', `no local description: ${errorText(error)}`);
     });
@@ -122,7 +122,7 @@ export class ReferencePeer {
     return description.sdp;
   }
 
-  /** The first answer counts. Never throws: a bad one ends the connection. */
+  /** Takes the first answer; ignores later ones. Never throws: a bad answer ends the connection. */
   async answer(sdp: string): Promise<void> {
     if (this.#state !== 'offering') return;
     this.#state = 'answered';
@@ -139,7 +139,10 @@ export class ReferencePeer {
     }
   }
 
-  /** At any time: it waits for the answer. Never throws: one that cannot be used is counted, others may do. */
+  /**
+   * May be called at any time: a candidate waits for the answer. Never throws: unusable candidates are counted, and
+   * others may work.
+   */
   addCandidate(candidate: string): void {
     if (this.#state !== 'ended') this.#candidates.add({ candidate, sdpMLineIndex: 0 });
   }
@@ -175,7 +178,7 @@ export class ReferencePeer {
     if (this.#state !== 'answered') return;
     let transport: SrtpCloudTransport;
     try {
-      // Whatever the answer says of it: the reference system's bridge takes the header to be 20 bytes long.
+      // Fixed, whatever the answer says: the reference system's bridge assumes a header of 20 bytes.
       transport = new SrtpCloudTransport(this.#cloud, REFERENCE_MEDIA.extensionId);
     } catch (error) {
       this.close('bad-answer', errorText(error));

@@ -1,4 +1,4 @@
-/** The robot program to an operator of the reference system: processes, sockets, WebRTC. */
+/** The robot program as an operator of the reference system sees it: processes, sockets, WebRTC. */
 import { checkOffer, ReferenceOperator, RtpStreamRules, SocketPeer } from '@farpoint/conformance';
 import { ReleasedSignaling } from '@farpoint/conformance/testing';
 import { LocalStack } from '@farpoint/local-stack';
@@ -50,12 +50,12 @@ function forward(metresPerSecond: number): Twist {
   return twist;
 }
 
-/** Who drives, as the robot told this operator last. */
+/** Waits until the robot tells this operator that `holder` drives. */
 async function untilHolder({ client }: SignaledOperator, holder: LeaseState['holder']): Promise<void> {
   await client.until(() => client.session.findLast((message) => message.type === 'lease')?.holder === holder);
 }
 
-/** Says the same at 50 Hz until the returned function is called. */
+/** Sends the same twist at 50 Hz until the returned function is called. */
 function repeat(operator: ReferenceOperator, twist: Twist): () => void {
   const timer = setInterval(() => operator.command(twist), 20);
   return () => clearInterval(timer);
@@ -75,10 +75,11 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     operator.say('start');
     await operator.packets.next(() => rules.frames >= 20);
     expect(rules.findings).toEqual([]);
-    // 650 were asked for: a multiple of 150.
+    // 650 were requested: rounded to a multiple of 150.
     expect(new Set(points)).toEqual(new Set([600]));
     operator.say(new TextEncoder().encode('stop'));
-    // The last of the old stream and the first of the new one: nothing came in between, and frames count on.
+    // The last frame of the old stream and the first of the new one. Nothing came in between, and frame numbers
+    // continue.
     operator.say('start');
     const { frames } = rules;
     await operator.packets.next(() => rules.frames >= frames + 5);
@@ -97,7 +98,7 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     expect(rules.findings).toEqual([]);
   });
 
-  it('gets points64 also while Farpoint’s operator reads a coded format', async () => {
+  it('sends points64 to it even while a Farpoint operator reads a coded format', async () => {
     const [own, reference] = [await farpointOperator(), await referenceOperator()];
     const { client } = own;
     client.sendSession({ type: 'cloudFormats', formats: [...CLOUD_FORMATS] });
@@ -111,19 +112,19 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     expect(rules.findings).toEqual([]);
   });
 
-  it('obeys within the robot’s own limits, one operator at a time, and stops without commands', async () => {
+  it('obeys one operator at a time, within the robot’s own limits, and stops without commands', async () => {
     const [own, reference] = [await farpointOperator(), await referenceOperator()];
     const { client } = own;
     const start = client.telemetry!.pose.position.x;
     const stop = repeat(reference, forward(0.3));
     await client.until(() => (client.telemetry?.pose.position.x ?? 0) > start + 0.1);
     expect(client.telemetry?.drive).toBe('driving');
-    // Not for whoever asks while another drives.
+    // An operator that asks while another drives is refused.
     await untilHolder(own, 'other');
     stop();
     await client.until(() => client.telemetry?.drive === 'watchdog');
     await client.until(() => client.telemetry?.twist.linear.x === 0);
-    // Given back by itself, so that others may.
+    // Released by itself, so that others can drive.
     await untilHolder(own, 'nobody');
     await client.takeLease();
     const still = repeat(reference, forward(0.3));
@@ -133,7 +134,7 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     still();
     client.sendSession({ type: 'leaseRelease' });
     await untilHolder(own, 'nobody');
-    // Beyond the limit it is refused, not cut off.
+    // A command beyond the limit is refused, not clamped.
     const fast = repeat(reference, forward(5));
     const later = client.telemetry!.sequence;
     await client.until(() => client.telemetry!.sequence > later + 10);
@@ -141,7 +142,7 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     fast();
   });
 
-  it('makes a green frame where linear.z asks for it, and does not move for it', async () => {
+  it('makes a green frame when linear.z requests it, without moving', async () => {
     const operator = await referenceOperator();
     operator.say('start');
     await operator.packets.next();
@@ -154,7 +155,7 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     expect(coloursOf(green).length).toBe(150);
   });
 
-  it('keeps below what the operator reports', async () => {
+  it('stays below the rate that the operator reports', async () => {
     const operator = await referenceOperator();
     operator.say('start');
     const rateOver = async (packets: number): Promise<number> => {
@@ -171,12 +172,12 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     };
     await operator.packets.next();
     for (let i = 0; i < 16; i++) operator.report(400_000);
-    // What was on its way already is let pass.
+    // Ignore what was already in flight.
     await rateOver(40);
     expect(await rateOver(40)).toBeLessThan(440_000);
   });
 
-  it('is not moved by garbage, nor by answers that are none, and offers itself anew', async () => {
+  it('ignores garbage and invalid answers, and makes a new offer', async () => {
     const first = await referenceOperator();
     for (const bytes of [new Uint8Array([0xff, 0xfe, 0]), new TextEncoder().encode('{"linear":')]) {
       first.sendControl(bytes);
@@ -198,17 +199,17 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
       line.send({ type: 'answer', robotId: robot.id, sdpAnswer });
     }
     const again = await referenceOperator();
-    // They fit no offer: it stands as it was.
+    // They match no offer, so the offer stands unchanged.
     expect(again.robotId).toBe(robot.id);
     again.say('start');
     const rules = new RtpStreamRules();
     again.onPacket = (packet) => rules.add(packet);
     await again.packets.next(() => rules.frames >= 3);
-    // Frames count from 0 for each connection.
+    // Frames count from 0 on each connection.
     expect(rules.findings).toEqual([]);
   });
 
-  it('comes back when signaling does, and while it is away keeps streaming', async () => {
+  it('keeps streaming while signaling is down, and registers again afterwards', async () => {
     const operator = await referenceOperator();
     operator.say('start');
     await operator.packets.next();
@@ -221,7 +222,7 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     await again.packets.next();
   });
 
-  it('is listed once by a signaling that forgets no robot 0 and hears no farewell of it, and takes no answer to a dead offer', async () => {
+  it('is listed once even if signaling ignores the deregistration of robot 0, and takes no answer to a dead offer', async () => {
     const released = await ReleasedSignaling.start();
     cleanups.push(() => released.stop());
     const args = [...ARGS, '--reference-signaling', released.robotUrl];
@@ -237,7 +238,7 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     }
   });
 
-  it('has no such face where it is not asked for', async () => {
+  it('is not offered unless configured', async () => {
     const other = await LocalStack.start({ robots: [{ id: ROBOT, name: NAME, args: ARGS }] });
     cleanups.push(() => other.stop());
     const line = await SocketPeer.open(`ws://127.0.0.1:${other.ports.referenceClient}/`);

@@ -1,10 +1,12 @@
 /**
- * The robot at the reference system's signaling: registered with an offer of its own whenever nobody has taken it, so that
- * the reference system's bridge, or ours, can show it. One such operator at a time, beside any number of Farpoint's.
+ * Makes the robot available on the reference system's signaling. It registers with a new offer whenever no operator
+ * has taken its last one, so that the reference system's bridge, or ours, can show it. It serves one such operator at
+ * a time, beside any number of Farpoint's own.
  *
- * Each registration has a socket of its own, and ends with it. The reference signaling ignores a `deregister` of robot 0 and
- * tells of others' by a word that its bridge does not know: a second registration on the same socket would be listed beside
- * the first, and answers to the first, dead offer would come as if they were to the second.
+ * Each registration has its own socket and ends with it. The reference signaling ignores a `deregister` of robot 0,
+ * and reports that of others with a message type that its bridge does not know. A second registration on the same
+ * socket would be listed beside the first, and answers to the first, dead offer would arrive as if they were for the
+ * second.
  */
 import type { RateController } from '@farpoint/congestion';
 import {
@@ -22,7 +24,7 @@ import { type ReferenceHost, ReferenceOperator } from './reference-operator.ts';
 import type { ReferencePeerOptions } from './reference-peer.ts';
 
 export interface ReferenceProfileOptions {
-  /** Robots' port of the reference signaling. */
+  /** The reference signaling's port for robots. */
   url: string;
   ca: string | null;
   name: string;
@@ -33,30 +35,33 @@ export interface ReferenceProfileOptions {
   onBudgetChanged: () => void;
 }
 
-/** The first try after a connection that came to nothing, and the longest wait between two, ms. */
+/** Delay of the first attempt after a failed connection, and longest delay between two attempts, ms. */
 const FIRST_RETRY_MS = 250;
 const MOST_RETRY_MS = 5000;
-/** Another operator may take the place of one of whom nothing was heard for so long, ms. */
+/** After this long without hearing from an operator, another one may replace it, ms. */
 const REPLACE_AFTER_MS = 1000;
 
 export class ReferenceProfile {
-  /** Offers made, operators that connected, and those that ended, since the start. */
+  /** Counted since the start: offers made, operators connected, and operators that ended. */
   offers = 0;
   connected = 0;
   ended = 0;
-  /** Answers that were none to the offer: they change nothing. */
+  /** Answers that did not match the offer. They change nothing. */
   answersRefused = 0;
   readonly #options: ReferenceProfileOptions;
   readonly #host: ReferenceHost;
   readonly #log: Logger;
   readonly #line: MessageLine<ReferenceServiceToRobot, ReferenceRobotToService>;
   #robotId: number | null = null;
-  /** Offered, perhaps answered, not connected. */
+  /** An operator that has an offer, and perhaps answered it, but is not connected. */
   #offered: ReferenceOperator | null = null;
-  /** The one whose offer the service has. What came before it did was meant for the offer before. */
+  /**
+   * The operator whose offer the signaling service has. Anything that arrived before this offer was meant for the
+   * previous one.
+   */
   #listed: ReferenceOperator | null = null;
   #current: ReferenceOperator | null = null;
-  /** Another operator has answered the offer that this one took. */
+  /** Whether another operator has answered the offer that this one took. */
   #rival = false;
   #retry: NodeJS.Timeout | null = null;
   #failures = 0;
@@ -96,16 +101,16 @@ export class ReferenceProfile {
     return this.#current;
   }
 
-  /** For the fan-out: none or one. */
+  /** The targets for the fan-out: none or one. */
   get targets(): readonly FrameTarget[] {
     return this.#current === null ? [] : [this.#current];
   }
 
-  /** Every 25 ms. */
+  /** Call this every 25 ms. */
   tick(): void {
     const current = this.#current;
     current?.tick();
-    // Where who took the offer seems to be gone, there is a new one for who came after.
+    // If the operator that took the offer seems to be gone, make a new offer for the one that came after it.
     if (this.#rival && current !== null && current.silentMs(this.#host.now()) > REPLACE_AFTER_MS) {
       current.peer.close('closed', 'another operator is here');
     }
@@ -131,7 +136,7 @@ export class ReferenceProfile {
         void this.#onAnswer(message.sdpAnswer);
         break;
       case 'candidate':
-        // Also once it is connected: a better path may be found.
+        // Also after connecting, because a better path may be found.
         this.#listed?.peer.addCandidate(message.candidate);
         break;
     }
@@ -147,12 +152,12 @@ export class ReferenceProfile {
       await listed.peer.answer(sdp);
       for (const candidate of listed.peer.candidates) this.#tell(candidate);
     } else if (listed !== null && listed === this.#current) {
-      // Somebody else answers the offer that is taken.
+      // Another operator answered an offer that is already taken.
       this.#rival = true;
     }
   }
 
-  /** Another offer, on another socket: the service then knows the robot by another id. */
+  /** Makes another offer on another socket. The service then lists the robot under another id. */
   #offerAnew(): void {
     this.#retry = null;
     if (this.#closed || !this.#line.open) return;
@@ -165,7 +170,7 @@ export class ReferenceProfile {
     this.#listed = null;
   }
 
-  /** The line has just opened. */
+  /** Called when the connection has just opened. */
   async #register(): Promise<void> {
     if (this.#retry !== null) clearTimeout(this.#retry);
     this.#retry = null;
@@ -188,7 +193,7 @@ export class ReferenceProfile {
 
   #makeOperator(): ReferenceOperator {
     const { peer, makeController, packetLog, sendLoop, onBudgetChanged } = this.#options;
-    // No Farpoint session has a colon in its name.
+    // No Farpoint session has a colon in its id.
     const id = `reference:${++this.#made}`;
     const operator: ReferenceOperator = new ReferenceOperator(
       { id, peer, controller: makeController(), packetLog },

@@ -26,7 +26,7 @@ function fakeInner(sent: Sent[]): CloudTransport {
   };
 }
 
-/** Data bytes count up, so that a wrong place shows. */
+/** Data bytes count up, so that a misplaced byte is noticed. */
 function capturedFrame(frameNumber: number, points: number): ReadyFrame {
   const packets = Math.ceil(points / 150);
   const slots = Uint8Array.from({ length: packets * SLOT_BYTES }, (_, i) => i & 0xff);
@@ -48,7 +48,7 @@ function capturedFrame(frameNumber: number, points: number): ReadyFrame {
   } as ReadyFrame;
 }
 
-it('sends the same blocks under headers of its own: whole packets, frames from 0, a clock of 90 kHz', () => {
+it('sends the same blocks with its own headers: whole packets, frames from 0, a clock of 90 kHz', () => {
   const sent: Sent[] = [];
   let now = 1000;
   const transport = new ReferenceTransport(fakeInner(sent), () => now);
@@ -77,7 +77,7 @@ it('sends the same blocks under headers of its own: whole packets, frames from 0
   expect(sent[1]?.payload.subarray(16)).toEqual(shared.slots.subarray(SLOT_BYTES + 16, SLOT_BYTES + 1216));
 });
 
-it('holds the buffer until both faces have let go of it', () => {
+it('holds the buffer until both frames have released it', () => {
   const recycled: ArrayBuffer[] = [];
   const shared = new SharedFrame(capturedFrame(1, 300), 0, (buffer) => recycled.push(buffer));
   const frame = toReferenceFrame(shared, 36)!;

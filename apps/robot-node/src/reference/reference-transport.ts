@@ -9,15 +9,17 @@ import type { ReportBlock, ResendRefusal } from '@farpoint/rtp';
 import { rtpTimestamp } from '@farpoint/rtp';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
 
-/** The RTP header, extension included, that the reference system's bridge cuts off without looking. */
+/**
+ * Size of the RTP header with its extension. The reference system's bridge cuts off this many bytes without checking.
+ */
 export const REFERENCE_RTP_HEADER_BYTES = 20;
 
 /**
- * Sends Farpoint's payloads as the reference profile has them: the same points, without the placement, always 1216 bytes,
- * frames counted from 0 for this connection.
+ * Sends Farpoint's payloads in the form of the reference profile: the same points, without the placement, always 1216
+ * bytes, with frames counted from 0 for each connection.
  */
 export class ReferenceTransport implements CloudTransport {
-  /** Of the frame that was sent last; −1 before the first. */
+  /** Number of the last frame sent; −1 before the first. */
   frameNumber = -1;
   readonly overheadBytes: number;
   readonly #inner: CloudTransport;
@@ -58,7 +60,10 @@ export class ReferenceTransport implements CloudTransport {
     this.#inner.onRtcp = handler;
   }
 
-  /** @param payload a full packet of a frame that has whole packets only; `timestamp` is not used, its clock is another */
+  /**
+   * @param payload a full packet of a frame that has only whole packets; `timestamp` is ignored, because its clock is
+   * a different one
+   */
   send(
     payload: Uint8Array,
     _timestamp: number,
@@ -69,7 +74,7 @@ export class ReferenceTransport implements CloudTransport {
     this.#payload.set(payload.subarray(0, FULL_POINT_PACKET_BYTES));
     this.#beginFrame(this.#view.getUint32(0, true));
     this.#view.setUint32(0, this.frameNumber, true);
-    // The frame may have a last, partial packet in Farpoint's profile; here it ends with its last whole one.
+    // In Farpoint's profile, the frame may end with a partial packet. Here it ends with its last whole packet.
     const length = this.#view.getUint32(4, true);
     this.#view.setUint32(4, length - (length % MAX_POINT_DATA_BYTES), true);
     this.#view.setUint32(12, MAX_POINT_DATA_BYTES, true);
@@ -85,7 +90,7 @@ export class ReferenceTransport implements CloudTransport {
     this.#source = source;
     this.frameNumber = (this.frameNumber + 1) >>> 0;
     const timestamp = rtpTimestamp(this.#now(), REFERENCE_MEDIA.clockRate);
-    // It advances with every frame, were two to begin at once.
+    // The timestamp must advance with every frame, even if two frames begin at the same time.
     this.#rtpTimestamp = timestamp === this.#rtpTimestamp ? (timestamp + 1) >>> 0 : timestamp;
   }
 }

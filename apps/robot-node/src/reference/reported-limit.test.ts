@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { ReportedLimit } from './reported-limit.ts';
 
-it('is the largest of the last 16 reports, in bits on the wire; the first three say nothing', () => {
+it('is the largest of the last 16 reports, in bits on the wire; the first three give no limit', () => {
   const limit = new ReportedLimit(1280);
   expect([1, 2, 3].map((report) => limit.add(report))).toEqual([null, null, null]);
   expect(limit.add(1200)).toBe(1280);
@@ -9,8 +9,8 @@ it('is the largest of the last 16 reports, in bits on the wire; the first three 
   expect(limit.add(600)).toBe(640);
 });
 
-it('is not drawn down by an operator that reports what it was sent, frame by frame', () => {
-  // As the reference system's bridge does: the points of a frame over the time until the next began.
+it('does not sink if an operator reports what it was sent, frame by frame', () => {
+  // As the reference system's bridge does: a frame's points over the time until the next frame began.
   const limit = new ReportedLimit(1280);
   let target = 10e6;
   for (let frame = 0; frame < 600; frame++) {

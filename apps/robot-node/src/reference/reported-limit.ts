@@ -1,13 +1,13 @@
 /**
- * What a reference operator's `bandwidth` reports allow. The reference system's own bridge reports the rate at which points
- * came, frame by frame: no more than was sent, and less whenever a frame was small. Taken word for word such reports would
- * draw the rate down without end. So the largest of the latest is the limit, in the unit in which they are measured: bits of
- * point data, as in the paper's equation 2.
+ * The rate limit from a reference operator's `bandwidth` reports. The reference system's bridge reports the rate at
+ * which points arrived, frame by frame: never more than was sent, and less whenever a frame was small. Taken
+ * literally, such reports would reduce the rate without end. The limit is therefore the largest of the latest
+ * reports. Their unit is bits of point data, as in the paper's equation 2.
  */
 import { MAX_POINT_DATA_BYTES } from '@farpoint/protocol';
 
 const REPORTS = 16;
-/** The first ones span the connection's own beginning. */
+/** The first reports cover the connection's own start. */
 const LEAST_REPORTS = 4;
 
 export class ReportedLimit {
@@ -15,14 +15,14 @@ export class ReportedLimit {
   readonly #wirePerPoint: number;
   #count = 0;
 
-  /** @param wireBytesPerPacket what a full packet takes on the wire */
+  /** @param wireBytesPerPacket size of a full packet on the wire, bytes */
   constructor(wireBytesPerPacket: number) {
     this.#wirePerPoint = wireBytesPerPacket / MAX_POINT_DATA_BYTES;
   }
 
   /**
    * @param bitsPerSecond one report
-   * @returns the limit from now on, bit/s on the wire; `null` while there is none
+   * @returns the new limit, bit/s on the wire; `null` while there is none
    */
   add(bitsPerSecond: number): number | null {
     this.#reports[this.#count % REPORTS] = bitsPerSecond;

@@ -23,14 +23,14 @@ beforeAll(() => {
 });
 afterAll(() => rmSync(folder, { recursive: true }));
 
-it('reads messages of a type that only files tell of', () => {
+it('reads messages whose type is defined only in files', () => {
   const topics = describeTopics(topicTableSchema.parse(TABLE), readFrom(['/nowhere', folder]));
   expect(topics[0]).not.toHaveProperty('definitions');
   const [, grip] = topics;
   if (grip === undefined) throw new Error('two topics');
   const graph = new MemoryGraph(2, () => 0);
   const messages: unknown[] = [];
-  // As it goes to the capture thread.
+  // In the form in which it is sent to the capture thread.
   const entry = structuredClone(grip);
   listen(
     graph,
@@ -45,7 +45,7 @@ it('reads messages of a type that only files tell of', () => {
   expect(messages[1]).toMatch(/^\/grip: byte \d+: /);
 });
 
-it('says at the start which file is missing, and where to name its folder', () => {
+it('says at the start which file is missing, and where to configure its folder', () => {
   const options = (text: string) => {
     const resolved = resolveOptions(robotProgram, { argv: [], env: {}, readFile: () => text });
     if (resolved.action !== 'run') throw new Error('printed');
@@ -62,7 +62,7 @@ it('says at the start which file is missing, and where to name its folder', () =
   });
 });
 
-it('knows the folders of a ROS that is sourced', () => {
+it('finds the folders of a sourced ROS', () => {
   expect(sourcedFolders({ AMENT_PREFIX_PATH: '/ws/install/a:/opt/ros/jazzy' })).toEqual([
     '/ws/install/a/share',
     '/opt/ros/jazzy/share',

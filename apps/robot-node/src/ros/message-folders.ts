@@ -1,4 +1,4 @@
-/** Where messages that are not ROS’s own are defined on this machine. */
+/** Finds the definitions of messages that are not ROS's own on this machine. */
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import {
@@ -9,20 +9,20 @@ import {
   type TopicEntry,
 } from '@farpoint/ros';
 
-/** The folders of packages of the ROS 2 that is sourced. */
+/** The package folders of the ROS 2 installation that is sourced. */
 export function sourcedFolders(env: Readonly<Record<string, string | undefined>>): string[] {
   const prefixes = (env.AMENT_PREFIX_PATH ?? '').split(':').filter((prefix) => prefix !== '');
   return prefixes.map((prefix) => join(prefix, 'share'));
 }
 
-/** Reads `<folder>/<package>/msg/<name>.msg` of the first folder that has it. */
+/** Reads `<folder>/<package>/msg/<name>.msg` from the first folder that has it. */
 export function readFrom(folders: readonly string[]): ReadMessageFile {
   return (packageName, name) => {
     for (const folder of folders) {
       try {
         return readFileSync(join(folder, packageName, 'msg', `${name}.msg`), 'utf8');
       } catch {
-        // The next may have it.
+        // The next folder may have it.
       }
     }
     return null;
@@ -30,7 +30,7 @@ export function readFrom(folders: readonly string[]): ReadMessageFile {
 }
 
 /**
- * The topics with the definitions of their types where those are not ROS’s own.
+ * Adds the type definitions to topics whose types are not ROS's own.
  *
  * @throws {RosFault} `unsupported`, naming the topic and the file that is missing or wrong
  */

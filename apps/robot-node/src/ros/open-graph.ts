@@ -10,24 +10,24 @@ import {
 import type { Ros1Options } from '@farpoint/ros/ros1';
 import { monotonicMs } from '../clock.ts';
 
-/** Which graph to take part in; plain data, so that it can be handed to a worker. */
+/** Which graph to join. Plain data, so that it can be passed to a worker. */
 export type GraphOptions = ({ kind: 'ros1' } & Ros1Options) | ({ kind: 'ros2' } & Ros2Options);
 
 export interface Ros2Options extends DdsOptions {
-  /** Left out: `dds`. `auto`: rclnodejs where ROS is sourced and it is installed. */
+  /** Default: `dds`. `auto`: rclnodejs if ROS is sourced and rclnodejs is installed. */
   graph?: Ros2Graph | 'auto';
-  /** Begin of the node's name, where it is one. */
+  /** Prefix of the node's name, if it is a node. */
   name?: string;
 }
 
 /**
- * @param part what of the robot takes part: it makes the node’s name
+ * @param part the part of the robot that joins; it is added to the node's name
  * @throws {RosFault} saying what is missing and what helps
  */
 export async function openGraph(options: GraphOptions, part: 'capture' | 'drive'): Promise<RosGraph> {
   switch (options.kind) {
     case 'ros1': {
-      // Only who needs it waits for it.
+      // Loaded only when it is needed.
       const { openRos1Graph } = await import('@farpoint/ros/ros1');
       return openRos1Graph({ ...options, name: `${options.name}_${part}` }, monotonicMs);
     }
@@ -37,14 +37,14 @@ export async function openGraph(options: GraphOptions, part: 'capture' | 'drive'
         const entry = findRclnodejs() ?? '';
         return RclnodejsGraph.open({ ...dds, name: `${name}_${part}`, entry, now: monotonicMs });
       }
-      // Its addon needs a library that not every robot has.
+      // The addon needs a library that not every robot has.
       const { DdsGraph } = await import('@farpoint/dds');
       return new DdsGraph({ ...dds, now: monotonicMs });
     }
   }
 }
 
-/** @throws {RosFault} it was asked for by name, and something is missing */
+/** @throws {RosFault} if a graph was requested by name and something is missing */
 export function ros2GraphOf({ graph = 'dds', interface: network }: Ros2Options): Ros2Graph {
   const sourced = isSourced(process.env);
   return chooseRos2Graph(graph, {

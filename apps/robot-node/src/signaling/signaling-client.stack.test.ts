@@ -24,7 +24,7 @@ async function service(port = 0) {
     await new Promise((resolve) => server.close(resolve));
   };
   cleanups.push(stop);
-  /** The next robot that calls, with what it says first. */
+  /** The next robot that connects, with its first message. */
   const nextRobot = async (): Promise<{ socket: WebSocket; path: string; hello: RobotToService }> => {
     const [socket, request] = (await once(server, 'connection')) as [WebSocket, { url: string }];
     const [data] = (await once(socket, 'message')) as [Buffer];
@@ -44,7 +44,7 @@ function client(port: number, token: string | null = null, log = silentLogger())
 const welcome = JSON.stringify({ type: 'robot.welcome', id: 'r1', iceServers: [] } satisfies ServiceToRobot);
 
 describe('SignalingClient', () => {
-  it('introduces itself and is registered once welcomed', async () => {
+  it('introduces itself, and is registered once welcomed', async () => {
     const { port, nextRobot } = await service();
     const robot = client(port, 'secret');
     const messages: ServiceToRobot[] = [];
@@ -75,7 +75,7 @@ describe('SignalingClient', () => {
     expect(JSON.parse(String((await said)[0]))).toEqual({ type: 'session.close', session: 's' });
   });
 
-  it('comes back with the same key after the service was away', async () => {
+  it('reconnects with the same key after the service was away', async () => {
     const first = await service();
     const robot = client(first.port);
     const called = first.nextRobot();
@@ -88,7 +88,7 @@ describe('SignalingClient', () => {
     expect(robot.disconnects).toBeGreaterThanOrEqual(1);
   });
 
-  it('says once that the service is not there, and once more when it has gone again', async () => {
+  it('reports once that the service is missing, and once more when it is gone again', async () => {
     const first = await service();
     const warnings: string[] = [];
     const stream = { write: (line: string) => void warnings.push(line) };
@@ -109,7 +109,7 @@ describe('SignalingClient', () => {
     expect(warnings.length).toBe(2);
   });
 
-  it('in doubt it asks the service; a line that does not answer within 2 s is made anew', async () => {
+  it('checks a doubtful connection, and replaces one that does not answer within 2 s', async () => {
     const deaf = new WebSocketServer({ port: 0, host: '127.0.0.1', autoPong: false });
     await once(deaf, 'listening');
     cleanups.push(() => {
@@ -130,13 +130,13 @@ describe('SignalingClient', () => {
       robot.check();
       await new Promise((resolve) => setTimeout(resolve, 5));
     }
-    // This one stays without an answer.
+    // This connection gets no answer.
     const [again] = (await once(deaf, 'connection')) as [WebSocket];
     expect(again).not.toBe(socket);
     expect(robot.disconnects).toBe(1);
   });
 
-  it('in doubt for long it does not ask without end, for which the service would cut it off', async () => {
+  it('limits its checks, because the service would disconnect it otherwise', async () => {
     const { port, nextRobot } = await service();
     const robot = client(port);
     const called = nextRobot();
@@ -148,7 +148,7 @@ describe('SignalingClient', () => {
     const start = performance.now();
     for (let i = 0; i < 300; i++) {
       robot.check();
-      // There and back: the ping of this turn has come, if there was one.
+      // A round trip: the ping of this turn, if there was one, has arrived.
       const back = once(socket, 'pong');
       socket.ping();
       await back;
@@ -156,7 +156,7 @@ describe('SignalingClient', () => {
     expect(pings).toBeLessThanOrEqual(2 + (performance.now() - start) / 500);
   });
 
-  it('counts what it cannot read and goes on', async () => {
+  it('counts unreadable messages and goes on', async () => {
     const { port, nextRobot } = await service();
     const robot = client(port);
     const welcomed = new Promise<void>((resolve) => {

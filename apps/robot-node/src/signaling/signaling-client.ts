@@ -14,37 +14,41 @@ import { Reconnect } from '@farpoint/timing';
 import { WebSocket } from 'ws';
 
 export interface SignalingOptions {
-  /** `ws://` or `wss://` and host; `/robot` is added. */
+  /** `ws://` or `wss://` and host. The client appends `/robot`. */
   url: string;
   id: string;
   name: string;
-  /** Proves over reconnects that this is the same robot. */
+  /** Proves after a reconnect that this is the same robot. */
   key: string;
   token: string | null;
   /** PEM of certificate authorities to trust instead of the system's. */
   ca: string | null;
 }
 
-/** The service said no to a robot.hello, or to something else. */
+/** The service refused a robot.hello or another message. */
 export type SignalingRefusal = Extract<ServiceToRobot, { type: 'error' }>;
 
 const HEARTBEAT_MS = 10_000;
-/** A ping that is sent because the line is in doubt is answered by then, or the line is dead. */
+/**
+ * A ping that checks a doubtful connection must be answered within this time, ms; otherwise the connection is given
+ * up.
+ */
 const CHECK_TIMEOUT_MS = 2000;
-/** From one such ping to the next: whoever pings without end is cut off by the service. */
+/** Shortest interval between such pings, ms. The service disconnects clients that ping without limit. */
 const CHECK_INTERVAL_MS = 500;
-/** More unsent bytes than this and the service is as good as gone. */
+/** With more unsent bytes than this, the service counts as gone. */
 const MAX_BACKLOG_BYTES = 1_048_576;
 
 /**
- * The robot's line to the signaling service: comes back for ever, introduces itself anew each time. What is sent while
- * the line is down is dropped: a session that was being set up then fails by its own timeout, one that is up needs nothing.
+ * The robot's connection to the signaling service. It reconnects forever, and introduces the robot again each time.
+ * Messages sent while the connection is down are dropped: a session that was being set up fails by its own timeout,
+ * and an established one needs nothing.
  */
 export class SignalingClient {
   onMessage: ((message: ServiceToRobot) => void) | null = null;
-  /** Registered: the service has answered robot.hello. */
+  /** Whether the service has answered robot.hello. */
   registered = false;
-  /** Connections that came to nothing or broke, since the start. */
+  /** Failed or broken connections since the start. */
   disconnects = 0;
   /** Messages that could not be read. */
   malformed = 0;
@@ -57,7 +61,7 @@ export class SignalingClient {
   #retry: NodeJS.Timeout | null = null;
   #heartbeat: NodeJS.Timeout | null = null;
   #closed = false;
-  /** It was said that the service is not there. */
+  /** Whether the loss of the service has been logged. */
   #missed = false;
   #check: (() => void) | null = null;
 
@@ -70,7 +74,7 @@ export class SignalingClient {
     this.#connect();
   }
 
-  /** @returns false where the line is down */
+  /** @returns false if the connection is down */
   send(message: RobotToService): boolean {
     const socket = this.#socket;
     if (!this.registered || socket === null || socket.readyState !== WebSocket.OPEN) {
@@ -86,8 +90,8 @@ export class SignalingClient {
   }
 
   /**
-   * Asks the service for a sign of life, unless it was asked a moment ago: a line that is dead is given up within 2.5 s.
-   * May be called as often as the line is in doubt.
+   * Checks that the service is alive, unless a check was sent a moment ago. A dead connection is given up within 2.5
+   * s. May be called as often as the connection is in doubt.
    */
   check(): void {
     this.#check?.();
@@ -133,7 +137,7 @@ export class SignalingClient {
         }, CHECK_TIMEOUT_MS);
         socket.ping();
       };
-      // The welcome may be lost with the network.
+      // The welcome may be lost if the network is.
       this.#check();
       const { id, name, key, token } = this.#options;
       const hello: RobotToService = {
@@ -174,7 +178,7 @@ export class SignalingClient {
       this.disconnects++;
       const waitMs = this.#reconnect.nextMs();
       const facts = { url, code, detail: detail || reason.toString('utf8'), retryMs: Math.round(waitMs) };
-      // Once until it is registered again: a robot may have the reference system's signaling only.
+      // Warn once until the robot is registered again: it may have only the reference system's signaling.
       if (this.#missed) this.#log.debug(facts, 'still no connection to signaling');
       else this.#log.warn(facts, 'no connection to signaling; will keep trying silently');
       this.#missed = true;

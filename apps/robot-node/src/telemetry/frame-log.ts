@@ -1,12 +1,13 @@
 import { writeFileSync } from 'node:fs';
 import type { ReadyFrame } from '../capture/capture-messages.ts';
 
-/** Frames kept: ten minutes at 30 a second. */
+/** Number of frames kept: ten minutes at 30 frames/s. */
 const DEFAULT_CAPACITY = 18_000;
 
 /**
- * When each of the last frames was captured and when its packets were ready, for measurements: joined with what a camera's
- * producer has noted, it gives the time from there to the first packet. Fixed memory; the oldest are overwritten.
+ * Records when each of the latest frames was captured and when its packets were ready, for measurements. Joined with
+ * a camera producer's log, it gives the time from the camera to the first packet. Fixed memory; the oldest entries
+ * are overwritten.
  */
 export class FrameLog {
   readonly #path: string;

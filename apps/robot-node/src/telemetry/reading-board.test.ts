@@ -7,7 +7,7 @@ const reading = (topic: string, value = 'x') => ({
 });
 
 describe('ReadingBoard', () => {
-  it('tells what is new at once, once, and again after a while with its age', () => {
+  it('returns a new reading immediately and once, and repeats it later with its age', () => {
     const board = new ReadingBoard();
     expect(board.next(0)).toBeNull();
     board.add(reading('/a'), 100);
@@ -19,7 +19,7 @@ describe('ReadingBoard', () => {
     expect(board.next(2170)).toMatchObject({ values: [['', 'newer']] });
   });
 
-  it('lets every topic have its turn, however often one is said anew', () => {
+  it('gives every topic its turn, however often one is updated', () => {
     const board = new ReadingBoard();
     for (const topic of ['/a', '/b', '/c']) board.add(reading(topic), 0);
     const told: string[] = [];

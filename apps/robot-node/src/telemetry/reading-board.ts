@@ -1,20 +1,26 @@
 import type { Reading } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 
-/** More topics than a table has. */
+/** More than the topics of any table. */
 const MOST_TOPICS = 64;
-/** What nobody has said anew comes again after so long: it may have been lost, or an operator has just come, ms. */
+/**
+ * A reading without an update is sent again after this long: it may have been lost, or a new operator may have
+ * connected, ms.
+ */
 const REPEAT_MS = 2000;
 
 interface Entry {
   reading: TopicReading;
   heardMs: number;
-  /** `null` where it was not told since it was heard. */
+  /** `null` if it has not been sent since it was received. */
   toldMs: number | null;
   told: number;
 }
 
-/** The newest reading of each topic, and whose turn it is to be told: one at a time, so that they never crowd anything out. */
+/**
+ * Keeps the newest reading of each topic, and decides which one to send next. Readings are sent one at a time, so
+ * that they never crowd out anything else.
+ */
 export class ReadingBoard {
   readonly #entries = new Map<string, Entry>();
   #told = 0;
@@ -25,7 +31,7 @@ export class ReadingBoard {
     this.#entries.set(reading.topic, { reading, heardMs: nowMs, toldMs: null, told: before?.told ?? 0 });
   }
 
-  /** What is to be told now: what has waited longest among what is new, or due again. */
+  /** The reading to send now: the one that has waited longest among those that are new or due again. */
   next(nowMs: number): Reading | null {
     let due: Entry | null = null;
     for (const entry of this.#entries.values()) {

@@ -3,7 +3,7 @@ import { durationWords, recordingBytesPerSecond, sizeWords } from './recording-r
 
 const camera = { points: 230_400, framesPerSecond: 30, pictures: false };
 
-test('clouds take 16 bytes a point, as often as they are recorded and as the camera gives them', () => {
+test('counts 16 bytes per point, at the lower of the recording’s and the camera’s rate', () => {
   const rate = (captured: number, sent: number) =>
     recordingBytesPerSecond({ ...camera, perSecond: { captured, sent } }) - 50_000;
   expect(rate(5, 0)).toBe(5 * 230_400 * 16);
@@ -14,7 +14,7 @@ test('clouds take 16 bytes a point, as often as they are recorded and as the cam
   expect(recordingBytesPerSecond(pictures)).toBe(425_000);
 });
 
-test('sizes as people say them', () => {
+test('formats sizes for people', () => {
   expect([50_000, 999_999, 36_914_000, 1_230_000_000, 4e9].map(sizeWords)).toEqual([
     ...['50 kB', '1000 kB', '37 MB', '1.2 GB', '4 GB'],
   ]);

@@ -1,23 +1,23 @@
-/** How fast a recording grows: said before it fills a disk. */
+/** Estimates how fast a recording grows, to announce it before it fills a disk. */
 
 /** A point of a recorded cloud: x, y, z and colour, four bytes each. */
 const POINT_BYTES = 16;
-/** Poses, velocities, telemetry, estimates and latencies, while somebody drives. */
+/** Poses, velocities, telemetry, estimates and latencies while somebody drives. */
 const EVENT_BYTES_PER_SECOND = 50_000;
-/** What pictures may take of any link, 3 Mbit/s. */
+/** The most that pictures may take of any link, 3 Mbit/s. */
 const PICTURE_BYTES_PER_SECOND = 375_000;
 
 export interface RecordedKinds {
-  /** Clouds recorded a second at most; 0 records none. */
+  /** Highest number of clouds recorded per second; 0 records none. */
   perSecond: Readonly<Record<'captured' | 'sent', number>>;
-  /** Most points of a cloud. */
+  /** Maximum number of points in a cloud. */
   points: number;
-  /** Most frames a second of the source. */
+  /** The source's highest frame rate, frames/s. */
   framesPerSecond: number;
   pictures: boolean;
 }
 
-/** Bytes a second while an operator watches, at most, without compression. */
+/** Upper limit of bytes per second while an operator watches, without compression. */
 export function recordingBytesPerSecond({
   perSecond,
   points,
@@ -28,14 +28,14 @@ export function recordingBytesPerSecond({
   return clouds * points * POINT_BYTES + EVENT_BYTES_PER_SECOND + (pictures ? PICTURE_BYTES_PER_SECOND : 0);
 }
 
-/** `446 MB`, `1.2 GB`. */
+/** E.g. `446 MB`, `1.2 GB`. */
 export function sizeWords(bytes: number): string {
   const [value, unit] =
     bytes >= 1e9 ? [bytes / 1e9, 'GB'] : bytes >= 1e6 ? [bytes / 1e6, 'MB'] : [bytes / 1e3, 'kB'];
   return `${value >= 10 ? value.toFixed(0) : value.toFixed(1).replace(/\.0$/, '')} ${unit}`;
 }
 
-/** `40 s`, `12 min`, `3 h`. */
+/** E.g. `40 s`, `12 min`, `3 h`. */
 export function durationWords(seconds: number): string {
   if (seconds < 120) return `${Math.floor(seconds)} s`;
   return seconds < 7200 ? `${Math.floor(seconds / 60)} min` : `${Math.floor(seconds / 3600)} h`;

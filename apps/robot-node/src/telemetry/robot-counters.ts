@@ -1,6 +1,6 @@
 import type { ReadyFrame } from '../capture/capture-messages.ts';
 
-/** Counts by a typed reason. */
+/** Counts by typed reason. */
 export class ReasonCounts {
   readonly #counts = new Map<string, number>();
 
@@ -17,19 +17,19 @@ export class ReasonCounts {
   }
 }
 
-/** Everything the robot counts that belongs to no single operator; sums since the start. */
+/** Everything that the robot counts and that does not belong to a single operator; totals since the start. */
 export class RobotCounters {
   sessionsOpened = 0;
   sessionsRefused = 0;
   readonly sessionsEnded = new ReasonCounts();
-  /** Offered to operators that had lost their path. */
+  /** ICE restarts offered to operators that had lost their path. */
   iceRestarts = 0;
-  /** Requests to resume a session, by the reason they were refused for. */
+  /** Refused requests to resume a session, by reason. */
   readonly resumesRefused = new ReasonCounts();
-  /** Answers that changed nothing: repeated, or asked for by nobody. */
+  /** Answers that changed nothing, because they were repeated or no offer waited for them. */
   readonly answersIgnored = new ReasonCounts();
   readonly candidatesRefused = new ReasonCounts();
-  /** What came to the sockets of sessions and was dropped unread, by reason. */
+  /** Datagrams that arrived on sessions' sockets and were dropped unread, by reason. */
   readonly datagramsRefused = new ReasonCounts();
   readonly signalingErrors = new ReasonCounts();
   commandsAccepted = 0;
@@ -37,14 +37,14 @@ export class RobotCounters {
   /** By channel and error code. */
   readonly messagesRefused = new ReasonCounts();
   framesCaptured = 0;
-  /** Captured, but too old when they came out of the worker. */
+  /** Frames that were captured, but too old when they left the worker. */
   framesStale = 0;
   pointsCaptured = 0;
   /** Points not sent, by reason. */
   readonly pointsRejected = new ReasonCounts();
-  /** Seconds of work by stage; for the source's own work, and for sending, processor time. */
+  /** Seconds of work by stage. For the source's own work and for sending, this is processor time. */
   readonly stageSeconds = new ReasonCounts();
-  /** Of the last frame. */
+  /** Points in the last frame. */
   lastPoints = 0;
   lastFramesPerSecond = 0;
   lastValidPoints = 0;

@@ -16,15 +16,15 @@ export interface RobotReportsParts {
   telemetry: TelemetrySender;
   guard: DriveGuard;
   recording: SessionRecording | null;
-  /** What is known of the base; `null` before anything is. */
+  /** The state of the base; `null` before it is known. */
   state: () => TimedBaseState | null;
-  /** One JSON object a line; left out, none is written. */
+  /** One JSON object per line; if undefined, nothing is written. */
   statisticsFile?: string | undefined;
   log: Logger;
   now: () => number;
 }
 
-/** What the robot tells at a steady rhythm: telemetry to operators and the recording, statistics to a file. */
+/** What the robot reports periodically: telemetry to operators and the recording, statistics to a file. */
 export class RobotReports {
   readonly #parts: RobotReportsParts;
   readonly #timers: NodeJS.Timeout[] = [];

@@ -18,19 +18,19 @@ import { durationWords, recordingBytesPerSecond, sizeWords } from './recording-r
 import type { StreamStatistics } from './stream-statistics.ts';
 
 export interface RecordingOptions {
-  /** The MCAP file; there must be none yet. */
+  /** Path of the MCAP file, which must not exist yet. */
   path: string;
   compression: 'none' | 'zstd';
-  /** Clouds a second at most; 0 records none. */
+  /** Highest number of clouds per second; 0 records none. */
   clouds: Readonly<Record<CloudKind, number>>;
-  /** It ends, whole, before it is larger. */
+  /** The recording ends, complete, before it exceeds this size. */
   mostBytes: number;
 }
 
 const MORE_ROOM =
   'for longer recordings: a larger --record-max, or fewer clouds (--record-clouds, --record-sent-fps)';
 
-/** What the main thread tells a recording. The clouds come from the capture thread. */
+/** The main thread's part of a recording. The clouds come from the capture thread. */
 export class SessionRecording {
   readonly capture: CaptureRecording;
   readonly #recorder: SessionRecorder;
@@ -44,10 +44,10 @@ export class SessionRecording {
     this.capture = { clouds: recorder.clouds, perSecond: options.clouds };
   }
 
-  /** @throws {RecordingError} where the file exists already, or cannot be made */
+  /** @throws {RecordingError} if the file already exists or cannot be created */
   static async open(options: RecordingOptions, robotId: string, log: Logger): Promise<SessionRecording> {
     const { path, compression, mostBytes } = options;
-    // The robot's clock is monotonic; recordings are in the time of day.
+    // The robot's clock is monotonic; recordings use the time of day.
     const epochNs = BigInt(Math.round((Date.now() - monotonicMs()) * 1000)) * 1000n;
     const recorder = await SessionRecorder.open({ path, compression, robotId, epochNs, mostBytes });
     recorder.onFailure = (error) => log.error({ err: error }, 'the recording ends; the robot goes on');
@@ -59,7 +59,7 @@ export class SessionRecording {
     return new SessionRecording(recorder, options, log);
   }
 
-  /** Says how fast it will grow, and where it ends. */
+  /** Logs how fast the recording will grow, and where it ends. */
   announce(
     { description, cameras }: Pick<Capture, 'description' | 'cameras'>,
     mostFramesPerSecond: number,
@@ -82,18 +82,18 @@ export class SessionRecording {
     );
   }
 
-  /** For `/metrics`: written, and not written because the disk or the processor did not keep up. */
+  /** For `/metrics`: what was written, and what was not because the disk or the processor did not keep up. */
   get counts(): { messages: number; bytes: number; dropped: Readonly<Record<DropKind, number>> } {
     const { messages, bytes, dropped } = this.#recorder;
     return { messages, bytes, dropped };
   }
 
-  /** Whose pictures there are. */
+  /** Sets the cameras that have pictures. */
   cameras(cameras: readonly CameraDescription[]): void {
     this.#recorder.cameras(cameras.map(({ name, ofCloud = false }) => ({ name, ofCloud })));
   }
 
-  /** A picture as it was made for operators. */
+  /** Records a picture as it was made for operators. */
   picture({ header, capturedAtMs, fileBytes, chunks }: ReadyPicture): void {
     const file = new Uint8Array(fileBytes);
     chunks.forEach((chunk, i) => {
@@ -102,7 +102,7 @@ export class SessionRecording {
     this.#recorder.picture(header.camera, capturedAtMs, header.format, file);
   }
 
-  /** What the wheels are given. */
+  /** Records the velocity that the wheels are given. */
   velocity(twist: Twist): void {
     this.#recorder.velocity(monotonicMs(), twist);
   }
@@ -125,7 +125,7 @@ export class SessionRecording {
     for (const line of lines) this.#recorder.json('estimate', line.timeMs, line);
   }
 
-  /** From a frame's capture to its packets, and to the thread that sends them. */
+  /** Records the times from a frame's capture to its packets, and to the thread that sends them. */
   frame(frame: ReadyFrame): void {
     const { frameNumber, format, points, packets, validPoints, latencyTest } = frame;
     const { capturedAtMs, readyMs, captureMs, sampleMs, packMs } = frame;
@@ -138,7 +138,7 @@ export class SessionRecording {
     });
   }
 
-  /** Motion to photon, as the operator's display showed it. */
+  /** Records motion-to-photon latency as measured at the operator's display. */
   latencyMeasured(session: string, { id, frameNumber, mtpMs, firstMs }: LatencyMeasured): void {
     this.#recorder.json('motionToPhoton', monotonicMs(), { session, id, frameNumber, mtpMs, firstMs });
   }

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { StageTimer } from './stage-timer.ts';
 
 describe('StageTimer', () => {
-  it('gives means since it was last asked, and the last mean where nothing came', () => {
+  it('gives means since the last query, and the previous mean if there was nothing new', () => {
     const timer = new StageTimer();
     timer.add('packMs', 2);
     timer.add('packMs', 4);

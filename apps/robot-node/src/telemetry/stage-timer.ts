@@ -3,7 +3,7 @@ import type { StageTimings } from '@farpoint/protocol';
 const STAGES = ['captureMs', 'sampleMs', 'packMs', 'sendMs'] as const;
 export type Stage = (typeof STAGES)[number];
 
-/** Mean time of each stage since it was last asked. */
+/** Mean time of each stage since the last query. */
 export class StageTimer {
   readonly #sums: Record<Stage, { total: number; count: number }> = {
     captureMs: { total: 0, count: 0 },
@@ -18,7 +18,7 @@ export class StageTimer {
     this.#sums[stage].count++;
   }
 
-  /** A stage without a frame since keeps its last mean. */
+  /** A stage without a frame since the last query keeps its mean. */
   take(): StageTimings {
     const means = { ...this.#last };
     for (const stage of STAGES) {

@@ -3,7 +3,7 @@ import type { TimedBaseState } from '../base/base.ts';
 import type { OperatorSession } from '../session/operator-session.ts';
 import type { RobotCounters } from './robot-counters.ts';
 
-/** One operator's stream at one moment, for measurements. Sums since the session began. */
+/** One operator's stream at one moment, for measurements. Totals count from the start of the session. */
 export interface StreamStatistics extends RateSnapshot {
   session: string;
   /** Robot's clock (CLOCK_MONOTONIC where the system has it), ms. */
@@ -13,12 +13,12 @@ export interface StreamStatistics extends RateSnapshot {
   packetsSent: number;
   framesSent: number;
   pointsSent: number;
-  /** Dropped by the pacer, wholly or in part. */
+  /** Frames that the pacer dropped, entirely or in part. */
   framesDropped: number;
   /** As planned for the last frame. */
   framesPerSecond: number;
   pointsPerFrame: number;
-  /** Of the robot's body, m/s and rad/s. */
+  /** Velocity of the robot's body, m/s and rad/s. */
   speed: number;
   turn: number;
 }

@@ -12,7 +12,7 @@ const STREAM = {
   ...{ bitsPerSecond: 0, targetBitsPerSecond: 0, droppedFrames: 0 },
 };
 
-/** What one second of telemetry brings an operator whose path carries so much. */
+/** What one second of telemetry brings to an operator whose path has this rate. */
 function secondAt(targetBitsPerSecond: number): { states: number; topics: string[] } {
   const heard: string[] = [];
   const operator = {
@@ -35,13 +35,13 @@ function secondAt(targetBitsPerSecond: number): { states: number; topics: string
 }
 
 describe('TelemetrySender', () => {
-  it('tells the state 20 times a second and each reading once', () => {
+  it('sends the state 20 times a second and each reading once', () => {
     const { states, topics } = secondAt(10e6);
     expect(states).toBe(20);
     expect(topics.sort()).toEqual(['/a', '/b', '/c']);
   });
 
-  it('on a path that carries little tells the state less often, and still each reading', () => {
+  it('on a narrow path, sends the state less often, but still every reading', () => {
     const { states, topics } = secondAt(0.3e6);
     expect(states).toBe(5);
     expect(topics.sort()).toEqual(['/a', '/b', '/c']);

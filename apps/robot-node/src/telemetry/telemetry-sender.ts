@@ -5,11 +5,14 @@ import type { OperatorSession } from '../session/operator-session.ts';
 import type { ReadingBoard } from './reading-board.ts';
 import type { StageTimer } from './stage-timer.ts';
 
-/** On a path that carries less, telemetry goes out only so often: it would take a fifth of it. */
+/** On a path that carries less, telemetry is sent less often, because it would take a fifth of the path. */
 const NARROW_BITS_PER_SECOND = 1e6;
 const NARROW_EVERY = 4;
 
-/** Tells each operator the robot's state, what became of its stream, and readings, five a second at most. Call `send` 20 times a second. */
+/**
+ * Sends each operator the robot's state, statistics of its stream, and up to five readings a second. Call `send` 20
+ * times a second.
+ */
 export class TelemetrySender {
   readonly #operators: ReadonlyMap<string, OperatorSession>;
   readonly #guard: DriveGuard;
@@ -33,7 +36,7 @@ export class TelemetrySender {
     if (this.#operators.size === 0) return;
     const stages = this.#stages.take();
     this.#sequence = (this.#sequence + 1) >>> 0;
-    // With what narrow paths get, too: one that is told is told to all.
+    // Readings go with the telemetry that narrow paths get, too, so that every reading reaches all operators.
     const reading = this.#sequence % NARROW_EVERY === 0 ? this.#readings.next(nowMs) : null;
     for (const operator of this.#operators.values()) {
       if (!operator.peer.connected) continue;

@@ -1,4 +1,4 @@
-/** An operator for tests: a werift peer that answers the robot's offer, as a browser would. */
+/** An operator for tests: a werift peer that answers the robot's offer as a browser would. */
 import {
   channels,
   decodeJson,
@@ -29,7 +29,7 @@ import {
   useTWCC,
 } from 'werift';
 
-/** What came of one frame so far. */
+/** What has been received of one frame so far. */
 export interface ReceivedFrame {
   frameNumber: number;
   packets: number;
@@ -45,11 +45,11 @@ export interface DtlsKeys {
 }
 
 export interface OperatorClientOptions {
-  /** Of its certificate, for one that does not fit; made by werift where left out. */
+  /** Keys for a certificate that does not match; by default, werift makes them. */
   keys?: DtlsKeys | undefined;
-  /** It begins the DTLS handshake without the pause that werift makes. */
+  /** Begins the DTLS handshake without werift's usual pause. */
   helloAtOnce?: boolean | undefined;
-  /** Whether it gives transport-wide feedback; by default it does. */
+  /** Whether to give transport-wide feedback; default `true`. */
   transportFeedback?: boolean | undefined;
 }
 
@@ -57,17 +57,17 @@ export class OperatorClient {
   readonly connection: RTCPeerConnection;
   readonly session: RobotSessionMessage[] = [];
   readonly control: RTCDataChannel;
-  /** Of sensor 0, by frame number. */
+  /** Frames of sensor 0, by frame number. */
   readonly frames = new Map<number, ReceivedFrame>();
   readonly #framesOf = new Map([[0, this.frames]]);
   onCandidate: ((candidate: IceCandidate) => void) | null = null;
-  /** Gets each readable packet of a cloud. */
+  /** Called with each readable packet of a cloud. */
   onCloudPacket: ((payload: Buffer) => void) | null = null;
-  /** The newest of each camera. */
+  /** The newest picture of each camera. */
   readonly pictures = new Map<number, WholePicture>();
   readonly #assembler = new PictureAssembler();
   telemetry: Telemetry | null = null;
-  /** The newest of each topic. */
+  /** The newest reading of each topic. */
   readonly readings = new Map<string, Reading>();
   packets = 0;
   malformedPackets = 0;
@@ -113,7 +113,7 @@ export class OperatorClient {
       });
     });
     const { control, bandwidth } = channels;
-    // werift takes a count of 0 for "reliable": 1 here, a browser uses 0.
+    // werift takes a count of 0 for "reliable", so this uses 1; a browser uses 0.
     this.control = connection.createDataChannel(control.label, {
       ordered: control.ordered,
       maxRetransmits: 1,
@@ -132,7 +132,7 @@ export class OperatorClient {
     return this.connection.localDescription?.sdp ?? '';
   }
 
-  /** Resolves as soon as `is` holds; it is asked again whenever anything came. */
+  /** Resolves as soon as `is` returns true. It is evaluated whenever something arrives. */
   until(is: () => boolean): Promise<void> {
     return new Promise((resolve) => {
       const look = () => {
@@ -145,7 +145,7 @@ export class OperatorClient {
     });
   }
 
-  /** The latest message of a type, once there is one. */
+  /** Resolves with the latest message of a type, waiting for the first if necessary. */
   async message<T extends RobotSessionMessage['type']>(
     type: T,
     is: (message: Extract<RobotSessionMessage, { type: T }>) => boolean = () => true,
@@ -161,7 +161,10 @@ export class OperatorClient {
     return found as Extract<RobotSessionMessage, { type: T }>;
   }
 
-  /** Connected, welcomed, and able to send commands. Probes the robot's clock from then on, as a page does. */
+  /**
+   * Resolves when connected, welcomed, and able to send commands. Probes the robot's clock from then on, as a page
+   * does.
+   */
   async ready(): Promise<void> {
     await this.message('welcome');
     await this.until(() => this.control.readyState === 'open');
@@ -208,7 +211,7 @@ export class OperatorClient {
     return [...(this.#framesOf.get(sensor)?.values() ?? [])].filter((frame) => frame.complete);
   }
 
-  /** Stops hearing and speaking, as a machine does whose power is cut. */
+  /** Stops receiving and sending, like a machine whose power is cut. */
   async vanish(): Promise<void> {
     if (this.#probes !== null) clearInterval(this.#probes);
     for (const { connection } of this.connection.iceTransports) await connection.close();

@@ -15,7 +15,7 @@ export class SignaledOperator {
   readonly client: OperatorClient;
   readonly #url: string;
   readonly #robotId: string;
-  /** The newest. */
+  /** The newest socket. */
   #socket: WebSocket;
   readonly #sockets: WebSocket[] = [];
   readonly #log: ServiceToOperator[] = [];
@@ -32,7 +32,7 @@ export class SignaledOperator {
     };
   }
 
-  /** Opens a session as soon as the robot is listed; resolves once it is welcomed and can send commands. */
+  /** Opens a session as soon as the robot is listed. Resolves once it is welcomed and can send commands. */
   static async connect(
     url: string,
     robotId: string,
@@ -43,7 +43,7 @@ export class SignaledOperator {
     return operator;
   }
 
-  /** Asks for a session as soon as the robot is listed, and waits for nothing more. */
+  /** Requests a session as soon as the robot is listed, and waits for nothing more. */
   static async open(
     url: string,
     robotId: string,
@@ -59,7 +59,7 @@ export class SignaledOperator {
     return operator;
   }
 
-  /** Asks for a session and resolves with why the robot or the service does not give it. */
+  /** Requests a session, and resolves with the reason for which the robot or the service refuses it. */
   static async refused(url: string, robotId: string): Promise<ServiceToOperator> {
     const operator = new SignaledOperator(url, robotId);
     await operator.until(({ type }) => type === 'robots');
@@ -74,12 +74,15 @@ export class SignaledOperator {
     return this.#session;
   }
 
-  /** Everything that the service has said. */
+  /** All messages from the service. */
   get heard(): readonly ServiceToOperator[] {
     return this.#log;
   }
 
-  /** Asks for an ICE restart from a new socket, while the old one stands. @param resumeKey the robot's own where left out */
+  /**
+   * Requests an ICE restart from a new socket while the old one is still open. @param resumeKey defaults to the
+   * robot's own
+   */
   async resume(resumeKey?: string): Promise<void> {
     const own = (await this.client.message('welcome')).resumeKey ?? '';
     const welcomes = () => this.#log.filter(({ type }) => type === 'operator.welcome').length;
@@ -94,7 +97,7 @@ export class SignaledOperator {
     });
   }
 
-  /** Resolves once such a message has come. */
+  /** Resolves once a matching message has arrived. */
   until(is: (message: ServiceToOperator) => boolean): Promise<void> {
     return new Promise((resolve) => {
       const look = () => {
@@ -111,7 +114,7 @@ export class SignaledOperator {
     this.#send({ type: 'session.close', session: this.#session });
   }
 
-  /** Goes without a word: no goodbye to signaling, none to the robot. */
+  /** Disappears without saying goodbye to signaling or to the robot. */
   async vanish(): Promise<void> {
     this.#socket.terminate();
     await this.client.vanish();

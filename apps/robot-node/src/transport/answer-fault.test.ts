@@ -26,7 +26,7 @@ it.each([
   expect(answerFault(lines.join('\n'))).toBe(fault);
 });
 
-it('any text gets a short fault, or none', () => {
+it('returns a short fault or none for any text', () => {
   fc.assert(
     fc.property(fc.array(fc.oneof(fc.string(), fc.constantFrom(...good))), (lines) => {
       expect((answerFault(lines.join('\n')) ?? '').length).toBeLessThan(100);

@@ -1,6 +1,6 @@
-/** Our offer's m-lines, in their order; an answer repeats them (RFC 3264 §6). */
+/** Our offer's m-lines in order. An answer repeats them (RFC 3264 §6). */
 const SECTIONS = ['audio', 'video', 'application'] as const;
-/** Those that must not be refused; the video line is idle. */
+/** M-lines that must not be refused. The video line is idle. */
 const NEEDED: Readonly<Record<string, string>> = {
   audio: 'the cloud is refused (m=audio has port 0)',
   application: 'the data channels are refused (m=application has port 0)',
@@ -8,10 +8,10 @@ const NEEDED: Readonly<Record<string, string>> = {
 const ATTRIBUTES = ['ice-ufrag', 'ice-pwd', 'fingerprint'] as const;
 
 /**
- * What is wrong with an SDP answer that can be seen before it is used: werift takes texts that can never connect, and the
- * operator would learn of it only by the time running out.
+ * Finds faults of an SDP answer before it is used. werift accepts texts that can never connect, and the operator
+ * would only learn of it by a timeout.
  *
- * @returns for people; `null` where nothing is
+ * @returns the fault, for people; `null` if there is none
  */
 export function answerFault(sdp: string): string | null {
   const lines = sdp.split(/\r?\n/);

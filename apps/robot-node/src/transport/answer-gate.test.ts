@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { AnswerGate } from './answer-gate.ts';
 
-it('takes one answer for each offer', () => {
+it('takes one answer per offer', () => {
   const gate = new AnswerGate();
   expect(gate.judge('early')).toBe('unasked');
   gate.onOffer();
@@ -11,7 +11,7 @@ it('takes one answer for each offer', () => {
   expect(gate.judge('b')).toBe('taken');
 });
 
-it('an answer that comes again is none, not even to the next offer', () => {
+it('does not take a repeated answer, even for the next offer', () => {
   const gate = new AnswerGate();
   gate.onOffer();
   gate.judge('a');

@@ -1,18 +1,18 @@
-/** What became of an answer; `repeated` and `unasked` ones change nothing. */
+/** What became of an answer. `repeated` and `unasked` answers change nothing. */
 export type AnswerVerdict = 'taken' | 'repeated' | 'unasked';
 
-/** Which of the operator's answers counts: one for each offer, and none that was taken before. */
+/** Decides which of the operator's answers counts: one per offer, and none that was already taken. */
 export class AnswerGate {
   #due = false;
   #last: string | null = null;
 
-  /** An offer is made: it waits for its answer. */
+  /** Registers an offer, which now waits for its answer. */
   onOffer(): void {
     this.#due = true;
   }
 
   judge(sdp: string): AnswerVerdict {
-    // Sent twice. Also where another offer waits by now: an answer to that one would have other credentials.
+    // The same answer again. This holds even if another offer waits by now: its answer would have other credentials.
     if (sdp === this.#last) return 'repeated';
     if (!this.#due) return 'unasked';
     this.#due = false;

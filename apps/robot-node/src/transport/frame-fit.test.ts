@@ -2,17 +2,17 @@ import { describe, expect, it } from 'vitest';
 import { FrameFit } from './frame-fit.ts';
 
 describe('FrameFit', () => {
-  it('plans for all of the path while frames fit', () => {
+  it('plans for the whole rate while frames fit', () => {
     const fit = new FrameFit();
     for (let i = 0; i < 10; i++) fit.onSent();
     expect(fit.share).toBe(1);
   });
 
-  it('settles where every other frame would be cut, and finds back', () => {
+  it('settles if every other frame would be cut, and recovers', () => {
     const fit = new FrameFit();
     for (let i = 0; i < 100; i++) fit.onCut();
     expect(fit.share).toBe(0.25);
-    // About a second of 30 frames/s.
+    // About one second at 30 frames/s.
     for (let i = 0; i < 36; i++) fit.onSent();
     expect(fit.share).toBe(1);
     fit.onCut();
@@ -22,7 +22,7 @@ describe('FrameFit', () => {
     expect(fit.share).toBe(0.8);
   });
 
-  it('comes to rest near what can be sent', () => {
+  it('settles near what can be sent', () => {
     const fit = new FrameFit();
     const shares: number[] = [];
     for (let i = 0; i < 500; i++) {

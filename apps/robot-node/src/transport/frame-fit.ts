@@ -1,15 +1,18 @@
-/** One frame that could not be sent whole says nothing; the second within so many makes the next ones smaller … */
+/**
+ * A single frame that could not be sent whole changes nothing. A second one within this many frames makes the next
+ * ones smaller …
+ */
 const WINDOW_FRAMES = 15;
-/** … by this much … */
+/** … by this factor … */
 const CUT = 0.8;
-/** … but not without end; and grow again by this much with each that could. */
+/** … but not below this share. Each frame sent whole makes them larger by this factor. */
 const LEAST = 0.25;
 const GROWTH = 1.04;
 
 /**
- * How much of what the path carries is planned for: all of it, unless frames are not over when the next ones come. That
- * happens where the path has just slowed down, and for longer where this computer is too busy to send in time. Smaller
- * frames that arrive whole show more than large ones whose farthest points are always cut off.
+ * The share of the path's rate to plan for. It is all of the rate, unless frames are still being sent when the next
+ * ones arrive. That happens when the path has just slowed down, and for longer when this computer is too busy to send
+ * in time. Smaller frames that arrive whole show more than large ones whose farthest points are always cut off.
  */
 export class FrameFit {
   #share = 1;
@@ -25,7 +28,7 @@ export class FrameFit {
     this.#share = Math.min(this.#share * GROWTH, 1);
   }
 
-  /** A frame, or the rest of one, gave way to a newer one. */
+  /** A frame, or its rest, was dropped for a newer one. */
   onCut(): void {
     if (this.#framesSinceCut < WINDOW_FRAMES) this.#share = Math.max(this.#share * CUT, LEAST);
     this.#framesSinceCut = 0;

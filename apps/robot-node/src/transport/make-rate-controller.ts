@@ -6,11 +6,11 @@ import {
 } from '@farpoint/congestion';
 
 export interface RateControlOptions {
-  /** The most a stream may take on the wire, bit/s. */
+  /** Highest rate of a stream on the wire, bit/s. */
   bitsPerSecond: number;
-  /** How the rate of a stream is found: `adaptive`, or always the most, halved on sustained loss. */
+  /** How a stream's rate is set: `adaptive`, or `fixed` at the highest rate, halved on sustained loss. */
   rateControl: 'adaptive' | 'fixed';
-  /** What an adaptive rate begins with, bit/s. */
+  /** Initial rate of an adaptive stream, bit/s. */
   startBitsPerSecond: number;
 }
 

@@ -10,19 +10,19 @@ import {
 } from 'werift';
 import type { OperatorPeerOptions } from './peer-events.ts';
 
-/** A connection that offers the media of a session with one of Farpoint's own operators. */
+/** Creates a connection that offers the media of a session with a Farpoint operator. */
 export function openPeerConnection({
   iceServers,
   icePolicy = 'all',
   portRange,
 }: Pick<OperatorPeerOptions, 'iceServers' | 'icePolicy' | 'portRange'>): RTCPeerConnection {
-  // The same objects for both m-lines: within a bundle the ids must agree.
+  // Both m-lines share these objects, because ids must agree within a bundle.
   const extensions = [useSdesMid(), useTransportWideCC()];
   const { mimeType, clockRate, channels } = CLOUD_MEDIA;
   return new RTCPeerConnection({
     iceServers: toWeriftServers(iceServers),
     bundlePolicy: 'max-bundle',
-    // Points over TCP would arrive late in heaps; a relay's own TCP is another matter.
+    // Points over TCP would arrive late and in bursts. A relay's own use of TCP is another matter.
     iceUseTcp: false,
     iceTransportPolicy: icePolicy,
     ...(portRange === undefined ? {} : { icePortRange: [...portRange] as [number, number] }),
@@ -30,7 +30,7 @@ export function openPeerConnection({
       audio: [
         new RTCRtpCodecParameters({
           ...{ mimeType, clockRate, channels },
-          // REMB for peers that know nothing better.
+          // REMB for peers that support nothing better.
           rtcpFeedback: [useTWCC(), useNACK(), useREMB()],
         }),
       ],

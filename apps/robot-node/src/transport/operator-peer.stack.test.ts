@@ -21,7 +21,7 @@ afterEach(async () => {
   expect(unhandled).toEqual([]);
 });
 
-/** At once after its answer; nobody knows the names here. */
+/** Sent right after the answer. Nobody here can resolve the names. */
 const FIREFOX_CANDIDATES = [
   'candidate:0 1 UDP 2122252543 7e1b2c1a-0000-4000-8000-00000000000a.local 40001 typ host',
   'candidate:2 1 UDP 2122187007 7e1b2c1a-0000-4000-8000-00000000000b.local 40002 typ host',
@@ -42,7 +42,7 @@ function robotPeer(connectTimeoutMs = 20_000, iceServers: IceServer[] = []) {
   const peer = new OperatorPeer(
     { iceServers, connectTimeoutMs },
     {
-      // They follow the offer that they belong to.
+      // They follow the offer to which they belong.
       onCandidate: (candidate) =>
         void answering
           .then(() => client?.connection.addIceCandidate(candidate as never))
@@ -78,7 +78,7 @@ function robotPeer(connectTimeoutMs = 20_000, iceServers: IceServer[] = []) {
       peer.addCandidate({ candidate, sdpMid: '0', sdpMLineIndex: 0, usernameFragment });
     }
     await answered;
-    // A browser checks what it knows after a restart, too; werift waits to be asked.
+    // After a restart, a browser also checks the candidates that it already knows; werift must be told to.
     if (peer.connected)
       for (const transport of client?.connection.iceTransports ?? []) void transport.start();
   };
@@ -100,7 +100,7 @@ async function until(is: () => boolean): Promise<void> {
 }
 
 describe('OperatorPeer', () => {
-  it('offers one bundle: the cloud as audio in a stream of its own, an idle video, data channels', async () => {
+  it('offers one bundle: the cloud as audio in its own stream, an idle video, data channels', async () => {
     const { peer } = robotPeer();
     const sdp = await peer.offer();
     expect(sdp.match(/^m=\w+/gm)).toEqual(['m=audio', 'm=video', 'm=application']);
@@ -115,7 +115,7 @@ describe('OperatorPeer', () => {
     }
   });
 
-  it('connects, carries packets and messages, and notices when the operator goes', async () => {
+  it('connects, carries packets and messages, and notices when the operator leaves', async () => {
     const robot = robotPeer();
     const client = await robot.meet();
     const transport = await robot.connected;
@@ -132,7 +132,7 @@ describe('OperatorPeer', () => {
     expect(transport.send(Buffer.alloc(100), 0, true, 0, 1000)).toBeNull();
   });
 
-  it('restarts ICE on new sockets: the path is another, keys, counters and channels are the same', async () => {
+  it('restarts ICE on new sockets: a new path with the same keys, counters and channels', async () => {
     const robot = robotPeer();
     const client = await robot.meet();
     const transport = await robot.connected;
@@ -158,9 +158,9 @@ describe('OperatorPeer', () => {
     expect(robot.peer.connected).toBe(true);
   });
 
-  it('waits for no mDNS name: with the candidates of Firefox it connects, and again after a restart of ICE', async () => {
+  it('does not wait for mDNS names: connects with Firefox’s candidates, also after an ICE restart', async () => {
     const robot = robotPeer();
-    // werift asks for each name for ten seconds, longer than a test may take; and gave up at the end of candidates.
+    // werift queries each name for ten seconds, longer than a test may take, and gives up at the end of candidates.
     const client = await robot.meet('firefox');
     const transport = await robot.connected;
     expect(robot.refused).toEqual(['not-udp', 'not-udp']);
@@ -173,17 +173,17 @@ describe('OperatorPeer', () => {
     expect(robot.peer.connected).toBe(true);
   });
 
-  it('does not wait for a STUN server that says nothing', async () => {
+  it('does not wait for a STUN server that does not answer', async () => {
     const silent = createSocket('udp4').bind(0, '127.0.0.1');
     cleanups.push(() => silent.close());
     await once(silent, 'listening');
     const robot = robotPeer(20_000, [{ urls: `stun:127.0.0.1:${silent.address().port}` }]);
-    // werift asks it for five seconds, as long as a test may take.
+    // werift queries it for five seconds, as long as a test may take.
     await robot.meet();
     await robot.connected;
   });
 
-  it('drops answers while the channel has no room for them: a flood of probes gets some, and costs little', async () => {
+  it('drops answers while the channel is full: a flood of probes gets few answers, and costs little', async () => {
     const robot = robotPeer();
     const client = await robot.meet();
     await robot.connected;
@@ -196,14 +196,14 @@ describe('OperatorPeer', () => {
     for (let i = 0; i < 5000; i++) robot.peer.sendControl(answer);
     const taken = 5000 - robot.peer.unreliableDrops;
     expect(taken).toBeGreaterThan(100);
-    // What waits, and what is on its way.
+    // What is queued, and what is in flight.
     expect(taken * answer.length).toBeLessThan(2 * 16_384);
     await until(() => received === taken);
     robot.peer.sendControl(answer);
     await until(() => received === taken + 1);
   });
 
-  it('closes channels that it does not know', async () => {
+  it('closes unknown channels', async () => {
     const robot = robotPeer();
     const client = await robot.meet();
     await robot.connected;
@@ -215,20 +215,20 @@ describe('OperatorPeer', () => {
     expect(robot.peer.connected).toBe(true);
   });
 
-  it('gives up where nobody answers', async () => {
+  it('gives up if nobody answers', async () => {
     const robot = robotPeer(20);
     await robot.peer.offer();
     expect((await robot.ended)[0]).toBe('not-connected');
   });
 
-  it('ends at an answer that is no answer', async () => {
+  it('ends on an invalid answer', async () => {
     const bad = robotPeer();
     await bad.peer.offer();
     await bad.peer.answer('v=0\r\nnonsense');
     expect(await bad.ended).toEqual(['bad-answer', '0 m-lines, where the offer has 3']);
   });
 
-  it('an answer that comes again, or that nobody asked for, changes nothing', async () => {
+  it('ignores a repeated or unrequested answer', async () => {
     const robot = robotPeer();
     const client = await robot.meet();
     const transport = await robot.connected;
@@ -236,7 +236,7 @@ describe('OperatorPeer', () => {
     expect(await robot.peer.answer(robot.answers.at(-1) ?? '')).toBe('repeated');
     expect(await robot.peer.answer(answer.replace(/ice-ufrag:\S+/g, 'ice-ufrag:other'))).toBe('unasked');
     expect(await robot.peer.answer('v=0')).toBe('unasked');
-    // Nor does the old one count where a restart waits for its own.
+    // The old answer does not count while a restart waits for its own, either.
     const offer = await robot.peer.restart();
     expect(await robot.peer.answer(robot.answers.at(-1) ?? '')).toBe('repeated');
     await robot.negotiate(offer);
@@ -278,7 +278,7 @@ describe('OperatorPeer', () => {
     );
   });
 
-  it('leaves out candidates that cannot be used', async () => {
+  it('skips unusable candidates', async () => {
     const robot = robotPeer();
     const client = await robot.meet();
     const bad = ['', 'candidate:', 'candidate:1 1 udp 1 999.1.1.1 99999 typ host', 'x'.repeat(1000)];

@@ -39,15 +39,15 @@ export class OperatorPeer {
   #connected = false;
   #ended = false;
   readonly #answers = new AnswerGate();
-  /** ICE is restarted and answered, but its checks wait for a first local candidate. */
+  /** An ICE restart has been answered, but its checks wait for the first local candidate. */
   #startDue = false;
-  /** Restarts of ICE that were offered. */
+  /** Number of ICE restarts offered. */
   restarts = 0;
-  /** On the wire, all headers counted. */
+  /** Bytes of messages on the wire, all headers counted. */
   messageBytesSent = 0;
   /** Messages not sent because the channel was full. */
   unreliableDrops = 0;
-  /** Channels that the operator opened and we do not know. */
+  /** Number of channels that the operator opened and we do not know. */
   unknownChannels = 0;
 
   constructor(options: OperatorPeerOptions, events: OperatorPeerEvents) {
@@ -62,12 +62,12 @@ export class OperatorPeer {
     this.#candidates = new RemoteCandidates(connection, (reason, detail) =>
       events.onCandidateRefused?.(reason, detail),
     );
-    // Points travel as "audio": the browser hands each packet over as it comes, without assembling frames.
+    // Points travel as "audio": the browser then hands over each packet as it arrives, without assembling frames.
     this.#cloud = connection.addTransceiver(CLOUD_MEDIA.kind, {
       direction: 'sendonly',
       streams: [new MediaStream({ id: CLOUD_STREAM_ID })],
     });
-    // Idle, but with a video m-line in the bundle the browser's UDP receive buffer is 2 MiB instead of 128 KiB.
+    // Idle, but a video m-line in the bundle raises the browser's UDP receive buffer from 128 KiB to 2 MiB.
     connection.addTransceiver('video', { direction: 'sendonly' });
     const { session, telemetry, pictures } = channels;
     this.#session = connection.createDataChannel(session.label, { ordered: session.ordered });
@@ -82,7 +82,7 @@ export class OperatorPeer {
       });
       this.#pictures.bufferedAmountLowThreshold = MAX_PICTURE_CHUNK_BYTES;
       this.#pictures.bufferedAmountLow.subscribe(() => {
-        // It is told in the middle of werift's own sending.
+        // werift emits this in the middle of its own sending.
         setImmediate(() => {
           if (!this.#ended) events.onPicturesLow?.();
         });
@@ -103,7 +103,7 @@ export class OperatorPeer {
         candidate: text,
         sdpMid: sdpMid ?? null,
         sdpMLineIndex: sdpMLineIndex ?? null,
-        // Tells the operator which generation it belongs to, should it come late.
+        // Tells the operator which generation the candidate belongs to, in case it arrives late.
         usernameFragment: usernameFragment ?? null,
       });
     });
@@ -112,7 +112,7 @@ export class OperatorPeer {
       else if (state === 'closed' || (state === 'failed' && !this.#connected)) {
         this.#end(this.#connected ? 'connection-lost' : 'not-connected', `connection ${state}`);
       }
-      // Once connected, failed means that consent has run out (RFC 7675): a restart of ICE heals it.
+      // After connecting, failed means that consent has expired (RFC 7675). An ICE restart can repair that.
     });
     this.#connectTimer = setTimeout(
       () => this.#end('not-connected', `no connection within ${options.connectTimeoutMs / 1000} s`),
@@ -124,7 +124,7 @@ export class OperatorPeer {
     return this.#connected && !this.#ended;
   }
 
-  /** The SDP offer, at once: candidates follow as they are found, be a STUN or TURN server ever so slow. */
+  /** Returns the SDP offer without waiting for STUN or TURN servers. Candidates follow as they are found. */
   async offer(): Promise<string> {
     const description = await this.#connection.createOffer();
     this.#describe(description);
@@ -132,8 +132,8 @@ export class OperatorPeer {
   }
 
   /**
-   * An offer that restarts ICE, with new sockets: DTLS session, SRTP keys and channels stay. Nothing can be sent until the
-   * operator has answered it and a path is found. Candidates follow.
+   * An offer that restarts ICE on new sockets. The DTLS session, SRTP keys and channels stay. Nothing can be sent
+   * until the operator has answered it and a path is found. Candidates follow.
    */
   async restart(): Promise<string> {
     const description = await this.#connection.createOffer({ iceRestart: true });
@@ -143,12 +143,12 @@ export class OperatorPeer {
     return description.sdp;
   }
 
-  /** From the next restart on. */
+  /** Takes effect with the next restart. */
   useIceServers(iceServers: readonly IceServer[]): void {
     if (!this.#ended) this.#connection.setConfiguration({ iceServers: toWeriftServers(iceServers) });
   }
 
-  /** Whether the peer was heard on the path since the last call, be it by a connectivity check. */
+  /** Whether anything was heard from the peer on the path since the last call, including connectivity checks. */
   heardSinceLast(): boolean {
     return this.#transport?.heardSinceLast() ?? false;
   }
@@ -158,13 +158,13 @@ export class OperatorPeer {
     this.#startDue = false;
     this.#candidates.hold();
     dropDefaultStun(this.#cloud.dtlsTransport);
-    // Resolves only when every candidate is gathered.
+    // Resolves only when all candidates have been gathered.
     this.#connection.setLocalDescription(description).catch((error: unknown) => {
       this.#end('not-connected', `no local description: ${errorText(error)}`);
     });
   }
 
-  /** Never throws: a bad answer ends the connection; one that no offer waits for changes nothing. */
+  /** Never throws: a bad answer ends the connection; an answer without a waiting offer changes nothing. */
   async answer(sdp: string): Promise<AnswerVerdict> {
     const verdict = this.#ended ? 'unasked' : this.#answers.judge(sdp);
     if (verdict !== 'taken') return verdict;
@@ -185,7 +185,7 @@ export class OperatorPeer {
     return verdict;
   }
 
-  /** At any time: it waits for its description. Never throws: one that cannot be used is left out. */
+  /** May be called at any time: a candidate waits for its description. Never throws: it skips unusable ones. */
   addCandidate(candidate: IceCandidate): void {
     if (!this.#ended) this.#candidates.add(candidate);
   }
@@ -208,12 +208,12 @@ export class OperatorPeer {
     if (this.#control !== null) this.#sendUnreliable(this.#control, text);
   }
 
-  /** Bytes of pictures that wait to leave. */
+  /** Bytes of pictures queued for sending. */
   get picturesBuffered(): number {
     return this.#pictures?.bufferedAmount ?? 0;
   }
 
-  /** @returns bytes on the wire, all headers counted; 0 where it cannot be sent */
+  /** @returns bytes on the wire, all headers counted; 0 if it cannot be sent */
   sendPicture(chunk: Uint8Array): number {
     const channel = this.#pictures;
     if (channel === null || !this.connected || channel.readyState !== 'open') return 0;
@@ -248,10 +248,10 @@ export class OperatorPeer {
   #send(channel: RTCDataChannel, text: string): void {
     try {
       channel.send(text);
-      // Texts are ASCII but for names.
+      // Texts are ASCII except for names.
       this.messageBytesSent += text.length + MESSAGE_OVERHEAD_BYTES;
     } catch (error) {
-      // The association is going down; the state change that says so may still be on its way.
+      // The association is closing; the state change that reports it may not have arrived yet.
       this.#end('connection-lost', errorText(error));
     }
   }
@@ -290,7 +290,7 @@ export class OperatorPeer {
     this.#ended = true;
     clearTimeout(this.#connectTimer);
     this.#transport?.close();
-    // werift may still be in the middle of a handshake; what fails while closing concerns nobody any more.
+    // werift may still be in a handshake; errors while closing no longer matter.
     this.#connection.close().catch(() => undefined);
     this.#events.onEnded(end, detail);
   }

@@ -7,7 +7,7 @@ import { PacketLog } from './packet-log.ts';
 const folder = mkdtempSync(join(tmpdir(), 'farpoint-packet-log-'));
 afterEach(() => rmSync(folder, { recursive: true, force: true }));
 
-it('writes what was sent, the oldest first, and overwrites the oldest when it is full', () => {
+it('writes what was sent, oldest first, and overwrites the oldest entries when full', () => {
   const path = join(folder, 'sent.csv');
   const log = new PacketLog(path, 2);
   log.add(1, 0, 10.25);

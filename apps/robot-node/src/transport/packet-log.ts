@@ -1,12 +1,13 @@
 import { writeFileSync } from 'node:fs';
 
-/** Packets kept: half a minute at 40 Mbit/s. */
+/** Number of packets kept: half a minute at 40 Mbit/s. */
 const DEFAULT_CAPACITY = 131_072;
 const FIELDS = 3;
 
 /**
- * When each of the last packets left, for measurements: joined with the receiver's log by frame and offset it gives the
- * delivery time of every packet. Fixed memory, nothing allocated per packet, the oldest are overwritten.
+ * Records when each of the latest packets left, for measurements. Joined with the receiver's log by frame and offset,
+ * it gives the delivery time of every packet. Fixed memory, no allocation per packet; the oldest entries are
+ * overwritten.
  */
 export class PacketLog {
   readonly #path: string;
@@ -21,7 +22,7 @@ export class PacketLog {
     this.#records = new Float64Array(capacity * FIELDS);
   }
 
-  /** @param sentMs the robot's monotonic clock */
+  /** @param sentMs on the robot's monotonic clock */
   add(frameNumber: number, sequenceOffset: number, sentMs: number): void {
     const at = (this.#count % this.#capacity) * FIELDS;
     this.#records[at] = frameNumber;

@@ -14,25 +14,25 @@ export type PeerEnd =
 
 export interface OperatorPeerOptions {
   iceServers: readonly IceServer[];
-  /** Local UDP ports, both ends included; any where absent. */
+  /** Local UDP ports, both ends included; any port if undefined. */
   portRange?: readonly [number, number] | undefined;
-  /** `relay`: by TURN servers only. */
+  /** `relay`: through TURN servers only. */
   icePolicy?: 'all' | 'relay' | undefined;
   connectTimeoutMs: number;
-  /** There are pictures to send: a channel for them is opened. */
+  /** Whether to open a channel for pictures. */
   pictures?: boolean | undefined;
-  /** Something that came from the network was dropped unread. */
+  /** Called when something from the network was dropped unread. */
   onRefused?: ((reason: Refusal) => void) | undefined;
 }
 
 export interface OperatorPeerEvents {
   onCandidate(candidate: IceCandidate): void;
-  /** A candidate of the operator is left out; others may do. */
+  /** A candidate of the operator is left out; others may work. */
   onCandidateRefused?(reason: CandidateRefusal, detail: string): void;
   /** The path and our channels are up. */
   onConnected(transport: CloudTransport): void;
   onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void;
-  /** What was sent of pictures has nearly left. */
+  /** Almost all queued picture data has been sent. */
   onPicturesLow?(): void;
   /** The last event. `detail` is for people. */
   onEnded(end: PeerEnd, detail: string): void;

@@ -1,4 +1,4 @@
-/** What an operator without transport-wide feedback lets us know of its path, handed to the rate control. */
+/** Passes on to the rate controller what an operator without transport-wide feedback reports about its path. */
 
 import type { RateController } from '@farpoint/congestion';
 import {
@@ -12,20 +12,20 @@ import {
 } from '@farpoint/rtp';
 import type { CloudTransport } from './cloud-transport.ts';
 
-/** Who counts for itself is believed before its RTCP, for so long after it last did, ms. */
+/** An operator's own counts take precedence over its RTCP for this long after the last of them, ms. */
 const OWN_SUMS_HOLD_MS = 3000;
 
-/** `changed`: the rate control has learnt something. */
+/** `changed`: the rate controller got new information. */
 export type ReportOutcome = 'changed' | 'nothing-new' | 'malformed';
 
 export class ReportIntake {
   readonly #transport: CloudTransport;
   readonly #controller: RateController;
-  /** The receiver's limits: the operator's own, and its stack's. */
+  /** The receiver's limits: one from the operator itself, one from its WebRTC stack. */
   #ownLimit = Number.POSITIVE_INFINITY;
   #remb = Number.POSITIVE_INFINITY;
   #ownSumsMs = Number.NEGATIVE_INFINITY;
-  /** Of the latest RTCP report, for the operator's own sums, which have none; used once. */
+  /** Round trip from the latest RTCP report, for the operator's own counts, which have none. Used once. */
   #rttMs: number | null = null;
   #rttHeardMs = Number.NEGATIVE_INFINITY;
 
@@ -34,7 +34,7 @@ export class ReportIntake {
     this.#controller = controller;
   }
 
-  /** The operator's own sums, from a message of its. */
+  /** Takes the operator's own counts, from one of its messages. */
   onOwnSums(packetsReceived: number, packetsLost: number, nowMs: number): void {
     this.#ownSumsMs = nowMs;
     const rttMs = nowMs - this.#rttHeardMs < OWN_SUMS_HOLD_MS ? this.#rttMs : null;
@@ -47,7 +47,7 @@ export class ReportIntake {
     this.#controller.onReceiverLimit(Math.min(this.#ownLimit, this.#remb), nowMs);
   }
 
-  /** Of other RTCP packets it takes no notice. Transport-wide feedback says all that reports do, and more. */
+  /** Ignores other RTCP packets. Transport-wide feedback says everything that reports say, and more. */
   onRtcp({ packetType, format, bytes }: RtcpPacket, nowMs: number): ReportOutcome {
     if (this.#transport.transportFeedback) return 'nothing-new';
     if (packetType === RTCP_PAYLOAD_FEEDBACK && format === FMT_APPLICATION) return this.#onRemb(bytes, nowMs);

@@ -9,9 +9,9 @@ const block = (highestSequence: number, packetsLost = 0, ssrc = 7) => ({
 });
 
 describe('ReportSums', () => {
-  it('counts from the first packet, past wraps, and knows when the highest left', () => {
+  it('counts from the first packet, across wraps, and knows when the highest was sent', () => {
     const sums = new ReportSums(7);
-    // A packet a millisecond, from shortly before a wrap.
+    // One packet per millisecond, from shortly before a wrap.
     for (let n = 0; n < 2000; n++) sums.onSent((65_000 + n) & 0xffff, n);
     expect(sums.read(block(65_099, 4), 140)).toEqual({
       packetsReceived: 96,
@@ -22,7 +22,7 @@ describe('ReportSums', () => {
     expect(sums.read(block(65_536 + 463, 4), 1050)).toMatchObject({ packetsReceived: 996, rttMs: 51 });
   });
 
-  it('gives no round trip where nothing came since, or the packet is forgotten', () => {
+  it('gives no round trip if nothing has arrived since, or the packet is forgotten', () => {
     const sums = new ReportSums(7);
     for (let n = 0; n < 10_000; n++) sums.onSent(n, n);
     expect(sums.read(block(9999), 10_040)?.rttMs).toBe(41);
@@ -32,7 +32,7 @@ describe('ReportSums', () => {
     expect(slow.read(block(5), 10_000)?.rttMs).toBeNull();
   });
 
-  it('takes duplicates, and refuses what cannot be', () => {
+  it('accepts duplicates, and refuses impossible blocks', () => {
     const sums = new ReportSums(7);
     expect(sums.read(block(5), 0)).toBeNull();
     sums.onSent(100, 0);

@@ -1,12 +1,13 @@
 import type { ReceiverSums } from '@farpoint/congestion';
 import { type ReportBlock, SequenceNumber } from '@farpoint/rtp';
 
-/** Packets whose sending is remembered: several seconds of any stream that such reports allow. */
+/** Number of packets whose send time is kept: several seconds of any stream that such reports permit. */
 const REMEMBERED = 8192;
 
 /**
- * Turns report blocks (RFC 3550 §6.4) into sums and round trips. A block names the highest number that came, and packets come
- * so often that the report left right after it: from sending that packet to hearing of it is a round trip.
+ * Turns report blocks (RFC 3550 §6.4) into totals and round trips. A block names the highest sequence number
+ * received. Packets arrive so often that the report must have left right after that packet, so the time from sending
+ * the packet to receiving the report is a round trip.
  */
 export class ReportSums {
   readonly #ssrc: number;
@@ -26,13 +27,13 @@ export class ReportSums {
     this.#sequences[sequence % REMEMBERED] = sequence;
   }
 
-  /** @returns `null` for a block about another stream, or one that cannot be right */
+  /** @returns `null` for a block about another stream, or an impossible one */
   read({ ssrc, packetsLost, highestSequence }: Readonly<ReportBlock>, nowMs: number): ReceiverSums | null {
     if (ssrc !== this.#ssrc || this.#first === null) return null;
     const expected = highestSequence - this.#first + 1;
     const packetsReceived = expected - packetsLost;
     if (expected < 1 || packetsReceived < 0) return null;
-    // Where nothing came since the last report, how long ago that packet left says nothing.
+    // If no packet has arrived since the last report, the age of the highest one says nothing about the round trip.
     let rttMs: number | null = null;
     if (highestSequence > this.#highest) {
       this.#highest = highestSequence;

@@ -33,7 +33,7 @@ it('pumps and measures only what is due, and sleeps until something is', () => {
   expect([sender.pumps, works.length, vi.getTimerCount()]).toEqual([1, 1, 0]);
 });
 
-it('serves every sender when one is due, and none once it is closed', () => {
+it('drives every sender when one is due, and none once closed', () => {
   const loop = new SendLoop(() => Date.now());
   const [early, late] = [new Sender(), new Sender()];
   loop.add(early);

@@ -1,13 +1,13 @@
-/** What `SendLoop` serves. */
+/** What `SendLoop` drives. */
 export interface Pumped {
   pump(): void;
   readonly nextDueMs: number | null;
 }
 
-/** One timer for all operators' senders: asleep while nobody has anything to send. */
+/** One timer for all operators' senders. It sleeps while nobody has anything to send. */
 export class SendLoop {
   readonly #senders = new Set<Pumped>();
-  /** Told the processor time of each round, ms. */
+  /** Called with the processor time of each round, ms. */
   onWork: ((ms: number) => void) | null = null;
   readonly #now: () => number;
   readonly #cpu: () => number;
@@ -27,7 +27,7 @@ export class SendLoop {
     this.#senders.delete(sender);
   }
 
-  /** Sends what is due and sleeps until the next. Call after a frame was enqueued. */
+  /** Sends what is due, and sleeps until the next packet is due. Call this after a frame was enqueued. */
   run(): void {
     if (this.#timer !== null) clearTimeout(this.#timer);
     this.#timer = null;

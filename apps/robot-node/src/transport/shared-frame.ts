@@ -4,28 +4,28 @@ import { rtpTimestamp } from '@farpoint/rtp';
 import type { ReadyFrame } from '../capture/capture-messages.ts';
 import { slotPayloadBytes } from '../encode/packetiser.ts';
 
-/** A frame takes one interval to send; the farthest points of one that takes so many are not waited for. */
+/** A frame takes one interval to send. When it has taken this many, its farthest points are dropped. */
 const MOST_INTERVALS = 2;
 
-/** One captured frame on its way to several operators; its buffer goes back once the last of them let go of it. */
+/** One captured frame on its way to several operators. Its buffer is returned when the last of them has released it. */
 export class SharedFrame implements PacedFrame {
   readonly frame: ReadyFrame;
   readonly slots: Uint8Array;
   readonly packets: number;
-  /** On the wire, with the transport's headers. */
+  /** Size on the wire with the transport's headers, bytes. */
   readonly bytes: number;
   /** RTP timestamp: capture time in 1/48000 s, u32. */
   readonly rtpTimestamp: number;
-  /** While a newer frame waits, the rest of this one has so long from its first packet. */
+  /** While a newer frame waits, the rest of this one may be sent for this long after its first packet. */
   readonly maxSpanMs: number;
   readonly lane: number;
   #holders = 1;
   readonly #recycle: (buffer: ArrayBuffer) => void;
 
   /**
-   * The maker holds it first and must `release` it.
+   * The creator holds the frame first and must `release` it.
    *
-   * @param lane of the pacer: frames of lower ones go first
+   * @param lane the pacer's lane; frames in lower lanes go first
    */
   constructor(frame: ReadyFrame, overheadBytes: number, recycle: (buffer: ArrayBuffer) => void, lane = 0) {
     this.lane = lane;

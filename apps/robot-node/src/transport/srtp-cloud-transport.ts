@@ -8,15 +8,15 @@ import { type RTCDtlsTransport, type RTCRtpTransceiver, RTP_EXTENSION_URI } from
 import { type CloudTransport, UDP_IPV4_BYTES } from './cloud-transport.ts';
 import { ReportSums } from './report-sums.ts';
 
-/** The peer does not speak what the stream needs. */
+/** The peer does not support what the stream needs. */
 export class CloudTransportError extends Error {
   override readonly name = 'CloudTransportError';
 }
 
 /**
- * Cloud packets on a connected werift transceiver, sealed and sent by us: werift's own sender copies and serialises each
- * packet several times. werift never sends RTP on this SSRC, so each nonce is used once. The transport-wide sequence is
- * werift's own counter, shared with whatever else it sends in the bundle.
+ * Sends cloud packets on a connected werift transceiver, encrypted by us, because werift's own sender copies and
+ * serialises each packet several times. werift never sends RTP on this SSRC, so each nonce is used once. The
+ * transport-wide sequence number is werift's own counter, shared with everything else that it sends in the bundle.
  */
 export class SrtpCloudTransport implements CloudTransport {
   onRtcp: ((compound: Uint8Array) => void) | null = null;
@@ -27,17 +27,20 @@ export class SrtpCloudTransport implements CloudTransport {
   readonly #header: RtpHeaderTemplate;
   readonly #sealer: SrtpSealer;
   readonly #reports: ReportSums | null;
-  /** Sealed packets: sealing other bytes under a number again would give the key away (RFC 7714 §8.4). */
+  /**
+   * Encrypted packets, kept as they are: encrypting other bytes under the same number would reveal the key (RFC 7714
+   * §8.4).
+   */
   readonly #sent = new ResendHistory<readonly Buffer[]>();
-  /** The path is looked up once a turn of the event loop, not for each packet. */
+  /** The path is looked up once per turn of the event loop, not once per packet. */
   #pathIsFresh = false;
   #pathIsOpen = false;
   #closed = false;
 
   /**
    * @param transceiver negotiated, on a connected DTLS transport
-   * @param transportSequenceExtensionId of the transport-wide sequence number, whatever was negotiated
-   * @throws {CloudTransportError} where the answer refused the codec or AES-128-GCM
+   * @param transportSequenceExtensionId overrides the negotiated id of the transport-wide sequence number
+   * @throws {CloudTransportError} if the answer refused the codec or AES-128-GCM
    */
   constructor(transceiver: RTCRtpTransceiver, transportSequenceExtensionId?: number) {
     const { sender, mid } = transceiver;
@@ -53,7 +56,7 @@ export class SrtpCloudTransport implements CloudTransport {
       transportSequenceExtensionId ?? extensionId(RTP_EXTENSION_URI.transportWideCC);
     this.transportFeedback =
       transportSequenceId !== undefined && codec.rtcpFeedback.some(({ type }) => type === 'transport-cc');
-    // Who gives the one need not be asked for the other.
+    // A peer that gives transport-wide feedback is not asked for receiver reports as well.
     this.#reports = this.transportFeedback ? null : new ReportSums(sender.ssrc);
     this.#header = new RtpHeaderTemplate({
       payloadType: codec.payloadType,
@@ -91,7 +94,7 @@ export class SrtpCloudTransport implements CloudTransport {
     this.#dtls.transportSequenceNumber = transportSequence;
     const { nextSequence } = this.#sealer;
     this.#header.patch(marker, nextSequence, timestamp, transportSequence);
-    // A copy: a datagram that the kernel cannot take at once is still read from memory later.
+    // A copy is needed: the kernel may read a datagram that it cannot take immediately from memory later.
     const header = Buffer.from(this.#header.bytes);
     const sealed = this.#sealer.seal(header, payload);
     this.#sent.add(nextSequence, sealed, nowMs, usefulMs);
@@ -112,12 +115,12 @@ export class SrtpCloudTransport implements CloudTransport {
     return sealed.reduce((sum, part) => sum + part.length, UDP_IPV4_BYTES);
   }
 
-  /** @returns whether the peer was heard since the last call, be it by a connectivity check */
+  /** @returns whether anything was heard from the peer since the last call, including connectivity checks */
   heardSinceLast(): boolean {
     return this.#path.heardSinceLast();
   }
 
-  /** Nothing is sent from here on, though werift takes a while to close. */
+  /** Stops sending at once; werift takes a while to close. */
   close(): void {
     this.#closed = true;
     this.#pathIsOpen = false;

@@ -1,15 +1,15 @@
-/** Sums since the session began. */
+/** Totals since the session began. */
 export interface StreamCounters {
   framesSent: number;
   packetsSent: number;
   /** On the wire, all headers counted. */
   bytesSent: number;
   pointsSent: number;
-  /** Packets that found the path closed. */
+  /** Packets not sent because the path was closed. */
   packetsUnsent: number;
   feedbackMessages: number;
   feedbackMalformed: number;
-  /** Sent again because the operator missed them; not among `packetsSent`. */
+  /** Packets retransmitted because the operator was missing them; not included in `packetsSent`. */
   packetsResent: number;
 }
 

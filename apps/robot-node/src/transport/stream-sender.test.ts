@@ -21,7 +21,7 @@ interface Sent {
   marker: boolean;
 }
 
-/** A path whose other end is this test. */
+/** A path whose other end is the test. */
 class RecordingTransport implements CloudTransport {
   readonly overheadBytes = 68;
   ready = true;
@@ -48,7 +48,7 @@ class RecordingTransport implements CloudTransport {
     return (this.sent.length - 1) & 0xffff;
   }
 
-  /** Reports the stream 1, of which 100 packets were sent before. */
+  /** Reports on stream 1, of which 100 packets were sent before. */
   receiverSums({ ssrc, highestSequence, packetsLost }: Readonly<ReportBlock>): ReceiverSums | null {
     if (ssrc !== 1) return null;
     return { packetsReceived: highestSequence - 99 - packetsLost, packetsLost, source: 'rtcp', rttMs: 40 };
@@ -90,7 +90,7 @@ function frame(points: number, capturedAtMs = 1000): ReadyFrame {
   };
 }
 
-/** Writes down what it is told of the receiver. */
+/** Records what it is told about the receiver. */
 class ReportedController extends FixedRateController {
   readonly told: (ReceiverSums | number)[] = [];
 
@@ -103,7 +103,7 @@ class ReportedController extends FixedRateController {
   }
 }
 
-/** Does as it is told. */
+/** Follows a script. */
 class ScriptedController extends FixedRateController {
   readonly wanted: RateDecision;
   readonly clusters: number[] = [];
@@ -136,7 +136,7 @@ function stage(
   const recycled: ArrayBuffer[] = [];
   const share = (captured: ReadyFrame) =>
     new SharedFrame(captured, transport.overheadBytes, (buffer) => recycled.push(buffer));
-  /** Lets time pass as a timer would. */
+  /** Advances time as a timer would. */
   const runUntil = (endMs: number) => {
     while (sender.nextDueMs !== null && sender.nextDueMs <= endMs) {
       nowMs = Math.max(nowMs, sender.nextDueMs);
@@ -148,7 +148,7 @@ function stage(
 }
 
 describe('StreamSender', () => {
-  it('sends every packet of a frame once, in order, evenly, the last one marked and cut to its length', () => {
+  it('sends every packet of a frame once, in order and evenly, with the last one marked and cut to length', () => {
     const { transport, sender, share, runUntil } = stage();
     const shared = share(frame(1510, 2000));
     sender.enqueue(shared);
@@ -173,7 +173,7 @@ describe('StreamSender', () => {
     });
   });
 
-  it('gives a buffer back once, after the last holder let go of it', () => {
+  it('returns a buffer once, after its last holder has released it', () => {
     const a = stage();
     const b = stage();
     const shared = a.share(frame(300));
@@ -186,7 +186,7 @@ describe('StreamSender', () => {
     expect(a.recycled).toEqual([shared.frame.buffer]);
   });
 
-  it('drops the older of two frames that wait, says so, and gives its buffer back', () => {
+  it('drops the older of two queued frames, reports it, and returns its buffer', () => {
     const { sender, recycled, share, runUntil } = stage(1e6);
     const dropped: [SharedFrame, string][] = [];
     sender.onFrameDropped = (shared, reason) => dropped.push([shared, reason]);
@@ -203,7 +203,7 @@ describe('StreamSender', () => {
     expect(recycled).toHaveLength(3);
   });
 
-  it('clears what waits when the stream stops', () => {
+  it('clears the queue when the stream stops', () => {
     const { transport, sender, recycled, share, runUntil } = stage(1e6);
     const shared = share(frame(1500));
     sender.enqueue(shared);
@@ -218,7 +218,7 @@ describe('StreamSender', () => {
     expect(sender.nextDueMs).toBeNull();
   });
 
-  it('loses packets, not itself, while the path is closed', () => {
+  it('loses packets but survives while the path is closed', () => {
     const { transport, sender, recycled, share, runUntil } = stage();
     transport.ready = false;
     const shared = share(frame(300));
@@ -229,7 +229,7 @@ describe('StreamSender', () => {
     expect(recycled).toHaveLength(1);
   });
 
-  it('has nothing to do with an empty frame', () => {
+  it('ignores an empty frame', () => {
     const { sender, recycled, share } = stage();
     const shared = share(frame(0));
     sender.enqueue(shared);
@@ -238,13 +238,13 @@ describe('StreamSender', () => {
     expect(recycled).toHaveLength(1);
   });
 
-  it('hands transport feedback to the controller, and outlives feedback that is broken', () => {
+  it('passes transport feedback to the controller, and survives malformed feedback', () => {
     const { transport, sender, share, runUntil } = stage(1e6);
     const shared = share(frame(15_000));
     sender.enqueue(shared);
     shared.release();
     runUntil(1300);
-    // Reports packets 0–39 as lost: 40 packets, run length chunk "not received".
+    // Reports packets 0–39 as lost: 40 packets, run-length chunk "not received".
     const feedback = Buffer.alloc(24);
     feedback.writeUInt8(0x8f, 0);
     feedback.writeUInt8(205, 1);
@@ -255,7 +255,7 @@ describe('StreamSender', () => {
     transport.onRtcp?.(feedback);
     expect(sender.counters.feedbackMessages).toBe(1);
     expect(sender.heardMs).toBe(1300);
-    // All of the interval was lost: the rate halves, down to its floor at most.
+    // All packets of the interval were lost: the rate halves, but not below its floor.
     runUntil(2500);
     sender.tick();
     transport.onRtcp?.(feedback.subarray(0, 22));
@@ -266,7 +266,7 @@ describe('StreamSender', () => {
     expect(sender.counters).toMatchObject({ feedbackMessages: 1, feedbackMalformed: 3 });
   });
 
-  it('stops while too much is on its way, and goes on when that has changed', () => {
+  it('stops while too much is in flight, and continues when that has changed', () => {
     const controller = new ScriptedController(10e6);
     controller.wanted.congestionWindowBytes = 5000;
     const { transport, sender, share, runUntil } = stage(10e6, controller);
@@ -282,7 +282,7 @@ describe('StreamSender', () => {
     expect(transport.sent).toHaveLength(20);
   });
 
-  it('sends a train at the rate that is asked for, in a frame that is large enough, once', () => {
+  it('sends a probe train once, at the requested rate, in a frame that is large enough', () => {
     const controller = new ScriptedController(1e6);
     controller.wanted.probe = { clusterId: 7, bitsPerSecond: 10e6, bytes: 10_000 };
     const { transport, sender, share, runUntil } = stage(1e6, controller);
@@ -306,11 +306,11 @@ describe('StreamSender', () => {
     const seconds = ((train.at(-1) as Sent).atMs - (train[0] as Sent).atMs) / 1000;
     expect(bits / seconds).toBeGreaterThan(8e6);
     expect(bits / seconds).toBeLessThan(13e6);
-    // The rest goes at the rate for all.
+    // The rest is sent at the normal rate.
     expect((transport.sent.at(-1) as Sent).atMs - (train.at(-1) as Sent).atMs).toBeGreaterThan(90);
   });
 
-  it('does not wait for the farthest points of a frame that takes too long', () => {
+  it('drops the farthest points of a frame that takes too long', () => {
     const { transport, sender, share, runUntil } = stage(1e6);
     const dropped: string[] = [];
     sender.onFrameDropped = (_, reason) => dropped.push(reason);
@@ -328,7 +328,7 @@ describe('StreamSender', () => {
     expect(transport.sent.at(-1)?.marker).toBe(true);
   });
 
-  it('sends again what the receiver misses, but not without bounds', () => {
+  it('retransmits what the receiver is missing, within limits', () => {
     const { transport, sender, runUntil } = stage();
     const nack = (pid: number, blp: number) => {
       const bytes = Buffer.alloc(16);
@@ -365,7 +365,7 @@ describe('StreamSender', () => {
     // 10 Mbit/s of stream 1.
     const remb = Buffer.from('8fce000500000009000000005245 4d42 0121312d00000001'.replaceAll(' ', ''), 'hex');
 
-    it('count where the operator gives no transport-wide feedback, and only there', () => {
+    it('count only if the operator gives no transport-wide feedback', () => {
       const controller = new ReportedController({ bitsPerSecond: 10e6 });
       const { transport, sender } = stage(10e6, controller);
       transport.onRtcp?.(report);
@@ -382,7 +382,7 @@ describe('StreamSender', () => {
       expect(controller.told.at(-1)).toBe(1e6);
     });
 
-    it('give way to the operator’s own sums, but for the round trip', () => {
+    it('give way to the operator’s own counts, except for the round trip', () => {
       const controller = new ReportedController({ bitsPerSecond: 10e6 });
       const { transport, sender, runUntil } = stage(10e6, controller);
       transport.transportFeedback = false;
@@ -401,7 +401,7 @@ describe('StreamSender', () => {
       expect(controller.told).toHaveLength(4);
     });
 
-    it('that are cut short are counted', () => {
+    it('are counted if they are truncated', () => {
       const { transport, sender } = stage();
       transport.transportFeedback = false;
       const lies = Buffer.from(report);

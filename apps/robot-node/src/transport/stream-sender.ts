@@ -24,30 +24,36 @@ import { ReportIntake } from './report-intake.ts';
 import type { SharedFrame } from './shared-frame.ts';
 import { emptyStreamCounters } from './stream-counters.ts';
 
-/** Packets leave in bursts of so long, ms: a wake-up for each would cost more than the packets do. */
+/** Packets leave in bursts of this length, ms. Waking up for each packet would cost more than sending it. */
 const BURST_MS = 2.5;
-/** A wished train waits for a frame of its length for so many frames; then one of at least so many packets must do. */
+/**
+ * A probe train waits this many frames for a frame of its length. After that, a frame of at least this many packets
+ * is enough.
+ */
 const PATIENT_FRAMES = 4;
 const SHORT_TRAIN_PACKETS = 20;
 
 /** A frame has been sent to its last packet. */
 export interface SentFrame {
   shared: SharedFrame;
-  /** From the first packet to the last, ms. */
+  /** Time from the first packet to the last, ms. */
   sendMs: number;
 }
 
 /**
- * One operator's stream: takes whole frames, sends their packets evenly at the rate that the controller allows, and tells
- * the controller what came of them. It owns no timer: call `pump` at `nextDueMs`.
+ * One operator's stream. Takes whole frames, sends their packets evenly at the rate that the controller allows, and
+ * reports the result to the controller. It owns no timer: call `pump` at `nextDueMs`.
  */
 export class StreamSender {
   readonly counters = emptyStreamCounters();
   onFrameSent: ((sent: SentFrame) => void) | null = null;
   onFrameDropped: ((shared: SharedFrame, reason: FrameDropReason) => void) | null = null;
-  /** Told of each packet that left: frame number, where its data lies in the frame, robot's clock. For measurements. */
+  /**
+   * Called for each packet sent, with the frame number, the offset of its data in the frame, and the robot's clock.
+   * For measurements.
+   */
   onPacketSent: ((frameNumber: number, sequenceOffset: number, sentMs: number) => void) | null = null;
-  /** The rate control has learnt something: what may be sent, and when, has changed. */
+  /** The rate controller got new information: what may be sent, and when, has changed. */
   onRateChanged: (() => void) | null = null;
   readonly #transport: CloudTransport;
   readonly #controller: RateController;
@@ -55,17 +61,17 @@ export class StreamSender {
   readonly #feedback = new TransportFeedbackAdapter();
   readonly #reports: ReportIntake;
   readonly #fit = new FrameFit();
-  /** A peer that asks for everything again gets a tenth of it. */
+  /** A peer that requests every packet again gets a tenth of them. */
   readonly #resends = new TokenBucket({ perSecond: 400, burst: 50 });
   readonly #now: () => number;
   readonly #beganMs = new WeakMap<SharedFrame, number>();
-  /** The probe that is being sent, its rate and what is left of it. */
+  /** The probe that is being sent, its rate, and its remaining bytes. */
   #probeCluster = 0;
   #probeBitsPerSecond = 0;
   #probeBytesLeft = 0;
-  /** Frames in a row that were shorter than the train that is wished for. */
+  /** Number of consecutive frames that were shorter than the requested train. */
   #framesTooShort = 0;
-  /** When RTCP last came from the operator, ms. */
+  /** When RTCP from the operator last arrived, ms. */
   heardMs = 0;
 
   constructor(transport: CloudTransport, controller: RateController, now: () => number) {
@@ -73,7 +79,7 @@ export class StreamSender {
     this.#controller = controller;
     this.#reports = new ReportIntake(transport, controller);
     this.#now = now;
-    // The controller says how much faster than planned packets may go.
+    // The controller decides how much faster than planned packets may go.
     this.#pacer = new PacketPacer(controller.decision(now()).pacingBitsPerSecond, {
       factor: 1,
       burstMs: BURST_MS,
@@ -89,17 +95,17 @@ export class StreamSender {
     return this.#controller.targetBitsPerSecond(this.#now());
   }
 
-  /** Of the target, what points should be planned for, 0–1: less than all where frames cannot be sent whole. */
+  /** The share of the target to plan for with points, 0–1. It is below 1 if frames cannot be sent whole. */
   get fit(): number {
     return this.#fit.share;
   }
 
-  /** What the rate control knows and thinks, for people. */
+  /** The rate controller's state, for people. */
   get rate(): RateSnapshot {
     return this.#controller.snapshot(this.#now());
   }
 
-  /** A train of packets that the rate control waits for: a frame of at least so many bytes carries it. */
+  /** The packet train that the rate controller wants. A frame with at least this many bytes carries it. */
   get probeWish(): Readonly<ProbeRequest> | null {
     const { probe } = this.#controller.decision(this.#now());
     return probe === null || probe.clusterId === this.#probeCluster ? null : probe;
@@ -109,22 +115,22 @@ export class StreamSender {
     return this.#pacer.drops;
   }
 
-  /** How often a missed packet was not sent again, by reason. */
+  /** How often a retransmission was refused, by reason. */
   get resendRefusals(): Readonly<Record<ResendRefusal, number>> {
     return this.#transport.resendRefusals;
   }
 
-  /** `null` also where too much is on its way already: feedback, or the next tick, will change that. */
+  /** `null` also while too much is in flight; feedback or the next tick will change that. */
   get nextDueMs(): number | null {
     return this.#windowFull ? null : this.#pacer.nextDueMs;
   }
 
-  /** Takes a hold of the frame and sends it when its time comes, unless a newer one comes first. */
+  /** Retains the frame and sends it in its turn, unless a newer one comes first. */
   enqueue(shared: SharedFrame): void {
     if (shared.packets === 0) return;
     this.#takeProbe(shared);
     for (const { frame, reason } of this.#pacer.enqueue(shared.hold(), this.#now())) {
-      // What waits for the window is not late by our own doing.
+      // A frame that waits for the congestion window is not late through our own fault.
       if (!this.#windowFull) this.#fit.onCut();
       this.onFrameDropped?.(frame, reason);
       frame.release();
@@ -132,8 +138,8 @@ export class StreamSender {
   }
 
   /**
-   * A train of the wished length, or, where frames stay shorter than that, a whole frame: a source that has no more to give
-   * would otherwise never learn how fast its frames may go.
+   * Uses the frame as the probe train if it has the requested length. If frames stay shorter, a whole frame is
+   * enough: otherwise a source that has no more to give would never learn how fast its frames may go.
    */
   #takeProbe(shared: SharedFrame): void {
     const wish = this.probeWish;
@@ -141,7 +147,7 @@ export class StreamSender {
       this.#framesTooShort = 0;
       return;
     }
-    // The others' frames are not made to measure for it.
+    // Frames in other lanes are not sized for probes.
     if (shared.lane !== 0) return;
     if (shared.bytes < wish.bytes) {
       this.#framesTooShort++;
@@ -195,7 +201,7 @@ export class StreamSender {
     }
   }
 
-  /** Every 25 ms or so. */
+  /** Call this every 25 ms or so. */
   tick(): void {
     const now = this.#now();
     this.#controller.onTick(now);
@@ -216,7 +222,7 @@ export class StreamSender {
     this.#reports.onOwnLimit(bitsPerSecond, this.#now());
   }
 
-  /** Drops what waits: the stream is stopped or the session over. */
+  /** Drops everything queued, because the stream was stopped or the session is over. */
   clear(): void {
     for (const { frame, reason } of this.#pacer.clear()) {
       this.onFrameDropped?.(frame, reason);

@@ -1,9 +1,9 @@
 /**
- * Stick deflection to a wish of −1…1: nothing within the dead zone, then rising from 0 without a step, softer around the
- * middle the larger `expo` is.
+ * Maps the stick's deflection to −1…1. Inside the dead zone the result is 0. Outside it, the result rises from 0
+ * without a step. A larger `expo` makes it gentler around the centre.
  */
 export interface StickResponse {
-  /** Share of the deflection that counts as rest, 0 ≤ d < 1. */
+  /** Share of the deflection that counts as centred, 0 ≤ d < 1. */
   deadZone: number;
   /** 0: linear; 1: cubic. */
   expo: number;
@@ -11,7 +11,7 @@ export interface StickResponse {
 
 export const DEFAULT_STICK_RESPONSE: Readonly<StickResponse> = { deadZone: 0.12, expo: 0.4 };
 
-/** @param deflection −1…1; anything that is not a finite number counts as 0 (a device may report null axes) */
+/** @param deflection −1…1. Anything that is not a finite number counts as 0, because a device may report null axes. */
 export function shapeAxis(deflection: number | null | undefined, response: StickResponse): number {
   if (typeof deflection !== 'number' || !Number.isFinite(deflection)) return 0;
   const magnitude = Math.min(Math.abs(deflection), 1);

@@ -10,7 +10,7 @@ const RESPONSE = { deadZone: 0.12, expo: 0.4 };
 const limits = { maxLinear: 1.2, maxAngular: 2 };
 
 describe('shapeAxis', () => {
-  test('nothing within the dead zone, all of it at the end', () => {
+  test('is 0 inside the dead zone and ±1 at full deflection', () => {
     expect(shapeAxis(0.12, RESPONSE)).toBe(0);
     expect(shapeAxis(-0.1, RESPONSE)).toBe(0);
     expect(shapeAxis(1, RESPONSE)).toBe(1);
@@ -18,11 +18,11 @@ describe('shapeAxis', () => {
     expect(shapeAxis(3, RESPONSE)).toBe(1);
   });
 
-  test('null, undefined and NaN are rest', () => {
+  test('null, undefined and NaN count as centred', () => {
     for (const value of [null, undefined, Number.NaN]) expect(shapeAxis(value, RESPONSE)).toBe(0);
   });
 
-  test('rises steadily from the dead zone, the same both ways', () => {
+  test('rises steadily from the dead zone, symmetrically in both directions', () => {
     const deflection = fc.double({ min: 0, max: 1, noNaN: true });
     fc.assert(
       fc.property(deflection, deflection, (a, b) => {
@@ -37,14 +37,14 @@ describe('shapeAxis', () => {
 });
 
 describe('toTwist', () => {
-  test('forward is linear.x, left is angular.z, at the robot’s limits', () => {
+  test('maps forward to linear.x and left to angular.z, scaled to the robot’s limits', () => {
     expect(toTwist({ forward: 1, left: -0.5 }, limits)).toEqual({
       linear: { x: 1.2, y: 0, z: 0 },
       angular: { x: 0, y: 0, z: -1 },
     });
   });
 
-  test('never beyond the limits, never NaN', () => {
+  test('never exceeds the limits and is never NaN', () => {
     fc.assert(
       fc.property(fc.double(), fc.double(), (forward, left) => {
         const { linear, angular } = toTwist({ forward, left }, limits);
@@ -83,7 +83,7 @@ describe('GamepadInput', () => {
     buttons: Array.from({ length: 17 }, (_, index) => button(down.includes(index) ? 1 : 0)),
   });
 
-  test('the stronger stick, while a shoulder is held', () => {
+  test('drives with the stick that is deflected more, while a shoulder button is held', () => {
     const input = new GamepadInput();
     input.read(pad([0, 0, 1, -1], [5]));
     expect(input.held).toBe(true);
@@ -95,7 +95,7 @@ describe('GamepadInput', () => {
     expect(input.wish).toEqual({ forward: 0, left: 0 });
   });
 
-  test('buttons tell once for each press', () => {
+  test('reports each button once per press', () => {
     const input = new GamepadInput();
     expect(input.read(pad([], [1])).estop).toBe(true);
     expect(input.read(pad([], [1])).estop).toBe(false);
@@ -104,7 +104,7 @@ describe('GamepadInput', () => {
     expect(input.read(pad([], [9])).nextRobot).toBe(false);
   });
 
-  test('Y tells for as long as it is held, B never', () => {
+  test('reports Y for as long as it is held, and never reports B', () => {
     const input = new GamepadInput();
     for (const [down, held] of [
       [[3], true],
@@ -133,14 +133,14 @@ describe('HeadsetInput', () => {
     },
   });
 
-  test('the hand that squeezes drives; pushing forward is −1', () => {
+  test('drives with the hand that squeezes; pushing the stick forward reads −1', () => {
     const input = new HeadsetInput();
     input.read([controller('left', 0, 0, 1), controller('right', 1, -1, -1)]);
     expect(input.held).toBe(true);
     expect(input.wish).toEqual({ forward: 1, left: 1 });
   });
 
-  test('the hand that began goes on driving', () => {
+  test('keeps driving with the hand that squeezed first', () => {
     const input = new HeadsetInput();
     input.read([controller('left', 0, 0, 0), controller('right', 1, 0, -1)]);
     input.read([controller('left', 1, 0, 1), controller('right', 1, 0, -1)]);
@@ -149,7 +149,7 @@ describe('HeadsetInput', () => {
     expect(input.wish.forward).toBe(-1);
   });
 
-  test('null axes and sources without a gamepad are rest', () => {
+  test('treats null axes and sources without a gamepad as centred', () => {
     const input = new HeadsetInput();
     input.read([
       { handedness: 'none' },
@@ -160,7 +160,7 @@ describe('HeadsetInput', () => {
     expect(input.wish).toEqual({ forward: 0, left: 0 });
   });
 
-  test('a stick’s press goes over to the next robot, once a press, and never while a hand drives', () => {
+  test('pressing a stick switches to the next robot, once per press and never while a hand drives', () => {
     const input = new HeadsetInput();
     expect(input.read([controller('left', 0, 0, 0, 3)]).nextRobot).toBe(true);
     expect(input.read([controller('left', 0, 0, 0, 3)]).nextRobot).toBe(false);
@@ -169,7 +169,7 @@ describe('HeadsetInput', () => {
     expect(input.read([controller('left', 0, 0, 0, 3)]).nextRobot).toBe(false);
   });
 
-  test('a trigger is held to release the stop by an open hand only: a clenched one holds both', () => {
+  test('counts the trigger as release only while the grip is open: a clenched fist holds both', () => {
     const input = new HeadsetInput();
     const held = (...sources: ReturnType<typeof controller>[]) => input.read(sources).releaseHeld;
     expect(held(controller('left', 0, 0, 0, 0))).toBe(true);
@@ -179,7 +179,7 @@ describe('HeadsetInput', () => {
     expect(held(controller('right', 0, 0, 0, 0))).toBe(true);
   });
 
-  test('A or X asks for a latency test, B or Y for the stop, once a press', () => {
+  test('A or X starts a latency test, B or Y the emergency stop, once per press', () => {
     const input = new HeadsetInput();
     expect(input.read([controller('right', 0, 0, 0, 4)])).toMatchObject({
       estop: false,
@@ -199,7 +199,7 @@ describe('HeadsetInput', () => {
   });
 });
 
-test('one device drives at a time: the one that began', () => {
+test('lets one device drive at a time: the one that started', () => {
   const device = (held: boolean) => ({ name: 'touch' as const, held, wish: { forward: 0, left: 0 } });
   const [a, b] = [device(true), device(true)];
   expect(activeInput([a, b], null)).toBe(a);

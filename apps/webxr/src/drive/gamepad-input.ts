@@ -3,14 +3,14 @@
 import type { DriveInput, DriveWish, PressedButtons } from '@farpoint/operator';
 import { DEFAULT_STICK_RESPONSE, shapeAxis } from './dead-zone.ts';
 
-/** Shoulders and triggers of the standard mapping. */
+/** Shoulder buttons and triggers in the standard mapping. */
 const GRIP_BUTTONS = [4, 5, 6, 7];
 const ESTOP_BUTTON = 1;
 const LATENCY_BUTTON = 0;
 const RELEASE_BUTTON = 3;
 const NEXT_ROBOT_BUTTON = 9;
 
-/** What is read of a Gamepad. */
+/** The fields of a Gamepad that are read. */
 export interface GamepadState {
   axes: readonly (number | null)[];
   buttons: readonly { pressed: boolean; value: number }[];
@@ -25,8 +25,8 @@ export class GamepadInput implements DriveInput {
   #next = false;
 
   /**
-   * @param pad the gamepad now, or `null` where it is gone
-   * @returns buttons that went down since the last call, or are held
+   * @param pad the gamepad's current state, or `null` if it is disconnected
+   * @returns the buttons that were pressed since the last call, or are held
    */
   read(pad: GamepadState | null): PressedButtons {
     const estop = pad?.buttons[ESTOP_BUTTON]?.pressed === true;

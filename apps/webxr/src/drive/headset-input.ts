@@ -1,6 +1,6 @@
 /**
- * Headset controllers, WebXR's `xr-standard` mapping: thumbstick axes 2 and 3, the trigger is button 0, squeeze button 1, the
- * thumbstick's press button 3, A/X button 4, B/Y button 5. The hand that squeezes drives.
+ * Headset controllers in WebXR's `xr-standard` mapping: the thumbstick is axes 2 and 3, the trigger button 0, squeeze
+ * button 1, the thumbstick's press button 3, A/X button 4 and B/Y button 5. The hand that squeezes drives.
  */
 
 import type { DriveInput, DriveWish, PressedButtons } from '@farpoint/operator';
@@ -13,7 +13,7 @@ const STICK_PRESS = 3;
 const AX_BUTTON = 4;
 const BY_BUTTON = 5;
 
-/** What is read of an XRInputSource. */
+/** The fields of an XRInputSource that are read. */
 export interface XrController {
   handedness: string;
   gamepad?: GamepadState | null | undefined;
@@ -28,7 +28,7 @@ export class HeadsetInput implements DriveInput {
   #latency = false;
   #stickPress = false;
 
-  /** @returns buttons that went down since the last call, or are held */
+  /** @returns the buttons that were pressed since the last call, or are held */
   read(sources: Iterable<XrController>): PressedButtons {
     let driving: XrController | null = null;
     let estop = false;
@@ -48,15 +48,15 @@ export class HeadsetInput implements DriveInput {
     this.held = driving !== null;
     this.#hand = driving?.handedness ?? null;
     const axes = driving?.gamepad?.axes;
-    // Unused axes are null on some runtimes; shapeAxis takes that as rest. Forward is −1, right is +1.
+    // Some runtimes report unused axes as null; shapeAxis treats these as centred. Forward is −1, right is +1.
     this.wish.forward = -shapeAxis(axes?.[3], DEFAULT_STICK_RESPONSE) + 0;
     this.wish.left = -shapeAxis(axes?.[2], DEFAULT_STICK_RESPONSE) + 0;
     const pressed = {
       estop: estop && !this.#estop,
       latencyTest: latency && !this.#latency,
-      // A stick is easily pressed while it is pushed.
+      // Pushing a stick easily presses it too.
       nextRobot: stickPress && !this.#stickPress && !this.held,
-      // A fist clenched in fright holds both.
+      // A fist clenched in fright presses both the grip and the trigger.
       releaseHeld: trigger && !this.held,
     };
     this.#estop = estop;

@@ -1,4 +1,4 @@
-/** W A S D or the arrows, while Space or Shift is held. Pure: told of keys by their code. */
+/** W, A, S, D or the arrow keys, while Space or Shift is held. Pure: the caller passes in the codes of the keys. */
 import type { DriveInput, DriveWish } from '@farpoint/operator';
 
 const GRIPS: readonly string[] = ['Space', 'ShiftLeft', 'ShiftRight'];
@@ -17,7 +17,7 @@ export class KeyboardInput implements DriveInput {
     return this.#any(GRIPS);
   }
 
-  /** @param code KeyboardEvent.code. @returns whether the key is one of ours */
+  /** @param code KeyboardEvent.code @returns whether this input uses the key */
   key(code: string, down: boolean): boolean {
     if (!KEYS.has(code)) return false;
     if (down) this.#down.add(code);
@@ -27,7 +27,7 @@ export class KeyboardInput implements DriveInput {
     return true;
   }
 
-  /** The page does not hear keys any more: none counts as held. */
+  /** Call this when the page no longer receives key events. No key counts as held after it. */
   releaseAll(): void {
     this.#down.clear();
     this.wish.forward = 0;

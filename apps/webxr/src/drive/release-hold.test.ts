@@ -17,7 +17,7 @@ class Bench {
   }
 }
 
-test('a second of holding releases, once; progress tells how far it is', () => {
+test('releases once after a hold of one second, and reports the progress', () => {
   const bench = new Bench().pass(100);
   bench.hold.set('pointer', true);
   bench.pass(525);
@@ -30,7 +30,7 @@ test('a second of holding releases, once; progress tells how far it is', () => {
   expect(bench.releases).toBe(1);
 });
 
-test('letting go early does nothing, and the next hold begins anew', () => {
+test('does nothing when let go early, and starts the next hold from zero', () => {
   const bench = new Bench().pass(100);
   for (let i = 0; i < 20; i++) {
     bench.hold.set('key', true);
@@ -42,7 +42,7 @@ test('letting go early does nothing, and the next hold begins anew', () => {
   expect(bench.releases).toBe(0);
 });
 
-test('what was held when the stop came does not release it, nor what is held when stop is pressed again', () => {
+test('ignores a control that was already held when stop was pressed, the first time or again', () => {
   const bench = new Bench();
   bench.latched = false;
   bench.hold.set('headset', true);
@@ -59,7 +59,7 @@ test('what was held when the stop came does not release it, nor what is held whe
   expect(bench.releases).toBe(0);
 });
 
-test('a second control does not go on where the first let go', () => {
+test('does not let a second control continue the hold of the first', () => {
   const bench = new Bench().pass(25);
   bench.hold.set('pointer', true);
   bench.pass(800);
@@ -69,7 +69,7 @@ test('a second control does not go on where the first let go', () => {
   expect(bench.releases).toBe(0);
 });
 
-test('the time in which the page hung hardly counts', () => {
+test('counts hardly any of the time for which the page hung', () => {
   const bench = new Bench().pass(25);
   bench.hold.set('pointer', true);
   bench.pass(100);
@@ -81,7 +81,7 @@ test('the time in which the page hung hardly counts', () => {
   expect(bench.releases).toBe(0);
 });
 
-test('whatever is pressed, never less than a second of the same control releases', () => {
+test('never releases before one control was held for a second, whatever is pressed', () => {
   const step = fc.record({
     control: fc.constantFrom('pointer', 'key', 'gamepad', 'headset' as const),
     down: fc.boolean(),

@@ -1,26 +1,26 @@
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
 
-/** How long the release control is held, ms. */
+/** How long the release control must be held, ms. */
 export const RELEASE_HOLD_MS = 1000;
-/** What one tick counts for at most, ms: a page that hung has not seen whether the hand let go. */
+/** The most that one tick may count for, ms. A page that hung cannot know whether the operator let go meanwhile. */
 const MOST_TICK_MS = 100;
 
 export type ReleaseControl = 'pointer' | 'key' | 'gamepad' | 'headset';
 
 /**
- * Releasing the emergency stop takes one control held for a second, from a press that came after the stop: no single press,
- * and no hand that held on, ever releases. Pure: time is an argument, ms.
+ * Releases the emergency stop once one control has been held for a second. The press must come after the stop:
+ * neither a single press nor a hand that was already holding on can release it. Pure: time is an argument, ms.
  */
 export class ReleaseHold {
   readonly #down = new Set<ReleaseControl>();
-  /** The control that counts, from its first tick. */
+  /** The control being held, from its first tick. */
   #by: ReleaseControl | null = null;
   readonly #heldMs = signal(0);
   #tickMs = 0;
-  /** Nothing counts until every control was let go. */
+  /** Set until every control has been let go; nothing counts meanwhile. */
   #spent = false;
 
-  /** 0 where nothing is held, 1 when it releases. */
+  /** From 0 (nothing is held) to 1 (releases). */
   readonly progress: ReadonlySignal<number> = computed(() => this.#heldMs.value / RELEASE_HOLD_MS);
 
   set(control: ReleaseControl, down: boolean): void {
@@ -28,20 +28,20 @@ export class ReleaseHold {
     else this.#down.delete(control);
   }
 
-  /** Stop was pressed: what is held now does not release it. */
+  /** The operator pressed stop: a control that is held now does not release it. */
   cancel(): void {
     this.#spent = true;
     this.#restart(null);
   }
 
-  /** The page does not see its controls any more. What is polled tells by itself when it is let go. */
+  /** Call this when the page no longer receives events. Controls that are polled report their own release. */
   letGo(): void {
     this.#down.delete('pointer');
     this.#down.delete('key');
     this.cancel();
   }
 
-  /** Call many times a second. @returns whether to release now */
+  /** Call this many times a second. @returns whether to release now */
   tick(nowMs: number, latched: boolean): boolean {
     const passedMs = Math.min(nowMs - this.#tickMs, MOST_TICK_MS);
     this.#tickMs = nowMs;

@@ -1,4 +1,4 @@
-/** The joystick on the screen: a finger on it is the dead-man grip. */
+/** The on-screen joystick. A finger on it is the dead-man grip. */
 
 import type { DriveInput, DriveWish } from '@farpoint/operator';
 import { shapeAxis } from './dead-zone.ts';

@@ -1,29 +1,29 @@
-/** The newest picture of each camera, and how old it is. */
+/** The newest picture of each camera, and its age. */
 import type { Picture } from '@farpoint/operator';
 import { computed, type ReadonlySignal, type Signal, signal } from '@preact/signals-core';
 import type { Switch, Switches } from '../state/switches.ts';
 
-/** An older picture is marked, ms. */
+/** Pictures older than this are marked as stale, ms. */
 const STALE_MS = 1000;
 
 export interface ShownPicture {
-  /** Page's clock, ms: when it was taken, and when it was drawn. */
+  /** On the page's clock, ms: when the picture was taken, and when it was drawn. */
   readonly takenAtMs: number;
   readonly drawnAtMs: number;
-  /** From 1, in this session. */
+  /** Counts from 1 in each session. */
   readonly number: number;
 }
 
 export interface CameraView {
   readonly camera: Switch;
-  /** Holds the newest picture, in its own size. */
+  /** Holds the newest picture at its own size. */
   readonly canvas: HTMLCanvasElement;
-  /** `null` before the first. */
+  /** `null` before the first picture. */
   readonly newest: ReadonlySignal<ShownPicture | null>;
-  /** Of the newest, ms; `null` before the first. */
+  /** Age of the newest picture, ms; `null` before the first. */
   readonly ageMs: ReadonlySignal<number | null>;
   readonly stale: ReadonlySignal<boolean>;
-  /** Files that could not be decoded. */
+  /** Number of files that could not be decoded. */
   readonly failures: number;
 }
 
@@ -34,16 +34,16 @@ interface OwnView extends CameraView {
 
 export class CameraPictures {
   readonly #views: ReadonlySignal<readonly OwnView[]>;
-  /** Of each camera, in the robot's order. */
+  /** One view per camera, in the robot's order. */
   readonly views: ReadonlySignal<readonly CameraView[]>;
 
-  /** @param atMs ages are as of then: page's clock, ms */
+  /** @param atMs the time for which ages are computed: page's clock, ms */
   constructor(cameras: Switches, atMs: ReadonlySignal<number>, newCanvas: () => HTMLCanvasElement) {
     this.#views = computed(() => cameras.all.value.map((camera) => viewOf(camera, atMs, newCanvas())));
     this.views = this.#views;
   }
 
-  /** Draws it, and closes its bitmap. @param nowMs page's clock */
+  /** Draws the picture and closes its bitmap. @param nowMs page's clock */
   show({ camera, bitmap, takenAtMs }: Picture, nowMs: number): void {
     const view = this.#views.peek()[camera];
     if (view !== undefined) {
@@ -59,7 +59,7 @@ export class CameraPictures {
     bitmap.close();
   }
 
-  /** A file of this camera could not be decoded. */
+  /** Counts a file of this camera that could not be decoded. */
   onFault(camera: number, detail: string): void {
     const view = this.#views.peek()[camera];
     if (view === undefined) return;

@@ -1,4 +1,4 @@
-/** Who drives. */
+/** Who drives the robot. */
 import type { RobotClient } from '@farpoint/operator';
 import { holderWords } from '../status/words.ts';
 import type { Sampler } from './sampler.ts';
@@ -8,7 +8,7 @@ export type DrivingState = ReturnType<typeof drivingState>;
 export function drivingState({ driver }: RobotClient, samples: Sampler) {
   return {
     holder: samples.of(() => driver.holder),
-    /** In a few words. */
+    /** Who drives, in a few words. */
     line: samples.of(() =>
       holderWords(driver.holder, driver.stream.held ? (driver.input?.name ?? '') : null),
     ),

@@ -1,4 +1,4 @@
-/** The link: the signaling service, who is here, which robot is chosen, how the session with it stands. */
+/** The link: the state of the signaling service, the robots it lists, the chosen robot, and the session with it. */
 import { type RobotClient, robotAfter } from '@farpoint/operator';
 import { computed } from '@preact/signals-core';
 import { linkWords, type Words } from '../status/words.ts';
@@ -6,7 +6,7 @@ import type { Sampler } from './sampler.ts';
 
 export type LinkState = ReturnType<typeof linkState>;
 
-/** @param signalingFault why the signaling address that was given is not used; `null` where it is */
+/** @param signalingFault why the given signaling address cannot be used; `null` if it can */
 export function linkState(client: RobotClient, samples: Sampler, signalingFault: string | null) {
   const { link } = client;
   const phase = samples.of(() => link.phase);
@@ -15,13 +15,13 @@ export function linkState(client: RobotClient, samples: Sampler, signalingFault:
   return {
     robots,
     chosenRobotId,
-    /** A robot is chosen, and connected to whenever it can be. */
+    /** A robot is chosen. The page connects to it whenever possible. */
     connected: computed(() => phase.value !== 'none'),
-    /** A session stands. */
+    /** A session is established. */
     live: computed(() => phase.value === 'live'),
-    /** The robot after the chosen one; `null` where there is no other. */
+    /** The robot after the chosen one in the list; `null` if there is no other. */
     nextRobot: computed(() => robotAfter(robots.value, chosenRobotId.value)),
-    /** All of it in one line. */
+    /** The state of the link in one line. */
     line: samples.of((atMs): Words => {
       if (signalingFault !== null && link.phase === 'none')
         return { text: `Signaling address: ${signalingFault}`, tone: 'bad' };

@@ -4,7 +4,7 @@ import { Notices } from './notices.ts';
 beforeEach(() => vi.useFakeTimers());
 afterEach(() => vi.useRealTimers());
 
-test('a line goes by itself, five seconds after it was last told', () => {
+test('hides a line five seconds after it was last told', () => {
   const notices = new Notices();
   expect(notices.shown.value).toBe(null);
   notices.tell('hello');

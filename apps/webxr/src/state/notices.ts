@@ -1,4 +1,4 @@
-/** What a person must know now: a line that goes by itself, and what keeps the page from working at all. */
+/** Notices to the operator: a line that disappears by itself, and a failure that keeps the page from working. */
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { Tone, Words } from '../status/words.ts';
 
@@ -10,13 +10,13 @@ export interface Failure {
 }
 
 export class Notices {
-  /** What keeps the page from working; `null` where nothing does. */
+  /** What keeps the page from working; `null` if nothing does. */
   readonly failure = signal<Failure | null>(null);
   readonly #last = signal<Words | null>(null);
   readonly #gone = signal(false);
   #timer: ReturnType<typeof setTimeout> | undefined;
 
-  /** The last line told, shown or gone. */
+  /** The last line told, whether it is still shown or not. */
   readonly last: ReadonlySignal<Words | null> = this.#last;
   readonly shown: ReadonlySignal<Words | null> = computed(() => (this.#gone.value ? null : this.#last.value));
 

@@ -9,7 +9,7 @@ import { PageState } from './page-state.ts';
 
 type Phase = RobotEvents['phase'];
 
-/** Stands for the client: has what was put in, and says what it is told to. */
+/** Stands in for the client: returns the values that a test puts in, and emits events on demand. */
 class Client {
   chosenRobotId: string | null = null;
   pointsAtMs = 0;
@@ -71,7 +71,7 @@ class Bench {
     });
   }
 
-  /** Time passes to the next sample. */
+  /** Advances time and takes the next sample. */
   pass(ms: number): this {
     this.nowMs += ms;
     this.state.sample();
@@ -80,7 +80,7 @@ class Bench {
 }
 
 describe('the link', () => {
-  test('its line is right at each event, and grows graver with time', () => {
+  test('its line is right at each event', () => {
     const { client, state } = new Bench();
     const lines: string[] = [];
     effect(() => {
@@ -94,14 +94,14 @@ describe('the link', () => {
     expect(state.link.live.value).toBe(true);
   });
 
-  test('silence is told without any event', () => {
+  test('shows that the robot is silent without waiting for an event', () => {
     const bench = new Bench();
     bench.client.enter('live');
     expect(bench.state.link.line.value.text).toBe('Live');
     expect(bench.pass(2000).state.link.line.value.text).toContain('lost for 2 s');
   });
 
-  test('a signaling address that cannot be used is told while there is no session', () => {
+  test('reports an unusable signaling address while there is no session', () => {
     const { client, state } = new Bench('no port');
     expect(state.link.line.value).toEqual({ text: 'Signaling address: no port', tone: 'bad' });
     client.enter('live');
@@ -120,7 +120,7 @@ describe('the link', () => {
   });
 });
 
-test('the emergency stop counts while there is a session', () => {
+test('shows the emergency stop only during a session', () => {
   const { client, state } = new Bench();
   client.session.estop = { type: 'estop', latched: true, by: 'robot' };
   client.say('estop', client.session.estop);
@@ -129,18 +129,18 @@ test('the emergency stop counts while there is a session', () => {
   expect(state.robot.estopLatched.value).toBe(true);
 });
 
-test('who drives, and by which device', () => {
+test('shows who drives, and with which device', () => {
   const bench = new Bench();
   const { client, state } = bench;
-  expect(state.driving.line.value.text).toBe('Nobody drives');
+  expect(state.driving.line.value.text).toBe('Nobody is driving');
   client.driver.holder = 'you';
   client.say('lease', { type: 'lease', holder: 'you' });
-  expect(state.driving.line.value.text).toBe('You may drive');
+  expect(state.driving.line.value.text).toBe('You have control');
   Object.assign(client.driver, { stream: { held: true }, input: { name: 'keyboard' } });
-  expect(bench.pass(250).state.driving.line.value.text).toBe('You drive (keyboard)');
+  expect(bench.pass(250).state.driving.line.value.text).toBe('You are driving (keyboard)');
 });
 
-test('figures stay as they are until the next sample', () => {
+test('figures change only with the next sample', () => {
   const bench = new Bench().pass(250);
   const drawn = () => bench.state.figures.value.framesDrawn;
   expect(drawn()).toBe(250);
@@ -149,15 +149,15 @@ test('figures stay as they are until the next sample', () => {
   expect(bench.pass(0) && drawn()).toBe(350);
 });
 
-describe('what is asked of the robot', () => {
-  test('nothing while it has told of nothing', () => {
+describe('what the page requests from the robot', () => {
+  test('requests nothing before the robot has listed anything', () => {
     const { client, state } = new Bench();
     client.say('session', 1);
     state.looking.value = false;
     expect([client.watched, client.clouds]).toEqual([[], []]);
   });
 
-  test('pictures of cameras that are shown and looked at, anew in each session', () => {
+  test('requests pictures of shown cameras while somebody looks, again in each session', () => {
     const { client, state } = new Bench();
     const cameras = [{ name: 'front' }, { name: 'rear' }];
     client.say('cameras', cameras);
@@ -169,7 +169,7 @@ describe('what is asked of the robot', () => {
     expect(client.watched).toEqual([[0, 1], [1], [], [1], [1]]);
   });
 
-  test('clouds of sensors that are on', () => {
+  test('requests clouds of sensors that are on', () => {
     const { client, state } = new Bench();
     client.say('sensors', [{ name: 'depth' }, { name: 'lidar' }]);
     state.sensors.toggle(1);
@@ -185,7 +185,7 @@ describe('pictures', () => {
     return { picture: { camera, bitmap, takenAtMs } satisfies Picture, closed: () => closed };
   };
 
-  test('age from when they were taken, and are stale after a second', () => {
+  test('their age counts from capture, and they are stale after a second', () => {
     const bench = new Bench();
     const { client, state } = bench;
     client.say('cameras', [{ name: 'front' }]);
@@ -195,20 +195,20 @@ describe('pictures', () => {
     const first = picture(0, 10);
     client.say('picture', first.picture);
     expect(first.closed()).toBe(true);
-    // At once, and not only from the next sample on.
+    // Immediately, not only from the next sample on.
     expect([view?.ageMs.value, view?.newest.value?.number, view?.canvas.width]).toEqual([80, 1, 4]);
     bench.pass(1000);
     expect([view?.ageMs.value, view?.stale.value]).toEqual([1080, true]);
   });
 
-  test('of a camera that nobody knows are closed', () => {
+  test('closes a picture of an unknown camera', () => {
     const { client } = new Bench();
     const lost = picture(3, 0);
     client.say('picture', lost.picture);
     expect(lost.closed()).toBe(true);
   });
 
-  test('another session knows nothing of them', () => {
+  test('forgets them when another session begins', () => {
     const { client, state } = new Bench();
     client.say('cameras', [{ name: 'front' }]);
     client.say('picture', picture(0, 0).picture);

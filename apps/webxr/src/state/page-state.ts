@@ -1,6 +1,7 @@
 /**
- * What the page shows, as signals. The client's events end here: panels and the VR view read signals by `effect`, hands and
- * buttons write them or call the client. What changes with every display frame, and what commands are made of, is no signal.
+ * What the page shows, as signals. The client's events are adapted to signals here. Panels and the VR view read the
+ * signals in an `effect`; controls write them or call the client. Whatever changes with every display frame, and
+ * whatever commands are made of, is not a signal.
  */
 import type { RobotClient } from '@farpoint/operator';
 import { effect, type ReadonlySignal, type Signal, signal } from '@preact/signals-core';
@@ -14,14 +15,17 @@ import { type RobotState, robotState } from './robot-state.ts';
 import { Sampler } from './sampler.ts';
 import { Switches } from './switches.ts';
 
-/** Events after which people must see at once how things stand; the rest is sampled a few times a second. */
+/**
+ * Events that take a sample at once, so that people see the new state. Otherwise samples are taken a few times a
+ * second.
+ */
 const SAMPLED = ['signaling', 'robots', 'phase', 'path', 'session', 'lease', 'estop'] as const;
 
 export interface PageStateParts {
   readonly client: RobotClient;
   readonly settings: Pick<Settings, 'signalingFault' | 'pointScale'>;
   readonly notices: Notices;
-  /** The figures of the stream and of the drawing, now. */
+  /** Current figures of the stream and of the drawing. */
   figures(): PageStats;
   /** Page's clock, ms. */
   now(): number;
@@ -34,14 +38,14 @@ export class PageState {
   readonly robot: RobotState;
   readonly driving: DrivingState;
   readonly figures: ReadonlySignal<PageStats>;
-  /** The sensors of a robot that has several, and whose clouds are wanted. */
+  /** The sensors of a robot that has several, and which of them should send clouds. */
   readonly sensors = new Switches();
-  /** The robot's cameras, and whose pictures are shown. */
+  /** The robot's cameras, and which of them are shown. */
   readonly cameras = new Switches();
   readonly pictures: CameraPictures;
-  /** Of points, relative to what they stand for. */
+  /** Size of the points, relative to the patch of surface that each stands for. */
   readonly pointScale: Signal<number>;
-  /** Whether anybody can see the page. */
+  /** Whether the page is visible to anybody. */
   readonly looking = signal(true);
   readonly #samples = new Sampler();
   readonly #now: () => number;
@@ -60,7 +64,7 @@ export class PageState {
     this.#ask(client);
   }
 
-  /** Shows people how things stand now; also a few times a second, for what changes with time. */
+  /** Updates the signals now. Also called a few times a second, for values that change with time. */
   sample(): void {
     this.#samples.take(this.#now());
   }
@@ -77,7 +81,7 @@ export class PageState {
     client.on('pictureFault', ({ camera, detail }) => this.pictures.onFault(camera, detail));
   }
 
-  /** What is switched off, or looked at by nobody, costs the link nothing. */
+  /** A camera or sensor that is switched off or that nobody looks at takes nothing of the link. */
   #ask(client: RobotClient): void {
     effect(() => {
       const watched = this.looking.value ? this.cameras.wanted.value : [];

@@ -1,4 +1,4 @@
-/** What the robot has told of itself in this session. */
+/** What the robot has reported in this session. */
 import type { RobotClient } from '@farpoint/operator';
 import { shownReading } from '../status/shown-readings.ts';
 import type { Sampler } from './sampler.ts';
@@ -7,12 +7,12 @@ export type RobotState = ReturnType<typeof robotState>;
 
 export function robotState({ link }: RobotClient, samples: Sampler) {
   return {
-    /** `null` before its welcome. */
+    /** `null` before the robot's welcome. */
     name: samples.of(() => link.session.welcome?.name ?? null),
     telemetry: samples.of(() => link.session.telemetry),
     readings: samples.of((atMs) => link.session.readings.list(atMs).map(shownReading)),
     estop: samples.of(() => link.session.estop),
-    /** There is a session, and its emergency stop is on. */
+    /** There is a session, and the robot's emergency stop is on. */
     estopLatched: samples.of(() => link.phase === 'live' && link.session.estop.latched),
   };
 }

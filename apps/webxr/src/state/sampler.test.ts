@@ -2,7 +2,7 @@ import { computed, effect } from '@preact/signals-core';
 import { expect, test } from 'vitest';
 import { Sampler } from './sampler.ts';
 
-test('what is kept elsewhere is read at each sample, also at two of the same time', () => {
+test('reads its sources at each sample, also at two samples with the same time', () => {
   const samples = new Sampler();
   let kept = 'a';
   const seen: string[] = [];
@@ -19,7 +19,7 @@ test('what is kept elsewhere is read at each sample, also at two of the same tim
   expect(samples.atMs.value).toBe(5);
 });
 
-test('readers hear of nothing that stayed the same, and nothing is read for nobody', () => {
+test('notifies readers only of changes, and reads nothing without a reader', () => {
   const samples = new Sampler();
   let reads = 0;
   const value = samples.of(() => {

@@ -1,19 +1,22 @@
-/** Signals of what is kept elsewhere, e.g. in the client: read anew with each sample. Time is an argument. */
+/**
+ * Makes signals of values that are kept elsewhere, e.g. in the client. Each sample reads them again. Time is an
+ * argument.
+ */
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
 
 export class Sampler {
-  /** A new object each time: two samples may be of the same millisecond. */
+  /** A new object for each sample, because two samples may have the same millisecond. */
   readonly #sample = signal({ atMs: 0 });
 
   /** When the last sample was taken, ms. */
   readonly atMs: ReadonlySignal<number> = computed(() => this.#sample.value.atMs);
 
-  /** Everything that {@link of} has made is read anew. @param nowMs `performance.now()` */
+  /** Reads again whatever {@link of} was given. @param nowMs `performance.now()` */
   take(nowMs: number): void {
     this.#sample.value = { atMs: nowMs };
   }
 
-  /** What `read` gives: called once for each sample, where somebody wants to know. */
+  /** A signal of what `read` returns. `read` runs at most once per sample, and only if the signal is read. */
   of<T>(read: (atMs: number) => T): ReadonlySignal<T> {
     return computed(() => read(this.#sample.value.atMs));
   }

@@ -2,7 +2,7 @@ import { effect } from '@preact/signals-core';
 import { expect, test } from 'vitest';
 import { Switches } from './switches.ts';
 
-test('all are on at first; what is switched off stays off, by name, with the next robot too', () => {
+test('all are on at first; those switched off stay off, by name, also with the next robot', () => {
   const switches = new Switches();
   expect(switches.wanted.value).toEqual([]);
   switches.set([{ name: 'front' }, { name: 'roof' }]);
@@ -18,7 +18,7 @@ test('all are on at first; what is switched off stays off, by name, with the nex
   expect(switches.wanted.value).toEqual([0]);
 });
 
-test('a reader hears once of each change, and of a list that is the same in another session', () => {
+test('notifies once per change, and also when another session brings the same list', () => {
   const switches = new Switches();
   const heard: (readonly number[])[] = [];
   effect(() => {

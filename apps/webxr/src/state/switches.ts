@@ -1,8 +1,8 @@
-/** Things of the robot that people switch on and off one by one: its cameras, its sensors. */
+/** Parts of the robot that people switch on and off one by one: its cameras or its sensors. */
 import { computed, type ReadonlySignal, type Signal, signal } from '@preact/signals-core';
 
 export interface Switch {
-  /** Place in the robot's list. */
+  /** Index in the robot's list. */
   readonly index: number;
   readonly name: string;
   readonly on: ReadonlySignal<boolean>;
@@ -14,17 +14,17 @@ interface OwnSwitch extends Switch {
 
 export class Switches {
   readonly #all = signal<readonly OwnSwitch[]>([]);
-  /** Of whichever robot: what somebody has switched off stays off. */
+  /** Names that somebody has switched off. They stay off with every robot. */
   readonly #switchedOff = new Set<string>();
 
-  /** Empty where the robot has told of none. */
+  /** Empty until the robot has listed them. */
   readonly all: ReadonlySignal<readonly Switch[]> = this.#all;
-  /** The indices of those that are on. A new list whenever `all` is one: another session knows nothing of it. */
+  /** The indices of those that are on. A new array whenever `all` is new, because a new session must be told again. */
   readonly wanted: ReadonlySignal<readonly number[]> = computed(() =>
     this.#all.value.flatMap(({ index, on }) => (on.value ? [index] : [])),
   );
 
-  /** The robot has told of them; with an empty list, a session begins. */
+  /** Takes the robot's list. An empty list begins a session. */
   set(entries: readonly { name: string }[]): void {
     this.#all.value = entries.map(({ name }, index) => ({
       ...{ index, name },

@@ -20,10 +20,10 @@ const values = (facts: ReturnType<typeof sessionFacts>) =>
   Object.fromEntries(facts.map(({ name, value }) => [name, value]));
 
 describe('the table of figures', () => {
-  test('says what is known, in order', () => {
+  test('lists what is known, in order', () => {
     expect(values(sessionFacts(session))).toEqual({
       Robot: 'Rover',
-      State: 'Standing',
+      State: 'Stationary',
       Speed: '0.50 m/s  -0.25 rad/s',
       Battery: '20 %  24.0 V',
       Points: '12,346 × 10/s',
@@ -36,12 +36,12 @@ describe('the table of figures', () => {
     expect(bare.map(({ name }) => name)).toEqual(['Points', 'Rate', 'Loss', 'Round trip', 'Frame age']);
   });
 
-  test('a stop shows before telemetry tells of it, with who set it', () => {
+  test('shows an emergency stop before telemetry does, and who pressed it', () => {
     const facts = sessionFacts({ ...session, estop: { ...open, latched: true, by: 'robot' } });
     expect(values(facts).State).toBe('Emergency stop (by robot)');
   });
 
-  test('a reading takes the battery’s place, and no other', () => {
+  test('a reading replaces the battery row and no other', () => {
     const reading = (label: string) => ({ topic: `/${label}`, label, text: 'read', tone: 'bad' }) as const;
     const facts = sessionFacts({ ...session, readings: [reading('Battery'), reading('Speed')] });
     expect(values(facts)).toMatchObject({ Battery: 'read', Speed: '0.50 m/s  -0.25 rad/s' });
@@ -49,13 +49,13 @@ describe('the table of figures', () => {
   });
 });
 
-test('on the wrist: the hint to release while the stop is on, else the battery and the next robot', () => {
+test('on the wrist: how to release while the stop is on, otherwise the battery and the next robot', () => {
   const words = { text: 'Live', tone: 'good' } as const;
   const facts = { link: words, driving: words, telemetry, estopLatched: false, figures };
   const lines = wristLines({ ...facts, nextRobot: { id: 'b', name: 'B' } });
   expect(lines.map(({ text }) => text)).toEqual([
     'Live',
-    'Standing',
+    'Stationary',
     'Live',
     '12.3k points  10/s  3.2 Mbit/s',
     'rtt 42 ms  frame –  loss 0.0 %',

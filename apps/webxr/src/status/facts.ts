@@ -1,4 +1,4 @@
-/** The table of figures over the picture: what it says of a session. */
+/** The contents of the table of figures over the picture. */
 import type { EstopState, Telemetry } from '@farpoint/operator';
 import type { PageStats } from './page-stats.ts';
 import type { ShownReading } from './shown-readings.ts';
@@ -11,7 +11,7 @@ export interface Fact {
 }
 
 export interface SessionFacts {
-  /** The robot's; `null` before its welcome. */
+  /** The robot's name; `null` before its welcome. */
   name: string | null;
   telemetry: Telemetry | null;
   estop: EstopState;
@@ -32,7 +32,7 @@ export function sessionFacts({ name, telemetry, estop, readings, figures }: Sess
 }
 
 function telemetryFacts(telemetry: Telemetry, estop: EstopState): Fact[] {
-  // Telemetry tells of a stop a moment later.
+  // Telemetry reports an emergency stop a moment later than the `estop` message.
   const drive = driveWords[estop.latched ? 'estop' : telemetry.drive];
   const by = estop.latched && estop.by !== undefined ? ` (by ${estop.by})` : '';
   const { linear, angular } = telemetry.twist;
@@ -51,7 +51,10 @@ function telemetryFacts(telemetry: Telemetry, estop: EstopState): Fact[] {
   return facts;
 }
 
-/** A reading of the battery says more than the telemetry's two figures; any other name that is there already stays whose it is. */
+/**
+ * A battery reading replaces the telemetry's two figures, because it says more. Any other reading whose name is taken
+ * gets a row of its own, with its topic in the name.
+ */
 function addReadings(facts: Fact[], readings: readonly ShownReading[]): void {
   for (const { topic, label, text, tone } of readings) {
     const there = facts.find(({ name }) => name === label);

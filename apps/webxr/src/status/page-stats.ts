@@ -1,4 +1,4 @@
-/** The figures of the stream ({@link StreamStats}) with those of the drawing. Time is an argument. */
+/** Figures of the stream ({@link StreamStats}) and of the drawing. Time is an argument. */
 
 import { type Distribution, type DropCounts, SampleWindow, type StreamStats } from '@farpoint/operator';
 import { RateMeter } from '@farpoint/timing';
@@ -10,13 +10,13 @@ export interface PageStats extends StreamStats {
   /** Over the last second. */
   framesPerSecond: number;
   pointsPerFrame: number;
-  /** Milliseconds of the frame loop's own work; with `?canvas=` up to the GPU having finished. */
+  /** Milliseconds of the frame loop's own work. With `?canvas=` it includes the time until the GPU has finished. */
   renderMs: Distribution | null;
   displayFramesPerSecond: number;
   canvas: { width: number; height: number };
 }
 
-/** What of the cloud is drawn, since the session began. */
+/** What of the cloud has been drawn since the session began. */
 export interface DrawnCounts {
   readonly frames: number;
   readonly points: number;
@@ -30,13 +30,13 @@ export class PageStatistics {
   readonly #display = new RateMeter();
   #displayFrames = 0;
 
-  /** A new session. */
+  /** Starts a new session. */
   reset(): void {
     this.#frames.reset();
     this.#points.reset();
   }
 
-  /** Distributions begin anew. */
+  /** Empties the distributions. */
   resetDistributions(): void {
     this.#render.clear();
   }
@@ -46,7 +46,7 @@ export class PageStatistics {
     this.#render.add(renderMs);
   }
 
-  /** A few times a second. */
+  /** Call this a few times a second. */
   tick(drawn: DrawnCounts, nowMs: number): void {
     this.#frames.update(drawn.frames, nowMs);
     this.#points.update(drawn.points, nowMs);

@@ -13,18 +13,18 @@ const battery = (value: string, ageMs = 0, level: Reading['level'] = 'ok'): Read
 const shown = (readings: Readings, nowMs: number) => readings.list(nowMs).map(shownReading);
 
 describe('shownReading', () => {
-  it('shows the newest of each topic, names before values', () => {
+  it('shows the newest reading of each topic, with names before values', () => {
     const readings = new Readings();
     readings.take(battery('80 %'), 1000);
     readings.take(battery('79 %', 0, 'warn'), 2000);
-    // Unordered: this one was overtaken.
+    // The channel is unordered: another reading overtook this one.
     readings.take(battery('81 %', 1500), 2010);
     expect(shown(readings, 2010)).toEqual([
       { topic: '/battery', label: 'Battery', text: '79 % · cells: 7', tone: 'warning' },
     ]);
   });
 
-  it('says how old a reading is that nobody renews', () => {
+  it('shows the age of a reading that is not updated', () => {
     const readings = new Readings();
     readings.take(battery('80 %'), 1000);
     readings.take(battery('80 %', 2000), 3000);

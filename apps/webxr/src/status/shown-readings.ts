@@ -10,7 +10,7 @@ export interface ShownReading {
   tone: Tone;
 }
 
-/** From this age on, the text says how old the reading is, ms. */
+/** From this age on, the text includes the reading's age, ms. */
 const OLD_MS = 10_000;
 
 const tones: Record<ReadingLevel, Tone> = { ok: 'neutral', warn: 'warning', error: 'bad' };

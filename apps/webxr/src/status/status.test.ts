@@ -15,35 +15,35 @@ const live = {
 } as const;
 
 describe('words', () => {
-  test('every state and refusal of the protocol has words', () => {
+  test('there is a text for every state and refusal of the protocol', () => {
     for (const state of driveStates) expect(driveWords[state].text).not.toBe('');
     for (const reason of commandRejections) expect(rejectionWords[reason]).not.toBe('');
     for (const reason of robotEndReasons) expect(wordsOfLoss(lossOf[reason], null)).not.toBe('');
   });
 
-  test('a full robot is said to be full, and how many operators it takes', () => {
+  test('says that a robot is full, and how many operators it takes', () => {
     expect(wordsOfLoss('robot-full', 4)).toContain('4 operators at most');
     expect(wordsOfLoss('robot-full', null)).toContain('full');
     const waiting = { ...live, phase: 'waiting', lastLoss: 'robot-full', maxOperators: 4 } as const;
     expect(linkWords(waiting).text).toContain('4 operators at most');
-    expect(linkWords({ ...waiting, robotListed: false }).text).toContain('away');
+    expect(linkWords({ ...waiting, robotListed: false }).text).toContain('offline');
     expect(linkWords({ ...waiting, lastLoss: 'silent' }).text).toBe('Connecting…');
   });
 
-  test('the link’s line names what is wrong, gravest first', () => {
+  test('the link’s line names the most serious problem', () => {
     expect(linkWords(live)).toEqual({ text: 'Live', tone: 'good' });
-    expect(linkWords({ ...live, signaling: 'waiting' }).text).toContain('signaling is away');
+    expect(linkWords({ ...live, signaling: 'waiting' }).text).toContain('signaling offline');
     expect(linkWords({ ...live, rateByReports: true }).text).toContain('cautious rate');
-    expect(linkWords({ ...live, pointsSilentMs: 3000 }).text).toContain('no points arrive');
+    expect(linkWords({ ...live, pointsSilentMs: 3000 }).text).toContain('no points are arriving');
     expect(linkWords({ ...live, silentMs: 4200, pointsSilentMs: 4200 })).toEqual({
-      text: 'Connection lost for 4 s. The robot stops by itself. Trying to reach it…',
+      text: 'Connection lost for 4 s. The robot stops automatically. Trying to reach it…',
       tone: 'bad',
     });
-    expect(linkWords({ ...live, phase: 'waiting', robotListed: false }).text).toContain('away');
+    expect(linkWords({ ...live, phase: 'waiting', robotListed: false }).text).toContain('offline');
     expect(linkWords({ ...live, phase: 'none', signaling: 'refused' }).tone).toBe('bad');
   });
 
-  test('why there is no VR', () => {
+  test('says why VR is unavailable', () => {
     expect(vrUnavailable({ secure: true, hasWebXr: true, supported: true })).toBe(null);
     expect(vrUnavailable({ secure: false, hasWebXr: false, supported: false })).toContain('https');
     expect(vrUnavailable({ secure: true, hasWebXr: false, supported: false })).toContain('WebXR');

@@ -1,4 +1,4 @@
-/** What the panel on the wrist says, line by line. */
+/** The lines of text on the wrist panel. */
 import type { RobotListing, Telemetry } from '@farpoint/operator';
 import { lossTone, mbps, ms } from './facts.ts';
 import type { PageStats } from './page-stats.ts';
@@ -41,7 +41,7 @@ export function wristLines({
       tone: lossTone(figures),
     },
     estopLatched
-      ? { text: 'Open hand, hold trigger 1 s: release', tone: 'bad' }
+      ? { text: 'Release: open hand, hold trigger 1 s', tone: 'bad' }
       : { text: hints.join('  '), tone: 'neutral' },
   ];
 }

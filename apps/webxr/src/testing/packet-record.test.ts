@@ -17,13 +17,13 @@ function batchOf(offsets: number[]): Batch {
 }
 
 describe('PacketRecord', () => {
-  it('tells frame, offset and arrival in the clock asked for', () => {
+  it('returns frame, offset and arrival on the requested clock', () => {
     const record = new PacketRecord(10);
     record.add(batchOf([0, 1200]), 1000);
     expect([...record.values]).toEqual([7, 0, 0.5, 7, 1200, 1200.5]);
   });
 
-  it('keeps what came first when it is full', () => {
+  it('keeps the first packets when it is full', () => {
     const record = new PacketRecord(1);
     record.add(batchOf([0, 1200]), 1000);
     record.add(batchOf([2400]), 1000);

@@ -1,4 +1,7 @@
-/** When each packet arrived, for measurements: joined with the sender's log by frame and offset it gives delivery times. */
+/**
+ * Records when each packet arrived, for measurements. Joined with the sender's log by frame and offset, this gives
+ * delivery times.
+ */
 import type { Batch } from '@farpoint/operator';
 
 const FIELDS = 3;
@@ -7,12 +10,12 @@ export class PacketRecord {
   readonly #values: Float64Array;
   #count = 0;
 
-  /** @param capacity packets; those after it are not recorded */
+  /** @param capacity number of packets; later ones are not recorded */
   constructor(capacity: number) {
     this.#values = new Float64Array(capacity * FIELDS);
   }
 
-  /** @param timeOriginMs of the clock in which arrivals are to be told */
+  /** @param timeOriginMs time origin of the clock on which arrivals are recorded, ms */
   add(batch: Batch, timeOriginMs: number): void {
     for (let packet = 0; packet < batch.packets; packet++) {
       const at = this.#count * FIELDS;
@@ -24,7 +27,7 @@ export class PacketRecord {
     }
   }
 
-  /** Frame number, sequence offset and arrival (ms), packet after packet. */
+  /** Frame number, sequence offset and arrival (ms) of each packet, packet after packet. */
   get values(): Float64Array {
     return this.#values.subarray(0, this.#count * FIELDS);
   }

@@ -1,4 +1,4 @@
-/** A hand moved by a test or a benchmark: `window.farpoint.drive`. */
+/** Drive input from a test or a benchmark: `window.farpoint.drive`. */
 import type { DriveInput, DriveWish } from '@farpoint/operator';
 
 export class ScriptInput implements DriveInput {

@@ -1,6 +1,6 @@
 /**
- * `window.farpoint`: what end-to-end tests and benchmarks see of the page, and do with it. Times in ms, rates a second.
- * It can do nothing that the page's own controls cannot.
+ * `window.farpoint`: what end-to-end tests and benchmarks can read from the page and do with it. Times in ms, rates
+ * per second. It can do nothing that the page's own controls cannot do.
  */
 import type {
   LatencyResult,
@@ -16,14 +16,14 @@ import type { PageStats } from '../status/page-stats.ts';
 export interface PageState {
   signaling: SignalingState;
   session: SessionPhase;
-  /** Sessions that came to stand since the page was loaded. */
+  /** Sessions established since the page was loaded. */
   sessionsOpened: number;
   lastLoss: SessionLoss | null;
   robotId: string | null;
   robotListed: boolean;
   /** The line that the page shows about the link. */
   link: string;
-  /** The last thing the page told: refusals, failures. */
+  /** The last notice that the page showed: a refusal or failure. */
   notice: string | null;
   holder: LeaseState['holder'];
   estop: boolean;
@@ -31,9 +31,9 @@ export interface PageState {
   battery: number | null;
   /** base_link in the world, REP-103: metres, radians. */
   body: { x: number; y: number; z: number; yaw: number } | null;
-  /** m/s and rad/s, as the robot measures. */
+  /** m/s and rad/s, as measured by the robot. */
   velocity: { linear: number; angular: number } | null;
-  /** Sending commands now, and by which device. */
+  /** Whether commands are being sent, and from which device. */
   driving: boolean;
   input: string | null;
   vr: boolean;
@@ -41,14 +41,14 @@ export interface PageState {
 
 export type { PageStats };
 
-/** What is drawn now. */
+/** What is currently drawn. */
 export interface DrawnProbe {
-  /** Points drawn, and those of them in the latency test's green. */
+  /** Points drawn, and how many of them have the green of the latency test. */
   points: number;
   green: number;
-  /** Of the drawn points in the world (REP-103), metres. */
+  /** Bounds of the drawn points in the world (REP-103), metres. */
   bounds: { min: [number, number, number]; max: [number, number, number] } | null;
-  /** Where the newest frame's camera stood, metres. */
+  /** Pose of the camera for the newest frame: metres, radians. */
   camera: { x: number; y: number; z: number; yaw: number } | null;
   newestFrame: number | null;
 }
@@ -62,7 +62,7 @@ export interface CameraProbe {
   height: number;
   /** `null` before the first picture. */
   ageMs: number | null;
-  /** Shown since the session began, and those that could not be decoded. */
+  /** Pictures shown since the session began, and pictures that could not be decoded. */
   pictures: number;
   failures: number;
 }
@@ -71,34 +71,36 @@ export interface FarpointTestApi {
   readonly version: 1;
   state(): PageState;
   stats(): PageStats;
-  /** Forgets all distributions, so that what follows is measured by itself. */
+  /** Empties all distributions, so that they cover only what follows. */
   resetStats(): void;
   robots(): readonly RobotListing[];
-  /** As choosing the robot in the list. Resolves when its session stands; rejects after `timeoutMs`. */
+  /**
+   * Chooses a robot as a click in the list does. Resolves when the session is established; rejects after `timeoutMs`.
+   */
   connect(robotId: string, timeoutMs?: number): Promise<void>;
   disconnect(): void;
   requestLease(take?: boolean): void;
   estop(latch: boolean): void;
-  /** As pressing L. Asks for the lease first where nobody drives. Rejects with the reason. */
+  /** Runs a latency test as the L key does. Requests the lease first if nobody drives. Rejects with the reason. */
   latencyTest(): Promise<LatencyResult & { robot: LatencyFrame | null }>;
-  /** Every result since the page was loaded. */
+  /** All results since the page was loaded. */
   latencyResults(): readonly LatencyResult[];
-  /** As holding the grip and the stick for so long; −1…1, forward and left positive. */
+  /** Holds the grip and the stick for `ms`; −1…1, forward and left positive. */
   drive(wish: { forward: number; left: number }, ms: number): Promise<void>;
   /** Limits the stream, bit/s (the `bandwidth` channel). */
   limitBandwidth(bitsPerSecond: number): void;
   probe(): DrawnProbe;
   cameras(): CameraProbe[];
-  /** Of a robot with several sensors: whose clouds are wanted, and how many points of each are drawn. */
+  /** The sensors of a robot with several: which should send clouds, and how many points of each are drawn. */
   sensors(): { name: string; wanted: boolean; points: number }[];
-  /** Begins to record when each packet arrives, up to so many; `null` ends it. */
+  /** Starts recording when packets arrive, for up to `capacity` packets; `null` stops it. */
   recordPackets(capacity: number | null): void;
   /**
-   * Frame number, sequence offset and arrival of each recorded packet, one after another. Arrivals in ms of the robot's
-   * clock as the page knows it, right to half of `minRttMs`.
+   * Frame number, sequence offset and arrival of each recorded packet, one after another. Arrivals are in ms on the
+   * robot's clock as the page estimates it, accurate to half of `minRttMs`.
    */
   recordedPackets(): { values: number[]; minRttMs: number | null };
-  /** Colour of one pixel after the next display frame, x and y as shares of the canvas from its top left. */
+  /** Colour of one pixel after the next display frame. x and y are shares of the canvas, from the top left. */
   pixel(x: number, y: number): Promise<[number, number, number]>;
 }
 

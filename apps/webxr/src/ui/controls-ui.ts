@@ -1,4 +1,4 @@
-/** Buttons, mouse, wheel and keys to what they do. */
+/** Maps buttons, mouse, wheel and keys to actions. */
 import { LatencyError, type RobotClient } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
@@ -10,13 +10,13 @@ import type { Action } from './operator-inputs.ts';
 import { initSettingsDialog } from './settings-dialog.ts';
 
 const latencyFailureWords: Record<LatencyError['reason'], string> = {
-  timeout: 'No green cloud came: the request or the whole cloud was lost.',
+  timeout: 'No green cloud arrived: the request or the whole cloud was lost.',
   'no-session': 'Connect to a robot first.',
-  'no-lease': 'Someone else drives: only the driver can measure.',
-  busy: 'A latency test runs already.',
+  'no-lease': 'Someone else is driving. Only the driver can run a latency test.',
+  busy: 'A latency test is already running.',
 };
 
-/** What is controlled. */
+/** What the controls act on. */
 export interface Controlled {
   readonly client: RobotClient;
   readonly state: PageState;
@@ -41,7 +41,7 @@ export class ControlsUi {
     elements.view.addEventListener('click', () => this.act('view', performance.now()));
     elements.take.addEventListener('click', () => client.takeOver());
     elements.release.addEventListener('click', () => client.driver.releaseLease());
-    // A button that keeps the focus would take the space bar.
+    // A button that kept the focus would take the space bar, which is the drive grip.
     for (const button of document.querySelectorAll<HTMLButtonElement>('#bar button, #drive button')) {
       button.addEventListener('click', () => button.blur());
     }
@@ -88,7 +88,7 @@ export class ControlsUi {
     const { link, notices } = this.#parts.state;
     if (link.chosenRobotId.value === null) return;
     const next = link.nextRobot.value;
-    if (next === null) notices.tell('No other robot is here.');
+    if (next === null) notices.tell('No other robot is available.');
     else this.#parts.choose(next.id);
   }
 
@@ -105,10 +105,7 @@ export class ControlsUi {
     });
     elements.vr.addEventListener('click', () => {
       vr.toggle().catch((error: unknown) => {
-        state.notices.tell(
-          `VR could not be entered: ${error instanceof Error ? error.message : error}`,
-          'bad',
-        );
+        state.notices.tell(`Could not enter VR: ${error instanceof Error ? error.message : error}`, 'bad');
       });
     });
   }

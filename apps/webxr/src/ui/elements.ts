@@ -1,4 +1,4 @@
-/** The page's elements by id, each checked for its kind once. */
+/** The page's elements by id. The type of each is checked once. */
 function byId<T extends HTMLElement>(id: string, kind: new () => T): T {
   const element = document.getElementById(id);
   if (!(element instanceof kind)) throw new Error(`the page has no <${kind.name}> with id ${id}`);

@@ -1,4 +1,7 @@
-/** The emergency stop: any press of stop latches it, whatever its state; only the other control, held, releases it. */
+/**
+ * The emergency stop. Every press of stop latches it, whatever its state. Only holding the separate release control
+ * releases it.
+ */
 
 import type { RobotClient } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
@@ -19,18 +22,18 @@ export class EstopUi {
 
   start(): void {
     const { estop, estopRelease } = elements;
-    // At the press: a finger that slides off, or the second of two, makes no click.
+    // Act on the press: a finger that slides off the button, or a second finger, produces no click.
     estop.addEventListener('pointerdown', () => this.stop());
     estop.addEventListener('click', () => this.stop());
     estopRelease.addEventListener('pointerdown', ({ button }) => this.hold('pointer', button === 0));
     for (const end of ['pointerup', 'pointercancel', 'pointerleave', 'lostpointercapture'] as const) {
       estopRelease.addEventListener(end, () => this.hold('pointer', false));
     }
-    // Neither keeps the focus of a press: the space bar is the grip again.
+    // Neither button keeps the focus after a press, so that the space bar remains the drive grip.
     for (const control of [estop, estopRelease]) {
       control.addEventListener('mousedown', (event) => event.preventDefault());
     }
-    // A long touch is no wish for a menu.
+    // A long touch must not open a menu.
     estopRelease.addEventListener('contextmenu', (event) => event.preventDefault());
     effect(() => showLatched(this.#robot.estopLatched.value));
     effect(() => showProgress(this.#hold.progress.value));
@@ -45,7 +48,7 @@ export class EstopUi {
     this.#hold.set(control, down);
   }
 
-  /** @param away no hand can be seen */
+  /** @param away the operator cannot see the page or is not at its controls */
   tick(nowMs: number, away: boolean): void {
     if (away) this.#hold.letGo();
     if (this.#hold.tick(nowMs, this.#robot.estopLatched.value)) this.#client.releaseEstop();
@@ -55,9 +58,9 @@ export class EstopUi {
 function showLatched(latched: boolean): void {
   const { estop, estopRelease, latency } = elements;
   estop.setAttribute('aria-pressed', String(latched));
-  estop.querySelector('span')!.textContent = latched ? 'latched' : 'emergency';
+  estop.querySelector('span')!.textContent = latched ? 'engaged' : 'emergency';
   estopRelease.hidden = !latched;
-  // Its place is needed, and there is nothing to drive for.
+  // The release control needs its place, and a robot that cannot drive has nothing to measure.
   latency.hidden = latched;
 }
 

@@ -1,4 +1,4 @@
-/** The table of figures over the picture: rows are made once, texts change. */
+/** The table of figures over the picture. Its rows are created once; only their texts change. */
 import type { Fact } from '../status/facts.ts';
 import { elements } from './elements.ts';
 

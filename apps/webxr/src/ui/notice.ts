@@ -1,4 +1,4 @@
-/** The line that goes by itself, and the panel that says why the page does not work. */
+/** Shows the notice line, and the panel that says why the page does not work. */
 import { effect } from '@preact/signals-core';
 import type { Notices } from '../state/notices.ts';
 import { elements } from './elements.ts';

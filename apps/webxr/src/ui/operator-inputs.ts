@@ -1,4 +1,4 @@
-/** Every device the page listens to. What is held is let go when the page cannot hear it any more. */
+/** Every input device of the page. Held inputs count as released when the page no longer receives their events. */
 import type { DriveInput, PressedButtons } from '@farpoint/operator';
 import { GamepadInput } from '../drive/gamepad-input.ts';
 import { HeadsetInput, type XrController } from '../drive/headset-input.ts';
@@ -9,7 +9,7 @@ import { elements } from './elements.ts';
 
 export type Action = 'estop' | 'latency-test' | 'recentre' | 'view' | 'next-robot';
 
-/** Stops, whatever has the focus, but for a field that is written in. */
+/** Stops the robot wherever the focus is, except in a text field. */
 const STOP_KEY = 'KeyX';
 const ACTION_KEYS: Readonly<Record<string, Action>> = {
   KeyL: 'latency-test',
@@ -17,16 +17,16 @@ const ACTION_KEYS: Readonly<Record<string, Action>> = {
   KeyV: 'view',
   KeyN: 'next-robot',
 };
-/** Held, it releases the emergency stop; so does Enter on the control itself. */
+/** Hold to release the emergency stop. Enter on the release control does the same. */
 const RELEASE_KEY = 'KeyR';
 
 export interface InputPort {
-  /** A grip or a stick has changed. */
+  /** A grip or a stick changed. */
   onChange(): void;
   onAction(action: Action, timeMs: number): void;
-  /** The control that releases the emergency stop is held, or let go. */
+  /** The release control of the emergency stop was pressed or let go. */
   onRelease(control: ReleaseControl, held: boolean): void;
-  /** There is a robot to drive. */
+  /** Whether there is a robot to drive. */
   mayDrive(): boolean;
 }
 
@@ -58,14 +58,14 @@ export class OperatorInputs {
     this.#port.onChange();
   }
 
-  /** Gamepads tell nothing by themselves. */
+  /** Polls the gamepads, which send no events. */
   poll(): void {
     const pads = navigator.getGamepads?.() ?? [];
     const pad = pads.find((candidate) => candidate?.mapping === 'standard') ?? null;
     this.#buttons(this.#gamepad.read(pad), 'gamepad');
   }
 
-  /** In VR, each display frame. */
+  /** Call this before each display frame in VR. */
   readHeadset(sources: Iterable<XrController>): void {
     const wasHeld = this.#headset.held;
     this.#buttons(this.#headset.read(sources), 'headset');
@@ -84,7 +84,7 @@ export class OperatorInputs {
     const typing = target instanceof HTMLInputElement && target.type !== 'range';
     const elsewhere = target instanceof HTMLInputElement || elements.settings.open;
     const driving = this.#port.mayDrive() && !elsewhere;
-    // A key that goes up is let go, whatever has the focus by now.
+    // A released key counts as released wherever the focus is by now.
     if (!down) {
       if (event.code === RELEASE_KEY || event.code === 'Enter') this.#port.onRelease('key', false);
       if (!this.#keyboard.key(event.code, false)) return;
@@ -97,7 +97,7 @@ export class OperatorInputs {
     if (elsewhere) return;
     const choosing = target instanceof HTMLSelectElement;
     if (choosing && event.code.startsWith('Arrow')) return;
-    // Space on a focused button would press it; driving goes first once a robot is there.
+    // Space would press a focused button. Driving takes precedence while there is a robot.
     if (driving && this.#keyboard.key(event.code, true)) {
       event.preventDefault();
       if (!event.repeat) this.#port.onChange();
@@ -105,12 +105,15 @@ export class OperatorInputs {
     }
     const action = ACTION_KEYS[event.code];
     if (action === undefined) return;
-    // A letter would choose from the list as well.
+    // A letter would also select an entry of the list.
     if (choosing) event.preventDefault();
     if (!event.repeat) this.#port.onAction(action, event.timeStamp);
   }
 
-  /** Keys of the emergency stop: they go before all others. @returns whether it was one */
+  /**
+   * Handles the keys of the emergency stop, which take precedence over all others. @returns whether it was one of
+   * them
+   */
   #onEstopKey(event: KeyboardEvent): boolean {
     const { target, code } = event;
     const { estop, estopRelease } = elements;
@@ -119,10 +122,10 @@ export class OperatorInputs {
     if (code === STOP_KEY || isSpaceOnControl) {
       if (!event.repeat) this.#port.onAction('estop', event.timeStamp);
     } else if (isRelease && !elements.settings.open) {
-      // A key that repeats is no new press.
+      // Key repeat is not a new press.
       if (!event.repeat) this.#port.onRelease('key', true);
     } else return false;
-    // Neither a click on what has the focus, nor a choice from a list.
+    // The key must not click the focused element or select from a list.
     event.preventDefault();
     return true;
   }

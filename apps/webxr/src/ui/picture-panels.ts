@@ -1,4 +1,4 @@
-/** The panels with the cameras' pictures: name, age, and a button that hides each. */
+/** The panels with the cameras' pictures: name, age, and a button that shows or hides the picture. */
 import { computed, effect } from '@preact/signals-core';
 import type { CameraView } from '../pictures/camera-pictures.ts';
 import type { PageState } from '../state/page-state.ts';
@@ -55,7 +55,7 @@ function panelOf(view: CameraView, onToggle: () => void): Panel {
   button.type = 'button';
   button.className = 'quiet';
   button.addEventListener('click', () => {
-    // A button that keeps the focus would take the space bar.
+    // A button that kept the focus would take the space bar, which is the drive grip.
     button.blur();
     onToggle();
   });

@@ -1,4 +1,4 @@
-/** The robots that are here, to choose one from. */
+/** The list of available robots, from which the operator chooses one. */
 import type { RobotListing } from '@farpoint/protocol';
 import { effect } from '@preact/signals-core';
 import type { LinkState } from '../state/link-state.ts';
@@ -10,7 +10,7 @@ export function showRobotList({ robots }: LinkState, onChoose: (robotId: string)
     const { activeElement } = document;
     const focused = activeElement instanceof HTMLElement ? activeElement.dataset.robot : '';
     robotList.replaceChildren(...robots.value.map((robot) => itemOf(robot, onChoose)));
-    // Keeps the focus where it was.
+    // Restores the focus to the same robot's button.
     for (const button of robotList.querySelectorAll('button')) {
       if (button.dataset.robot === focused) button.focus();
     }

@@ -1,4 +1,4 @@
-/** A button for each sensor of a robot that has several: its clouds on or off. */
+/** For a robot with several sensors: one button per sensor that switches its clouds on or off. */
 import { effect } from '@preact/signals-core';
 import type { Switch, Switches } from '../state/switches.ts';
 import { elements } from './elements.ts';
@@ -19,7 +19,7 @@ function buttonOf({ index, name, on }: Switch, switches: Switches): HTMLButtonEl
   button.ariaPressed = String(on.value);
   button.title = `${name}: clouds ${on.value ? 'on' : 'off'}`;
   button.addEventListener('click', () => {
-    // A button that keeps the focus would take the space bar.
+    // A button that kept the focus would take the space bar, which is the drive grip.
     button.blur();
     switches.toggle(index);
   });

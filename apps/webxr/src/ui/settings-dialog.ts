@@ -5,7 +5,7 @@ import { tokenOrigin, withToken } from '../signaling-tokens.ts';
 import { loadStored, pageOrigin, store } from '../stored-settings.ts';
 import { elements } from './elements.ts';
 
-/** Wires the dialog. @param pointScale follows the slider while it moves */
+/** Sets up the dialog. @param pointScale follows the slider while it moves */
 export function initSettingsDialog(pointScale: Signal<number>): void {
   const { settings: dialog, settingsOpen } = elements;
   const form = dialog.querySelector('form')!;
@@ -15,7 +15,7 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
     if (value === '') return { url: ownSignalingUrl(pageOrigin()) };
     return parseSignalingUrl(value, location.protocol === 'https:');
   };
-  /** The token is that of the service in the field above it. */
+  /** Shows the token of the service in the field above. */
   const showToken = (): void => {
     const at = service();
     field('token').value = 'url' in at ? (loadStored().tokens?.get(tokenOrigin(at.url)) ?? '') : '';
@@ -54,7 +54,7 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
       name: field('name').value,
       pointScale: clampScale(Number(field('pointScale').value)),
     });
-    // What the address says would hide what was just saved.
+    // These parameters in the page's address would override what was just saved.
     const address = new URL(location.href);
     for (const name of ['signaling', 'token', 'name']) address.searchParams.delete(name);
     location.replace(address);

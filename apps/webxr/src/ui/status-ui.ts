@@ -1,4 +1,4 @@
-/** What the screen shows of the link, of who drives and of the session. */
+/** Shows the link, who drives, and the session's figures. */
 import { effect } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
 import { sessionFacts } from '../status/facts.ts';

@@ -1,4 +1,4 @@
-/** The frame loop: when a picture is drawn, and how coarse where the machine cannot keep up. */
+/** The frame loop. Decides when a picture is drawn, and how coarsely if the machine cannot keep up. */
 import { type CloudView, DrawGate, DrawingGovernor, GpuCompletion } from '@farpoint/cloud-view';
 import type { RobotClient } from '@farpoint/operator';
 import type { Settings } from '../settings.ts';
@@ -15,7 +15,7 @@ export interface FrameLoopParts {
   readonly clouds: SensorClouds;
   readonly stats: PageStatistics;
   readonly vr: VrSession;
-  /** Before each picture in VR: controllers tell nothing by themselves. */
+  /** Called before each picture in VR, because controllers send no events. */
   readHeadset(): void;
 }
 
@@ -38,19 +38,19 @@ export class FrameLoop {
     stage.renderer.setAnimationLoop((nowMs) => this.#frame(nowMs));
   }
 
-  /** Calls `act` within the next display frame, after it was drawn and before it is shown. */
+  /** Calls `act` in the next display frame, after drawing and before the frame is shown. */
   afterNextFrame(act: () => void): void {
     this.#afterDrawing.push(act);
   }
 
-  /** A few times a second: draws less where the machine cannot keep up. */
+  /** Call this a few times a second. Draws less if the machine cannot keep up. */
   govern(nowMs: number): void {
     const { client, settings, stage, stats } = this.#parts;
     if (document.hidden || client.phase !== 'live') this.#governor.pause();
     else if (this.#governor.update(stats.displayFramesPerSecond, nowMs)) {
       const { scale, every } = this.#governor.step;
       stage.resolution = scale;
-      // A sample of a cloud is not thinned further: a few thousand points are not what is slow.
+      // A sampled cloud is not thinned further: a few thousand points are not what slows the machine down.
       if (settings.drawEvery === null) client.drawEvery(every);
     }
   }
@@ -58,7 +58,7 @@ export class FrameLoop {
   #frame(nowMs: number): void {
     const { client, cloud, clouds, settings, stage, stats, vr } = this.#parts;
     const inVr = vr.active.peek();
-    // In VR the headset's compositor keeps the pace.
+    // In VR the headset's compositor sets the pace.
     if (!inVr && this.#completion.busy) return;
     const beganMs = performance.now();
     cloud.update(beganMs);
@@ -68,7 +68,7 @@ export class FrameLoop {
     if (inVr) this.#parts.readHeadset();
     stage.prepare(cloud, nowMs);
     stage.renderer.render(stage.scene, stage.camera);
-    // Only where a time is taken: waiting for the GPU costs frames.
+    // Wait only when a time is being measured: waiting for the GPU costs frames.
     if (client.latency.wantsTime || settings.canvas !== null) {
       this.#completion.wait();
       this.#gate.onCost(performance.now() - beganMs);

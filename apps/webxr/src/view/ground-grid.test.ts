@@ -1,13 +1,13 @@
 import { expect, test } from 'vitest';
 import { GroundGrid, gridSegments } from './ground-grid.ts';
 
-test('every line of the grid from end to end, in segments that are no longer than they are far, or a metre', () => {
+test('draws every line end to end, in segments no longer than their distance or 1 m', () => {
   const half = 20;
   const ends = gridSegments(half);
   const lines = new Map<string, number[]>();
   for (let i = 0; i < ends.length; i += 4) {
     const [x0 = 0, z0 = 0, x1 = 0, z1 = 0] = ends.slice(i, i + 4);
-    // A longer one whose one end is behind the camera is not drawn at all by a software renderer.
+    // A software renderer drops a longer segment completely if one of its ends is behind the camera.
     const far = Math.max(Math.min(Math.abs(x0), Math.abs(x1)), Math.min(Math.abs(z0), Math.abs(z1)));
     expect(Math.hypot(x1 - x0, z1 - z0)).toBeLessThanOrEqual(Math.max(1, far));
     const [line, from, to] = x0 === x1 ? [`x ${x0}`, z0, z1] : [`z ${z0}`, x0, x1];
@@ -19,7 +19,7 @@ test('every line of the grid from end to end, in segments that are no longer tha
   for (const known of lines.values()) expect(known.at(-1)).toBe(half);
 });
 
-test('moves along in whole metres', () => {
+test('follows in steps of whole metres', () => {
   const grid = new GroundGrid();
   grid.centreOn(1.4, -2.6);
   expect([grid.object.position.x, grid.object.position.z]).toEqual([1, -3]);

@@ -1,14 +1,14 @@
-/** A grid on the floor: what the eye holds on to. */
+/** A grid on the floor that gives the eye a reference. */
 import { BufferGeometry, Color, Float32BufferAttribute, LineBasicMaterial, LineSegments } from 'three';
 
-/** Lines every metre, out to so many metres on each side. */
+/** Lines every metre, up to this distance on each side. */
 const HALF_M = 20;
 const MIDDLE = 0x2a3a48;
 const OTHERS = 0x1a242e;
-/** Below the floor's own points. */
+/** Slightly below the floor's own points. */
 const HEIGHT_M = -0.01;
 
-/** Segments are so long, m, up to this distance from the middle, m. */
+/** Lengths of segments, m, up to these distances from the centre, m. */
 const LENGTHS: readonly [withinM: number, lengthM: number][] = [
   [4, 1],
   [8, 2],
@@ -16,9 +16,9 @@ const LENGTHS: readonly [withinM: number, lengthM: number][] = [
 ];
 
 /**
- * Ends of the grid's lines, x and z in turn, both ends of one segment after the other. A software renderer leaves out a whole
- * segment of which one end is behind the camera; what is no longer than it is far is then out of sight anyway. Fewer of them
- * are faster to draw.
+ * Ends of the grid's lines: x and z in turn, both ends of one segment after the other. A software renderer drops a
+ * whole segment if one of its ends is behind the camera. A segment no longer than its distance is out of sight in
+ * that case. Fewer segments are faster to draw.
  *
  * @param half a multiple of 4
  */
@@ -26,7 +26,7 @@ export function gridSegments(half: number): number[] {
   const ends: number[] = [];
   for (let across = -half; across <= half; across++) {
     for (let along = -half; along < half; ) {
-      // The end that is nearer to the middle decides.
+      // The end nearer to the centre decides.
       const inner = along < 0 ? along + 1 : along;
       const far = Math.max(Math.abs(across), Math.abs(inner));
       const length = LENGTHS.find(([within]) => far < within)?.[1] ?? 1;
@@ -38,7 +38,10 @@ export function gridSegments(half: number): number[] {
   return ends;
 }
 
-/** In three's axes; moves along in whole metres, so that it stands still and never ends. */
+/**
+ * In three.js axes. Follows the robot in steps of whole metres, so that the grid appears to stand still and to have
+ * no end.
+ */
 export class GroundGrid {
   readonly object: LineSegments;
 

@@ -1,30 +1,30 @@
-/** Where the operator looks on a flat screen: relative to the robot's heading, or from behind it. */
+/** Where the operator looks on a flat screen: along the robot's heading, or from behind the robot. */
 export type ViewMode = 'first-person' | 'third-person';
 
 export const MIN_FOV = 30;
 export const MAX_FOV = 100;
 export const DEFAULT_FOV = 75;
-/** A narrow camera fills the screen, with a little room about it; a wide one need not be seen whole. */
+/** The picture of a narrow camera fills the screen with this margin. A wide one need not be entirely visible. */
 const FIT_MARGIN = 1.15;
 const LEAST_FIT_FOV = 35;
-/** The view is left alone while the fit is within so many degrees. */
+/** The view is not changed while it fits to within this, degrees. */
 const FIT_TOLERANCE = 5;
 const MAX_PITCH = (Math.PI / 180) * 85;
 
 export class Look {
   mode: ViewMode = 'first-person';
-  /** Radians; to the left positive. */
+  /** Radians; positive to the left. */
   yaw = 0;
-  /** Radians; up positive. */
+  /** Radians; positive upwards. */
   pitch = 0;
   /** Vertical field of view, degrees. */
   fov = DEFAULT_FOV;
-  /** Behind the robot, metres. */
+  /** Distance behind the robot, metres. */
   distance = 2.5;
   #fitted = DEFAULT_FOV;
   #zoomed = false;
 
-  /** A drag over the screen. @param radiansPerPixel so that the point under the cursor stays under it */
+  /** A drag over the screen. @param radiansPerPixel chosen so that the point under the cursor stays under it */
   drag(dx: number, dy: number, radiansPerPixel: number): void {
     this.yaw += dx * radiansPerPixel;
     this.pitch = clamp(this.pitch + dy * radiansPerPixel, -MAX_PITCH, MAX_PITCH);
@@ -33,7 +33,7 @@ export class Look {
   /**
    * Fits the first-person view to the camera, until the operator zooms.
    *
-   * @param imageExtent side of the camera's picture at 1 m, metres
+   * @param imageExtent size of the camera's picture at a distance of 1 m, metres
    */
   fit(imageExtent: number): void {
     const camera = (2 * Math.atan(imageExtent / 2) * 180) / Math.PI;
@@ -42,7 +42,7 @@ export class Look {
     if (!this.#zoomed && this.mode === 'first-person') this.fov = this.#fitted;
   }
 
-  /** @param factor over 1: further away */
+  /** @param factor above 1: further away */
   zoom(factor: number): void {
     if (this.mode === 'first-person') {
       this.fov = clamp(this.fov * factor, MIN_FOV, MAX_FOV);

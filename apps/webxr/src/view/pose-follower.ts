@@ -1,4 +1,4 @@
-/** Follows a position and a heading smoothly: the rig that carries the operator's head. Allocates nothing. */
+/** Follows a position and a heading smoothly, for the rig that carries the operator's head. Allocates nothing. */
 export class PoseFollower {
   x = 0;
   y = 0;
@@ -8,12 +8,12 @@ export class PoseFollower {
   #started = false;
   readonly #timeConstantMs: number;
 
-  /** @param timeConstantMs after so long 63 % of a step is made up */
+  /** @param timeConstantMs time after which 63 % of a step has been followed */
   constructor(timeConstantMs: number) {
     this.#timeConstantMs = timeConstantMs;
   }
 
-  /** The next pose is taken at once. */
+  /** Makes the next pose apply at once. */
   reset(): void {
     this.#started = false;
   }
@@ -22,12 +22,12 @@ export class PoseFollower {
     return this.#started;
   }
 
-  /** @param elapsedMs since the last call */
+  /** @param elapsedMs time since the last call */
   follow(x: number, y: number, z: number, yaw: number, elapsedMs: number): void {
     const dx = x - this.x;
     const dy = y - this.y;
     const dz = z - this.z;
-    // Beyond a stride it is not motion but another place.
+    // A step longer than a stride is a jump to another place, not motion.
     const jump = !this.#started || dx * dx + dy * dy + dz * dz > JUMP_M * JUMP_M;
     const share = jump ? 1 : 1 - Math.exp(-Math.max(elapsedMs, 0) / this.#timeConstantMs);
     this.x += dx * share;

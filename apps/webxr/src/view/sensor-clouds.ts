@@ -1,4 +1,4 @@
-/** Draws the clouds of a robot with several sensors: all but the first one's, which has an object of its own. */
+/** Draws the clouds of a robot with several sensors, except the first sensor's, which has an object of its own. */
 import { CloudView } from '@farpoint/cloud-view';
 import type { RobotClient } from '@farpoint/operator';
 import { effect, type ReadonlySignal } from '@preact/signals-core';
@@ -6,26 +6,26 @@ import type { Object3D, WebGLRenderer } from 'three';
 import type { Switches } from '../state/switches.ts';
 
 /**
- * Points of other sensors, beside what the first one's would be: they are few and far apart, and as large as their distances
- * they would hide what it shows.
+ * Size of other sensors' points, relative to the first sensor's. Their points are few and far apart. Drawn as large
+ * as their spacing, they would hide the first sensor's cloud.
  */
 const SIZE_BESIDE_FIRST = 0.2;
 
 export interface SensorCloudsParts {
   readonly renderer: WebGLRenderer;
-  /** Where clouds are drawn. */
+  /** The object that the clouds are added to. */
   readonly world: Object3D;
   readonly client: RobotClient;
-  /** Draws the first sensor's. */
+  /** Draws the first sensor's cloud. */
   readonly first: CloudView;
-  /** None for a robot with one sensor. */
+  /** Empty for a robot with one sensor. */
   readonly sensors: Switches;
   readonly pointScale: ReadonlySignal<number>;
 }
 
 export class SensorClouds {
   readonly #parts: SensorCloudsParts;
-  /** By sensor number. */
+  /** Indexed by sensor number. */
   #views: readonly CloudView[] = [];
 
   constructor(parts: SensorCloudsParts) {
@@ -35,16 +35,16 @@ export class SensorClouds {
     effect(() => this.#scale(pointScale.value));
   }
 
-  /** In the frame loop, before rendering. */
+  /** Call this in the frame loop, before rendering. */
   update(nowMs: number): void {
     for (const { index, on } of this.#parts.sensors.all.peek()) {
-      // What was on its way when it was switched off is not shown either.
+      // Points that were on their way when the sensor was switched off are not shown either.
       if (!on.peek()) this.#views[index]?.forget();
       else if (index > 0) this.#views[index]?.update(nowMs);
     }
   }
 
-  /** Points that one sensor's view draws. */
+  /** Number of points that the view of this sensor draws. */
   drawnOf(sensor: number): number {
     return this.#views[sensor]?.drawn ?? 0;
   }

@@ -1,4 +1,4 @@
-/** Renderer, scene and cameras. The frame loop does nothing but upload what has come, place the camera and draw. */
+/** Renderer, scene and cameras. The frame loop only uploads new data, places the camera and draws. */
 
 import { type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud-view';
 import { Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
@@ -10,9 +10,9 @@ import { RobotMarker } from './robot-marker.ts';
 const BACKGROUND = 0x0b0f14;
 const NEAR_M = 0.05;
 const FAR_M = 200;
-/** How slowly the head follows the robot, ms. */
+/** Time constant with which the head follows the robot, ms. */
 const FOLLOW_MS = 90;
-/** Without a pose: a person's eyes looking at the origin. */
+/** Eye height while there is no pose, m: a standing person's eyes, looking at the origin. */
 const DEFAULT_EYE_M = 1.2;
 
 interface BodyPose {
@@ -23,9 +23,9 @@ interface BodyPose {
 export class Stage {
   readonly renderer: WebGLRenderer;
   readonly scene = new Scene();
-  /** Everything in the robot's world, REP-103. */
+  /** The robot's world, REP-103. */
   readonly world = new RobotWorld();
-  /** Carries the operator's head; three's axes. */
+  /** Carries the operator's head; three.js axes. */
   readonly rig = new Group();
   readonly camera = new PerspectiveCamera(75, 1, NEAR_M, FAR_M);
   readonly look = new Look();
@@ -41,7 +41,7 @@ export class Stage {
     this.#fixedSize = fixedSize;
     this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: 'high-performance' });
     this.renderer.xr.enabled = true;
-    // The head's place when VR begins is the robot's camera.
+    // In VR, the head starts at the robot's camera.
     this.renderer.xr.setReferenceSpaceType('local');
     this.scene.background = new Color(BACKGROUND);
     this.world.add(this.#marker.object);
@@ -56,7 +56,7 @@ export class Stage {
     return this.renderer.getContext() as WebGL2RenderingContext;
   }
 
-  /** Share of the screen's own resolution that is drawn, for machines that cannot keep up. */
+  /** Share of the screen's resolution that is drawn, for machines that cannot keep up. */
   set resolution(scale: number) {
     this.#resolution = scale;
     this.resize();
@@ -77,13 +77,13 @@ export class Stage {
     this.camera.updateProjectionMatrix();
   }
 
-  /** The next pose is another robot's: go there at once. */
+  /** Makes the next pose apply at once: it belongs to another robot. */
   forgetPose(): void {
     this.#follower.reset();
     this.#marker.object.visible = false;
   }
 
-  /** The robot's body, from telemetry. */
+  /** Sets the pose of the robot's body, from telemetry. */
   setBody(pose: BodyPose): void {
     const { object } = this.#marker;
     object.position.copy(pose.position as typeof object.position);
@@ -91,7 +91,7 @@ export class Stage {
     object.visible = true;
   }
 
-  /** Places the operator's head and the cloud's uniforms for this display frame. */
+  /** Places the operator's head and sets the cloud's uniforms for this display frame. */
   prepare(cloud: CloudView, nowMs: number): void {
     const elapsed = nowMs - this.#lastMs;
     this.#lastMs = nowMs;
@@ -115,7 +115,7 @@ export class Stage {
     if (look.mode === 'first-person') {
       camera.position.set(0, 0, 0);
     } else {
-      // Back along the line of sight.
+      // Move back along the line of sight.
       const level = Math.cos(look.pitch) * look.distance;
       camera.position.set(
         Math.sin(look.yaw) * level,

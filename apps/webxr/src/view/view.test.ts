@@ -12,7 +12,7 @@ function opticalOrientation(yaw: number): Quaternion {
 }
 
 describe('axes', () => {
-  test('forward goes into the screen, left to the left, up stays up, nothing is mirrored', () => {
+  test('maps forward into the screen, left to the left, up to up, and mirrors nothing', () => {
     const matrix = worldToThree();
     const at = (x: number, y: number, z: number) => new Vector3(x, y, z).applyMatrix4(matrix).toArray();
     expect(at(1, 0, 0).map((v) => v + 0)).toEqual([0, 0, -1]);
@@ -33,14 +33,14 @@ describe('axes', () => {
     );
   });
 
-  test('a camera that looks straight down keeps the last heading', () => {
+  test('keeps the last heading when the camera looks straight down', () => {
     const down = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(0, 0, -1));
     expect(opticalYaw(down, 1.25)).toBe(1.25);
   });
 });
 
 describe('PoseFollower', () => {
-  test('begins at the first pose, then makes up 63 % in a time constant', () => {
+  test('starts at the first pose, then follows 63 % of a step in one time constant', () => {
     const follower = new PoseFollower(100);
     follower.follow(5, 6, 7, 1, 0);
     expect([follower.x, follower.y, follower.z, follower.yaw]).toEqual([5, 6, 7, 1]);
@@ -48,7 +48,7 @@ describe('PoseFollower', () => {
     expect(follower.x).toBeCloseTo(5.632, 3);
   });
 
-  test('turns the short way across ±π and jumps where the place is another', () => {
+  test('turns the short way across ±π, and jumps to a distant place', () => {
     const follower = new PoseFollower(100);
     follower.follow(0, 0, 0, 3.1, 0);
     follower.follow(0, 0, 0, -3.1, 100);
@@ -71,7 +71,7 @@ describe('PoseFollower', () => {
 });
 
 describe('Look', () => {
-  test('drag and zoom keep within bounds; recentre undoes them', () => {
+  test('drag and zoom stay within bounds; recentre undoes them', () => {
     const look = new Look();
     look.drag(100, 1e6, 0.01);
     expect(look.yaw).toBe(1);

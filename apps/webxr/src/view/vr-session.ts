@@ -5,7 +5,7 @@ import { vrUnavailable } from '../status/words.ts';
 
 export class VrSession {
   readonly active = signal(false);
-  /** Why VR cannot be entered here, `null` where it can; `undefined` until that is known. */
+  /** Why VR is unavailable; `null` if it is available, `undefined` until that is known. */
   readonly unavailable = signal<string | null | undefined>(undefined);
   readonly #renderer: WebGLRenderer;
 
@@ -21,7 +21,7 @@ export class VrSession {
     void this.#ask();
   }
 
-  /** Must be called from a press of a button. @throws what the browser says */
+  /** Call this from a button's event handler. @throws whatever error the browser gives */
   async toggle(): Promise<void> {
     const { xr } = this.#renderer;
     const running = xr.getSession();
@@ -38,7 +38,7 @@ export class VrSession {
     return this.#renderer.xr.getSession()?.inputSources ?? [];
   }
 
-  /** The headset is not worn, or its system menu is open. */
+  /** Whether the headset is not worn or its system menu is open. */
   get hidden(): boolean {
     const session = this.#renderer.xr.getSession();
     return session !== null && session.visibilityState !== 'visible';

@@ -1,4 +1,6 @@
-/** The status in VR: a small panel on the left wrist, or low in front where no left controller is. */
+/**
+ * The status in VR: a small panel on the left wrist, or low in front of the operator if there is no left controller.
+ */
 import {
   CanvasTexture,
   Group,
@@ -33,7 +35,7 @@ export class WristPanel {
   readonly #texture: CanvasTexture;
   #shown = '';
   #lines: readonly PanelLine[] = [];
-  /** Of the bar at the bottom, in twentieths. */
+  /** Progress shown by the bar at the bottom, in twentieths. */
   #progress = 0;
 
   constructor(renderer: WebGLRenderer, rig: Group) {
@@ -72,7 +74,7 @@ export class WristPanel {
     }
   }
 
-  /** Puts something beside it, that goes with it. */
+  /** Adds an object beside the panel. It moves with the panel. */
   addBeside(object: Object3D): void {
     object.position.set(PANEL_M + GAP_M, (-PANEL_M * HEIGHT) / WIDTH / 2, 0);
     this.#group.add(object);
@@ -82,7 +84,7 @@ export class WristPanel {
     this.#group.visible = visible;
   }
 
-  /** Draws anew only what has changed; call a few times a second at most. */
+  /** Redraws only what has changed. Call this at most a few times a second. */
   show(lines: readonly PanelLine[]): void {
     const key = lines.map((line) => line.tone + line.text).join('\n');
     if (key === this.#shown) return;
@@ -91,7 +93,7 @@ export class WristPanel {
     this.#draw();
   }
 
-  /** A bar at the bottom that fills. @param share 0–1; at 0 there is none */
+  /** Shows a progress bar at the bottom. @param share 0–1; at 0 there is no bar */
   showProgress(share: number): void {
     const progress = Math.round(share * 20);
     if (progress === this.#progress) return;

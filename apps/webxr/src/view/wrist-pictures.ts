@@ -1,11 +1,11 @@
-/** The cameras' pictures in VR: beside the panel on the wrist, one above the other. */
+/** The cameras' pictures in VR, stacked beside the wrist panel. */
 import { signal } from '@preact/signals-core';
 import { CanvasTexture, Group, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from 'three';
 import type { CameraView } from '../pictures/camera-pictures.ts';
 
 const WIDTH_M = 0.2;
 const GAP_M = 0.012;
-/** More would hide the way. */
+/** More pictures would hide the way ahead. */
 const MOST_SHOWN = 3;
 const STALE_COLOUR = 0x555555;
 const FRESH_COLOUR = 0xffffff;
@@ -16,7 +16,7 @@ interface Sheet {
   texture: CanvasTexture;
   width: number;
   height: number;
-  /** Number of the picture that the GPU has. */
+  /** Number of the picture that is on the GPU. */
   picture: number;
 }
 
@@ -24,7 +24,7 @@ export class WristPictures {
   readonly object = new Group();
   readonly #sheets = signal<readonly Sheet[]>([]);
 
-  /** Other cameras, or others of them shown. */
+  /** Sets the cameras, and which of them are shown. */
   setViews(views: readonly CameraView[]): void {
     for (const { mesh, texture } of this.#sheets.peek()) {
       this.object.remove(mesh);
@@ -42,7 +42,7 @@ export class WristPictures {
     });
   }
 
-  /** Hands new pictures to the GPU; within an effect, in VR only. */
+  /** Uploads new pictures to the GPU. Call this within an effect, in VR only. */
   update(): void {
     let top = 0;
     for (const sheet of this.#sheets.value) {
@@ -52,7 +52,7 @@ export class WristPictures {
       if (newest === null) continue;
       const { width, height } = view.canvas;
       if (width !== sheet.width || height !== sheet.height) {
-        // A texture keeps the size that it began with.
+        // A texture cannot change its size.
         texture.dispose();
         Object.assign(sheet, { width, height });
       }

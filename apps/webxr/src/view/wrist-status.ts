@@ -1,4 +1,4 @@
-/** What the operator sees in VR of the page's state: on the wrist, beside it the cameras' pictures. */
+/** Shows the page's state in VR: the status on the wrist, and the cameras' pictures beside it. */
 import { effect, type ReadonlySignal } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
 import { wristLines } from '../status/wrist-lines.ts';
@@ -8,9 +8,9 @@ import { WristPictures } from './wrist-pictures.ts';
 export interface WristStatusParts {
   readonly state: PageState;
   readonly panel: WristPanel;
-  /** In VR. */
+  /** Whether VR is active. */
   readonly active: ReadonlySignal<boolean>;
-  /** Of the hold that releases the emergency stop, 0–1. */
+  /** Progress of the hold that releases the emergency stop, 0–1. */
   readonly releaseProgress: ReadonlySignal<number>;
 }
 

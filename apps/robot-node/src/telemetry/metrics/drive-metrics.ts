@@ -1,7 +1,7 @@
 import type { PulledMetrics } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
 
-/** Commands, and what the guard made of them. */
+/** Metrics of commands and the guard's verdicts. */
 export function addDriveMetrics(metrics: PulledMetrics, { counters, base }: Robot): void {
   metrics.sum('commands_accepted', 'Drive commands accepted', () => counters.commandsAccepted);
   metrics.sums('commands_rejected', 'Drive commands refused, by reason', 'reason', () =>

@@ -3,14 +3,14 @@ import type { PulledMetrics } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
 import type { StreamSender } from '../../transport/stream-sender.ts';
 
-/** The paths to the operators that are connected now: what they carry, what was sent, resent and dropped. */
+/** Metrics of the paths to the connected operators: what they carry, and what was sent, resent and dropped. */
 export function addPathMetrics(metrics: PulledMetrics, { operators }: Pick<Robot, 'operators'>): void {
   const senders = () => [...operators.values()].flatMap(({ sender }) => (sender === null ? [] : [sender]));
   const total = (read: (sender: StreamSender) => number) => () =>
     senders().reduce((sum, sender) => sum + read(sender), 0);
   const byReason = (read: (sender: StreamSender) => Readonly<Record<string, number>>) => () =>
     senders().flatMap((sender) => Object.entries(read(sender)));
-  /** Of the path that carries least: with one operator, of that one's. */
+  /** A value of the path that carries least. With one operator, that is the operator's path. */
   const narrowest = (read: (sender: StreamSender) => number) => () => {
     const values = senders().map(read);
     return values.length === 0 ? Number.NaN : Math.min(...values);

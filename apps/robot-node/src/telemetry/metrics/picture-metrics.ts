@@ -2,7 +2,7 @@ import type { PulledMetrics } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
 import type { OperatorSession } from '../../session/operator-session.ts';
 
-/** Cameras' pictures: made, lost, sent. None where the robot has no camera. */
+/** Metrics of camera pictures: made, lost, sent. None if the robot has no camera. */
 export function addPictureMetrics(metrics: PulledMetrics, { pictures, operators }: Robot): void {
   if (pictures === null) return;
   const made = pictures.counters;

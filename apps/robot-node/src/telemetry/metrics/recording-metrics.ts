@@ -1,7 +1,7 @@
 import type { PulledMetrics } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
 
-/** The recording's size and what it had to leave out. None where nothing is recorded. */
+/** Metrics of the recording's size and of what was left out. None if nothing is recorded. */
 export function addRecordingMetrics(metrics: PulledMetrics, { recording }: Pick<Robot, 'recording'>): void {
   if (recording === null) return;
   metrics.sum('recording_messages', 'Messages recorded', () => recording.counts.messages);

@@ -1,7 +1,7 @@
 import type { PulledMetrics } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
 
-/** The reference profile. None where the robot does not have it. */
+/** Metrics of the reference profile. None if the robot does not have it. */
 export function addReferenceMetrics(metrics: PulledMetrics, { reference }: Pick<Robot, 'reference'>): void {
   if (reference === null) return;
   const ofStream = (name: 'framesSent' | 'packetsSent' | 'bytesSent') => () =>

@@ -9,7 +9,7 @@ import { addSensorMetrics } from './sensor-metrics.ts';
 import { addSessionMetrics } from './session-metrics.ts';
 import { addSignalingMetrics } from './signaling-metrics.ts';
 
-/** Puts everything that the robot counts on `/metrics`. */
+/** Registers all of the robot's counts for `/metrics`. */
 export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   const metrics = new PulledMetrics(registry, 'farpoint_robot');
   addSessionMetrics(metrics, robot);

@@ -1,7 +1,7 @@
 import type { PulledMetrics } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
 
-/** What the sensors captured, and what became of their points. */
+/** Metrics of what the sensors captured, and what became of their points. */
 export function addSensorMetrics(metrics: PulledMetrics, { counters, sensors }: Robot): void {
   metrics.sum('frames_captured', 'Clouds captured', () => counters.framesCaptured);
   metrics.sum(

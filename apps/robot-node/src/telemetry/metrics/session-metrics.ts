@@ -1,7 +1,7 @@
 import type { PulledMetrics } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
 
-/** Sessions of operators: how they came about, why they ended, and what was refused on the way. */
+/** Metrics of operators' sessions: how they began, why they ended, and what was refused. */
 export function addSessionMetrics(metrics: PulledMetrics, { counters, operators }: Robot): void {
   const { sessionsEnded, resumesRefused, answersIgnored, candidatesRefused, datagramsRefused } = counters;
   metrics.sum('sessions_opened', 'Sessions that operators requested', () => counters.sessionsOpened);

@@ -1,7 +1,7 @@
 import type { PulledMetrics } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
 
-/** The line to the signaling service. */
+/** Metrics of the connection to the signaling service. */
 export function addSignalingMetrics(metrics: PulledMetrics, { counters, signaling }: Robot): void {
   metrics.sums('signaling_errors', 'Errors reported by signaling, by code', 'code', () =>
     counters.signalingErrors.entries(),
