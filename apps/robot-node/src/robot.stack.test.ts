@@ -1,11 +1,11 @@
 /** The real robot program with the real signaling service: processes, sockets, WebRTC. */
 
 import { once } from 'node:events';
-import { LocalStack } from '@farpoint/local-stack';
 import { readPictureFile } from '@farpoint/protocol';
-import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it } from 'vitest';
 import { WebSocket } from 'ws';
 import { SignaledOperator } from './testing/signaled-operator.ts';
+import { useRobot } from './testing/use-robot.ts';
 
 const ROBOT = 'sim-1';
 /** At a fixed rate: a busy machine delays packets like a bad link, which then carries no pictures. */
@@ -23,28 +23,13 @@ const ARGS = [
   '2',
 ];
 
-let stack: LocalStack;
-const operators: SignaledOperator[] = [];
-
-beforeAll(async () => {
-  stack = await LocalStack.start({ robots: [{ id: ROBOT, name: 'Simulated robot', args: ARGS }] });
-}, 60_000);
-afterAll(async () => {
-  await stack.stop();
-}, 30_000);
-afterEach(async () => {
-  for (const operator of operators.splice(0)) await operator.close();
-  await until(async () => (await metric('operators')) === 0);
-});
-
-async function connect(): Promise<SignaledOperator> {
-  const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
-  operators.push(operator);
-  return operator;
-}
+// Hooks run in reverse order: this one after the operators of the test have closed.
+afterEach(() => until(async () => (await metric('operators')) === 0));
+const robot = useRobot(ROBOT, ARGS);
+const connect = () => robot.connect();
 
 async function metric(name: string, labels = ''): Promise<number> {
-  const text = await (await fetch(`${stack.robotAdminUrl(ROBOT)}/metrics`)).text();
+  const text = await (await fetch(`${robot.stack.robotAdminUrl(ROBOT)}/metrics`)).text();
   const line = text.split('\n').find((row) => row.startsWith(`farpoint_robot_${name}${labels} `));
   return line === undefined ? 0 : Number(line.split(' ').at(-1));
 }
@@ -156,7 +141,7 @@ describe('robot process', { timeout: 30_000 }, () => {
       );
     await Promise.race([watcher.client.until(common), driver.client.until(common)]);
     const refused = await metric('sessions_refused_total');
-    expect(await SignaledOperator.refused(stack.signalingUrl, ROBOT)).toMatchObject({
+    expect(await SignaledOperator.refused(robot.stack.signalingUrl, ROBOT)).toMatchObject({
       type: 'session.closed',
       reason: 'robot-full',
       maxOperators: 2,
@@ -170,7 +155,7 @@ describe('robot process', { timeout: 30_000 }, () => {
     await client.until(() => client.completeFrames.length > 0);
     const restarts = await metric('ice_restarts_total');
     const heard = operator.heard.length;
-    const stranger = new WebSocket(new URL('/operator', stack.signalingUrl));
+    const stranger = new WebSocket(new URL('/operator', robot.stack.signalingUrl));
     const told: Record<string, unknown>[] = [];
     stranger.on('message', (data: Buffer) => told.push(JSON.parse(data.toString())));
     const say = (message: object) => stranger.send(JSON.stringify(message));
@@ -214,13 +199,13 @@ describe('robot process', { timeout: 30_000 }, () => {
     const { session } = operator;
     await operator.close();
     operators.splice(0);
-    await stack.robot(ROBOT).kill();
-    await stack.restartRobot(ROBOT);
+    await robot.stack.robot(ROBOT).kill();
+    await robot.stack.restartRobot(ROBOT);
     const back = await connect();
     await releaseEstop(back);
     await back.resume('0');
     await back.until((message) => message.type === 'error' && message.code === 'wrong-resume-key');
-    const socket = new WebSocket(new URL('/operator', stack.signalingUrl));
+    const socket = new WebSocket(new URL('/operator', robot.stack.signalingUrl));
     const told: Record<string, unknown>[] = [];
     socket.on('message', (data: Buffer) => told.push(JSON.parse(data.toString())));
     await once(socket, 'open');
@@ -292,11 +277,11 @@ describe('robot process', { timeout: 30_000 }, () => {
 
   it('keeps streaming while signaling is down, and is listed again afterwards', async () => {
     const { client } = await connect();
-    await stack.signaling.kill();
+    await robot.stack.signaling.kill();
     await until(async () => (await metric('signaling_registered')) === 0);
     const before = client.completeFrames.length;
     await client.until(() => client.completeFrames.length > before + 10);
-    await stack.startSignaling();
+    await robot.stack.startSignaling();
     await until(async () => (await metric('signaling_registered')) === 1);
     const second = await connect();
     await second.client.until(() => second.client.completeFrames.length > 0);
@@ -306,8 +291,8 @@ describe('robot process', { timeout: 30_000 }, () => {
   it('comes back after being killed', async () => {
     const lost = await connect();
     await lost.client.until(() => lost.client.completeFrames.length > 0);
-    await stack.robot(ROBOT).kill();
-    await stack.restartRobot(ROBOT);
+    await robot.stack.robot(ROBOT).kill();
+    await robot.stack.restartRobot(ROBOT);
     const operator = await connect();
     const { client } = operator;
     await client.until(() => client.completeFrames.length > 0);
@@ -324,9 +309,9 @@ describe('robot process', { timeout: 30_000 }, () => {
   it('ends cleanly when asked to', async () => {
     const { client } = await connect();
     await client.until(() => client.completeFrames.length > 0);
-    const { code } = await stack.robot(ROBOT).stop();
+    const { code } = await robot.stack.robot(ROBOT).stop();
     expect(code).toBe(0);
-    await stack.restartRobot(ROBOT);
+    await robot.stack.restartRobot(ROBOT);
     expect(await (await connect()).client.message('estop')).toMatchObject({ latched: false });
   });
 });

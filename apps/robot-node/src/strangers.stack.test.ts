@@ -2,42 +2,33 @@
 import { createSocket, type Socket } from 'node:dgram';
 import { once } from 'node:events';
 import { isIPv6 } from 'node:net';
-import { LocalStack } from '@farpoint/local-stack';
-import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { createSelfSignedCertificate, Message } from 'werift';
 import { SignaledOperator } from './testing/signaled-operator.ts';
+import { useRobot } from './testing/use-robot.ts';
 
 const ROBOT = 'sim-1';
 const ARGS = ['--rate-control', 'fixed', '--sim-size', '64', '--max-points', '600', '--max-operators', '3'];
 /** DTLS 1.2, epoch 0: a warning that closes the session, 15 bytes. */
 const PLAIN_ALERT = Buffer.from([21, 0xfe, 0xfd, 0, 0, 0, 0, 0, 0, 0, 9, 0, 2, 1, 0]);
 
-let stack: LocalStack;
+const robot = useRobot(ROBOT, ARGS);
 let driver: SignaledOperator;
 let stranger: Socket | null = null;
 let timer: NodeJS.Timeout;
-const others: SignaledOperator[] = [];
-
-beforeAll(async () => {
-  stack = await LocalStack.start({ robots: [{ id: ROBOT, name: 'Simulated robot', args: ARGS }] });
-}, 60_000);
-afterAll(async () => {
-  await stack.stop();
-}, 30_000);
 
 beforeEach(async () => {
-  driver = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+  driver = await robot.connect();
   const lease = await driver.client.takeLease();
   // In circles, so that there is always room.
   const twist = { linear: { x: 0.1, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0.5 } };
   timer = setInterval(() => driver.client.drive(lease, 0.1, { twist }), 20);
   await driver.client.until(() => driver.client.telemetry?.drive === 'driving');
 }, 20_000);
-afterEach(async () => {
+afterEach(() => {
   clearInterval(timer);
   stranger?.close();
   stranger = null;
-  await Promise.all([driver, ...others.splice(0)].map((operator) => operator.close()));
 });
 
 /** The driver still has the same session and is obeyed. */
@@ -61,7 +52,7 @@ async function openStranger(host: string): Promise<Socket> {
 }
 
 async function metric(name: string, labels = ''): Promise<number> {
-  const text = await (await fetch(`${stack.robotAdminUrl(ROBOT)}/metrics`)).text();
+  const text = await (await fetch(`${robot.stack.robotAdminUrl(ROBOT)}/metrics`)).text();
   const line = text.split('\n').find((row) => row.startsWith(`farpoint_robot_${name}_total${labels} `));
   return line === undefined ? 0 : Number(line.split(' ').at(-1));
 }
@@ -86,17 +77,17 @@ describe('strangers', { timeout: 30_000 }, () => {
     const [own, other] = await Promise.all([0, 0].map(() => createSelfSignedCertificate(signatureHash)));
     const keys = { certPem: own?.certPem ?? '', keyPem: other?.keyPem ?? '', signatureHash };
     const before = await metric('sessions_ended', refused('unproven-peer'));
-    const impostor = await SignaledOperator.open(stack.signalingUrl, ROBOT, { keys });
-    others.push(impostor);
+    const impostor = await SignaledOperator.open(robot.stack.signalingUrl, ROBOT, { keys });
+    robot.keep(impostor);
     await impostor.until((message) => message.type === 'session.closed');
     expect(await metric('sessions_ended', refused('unproven-peer'))).toBe(before + 1);
     expect(impostor.client.session).toEqual([]);
     expect(impostor.client.packets).toBe(0);
 
-    const honest = await SignaledOperator.open(stack.signalingUrl, ROBOT, {
+    const honest = await SignaledOperator.open(robot.stack.signalingUrl, ROBOT, {
       keys: { ...keys, keyPem: own?.keyPem ?? '' },
     });
-    others.push(honest);
+    robot.keep(honest);
     await honest.client.ready();
     await honest.client.until(() => honest.client.completeFrames.length > 0);
     await expectDriving();
@@ -137,10 +128,9 @@ describe('strangers', { timeout: 30_000 }, () => {
   });
 
   it('survives malformed SCTP from one operator without harm to another’s session', async () => {
-    const guest = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
-    others.push(guest);
+    const guest = await robot.connect();
     const before = await metric('datagrams_refused', refused('sctp-malformed'));
-    const { pid } = stack.robot(ROBOT);
+    const { pid } = robot.stack.robot(ROBOT);
     const transport = guest.client.connection.dtlsTransports[0]!;
     await transport.sendData(Buffer.from([1, 2, 3]));
     await transport.sendData(Buffer.alloc(16));
@@ -148,7 +138,7 @@ describe('strangers', { timeout: 30_000 }, () => {
     await guest.client.connection.sctpTransport?.sctp.send(9, 99, Buffer.from('of no protocol'));
     await untilMetric('datagrams_refused', refused('message-malformed'), 1);
     await expectDriving();
-    expect(stack.robot(ROBOT).pid).toBe(pid);
+    expect(robot.stack.robot(ROBOT).pid).toBe(pid);
     const frames = guest.client.completeFrames.length;
     await guest.client.until(() => guest.client.completeFrames.length > frames);
   });

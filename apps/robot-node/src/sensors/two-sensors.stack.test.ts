@@ -1,30 +1,13 @@
 /** A robot with a camera and a LiDAR, as it runs, with the real signaling service. */
-import { LocalStack } from '@farpoint/local-stack';
-import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
-import { SignaledOperator } from '../testing/signaled-operator.ts';
+import { describe, expect, it } from 'vitest';
+import { useRobot } from '../testing/use-robot.ts';
 
 const ROBOT = 'two-sensors';
 const [CAMERA, LIDAR] = [0, 1];
 const ARGS = ['--sim-size', '64', '--sim-lidars', '1', '--rate-control', 'fixed', '--bitrate-mbps', '100'];
 
-let stack: LocalStack;
-const operators: SignaledOperator[] = [];
-
-beforeAll(async () => {
-  stack = await LocalStack.start({ robots: [{ id: ROBOT, name: 'Two sensors', args: ARGS }] });
-}, 60_000);
-afterAll(async () => {
-  await stack.stop();
-}, 30_000);
-afterEach(async () => {
-  for (const operator of operators.splice(0)) await operator.close();
-});
-
-async function connect() {
-  const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
-  operators.push(operator);
-  return operator.client;
-}
+const robot = useRobot(ROBOT, ARGS);
+const connect = async () => (await robot.connect()).client;
 
 describe('a robot with two sensors', { timeout: 30_000 }, () => {
   it('names them, and sends the second one’s clouds to who asks for them alone', async () => {
