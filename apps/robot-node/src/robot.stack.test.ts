@@ -198,7 +198,6 @@ describe('robot process', { timeout: 30_000 }, () => {
     const operator = await connect();
     const { session } = operator;
     await operator.close();
-    operators.splice(0);
     await robot.stack.robot(ROBOT).kill();
     await robot.stack.restartRobot(ROBOT);
     const back = await connect();
