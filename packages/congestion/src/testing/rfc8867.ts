@@ -27,7 +27,7 @@ export const VARIABLE_CAPACITY_TWO_FLOWS: Scenario = {
   media: [{}, {}],
 };
 
-/** §5.3: the feedback's way is narrow and carries a TCP flow besides. */
+/** §5.3: the feedback path is narrow and also carries a TCP flow. */
 export const CONGESTED_FEEDBACK: Scenario = {
   ...BASE,
   name: 'RFC 8867 5.3 congested feedback link',
