@@ -19,7 +19,7 @@ export type ReferencePageToBridge = z.infer<typeof pageToBridge>;
 const bridgeToPage = z.discriminatedUnion('type', [
   z.object({
     type: z.literal('updateRobots'),
-    /** Null where there is none. */
+    /** Null if there are none. */
     robots: z.nullable(z.array(z.object({ id: robotId, name: z.string() }))),
   }),
   z.object({ type: z.literal('switchedRobot'), robotId }),

@@ -1,5 +1,6 @@
 /**
- * The `session` channel, opened by the robot, ordered and reliable: who drives, what the stream is, what was refused.
+ * The `session` channel, opened by the robot, ordered and reliable: who drives, how the stream is coded, what was
+ * refused.
  */
 import * as z from 'zod/mini';
 import { CLOUD_FORMATS, type CloudFormat } from './cloud-format.ts';
@@ -9,19 +10,19 @@ import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
 
-/** What the robot allows. Nothing on the wire raises any of it. */
+/** The robot's drive limits. No message can raise any of them. */
 export interface DriveLimits {
   /** m/s, forward and backward. */
   maxLinear: number;
   /** rad/s. */
   maxAngular: number;
-  /** Without a fresh command for this long the robot brakes to zero. */
+  /** Without a fresh command for this long, the robot brakes to zero. */
   watchdogMs: number;
-  /** At most so many commands a second are read. */
+  /** The most commands per second that are read. */
   maxCommandsPerSecond: number;
 }
 
-/** First message of the robot on every session. */
+/** The robot's first message in every session. */
 export interface Welcome {
   type: 'welcome';
   protocol: number;
@@ -29,11 +30,14 @@ export interface Welcome {
   name: string;
   limits: DriveLimits;
   stream: { format: 'points64'; width: number; height: number; framesPerSecond: number };
-  /** Proves to the robot that a `session.resume` comes from this session's operator. Left out: it cannot be resumed. */
+  /**
+   * Proves to the robot that a `session.resume` comes from this session's operator. Without it, the session cannot be
+   * resumed.
+   */
   resumeKey?: string | undefined;
 }
 
-/** Who may drive. `lease` is there only for the operator who holds it. */
+/** Who may drive. Only the operator that holds the lease gets `lease`. */
 export interface LeaseState {
   type: 'lease';
   holder: 'you' | 'other' | 'nobody';
@@ -42,62 +46,68 @@ export interface LeaseState {
 
 export interface CommandRejected {
   type: 'rejected';
-  /** The command's sequence number where it could be read. */
+  /** The command's sequence number, if it was readable. */
   sequence?: number | undefined;
   reason: CommandRejection;
-  /** For people: what and where. */
+  /** For people: what is wrong and where. */
   detail: string;
-  /** How many were refused for this reason since the last such message; refusals are reported at most 10 times a second. */
+  /**
+   * How many were refused for this reason since the last such message; refusals are reported at most 10 times per
+   * second.
+   */
   count: number;
 }
 
 export interface EstopState {
   type: 'estop';
   latched: boolean;
-  /** Who set it, where it is latched. */
+  /** Who latched it, if it is latched. */
   by?: 'operator' | 'robot' | undefined;
 }
 
-/** Which frame answers a latency test. */
+/** Announces the frame that answers a latency test. */
 export interface LatencyFrame {
   type: 'latencyFrame';
   id: number;
   frameNumber: number;
   points: number;
-  /** Robot's monotonic clock, ms: when the command came, when the frame was captured. */
+  /** Robot's monotonic clock, ms: when the command arrived, when the frame was captured. */
   commandMs: number;
   captureMs: number;
 }
 
 /**
- * What packets of a coded format are decoded with: it comes before the first of them, and anew where it changes. A receiver
- * that cannot use it says so by `cloudFormats` without that format.
+ * The parameters for decoding packets of a coded format. Sent before the first such packet, and again whenever they
+ * change. A receiver that cannot use them sends `cloudFormats` without that format.
  */
 export interface CloudStream {
   type: 'cloudStream';
   format: Exclude<CloudFormat, 'points64'>;
   /** The format's own stream header, base64. */
   header: string;
-  /** Whose clouds; left out, those of sensor 0. */
+  /** Which sensor's clouds; if absent, those of sensor 0. */
   sensor?: number | undefined;
 }
 
-/** The robot's cameras whose pictures it can send; a camera's place in the list is its number. Sent after the welcome. */
+/**
+ * The robot's cameras whose pictures it can send; a camera's position in the list is its number. Sent after the
+ * welcome.
+ */
 export interface Cameras {
   type: 'cameras';
   cameras: { name: string }[];
 }
 
 /**
- * The sensors whose clouds the robot can send; a sensor's place in the list is its number in the placement. Sent after the
- * welcome by a robot that has more than one.
+ * The sensors whose clouds the robot can send; a sensor's position in the list is its number in the placement. Sent
+ * after the welcome by robots with more than one sensor.
  */
 export interface Sensors {
   type: 'sensors';
   sensors: { name: string }[];
 }
 
-/** A message of the operator that the robot could not use, other than a command. */
+/** A message of the operator, other than a command, that the robot could not use. */
 export interface SessionFault {
   type: 'fault';
   message: string;
@@ -114,7 +124,7 @@ export type RobotSessionMessage =
   | Sensors
   | SessionFault;
 
-/** Asks to drive. `take` asks to take over from another operator; the robot's policy decides. */
+/** Requests the lease. `take` asks to take over from another operator; the robot's policy decides. */
 export interface LeaseRequest {
   type: 'leaseRequest';
   take: boolean;
@@ -122,7 +132,7 @@ export interface LeaseRequest {
 export interface LeaseRelease {
   type: 'leaseRelease';
 }
-/** Latches or releases the emergency stop. Anyone may latch; only the lease holder releases. */
+/** Latches or releases the emergency stop. Anyone may latch it; only the lease holder may release it. */
 export interface EstopRequest {
   type: 'estop';
   latch: boolean;
@@ -133,31 +143,36 @@ export interface StreamRequest {
   running: boolean;
 }
 
-/** The formats that the operator reads. Until it has said so it gets `points64`, and it always may. */
+/** The formats that the operator reads. Before this message it gets `points64`, which it may always get. */
 export interface CloudFormats {
   type: 'cloudFormats';
   formats: CloudFormat[];
 }
 
-/** Which cameras' pictures the operator wants to see from now on, by number. Until it has said so it is sent none. */
+/** The cameras whose pictures the operator wants from now on, by number. Before this message, none are sent. */
 export interface Pictures {
   type: 'pictures';
   cameras: number[];
 }
 
-/** Whose clouds the operator wants from now on, by number. Until it has said so it gets those of sensor 0. */
+/**
+ * The sensors whose clouds the operator wants from now on, by number. Before this message, it gets those of sensor 0.
+ */
 export interface WantedSensors {
   type: 'sensors';
   sensors: number[];
 }
 
-/** What came of a latency test, for the robot's recording. */
+/** The result of a latency test, for the robot's recording. */
 export interface LatencyMeasured {
   type: 'latencyMeasured';
-  /** The command's {@link LatencyFrame} `id`, and the frame that was drawn. */
+  /** The `id` from the command's {@link LatencyFrame}, and the frame that was drawn. */
   id: number;
   frameNumber: number;
-  /** From the input event to the end of the display frame with the whole green cloud, and with its first points, ms. */
+  /**
+   * From the input event to the end of the display frame that shows the whole green cloud, and to the one that shows
+   * its first points, ms.
+   */
   mtpMs: number;
   firstMs: number;
 }
@@ -177,7 +192,7 @@ export const PROTOCOL_VERSION = 1;
 const positive = z.number().check(z.positive());
 const cameraSchema = z.int().check(z.minimum(0), z.maximum(MAX_CAMERAS - 1));
 const sensorSchema = z.int().check(z.minimum(0), z.maximum(MAX_SENSORS - 1));
-/** A palette of 256 colours with its tables is 2,210 bytes. */
+/** A palette of 256 colours with its tables takes 2,210 bytes. */
 const MAX_STREAM_HEADER_BASE64 = 3200;
 /** A test that takes longer has failed. */
 const MAX_LATENCY_MS = 60_000;
