@@ -1,4 +1,4 @@
-/** The thread that writes a recording: converting and writing megabytes a frame must delay nothing else. */
+/** The thread that writes a recording: converting and writing megabytes per frame must not delay anything else. */
 import { type MessagePort, parentPort, workerData } from 'node:worker_threads';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { detailOf } from './errors.ts';
@@ -13,11 +13,14 @@ import type {
 import { RecordingWriter } from './recording-writer.ts';
 import { SentCloudDecoder } from './sent-cloud.ts';
 
-/** What was recorded survives the end of the process after this long, ms; so often the recording tells of itself. */
+/**
+ * After this long, ms, recorded data survives the end of the process; the recording writes its own state at the same
+ * interval.
+ */
 const FLUSH_MS = 500;
-/** How long the capture thread has for its last clouds after the others have said all, ms. */
+/** How long the capture thread has to deliver its last clouds after the other threads have finished, ms. */
 const LINGER_MS = 2000;
-/** … and the end of the machine, each so many times. */
+/** … and a crash of the machine, after this many intervals. */
 const SYNC_EVERY = 10;
 
 const port = parentPort;
@@ -27,11 +30,11 @@ const send = (report: RecorderReport) => port.postMessage(report);
 
 const writer = await RecordingWriter.create(options, new SentCloudDecoder(await loadCodecFromDisk()));
 let failed = false;
-/** The file has all that it may, and is closed. */
+/** The file has reached its maximum size and is closed. */
 let full = false;
 let flushes = 0;
 let syncing = false;
-/** One thing after the other. */
+/** Runs one task after the other. */
 let tail: Promise<void> = Promise.resolve();
 
 function tell(): void {
@@ -69,14 +72,14 @@ async function endIfFull(error: unknown): Promise<void> {
 clouds.on('message', (record: CloudRecord) => {
   const { buffer } = record;
   const kind = record.type === 'sent' ? 'sent' : 'captured';
-  // Its memory goes back once the chunk that refers to it is written; also after a failure.
+  // The memory goes back once the chunk that refers to it is written, also after a failure.
   void inTurn(() => writer.addCloud(record)).then(() => {
     const done: CloudDone = { kind, buffer, ended: full };
     clouds.postMessage(done, [buffer]);
   });
 });
 
-/** The capture thread has said all. */
+/** The capture thread has sent everything. */
 const cloudsEnd = new Promise<void>((resolve) => clouds.once('close', resolve));
 
 const flushing = setInterval(() => {
@@ -86,7 +89,7 @@ const flushing = setInterval(() => {
     tell();
     if (++flushes % SYNC_EVERY !== 0 || syncing) return;
     syncing = true;
-    // Nothing waits for it: a slow disk shows in what is dropped.
+    // Nothing waits for this: a slow disk shows in what is dropped.
     void writer.file
       .sync()
       .catch(() => {})
