@@ -8,7 +8,7 @@ function faults(table: unknown): string[] {
 }
 
 describe('topic table', () => {
-  it('knows the type and the rate of each role, and takes names of both ROS versions', () => {
+  it('knows type and rate of each role, and accepts names of both ROS versions', () => {
     const table = topicTableSchema.parse([
       { topic: '/camera/points', as: 'cloud' },
       { topic: '/bms', type: 'std_msgs/Float32', as: 'text', most: 0.5, label: 'Cells' },
@@ -22,7 +22,7 @@ describe('topic table', () => {
     expect(table.map(({ type }) => ros1TypeOf(type))).toContain('std_msgs/Float32');
   });
 
-  it('takes pictures, by their name raw or compressed', () => {
+  it('recognises raw and compressed pictures by their names', () => {
     const table = topicTableSchema.parse([
       { topic: '/front/image_raw', as: 'picture', label: 'Front' },
       { topic: '/rear/image_raw/compressed', as: 'picture', most: 2 },
