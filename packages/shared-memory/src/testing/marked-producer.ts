@@ -8,7 +8,7 @@ import { readArguments } from './arguments.ts';
 import { fillPacked, fillWords } from './marked-frames.ts';
 
 const { layout, folder, points } = readArguments();
-// Producers that follow each other are told apart.
+// Makes the marks of successive producers different.
 let mark = process.pid * 1000;
 
 if (layout === 'farpoint') {
