@@ -1,6 +1,6 @@
 /**
- * What the reference system's released programs get wrong, by name. At level `reference` a program may have them and is told of each; at level
- * `strict` it may have none.
+ * Defects of the reference system's released programs, by name. At level `reference`, a program may have them and each
+ * is reported; at level `strict`, it may have none.
  */
 export const knownDefects = {
   // Signaling

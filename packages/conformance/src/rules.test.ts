@@ -20,11 +20,11 @@ const OFFER = [
 const rulesOf = (sdp: string) => checkOffer(sdp).map(({ rule }) => rule);
 
 describe('checkOffer', () => {
-  it('has nothing to say of the reference profile', () => {
+  it('finds nothing wrong with the reference profile', () => {
     expect(checkOffer(OFFER)).toEqual([]);
   });
 
-  it('takes the offer of a stack that lists its other payload types, and ends attribute lines with a blank', () => {
+  it('accepts the offer of a stack that lists its other payload types, and ends attribute lines with a blank', () => {
     const offer = OFFER.replace('SAVPF 5', 'SAVPF 96 5 97')
       .replace('a=rtpmap', 'a=rtpmap:96 VP8/90000\r\na=rtcp-fb:96 nack \r\na=rtpmap')
       .replaceAll(/(a=rtcp-fb:5 .*)\r/g, '$1 \r');
@@ -76,7 +76,7 @@ describe('RtpStreamRules', () => {
   const [a, b] = packets(0, 300, 10, 1000) as [Uint8Array, Uint8Array];
   const [c] = packets(1, 150, 12, 2000) as [Uint8Array];
 
-  it('has nothing to say of a stream as it should be', () => {
+  it('finds nothing wrong with a correct stream', () => {
     expect(findingsOf([a, b, c])).toEqual([]);
   });
 
@@ -97,7 +97,7 @@ describe('RtpStreamRules', () => {
   });
 });
 
-it('readKnownFrame tells points of another frame or place', () => {
+it('readKnownFrame detects points of another frame or place', () => {
   const [payload] = knownFrame(3, 150) as [Uint8Array];
   const message = payload.slice(16);
   expect(readKnownFrame(message)).toMatchObject({

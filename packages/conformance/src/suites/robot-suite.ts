@@ -8,12 +8,12 @@ import { type ConformanceCase, must } from './suite.ts';
 export interface RobotTarget {
   /** Clients' port of its signaling. */
   client: string;
-  /** As it registers. */
+  /** The name under which it registers. */
   name: string;
 }
 
 const FRAMES = 20;
-/** After `stop` what is on its way still comes, then nothing for so long. */
+/** After `stop`, packets in transit may still arrive; then there must be none for this long. */
 const QUIET_MS = 400;
 const STOP_WITHIN_MS = 3000;
 
