@@ -77,7 +77,7 @@ describe.skipIf(python === null || ADDON_SUITE.skip)('the ZED’s example (needs
     expect(frame?.capturedAtMs).toBeLessThan(after - 39);
   });
 
-  it('shows no picture while the camera boots or if the picture is corrupted, but shows those with other warnings', () => {
+  it('hides pictures of a booting camera and corrupted ones, but shows those with other warnings', () => {
     const grabs = 'CAMERA_REBOOTING,CORRUPTED_FRAME,POTENTIAL_CALIBRATION_ISSUE';
     run([], { STANDIN_GRABS: grabs });
     using reader = CloudReader.open(folder);
