@@ -18,9 +18,7 @@ const ORDERS: readonly UnorganisedOrder[] = ['auto', 'given', 'sweep', 'morton']
 export interface UnorganisedSettings {
   /** How many points of the frame are filled, from its beginning. */
   points: number;
-  /**
-   * The grid's step, integer millimetres from 1 to 100; the error of a coordinate is at most half of it. Default 10.
-   */
+  /** The grid's step, integer millimetres from 1 to 100; a coordinate's error is at most half of it. Default 10. */
   stepMm?: number;
   /** Default `colour`. */
   attribute?: UnorganisedAttribute;
@@ -83,8 +81,7 @@ export class UnorganisedEncoder implements Disposable {
   }
 
   /**
-   * The same memory as 32-bit words; the fourth is the bytes R, G, B, A from the lowest, or an intensity of 8 or 16
-   * bits.
+   * The same memory as 32-bit words; the fourth is the bytes R, G, B, A from the lowest, or an 8- or 16-bit intensity.
    */
   get frameBits(): Uint32Array {
     return new Uint32Array(this.#memory.buffer, this.#encoder.frame_ptr(), this.capacityPoints * 4);

@@ -26,8 +26,7 @@ export interface Exchange {
 }
 
 /**
- * `{bind: NAME}` matches any value; `{use: NAME}` inserts that value; `{containing: X}` matches a list that contains an
- * X.
+ * `{bind: NAME}` matches any value; `{use: NAME}` inserts that value; `{containing: X}` matches a list with an X in it.
  */
 type Bindings = Map<string, unknown>;
 

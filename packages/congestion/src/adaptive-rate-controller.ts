@@ -51,9 +51,7 @@ const LOSS_CUT = 0.85;
  */
 export class AdaptiveRateController implements RateController {
   readonly #min: number;
-  /**
-   * Upper bound of the target rate. The estimate may go beyond it, up to `#max`, because frames may be paced faster.
-   */
+  /** Upper bound of the target rate. The estimate may exceed it, up to `#max`, because frames may be paced faster. */
   readonly #most: number;
   readonly #max: number;
   readonly #path = new PathObserver();

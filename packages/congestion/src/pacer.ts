@@ -1,19 +1,14 @@
 import { BitRate } from '@farpoint/timing';
 
-/**
- * A frame to send: `packets` packets with `bytes` in total on the wire. All packets but the last have the same size.
- */
+/** A frame to send: `packets` packets with `bytes` in total on the wire. All packets but the last have equal size. */
 export interface PacedFrame {
   packets: number;
   bytes: number;
   /**
-   * The frame is spread over at least this long, ms, even if the rate allows less; 0 for as fast as the rate allows.
+   * The frame is spread over at least this long, ms, even if the rate allows less; 0 for as fast as the rate allows it.
    */
   minSpanMs?: number;
-  /**
-   * Once it has been in progress for this long, ms, the frame gives way to a newer one; the pacer's `maxFrameMs` if
-   * absent.
-   */
+  /** In progress for this long, ms, the frame gives way to a newer one; the pacer's `maxFrameMs` if absent. */
   maxSpanMs?: number;
   /** Lower lanes go first; 0 if absent. */
   lane?: number;

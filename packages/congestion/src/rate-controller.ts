@@ -44,10 +44,7 @@ export interface ReceiverSums {
 export interface RateDecision {
   /** The rate to plan media for, over all streams of the path, bit/s. */
   targetBitsPerSecond: number;
-  /**
-   * Packets are sent no faster than this, bit/s; slightly above the target, so that a frame ends before the next one
-   * comes.
-   */
+  /** The fastest rate of sending, bit/s; slightly above the target, so that a frame ends before the next one comes. */
   pacingBitsPerSecond: number;
   /** Nothing may be sent while `bytesInFlight` is at least this. Infinity for no limit. */
   congestionWindowBytes: number;

@@ -57,10 +57,7 @@ export interface Addon {
     depth: number,
   ): WriterHandle;
   closeWriter(writer: WriterHandle): void;
-  /**
-   * Returns whether DDS accepted the message; it does not if a reliable subscriber acknowledges too slowly. Never
-   * blocks.
-   */
+  /** Returns whether DDS accepted the message: not if a reliable subscriber acknowledges too slowly. Never blocks. */
   write(writer: WriterHandle, bytes: Uint8Array): boolean;
   subscribers(writer: WriterHandle): number;
 }

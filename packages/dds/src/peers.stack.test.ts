@@ -23,9 +23,7 @@ function twist(x: number, z: number): Uint8Array {
   return writeTwist({ linear: { ...zero, x }, angular: { ...zero, z } }, 0n, '');
 }
 
-/**
- * A cloud of 3.7 MB arrives as one burst; with a smaller buffer, packets are lost faster than they are retransmitted.
- */
+/** A cloud of 3.7 MB arrives as one burst; with less buffer, packets are lost faster than they are retransmitted. */
 const CLOUD_BUFFER_BYTES = 4_000_000;
 const BUFFER_NOTE = ' (needs net.core.rmem_max of 4 MB)';
 

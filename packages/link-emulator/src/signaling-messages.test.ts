@@ -35,7 +35,7 @@ test('omits a message whose candidate is left out; passes the end of candidates'
   expect(map(end)).toEqual(end);
 });
 
-test("maps the reference system’s messages by the owner of their candidates", () => {
+test('maps the reference system’s messages by the owner of their candidates', () => {
   expect(map({ type: 'register', name: 'Diane', sdpOffer: 'v=0' })).toEqual({
     type: 'register',
     name: 'Diane',

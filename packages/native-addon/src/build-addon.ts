@@ -55,9 +55,7 @@ export function buildNativeAddon(addon: NativeAddon): BuildResult {
   return { ok: true, output: '' };
 }
 
-/**
- * A folder with `include/node/node_api.h`, or `null`. Node-API is stable, so the headers of another Node work as well.
- */
+/** A folder with `include/node/node_api.h`, or `null`. Node-API is stable, so the headers of another Node will do. */
 export function findNodeHeaders(): string | null {
   const program = dirname(dirname(realpathSync(process.execPath)));
   const carried = join(program, 'node_modules');

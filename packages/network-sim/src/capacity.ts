@@ -8,9 +8,7 @@ export interface CapacityStep {
   readonly mbps: number;
 }
 
-/**
- * From `startMs` until just before `endMs`, nothing is served, whatever the steps say. Times since the schedule began.
- */
+/** From `startMs` until before `endMs`, nothing is served, whatever the steps say. Times since the schedule began. */
 export interface Outage {
   readonly startMs: number;
   readonly endMs: number;
@@ -19,10 +17,7 @@ export interface Outage {
 export interface CapacitySpec {
   /** At least one step; strictly increasing times. The first step's capacity also applies before it. */
   readonly steps: readonly CapacityStep[];
-  /**
-   * The steps repeat after this long, which must be later than the last step's time; `null` holds the last step for
-   * ever.
-   */
+  /** The steps repeat after this long, which must exceed the last step's time; `null` holds the last step for ever. */
   readonly periodMs: number | null;
   readonly outages?: readonly Outage[] | undefined;
 }

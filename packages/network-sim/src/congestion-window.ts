@@ -41,7 +41,7 @@ export class RenoWindow implements CongestionWindow {
 }
 
 /**
- * Detects that slow start has begun to fill the queue: HyStart++'s delay test (RFC 9406), without its conservative
+ * Detects that slow start has begun to fill the queue: HyStart++'s delay test (RFC 9406) without its conservative
  * phase.
  */
 class SlowStartExit {

@@ -2,7 +2,7 @@ import { type CapacitySpec, constantCapacity } from './capacity.ts';
 import type { LossModel } from './loss.ts';
 
 /**
- * Maximum backlog of the drop-tail queue, including the packet being sent. A packet that would exceed it is dropped.
+ * Maximum backlog of the drop-tail queue, including the packet being sent. Packets that would exceed it are dropped.
  */
 export type QueueLimit =
   | { readonly bytes: number }

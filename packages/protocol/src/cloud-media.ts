@@ -4,9 +4,7 @@
  */
 export const CLOUD_MEDIA = { kind: 'audio', mimeType: 'audio/opus', clockRate: 48_000, channels: 2 } as const;
 
-/**
- * The single m-line of the reference profile: `5 pcm/90000`, with the transport-wide sequence number as extension 1.
- */
+/** The only m-line of the reference profile: `5 pcm/90000`, with the transport-wide sequence number as extension 1. */
 export const REFERENCE_MEDIA = {
   kind: 'video',
   mimeType: 'video/pcm',

@@ -40,9 +40,7 @@ export interface ClockAnswer {
   robotMs: number;
 }
 
-/**
- * What the operator's page has received since the session began. The values are sums, so a lost report does no harm.
- */
+/** What the operator's page has received since the session began. The values are sums: a lost report does no harm. */
 export interface ReceiverReport {
   type: 'receiverReport';
   sequence: number;

@@ -81,9 +81,7 @@ export class PictureAssembler {
     };
   }
 
-  /**
-   * Returns the picture that the chunk belongs to; the oldest makes room for a new one. `null` if the chunk is dropped.
-   */
+  /** Returns the picture of the chunk; the oldest makes room for a new one. `null` if the chunk is dropped. */
   #find(camera: Camera, header: PictureChunkHeader): OpenPicture | null {
     const { pictureId, count } = header;
     const found = camera.open.find((each) => each.header.pictureId === pictureId);

@@ -1,6 +1,6 @@
 /**
- * The reference system's local WebSockets between its bridge and its web page: JSON text for control (8085) and telemetry
- * (8090); frames (8095) are N × 3 int16 coordinates, then N × u16 colours, little-endian, without a header.
+ * The reference system's local WebSockets between its bridge and its web page: JSON text for control (8085) and
+ * telemetry (8090); frames (8095) are N × 3 int16 coordinates, then N × u16 colours, little-endian, without a header.
  */
 import * as z from 'zod/mini';
 import { twistSchema } from './geometry.ts';

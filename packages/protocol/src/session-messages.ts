@@ -1,7 +1,4 @@
-/**
- * The `session` channel, opened by the robot, ordered and reliable: who drives, how the stream is coded, what was
- * refused.
- */
+/** The `session` channel, opened by the robot, ordered and reliable: the lease, how the stream is coded, refusals. */
 import * as z from 'zod/mini';
 import { CLOUD_FORMATS, type CloudFormat } from './cloud-format.ts';
 import { type CommandRejection, commandRejections } from './control.ts';
@@ -51,10 +48,7 @@ export interface CommandRejected {
   reason: CommandRejection;
   /** For people: what is wrong and where. */
   detail: string;
-  /**
-   * How many were refused for this reason since the last such message; refusals are reported at most 10 times per
-   * second.
-   */
+  /** How many were refused for this reason since the last such message; these are sent at most 10 times per second. */
   count: number;
 }
 
@@ -90,8 +84,7 @@ export interface CloudStream {
 }
 
 /**
- * The robot's cameras whose pictures it can send; a camera's position in the list is its number. Sent after the
- * welcome.
+ * The robot's cameras whose pictures it can send; a camera's position in the list is its number. Follows the welcome.
  */
 export interface Cameras {
   type: 'cameras';
@@ -143,7 +136,7 @@ export interface StreamRequest {
   running: boolean;
 }
 
-/** The formats that the operator reads. Before this message it gets `points64`, which it may always get. */
+/** The formats that the operator reads. Before this message it gets `points64`, which may be sent to it at any time. */
 export interface CloudFormats {
   type: 'cloudFormats';
   formats: CloudFormat[];
@@ -156,7 +149,7 @@ export interface Pictures {
 }
 
 /**
- * The sensors whose clouds the operator wants from now on, by number. Before this message, it gets those of sensor 0.
+ * The sensors whose clouds the operator wants from now on, by number. Before this message it gets those of sensor 0.
  */
 export interface WantedSensors {
   type: 'sensors';

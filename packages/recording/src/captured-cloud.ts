@@ -15,8 +15,8 @@ export class PointRoom {
 }
 
 /**
- * A captured cloud in that layout: in its own memory if it arrived as points, else in `room`. Pixels without depth are
- * NaN.
+ * A captured cloud in that layout: in its own memory if it came as points, else in `room`. NaN for pixels without
+ * depth.
  */
 export function recordedPoints(record: CapturedRecord, room: PointRoom): Uint8Array {
   if (record.type === 'points') {

@@ -85,7 +85,7 @@ describe('damaged files', () => {
     await recording.close();
   });
 
-  it('bytes changed anywhere give typed errors with file and offset, or another picture, and nothing else', async () => {
+  it('changed bytes anywhere give typed errors with file and offset, or another picture, nothing else', async () => {
     const outcomes = new Map<string, number>();
     const change = fc.record({
       at: fc.integer({ min: 0, max: 100_000 }),

@@ -1,10 +1,7 @@
 import { type FileHandle, open } from 'node:fs/promises';
 import { detailOf, RecordingError } from './errors.ts';
 
-/**
- * Maximum size of a record: a cloud of 4 million points with everything that a LiDAR reports about each takes half of
- * it.
- */
+/** Maximum size of a record: a cloud of 4 million points with everything that a LiDAR reports takes half of it. */
 export const MAX_RECORD_BYTES = 512 * 1024 * 1024;
 
 /** A file that is read in pieces, at any position. */

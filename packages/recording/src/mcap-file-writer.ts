@@ -14,10 +14,7 @@ const MESSAGE_HEAD_BYTES = 1 + 8 + 2 + 4 + 8 + 8;
 
 /** What follows everything else at the end of a file, besides the definitions and the index. */
 const FOOTER_BYTES = 256;
-/**
- * Overhead of a chunk: its header, its index and its entry in the chunk index, without what each message and channel
- * adds.
- */
+/** Overhead of a chunk: header, index and entry in the chunk index, without what each message and channel adds. */
 const CHUNK_EXTRA_BYTES = 256;
 const MESSAGE_INDEX_BYTES = 16;
 const CHANNEL_INDEX_BYTES = 15 + 10;

@@ -121,7 +121,7 @@ describe('messages played along', () => {
     for (const { atMs, ofMs, ageMs } of events) expect(atMs - ageMs).toBeCloseTo(ofMs / 4, 6);
   });
 
-  it('begin where the clouds begin: of earlier messages, only the newest of each topic, no older than a second', async () => {
+  it('begin with the clouds: of earlier messages, only the newest per topic, no older than a second', async () => {
     // Counted from the first message, 15 ms before the first cloud.
     const lead = async (fromS: number) => {
       const { events } = await play({ fromS });

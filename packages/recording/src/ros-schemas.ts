@@ -1,6 +1,4 @@
-/**
- * Definitions of the ROS 2 messages in our recordings, as `ros2msg` schemas: each text contains everything it needs.
- */
+/** Definitions of the ROS 2 messages in our recordings, as `ros2msg` schemas: each text contains all that it needs. */
 
 const SEPARATOR = `\n${'='.repeat(80)}\n`;
 const TIME = 'MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec';

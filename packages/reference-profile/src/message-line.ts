@@ -1,6 +1,5 @@
 /**
- * A connection to one of the reference system's signaling ports: JSON messages over a WebSocket that reconnects for
- * ever.
+ * A connection to one of the reference system's signaling ports: JSON messages over a WebSocket that always reconnects.
  */
 
 import { decodeJson, encodeJson, type JsonCodec, ProtocolError } from '@farpoint/protocol';

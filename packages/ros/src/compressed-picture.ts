@@ -3,9 +3,7 @@ import { MAX_PICTURE_SIDE, type PictureFile, readPictureFile } from '@farpoint/p
 import { RosFault } from './fault.ts';
 import type { CompressedImage } from './messages.ts';
 
-/**
- * compressed_depth_image_transport marks its images with this: a PNG behind a header of its own, or another encoding.
- */
+/** compressed_depth_image_transport marks its images with this: a PNG with its own header, or another encoding. */
 const DEPTH = 'compressedDepth';
 
 /**

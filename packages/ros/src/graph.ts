@@ -4,9 +4,7 @@
  */
 import type { RosFault } from './fault.ts';
 
-/**
- * Settings on which subscriber and publisher of ROS 2 must agree. ROS 1 has TCP, and latching for `transient-local`.
- */
+/** Settings that subscriber and publisher of ROS 2 must agree on. ROS 1 has TCP, and latching for `transient-local`. */
 export interface Qos {
   reliability: 'reliable' | 'best-effort';
   durability: 'volatile' | 'transient-local';

@@ -1,8 +1,7 @@
 /** Matches colour images to depth images: cameras take them together, or nearly so, and send them separately. */
 
 /**
- * Images count as taken together within this interval, ns: drivers write the same stamp, or that of a clock that
- * jitters.
+ * Images within this interval were taken together, ns: drivers write the same stamp, or that of a clock that jitters.
  */
 const TOGETHER_NS = 3_000_000n;
 /** A colour image further away than this is never paired with a depth image, ns. */

@@ -1,6 +1,4 @@
-/**
- * Reads point fields that are aligned words. Nearly every driver lays them out so, and most of the time is spent here.
- */
+/** Reads point fields that are aligned words. Nearly every driver uses such a layout, and most time is spent here. */
 import type { PointField } from './messages.ts';
 
 /** Axes of a cloud's frame (REP-103): optical (z forward, x right, y down) or body (x forward, y left, z up). */

@@ -33,9 +33,7 @@ export class ArrivalFeedback {
     this.#newest = Math.max(this.#newest, index);
   }
 
-  /**
-   * One message about all or some of the arrivals, or `null` if there is nothing to report. Call again until `null`.
-   */
+  /** One message about all or some of the arrivals; `null` if there is nothing to report. Call again until `null`. */
   take(senderSsrc: number, mediaSsrc: number): Uint8Array | null {
     if (this.#next === null) return null;
     while (this.#next <= this.#newest && Number.isNaN(this.#at(this.#next)) && this.#isFarBehind())

@@ -1,6 +1,5 @@
 /**
- * Generic NACK (RTPFB, packet type 205, FMT 1; RFC 4585 §6.2.1): the RTP packets of a stream that the receiver is
- * missing.
+ * Generic NACK (RTPFB, packet type 205, FMT 1; RFC 4585 §6.2.1): the RTP packets that a receiver of a stream misses.
  */
 import { SequenceNumber } from './sequence-number.ts';
 import { RTCP_TRANSPORT_FEEDBACK } from './transport-feedback.ts';

@@ -31,8 +31,7 @@ export interface CommandGateOptions {
   /** A command that was in transit for longer is stale, ms. */
   maxAgeMs?: number;
   /**
-   * If no command was accepted for this long after motion, the hand must let go of the stick before it can drive again,
-   * ms.
+   * If no command was accepted for this long after motion, the hand must let go of the stick before driving again, ms.
    */
   letGoAfterMs?: number;
   /** How long the shortest transit time is remembered, ms (queueing-delay.ts). */

@@ -1,6 +1,4 @@
-/**
- * Writes a commented configuration file from a program's own options, so that it always matches what the program reads.
- */
+/** Writes a commented configuration file from a program's own options, so it always matches what the program reads. */
 import { stringify } from 'yaml';
 import { type OptionPlace, type OptionTable, optionPlaces, type ProgramDefinition } from './option-table.ts';
 

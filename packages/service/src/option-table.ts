@@ -3,10 +3,7 @@ import { choice, optional, text } from './option-schemas.ts';
 
 /** One option of a program. */
 export interface OptionSpec<T = unknown> {
-  /**
-   * Converts text or YAML to the value; see option-schemas.ts. A schema of zod or, as in the protocol package, of
-   * zod/mini.
-   */
+  /** Converts text or YAML to the value; see option-schemas.ts. Of zod or, as in the protocol package, of zod/mini. */
   readonly schema: z.core.$ZodType<T>;
   /** Used unchanged, without the schema. */
   readonly default: NoInfer<T>;
@@ -17,9 +14,7 @@ export interface OptionSpec<T = unknown> {
   readonly flag?: `--${string}` | false;
   /** Default: `FARPOINT_<SECTION>_<KEY>`. `false`: not read from the environment. */
   readonly env?: string | false;
-  /**
-   * Dotted key in the program's section of the configuration file. Default: the key. `false`: not read from the file.
-   */
+  /** Dotted key in the program's section of the configuration file. Default: the key. `false`: not read from a file. */
   readonly file?: string | false;
   /** Its value is never shown, neither in errors nor in help. */
   readonly secret?: boolean;

@@ -128,7 +128,7 @@ describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
     expect(third.lock()).toBe(true);
   });
 
-  it('refuses access beyond its end, unaligned access, writes to a read-only mapping, and any access once closed', () => {
+  it('refuses unaligned access, access beyond its end or once closed, and writes to a read-only mapping', () => {
     MappedFile.open(path, { bytes: 10, create: true }).close();
     const file = MappedFile.open(path);
     const bytes = new Uint8Array(11);

@@ -5,10 +5,7 @@ export interface MapOptions {
   /** Required size of the file; any size if absent. */
   bytes?: number;
   writable?: boolean;
-  /**
-   * Creates the file, filled with `bytes` zeros, if it is missing. An existing file of another size is resized to
-   * `bytes`.
-   */
+  /** Creates the file if it is missing, with `bytes` zeros. An existing file of another size is resized to `bytes`. */
   create?: boolean;
   /** With `create`: the file must not exist yet. */
   exclusive?: boolean;

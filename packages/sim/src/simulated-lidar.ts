@@ -32,7 +32,7 @@ export const DEFAULT_LIDAR: Readonly<LidarOptions> = {
 
 /** One revolution. The points are a view that the next revolution overwrites. */
 export interface LidarTurn {
-  /** x, y, z in metres in the optical frame (z forward, x right, y down), NaN where nothing was hit; then R, G, B, 255. */
+  /** x, y, z in metres in the optical frame (z forward, x right, y down), NaN if nothing was hit; then R, G, B, 255. */
   points: Float32Array;
   /** Pose of the LiDAR's frame in the world, with optical axes. */
   pose: Pose;

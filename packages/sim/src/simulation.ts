@@ -22,9 +22,7 @@ export interface RobotState extends BaseState {
   cameraPose: Pose;
 }
 
-/**
- * Base and camera with a common place and time. The same seed, commands and steps give the same frames, bit for bit.
- */
+/** Base and camera in a common place and time. The same seed, commands and steps give the same frames, bit for bit. */
 export class Simulation {
   readonly base: SimulatedBase;
   readonly #camera: SimulatedCamera;

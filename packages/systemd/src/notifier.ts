@@ -42,9 +42,7 @@ export class Notifier {
     this.#tell(`EXTEND_TIMEOUT_USEC=${Math.ceil(mostMs * 1000)}`);
   }
 
-  /**
-   * The service is up. From now on, systemd gets a message twice per watchdog time, as long as `isAlive` returns true.
-   */
+  /** The service is up. From now on, systemd gets a message twice per watchdog time, as long as `isAlive` holds. */
   ready(isAlive: () => boolean, status: () => string): void {
     this.#status = status();
     this.#tell(`READY=1\nSTATUS=${this.#status}`);

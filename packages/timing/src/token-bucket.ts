@@ -9,8 +9,7 @@ export interface TokenBucketOptions {
 }
 
 /**
- * A token bucket, initially full: on average `perSecond` tokens per second, and up to `burst` at once. Time is an
- * argument.
+ * A token bucket, initially full: `perSecond` tokens per second on average, up to `burst` at once. Time is an argument.
  */
 export class TokenBucket {
   readonly #perSecond: number;

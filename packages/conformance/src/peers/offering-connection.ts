@@ -1,7 +1,4 @@
-/**
- * The WebRTC half of a robot that behaves like the reference system's: it offers, and streams packets of payload type
- * 5.
- */
+/** The WebRTC half of a robot like the reference system's: it offers, and streams packets of payload type 5. */
 
 import { Buffer } from 'node:buffer';
 import { REFERENCE_MEDIA } from '@farpoint/protocol';

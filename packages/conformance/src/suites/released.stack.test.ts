@@ -1,5 +1,5 @@
 /**
- * The suites against stand-ins for the released programs: they pass at level `reference`, and fail at level `strict`.
+ * The suites against stand-ins for the released programs: they pass at level `reference` and fail at level `strict`.
  */
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import type { KnownDefect } from '../known-defects.ts';

@@ -7,8 +7,7 @@ const TIMEOUT_MS = 5000;
 const STREAM_INTERVAL_MS = 20;
 
 /**
- * The next message of points. At level `reference`, empty ones are skipped: one precedes a stream that does not begin
- * at 0.
+ * The next message of points. At level `reference`, skips empty ones: one precedes a stream that does not begin at 0.
  */
 export async function nextPoints(
   streaming: SocketPeer,

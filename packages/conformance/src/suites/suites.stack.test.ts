@@ -1,6 +1,5 @@
 /**
- * The suites against our own programs, as anybody would run them: over the network, without knowledge of their
- * internals.
+ * The suites against our own programs, as anybody would run them: over the network, without knowing their internals.
  */
 import { BridgeProcess, LocalStack } from '@farpoint/local-stack';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';

@@ -1,7 +1,4 @@
-/**
- * A WebSocket server like those of the reference system's programs: any path, any origin, on a free port of this
- * machine.
- */
+/** A WebSocket server like the reference system's: any path, any origin, on a free port of this machine. */
 import { once } from 'node:events';
 import type { AddressInfo } from 'node:net';
 import { WebSocketServer } from 'ws';

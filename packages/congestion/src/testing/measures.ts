@@ -17,10 +17,7 @@ export function share(a: FlowRecord, b: FlowRecord, fromMs: number, toMs: number
   return bytes / (bytes + sumBins(b.arrivedBytes, fromMs, toMs));
 }
 
-/**
- * Of the packets sent between two times, the fractions that a full queue dropped (`overflow`) or that were lost
- * otherwise.
- */
+/** Of the packets sent between two times, the fractions dropped by a full queue (`overflow`) and lost otherwise. */
 export function losses(flow: FlowRecord, fromMs: number, toMs: number): { overflow: number; other: number } {
   const sent = Math.max(sumBins(flow.sentPackets, fromMs, toMs), 1);
   return {

@@ -8,10 +8,7 @@ export const ADDON_SUITE = {
   note: 'needs CycloneDDS and the addon: apt-get install cyclonedds-dev; pnpm build:native dds',
 };
 
-/**
- * A domain that no other test running on this machine uses. The system may assign the ports of higher domains to
- * others.
- */
+/** A domain that no other test on this machine uses. The system may assign the ports of higher domains to others. */
 export function testDomain(): number {
   return 1 + (process.pid % 100);
 }

@@ -52,10 +52,7 @@ const serviceToClient = z.discriminatedUnion('type', [
   z.object({ type: z.literal('register'), robot: robotRecord }),
   z.object({ type: z.literal('offer'), robotId, sdpOffer: sdp }),
   z.object({ type: z.literal('candidate'), robotId, candidate }),
-  /**
-   * Sent when a robot deregisters explicitly. The reference bridge knows only `deregistered`, so our service sends
-   * both.
-   */
+  /** Sent when a robot deregisters explicitly. The reference bridge knows only `deregistered`, so ours sends both. */
   z.object({ type: z.literal('deregister'), robotId: z.optional(robotId) }),
   z.object({ type: z.literal('deregistered'), robotId }),
 ]);

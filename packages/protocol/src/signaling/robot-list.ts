@@ -1,7 +1,7 @@
 import type { RobotListing, RobotsChanged } from './farpoint.ts';
 
 /**
- * The list after a change: remaining robots keep their places, new ones are appended. Does not modify the given list.
+ * The list after a change: remaining robots keep their places, new ones are appended. The given list is not modified.
  */
 export function applyRobotsChanged(
   robots: readonly RobotListing[],

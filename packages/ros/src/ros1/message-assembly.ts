@@ -1,6 +1,4 @@
-/**
- * Assembles the messages of a TCPROS stream in reusable memory: each follows its length in four bytes, little-endian.
- */
+/** Assembles messages of a TCPROS stream in reusable memory: each follows its length in four bytes, little-endian. */
 
 /** Longer messages are refused: a cloud of 10 million points is shorter. */
 export const MOST_MESSAGE_BYTES = 512 * 1024 * 1024;

@@ -4,10 +4,7 @@ import { RosNode, type Subscription } from '@foxglove/ros1';
 type NodeOptions = ConstructorParameters<typeof RosNode>[0];
 
 export class OwnNode extends RosNode {
-  /**
-   * Called when the master ends this node: because of `rosnode kill`, or because another node with its name has
-   * registered.
-   */
+  /** Called when the master ends this node: by `rosnode kill`, or because another node with its name has registered. */
   onShutdown: (() => void) | null = null;
   readonly #connecting = new Set<string>();
 

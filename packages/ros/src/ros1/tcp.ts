@@ -81,7 +81,7 @@ export class RosTcpSocket extends EventEmitter<TcpSocketEvents> implements TcpSo
   }
 
   /**
-   * Connects only once: the library calls it again after a loss, but the graph's monitor makes a new connection then.
+   * Connects only once: the library calls it again after a loss, but the graph's monitor then makes a new connection.
    */
   async connect(): Promise<void> {
     if (this.#ended) return;

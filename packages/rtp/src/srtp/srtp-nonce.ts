@@ -7,10 +7,7 @@ export const SRTP_GCM_TAG_BYTES = 16;
 /** The protection profile's number in DTLS-SRTP (RFC 7714 §14.2). */
 export const SRTP_AEAD_AES_128_GCM = 7;
 
-/**
- * Key and nonces of SRTP with AES-128-GCM. A nonce is the salt XORed with the SSRC and the packet's index (RFC 7714
- * §8.1).
- */
+/** Key and nonces of SRTP with AES-128-GCM. A nonce is the salt XORed with SSRC and packet index (RFC 7714 §8.1). */
 export class SrtpNonce {
   readonly key: KeyObject;
   readonly #salt: Uint8Array;

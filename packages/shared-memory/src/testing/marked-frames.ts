@@ -18,9 +18,7 @@ export function areWordsWhole({ points }: CloudFrame, room: FrameRoom): boolean 
   return true;
 }
 
-/**
- * Fills the reference system's packed points: x is the mark, y follows from mark and index, z and colour are the mark.
- */
+/** Fills the reference system's packed points: x, z and colour are the mark, y follows from mark and index. */
 export function fillPacked(packed: Uint8Array, mark: number): void {
   const values = new Int16Array(packed.buffer, packed.byteOffset, packed.length / 2);
   const of = mark % MARKS;

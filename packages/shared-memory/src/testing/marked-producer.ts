@@ -1,7 +1,4 @@
-/**
- * A process that produces marked frames until it is killed:
- * `node marked-producer.ts --layout … --folder … --points N`.
- */
+/** A process that produces marked frames until killed: `node marked-producer.ts --layout … --folder … --points N`. */
 import { CloudProducer } from '../cloud/cloud-producer.ts';
 import { ReferenceFrameProducer } from '../reference/frame-producer.ts';
 import { readArguments } from './arguments.ts';

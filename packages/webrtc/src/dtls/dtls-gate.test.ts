@@ -94,7 +94,7 @@ describe('DtlsGate', () => {
     );
   });
 
-  it('accepts a second hello that equals the first plus the cookie, and repeats its flight for a repeated hello', () => {
+  it('accepts a second hello that is the first plus the cookie, and repeats its flight for a repeated one', () => {
     const endpoint = new FakeEndpoint('server');
     const refusals = new Refusals();
     const gate = new DtlsGate(endpoint, refusals);

@@ -111,8 +111,7 @@ export interface TakenApart {
 }
 
 /**
- * Removes the candidates from a session description, so that they go through the gate like trickled ones. Accepts any
- * text.
+ * Removes the candidates from a session description, so that they pass the gate like trickled ones. Accepts any text.
  */
 export function takeCandidates(sdp: string): TakenApart {
   const candidates: IceCandidate[] = [];
