@@ -47,7 +47,7 @@ const timedStep = fc.record({
   step,
 });
 
-test('for any messages at any times: within the limits, fresh, by the holder, never while stopped, never by a hand held through silence', () => {
+test('whatever is sent: moves only within limits, for fresh commands of a holder who let go, never while stopped', () => {
   let moved = 0;
   let checked = 0;
   let letGo = 0;
