@@ -87,9 +87,9 @@ describe('RtpStreamRules', () => {
     ['a second element', [changed(a, 19, 0x20)], 'extension-element'],
     ['frames that begin at 1', [c], 'from-zero'],
     ['a frame that is left out', [a, b, ...packets(2, 150, 12, 2000)], 'frame-number'],
-    ['a time that stands', [a, b, ...packets(1, 150, 12, 1000)], 'timestamp'],
-    ['a mark too early', [changed(a, 1, 0x85), b], 'marker'],
-    ['no mark', [a, changed(b, 1, 5)], 'marker'],
+    ['a timestamp that does not advance', [a, b, ...packets(1, 150, 12, 1000)], 'timestamp'],
+    ['a marker too early', [changed(a, 1, 0x85), b], 'marker'],
+    ['no marker', [a, changed(b, 1, 5)], 'marker'],
     ['a partial packet', packets(0, 200, 10, 1000), 'whole-packets'],
     ['a block beyond its frame', [changed(a, 29, 0xff)], 'point-header'],
   ])('%s', (_what, stream, rule) => {

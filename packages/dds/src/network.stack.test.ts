@@ -70,7 +70,7 @@ describe(`two machines (needs root, iproute2; ${ADDON_SUITE.note})`, { skip: !po
   const SHORT_MS = 2000;
 
   it.each([
-    ['by multicast, without a word', {}, {}, '', LONG_MS, 0],
+    ['by multicast, without configuration', {}, {}, '', LONG_MS, 0],
     [
       'with the interface by name and by address',
       { interface: 'eth0' },

@@ -139,7 +139,7 @@ async function passesCommands(robot: ReferenceRobot, telemetry: SocketPeer): Pro
 export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
   ...vectorCases,
   {
-    name: 'shows one robot, goes over to another at once, and shows no other meanwhile',
+    name: 'shows one robot, switches to another at once, and shows no other meanwhile',
     run: withRobots(['first', 'second'], async (robots, { control, streaming }, level) => {
       const [first, second] = robots as [ReferenceRobot, ReferenceRobot];
       const shown = await showFrames(first, 1, 300, streaming, level);
@@ -162,7 +162,7 @@ export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
     }),
   },
   {
-    name: 'passes commands on as they are, and reports a rate for each frame',
+    name: 'passes commands on unchanged, and reports a rate for each frame',
     run: withRobots(['conformance'], async ([robot], { telemetry, streaming }, level) => {
       await passesCommands(robot as ReferenceRobot, telemetry);
       for (let i = 0; i < 3; i++) {
@@ -172,7 +172,7 @@ export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
     }),
   },
   {
-    name: 'lives through garbage on its sockets',
+    name: 'survives garbage on its sockets',
     run: withRobots(['conformance'], async ([robot], { control, telemetry, streaming }, level) => {
       for (const peer of [control, telemetry, streaming])
         for (const data of ['null', '{', '{"type":"switchRobot","robotId":"x"}', new Uint8Array([0xff, 0])])
@@ -182,7 +182,7 @@ export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
     }),
   },
   {
-    name: 'goes on showing its robot where a page chooses one that is not there',
+    name: 'keeps showing its robot if a page selects one that does not exist',
     defect: 'shows-nobody',
     run: withRobots(['conformance'], async ([robot], { control, streaming }, level) => {
       control.send({ type: 'switchRobot', robotId: 0xffffffff });
@@ -216,7 +216,7 @@ export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
     }),
   },
   {
-    name: 'answers each initBridge by the list, also with the address in use',
+    name: 'answers each initBridge with the list, even for the address in use',
     run: withRobots(['conformance'], async ([robot], { control }, _level, target) => {
       for (let i = 0; i < 2; i++) {
         await initBridge(control, target);
@@ -225,7 +225,7 @@ export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
     }),
   },
   {
-    name: 'lives through an offer that is none',
+    name: 'survives an invalid offer',
     defect: 'offer-ends-bridge',
     deadly: true,
     run: withRobots(['conformance'], async ([robot], { streaming }, level) => {

@@ -55,7 +55,7 @@ export const robotSuite: readonly ConformanceCase<RobotTarget>[] = [
     }),
   },
   {
-    name: 'sends nothing before "start", whatever the operator before said',
+    name: 'sends nothing before "start", whatever the previous operator sent',
     defect: 'streams-unasked',
     run: withOperator(async (operator) => {
       const packet = await operator.packets.next(undefined, QUIET_MS).catch(() => null);
@@ -90,7 +90,7 @@ export const robotSuite: readonly ConformanceCase<RobotTarget>[] = [
     }),
   },
   {
-    name: 'goes on streaming, whatever comes on its channels',
+    name: 'keeps streaming, whatever arrives on its channels',
     run: withOperator(async (operator) => {
       for (const bytes of [
         new Uint8Array([0]),

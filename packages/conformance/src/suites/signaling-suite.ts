@@ -15,7 +15,7 @@ const { exchanges } = JSON.parse(
 
 export const signalingSuite: readonly ConformanceCase<SignalingTarget>[] = [
   {
-    name: 'robot 0, where the service has given no id yet, is a robot like any other',
+    name: 'robot 0, if the service has assigned no id yet, is a robot like any other',
     run: (target) => playExchange(exchanges[0], target),
     defect: 'robot-0-dropped',
   },

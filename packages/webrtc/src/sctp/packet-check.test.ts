@@ -34,7 +34,7 @@ describe('isSctpPacket', () => {
     ['an unknown chunk', packet(chunk(77, zeros(4)))],
     ['a parameter of length 0, which would never end', packet(chunk(130, [0, 13, 0, 0, 1, 1, 1, 1]))],
     ['a parameter beyond the chunk', packet(chunk(130, [0, 13, 0, 90, 1, 1, 1, 1]))],
-    ['gaps that are not there', packet(chunk(3, [...zeros(8), 0, 9, 0, 0]))],
+    ['missing gap blocks', packet(chunk(3, [...zeros(8), 0, 9, 0, 0]))],
     ['gaps that overlap', packet(chunk(3, [...zeros(8), 0, 2, 0, 0, 0, 1, 0, 9, 0, 5, 0, 12]))],
     ['a gap that runs backwards', packet(chunk(3, [...zeros(8), 0, 1, 0, 0, 0, 9, 0, 1]))],
   ])('refuses %s', (_, bytes) => {
