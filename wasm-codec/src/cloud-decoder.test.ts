@@ -58,7 +58,7 @@ describe('CloudDecoder', () => {
     expect(decoder.unpack(1)).toHaveLength(600);
   });
 
-  test('refuses capacities and layouts that cannot be', () => {
+  test('refuses impossible capacities and layouts', () => {
     expect(() => new CloudDecoder(codec, 0)).toThrow(expect.objectContaining({ code: 'bad-capacity' }));
     expect(() => new CloudDecoder(codec, 1e6)).toThrow(expect.objectContaining({ code: 'bad-capacity' }));
     expect(() => new CloudDecoder(codec, 1, { stride: 1200, dataOffset: 1 })).toThrow(

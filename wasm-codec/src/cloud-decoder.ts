@@ -1,4 +1,4 @@
-/** From the data blocks of received packets to points as the renderer wants them. */
+/** Decodes the data blocks of received packets to points in the renderer's layout. */
 import { Decoder } from '../pkg/farpoint_codec.js';
 import type { Codec } from './codec.ts';
 import { CodecError } from './errors.ts';
@@ -12,8 +12,8 @@ import {
 } from './slot-layout.ts';
 
 /**
- * Unpacks `points64` data blocks, many packets in one call. For each packet {@link put} its block, then {@link unpack}.
- * As with the encoder, take the views from the decoder each time and do not keep them.
+ * Unpacks `points64` data blocks, many packets in one call. For each packet, {@link put} its block, then
+ * {@link unpack}. As with the encoder, take the views from the decoder each time and do not keep them.
  */
 export class CloudDecoder implements Disposable {
   readonly capacityPackets: number;
@@ -29,7 +29,7 @@ export class CloudDecoder implements Disposable {
   /** @throws CodecError `bad-capacity`, `bad-layout` */
   constructor(codec: Codec, capacityPackets: number, layout: SlotLayout = DEFAULT_SLOT_LAYOUT) {
     checkCapacity('capacityPackets', capacityPackets);
-    // 150 points a packet: the same bound on memory as an encoder's.
+    // 150 points per packet: the same bound on memory as an encoder's.
     checkCapacity('points', capacityPackets * POINTS_PER_PACKET);
     checkSlotLayout(layout);
     const decoder = Decoder.create(capacityPackets, layout.stride, layout.dataOffset);
@@ -40,7 +40,7 @@ export class CloudDecoder implements Disposable {
     this.#decoder = decoder;
   }
 
-  /** The packet slots: whole packets may be written here in place of {@link put}. */
+  /** The packet slots: whole packets may be written here instead of {@link put}. */
   get slots(): Uint8Array {
     this.#refresh();
     return this.#slots;
@@ -58,9 +58,9 @@ export class CloudDecoder implements Disposable {
   }
 
   /**
-   * Copies one packet's data block (8 bytes a point) into the next slot.
+   * Copies one packet's data block (8 bytes per point) into the next slot.
    *
-   * @throws CodecError `bad-count` where it is not 1 to 150 whole points, `too-many-packets` where no slot is free
+   * @throws CodecError `bad-count` if it is not 1 to 150 whole points, `too-many-packets` if no slot is free
    */
   put(block: Uint8Array): void {
     const count = block.length / BYTES_PER_POINT;
@@ -79,7 +79,8 @@ export class CloudDecoder implements Disposable {
   /**
    * Unpacks the first `packets` slots (by default those that {@link put} filled) and starts over.
    *
-   * @returns x, y, z in millimetres and the colour's bits, four int16 a point: a view that holds until the next call
+   * @returns x, y, z in millimetres and the colour's bits, four int16 per point: a view that is valid until the next
+   * call
    * @throws CodecError `too-many-packets`, `bad-count`
    */
   unpack(packets: number = this.#pending): Int16Array {
@@ -96,7 +97,7 @@ export class CloudDecoder implements Disposable {
     return this.#points.subarray(0, points * 4);
   }
 
-  /** Gives the memory back; the decoder and its views must not be used any more. */
+  /** Frees the memory; the decoder and its views must not be used afterwards. */
   [Symbol.dispose](): void {
     this.#decoder.free();
   }

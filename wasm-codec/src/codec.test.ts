@@ -1,6 +1,6 @@
 import { expect, test, vi } from 'vitest';
 
-test('a module that is none is refused, and the next source is tried', async () => {
+test('refuses an invalid module, and tries the next source', async () => {
   // Another test may have loaded the module already.
   vi.resetModules();
   const { loadCodec, loadCodecSync } = await import('./codec.ts');
@@ -12,6 +12,6 @@ test('a module that is none is refused, and the next source is tried', async () 
   expect(() => loadCodecSync(new Uint8Array([0]))).toThrow(expect.objectContaining({ code: 'not-loadable' }));
   const codec = await loadCodecFromDisk();
   expect(codec.memory.buffer.byteLength).toBeGreaterThan(0);
-  // One module a thread, whoever asks.
+  // One module per thread, whoever asks.
   expect(await loadCodec(new Uint8Array([1]))).toBe(codec);
 });

@@ -1,10 +1,10 @@
-/** Loads the WASM module, once for each thread. */
+/** Loads the WASM module, once per thread. */
 import init, { type InitInput, initSync, type SyncInitInput } from '../pkg/farpoint_codec.js';
 import { CodecError } from './errors.ts';
 
-/** The loaded module: what encoders and decoders are made from. They share its memory. */
+/** The loaded module, from which encoders and decoders are made. They share its memory. */
 export interface Codec {
-  /** A `WebAssembly.Memory`: the buffer is another one after the memory has grown. */
+  /** A `WebAssembly.Memory`: its buffer is replaced when the memory grows. */
   readonly memory: { readonly buffer: ArrayBuffer };
 }
 
@@ -14,8 +14,8 @@ export type CodecSource = InitInput;
 let loading: Promise<Codec> | undefined;
 
 /**
- * Loads the module; later calls on the same thread give the same one, whatever their source. Without a source a page or
- * worker fetches the file that its bundler put beside the script. Node programs use `@farpoint/wasm-codec/node`.
+ * Loads the module; later calls on the same thread return the same one, whatever their source. Without a source, a page
+ * or worker fetches the file that its bundler put beside the script. Node programs use `@farpoint/wasm-codec/node`.
  *
  * @throws CodecError `not-loadable`
  */
@@ -35,13 +35,13 @@ async function load(source: CodecSource | Promise<CodecSource> | undefined): Pro
   }
 }
 
-/** Written so that bundlers see it and take the file along. */
+/** Written in a form that bundlers recognise, so that they include the file. */
 function besideThisFile(): URL {
   return new URL('../pkg/farpoint_codec_bg.wasm', import.meta.url);
 }
 
 /**
- * Like {@link loadCodec}, at once, from bytes or a compiled module.
+ * Like {@link loadCodec}, but synchronous, from bytes or a compiled module.
  *
  * @throws CodecError `not-loadable`
  */

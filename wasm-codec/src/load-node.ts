@@ -1,4 +1,4 @@
-/** Loads the WASM module in Node, from the file that lies in this package. */
+/** Loads the WASM module in Node, from the file in this package. */
 import { readFile } from 'node:fs/promises';
 import { type Codec, loadCodec } from './codec.ts';
 

@@ -5,7 +5,7 @@ const cloud = { points: 230_400, framesPerSecond: 10 };
 
 describe('maxPoints', () => {
   test('fills the link with whole packets', () => {
-    // 40 Mbit/s at 10 frames/s are 62,500 points: 416 packets and a rest.
+    // 40 Mbit/s at 10 frames/s are 62,500 points: 416 packets and a remainder.
     expect(maxPoints({ ...cloud, bitsPerSecond: 40e6 })).toBe(62_400);
   });
 
@@ -14,7 +14,7 @@ describe('maxPoints', () => {
     expect(maxPoints({ points: 299, framesPerSecond: 10, bitsPerSecond: 1e9 })).toBe(150);
   });
 
-  test('keeps the floor of a tenth of the cloud a second, as the formula has it', () => {
+  test('keeps the lower limit of a tenth of the cloud per second, as in the formula', () => {
     // 0.10 × 230,400 / 10 = 2304 points: 15 packets.
     expect(maxPoints({ ...cloud, bitsPerSecond: 0 })).toBe(2250);
     expect(maxPoints({ ...cloud, bitsPerSecond: 0, floorFraction: 1 })).toBe(22_950);

@@ -7,19 +7,19 @@ const BITS_PER_POINT = 64;
 export interface PointBudget {
   /** BW: what the link carries, bit/s. */
   bitsPerSecond: number;
-  /** FPS: frames a second, above 0. */
+  /** FPS: frames per second, above 0. */
   framesPerSecond: number;
   /** n: points of the raw cloud. */
   points: number;
   /**
-   * Never fewer than this fraction of the raw cloud *a second*, whatever the link carries: the formula divides it by the
-   * frame rate, though the paper's text says "at least 10 % of the raw cloud". Default 0.10.
+   * Lower limit, as a fraction of the raw cloud *per second*, whatever the link carries: the formula divides it by the
+   * frame rate, although the paper's text says "at least 10 % of the raw cloud". Default 0.10.
    */
   floorFraction?: number;
 }
 
 /**
- * N_max = 150 · ⌊max(min(MFS / 64, n), floorFraction · n / FPS) / 150⌋ with MFS = BW / FPS: whole packets, so 0 where not
+ * N_max = 150 · ⌊max(min(MFS / 64, n), floorFraction · n / FPS) / 150⌋ with MFS = BW / FPS: whole packets, so 0 if not
  * even one fits.
  *
  * @throws CodecError `bad-parameter`

@@ -6,12 +6,12 @@ import { CodecError } from './errors.ts';
 export type PacketFault =
   | 'too-short'
   | 'too-long'
-  | 'bad-check' // the check value does not fit the bytes
+  | 'bad-check' // the checksum does not match the bytes
   | 'reserved' // a reserved bit is set
-  | 'unknown-stream' // its header has not come, or is another's
-  | 'bad-tiles' // tiles that the image has not
-  | 'duplicate' // of tiles that have come before in this frame
-  | 'corrupt'; // coded as no encoder codes
+  | 'unknown-stream' // its stream header has not arrived, or is another's
+  | 'bad-tiles' // tiles that the image does not have
+  | 'duplicate' // tiles that have already arrived in this frame
+  | 'corrupt'; // coded as no encoder would
 
 export type PutResult = { points: number } | { fault: PacketFault };
 
@@ -39,7 +39,7 @@ export class OrganisedDecoder implements Disposable {
   #packets: readonly [Uint8Array, Uint8Array] = [new Uint8Array(0), new Uint8Array(0)];
 
   /**
-   * @param options.images also makes depth and colour images
+   * @param options.images also produce depth and colour images
    * @throws CodecError `bad-stream-header`
    */
   constructor(codec: Codec, streamHeader: Uint8Array, options: { images?: boolean } = {}) {
@@ -67,7 +67,7 @@ export class OrganisedDecoder implements Disposable {
     return resultOf(this.#binding.put(packet.length));
   }
 
-  /** As {@link put} of one and then the other, in less time: packets of a frame are best put so. */
+  /** Like {@link put} of one and then the other, but faster: the best way to put the packets of a frame. */
   putTwo(first: Uint8Array, second: Uint8Array): [PutResult, PutResult] {
     if (first.length >= PACKET_ROOM || second.length >= PACKET_ROOM) {
       return [this.put(first), this.put(second)];
@@ -79,7 +79,7 @@ export class OrganisedDecoder implements Disposable {
     return [resultOf(points), resultOf(this.#binding.second())];
   }
 
-  /** Where packets go; made anew when the module's memory has grown. */
+  /** Where packets are written; recreated when the module's memory has grown. */
   get #rooms(): readonly [Uint8Array, Uint8Array] {
     const { buffer } = this.#memory;
     if (buffer !== this.#buffer) {
@@ -98,32 +98,32 @@ export class OrganisedDecoder implements Disposable {
     return this.#binding.count();
   }
 
-  /** True where a packet of the frame was a latency test's: all its points are pure green. */
+  /** Whether a packet of the frame belonged to a latency test: all its points are pure green. */
   get latencyTest(): boolean {
     return this.#binding.latency_test();
   }
 
   /**
-   * A view of the frame's points so far, in the order of their packets: int16 x, y, z in millimetres and 6-6-4 colour, the
-   * vertex layout of `points64`.
+   * A view of the frame's points so far, in the order of their packets: int16 x, y, z in millimetres and 6-6-4 colour,
+   * the vertex layout of `points64`.
    */
   unpack(): Uint8Array {
     return new Uint8Array(this.#memory.buffer, this.#binding.points_ptr(), this.count * 8);
   }
 
-  /** Depth along z in metres, 0 where nothing has come; empty without `images`. */
+  /** Depth along z in metres, 0 where nothing has arrived; empty without `images`. */
   get depth(): Float32Array {
     const length = this.#images ? this.width * this.height : 0;
     return new Float32Array(this.#memory.buffer, this.#binding.depth_ptr(), length);
   }
 
-  /** R, G, B, 255 of each pixel, R lowest, 0 where nothing has come; empty without `images`. */
+  /** R, G, B, 255 of each pixel, R lowest, 0 where nothing has arrived; empty without `images`. */
   get colour(): Uint32Array {
     const length = this.#images ? this.width * this.height : 0;
     return new Uint32Array(this.#memory.buffer, this.#binding.colour_ptr(), length);
   }
 
-  /** Gives the memory back; the decoder and its views must not be used any more. */
+  /** Frees the memory; the decoder and its views must not be used afterwards. */
   [Symbol.dispose](): void {
     this.#binding.free();
   }

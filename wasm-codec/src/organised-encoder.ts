@@ -11,16 +11,16 @@ export interface Pinhole {
   cy: number;
 }
 
-/** Why a frame is not taken for a depth camera's picture. Such a frame takes the unorganised way. */
+/** Why a frame is not accepted as a depth camera's image. Such a frame is coded as unorganised. */
 export type Misfit =
   | 'shape' // a single row or column
-  | 'too-few-points' // none valid, or all in one row or column
+  | 'too-few-points' // no valid points, or all in one row or column
   | 'no-focal-length' // the points give a focal length that no camera has
-  | 'off-grid'; // a point lies beside its pixel's ray
+  | 'off-grid'; // a point does not lie on its pixel's ray
 
 export type GridResult =
   | { fits: true; camera: Pinhole }
-  /** `pixels`: how far beside its ray the worst point lies, for `off-grid`. */
+  /** `pixels`: how far the worst point is from its ray, for `off-grid`. */
   | { fits: false; reason: Misfit; pixels?: number };
 
 /** How colours are coded: not, by a transform with a step of 2 · 2^(quality/5) levels, or by the stream's palette. */
@@ -30,13 +30,13 @@ export type OrganisedColour =
   | {
       /** 0 (finest) to 31. */
       quality: number;
-      /** Chroma at half the resolution (default), or as fine as luma. */
+      /** Chroma at half the resolution (default), or at the resolution of luma. */
       chroma?: 'half' | 'full';
     };
 
 /** The paper's validity (equations 4 and 5): which tiles are thinned first. */
 export interface Thinning {
-  /** Of the nearest pixels, those kept, 0 to 1; above 1 the farther ones keep more. Ignored with a budget. */
+  /** Fraction of the nearest pixels to keep, 0 to 1; above 1, the farther ones keep more. Ignored with a budget. */
   density?: number;
   /** λ, default 3. */
   lambda?: number;
@@ -47,30 +47,30 @@ export interface Thinning {
 }
 
 export interface OrganisedOptions {
-  /** Bytes of all packets: depth level, colour and thinning are chosen to spend them. */
+  /** Bytes of all packets: depth level, colour and thinning are chosen to use them up. */
   budgetBytes?: number;
   /** Without a budget: 0 to 7, the depth error is at most 0.0625 · 2^level mm · z². Default 3 (0.5 mm · z²). */
   depthLevel?: number;
-  /** Without a budget: default quality 18. With one only `palette` counts. */
+  /** Without a budget: default quality 18. With a budget, only `palette` is used. */
   colour?: OrganisedColour;
   thinning?: Thinning;
-  /** Every point pure green, and no bits spent on it. */
+  /** Every point is pure green, and no bits are spent on colour. */
   latencyTest?: boolean;
-  /** Takes {@link OrganisedEncoder.depth} and {@link OrganisedEncoder.colour} in place of the frame. */
+  /** Takes {@link OrganisedEncoder.depth} and {@link OrganisedEncoder.colour} instead of the frame. */
   fromImages?: boolean;
 }
 
-/** Valid or not, what did not go out, in points. */
+/** Points that were not sent, valid or not, by reason. */
 export interface OrganisedReasons {
   notFinite: number;
   nonPositiveDepth: number;
-  /** Beyond ±32.767 m, or nearer than inverse depth reaches. */
+  /** Beyond ±32.767 m, or nearer than the inverse depth can represent. */
   outOfRange: number;
   /** By the tiles' patterns. */
   thinned: number;
-  /** Of these: in tiles that no packet could have held. */
+  /** How many of these were in tiles that no packet could have held. */
   tooDense: number;
-  /** In packets left out because the frame would not fit its budget otherwise. */
+  /** In packets left out because the frame would otherwise exceed its budget. */
   dropped: number;
 }
 
@@ -81,7 +81,7 @@ export interface OrganisedReport {
   reasons: OrganisedReasons;
   depthLevel: number;
   quality: number;
-  /** Passes over the frame that the budget took. */
+  /** Passes over the frame that the budget required. */
   passes: number;
 }
 
@@ -92,10 +92,10 @@ const MODES = ['none', 'half', 'full', 'palette'] as const;
 
 /**
  * Codes organised clouds: frames of a depth camera. Fill {@link frame} (or {@link depth} and {@link colour}), call
- * {@link begin} once a stream and {@link encode} for each frame, send {@link packet} 0, 1, …, the nearest first. The stream
- * header that `begin` returns must reach the decoder reliably.
+ * {@link begin} once per stream and {@link encode} for each frame, send {@link packet} 0, 1, …, the nearest first. The
+ * stream header that `begin` returns must reach the decoder reliably.
  *
- * Views are made anew when the module's memory has grown: take them for each frame and do not keep them.
+ * Views are recreated when the module's memory has grown: take them for each frame and do not keep them.
  */
 export class OrganisedEncoder implements Disposable {
   readonly width: number;
@@ -128,7 +128,7 @@ export class OrganisedEncoder implements Disposable {
     this.#binding = binding;
   }
 
-  /** 4 floats a pixel, row by row: x, y, z in metres and the bytes R, G, B, A; not valid: NaN, infinite, or z ≤ 0. */
+  /** 4 floats per pixel, row by row: x, y, z in metres and the bytes R, G, B, A; invalid: NaN, infinite, or z ≤ 0. */
   get frame(): Float32Array {
     return new Float32Array(this.#memory.buffer, this.#binding.frame_ptr(), this.#pixels * 4);
   }
@@ -138,7 +138,7 @@ export class OrganisedEncoder implements Disposable {
     return new Uint32Array(this.#memory.buffer, this.#binding.frame_ptr(), this.#pixels * 4);
   }
 
-  /** Depth along z, metres, a float a pixel; not valid: NaN, infinite, or ≤ 0. */
+  /** Depth along z, metres, one float per pixel; invalid: NaN, infinite, or ≤ 0. */
   get depth(): Float32Array {
     const pointer = this.#binding.depth_ptr();
     return new Float32Array(this.#memory.buffer, pointer, this.#pixels);
@@ -154,7 +154,10 @@ export class OrganisedEncoder implements Disposable {
     return this.width * this.height;
   }
 
-  /** The camera that the frame's points lie on, by robust least squares; milliseconds, so once a stream. */
+  /**
+   * Estimates the camera on whose rays the frame's points lie, by robust least squares. Takes milliseconds, so call it
+   * once per stream.
+   */
   estimateCamera(): GridResult {
     return this.#gridResult(this.#binding.estimate());
   }
@@ -172,8 +175,8 @@ export class OrganisedEncoder implements Disposable {
   }
 
   /**
-   * Begins a stream with the next id and returns its header. With `palette` the present frame's colours (256 at most) become
-   * the stream's palette; later frames' other colours become the most like.
+   * Begins a stream with the next id and returns its header. With `palette`, the present frame's colours (256 at most)
+   * become the stream's palette; other colours in later frames are replaced by the most similar.
    *
    * @throws CodecError `bad-parameter`, `too-many-colours`
    */
@@ -184,7 +187,7 @@ export class OrganisedEncoder implements Disposable {
     }
     const { fx, fy, cx, cy } = camera;
     const header = this.#binding.begin(id, fx, fy, cx, cy, palette, fromImages);
-    // A header that this module's decoder refuses is none. Without a palette it is the camera that is refused.
+    // A header that this module's decoder refuses is invalid. Without a palette, the cause is the camera.
     if (header.length === 0) {
       const code = palette ? 'too-many-colours' : 'bad-parameter';
       throw new CodecError(
@@ -252,20 +255,20 @@ export class OrganisedEncoder implements Disposable {
   }
 
   /**
-   * What the last frame would take in one packet of any length, bits: what packets that need no other are measured against.
-   * It takes as long as coding a frame.
+   * The size of the last frame in one packet of any length, bits: the reference for the cost of independent packets.
+   * Takes as long as coding a frame.
    */
   bitsInOnePacket(options: { fromImages?: boolean } = {}): number {
     return this.#binding.bits_in_one_packet(options.fromImages ?? false);
   }
 
-  /** The last frame's slots, one after another, laid out as {@link layout} says. */
+  /** The last frame's slots, one after another, laid out according to {@link layout}. */
   get slots(): Uint8Array {
     const bytes = this.#packets * this.layout.stride;
     return new Uint8Array(this.#memory.buffer, this.#binding.slots_ptr(), bytes);
   }
 
-  /** Bytes and points of each packet of the last frame, two numbers a packet. */
+  /** Bytes and points of each packet of the last frame, two numbers per packet. */
   get lengths(): Uint32Array {
     return new Uint32Array(this.#memory.buffer, this.#binding.lengths_ptr(), this.#packets * 2);
   }
@@ -277,7 +280,7 @@ export class OrganisedEncoder implements Disposable {
     return new Uint8Array(this.#memory.buffer, start, length);
   }
 
-  /** Gives the memory back; the encoder and its views must not be used any more. */
+  /** Frees the memory; the encoder and its views must not be used afterwards. */
   [Symbol.dispose](): void {
     this.#binding.free();
   }

@@ -35,7 +35,7 @@ function encoded(options: Parameters<OrganisedEncoder['encode']>[0], palette = f
 }
 
 describe('OrganisedEncoder and OrganisedDecoder', () => {
-  test('give back every valid point, whatever the order of the packets', () => {
+  test('return every valid point, whatever the order of the packets', () => {
     const { header, report, packets } = encoded({ depthLevel: 2, colour: { quality: 6, chroma: 'full' } });
     expect(report.points).toBe(size.width * size.height - 19 * 59);
     expect(report.reasons.notFinite).toBe(19 * 59);
@@ -55,7 +55,7 @@ describe('OrganisedEncoder and OrganisedDecoder', () => {
     expect(decoder.depth.every((z) => z === 0)).toBe(true);
   });
 
-  test('take two packets at once as one after the other, refused ones too', () => {
+  test('process two packets at once like one after the other, including refused ones', () => {
     const { header, packets } = encoded({ depthLevel: 0, colour: { quality: 0, chroma: 'full' } });
     expect(packets.length).toBeGreaterThan(2);
     const [a, b, c] = packets as [Uint8Array, Uint8Array, Uint8Array];
@@ -79,7 +79,7 @@ describe('OrganisedEncoder and OrganisedDecoder', () => {
     expect(atOnce.unpack()).toEqual(oneByOne.unpack());
   });
 
-  test('keep a budget and thin the far first', () => {
+  test('keep a budget and thin the farthest tiles first', () => {
     const whole = encoded({}).report;
     const budgetBytes = Math.round(whole.bytes / 6);
     const { report, header, packets } = encoded({ budgetBytes, thinning: { nearDistance: 3 } });
@@ -102,7 +102,7 @@ describe('OrganisedEncoder and OrganisedDecoder', () => {
     expect(words.filter((_, i) => i % 4 === 3).every((colour) => colour === 0x03f0)).toBe(true);
   });
 
-  test('few colours go without loss by a palette', () => {
+  test('few colours are lossless with a palette', () => {
     const { header, packets } = encoded({ colour: 'palette' }, true);
     const decoder = new OrganisedDecoder(codec, header, { images: true });
     for (const packet of packets) decoder.put(packet);
@@ -110,7 +110,7 @@ describe('OrganisedEncoder and OrganisedDecoder', () => {
     expect(seen).toEqual(new Set([0xff20_4060, 0xff60_a0c0]));
   });
 
-  test('the camera is found, and what does not fit it is refused', () => {
+  test('the camera is found, and frames that do not fit it are refused', () => {
     const encoder = new OrganisedEncoder(codec, size);
     fill(encoder.frame, encoder.frameBits, plane);
     const found = encoder.estimateCamera();
@@ -123,7 +123,7 @@ describe('OrganisedEncoder and OrganisedDecoder', () => {
     expect(encoder.estimateCamera()).toEqual({ fits: false, reason: 'too-few-points' });
   });
 
-  test('images do as well as points', () => {
+  test('images give the same result as points', () => {
     const { packets } = encoded({});
     const encoder = new OrganisedEncoder(codec, size);
     const { depth, colour } = encoder;
@@ -168,7 +168,7 @@ describe('OrganisedEncoder and OrganisedDecoder', () => {
   });
 });
 
-test('the conformance vectors give their points here too', () => {
+test('the conformance vectors give their points here, too', () => {
   const file = new URL('../vectors/organised.json', import.meta.url);
   const vectors = JSON.parse(readFileSync(file, 'utf8')) as {
     streamHeader: string;

@@ -20,7 +20,7 @@ function fill(encoder: Points64Encoder, points: readonly PlainPoint[]): void {
   });
 }
 
-/** The format's rules in plain numbers, written anew: what the packets must hold. */
+/** The format's rules in plain numbers, implemented again: what the packets must contain. */
 function expectedBlock(points: readonly PlainPoint[], latencyTest: boolean): Uint8Array {
   const bytes = new Uint8Array(points.length * 8);
   const view = new DataView(bytes.buffer);
@@ -53,7 +53,7 @@ const anyPoint = fc.tuple(anyCoordinate, anyCoordinate, anyCoordinate, fc.nat({ 
 function reasonFor([x, y, z]: PlainPoint, parameters: SamplingParameters): string {
   const c = [x, y, z].map(Math.fround) as [number, number, number];
   if (!c.every(Number.isFinite)) return 'notFinite';
-  // Below a micrometre a depth counts as none.
+  // Below a micrometre, a depth counts as none.
   const depth = parameters.depthMeasure === 'range' ? Math.hypot(...c) : c[2];
   if (depth < 1e-6) return 'nonPositiveDepth';
   const far = c.some((value) => Math.abs(value) > Math.fround(32.767));
@@ -111,7 +111,7 @@ describe('Points64Encoder', () => {
     );
   });
 
-  test('packs near bands of depth first, in raster order inside a band', () => {
+  test('packs near bands of depth first, in raster order within a band', () => {
     using encoder = new Points64Encoder(codec, 8);
     const depths = [9, 0.5, 3, 1.5, 20, 0.75, 1.25, 4];
     fill(
@@ -127,7 +127,7 @@ describe('Points64Encoder', () => {
     expect([...encoder.chosen]).toEqual([0, 1, 2, 3, 4, 5, 6, 7]);
   });
 
-  test('gives the same choice for the same seed and another one for another', () => {
+  test('gives the same choice for the same seed and a different one for another', () => {
     using encoder = new Points64Encoder(codec, 10_000);
     const points = Array.from({ length: 10_000 }, (_, i): PlainPoint => [0, 0, 1 + i / 1000, i]);
     fill(encoder, points);
@@ -138,11 +138,11 @@ describe('Points64Encoder', () => {
     const first = draw(1);
     expect(draw(2)).not.toEqual(first);
     expect(draw(1n)).toEqual(first);
-    // The seed counts in all of its 64 bits.
+    // All 64 bits of the seed count.
     expect(draw(1n + 2n ** 63n)).not.toEqual(first);
   });
 
-  test('leaves headers and trailers alone', () => {
+  test('leaves headers and trailers unchanged', () => {
     const layout = { stride: 1300, dataOffset: 40 };
     using encoder = new Points64Encoder(codec, 300, layout);
     fill(
@@ -159,7 +159,7 @@ describe('Points64Encoder', () => {
     expect(packets.subarray(1300 + 40 + 50 * 8).every((byte) => byte === 0xaa)).toBe(true);
   });
 
-  test('gives of images the very packets that it gives of their points', () => {
+  test('gives the same packets for images as for their points', () => {
     const [width, height, fx, fy, cx, cy] = [20, 30, 12, 13, 9.5, 14.5];
     const byPoints = new Points64Encoder(codec, width * height);
     const byImages = new Points64Encoder(codec, width * height);
@@ -182,7 +182,7 @@ describe('Points64Encoder', () => {
     }
   });
 
-  test('wants a camera that it has room for, before images', () => {
+  test('requires a camera that it has room for before images', () => {
     const encoder = new Points64Encoder(codec, 100);
     const camera = { width: 10, height: 10, fx: 5, fy: 5, cx: 4.5, cy: 4.5 };
     expect(() => encoder.sampleImages({ count: 1, seed: 0 })).toThrow(
@@ -210,7 +210,7 @@ describe('Points64Encoder', () => {
     expect(second.sample({ points: 1, count: 1, seed: 0 }).maxDepth).toBe(6);
   });
 
-  test('refuses what it cannot do, says why, and works on', () => {
+  test('refuses what it cannot do, says why, and remains usable', () => {
     const codeOf = (action: () => unknown) => {
       try {
         action();

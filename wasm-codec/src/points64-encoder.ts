@@ -1,4 +1,4 @@
-/** From a frame of points to the data blocks of its packets. */
+/** Encodes a frame of points to the data blocks of its packets. */
 import { Encoder } from '../pkg/farpoint_codec.js';
 import type { Codec } from './codec.ts';
 import { CodecError, type CodecErrorCode } from './errors.ts';
@@ -13,7 +13,7 @@ import {
 
 /** The paper's sampling (equations 4 and 5) of a camera's images; the defaults are the paper's. */
 export interface ImageSamplingParameters {
-  /** How many to choose (the paper's N_max, see `maxPoints`); all that can be sent where those are fewer. */
+  /** How many points to choose (the paper's N_max, see `maxPoints`); all sendable points if there are fewer. */
   count: number;
   /** The same frame, parameters and seed give the same choice. 0 to 2⁶⁴ − 1. */
   seed: number | bigint;
@@ -27,7 +27,7 @@ export interface ImageSamplingParameters {
   outOfRange?: 'reject' | 'saturate';
 }
 
-/** The same of a frame of points. */
+/** The same for a frame of points. */
 export interface SamplingParameters extends ImageSamplingParameters {
   /** How many points of the frame are filled, from its beginning. */
   points: number;
@@ -35,7 +35,7 @@ export interface SamplingParameters extends ImageSamplingParameters {
   depthMeasure?: 'z' | 'range';
 }
 
-/** Why points of a frame are not sent; each counts once, under the first reason that holds. */
+/** Why points of a frame are not sent; each counts once, under the first reason that applies. */
 export interface RejectedPoints {
   /** A coordinate is NaN or infinite. */
   notFinite: number;
@@ -43,21 +43,24 @@ export interface RejectedPoints {
   nonPositiveDepth: number;
   /** A coordinate is beyond ±32.767 m. */
   outOfRange: number;
-  /** It could be sent; the draw left it out. */
+  /** It could be sent, but was not drawn. */
   notDrawn: number;
 }
 
 export interface SampleReport {
-  /** Points chosen. With all of `rejected` they add up to the frame's points. */
+  /** Points chosen. Together with all of `rejected`, they add up to the frame's points. */
   kept: number;
   rejected: RejectedPoints;
-  /** Smallest and largest depth of the points that could be sent, metres; 0 where there was none. */
+  /** Smallest and largest depth of the points that could be sent, metres; 0 if there were none. */
   minDepth: number;
   maxDepth: number;
 }
 
 export interface PackOptions {
-  /** `raster` (default): as in the frame. `near-first`: by bands of depth whose far edge doubles (1, 2, 4, 8, 16 m), raster order inside a band. */
+  /**
+   * `raster` (default): as in the frame. `near-first`: by bands of depth whose far edge doubles (1, 2, 4, 8, 16 m), in
+   * raster order within a band.
+   */
   order?: 'raster' | 'near-first';
   /** Makes every colour the latency test's green (0x03F0). Default false. */
   latencyTest?: boolean;
@@ -71,7 +74,7 @@ export interface PackReport {
   saturated: number;
 }
 
-/** The module's answers to `sample`, by their numbers. */
+/** Result codes of the module's `sample`. */
 const FAULTS: readonly (readonly [CodecErrorCode, string])[] = [
   ['bad-parameter', 'lambda is not between 0 and 64'],
   ['bad-parameter', 'epsilon is not between 1e-12 and 1'],
@@ -82,12 +85,13 @@ const FAULTS: readonly (readonly [CodecErrorCode, string])[] = [
 const MAX_SEED = 2n ** 64n - 1n;
 
 /**
- * Samples frames and packs them. Its buffers lie in the module's memory and are made once: fill {@link frame}, call
- * {@link sample} and {@link pack}, send from {@link packets}. For a depth camera: {@link setCamera} once, fill {@link depth}
- * and {@link colour}, call {@link sampleImages}; a third of the bytes, and the same packets as of the images' points.
+ * Samples frames and packs them. Its buffers are in the module's memory and are created once: fill {@link frame}, call
+ * {@link sample} and {@link pack}, send from {@link packets}. For a depth camera, call {@link setCamera} once, fill
+ * {@link depth} and {@link colour}, and call {@link sampleImages}: this takes a third of the bytes, and gives the same
+ * packets as the images' points.
  *
- * The views are made anew when the module's memory has grown (because another encoder or decoder was made): take them
- * from the encoder for each frame and do not keep them.
+ * The views are recreated when the module's memory has grown (because another encoder or decoder was created): take
+ * them from the encoder for each frame and do not keep them.
  */
 export class Points64Encoder implements Disposable {
   readonly capacityPoints: number;
@@ -115,8 +119,8 @@ export class Points64Encoder implements Disposable {
   }
 
   /**
-   * 4 floats a point: x, y, z in metres in the sensor's optical frame, and the colour's bytes R, G, B, A as the bits of
-   * the fourth. Write the colours through {@link frameBits}: JavaScript may change the bits of a NaN.
+   * 4 floats per point: x, y, z in metres in the sensor's optical frame, and the colour's bytes R, G, B, A as the bits
+   * of the fourth. Write the colours through {@link frameBits}: JavaScript may change the bits of a NaN.
    */
   get frame(): Float32Array {
     const pointer = this.#encoder.frame_ptr();
@@ -130,9 +134,9 @@ export class Points64Encoder implements Disposable {
   }
 
   /**
-   * The camera of {@link depth} and {@link colour}, which are made now.
+   * Sets the camera of {@link depth} and {@link colour}, which are created now.
    *
-   * @throws CodecError `bad-parameter` for numbers that no camera has, or more pixels than the capacity
+   * @throws CodecError `bad-parameter` for values that no camera has, or more pixels than the capacity
    */
   setCamera({ width, height, fx, fy, cx, cy }: { width: number; height: number } & Pinhole): void {
     const whole = Number.isInteger(width) && Number.isInteger(height) && width > 0 && height > 0;
@@ -143,7 +147,7 @@ export class Points64Encoder implements Disposable {
     this.#buffer = undefined;
   }
 
-  /** Depth along z, metres, a float a pixel, row by row; not valid: NaN, infinite, zero or negative. */
+  /** Depth along z, metres, one float per pixel, row by row; invalid: NaN, infinite, zero or negative. */
   get depth(): Float32Array {
     this.#refresh();
     return this.#depth;
@@ -155,7 +159,7 @@ export class Points64Encoder implements Disposable {
     return this.#colour;
   }
 
-  /** The packet slots, one after another, laid out as {@link layout} says. */
+  /** The packet slots, one after another, laid out according to {@link layout}. */
   get packets(): Uint8Array {
     this.#refresh();
     return this.#packets;
@@ -167,7 +171,7 @@ export class Points64Encoder implements Disposable {
   }
 
   /**
-   * Draws `count` points of the frame without replacement, with probability proportional to their weight, exactly.
+   * Draws `count` points of the frame without replacement, with probability exactly proportional to their weight.
    *
    * @throws CodecError `bad-count`, `too-many-points`, `bad-parameter`
    */
@@ -177,7 +181,7 @@ export class Points64Encoder implements Disposable {
   }
 
   /**
-   * The same of the images.
+   * The same for the images.
    *
    * @throws CodecError `bad-count`, `bad-parameter`, `no-stream` without a camera
    */
@@ -232,7 +236,7 @@ export class Points64Encoder implements Disposable {
     };
   }
 
-  /** Gives the memory back; the encoder and its views must not be used any more. */
+  /** Frees the memory; the encoder and its views must not be used afterwards. */
   [Symbol.dispose](): void {
     this.#encoder.free();
   }

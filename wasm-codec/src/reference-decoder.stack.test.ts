@@ -1,4 +1,4 @@
-/** The decoder in Python that was written after the specification alone: it reads what the codec writes. */
+/** The decoder in Python that was written from the specification alone reads what the codec writes. */
 import { execFile, spawnSync } from 'node:child_process';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';

@@ -6,8 +6,8 @@ export const POINTS_PER_PACKET = 150;
 export const BYTES_PER_POINT = 8;
 
 /**
- * Where the data blocks of a frame lie: packet i's begins at byte `i × stride + dataOffset`. What is before and after
- * it in the slot is left as it is: room for a packet's header and trailer.
+ * Layout of a frame's data blocks: packet i's block begins at byte `i × stride + dataOffset`. The bytes before and
+ * after it in the slot are left unchanged: room for a packet's header and trailer.
  */
 export interface SlotLayout {
   stride: number;
@@ -17,7 +17,7 @@ export interface SlotLayout {
 /** A 16-byte header before a full block of 1200 bytes, and room for a 28-byte trailer after it. */
 export const DEFAULT_SLOT_LAYOUT: SlotLayout = { stride: 1248, dataOffset: 16 };
 
-/** How many packets carry a frame of `points` points. */
+/** How many packets a frame of `points` points takes. */
 export function packetsFor(points: number): number {
   return Math.ceil(points / POINTS_PER_PACKET);
 }

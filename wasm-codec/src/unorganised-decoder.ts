@@ -1,4 +1,4 @@
-/** From received `unorganised` packets to points as the renderer wants them. */
+/** Decodes received `unorganised` packets to points in the renderer's layout. */
 import { UnorganisedDecoder as WasmDecoder } from '../pkg/farpoint_codec.js';
 import type { Codec } from './codec.ts';
 import { CodecError } from './errors.ts';
@@ -6,13 +6,13 @@ import { checkCapacity } from './slot-layout.ts';
 
 /** Why a packet gave no points. */
 export type UnorganisedFault =
-  | 'too-short' // fewer bytes than a header and a check value
+  | 'too-short' // fewer bytes than a header and a checksum
   | 'too-long' // more than 1200 bytes
-  | 'bad-check' // the check value is not that of the bytes
-  | 'bad-version' // of another version of the format
-  | 'bad-header' // a field of the header is out of its range
+  | 'bad-check' // the checksum does not match the bytes
+  | 'bad-version' // a different version of the format
+  | 'bad-header' // a field of the header is out of range
   | 'bad-data' // the coded points end too early, too late or at an impossible value
-  | 'full'; // no room for its points: `clear` first
+  | 'full'; // no room for its points: call `clear` first
 
 const FAULTS: readonly UnorganisedFault[] = [
   'too-short',
@@ -24,7 +24,7 @@ const FAULTS: readonly UnorganisedFault[] = [
   'full',
 ];
 
-/** Bytes of a packet at most. */
+/** Maximum size of a packet, bytes. */
 const MAX_PACKET_BYTES = 1200;
 
 /** The points of one packet. */
@@ -42,22 +42,22 @@ export interface UnorganisedPlace {
 const ATTRIBUTES = ['none', 'intensity', 'colour'] as const;
 
 export interface UnorganisedDecoderOptions {
-  /** Bits of the colours that come out: `565` (default) or `664`, as `points64` has them. */
+  /** Layout of the resulting colours: `565` (default) or `664`, as in `points64`. */
   colour?: '565' | '664';
-  /** What each intensity 0…255 becomes (16 bits); default: itself. */
+  /** What each intensity 0…255 is mapped to (16 bits); default: itself. */
   palette?: Uint16Array;
 }
 
 /**
- * Decodes packets, in any order, into one block of memory: {@link decode} each, read {@link points}, {@link clear}. Take
- * the views from the decoder each time and do not keep them.
+ * Decodes packets, in any order, into one block of memory: {@link decode} each, read {@link points}, {@link clear}.
+ * Take the views from the decoder each time and do not keep them.
  */
 export class UnorganisedDecoder implements Disposable {
   readonly capacityPoints: number;
   readonly #memory: Codec['memory'];
   readonly #decoder: WasmDecoder;
 
-  /** @throws CodecError `bad-capacity`, `bad-parameter` for a palette that has not 256 entries */
+  /** @throws CodecError `bad-capacity`, or `bad-parameter` for a palette without exactly 256 entries */
   constructor(
     codec: Codec,
     capacityPoints: number,
@@ -87,7 +87,7 @@ export class UnorganisedDecoder implements Disposable {
     return points >= 0 ? points : (FAULTS[-1 - points] ?? 'bad-data');
   }
 
-  /** Four int16 a point: x, y, z in steps from its packet's origin, and the bits of its colour or intensity. */
+  /** Four int16 per point: x, y, z in steps from its packet's origin, and the bits of its colour or intensity. */
   get points(): Int16Array {
     const length = this.#decoder.points_length() * 4;
     return new Int16Array(this.#memory.buffer, this.#decoder.points_ptr(), length);
@@ -98,12 +98,12 @@ export class UnorganisedDecoder implements Disposable {
     return this.#decoder.packets_length();
   }
 
-  /** Four floats a packet, metres: its origin and its step. For the renderer, with {@link extents}. */
+  /** Four floats per packet, metres: its origin and its step. For the renderer, with {@link extents}. */
   get places(): Float32Array {
     return new Float32Array(this.#memory.buffer, this.#decoder.places_ptr(), this.packetCount * 4);
   }
 
-  /** Three words a packet: its first point, how many, and 0 nothing, 1 intensity or 2 colour. */
+  /** Three words per packet: its first point, how many, and 0 nothing, 1 intensity or 2 colour. */
   get extents(): Uint32Array {
     return new Uint32Array(this.#memory.buffer, this.#decoder.extents_ptr(), this.packetCount * 3);
   }
@@ -111,7 +111,7 @@ export class UnorganisedDecoder implements Disposable {
   /**
    * {@link places} and {@link extents} of one packet.
    *
-   * @throws CodecError `bad-count` where there is no such packet
+   * @throws CodecError `bad-count` if there is no such packet
    */
   place(packet: number): UnorganisedPlace {
     if (!Number.isInteger(packet) || packet < 0 || packet >= this.packetCount) {
@@ -122,7 +122,7 @@ export class UnorganisedDecoder implements Disposable {
     return { origin: [x, y, z], step, first, count, attribute: ATTRIBUTES[kind] };
   }
 
-  /** All points as metres, three float32 each: for consumers that do not want {@link points}. */
+  /** All points in metres, three float32 each: for consumers that do not want {@link points}. */
   metres(): Float32Array {
     const at = this.#decoder.metres_ptr();
     return new Float32Array(this.#memory.buffer, at, this.#decoder.points_length() * 3);
@@ -133,7 +133,7 @@ export class UnorganisedDecoder implements Disposable {
     this.#decoder.clear();
   }
 
-  /** Gives the memory back; the decoder and its views must not be used any more. */
+  /** Frees the memory; the decoder and its views must not be used afterwards. */
   [Symbol.dispose](): void {
     this.#decoder.free();
   }

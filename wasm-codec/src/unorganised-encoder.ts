@@ -1,16 +1,16 @@
-/** From a frame of points without a grid to `unorganised` packets (docs/unorganised-codec.md). */
+/** Encodes a frame of points without a grid to `unorganised` packets (docs/unorganised-codec.md). */
 import { UnorganisedEncoder as WasmEncoder } from '../pkg/farpoint_codec.js';
 import type { Codec } from './codec.ts';
 import { CodecError } from './errors.ts';
 import { checkCapacity } from './slot-layout.ts';
 
-/** What the fourth word of a point holds. */
+/** What the fourth word of a point contains. */
 export type UnorganisedAttribute = 'none' | 'colour' | 'intensity8' | 'intensity16';
 const ATTRIBUTES: readonly UnorganisedAttribute[] = ['none', 'colour', 'intensity8', 'intensity16'];
 
 /**
- * The order of the points: as they came (`given`), ring by ring about the axis along which the cloud is flattest
- * (`sweep`), along a Morton curve (`morton`), or (`auto`) as they came where that is an order already, else what costs less.
+ * The order of the points: unchanged (`given`), ring by ring around the axis along which the cloud is flattest
+ * (`sweep`), along a Morton curve (`morton`), or (`auto`) unchanged if that is already an order, else the cheaper one.
  */
 export type UnorganisedOrder = 'auto' | 'given' | 'sweep' | 'morton';
 const ORDERS: readonly UnorganisedOrder[] = ['auto', 'given', 'sweep', 'morton'];
@@ -18,7 +18,7 @@ const ORDERS: readonly UnorganisedOrder[] = ['auto', 'given', 'sweep', 'morton']
 export interface UnorganisedSettings {
   /** How many points of the frame are filled, from its beginning. */
   points: number;
-  /** The grid's step, whole millimetres from 1 to 100; a coordinate is wrong by half of it at most. Default 10. */
+  /** The grid's step, integer millimetres from 1 to 100; a coordinate's error is at most half of it. Default 10. */
   stepMm?: number;
   /** Default `colour`. */
   attribute?: UnorganisedAttribute;
@@ -26,9 +26,12 @@ export interface UnorganisedSettings {
   order?: UnorganisedOrder;
   /** 128 to 1200, default 1200. */
   maxPacketBytes?: number;
-  /** Points are left out until all packets together have no more bytes. Default: none are left out. */
+  /** Points are left out until all packets together do not exceed this. Default: none are left out. */
   budgetBytes?: number;
-  /** How fast the share of kept points falls with range beyond 4 m where there is a budget: range^−lambda, 0 to 8. Default 0: even. */
+  /**
+   * With a budget: how fast the fraction of kept points falls with range beyond 4 m: range^−lambda, 0 to 8. Default 0:
+   * uniform.
+   */
   lambda?: number;
 }
 
@@ -44,7 +47,7 @@ export interface UnorganisedReport {
     outOfRange: number;
   };
   packets: number;
-  /** All packets together. */
+  /** Size of all packets together. */
   bytes: number;
 }
 
@@ -55,8 +58,8 @@ const FAULTS = [
 ] as const;
 
 /**
- * Encodes frames: fill {@link frame}, call {@link encode}, send {@link packet} 0, 1, 2 …, which are those nearest to the
- * sensor first. Take the views from the encoder for each frame and do not keep them: the memory moves when it grows.
+ * Encodes frames: fill {@link frame}, call {@link encode}, send {@link packet} 0, 1, 2 …, those nearest to the sensor
+ * first. Take the views from the encoder for each frame and do not keep them: the memory moves when it grows.
  */
 export class UnorganisedEncoder implements Disposable {
   readonly capacityPoints: number;
@@ -72,12 +75,14 @@ export class UnorganisedEncoder implements Disposable {
     this.#encoder = WasmEncoder.create(capacityPoints);
   }
 
-  /** 4 floats a point: x, y, z in metres with the sensor at the origin; the fourth as {@link frameBits} has it. */
+  /** 4 floats per point: x, y, z in metres with the sensor at the origin; the fourth as in {@link frameBits}. */
   get frame(): Float32Array {
     return new Float32Array(this.#memory.buffer, this.#encoder.frame_ptr(), this.capacityPoints * 4);
   }
 
-  /** The same memory as 32-bit words; the fourth is the bytes R, G, B, A from the lowest, or an intensity of 8 or 16 bits. */
+  /**
+   * The same memory as 32-bit words; the fourth is the bytes R, G, B, A from the lowest, or an 8- or 16-bit intensity.
+   */
   get frameBits(): Uint32Array {
     return new Uint32Array(this.#memory.buffer, this.#encoder.frame_ptr(), this.capacityPoints * 4);
   }
@@ -116,15 +121,15 @@ export class UnorganisedEncoder implements Disposable {
     return { kept, thinned, rejected: { notFinite, outOfRange }, packets, bytes };
   }
 
-  /** Packets of the last frame. */
+  /** Number of packets of the last frame. */
   get packetCount(): number {
     return this.#packets;
   }
 
   /**
-   * The i-th packet's bytes, at most 1200: a view that holds until the next call.
+   * The i-th packet's bytes, at most 1200: a view that is valid until the next call.
    *
-   * @throws CodecError `bad-count` where there is no such packet
+   * @throws CodecError `bad-count` if there is no such packet
    */
   packet(i: number): Uint8Array {
     if (!Number.isInteger(i) || i < 0 || i >= this.#packets) {
@@ -135,13 +140,13 @@ export class UnorganisedEncoder implements Disposable {
     return new Uint8Array(buffer, this.#encoder.bytes_ptr() + (extents[0] as number), extents[1]);
   }
 
-  /** Points of the i-th packet. */
+  /** Number of points of the i-th packet. */
   pointsOf(i: number): number {
     if (!Number.isInteger(i) || i < 0 || i >= this.#packets) return 0;
     return new Uint32Array(this.#memory.buffer, this.#encoder.extents_ptr() + i * 12, 3)[2] as number;
   }
 
-  /** Gives the memory back; the encoder and its views must not be used any more. */
+  /** Frees the memory; the encoder and its views must not be used afterwards. */
   [Symbol.dispose](): void {
     this.#encoder.free();
   }

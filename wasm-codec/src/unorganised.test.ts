@@ -34,7 +34,7 @@ function rings(encoder: UnorganisedEncoder): number {
 }
 
 describe('unorganised', () => {
-  test('takes a cloud there and back within half a grid step, in few bits', () => {
+  test('restores a cloud to within half a grid step, in few bits', () => {
     using encoder = new UnorganisedEncoder(codec, 9000);
     using decoder = new UnorganisedDecoder(codec, 9000);
     const points = rings(encoder);
@@ -49,7 +49,7 @@ describe('unorganised', () => {
       seen += encoder.pointsOf(i);
     }
     expect(seen).toBe(9000);
-    // The rings came nearest first, and packets are sent so.
+    // The rings were given nearest first, and the packets are sent in that order.
     const metres = decoder.metres();
     let worst = 0;
     for (let i = 0; i < points; i++) {
@@ -68,7 +68,7 @@ describe('unorganised', () => {
     );
   });
 
-  test('gives colours as 5-6-5, as 6-6-4, and intensities through a palette', () => {
+  test('returns colours as 5-6-5, as 6-6-4, and intensities through a palette', () => {
     using encoder = new UnorganisedEncoder(codec, 2);
     const decodeWith = (options: ConstructorParameters<typeof UnorganisedDecoder>[2]): number => {
       using decoder = new UnorganisedDecoder(codec, 2, options);
@@ -100,7 +100,7 @@ describe('unorganised', () => {
     expect(report.bytes).toBeGreaterThanOrEqual(4750);
   });
 
-  test('refuses any other bytes with a reason, and goes on', () => {
+  test('refuses any other bytes with a reason, and remains usable', () => {
     using encoder = new UnorganisedEncoder(codec, 9000);
     using decoder = new UnorganisedDecoder(codec, 9000);
     encoder.encode({ points: rings(encoder) });
@@ -139,7 +139,7 @@ describe('unorganised', () => {
     expect(fault(() => new UnorganisedEncoder(codec, 0))).toBe('bad-capacity');
   });
 
-  test('makes the points of the conformance vectors', () => {
+  test('gives the points of the conformance vectors', () => {
     const file = new URL('../crates/unorganised-codec/vectors/packets.json', import.meta.url);
     const vectors = JSON.parse(readFileSync(file, 'utf8')) as Vector[];
     using decoder = new UnorganisedDecoder(codec, 4096);

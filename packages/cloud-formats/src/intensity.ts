@@ -1,4 +1,7 @@
-/** LiDAR intensity as colour: dark blue over green to yellow, even in brightness (after viridis, five stops). */
+/**
+ * LiDAR intensity as colour: from dark blue through green to yellow, with uniform brightness steps (after viridis, five
+ * stops).
+ */
 const STOPS: readonly (readonly [number, number, number])[] = [
   [68, 1, 84],
   [59, 82, 139],
@@ -7,7 +10,10 @@ const STOPS: readonly (readonly [number, number, number])[] = [
   [253, 231, 37],
 ];
 
-/** @param level 0–1, cut off beyond. @returns R in the lowest byte, then G, B and 255 */
+/**
+ * @param level 0–1, clamped
+ * @returns R in the lowest byte, then G, B and 255
+ */
 export function intensityColour(level: number): number {
   const at = (Number.isFinite(level) ? Math.min(Math.max(level, 0), 1) : 0) * (STOPS.length - 1);
   const low = STOPS[Math.min(Math.floor(at), STOPS.length - 2)] as readonly [number, number, number];
@@ -18,8 +24,8 @@ export function intensityColour(level: number): number {
 }
 
 /**
- * What to multiply intensities by, so that all but the brightest hundredth lie in 0–1: sensors differ in their scale, and
- * a few mirrors would leave everything else dark.
+ * Factor that scales all but the brightest hundredth of the intensities to 0–1. Sensors differ in their scale, and a
+ * few reflectors would leave everything else dark.
  */
 export function intensityScale(value: (index: number) => number, count: number): number {
   const stride = Math.max(1, Math.floor(count / 4096));

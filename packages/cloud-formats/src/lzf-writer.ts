@@ -1,4 +1,4 @@
-/** A plain LZF compressor, for tests: finds the repeats that a hash of three bytes shows. */
+/** A plain LZF compressor for tests: finds repeats through a hash of three bytes. */
 export function compressLzf(input: Uint8Array): Uint8Array {
   const output: number[] = [];
   const seen = new Map<number, number>();

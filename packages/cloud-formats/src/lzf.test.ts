@@ -11,7 +11,7 @@ describe('decompressLzf', () => {
     expect(text).toBe(`ababa${'a'.repeat(13)}`);
   });
 
-  it('gives back what was compressed', () => {
+  it('restores what was compressed', () => {
     const runs = fc
       .array(fc.tuple(fc.integer({ min: 0, max: 255 }), fc.integer({ min: 1, max: 600 })), { maxLength: 40 })
       .map((pairs) => Uint8Array.from(pairs.flatMap(([value, count]) => Array<number>(count).fill(value))));
@@ -37,7 +37,7 @@ describe('decompressLzf', () => {
     );
   });
 
-  it('never does anything but decompress or throw an LzfError', () => {
+  it('any input is decompressed or throws an LzfError', () => {
     fc.assert(
       fc.property(fc.uint8Array({ maxLength: 200 }), fc.nat(2000), (input, bytes) => {
         try {

@@ -1,7 +1,7 @@
 /**
- * LZF decompression (LibLZF's format), as PCD files of `DATA binary_compressed` hold it. A stream of control bytes: below
- * 32 a run of `control + 1` literals follows; else a copy of `(control >> 5) + 2` bytes (for 7 the next byte is added)
- * from `((control & 31) << 8 | next byte) + 1` bytes back in the output.
+ * LZF decompression (LibLZF's format), as used in PCD files with `DATA binary_compressed`. A stream of control bytes:
+ * below 32, a run of `control + 1` literals follows; else a copy of `(control >> 5) + 2` bytes (for 7, the next byte is
+ * added) from `((control & 31) << 8 | next byte) + 1` bytes back in the output.
  */
 
 export type LzfErrorCode =
@@ -13,7 +13,7 @@ export type LzfErrorCode =
 export class LzfError extends Error {
   override readonly name = 'LzfError';
   readonly code: LzfErrorCode;
-  /** Byte of the input where the fault showed. */
+  /** Byte of the input at which the error was found. */
   readonly offset: number;
 
   constructor(code: LzfErrorCode, offset: number) {
@@ -24,7 +24,7 @@ export class LzfError extends Error {
 }
 
 /**
- * @param outputBytes exactly so many bytes must come out
+ * @param outputBytes exact length of the output
  * @throws {LzfError} for anything else
  */
 export function decompressLzf(input: Uint8Array, outputBytes: number): Uint8Array {
@@ -51,7 +51,7 @@ export function decompressLzf(input: Uint8Array, outputBytes: number): Uint8Arra
     let reference = to - (((control & 31) << 8) | (input[from++] as number)) - 1;
     if (reference < 0) throw new LzfError('bad-reference', begin);
     if (to + length > outputBytes) throw new LzfError('overflow', begin);
-    // Byte by byte: the copy may reach into what it is writing.
+    // Byte by byte, because the copy may overlap its own output.
     for (let i = 0; i < length; i++) output[to++] = output[reference++] as number;
   }
   if (to !== outputBytes) throw new LzfError('underflow', input.length);

@@ -3,17 +3,17 @@ import { MAX_POINTS_PER_FRAME, type Pose } from '@farpoint/protocol';
 
 export type PcdErrorCode =
   | 'not-pcd' // no PCD header
-  | 'bad-header' // a header line is missing, double or contradicts another
-  | 'unsupported' // right, but not read here
+  | 'bad-header' // a header line is missing, duplicated or contradicts another
+  | 'unsupported' // valid, but not supported
   | 'too-large' // more points than a frame may have
-  | 'truncated' // ends before its points do
-  | 'bad-data'; // a value or the compressed data cannot be read
+  | 'truncated' // ends before all its points
+  | 'bad-data'; // a value or the compressed data is unreadable
 
-/** Thrown for every PCD file that cannot be read. */
+/** Thrown for every unreadable PCD file. */
 export class PcdError extends Error {
   override readonly name = 'PcdError';
   readonly code: PcdErrorCode;
-  /** `line 7`, `field rgb`, `byte 1024`. */
+  /** For example `line 7`, `field rgb`, `byte 1024`. */
   readonly where: string;
 
   constructor(code: PcdErrorCode, where: string, detail: string) {
@@ -28,7 +28,7 @@ export interface PcdField {
   /** Bytes of one element: 1, 2, 4 or 8. */
   size: number;
   type: 'F' | 'I' | 'U';
-  /** Elements. */
+  /** Number of elements. */
   count: number;
   /** Byte offset within one point. */
   offset: number;
@@ -42,10 +42,10 @@ export interface PcdHeader {
   points: number;
   /** Bytes of one point. */
   pointBytes: number;
-  /** The sensor's pose in a world whose axes the format leaves open; identity where the file says nothing. */
+  /** The sensor's pose in a world whose axes the format does not define; identity if the file states none. */
   viewpoint: Pose;
   data: 'ascii' | 'binary' | 'binary_compressed';
-  /** Where the points begin, bytes. */
+  /** Byte at which the points begin. */
   dataOffset: number;
   /** Number of the first line after the header, counted from 1. */
   dataLine: number;

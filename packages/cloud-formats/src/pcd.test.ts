@@ -9,7 +9,7 @@ interface FieldSpec {
   type: 'F' | 'I' | 'U';
   size: 1 | 2 | 4 | 8;
   count?: number;
-  /** Value of element 0 of a point; for `rgb` the bits. */
+  /** Value of element 0 of a point; for `rgb`, the bits. */
   value: (point: number) => number;
 }
 
@@ -169,7 +169,7 @@ describe('decodePcd', () => {
     expect(points[8]).toBe(2);
   });
 
-  it('colours intensities from dark to bright, and what has neither in grey', () => {
+  it('colours intensities from dark to bright, and clouds without either in grey', () => {
     const intensity: FieldSpec = { name: 'intensity', type: 'F', size: 4, value: (i) => i * 10 };
     const bright = (file: Uint8Array, point: number) =>
       [...new Uint8Array(decodePcd(file).points.buffer, point * 16 + 12, 3)].reduce((a, b) => a + b);
@@ -180,7 +180,7 @@ describe('decodePcd', () => {
   });
 
   it.each(['ascii', 'binary', 'binary_compressed'] as const)(
-    'gives intensities as they stand (%s)',
+    'returns unscaled intensities (%s)',
     (encoding) => {
       const intensity: FieldSpec = { name: 'intensity', type: 'U', size: 2, value: (i) => i * 300 };
       expect([...(pcdIntensity(writePcd([x, intensity, y, z], 3, 1, encoding)) ?? [])]).toEqual([
@@ -257,7 +257,7 @@ describe('decodePcd', () => {
     expect(() => decodePcd(file)).toThrow(expect.objectContaining({ name: 'PcdError', code, where }));
   });
 
-  it('does not allocate for compressed data that cannot be there', () => {
+  it('allocates nothing for compressed data that cannot exist', () => {
     const file = writePcd([x, y, z, { ...rgb, name: 'pad', count: 4096 }], 1, 1, 'binary_compressed');
     const claim = new TextDecoder('latin1')
       .decode(file)
@@ -266,7 +266,7 @@ describe('decodePcd', () => {
     expect(() => decodePcd(Uint8Array.from(claim, (c) => c.charCodeAt(0)))).toThrow(PcdError);
   });
 
-  it('never does anything but decode or throw a PcdError', () => {
+  it('any input is decoded or throws a PcdError', () => {
     const files = ENCODINGS.map((encoding) => writePcd([x, y, z, rgb], 4, 3, encoding));
     const damage = fc.array(fc.tuple(fc.nat(), fc.nat(255)), { minLength: 1, maxLength: 6 });
     fc.assert(

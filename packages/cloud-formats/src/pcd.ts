@@ -1,4 +1,4 @@
-/** PCD files into frames: positions and colours, whatever the order, type and size of the fields. */
+/** Decodes PCD files to frames: positions and colours, from fields in any order, type and size. */
 import { intensityColour, intensityScale } from './intensity.ts';
 import { decompressLzf, LzfError } from './lzf.ts';
 import { PcdError, type PcdField, type PcdHeader, parsePcdHeader } from './pcd-header.ts';
@@ -7,14 +7,14 @@ export { PcdError, type PcdErrorCode, type PcdHeader, parsePcdHeader } from './p
 
 export interface PcdCloud {
   header: PcdHeader;
-  /** 4 words a point: x, y, z as floats in the file's own axes, metres, and the bytes R, G, B, 255. */
+  /** 4 words per point: x, y, z as floats in the file's own axes, metres, and the bytes R, G, B, 255. */
   points: Float32Array;
 }
 
-/** Light grey: a cloud that has neither colour nor intensity. */
+/** Light grey, for a cloud with neither colour nor intensity. */
 const NO_COLOUR = 0xffc8c8c8;
 
-/** LZF makes at most 264 bytes of 3. */
+/** LZF makes at most 264 bytes from 3. */
 const MAX_LZF_RATIO = 88;
 
 /** Reads element 0 of a field of point `index`. */
@@ -44,7 +44,7 @@ export function decodePcd(file: Uint8Array): PcdCloud {
 }
 
 /**
- * The intensities of a file whose points have no colour of their own, as they stand in it; null where there are none.
+ * The unscaled intensities of a file whose points have no colour; null if there are none.
  *
  * @throws {PcdError}
  */
@@ -88,7 +88,7 @@ function colourOf(
   return (i) => intensityColour(value(i) * scale);
 }
 
-/** Each field is read at `start(field) + index × step(field)`. */
+/** Each field is at `start(field) + index × step(field)`. */
 function binaryReader(file: Uint8Array, header: PcdHeader): (field: PcdField, asBits: boolean) => Reader {
   const { points, pointBytes, dataOffset } = header;
   const bytes = points * pointBytes;
@@ -105,7 +105,7 @@ function binaryReader(file: Uint8Array, header: PcdHeader): (field: PcdField, as
   }
   const data = decompress(file, dataOffset, bytes);
   const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
-  // Compressed files hold one field of all points after the other.
+  // Compressed files store one field of all points after the other.
   return (field, asBits) =>
     elementReader(view, field, field.offset * points, field.size * field.count, asBits);
 }
@@ -170,7 +170,7 @@ const floatBits = new DataView(new ArrayBuffer(4));
 function asciiReader(file: Uint8Array, header: PcdHeader): (field: PcdField, asBits: boolean) => Reader {
   const { points, fields, dataOffset, dataLine } = header;
   const columns = fields.reduce((sum, field) => sum + field.count, 0);
-  // A value takes two bytes at least: no memory for points that cannot be there.
+  // A value takes at least two bytes: allocates no memory for points that cannot exist.
   if (points * columns > file.byteLength) {
     throw new PcdError(
       'truncated',
@@ -211,7 +211,7 @@ function asciiReader(file: Uint8Array, header: PcdHeader): (field: PcdField, asB
     return (i) => {
       const value = values[i * columns + column] as number;
       if (field.type !== 'F') return value >>> 0;
-      // Colours as floats are written as the float with those bits.
+      // A colour stored as a float is the float with those bits.
       floatBits.setFloat32(0, value);
       return floatBits.getUint32(0);
     };

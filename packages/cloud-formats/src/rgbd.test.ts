@@ -21,7 +21,7 @@ describe('RGB-D', () => {
     expect(decodeDepthPng(png(millimetres, 16))).toEqual({ width: 2, height: 2, millimetres });
   });
 
-  it('projects pixels to points of the optical frame, NaN where nothing was measured', () => {
+  it('projects pixels to points in the optical frame, NaN where nothing was measured', () => {
     const rgba = Uint8Array.from({ length: 16 }, (_, i) => i);
     const points = pointsOfRgbd(
       { width: 2, height: 2, millimetres: Uint16Array.of(2000, 0, 1000, 4000) },
@@ -34,7 +34,7 @@ describe('RGB-D', () => {
     expect([...new Uint8Array(points.buffer, 3 * 16 + 12, 4)]).toEqual([12, 13, 14, 15]);
   });
 
-  it('makes images of metres and words', () => {
+  it('converts to images of metres and words', () => {
     const { depth, colour } = imagesOfRgbd(
       { width: 2, height: 2, millimetres: Uint16Array.of(2000, 0, 1000, 65_535) },
       { width: 2, height: 2, rgba: Uint8Array.from({ length: 16 }, (_, i) => i) },
@@ -77,7 +77,7 @@ describe('RGB-D', () => {
     expect(read).toThrow(RgbdError);
   });
 
-  it('never does anything but decode or throw an RgbdError', () => {
+  it('any input is decoded or throws an RgbdError', () => {
     const depth = png(Uint16Array.of(1, 2, 3, 4), 16);
     const colour = jpeg.encode({ width: 8, height: 8, data: Buffer.alloc(256, 99) }, 80).data;
     const edits = fc.array(fc.tuple(fc.nat(), fc.nat(255)), { maxLength: 5 });

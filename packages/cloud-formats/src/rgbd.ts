@@ -1,10 +1,10 @@
-/** A colour and a depth picture into a frame of points. */
+/** Converts a colour and a depth image to a frame of points. */
 import type { CameraIntrinsics } from '@farpoint/protocol';
 import { decode as decodePng } from 'fast-png';
 import jpeg from 'jpeg-js';
 import * as z from 'zod';
 
-/** Pictures or intrinsics that cannot be used. */
+/** Unusable images or intrinsics. */
 export class RgbdError extends Error {
   override readonly name = 'RgbdError';
 }
@@ -82,10 +82,10 @@ export function decodeColourJpeg(file: Uint8Array): ColourImage {
 }
 
 /**
- * Depth in metres and colour as words, of one size.
+ * Depth in metres and colour as words, with equal sizes.
  *
  * @returns depth along z, 0 where none was measured; R, G, B, 255 of each pixel, R lowest
- * @throws {RgbdError} where the sizes differ
+ * @throws {RgbdError} if the sizes differ
  */
 export function imagesOfRgbd(
   depth: DepthImage,
@@ -112,8 +112,8 @@ export function imagesOfRgbd(
 /**
  * Every pixel's point in the optical frame, metres; NaN where no depth was measured.
  *
- * @returns 4 words a point: x, y, z and the bytes R, G, B, 255
- * @throws {RgbdError} where the sizes differ
+ * @returns 4 words per point: x, y, z and the bytes R, G, B, 255
+ * @throws {RgbdError} if the sizes differ
  */
 export function pointsOfRgbd(depth: DepthImage, colour: ColourImage, camera: CameraIntrinsics): Float32Array {
   const { width, height, fx, fy, cx, cy } = camera;

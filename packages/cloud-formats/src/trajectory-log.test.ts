@@ -14,7 +14,7 @@ describe('parseTrajectoryLog', () => {
     expect(turned.y).toBeCloseTo(1);
   });
 
-  it('gives the quaternion of any rotation', () => {
+  it('computes the quaternion of any rotation', () => {
     const component = fc.double({ min: -1, max: 1, noNaN: true });
     fc.assert(
       fc.property(fc.tuple(component, component, component, component), ([a, b, c, d]) => {
@@ -49,7 +49,7 @@ describe('parseTrajectoryLog', () => {
     );
   });
 
-  it('never does anything but parse or throw a TrajectoryError', () => {
+  it('any input is parsed or throws a TrajectoryError', () => {
     const token = fc.constantFrom('0', '1', '-1', 'nan', '1e-005', '\n', ' ', 'x', '0 0 0 1\n', '1 0 0 0\n');
     fc.assert(
       fc.property(fc.array(token, { maxLength: 40 }), (tokens) => {

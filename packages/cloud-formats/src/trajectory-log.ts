@@ -1,4 +1,4 @@
-/** Open3D trajectory files (`.log`): for each frame a line of three numbers and a 4 × 4 camera-to-world matrix. */
+/** Open3D trajectory files (`.log`): for each frame, a line of three numbers and a 4 × 4 camera-to-world matrix. */
 import type { Pose, Quaternion } from '@farpoint/protocol';
 
 export class TrajectoryError extends Error {
@@ -17,7 +17,7 @@ const TOLERANCE = 1e-3;
 const MAX_FRAMES = 1_000_000;
 
 /**
- * @returns each frame's optical frame in the file's world, metres
+ * @returns the pose of each frame's optical frame in the file's world, metres
  * @throws {TrajectoryError}
  */
 export function parseTrajectoryLog(text: string): Pose[] {
@@ -34,7 +34,7 @@ export function parseTrajectoryLog(text: string): Pose[] {
     if (head.words.length !== 3)
       throw new TrajectoryError(head.number, `${head.words.length} numbers, 3 needed`);
     const m = rows.slice(1).map(({ number, words }) => {
-      // Old Windows programs write exponents of three digits; Number takes them.
+      // Old Windows programs write exponents of three digits, which Number accepts.
       const row = words.map(Number);
       if (row.length !== 4 || !row.every(Number.isFinite)) {
         throw new TrajectoryError(number, 'not four numbers of a matrix row');

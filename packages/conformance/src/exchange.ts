@@ -10,22 +10,24 @@ export interface ExchangeStep {
   send?: unknown;
   sendText?: string;
   at?: string;
-  /** A message that has at least this comes, others before it are passed over. */
+  /** A message that has at least these members arrives; earlier ones are skipped. */
   expect?: unknown;
-  /** The very next message has at least this. */
+  /** The very next message has at least these members. */
   expectNext?: unknown;
 }
 
 export interface Exchange {
   name: string;
-  /** Why the released signaling departs from it. */
+  /** Why the released signaling departs from this. */
   defect?: KnownDefect;
-  /** With that defect it ends the program. */
+  /** The defect ends the program. */
   deadly?: boolean;
   steps: ExchangeStep[];
 }
 
-/** `{bind: NAME}` takes whatever stands there; `{use: NAME}` stands for it; `{containing: X}` is a list that has an X. */
+/**
+ * `{bind: NAME}` matches any value; `{use: NAME}` inserts that value; `{containing: X}` matches a list with an X in it.
+ */
 type Bindings = Map<string, unknown>;
 
 const TIMEOUT_MS = 2000;

@@ -1,7 +1,7 @@
-/** Where an implementation departs from the reference profile. */
+/** A departure of an implementation from the reference profile. */
 export interface Finding {
   /** Short name of the rule, for lists. */
   rule: string;
-  /** For people: what was seen. */
+  /** For people: what was observed. */
   detail: string;
 }

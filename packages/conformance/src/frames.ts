@@ -1,7 +1,7 @@
-/** Frames of known content, to tell whether a point came out in its frame and place. */
+/** Frames with known content, to check that a point arrives in its frame and place. */
 import { FULL_POINT_PACKET_BYTES, POINTS_PER_PACKET, writePointPacketHeader } from '@farpoint/protocol';
 
-/** What point `place` of frame `frame` looks like. */
+/** The point at position `place` of frame `frame`. */
 export function knownPoint(
   frame: number,
   place: number,
@@ -9,7 +9,10 @@ export function knownPoint(
   return { x: frame & 0x7fff, y: place & 0x7fff, z: place >> 15, colour: (place * 31 + frame * 7) & 0xffff };
 }
 
-/** The payloads of a frame whose points are {@link knownPoint}s; `points` a multiple of 150, as the profile has it, or not. */
+/**
+ * The payloads of a frame whose points are {@link knownPoint}s; `points` may be a multiple of 150, as in the profile,
+ * or not.
+ */
 export function knownFrame(frame: number, points: number): Uint8Array[] {
   const payloads: Uint8Array[] = [];
   for (let first = 0; first < points; first += POINTS_PER_PACKET) {
@@ -36,13 +39,13 @@ export function knownFrame(frame: number, points: number): Uint8Array[] {
 
 export interface ReadFrame {
   frame: number;
-  /** Places of its points, in the order of the message. */
+  /** Positions of its points, in the order of the message. */
   places: number[];
-  /** Points that are not of the frame, or whose colour is not theirs. */
+  /** Points that are not from this frame, or have the wrong colour. */
   strays: number;
 }
 
-/** Reads a message of the streaming socket that was made of {@link knownFrame}s. */
+/** Reads a message of the streaming socket that was made from {@link knownFrame}s. */
 export function readKnownFrame(message: Uint8Array): ReadFrame {
   const view = new DataView(message.buffer, message.byteOffset, message.byteLength);
   const points = message.byteLength / 8;

@@ -1,4 +1,4 @@
-/** `pnpm conformance` as it is run. */
+/** `pnpm conformance` as users run it. */
 import { execFile } from 'node:child_process';
 import { fileURLToPath } from 'node:url';
 import { afterEach, expect, it } from 'vitest';
@@ -17,7 +17,7 @@ function run(...args: string[]): Promise<{ code: number; out: string; err: strin
   });
 }
 
-it('passes the released signaling at level reference and names its defects; at level strict it fails', async () => {
+it('at level reference, passes the released signaling and names its defects; at level strict, fails it', async () => {
   signaling = await ReleasedSignaling.start();
   const urls = ['--robot', signaling.robotUrl, '--client', signaling.clientUrl];
   const lenient = await run('signaling', ...urls, '--level', 'reference', '--json');
@@ -34,7 +34,7 @@ it('passes the released signaling at level reference and names its defects; at l
 it.each([
   [['signaling', '--level', 'lenient'], '--level lenient: must be one of reference, strict'],
   [['signaling', '--levle', 'strict'], "Unknown option '--levle'"],
-])('%j: says what cannot be used', async (args, message) => {
+])('%j: says which argument is invalid', async (args, message) => {
   const { code, err } = await run(...args);
   expect(code).toBe(2);
   expect(err).toContain(message);

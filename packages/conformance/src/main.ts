@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-/** `pnpm conformance signaling|robot|bridge …`: runs a suite against an implementation, whoever wrote it. */
+/** `pnpm conformance signaling|robot|bridge …`: runs a suite against any implementation. */
 import { parseArgs } from 'node:util';
 import { knownDefects } from './known-defects.ts';
 import { bridgeSuite } from './suites/bridge-suite.ts';
@@ -36,7 +36,7 @@ function readArguments() {
   });
 }
 
-/** Ends the program where they cannot be used. */
+/** Prints the usage and ends the program if the arguments are invalid. */
 function orUsage<T>(read: () => T): T {
   try {
     return read();

@@ -1,4 +1,4 @@
-/** What a robot's SDP offer must say (docs/protocol.md, "In RTP"). Text in, findings out. */
+/** What a robot's SDP offer must contain (docs/protocol.md, "In RTP"). Text in, findings out. */
 import { sdpLines, sdpSections } from '@farpoint/reference-profile';
 import type { Finding } from './finding.ts';
 
@@ -19,7 +19,7 @@ export function checkOffer(sdp: string): Finding[] {
   if (kinds.length !== 2) find('no-other-line', `m-lines: ${kinds.join(', ')}`);
   if (video === undefined) return findings;
   const types = video.media.split(' ').slice(3);
-  // A stack may list its other types beside it; the answer takes this one.
+  // A stack may list its other payload types as well; the answer selects this one.
   if (!types.includes('5')) find('payload-type-5', `payload types ${types.join(' ')}`);
   const valuesOf = (name: string) =>
     video.attributes.filter((line) => line.startsWith(`${name}:`)).map((line) => line.slice(name.length + 1));

@@ -1,4 +1,4 @@
-/** What a robot's decrypted RTP packets must be, one by one and as a stream. Bytes in, findings out. */
+/** What a robot's decrypted RTP packets must be, individually and as a stream. Bytes in, findings out. */
 import {
   emptyPointPacketHeader,
   FULL_POINT_PACKET_BYTES,
@@ -11,7 +11,7 @@ import type { Finding } from './finding.ts';
 export const RTP_HEADER_BYTES = 20;
 const MAX_FINDINGS = 100;
 
-/** Packets in the order of their RTP sequence numbers; repeated ones are left out by the caller. */
+/** Takes packets in order of their RTP sequence numbers; the caller leaves out duplicates. */
 export class RtpStreamRules {
   readonly findings: Finding[] = [];
   packets = 0;
@@ -23,7 +23,7 @@ export class RtpStreamRules {
   #lastSequence: number | null = null;
   readonly #header = emptyPointPacketHeader();
 
-  /** @param isFirst whether nothing of the connection came before: the first frame must then be 0 */
+  /** @param isFirst whether this is the first packet of the connection: the first frame must then be 0 */
   add(packet: Uint8Array, isFirst = this.packets === 0): void {
     this.packets++;
     const view = new DataView(packet.buffer, packet.byteOffset, packet.byteLength);

@@ -20,11 +20,11 @@ const OFFER = [
 const rulesOf = (sdp: string) => checkOffer(sdp).map(({ rule }) => rule);
 
 describe('checkOffer', () => {
-  it('has nothing to say of the reference profile', () => {
+  it('finds nothing wrong with the reference profile', () => {
     expect(checkOffer(OFFER)).toEqual([]);
   });
 
-  it('takes the offer of a stack that lists its other payload types, and ends attribute lines with a blank', () => {
+  it('accepts the offer of a stack that lists its other payload types, and ends attribute lines with a blank', () => {
     const offer = OFFER.replace('SAVPF 5', 'SAVPF 96 5 97')
       .replace('a=rtpmap', 'a=rtpmap:96 VP8/90000\r\na=rtcp-fb:96 nack \r\na=rtpmap')
       .replaceAll(/(a=rtcp-fb:5 .*)\r/g, '$1 \r');
@@ -76,7 +76,7 @@ describe('RtpStreamRules', () => {
   const [a, b] = packets(0, 300, 10, 1000) as [Uint8Array, Uint8Array];
   const [c] = packets(1, 150, 12, 2000) as [Uint8Array];
 
-  it('has nothing to say of a stream as it should be', () => {
+  it('finds nothing wrong with a correct stream', () => {
     expect(findingsOf([a, b, c])).toEqual([]);
   });
 
@@ -87,9 +87,9 @@ describe('RtpStreamRules', () => {
     ['a second element', [changed(a, 19, 0x20)], 'extension-element'],
     ['frames that begin at 1', [c], 'from-zero'],
     ['a frame that is left out', [a, b, ...packets(2, 150, 12, 2000)], 'frame-number'],
-    ['a time that stands', [a, b, ...packets(1, 150, 12, 1000)], 'timestamp'],
-    ['a mark too early', [changed(a, 1, 0x85), b], 'marker'],
-    ['no mark', [a, changed(b, 1, 5)], 'marker'],
+    ['a timestamp that does not advance', [a, b, ...packets(1, 150, 12, 1000)], 'timestamp'],
+    ['a marker too early', [changed(a, 1, 0x85), b], 'marker'],
+    ['no marker', [a, changed(b, 1, 5)], 'marker'],
     ['a partial packet', packets(0, 200, 10, 1000), 'whole-packets'],
     ['a block beyond its frame', [changed(a, 29, 0xff)], 'point-header'],
   ])('%s', (_what, stream, rule) => {
@@ -97,7 +97,7 @@ describe('RtpStreamRules', () => {
   });
 });
 
-it('readKnownFrame tells points of another frame or place', () => {
+it('readKnownFrame detects points of another frame or place', () => {
   const [payload] = knownFrame(3, 150) as [Uint8Array];
   const message = payload.slice(16);
   expect(readKnownFrame(message)).toMatchObject({

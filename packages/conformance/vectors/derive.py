@@ -1,4 +1,5 @@
-"""Writes frames.json from docs/protocol.md alone: RTP payloads in the order of their arrival, and what a bridge makes of them.
+"""Writes frames.json from docs/protocol.md alone: RTP payloads in order of arrival, and the messages that a bridge
+makes from them.
 
 Python 3, standard library; shares no code with the implementations. Run it in this folder.
 """

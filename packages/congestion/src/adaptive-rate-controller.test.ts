@@ -17,7 +17,7 @@ import {
 } from './testing/index.ts';
 
 const M = 1e6;
-/** The mean link of the teleoperation paper, and its round trip. */
+/** Mean rate of the link in the teleoperation paper, with the paper's round trip. */
 const LINK = 41.44 * M;
 const flat = (bitsPerSecond: number) => [{ atMs: 0, mbps: bitsPerSecond / M }];
 
@@ -95,13 +95,13 @@ describe('loss', () => {
     [41.44, 15],
     [41.44, 10],
     [8, 10],
-  ])('of our own making stays small: %f Mbit/s, queue of %i ms', (mbit, queueMs) => {
+  ])('caused by ourselves stays small: %f Mbit/s, queue of %i ms', (mbit, queueMs) => {
     const outcome = run({ capacity: flat(mbit * M), queueMs });
     expect(losses(outcome.media[0]!, 2000, 20_000).overflow).toBeLessThan(0.05);
     expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.8);
   });
 
-  test('of a short queue beside the link’s own', () => {
+  test('from a short queue on top of the link’s own', () => {
     const outcome = run({ capacity: flat(8 * M), queueMs: 10, loss: 0.05 });
     expect(losses(outcome.media[0]!, 5000, 20_000).overflow).toBeLessThan(0.06);
     expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.75);
@@ -128,8 +128,8 @@ describe('beside a TCP flow', () => {
     expect(ours).toBeLessThan(0.75);
   });
 
-  test('that leaves, the queue is short again within 10 s in most runs', () => {
-    // Now and then a test whether the flow is still there falls just before it leaves; then the next one has to tell.
+  test('that leaves: the queue is short again within 10 s in most runs', () => {
+    // Sometimes a share test falls just before the flow leaves; then the next test has to detect it.
     const queues = [1, 2, 3, 4, 5].map((seed) => {
       const outcome = run({
         durationMs: 50_000,
@@ -144,7 +144,7 @@ describe('beside a TCP flow', () => {
   });
 });
 
-test.each([8, 41.44])('two flows share %f Mbit/s, whoever came first', (mbit) => {
+test.each([8, 41.44])('two flows share %f Mbit/s, whichever came first', (mbit) => {
   const outcome = run({ durationMs: 60_000, capacity: flat(mbit * M), media: [{}, { startMs: 10_000 }] });
   const [first, second] = outcome.media as [Outcome['media'][0], Outcome['media'][0]];
   const part = share(first, second, 20_000, 60_000);
@@ -155,7 +155,7 @@ test.each([8, 41.44])('two flows share %f Mbit/s, whoever came first', (mbit) =>
   ).toBeGreaterThan(0.85);
 });
 
-describe('what the path may do besides', () => {
+describe('other things the path may do', () => {
   test.each([3, 10])('jitter of %i ms', (tailMs) => {
     const outcome = run({ tailMs });
     expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.35);
@@ -165,20 +165,20 @@ describe('what the path may do besides', () => {
   test.each([
     [41.44, 5],
     [8, 10],
-  ])('delay that wobbles: %f Mbit/s, ± %i ms', (mbit, jitterMs) => {
+  ])('delay that varies: %f Mbit/s, ± %i ms', (mbit, jitterMs) => {
     const outcome = run({ capacity: flat(mbit * M), jitterMs });
     expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.7);
     expect(q95(outcome, 5000, 20_000)).toBeLessThan(40);
   });
 
-  test('a queue that is shorter, in bytes, on a slower link', () => {
+  test('a queue limit in ms, so fewer bytes on a slower link', () => {
     const capacity = [...flat(LINK), { atMs: 10_000, mbps: 8 }];
     const outcome = run({ capacity, queueMs: 100, queueFollows: true });
     expect(used(outcome, 11_000, 20_000)).toBeGreaterThan(0.85);
     expect(losses(outcome.media[0]!, 11_000, 20_000).overflow).toBeLessThan(0.01);
   });
 
-  test('reordered packets and feedback that comes twice', () => {
+  test('reordered packets and duplicated feedback', () => {
     const outcome = run({ reorder: 0.02, media: [{ duplicateFeedback: 0.1 }] });
     expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.85);
     expect(q95(outcome, 5000, 20_000)).toBeLessThan(20);
@@ -213,7 +213,7 @@ describe('what the path may do besides', () => {
     const trickle = flow.sentPackets.slice(70, 400).reduce((a, b) => a + b, 0) / 33;
     expect(trickle).toBeGreaterThan(1);
     expect(trickle * 1244 * 8).toBeLessThan(0.25 * M);
-    // What was sent into the outage waits in front of the link and comes first; then the stream is back.
+    // Packets sent into the outage wait in front of the link and arrive first; then the stream is back.
     expect(throughput(flow, 43_000, 44_000)).toBeGreaterThan(0.25 * LINK);
     expect(used(outcome, 45_000, 50_000)).toBeGreaterThan(0.8);
   });
@@ -234,7 +234,7 @@ describe.each([1, 2, 3])('another route (seed %i)', (seed) => {
     ['longer', 8, 0.85],
     ['longer', 40, 0.8],
     ['longer', 80, 0.75],
-  ])('that is %s by %i ms is learnt within 3 s', (_, moreMs, least) => {
+  ])('that is %s by %i ms is detected within 3 s', (_, moreMs, least) => {
     for (const stalls of [{}, BUSY_COMPUTER]) {
       const outcome = run({ durationMs: 30_000, seed, stalls, delaySteps: [[6000, moreMs]] });
       expect(used(outcome, 9000, 30_000)).toBeGreaterThan(0.85);
@@ -273,7 +273,7 @@ describe('on a busy computer', () => {
     expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.82);
   });
 
-  test.each([0, 17, 34, 51])('a link that falls is still noticed (%i ms later)', (late) => {
+  test.each([0, 17, 34, 51])('a link whose rate falls is still detected (%i ms later)', (late) => {
     const down = 10_000 + late;
     const capacity = [...flat(LINK), { atMs: down, mbps: 8 }, { atMs: 20_000, mbps: LINK / M }];
     const outcome = run({ durationMs: 30_000, seed: 3 + late, stalls: BUSY_COMPUTER, capacity });
@@ -297,14 +297,14 @@ describe('on a busy computer', () => {
 
 describe('a source that does not use what it has', () => {
   test('neither makes the estimate run away nor collapse', () => {
-    // 3.6 Mbit/s at the most, and no padding.
+    // At most 3.6 Mbit/s, and no padding.
     const outcome = run({ media: [{ maxFrameBytes: 15_000, probes: false }] });
     const { target } = outcome.media[0]!;
     expect(Math.max(...target)).toBeLessThan(12 * M);
     expect(Math.min(...target)).toBeGreaterThan(2.5 * M);
   });
 
-  test('is not held back when it has more again', () => {
+  test('can use a higher rate as soon as it has more to send', () => {
     const outcome = run({ durationMs: 20_000, media: [{ pauses: [[8000, 12_000]] }] });
     expect(used(outcome, 12_500, 20_000)).toBeGreaterThan(0.85);
   });
@@ -343,7 +343,7 @@ describe('decisions', () => {
     expect(controller.targetBitsPerSecond(0)).toBe(0);
   });
 
-  test('whatever feedback says: finite, between the bounds', () => {
+  test('the rate stays finite and within its bounds, whatever feedback says', () => {
     const packet = fc.record({
       gap: fc.nat(300),
       lost: fc.boolean(),

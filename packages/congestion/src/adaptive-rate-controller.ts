@@ -16,42 +16,42 @@ import {
 import { Silence } from './silence.ts';
 
 export interface AdaptiveRateOptions {
-  /** Before anything is known of the path, bit/s. */
+  /** Rate to start at, while nothing is known of the path, bit/s. */
   startBitsPerSecond?: number;
-  /** The estimate never falls below, bit/s. */
+  /** Lower bound of the estimate, bit/s. */
   minBitsPerSecond?: number;
-  /** What the sources could use at the most, bit/s. */
+  /** The most the sources could use, bit/s. */
   maxBitsPerSecond?: number;
 }
 
 /** What the controller is doing. */
 export type AdaptiveState =
-  | 'steady' // grows slowly, probes now and then
-  | 'drain' // the queue is too long and being emptied
-  | 'compete' // somebody else keeps the queue full: shares as TCP would
-  | 'silent'; // no feedback: a trickle
+  | 'steady' // grows slowly, probes from time to time
+  | 'drain' // the queue is too long and is being drained
+  | 'compete' // a competitor keeps the queue full: takes the share that TCP would
+  | 'silent'; // no feedback: sends a trickle
 
 const PACING = 1.1;
-/** The path is looked into up to so many times what the sources use: a frame that goes faster is shown sooner. */
+/** The estimate may rise to this multiple of what the sources use: a frame that is sent faster is shown sooner. */
 const PACE_HEADROOM = 2;
 const LEAST_PACING = 300_000;
 const LEAST_WINDOW_BYTES = 7500;
-/** Below this the source cannot follow the rate in fine steps: what it leaves unused says nothing, bit/s. */
+/** Below this rate, the source cannot follow in fine steps, so the rate it leaves unused means nothing, bit/s. */
 const SMALL = 1e6;
-/** A queue that is being emptied for so long and has a floor is none, ms. */
+/** If a queue has been drained for this long and the delay still has a floor, there is no queue, ms. */
 const STUCK_MS = 400;
-/** Of what arrives under too much loss, the part that is kept; and the most that is given up at once. */
+/** The fraction of the arriving rate that is kept after excess loss; and the largest cut in one step. */
 const KEEP_IN_LOSS = 0.95;
 const LOSS_CUT = 0.85;
 
 /**
- * Finds the rate that a path carries with little waiting in its queue: from one-way delay, arrival rate and loss as
- * transport-wide feedback tells them, and from trains at a higher rate. docs/congestion.md explains it. Needs transport-wide
- * feedback: without any it stays silent.
+ * Finds the rate that a path carries with little queueing. Its inputs are the one-way delay, arrival rate and loss from
+ * transport-wide feedback, and probe trains sent at a higher rate. See docs/congestion.md. Needs transport-wide
+ * feedback; without it, the controller stays silent.
  */
 export class AdaptiveRateController implements RateController {
   readonly #min: number;
-  /** What may be sent, and what is found out of the path beyond it: how fast a frame may go. */
+  /** Upper bound of the target rate. The estimate may exceed it, up to `#max`, because frames may be paced faster. */
   readonly #most: number;
   readonly #max: number;
   readonly #path = new PathObserver();
@@ -63,17 +63,17 @@ export class AdaptiveRateController implements RateController {
   readonly #competition = new Competition();
   readonly #silence = new Silence();
   #estimate: number;
-  /** Since when the queue is being emptied. */
+  /** When draining began. */
   #drainSinceMs = 0;
   #state: AdaptiveState = 'steady';
-  /** The part of the estimate that is held back for now. */
+  /** The fraction of the estimate that is held back for now. */
   #heldBack = 0;
   #receiverLimit = Number.POSITIVE_INFINITY;
   #lastFeedbackMs = Number.NaN;
   #lastOveruseMs = Number.NEGATIVE_INFINITY;
-  /** Loss of packets that left before this time tells nothing of the present path. */
+  /** Losses of packets sent before this time say nothing about the present path. */
   #ignoreLossBeforeMs = Number.NEGATIVE_INFINITY;
-  /** The rate before the cut for loss that is on trial; 0 where delay has cut it since. */
+  /** The rate before the loss cut that is on trial; 0 if delay has cut the rate since. */
   #beforeTrial = 0;
   readonly #decision = emptyDecision();
 
@@ -85,7 +85,7 @@ export class AdaptiveRateController implements RateController {
   }
 
   onPacketSent(transportSequence: number, bytes: number, nowMs: number, probeCluster = 0): void {
-    // After a pause the wait for feedback begins anew.
+    // After a pause in sending, the wait for feedback starts again.
     if (this.#flight.bytes === 0) this.#lastFeedbackMs = nowMs;
     this.#flight.onSent(transportSequence, bytes, probeCluster);
     if (probeCluster !== 0) this.#probe.onSent(bytes, probeCluster, nowMs);
@@ -105,7 +105,7 @@ export class AdaptiveRateController implements RateController {
     this.#estimate = Math.min(Math.max(this.#estimate, this.#min), this.#max);
   }
 
-  /** Transport-wide feedback says more. */
+  /** Ignored: transport-wide feedback says more. */
   onReceiverReport(_report: ReceiverSums, _nowMs: number): void {}
 
   onReceiverLimit(bitsPerSecond: number, _nowMs: number): void {
@@ -132,7 +132,7 @@ export class AdaptiveRateController implements RateController {
     return Math.min(this.#receiverLimit, this.#most, this.#pathBitsPerSecond);
   }
 
-  /** What the path may be given now, whatever the receiver wants of it. */
+  /** The rate that the path may be given now, regardless of the receiver's limit. */
   get #pathBitsPerSecond(): number {
     const rate = this.#state === 'silent' ? this.#min : this.#estimate * (1 - this.#heldBack);
     return Math.max(rate, this.#min);
@@ -141,7 +141,7 @@ export class AdaptiveRateController implements RateController {
   decision(nowMs: number): Readonly<RateDecision> {
     const d = this.#decision;
     d.targetBitsPerSecond = this.targetBitsPerSecond(nowMs);
-    // What the receiver takes bounds how much is sent in all; how fast a frame goes is the path's matter.
+    // The receiver's limit bounds the total rate. The pace of a frame depends on the path alone.
     d.pacingBitsPerSecond = Math.max(this.#pathBitsPerSecond * PACING, LEAST_PACING);
     d.bytesInFlight = this.#flight.bytes;
     d.congestionWindowBytes = this.#windowBytes();
@@ -164,13 +164,13 @@ export class AdaptiveRateController implements RateController {
   #windowBytes(): number {
     if (this.#state === 'silent') return this.#silence.windowBytes;
     const { baseRttMs, feedbackIntervalMs } = this.#path;
-    // Just before feedback comes, a round trip and an interval are in flight. One message may be missed without a halt;
-    // not while a queue is there to be emptied.
+    // Just before feedback arrives, one round trip plus one feedback interval is in flight. One feedback message may be
+    // missing without stopping the sender, except while a queue is being drained.
     const missedMs = this.#state === 'drain' ? 0 : feedbackIntervalMs + 15;
     const rate = this.#estimate * (1 - (this.#state === 'drain' ? this.#heldBack : 0));
     const bytes = (rate * (baseRttMs + feedbackIntervalMs + 5 + missedMs)) / 8000;
     if (this.#state === 'compete') return this.#competition.windowBytes + bytes;
-    // A train fits in beside what is on its way.
+    // A probe train must fit in beside what is already in flight.
     return Math.max(bytes, LEAST_WINDOW_BYTES) + (this.#probe.wish?.bytes ?? 0);
   }
 
@@ -180,7 +180,7 @@ export class AdaptiveRateController implements RateController {
     const toleratedMs = toleratedQueueMs(this.#estimate) + allowanceMs;
     if (this.#state !== 'drain') this.#drainSinceMs = nowMs;
     else if (nowMs - this.#drainSinceMs > STUCK_MS && this.#path.settledQueueMs > toleratedMs / 2) {
-      // However little is sent, it gets no shorter: no queue, but a longer way than before.
+      // The delay does not fall however little is sent: the path has become longer and there is no queue.
       this.#path.lengthen(nowMs);
       this.#state = 'steady';
       this.#heldBack = 0;
@@ -208,7 +208,7 @@ export class AdaptiveRateController implements RateController {
       const before = this.#estimate;
       this.#estimate = this.#delay.estimateWhenOver(this.#path, before, toleratedMs);
       this.#state = 'drain';
-      // A train whose own queue ends it has found no more either.
+      // A train that ends because of its own queue has found no higher rate either.
       if (this.#probe.busy) this.#plan.onCut(nowMs);
       this.#probe.cancel();
       if (this.#estimate < before) {
@@ -221,14 +221,14 @@ export class AdaptiveRateController implements RateController {
       (this.#used() > 0.75 || this.#estimate < SMALL) &&
       (!this.#plan.searching || this.#plan.ignored)
     ) {
-      // Who sends no probes searches by doubling, 0.7 s each.
+      // Without probes, the search doubles the rate every 0.7 s.
       const perSecond = this.#plan.searching ? this.#estimate : growth(this.#estimate);
       this.#estimate += (perSecond * elapsedMs) / 1000;
     }
     this.#heldBack = this.#state === 'drain' ? this.#delay.drain(o, allowanceMs) : 0;
   }
 
-  /** The part of the estimate that the source uses. */
+  /** The fraction of the estimate that the source uses. */
   #used(): number {
     return this.#path.observation.ackedBitsPerSecond / (this.#estimate * (1 - this.#loss.base));
   }
@@ -270,7 +270,7 @@ export class AdaptiveRateController implements RateController {
     this.#plan.onAsked(nowMs);
   }
 
-  /** Feedback is back after a silence. */
+  /** Restarts when feedback returns after a silence. */
   #resume(nowMs: number): void {
     this.#estimate = this.#silence.rateAfter(this.#estimate, nowMs);
     this.#state = 'steady';

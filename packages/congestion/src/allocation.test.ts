@@ -26,18 +26,18 @@ const CAMERA: StreamClaim = {
 const rates = (total: number, claims: readonly StreamClaim[]) => Object.fromEntries(allocate(total, claims));
 
 describe('allocate', () => {
-  it('keeps what safety needs before anything else', () => {
+  it('serves what safety needs before anything else', () => {
     expect(rates(30e3, [CAMERA, CLOUD, MESSAGES])).toEqual({ messages: 30e3, cloud: 0, camera: 0 });
     expect(rates(200e3, [CLOUD, MESSAGES])).toEqual({ messages: 100e3, cloud: 100e3 });
   });
 
-  it('shares by weight, and gives on what somebody cannot use', () => {
+  it('shares by weight, and redistributes what a stream cannot use', () => {
     expect(rates(4.5e6, [MESSAGES, CLOUD, CAMERA])).toEqual({ messages: 100e3, cloud: 3.1e6, camera: 1.3e6 });
     expect(rates(40e6, [MESSAGES, CLOUD, CAMERA])).toEqual({ messages: 100e3, cloud: 37.9e6, camera: 2e6 });
     expect(rates(100e6, [MESSAGES, CLOUD, CAMERA])).toEqual({ messages: 100e3, cloud: 60e6, camera: 2e6 });
   });
 
-  it('never gives more than there is, nor than can be used, and leaves nothing that somebody could use', () => {
+  it('never allocates more than there is or than can be used, and leaves nothing that a stream could use', () => {
     const claim = fc.record({
       priority: fc.integer({ min: 0, max: 2 }),
       weight: fc.integer({ min: 1, max: 5 }),

@@ -1,19 +1,19 @@
-/** What one stream asks of a path that several share. Rates on the wire, headers counted, bit/s. */
+/** What one stream asks of a path that several streams share. Rates are on the wire, including headers, bit/s. */
 export interface StreamClaim {
   name: string;
-  /** Lower goes first: 0 for what keeps the robot safe. */
+  /** Lower values are served first; 0 for what keeps the robot safe. */
   priority: number;
-  /** Share among streams of the same priority. */
+  /** Relative share among streams of the same priority. */
   weight: number;
-  /** Below this the stream is no use: given before anybody gets more than their least. */
+  /** Below this rate, the stream is useless. Every stream gets its minimum before any stream gets more. */
   leastBitsPerSecond: number;
-  /** More it cannot use. */
+  /** The stream cannot use more than this. */
   mostBitsPerSecond: number;
 }
 
 /**
- * Shares one budget: first everybody's least, in order of priority; then what is left, again in order of priority and by
- * weight within one, up to everybody's most. Nothing is given twice, and never more than there is.
+ * Shares one budget. First each stream gets its minimum, in order of priority. Then the rest is distributed, again in
+ * order of priority and by weight within a priority, up to each stream's maximum. The sum never exceeds the total.
  *
  * @param claims with distinct names
  * @returns bit/s by name
@@ -37,7 +37,7 @@ export function allocate(totalBitsPerSecond: number, claims: readonly StreamClai
   return given;
 }
 
-/** Fills streams of one priority by weight; who is full leaves the rest to the others. @returns what is left */
+/** Fills streams of one priority by weight; a full stream leaves the rest to the others. @returns what is left */
 function fill(total: number, claims: readonly StreamClaim[], given: Map<string, number>): number {
   let left = total;
   let open = claims;

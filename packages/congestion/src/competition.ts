@@ -2,28 +2,29 @@ import { packetMs } from './delay-law.ts';
 import type { PathObservation } from './path-observer.ts';
 import { TcpShare } from './tcp-share.ts';
 
-/** The queue has stood for so long in spite of our draining: somebody else fills it, ms. */
+/** If the queue has stood for this long despite draining, somebody else is filling it, ms. */
 const STANDING_MS = 800;
-/** A queue below this is not standing, ms. */
+/** A queue shorter than this does not count as standing, ms. */
 const EMPTY_MS = 10;
-/** A queue that grows faster than this, ms per ms, is a link that has become slower. */
+/** If a queue grows faster than this, the link has become slower, ms per ms. */
 const COLLAPSE = 0.33;
-/** The best rate of late is forgotten with this time constant, ms. */
+/** Time constant with which the recent peak rate is forgotten, ms. */
 const PEAK_MS = 10_000;
-/** While a share test runs, this part of the rate is sent. */
+/** The fraction of the rate that is sent during a share test. */
 const TEST_PART = 0.5;
 const TEST_FIRST_MS = 1000;
 const TEST_EVERY_MS = 4000;
 const TEST_SELDOM_MS = 8000;
-/** Our rate rose by so much since the last test: the competitor may have left. */
+/** If our rate has risen by this factor since the last test, the competitor may have left. */
 const RISEN = 1.4;
-/** The competitor is gone when the queue has been nearly empty for so long, ms. */
+/** The competitor is considered gone once the queue has been nearly empty for this long, ms. */
 const CALM_MS = 500;
 
 /**
- * Notices a competitor that fills the queue (a TCP download), and holds its ground against it by behaving as a TCP flow
- * would. It tests now and then whether the competitor is still there: it halves its rate for a moment. Alone, the queue then
- * shrinks as fast as our rate fell; beside a competitor that holds most of the queue, it hardly does.
+ * Detects a competitor that fills the queue (such as a TCP download) and keeps a fair share by behaving as a TCP flow
+ * would. From time to time it halves its rate for a moment to test whether the competitor is still there. Without a
+ * competitor, the queue then shrinks as fast as our rate fell; beside one that holds most of the queue, it hardly
+ * shrinks.
  */
 export class Competition {
   readonly #tcp = new TcpShare();
@@ -44,10 +45,10 @@ export class Competition {
   }
 
   /**
-   * To be called for each message while not competing.
+   * Call for each feedback message while not competing.
    *
-   * @param drain the part of the rate that is held back to empty the queue
-   * @returns whether the queue stands although we drain it
+   * @param drain the fraction of the rate that is held back to empty the queue
+   * @returns whether the queue stands although we are draining it
    */
   notice(
     o: Readonly<PathObservation>,
@@ -67,7 +68,7 @@ export class Competition {
   }
 
   begin(o: Readonly<PathObservation>, estimate: number, baseRttMs: number, nowMs: number): void {
-    // Draining in vain has cost us our share: begin near what we had.
+    // Draining in vain has cost us our share, so begin near the rate we had.
     const rate = Math.min(this.#peak, 8 * estimate);
     this.#tcp.start(rate, baseRttMs + o.queueMs, nowMs);
     this.#testEveryMs = TEST_EVERY_MS;
@@ -78,10 +79,10 @@ export class Competition {
   }
 
   /**
-   * One feedback message while competing.
+   * Processes one feedback message while competing.
    *
-   * @param congested loss beyond the link's own
-   * @returns the rate to send at, bit/s; `null`: the competitor is gone
+   * @param congested whether there is loss beyond the link's own
+   * @returns the rate to send at, bit/s; `null` once the competitor is gone
    */
   update(
     o: Readonly<PathObservation>,
@@ -98,7 +99,7 @@ export class Competition {
     return this.#calmMs > CALM_MS ? null : (this.#tcp.windowBytes * 8000) / rttMs;
   }
 
-  /** What is held back because of a test, as a part of the rate. */
+  /** The fraction of the rate that a test holds back. */
   heldBack(nowMs: number): number {
     return nowMs < this.#testUntilMs ? 1 - TEST_PART : 0;
   }
@@ -118,7 +119,7 @@ export class Competition {
       this.#testRate = o.ackedBitsPerSecond;
       this.#testFromMs = nowMs;
       this.#testQueueMs = o.queueEndMs;
-      // Alone, that empties about half of the queue.
+      // Without a competitor, this empties about half of the queue.
       this.#testUntilMs = nowMs + Math.max(1.2 * o.queueEndMs, 60);
       this.#nextTestMs = nowMs + this.#testEveryMs;
       this.#testEveryMs = Math.min(this.#testEveryMs * 1.5, TEST_SELDOM_MS);
@@ -127,7 +128,7 @@ export class Competition {
     if (!congested && o.newestSentMs < this.#testUntilMs) return false;
     const alone = (this.#testUntilMs - this.#testFromMs) * (1 - TEST_PART);
     this.#testUntilMs = Number.NaN;
-    // With loss in it a test says nothing: the competitor has reduced as well.
+    // A test with loss proves nothing: the competitor has reduced its rate as well.
     return !congested && this.#testQueueMs - o.queueEndMs > 0.75 * alone;
   }
 }

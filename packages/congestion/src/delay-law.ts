@@ -1,52 +1,55 @@
 import { BitRate } from '@farpoint/timing';
 import type { PathObservation, PathObserver } from './path-observer.ts';
 
-/** Of a typical packet on the wire. */
+/** Size of a typical packet on the wire. */
 const PACKET_BYTES = 1250;
-/** Of what got through while the queue stood, the part that is planned for. */
+/** The estimate becomes this fraction of the rate that arrived while the queue stood. */
 const KEEP = 0.96;
-/** Over how long the rate is told: of a queue's first message, and of later ones, ms. */
+/** The window over which the rate is measured: for the first message of a queue, and for later ones, ms. */
 const FIRST_WINDOW_MS = 20;
 const WINDOW_MS = 40;
-/** A gap between two arrivals that tells of a halt and not of a slow link, ms. */
+/** A gap this long between two arrivals indicates a stall, not a slow link, ms. */
 const HALT_MS = 8;
-/** After so many messages a queue is not young. */
+/** After this many messages, a queue no longer counts as young. */
 const LONG_QUEUED = 6;
-/** On so slow a link only the sum tells the rate: a packet's time, ms. */
+/** If one packet takes longer than this, only the total arrival rate is meaningful, ms. */
 const SLOW_PACKET_MS = 2.5;
-/** A standing queue should be gone after this time, ms; at most this part of the rate is held back for it. */
+/** A standing queue should be drained within this time, ms; at most this fraction of the rate is held back for it. */
 const DRAIN_MS = 150;
 const DRAIN_MOST = 0.6;
-/** Noise from which on one message is no proof, ms. */
+/** Above this noise, a single message proves nothing, ms. */
 const NOISY_MS = 2;
 
 /**
- * Queueing delay that is tolerated, ms. More at low rates: so the smaller one of two flows goes on growing when the larger
- * one has to yield, and they come to the same rate.
+ * Queueing delay that is tolerated, ms. It is larger at low rates, so that the smaller of two flows keeps growing when
+ * the larger one has to yield, and the two converge to the same rate.
  */
 export function toleratedQueueMs(bitsPerSecond: number): number {
   return Math.min(Math.max(8 * Math.cbrt(20e6 / bitsPerSecond), 6), 25) + packetMs(bitsPerSecond);
 }
 
-/** A packet's own time on a link of this rate, ms. */
+/** Time that one packet takes on a link of this rate, ms. */
 export function packetMs(bitsPerSecond: number): number {
   return BitRate.msFor(bitsPerSecond, PACKET_BYTES);
 }
 
-/** How much of the delay may be noise, ms. */
+/** The part of the delay that may be noise, ms. */
 export function noiseAllowanceMs(noiseMs: number): number {
   return 5 * Math.max(noiseMs - 1, 0);
 }
 
-/** Growth, bit/s per s: with the square root of the rate, so that a small flow gains on a large one; bounded for slow links. */
+/**
+ * Growth, bit/s per s. It follows the square root of the rate, so that a small flow catches up with a large one; it is
+ * bounded for slow links.
+ */
 export function growth(bitsPerSecond: number): number {
   return Math.min(0.4e6 * Math.sqrt(bitsPerSecond / 1e6), Math.max(0.25 * bitsPerSecond, 0.1e6));
 }
 
-/** How the delay reads: `over`, the queue is longer than tolerated; `clear`, it is (nearly) empty. */
+/** What the delay indicates. `over`: the queue is longer than tolerated; `clear`: it is (nearly) empty. */
 export type DelayReading = 'over' | 'between' | 'clear';
 
-/** Judges each message's delay, and says what is left of the estimate when it is over. */
+/** Judges the delay of each message, and reduces the estimate when the delay is too long. */
 export class DelayLaw {
   #overInRow = 0;
   #lastQueued = Number.NaN;
@@ -57,7 +60,7 @@ export class DelayLaw {
     allowanceMs: number,
     noiseMs: number,
   ): DelayReading {
-    // The queue as most of the message saw it, unless it has gone meanwhile.
+    // The queue that most of the message saw, unless it has drained since.
     const queue = Math.min(o.queueMs, o.queueEndMs * 1.5 + 2);
     this.#overInRow = queue > toleratedMs || o.queueEndMs > 1.5 * toleratedMs ? this.#overInRow + 1 : 0;
     if (this.#overInRow >= (noiseMs > NOISY_MS ? 2 : 1) || o.queueEndMs > 2.5 * toleratedMs) return 'over';
@@ -65,9 +68,10 @@ export class DelayLaw {
   }
 
   /**
-   * While the queue stands, what arrives is the path's rate for us. A queue is no proof of a lower rate: everything may have
-   * stood still for a moment. So a rate counts that held while the queue stood, the most generous one at first; and what
-   * arrived over all only when the queue stays and tells no such rate.
+   * While the queue stands, the arrival rate is the rate that the path carries for us. A queue alone does not prove a
+   * lower rate, because everything may have stalled for a moment. Therefore only rates measured while the queue stood
+   * count, at first the highest of them. The overall arrival rate counts only if the queue stays and gives no such
+   * rate.
    */
   estimateWhenOver(path: PathObserver, estimate: number, toleratedMs: number): number {
     const { ackedBitsPerSecond: acked, queueEndMs } = path.observation;
@@ -88,7 +92,7 @@ export class DelayLaw {
     return Math.min(estimate, Math.max(KEEP * rate, floor));
   }
 
-  /** The part of the rate that is held back until the queue has gone. */
+  /** The fraction of the rate to hold back until the queue has drained. */
   drain(o: Readonly<PathObservation>, allowanceMs: number): number {
     return Math.min(Math.max(o.queueEndMs - allowanceMs - 2, 0) / DRAIN_MS, DRAIN_MOST);
   }

@@ -14,7 +14,7 @@ function results(received: number, lost: number): PacketResult[] {
   }));
 }
 
-/** Sends for `seconds` with feedback every 50 ms that reports this loss. @returns the time after */
+/** Sends for `seconds` with feedback every 50 ms that reports this loss. @returns the end time */
 function run(controller: FixedRateController, fromMs: number, seconds: number, loss: number): number {
   const untilMs = fromMs + seconds * 1000;
   for (let t = fromMs; t < untilMs; t += 50) {
@@ -32,7 +32,7 @@ test('gives the configured rate', () => {
   expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
 });
 
-test('loss for a whole second halves it, a short burst of loss does not', () => {
+test('loss for a whole second halves the rate, a short burst of loss does not', () => {
   const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
   let t = run(controller, 0, 0.95, 0);
   t = run(controller, t, 0.05, 1);
@@ -41,14 +41,14 @@ test('loss for a whole second halves it, a short burst of loss does not', () => 
   expect(controller.targetBitsPerSecond(t)).toBe(20 * MBIT);
 });
 
-test('between clean and sustained loss it stays', () => {
+test('between clean and sustained loss, the rate stays', () => {
   const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
   let t = run(controller, 0, 1, 0.5);
   t = run(controller, t, 5, 0.06);
   expect(controller.targetBitsPerSecond(t)).toBe(20 * MBIT);
 });
 
-test('comes back in clean seconds, up to the configured rate and no further', () => {
+test('recovers in clean seconds, up to the configured rate and no further', () => {
   const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
   let t = run(controller, 0, 1, 0.5);
   t = run(controller, t, 1, 0);
@@ -57,7 +57,7 @@ test('comes back in clean seconds, up to the configured rate and no further', ()
   expect(controller.targetBitsPerSecond(t)).toBe(40 * MBIT);
 });
 
-test('loss never takes it below the floor; a floor above the rate is the rate', () => {
+test('loss never lowers the rate below the floor; a floor above the rate is the rate', () => {
   const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT, floorBitsPerSecond: 3 * MBIT });
   run(controller, 0, 10, 0.9);
   expect(controller.targetBitsPerSecond(0)).toBe(3 * MBIT);
@@ -66,7 +66,7 @@ test('loss never takes it below the floor; a floor above the rate is the rate', 
   expect(small.targetBitsPerSecond(0)).toBe(0.5 * MBIT);
 });
 
-test('the receiver’s limit binds, also below the floor, until it is lifted', () => {
+test('the receiver’s limit applies, also below the floor, until it is lifted', () => {
   const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
   controller.onReceiverLimit(0.2 * MBIT, 0);
   expect(controller.targetBitsPerSecond(0)).toBe(0.2 * MBIT);
@@ -77,7 +77,7 @@ test('the receiver’s limit binds, also below the floor, until it is lifted', (
 });
 
 describe('without transport-wide feedback', () => {
-  test('the receiver’s sums tell of loss', () => {
+  test('detects loss from the receiver’s sums', () => {
     const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
     for (let t = 0; t <= 1000; t += 200) {
       controller.onPacketSent(0, 1244, t);
@@ -86,7 +86,7 @@ describe('without transport-wide feedback', () => {
     expect(controller.targetBitsPerSecond(0)).toBe(20 * MBIT);
   });
 
-  test('each interval’s sums count by themselves', () => {
+  test('judges each interval’s sums by themselves', () => {
     const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
     controller.onPacketSent(0, 1244, 0);
     for (let t = 0; t <= 6000; t += 200) {
@@ -95,7 +95,7 @@ describe('without transport-wide feedback', () => {
     expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
   });
 
-  test('a report that was overtaken changes nothing', () => {
+  test('ignores a report that was overtaken', () => {
     const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
     controller.onPacketSent(0, 1244, 0);
     controller.onReceiverReport({ packetsReceived: 1000, packetsLost: 100 }, 0);
@@ -105,7 +105,7 @@ describe('without transport-wide feedback', () => {
     expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
   });
 
-  test('transport-wide feedback is believed before the sums', () => {
+  test('prefers transport-wide feedback to the sums', () => {
     const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
     controller.onPacketSent(0, 1244, 0);
     controller.onReceiverReport({ packetsReceived: 0, packetsLost: 0 }, 0);
@@ -116,7 +116,7 @@ describe('without transport-wide feedback', () => {
 });
 
 describe('silence', () => {
-  test('of a receiver that used to answer counts as loss', () => {
+  test('of a receiver that has answered before counts as loss', () => {
     const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
     let t = run(controller, 0, 1, 0);
     for (const end = t + 1000; t < end; t += 10) controller.onPacketSent(0, 1244, t);
@@ -124,7 +124,7 @@ describe('silence', () => {
     expect(controller.targetBitsPerSecond(t)).toBe(20 * MBIT);
   });
 
-  test('of one that never answered, or while nothing is sent, says nothing', () => {
+  test('of a receiver that never answered, or while nothing is sent, means nothing', () => {
     const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
     for (let t = 0; t < 3000; t += 10) {
       controller.onPacketSent(0, 1244, t);
@@ -137,7 +137,7 @@ describe('silence', () => {
   });
 });
 
-test('few packets say nothing about a fraction', () => {
+test('ignores the loss fraction of few packets', () => {
   const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
   controller.onPacketSent(0, 1244, 0);
   controller.onFeedback(results(5, 5), 500);
@@ -145,7 +145,7 @@ test('few packets say nothing about a fraction', () => {
   expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
 });
 
-test('whatever is reported: between floor and configured rate, never above the receiver’s limit', () => {
+test('stays between floor and configured rate, never above the receiver’s limit, whatever is reported', () => {
   const event = fc.oneof(
     fc.record({ kind: fc.constant('feedback' as const), received: fc.nat(60), lost: fc.nat(60) }),
     fc.record({ kind: fc.constant('report' as const), received: fc.nat(100_000), lost: fc.nat(100_000) }),

@@ -8,29 +8,29 @@ import {
 } from './rate-controller.ts';
 
 export interface FixedRateOptions {
-  /** The configured rate, bit/s: where it starts and the most it gives. */
+  /** The configured rate, bit/s: the start value and the maximum. */
   bitsPerSecond: number;
-  /** Loss never takes it below, bit/s. A receiver's limit does. */
+  /** Loss never lowers the rate below this, bit/s. A receiver's limit may. */
   floorBitsPerSecond?: number;
   /** Loss above this fraction for a whole interval halves the rate. */
   lossThreshold?: number;
   /** How long loss, or its absence, must last, ms. */
   intervalMs?: number;
-  /** Factor by which the rate rises after an interval (nearly) without loss. */
+  /** Factor by which the rate rises after an interval with (nearly) no loss. */
   increase?: number;
 }
 
-/** Loss below this fraction is taken for none: radio links lose a little without being full. */
+/** Loss below this fraction counts as none: radio links lose a little without being full. */
 const CLEAN_LOSS = 0.02;
-/** Fewer packets say nothing about a fraction. */
+/** With fewer packets than this, a loss fraction means nothing. */
 const MIN_PACKETS = 20;
 
 /**
- * Sends at the configured rate. Sustained loss halves it, quiet intervals bring it back. It knows nothing of queues: a
- * link with a long one is filled without any loss to be seen.
+ * Sends at the configured rate. Sustained loss halves the rate; intervals without loss raise it again. The controller
+ * does not look at queues: it fills a link with a long queue until packets are lost.
  *
- * Each interval is judged by itself. Transport-wide feedback is believed before the receiver's sums. A receiver that
- * used to answer and answers nothing for a whole interval, while packets are sent, counts as losing everything.
+ * Each interval is judged by itself. Transport-wide feedback takes precedence over the receiver's sums. If a receiver
+ * has answered before and answers nothing for a whole interval in which packets were sent, everything counts as lost.
  */
 export class FixedRateController implements RateController {
   readonly #configured: number;
@@ -74,7 +74,7 @@ export class FixedRateController implements RateController {
 
   onReceiverReport(report: ReceiverSums, nowMs: number): void {
     const last = this.#sums;
-    // Reports may overtake each other: sums only grow.
+    // Reports may arrive out of order; the sums only grow.
     if (last !== null && report.packetsReceived < last.packetsReceived) return;
     this.#sums = { packetsReceived: report.packetsReceived, packetsLost: report.packetsLost };
     this.#sumsAtStart ??= this.#sums;
@@ -105,7 +105,7 @@ export class FixedRateController implements RateController {
     return Math.min(this.#rate, this.#receiverLimit);
   }
 
-  /** No window, no probes. */
+  /** Without a congestion window and without probes. */
   decision(nowMs: number): Readonly<RateDecision> {
     this.#decision.targetBitsPerSecond = this.targetBitsPerSecond(nowMs);
     this.#decision.pacingBitsPerSecond = this.#decision.targetBitsPerSecond * 1.1;
@@ -123,7 +123,7 @@ export class FixedRateController implements RateController {
     };
   }
 
-  /** Of this interval; `null` where nothing can be said. */
+  /** Loss fraction of this interval; `null` if unknown. */
   #lossFraction(): number | null {
     const { received, lost } = this.#feedback;
     const heard = received + lost > 0 || this.#reportInInterval;
@@ -132,7 +132,7 @@ export class FixedRateController implements RateController {
     if (received + lost >= MIN_PACKETS) return lost / (received + lost);
     if (this.#sums === null || this.#sumsAtStart === null) return null;
     const sumReceived = this.#sums.packetsReceived - this.#sumsAtStart.packetsReceived;
-    // A late packet takes back a loss.
+    // A packet that arrives late cancels a loss.
     const sumLost = Math.max(this.#sums.packetsLost - this.#sumsAtStart.packetsLost, 0);
     return sumReceived + sumLost >= MIN_PACKETS ? sumLost / (sumReceived + sumLost) : null;
   }

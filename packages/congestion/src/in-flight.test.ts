@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { InFlight } from './in-flight.ts';
 
-test('what is sent is in flight until it, or a later packet, is answered for', () => {
+test('a packet is in flight until it, or a later one, is answered', () => {
   const flight = new InFlight();
   for (let i = 0; i < 10; i++) flight.onSent(i, 100, 0);
   flight.onAnswered(3);
@@ -21,7 +21,7 @@ test('sequence numbers wrap', () => {
   expect(flight.bytes).toBe(0);
 });
 
-test('knows the cluster of a packet', () => {
+test('finds the probe cluster of a packet', () => {
   const flight = new InFlight();
   flight.onSent(7, 100, 3);
   flight.onSent(8, 100, 0);

@@ -1,8 +1,8 @@
 import { SequenceNumber } from '@farpoint/rtp';
 
 /**
- * What has been sent and not been spoken of: sums of bytes by transport-wide sequence number, in preallocated rings. A
- * packet counts as answered for as soon as feedback names it or a later one, so that a lost feedback message does not
+ * Tracks what has been sent and not yet reported: cumulative bytes by transport-wide sequence number, in preallocated
+ * rings. A packet counts as answered as soon as feedback names it or a later one. A lost feedback message thus does not
  * leave its packets in flight for ever.
  */
 export class InFlight {
@@ -33,7 +33,7 @@ export class InFlight {
     return this.#clusters[transportSequence & InFlight.#MASK] as number;
   }
 
-  /** Everything sent so far, bytes. */
+  /** Total sent so far, bytes. */
   get sentBytes(): number {
     return this.#sent;
   }

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { LossJudge, type LossVerdict } from './loss-judge.ts';
 
-/** Messages of 100 packets each 60 ms, `loss` of them lost, until a verdict. @returns it and the time after */
+/** A message of 100 packets every 60 ms, with fraction `loss` lost, until a verdict. @returns it and the time after */
 function until(judge: LossJudge, loss: number, fromMs: number, wanted: LossVerdict): number {
   for (let t = fromMs; t < fromMs + 5000; t += 60) {
     const lost = Math.round(100 * loss);
@@ -19,24 +19,24 @@ test('loss that a lower rate ends was overload', () => {
   expect(judge.base).toBe(0);
 });
 
-test('loss that stays is the link’s own, and no reason any more', () => {
+test('loss that stays is the link’s own, and no longer a reason to cut', () => {
   const judge = new LossJudge();
   const cut = until(judge, 0.2, 1000, 'excess');
   judge.cutAt(cut);
   const end = until(judge, 0.2, cut, 'innocent');
   expect(judge.base).toBeCloseTo(0.2);
   expect(() => until(judge, 0.2, end, 'excess')).toThrow();
-  // On top of it, overload is seen as before; a link that gets better is noticed.
+  // Overload on top of it is still detected, and so is a link that improves.
   until(judge, 0.3, end, 'excess');
 });
 
-test('packets from before the cut say nothing about it', () => {
+test('packets sent before the cut do not count as evidence', () => {
   const judge = new LossJudge();
   judge.cutAt(until(judge, 0.1, 1000, 'excess') + 10_000);
   expect(() => until(judge, 0.1, 1300, 'innocent')).toThrow();
 });
 
-test('less loss than the base lowers it', () => {
+test('lower loss lowers the base', () => {
   const judge = new LossJudge();
   judge.base = 0.2;
   for (let t = 0; t < 5000; t += 60) judge.onFeedback(100, 0, t - 60, t);
@@ -46,7 +46,7 @@ test('less loss than the base lowers it', () => {
 test('a trial on a slow link ends within 2 s', () => {
   const judge = new LossJudge();
   let now = 0;
-  // One packet in 50 ms, in pairs; a fifth is lost.
+  // One packet every 50 ms, in pairs; a fifth is lost.
   const until = (verdict: string): number => {
     for (let i = 0; i < 100; i++) {
       now += 100;

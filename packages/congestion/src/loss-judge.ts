@@ -1,36 +1,42 @@
-/** A fraction is judged over so many packets and so long. */
+/** A loss fraction is judged over at least this many packets and this much time. */
 const LEAST_PACKETS = 60;
 const LEAST_MS = 180;
-/** On a slow link so few packets must do after so long. */
+/** On a slow link, this many packets suffice after this time. */
 const FEW_PACKETS = 20;
 const PATIENCE_MS = 1000;
-/** Loss must exceed the base by so much before anything is done, and by so many standard deviations. */
+/** Loss must exceed the base by this margin, and by this many standard deviations, before the controller acts. */
 const MARGIN = 0.03;
 const DEVIATIONS = 3;
-/** How fast the base follows the loss where it is far below it, and otherwise; and how fast a trial is forgotten. Per window. */
+/**
+ * Per window: how fast the base follows the loss when the loss is well below it, and otherwise; and how fast a trial's
+ * result is forgotten.
+ */
 const FAST = 0.3;
 const SLOW = 0.1;
 const FORGET = 0.02;
 
 /**
- * Tells loss by overload from loss that is simply there (radio, a policer of someone else's). The test is causal: when loss
- * exceeds its base, the rate is cut to below what got through. Overload would end with that. If the loss stays as it was,
- * it is the link's own: the base rises to it, and the rate is given back.
+ * What the judge concludes. `excess`: cut to below what got through; `innocent`: the cut made no difference; `guilty`:
+ * the cut ended the loss.
  */
-/** `excess`: cut to below what got through; `innocent`: the cut changed nothing; `guilty`: it ended the loss. */
 export type LossVerdict = 'none' | 'excess' | 'innocent' | 'guilty';
 
+/**
+ * Tells loss caused by overload from loss that is simply there (radio, somebody else's policer). The test is causal.
+ * When loss exceeds its base, the rate is cut to below what got through. That would end loss by overload. If the loss
+ * stays, it is the link's own: the base rises to it, and the rate is restored.
+ */
 export class LossJudge {
-  /** Loss that no lower rate has cured, 0–1. */
+  /** Loss that no lower rate has reduced, 0–1. */
   base = 0;
-  /** Of the last judged window, 0–1. */
+  /** Loss fraction of the last judged window, 0–1. */
   fraction = 0;
-  /** What a trial has shown to be the link's own; forgotten slowly. */
+  /** The loss that a trial has shown to be the link's own; it is forgotten slowly. */
   #proven = 0;
   #received = 0;
   #lost = 0;
   #sinceMs = Number.NaN;
-  /** A cut is on trial: packets sent from this time on are its evidence. */
+  /** A cut is on trial: packets sent from this time on are the evidence. */
   #trialFromMs = Number.NaN;
   #trialLoss = 0;
 
@@ -39,8 +45,8 @@ export class LossJudge {
   }
 
   /**
-   * @param oldestSentMs when the first packet of the message left
-   * @returns `excess`: cut to below the delivered rate, now; `innocent`: the cut changed nothing, take it back
+   * @param oldestSentMs when the first packet of the message was sent
+   * @returns `excess`: cut to below the delivered rate now; `innocent`: the cut made no difference, so take it back
    */
   onFeedback(received: number, lost: number, oldestSentMs: number, nowMs: number): LossVerdict {
     if (this.onTrial && oldestSentMs < this.#trialFromMs) return 'none';
@@ -72,19 +78,19 @@ export class LossJudge {
     return 'none';
   }
 
-  /** The rate was cut at this time because of `excess`. */
+  /** Records that the rate was cut at this time because of `excess`. */
   cutAt(nowMs: number): void {
     this.#trialFromMs = nowMs;
     this.#restart();
   }
 
-  /** What was lost so far says nothing, as after an outage. */
+  /** Discards the losses so far, for example after an outage. */
   forget(): void {
     this.#trialFromMs = Number.NaN;
     this.#restart();
   }
 
-  /** The base goes with the loss, but never above what a trial has shown. */
+  /** The base follows the loss, but never above what a trial has shown. */
   #follow(fraction: number): void {
     const gain = fraction < this.base - MARGIN ? FAST : SLOW;
     this.base = Math.min(this.base + (fraction - this.base) * gain, Math.max(this.#proven, this.base));

@@ -13,12 +13,12 @@ function frame(id: number, packets: number, minSpanMs?: number): NumberedFrame {
   return { id, packets, bytes: packets * 1250, ...(minSpanMs === undefined ? {} : { minSpanMs }) };
 }
 
-/** Exact timing: no packet before its time. */
+/** Exact timing: no packet is sent early. */
 function exact(bitsPerSecond: number, options = {}) {
   return new PacketPacer<NumberedFrame>(bitsPerSecond, { factor: 1, burstMs: 0, ...options });
 }
 
-/** Wakes exactly when asked to. @returns [frame id, packet, time] of every packet */
+/** Wakes up exactly when asked to. @returns [frame id, packet, time] of every packet */
 function drain(pacer: PacketPacer<NumberedFrame>, fromMs: number): [number, number, number][] {
   const sent: [number, number, number][] = [];
   let t = fromMs;
@@ -48,13 +48,13 @@ test('packets leave evenly at the rate', () => {
   ]);
 });
 
-test('the factor makes it faster', () => {
+test('the factor speeds it up', () => {
   const pacer = exact(8 * MBIT, { factor: 1.25 });
   pacer.enqueue(frame(1, 3), 0);
   expect(drain(pacer, 0).map(([, , t]) => t)).toEqual([0, 1, 2]);
 });
 
-test('a least span makes it slower', () => {
+test('a minimum span slows it down', () => {
   const pacer = exact(100 * MBIT);
   pacer.enqueue(frame(1, 4, 20), 0);
   expect(drain(pacer, 0).map(([, , t]) => t)).toEqual([0, 5, 10, 15]);
@@ -64,11 +64,11 @@ test('a burst window saves wake-ups and keeps the rate', () => {
   const pacer = exact(40 * MBIT, { burstMs: 1 });
   pacer.enqueue(frame(1, 48), 0);
   const times = drain(pacer, 0).map(([, , t]) => t);
-  // Four packets a millisecond, together.
+  // Four packets together each millisecond.
   expect(times).toEqual(Array.from({ length: 48 }, (_, i) => Math.floor(i / 4)));
 });
 
-test('the last run of a frame says so', () => {
+test('marks the last run of a frame', () => {
   const pacer = exact(10 * MBIT);
   pacer.enqueue(frame(1, 2), 0);
   expect(pacer.due(0)).toMatchObject({ first: 0, count: 1, last: false });
@@ -77,7 +77,7 @@ test('the last run of a frame says so', () => {
   expect(pacer.nextDueMs).toBeNull();
 });
 
-test('the next frame keeps the distance to the one before', () => {
+test('the next frame keeps its distance from the one before', () => {
   const pacer = exact(10 * MBIT);
   pacer.enqueue(frame(1, 2), 0);
   pacer.due(0);
@@ -89,7 +89,7 @@ test('the next frame keeps the distance to the one before', () => {
   ]);
 });
 
-test('time without anything to send is not made up for', () => {
+test('idle time is not caught up', () => {
   const pacer = exact(10 * MBIT);
   pacer.enqueue(frame(1, 1), 0);
   drain(pacer, 0);
@@ -97,18 +97,18 @@ test('time without anything to send is not made up for', () => {
   expect(drain(pacer, 500).map(([, , t]) => t)).toEqual([500, 501, 502]);
 });
 
-test('a late wake-up makes up for 10 ms and no more', () => {
+test('a late wake-up catches up 10 ms and no more', () => {
   const pacer = exact(10 * MBIT);
   pacer.enqueue(frame(1, 100), 0);
   pacer.due(0);
-  // Those of 50 … 59, then that of 60.
+  // Those of 50 … 59 ms, then that of 60 ms.
   expect(pacer.due(60)).toMatchObject({ first: 1, count: 10 });
   expect(pacer.due(60)).toMatchObject({ first: 11, count: 1 });
   expect(pacer.due(60)).toBeNull();
   expect(pacer.nextDueMs).toBe(61);
 });
 
-test('a new rate counts from the next packet on; none at all is a trickle', () => {
+test('a new rate applies from the next packet on; a rate of zero is a trickle', () => {
   const pacer = exact(10 * MBIT);
   pacer.enqueue(frame(1, 10), 0);
   pacer.due(0);
@@ -120,8 +120,8 @@ test('a new rate counts from the next packet on; none at all is a trickle', () =
   expect(pacer.nextDueMs).toBe(111);
 });
 
-describe('a queue that is full', () => {
-  test('a newer frame takes the place of the one not begun', () => {
+describe('a full queue', () => {
+  test('a newer frame replaces one that has not begun', () => {
     const pacer = exact(10 * MBIT);
     expect(pacer.enqueue(frame(1, 2), 0)).toEqual([]);
     pacer.due(0);
@@ -131,7 +131,7 @@ describe('a queue that is full', () => {
     expect(pacer.drops).toEqual({ superseded: 1, overdue: 0, cleared: 0 });
   });
 
-  test('a frame whose first packet must still wait is not begun', () => {
+  test('a frame whose first packet must still wait has not begun', () => {
     const pacer = exact(1 * MBIT);
     pacer.enqueue(frame(1, 1), 0);
     pacer.due(0);
@@ -141,7 +141,7 @@ describe('a queue that is full', () => {
     expect(drain(pacer, 3)).toEqual([[3, 0, 10]]);
   });
 
-  test('a frame that takes too long gives way to a newer one, not before', () => {
+  test('a frame that takes too long gives way to a newer one, but no earlier', () => {
     const pacer = exact(1 * MBIT, { maxFrameMs: 250 });
     pacer.enqueue(frame(1, 100), 0);
     pacer.due(0);
@@ -155,7 +155,7 @@ describe('a queue that is full', () => {
     expect(drain(pacer, 250).map(([id]) => id)).toEqual([3]);
   });
 
-  test('cleared: begun and waiting ones are given back', () => {
+  test('clear returns the frames in progress and the waiting ones', () => {
     const pacer = exact(10 * MBIT);
     pacer.enqueue(frame(1, 3), 0);
     pacer.due(0);
@@ -168,7 +168,7 @@ describe('a queue that is full', () => {
   });
 });
 
-test('any frames, any wake-ups: every packet once and in order or its frame dropped, within rate and queue', () => {
+test('for any frames and wake-ups: every packet once and in order or its frame dropped, within rate and queue', () => {
   const event = fc.record({
     dt: fc.double({ min: 0, max: 40, noNaN: true }),
     packets: fc.integer({ min: 0, max: 60 }),
@@ -223,7 +223,7 @@ test('any frames, any wake-ups: every packet once and in order or its frame drop
 describe('lanes', () => {
   const inLane = (id: number, packets: number, lane: number) => ({ ...frame(id, packets), lane });
 
-  test('a lower lane’s frame goes between the packets of a higher one’s, which goes on afterwards', () => {
+  test('a lower lane’s frame goes between the packets of a higher lane’s frame, which then continues', () => {
     const pacer = exact(10 * MBIT);
     pacer.enqueue(inLane(1, 4, 1), 0);
     const sent: number[] = [];
@@ -234,7 +234,7 @@ describe('lanes', () => {
     expect(sent).toEqual([1, 1, 2, 2, 1, 1]);
   });
 
-  test('a frame gives way to newer ones of its own lane alone', () => {
+  test('a frame gives way only to newer ones of its own lane', () => {
     const pacer = exact(10 * MBIT);
     pacer.enqueue(inLane(1, 4, 1), 0);
     expect(pacer.enqueue(inLane(2, 4, 0), 0)).toEqual([]);
@@ -243,7 +243,7 @@ describe('lanes', () => {
     expect(new Set(drain(pacer, 0).map(([id]) => id))).toEqual(new Set([3, 4]));
   });
 
-  test('all of them share one rate, and clearing empties all', () => {
+  test('all lanes share one rate, and clear empties all of them', () => {
     const pacer = exact(10 * MBIT);
     pacer.enqueue(inLane(1, 3, 1), 0);
     pacer.enqueue(inLane(2, 3, 0), 0);

@@ -1,59 +1,64 @@
 import { BitRate } from '@farpoint/timing';
 
-/** A frame to send: `packets` packets, `bytes` in all on the wire, all but the last of one size. */
+/** A frame to send: `packets` packets with `bytes` in total on the wire. All packets but the last have equal size. */
 export interface PacedFrame {
   packets: number;
   bytes: number;
-  /** Spread over at least this long, ms, even where the rate allows less; 0 for as fast as the rate allows. */
+  /**
+   * The frame is spread over at least this long, ms, even if the rate allows less; 0 for as fast as the rate allows it.
+   */
   minSpanMs?: number;
-  /** Begun this long ago, ms, it gives way to a newer frame; the pacer's `maxFrameMs` where absent. */
+  /** In progress for this long, ms, the frame gives way to a newer one; the pacer's `maxFrameMs` if absent. */
   maxSpanMs?: number;
-  /** Lower goes first; 0 where absent. */
+  /** Lower lanes go first; 0 if absent. */
   lane?: number;
 }
 
 /** Why a frame, or the rest of it, is not sent. */
 export type FrameDropReason =
   | 'superseded' // a newer frame came before this one was begun
-  | 'overdue' // begun, but a newer frame waits and this one has taken too long
+  | 'overdue' // begun, but it has taken too long and a newer frame is waiting
   | 'cleared'; // the stream was stopped
 
 export interface DroppedFrame<T extends PacedFrame> {
   frame: T;
   reason: FrameDropReason;
-  /** How many of its packets were not sent. */
+  /** How many of the frame's packets were not sent. */
   packets: number;
 }
 
-/** Packets `first` … `first + count − 1` of `frame` may go now. */
+/** Packets `first` … `first + count − 1` of `frame` may be sent now. */
 export interface PacedRun<T extends PacedFrame> {
   frame: T;
   first: number;
   count: number;
-  /** The frame's last packet is among them. */
+  /** Whether the frame's last packet is among them. */
   last: boolean;
 }
 
 export interface PacerOptions {
-  /** Frames that may wait to be begun, at least 1. */
+  /** How many frames may wait to be begun, at least 1. */
   maxWaitingFrames?: number;
-  /** Rate of sending over the target rate, 1.0–1.25: a little faster, so that a frame is over before the next comes. */
+  /**
+   * Sending rate as a multiple of the target rate, 1.0–1.25: slightly faster, so that a frame ends before the next one
+   * comes.
+   */
   factor?: number;
-  /** Packets may go this much before their time, ms: fewer wake-ups, small bursts. */
+  /** Packets may be sent this much early, ms: fewer wake-ups, small bursts. */
   burstMs?: number;
-  /** A late wake-up makes up for at most this much, ms; what is later moves the schedule. */
+  /** After a late wake-up, at most this much is caught up, ms; beyond that the schedule moves. */
   catchUpMs?: number;
-  /** A frame begun this long ago gives way to a newer one, ms. */
+  /** A frame that has been in progress for this long gives way to a newer one, ms. */
   maxFrameMs?: number;
 }
 
 /**
- * A lower rate is taken for this one, bit/s: a packet every 0.1 s, so that a rate that rises again is noticed soon. Who
- * wants to send nothing stops the stream.
+ * Lower rates are raised to this one, bit/s. A packet every 0.1 s lets the pacer notice soon when the rate rises again.
+ * To send nothing, stop the stream.
  */
 const MIN_BITS_PER_SECOND = 100_000;
 
-/** A frame that has been begun. */
+/** A frame whose sending has begun. */
 interface Sending<T> {
   frame: T;
   sent: number;
@@ -68,17 +73,17 @@ interface Lane<T> {
 }
 
 /**
- * Says when the packets of frames may go, evenly over time instead of in one burst per frame. It owns no timer and no
- * packet: ask `due` until it has nothing more, then again at `nextDueMs`. Frames of several sources go in lanes: each frame
- * gives way to newer ones of its own lane alone, and the packets of a lower lane go first.
+ * Schedules the packets of frames evenly over time instead of in one burst per frame. It owns no timer and no packet:
+ * call `due` until it returns nothing, then again at `nextDueMs`. Each source has a lane of its own: a frame gives way
+ * only to newer frames of its own lane, and the packets of lower lanes go first.
  */
 export class PacketPacer<T extends PacedFrame> {
   readonly #options: Required<PacerOptions>;
-  /** By lane number; in the order of it. */
+  /** In order of lane number. */
   readonly #lanes: Lane<T>[] = [];
   readonly #drops: Record<FrameDropReason, number> = { superseded: 0, overdue: 0, cleared: 0 };
   #bitsPerSecond: number;
-  /** Before this time the next packet must not go. */
+  /** The next packet must not be sent before this time. */
   #nextMs = Number.NEGATIVE_INFINITY;
 
   constructor(bitsPerSecond: number, options: PacerOptions = {}) {
@@ -102,7 +107,7 @@ export class PacketPacer<T extends PacedFrame> {
     this.#bitsPerSecond = Math.max(bitsPerSecond, MIN_BITS_PER_SECOND);
   }
 
-  /** Takes a frame over. @returns the frames that have to give way to it */
+  /** Takes over a frame. @returns the frames that are dropped for it */
   enqueue(frame: T, nowMs: number): DroppedFrame<T>[] {
     const dropped: DroppedFrame<T>[] = [];
     const lane = this.#laneOf(frame);
@@ -120,7 +125,7 @@ export class PacketPacer<T extends PacedFrame> {
     return dropped;
   }
 
-  /** Drops everything, as when the stream stops. */
+  /** Drops everything, for example when the stream stops. */
   clear(): DroppedFrame<T>[] {
     const dropped: DroppedFrame<T>[] = [];
     for (const lane of this.#lanes) {
@@ -135,20 +140,20 @@ export class PacketPacer<T extends PacedFrame> {
     return dropped;
   }
 
-  /** When `due` has something next, maybe past; `null` where nothing waits. */
+  /** When `due` has the next packet, possibly in the past; `null` if nothing waits. */
   get nextDueMs(): number | null {
     let next: number | null = null;
     for (const { current, waiting } of this.#lanes) {
       if (current !== null) return this.#nextMs;
       const first = waiting[0];
-      // What was not sent while there was nothing to send is not made up for.
+      // Idle time is not caught up.
       if (first !== undefined)
         next = Math.min(next ?? Number.POSITIVE_INFINITY, Math.max(this.#nextMs, first.sinceMs));
     }
     return next;
   }
 
-  /** The packets that may go now, of one frame; `null` where none may. Ask again until `null`. */
+  /** The packets of one frame that may be sent now; `null` if there are none. Call again until `null`. */
   due(nowMs: number): PacedRun<T> | null {
     const dueMs = this.nextDueMs;
     if (dueMs === null || dueMs > nowMs) return null;

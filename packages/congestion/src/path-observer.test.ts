@@ -2,7 +2,7 @@ import type { PacketResult } from '@farpoint/rtp';
 import { expect, test } from 'vitest';
 import { PathObserver } from './path-observer.ts';
 
-/** Packets 1 ms apart, each delayed by what `delayMs` says of its time of sending. */
+/** Packets 1 ms apart, each delayed by `delayMs` of its sending time. */
 function message(
   from: number,
   count: number,
@@ -24,12 +24,12 @@ function feed(path: PathObserver, from: number, to: number, delayMs: (sentMs: nu
   }
 }
 
-test('queueing delay is what exceeds the least; the rate is what arrives', () => {
+test('queueing delay is the excess over the least delay; the rate is what arrives', () => {
   const path = new PathObserver();
   feed(path, 0, 500, () => 20);
   expect(path.observation.queueMs).toBeCloseTo(0);
   expect(path.observation.ackedBitsPerSecond).toBeCloseTo(10e6, -5);
-  // The link takes 2 ms a packet from now on.
+  // From here on, the link takes 2 ms per packet.
   feed(path, 500, 600, (t) => 20 + (t - 500));
   expect(path.observation.queueEndMs).toBeGreaterThan(90);
   expect(path.observation.ackedBitsPerSecond).toBeCloseTo(5e6, -5);
@@ -54,7 +54,7 @@ test('a clock that jumps is no queue', () => {
   expect(path.observation.queueMs).toBeLessThan(15);
 });
 
-test('delay that changes to and fro is noise, delay that grows is not', () => {
+test('delay that goes up and down is noise, delay that grows is not', () => {
   const noisy = new PathObserver();
   feed(noisy, 0, 3000, (t) => 20 + (Math.floor(t / 50) % 2) * 10);
   const growing = new PathObserver();
@@ -63,16 +63,16 @@ test('delay that changes to and fro is noise, delay that grows is not', () => {
   expect(growing.noiseMs).toBeLessThan(1);
 });
 
-test('a path that stood still for a moment carries what it carried', () => {
+test('a path that stalled for a moment keeps its rate', () => {
   const path = new PathObserver();
   feed(path, 0, 500, () => 20);
-  // From 510 on nothing moves; at 530 all of it comes, and what follows waits as long.
+  // From 510 on nothing moves; at 530 all of it arrives, and what follows waits as long.
   feed(path, 500, 550, (t) => (t < 510 ? 20 : 40));
   expect(path.observation.queueEndMs).toBeCloseTo(20);
   expect(path.observation.ackedBitsPerSecond).toBeLessThan(9e6);
   expect(path.rateWhileQueued(5, 25)).toBeCloseTo(10e6, -5);
   expect(path.rateWhileQueued(25, 25)).toBeNaN();
-  // At the very end of a message a queue tells no rate.
+  // A queue at the very end of a message gives no rate.
   feed(path, 550, 1000, () => 20);
   feed(path, 1000, 1050, (t) => (t < 1040 ? 20 : 40));
   expect(path.observation.queueEndMs).toBeCloseTo(20);

@@ -2,36 +2,39 @@ import { type PacketResult, SequenceNumber } from '@farpoint/rtp';
 import { WindowedMinimum } from '@farpoint/timing';
 import { SettledDelay } from './settled-delay.ts';
 
-/** One feedback message, condensed. Overwritten by the next. */
+/** Summary of one feedback message. The next message overwrites it. */
 export interface PathObservation {
   received: number;
   lost: number;
   receivedBytes: number;
-  /** Waiting time in the path's queues, ms: what most packets of the message exceed, and its newest packets' median. */
+  /**
+   * Queueing delay of the path, ms: the value that most packets of the message exceed, and the median of its newest
+   * packets.
+   */
   queueMs: number;
   queueEndMs: number;
-  /** What arrived over the last 100 ms or so, bit/s. */
+  /** Arrival rate over the last 100 ms or so, bit/s. */
   ackedBitsPerSecond: number;
-  /** From sending the newest packet to hearing of it, ms. */
+  /** From sending the newest packet to receiving the feedback about it, ms. */
   rttMs: number;
-  /** When the newest and the oldest packet of the message left, ms. */
+  /** When the newest and the oldest packet of the message were sent, ms. */
   newestSentMs: number;
   oldestSentMs: number;
 }
 
-/** Base delay and base round trip are the least of this long. Clocks differ by up to 100 ppm: 3 ms in 30 s. */
+/** Base delay and base round trip are minima over this window. Clocks differ by up to 100 ppm: 3 ms in 30 s. */
 const BASE_WINDOW_MS = 30_000;
-/** A one-way delay that grew by so much more than the round trip did is a clock that jumped, ms. */
+/** If the one-way delay grew by this much more than the round trip did, a clock has jumped, ms. */
 const CLOCK_JUMP_MS = 60;
 const RATE_WINDOW_MS = 95;
-/** The least delay of so many packets is the message's end: one late packet is no queue. */
+/** The queue at the end of a message is the least delay of this many packets: one late packet is no queue. */
 const END_PACKETS = 4;
-/** A rate is told from so many packets at least. */
+/** A rate is computed from at least this many packets. */
 const RATE_PACKETS = 8;
 const MESSAGES = 32;
 const NOISE_CLAMP_MS = 16;
 
-/** Turns feedback into queueing delay, arrival rate, loss and round trip. Knows nothing of what follows from them. */
+/** Turns feedback into queueing delay, arrival rate, loss and round trip. It draws no conclusions from them. */
 export class PathObserver {
   readonly observation: PathObservation = {
     received: 0,
@@ -47,7 +50,7 @@ export class PathObserver {
   readonly #baseDelay = new WindowedMinimum(BASE_WINDOW_MS);
   readonly #baseRtt = new WindowedMinimum(BASE_WINDOW_MS);
   readonly #settled = new SettledDelay();
-  /** The last messages: newest arrival, bytes of the message. */
+  /** The last messages: newest arrival time and bytes of each. */
   readonly #ends = new Float64Array(MESSAGES);
   readonly #bytes = new Float64Array(MESSAGES);
   #messages = 0;
@@ -62,27 +65,27 @@ export class PathObserver {
   #lastChange = 0;
   #opposed = 0;
   /**
-   * Standard deviation of the delay's noise between messages, ms. Noise shows as changes that are followed by opposite
-   * ones (of independent samples, half the variance of the changes); a queue grows or shrinks for several messages.
+   * Standard deviation of the delay noise between messages, ms. Noise shows as changes followed by opposite ones (for
+   * independent samples, half the variance of the changes); a queue grows or shrinks over several messages.
    */
   noiseMs = 0;
   /** Smoothed time between feedback messages, ms. */
   feedbackIntervalMs = 60;
-  /** How often the receiver's clock was found to have jumped. */
+  /** How many jumps of the receiver's clock were detected. */
   clockJumps = 0;
 
-  /** The least round trip of late, ms; a guess before the first. */
+  /** The least recent round trip, ms; a guess before the first sample. */
   get baseRttMs(): number {
     const value = this.#baseRtt.value;
     return value < Number.POSITIVE_INFINITY ? value : 100;
   }
 
-  /** How far above the base delay the floor lies that the delay comes down to, ms; NaN where it has none. */
+  /** How far the floor to which the delay keeps falling lies above the base delay, ms; NaN if there is no floor. */
   get settledQueueMs(): number {
     return this.#settled.value - this.#baseDelay.value;
   }
 
-  /** The path has become longer: on the floor there is no queue. */
+  /** Records that the path has become longer: at the floor, there is no queue. */
   lengthen(nowMs: number): void {
     const delay = this.#settled.value;
     this.#baseDelay.reset();
@@ -92,18 +95,18 @@ export class PathObserver {
     this.#settled.reset();
   }
 
-  /** What arrived before says nothing about the rate now, as after an outage. */
+  /** Discards earlier arrivals, which say nothing about the present rate, for example after an outage. */
   forgetRates(): void {
     this.#newestSequence = -1;
   }
 
   /**
-   * The most that arrived in any `windowMs` of the last message while its queue stood, bit/s: what the path carries of ours.
-   * A path or a receiver that stood still for a moment, or a sender that did, leaves other windows as they were.
+   * The highest arrival rate in any `windowMs` of the last message while its queue stood, bit/s: what the path carries
+   * for us. A short stall of the path, the receiver or the sender leaves other windows unaffected.
    *
-   * @param leastMs what waited shorter saw no queue
-   * @param haltMs what came before a gap of so long between two arrivals does not count
-   * @returns NaN where the queue is too young to tell
+   * @param leastMs packets that waited for less saw no queue
+   * @param haltMs packets before a gap of this length between two arrivals do not count
+   * @returns NaN if the queue is too young to give a rate
    */
   rateWhileQueued(leastMs: number, windowMs: number, haltMs = Number.POSITIVE_INFINITY): number {
     const n = this.observation.received;
@@ -130,7 +133,7 @@ export class PathObserver {
     return most;
   }
 
-  /** @returns false where no packet of the message arrived: then only the loss is news */
+  /** @returns false if no packet of the message arrived, so that only the loss is new */
   onFeedback(results: readonly PacketResult[], nowMs: number): boolean {
     const o = this.observation;
     o.received = 0;
@@ -178,7 +181,7 @@ export class PathObserver {
     return true;
   }
 
-  /** @returns false where the clock jumped: the message says nothing */
+  /** @returns false if the clock jumped, so that the message is useless */
   #queue(rttMs: number, nowMs: number): boolean {
     const o = this.observation;
     const n = o.received;
@@ -216,7 +219,7 @@ export class PathObserver {
     const o = this.observation;
     const last = this.#messages > 0 ? (this.#ends[(this.#messages - 1) % MESSAGES] as number) : Number.NaN;
     if (gap || newestArrivalMs < last || newestArrivalMs > last + 2000) {
-      // A message is missing, the clock jumped, or there was a long silence: this message stands for itself.
+      // A message is missing, the clock jumped, or there was a long silence: judge this message by itself.
       this.#messages = 0;
       this.#push(this.#arrivals[0] as number, 0);
       this.#push(newestArrivalMs, o.receivedBytes - (this.#sizes[0] as number));

@@ -8,7 +8,7 @@ function waitMs(plan: ProbePlan, fromMs: number): number {
   return Number.POSITIVE_INFINITY;
 }
 
-test('trains that their own queue ends become seldom, as those that find nothing', () => {
+test('trains that their own queue ends become rare, like those that find nothing', () => {
   const plan = new ProbePlan();
   plan.onOveruse(1);
   const waits: number[] = [];
@@ -23,14 +23,14 @@ test('trains that their own queue ends become seldom, as those that find nothing
   expect(waits).toEqual([500, 1000, 1400, 1400, 1400]);
 });
 
-test('the search goes on through a train that was cut', () => {
+test('the search continues after a train that was cut off', () => {
   const plan = new ProbePlan();
   plan.onAsked(0);
   plan.onCut(0);
   expect(waitMs(plan, 0)).toBe(0);
 });
 
-test('a deep cut of the rate brings the next train soon', () => {
+test('a deep cut of the rate triggers the next train soon', () => {
   const plan = new ProbePlan();
   plan.onOveruse(1);
   for (let i = 0; i < 5; i++) plan.onCut(0);

@@ -1,33 +1,33 @@
 import type { ProbeOutcome } from './probe-tester.ts';
 
-/** Lengths of a train: in time, and at the least in bytes. */
+/** Length of a train: as time, and the minimum in bytes. */
 const TRAIN_MS = 15;
 const TRAIN_BYTES = 7500;
-/** More for each ms of the path's noise, ms. */
+/** Extra length for each ms of noise on the path, ms. */
 const TRAIN_PER_NOISE = 4;
 const LEAST_WAIT_MS = 250;
 const MOST_WAIT_MS = 1400;
-/** Where the source does not use what it has, more is no news. */
+/** While the source does not use the rate it has, a higher one is of no interest. */
 const IDLE_WAIT_MS = 5000;
 const DEEP_CUT = 0.6;
 const FACTOR = 1.5;
 const FACTOR_AT_START = 3;
 const FACTOR_AFTER_SUCCESS = 2;
-/** A train that arrives at this part of the rate it was sent at has found no limit. */
+/** A train that arrives at this fraction of its sending rate has found no limit. */
 const UNLIMITED = 0.9;
 const UNLIMITED_IN_NOISE = 0.75;
 /** Noise that spoils the measurement, ms. */
 const NOISY_MS = 2;
 
-/** When to try a higher rate and how high; what follows from the outcome. */
+/** Decides when to try a higher rate, how high, and what follows from the outcome. */
 export class ProbePlan {
   #factor = FACTOR_AT_START;
   #waitMs = LEAST_WAIT_MS;
   #lastMs = Number.NEGATIVE_INFINITY;
   #failures = 0;
-  /** Looking for a rate that is wholly unknown. */
+  /** The path's rate is entirely unknown. */
   searching = true;
-  /** The sender does not fulfil probes: the search has to do without. */
+  /** The sender does not send probes, so the search has to do without them. */
   ignored = false;
 
   restart(): void {
@@ -39,7 +39,7 @@ export class ProbePlan {
   /**
    * The path turned out to be full.
    *
-   * @param kept the part of the estimate that is left
+   * @param kept the fraction of the estimate that is left
    */
   onOveruse(kept: number): void {
     this.searching = false;
@@ -52,7 +52,7 @@ export class ProbePlan {
     this.ignored = true;
   }
 
-  /** A train was given up, for the queue grew too long meanwhile. */
+  /** A train was aborted because the queue grew too long meanwhile. */
   onCut(nowMs: number): void {
     if (this.searching) return;
     this.#waitMs = Math.min(Math.max(2 * this.#waitMs, LEAST_WAIT_MS), MOST_WAIT_MS);
@@ -89,8 +89,8 @@ export class ProbePlan {
       this.#waitMs = 0;
       return Math.max(estimate, 0.95 * Math.min(sent, arrived));
     }
-    // The train was spread: it arrived at the link's rate, or at its own share of it where others send as well.
-    // After one that found no limit this is the first that did: nothing else is known, as in the search.
+    // The train was spread out: it arrived at the link's rate, or at our share of it if others send as well. If the
+    // train before found no limit, this is the first limit seen: nothing else is known, as in the search.
     const known = !this.searching && this.#factor !== FACTOR_AFTER_SUCCESS;
     const gain = (known ? 0.6 : 0.75) * (0.93 * arrived - estimate);
     this.#waitMs = Math.min(Math.max(2 * this.#waitMs, LEAST_WAIT_MS), MOST_WAIT_MS);

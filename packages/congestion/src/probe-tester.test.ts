@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { InFlight } from './in-flight.ts';
 import { ProbeTester } from './probe-tester.ts';
 
-/** A train at 10 Mbit/s, 1 ms a packet, that arrives `spread` times as long. */
+/** A train at 10 Mbit/s, 1 ms per packet, whose arrival takes `spread` times as long. */
 function outcomeOf(spread: number) {
   const flight = new InFlight();
   const tester = new ProbeTester();
@@ -30,7 +30,7 @@ test('a train that passes unhindered arrives at its own rate', () => {
   expect(outcome?.arrivedBitsPerSecond).toBeCloseTo(10e6);
 });
 
-test('one that is spread tells the rate of the link', () => {
+test('a train that is spread out shows the rate of the link', () => {
   expect(outcomeOf(2).outcome?.arrivedBitsPerSecond).toBeCloseTo(5e6);
 });
 

@@ -3,17 +3,17 @@ import type { InFlight } from './in-flight.ts';
 import type { ProbeRequest } from './rate-controller.ts';
 
 export interface ProbeOutcome {
-  /** What the train was sent at, as measured, bit/s. */
+  /** Measured sending rate of the train, bit/s. */
   sentBitsPerSecond: number;
-  /** What it arrived at, bit/s. */
+  /** Arrival rate of the train, bit/s. */
   arrivedBitsPerSecond: number;
 }
 
 const LEAST_PACKETS = 5;
-/** A train that was asked for and not seen for so long is given up, ms. */
+/** A requested train that has not been seen for this long is given up, ms. */
 const PATIENCE_MS = 400;
 
-/** One train of packets at a time: asks for it, finds it in the feedback, measures its spread. */
+/** Handles one train of packets at a time: requests it, finds it in the feedback, measures its spread. */
 export class ProbeTester {
   #request: ProbeRequest | null = null;
   #askedMs = 0;
@@ -56,7 +56,7 @@ export class ProbeTester {
     this.#sentBytes += bytes;
   }
 
-  /** @returns whether a train is given up that nobody began to send */
+  /** @returns whether a train is given up because nobody began to send it */
   onTick(nowMs: number, roundTripMs: number): boolean {
     if (this.#request === null) return false;
     const since = this.#sentBytes > 0 ? this.#sentFirstMs : this.#askedMs;
@@ -65,7 +65,7 @@ export class ProbeTester {
     return this.#sentBytes === 0;
   }
 
-  /** @returns what the train told, once feedback has passed its end */
+  /** @returns the train's outcome, once feedback has passed its end */
   onFeedback(results: readonly PacketResult[], inFlight: InFlight): ProbeOutcome | null {
     const request = this.#request;
     if (request === null) return null;

@@ -31,33 +31,33 @@ const used = (outcome: Outcome, fromMs: number, toMs: number) =>
 const median = (outcome: Outcome, fromMs: number, toMs: number) =>
   queueQuantiles(outcome.media[0]!, fromMs, toMs, [0.5])[0]!;
 
-describe('with a report a second', () => {
-  test.each([1, 2, 3])('a steady link is found and mostly used, its queue mostly short (seed %i)', (seed) => {
+describe('with one report per second', () => {
+  test.each([1, 2, 3])('finds a steady link and mostly uses it, its queue mostly short (seed %i)', (seed) => {
     const outcome = run({ seed });
     expect(used(outcome, 20_000, 60_000)).toBeGreaterThan(0.85);
     expect(median(outcome, 20_000, 60_000)).toBeLessThan(30);
     expect(losses(outcome.media[0]!, 20_000, 60_000).overflow).toBeLessThan(0.02);
   });
 
-  test('a link of a third of the start rate', () => {
+  test('finds a link at a third of the start rate', () => {
     const outcome = run({ capacity: flat(1 * M) });
     expect(used(outcome, 20_000, 60_000)).toBeGreaterThan(0.85);
     expect(median(outcome, 20_000, 60_000)).toBeLessThan(40);
     expect(losses(outcome.media[0]!, 20_000, 60_000).overflow).toBeLessThan(0.02);
   });
 
-  test('a queue of a second is not filled', () => {
+  test('does not fill a queue of one second', () => {
     const outcome = run({ capacity: flat(8 * M), queueMs: 1000 });
     expect(used(outcome, 20_000, 60_000)).toBeGreaterThan(0.85);
     expect(queueQuantiles(outcome.media[0]!, 20_000, 60_000, [0.95])[0]).toBeLessThan(150);
   });
 
-  test.each([0.05, 0.2])('loss of %f that has nothing to do with load is lived with', (loss) => {
+  test.each([0.05, 0.2])('tolerates loss of %f that has nothing to do with load', (loss) => {
     const outcome = run({ loss });
     expect(used(outcome, 20_000, 60_000)).toBeGreaterThan(0.6 * (1 - loss));
   });
 
-  test('a link that falls to a fifth is followed within seconds, and taken again', () => {
+  test('follows a link that falls to a fifth within seconds, and uses it again afterwards', () => {
     const outcome = run({
       capacity: [...flat(LINK), { atMs: 20_000, mbps: 8 }, { atMs: 40_000, mbps: LINK / M }],
     });
@@ -70,7 +70,7 @@ describe('with a report a second', () => {
 describe('ReportRateController', () => {
   const send = (controller: ReportRateController, nowMs: number) => controller.onPacketSent(0, 1200, nowMs);
 
-  test('sends little where nobody reports, and a trickle where reports stop', () => {
+  test('sends little if nobody reports, and a trickle if reports stop', () => {
     const controller = new ReportRateController();
     for (let ms = 0; ms < 2500; ms += 25) {
       send(controller, ms);
@@ -88,7 +88,7 @@ describe('ReportRateController', () => {
     expect(controller.snapshot(9000)).toMatchObject({ state: 'reports', estimateBitsPerSecond: 250_000 });
   });
 
-  test('a pause of our own is no silence of the receiver', () => {
+  test('does not take a pause of its own for silence of the receiver', () => {
     const controller = new ReportRateController();
     send(controller, 0);
     controller.onReceiverReport({ packetsReceived: 1, packetsLost: 0 }, 10);
@@ -104,7 +104,7 @@ describe('ReportRateController', () => {
     expect(controller.targetBitsPerSecond(0)).toBe(400_000);
   });
 
-  test('sums of another counter begin anew, and no report makes the rate anything but a number in its bounds', () => {
+  test('restarts with the sums of another counter, and no report takes the rate out of its bounds', () => {
     const reports = fc.array(
       fc.record({
         packetsReceived: fc.nat(1e6),

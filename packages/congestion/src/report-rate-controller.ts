@@ -18,33 +18,33 @@ export interface ReportRateOptions {
 /** What the controller is doing. */
 export type ReportState =
   | 'reports' // follows the receiver's sums
-  | 'no-reports' // none has come yet: a rate that hurts hardly any path
-  | 'silent'; // they have stopped: a trickle
+  | 'no-reports' // no report has come yet: a rate that harms hardly any path
+  | 'silent'; // reports have stopped: a trickle
 
-/** Before the first report, bit/s; and how long the start rate may last without one, ms. */
+/** Rate without any report, bit/s; and how long the start rate may last without a report, ms. */
 const BLIND_BITS_PER_SECOND = 500_000;
 const BLIND_AFTER_MS = 2000;
-/** Without a report for so long, or for three of the usual intervals. */
+/** Silence begins after this long without a report, or after three of the usual intervals. */
 const SILENT_AFTER_MS = 3000;
-/** Reports are judged together until there is so much of them. */
+/** Reports are combined until they cover this much. */
 const LEAST_MS = 200;
 const LEAST_PACKETS = 20;
 const PATIENCE_MS = 1000;
-/** Where delay cannot be seen, more loss than this speaks against growing. */
+/** While the delay is unknown, loss above this prevents growth. */
 const CLEAN_LOSS = 0.02;
-/** Beyond the least round trip, ms: a queue to be emptied, and one that is no reason to hold back. */
+/** Above the least round trip, ms: a queue that has to be drained, and one that does not prevent growth. */
 const LONG_QUEUE_MS = 60;
 const SHORT_QUEUE_MS = 30;
 const BASE_WINDOW_MS = 30_000;
-/** Of what arrived, the rate after a cut. */
+/** After a cut, the rate is this fraction of what arrived. */
 const KEEP = 0.85;
-/** Growth in a second: until the path has shown its limit, from then on, and near the last limit. */
+/** Growth per second: until the path has shown its limit, after that, and near the last limit. */
 const SEARCH = 1.4;
 const CLIMB = 1.12;
 const CREEP = 1.04;
-/** Of the last limit, where it is near. */
+/** Rates above this fraction of the last limit are near it. */
 const NEAR = 0.9;
-/** Less of the rate in use says nothing about more. */
+/** If less than this fraction of the rate is used, nothing is known about higher rates. */
 const USED = 0.7;
 const PACING = 1.1;
 const SMOOTHING = 0.2;
@@ -52,9 +52,9 @@ const NOISE_SMOOTHING = 0.1;
 const NOISE_CLAMP_MS = 40;
 
 /**
- * Rate control for a receiver that gives no transport-wide feedback: from loss and round trip alone, as receiver reports tell
- * them a few times a second at best. What it cannot see it does not bet on: it grows slowly, falls to what arrives as soon as
- * loss or delay rise, and trickles where nothing is reported. Sends no probes.
+ * Rate control for a receiver that gives no transport-wide feedback. It uses only loss and round trip, as receiver
+ * reports give them a few times a second at best. It does not bet on what it cannot see: it grows slowly, falls to what
+ * arrives as soon as loss or delay rises, and sends a trickle if nothing is reported. It sends no probes.
  */
 export class ReportRateController implements RateController {
   readonly #min: number;
@@ -64,9 +64,9 @@ export class ReportRateController implements RateController {
   readonly #decision = emptyDecision();
   #estimate: number;
   #state: ReportState = 'no-reports';
-  /** What the path last carried when it was full, bit/s; infinite until it was. */
+  /** The rate that the path last carried when it was full, bit/s; infinite before that. */
   #limit = Number.POSITIVE_INFINITY;
-  /** The rate before the cut for loss that is on trial. */
+  /** The rate before the loss cut that is on trial. */
   #beforeTrial = 0;
   #receiverLimit = Number.POSITIVE_INFINITY;
   #firstSentMs = Number.NaN;
@@ -92,20 +92,20 @@ export class ReportRateController implements RateController {
 
   onPacketSent(_transportSequence: number, bytes: number, nowMs: number): void {
     if (Number.isNaN(this.#firstSentMs)) this.#firstSentMs = nowMs;
-    // After a pause the wait for reports begins anew.
+    // After a pause in sending, the wait for reports starts again.
     if (nowMs - this.#lastSentMs > SILENT_AFTER_MS) this.#lastReportMs = nowMs;
     this.#lastSentMs = nowMs;
     this.#packetBytes += (bytes - this.#packetBytes) * 0.01;
   }
 
-  /** Is not there, or this controller would not be. */
+  /** Unused: this controller is chosen only if there is no transport-wide feedback. */
   onFeedback(_results: readonly PacketResult[], _nowMs: number): void {}
 
   onReceiverReport(report: ReceiverSums, nowMs: number): void {
     if (Number.isNaN(this.#firstSentMs)) return;
     const last = this.#sums;
     const restarted = last === null || report.source !== last.source;
-    // They may overtake each other: sums only grow.
+    // Reports may arrive out of order; the sums only grow.
     if (!restarted && report.packetsReceived < last.packetsReceived) return;
     this.#noteReport(nowMs);
     if (report.rttMs != null) this.#noteRtt(report.rttMs, nowMs);
@@ -115,7 +115,7 @@ export class ReportRateController implements RateController {
       return;
     }
     const received = report.packetsReceived - last.packetsReceived;
-    // A late packet takes back a loss.
+    // A packet that arrives late cancels a loss.
     const lost = Math.max(report.packetsLost - last.packetsLost, 0);
     const sinceMs = this.#sinceMs;
     if (nowMs - sinceMs < LEAST_MS) return;
@@ -148,7 +148,7 @@ export class ReportRateController implements RateController {
     return Math.min(this.#estimate, this.#receiverLimit);
   }
 
-  /** No window: what is in flight is not known. No probes. */
+  /** No window, because the bytes in flight are unknown. No probes. */
   decision(nowMs: number): Readonly<RateDecision> {
     this.#decision.targetBitsPerSecond = this.targetBitsPerSecond(nowMs);
     this.#decision.pacingBitsPerSecond = this.#decision.targetBitsPerSecond * PACING;
@@ -170,7 +170,7 @@ export class ReportRateController implements RateController {
     if (this.#state === 'reports') {
       this.#intervalMs += (nowMs - this.#lastReportMs - this.#intervalMs) * SMOOTHING;
     } else {
-      // What was sent meanwhile says nothing about the path of now.
+      // What was sent during the silence says nothing about the present path.
       if (this.#state === 'silent') this.#estimate = Math.max(this.#beforeSilence / 2, this.#min);
       this.#state = 'reports';
       this.#sums = null;
@@ -182,7 +182,7 @@ export class ReportRateController implements RateController {
     this.#rttMs = rttMs;
     this.#baseRtt.add(rttMs, nowMs);
     const queueMs = Math.max(rttMs - this.#baseRtt.value, 0);
-    // Each sample is a single packet's. Jitter shows as changes that are followed by opposite ones.
+    // Each sample comes from a single packet. Jitter shows as changes followed by opposite ones.
     const change = Math.min(Math.max(queueMs - this.#queueMs, -NOISE_CLAMP_MS), NOISE_CLAMP_MS);
     this.#opposed += (-change * this.#lastChange - this.#opposed) * NOISE_SMOOTHING;
     this.#lastChange = change;
@@ -194,7 +194,7 @@ export class ReportRateController implements RateController {
     this.#loss = lost / (received + lost);
     this.#acked = (received * this.#packetBytes * 8000) / elapsedMs;
     const verdict = this.#judgeOfLoss.onFeedback(received, lost, sinceMs - (this.#rttMs ?? 0), nowMs);
-    // What was sent for it to arrive, where some is always lost.
+    // The rate that had to be sent for this much to arrive, on a link that always loses some.
     const through = this.#acked / (1 - this.#judgeOfLoss.base);
     if (this.#queueMs > LONG_QUEUE_MS + 3 * this.#noiseMs) {
       this.#limit = Math.min(this.#estimate, through);
@@ -217,16 +217,16 @@ export class ReportRateController implements RateController {
     return Math.sqrt(Math.max(this.#opposed, 0));
   }
 
-  /** In a second. */
+  /** Growth factor per second. */
   get #growth(): number {
     if (this.#limit === Number.POSITIVE_INFINITY) return SEARCH;
     if (this.#estimate < NEAR * this.#limit) return CLIMB;
-    // Well beyond what it was, it is another path.
+    // A rate well above the old limit means that the path has changed.
     if (this.#estimate > this.#limit / NEAR) this.#limit = Number.POSITIVE_INFINITY;
     return CREEP;
   }
 
-  /** Where delay cannot be seen, no loss at all must do. */
+  /** While the delay is unknown, growth needs a path without loss. */
   get #mayGrow(): boolean {
     if (this.#judgeOfLoss.onTrial) return false;
     return this.#rttMs === null ? this.#loss < CLEAN_LOSS : this.#queueMs < SHORT_QUEUE_MS + this.#noiseMs;

@@ -8,18 +8,18 @@ const after = (delays: readonly number[]): number => {
 };
 const ten = (of: (i: number) => number) => Array.from({ length: 10 }, (_, i) => of(i));
 
-test('a floor that the delay comes down to again and again is told', () => {
+test('finds the floor that the delay falls to again and again', () => {
   expect(after(ten(() => 37))).toBe(37);
   expect(after(ten((i) => (i % 2 === 0 ? 37 + 0.1 * i : 42 + i)))).toBe(37);
 });
 
-test('a queue that grows, shrinks or swings has none', () => {
+test('finds no floor for a queue that grows, shrinks or oscillates', () => {
   expect(after(ten((i) => 37 + i))).toBeNaN();
   expect(after(ten((i) => 60 - 0.5 * i))).toBeNaN();
   expect(after(ten((i) => 40 + 8 * Math.sin(1.3 * i)))).toBeNaN();
 });
 
-test('it takes time, and forgets', () => {
+test('needs time to find a floor, and forgets', () => {
   expect(after(ten(() => 37).slice(1))).toBeNaN();
   expect(after([...ten((i) => i), ...ten(() => 21)])).toBe(21);
   const delay = new SettledDelay();

@@ -1,10 +1,10 @@
-/** Feedback messages that are looked at: some 0.7 s. */
+/** How many feedback messages are examined: about 0.7 s. */
 const MESSAGES = 10;
-/** So many of them come down to the least delay, but for this, ms. */
+/** A floor exists if this many of them fall to within this margin of the least delay, ms. */
 const AT_FLOOR = 4;
 const FLOOR_MS = 0.7;
 
-/** Notices that a delay comes down to the same floor again and again: what propagation alone would take. */
+/** Detects that a delay falls to the same floor again and again: the propagation delay alone. */
 export class SettledDelay {
   readonly #recent = new Float64Array(MESSAGES);
   readonly #sorted = new Float64Array(MESSAGES);
@@ -20,7 +20,7 @@ export class SettledDelay {
     this.#count = 0;
   }
 
-  /** The floor, ms; NaN where there is none. */
+  /** The floor, ms; NaN if there is none. */
   get value(): number {
     if (this.#count < MESSAGES) return Number.NaN;
     this.#sorted.set(this.#recent);

@@ -1,11 +1,11 @@
-/** Feedback is missed when so many of its intervals, and so long, have passed without any. */
+/** Feedback counts as missing after this many of its intervals, and this much time, without any. */
 const INTERVALS = 4;
 const LEAST_MS = 500;
-/** So many bytes may go out each so often, to learn when the path is back. */
+/** The bytes that may be sent per interval, to learn when the path is back. */
 const TRICKLE_BYTES = 10_000;
 const TRICKLE_MS = 500;
 
-/** The time without feedback: what may still be sent, and at what rate to begin afterwards. */
+/** Handles the time without feedback: how much may still be sent, and the rate to resume at. */
 export class Silence {
   #sinceMs = Number.NaN;
   #trickleMs = 0;
@@ -31,7 +31,7 @@ export class Silence {
     this.#windowBytes = inFlightBytes + TRICKLE_BYTES;
   }
 
-  /** Halved for each second of silence; never more than before, and not below 1 Mbit/s on that account. */
+  /** The estimate, halved for each second of silence, but not below 1 Mbit/s; never above the estimate. */
   rateAfter(estimate: number, nowMs: number): number {
     const seconds = (nowMs - this.#sinceMs) / 1000;
     return Math.min(estimate, Math.max(1e6, estimate * 0.5 ** seconds));

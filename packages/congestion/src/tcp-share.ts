@@ -4,8 +4,8 @@ const BETA = 0.7;
 const SEGMENT_BYTES = 1500;
 
 /**
- * The window of a TCP flow with CUBIC (RFC 9438) that would live beside the present competitor: what a fair share is where
- * somebody else keeps the queue full.
+ * The window of a TCP flow with CUBIC (RFC 9438) that would compete in our place: the fair share while somebody else
+ * keeps the queue full.
  */
 export class TcpShare {
   #window = 10;
@@ -19,7 +19,7 @@ export class TcpShare {
     return this.#window * SEGMENT_BYTES;
   }
 
-  /** Begins with what `bitsPerSecond` needs at this round trip. */
+  /** Starts with the window that `bitsPerSecond` needs at this round trip. */
   start(bitsPerSecond: number, rttMs: number, nowMs: number): void {
     this.#window = Math.max((bitsPerSecond * rttMs) / 8000 / SEGMENT_BYTES, 2);
     this.#windowMax = this.#window;
@@ -27,8 +27,8 @@ export class TcpShare {
   }
 
   /**
-   * @param congested loss beyond what the link loses anyway
-   * @param newestSentMs a loss of packets that left before the last reduction took effect does not count again
+   * @param congested whether there is loss beyond the link's own
+   * @param newestSentMs losses of packets sent before the last reduction took effect do not count again
    */
   update(rttMs: number, congested: boolean, newestSentMs: number, elapsedMs: number, nowMs: number): void {
     if (congested) {

@@ -1,6 +1,6 @@
 /*
- * The DDS addon: participants, readers, writers and what discovery sees. Names, qualities and bytes are decided in TypeScript;
- * see src/addon.ts.
+ * The DDS addon: participants, readers, writers and discovery data. TypeScript decides names, QoS and bytes; see
+ * src/addon.ts.
  */
 #include "js_exports.h"
 #include "log.h"

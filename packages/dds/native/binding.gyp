@@ -14,7 +14,8 @@
       "cflags": ["-std=gnu11", "-Wall", "-Wextra", "-Wno-unused-parameter", "-O2", "-fvisibility=hidden"],
       "cflags_c": ["-std=gnu11"],
       "libraries": ["-lddsc"],
-      # CycloneDDS has something to do when a thread that used it ends; Node unloads an addon with the last worker before that.
+      # CycloneDDS runs code when a thread that used it ends, but Node unloads an addon together with the last worker,
+      # before that.
       "ldflags": ["-Wl,-z,nodelete"],
       "conditions": [
         ["cyclonedds != ''", {

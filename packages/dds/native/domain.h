@@ -1,4 +1,7 @@
-/* DDS domains of this process: one each, whoever of its threads takes part, with the configuration of who came first. */
+/*
+ * DDS domains of this process: one for each id, shared by all threads, with the configuration of the thread that came
+ * first.
+ */
 #ifndef FARPOINT_DOMAIN_H
 #define FARPOINT_DOMAIN_H
 
@@ -7,8 +10,8 @@
 struct domain;
 
 /*
- * Joins, or starts, a domain. DDS_RETCODE_INCONSISTENT_POLICY: it runs with another configuration. Each success needs a
- * domain_leave; the last one stops it, all its threads included.
+ * Joins a domain, or starts it. Returns DDS_RETCODE_INCONSISTENT_POLICY if it runs with a different configuration. Each
+ * success requires a domain_leave; the last one stops the domain with all its threads.
  */
 dds_return_t domain_join(dds_domainid_t id, const char *configuration, struct domain **to);
 void domain_leave(struct domain *domain);

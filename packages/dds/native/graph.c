@@ -5,7 +5,7 @@
 
 #include "domain.h"
 
-/* Publishers, or subscribers, that are looked at. */
+/* Maximum number of publishers, or subscribers, that are read. */
 enum { MOST_OTHERS = 4096 };
 
 struct graph {
@@ -14,11 +14,14 @@ struct graph {
   dds_entity_t publications;
   dds_entity_t subscriptions;
   dds_guid_t guid;
-  /* Of the program's one thread: no lock. */
+  /* Used only by the program's thread, so without a lock. */
   unsigned users;
   void (*changed)(void *);
   void *context;
-  /* A reader keeps what it has lent to use it again, and then fills as many as the first time: always the same number. */
+  /*
+   * A reader keeps samples that it lent for reuse, and then fills as many as the first time: always pass the same
+   * number.
+   */
   void *samples[MOST_OTHERS];
   dds_sample_info_t infos[MOST_OTHERS];
 };
@@ -66,7 +69,7 @@ static void release(struct graph *graph) {
 }
 
 void graph_close(struct graph *graph) {
-  /* Waits for listeners at work. */
+  /* Waits for running listeners. */
   if (graph->publications > 0) dds_delete(graph->publications);
   if (graph->subscriptions > 0) dds_delete(graph->subscriptions);
   release(graph);
@@ -75,11 +78,11 @@ void graph_close(struct graph *graph) {
 static dds_qos_t *quality_of(struct topic_quality quality, bool writer) {
   static const dds_data_representation_id_t both[] = {DDS_DATA_REPRESENTATION_XCDR1, DDS_DATA_REPRESENTATION_XCDR2};
   dds_qos_t *qos = dds_create_qos();
-  /* A writer never waits: its thread is the program's. */
+  /* A writer must never block the program's thread. */
   dds_qset_reliability(qos, quality.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
   dds_qset_durability(qos, quality.transient_local ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
   dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, quality.depth);
-  /* What is kept for who comes late is not the history but this. */
+  /* Samples for late subscribers are limited by this, not by the history. */
   dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_LAST, quality.depth, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED,
                               DDS_LENGTH_UNLIMITED);
   /* ROS 2 writes the first version of CDR; we do the same, and read both. */
@@ -152,7 +155,7 @@ dds_return_t graph_others(struct graph *graph, bool publishers,
                           void (*visit)(void *, const char *topic, const char *type, bool reliable, bool transient_local),
                           void *context) {
   const dds_entity_t reader = publishers ? graph->publications : graph->subscriptions;
-  /* Those that are gone are kept until somebody takes them. */
+  /* Samples of endpoints that are gone are kept until they are taken. */
   give_back(graph, reader, look(graph, reader, GONE, true));
   const dds_return_t count = look(graph, reader, DDS_ALIVE_INSTANCE_STATE, false);
   for (dds_return_t i = 0; i < count; i++) {

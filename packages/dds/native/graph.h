@@ -1,4 +1,4 @@
-/* One participant of a domain, and what it sees of the others. */
+/* One participant of a domain, and what it knows about the others. */
 #ifndef FARPOINT_GRAPH_H
 #define FARPOINT_GRAPH_H
 
@@ -10,10 +10,10 @@
 
 struct graph;
 
-/* `changed` is called from a thread of CycloneDDS whenever a publisher or subscriber comes or goes. */
+/* `changed` is called on a thread of CycloneDDS whenever a publisher or subscriber appears or disappears. */
 dds_return_t graph_open(dds_domainid_t id, const char *configuration, void (*changed)(void *), void *context,
                         struct graph **to);
-/* No call of `changed` comes after it. The participant goes with the last of its readers and writers. */
+/* `changed` is not called afterwards. The participant ends with the last of its readers and writers. */
 void graph_close(struct graph *graph);
 
 struct topic_quality {
@@ -22,7 +22,7 @@ struct topic_quality {
   int32_t depth;
 };
 
-/* What a reader and a writer have in common; the type is referenced. */
+/* Common part of readers and writers; the type is referenced. */
 struct endpoint {
   struct graph *graph;
   dds_entity_t topic;
@@ -34,12 +34,12 @@ dds_return_t graph_reader(struct graph *graph, const char *topic, const char *ty
                           dds_listener_t *listener, struct endpoint *to);
 dds_return_t graph_writer(struct graph *graph, const char *topic, const char *type, struct topic_quality quality,
                           struct endpoint *to);
-/* Waits for listeners at work; none is called after it. */
+/* Waits for running listeners; none is called afterwards. */
 void endpoint_delete(struct endpoint *endpoint);
 
 /*
- * Calls `visit` for each publisher (or subscriber) that other participants have, within bounds; `reliable` and
- * `transient_local` as it offers (or asks for) them.
+ * Calls `visit` for each publisher (or subscriber) of other participants, up to a limit; `reliable` and
+ * `transient_local` are what it offers (or requests).
  */
 dds_return_t graph_others(struct graph *graph, bool publishers,
                           void (*visit)(void *, const char *topic, const char *type, bool reliable, bool transient_local),

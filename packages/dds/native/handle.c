@@ -16,14 +16,14 @@ void wake(void *context) {
 }
 
 static void call_js(napi_env env, napi_value callback, void *context, void *data) {
-  /* Once released it is called without an environment, and the handle may be gone. */
+  /* After its release it is called without an environment, and the handle may be gone. */
   if (env == NULL || callback == NULL) return;
   struct handle *handle = context;
   atomic_store(&handle->called, false);
   call_back(env, callback, 0, NULL);
 }
 
-/* Also as the environment goes: what is open is closed before its callback. */
+/* Also runs when the environment ends: an open thing is closed before its callback. */
 static void close_thing(void *data) {
   struct handle *handle = data;
   if (handle->thing != NULL) handle->close(handle->thing);
@@ -60,7 +60,7 @@ struct handle *new_handle(napi_env env, napi_value callback, void (*close)(void 
     fail(env, "RANGE", "not a function");
     return NULL;
   }
-  /* Whoever waits for messages alone may end. */
+  /* A program that only waits for messages may exit. */
   napi_unref_threadsafe_function(env, handle->callback);
   return handle;
 }

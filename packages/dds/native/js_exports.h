@@ -1,4 +1,4 @@
-/* What the addon exports, by concept. Each returns whether it could. */
+/* The addon's exports, by concept. Each returns whether it succeeded. */
 #ifndef FARPOINT_JS_EXPORTS_H
 #define FARPOINT_JS_EXPORTS_H
 

@@ -1,4 +1,4 @@
-/* Graphs, as JavaScript has them: participants, and what discovery sees. */
+/* Graphs for JavaScript: participants, and discovery data. */
 #include "js_graph.h"
 
 #include "handle.h"
@@ -28,7 +28,7 @@ static napi_value js_open(napi_env env, napi_callback_info info) {
   return wrap(env, handle, result, &GRAPH_TAG);
 }
 
-/* lastLog(): what CycloneDDS said last, empty where nothing */
+/* lastLog(): the last message that CycloneDDS logged, empty if none */
 static napi_value js_last_log(napi_env env, napi_callback_info info) {
   char line[MOST_NAME];
   napi_value result;

@@ -1,4 +1,4 @@
-/* The reader or writer that JavaScript asks of a graph. */
+/* The reader or writer that JavaScript requests from a graph. */
 #ifndef FARPOINT_JS_GRAPH_H
 #define FARPOINT_JS_GRAPH_H
 
@@ -12,7 +12,7 @@ struct request {
   struct topic_quality quality;
 };
 
-/* From graph, topic, type, reliable, transientLocal, depth. Has thrown where it fails. */
+/* From graph, topic, type, reliable, transientLocal, depth. Has thrown on failure. */
 bool take_request(napi_env env, napi_value *values, struct request *to);
 
 #endif

@@ -1,4 +1,4 @@
-/* Readers, as JavaScript has them. */
+/* Readers for JavaScript. */
 #include "reader.h"
 
 #include "handle.h"
@@ -31,7 +31,7 @@ static napi_value js_subscribe(napi_env env, napi_callback_info info) {
 
 static napi_value js_close_reader(napi_env env, napi_callback_info info) { return close_taken(env, info, &READER_TAG); }
 
-/* rest(reader): how many wait */
+/* rest(reader): how many samples wait */
 static napi_value js_rest(napi_env env, napi_callback_info info) {
   napi_value values[MOST_ARGUMENTS];
   napi_value result;

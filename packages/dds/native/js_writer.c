@@ -1,4 +1,4 @@
-/* Writers, as JavaScript has them. */
+/* Writers for JavaScript. */
 #include "writer.h"
 
 #include "handle.h"
@@ -24,7 +24,7 @@ static napi_value js_advertise(napi_env env, napi_callback_info info) {
 
 static napi_value js_close_writer(napi_env env, napi_callback_info info) { return close_taken(env, info, &WRITER_TAG); }
 
-/* write(writer, bytes): whether it was taken; not where a reliable subscriber is too slow */
+/* write(writer, bytes): whether it was accepted; not if a reliable subscriber is too slow */
 static napi_value js_write(napi_env env, napi_callback_info info) {
   napi_value values[MOST_ARGUMENTS];
   napi_value result;

@@ -11,7 +11,7 @@ enum { LONGEST = 512, AT_ONCE = 3, SECONDS_BETWEEN = 10 };
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static char last[LONGEST];
-/* Lines that may be written now, lines that were not, and when the last was allowed. */
+/* Lines that may be written now, lines that were suppressed, and when the last one was allowed. */
 static unsigned allowed = AT_ONCE;
 static uint64_t held_back;
 static time_t since;

@@ -8,7 +8,7 @@
 struct raw_sample {
   struct ddsi_serdata common;
   size_t size;
-  /* Filled up with zeros to a multiple of four: what is sent may reach so far. */
+  /* Padded with zeros to a multiple of four, because CycloneDDS may send up to there. */
   uint8_t bytes[];
 };
 
@@ -22,7 +22,7 @@ static struct raw_sample *allocate(const struct ddsi_sertype *type, enum ddsi_se
   struct raw_sample *sample = malloc(sizeof *sample + padded(size));
   if (sample == NULL) return NULL;
   ddsi_serdata_init(&sample->common, type, kind);
-  /* Without a key all samples are of one instance. */
+  /* Without a key, all samples belong to one instance. */
   sample->common.hash = type->serdata_basehash;
   sample->size = size;
   memset(sample->bytes + size, 0, padded(size) - size);
@@ -34,8 +34,8 @@ static bool equal_keys(const struct ddsi_serdata *a, const struct ddsi_serdata *
 static uint32_t sample_size(const struct ddsi_serdata *sample) { return (uint32_t)raw(sample)->size; }
 
 /*
- * Fragments come in order of their beginning and may overlap; they are from the wire, so that nothing is taken for granted:
- * one that leaves a gap, or goes beyond the sample, makes the whole invalid.
+ * Fragments come in order of their beginning and may overlap. They come from the wire, so nothing is taken for granted:
+ * a fragment that leaves a gap or exceeds the sample makes the whole sample invalid.
  */
 static struct ddsi_serdata *from_fragments(const struct ddsi_sertype *type, enum ddsi_serdata_kind kind,
                                            const struct nn_rdata *fragment, size_t size) {
@@ -78,7 +78,7 @@ static struct ddsi_serdata *from_key_hash(const struct ddsi_sertype *type, const
   return key_only(type);
 }
 
-/* Samples are made by raw_sample_new alone; what CycloneDDS makes itself (at a writer's end) has a key at most. */
+/* Only raw_sample_new makes samples; those that CycloneDDS makes itself (when a writer ends) contain at most a key. */
 static struct ddsi_serdata *from_sample(const struct ddsi_sertype *type, enum ddsi_serdata_kind kind,
                                         const void *sample) {
   return kind == SDK_DATA ? NULL : key_only(type);
@@ -102,7 +102,7 @@ static struct ddsi_serdata *lend(const struct ddsi_serdata *sample, size_t offse
 
 static void give_back(struct ddsi_serdata *sample, const ddsrt_iovec_t *lent) { ddsi_serdata_unref(sample); }
 
-/* Nobody reads these as C structures. */
+/* Nothing reads these as C structures. */
 static bool to_structure(const struct ddsi_serdata *sample, void *to, void **buffer, void *end) { return false; }
 
 static bool untyped_to_structure(const struct ddsi_sertype *type, const struct ddsi_serdata *sample, void *to,
@@ -151,7 +151,7 @@ static void resize_structures(void **pointers, const struct ddsi_sertype *type, 
 
 static void free_structures(const struct ddsi_sertype *type, void **pointers, size_t count, dds_free_op_t what) {}
 
-/* Types of one name are one: there is nothing else in them. */
+/* Types with the same name are equal, because they contain nothing else. */
 static bool equal_types(const struct ddsi_sertype *a, const struct ddsi_sertype *b) { return true; }
 static uint32_t type_hash(const struct ddsi_sertype *type) { return 0; }
 

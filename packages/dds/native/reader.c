@@ -68,7 +68,7 @@ static void on_data(dds_entity_t entity, void *argument) {
     memset(samples, 0, sizeof samples);
     count = dds_takecdr(entity, samples, AT_ONCE, infos, DDS_ANY_STATE);
     for (dds_return_t i = 0; i < count; i++) {
-      /* Without data: a writer has gone. */
+      /* Without data: a writer is gone. */
       if (infos[i].valid_data && samples[i]->kind == SDK_DATA) push(reader, samples[i]);
       else ddsi_serdata_unref(samples[i]);
     }

@@ -1,4 +1,4 @@
-/* Values from and to JavaScript, checked. Each that fails has thrown. */
+/* Converts values from and to JavaScript, with checks. Each function that fails has thrown. */
 #ifndef FARPOINT_VALUES_H
 #define FARPOINT_VALUES_H
 
@@ -13,13 +13,13 @@ struct bytes {
 };
 
 /*
- * Throws an error with a code: CLOSED, RANGE (a mistake of the caller), MEMORY, CONFIGURATION (the domain runs with another
- * one), or DDS with what CycloneDDS says. Returns NULL.
+ * Throws an error with a code: CLOSED, RANGE (a mistake of the caller), MEMORY, CONFIGURATION (the domain runs with a
+ * different one), or DDS with CycloneDDS's message. Returns NULL.
  */
 napi_value fail(napi_env env, const char *code, const char *message);
 
 bool take_word(napi_env env, napi_value value, uint32_t least, uint32_t most, uint32_t *to);
-/* With a zero at its end; texts that hold one themselves are refused. */
+/* Zero-terminated; refuses texts that contain a zero. */
 bool take_text(napi_env env, napi_value value, char *to, size_t room);
 /* Of a Uint8Array. */
 bool take_bytes(napi_env env, napi_value value, struct bytes *to);

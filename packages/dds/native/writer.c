@@ -27,7 +27,7 @@ void writer_close(struct writer *writer) {
 dds_return_t writer_write(struct writer *writer, const uint8_t *bytes, size_t count) {
   struct ddsi_serdata *sample = raw_sample_new(writer->endpoint.type, bytes, count);
   if (sample == NULL) return DDS_RETCODE_OUT_OF_RESOURCES;
-  /* Takes the reference over, whatever comes of it. */
+  /* Takes over the reference, whatever the result. */
   return dds_writecdr(writer->endpoint.entity, sample);
 }
 

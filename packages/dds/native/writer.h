@@ -1,4 +1,4 @@
-/* A writer of samples that are bytes already. */
+/* A writer for samples that are already serialised. */
 #ifndef FARPOINT_WRITER_H
 #define FARPOINT_WRITER_H
 
@@ -13,7 +13,7 @@ dds_return_t writer_open(struct graph *graph, const char *topic, const char *typ
                          struct writer **to);
 void writer_close(struct writer *writer);
 
-/* Never waits: DDS_RETCODE_TIMEOUT where a reliable subscriber has not confirmed enough of what it got. */
+/* Never blocks: DDS_RETCODE_TIMEOUT if a reliable subscriber has not acknowledged enough. */
 dds_return_t writer_write(struct writer *writer, const uint8_t *bytes, size_t count);
 
 uint32_t writer_subscribers(struct writer *writer);

@@ -9,7 +9,7 @@ const folder = mkdtempSync(join(tmpdir(), 'farpoint-dds-'));
 afterAll(() => rmSync(folder, { recursive: true }));
 
 describe('without the addon', () => {
-  it('one sentence says what is missing and what helps', () => {
+  it('one sentence says what is missing and how to fix it', () => {
     const fault = faultOf(() => requireAddon(join(folder, 'farpoint_dds.node')));
     expect(fault.code).toBe('unavailable');
     expect(fault.message).toBe(
@@ -18,7 +18,7 @@ describe('without the addon', () => {
     );
   });
 
-  it('so where it cannot be loaded', () => {
+  it('does the same if the addon cannot be loaded', () => {
     const file = join(folder, 'broken.node');
     writeFileSync(file, 'no library');
     const fault = faultOf(() => requireAddon(file));

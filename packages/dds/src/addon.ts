@@ -1,4 +1,4 @@
-/** The native addon: what it offers, and loading it. */
+/** Interface of the native addon, and loading it. */
 import { createRequire } from 'node:module';
 import { type Qos, RosFault } from '@farpoint/ros';
 import { ADDON_FILE, BUILD_REMEDY } from './build.ts';
@@ -15,18 +15,18 @@ export interface WriterHandle {
 }
 
 /**
- * Errors carry `code`: `CLOSED`; `RANGE`: a mistake of the caller; `MEMORY`; `CONFIGURATION`: the domain runs with another
- * one in this process; `DDS`: what CycloneDDS says. Names are those of DDS.
+ * Errors carry `code`: `CLOSED`; `RANGE`: a mistake of the caller; `MEMORY`; `CONFIGURATION`: this process already uses
+ * the domain with a different configuration; `DDS`: an error of CycloneDDS. Names are DDS names.
  */
 export interface Addon {
-  /** @param onDiscovery called when publishers or subscribers have come or gone */
+  /** @param onDiscovery called when publishers or subscribers have appeared or disappeared */
   open(domain: number, configuration: string, onDiscovery: () => void): GraphHandle;
-  /** What CycloneDDS said last, in this process; empty where nothing since the last call. */
+  /** The last message that CycloneDDS logged in this process; empty if none since the last call. */
   lastLog(): string;
   closeGraph(graph: GraphHandle): void;
   /** Endpoints of other participants, four values each: topic, type, reliable, transient-local. */
   others(graph: GraphHandle, publishers: boolean): (string | boolean)[];
-  /** @param onMessages called when messages wait, once until {@link rest} */
+  /** @param onMessages called when messages wait, then not again until {@link rest} */
   subscribe(
     graph: GraphHandle,
     topic: string,
@@ -38,11 +38,12 @@ export interface Addon {
     onMessages: () => void,
   ): ReaderHandle;
   closeReader(reader: ReaderHandle): void;
-  /** How many messages wait; for later ones `onMessages` is called again. */
+  /** Returns how many messages wait; `onMessages` is called again for later ones. */
   rest(reader: ReaderHandle): number;
   /**
-   * Copies the oldest message out: its size, -1 where there is none. One that is larger than `to` stays.
-   * @param receivedMs gets when it was whole, CLOCK_MONOTONIC
+   * Copies the oldest message into `to` and returns its size, or -1 if there is none. A message larger than `to` stays.
+   *
+   * @param receivedMs gets the time when the message was complete, CLOCK_MONOTONIC
    */
   take(reader: ReaderHandle, to: Uint8Array, receivedMs: Float64Array): number;
   /** @param to gets received, dropped, lost, publishers */
@@ -56,12 +57,12 @@ export interface Addon {
     depth: number,
   ): WriterHandle;
   closeWriter(writer: WriterHandle): void;
-  /** Whether it was taken; not where a reliable subscriber confirms too slowly. Never waits. */
+  /** Returns whether DDS accepted the message: not if a reliable subscriber acknowledges too slowly. Never blocks. */
   write(writer: WriterHandle, bytes: Uint8Array): boolean;
   subscribers(writer: WriterHandle): number;
 }
 
-/** How the addon's calls take a QoS: reliable, transient-local, depth. */
+/** Converts a QoS to the arguments of the addon's calls: reliable, transient-local, depth. */
 export function qosArguments({ reliability, durability, depth }: Qos): [boolean, boolean, number] {
   return [reliability === 'reliable', durability === 'transient-local', depth];
 }
@@ -74,7 +75,7 @@ export function loadAddon(): Addon {
   return loaded;
 }
 
-/** The same, of a file. */
+/** Loads the addon from a given file. */
 export function requireAddon(file: string): Addon {
   try {
     return createRequire(import.meta.url)(file) as Addon;
@@ -86,7 +87,7 @@ export function requireAddon(file: string): Addon {
   }
 }
 
-/** Whether DDS can be used here. */
+/** Whether DDS can be used on this machine. */
 export function isAvailable(): boolean {
   try {
     loadAddon();

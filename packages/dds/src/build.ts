@@ -1,4 +1,4 @@
-/** Where the addon is, and building it: CycloneDDS is taken from the system, or from where `CYCLONEDDS_HOME` says. */
+/** Location of the addon, and building it. CycloneDDS comes from the system, or from `CYCLONEDDS_HOME`. */
 import { join } from 'node:path';
 import { addonFile, type BuildResult, buildNativeAddon } from '@farpoint/native-addon';
 
@@ -9,11 +9,11 @@ const ADDON = {
 };
 export const ADDON_FILE = addonFile(ADDON);
 
-/** How to get what the build needs. */
+/** How to install what the build needs. */
 export const BUILD_REMEDY =
   'install CycloneDDS 0.10 and a C compiler (Debian: `apt-get install cyclonedds-dev build-essential python3`) and run `pnpm build:native dds`';
 
-/** Builds it where its sources have changed since the last time, or it is not there. */
+/** Builds the addon if it is missing or its sources have changed. */
 export function buildAddon(): BuildResult {
   if (process.platform !== 'linux') return { ok: false, output: 'DDS is tried on Linux only' };
   return buildNativeAddon(ADDON);

@@ -3,7 +3,7 @@ import { cycloneConfiguration, ddsOptionsFrom } from './configuration.ts';
 import { faultOf } from './testing/helpers.ts';
 
 describe('options', () => {
-  it('are ROS 2’s own where nothing is said', () => {
+  it('are ROS 2’s own by default', () => {
     expect(ddsOptionsFrom({}, {})).toEqual({ domain: 0, localhostOnly: false });
   });
 
@@ -20,7 +20,7 @@ describe('options', () => {
     expect(ddsOptionsFrom({}, { ROS_DOMAIN_ID: '', ROS_LOCALHOST_ONLY: '' })).toEqual(ddsOptionsFrom({}, {}));
   });
 
-  it('go before the environment', () => {
+  it('take precedence over the environment', () => {
     const env = { ROS_DOMAIN_ID: '42', ROS_LOCALHOST_ONLY: '1', ROS_STATIC_PEERS: 'other' };
     expect(ddsOptionsFrom({ domain: 7, interface: 'eth0', peers: ['a'] }, env)).toEqual({
       domain: 7,
@@ -40,7 +40,7 @@ describe('options', () => {
     [{}, { ROS_DOMAIN_ID: '1.5' }, 'ROS_DOMAIN_ID'],
     [{}, { ROS_LOCALHOST_ONLY: 'yes' }, 'ROS_LOCALHOST_ONLY'],
     [{}, { ROS_STATIC_PEERS: '<' }, 'ROS_STATIC_PEERS'],
-  ])('%j with %j is refused, naming %s', (options, env, name) => {
+  ])('refuses %j with %j, naming %s', (options, env, name) => {
     const fault = faultOf(() => ddsOptionsFrom(options, env));
     expect(fault.code).toBe('unavailable');
     expect(fault.message).toContain(name);
@@ -48,7 +48,7 @@ describe('options', () => {
 });
 
 describe('configuration', () => {
-  it('bounds messages and asks for room for a burst', () => {
+  it('limits messages and requests buffers for a burst', () => {
     const xml = cycloneConfiguration({});
     expect(xml).toContain('<MaxSampleSize>67108864B</MaxSampleSize>');
     expect(xml).toContain('<SocketReceiveBufferSize min="default" max="16MB"/>');
@@ -56,7 +56,7 @@ describe('configuration', () => {
     expect(xml).not.toContain('Peers');
   });
 
-  it('keeps to the loopback where asked', () => {
+  it('restricts itself to the loopback interface on request', () => {
     const xml = cycloneConfiguration({ localhostOnly: true });
     expect(xml).toContain('<NetworkInterface address="127.0.0.1" multicast="true"/>');
     expect(xml).toContain('<Peer Address="localhost"/>');
@@ -70,13 +70,13 @@ describe('configuration', () => {
     expect(cycloneConfiguration({ interface: 'fd00::2' })).toContain('<NetworkInterface address="fd00::2"/>');
   });
 
-  it('looks for peers', () => {
+  it('searches for peers', () => {
     expect(cycloneConfiguration({ peers: ['10.0.0.7', 'robot.local'] })).toContain(
       '<Peers><Peer Address="10.0.0.7"/><Peer Address="robot.local"/></Peers>',
     );
   });
 
-  it('gives CYCLONEDDS_URI the last word', () => {
+  it('gives CYCLONEDDS_URI precedence', () => {
     const uri = 'file:///etc/cyclonedds.xml';
     expect(cycloneConfiguration({}, uri)).toBe(`${cycloneConfiguration({})},${uri}`);
   });

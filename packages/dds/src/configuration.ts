@@ -1,20 +1,20 @@
 /**
- * What the domain is configured with: our defaults, then the options, then `CYCLONEDDS_URI`, the later winning. Source: the configuration reference of
- * CycloneDDS 0.10.
+ * The domain's configuration: our defaults, then the options, then `CYCLONEDDS_URI`; later ones take precedence.
+ * Source: the configuration reference of CycloneDDS 0.10.
  */
 import { RosFault } from '@farpoint/ros';
 import * as z from 'zod';
 
-/** Port numbers of RTPS end there. */
+/** RTPS has no port numbers for higher domains. */
 export const MOST_DOMAIN = 232;
-/** Larger messages are refused unread: a cloud of 4 million points at 16 bytes. */
+/** Larger messages are refused unread. This is a cloud of 4 million points at 16 bytes. */
 export const MOST_MESSAGE_BYTES = 64 * 1024 * 1024;
 
 const domainSchema = z
   .int('must be a whole number')
   .min(0, 'must be at least 0')
   .max(MOST_DOMAIN, `must be at most ${MOST_DOMAIN}`);
-/** A machine to look for where multicast does not reach. */
+/** A machine to search for if multicast does not reach it. */
 export const machineSchema = z
   .string('must be text')
   .regex(/^[A-Za-z0-9_.:[\]-]{1,255}$/, 'must be the name or the address of a machine');
@@ -25,18 +25,18 @@ export const interfaceSchema = z
   .regex(/^[A-Za-z0-9_.:@-]{1,64}$/, 'must be the name or the address of a network interface');
 
 const ddsOptions = z.strictObject({
-  /** DDS domain; 0 where not given. */
+  /** DDS domain; 0 by default. */
   domain: domainSchema.optional(),
-  /** Network interface, by name or address; left out: CycloneDDS chooses one. */
+  /** Network interface, by name or address; by default, CycloneDDS chooses one. */
   interface: interfaceSchema.optional(),
-  /** Machines to look for where multicast does not reach: names or addresses. */
+  /** Machines to search for that multicast does not reach: names or addresses. */
   peers: machinesSchema.optional(),
-  /** Nothing leaves this machine, and nothing comes in. */
+  /** Communicates only within this machine. */
   localhostOnly: z.boolean('must be true or false').optional(),
 });
 export type DdsOptions = z.infer<typeof ddsOptions>;
 
-/** The environment variables of ROS 2 that say the same. */
+/** The corresponding environment variables of ROS 2. */
 const environment = z.object({
   ROS_DOMAIN_ID: z.coerce.number().pipe(domainSchema).optional(),
   ROS_LOCALHOST_ONLY: z.enum(['0', '1'], 'must be 0 or 1').optional(),
@@ -56,11 +56,12 @@ const environment = z.object({
 type Environment = Readonly<Record<string, string | undefined>>;
 
 /**
- * The options, filled up from the environment.
- * @throws {RosFault} `unavailable`, naming what cannot be
+ * The options, completed from the environment.
+ *
+ * @throws {RosFault} `unavailable`, naming the invalid value
  */
 export function ddsOptionsFrom(given: unknown, env: Environment): DdsOptions {
-  // A variable that is set to nothing is not set.
+  // An empty variable counts as unset.
   const set = Object.fromEntries(Object.entries(env).filter(([, value]) => value !== ''));
   const ros = parse(environment, set);
   const local = ros.ROS_LOCALHOST_ONLY === '1' || ros.ROS_AUTOMATIC_DISCOVERY_RANGE === 'LOCALHOST';
@@ -74,19 +75,19 @@ export function ddsOptionsFrom(given: unknown, env: Environment): DdsOptions {
   };
 }
 
-/** @param uri `CYCLONEDDS_URI`: fragments and files that have the last word */
+/** @param uri `CYCLONEDDS_URI`: fragments and files that take precedence */
 export function cycloneConfiguration(options: DdsOptions, uri = ''): string {
   const { interface: network, localhostOnly, peers = [] } = options;
   const looked = localhostOnly ? ['localhost', ...peers] : peers;
   const general: string[] = [];
   if (localhostOnly) {
-    // The loopback does not call itself capable of multicast, and is.
+    // The loopback interface does not report multicast capability, but has it.
     general.push('<Interfaces><NetworkInterface address="127.0.0.1" multicast="true"/></Interfaces>');
   } else if (network !== undefined) {
     const by = /^[0-9.]+$|:/.test(network) ? 'address' : 'name';
     general.push(`<Interfaces><NetworkInterface ${by}="${network}"/></Interfaces>`);
   }
-  // Where peers are looked for by address, they find us by the ports that belong to the domain.
+  // Peers are found by address and by the ports that belong to the domain.
   const discovery =
     looked.length === 0
       ? ''
@@ -97,10 +98,11 @@ export function cycloneConfiguration(options: DdsOptions, uri = ''): string {
     '<CycloneDDS><Domain Id="any">',
     `<General>${general.join('')}</General>`,
     `<Discovery>${discovery}</Discovery>`,
-    // A cloud comes as one burst of packets. The kernel gives as much as net.core.rmem_max allows.
+    // A cloud arrives as one burst of packets. The kernel grants at most net.core.rmem_max.
     '<Internal><SocketReceiveBufferSize min="default" max="16MB"/>',
     `<MaxSampleSize>${MOST_MESSAGE_BYTES}B</MaxSampleSize></Internal>`,
-    // Its errors come to the log. Left to itself it opens a file in the working directory, or fails where it may not.
+    // Errors go to our log. By default, CycloneDDS opens a file in the working directory, and fails if it is not
+    // writable.
     '<Tracing><Verbosity>severe</Verbosity><OutputFile>/dev/null</OutputFile></Tracing>',
     '</Domain></CycloneDDS>',
   ].join('');

@@ -1,4 +1,4 @@
-/** Graphs of this process that hear each other. */
+/** Graphs in this process that communicate with each other. */
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -26,7 +26,7 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     await theirs.close();
   });
 
-  /** Hears into a list, once the publisher is known. */
+  /** Collects messages in a list, once the publisher has been discovered. */
   function hear(topic: string, queue: number, qos = RELIABLE_QOS): { heard: number[][]; ms: number[] } {
     const [heard, ms]: [number[][], number[]] = [[], []];
     ours.subscribe({ topic, type: STRING, queue, qos }, (bytes, receivedMs) => {
@@ -36,7 +36,7 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     return { heard, ms };
   }
 
-  it('hands bytes over as they were given, whatever their size', async () => {
+  it('delivers bytes unchanged, whatever their size', async () => {
     const sizes: number[] = [];
     let sound = true;
     ours.subscribe({ topic: '/a', type: STRING, queue: 16, qos: { ...RELIABLE_QOS, depth: 16 } }, (bytes) => {
@@ -56,19 +56,19 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     expect(sound).toBe(true);
   });
 
-  it('drops the oldest of what nobody takes, and counts it', async () => {
+  it('drops the oldest message that nobody takes, and counts it', async () => {
     const subscription = ours.subscribe({ topic: '/b', type: STRING, queue: 3 }, () => undefined);
     const { heard } = hear('/b', 3);
     const publisher = theirs.advertise({ topic: '/b', type: STRING });
     await until(() => publisher.subscribers === 2);
-    // Nothing is handed over before this function gives the thread back.
+    // Nothing is delivered before this function yields the thread.
     for (let i = 0; i < 10; i++) publisher.publish(cdr(i));
     expect(subscription).toMatchObject({ received: 10, dropped: 7, publishers: 1 });
     await until(() => heard.length === 3);
     expect(heard.map((bytes) => bytes[4])).toEqual([7, 8, 9]);
   });
 
-  it('tells when a message came by the clock it was given', async () => {
+  it('reports when a message arrived, by the given clock', async () => {
     const started = performance.now();
     await ours.close();
     ours = new DdsGraph({ ...options, now: () => performance.now() });
@@ -84,7 +84,7 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     expect(ms[0]).toBeLessThan(busyUntil);
   });
 
-  it('gives who comes late what was latched', async () => {
+  it('delivers latched messages to late subscribers', async () => {
     const qos = { reliability: 'reliable', durability: 'transient-local', depth: 2 } as const;
     const publisher = theirs.advertise({ topic: '/d', type: STRING, qos });
     for (let i = 0; i < 5; i++) publisher.publish(cdr(i));
@@ -93,7 +93,7 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     expect(heard.map((bytes) => bytes[4])).toEqual([3, 4]);
   });
 
-  it('tells of another type under the same name once, and again when it comes back', async () => {
+  it('reports a different type under the same name once, and again when it returns', async () => {
     ours.subscribe({ topic: '/e', type: STRING, queue: 1 }, () => undefined);
     const wrong = () => faults.filter(({ code }) => code === 'wrong-type');
     const publisher = theirs.advertise({ topic: '/e', type: 'std_msgs/msg/Bool' });
@@ -102,7 +102,7 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     expect(wrong()[0]).toMatchObject({ topic: '/e' });
     publisher.close();
     await until(() => !ours.topics().some(({ topic }) => topic === '/e'));
-    // It looks a little later than that; then it has seen it gone.
+    // This is noticed slightly later; by then, the mismatch has been seen to disappear.
     const later = ours.subscribe(
       { topic: '/later', type: STRING, queue: 1, qos: RELIABLE_QOS },
       () => undefined,
@@ -113,7 +113,7 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     await until(() => wrong().length === 2);
   });
 
-  it('tells of guarantees that are not given', async () => {
+  it('reports QoS guarantees that are not offered', async () => {
     ours.subscribe({ topic: '/f', type: STRING, queue: 1, qos: RELIABLE_QOS }, () => undefined);
     const publisher = theirs.advertise({ topic: '/f', type: STRING, qos: SENSOR_QOS });
     await until(() => faults.length === 1);
@@ -121,7 +121,7 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     expect(publisher.subscribers).toBe(0);
   });
 
-  it('sees what others publish and subscribe, not what it does itself', async () => {
+  it('sees what others publish and subscribe to, but not its own endpoints', async () => {
     theirs.advertise({ topic: '/g', type: STRING });
     theirs.subscribe({ topic: '/h', type: STRING, queue: 1 }, () => undefined);
     ours.advertise({ topic: '/i', type: STRING });
@@ -134,7 +134,7 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     await until(() => ours.topics().length === 0);
   });
 
-  it('publishes nothing that is not CDR', () => {
+  it('refuses to publish anything but CDR', () => {
     const publisher = ours.advertise({ topic: '/j', type: STRING });
     expect(faultOf(() => publisher.publish(Uint8Array.of(1, 2, 3)))).toMatchObject({
       code: 'bad-message',
@@ -142,7 +142,7 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     });
   });
 
-  it('refuses names that are none', () => {
+  it('refuses invalid names', () => {
     expect(faultOf(() => ours.subscribe({ topic: 'a', type: STRING, queue: 1 }, () => undefined)).topic).toBe(
       'a',
     );
@@ -171,7 +171,7 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     expect(ours.topics()).toEqual([]);
   });
 
-  it('names an interface that is not there', () => {
+  it('names a missing interface', () => {
     const fault = faultOf(() => new DdsGraph({ domain: testDomain() + 101, interface: 'nowhere0', env: {} }));
     expect(fault.code).toBe('unavailable');
     expect(fault.message).toContain('nowhere0: does not match an available interface');
@@ -183,13 +183,13 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     expect(fault.message).toContain('another configuration');
   });
 
-  it('may be used in workers alone', () => {
+  it('may be used only in workers', () => {
     const program = join(import.meta.dirname, 'testing', 'worker-only.ts');
     const { status, signal } = spawnSync(process.execPath, [program]);
     expect({ status, signal }).toEqual({ status: 0, signal: null });
   });
 
-  it('writes no file where it runs: that may not be its own', () => {
+  it('writes no file to its working directory, which may not be writable', () => {
     const folder = mkdtempSync(join(tmpdir(), 'farpoint-dds-'));
     const program = join(import.meta.dirname, 'testing', 'worker-only.ts');
     const { status } = spawnSync(process.execPath, [program], { cwd: folder });
@@ -198,7 +198,7 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     expect({ status, files }).toEqual({ status: 0, files: [] });
   });
 
-  it('outlives a thread that ends with a graph open', async () => {
+  it('survives a thread that ends with an open graph', async () => {
     const { heard } = hear('/l', 4);
     const worker = new Worker(new URL('./testing/publishing-worker.ts', import.meta.url), {
       workerData: { options, topic: '/l', type: STRING },

@@ -26,13 +26,13 @@ import {
 } from './discovery.ts';
 import { toDdsTopic, toDdsType } from './ros-names.ts';
 
-/** From the first news of discovery to the look at what it has, ms. */
+/** Delay from the first discovery event until the endpoints are read, ms. */
 const LOOK_MS = 20;
 
 export interface DdsGraphOptions extends DdsOptions {
-  /** Of `receivedMs`, ms; CLOCK_MONOTONIC where left out. */
+  /** The clock of `receivedMs`, ms; CLOCK_MONOTONIC by default. */
   now?: () => number;
-  /** Where ROS's and CycloneDDS's variables are read; the process's where left out. */
+  /** The environment from which ROS's and CycloneDDS's variables are read; by default that of the process. */
   env?: Readonly<Record<string, string | undefined>>;
 }
 
@@ -44,12 +44,18 @@ export class DdsGraph implements RosGraph {
   readonly #now: () => number;
   readonly #subscriptions = new Map<DdsSubscription, OwnEndpoint>();
   readonly #publishers = new Map<DdsPublisher, OwnEndpoint>();
-  /** What is wrong as far as discovery knows, by its text: each is told once, and again when it has gone and come back. */
+  /**
+   * Mismatches that discovery shows now, by their text. Each is reported once, and again after it has disappeared and
+   * returned.
+   */
   #standing: ReadonlySet<string> = new Set();
   #looking: NodeJS.Timeout | null = null;
   #closed = false;
 
-  /** @throws {RosFault} `unavailable`: the addon or its library is not there, an option cannot be, no such interface */
+  /**
+   * @throws {RosFault} `unavailable`: the addon or its library is missing, an option is invalid, or there is no such
+   * interface
+   */
   constructor({ now = monotonicMs, env = process.env, ...options }: DdsGraphOptions = {}) {
     const checked = ddsOptionsFrom(options, env);
     this.#addon = loadAddon();
@@ -109,7 +115,7 @@ export class DdsGraph implements RosGraph {
     return readOthers(this.#addon.others(this.#handle, side === 'publishers'));
   }
 
-  /** Many come and go at once: they are looked at together. */
+  /** Endpoints often appear and disappear in groups, which are read together. */
   #lookSoon(): void {
     this.#looking ??= setTimeout(() => {
       this.#looking = null;
@@ -117,7 +123,7 @@ export class DdsGraph implements RosGraph {
     }, LOOK_MS).unref();
   }
 
-  /** Tells what discovery has that does not fit, as far as it has not been told. */
+  /** Reports mismatches in what discovery shows that have not been reported. */
   #look(): void {
     if (this.#closed || this.#subscriptions.size + this.#publishers.size === 0) return;
     const [publishers, subscribers] = [this.#others('publishers'), this.#others('subscribers')];
@@ -134,7 +140,7 @@ export class DdsGraph implements RosGraph {
   }
 }
 
-/** @throws {RosFault} where they are no names of ROS */
+/** @throws {RosFault} if they are not valid ROS names */
 function namesOf({ topic, type }: { topic: string; type: string; qos: Qos }): {
   ddsTopic: string;
   ddsType: string;

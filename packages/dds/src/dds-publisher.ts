@@ -33,12 +33,12 @@ export class DdsPublisher implements Publisher {
     return this.#closed ? 0 : this.#addon.subscribers(this.#writer);
   }
 
-  /** Messages that a reliable subscriber was too slow for. */
+  /** Messages that were refused because a reliable subscriber was too slow. */
   get refused(): number {
     return this.#refused;
   }
 
-  /** @throws {RosFault} `bad-message`: no CDR */
+  /** @throws {RosFault} `bad-message` if the message is not CDR */
   publish(bytes: Uint8Array): void {
     if (this.#closed) return;
     const fault = encapsulationFault(this.topic, bytes);

@@ -2,7 +2,7 @@ import type { OnMessage, Qos, RosFault, Subscription } from '@farpoint/ros';
 import { type Addon, type GraphHandle, qosArguments, type ReaderHandle } from './addon.ts';
 import { encapsulationFault } from './encapsulation.ts';
 
-/** Room for small messages; grows to the largest that came. */
+/** Buffer size for small messages; grows to the largest that arrives. */
 const FIRST_ROOM_BYTES = 4096;
 
 export interface ReaderOptions {
@@ -20,7 +20,7 @@ export interface SubscriptionEvents {
   now: () => number;
 }
 
-/** Hands messages over from one buffer that is used again for each: one copy, made outside of the queue's lock's reach. */
+/** Delivers messages from one reusable buffer: one copy, made outside the queue's lock. */
 export class DdsSubscription implements Subscription {
   readonly topic: string;
   readonly definition = null;
@@ -30,7 +30,7 @@ export class DdsSubscription implements Subscription {
   readonly #receivedMs = new Float64Array(1);
   readonly #counts = new Float64Array(4);
   #room = new Uint8Array(FIRST_ROOM_BYTES);
-  /** Bad messages in a row with the same fault are told once. */
+  /** Consecutive bad messages with the same fault are reported once. */
   #toldFault: string | null = null;
   #closed = false;
 
@@ -51,7 +51,7 @@ export class DdsSubscription implements Subscription {
     return this.#count(1);
   }
 
-  /** That never came, as gaps in the publishers' numbers tell. */
+  /** Messages that never arrived, according to gaps in the publishers' sequence numbers. */
   get lost(): number {
     return this.#count(2);
   }
@@ -68,7 +68,7 @@ export class DdsSubscription implements Subscription {
     this.#events.onClose(this);
   }
 
-  /** What waits now; what comes meanwhile has its own call, so that nobody else starves. */
+  /** Delivers what waits now; later messages trigger another call, so that nothing else starves. */
   #drain(): void {
     if (this.#closed) return;
     for (let left = this.#addon.rest(this.#reader); left > 0 && !this.#closed; left--) {
@@ -90,12 +90,12 @@ export class DdsSubscription implements Subscription {
       const size = this.#addon.take(this.#reader, this.#room, this.#receivedMs);
       if (size < 0) return null;
       if (size <= this.#room.length) return this.#room.subarray(0, size);
-      // Later ones are about as large, and often a little larger.
+      // Later messages have about the same size, often slightly more.
       this.#room = new Uint8Array(Math.ceil(size * 1.25));
     }
   }
 
-  /** By the clock that was given. */
+  /** By the configured clock. */
   #whenReceived(): number {
     const ageMs = Number(process.hrtime.bigint()) / 1e6 - (this.#receivedMs[0] as number);
     return this.#events.now() - Math.max(0, ageMs);

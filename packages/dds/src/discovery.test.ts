@@ -15,8 +15,8 @@ const other = (type = POINTS, reliable = true, transientLocal = false): OtherEnd
 });
 const own = (qos = SENSOR_QOS) => ({ topic: '/points', type: POINTS, qos });
 
-describe('what discovery sees', () => {
-  it('is read in ROS’s words, without what is no topic of ROS', () => {
+describe('discovery data', () => {
+  it('is converted to ROS terms, without anything but ROS topics', () => {
     const values = [
       ...['rt/points', 'sensor_msgs::msg::dds_::PointCloud2_', true, false],
       ...['rq/get_mapRequest', 'nav_msgs::srv::dds_::GetMap_Request_', true, false],
@@ -36,8 +36,8 @@ describe('what discovery sees', () => {
   });
 });
 
-describe('what does not fit', () => {
-  it('is another type under the same name, on either side', () => {
+describe('mismatches', () => {
+  it('are a different type under the same name, on either side', () => {
     for (const fault of [
       ...subscriptionFaults(own(), [other('a/msg/B')]),
       ...publisherFaults(own(), [other('a/msg/B')]),
@@ -58,14 +58,14 @@ describe('what does not fit', () => {
     [{ ...RELIABLE_QOS, durability: 'transient-local' }, true, true, 0],
     [{ ...RELIABLE_QOS, durability: 'transient-local' }, false, false, 2],
   ] as const)(
-    'is a subscription %j to a publisher reliable: %s, latched: %s',
+    'are a subscription %j to a publisher reliable: %s, latched: %s',
     (asked, reliable, latched, faults) => {
       const found = subscriptionFaults(own(asked), [other(POINTS, reliable, latched)]);
       expect(found.map(({ code }) => code)).toEqual(Array(faults).fill('refused'));
     },
   );
 
-  it('is a subscriber that asks for more than we offer', () => {
+  it('are a subscriber that requests more than we offer', () => {
     expect(publisherFaults(own(SENSOR_QOS), [other(POINTS, true)])).toHaveLength(1);
     expect(publisherFaults(own(RELIABLE_QOS), [other(POINTS, false)])).toEqual([]);
   });

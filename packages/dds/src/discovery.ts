@@ -1,24 +1,27 @@
-/** What discovery says of others, in the words of ROS, and what in it does not fit to us. */
+/** What discovery shows about other participants, in ROS terms, and what in it is incompatible with us. */
 import { type GraphTopic, type Qos, RosFault } from '@farpoint/ros';
 import { fromDdsTopic, fromDdsType } from './ros-names.ts';
 
 /** A publisher or subscriber of another participant. */
 export interface OtherEndpoint {
   topic: string;
-  /** As ROS writes it; where it is no ROS type, as it is. */
+  /** In ROS notation; unchanged if it is not a ROS type. */
   type: string;
   reliable: boolean;
   transientLocal: boolean;
 }
 
-/** One of ours. */
+/** One of our own endpoints. */
 export interface OwnEndpoint {
   topic: string;
   type: string;
   qos: Qos;
 }
 
-/** @param values four an endpoint: topic, type, reliable, transient-local; services and strangers are left out */
+/**
+ * @param values four per endpoint: topic, type, reliable, transient-local; services and endpoints without ROS names are
+ * left out
+ */
 export function readOthers(values: readonly (string | boolean)[]): OtherEndpoint[] {
   const others: OtherEndpoint[] = [];
   for (let i = 0; i + 3 < values.length; i += 4) {
@@ -50,7 +53,7 @@ export function topicsOf(
   return [...topics.values()].sort((a, b) => (a.topic < b.topic ? -1 : a.topic > b.topic ? 1 : 0));
 }
 
-/** Publishers that one of our subscriptions will never hear. */
+/** Publishers from which one of our subscriptions will never receive anything. */
 export function subscriptionFaults(own: OwnEndpoint, publishers: readonly OtherEndpoint[]): RosFault[] {
   return publishers
     .filter(({ topic }) => topic === own.topic)
@@ -60,7 +63,7 @@ export function subscriptionFaults(own: OwnEndpoint, publishers: readonly OtherE
     });
 }
 
-/** Subscribers that will never hear one of our publishers. */
+/** Subscribers that will never receive anything from one of our publishers. */
 export function publisherFaults(own: OwnEndpoint, subscribers: readonly OtherEndpoint[]): RosFault[] {
   return subscribers
     .filter(({ topic }) => topic === own.topic)
@@ -86,7 +89,7 @@ function wrongType(own: OwnEndpoint, other: OtherEndpoint, how: string): RosFaul
   });
 }
 
-/** Who asks for more than is offered gets nothing: that is the rule of DDS. */
+/** DDS rule: a subscriber that requests more than is offered receives nothing. */
 function refusals(
   topic: string,
   asked: Guarantees,

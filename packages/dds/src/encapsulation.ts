@@ -1,12 +1,12 @@
 /**
- * The four bytes before each serialised message: which CDR it is, and how many bytes pad its end. Source: DDSI-RTPS 2.5,
- * 10.5 (SerializedPayload) and DDS-XTypes 1.3, 7.6.3.1.2.
+ * The four bytes before each serialised message: the kind of CDR, and the number of padding bytes at the end. Source:
+ * DDSI-RTPS 2.5, 10.5 (SerializedPayload) and DDS-XTypes 1.3, 7.6.3.1.2.
  */
 import { RosFault } from '@farpoint/ros';
 
 export const ENCAPSULATION_BYTES = 4;
 
-/** Final types in either version of CDR and either order of bytes: what ROS messages are sent as. */
+/** Final types in either version of CDR and either byte order, as ROS messages are sent. */
 const READABLE: ReadonlySet<number> = new Set([0x0000, 0x0001, 0x0006, 0x0007]);
 const OTHERS: ReadonlyMap<number, string> = new Map([
   [0x0002, 'PL_CDR'],
@@ -18,7 +18,7 @@ const OTHERS: ReadonlyMap<number, string> = new Map([
   [0x0004, 'XML'],
 ]);
 
-/** What is wrong with the header of a message from the wire; `null` where nothing is. */
+/** What is wrong with the header of a received message; `null` if nothing is. */
 export function encapsulationFault(topic: string, bytes: Uint8Array): RosFault | null {
   if (bytes.length < ENCAPSULATION_BYTES) {
     const what = `the message ends within its encapsulation header (${bytes.length} of ${ENCAPSULATION_BYTES} bytes)`;

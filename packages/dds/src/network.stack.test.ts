@@ -1,4 +1,4 @@
-/** Two machines, which network namespaces make: who finds whom, by which way. */
+/** Two machines, simulated by network namespaces: which participants find each other, and how. */
 import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
@@ -9,12 +9,12 @@ import { ADDON_SUITE, testDomain } from './testing/helpers.ts';
 const NODE = join(import.meta.dirname, 'testing', 'network-node.ts');
 const names = ['a', 'b'].map((side) => `fpdds${process.pid}${side}`) as [string, string];
 const addresses = ['10.78.0.1', '10.78.0.2'] as const;
-/** The namespaces are this test's own: no other domain is there. */
+/** The namespaces belong to this test, so no other domain is present. */
 const domain = String(testDomain());
 
 const ip = (...args: string[]) => spawnSync('ip', args).status === 0;
 
-/** Two namespaces with a cable between them; whether that could be made. */
+/** Connects two namespaces with a virtual cable; returns whether that succeeded. */
 function connect(): boolean {
   const [a, b] = names;
   return (
@@ -39,13 +39,13 @@ if (!possible) disconnect();
 describe(`two machines (needs root, iproute2; ${ADDON_SUITE.note})`, { skip: !possible }, () => {
   let publishing: ChildProcess | null = null;
   beforeAll(() => {
-    // Multicast goes where a route says.
+    // Multicast needs a route.
     for (const name of names) ip('-n', name, 'route', 'add', 'default', 'dev', 'eth0');
   });
   afterEach(() => publishing?.kill('SIGKILL'));
   afterAll(disconnect);
 
-  /** How the one that hears ended: 0 where it heard, 3 where it did not. */
+  /** How the subscriber ended: 0 if it received, 3 if it did not. */
   async function hear(theirs: DdsOptions, ours: DdsOptions, ms: number, uri = ''): Promise<number | null> {
     const start = (name: string, role: string, options: DdsOptions) =>
       spawn(
@@ -70,7 +70,7 @@ describe(`two machines (needs root, iproute2; ${ADDON_SUITE.note})`, { skip: !po
   const SHORT_MS = 2000;
 
   it.each([
-    ['by multicast, without a word', {}, {}, '', LONG_MS, 0],
+    ['by multicast, without configuration', {}, {}, '', LONG_MS, 0],
     [
       'with the interface by name and by address',
       { interface: 'eth0' },

@@ -1,4 +1,4 @@
-/** The graph beside other makers' DDS: Fast DDS and Python's. */
+/** Tests the graph against other vendors' DDS: Fast DDS and Python's. */
 import { createSocket } from 'node:dgram';
 import { readFileSync } from 'node:fs';
 import { Random } from '@farpoint/network-sim/random';
@@ -23,22 +23,22 @@ function twist(x: number, z: number): Uint8Array {
   return writeTwist({ linear: { ...zero, x }, angular: { ...zero, z } }, 0n, '');
 }
 
-/** A cloud of 3.7 MB comes as one burst; with less room packets are lost faster than they are sent again. */
+/** A cloud of 3.7 MB arrives as one burst; with less buffer, packets are lost faster than they are retransmitted. */
 const CLOUD_BUFFER_BYTES = 4_000_000;
 const BUFFER_NOTE = ' (needs net.core.rmem_max of 4 MB)';
 
-/** As the kernel allows, bytes. */
+/** The kernel's limit, bytes. */
 function receiveBufferMost(): number {
   try {
     return Number(readFileSync('/proc/sys/net/core/rmem_max', 'utf8'));
   } catch {
-    // Not Linux: nobody says.
+    // Not Linux: the limit is unknown.
     return Number.POSITIVE_INFINITY;
   }
 }
 
 const kinds: PeerKind[] = ['Fast DDS', 'Python'];
-// Seconds, on a machine that does other things besides: discovery, a start of Python, clouds of 3.7 MB.
+// Seconds, on a machine that does other things as well: discovery, a start of Python, clouds of 3.7 MB.
 const options = { timeout: 60_000 };
 
 for (const kind of kinds) {
@@ -74,7 +74,7 @@ for (const kind of kinds) {
       return clouds;
     }
 
-    it(`clouds of 230,400 points arrive whole, in order, none torn${BUFFER_NOTE}`, async ({ skip }) => {
+    it(`clouds of 230,400 points arrive complete, in order, not torn${BUFFER_NOTE}`, async ({ skip }) => {
       skip(receiveBufferMost() < CLOUD_BUFFER_BYTES);
       const clouds = hearClouds(480);
       await start({ cloud: 'rt/points', side: 480, hz: 10 });
@@ -86,14 +86,14 @@ for (const kind of kinds) {
       expect(graph.topics()).toEqual([{ topic: '/points', type: POINTS, publishers: 1, subscribers: 0 }]);
     });
 
-    it('clouds of a publisher that promises nothing arrive too', async () => {
+    it('clouds of a best-effort publisher arrive, too', async () => {
       const clouds = hearClouds(128, SENSOR_QOS);
       await start({ cloud: 'rt/points', side: 128, hz: 20, reliability: 'best-effort' });
       await until(() => clouds.length >= 20);
       expect(clouds.every((cloud) => cloud !== null && !cloud.torn)).toBe(true);
     });
 
-    it('a Twist is heard and comes back, in less than 5 ms by the median', async () => {
+    it('a Twist is received and comes back, in less than 5 ms (median)', async () => {
       const publisher = graph.advertise({ topic: '/cmd_vel', type: TWIST, qos: VELOCITY_QOS });
       let [back, sentMs] = [0, 0];
       const times: number[] = [];
@@ -102,7 +102,7 @@ for (const kind of kinds) {
         back = new DataView(bytes.buffer, bytes.byteOffset).getFloat64(4, true);
       });
       const peer = await start({ twist: 'rt/cmd_vel', echo: 'rt/echo' });
-      // Once it has come back the first time, all know of each other.
+      // Once it has come back for the first time, all participants know each other.
       await until(() => {
         publisher.publish(twist(100, 0));
         return back === 100;
@@ -148,7 +148,10 @@ for (const kind of kinds) {
 
     if (kind !== 'Fast DDS') return;
 
-    /** Neither side says when both know of each other: until the first of these comes. Later ones may still be under way. */
+    /**
+     * Neither side reports when both have discovered each other, so this waits for the first of these messages. Later
+     * ones may still be in transit.
+     */
     async function probe(peer: Peer, probes: unknown[]): Promise<void> {
       await until(() => peer.matched);
       while (probes.length === 0) {
@@ -158,7 +161,7 @@ for (const kind of kinds) {
       }
     }
 
-    it('a topic of another type is told by name', async () => {
+    it('reports a topic of another type by name', async () => {
       const clouds = hearClouds(8);
       await start({ cloud: 'rt/points', side: 8, type: 'sensor_msgs::msg::dds_::PointCloud_' });
       await until(() => faults.length > 0);
@@ -167,14 +170,14 @@ for (const kind of kinds) {
       expect(clouds).toEqual([]);
     });
 
-    it('a publisher that promises less than is asked is told', async () => {
+    it('reports a publisher that offers less than requested', async () => {
       hearClouds(8, CLOUD_QOS);
       await start({ cloud: 'rt/points', side: 8, reliability: 'best-effort' });
       await until(() => faults.length > 0);
       expect(faults[0]).toMatchObject({ code: 'refused', topic: '/points' });
     });
 
-    it('messages of bytes at random are told, or handed over as they came', async () => {
+    it('messages of random bytes are reported, or delivered unchanged', async () => {
       const random = new Random(20261121, 0);
       const heard: string[] = [];
       const probes: Uint8Array[] = [];
@@ -188,8 +191,8 @@ for (const kind of kinds) {
       const peer = await start({ raw: 'rt/raw', rawType: 'std_msgs::msg::dds_::String_' });
       await probe(peer, probes);
       const sent = Array.from({ length: 400 }, (_, i) => {
-        // Small ones, and those that need fragments; all of representations that there are. Without a whole header none is
-        // a message: what becomes of it, and of what shares its packet, each DDS has its own idea of.
+        // Small ones, and ones that need fragments, in all existing representations. Without a complete header, none is
+        // a message: DDS implementations differ in how they treat it and what shares its packet.
         const size = 4 + Math.floor(random.next() * (i % 10 === 0 ? 200_000 : 64));
         const bytes = Uint8Array.from({ length: size }, () => random.next() * 256);
         bytes.set([0, [0, 1, 2, 3, 6, 7, 8, 9, 10, 11][Math.floor(random.next() * 10)] as number]);
@@ -198,7 +201,7 @@ for (const kind of kinds) {
       const sound = sent.filter((bytes) => [0, 1, 6, 7].includes(bytes[1] ?? 0));
       for (const bytes of sent) peer.send(bytes);
       await until(() => heard.length >= sound.length);
-      // It fills most up to a multiple of four bytes.
+      // It pads most messages to a multiple of four bytes.
       const cut = heard.map((hex, i) => hex.slice(0, 2 * (sound[i]?.length ?? 0)));
       expect(cut).toEqual(sound.map((bytes) => Buffer.from(bytes).toString('hex')));
       expect(heard.every((hex, i) => hex.length - (cut[i]?.length ?? 0) < 2 * 4)).toBe(true);
@@ -208,7 +211,7 @@ for (const kind of kinds) {
       }
     });
 
-    it('a Twist that is cut short is told with its topic and the byte, and is not read', async () => {
+    it('a truncated Twist is reported with its topic and the byte, and is not read', async () => {
       const heard: unknown[] = [];
       const decode = decoderOf(2, TWIST, null);
       const probes: Uint8Array[] = [];
@@ -234,7 +237,7 @@ for (const kind of kinds) {
       expect(heard[1]).toMatchObject({ linear: { x: 1 }, angular: { z: 2 } });
     });
 
-    it('packets of bytes at random do no harm', async () => {
+    it('packets of random bytes do no harm', async () => {
       const clouds = hearClouds(64);
       const random = new Random(7, 0);
       const socket = createSocket('udp4');
@@ -244,13 +247,13 @@ for (const kind of kinds) {
           { length: 24 + Math.floor(random.next() * 300) },
           () => random.next() * 256,
         );
-        // A header that is right, of RTPS 2.3 and CycloneDDS, then a submessage of a kind that there is.
+        // A valid header of RTPS 2.3 and CycloneDDS, then a submessage of an existing kind.
         packet.set([...Buffer.from('RTPS'), 2, 3, 1, 16]);
         packet.set(
           [[0x06, 0x07, 0x08, 0x09, 0x0e, 0x15, 0x16][Math.floor(random.next() * 7)] as number, 1],
           20,
         );
-        // Discovery and data of the first participants of the domain.
+        // Discovery and data ports of the domain's first participants.
         const to = port + 10 + Math.floor(random.next() * 6);
         await new Promise((resolve) => socket.send(packet, to, '127.0.0.1', resolve));
       }

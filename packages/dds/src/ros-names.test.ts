@@ -12,7 +12,7 @@ describe('names of topics', () => {
   });
 
   it.each(['cmd_vel', '/', '', '/a//b', '/a/', '/1a', '/a b', '/a\0', '/ä', `/${'a'.repeat(253)}`])(
-    '%j is no whole topic name',
+    '%j is not a fully qualified topic name',
     (topic) => {
       expect(toDdsTopic(topic)).toBeNull();
     },
@@ -26,7 +26,7 @@ describe('names of topics', () => {
     'rt',
     'rt/',
     'rtx/a',
-  ])('%s is no topic of ROS', (name) => {
+  ])('%s is no ROS topic', (name) => {
     expect(fromDdsTopic(name)).toBeNull();
   });
 });
@@ -55,14 +55,14 @@ describe('names of types', () => {
   });
 
   it.each(['HelloWorld', 'a::msg::B_', 'a::msg::dds_::B', 'a::msg::dds_::_', 'DDS::String'])(
-    '%s is no type of ROS',
+    '%s is no ROS type',
     (name) => {
       expect(fromDdsType(name)).toBeNull();
     },
   );
 });
 
-it('any name either survives both ways or is refused', () => {
+it('any name either survives a round trip or is refused', () => {
   fc.assert(
     fc.property(fc.string({ unit: 'binary', maxLength: 300 }), (text) => {
       const [topic, type] = [toDdsTopic(text), toDdsType(text)];

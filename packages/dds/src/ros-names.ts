@@ -1,37 +1,37 @@
 /**
- * Names of ROS 2 as DDS has them: topic `/cmd_vel` is `rt/cmd_vel`, type `geometry_msgs/msg/Twist` is
+ * DDS names of ROS 2 names: topic `/cmd_vel` is `rt/cmd_vel`, type `geometry_msgs/msg/Twist` is
  * `geometry_msgs::msg::dds_::Twist_`. Source: the ROS 2 design article “Topic and Service name mapping to DDS”.
  */
 
 const TOPIC_PREFIX = 'rt';
-/** A whole name: with a leading slash, no tokens, no doubled or trailing slash. */
+/** A fully qualified name: with a leading slash, no tokens, no doubled or trailing slash. */
 const TOPIC = /^(\/[A-Za-z_][A-Za-z0-9_]*)+$/;
 const TYPE = /^([A-Za-z][A-Za-z0-9_]*)\/(msg|srv|action)\/([A-Za-z][A-Za-z0-9_]*)$/;
 const DDS_TYPE = /^([A-Za-z][A-Za-z0-9_]*)::(msg|srv|action)::dds_::([A-Za-z][A-Za-z0-9_]*)_$/;
-/** What DDS implementations take. */
+/** The longest name that DDS implementations accept. */
 const LONGEST = 255;
 
-/** @returns `null` where it is no whole topic name */
+/** @returns `null` if it is not a fully qualified topic name */
 export function toDdsTopic(topic: string): string | null {
   const name = `${TOPIC_PREFIX}${topic}`;
   return TOPIC.test(topic) && name.length <= LONGEST ? name : null;
 }
 
-/** @returns `null` where it is no ROS topic: a service's, or a program's without ROS */
+/** @returns `null` if it is no ROS topic but a service's, or that of a program without ROS */
 export function fromDdsTopic(name: string): string | null {
   if (!name.startsWith(`${TOPIC_PREFIX}/`)) return null;
   const topic = name.slice(TOPIC_PREFIX.length);
   return TOPIC.test(topic) ? topic : null;
 }
 
-/** @returns `null` where it is no type name such as `geometry_msgs/msg/Twist` */
+/** @returns `null` if it is not a type name such as `geometry_msgs/msg/Twist` */
 export function toDdsType(type: string): string | null {
   const [, pkg, kind, name] = TYPE.exec(type) ?? [];
   const dds = `${pkg}::${kind}::dds_::${name}_`;
   return name !== undefined && dds.length <= LONGEST ? dds : null;
 }
 
-/** @returns `null` where it is no ROS type */
+/** @returns `null` if it is no ROS type */
 export function fromDdsType(name: string): string | null {
   const [, pkg, kind, type] = DDS_TYPE.exec(name) ?? [];
   return type === undefined ? null : `${pkg}/${kind}/${type}`;

@@ -11,7 +11,7 @@ import {
 
 const away: Endpoint = { address: '127.0.0.1', port: 4000 };
 
-/** @throws {Error} where it cannot be read */
+/** @throws {Error} if it cannot be read */
 function lead(text: string, to = away): string {
   const candidate = readCandidate(text);
   if (typeof candidate === 'string') throw new Error(candidate);
@@ -42,7 +42,7 @@ test.each([
   ['candidate:1 1 udp 1 192.0.2.2 70000 typ host', 'malformed'],
   ['candidate:1 1 udp 1 192.0.2.2 5 typ host\r\na=candidate:2 1 udp 1 192.0.2.3 5 typ host', 'malformed'],
   ['', 'malformed'],
-])('what cannot be led says why: %s', (text, fault) => {
+])('a candidate that cannot be routed says why: %s', (text, fault) => {
   expect(readCandidate(text)).toBe(fault);
 });
 
@@ -66,7 +66,7 @@ const candidateText = fc
       `${prefix}${foundation} 1 ${transport} 2130706431 ${address} ${port} typ srflx${rest}`,
   );
 
-test('any text gives a candidate or a typed fault; a candidate that is led reads as where it was led', () => {
+test('any text gives a candidate or a typed fault; a rewritten candidate reads back with its new endpoint', () => {
   fc.assert(
     fc.property(fc.oneof(fc.string(), candidateText), (text) => {
       const read = readCandidate(text);
@@ -76,7 +76,7 @@ test('any text gives a candidate or a typed fault; a candidate that is led reads
       }
       const led = readCandidate(standIn(read, away));
       expect(led).toMatchObject({ endpoint: away });
-      // Leading it back gives the same text, but for the base that was blotted out.
+      // Rewriting it back gives the same text, except for the removed base.
       expect(lead(standIn(read, away), read.endpoint)).toBe(lead(text, read.endpoint));
     }),
     { seed: 4, numRuns: 2000 },
@@ -132,7 +132,7 @@ test('a description keeps its lines but names no address of its peer', () => {
   ).toEqual([]);
 });
 
-test('of any description only endpoints that were placed remain', () => {
+test('only placed endpoints remain of any description', () => {
   const line = fc.oneof(
     fc.string(),
     candidateText,
@@ -149,7 +149,7 @@ test('of any description only endpoints that were placed remain', () => {
         () => {},
       );
       expect(endpointsOf(led)).toEqual(Array.from({ length: places }, () => away));
-      // Twice is once.
+      // Applying it twice equals applying it once.
       expect(
         rewriteSdp(
           led,

@@ -3,18 +3,18 @@ import { isIP } from 'node:net';
 import type { Endpoint } from './candidate.ts';
 import type { Side } from './signaling-messages.ts';
 
-/** Asked for; the kernel gives as much as it allows. */
+/** The requested size; the kernel grants as much as it allows. */
 const SOCKET_BUFFER_BYTES = 4 * 1024 * 1024;
 
-/** A socket that stands in for one endpoint of a peer: what comes to it is on its way to that endpoint. */
+/** A socket that stands in for one endpoint of a peer: packets sent to it are on their way to that endpoint. */
 export class ForwardPort {
   readonly side: Side;
   readonly real: Endpoint;
   /** Resolves once {@link own} is known. */
   readonly ready: Promise<void>;
-  /** Nothing was sent or received since; milliseconds. */
+  /** When something was last sent or received; milliseconds. */
   usedMs: number;
-  /** Whom the latest packet came from: mostly the next comes from there too. */
+  /** Sender of the latest packet: usually the next one has the same sender. */
   lastFrom: ForwardPort | null = null;
   sendErrors = 0;
   readonly #socket: Socket;
@@ -36,7 +36,7 @@ export class ForwardPort {
       type: family === 6 ? 'udp6' : 'udp4',
       recvBufferSize: SOCKET_BUFFER_BYTES,
       sendBufferSize: SOCKET_BUFFER_BYTES,
-      // Addresses are never names: no look-up, no turn of the event loop for each packet.
+      // The host is always an address, so no look-up and no extra turn of the event loop per packet.
       lookup: (address, _options, callback) => callback(null, address, family),
     });
     this.#socket.on('message', (data, source) => onPacket(this, data, source));
@@ -44,7 +44,7 @@ export class ForwardPort {
       this.#socket.once('error', reject);
       this.#socket.bind(0, bindAddress, () => {
         this.#socket.off('error', reject);
-        // An unreachable peer is no fault of ours.
+        // An unreachable peer is not an error of ours.
         this.#socket.on('error', () => {
           this.sendErrors++;
         });
@@ -53,11 +53,11 @@ export class ForwardPort {
         resolve();
       });
     });
-    // Who needs it awaits it; who does not must not end the process.
+    // Callers that need `ready` await it; without a caller, a rejection must not end the process.
     this.ready.catch(() => this.close());
   }
 
-  /** What the other peer is told. `null` before {@link ready}. */
+  /** The endpoint to tell the other peer. `null` before {@link ready}. */
   get own(): Endpoint | null {
     return this.#own;
   }

@@ -1,7 +1,7 @@
 const STEP_MS = 0.05;
 const BINS = 2000;
 
-/** How late something was, in steps of 0.05 ms up to 100 ms. */
+/** Histogram of lateness, in steps of 0.05 ms up to 100 ms. */
 export class LatenessHistogram {
   readonly #counts = new Uint32Array(BINS);
   count = 0;
@@ -13,7 +13,7 @@ export class LatenessHistogram {
     if (ms > this.maxMs) this.maxMs = ms;
   }
 
-  /** At most this share was later, to the next step; 0 where there was nothing. */
+  /** This fraction of the samples was at most this late, rounded up to the next step; 0 without samples. */
   quantile(share: number): number {
     let left = share * this.count;
     for (let bin = 0; bin < BINS; bin++) {

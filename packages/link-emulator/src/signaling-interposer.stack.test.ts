@@ -41,7 +41,7 @@ class Socket {
     this.#socket.send(typeof message === 'string' ? message : JSON.stringify(message));
   }
 
-  /** The next message of a type; others are passed over. */
+  /** The next message of a type; skips others. */
   async until(type: string): Promise<Json> {
     for (;;) {
       const message = this.#inbox.shift();
@@ -121,12 +121,12 @@ test('with the robot behind it, the real service introduces peers that learn onl
   await robot.send({ type: 'session.offer', session, sdp: sdp.replace('41001', '41005') });
   expect((await operator.until('session.offer')).sdp).toContain(place('robot', 41_005));
 
-  // What is no message reaches the service, and its judgement comes back.
+  // An invalid message reaches the service, and the service's answer comes back.
   await robot.send('nonsense');
   expect(await robot.until('error')).toMatchObject({ code: 'malformed' });
 });
 
-test('with both peers behind it candidates are led once', async () => {
+test('with both peers behind it, candidates are replaced only once', async () => {
   const { link, url } = await interpose('farpoint', stack.ports.signaling);
   const robot = new Socket(`${url}/robot`);
   await robot.send({ type: 'robot.hello', protocol: 1, id: 'r2', name: 'R', key: 'k1' });
@@ -161,7 +161,7 @@ test("the reference system's robots and clients", async () => {
   expect(led).toEqual({ type: 'candidate', candidate: candidateOf(operatorPort) });
 });
 
-test('a service that is not there looks so', async () => {
+test('an unreachable service looks unreachable', async () => {
   const { url } = await interpose('farpoint', 9);
   const robot = new Socket(`${url}/robot`);
   expect(await robot.closed).toBe(1006);

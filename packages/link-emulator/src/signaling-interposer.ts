@@ -17,11 +17,11 @@ export interface InterposerOptions {
   /** The signaling service, ws:// or wss://. */
   readonly upstream: string;
   readonly host: string;
-  /** 0 takes a free one. */
+  /** 0 chooses a free port. */
   readonly port: number;
   /**
-   * Who comes to this port: one peer of the reference system's signaling, or both kinds of Farpoint's, told apart by
-   * `/robot` and `/operator`.
+   * Who connects to this port: one kind of peer of the reference system's signaling, or both kinds of Farpoint's,
+   * distinguished by `/robot` and `/operator`.
    */
   readonly peers: 'farpoint' | 'reference-robots' | 'reference-clients';
   readonly events?: InterposerEvents;
@@ -29,21 +29,21 @@ export interface InterposerOptions {
 
 export interface InterposerEvents {
   onPeer?(side: Side, path: string): void;
-  /** A candidate was left out: it cannot be led through the link. */
+  /** A candidate was left out because it cannot be routed through the link. */
   onFault?(side: Side, fault: CandidateFault): void;
   onError?(error: Error): void;
 }
 
 /** As large as the largest message of either protocol. */
 const MAX_PAYLOAD_BYTES = 8_388_608;
-/** A peer that sends more messages than this while candidates are being placed is cut off. */
+/** A peer that sends more messages than this while candidates are being placed is disconnected. */
 const MAX_PENDING = 1000;
-/** Close codes that only say that none was given. */
+/** Close codes that only mean that no code was given. */
 const SILENT_CODES = new Set([1005, 1006, 1015]);
 
 /**
- * Stands before a signaling service and leads every candidate that passes through the link. One peer of a session behind
- * it is enough: it sees what that peer says and what it is told.
+ * Sits in front of a signaling service and routes every candidate that passes through the link. It is enough if one
+ * peer of a session connects through it: it sees both what that peer sends and what it receives.
  */
 export class SignalingInterposer {
   readonly #options: InterposerOptions;
@@ -56,7 +56,7 @@ export class SignalingInterposer {
     server.on('error', (error) => options.events?.onError?.(error));
   }
 
-  /** @throws {Error} where the port cannot be listened on */
+  /** @throws {Error} if it cannot listen on the port */
   static async open(options: InterposerOptions): Promise<SignalingInterposer> {
     const { host, port } = options;
     const server = new WebSocketServer({
@@ -116,7 +116,7 @@ export class SignalingInterposer {
     return pathname === '/robot' ? 'robot' : pathname === '/operator' ? 'operator' : null;
   }
 
-  /** Messages in their order, though placing candidates takes time; then the end. */
+  /** Keeps messages in order although placing candidates takes time; then forwards the close. */
   #pipe(source: WebSocket, target: WebSocket, from: Side | null, ready: Promise<void>): void {
     let pending = 0;
     let chain = ready;
@@ -134,7 +134,7 @@ export class SignalingInterposer {
     });
     source.on('close', (code, reason) => {
       void chain.then(() => {
-        // A service that never answered looks to the peer as if nobody listened.
+        // If the service never answered, the peer sees a connection that nobody accepted.
         if (SILENT_CODES.has(code) || target.readyState === WebSocket.CONNECTING) target.terminate();
         else target.close(code, reason);
       });
@@ -172,7 +172,7 @@ export class SignalingInterposer {
       try {
         await this.#options.link.standInFor(side, endpoint);
       } catch (error) {
-        // Without a stand-in the candidate is left out below.
+        // Without a stand-in, the candidate is left out below.
         this.#options.events?.onError?.(error as Error);
       }
     }
@@ -197,7 +197,7 @@ export class SignalingInterposer {
   };
 }
 
-/** The service's address with the path that the peer asked for, below the path it has itself. */
+/** The service's address, extended by the path that the peer requested. */
 function serviceUrl(upstream: string, path: string): URL {
   const base = new URL(upstream);
   const asked = new URL(path, 'ws://peer.invalid');

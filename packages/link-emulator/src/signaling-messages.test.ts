@@ -28,14 +28,14 @@ test("Farpoint's offers, answers and candidates are mapped, and keep their other
   });
 });
 
-test('a candidate that is left out takes its message with it; the end of candidates passes', () => {
+test('omits a message whose candidate is left out; passes the end of candidates', () => {
   expect(map({ type: 'session.candidate', session: 's1', candidate: { candidate: 'drop' } })).toBeNull();
   expect(map({ type: 'candidate', candidate: 'drop', robotId: 1 })).toBeNull();
   const end = { type: 'session.candidate', session: 's1', candidate: { candidate: '' } };
   expect(map(end)).toEqual(end);
 });
 
-test("the reference system's messages are mapped by whose candidates they hold", () => {
+test('maps the reference system’s messages by the owner of their candidates', () => {
   expect(map({ type: 'register', name: 'Diane', sdpOffer: 'v=0' })).toEqual({
     type: 'register',
     name: 'Diane',
@@ -68,7 +68,7 @@ test("the reference system's messages are mapped by whose candidates they hold",
   expect(map({ type: 'register', robot })).toEqual({ type: 'register', robot: mapped });
 });
 
-test('whatever else is said passes as the same text', () => {
+test('passes everything else as the same text', () => {
   fc.assert(
     fc.property(fc.oneof(fc.string(), fc.json()), (text) => {
       expect(mapMessage(text, 'robot', mapper)).toBe(text);

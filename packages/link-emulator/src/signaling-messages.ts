@@ -1,13 +1,13 @@
 /**
- * Where candidates and session descriptions are in the messages of both signaling protocols. Everything else in a message
- * stays as it is, and what is no such message passes: judging messages is the service's business.
+ * Finds candidates and session descriptions in the messages of both signaling protocols. Everything else in a message
+ * is unchanged, and other messages pass through: judging messages is up to the service.
  */
 import * as z from 'zod';
 
 /** Whose candidates they are. */
 export type Side = 'robot' | 'operator';
 
-/** What becomes of a peer's descriptions and candidates. */
+/** Maps a peer's descriptions and candidates. */
 export interface CandidateMapper {
   sdp(side: Side, sdp: string): string;
   /** `null`: the candidate is left out. */
@@ -40,8 +40,8 @@ type Sdps = { sdpOffer?: string | null | undefined; sdpAnswer?: string | null | 
  * The message with its candidates mapped.
  *
  * @param text JSON, or anything else
- * @param from who sent it, in the end
- * @returns the message to pass on, the very same text where nothing in it concerns us; `null` to pass on nothing
+ * @param from the original sender
+ * @returns the message to pass on, which is the same text if nothing in it concerns us; `null` to pass on nothing
  */
 export function mapMessage(text: string, from: Side, mapper: CandidateMapper): string | null {
   let message: unknown;
@@ -76,12 +76,12 @@ export function mapMessage(text: string, from: Side, mapper: CandidateMapper): s
   return text;
 }
 
-/** An empty candidate ends the candidates, and passes. */
+/** An empty candidate marks the end of candidates, and passes. */
 function mapCandidate(candidate: string, side: Side, mapper: CandidateMapper): string | null {
   return candidate.trim() === '' ? candidate : mapper.candidate(side, candidate);
 }
 
-/** Robots offer and clients answer, whoever tells it. */
+/** Robots offer and clients answer, whoever sends the message. */
 function mapSdps<T extends Sdps>(message: T, mapper: CandidateMapper): T {
   const { sdpOffer, sdpAnswer } = message;
   return {

@@ -61,7 +61,7 @@ function open(options: Partial<UdpLinkOptions> = {}): UdpLink {
   return link;
 }
 
-test('two peers that know only stand-ins hear each other, in order, from the stand-in they know', async () => {
+test('two peers that know only stand-ins hear each other, in order, from the stand-ins they know', async () => {
   const bins: { direction: Direction; bin: LinkBin }[] = [];
   const profile = { ...idealProfile, capacity: constantCapacity(20), delayMs: 5 };
   const link = open({
@@ -88,11 +88,11 @@ test('two peers that know only stand-ins hear each other, in order, from the sta
   );
   expect(link.packets).toBe(2 * COUNT);
   expect(link.ports).toBe(2);
-  // Never before its time.
+  // Never early.
   expect(link.lateness.count).toBe(2 * COUNT);
 });
 
-test('a peer that signaling did not name gets a stand-in when it speaks, and is answered through it', async () => {
+test('a peer that signaling did not name gets a stand-in when it sends, and is answered through it', async () => {
   const link = open();
   const [robot, stranger] = [await Peer.open(), await Peer.open()];
   const robotPlace = await link.standInFor('robot', robot.endpoint);
@@ -106,7 +106,7 @@ test('a peer that signaling did not name gets a stand-in when it speaks, and is 
   expect(stranger.received).toEqual([{ text: 'welcome', from: robotPlace }]);
 });
 
-test('what the model drops does not arrive, what it doubles arrives twice', async () => {
+test('packets that the model drops do not arrive, packets that it duplicates arrive twice', async () => {
   const link = open({
     up: { profile: { ...idealProfile, loss: 1 } },
     down: { profile: { ...idealProfile, duplicate: 1 } },
@@ -121,14 +121,14 @@ test('what the model drops does not arrive, what it doubles arrives twice', asyn
   expect(operator.received).toEqual([]);
 });
 
-test('an outage that ends by a new profile lets go what waits', async () => {
+test('a new profile that ends an outage releases what waits', async () => {
   const dead = { ...idealProfile, capacity: constantCapacity(0) };
   const link = open({ up: { profile: dead } });
   const [robot, operator] = [await Peer.open(), await Peer.open()];
   const robotPlace = await link.standInFor('robot', robot.endpoint);
   const operatorPlace = await link.standInFor('operator', operator.endpoint);
   robot.send('held', operatorPlace);
-  // The other direction shows that the first packet has gone in.
+  // The other direction shows that the first packet was accepted.
   robot.send('held too', operatorPlace);
   operator.send('through', robotPlace);
   await robot.until(1);
@@ -139,7 +139,7 @@ test('an outage that ends by a new profile lets go what waits', async () => {
   expect(operator.received.map(({ text }) => text)).toEqual(['held', 'held too']);
 });
 
-test('the same endpoint has one stand-in, a stand-in is its own, and there are never too many', async () => {
+test('each endpoint has one stand-in, a stand-in is its own stand-in, and their number is limited', async () => {
   const link = open({ maxPorts: 3 });
   const first = { address: '127.0.0.1', port: 40_001 };
   const place = await link.standInFor('robot', first);
@@ -151,7 +151,7 @@ test('the same endpoint has one stand-in, a stand-in is its own, and there are n
   expect(link.standIn('robot', first)).toBeNull();
 });
 
-test('an endpoint of the other address family is stood in for by one of its own', async () => {
+test('an endpoint of the other address family gets a stand-in of its own family', async () => {
   const link = open();
   const place = await link.standInFor('operator', { address: '2001:db8::7', port: 5000 });
   expect(place.address).toBe('::1');

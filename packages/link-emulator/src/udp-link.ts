@@ -7,13 +7,13 @@ import { ForwardPort } from './forward-port.ts';
 import { LatenessHistogram } from './lateness.ts';
 import type { Side } from './signaling-messages.ts';
 
-/** From the robot, and to it. */
+/** From the robot (`up`), and to it (`down`). */
 export const directions = ['up', 'down'] as const;
 export type Direction = (typeof directions)[number];
 
 export interface DirectionOptions {
   readonly profile: LinkProfile;
-  /** Made for the instant at which the link opens. */
+  /** Created for the instant at which the link opens. */
   readonly crossFlows?: (startMs: number) => readonly CrossFlow[];
 }
 
@@ -21,43 +21,43 @@ export interface UdpLinkOptions {
   readonly up: DirectionOptions;
   readonly down: DirectionOptions;
   readonly seed: number;
-  /** Stands in for peers on other machines; those on this one keep their address. Default 127.0.0.1. */
+  /** The address of stand-ins for peers on other machines; peers on this machine keep theirs. Default 127.0.0.1. */
   readonly host?: string;
   readonly onBin?: (direction: Direction, bin: LinkBin) => void;
-  /** A stand-in that nothing uses for this long is closed. */
+  /** A stand-in that is unused for this long is closed. */
   readonly idleMs?: number;
-  /** Most stand-ins; the longest unused one goes for a new one. */
+  /** Maximum number of stand-ins; the one unused for longest makes room for a new one. */
   readonly maxPorts?: number;
 }
 
 const SWEEP_MS = 5000;
-/** Longest time between two looks at the models, so that their statistics are on time. */
+/** Longest interval between two updates of the models, so that their statistics are on time. */
 const LONGEST_SLEEP_MS = 50;
 
-/** CLOCK_MONOTONIC, as `process.hrtime` has it, in milliseconds: the same for all processes of a machine. */
+/** CLOCK_MONOTONIC, as in `process.hrtime`, in milliseconds: the same for all processes of a machine. */
 export function monotonicMs(): number {
   return performance.now() + CLOCK_OFFSET_MS;
 }
 const CLOCK_OFFSET_MS = Number(process.hrtime.bigint()) / 1e6 - performance.now();
 
-/** UDP and IP headers of a datagram. */
+/** Length of the UDP and IP headers of a datagram. */
 export function headerBytes(address: string): number {
   return address.includes(':') ? 48 : 28;
 }
 
 /**
  * The link between peers as sockets: each endpoint of a peer has a stand-in, and the peers only ever see stand-ins. A
- * packet to a stand-in joins the model of its direction and leaves from the sender's own stand-in.
+ * packet sent to a stand-in enters the model of its direction and leaves from the sender's own stand-in.
  */
 export class UdpLink {
   readonly models: Readonly<Record<Direction, LinkModel>>;
-  /** How much later than the model has it packets were sent. */
+  /** How much later than the model's times packets were sent. */
   readonly lateness = new LatenessHistogram();
   /** When the capacities began. */
   readonly startMs: number;
   readonly #options: Required<Pick<UdpLinkOptions, 'host' | 'idleMs' | 'maxPorts'>>;
   readonly #ports: Record<Side, Map<string, ForwardPort>> = { robot: new Map(), operator: new Map() };
-  /** Packets under way, by handle. */
+  /** Packets in flight, by handle. */
   readonly #data: (Buffer | null)[] = [];
   readonly #from: (ForwardPort | null)[] = [];
   readonly #to: (ForwardPort | null)[] = [];
@@ -95,16 +95,16 @@ export class UdpLink {
     this.#arm();
   }
 
-  /** Stand-ins that are open. */
+  /** Number of open stand-ins. */
   get ports(): number {
     return this.#ports.robot.size + this.#ports.operator.size;
   }
 
   /**
-   * Opens the stand-in for a peer's endpoint, or finds it.
+   * Opens the stand-in for a peer's endpoint, or finds the existing one.
    *
-   * @returns the stand-in's endpoint: what the other peer is to be told
-   * @throws {Error} where no socket can be bound
+   * @returns the stand-in's endpoint, to tell the other peer
+   * @throws {Error} if no socket can be bound
    */
   async standInFor(side: Side, real: Endpoint): Promise<Endpoint> {
     if (this.isStandIn(real)) return real;
@@ -114,13 +114,13 @@ export class UdpLink {
     return port.own!;
   }
 
-  /** The stand-in that is open for a peer's endpoint, if there is one. */
+  /** The open stand-in for a peer's endpoint, if there is one. */
   standIn(side: Side, real: Endpoint): Endpoint | null {
     if (this.isStandIn(real)) return real;
     return this.#find(side, real)?.own ?? null;
   }
 
-  /** Whether the endpoint is one of ours already. */
+  /** Whether the endpoint is already one of ours. */
   isStandIn(endpoint: Endpoint): boolean {
     for (const ports of Object.values(this.#ports)) {
       for (const { own } of ports.values()) {
@@ -130,7 +130,7 @@ export class UdpLink {
     return false;
   }
 
-  /** Lets the models catch up, and sends what is due; call after changing one of them. */
+  /** Brings the models up to date, and sends what is due; call after changing one of them. */
   tick(): void {
     if (this.#closed) return;
     this.#nowMs = monotonicMs();
@@ -157,7 +157,7 @@ export class UdpLink {
     return port;
   }
 
-  /** On this machine a peer's own address, so that each side answers from where it is spoken to. */
+  /** On this machine, the peer's own address, so that each side answers from the address it is contacted at. */
   #bindAddress({ address }: Endpoint): string {
     for (const addresses of Object.values(networkInterfaces())) {
       if (addresses?.some((own) => own.address === address)) return address;
@@ -183,7 +183,7 @@ export class UdpLink {
     this.#arm();
   };
 
-  /** The stand-in of whoever sent a packet to `to`; one is made for an endpoint that signaling did not name. */
+  /** The stand-in of whoever sent a packet to `to`; one is created for an endpoint that signaling did not name. */
   #sender(to: ForwardPort, source: RemoteInfo): ForwardPort {
     const last = to.lastFrom;
     if (
@@ -196,7 +196,7 @@ export class UdpLink {
     }
     const side = to.side === 'robot' ? 'operator' : 'robot';
     const real = { address: source.address, port: source.port };
-    // The receiver sees it come from an address that it can answer.
+    // The receiver sees it arrive from an address that it can answer.
     const from = this.#find(side, real) ?? this.#open(side, real, to.own!.address);
     to.lastFrom = from;
     return from;

@@ -3,7 +3,7 @@ import { ManagedProcess } from './managed-process.ts';
 import { type LocalStack, repositoryRoot } from './stack.ts';
 
 export interface BridgeSpec {
-  /** Free ones where left out. */
+  /** Free ports if absent. */
   ports?: BridgeProcess['ports'];
   /** More flags of the bridge program. */
   args?: string[];
@@ -23,7 +23,7 @@ export class BridgeProcess {
     this.process = started;
   }
 
-  /** @throws {Error} with the program's last lines where it does not come up */
+  /** @throws {Error} with the program's last lines if it does not start */
   static async start(stack: LocalStack, spec: BridgeSpec = {}): Promise<BridgeProcess> {
     const [admin, ...free] = (await freePorts(4)) as [number, number, number, number];
     const { control, telemetry, streaming } = spec.ports ?? {
@@ -52,7 +52,7 @@ export class BridgeProcess {
     return new BridgeProcess({ control, telemetry, streaming }, adminUrl, started);
   }
 
-  /** As the page is told of it. */
+  /** The address as it is given to the page. */
   get address(): string {
     const { control, telemetry, streaming } = this.ports;
     return `ws://localhost:${control},${telemetry},${streaming}`;

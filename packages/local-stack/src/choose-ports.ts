@@ -1,21 +1,21 @@
-/** Ports for programs that people know by their usual numbers: those, or the next that are free. */
+/** Chooses ports for programs that people know by their usual numbers: those, or the next free ones. */
 
 export interface WantedPort {
-  /** What listens there, for people. */
+  /** For people: what listens there. */
   name: string;
   port: number;
-  /** This one and no other. */
+  /** This port and no other. */
   fixed?: boolean;
 }
 
 export interface ChosenPorts {
-  /** In the order of what was wanted. */
+  /** In the order of the wanted ports. */
   ports: number[];
-  /** Wanted ports that others have. */
+  /** Wanted ports that are in use. */
   moved: { wanted: WantedPort; port: number }[];
 }
 
-/** A port was wanted, that and no other, and somebody has it. */
+/** A port with `fixed` is in use. */
 export class PortTaken extends Error {
   override readonly name = 'PortTaken';
   readonly wanted: WantedPort;
@@ -33,7 +33,7 @@ export async function choosePorts(
   wanted: readonly WantedPort[],
   isFree: (port: number) => Promise<boolean>,
 ): Promise<ChosenPorts> {
-  // What others of ours want by its number stays theirs.
+  // A port that another of our programs wants by its number stays reserved for it.
   const spoken = new Set(wanted.map(({ port }) => port));
   const chosen: ChosenPorts = { ports: [], moved: [] };
   for (const want of wanted) {

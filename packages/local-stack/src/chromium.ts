@@ -2,7 +2,7 @@ import { existsSync } from 'node:fs';
 import { chromium, type LaunchOptions } from '@playwright/test';
 import { findProgram } from './find-program.ts';
 
-/** The one command that cures a missing browser. */
+/** The command that installs a missing browser. */
 export const CHROMIUM_REMEDY = 'npx -y pnpm@12 --dir e2e exec playwright install --with-deps chromium';
 
 const PROGRAM_NAMES = ['chromium', 'chromium-browser', 'google-chrome-stable', 'google-chrome', 'chrome'];
@@ -15,7 +15,7 @@ const OTHER_PLACES = [
 /**
  * The browser for tests and benchmarks: `FARPOINT_CHROMIUM`, else Playwright's own, else one installed on this machine.
  *
- * @returns its path, or `null` where there is none
+ * @returns its path, or `null` if there is none
  */
 export function findChromium(): string | null {
   const named = process.env.FARPOINT_CHROMIUM;
@@ -25,7 +25,7 @@ export function findChromium(): string | null {
   return findProgram(PROGRAM_NAMES, OTHER_PLACES);
 }
 
-/** Launch options that work as root, without a GPU, and without a connection to the world. */
+/** Launch options that work as root, without a GPU, and without internet access. */
 export function chromiumLaunchOptions(): LaunchOptions {
   const executablePath = findChromium();
   if (executablePath === null) {
@@ -46,11 +46,11 @@ export function chromiumLaunchOptions(): LaunchOptions {
       '--disable-gpu-compositing',
       '--disable-gpu-rasterization',
       '--no-first-run',
-      // A page that a test does not look at must run as fast as one that a person does.
+      // A page in the background of a test must run as fast as one that a person looks at.
       '--disable-background-timer-throttling',
       '--disable-renderer-backgrounding',
       '--disable-backgrounding-occluded-windows',
-      // Loopback candidates must be addresses, not mDNS names: there is no responder in a container.
+      // Loopback candidates must be addresses, not mDNS names, because containers have no mDNS responder.
       '--disable-features=WebRtcHideLocalIpsWithMdns',
     ],
   };

@@ -3,15 +3,18 @@ import { ManagedProcess } from './managed-process.ts';
 import { type LocalStack, repositoryRoot } from './stack.ts';
 
 export interface EmulatedLinkSpec {
-  /** Flags of the link program, e.g. `['--rate-mbps', '20', '--rtt-ms', '40']`. */
+  /** Flags of the link program, for example `['--rate-mbps', '20', '--rtt-ms', '40']`. */
   args: string[];
-  /** Where it writes what happens in each 100 ms, one JSON object a line. */
+  /** Where it writes what happens in each 100 ms, one JSON object per line. */
   statsFile?: string;
   env?: Record<string, string>;
   onLine?: (name: string, line: string) => void;
 }
 
-/** A bad network before a stack's signaling: who is pointed at {@link signalingUrl} has every packet led through it. */
+/**
+ * A bad network in front of a stack's signaling: all packets of a peer that connects to {@link signalingUrl} are routed
+ * through it.
+ */
 export class EmulatedLink {
   readonly signalingUrl: string;
   readonly #start: () => Promise<ManagedProcess>;
@@ -27,7 +30,7 @@ export class EmulatedLink {
     return this.#process;
   }
 
-  /** @throws {Error} with the program's last lines where it does not come up */
+  /** @throws {Error} with the program's last lines if it does not start */
   static async start(stack: LocalStack, spec: EmulatedLinkSpec): Promise<EmulatedLink> {
     const [port, adminPort] = (await freePorts(2)) as [number, number];
     const start = () =>
@@ -56,7 +59,7 @@ export class EmulatedLink {
     this.process.send(message);
   }
 
-  /** Every address behind it goes away at once, for good; its signaling comes back where it was. */
+  /** Makes every address behind it disappear at once, for good; its signaling returns at the same address. */
   async renumber(): Promise<void> {
     await this.#process.kill();
     this.#process = await this.#start();

@@ -4,7 +4,7 @@ import { VirtualDisplay } from './virtual-display.ts';
 
 const WINDOW = { width: 960, height: 540 };
 
-/** An unchanged Firefox, driven by WebDriver BiDi, drawing by the processor. */
+/** An unmodified Firefox, driven by WebDriver BiDi, with software rendering. */
 export class FirefoxBrowser {
   readonly #browser: Browser;
   readonly #display: VirtualDisplay | null;
@@ -14,11 +14,11 @@ export class FirefoxBrowser {
     this.#display = display;
   }
 
-  /** @throws {Error} where there is none, or it does not start */
+  /** @throws {Error} if there is none, or it does not start */
   static async launch(): Promise<FirefoxBrowser> {
     const executablePath = findFirefox();
     if (executablePath === null) throw new Error('no Firefox here');
-    // Large, and most who start a stack have no use for it.
+    // A large library, which most users of a stack do not need.
     const { default: puppeteer } = await import('puppeteer-core');
     const display = firefoxNeedsDisplay ? await VirtualDisplay.start(1280, 800) : null;
     try {
@@ -43,7 +43,7 @@ export class FirefoxBrowser {
     return this.#browser.version();
   }
 
-  /** A tab in front. */
+  /** Opens a tab in the foreground. */
   async newPage(): Promise<Page> {
     const page = await this.#browser.newPage();
     await page.bringToFront();

@@ -1,7 +1,7 @@
 import { existsSync } from 'node:fs';
 import { findProgram } from './find-program.ts';
 
-/** The one command that cures a missing browser. */
+/** The command that installs a missing browser. */
 export const FIREFOX_REMEDY = 'apt-get install firefox-esr xvfb';
 
 const OTHER_PLACES = [
@@ -12,7 +12,7 @@ const OTHER_PLACES = [
 /**
  * The second browser for tests: `FARPOINT_FIREFOX`, else one installed on this machine.
  *
- * @returns its path, or `null` where there is none
+ * @returns its path, or `null` if there is none
  */
 export function findFirefox(): string | null {
   const named = process.env.FARPOINT_FIREFOX;
@@ -20,10 +20,10 @@ export function findFirefox(): string | null {
   return findProgram(['firefox-esr', 'firefox'], OTHER_PLACES);
 }
 
-/** On Linux Firefox has WebGL on a display only, be it one without a screen. */
+/** On Linux, Firefox has WebGL only on a display, though one without a screen suffices. */
 export const firefoxNeedsDisplay = process.platform === 'linux';
 
-/** @returns what keeps Firefox from being tested here, with its remedy, or `null` */
+/** @returns what prevents testing with Firefox here, with its remedy, or `null` */
 export function firefoxMissing(): string | null {
   const missing =
     findFirefox() === null

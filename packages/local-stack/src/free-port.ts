@@ -17,9 +17,9 @@ export async function freePorts(count: number): Promise<number[]> {
   return ports;
 }
 
-/** True where nothing listens on the port of loopback, neither of its addresses. */
+/** Whether nothing listens on the port at either loopback address. */
 export async function isPortFree(port: number): Promise<boolean> {
-  // Development servers listen on what `localhost` is, which may be ::1 alone.
+  // Development servers listen on the address of `localhost`, which may be ::1 alone.
   const codes = await Promise.all(['127.0.0.1', '::1'].map((host) => tryListen(port, host)));
   return !codes.some((code) => code === 'EADDRINUSE' || code === 'EACCES');
 }

@@ -51,7 +51,7 @@ function bench(starts: (() => Program)[]) {
 
 const settled = () => new Promise((resolve) => setImmediate(resolve));
 
-test('what is killed is started again, later each time while it does not last', async () => {
+test('a killed program is restarted, with growing delay while it does not last', async () => {
   const [second, third] = [new Program(), new Program()];
   const fail = () => {
     throw new Error('port taken');
@@ -77,7 +77,7 @@ test('what is killed is started again, later each time while it does not last', 
   await done;
 });
 
-test('what ends after the stop stays ended', async () => {
+test('a program that ends after the stop is not restarted', async () => {
   const { said, stop, first, done } = bench([]);
   stop.abort();
   first.end({ code: 0, signal: null });

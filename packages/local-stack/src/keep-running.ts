@@ -8,21 +8,21 @@ export interface RunningProgram {
 export interface KeepRunningOptions<Program extends RunningProgram> {
   /** Starts it again. */
   start(): Promise<Program>;
-  /** How long to wait before that; it grows with each call. */
+  /** How long to wait before restarting; grows with each call. */
   backoff: { nextMs(): number; reset(): void };
   now(): number;
   /** Ends early when the signal is aborted. */
   wait(ms: number, signal: AbortSignal): Promise<void>;
-  /** It has ended, or did not start, and is started in so many ms. */
+  /** It has ended, or did not start, and will be started in this many ms. */
   onEnd(program: Program, exit: Exit, waitMs: number): void;
   onFailure(error: unknown, waitMs: number): void;
   onStart(program: Program): void;
 }
 
-/** Who lasted so long had started well: the next wait is short again, ms. */
+/** A program that ran for this long had started well: the next wait is short again, ms. */
 const LASTED_MS = 10_000;
 
-/** Starts a program again whenever it ends, until the signal is aborted. */
+/** Restarts a program whenever it ends, until the signal is aborted. */
 export async function keepRunning<Program extends RunningProgram>(
   first: Program,
   { start, backoff, now, wait, onEnd, onFailure, onStart }: KeepRunningOptions<Program>,

@@ -4,16 +4,16 @@ import { createInterface } from 'node:readline';
 export interface ProcessSpec {
   /** Shown before each of its lines and in errors. */
   name: string;
-  /** Program and arguments; `node` here means the Node that runs us. */
+  /** Program and arguments; `node` means the Node that runs this. */
   command: string[];
   cwd: string;
   env?: Record<string, string> | undefined;
-  /** Ready once this answers 200. */
+  /** The program is ready once this answers 200. */
   readyUrl: string;
   /** How long that may take, ms. */
   readyTimeoutMs?: number | undefined;
   onLine?: ((name: string, line: string) => void) | undefined;
-  /** It listens to messages of {@link ManagedProcess.send}. */
+  /** Whether it receives messages from {@link ManagedProcess.send}. */
   ipc?: boolean | undefined;
 }
 
@@ -26,7 +26,7 @@ export interface Exit {
 const KEPT_LINES = 200;
 const STOP_TIMEOUT_MS = 8000;
 
-/** A child process that is known to be ready, whose output is kept, and that never outlives us. */
+/** A child process that has reported ready, whose output is kept, and that never outlives this process. */
 export class ManagedProcess {
   readonly name: string;
   readonly exited: Promise<Exit>;
@@ -37,7 +37,8 @@ export class ManagedProcess {
   private constructor(spec: ProcessSpec) {
     this.name = spec.name;
     const [program, ...args] = spec.command as [string, ...string[]];
-    // A process group of its own: Ctrl-C in the terminal reaches us alone, and we stop our children in order.
+    // A process group of its own: Ctrl-C in the terminal reaches only this process, which then stops its children in
+    // order.
     this.#child = spawn(program === 'node' ? process.execPath : program, args, {
       cwd: spec.cwd,
       env: { ...process.env, ...spec.env },
@@ -70,7 +71,7 @@ export class ManagedProcess {
   /**
    * Starts a program and waits until it is ready.
    *
-   * @throws {Error} naming the program, with its last lines, where it ends or is not ready in time
+   * @throws {Error} naming the program, with its last lines, if it ends or is not ready in time
    */
   static async start(spec: ProcessSpec): Promise<ManagedProcess> {
     const started = new ManagedProcess(spec);
@@ -99,12 +100,12 @@ export class ManagedProcess {
     return this.#lines.join('\n');
   }
 
-  /** Tells a program started with `ipc` something; what it cannot hear is lost. */
+  /** Sends a message to a program started with `ipc`; messages that it cannot receive are lost. */
   send(message: object): void {
     if (this.running && this.#child.connected) this.#child.send(message);
   }
 
-  /** Asks it to end (SIGTERM), and ends it (SIGKILL) where it does not. */
+  /** Asks it to end (SIGTERM), and kills it (SIGKILL) if it does not. */
   async stop(): Promise<Exit> {
     if (this.#exit !== null) return this.#exit;
     this.#child.kill('SIGTERM');
@@ -114,7 +115,7 @@ export class ManagedProcess {
     return exit;
   }
 
-  /** Ends it at once, as a crash or a power cut would. */
+  /** Kills it at once, as a crash or a power cut would. */
   async kill(): Promise<Exit> {
     this.#killGroup();
     return this.exited;

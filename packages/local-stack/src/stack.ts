@@ -19,7 +19,7 @@ export interface RobotSpec {
   name: string;
   /** Also register it with the reference system's signaling. */
   reference?: boolean;
-  /** More flags of the robot program, e.g. `['--source', 'pcd', '--path', file]`; a simulated robot where empty. */
+  /** More flags of the robot program, for example `['--source', 'pcd', '--path', file]`; a simulated robot if empty. */
   args?: string[];
   adminPort?: number;
 }
@@ -40,13 +40,13 @@ interface RunningRobot {
   process: ManagedProcess;
 }
 
-/** The real signaling service and robots as child processes on loopback. Any of them can be killed and started again. */
+/** The real signaling service and robots as child processes on loopback. Any of them can be killed and restarted. */
 export class LocalStack {
   readonly ports: StackPorts;
   readonly #spec: StackSpec;
   #signaling: ManagedProcess | null = null;
   readonly #robots = new Map<string, RunningRobot>();
-  /** A robot that is started again finds its own state; one of another stack does not. */
+  /** A restarted robot finds its own state; a robot of another stack does not. */
   readonly #stateFolder = mkdtempSync(join(tmpdir(), 'farpoint-state-'));
 
   private constructor(spec: StackSpec, ports: StackPorts) {
@@ -54,7 +54,7 @@ export class LocalStack {
     this.ports = ports;
   }
 
-  /** @throws {Error} naming the program that did not come up, with its last lines; nothing is left running then */
+  /** @throws {Error} naming the program that did not start, with its last lines; nothing is left running then */
   static async start(spec: StackSpec): Promise<LocalStack> {
     const [signaling, referenceRobot, referenceClient] = (await freePorts(3)) as [number, number, number];
     const stack = new LocalStack(spec, spec.ports ?? { signaling, referenceRobot, referenceClient });
@@ -112,7 +112,7 @@ export class LocalStack {
     });
   }
 
-  /** Starts a robot, or starts it again with the arguments it had. */
+  /** Starts a robot, or restarts it with its previous arguments. */
   async startRobot(robot: RobotSpec): Promise<void> {
     const adminPort =
       robot.adminPort ?? this.#robots.get(robot.id)?.spec.adminPort ?? (await freePorts(1))[0];

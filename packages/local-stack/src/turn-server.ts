@@ -5,7 +5,7 @@ import { rmSync } from 'node:fs';
 import { networkInterfaces, tmpdir } from 'node:os';
 import { join } from 'node:path';
 
-/** How to get it where it is missing. */
+/** How to install it. */
 export const TURN_REMEDY = 'apt-get install coturn';
 
 /** Whether coturn is installed here. */
@@ -13,7 +13,7 @@ export function hasTurnServer(): boolean {
   return spawnSync('turnserver', ['--version'], { stdio: 'ignore' }).error === undefined;
 }
 
-/** An address of this machine that browsers send to from any interface. */
+/** An address of this machine that browsers can reach from any interface. */
 function ownAddress(): string {
   const addresses = Object.values(networkInterfaces()).flat();
   return addresses.find((own) => own?.family === 'IPv4' && !own.internal)?.address ?? '127.0.0.1';
@@ -36,7 +36,7 @@ export class TurnServer {
     return `turn:${this.address}:${this.port}?transport=udp`;
   }
 
-  /** @throws {Error} with what it said where it does not answer within 10 s */
+  /** @throws {Error} with its output if it does not answer within 10 s */
   async start(): Promise<void> {
     let output = '';
     const child = spawn('turnserver', [
@@ -86,7 +86,7 @@ export class TurnServer {
   };
 }
 
-/** A STUN binding request (RFC 8489), and 100 ms for its answer. */
+/** Sends a STUN binding request (RFC 8489) and waits 100 ms for the answer. */
 function answersStun(address: string, port: number): Promise<boolean> {
   const request = Buffer.concat([Buffer.from('000100002112a442', 'hex'), randomBytes(12)]);
   return new Promise((resolve) => {

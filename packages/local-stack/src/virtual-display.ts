@@ -1,7 +1,7 @@
 import { type ChildProcess, spawn } from 'node:child_process';
 import type { Readable } from 'node:stream';
 
-/** An X display without a screen (Xvfb), of its own number, that never outlives us. */
+/** An X display without a screen (Xvfb), with its own number, that never outlives this process. */
 export class VirtualDisplay {
   /** As in `DISPLAY`. */
   readonly name: string;
@@ -12,9 +12,9 @@ export class VirtualDisplay {
     this.name = name;
   }
 
-  /** @throws {Error} with what it said where it does not come up */
+  /** @throws {Error} with its output if it does not start */
   static async start(width: number, height: number): Promise<VirtualDisplay> {
-    // It writes the number that it found free to descriptor 3 once it can be used.
+    // Once ready, it writes the number of the free display it found to descriptor 3.
     const args = ['-displayfd', '3', '-screen', '0', `${width}x${height}x24`, '-nolisten', 'tcp'];
     const child = spawn('Xvfb', args, { stdio: ['ignore', 'ignore', 'pipe', 'pipe'] });
     let said = '';

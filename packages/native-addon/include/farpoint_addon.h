@@ -1,6 +1,7 @@
 /*
- * What the addons have in common at the border to JavaScript: arguments, checked; handles; callbacks; the table of what is
- * exported. Each function that fails has thrown a TypeError with the code RANGE, a mistake of the caller, unless said otherwise.
+ * What the addons share at the border to JavaScript: checked arguments, handles, callbacks, and the table of exports.
+ * Each function that fails has thrown a TypeError with the code RANGE, a mistake of the caller, unless stated
+ * otherwise.
  */
 #ifndef FARPOINT_ADDON_H
 #define FARPOINT_ADDON_H
@@ -18,7 +19,7 @@ static inline bool refuse(napi_env env, const char *message) {
   return false;
 }
 
-/* `values` has room for MOST_ARGUMENTS; what is over is left out. */
+/* `values` has room for MOST_ARGUMENTS; further arguments are ignored. */
 static inline bool take_arguments(napi_env env, napi_callback_info info, size_t wanted, napi_value *values) {
   size_t count = MOST_ARGUMENTS;
   if (napi_get_cb_info(env, info, &count, values, NULL, NULL) == napi_ok && count >= wanted) return true;
@@ -29,14 +30,14 @@ static inline bool take_bool(napi_env env, napi_value value, bool *to) {
   return napi_get_value_bool(env, value, to) == napi_ok || refuse(env, "not a boolean");
 }
 
-/* With a zero at its end. Texts that hold one themselves are refused, and those that do not fit. Throws nothing. */
+/* Zero-terminated. Refuses texts that contain a zero or do not fit. Throws nothing. */
 static inline bool read_text(napi_env env, napi_value value, char *to, size_t room) {
   size_t length = 0;
   return napi_get_value_string_utf8(env, value, to, room, &length) == napi_ok && length < room - 1 &&
          strlen(to) == length;
 }
 
-/* What an object with this tag wraps. */
+/* The thing that an object with this tag wraps. */
 static inline bool take_handle(napi_env env, napi_value value, const napi_type_tag *tag, void **to) {
   bool right = false;
   if (napi_check_object_type_tag(env, value, tag, &right) == napi_ok && right &&
@@ -46,7 +47,7 @@ static inline bool take_handle(napi_env env, napi_value value, const napi_type_t
   return refuse(env, "not a handle of this kind");
 }
 
-/* From a thread-safe function. As of any callback, an error that nobody catches ends the process. */
+/* Call it from a thread-safe function. As in any callback, an uncaught error ends the process. */
 static inline void call_back(napi_env env, napi_value callback, size_t count, const napi_value *arguments) {
   napi_value self, error;
   napi_get_undefined(env, &self);
@@ -60,7 +61,7 @@ struct addon_function {
   napi_callback call;
 };
 
-/* Whether all of them could be made; else an error may be pending. */
+/* Returns whether all of them could be created; otherwise an error may be pending. */
 static inline bool export_functions(napi_env env, napi_value exports, const struct addon_function *functions,
                                     size_t count) {
   for (size_t i = 0; i < count; i++) {
@@ -73,7 +74,7 @@ static inline bool export_functions(napi_env env, napi_value exports, const stru
   return true;
 }
 
-/* Of an array. */
+/* `functions` is an array. */
 #define EXPORT_FUNCTIONS(env, exports, functions) \
   export_functions(env, exports, functions, sizeof(functions) / sizeof((functions)[0]))
 

@@ -1,4 +1,7 @@
-/** The addons for a Jetson: compiled for arm64 without a warning, where its compiler is here (Debian: gcc-aarch64-linux-gnu). */
+/**
+ * The addons for a Jetson: compiled for arm64 without a warning, if the compiler is installed (Debian:
+ * gcc-aarch64-linux-gnu).
+ */
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -10,7 +13,7 @@ const compiler = 'aarch64-linux-gnu-gcc';
 const packages = join(import.meta.dirname, '..', '..');
 const headers = findNodeHeaders();
 const here = spawnSync(compiler, ['--version']).error === undefined && headers !== null;
-/** Where Debian has headers that are made when a library is built: `dds/features.h`. */
+/** Where Debian has headers that are generated when a library is built: `dds/features.h`. */
 const dds = ['/usr/include', ...readdirSync('/usr/include').map((name) => join('/usr/include', name))].find(
   (folder) => existsSync(join(folder, 'dds', 'features.h')),
 );
@@ -40,7 +43,7 @@ describe.skipIf(!here)(`for arm64 (needs ${compiler})`, () => {
         [
           ...['-c', `-std=${standard}`, '-O3', '-fPIC', ...WARNINGS, '-DNAPI_VERSION=8', '-D_GNU_SOURCE'],
           `-I${INCLUDE_FOLDER}`,
-          // Behind its own: DDS's headers are the same for every machine.
+          // After its own headers: DDS's headers are the same for every machine.
           ...[
             '-DDDS_NDEBUG',
             `-I${headers}/include/node`,

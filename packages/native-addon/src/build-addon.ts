@@ -1,6 +1,6 @@
 /**
- * Builds a Node-API addon with node-gyp where its sources have changed. Node's headers are taken from the Node that runs
- * this where it carries them, or from the system; only where there are none does node-gyp fetch them.
+ * Builds a Node-API addon with node-gyp if its sources have changed. Node's headers come from the Node that runs this
+ * if it includes them, or from the system; only if there are none does node-gyp download them.
  */
 import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
@@ -10,28 +10,28 @@ import { delimiter, dirname, join } from 'node:path';
 
 export interface BuildResult {
   ok: boolean;
-  /** What the tools said, where it failed. */
+  /** Output of the tools, if the build failed. */
   output: string;
 }
 
 export interface NativeAddon {
-  /** Where its `binding.gyp` and its sources are. */
+  /** Folder of its `binding.gyp` and its sources. */
   folder: string;
   /** The target's name in `binding.gyp`. */
   name: string;
-  /** What else the build depends on: environment, versions of libraries. */
+  /** Further dependencies of the build: environment, versions of libraries. */
   depends?: string;
 }
 
-/** What the addons' C sources have in common. Each `binding.gyp` finds it as this package's. */
+/** Header files shared by the addons' C sources. Each `binding.gyp` finds them through this package. */
 export const INCLUDE_FOLDER = join(import.meta.dirname, '..', 'include');
 
-/** Where the addon is once it is built. */
+/** Where the built addon is. */
 export function addonFile({ folder, name }: NativeAddon): string {
   return join(folder, 'build', 'Release', `${name}.node`);
 }
 
-/** Builds it where its sources have changed since the last time, or it is not there. */
+/** Builds the addon if it is missing or its sources have changed. */
 export function buildNativeAddon(addon: NativeAddon): BuildResult {
   const { folder } = addon;
   const stampFile = join(folder, 'build', 'sources.sha256');
@@ -46,7 +46,7 @@ export function buildNativeAddon(addon: NativeAddon): BuildResult {
     {
       cwd: folder,
       encoding: 'utf8',
-      // The `node` that `binding.gyp` asks for folders is this one.
+      // The `node` that `binding.gyp` runs to find folders is this one.
       env: { ...process.env, PATH: `${dirname(process.execPath)}${delimiter}${process.env.PATH ?? ''}` },
     },
   );
@@ -55,14 +55,14 @@ export function buildNativeAddon(addon: NativeAddon): BuildResult {
   return { ok: true, output: '' };
 }
 
-/** A folder with `include/node/node_api.h`, or `null`. Node-API is stable: headers of another Node serve as well. */
+/** A folder with `include/node/node_api.h`, or `null`. Node-API is stable, so the headers of another Node will do. */
 export function findNodeHeaders(): string | null {
   const program = dirname(dirname(realpathSync(process.execPath)));
   const carried = join(program, 'node_modules');
   const candidates = [
     process.env.npm_config_nodedir,
     program,
-    // The npm package `node` keeps the distribution for this machine in a package of its own.
+    // The npm package `node` has the distribution for this machine in a package of its own.
     ...(existsSync(carried) ? readdirSync(carried).map((name) => join(carried, name)) : []),
     '/usr',
     '/usr/local',

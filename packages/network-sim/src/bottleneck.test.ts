@@ -31,7 +31,7 @@ test('packets leave one after the other at the link’s rate', () => {
   expect(departures(100)).toEqual([11]);
 });
 
-test('a packet goes on at the new rate when the capacity changes under it', () => {
+test('a packet continues at the new rate if the capacity changes during it', () => {
   const leaves = (bytes: number, ...steps: CapacityStep[]) => {
     const { bottleneck, departures } = link(plenty, ...steps);
     bottleneck.admit(0, bytes, 0, 0);
@@ -42,7 +42,7 @@ test('a packet goes on at the new rate when the capacity changes under it', () =
   expect(leaves(1000, { atMs: 0, mbps: 0 })).toEqual([]);
 });
 
-test('what finds the queue full is refused, until something has left', () => {
+test('refuses packets while the queue is full, until something has left', () => {
   const { bottleneck, departures } = link({ bytes: 2000 }, { atMs: 0, mbps: 8 });
   expect([0, 1, 2].map((handle) => bottleneck.admit(0, 1000, 0, handle))).toEqual([true, true, false]);
   expect(departures(1)).toEqual([1]);
@@ -51,7 +51,7 @@ test('what finds the queue full is refused, until something has left', () => {
   expect(departures(100)).toEqual([2, 3]);
 });
 
-test('a change and a pause take hold in the middle of a packet, and in what the link could carry', () => {
+test('a change and a pause take effect in the middle of a packet, and in what the link could carry', () => {
   const { bottleneck, departures } = link(plenty, { atMs: 0, mbps: 8 });
   bottleneck.admit(0, 4000, 0, 0);
   bottleneck.change({ steps: [{ atMs: 0, mbps: 16 }], periodMs: null }, plenty, 0, 1);

@@ -3,18 +3,18 @@ import { PacketRing, type QueuedPacket } from './packet-queue.ts';
 import { LEAST_QUEUE_BYTES, type QueueLimit } from './profile.ts';
 
 const NEVER = Number.POSITIVE_INFINITY;
-/** Less than this many bits is a rounding error. */
+/** Fewer bits than this are a rounding error. */
 const NO_BITS = 1e-6;
 
 /**
- * A drop-tail queue in front of a link of varying capacity. Each packet's bits are integrated over the capacity, so that a
- * change, a pause or an outage takes hold in the middle of a packet.
+ * A drop-tail queue in front of a link of varying capacity. Each packet's bits are integrated over the capacity, so
+ * that a change, a pause or an outage takes effect in the middle of a packet.
  */
 export class Bottleneck {
   readonly #queue = new PacketRing();
   #limit: QueueLimit;
   #schedule: CapacitySchedule;
-  /** A second reader of the same capacity, for what lies behind. */
+  /** A second reader of the same capacity, for the time already past. */
   #ledger: CapacitySchedule;
   #reckonedMs: number;
   #capacityBits = 0;
@@ -22,7 +22,7 @@ export class Bottleneck {
   #backlogBytes = 0;
   /** Of the packet being sent. */
   #remainingBits = 0;
-  /** Until when its sending is reckoned. */
+  /** The time up to which its transmission is accounted for. */
   #servedMs = 0;
   #nextMs = NEVER;
   #packetEnds = false;
@@ -31,7 +31,7 @@ export class Bottleneck {
 
   /**
    * @param originMs the capacity's time 0
-   * @param reckonedMs from when on {@link takeCapacityBits} counts
+   * @param reckonedMs the time from which {@link takeCapacityBits} counts
    * @throws {CapacityError}
    */
   constructor(capacity: CapacitySpec, limit: QueueLimit, originMs: number, reckonedMs = originMs) {
@@ -41,22 +41,22 @@ export class Bottleneck {
     this.#reckonedMs = reckonedMs;
   }
 
-  /** When the packet being sent is through, or the capacity under it changes: {@link serve} is due. */
+  /** When the packet being sent is complete, or the capacity changes during it: call {@link serve} then. */
   get nextMs(): number {
     return this.#nextMs;
   }
 
-  /** Waiting, the packet being sent included. */
+  /** Waiting bytes, including the packet being sent. */
   get backlogBytes(): number {
     return this.#backlogBytes;
   }
 
-  /** When the packet being sent arrived; Infinity where there is none. */
+  /** When the packet being sent arrived; Infinity if there is none. */
   get oldestMs(): number {
     return this.#queue.headMs;
   }
 
-  /** A packet arrives. @returns false where the queue is full */
+  /** A packet arrives. @returns false if the queue is full */
   admit(nowMs: number, bytes: number, owner: number, handle: number): boolean {
     if (this.#backlogBytes + bytes > this.#limitBytes(nowMs)) return false;
     this.#queue.push(nowMs, bytes, owner, handle, 0);
@@ -82,7 +82,7 @@ export class Bottleneck {
     return true;
   }
 
-  /** From now on the link is as this says; what waits stays. @throws {CapacityError} */
+  /** Changes the link from now on; waiting packets stay. @throws {CapacityError} */
   change(capacity: CapacitySpec, limit: QueueLimit, originMs: number, nowMs: number): void {
     this.#settle(nowMs);
     this.#schedule = new CapacitySchedule(capacity, originMs);
@@ -98,7 +98,7 @@ export class Bottleneck {
     this.#plan();
   }
 
-  /** Bits that the link could have carried since this was last asked. */
+  /** Bits that the link could have carried since the last call. */
   takeCapacityBits(nowMs: number): number {
     this.#reckonCapacity(nowMs);
     const bits = this.#capacityBits;
@@ -129,7 +129,7 @@ export class Bottleneck {
     this.#nextMs = this.#packetEnds ? endMs : schedule.segmentEndMs;
   }
 
-  /** Brings every account up to now, before the rules change. */
+  /** Brings all accounting up to now, before the rules change. */
   #settle(nowMs: number): void {
     this.#reckonCapacity(nowMs);
     if (this.#queue.length > 0) this.#reckonService(nowMs);

@@ -12,14 +12,14 @@ const steps: CapacitySpec = {
   periodMs: null,
 };
 
-test('a schedule integrates its steps, holds the last, and holds the first before it begins', () => {
+test('a schedule integrates its steps, holds the last, and applies the first before its start', () => {
   const schedule = new CapacitySchedule(steps, 1000);
   expect(schedule.bitsBetween(1000, 1400)).toBe(100 * 10_000 + 100 * 2000);
   expect(schedule.bitsBetween(5000, 5010)).toBe(20_000);
   expect(schedule.bitsBetween(900, 1000)).toBe(1_000_000);
 });
 
-test('a schedule with a period begins again', () => {
+test('a schedule with a period repeats', () => {
   const schedule = new CapacitySchedule({ ...steps, periodMs: 400 }, 50);
   const once = schedule.bitsBetween(50, 450);
   expect(once).toBe(1_200_000);
@@ -33,7 +33,7 @@ test('an outage serves nothing while it lasts', () => {
   expect(schedule.bitsBetween(120, 240)).toBe(0);
 });
 
-test('what lies between is the sum of its parts, in whatever order it is asked', () => {
+test('an interval is the sum of its parts, in whatever order it is queried', () => {
   const spec = fc.record({
     gaps: fc.array(
       fc.record({ ms: fc.integer({ min: 1, max: 500 }), mbps: fc.constantFrom(0, 0.002, 1, 41.44, 200) }),
@@ -78,11 +78,11 @@ test.each([
   ],
   [{ steps: [{ atMs: 5, mbps: 1 }], periodMs: 5 }, 'does not end after'],
   [{ ...constantCapacity(1), outages: [{ startMs: 3, endMs: 3 }] }, 'is empty'],
-])('a schedule that cannot be is refused: %j', (spec, words) => {
+])('refuses an invalid schedule: %j', (spec, words) => {
   expect(() => new CapacitySchedule(spec, 0)).toThrow(words);
 });
 
-test('a trace is read with comments and header, and loops one sample after its last', () => {
+test('reads a trace with comments and header, which repeats one sample after its last', () => {
   const text = '# measured\ntime_s,capacity_mbps\n0.0,75.467\n0.1,0.000\r\n0.2,3\n';
   expect(parseTrace(text)).toEqual({
     steps: [

@@ -8,21 +8,21 @@ export interface CapacityStep {
   readonly mbps: number;
 }
 
-/** From `startMs` until before `endMs` nothing is served, whatever the steps say. Since the schedule began. */
+/** From `startMs` until before `endMs`, nothing is served, whatever the steps say. Times since the schedule began. */
 export interface Outage {
   readonly startMs: number;
   readonly endMs: number;
 }
 
 export interface CapacitySpec {
-  /** At least one; strictly rising times. Before the first step its capacity holds too. */
+  /** At least one step; strictly increasing times. The first step's capacity also applies before it. */
   readonly steps: readonly CapacityStep[];
-  /** The steps begin again after this long; `null` holds the last one. After the last step's time. */
+  /** The steps repeat after this long, which must exceed the last step's time; `null` holds the last step for ever. */
   readonly periodMs: number | null;
   readonly outages?: readonly Outage[] | undefined;
 }
 
-/** A schedule that cannot be used. */
+/** Thrown for an invalid schedule. */
 export class CapacityError extends Error {
   override readonly name = 'CapacityError';
 }
@@ -39,7 +39,7 @@ export function constantCapacity(mbps: number): CapacitySpec {
 /** Bits per millisecond in 1 Mbit/s. */
 const BITS_PER_MS = 1000;
 
-/** A spec laid on the clock: its time 0 is `originMs`. */
+/** A specification placed on the clock: its time 0 is `originMs`. */
 export class CapacitySchedule {
   readonly #times: Float64Array;
   readonly #rates: Float64Array;
@@ -48,7 +48,7 @@ export class CapacitySchedule {
   readonly #periodMs: number;
   #index = 0;
   #outage = 0;
-  /** Where the segment last looked at ends; see {@link seek}. */
+  /** End of the segment found last; see {@link seek}. */
   segmentEndMs = Number.NEGATIVE_INFINITY;
   /** Bits per millisecond in that segment. */
   rate = 0;
@@ -81,13 +81,16 @@ export class CapacitySchedule {
     this.#periodMs = periodMs ?? Number.POSITIVE_INFINITY;
   }
 
-  /** Makes {@link rate} and {@link segmentEndMs} those of the segment that holds `ms`. Times may only rise for it to be cheap. */
+  /**
+   * Sets {@link rate} and {@link segmentEndMs} to those of the segment that contains `ms`. Cheap only if the times
+   * increase.
+   */
   seek(ms: number): void {
     if (ms >= this.#segmentStartMs && ms < this.segmentEndMs) return;
     const since = ms - this.#originMs;
     const looped = this.#periodMs !== Number.POSITIVE_INFINITY && since >= 0;
     let cycles = looped ? Math.floor(since / this.#periodMs) : 0;
-    // The end of a cycle as computed below must lie in the next one, whatever the rounding.
+    // The end of a cycle as computed below must lie in the next cycle, whatever the rounding.
     while (looped && this.#originMs + (cycles + 1) * this.#periodMs <= ms) cycles++;
     const base = looped ? this.#originMs + cycles * this.#periodMs : this.#originMs;
     const count = this.#times.length;

@@ -1,9 +1,9 @@
-/** How a TCP sender's window grows and shrinks, in segments. Times in milliseconds. */
+/** How the window of a TCP sender grows and shrinks, in segments. Times in milliseconds. */
 export interface CongestionWindow {
   readonly segments: number;
   /** New data was acknowledged, and the window limits what is sent. */
   acknowledged(nowMs: number, rttMs: number): void;
-  /** At most once for a round trip. */
+  /** At most once per round trip. */
   lost(nowMs: number): void;
   timedOut(): void;
 }
@@ -20,7 +20,7 @@ const HYSTART_LEAST_RISE_MS = 4;
 const HYSTART_MOST_RISE_MS = 16;
 const HYSTART_DIVISOR = 8;
 
-/** RFC 5681 with a window in segments: slow start, one segment a round trip, half of it after a loss. */
+/** RFC 5681 with a window in segments: slow start, then one segment per round trip; halved after a loss. */
 export class RenoWindow implements CongestionWindow {
   segments = INITIAL_WINDOW;
   #threshold = Number.POSITIVE_INFINITY;
@@ -40,14 +40,17 @@ export class RenoWindow implements CongestionWindow {
   }
 }
 
-/** When slow start has begun to fill the queue: HyStart++'s delay test (RFC 9406), without its conservative phase. */
+/**
+ * Detects that slow start has begun to fill the queue: HyStart++'s delay test (RFC 9406) without its conservative
+ * phase.
+ */
 class SlowStartExit {
   #samples = 0;
   #leastMs = Number.POSITIVE_INFINITY;
   #leastBeforeMs = Number.POSITIVE_INFINITY;
   #left = 0;
 
-  /** One acknowledgement in slow start. A round is as many of them as the window held when it began. */
+  /** Processes one acknowledgement in slow start. A round has as many of them as the window held when it began. */
   reached(rttMs: number, segments: number): boolean {
     if (this.#left <= 0) {
       this.#left = segments;
@@ -78,7 +81,7 @@ export class CubicWindow implements CongestionWindow {
   #before = 0;
   #epochMs: number | null = null;
   #k = 0;
-  /** What Reno would have by now (§4.3). */
+  /** The window that Reno would have by now (§4.3). */
   #reno = 0;
 
   acknowledged(nowMs: number, rttMs: number): void {

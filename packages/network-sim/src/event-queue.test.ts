@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { EventQueue } from './event-queue.ts';
 
-test('actions run by time, what they schedule too, and never in the past', () => {
+test('runs actions in order of time, including those they schedule, and never in the past', () => {
   const events = new EventQueue();
   const ran: [string, number][] = [];
   const note = (name: string) => () => ran.push([name, events.nowMs]);

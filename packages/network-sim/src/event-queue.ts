@@ -1,11 +1,11 @@
 import { TimeHeap } from './time-heap.ts';
 
-/** Virtual time: actions run in the order of their times, and of scheduling where times are equal. */
+/** Virtual time: actions run in order of their times, or in order of scheduling if the times are equal. */
 export class EventQueue {
   nowMs = 0;
   readonly #actions = new TimeHeap<() => void>();
 
-  /** A time that has passed means now; Infinity means never. */
+  /** A past time means now; Infinity means never. */
   at(timeMs: number, action: () => void): void {
     if (timeMs !== Number.POSITIVE_INFINITY) this.#actions.push(Math.max(timeMs, this.nowMs), action);
   }

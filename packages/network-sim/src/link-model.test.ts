@@ -13,7 +13,7 @@ interface Arrival {
   queueMs: number;
 }
 
-/** A model that remembers what came out. */
+/** A model that records what was delivered. */
 function link(profile: Partial<LinkProfile>, more: Partial<LinkModelOptions> = {}) {
   const arrivals: Arrival[] = [];
   const copies: number[] = [];
@@ -29,7 +29,7 @@ function link(profile: Partial<LinkProfile>, more: Partial<LinkModelOptions> = {
     onBin: (bin) => bins.push(bin),
     ...more,
   });
-  /** Offers packets of one size at one distance; gives the reasons of those dropped. */
+  /** Offers packets of one size at a fixed interval; returns the reasons of those dropped. */
   const offer = (count: number, bytes: number, everyMs: number, fromMs = 0): (DropReason | null)[] =>
     Array.from({ length: count }, (_, index) => model.offer(bytes, fromMs + index * everyMs, index));
   return { model, arrivals, copies, bins, offer };
@@ -50,7 +50,7 @@ test('a backlogged link delivers exactly at its rate, a slow sender exactly afte
   expect(calm.arrivals.map(({ atMs }) => atMs)).toEqual(Array.from({ length: 10 }, (_, i) => 5 * i + 21));
 });
 
-test('nothing comes before its time', () => {
+test('delivers nothing before its time', () => {
   const { model, arrivals } = link({ ...mbps(8), delayMs: 20 });
   model.offer(1000, 0, 1);
   expect(model.wakeMs).toBe(21);
@@ -61,7 +61,7 @@ test('nothing comes before its time', () => {
   expect(model.wakeMs).toBe(Number.POSITIVE_INFINITY);
 });
 
-test('a packet that spans a step of capacity, or an outage, ends at the right instant', () => {
+test('a packet that spans a capacity step or an outage ends at the right instant', () => {
   const capacity: CapacitySpec = {
     steps: [
       { atMs: 0, mbps: 8 },
@@ -74,7 +74,7 @@ test('a packet that spans a step of capacity, or an outage, ends at the right in
   model.offer(3000, 0, 0);
   model.offer(1000, 0, 1);
   model.advance(5000);
-  // 2000 bytes until 2 ms, the rest at 250 bytes a millisecond.
+  // 2000 bytes until 2 ms, the rest at 250 bytes per millisecond.
   expect(arrivals.map(({ atMs }) => atMs)).toEqual([504, 508]);
 });
 
@@ -98,7 +98,7 @@ test('while backlogged, the bytes that leave are the integral of the capacity', 
       let bits = 0;
       for (const [index, { atMs }] of arrivals.entries()) {
         bits += sizes[index]! * 8;
-        // A microsecond of the fastest capacity.
+        // One microsecond at the highest capacity.
         expect(Math.abs(schedule.bitsBetween(origin, atMs) - bits)).toBeLessThan(120);
       }
       if (arrivals.length < sizes.length) {
@@ -128,7 +128,7 @@ test('a queue of milliseconds never delays by more', () => {
   expect(reasons.filter((reason) => reason === 'queue-full').length).toBe(2000 - arrivals.length);
 });
 
-test('a queue of milliseconds keeps its size through an outage, and has one without any capacity', () => {
+test('a queue of milliseconds keeps its size through an outage, and has a size without any capacity', () => {
   const capacity = { ...constantCapacity(8), outages: [{ startMs: 10, endMs: 36_000 }] };
   const { model, arrivals, offer } = link({ capacity, queue: { ms: 100 } });
   offer(1, 1000, 0);
@@ -164,7 +164,7 @@ test('burst loss has its rate and its mean length', () => {
   expect(Math.abs(lost / bursts - 8)).toBeLessThan(1);
 });
 
-test('jitter in order stays within its bounds, is used, and keeps the order', () => {
+test('jitter in order stays within its bounds, varies, and keeps the order', () => {
   const { model, arrivals, offer } = link({ delayMs: 30, jitterMs: 10 });
   offer(5000, 1000, 0.5);
   model.advance(10_000);
@@ -175,7 +175,7 @@ test('jitter in order stays within its bounds, is used, and keeps the order', ()
   expect(arrivals.map(({ handle }) => handle)).toEqual(Array.from({ length: 5000 }, (_, i) => i));
 });
 
-test('jitter that reorders does so within its bounds, and never goes back in time', () => {
+test('jitter that reorders stays within its bounds, and never goes back in time', () => {
   const { model, arrivals, offer } = link({ delayMs: 2, jitterMs: 5, jitterReorders: true });
   offer(5000, 1000, 0.5);
   model.advance(10_000);
@@ -200,7 +200,7 @@ test('an exponential tail has its mean, and keeps the order', () => {
   expect(dense.arrivals.map(({ handle }) => handle)).toEqual(Array.from({ length: 500 }, (_, i) => i));
 });
 
-test('reordering holds back its share of packets by its extra delay; the others keep their order', () => {
+test('reordering delays its fraction of packets by its extra delay; the others keep their order', () => {
   const { model, arrivals, offer } = link({ delayMs: 10, reorder: { probability: 0.1, extraMs: 7 } });
   offer(10_000, 1000, 1);
   model.advance(20_000);
@@ -211,7 +211,7 @@ test('reordering holds back its share of packets by its extra delay; the others 
   expect(rest.every(({ handle }, index) => index === 0 || handle > rest[index - 1]!.handle)).toBe(true);
 });
 
-test('a duplicated packet is announced, and delivered twice', () => {
+test('announces a duplicated packet, and delivers it twice', () => {
   const { model, arrivals, copies, offer } = link({ duplicate: 0.2 });
   offer(1000, 100, 1);
   model.advance(2000);
@@ -221,16 +221,16 @@ test('a duplicated packet is announced, and delivered twice', () => {
   expect(copies.every((handle) => times(handle) === 2)).toBe(true);
 });
 
-test('a profile set for later takes hold then, in the middle of a packet', () => {
+test('a profile set for later takes effect then, in the middle of a packet', () => {
   const { model, arrivals } = link(mbps(8));
   model.setProfile({ ...idealProfile, ...mbps(2), delayMs: 5 }, 4);
   model.offer(8000, 0, 0);
   model.advance(1000);
-  // 4000 bytes in 4 ms, 4000 more in 16 ms, 5 ms on the way.
+  // 4000 bytes in 4 ms, 4000 more in 16 ms, 5 ms of propagation.
   expect(arrivals).toEqual([{ handle: 0, atMs: 25, queueMs: 20 }]);
 });
 
-test('a pause holds what waits, and a black hole drops what comes', () => {
+test('a pause holds waiting packets, and a black hole drops arriving ones', () => {
   const { model, arrivals, bins } = link(mbps(8));
   model.offer(2000, 0, 0);
   model.pause(true, 1);
@@ -257,7 +257,7 @@ test('restarting begins the capacity anew', () => {
   expect(arrivals[0]?.atMs).toBe(111);
 });
 
-test('bins add up to what was offered, and tell capacity and queue', () => {
+test('bins add up to what was offered, and report capacity and queue', () => {
   const { model, bins, offer } = link({ ...mbps(4), queue: { bytes: 20_000 }, loss: 0.1 });
   const reasons = offer(1000, 1000, 1);
   model.advance(1200);
@@ -295,7 +295,7 @@ test('a constant competing flow takes its share of the queue', () => {
   const cross = bins.reduce((total, bin) => total + bin.crossBytes, 0);
   const ours = bins.reduce((total, bin) => total + bin.deliveredBytes, 0);
   expect((cross + ours) / 4_000_000).toBeGreaterThan(0.99);
-  // 4 Mbit/s beside 16 Mbit/s into 8: about a fifth each way is what drop-tail gives.
+  // 4 Mbit/s beside 16 Mbit/s into 8: drop-tail gives about a fifth.
   expect(cross / (cross + ours)).toBeGreaterThan(0.1);
   expect(cross / (cross + ours)).toBeLessThan(0.5);
 });
@@ -325,6 +325,6 @@ test.each([
   { duplicate: Number.NaN },
   { queue: { ms: 0 } },
   { reorder: { probability: 2, extraMs: 0 } },
-])('a profile that cannot be is refused: %j', (profile) => {
+])('refuses an invalid profile: %j', (profile) => {
   expect(() => link(profile)).toThrow(ProfileError);
 });

@@ -8,17 +8,20 @@ import { checkProfile, type LinkProfile } from './profile.ts';
 import { Propagation } from './propagation.ts';
 import { Random } from './random.ts';
 
-/** What a link tells its user, from within {@link LinkModel.advance} and {@link LinkModel.offer}. It must not call back. */
+/**
+ * The events that a link reports from within {@link LinkModel.advance} and {@link LinkModel.offer}. The sink must not
+ * call back.
+ */
 export interface LinkSink {
   /**
-   * A packet comes out at the far end.
+   * A packet arrives at the far end.
    *
-   * @param handle as it was offered
+   * @param handle as given to `offer`
    * @param atMs the exact instant
    * @param queueMs from its arrival until its last bit had left the bottleneck
    */
   delivered(handle: number, atMs: number, queueMs: number): void;
-  /** The packet being offered was taken twice: it will be delivered once more. */
+  /** The offered packet was duplicated: it will be delivered once more. */
   duplicated(handle: number): void;
 }
 
@@ -37,9 +40,10 @@ export interface LinkModelOptions {
 const PEERS = -1;
 const NEVER = Number.POSITIVE_INFINITY;
 /**
- * One direction of a link in virtual time: loss, a drop-tail queue, a bottleneck of varying capacity, propagation. Times
- * are milliseconds of one clock that may only go forward; bytes are bytes on the wire. Amortised constant time for each
- * packet (a packet that is overtaken: logarithmic in how many are), no allocation but for those.
+ * One direction of a link in virtual time: loss, a drop-tail queue, a bottleneck of varying capacity, propagation.
+ * Times are milliseconds of one clock that only moves forward; bytes are bytes on the wire. Each packet costs amortised
+ * constant time and no allocation. An overtaken packet costs an allocation and time logarithmic in the number of such
+ * packets.
  */
 export class LinkModel {
   readonly #sink: LinkSink;
@@ -84,12 +88,12 @@ export class LinkModel {
     return this.#profile;
   }
 
-  /** Waiting at the bottleneck, the packet being sent included. */
+  /** Waiting bytes at the bottleneck, including the packet being sent. */
   get backlogBytes(): number {
     return this.#bottleneck.backlogBytes;
   }
 
-  /** Before this instant nothing is delivered, unless something more is offered or changed. */
+  /** Nothing is delivered before this instant, unless something else is offered or changed. */
   get wakeMs(): number {
     const leastDelay = Math.max(0, this.#profile.delayMs - this.#profile.jitterMs);
     const changeMs = this.#changes[0]?.atMs ?? NEVER;
@@ -99,9 +103,9 @@ export class LinkModel {
   /**
    * A packet arrives.
    *
-   * @param wireBytes headers included
-   * @param handle returned with its delivery: an integer of 32 bits
-   * @returns why the link drops it, or `null` where it will be delivered
+   * @param wireBytes including headers
+   * @param handle returned with its delivery: a 32-bit integer
+   * @returns why the link drops it, or `null` if it will be delivered
    */
   offer(wireBytes: number, nowMs: number, handle: number): DropReason | null {
     this.advance(nowMs);
@@ -116,7 +120,7 @@ export class LinkModel {
     return reason;
   }
 
-  /** Lets everything happen that is due by then, in order. */
+  /** Processes everything that is due up to this time, in order. */
   advance(nowMs: number): void {
     for (;;) {
       const { atMs, flow } = this.#nextFlow();
@@ -136,7 +140,11 @@ export class LinkModel {
     if (nowMs > this.#nowMs) this.#nowMs = nowMs;
   }
 
-  /** From then on, or from now where that is past, the link is as this says; what waits or flies stays. @throws {ProfileError | CapacityError} */
+  /**
+   * Changes the link from then on, or from now if that is past; packets that are waiting or in flight stay.
+   *
+   * @throws {ProfileError | CapacityError}
+   */
   setProfile(profile: LinkProfile, atMs: number): void {
     checkProfile(profile);
     new CapacitySchedule(profile.capacity, this.#originMs);
@@ -148,7 +156,7 @@ export class LinkModel {
     this.#changes.splice(index === -1 ? this.#changes.length : index, 0, { atMs, profile });
   }
 
-  /** The capacity's time 0 is now. */
+  /** Makes now the capacity's time 0. */
   restart(nowMs: number): void {
     this.advance(nowMs);
     this.#apply(this.#profile, nowMs);
@@ -160,7 +168,7 @@ export class LinkModel {
     this.#bottleneck.pause(paused, this.#nowMs);
   }
 
-  /** Drops every packet at the entrance, or none any more. What waits is still delivered. */
+  /** Starts or stops dropping every packet at the entrance. Waiting packets are still delivered. */
   blackhole(active: boolean, nowMs: number): void {
     this.advance(nowMs);
     this.#blackhole = active;
@@ -219,5 +227,5 @@ export class LinkModel {
   }
 }
 
-/** Lent out for one comparison at a time. */
+/** A shared object, used for one comparison at a time. */
 const NEXT_FLOW = { atMs: NEVER, flow: 0 };

@@ -1,36 +1,36 @@
-/** Why a packet does not come out of the link. */
+/** Why a packet does not leave the link. */
 export const dropReasons = ['loss', 'burst-loss', 'queue-full', 'blackhole'] as const;
 export type DropReason = (typeof dropReasons)[number];
 
 export const BIN_MS = 100;
 
-/** What happened on one direction in {@link BIN_MS}. Bytes are bytes on the wire. */
+/** What happened in one direction during {@link BIN_MS}. Bytes are bytes on the wire. */
 export interface LinkBin {
   /** When the bin begins, on the clock that the model is given. */
   readonly timeMs: number;
-  /** Mean over the bin; `null` where there is no bottleneck. */
+  /** Mean over the bin; `null` if there is no bottleneck. */
   readonly capacityMbps: number | null;
-  /** What the peers sent, dropped packets included. */
+  /** What the peers sent, including dropped packets. */
   readonly offeredBytes: number;
-  /** What left the bottleneck, the competing flow's left out. */
+  /** What left the bottleneck, except for the competing flow. */
   readonly deliveredBytes: number;
   /** What left it for the competing flow. */
   readonly crossBytes: number;
   readonly offeredPackets: number;
   readonly deliveredPackets: number;
-  /** From a packet's arrival until its last bit is sent: of the packets that left; 0 where none did. */
+  /** From a packet's arrival until its last bit is sent: mean over the packets that left; 0 if none did. */
   readonly queueMsMean: number;
-  /** The same; while nothing leaves, the age of the oldest packet at the bin's end. */
+  /** The same, as a maximum; while nothing leaves, the age of the oldest packet at the bin's end. */
   readonly queueMsMax: number;
-  /** Waiting at the bin's end, the competing flow's included. */
+  /** Waiting at the bin's end, including the competing flow's packets. */
   readonly backlogBytes: number;
   /** Packets of the peers. */
   readonly drops: Readonly<Record<DropReason, number>>;
-  /** Packets of the competing flow, for whatever reason. */
+  /** Packets of the competing flow, for any reason. */
   readonly crossDrops: number;
 }
 
-/** Sums for one bin at a time. */
+/** The sums of one bin at a time. */
 export class LinkStatistics {
   offeredBytes = 0;
   deliveredBytes = 0;
@@ -53,7 +53,7 @@ export class LinkStatistics {
     this.#drops[reason]++;
   }
 
-  /** The bin that ends here; sums begin anew. */
+  /** Returns the bin that ends here and resets the sums. */
   close(timeMs: number, capacityBits: number, backlogBytes: number, oldestMs: number): LinkBin {
     const packets = this.deliveredPackets;
     const bin: LinkBin = {

@@ -11,11 +11,11 @@ export interface BurstLoss {
 }
 
 /**
- * The Gilbert model with this share of packets lost, in bursts of this mean length.
+ * The Gilbert model with this fraction of packets lost, in bursts of this mean length.
  *
  * @param rate 0 to less than 1
  * @param meanBurst packets, 1 or more
- * @throws {RangeError} where no such process exists
+ * @throws {RangeError} if no such process exists
  */
 export function burstLossOf(rate: number, meanBurst: number): BurstLoss {
   const leave = 1 / meanBurst;
@@ -37,14 +37,14 @@ export class BurstLossProcess {
   }
 }
 
-/** What loses packets whatever the queue holds. */
+/** Losses that do not depend on the queue. */
 export interface LossModel {
   /** Independent losses, 0 to 1 per packet. */
   readonly loss: number;
   readonly burstLoss: BurstLoss | null;
 }
 
-/** Both kinds of loss, from streams of their own. */
+/** Both kinds of loss, each with its own random stream. */
 export class PacketLoss {
   readonly #random: Random;
   readonly #burstRandom: Random;
@@ -55,7 +55,7 @@ export class PacketLoss {
     this.#burstRandom = new Random(seed, 2);
   }
 
-  /** Steps to the next packet. @returns why it is lost, or `null` where it is not */
+  /** Steps to the next packet. @returns why it is lost, or `null` if it is not */
   next({ loss, burstLoss }: LossModel): 'loss' | 'burst-loss' | null {
     if (burstLoss !== null && this.#burst.loses(burstLoss, this.#burstRandom)) return 'burst-loss';
     return this.#random.chance(loss) ? 'loss' : null;

@@ -1,11 +1,11 @@
-/** What a queue holds of a packet. */
+/** What a queue stores about a packet. */
 export interface QueuedPacket {
   /** When it joined the queue, or when it is due. */
   timeMs: number;
   bytes: number;
-  /** Whose it is: see link-model.ts. */
+  /** Who sent it: see link-model.ts. */
   owner: number;
-  /** The owner's name for it. */
+  /** The owner's handle for it. */
   handle: number;
   /** How long it waited at the bottleneck. */
   queueMs: number;
@@ -35,17 +35,17 @@ export class PacketRing {
     this.#handles[at] = handle;
   }
 
-  /** The oldest packet's time; Infinity where there is none. */
+  /** The oldest packet's time; Infinity if there is none. */
   get headMs(): number {
     return this.#length === 0 ? Number.POSITIVE_INFINITY : this.#times[this.#head]!;
   }
 
-  /** The oldest packet's size; 0 where there is none. */
+  /** The oldest packet's size; 0 if there is none. */
   get headBytes(): number {
     return this.#length === 0 ? 0 : this.#bytes[this.#head]!;
   }
 
-  /** Takes the oldest; only where there is one. */
+  /** Removes the oldest packet; the ring must not be empty. */
   shift(out: QueuedPacket): void {
     const at = this.#head;
     out.timeMs = this.#times[at]!;

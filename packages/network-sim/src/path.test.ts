@@ -39,7 +39,7 @@ function setUp(options: Partial<PathOptions & VirtualLinkOptions> = {}) {
   return { events, link, path, arrivals, drops, send };
 }
 
-test('a packet takes its turn at the bottleneck, the link’s delay and the path’s own', () => {
+test('a packet waits for the bottleneck, then takes the link’s delay and the path’s own', () => {
   const { events, arrivals, send } = setUp({ moreDelayMs: 7 });
   send(0, 0, 10);
   events.runUntil(27.9);
@@ -52,7 +52,7 @@ test('a packet takes its turn at the bottleneck, the link’s delay and the path
   ]);
 });
 
-test('a full queue and a loss behind the link are told apart', () => {
+test('distinguishes a full queue from a loss behind the link', () => {
   const loss = { process: new PacketLoss(1), model: { loss: 1, burstLoss: null } };
   const { events, link, arrivals, drops, send } = setUp({
     profile: { ...profile, queue: { bytes: 2000 } },
@@ -61,7 +61,7 @@ test('a full queue and a loss behind the link are told apart', () => {
   send(0, 0, 0);
   events.runUntil(0.5);
   expect(drops).toEqual([[2, 'queue-full']]);
-  // What is lost behind the link has taken its share of the capacity.
+  // Packets lost behind the link have used their share of the capacity.
   expect(link.model.backlogBytes).toBe(2000);
   events.runUntil(100);
   expect(drops.slice(1)).toEqual([
@@ -71,7 +71,7 @@ test('a full queue and a loss behind the link are told apart', () => {
   expect(arrivals).toEqual([]);
 });
 
-/** A process that stands still from 10 to 30 ms. */
+/** A process that stalls from 10 to 30 ms. */
 class OneStall extends Stalls {
   constructor() {
     super({ perSecond: 1, lengthMs: [20, 20] }, new Random(1, 0));
@@ -81,7 +81,7 @@ class OneStall extends Stalls {
   }
 }
 
-test('a link that stands still takes and gives packets afterwards', () => {
+test('a stalled link accepts and delivers packets after the stall', () => {
   const { events, arrivals, send } = setUp({ stalls: new OneStall() });
   send(8.5, 9.5, 12);
   events.runUntil(100);
@@ -92,7 +92,7 @@ test('a link that stands still takes and gives packets afterwards', () => {
   ]);
 });
 
-test('what a stall has held back comes in its order', () => {
+test('packets held back by a stall arrive in order', () => {
   const stalls = new Stalls({ perSecond: 4, lengthMs: [5, 25] }, new Random(1, 0));
   const delayed = { ...profile, capacity: constantCapacity(23), delayMs: 21.2 };
   const { events, arrivals, send } = setUp({ profile: delayed, stalls });
@@ -101,7 +101,7 @@ test('what a stall has held back comes in its order', () => {
   expect(arrivals.map(({ packet }) => packet)).toEqual(Array.from({ length: 5000 }, (_, packet) => packet));
 });
 
-test('a receiver that stands still notes what has come at the end', () => {
+test('a stalled receiver records arrivals at the end of the stall', () => {
   const { events, arrivals, send } = setUp({
     profile: { ...profile, delayMs: 0 },
     receiverStalls: new OneStall(),
@@ -111,7 +111,7 @@ test('a receiver that stands still notes what has come at the end', () => {
   expect(arrivals.map(({ atMs }) => atMs)).toEqual([1, 30, 30]);
 });
 
-test('flows on paths of one link share it, each told of its own packets', () => {
+test('flows on paths over one link share it, and each hears of its own packets', () => {
   const events = new EventQueue();
   const link = new VirtualLink(events, { profile: { ...profile, queue: { ms: 100 } }, seed: 1 });
   const flows = [0, 0].map((startMs) => {

@@ -4,20 +4,20 @@ import type { Stalls } from './stalls.ts';
 import type { PacketFate, VirtualLink } from './virtual-link.ts';
 
 export interface PathOptions {
-  /** Shared by all flows that pass it. */
+  /** Shared by all flows that use it. */
   readonly link: VirtualLink;
-  /** Propagation beyond the link's own, ms. */
+  /** Propagation in addition to the link's own, ms. */
   readonly moreDelayMs?: number;
   /**
-   * Losses behind the link, as on a radio channel: unlike those of the link's profile, what is lost here has taken its share
-   * of the capacity. The process may be shared by several paths.
+   * Losses behind the link, as on a radio channel. Unlike losses of the link's profile, packets lost here have used
+   * their share of the capacity. Several paths may share the process.
    */
   readonly loss?: { readonly process: PacketLoss; readonly model: LossModel };
-  /** The receiver stands still: it notes what comes meanwhile as come at the end. */
+  /** The receiver stalls: packets that arrive meanwhile are recorded as arriving at the end of the stall. */
   readonly receiverStalls?: Stalls | null;
 }
 
-/** One direction between two ends: a link, and what lies beyond it for one flow. */
+/** One direction between two ends: a link, and what lies behind it for one flow. */
 export class Path {
   readonly #events: EventQueue;
   readonly #options: PathOptions;
@@ -27,7 +27,7 @@ export class Path {
     this.#options = options;
   }
 
-  /** A packet sets out now. */
+  /** Sends a packet now. */
   send(bytes: number, fate: PacketFate): void {
     const { link, moreDelayMs = 0, loss, receiverStalls = null } = this.#options;
     link.send(bytes, {

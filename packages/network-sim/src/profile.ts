@@ -1,35 +1,40 @@
 import { type CapacitySpec, constantCapacity } from './capacity.ts';
 import type { LossModel } from './loss.ts';
 
-/** Longest backlog of the drop-tail queue; a packet that would exceed it is dropped. The packet being sent counts. */
+/**
+ * Maximum backlog of the drop-tail queue, including the packet being sent. Packets that would exceed it are dropped.
+ */
 export type QueueLimit =
   | { readonly bytes: number }
-  /** At the capacity of the moment; during an outage at the one before it; never less than {@link LEAST_QUEUE_BYTES}. */
+  /** At the current capacity, or during an outage at the one before it; never less than {@link LEAST_QUEUE_BYTES}. */
   | { readonly ms: number };
 
 /** Two full packets: a queue that holds less than one would drop everything. */
 export const LEAST_QUEUE_BYTES = 3000;
 
 /**
- * One direction of a link. Probabilities are 0 to 1, per packet. Losses are decided before the queue, as Linux netem does
- * it: a lost packet takes no capacity.
+ * One direction of a link. Probabilities are 0 to 1, per packet. Losses are decided before the queue, as in Linux
+ * netem: a lost packet uses no capacity.
  */
 export interface LinkProfile extends LossModel {
   readonly capacity: CapacitySpec;
   /** Propagation, one way. */
   readonly delayMs: number;
-  /** The delay varies evenly by ± this much, never below 0. */
+  /** The delay varies uniformly by ± this much, never below 0. */
   readonly jitterMs: number;
   /**
-   * False: order is kept, and the variation is drawn anew every {@link JITTER_SLOT_MS}, as a radio's scheduler does it.
-   * True: it is drawn for each packet, and packets overtake each other.
+   * False: the order is kept, and the variation is drawn anew every {@link JITTER_SLOT_MS}, as a radio's scheduler
+   * does. True: it is drawn for each packet, and packets may overtake each other.
    */
   readonly jitterReorders: boolean;
-  /** Mean of an extra delay, exponentially distributed and drawn for each packet; order is kept unless `jitterReorders`. */
+  /**
+   * Mean of an additional delay, exponentially distributed and drawn for each packet; the order is kept unless
+   * `jitterReorders`.
+   */
   readonly tailMs: number;
-  /** So many packets come this much later, and others overtake them. */
+  /** This fraction of packets is later by this much and may be overtaken. */
   readonly reorder: { readonly probability: number; readonly extraMs: number };
-  /** Packets that the link carries twice. */
+  /** Fraction of packets that the link delivers twice. */
   readonly duplicate: number;
   readonly queue: QueueLimit;
 }
@@ -50,12 +55,12 @@ export const idealProfile: LinkProfile = {
   queue: { bytes: 1_048_576 },
 };
 
-/** A profile that cannot be. */
+/** Thrown for an invalid profile. */
 export class ProfileError extends Error {
   override readonly name = 'ProfileError';
 }
 
-/** @throws {ProfileError} for a number outside its range; the capacity is checked where it is laid on the clock */
+/** @throws {ProfileError} for a number outside its range; the capacity is checked when it is placed on the clock */
 export function checkProfile(profile: LinkProfile): void {
   const { delayMs, jitterMs, tailMs, loss, burstLoss, reorder, duplicate, queue } = profile;
   time('delay', delayMs);

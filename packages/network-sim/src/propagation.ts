@@ -3,13 +3,13 @@ import { JITTER_SLOT_MS, type LinkProfile } from './profile.ts';
 import { hashUniform, Random } from './random.ts';
 import { TimeHeap } from './time-heap.ts';
 
-/** Packets under way behind the bottleneck: delay, jitter, reordering. */
+/** Packets in flight behind the bottleneck: delay, jitter, reordering. */
 export class Propagation {
   readonly #seed: number;
   readonly #random: Random;
   readonly #tailRandom: Random;
   readonly #ordered = new PacketRing();
-  /** Those that overtake or are overtaken. */
+  /** Packets that overtake or are overtaken. */
   readonly #strays = new TimeHeap<QueuedPacket>();
   #latestDueMs = Number.NEGATIVE_INFINITY;
 
@@ -19,7 +19,7 @@ export class Propagation {
     this.#tailRandom = new Random(seed, 5);
   }
 
-  /** When the next packet comes out; Infinity where none is under way. */
+  /** When the next packet arrives; Infinity if none is in flight. */
   get headMs(): number {
     return Math.min(this.#ordered.headMs, this.#strays.headMs);
   }
@@ -48,7 +48,7 @@ export class Propagation {
     }
   }
 
-  /** Takes the packet that comes out at {@link headMs}; only where there is one. */
+  /** Removes the packet that arrives at {@link headMs}; there must be one. */
   shift(out: QueuedPacket): void {
     if (this.#ordered.headMs <= this.#strays.headMs) this.#ordered.shift(out);
     else Object.assign(out, this.#strays.shift());

@@ -1,6 +1,6 @@
 /**
- * Seeded pseudo-random numbers: small fast counting generator (sfc32, PractRand), 128 bits of state, filled by splitmix32.
- * Each use of a link has a stream of its own, so that switching one impairment on does not change the others.
+ * Seeded pseudo-random numbers: sfc32 (PractRand's small fast counting generator), 128 bits of state, seeded by
+ * splitmix32. Each use of a link has its own stream, so that enabling one impairment does not change the others.
  */
 export class Random {
   #a = 0;
@@ -8,7 +8,10 @@ export class Random {
   #c = 0;
   #counter = 1;
 
-  /** @param seed any integer @param stream which of the seed's independent sequences */
+  /**
+   * @param seed any integer
+   * @param stream which of the seed's independent sequences
+   */
   constructor(seed: number, stream: number) {
     this.#a = mix(seed | 0);
     this.#b = mix((seed / 0x100000000) | 0);

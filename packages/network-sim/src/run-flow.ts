@@ -3,14 +3,14 @@ import type { EventQueue } from './event-queue.ts';
 import type { DropReason } from './link-statistics.ts';
 import type { Path } from './path.ts';
 
-/** Hears of each packet of a flow. */
+/** Receives every packet event of a flow. */
 export interface FlowListener {
   sent(bytes: number, nowMs: number): void;
   delivered(bytes: number, sentMs: number, atMs: number, queueMs: number): void;
   dropped(sentMs: number, reason: DropReason): void;
 }
 
-/** Runs a flow over a path, by the queue's time. */
+/** Runs a flow over a path, in the event queue's time. */
 export function runFlow(events: EventQueue, flow: CrossFlow, path: Path, listener: FlowListener): void {
   let wakeMs = Number.POSITIVE_INFINITY;
   const send = (handle: number, bytes: number): boolean => {

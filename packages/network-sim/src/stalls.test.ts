@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { Random } from './random.ts';
 import { Stalls } from './stalls.ts';
 
-test('what is due in a stall happens at its end, in order; as often and as long as asked', () => {
+test('what is due in a stall happens at its end, in order; as often and as long as configured', () => {
   const stalls = new Stalls({ perSecond: 4, lengthMs: [5, 25] }, new Random(3, 0));
   let last = 0;
   let stalled = 0;
@@ -13,9 +13,9 @@ test('what is due in a stall happens at its end, in order; as often and as long 
     if (at > t) stalled++;
     last = at;
   }
-  // 4 × 15 ms in a second of running: 6 % of it.
+  // 4 × 15 ms per second of running: 6 % of it.
   expect(stalled / 100_000).toBeGreaterThan(0.045);
   expect(stalled / 100_000).toBeLessThan(0.07);
-  // An earlier time may be asked for later.
+  // An earlier time may be queried later.
   expect(stalls.after(10)).toBe(new Stalls({ perSecond: 4, lengthMs: [5, 25] }, new Random(3, 0)).after(10));
 });

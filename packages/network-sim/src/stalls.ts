@@ -1,21 +1,21 @@
 import type { Random } from './random.ts';
 
-/** How a process is kept from running by others on a busy machine. */
+/** How other processes on a busy machine keep a process from running. */
 export interface StallOptions {
-  /** How many begin in a second, on average; the times are independent. */
+  /** Mean number of stalls that begin per second; their times are independent. */
   perSecond: number;
-  /** Bounds of their length, ms; evenly distributed. */
+  /** Minimum and maximum length, ms; uniformly distributed. */
   lengthMs: readonly [number, number];
 }
 
-/** Sender, link emulator and browser on two processors that are busy drawing: about what was measured there. */
+/** Sender, link emulator and browser on two processors that are busy drawing: approximately as measured there. */
 export const BUSY_COMPUTER = {
   sender: { perSecond: 4, lengthMs: [3, 25] },
   link: { perSecond: 2, lengthMs: [3, 20] },
   receiver: { perSecond: 4, lengthMs: [2, 15] },
 } as const satisfies Record<string, StallOptions>;
 
-/** Times at which a process stands still; whatever is due then happens at the end, all at once. Drawn as they are asked for. */
+/** Times at which a process stalls; whatever is due during a stall happens at its end, all at once. Drawn on demand. */
 export class Stalls {
   readonly #options: StallOptions;
   readonly #random: Random;
@@ -28,7 +28,9 @@ export class Stalls {
     this.#random = random;
   }
 
-  /** @returns when what is due at `atMs` happens: then, or at the end of the stall it falls into; never turns an order round */
+  /**
+   * @returns when something due at `atMs` happens: then, or at the end of the stall it falls into; preserves the order
+   */
   after(atMs: number): number {
     if (atMs === Number.POSITIVE_INFINITY) return atMs;
     while (this.#drawnUntilMs <= atMs) this.#draw();

@@ -58,8 +58,8 @@ test.each(['cubic', 'reno'] as const)(
   },
 );
 
-test('two CUBIC flows that begin apart come to share', () => {
-  // Which flow took which bytes is not in the bins: the second's share shows in its window.
+test('two CUBIC flows that begin at different times converge to equal shares', () => {
+  // The bins do not say which flow took which bytes: the second's share shows in its window.
   const first = tcp();
   const second = tcp({ startMs: 10_000 });
   const bins: number[] = [];
@@ -89,7 +89,7 @@ test('random loss holds Reno to the square-root law', () => {
   expect(rate(bins) / law).toBeLessThan(1.2);
 });
 
-test('after an outage the flow comes back by its time-out', () => {
+test('after an outage the flow resumes by its time-out', () => {
   const flow = tcp();
   const capacity = { ...constantCapacity(20), outages: [{ startMs: 10_000, endMs: 15_000 }] };
   const bins = run([flow], 40_000, { ...base, capacity });
@@ -103,7 +103,7 @@ test('a flow that has ended sends nothing', () => {
   expect(rate(bins.slice(60))).toBe(0);
 });
 
-test('acknowledgements that come all at once let the window grow as much as others', () => {
+test('acknowledgements that arrive all at once let the window grow as much as others', () => {
   const flow = tcp();
   const send = () => true;
   flow.run(0, send);
@@ -112,7 +112,7 @@ test('acknowledgements that come all at once let the window grow as much as othe
   expect(flow.window).toBe(20);
 });
 
-test('a flow with an end to its data sends it all, what was lost again, and then nothing', () => {
+test('a flow with limited data sends all of it, including replacements for losses, and then nothing', () => {
   const profile = { ...base, loss: 0.05, queue: { bytes: 30_000 } };
   const flow = tcp({ bytes: 1_000_000 });
   const bins = run([flow], 60_000, profile);
@@ -123,7 +123,7 @@ test('a flow with an end to its data sends it all, what was lost again, and then
   expect(flow.nextMs).toBe(Number.POSITIVE_INFINITY);
 });
 
-test('slow start of CUBIC ends when a round’s round trips have risen, before the queue overflows', () => {
+test('CUBIC’s slow start ends when the round trips of a round have risen, before the queue overflows', () => {
   const window = new CubicWindow();
   const round = (rttMs: number) => {
     for (let left = Math.floor(window.segments); left > 0; left--) window.acknowledged(0, rttMs);

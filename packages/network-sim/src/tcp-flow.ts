@@ -4,11 +4,11 @@ import type { CrossFlow } from './cross-flow.ts';
 export interface TcpFlowOptions {
   readonly congestionControl: 'cubic' | 'reno';
   readonly startMs: number;
-  /** Before which it ends; never where left out. */
+  /** When the flow ends; never if absent. */
   readonly endMs?: number;
-  /** What there is to send, on the wire and in whole segments; without end where left out. */
+  /** How much to send, on the wire and in whole segments; unlimited if absent. */
   readonly bytes?: number;
-  /** From a segment's delivery until the sender sees its acknowledgement. */
+  /** From a segment's delivery until the sender receives its acknowledgement. */
   readonly ackDelayMs: number;
 }
 
@@ -16,18 +16,18 @@ export interface TcpFlowOptions {
 const WIRE_BYTES = 1500;
 /** Segments delivered beyond a missing one before it counts as lost (RFC 6675). */
 const REORDERING = 3;
-/** As Linux has it; RFC 6298 asks for 1 s. */
+/** As in Linux; RFC 6298 asks for 1 s. */
 const LEAST_RTO_MS = 200;
 const MOST_RTO_MS = 60_000;
-/** Most segments between the oldest that is missing and the newest sent. */
+/** Maximum number of segments between the oldest missing one and the newest sent. */
 const SPAN = 65_536;
 const OUTSTANDING = 1;
 const ACKNOWLEDGED = 2;
 
 /**
- * A bulk TCP sender as the link sees it: every segment acknowledged, the ack clock with the link's own
- * queueing delay, loss found by selective acknowledgements or by time-out. What is lost is not sent again as such: the
- * next segment takes its place, which loads the link alike. Deterministic.
+ * A bulk TCP sender as the link sees it: every segment is acknowledged, the ack clock includes the link's own queueing
+ * delay, and losses are detected by selective acknowledgements or by time-out. A lost segment is not sent again as
+ * such: the next segment takes its place, which loads the link in the same way. Deterministic.
  */
 export class TcpFlow implements CrossFlow {
   readonly #window: CongestionWindow;
@@ -39,7 +39,7 @@ export class TcpFlow implements CrossFlow {
   /** State and sending time of each segment, by its number modulo SPAN. */
   readonly #state = new Uint8Array(SPAN);
   readonly #sentMs = new Float64Array(SPAN);
-  /** Acknowledgements on their way, in order. */
+  /** Acknowledgements in transit, in order. */
   readonly #ackSegment = new Int32Array(SPAN);
   readonly #ackMs = new Float64Array(SPAN);
   #ackHead = 0;
@@ -48,9 +48,9 @@ export class TcpFlow implements CrossFlow {
   #next = 0;
   #highest = -1;
   #inFlight = 0;
-  /** The window, not the data, ended the latest sending. */
+  /** Whether the window, not the data, limited the latest sending. */
   #limited = false;
-  /** A loss before this segment belongs to the reduction already made. */
+  /** A loss before this segment belongs to the previous reduction. */
   #recoveredAt = 0;
   #smoothedMs = 0;
   #variationMs = 0;
@@ -99,7 +99,7 @@ export class TcpFlow implements CrossFlow {
       this.#state[segment & (SPAN - 1)] = OUTSTANDING;
       this.#sentMs[segment & (SPAN - 1)] = nowMs;
       this.#inFlight++;
-      // A drop shows only in what is acknowledged after it, as for a real sender.
+      // A drop shows only in later acknowledgements, as for a real sender.
       send(segment, WIRE_BYTES);
     }
     this.#limited = this.#inFlight >= Math.floor(this.#window.segments);

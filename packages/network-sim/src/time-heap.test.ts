@@ -2,7 +2,7 @@ import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { TimeHeap } from './time-heap.ts';
 
-test('items come out by time, and in the order of entry where times are equal', () => {
+test('returns items in order of time, and in order of insertion if times are equal', () => {
   fc.assert(
     fc.property(fc.array(fc.integer({ min: 0, max: 9 }), { maxLength: 60 }), fc.nat(60), (times, early) => {
       const heap = new TimeHeap<number>();

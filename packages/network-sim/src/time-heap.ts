@@ -9,7 +9,7 @@ export class TimeHeap<T> {
     return this.#times.length;
   }
 
-  /** The earliest item's time; Infinity where there is none. */
+  /** The earliest item's time; Infinity if there is none. */
   get headMs(): number {
     return this.#times[0] ?? Number.POSITIVE_INFINITY;
   }
@@ -26,7 +26,7 @@ export class TimeHeap<T> {
     this.#put(at, timeMs, order, item);
   }
 
-  /** Takes the earliest; only where there is one. */
+  /** Removes the earliest item; there must be one. */
   shift(): T {
     const head = this.#items[0]!;
     const time = this.#times.pop()!;

@@ -1,13 +1,13 @@
 import { CapacityError, type CapacitySpec, type CapacityStep } from './capacity.ts';
 
-/** What follows the last sample of a trace: the first again, or the last for ever. */
+/** What follows the last sample of a trace: the first sample again, or the last one for ever. */
 export type TraceEnd = 'loop' | 'hold';
 
 const HEADER = /^\s*time_s\s*,\s*capacity_mbps\s*$/;
 
 /**
- * Reads a capacity trace: CSV `time_s,capacity_mbps`, rising times, lines beginning with # are comments, the header is
- * optional. A sample holds until the next; the last one as long as the one before it.
+ * Reads a capacity trace: CSV `time_s,capacity_mbps` with increasing times. Lines beginning with # are comments, the
+ * header is optional. A sample holds until the next; the last one for as long as the one before it.
  *
  * @throws {CapacityError} naming the line
  */

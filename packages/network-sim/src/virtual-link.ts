@@ -4,11 +4,11 @@ import type { DropReason } from './link-statistics.ts';
 import type { LinkProfile } from './profile.ts';
 import type { Stalls } from './stalls.ts';
 
-/** What becomes of a packet; told in virtual time, from within the link, which must not be called back. */
+/** What happens to a packet, reported in virtual time from within the link, which must not be called back. */
 export interface PacketFate {
   /**
-   * @param atMs now, or later where the link stood still
-   * @param queueMs from its arrival until its last bit had left the bottleneck, stalls included
+   * @param atMs now, or later if the link stalled
+   * @param queueMs from its arrival until its last bit had left the bottleneck, including stalls
    */
   delivered(atMs: number, queueMs: number): void;
   dropped(reason: DropReason): void;
@@ -17,7 +17,7 @@ export interface PacketFate {
 export interface VirtualLinkOptions {
   readonly profile: LinkProfile;
   readonly seed: number;
-  /** The link stands still: what comes, or is due to leave the bottleneck, does so after the stall. */
+  /** The link stalls: packets that arrive, or are due to leave the bottleneck, do so after the stall. */
   readonly stalls?: Stalls | null;
 }
 
@@ -29,16 +29,16 @@ interface Waiting {
 
 const ROUNDING_MS = 1e-6;
 
-/** A {@link LinkModel} that runs by an {@link EventQueue}: for flows that share one link in virtual time. */
+/** A {@link LinkModel} driven by an {@link EventQueue}: for flows that share one link in virtual time. */
 export class VirtualLink {
   readonly model: LinkModel;
   readonly #events: EventQueue;
   readonly #stalls: Stalls | null;
-  /** Packets under way, by handle. */
+  /** Packets in flight, by handle. */
   readonly #packets: (Waiting | null)[] = [];
   readonly #free: number[] = [];
   #wakeMs = Number.POSITIVE_INFINITY;
-  /** When the latest packet came out. */
+  /** When the latest packet arrived. */
   #latestMs = Number.NEGATIVE_INFINITY;
 
   constructor(events: EventQueue, { profile, seed, stalls = null }: VirtualLinkOptions) {
@@ -49,7 +49,7 @@ export class VirtualLink {
     this.model = new LinkModel({ profile, seed, startMs: events.nowMs, sink });
   }
 
-  /** A packet arrives now. */
+  /** A packet enters the link now. */
   send(bytes: number, fate: PacketFate): void {
     const { nowMs } = this.#events;
     const entersMs = this.#stalls?.after(nowMs) ?? nowMs;
@@ -75,7 +75,7 @@ export class VirtualLink {
     const departedMs = enteredMs + queueMs;
     const leavesMs = this.#stalls?.after(departedMs) ?? departedMs;
     const comesMs = atMs + leavesMs - departedMs;
-    // What a stall has held back comes out at one instant and in its order, which a rounding error must not turn round.
+    // Packets held back by a stall arrive at one instant and in order; a rounding error must not reverse them.
     if (Math.abs(comesMs - this.#latestMs) > ROUNDING_MS) this.#latestMs = comesMs;
     fate.delivered(this.#latestMs, leavesMs - sentMs);
   }

@@ -19,7 +19,7 @@ const meanOff = (a: Uint8Array, b: Uint8Array) =>
   a.reduce((sum, value, i) => sum + Math.abs(value - (b[i] as number)), 0) / a.length;
 
 describe('PictureCodec', () => {
-  it('writes JPEG that shows the picture, smaller at less quality', () => {
+  it('encodes JPEG that shows the picture, smaller at lower quality', () => {
     const jpeg = codec.encodeJpeg({ width, height, rgba }, 85);
     expect(readPictureFile(jpeg)).toEqual({ format: 'jpeg', width, height });
     const read = codec.decode('jpeg', jpeg, width * height);
@@ -32,7 +32,7 @@ describe('PictureCodec', () => {
     expect(codec.decode('png', png, width * height)).toEqual({ width, height, rgba });
   });
 
-  it('refuses what is too large or not what it should be, and goes on', () => {
+  it('refuses what is too large or not in the format, and continues to work', () => {
     const jpeg = codec.encodeJpeg({ width, height, rgba }, 85);
     expect(() => codec.decode('jpeg', jpeg, width * height - 1)).toThrow(PictureCodecError);
     expect(() => codec.decode('png', jpeg, width * height)).toThrow(PictureCodecError);

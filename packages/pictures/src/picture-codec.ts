@@ -1,4 +1,4 @@
-/** JPEG written and read, PNG read: the WASM module's functions, with typed faults. */
+/** Encodes and decodes JPEG, decodes PNG: the WASM module's functions, with typed errors. */
 import { readFile } from 'node:fs/promises';
 import { decode_jpeg, decode_png, encode_jpeg, initSync } from '../wasm/farpoint_picture_codec.js';
 
@@ -14,9 +14,9 @@ export interface PicturePixels {
   rgba: Uint8Array;
 }
 
-/** There may be one in a thread. */
+/** Use one per thread. */
 export class PictureCodec {
-  /** A decoder that trapped leaves memory behind: whoever sees this goes on in a new thread. */
+  /** A decoder that trapped leaks memory: continue in a new thread. */
   trapped = false;
 
   private constructor() {}
@@ -28,19 +28,19 @@ export class PictureCodec {
   }
 
   /**
-   * A baseline JPEG with half the colour resolution.
+   * Encodes a baseline JPEG with half the colour resolution.
    *
-   * @param pixels alpha is passed over
+   * @param pixels alpha is ignored
    * @param quality 1–100
-   * @throws {PictureCodecError} where the sizes do not agree
+   * @throws {PictureCodecError} if the sizes are inconsistent
    */
   encodeJpeg({ width, height, rgba }: Readonly<PicturePixels>, quality: number): Uint8Array<ArrayBuffer> {
     return this.#call(() => encode_jpeg(rgba, width, height, quality) as Uint8Array<ArrayBuffer>);
   }
 
   /**
-   * @param mostPixels a picture that says it has more is refused before it is read
-   * @throws {PictureCodecError} where it is broken, too large, or not of that format
+   * @param mostPixels a picture that claims more is refused before it is decoded
+   * @throws {PictureCodecError} if it is broken, too large, or not in that format
    */
   decode(format: 'jpeg' | 'png', bytes: Uint8Array, mostPixels: number): PicturePixels {
     return this.#call(() => {
@@ -57,7 +57,7 @@ export class PictureCodec {
     try {
       return act();
     } catch (error) {
-      // What the module refuses comes as text; anything else is a trap.
+      // The module's own errors are text; anything else is a trap.
       if (typeof error === 'string') throw new PictureCodecError(error);
       this.trapped = true;
       throw new PictureCodecError('the decoder gave up', { cause: error });

@@ -5,7 +5,7 @@ import { rgbaRows, ShrinkingFilter, shrinkFactor, shrunkSize } from './shrinking
 const side = fc.integer({ min: 1, max: 40 });
 
 describe('ShrinkingFilter', () => {
-  it('gives the mean of each square, cutting off what is left over', () => {
+  it('computes the mean of each square, cutting off the remainder', () => {
     const filter = new ShrinkingFilter();
     fc.assert(
       fc.property(side, side, fc.integer({ min: 1, max: 7 }), fc.nat(1000), (width, height, factor, seed) => {
@@ -35,7 +35,7 @@ describe('ShrinkingFilter', () => {
     );
   });
 
-  it('takes the smallest factor that does', () => {
+  it('chooses the smallest sufficient factor', () => {
     fc.assert(
       fc.property(
         fc.integer({ min: 1, max: 4096 }),

@@ -1,6 +1,6 @@
-/** Makes pictures smaller by a whole factor: each pixel is the mean of a square of pixels. */
+/** Shrinks pictures by an integer factor: each pixel is the mean of a square of pixels. */
 
-/** A picture that gives one row at a time. */
+/** A picture that is read one row at a time. */
 export interface PictureRows {
   width: number;
   height: number;
@@ -8,12 +8,12 @@ export interface PictureRows {
   readRow(row: number, into: Uint8Array): void;
 }
 
-/** The smallest factor with which no side is longer than `longestSide`. */
+/** The smallest factor at which no side is longer than `longestSide`. */
 export function shrinkFactor(width: number, height: number, longestSide: number): number {
   return Math.max(1, Math.ceil(Math.max(width, height) / longestSide));
 }
 
-/** What is left over at the right and at the bottom is cut off. */
+/** The remainder at the right and at the bottom is cut off. */
 export function shrunkSize(width: number, height: number, factor: number): { width: number; height: number } {
   return { width: Math.max(1, Math.floor(width / factor)), height: Math.max(1, Math.floor(height / factor)) };
 }
@@ -72,7 +72,7 @@ export class ShrinkingFilter {
   }
 }
 
-/** A picture that is there as a whole. */
+/** A picture that is entirely in memory. */
 export function rgbaRows(pixels: { width: number; height: number; rgba: Uint8Array }): PictureRows {
   const { width, height, rgba } = pixels;
   return {

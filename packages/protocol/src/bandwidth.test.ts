@@ -25,7 +25,7 @@ test.each(vectors.encode)('encode %j', ({ bitsPerSecond, hex }) => {
   expect(Buffer.from(encodeBandwidth(bitsPerSecond)).toString('hex')).toBe(hex);
 });
 
-test('what is no number is no bandwidth', () => {
+test('a value that is not a number is no bandwidth', () => {
   expect(decodeBandwidth(encodeBandwidth(Number.NaN))).toBe(0);
 });
 

@@ -14,7 +14,7 @@ export function encodeBandwidth(bitsPerSecond: number): Uint8Array {
 
 /**
  * @returns bit/s
- * @throws {ProtocolError} where the message is not exactly one non-negative int32
+ * @throws {ProtocolError} if the message is not exactly one non-negative int32
  */
 export function decodeBandwidth(data: ArrayBuffer | Uint8Array): number {
   const bytes = data instanceof Uint8Array ? data : new Uint8Array(data);

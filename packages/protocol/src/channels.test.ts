@@ -6,7 +6,7 @@ test('no two channels share a label', () => {
   expect(new Set(labels).size).toBe(labels.length);
 });
 
-test('what the robot opens never asks for 0 retransmissions: werift would make it reliable', () => {
+test('the robot never opens a channel with 0 retransmissions: werift would make it reliable', () => {
   for (const channel of Object.values(channels)) {
     if (channel.openedBy === 'robot') expect(channel).not.toHaveProperty('maxRetransmits');
   }

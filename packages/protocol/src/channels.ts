@@ -4,7 +4,7 @@ export const channels = {
   session: { label: 'session', openedBy: 'robot', ordered: true },
   /** telemetry.ts. A lifetime, not a retransmission count: werift reads a count of 0 as reliable. */
   telemetry: { label: 'telemetry', openedBy: 'robot', ordered: false, maxPacketLifeTime: 100 },
-  /** picture-chunk.ts; of robots with cameras to show. What is later than its lifetime is not worth sending again. */
+  /** picture-chunk.ts; from robots that have cameras. A chunk older than its lifetime is not worth sending again. */
   pictures: { label: 'pictures', openedBy: 'robot', ordered: false, maxPacketLifeTime: 150 },
   /** control.ts. Opened by the browser, whose stack honours 0 retransmissions for what it sends. */
   control: { label: 'control', openedBy: 'operator', ordered: false, maxRetransmits: 0 },

@@ -13,13 +13,13 @@ test('nothing is known before the first answer', () => {
   expect([clock.offsetMs, clock.minRttMs, clock.lastRttMs]).toEqual([null, null, null]);
 });
 
-test('an even way gives the offset exactly', () => {
+test('a symmetric path gives the exact offset', () => {
   const clock = new ClockOffset();
   probe(clock, 100, 20, 20);
   expect([clock.offsetMs, clock.minRttMs, clock.lastRttMs]).toEqual([5000, 40, 40]);
 });
 
-test('the shortest round trip is believed, the latest reported', () => {
+test('uses the shortest round trip, reports the latest', () => {
   const clock = new ClockOffset();
   probe(clock, 0, 20, 20);
   probe(clock, 100, 20, 320);
@@ -34,7 +34,7 @@ test('only the last probes count', () => {
   expect(clock.minRttMs).toBe(40);
 });
 
-test('an answer from before its question is passed over', () => {
+test('ignores an answer dated before its question', () => {
   const clock = new ClockOffset();
   clock.add({ type: 'clockAnswer', id: 0, sentMs: 100, robotMs: 7 }, 99);
   expect(clock.offsetMs).toBeNull();
@@ -54,7 +54,7 @@ test('the error is at most half the shortest round trip', () => {
   );
 });
 
-test('the age of a stamp, over its wrap and slightly negative', () => {
+test('the age of a timestamp, across its wrap and slightly negative', () => {
   const wrapMs = 2 ** 32 / 1000;
   expect(ageOfStampMs(1_000_000, 1250)).toBe(250);
   expect(ageOfStampMs(1_000_000, 1250 + wrapMs * 1000)).toBeCloseTo(250, 1);

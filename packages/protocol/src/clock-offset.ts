@@ -1,9 +1,9 @@
 import type { ClockAnswer } from './control.ts';
 
 /**
- * The operator's estimate of the robot's clock, from probe and answer (NTP's on-wire calculation, RFC 5905 §8, with the
- * robot's turnaround taken as 0). Of the last probes the one with the shortest round trip is believed: queueing only
- * ever adds.
+ * The operator's estimate of the robot's clock, from probes and answers (NTP's on-wire calculation, RFC 5905 §8, with
+ * the robot's turnaround taken as 0). Of the last probes, the one with the shortest round trip is used, because
+ * queueing only ever adds delay.
  */
 export class ClockOffset {
   readonly #window: { rttMs: number; offsetMs: number }[] = [];
@@ -14,7 +14,7 @@ export class ClockOffset {
     this.#size = size;
   }
 
-  /** @param receivedMs the operator's clock when the answer came */
+  /** @param receivedMs the operator's clock when the answer arrived */
   add(answer: ClockAnswer, receivedMs: number): void {
     const rttMs = receivedMs - answer.sentMs;
     if (rttMs < 0) return;
@@ -45,9 +45,10 @@ export class ClockOffset {
 }
 
 /**
- * How long ago, in ms, a wrapping u32 microsecond stamp of the robot was, given the robot's clock now.
+ * Age of a wrapping u32 microsecond timestamp of the robot, ms.
  *
- * @param robotNowMs the robot's monotonic clock, ms, as estimated by the reader; may run slightly behind the stamp
+ * @param robotNowMs the robot's monotonic clock now, ms, as estimated by the reader; may be slightly behind the
+ * timestamp
  */
 export function ageOfStampMs(stampUs: number, robotNowMs: number): number {
   const nowUs = Math.floor((robotNowMs * 1000) % 0x1_0000_0000) | 0;

@@ -1,6 +1,6 @@
 /**
- * The formats of a packet's point data. Every peer sends and reads `points64`; the others are used where the operator has
- * said that it reads them.
+ * The formats of a packet's point data. Every peer sends and reads `points64`; the others are used only if the operator
+ * has announced that it reads them.
  */
 
 export const CLOUD_FORMATS = ['points64', 'organised', 'unorganised'] as const;
@@ -16,7 +16,7 @@ export function cloudFormatNumber(format: CloudFormat): number {
   return CLOUD_FORMATS.indexOf(format) + 1;
 }
 
-/** `undefined` for a number that names none. */
+/** `undefined` for an unknown number. */
 export function cloudFormatOf(number: number): CloudFormat | undefined {
   return CLOUD_FORMATS[number - 1];
 }

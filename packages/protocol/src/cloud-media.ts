@@ -1,10 +1,10 @@
 /**
- * The label of the point packets' m-line. Browsers refuse payloads that they do not know, so the points pass as audio; the
+ * The label of the point packets' m-line. Browsers refuse unknown payloads, so the points are labelled as audio; the
  * receiver's transform takes each packet before anything is decoded.
  */
 export const CLOUD_MEDIA = { kind: 'audio', mimeType: 'audio/opus', clockRate: 48_000, channels: 2 } as const;
 
-/** The reference profile's one m-line: `5 pcm/90000`, with the transport-wide sequence number as extension 1. */
+/** The only m-line of the reference profile: `5 pcm/90000`, with the transport-wide sequence number as extension 1. */
 export const REFERENCE_MEDIA = {
   kind: 'video',
   mimeType: 'video/pcm',

@@ -35,12 +35,12 @@ describe('conformance vectors', () => {
   });
 });
 
-test('a full payload fits a packet of 1,500 bytes with every header round it', () => {
+test('a full payload fits a packet of 1,500 bytes with all headers', () => {
   expect(MAX_CLOUD_PAYLOAD_BYTES).toBe(1244);
   expect(Math.max(...payloads.filter((v) => v.fault === undefined).map((v) => v.hex.length / 2))).toBe(1244);
 });
 
-test('a good payload with any byte changed, cut or grown gives a fault or a block inside it', () => {
+test('a valid payload with any byte changed, cut or added gives a fault or a block inside it', () => {
   const good = payloads.filter(({ fault }) => fault === undefined);
   const faults = new Set<string | null>();
   fc.assert(

@@ -1,9 +1,9 @@
 /**
  * The payload of our own profile: a point packet and its placement, nothing before, between or after.
  *
- * Where the data are not `points64` but coded, the header tells of the points that come out: frameLength, sequenceOffset and
- * sequenceLength count 8 bytes a point, as if they were `points64`, and a packet may hold more than 150. So a receiver knows
- * a packet's place in the frame whatever the format.
+ * For coded formats, the header describes the decoded points: frameLength, sequenceOffset and sequenceLength count 8
+ * bytes per point, as for `points64`, and a packet may hold more than 150 points. A receiver thus knows a packet's
+ * place in the frame in every format.
  */
 import { PLACEMENT_BYTES, type Placement, type PlacementFault, readPlacement } from './placement.ts';
 import {
@@ -21,16 +21,16 @@ export const MAX_CLOUD_PAYLOAD_BYTES = POINT_PACKET_HEADER_BYTES + MAX_POINT_DAT
 export type CloudPayloadFault = PointPacketFault | PlacementFault | 'trailing-bytes';
 
 /**
- * Reads and checks header and placement into the given objects (nothing is allocated).
+ * Reads and checks header and placement into the given objects, without allocating.
  *
- * @returns what is wrong, or `null`; on `null` the data lie from byte 16 to the placement, 28 bytes before the end
+ * @returns what is wrong, or `null`; on `null`, the data extends from byte 16 to the placement, 28 bytes before the end
  */
 export function readCloudPayload(
   view: DataView,
   header: PointPacketHeader,
   placement: Placement,
 ): CloudPayloadFault | null {
-  // The format byte first: data of an unknown format need not have our header.
+  // The format byte first: data in an unknown format need not have our header.
   const trailerFault = readPlacement(view, placement);
   if (trailerFault !== null) return trailerFault;
   if (placement.format !== 'points64') {

@@ -1,5 +1,5 @@
 /**
- * The `control` channel, opened by the operator, unordered and never retransmitted: what is late is worthless.
+ * The `control` channel, opened by the operator, unordered and never retransmitted: late messages are worthless.
  * Operator → robot: commands, clock probes and receiver reports. Robot → operator: clock answers.
  */
 import * as z from 'zod/mini';
@@ -7,24 +7,24 @@ import { type Twist, twistSchema } from './geometry.ts';
 import { handleSchema, uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
 
-/** A velocity wish. It is fresh for the robot's watchdog time only; none means stop. */
+/** A requested velocity. It is valid only for the robot's watchdog time; without a valid command, the robot stops. */
 export interface Command {
   type: 'command';
   /** Counts up by one for each command of this connection, wraps at 2³². */
   sequence: number;
-  /** The operator's monotonic clock when the input was read, ms: for a held stick or key each time it is read anew. */
+  /** The operator's monotonic clock when the input was read, ms. A held stick or key is read anew each time. */
   timeMs: number;
-  /** The lease under which it is given (session.ts). */
+  /** The lease under which the command is given (session-messages.ts). */
   lease: string;
-  /** True while the dead-man grip is held; without it only a zero twist is accepted. */
+  /** True while the dead-man grip is held; without it, only a zero twist is accepted. */
   deadMan: boolean;
-  /** linear.x in m/s and angular.z in rad/s of base_link; every other component 0. */
+  /** linear.x in m/s and angular.z in rad/s of base_link; every other component is 0. */
   twist: Twist;
-  /** Asks for a latency-test frame: the next captured cloud comes all green and is announced under this number. */
+  /** Requests a latency-test frame: the next captured cloud is entirely green and is announced under this number. */
   latencyTest?: number | undefined;
 }
 
-/** Asks for the robot's clock. */
+/** Requests the robot's clock. */
 export interface ClockProbe {
   type: 'clockProbe';
   id: number;
@@ -36,11 +36,11 @@ export interface ClockAnswer {
   type: 'clockAnswer';
   id: number;
   sentMs: number;
-  /** The robot's monotonic clock when the probe came, ms. */
+  /** The robot's monotonic clock when the probe arrived, ms. */
   robotMs: number;
 }
 
-/** What the operator's page has received since the session began; sums, so that a lost report costs nothing. */
+/** What the operator's page has received since the session began. The values are sums: a lost report does no harm. */
 export interface ReceiverReport {
   type: 'receiverReport';
   sequence: number;
@@ -99,14 +99,14 @@ export const clockAnswerCodec: JsonCodec<ClockAnswer> = {
 /** Why the robot did not act on a command. */
 export const commandRejections = [
   'malformed', // not a command message
-  'out-of-range', // beyond the robot's limits, or an axis it does not have
+  'out-of-range', // beyond the robot's limits, or on an axis it does not have
   'stale', // sent too long ago
-  'repeated', // a sequence number at or before that of the last fresh command
-  'not-lease-holder', // another operator drives, or nobody has asked to
-  'dead-man-released', // motion asked for without the grip
-  'let-go-first', // motion by a grip that was held while no command came through for long
+  'repeated', // a sequence number not after that of the last fresh command
+  'not-lease-holder', // another operator drives, or nobody has requested the lease
+  'dead-man-released', // motion requested without the grip
+  'let-go-first', // motion with a grip that was held while no command got through for a long time
   'estop-latched', // the emergency stop must be released first
-  'rate-limited', // more commands a second than the robot reads
+  'rate-limited', // more commands per second than the robot reads
 ] as const;
 /**
  * Why the robot did not act on a command.

@@ -1,4 +1,4 @@
-/** The examples in docs/protocol.md are messages of this package. */
+/** Checks that the examples in docs/protocol.md are messages of this package. */
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { clockAnswerCodec, operatorControlCodec } from './control.ts';
@@ -14,7 +14,7 @@ import { telemetryCodec } from './telemetry.ts';
 
 const text = readFileSync(new URL('../../../docs/protocol.md', import.meta.url), 'utf8');
 
-/** Which kinds of message the examples below a heading may be. */
+/** Which kinds of message the examples under a heading may be. */
 const kinds: Record<string, JsonCodec<unknown>[]> = {
   '`control`, operator → robot': [operatorControlCodec],
   '`control`, robot → operator': [clockAnswerCodec],
@@ -24,7 +24,7 @@ const kinds: Record<string, JsonCodec<unknown>[]> = {
   Signaling: [robotToServiceCodec, serviceToRobotCodec, operatorToServiceCodec, serviceToOperatorCodec],
 };
 
-/** One message begins at each line that begins with a brace. */
+/** Each line that begins with a brace starts a message. */
 function examples(): [heading: string, example: string][] {
   const found: [string, string][] = [];
   for (const section of text.split(/^##+ /m).slice(1)) {
@@ -49,6 +49,6 @@ test.each(examples())('%s: %s', (heading, example) => {
   expect(readers.length).toBeGreaterThan(0);
 });
 
-test('every section with examples has some', () => {
+test('every section that should have examples has some', () => {
   expect(new Set(examples().map(([heading]) => heading))).toEqual(new Set(Object.keys(kinds)));
 });

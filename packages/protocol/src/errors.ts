@@ -4,15 +4,15 @@ export type ProtocolErrorCode =
   | 'too-short' // fewer bytes than the fixed part needs
   | 'not-utf8'
   | 'not-json'
-  | 'invalid'; // right encoding, wrong content: `path` says where
+  | 'invalid'; // correct encoding, wrong content: `path` says where
 
-/** Thrown by every decoder of this package for input it refuses; nothing else is thrown for bad input. */
+/** Thrown by every decoder of this package for input that it refuses. Bad input causes no other exception. */
 export class ProtocolError extends Error {
   override readonly name = 'ProtocolError';
   readonly code: ProtocolErrorCode;
-  /** What was being decoded, e.g. `operator command`. */
+  /** What was being decoded, for example `operator command`. */
   readonly what: string;
-  /** Where in it the fault is, e.g. `twist.linear.x`; empty for the whole. */
+  /** Where in it the fault is, for example `twist.linear.x`; empty for the whole message. */
   readonly path: string;
 
   constructor(code: ProtocolErrorCode, what: string, path: string, detail: string) {

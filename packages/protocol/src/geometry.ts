@@ -1,7 +1,7 @@
 import * as z from 'zod/mini';
 
-// Named and laid out as ROS geometry_msgs; SI units; axes as in REP-103
-// (body and world: x forward, y left, z up; camera optical frame: z forward, x right, y down).
+// Named and structured as ROS geometry_msgs; SI units; axes as in REP-103 (body and world: x forward, y left, z up;
+// camera optical frame: z forward, x right, y down).
 
 export const vector3Schema = z.strictObject({ x: z.number(), y: z.number(), z: z.number() });
 /** Three components, geometry_msgs/Vector3. What uses it says the unit. */
@@ -14,7 +14,7 @@ export interface Vector3 {
   z: number;
 }
 
-/** Accepts what is within 1 % of unit length; a pose with any other quaternion means nothing. */
+/** Accepts quaternions within 1 % of unit length; any other does not describe an orientation. */
 export const quaternionSchema = z
   .strictObject({ x: z.number(), y: z.number(), z: z.number(), w: z.number() })
   .check(z.refine((q) => Math.abs(Math.hypot(q.x, q.y, q.z, q.w) - 1) < 0.01, 'not a unit quaternion'));
@@ -54,13 +54,13 @@ export function zeroTwist(): Twist {
   return { linear: { x: 0, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0 } };
 }
 
-/** True where no component asks for motion. */
+/** Whether no component requests motion. */
 export function isZeroTwist(twist: Twist): boolean {
   const { linear, angular } = twist;
   return [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z].every((c) => c === 0);
 }
 
-/** Pinhole model of a camera; pixel centres are whole numbers. */
+/** Pinhole model of a camera; pixel centres are at integer coordinates. */
 export interface CameraIntrinsics {
   width: number;
   height: number;

@@ -41,7 +41,7 @@ test.each<[string, boolean]>([
   expect(handleSchema.safeParse(handle).success).toBe(good);
 });
 
-test('tokens and 32-bit numbers have their bounds', () => {
+test('tokens and 32-bit numbers are bounded', () => {
   expect(tokenSchema.safeParse('x'.repeat(4096)).success).toBe(true);
   expect(tokenSchema.safeParse('x'.repeat(4097)).success).toBe(false);
   expect([0, 0xffffffff].every((n) => uint32Schema.safeParse(n).success)).toBe(true);

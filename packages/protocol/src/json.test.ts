@@ -29,7 +29,7 @@ test('text, bytes and buffers give the same message', () => {
   expect(decodeJson(codec, inside)).toEqual(message);
 });
 
-test('the error says what and where', () => {
+test('the error says what is wrong and where', () => {
   const error = errorOf('{"name":"a","list":[{"n":1},{"n":"2"}]}');
   expect(error).toMatchObject({
     name: 'ProtocolError',
@@ -41,13 +41,13 @@ test('the error says what and where', () => {
   expect(errorOf('[').message).toBe('test message: not valid JSON');
 });
 
-test('the size is looked at before anything is parsed', () => {
+test('checks the size before it parses anything', () => {
   expect(errorOf('['.repeat(65)).code).toBe('too-large');
   expect(errorOf(new Uint8Array(65).fill(0xff)).code).toBe('too-large');
   expect(errorOf(new Uint8Array(64).fill(0xff)).code).toBe('not-utf8');
 });
 
-test('deep nesting is refused, not a crash', () => {
+test('refuses deep nesting without crashing', () => {
   const deep: JsonCodec<unknown> = { ...codec, maxBytes: 1e6 };
   expect(() => decodeJson(deep, '['.repeat(500_000))).toThrow(ProtocolError);
   expect(() => decodeJson(deep, `${'['.repeat(400_000)}${']'.repeat(400_000)}`)).toThrow(ProtocolError);

@@ -4,17 +4,17 @@ import { ProtocolError } from './errors.ts';
 
 const utf8 = new TextDecoder('utf-8', { fatal: true });
 const utf8Encoder = new TextEncoder();
-/** The small build of the schema library has no texts of its own. */
+/** The small build of the schema library contains no error texts. */
 const { localeError } = en();
 
-/** Bytes or text as a socket or a data channel hands them over. */
+/** Bytes or text as delivered by a socket or a data channel. */
 export type MessageData = string | ArrayBuffer | Uint8Array;
 
 export interface JsonCodec<T> {
   /** What the message is, for error texts. */
   readonly what: string;
   readonly schema: z.core.$ZodType<T>;
-  /** Longest accepted message in bytes (UTF-16 units for text, which is never more bytes than ×3). */
+  /** Longest accepted message in bytes (UTF-16 units for text, whose UTF-8 form has at most three bytes per unit). */
   readonly maxBytes: number;
 }
 
@@ -41,7 +41,7 @@ export function decodeJson<T>(codec: JsonCodec<T>, data: MessageData): T {
   );
 }
 
-/** Encodes a message as JSON text. The type says what it holds; nothing is checked again. */
+/** Encodes a message as JSON text. The type guarantees the content; nothing is checked again. */
 export function encodeJson<T>(_codec: JsonCodec<T>, message: T): string {
   return JSON.stringify(message);
 }

@@ -1,4 +1,4 @@
-/** Every JSON codec against its conformance vectors, then against noise. */
+/** Checks every JSON codec against its conformance vectors, then against noise. */
 import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
@@ -54,7 +54,7 @@ function vectorsOf(file: string): MessageVectors {
   ) as MessageVectors;
 }
 
-/** What the decoder says: `message`, or the error's code and path. Anything else that it throws fails the test. */
+/** What the decoder returns: `message`, or the error's code and path. Any other exception fails the test. */
 function outcomeOf(codec: JsonCodec<unknown>, data: MessageData): { code: string; path: string } {
   try {
     decodeJson(codec, data);
@@ -72,7 +72,7 @@ describe.each(codecs)('%s', (file, codec) => {
 
   test.each(valid)('$name', ({ text }) => {
     const message = decodeJson(codec, text);
-    // Fields unknown to us are let through only where the reference system's peers may send some.
+    // Unknown fields are accepted only in messages of which the reference system's peers may send some.
     if (file.startsWith('reference')) expect(JSON.parse(text)).toMatchObject(message as object);
     else expect(message).toEqual(JSON.parse(text));
     expect(decodeJson(codec, new TextEncoder().encode(text))).toEqual(message);
@@ -80,12 +80,12 @@ describe.each(codecs)('%s', (file, codec) => {
     expect(decodeJson(codec, encodeJsonBytes(codec, message))).toEqual(message);
   });
 
-  test.each(invalid)('refused: $name', ({ text, hex, padTo, code, path }) => {
+  test.each(invalid)('refuses: $name', ({ text, hex, padTo, code, path }) => {
     const data = text?.padEnd(padTo ?? 0) ?? new Uint8Array(Buffer.from(hex ?? '', 'hex'));
     expect(outcomeOf(codec, data)).toEqual({ code, path });
   });
 
-  test('a message of exactly the greatest length is read', () => {
+  test('reads a message of exactly the maximum length', () => {
     const longest = (valid[0] as { text: string }).text.padEnd(codec.maxBytes);
     expect(outcomeOf(codec, longest).code).toBe('message');
     expect(outcomeOf(codec, new TextEncoder().encode(longest)).code).toBe('message');
@@ -105,7 +105,7 @@ describe.each(codecs)('%s', (file, codec) => {
     );
   });
 
-  test('a good message with any one value exchanged gives a message or a ProtocolError', () => {
+  test('a valid message with any one value replaced gives a message or a ProtocolError', () => {
     const refused = { count: 0 };
     fc.assert(
       fc.property(fc.constantFrom(...valid), fc.nat(), fc.jsonValue(), ({ text }, at, value) => {
@@ -120,7 +120,7 @@ describe.each(codecs)('%s', (file, codec) => {
     expect(refused.count).toBeGreaterThan(100);
   });
 
-  test('a good message with any byte changed gives a message or a ProtocolError', () => {
+  test('a valid message with any byte changed gives a message or a ProtocolError', () => {
     fc.assert(
       fc.property(fc.constantFrom(...valid), fc.nat(), fc.nat(255), ({ text }, at, byte) => {
         const bytes = new TextEncoder().encode(text);

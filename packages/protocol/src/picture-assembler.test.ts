@@ -28,7 +28,7 @@ const feed = (into: PictureAssembler, chunks: readonly Uint8Array[]): WholePictu
   chunks.flatMap((chunk) => into.take(chunk) ?? []);
 
 describe('PictureAssembler', () => {
-  it('gives a picture as it was, whatever the order of its chunks', () => {
+  it('returns a picture unchanged, whatever the order of its chunks', () => {
     fc.assert(
       fc.property(
         fc.integer({ min: 1, max: 9000 }).chain((length) =>
@@ -54,7 +54,7 @@ describe('PictureAssembler', () => {
     );
   });
 
-  it('lets the newest win: what is older comes no more, what never became whole is counted', () => {
+  it('the newest picture wins: older ones are no longer returned, incomplete ones are counted', () => {
     const into = assembler();
     const [first, second] = [chunksOf(1, 2000), chunksOf(2, 2000)];
     expect(feed(into, [first[0] as Uint8Array, ...second]).map(({ pictureId }) => pictureId)).toEqual([2]);
@@ -62,7 +62,7 @@ describe('PictureAssembler', () => {
     expect(Object.fromEntries(into.drops)).toEqual({ superseded: 1, late: 1 });
   });
 
-  it('holds two unfinished pictures of a camera; a third takes the place of the oldest', () => {
+  it('holds two unfinished pictures per camera; a third replaces the oldest', () => {
     const into = assembler();
     const [a, b, c] = [1, 2, 3].map((id) => chunksOf(id, 2000)) as [Uint8Array[], Uint8Array[], Uint8Array[]];
     feed(into, [a[0], b[0], c[0]] as Uint8Array[]);
@@ -70,20 +70,20 @@ describe('PictureAssembler', () => {
     expect(Object.fromEntries(into.drops)).toEqual({ superseded: 1, late: 1 });
   });
 
-  it('counts over the end of the numbers', () => {
+  it('continues when the numbers wrap', () => {
     const into = assembler();
     const ids = [0xffffffff, 0, 1];
     expect(ids.flatMap((id) => feed(into, chunksOf(id, 10))).map(({ pictureId }) => pictureId)).toEqual(ids);
   });
 
-  it('keeps cameras apart, and knows only those it was told of', () => {
+  it('keeps cameras apart, and knows only those that were announced', () => {
     const into = assembler(2);
     const all = [0, 1, 2].flatMap((camera) => feed(into, chunksOf(1, 10, { camera })));
     expect(all.map(({ camera }) => camera)).toEqual([0, 1]);
     expect(into.drops.get('unknown-camera')).toBe(1);
   });
 
-  it('refuses chunks that say other things than those before, and repeated ones', () => {
+  it('refuses chunks that contradict earlier ones, and repeated ones', () => {
     const into = assembler();
     const whole = chunksOf(1, 3000);
     feed(into, [whole[0] as Uint8Array, whole[0] as Uint8Array]);
@@ -92,7 +92,7 @@ describe('PictureAssembler', () => {
     expect(feed(into, whole.slice(1))).toHaveLength(1);
   });
 
-  it('takes anything, and gives out only pictures of their own bytes', () => {
+  it('accepts any input, and returns only pictures made of their own bytes', () => {
     const some = fc.record({
       camera: fc.nat(3),
       id: fc.nat(6),

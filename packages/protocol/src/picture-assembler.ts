@@ -1,4 +1,4 @@
-/** Puts pictures together from their chunks, in whatever order they come. The newest picture of a camera wins. */
+/** Assembles pictures from their chunks, in any order of arrival. The newest picture of a camera wins. */
 import {
   emptyPictureChunkHeader,
   MAX_CAMERAS,
@@ -11,20 +11,20 @@ import {
 } from './picture-chunk.ts';
 import { sequenceDelta32 } from './sequence.ts';
 
-/** Chunks of the next picture may overtake the last ones of this. */
+/** Chunks of the next picture may overtake the last chunks of this one. */
 const OPEN_PICTURES = 2;
 
-/** Why a chunk, or a picture that was not whole, was let go. */
+/** Why a chunk, or an incomplete picture, was dropped. */
 export type PictureDrop =
   | PictureChunkFault
-  | 'unknown-camera' // the robot has told of no such camera
-  | 'inconsistent' // it says other things of its picture than the chunks before
+  | 'unknown-camera' // the robot has not announced this camera
+  | 'inconsistent' // its header contradicts earlier chunks of the picture
   | 'duplicate'
-  | 'late' // of a picture that is not wanted any more: a newer one is whole, or it was let go
-  | 'superseded'; // a picture that never became whole
+  | 'late' // the picture is no longer wanted: a newer one is complete, or it was dropped
+  | 'superseded'; // the picture never became complete
 
 export interface WholePicture extends PictureHeader {
-  /** The file, JPEG or PNG as the header says. Nobody has looked into it. */
+  /** The file, JPEG or PNG as the header states. Its content has not been checked. */
   bytes: Uint8Array<ArrayBuffer>;
 }
 
@@ -39,13 +39,13 @@ interface OpenPicture {
 interface Camera {
   /** Oldest first. */
   open: OpenPicture[];
-  /** The newest that was given out or let go. */
+  /** The newest picture that was returned or dropped. */
   doneId: number | null;
 }
 
-/** Of one session. Holds at most two unfinished pictures a camera: 10 MB in all. */
+/** For one session. Holds at most two unfinished pictures per camera: 10 MB in total. */
 export class PictureAssembler {
-  /** How many cameras the robot has told of. */
+  /** How many cameras the robot has announced. */
   cameras = 0;
   readonly drops = new Map<PictureDrop, number>();
   readonly #cameras: Camera[] = Array.from({ length: MAX_CAMERAS }, () => ({ open: [], doneId: null }));
@@ -81,7 +81,7 @@ export class PictureAssembler {
     };
   }
 
-  /** The picture that the chunk belongs to; the oldest makes room for a new one. `null` where the chunk is dropped. */
+  /** Returns the picture of the chunk; the oldest makes room for a new one. `null` if the chunk is dropped. */
   #find(camera: Camera, header: PictureChunkHeader): OpenPicture | null {
     const { pictureId, count } = header;
     const found = camera.open.find((each) => each.header.pictureId === pictureId);
@@ -104,7 +104,7 @@ export class PictureAssembler {
     return picture;
   }
 
-  /** That picture is done, and those before it are not wanted any more. */
+  /** This picture is done, and earlier ones are no longer wanted. */
   #finish(camera: Camera, pictureId: number): void {
     camera.doneId = pictureId;
     const left = camera.open.filter((each) => sequenceDelta32(each.header.pictureId, pictureId) > 0);

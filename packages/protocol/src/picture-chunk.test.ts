@@ -84,7 +84,7 @@ test('any bytes give a header within its bounds, or a fault', () => {
   expect(faults.size).toBeGreaterThan(6);
 });
 
-test('the largest picture takes the most chunks', () => {
+test('the largest picture takes the maximum number of chunks', () => {
   expect(pictureChunks(MAX_PICTURE_BYTES)).toBe(512);
   expect(pictureChunks(MAX_PICTURE_BYTES + 1)).toBe(513);
 });

@@ -19,17 +19,17 @@ export const PICTURE_CHUNK_HEADER_BYTES = 20;
 export const MAX_PICTURE_CHUNK_BYTES = 1160;
 export const PICTURE_CHUNK_DATA_BYTES = MAX_PICTURE_CHUNK_BYTES - PICTURE_CHUNK_HEADER_BYTES;
 export const MAX_PICTURE_CHUNKS = 512;
-/** 583,680. */
+/** 583,680 bytes. */
 export const MAX_PICTURE_BYTES = MAX_PICTURE_CHUNKS * PICTURE_CHUNK_DATA_BYTES;
 /** Longest side of a picture, pixels. */
 export const MAX_PICTURE_SIDE = 4096;
-/** Cameras of a robot. */
+/** Maximum number of cameras of a robot. */
 export const MAX_CAMERAS = 8;
 
 export const PICTURE_FORMATS = ['jpeg', 'png'] as const;
 export type PictureFormat = (typeof PICTURE_FORMATS)[number];
 
-/** What all chunks of a picture say of it. */
+/** What every chunk of a picture repeats about it. */
 export interface PictureHeader {
   format: PictureFormat;
   camera: number;
@@ -46,13 +46,13 @@ export interface PictureChunkHeader extends PictureHeader {
 
 /** Why a chunk is refused. */
 export type PictureChunkFault =
-  | 'too-short' // no header, or no data after it
+  | 'too-short' // no complete header, or no data after it
   | 'too-long' // more than 1,160 bytes
   | 'unknown-format'
-  | 'bad-camera' // beyond the most cameras that a robot has
-  | 'bad-size' // a side of 0, or over 4,096
-  | 'bad-index' // no chunks, too many, or an index that is not among them
-  | 'bad-length'; // not the last and not full
+  | 'bad-camera' // the camera number exceeds the maximum
+  | 'bad-size' // a side of 0 or over 4,096 pixels
+  | 'bad-index' // no chunks, too many, or an index out of range
+  | 'bad-length'; // not the last chunk, but not full
 
 export function emptyPictureChunkHeader(): PictureChunkHeader {
   return {
@@ -61,7 +61,7 @@ export function emptyPictureChunkHeader(): PictureChunkHeader {
   };
 }
 
-/** How many chunks a picture of so many bytes takes. */
+/** The number of chunks for a picture of this many bytes. */
 export function pictureChunks(bytes: number): number {
   return Math.ceil(bytes / PICTURE_CHUNK_DATA_BYTES);
 }
@@ -69,9 +69,9 @@ export function pictureChunks(bytes: number): number {
 /**
  * Writes one chunk of a picture.
  *
- * @param picture the whole of it, 1 to {@link MAX_PICTURE_BYTES} bytes
+ * @param picture the whole picture, 1 to {@link MAX_PICTURE_BYTES} bytes
  * @param into room for {@link MAX_PICTURE_CHUNK_BYTES}
- * @returns how many bytes of it are the chunk
+ * @returns the length of the chunk, bytes
  */
 export function writePictureChunk(
   header: PictureHeader,
@@ -96,7 +96,7 @@ export function writePictureChunk(
 }
 
 /**
- * Reads and checks a chunk's header into `into` (nothing is allocated), and says what is wrong with it, or `null`.
+ * Reads and checks a chunk's header into `into`, without allocating. Returns what is wrong with it, or `null`.
  *
  * @param view the whole message
  */

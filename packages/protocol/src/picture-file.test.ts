@@ -21,7 +21,7 @@ describe('readPictureFile', () => {
     expect(readPictureFile(png(640, 480).subarray(0, 23))).toBe('truncated');
   });
 
-  it('reads the size of JPEG, baseline and progressive, behind other segments and fill bytes', () => {
+  it('reads the size of baseline and progressive JPEG, after other segments and fill bytes', () => {
     const exif = segment(0xe1, [...frame(0xc0, 160, 120)]);
     const tables = segment(0xc4, [1, 2, 3]);
     for (const marker of [0xc0, 0xc1, 0xc2]) {
@@ -30,7 +30,7 @@ describe('readPictureFile', () => {
     }
   });
 
-  it('says what is missing', () => {
+  it('reports what is missing', () => {
     const whole = jpeg(segment(0xe0, [1, 2, 3]), frame(0xc0, 640, 480));
     for (let length = 3; length < 18; length++)
       expect(readPictureFile(whole.subarray(0, length))).toBe('truncated');
@@ -40,7 +40,7 @@ describe('readPictureFile', () => {
     expect(readPictureFile(new Uint8Array(0))).toBe('unknown-format');
   });
 
-  it('reads any bytes, and ends', () => {
+  it('reads any bytes, and always terminates', () => {
     const heads = fc.constantFrom(jpeg(), png(3, 2), jpeg(frame(0xc0, 9, 9)));
     fc.assert(
       fc.property(heads, fc.uint8Array({ maxLength: 200 }), fc.nat(300), (head, tail, cut) => {

@@ -1,5 +1,5 @@
 /**
- * What a picture's file says it is, by its own first bytes, before anybody decodes it.
+ * Identifies a picture file by its first bytes, before anything decodes it.
  *
  * Sources: ITU-T T.81 (JPEG), B.1.1.3 and B.2.2; ISO/IEC 15948 (PNG), 5.2 and 11.2.2.
  */
@@ -7,7 +7,7 @@ import type { PictureFormat } from './picture-chunk.ts';
 
 export interface PictureFile {
   format: PictureFormat;
-  /** Pixels, as the header says; 0 is possible. */
+  /** Pixels, as stated in the header; 0 is possible. */
   width: number;
   height: number;
 }
@@ -15,7 +15,7 @@ export interface PictureFile {
 /** Why a file's header cannot be read. */
 export type PictureFileFault =
   | 'unknown-format' // neither JPEG nor PNG
-  | 'truncated'; // it ends before it says how large it is
+  | 'truncated'; // it ends before the header states the size
 
 const PNG_MAGIC = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 const PNG_IHDR = [0x49, 0x48, 0x44, 0x52];
@@ -30,7 +30,7 @@ export function readPictureFile(bytes: Uint8Array): PictureFile | PictureFileFau
   return { format: 'png', width: view.getUint32(16), height: view.getUint32(20) };
 }
 
-/** Walks the segments to the frame header. */
+/** Walks through the segments to the frame header. */
 function readJpeg(bytes: Uint8Array): PictureFile | PictureFileFault {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   let at = 2;
@@ -38,7 +38,7 @@ function readJpeg(bytes: Uint8Array): PictureFile | PictureFileFault {
     if (bytes[at] !== 0xff) return 'unknown-format';
     const marker = bytes[at + 1] as number;
     if (marker === 0xff) {
-      // Fill bytes may stand before a marker.
+      // Fill bytes may precede a marker.
       at++;
       continue;
     }
@@ -47,7 +47,7 @@ function readJpeg(bytes: Uint8Array): PictureFile | PictureFileFault {
       at += 2;
       continue;
     }
-    // Its data begins, or it ends, without a frame header.
+    // The scan data begins, or the file ends, without a frame header.
     if (marker === 0xda || marker === 0xd9 || marker === 0x00) return 'unknown-format';
     const length = view.getUint16(at + 2);
     if (length < 2) return 'unknown-format';
@@ -60,7 +60,7 @@ function readJpeg(bytes: Uint8Array): PictureFile | PictureFileFault {
   return 'truncated';
 }
 
-/** SOF0 to SOF15, without DHT, JPG and DAC that lie among them. */
+/** SOF0 to SOF15, except DHT, JPG and DAC, which lie between them. */
 function isFrameHeader(marker: number): boolean {
   return marker >= 0xc0 && marker <= 0xcf && marker !== 0xc4 && marker !== 0xc8 && marker !== 0xcc;
 }

@@ -68,7 +68,7 @@ describe('conformance vectors', () => {
   });
 });
 
-test('the pose that the writer keeps is within a float32 and half a quaternion step', () => {
+test('the written pose is accurate to a float32 and half a quaternion step', () => {
   const component = fc.double({ min: -1, max: 1, noNaN: true });
   const metres = fc.double({ min: -1e5, max: 1e5, noNaN: true });
   fc.assert(

@@ -14,7 +14,7 @@ import { type CloudFormat, cloudFormatNumber, cloudFormatOf } from './cloud-form
 import type { Pose } from './geometry.ts';
 
 export const PLACEMENT_BYTES = 28;
-/** More cloud sensors than this no robot announces. */
+/** No robot announces more cloud sensors than this. */
 export const MAX_SENSORS = 8;
 export const FLAG_LATENCY_TEST = 1;
 export const FLAG_SATURATED = 2;
@@ -33,7 +33,7 @@ export interface Placement {
 /** Why a trailer is refused. */
 export type PlacementFault =
   | 'too-short'
-  | 'unknown-format' // the last byte names a format this peer does not know
+  | 'unknown-format' // the last byte names a format that this peer does not know
   | 'bad-pose'; // a position that is not finite, or a quaternion far from unit length
 
 export function emptyPlacement(): Placement {
@@ -58,7 +58,7 @@ export function copyPlacement(from: Placement, into: Placement): void {
   into.format = from.format;
 }
 
-/** Writes the 28 bytes at `offset`. The view must have room. */
+/** Writes the 28 bytes at `offset`, where the view must have room. */
 export function writePlacement(view: DataView, offset: number, placement: Placement): void {
   const { position, orientation } = placement.pose;
   view.setFloat32(offset, position.x, true);
@@ -78,13 +78,16 @@ export function writePlacement(view: DataView, offset: number, placement: Placem
   view.setUint8(offset + 27, cloudFormatNumber(placement.format));
 }
 
-/** A pose may be off unit length by a little: saturates, as a component over 1 would wrap to the other side. */
+/**
+ * A pose may deviate slightly from unit length. Saturates, because a component above 1 would otherwise wrap to the
+ * opposite sign.
+ */
 function toInt16(component: number): number {
   const scaled = Math.round(component * QUATERNION_SCALE);
   return Math.min(Math.max(scaled, -QUATERNION_SCALE), QUATERNION_SCALE);
 }
 
-/** Reads the trailer at the end of `view` into `into` (nothing is allocated) and says what is wrong, or `null`. */
+/** Reads the trailer at the end of `view` into `into`, without allocating. Returns what is wrong, or `null`. */
 export function readPlacement(view: DataView, into: Placement): PlacementFault | null {
   if (view.byteLength < PLACEMENT_BYTES) return 'too-short';
   const offset = view.byteLength - PLACEMENT_BYTES;

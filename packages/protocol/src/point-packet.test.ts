@@ -35,7 +35,7 @@ describe('conformance vectors', () => {
     if (vector.header !== undefined) expect(header).toEqual(vector.header);
   });
 
-  test.each(payloads.filter(({ header }) => header !== undefined))('written: $name', (vector) => {
+  test.each(payloads.filter(({ header }) => header !== undefined))('write: $name', (vector) => {
     const view = new DataView(new ArrayBuffer(20));
     writePointPacketHeader(view, 3, vector.header as PointPacketHeader);
     expect(Buffer.from(view.buffer, 3, 16).toString('hex')).toBe(vector.headerHex);
@@ -47,7 +47,7 @@ test('packets of a frame', () => {
   expect([0, 1, 150, 151, 30_000, 30_001].map(packetCountOf)).toEqual([0, 1, 1, 2, 200, 201]);
 });
 
-test('a header that is accepted keeps its promises, whatever the bytes', () => {
+test('an accepted header is consistent, whatever the bytes', () => {
   const word = fc.oneof(
     { weight: 5, arbitrary: fc.nat(300).map((n) => n * 8) },
     fc.nat(2500),

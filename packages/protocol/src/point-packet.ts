@@ -16,9 +16,9 @@ export const POINT_PACKET_HEADER_BYTES = 16;
 export const BYTES_PER_POINT = 8;
 export const POINTS_PER_PACKET = 150;
 export const MAX_POINT_DATA_BYTES = POINTS_PER_PACKET * BYTES_PER_POINT;
-/** Header and a full data block: what the reference profile always sends. */
+/** Header and a full data block: the reference profile always sends this length. */
 export const FULL_POINT_PACKET_BYTES = POINT_PACKET_HEADER_BYTES + MAX_POINT_DATA_BYTES;
-/** More points than any camera we stream has; a frame that claims more is refused. */
+/** More points than any supported camera has; a frame that claims more is refused. */
 export const MAX_POINTS_PER_FRAME = 4_194_304;
 
 export interface PointPacketHeader {
@@ -39,7 +39,7 @@ export function emptyPointPacketHeader(): PointPacketHeader {
   return { frameNumber: 0, frameLength: 0, sequenceOffset: 0, sequenceLength: 0 };
 }
 
-/** Writes the 16 bytes at `offset`. The view must have room. */
+/** Writes the 16 bytes at `offset`, where the view must have room. */
 export function writePointPacketHeader(view: DataView, offset: number, header: PointPacketHeader): void {
   view.setUint32(offset, header.frameNumber, true);
   view.setUint32(offset + 4, header.frameLength, true);
@@ -48,7 +48,7 @@ export function writePointPacketHeader(view: DataView, offset: number, header: P
 }
 
 /**
- * Reads and checks a header into `into` (nothing is allocated), then says what is wrong with it, or `null`.
+ * Reads and checks a header into `into`, without allocating. Returns what is wrong with it, or `null`.
  *
  * @param view the whole payload
  */
@@ -61,7 +61,7 @@ export function readPointPacketHeader(view: DataView, into: PointPacketHeader): 
   return null;
 }
 
-/** The same, of a header whose data are coded: there may be any number of points, in any number of bytes. */
+/** The same for a header whose data is coded: any number of points, in any number of bytes. */
 export function readPointPlace(view: DataView, into: PointPacketHeader): PointPacketFault | null {
   if (view.byteLength < POINT_PACKET_HEADER_BYTES) return 'too-short';
   into.frameNumber = view.getUint32(0, true);
@@ -79,7 +79,7 @@ export function readPointPlace(view: DataView, into: PointPacketHeader): PointPa
   return null;
 }
 
-/** How many packets carry a frame of `points` points. */
+/** How many packets a frame of `points` points takes. */
 export function packetCountOf(points: number): number {
   return Math.ceil(points / POINTS_PER_PACKET);
 }

@@ -1,9 +1,9 @@
 /**
- * `points64`: the mandatory point layout, 64 bits a point. A data block of n ≤ 150 points is n × (x, y, z as int16
- * millimetres) in its first 6n bytes, then n × u16 6-6-4 colour. For n = 150 that is the reference system's block.
+ * `points64`: the mandatory point layout, 64 bits per point. A data block of n ≤ 150 points is n × (x, y, z as int16
+ * millimetres) in its first 6n bytes, then n × u16 6-6-4 colour. For n = 150, this is the reference system's block.
  *
- * These functions are the plain statement of the format and its conformance reference; peers that move many points
- * use the WASM codec, which gives the same bytes.
+ * These functions are the readable definition of the format and its conformance reference. Peers that process many
+ * points use the WASM codec, which gives the same bytes.
  */
 import { LATENCY_TEST_COLOUR } from './colour664.ts';
 import { BYTES_PER_POINT } from './point-packet.ts';
@@ -81,7 +81,7 @@ export function readPoints64Block(
   return count;
 }
 
-/** True where every colour of a block is the latency test's green. */
+/** Whether every colour of a block is the latency test's green. */
 export function isLatencyTestBlock(view: DataView, offset: number, length: number): boolean {
   const count = length / BYTES_PER_POINT;
   const colourOffset = offset + count * 6;

@@ -12,7 +12,7 @@ const pose = fc
   });
 
 describe('pose algebra', () => {
-  it('a pose after its inverse is nothing', () => {
+  it('a pose composed with its inverse is the identity', () => {
     fc.assert(
       fc.property(pose, (p) => {
         const { position, orientation } = compose(inverse(p), p);

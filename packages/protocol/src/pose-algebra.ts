@@ -1,7 +1,10 @@
-/** Rotations and poses: what every peer that places something in the world needs. Allocates: not for each point. */
+/**
+ * Rotations and poses, for every peer that places something in the world. The functions allocate, so do not use them
+ * for each point.
+ */
 import type { Pose, Quaternion, Vector3 } from './geometry.ts';
 
-/** First `b`, then `a`. */
+/** The rotation that applies `b` first, then `a`. */
 export function multiply(a: Quaternion, b: Quaternion): Quaternion {
   return {
     x: a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -40,7 +43,7 @@ export function rotate(q: Quaternion, v: Vector3): Vector3 {
   };
 }
 
-/** The child's pose in the parent's parent: `parent` then `child`, as tf does it. */
+/** The child's pose in the parent's parent: `parent`, then `child`, as in tf. */
 export function compose(parent: Pose, child: Pose): Pose {
   const moved = rotate(parent.orientation, child.position);
   return {
@@ -53,7 +56,7 @@ export function compose(parent: Pose, child: Pose): Pose {
   };
 }
 
-/** The world's pose in the frame whose pose in the world is given. */
+/** The world's pose in the frame with the given pose in the world. */
 export function inverse(pose: Pose): Pose {
   const { x, y, z, w } = pose.orientation;
   const orientation = { x: -x, y: -y, z: -z, w };

@@ -1,6 +1,6 @@
 /**
- * A `reading` on the `telemetry` channel: what a sensor or a topic of the robot says, as short text for people. The newest
- * of each comes again every few seconds, so that one that is lost is missed by nobody.
+ * A `reading` on the `telemetry` channel: what a sensor or a topic of the robot reports, as short text for people. The
+ * newest reading of each topic is repeated every few seconds, so losing one does no harm.
  */
 import * as z from 'zod/mini';
 
@@ -19,15 +19,15 @@ export const READING_LIMITS = { topic: 255, label: 40, values: 10, name: 36, tex
 export interface Reading {
   /** Tells the message from others. */
   type: 'reading';
-  /** Tells readings apart. */
+  /** Identifies the reading. */
   topic: string;
-  /** What people read beside the values. */
+  /** Label shown next to the values. */
   label: string;
   /** Whether people should look at it. */
   level: ReadingLevel;
-  /** Name and value, most telling first; a name may be empty. */
+  /** Name and value, most important first; a name may be empty. */
   values: [string, string][];
-  /** How long ago the robot heard it, ms. */
+  /** Time since the robot received it, ms. */
   ageMs: number;
 }
 

@@ -1,6 +1,6 @@
 /**
- * The reference system's local WebSockets between its bridge and its web page: JSON text for control (8085) and telemetry
- * (8090); frames (8095) are N × 3 int16 coordinates, then N × u16 colours, little-endian, without a header.
+ * The reference system's local WebSockets between its bridge and its web page: JSON text for control (8085) and
+ * telemetry (8090); frames (8095) are N × 3 int16 coordinates, then N × u16 colours, little-endian, without a header.
  */
 import * as z from 'zod/mini';
 import { twistSchema } from './geometry.ts';
@@ -19,7 +19,7 @@ export type ReferencePageToBridge = z.infer<typeof pageToBridge>;
 const bridgeToPage = z.discriminatedUnion('type', [
   z.object({
     type: z.literal('updateRobots'),
-    /** Null where there is none. */
+    /** Null if there are none. */
     robots: z.nullable(z.array(z.object({ id: robotId, name: z.string() }))),
   }),
   z.object({ type: z.literal('switchedRobot'), robotId }),

@@ -4,19 +4,19 @@
 import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
 
-/** What the robot allows. Nothing on the wire raises any of it. */
+/** The robot's drive limits. No message can raise any of them. */
 export interface DriveLimits {
   /** m/s, forward and backward. */
   maxLinear: number;
   /** rad/s. */
   maxAngular: number;
-  /** Without a fresh command for this long the robot brakes to zero. */
+  /** Without a fresh command for this long, the robot brakes to zero. */
   watchdogMs: number;
-  /** At most so many commands a second are read. */
+  /** The most commands per second that are read. */
   maxCommandsPerSecond: number;
 }
 
-/** First message of the robot on every session. */
+/** The robot's first message in every session. */
 export interface Welcome {
   /** Tells the message from others. */
   type: 'welcome';
@@ -57,13 +57,13 @@ export interface LeaseState {
 export interface CommandRejected {
   /** Tells the message from others. */
   type: 'rejected';
-  /** The command's sequence number where it could be read. */
+  /** The command's sequence number, if it was readable. */
   sequence?: number | undefined;
   /** Why it was refused, for programs. */
   reason: CommandRejection;
-  /** For people: what and where. */
+  /** For people: what is wrong and where. */
   detail: string;
-  /** How many were refused for this reason since the last such message; refusals are reported at most 10 times a second. */
+  /** How many were refused for this reason since the last such message; these are sent at most 10 times per second. */
   count: number;
 }
 
@@ -73,11 +73,11 @@ export interface EstopState {
   type: 'estop';
   /** Whether it is latched: the robot does not move. */
   latched: boolean;
-  /** Who set it, where it is latched. */
+  /** Who latched it, if it is latched. */
   by?: 'operator' | 'robot' | undefined;
 }
 
-/** Which frame answers a latency test. */
+/** Announces the frame that answers a latency test. */
 export interface LatencyFrame {
   /** Tells the message from others. */
   type: 'latencyFrame';
@@ -94,19 +94,21 @@ export interface LatencyFrame {
 }
 
 /**
- * What packets of a coded format are decoded with: it comes before the first of them, and anew where it changes. A receiver
- * that cannot use it says so by `cloudFormats` without that format.
+ * The parameters for decoding packets of a coded format. Sent before the first such packet, and again whenever they
+ * change. A receiver that cannot use them sends `cloudFormats` without that format.
  */
 export interface CloudStream {
   type: 'cloudStream';
   format: Exclude<CloudFormat, 'points64'>;
   /** The format's own stream header, base64. */
   header: string;
-  /** Whose clouds; left out, those of sensor 0. */
+  /** Which sensor's clouds; if absent, those of sensor 0. */
   sensor?: number | undefined;
 }
 
-/** The robot's cameras whose pictures it can send; a camera's place in the list is its number. Sent after the welcome. */
+/**
+ * The robot's cameras whose pictures it can send; a camera's position in the list is its number. Follows the welcome.
+ */
 export interface Cameras {
   /** Tells the message from others. */
   type: 'cameras';
@@ -118,8 +120,8 @@ export interface Cameras {
 }
 
 /**
- * The sensors whose clouds the robot can send; a sensor's place in the list is its number in the placement. Sent after the
- * welcome by a robot that has more than one.
+ * The sensors whose clouds the robot can send; a sensor's position in the list is its number in the placement. Sent
+ * after the welcome by robots with more than one sensor.
  */
 export interface Sensors {
   /** Tells the message from others. */
@@ -131,7 +133,7 @@ export interface Sensors {
   }[];
 }
 
-/** A message of the operator that the robot could not use, other than a command. */
+/** A message of the operator, other than a command, that the robot could not use. */
 export interface SessionFault {
   type: 'fault';
   message: string;
@@ -148,7 +150,7 @@ export type RobotSessionMessage =
   | Sensors
   | SessionFault;
 
-/** Asks to drive. `take` asks to take over from another operator; the robot's policy decides. */
+/** Requests the lease. `take` asks to take over from another operator; the robot's policy decides. */
 export interface LeaseRequest {
   type: 'leaseRequest';
   take: boolean;
@@ -156,7 +158,7 @@ export interface LeaseRequest {
 export interface LeaseRelease {
   type: 'leaseRelease';
 }
-/** Latches or releases the emergency stop. Anyone may latch; only the lease holder releases. */
+/** Latches or releases the emergency stop. Anyone may latch it; only the lease holder may release it. */
 export interface EstopRequest {
   type: 'estop';
   latch: boolean;
@@ -167,31 +169,36 @@ export interface StreamRequest {
   running: boolean;
 }
 
-/** The formats that the operator reads. Until it has said so it gets `points64`, and it always may. */
+/** The formats that the operator reads. Before this message it gets `points64`, which may be sent to it at any time. */
 export interface CloudFormats {
   type: 'cloudFormats';
   formats: CloudFormat[];
 }
 
-/** Which cameras' pictures the operator wants to see from now on, by number. Until it has said so it is sent none. */
+/** The cameras whose pictures the operator wants from now on, by number. Before this message, none are sent. */
 export interface Pictures {
   type: 'pictures';
   cameras: number[];
 }
 
-/** Whose clouds the operator wants from now on, by number. Until it has said so it gets those of sensor 0. */
+/**
+ * The sensors whose clouds the operator wants from now on, by number. Before this message it gets those of sensor 0.
+ */
 export interface WantedSensors {
   type: 'sensors';
   sensors: number[];
 }
 
-/** What came of a latency test, for the robot's recording. */
+/** The result of a latency test, for the robot's recording. */
 export interface LatencyMeasured {
   type: 'latencyMeasured';
-  /** The command's {@link LatencyFrame} `id`, and the frame that was drawn. */
+  /** The `id` from the command's {@link LatencyFrame}, and the frame that was drawn. */
   id: number;
   frameNumber: number;
-  /** From the input event to the end of the display frame with the whole green cloud, and with its first points, ms. */
+  /**
+   * From the input event to the end of the display frame that shows the whole green cloud, and to the one that shows
+   * its first points, ms.
+   */
   mtpMs: number;
   firstMs: number;
 }

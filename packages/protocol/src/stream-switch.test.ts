@@ -7,6 +7,6 @@ test('start and stop', () => {
   expect(decodeStreamSwitch('stop')).toBe('stop');
 });
 
-test.each(['', 'Start', 'stop ', 'pause', '{"type":"stop"}'])('%j is refused', (text) => {
+test.each(['', 'Start', 'stop ', 'pause', '{"type":"stop"}'])('refuses %j', (text) => {
   expect(() => decodeStreamSwitch(text)).toThrow(ProtocolError);
 });

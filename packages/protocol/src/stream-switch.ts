@@ -1,6 +1,6 @@
 import { ProtocolError } from './errors.ts';
 
-/** Text messages by which an operator starts and pauses the robot's stream of points. */
+/** Text messages with which an operator starts and pauses the robot's stream of points. */
 export type StreamSwitch = 'start' | 'stop';
 
 /** @throws {ProtocolError} for any other text */

@@ -1,14 +1,17 @@
-/** The `telemetry` channel, opened by the robot, unordered, short-lived: the robot's state, 20 times a second, and readings. */
+/**
+ * The `telemetry` channel, opened by the robot, unordered, with a short lifetime: the robot's state, 20 times per
+ * second, and readings.
+ */
 import * as z from 'zod/mini';
 import { type Pose, poseSchema, type Twist, twistSchema } from './geometry.ts';
 import { uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
 import { type Reading, readingSchema } from './reading.ts';
 
-/** Why the robot stands still, or that it does not. */
+/** Whether the robot is driving, and if not, why. */
 export const driveStates = [
-  'driving', // obeying fresh commands
-  'idle', // nobody holds the lease, or the holder asks for no motion
+  'driving', // following fresh commands
+  'idle', // nobody holds the lease, or the holder requests no motion
   'watchdog', // no fresh command for the watchdog time: braking or standing
   'estop', // the emergency stop is latched
   'blocked', // in contact with an obstacle
@@ -24,11 +27,11 @@ export type DriveState = (typeof driveStates)[number];
 export interface Battery {
   /** Volts. */
   voltage: number;
-  /** 0–1, as sensor_msgs/BatteryState has it. */
+  /** 0–1, as in sensor_msgs/BatteryState. */
   percentage: number;
 }
 
-/** Mean milliseconds a frame spent in each stage over the last telemetry interval. */
+/** Mean time that a frame spent in each stage during the last telemetry interval, ms. */
 export interface StageTimings {
   /** Reading or rendering the cloud. */
   captureMs: number;
@@ -40,7 +43,7 @@ export interface StageTimings {
   sendMs: number;
 }
 
-/** What left the robot for this operator, and what did not. Rates over the last second. */
+/** What was sent to this operator, and what was dropped. Rates over the last second. */
 export interface StreamStatus {
   /** The newest frame that was sent; wraps at 2³². */
   frameNumber: number;
@@ -48,15 +51,15 @@ export interface StreamStatus {
   framesPerSecond: number;
   /** Points sent in a frame, mean. */
   pointsPerFrame: number;
-  /** Points of the raw cloud that were valid. */
+  /** Valid points of the raw cloud. */
   validPoints: number;
   /** Sent a second. */
   bitsPerSecond: number;
-  /** What the rate controller allows. */
+  /** The rate that the rate controller allows. */
   targetBitsPerSecond: number;
   /** Frames dropped before sending since the session began, because the queue was full. */
   droppedFrames: number;
-  /** The connection gives no transport-wide feedback: the rate follows receiver reports. Absent where it does. */
+  /** The connection gives no transport-wide feedback, so the rate follows receiver reports. Absent if it does. */
   feedback?: 'reports' | undefined;
 }
 
@@ -68,11 +71,11 @@ export interface Telemetry {
   sequence: number;
   /** Robot's monotonic clock, ms. */
   timeMs: number;
-  /** base_link in the world frame. */
+  /** Pose of base_link in the world frame. */
   pose: Pose;
   /** Measured velocity of base_link. */
   twist: Twist;
-  /** Absent where the robot has no battery gauge. */
+  /** Absent if the robot has no battery gauge. */
   battery?: Battery | undefined;
   /** Why the robot stands still, or that it does not. */
   drive: DriveState;

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { ProtocolError } from './errors.ts';
 import { decodeUnorganisedStream, encodeUnorganisedStream } from './unorganised-stream.ts';
 
-test('a header of the format’s eight bytes, there and back', () => {
+test('encodes and decodes the format’s eight-byte header', () => {
   const bytes = encodeUnorganisedStream({ unitMm: 0x0210 });
   expect([...bytes]).toEqual([0x46, 0x50, 0x55, 0x43, 1, 0, 0x10, 0x02]);
   expect(decodeUnorganisedStream(bytes)).toEqual({ unitMm: 0x0210 });

@@ -4,7 +4,7 @@
  *     0  4 bytes  `FPUC`
  *     4  u8       version, 1
  *     5  u8       0
- *     6  u16      the unit in which receivers keep coordinates as int16, millimetres, at least 1: the farthest point fits
+ *     6  u16      unit of the receivers' int16 coordinates, millimetres, at least 1: the farthest point fits
  */
 import { ProtocolError } from './errors.ts';
 

@@ -48,7 +48,7 @@ export class BagRecording implements Recording {
     this.endNs = toNs(bag.endTime ?? { sec: 0, nsec: 0 });
   }
 
-  /** @throws {RecordingError} where it cannot be read, or was not closed */
+  /** @throws {RecordingError} if it cannot be read, or was not closed */
   static async open(bytes: FileBytes): Promise<BagRecording> {
     const { lz4, bz2 } = await bagDecompressors();
     const bag = new Bag(

@@ -1,20 +1,23 @@
 import type { CapturedRecord } from './recorder-messages.ts';
 
-/** What PointCloud2 has of one point: x, y, z as float32 in metres, then a packed colour (0x00RRGGBB). */
+/** Size of one point in PointCloud2: x, y, z as float32 in metres, then a packed colour (0x00RRGGBB). */
 export const RECORDED_POINT_BYTES = 16;
 
-/** Memory for clouds that is used again: megabytes a frame are too much to leave to the collector. */
+/** Reusable memory for clouds: megabytes per frame are too much for the garbage collector. */
 export class PointRoom {
   #words = new Uint32Array(0);
 
-  /** Room for so many points, four words each, good until the next call. */
+  /** Room for this many points of four words each, valid until the next call. */
   take(points: number): Uint32Array {
     if (this.#words.length < points * 4) this.#words = new Uint32Array(Math.ceil(points * 1.25) * 4);
     return this.#words.subarray(0, points * 4);
   }
 }
 
-/** A captured cloud in that layout: in its own memory where it came as points, else in `room`. Pixels without depth are NaN. */
+/**
+ * A captured cloud in that layout: in its own memory if it came as points, else in `room`. NaN for pixels without
+ * depth.
+ */
 export function recordedPoints(record: CapturedRecord, room: PointRoom): Uint8Array {
   if (record.type === 'points') {
     const words = new Uint32Array(record.buffer, 0, record.count * 4);
@@ -41,7 +44,7 @@ export function recordedPoints(record: CapturedRecord, room: PointRoom): Uint8Ar
   return new Uint8Array(words.buffer, words.byteOffset, words.byteLength);
 }
 
-/** From R in the lowest byte to ROS's packed colour. */
+/** Converts from R in the lowest byte to ROS's packed colour. */
 function rgbOf(rgba: number): number {
   return ((rgba & 0xff) << 16) | (rgba & 0xff00) | ((rgba >> 16) & 0xff);
 }

@@ -10,34 +10,36 @@ import type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 
 export interface PlayedCloud {
   count: number;
-  /** The optical frame in the world. */
+  /** Pose of the optical frame in the world. */
   cameraPose: Pose;
 }
 
-/** Nobody took a cloud for so long: the recording stands still until somebody does, ms. */
+/** If nobody has taken a cloud for this long, the recording pauses until somebody does, ms. */
 const IDLE_MS = 1000;
 const MOST_STATIC = 10_000;
 
 /**
- * Plays the clouds of one topic at their times, with the poses that tf and odometry give, and other topics along with them.
- * It holds one cloud, what comes within a tenth of a second after it, and the chunk of the file that is being read, whatever
- * the file's size.
+ * Plays the clouds of one topic at their times, with the poses from tf and odometry, together with other topics. It
+ * holds one cloud, the messages up to a tenth of a second after it, and the chunk of the file that is being read,
+ * whatever the file's size.
  */
 export class CloudPlayer {
   readonly stream: CloudStream;
-  /** Called at each cloud: {@link take} it or {@link skip} it before the next, or the next takes its place. */
+  /** Called for each cloud: {@link take} it or {@link skip} it before the next one, which otherwise replaces it. */
   onCloud: (() => void) | null = null;
-  /** Whether somebody wants the messages of a topic played along: others are passed over as they are read. */
+  /** Whether somebody wants the messages of an accompanying topic; otherwise they are skipped while reading. */
   wantsAlong: (topic: string) => boolean = () => true;
   /**
-   * Called at each of them. Its memory is the receiver's; what it throws is told as a fault of the message.
+   * Called for each of these messages. Its memory belongs to the receiver; an exception is reported as a fault of the
+   * message.
    *
-   * @param ageMs how much earlier it was due: of a message before the first cloud, which is shown with that
+   * @param ageMs how much earlier it was due: for a message before the first cloud, which is shown together with that
+   * cloud
    */
   onAlong: ((message: RecordedMessage, ageMs: number) => void) | null = null;
-  /** What is wrong with the recording: it goes on after it, or has ended for good. */
+  /** Called when something is wrong with the recording. Playing continues after it, or has ended for good. */
   onFault: ((error: RecordingError) => void) | null = null;
-  /** Clouds that were due, and those of them that nobody took in time. */
+  /** Clouds that were due, and how many of them nobody took in time. */
   played = 0;
   superseded = 0;
   readonly #recording: Recording;
@@ -63,7 +65,7 @@ export class CloudPlayer {
     this.#fromNs = recording.startNs + BigInt(Math.round(options.fromS * 1e9));
   }
 
-  /** @throws {RecordingError} for a file that cannot be read, and one without such clouds */
+  /** @throws {RecordingError} if the file is unreadable or has no such clouds */
   static async open(options: PlayOptions, clock: PlayClock): Promise<CloudPlayer> {
     const recording = await openRecording(options.path);
     try {
@@ -88,12 +90,12 @@ export class CloudPlayer {
     }
   }
 
-  /** Something that is wrong with the file and does not keep it from being played. */
+  /** A problem of the file that does not prevent playing it. */
   get warning(): string | null {
     return this.#recording.warning;
   }
 
-  /** What there is to play. */
+  /** The topics of the recording. */
   get topics(): readonly RecordedTopic[] {
     return this.#recording.topics;
   }
@@ -115,7 +117,7 @@ export class CloudPlayer {
     return this.#state.battery;
   }
 
-  /** Begins; returns when there is nothing more to play. */
+  /** Starts playing; returns when there is nothing more to play. */
   async run(): Promise<void> {
     while (!this.#ended.signal.aborted) {
       const before = this.played;
@@ -138,7 +140,7 @@ export class CloudPlayer {
     }
   }
 
-  /** Goes on from another place, s after the first message. */
+  /** Continues from another position, s after the first message. */
   seek(seconds: number): void {
     this.#fromNs = this.#recording.startNs + BigInt(Math.round(Math.max(0, seconds) * 1e9));
     this.#ready = null;
@@ -149,8 +151,8 @@ export class CloudPlayer {
   /**
    * Decodes the cloud that is due.
    *
-   * @param into as {@link PointCloud2Decoder.decode} has it
-   * @returns `null` where there is none, or it cannot be read: then `onFault` was told
+   * @param into as in {@link PointCloud2Decoder.decode}
+   * @returns `null` if there is none, or it cannot be read, which `onFault` reports
    */
   take(into: Float32Array): PlayedCloud | null {
     const message = this.#ready;
@@ -168,7 +170,7 @@ export class CloudPlayer {
     }
   }
 
-  /** Lets the cloud go that is due. */
+  /** Discards the cloud that is due. */
   skip(): void {
     this.#ready = null;
     this.#claims++;
@@ -181,14 +183,14 @@ export class CloudPlayer {
     await this.#recording.close();
   }
 
-  /** From the beginning, or where it was told to begin, to the end. */
+  /** Plays once, from the beginning or the start position, to the end. */
   async #pass(signal: AbortSignal): Promise<void> {
     const { topic } = this.stream;
     this.#state.forgetMoving();
     this.#timeline.clear();
     const along = new Set(this.#options.along);
     along.delete(topic.name);
-    /** Of each topic played along the newest before the first cloud. */
+    /** The newest message of each accompanying topic before the first cloud. */
     const lead = new Map<string, RecordedMessage>();
     const shown = readAhead(this.#recording, {
       cloud: topic.name,
@@ -211,7 +213,7 @@ export class CloudPlayer {
     }
   }
 
-  /** At its time, and only while somebody watches. */
+  /** Shows a message at its time, and only while somebody watches. */
   async #show(
     message: RecordedMessage,
     lead: Map<string, RecordedMessage>,
@@ -268,7 +270,7 @@ export class CloudPlayer {
         if (++count >= MOST_STATIC) return;
       }
     } catch {
-      // Where the file is damaged is said when it is played up to there.
+      // Damage is reported when playing reaches it.
     }
   }
 

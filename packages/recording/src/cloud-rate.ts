@@ -1,19 +1,19 @@
-/** A cloud may be so much of its interval early. */
+/** A cloud may be early by this fraction of the interval. */
 const EARLY_SHARE = 0.25;
 
-/** Which of a camera's clouds are recorded: so many a second at most, evenly. */
+/** Decides which of a camera's clouds are recorded: at most this many per second, evenly spaced. */
 export class CloudRate {
   readonly #intervalMs: number;
   #nextMs = Number.NEGATIVE_INFINITY;
   #latestMs: number | null = null;
   #latestTaken = false;
 
-  /** @param perSecond 0: none */
+  /** @param perSecond 0 records none */
   constructor(perSecond: number) {
     this.#intervalMs = 1000 / perSecond;
   }
 
-  /** Whether the cloud of that time is recorded; asked twice of one, the answer is the same. */
+  /** Whether the cloud with this time is recorded. Asking twice for the same time gives the same answer. */
   takes(capturedAtMs: number): boolean {
     if (capturedAtMs !== this.#latestMs) {
       this.#latestMs = capturedAtMs;

@@ -9,30 +9,30 @@ import {
 import { codeOf, detailOf, RecordingError } from './errors.ts';
 import type { RecordedTopic, Recording } from './recording.ts';
 
-/** Topics of our own recordings that are played rather than others. */
+/** Topics of our own recordings, which are preferred to others. */
 const OWN_TOPIC = '/farpoint/captured';
-/** Places of the recording, as parts of its length, at which clouds are looked at to know how large they are. */
+/** Positions in the recording, as fractions of its length, at which clouds are examined to find their size. */
 const SAMPLE_PLACES = [0, 0.25, 0.5, 0.75];
 const SAMPLES_AT_EACH = 4;
-/** Clouds of a LiDAR differ in size: how much larger others may be than the largest that was looked at. */
+/** Clouds of a LiDAR vary in size: how much larger others may be than the largest one examined. */
 const HEADROOM = 1.5;
 
-/** The clouds of one topic. */
+/** Describes the clouds of one topic. */
 export interface CloudStream {
   topic: RecordedTopic;
   axes: CloudAxes;
   /** Of the first cloud. */
   frameId: string;
-  /** The grid that all have, height 1 where there is none. */
+  /** The grid that all clouds have; height 1 if there is none. */
   width: number;
   height: number;
-  /** Most points of one. */
+  /** The most points in one cloud. */
   capacity: number;
-  /** As played, where they come fastest; `null` where there is only one. */
+  /** At playing speed, where clouds are closest together; `null` if there is only one. */
   framesPerSecond: number | null;
 }
 
-/** @throws {RecordingError} `no-topic`, or what is wrong with its clouds where none can be read */
+/** @throws {RecordingError} `no-topic`, or what is wrong with the clouds if none can be read */
 export async function describeClouds(
   recording: Recording,
   options: { topic: string | null; rate: number; axes: CloudAxes | 'auto' },
@@ -54,7 +54,7 @@ export async function describeClouds(
   };
 }
 
-/** Topics that clouds are looked for in, the one to play first; at least one. */
+/** Topics to search for clouds, starting with the one to play; at least one. */
 function candidates({ file, topics }: Recording, wanted: string | null): RecordedTopic[] {
   const clouds = topics.filter(({ type }) => POINT_CLOUD_TYPES.includes(type));
   const names = clouds.map(({ name }) => name).join(', ') || 'none';
@@ -71,12 +71,12 @@ function candidates({ file, topics }: Recording, wanted: string | null): Recorde
   if (clouds.length === 0)
     throw new RecordingError('no-topic', 'no topic with sensor_msgs/PointCloud2', { file });
   const most = clouds.toSorted((a, b) => (b.messages ?? 0) - (a.messages ?? 0));
-  // Our own recordings have each topic, also one that nothing was recorded of.
+  // Our own recordings contain every topic, even those without messages.
   const own = most.filter(({ name, messages }) => name === OWN_TOPIC && messages !== 0);
   return [...own, ...most.filter((each) => !own.includes(each))];
 }
 
-/** The first of them that has clouds. @throws {RecordingError} of the first, where none has */
+/** The first of them that has clouds. @throws {RecordingError} of the first topic, if none has clouds */
 async function sampleFirst(
   recording: Recording,
   topics: readonly RecordedTopic[],
@@ -93,24 +93,24 @@ async function sampleFirst(
 }
 
 /**
- * How many clouds a second these are, by the times between one and the next: those of a recording that stood still for half
- * of its length are not half as many.
+ * Clouds per second, from the intervals between consecutive clouds: a recording that pauses for half of its length does
+ * not halve the rate.
  *
- * @param times of clouds that follow each other, ns
+ * @param times of consecutive clouds, ns
  */
 export function cloudsPerSecond(times: readonly bigint[]): number | null {
-  // Two formats of one capture have one time.
+  // Two formats of one capture have the same time.
   const different = times.filter((ns, i) => i === 0 || ns !== times[i - 1]);
   const intervals = different.slice(1).map((ns, i) => Number(ns - (different[i] as bigint)) / 1e9);
   intervals.sort((a, b) => a - b);
-  // The median of them: neither a pause nor two that came at once count.
+  // The median, so that neither a pause nor two clouds at once count.
   const median = intervals[(intervals.length - 1) >> 1];
   return median === undefined || median <= 0 ? null : 1 / median;
 }
 
 interface CloudSamples {
   clouds: PointCloud2[];
-  /** Where they come fastest. */
+  /** Where the clouds are closest together. */
   perSecond: number | null;
 }
 
@@ -129,7 +129,7 @@ async function sampleClouds(recording: Recording, topic: RecordedTopic): Promise
         try {
           const cloud = pointCloud2Schema.parse(topic.decode(data));
           checkedCount(cloud);
-          // What is kept of it is its header: not its points.
+          // Only the header is kept, not the points.
           clouds.push({ ...cloud, data: new Uint8Array(0) });
         } catch (error) {
           fault = new RecordingError(codeOf(error), detailOf(error), { ...where, cause: error });

@@ -4,10 +4,10 @@ import { CloudRate } from './cloud-rate.ts';
 import { CreditQueue } from './credit-queue.ts';
 import type { CloudDone, CloudKind, CloudRecord, Lens } from './recorder-messages.ts';
 
-/** Clouds of each kind that the writer has, and that wait for it. */
+/** How many clouds of each kind the writer may hold, and how many may wait for it. */
 const LIMITS = { underWay: 2, waiting: 4 };
 
-/** A captured cloud: as points, or as a depth camera's pictures. */
+/** A captured cloud: as points, or as a depth camera's images. */
 export type TappedCloud = { cameraPose: Pose; capturedAtMs: number } & (
   | { form: 'points'; points: Float32Array; count: number }
   | { form: 'images'; depth: Float32Array; colour: Uint32Array }
@@ -30,8 +30,8 @@ export interface TappedPackets {
 }
 
 /**
- * The capture thread's end of a recording: copies each cloud into memory that goes to the writing thread and comes back.
- * Bounded: where the writer does not keep up, the oldest cloud that waits is dropped.
+ * The capture thread's end of a recording. Copies each cloud into memory that is transferred to the writer thread and
+ * comes back. Bounded: if the writer does not keep up, the oldest waiting cloud is dropped.
  */
 export class CloudTap {
   readonly #port: MessagePort;
@@ -39,7 +39,7 @@ export class CloudTap {
   readonly #rates: Record<CloudKind, CloudRate>;
   #ended = false;
 
-  /** @param perSecond clouds of each kind recorded a second at most: 0 records none, infinity all */
+  /** @param perSecond the most clouds of each kind recorded per second: 0 records none, infinity all */
   constructor(port: MessagePort, perSecond: Readonly<Record<CloudKind, number>>) {
     this.#port = port;
     this.#lanes = { captured: new Lane(port), sent: new Lane(port) };
@@ -56,7 +56,7 @@ export class CloudTap {
     return this.#lanes.captured.dropped + this.#lanes.sent.dropped;
   }
 
-  /** Clouds that the writer has or that wait for it. */
+  /** Clouds that the writer holds or that wait for it. */
   get pending(): number {
     return this.#lanes.captured.pending + this.#lanes.sent.pending;
   }
@@ -110,7 +110,7 @@ export class CloudTap {
     );
   }
 
-  /** What waits is written, too. */
+  /** Waiting clouds are still written. */
   close(): void {
     this.#lanes.captured.drain();
     this.#lanes.sent.drain();
@@ -120,7 +120,7 @@ export class CloudTap {
 
 type Stamp = Pick<CloudRecord, 'sequence' | 'dropped' | 'buffer'>;
 
-/** Clouds of one kind, and the memory that they travel in. */
+/** Clouds of one kind, and the memory in which they are transferred. */
 class Lane {
   readonly #queue: CreditQueue<CloudRecord>;
   readonly #free: ArrayBuffer[] = [];
@@ -137,7 +137,7 @@ class Lane {
     return this.#queue.dropped + this.#unmade;
   }
 
-  /** All memory that is not free travels or waits. */
+  /** Memory that is not free is in transfer or waits. */
   get pending(): number {
     return this.#made - this.#free.length;
   }
@@ -153,7 +153,7 @@ class Lane {
     this.#queue.push(make({ sequence, dropped: this.dropped, buffer }));
   }
 
-  /** One whose memory is gone. */
+  /** Counts a cloud whose memory is no longer available. */
   miss(): void {
     this.#sequence++;
     this.#unmade++;
@@ -174,7 +174,7 @@ class Lane {
       else if (!this.#queue.dropOldest()) return null;
     }
     const buffer = this.#free.pop();
-    // Slightly larger than asked for: clouds differ in size, and memory is used again.
+    // Slightly larger than requested: clouds vary in size, and the memory is reused.
     return buffer !== undefined && buffer.byteLength >= bytes
       ? buffer
       : new ArrayBuffer(Math.ceil(bytes * 0.3) * 4);

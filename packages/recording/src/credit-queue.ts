@@ -1,10 +1,10 @@
 /**
- * A bounded queue before something slow. So many items are under way at a time; the others wait here, and where too many
- * wait the oldest is dropped.
+ * A bounded queue in front of something slow. A limited number of items is in progress at a time; the others wait here.
+ * If too many wait, the oldest is dropped.
  */
 export class CreditQueue<T> {
   dropped = 0;
-  /** Gets what is dropped, e.g. to use its memory again. */
+  /** Gets what is dropped, for example to reuse its memory. */
   onDrop: ((item: T) => void) | null = null;
   readonly #post: (item: T) => void;
   readonly #capacity: number;
@@ -27,14 +27,14 @@ export class CreditQueue<T> {
     if (this.#waiting.length > this.#capacity) this.dropOldest();
   }
 
-  /** One that was under way has arrived. */
+  /** Call when an item in progress is finished. */
   done(): void {
     const next = this.#waiting.shift();
     if (next === undefined) this.#credits++;
     else this.#post(next);
   }
 
-  /** @returns false where nothing waits */
+  /** @returns false if nothing waits */
   dropOldest(): boolean {
     const oldest = this.#waiting.shift();
     if (oldest === undefined) return false;
@@ -43,7 +43,7 @@ export class CreditQueue<T> {
     return true;
   }
 
-  /** Lets go of everything that waits, at the end. */
+  /** Sends everything that waits, at the end. */
   drain(): void {
     for (const item of this.#waiting.splice(0)) this.#post(item);
   }

@@ -16,7 +16,7 @@ const folder = mkdtempSync(join(tmpdir(), 'farpoint-damaged-'));
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
 let whole: Uint8Array;
 beforeAll(async () => {
-  // No Buffer: slices of those share their memory.
+  // Not a Buffer: its slices share memory.
   whole = Uint8Array.from(await mcapOf(CLOUDS, (k) => cloudMessage(k, 100)));
 });
 
@@ -28,7 +28,7 @@ async function count(recording: Recording, fromNs = recording.startNs): Promise<
   return seen;
 }
 
-/** Plays it once and takes everything. */
+/** Plays it once and takes every cloud. */
 async function play(path: string, most = 1000): Promise<{ shown: number; faults: RecordingError[] }> {
   const options: PlayOptions = { path, topic: null, rate: 1, fromS: 0, atEnd: 'stop', axes: 'auto' };
   const player = await CloudPlayer.open(options, new FakeClock());
@@ -45,8 +45,8 @@ async function play(path: string, most = 1000): Promise<{ shown: number; faults:
   return { shown, faults };
 }
 
-describe('files that are damaged', () => {
-  it('an MCAP file cut short anywhere is played up to its last whole chunk, and says where that is', async () => {
+describe('damaged files', () => {
+  it('plays an MCAP file cut short anywhere up to its last complete chunk, and says where that is', async () => {
     let partly = 0;
     await fc.assert(
       fc.asyncProperty(fc.integer({ min: 0, max: whole.length - 1 }), async (length) => {
@@ -62,9 +62,9 @@ describe('files that are damaged', () => {
         expect(recording.warning).toMatch(/cut\.mcap: byte \d+: .*played up to there/);
         const seen = await count(recording);
         await recording.close();
-        // The first ones, without a gap.
+        // The first messages, without a gap.
         expect(seen).toEqual(Array.from({ length: seen.length }, (_, k) => k));
-        // All chunks that were whole: four clouds of 1.3 kB lie in each.
+        // All complete chunks, each with four clouds of 1.3 kB.
         expect(seen.length).toBeGreaterThanOrEqual(
           Math.floor(((length / whole.length) * CLOUDS) / 4) * 4 - 8,
         );
@@ -75,7 +75,7 @@ describe('files that are damaged', () => {
     expect(partly).toBeGreaterThan(50);
   });
 
-  it('a file without its index is sought like one that has it', async () => {
+  it('seeks in a file without an index as in one with an index', async () => {
     const path = writeFile(join(folder, 'cut.mcap'), whole.subarray(0, Math.floor(whole.length * 0.8)));
     const recording = await openRecording(path);
     const all = await count(recording);
@@ -85,7 +85,7 @@ describe('files that are damaged', () => {
     await recording.close();
   });
 
-  it('bytes changed anywhere give typed errors with file and offset, or another picture, and nothing else', async () => {
+  it('changed bytes anywhere give typed errors with file and offset, or another picture, nothing else', async () => {
     const outcomes = new Map<string, number>();
     const change = fc.record({
       at: fc.integer({ min: 0, max: 100_000 }),
@@ -116,7 +116,7 @@ describe('files that are damaged', () => {
     expect((outcomes.get('fault') ?? 0) + (outcomes.get('refused') ?? 0)).toBeGreaterThan(100);
   }, 30_000);
 
-  it('of a file with an index only the chunk that is damaged is left out', async () => {
+  it('in a file with an index, skips only the damaged chunk', async () => {
     const intact = await openRecording(writeFile(join(folder, 'intact.mcap'), whole));
     const offsets: number[] = [];
     for await (const { offset } of intact.messages(['/points'], intact.startNs)) offsets.push(offset);
@@ -125,7 +125,7 @@ describe('files that are damaged', () => {
     expect(chunks.length).toBeGreaterThan(5);
     for (const chunk of [chunks[0], chunks[3], chunks.at(-1)] as number[]) {
       const damaged = whole.slice();
-      // The chunk's own check value is not what it should be.
+      // This breaks the chunk's own checksum.
       damaged[chunk + 600] = (damaged[chunk + 600] as number) ^ 0x55;
       const path = writeFile(join(folder, 'chunk.mcap'), damaged);
       const recording = await openRecording(path);
@@ -147,7 +147,7 @@ describe('files that are damaged', () => {
     }
   });
 
-  it('messages changed anywhere are played or told of, one by one', async () => {
+  it('plays or reports messages that are changed anywhere, one by one', async () => {
     const original = cloudMessage(1, 50);
     const outcomes = { shown: 0, faults: 0 };
     const change = fc.record({
@@ -156,7 +156,7 @@ describe('files that are damaged', () => {
     });
     await fc.assert(
       fc.asyncProperty(fc.array(change, { minLength: 8, maxLength: 8 }), async (changes) => {
-        // The first few are looked at when it is opened: they stay as they are.
+        // The first few are examined when the file is opened, so they stay intact.
         const bytes = await mcapOf(20, (k) => {
           const message = original.slice();
           const { at, bytes: other } = changes[k - 12] ?? { at: 0, bytes: [] };
@@ -179,7 +179,7 @@ describe('files that are damaged', () => {
     expect(outcomes.shown).toBeGreaterThan(12 * 60);
   }, 30_000);
 
-  it('clouds that cannot be read are left out, each with topic and offset; the others play', async () => {
+  it('skips unreadable clouds and reports each with topic and offset; plays the others', async () => {
     const bytes = await mcapOf(
       10,
       (k) => {
@@ -199,7 +199,7 @@ describe('files that are damaged', () => {
     }
   });
 
-  it('a file with nothing but unreadable clouds is refused by topic', async () => {
+  it('refuses a file with only unreadable clouds, naming the topic', async () => {
     const bytes = await mcapOf(3, () => Uint8Array.of(0, 1, 0, 0, 9, 9));
     await expect(play(writeFile(join(folder, 'none.mcap'), bytes))).rejects.toMatchObject({
       code: 'bad-message',
@@ -217,7 +217,7 @@ describe('files that are damaged', () => {
     await expect(openRecording(path)).rejects.toMatchObject({ code, message: expect.stringContaining(path) });
   });
 
-  it('a file that is not there, and a folder', async () => {
+  it('reports a missing file, and a folder', async () => {
     await expect(openRecording(join(folder, 'nothing.mcap'))).rejects.toMatchObject({ code: 'unreadable' });
     await expect(openRecording(folder)).rejects.toMatchObject({ code: 'unreadable' });
   });

@@ -1,4 +1,4 @@
-/** The compressions of MCAP and of ROS 1 bags. */
+/** The compression methods of MCAP and of ROS 1 bags. */
 import { zstdDecompressSync } from 'node:zlib';
 import Bzip2 from '@foxglove/wasm-bz2';
 import { RecordingError } from './errors.ts';
@@ -25,10 +25,10 @@ const lz4 = bounded(decompressLz4);
 const zstd = bounded((compressed, size) => zstdDecompressSync(compressed, { maxOutputLength: size }));
 let bzip2: Promise<Bzip2> | null = null;
 
-/** By the names that MCAP uses. */
+/** By the names used in MCAP. */
 export const mcapDecompressors: { lz4: Decompress; zstd: Decompress } = { lz4, zstd };
 
-/** By the names that bags use. */
+/** By the names used in bags. */
 export async function bagDecompressors(): Promise<{ lz4: Decompress; bz2: Decompress }> {
   bzip2 ??= Bzip2.init();
   const loaded = await bzip2;

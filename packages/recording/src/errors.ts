@@ -2,25 +2,25 @@ import { RosFault } from '@farpoint/ros';
 
 export type RecordingErrorCode =
   | 'not-a-recording' // neither MCAP nor a ROS 1 bag of version 2.0
-  | 'unreadable' // the system refuses the file
+  | 'unreadable' // the system refuses access to the file
   | 'truncated' // the file ends too early
-  | 'damaged' // bytes that the format does not allow, or a check value that is not theirs
-  | 'too-large' // a record beyond what is kept in memory
+  | 'damaged' // bytes that the format does not allow, or a wrong checksum
+  | 'too-large' // a record too large to keep in memory
   | 'not-indexed' // a bag whose writer was killed
-  | 'unsupported' // a compression, an encoding or a schema that nobody here reads
-  | 'no-topic' // no such topic, or none with clouds
-  | 'bad-message' // a message that is not what its schema says
-  | 'bad-cloud' // a PointCloud2 whose fields and sizes do not agree
-  | 'bad-image'; // a picture that is not what it says
+  | 'unsupported' // an unsupported compression, encoding or schema
+  | 'no-topic' // no such topic, or no topic with clouds
+  | 'bad-message' // a message that does not match its schema
+  | 'bad-cloud' // a PointCloud2 whose fields and sizes are inconsistent
+  | 'bad-image'; // an image that does not match its description
 
 /** What is wrong with a recording, and where. */
 export class RecordingError extends Error {
   override readonly name = 'RecordingError';
   readonly code: RecordingErrorCode;
-  /** What is wrong, without the place. */
+  /** What is wrong, without the location. */
   readonly detail: string;
   readonly topic: string | undefined;
-  /** Byte of the file at or after which it was found. */
+  /** Byte of the file at or after which the error was found. */
   readonly offset: number | undefined;
 
   constructor(
@@ -40,7 +40,7 @@ export class RecordingError extends Error {
   }
 }
 
-/** Of anything thrown, what it says. */
+/** The message of anything thrown. */
 export function detailOf(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
 }
@@ -53,7 +53,7 @@ const OF_MESSAGES: readonly string[] = [
   'unsupported',
 ] satisfies RecordingErrorCode[];
 
-/** Of anything thrown while a message was read. */
+/** The code for anything thrown while a message was read. */
 export function codeOf(error: unknown): RecordingErrorCode {
   if (error instanceof RecordingError) return error.code;
   const code = error instanceof RosFault ? error.code : '';

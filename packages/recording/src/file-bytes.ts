@@ -1,14 +1,14 @@
 import { type FileHandle, open } from 'node:fs/promises';
 import { detailOf, RecordingError } from './errors.ts';
 
-/** No record is larger: a cloud of 4 million points with everything that a LiDAR says of each has half of it. */
+/** Maximum size of a record: a cloud of 4 million points with everything that a LiDAR reports takes half of it. */
 export const MAX_RECORD_BYTES = 512 * 1024 * 1024;
 
-/** A file that is read piece by piece, anywhere. */
+/** A file that is read in pieces, at any position. */
 export class FileBytes {
   readonly path: string;
   readonly size: number;
-  /** Where the last piece began: near what is wrong, when something is. */
+  /** Where the last piece began: close to the fault if an error occurs. */
   lastOffset = 0;
   readonly #handle: FileHandle;
 

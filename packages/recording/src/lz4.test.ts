@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { RecordingError } from './errors.ts';
 import { decompressLz4 } from './lz4.ts';
 
-/** A frame with one block, of sequences written down by hand. */
+/** A frame with one block of handwritten sequences. */
 function frame(block: number[], { stored = false, flags = 0x40 } = {}): Uint8Array {
   const size = [block.length & 0xff, block.length >> 8, 0, stored ? 0x80 : 0];
   const checks = (flags & 16) === 0 ? [] : [9, 9, 9, 9];
@@ -36,7 +36,7 @@ describe('decompressLz4', () => {
     expect(text(decompressLz4(frame([0x34, ...codes('abc'), 3, 0, 0x10, ...codes('!')]), 12))).toBe(
       'abcabcabcab!',
     );
-    // One byte, then 15 + 255 + 7 + 4 of it.
+    // One byte, then 15 + 255 + 7 + 4 copies of it.
     const run = decompressLz4(frame([0x1f, 120, 1, 0, 255, 7, 0x00]), 282);
     expect(text(run)).toBe('x'.repeat(282));
     // 15 + 20 literals.
@@ -44,14 +44,14 @@ describe('decompressLz4', () => {
     expect(text(decompressLz4(frame([0xf0, 20, ...codes(words)]), 35))).toBe(words);
   });
 
-  it('reads what is stored, check values, several frames, and frames to skip', () => {
+  it('reads stored blocks, checksums, several frames, and skippable frames', () => {
     const stored = frame(codes('stored'), { stored: true, flags: 0x40 | 16 | 4 });
     const skipped = Uint8Array.from([0x53, 0x2a, 0x4d, 0x18, 2, 0, 0, 0, 1, 2]);
     const both = Buffer.concat([stored, skipped, frame([0x20, ...codes('ok')])]);
     expect(text(decompressLz4(both, 8))).toBe('storedok');
   });
 
-  it('reads on after a chunk that was damaged', () => {
+  it('continues after a damaged chunk', () => {
     const whole = frame([0x20, ...codes('ok')]);
     expect(() => decompressLz4(whole.subarray(0, 9), 2)).toThrow(RecordingError);
     expect(() => decompressLz4(Uint8Array.from(codes('no LZ4 at all')), 2)).toThrow(RecordingError);

@@ -1,17 +1,17 @@
 /**
- * Reads LZ4 frames (the lz4 project's frame format 1.6.4). Check values are not looked at: the recordings have their own. Why
- * this is not a library's: docs/decisions/2026-11-22-own-lz4.md.
+ * Reads LZ4 frames (the lz4 project's frame format 1.6.4). Ignores their checksums, because the recordings have their
+ * own. Why this is not a library's: docs/decisions/2026-11-22-own-lz4.md.
  */
 import { RecordingError } from './errors.ts';
 
 const MAGIC = 0x184d2204;
 const SKIPPABLE = 0x184d2a50;
 const SHORTEST_MATCH = 4;
-/** Copying so many bytes one by one is faster than asking for it. */
+/** Below this length, copying byte by byte is faster than calling a copy function. */
 const FEW_BYTES = 24;
 
 /**
- * @param size of what comes out
+ * @param size of the output
  * @throws {RecordingError} `damaged`, with the byte of the input
  */
 export function decompressLz4(input: Uint8Array, size: number): Uint8Array {
@@ -58,7 +58,7 @@ export function decompressLz4(input: Uint8Array, size: number): Uint8Array {
   return output.subarray(0, filled);
 }
 
-/** One block; matches may reach into what came before it. @returns how far the output is filled */
+/** Decodes one block; matches may refer to output before it. @returns how far the output is filled */
 function decodeBlock(
   input: Uint8Array,
   from: number,
@@ -88,7 +88,7 @@ function decodeBlock(
     } else {
       for (let i = 0; i < literals; i++) output[to++] = input[at++] as number;
     }
-    // The last sequence has literals only.
+    // The last sequence has only literals.
     if (at === end) return to;
     if (at + 2 > end) throw damaged(at, 'an offset is cut short');
     const offset = (input[at] as number) | ((input[at + 1] as number) << 8);
@@ -109,7 +109,7 @@ function decodeBlock(
       output.copyWithin(to, to - offset, to - offset + match);
       to += match;
     } else {
-      // It may overlap itself: byte by byte it repeats.
+      // It may overlap itself: copying byte by byte repeats it.
       for (let i = 0; i < match; i++, to++) output[to] = output[to - offset] as number;
     }
   }

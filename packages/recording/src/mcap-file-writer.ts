@@ -3,23 +3,23 @@ import { crc32, constants as zlib, zstdCompressSync } from 'node:zlib';
 import { McapRecordBuilder, type McapTypes } from '@mcap/core';
 import { timeRange } from './time-range.ts';
 
-/** A chunk is written once it has so many bytes. */
+/** A chunk is written once it has this many bytes. */
 const CHUNK_BYTES = 1024 * 1024;
-/** A larger message is not copied but written at once: its memory is the caller's. */
+/** Larger messages are written at once without a copy, because their memory belongs to the caller. */
 const COPY_BELOW_BYTES = 256 * 1024;
 const MESSAGE_OPCODE = 5;
 const CHUNK_OPCODE = 6;
 /** Opcode and length, and a message's own fields. */
 const MESSAGE_HEAD_BYTES = 1 + 8 + 2 + 4 + 8 + 8;
 
-/** What comes after everything at the end of a file, beside the definitions and the index. */
+/** What follows everything else at the end of a file, besides the definitions and the index. */
 const FOOTER_BYTES = 256;
-/** Of a chunk: its head, its index and its entry in the index of chunks, beside what each message and channel adds. */
+/** Overhead of a chunk: header, index and entry in the chunk index, without what each message and channel adds. */
 const CHUNK_EXTRA_BYTES = 256;
 const MESSAGE_INDEX_BYTES = 16;
 const CHANNEL_INDEX_BYTES = 15 + 10;
 
-/** The file would become larger than it may. It can still be closed, and is whole then. */
+/** The file would become larger than allowed. It can still be closed, and is then complete. */
 export class McapFileFull extends Error {
   override readonly name = 'McapFileFull';
 }
@@ -27,15 +27,15 @@ export class McapFileFull extends Error {
 export interface ChannelSpec {
   topic: string;
   messageEncoding: 'cdr' | 'json';
-  /** `null` for JSON, which says itself what it holds: some readers refuse a file for a schema that they do not know. */
+  /** `null` for JSON, which describes itself: some readers refuse a file because of a schema that they do not know. */
   schema: { name: string; encoding: 'ros2msg'; text: string } | null;
-  /** Words about it. */
+  /** Free-form metadata. */
   metadata?: Readonly<Record<string, string>>;
 }
 
 /**
- * Writes an MCAP file chunk by chunk. What was written of a file whose writer was killed can be read up to the last chunk;
- * the index comes at the end. A large message is not copied. Wait for each call before the next.
+ * Writes an MCAP file chunk by chunk. If the writer is killed, the file can be read up to the last chunk; the index
+ * comes at the end. Large messages are not copied. Wait for each call before the next.
  */
 export class McapFileWriter {
   messages = 0;
@@ -47,7 +47,7 @@ export class McapFileWriter {
   readonly #schemas: McapTypes.Schema[] = [];
   readonly #channels: McapTypes.Channel[] = [];
   readonly #counts = new Map<number, bigint>();
-  /** The index of chunks as it will be written: 100 bytes each, and there are hundreds of thousands. */
+  /** The chunk index as it will be written: 100 bytes per chunk, and there may be hundreds of thousands. */
   readonly #chunkIndex = new McapRecordBuilder();
   #chunkCount = 0;
   #times: { first: bigint; last: bigint } | null = null;
@@ -59,7 +59,7 @@ export class McapFileWriter {
   #index = new Map<number, [bigint, bigint][]>();
   #firstNs = 0n;
   #lastNs = 0n;
-  /** Of schemas and channels, which stand at the end once more, and of words about the recording. */
+  /** Of schemas and channels, which are repeated at the end, and of metadata about the recording. */
   #definitionBytes = 0;
 
   private constructor(file: FileHandle, compression: 'none' | 'zstd', mostBytes: number) {
@@ -68,7 +68,7 @@ export class McapFileWriter {
     this.#mostBytes = mostBytes;
   }
 
-  /** @throws {Error} where the file exists already, or cannot be made */
+  /** @throws {Error} if the file already exists or cannot be created */
   static async create(
     path: string,
     compression: 'none' | 'zstd',
@@ -82,7 +82,7 @@ export class McapFileWriter {
     return writer;
   }
 
-  /** @returns its number */
+  /** @returns the channel's number */
   addChannel({ topic, messageEncoding, schema, metadata = {} }: ChannelSpec): number {
     const id = this.#channels.length;
     const before = this.#builder.length;
@@ -106,13 +106,13 @@ export class McapFileWriter {
   }
 
   /**
-   * @param data one message in parts, which must stay as they are until the promise is kept
-   * @throws {McapFileFull} having written nothing of it
+   * @param data one message in parts, which must not be changed until the promise is resolved
+   * @throws {McapFileFull} without having written any of it
    */
   async add(channelId: number, sequence: number, logNs: bigint, data: readonly Uint8Array[]): Promise<void> {
     const dataBytes = data.reduce((sum, part) => sum + part.length, 0);
     const more = MESSAGE_HEAD_BYTES + dataBytes + MESSAGE_INDEX_BYTES;
-    // What waits may be packed and so take less than it seems.
+    // Pending data may be compressed, and so take less than it seems.
     if (this.#closedBytes() + more > this.#mostBytes) await this.flush();
     if (this.#closedBytes() + more > this.#mostBytes)
       throw new McapFileFull(`no room for ${dataBytes} bytes more within ${this.#mostBytes}`);
@@ -141,7 +141,7 @@ export class McapFileWriter {
     if (large || this.#chunkBytes >= CHUNK_BYTES) await this.flush();
   }
 
-  /** Writes the chunk that is being filled: from now on it survives this process. */
+  /** Writes the chunk that is being filled: from now on, it survives the end of this process. */
   async flush(): Promise<void> {
     if (this.#index.size === 0) return;
     const parts = this.#parts;
@@ -186,7 +186,7 @@ export class McapFileWriter {
     this.#index = new Map();
   }
 
-  /** Words about the recording. */
+  /** Adds metadata about the recording. */
   async addMetadata(name: string, values: Record<string, string>): Promise<void> {
     await this.flush();
     const offset = BigInt(this.bytes);
@@ -196,12 +196,12 @@ export class McapFileWriter {
     await this.#writeBuilder();
   }
 
-  /** Everything that was flushed survives the machine, too. */
+  /** Makes everything that was flushed survive a crash of the machine, too. */
   sync(): Promise<void> {
     return this.#file.datasync();
   }
 
-  /** The index, and the end. */
+  /** Writes the index and the end of the file. */
   async close(): Promise<void> {
     await this.flush();
     const builder = this.#builder;
@@ -231,7 +231,7 @@ export class McapFileWriter {
     await this.#file.close();
   }
 
-  /** The most that the file has once it is closed now. */
+  /** The largest size that the file would have if it were closed now. */
   #closedBytes(): number {
     const chunk =
       this.#chunkBytes +
@@ -260,7 +260,7 @@ export class McapFileWriter {
   }
 }
 
-/** Everything of a chunk before its records. */
+/** Everything in a chunk before its records. */
 function chunkHead(
   chunk: { first: bigint; last: bigint; bytes: number; crc: number },
   compression: string,

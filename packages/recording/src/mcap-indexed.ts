@@ -6,10 +6,10 @@ import { topicsOf } from './mcap-topics.ts';
 import type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 import { timeRange } from './time-range.ts';
 
-/** Index entries kept, so that a seek does not read them again. */
+/** Size of the cache of index entries, so that a seek does not read them again. */
 const INDEX_CACHE_BYTES = 16 * 1024 * 1024;
 
-/** An MCAP file that was closed: read by its index, chunk by chunk. */
+/** A closed MCAP file: read by its index, chunk by chunk. */
 export class IndexedMcap implements Recording {
   readonly file: string;
   readonly topics: readonly RecordedTopic[];
@@ -38,7 +38,7 @@ export class IndexedMcap implements Recording {
     this.endNs = reader.statistics?.messageEndTime ?? ofChunks.last;
   }
 
-  /** @throws {RecordingError} where there is no index, or it cannot be read */
+  /** @throws {RecordingError} if there is no index, or it cannot be read */
   static async open(bytes: FileBytes): Promise<IndexedMcap> {
     try {
       const reader = await McapIndexedReader.Initialize({
@@ -82,7 +82,7 @@ export class IndexedMcap implements Recording {
     }
   }
 
-  /** The time after the chunk that lies at this byte, where that is later than `fromNs`. */
+  /** The time after the chunk at this byte, if that is later than `fromNs`. */
   #timeAfter(offset: number, fromNs: bigint): bigint | null {
     for (const chunk of this.#reader.chunkIndexes) {
       const start = Number(chunk.chunkStartOffset);
@@ -98,7 +98,7 @@ export class IndexedMcap implements Recording {
   }
 }
 
-/** What a library threw, with the place in the file. */
+/** An error of a library, with the position in the file. */
 export function asRecordingError(error: unknown, { path, lastOffset }: FileBytes): RecordingError {
   if (error instanceof RecordingError && error.offset !== undefined) return error;
   const code = error instanceof RecordingError ? error.code : 'damaged';

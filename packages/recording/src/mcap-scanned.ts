@@ -6,25 +6,28 @@ import { topicsOf } from './mcap-topics.ts';
 import type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 
 const PIECE_BYTES = 1024 * 1024;
-/** Places to begin reading at; where there are more chunks, each second one is forgotten. */
+/** Positions at which reading may begin; if there are more chunks, every second one is dropped. */
 const MOST_PLACES = 4096;
 
 type Record = McapTypes.TypedMcapRecord;
 
-/** Where reading may begin, and the newest message before it. */
+/** A position at which reading may begin, and the time of the newest message before it. */
 interface Place {
   offset: number;
   newestBeforeNs: bigint;
 }
 
-/** An MCAP file without an index, as a recorder leaves it that was killed: read from front to back, up to its last whole chunk. */
+/**
+ * An MCAP file without an index, as left by a recorder that was killed: read from front to back, up to its last
+ * complete chunk.
+ */
 export class ScannedMcap implements Recording {
   readonly file: string;
   readonly topics: readonly RecordedTopic[];
   readonly startNs: bigint;
   readonly endNs: bigint;
   readonly warning: string | null;
-  /** Where what can be read ends. */
+  /** Where the readable part ends. */
   readonly wholeBytes: number;
   readonly #bytes: FileBytes;
   readonly #scan: Scan;
@@ -50,7 +53,7 @@ export class ScannedMcap implements Recording {
   /**
    * Reads the file once.
    *
-   * @throws {RecordingError} where not even one message can be read
+   * @throws {RecordingError} if not even one message can be read
    */
   static async open(bytes: FileBytes): Promise<ScannedMcap> {
     const scan = new Scan();
@@ -75,7 +78,7 @@ export class ScannedMcap implements Recording {
         yield { topic, logNs: record.logTime, data: record.data.slice(), offset };
       }
     } catch (error) {
-      // Where it ends has been said already.
+      // Where the file ends has already been reported.
       if (this.warning === null || !(error instanceof RecordingError)) throw error;
     }
   }
@@ -85,7 +88,7 @@ export class ScannedMcap implements Recording {
   }
 }
 
-/** What one reading of the whole file tells. */
+/** The result of reading the whole file once. */
 class Scan {
   readonly schemas = new Map<number, McapTypes.Schema>();
   readonly channels = new Map<number, McapTypes.Channel>();
@@ -108,7 +111,7 @@ class Scan {
         this.channels.set(record.id, record);
         break;
       case 'Chunk':
-        // Its messages come after it, at the same offset: reading may begin behind the chunk before.
+        // Its messages follow it, at the same offset: reading may begin after the chunk before.
         if (this.#chunks++ % this.#stride !== 0) break;
         this.#places.push({ offset: offset - chunkBytes(record), newestBeforeNs: this.endNs });
         if (this.#places.length > MOST_PLACES) {
@@ -124,7 +127,7 @@ class Scan {
     }
   }
 
-  /** The last place before which every message is older. */
+  /** The last position before which every message is older. */
   placeBefore(ns: bigint): Place {
     let best = this.#places[0] as Place;
     for (const place of this.#places) {
@@ -137,12 +140,12 @@ class Scan {
 
 interface PlacedRecord {
   record: Record;
-  /** Byte after it; after its chunk for what lies in one. */
+  /** Byte after the record; for records inside a chunk, the byte after the chunk. */
   offset: number;
 }
 
 /**
- * @param known channels that messages behind `from` may have, where that is not the beginning
+ * @param known channels that messages after `from` may have, if `from` is not the beginning
  * @throws {RecordingError} `truncated`, `damaged` or `too-large`, with the byte at which the record begins
  */
 async function* recordsOf(

@@ -3,9 +3,9 @@ import type { McapTypes } from '@mcap/core';
 import type { RecordedTopic } from './recording.ts';
 
 /**
- * A topic for each channel. Two channels may have one topic (two publishers): each keeps its own schema.
+ * One topic per channel. Two channels may have the same topic (two publishers): each keeps its own schema.
  *
- * @param count messages of a channel; `null` where nobody has counted
+ * @param count messages of a channel; `null` if unknown
  */
 export function topicsOf(
   channels: Iterable<McapTypes.Channel>,

@@ -9,10 +9,10 @@ import type { Recording } from './recording.ts';
 const BAG_MAGIC = new TextEncoder().encode('#ROSBAG V2.0\n');
 
 /**
- * Opens an MCAP file or a ROS 1 bag, told apart by their first bytes. An MCAP file without its index, as a killed recorder
- * leaves it, is read once from front to back.
+ * Opens an MCAP file or a ROS 1 bag, identified by the first bytes. An MCAP file without its index, as left by a killed
+ * recorder, is read once from front to back.
  *
- * @throws {RecordingError} saying what cannot be read, and where
+ * @throws {RecordingError} stating what cannot be read, and where
  */
 export async function openRecording(path: string): Promise<Recording> {
   const bytes = await FileBytes.open(path);

@@ -65,7 +65,7 @@ describe.skipIf(typeof peers === 'string')(
     beforeAll(() => (peers as Peers).write(folder), INSTALL_MS);
     afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
-    it.each(FILES)('%s: every message is there, in order', async (file) => {
+    it.each(FILES)('%s: contains every message, in order', async (file) => {
       const recording = await openRecording(join(folder, file));
       expect(Object.fromEntries(recording.topics.map(({ name, messages }) => [name, messages]))).toEqual({
         '/points': 20,
@@ -87,7 +87,7 @@ describe.skipIf(typeof peers === 'string')(
       await recording.close();
     });
 
-    it.each(FILES)('%s: plays at its times, from the poses of tf', async (file) => {
+    it.each(FILES)('%s: plays at its times, with the poses from tf', async (file) => {
       const { shown, faults, player } = await playAll({ ...PLAY, path: join(folder, file) });
       expect(faults).toEqual([]);
       expect(shown).toHaveLength(20);
@@ -99,11 +99,11 @@ describe.skipIf(typeof peers === 'string')(
         expect(first[0]).toBeCloseTo(0, 5);
         expect(first[1]).toBeCloseTo(-0.5, 5);
         expect(first[2]).toBeCloseTo(k, 4);
-        // The body stands at (k / 10, 0, 0), turned left by 90°; the LiDAR 0.5 m ahead of it and 1 m above.
+        // The body is at (k / 10, 0, 0), turned left by 90°; the LiDAR is 0.5 m in front of it and 1 m above.
         expect(pose.position.x).toBeCloseTo(k / 10, 5);
         expect(pose.position.y).toBeCloseTo(0.5, 5);
         expect(pose.position.z).toBeCloseTo(1, 5);
-        // Its optical z axis therefore looks along +y of the world.
+        // Its optical z axis therefore points along the world's +y.
         const { x, y, z, w } = pose.orientation;
         expect([2 * (x * z + y * w), 2 * (y * z - x * w)].map((c) => Math.round(c * 1e6) / 1e6 + 0)).toEqual([
           0, 1,
@@ -119,7 +119,7 @@ describe.skipIf(typeof peers === 'string')(
         11, 12, 13, 14, 15, 16, 17, 18, 19, 11, 12, 13,
       ]);
       expect((shown[8] as Shown).atMs).toBeCloseTo(400, 3);
-      // The pose of the first cloud is known from what was said before it.
+      // The pose of the first cloud is known from messages before it.
       expect(shown[0]?.pose.position.x).toBeCloseTo(1.1, 5);
       expect(shown[9]?.pose.position.x).toBeCloseTo(1.1, 5);
     });
@@ -162,7 +162,7 @@ describe.skipIf(typeof peers === 'string')(
       },
     );
 
-    it('a topic that is not there or has no clouds is refused with the names of those that do', async () => {
+    it('refuses a missing topic or one without clouds, naming those that have clouds', async () => {
       const path = join(folder, 'mcap-ros2-none.mcap');
       await expect(playAll({ ...PLAY, path, topic: '/nothing' })).rejects.toMatchObject({
         code: 'no-topic',

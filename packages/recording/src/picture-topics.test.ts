@@ -13,7 +13,7 @@ it('names topics after cameras', () => {
   ]);
 });
 
-it('gives names that ROS allows, each once', () => {
+it('produces valid, unique ROS names', () => {
   const name = fc.oneof(fc.string(), fc.constantFrom('a', 'a_2', 'a b', 'a-b', ''));
   fc.assert(
     fc.property(fc.array(name, { maxLength: 8 }), (names) => {

@@ -1,8 +1,11 @@
-/** Names of the topics that cameras' pictures are recorded in. */
+/** Names of the topics under which cameras' pictures are recorded. */
 
 const PREFIX = '/farpoint/pictures/';
 
-/** A camera's name with `_` for what topics may not be called: `Front` and `/front/image_raw` become `Front` and `front_image_raw`. */
+/**
+ * A camera's name with `_` in place of characters that are invalid in topics: `Front` and `/front/image_raw` become
+ * `Front` and `front_image_raw`.
+ */
 export function pictureTopics(cameras: readonly string[]): string[] {
   const taken = new Set<string>();
   return cameras.map((camera) => {

@@ -1,4 +1,4 @@
-/** What is played beside the clouds: at its time, whatever is done to the playing. */
+/** Messages played along with the clouds: at their times, whatever is done to the playback. */
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -23,7 +23,7 @@ const text = (value: object) => new TextEncoder().encode(JSON.stringify(value));
 const json = { messageEncoding: 'json', schemaEncoding: 'jsonschema' };
 const path = join(folder, 'drive.mcap');
 
-/** 10 clouds a second for 2 s, words of two topics; those of /left say the time that they are of, ms. */
+/** 10 clouds per second for 2 s, and texts on two topics; those of /left state their own time, ms. */
 beforeAll(async () => {
   const clouds = Array.from({ length: CLOUDS }, (_, k) => ({ logNs: at(k * 100), data: cloudMessage(k, 3) }));
   const left = Array.from({ length: 67 }, (_, n) => ({
@@ -49,7 +49,7 @@ beforeAll(async () => {
 interface Event {
   /** `cloud`, or the topic. */
   what: string;
-  /** Of the clock, and of the recording. */
+  /** By the clock, and by the recording. */
   atMs: number;
   ofMs: number;
   ageMs: number;
@@ -67,7 +67,7 @@ const PLAY: PlayOptions = {
   },
 };
 
-/** Plays it, takes every cloud, and tells what was shown when. @param onEvent may do something to the player */
+/** Plays it, takes every cloud, and returns what was shown when. @param onEvent may control the player */
 async function play(
   options: Partial<PlayOptions> = {},
   onEvent: (player: CloudPlayer, events: Event[]) => void = () => {},
@@ -99,8 +99,8 @@ async function play(
 const cloudOf = (points: Float32Array) => Math.round(points[0] as number) * 100;
 const of = (events: readonly Event[], what: string) => events.filter((event) => event.what === what);
 
-describe('what is played along', () => {
-  it('comes at its time, in order with the clouds, each once', async () => {
+describe('messages played along', () => {
+  it('arrive at their times, in order with the clouds, once each', async () => {
     const { events, faults } = await play();
     expect(faults).toEqual([]);
     expect(of(events, 'cloud')).toHaveLength(CLOUDS);
@@ -109,19 +109,19 @@ describe('what is played along', () => {
     );
     expect(of(events, '/right').map(({ ofMs }) => ofMs)).toEqual([140, 150, 1990]);
     for (const { what, atMs, ofMs, ageMs } of events) {
-      // What is before the first cloud comes with that, and says how old it is.
+      // What precedes the first cloud comes together with it, and states its age.
       expect(atMs - ageMs, what).toBeCloseTo(ofMs, 6);
       expect(ageMs).toBe(ofMs < 0 ? 15 : 0);
     }
   });
 
-  it('keeps to the rate', async () => {
+  it('follow the playing rate', async () => {
     const { events } = await play({ rate: 4 });
     expect(events).toHaveLength(CLOUDS + 70);
     for (const { atMs, ofMs, ageMs } of events) expect(atMs - ageMs).toBeCloseTo(ofMs / 4, 6);
   });
 
-  it('begins where the clouds begin: of what was before, the newest of each topic, no older than a second', async () => {
+  it('begin with the clouds: of earlier messages, only the newest per topic, no older than a second', async () => {
     // Counted from the first message, 15 ms before the first cloud.
     const lead = async (fromS: number) => {
       const { events } = await play({ fromS });
@@ -139,7 +139,7 @@ describe('what is played along', () => {
     ]);
   });
 
-  it('begins anew at each repetition', async () => {
+  it('begin anew at each repetition', async () => {
     const { events } = await play({ atEnd: 'repeat' }, (player, { length }) => {
       if (length === 2 * (CLOUDS + 70)) void player.close();
     });
@@ -147,7 +147,7 @@ describe('what is played along', () => {
     expect(again.map(({ what, ofMs }) => [what, ofMs])).toEqual(once.map(({ what, ofMs }) => [what, ofMs]));
   });
 
-  it('after a jump nothing comes that is of before it', async () => {
+  it('after a seek, none from before it arrives', async () => {
     for (const [when, to] of [
       [250, 1.5],
       [1500, 0.3],
@@ -166,25 +166,25 @@ describe('what is played along', () => {
       const firstCloud = after.find(({ what }) => what === 'cloud') as Event;
       expect(firstCloud.ofMs).toBe(Math.ceil((to * 1000) / 100) * 100);
       for (const { atMs, ofMs, ageMs } of after) {
-        // Everything is placed by that first cloud.
+        // Everything is timed relative to that first cloud.
         expect(atMs - ageMs - firstCloud.atMs).toBeCloseTo(ofMs - firstCloud.ofMs, 6);
         expect(ofMs).toBeGreaterThan(firstCloud.ofMs - 1000);
       }
     }
   });
 
-  it('stands still with the clouds where nobody takes those', async () => {
+  it('pause with the clouds if nobody takes those', async () => {
     const clock = new FakeClock();
     const player = await CloudPlayer.open(PLAY, clock);
     const into = new Float32Array(player.stream.capacity * 4);
     const seen: number[] = [];
     player.onAlong = ({ topic, data }) => seen.push((topic.decode(data) as { ms: number }).ms);
     const running = player.run();
-    // The second cloud is due: from there on it stands, however often others have their turn.
+    // The second cloud is due: there playback pauses, however often other tasks run.
     await vi.waitFor(() => expect(clock.ms).toBe(100), { interval: 1 });
     for (let turn = 0; turn < 100; turn++) await new Promise((resolve) => setImmediate(resolve));
     expect(clock.ms).toBe(100);
-    // The first cloud waits for somebody; up to the second it went on.
+    // The first cloud waits for somebody to take it; playback continued up to the second.
     expect(Math.max(...seen)).toBe(75);
     clock.ms += 60_000;
     const paused = seen.length;
@@ -196,19 +196,19 @@ describe('what is played along', () => {
     await player.close();
   });
 
-  it('what nobody wants is passed over, also where that changes on the way', async () => {
+  it('are skipped if nobody wants them, even if that changes during playback', async () => {
     const { events } = await play({}, (player, seen) => {
       const now = seen.at(-1)?.ofMs ?? 0;
       player.wantsAlong = (topic) => topic === '/right' || now > 500;
     });
     expect(of(events, '/right')).toHaveLength(3);
     const left = of(events, '/left').map(({ ofMs }) => ofMs);
-    // What was read ahead before, and what was read after it changed.
+    // What had been read ahead before the change, and what was read after it.
     expect(left.filter((ms) => ms > 150 && ms < 500)).toEqual([]);
     expect(left.filter((ms) => ms > 700)).toHaveLength(43);
   });
 
-  it('what cannot be read is told with topic and byte, and the rest plays', async () => {
+  it('reports an unreadable message with topic and byte, and plays the rest', async () => {
     const clouds = Array.from({ length: 10 }, (_, k) => ({ logNs: at(k * 100), data: cloudMessage(k, 3) }));
     const bad = Array.from({ length: 10 }, (_, k) => ({
       logNs: at(k * 100 + 50),
@@ -244,7 +244,7 @@ describe('PlayQueue', () => {
     ...{ logNs: at(ms), data: new Uint8Array(bytes).fill(ms), offset: 0 },
   });
 
-  it('gives what was put in, in the order of time, drops the oldest beyond its room, and never the cloud', () => {
+  it('returns messages in order of time, drops the oldest when full, but never the cloud', () => {
     const step = fc.record({ ms: fc.nat(200), bytes: fc.nat(40) });
     fc.assert(
       fc.property(fc.array(step, { maxLength: 30 }), fc.nat(29), (steps, cloudAt) => {
@@ -271,7 +271,7 @@ describe('PlayQueue', () => {
     );
   });
 
-  it('keeps a copy, as the file’s memory is used again', () => {
+  it('keeps a copy, because the file’s memory is reused', () => {
     const queue = new PlayQueue();
     const data = Uint8Array.of(1, 2, 3);
     queue.pushAlong({ ...message(0, 0), data });

@@ -1,14 +1,14 @@
 import type { RecordedMessage } from './recording.ts';
 
-/** Messages beside the clouds that may wait, bytes: eight cameras’ raw pictures of a tenth of a second. */
+/** Limit on waiting messages besides the clouds, bytes: a tenth of a second of raw pictures from eight cameras. */
 const MOST_BYTES = 128 * 1024 * 1024;
 
 /**
- * What was read ahead and waits for its time, in the order of time: one cloud at most, and messages that are played along
- * with the clouds. Where those are too large, the oldest is dropped.
+ * What was read ahead and waits for its time, in order of time: at most one cloud, and accompanying messages. If these
+ * take too much memory, the oldest is dropped.
  */
 export class PlayQueue {
-  /** Messages played along that were dropped. */
+  /** Accompanying messages that were dropped. */
   dropped = 0;
   readonly #mostBytes: number;
   readonly #waiting: RecordedMessage[] = [];
@@ -19,18 +19,18 @@ export class PlayQueue {
     this.#mostBytes = mostBytes;
   }
 
-  /** Of the cloud that waits. */
+  /** Time of the waiting cloud. */
   get cloudNs(): bigint | null {
     return this.#cloud?.logNs ?? null;
   }
 
-  /** The one before must have been taken. */
+  /** The previous cloud must have been taken. */
   pushCloud(message: RecordedMessage): void {
     this.#cloud = message;
     this.#insert(message);
   }
 
-  /** Keeps a copy. @returns the oldest of those that had to go, `null` where there is room */
+  /** Keeps a copy. @returns the oldest of the messages that were dropped for it, `null` if none was */
   pushAlong(message: RecordedMessage): RecordedMessage | null {
     this.#insert({ ...message, data: message.data.slice() });
     this.#bytes += message.data.length;
@@ -45,7 +45,7 @@ export class PlayQueue {
     return oldest;
   }
 
-  /** The oldest, where it is not newer than that. @param untilNs `null`: whatever its time */
+  /** Takes the oldest message if it is not newer than `untilNs`. @param untilNs `null` for any time */
   take(untilNs: bigint | null): { message: RecordedMessage; isCloud: boolean } | null {
     const message = this.#waiting[0];
     if (message === undefined || (untilNs !== null && message.logNs > untilNs)) return null;
@@ -56,7 +56,7 @@ export class PlayQueue {
     return { message, isCloud };
   }
 
-  /** Files without an index give messages nearly, not always, in order. */
+  /** Files without an index return messages nearly, but not always, in order. */
   #insert(message: RecordedMessage): void {
     let at = this.#waiting.length;
     while (at > 0 && (this.#waiting[at - 1] as RecordedMessage).logNs > message.logNs) at--;

@@ -1,20 +1,20 @@
 export interface PlayClock {
-  /** Any fixed beginning, ms. */
+  /** Time since any fixed start, ms. */
   now(): number;
   /** Ends early, without an error, when the signal is aborted. */
   wait(ms: number, signal: AbortSignal): Promise<void>;
 }
 
-/** More behind than this, it goes on from where it is, ms. */
+/** If playing is further behind than this, it continues from the present position, ms. */
 const LATE_MS = 500;
 
-/** When what was recorded is due: a moment of the clock, and the time of the recording at it. */
+/** Computes when a recorded message is due. Pairs a moment of the clock with the recording's time at that moment. */
 export class PlayTimeline {
   readonly #clock: PlayClock;
   readonly #rate: number;
   #anchor: { ms: number; ns: bigint } | null = null;
 
-  /** @param rate 1 as it was recorded, 2 twice as fast */
+  /** @param rate 1 for the recorded speed, 2 for twice as fast */
   constructor(clock: PlayClock, rate: number) {
     this.#clock = clock;
     this.#rate = rate;
@@ -25,17 +25,17 @@ export class PlayTimeline {
     return this.#anchor !== null;
   }
 
-  /** Whatever is next begins it anew. */
+  /** The next message starts the timeline anew. */
   clear(): void {
     this.#anchor = null;
   }
 
-  /** This is now. */
+  /** Sets this time of the recording as now. */
   begin(ns: bigint): void {
     this.#anchor = { ms: this.#clock.now(), ns };
   }
 
-  /** Waits until that is due; what is far behind is now. */
+  /** Waits until this time is due; if playing is far behind, it becomes now. */
   async until(ns: bigint, signal: AbortSignal): Promise<void> {
     if (this.#anchor === null) this.begin(ns);
     const anchor = this.#anchor ?? { ms: 0, ns };

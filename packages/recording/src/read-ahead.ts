@@ -2,27 +2,27 @@ import { RecordingError } from './errors.ts';
 import { PlayQueue } from './play-queue.ts';
 import type { RecordedMessage, Recording } from './recording.ts';
 
-/** How far after what is to be shown poses are read, ns: they come later than what they are of. */
+/** How far poses are read beyond what is to be shown, ns: they arrive later than the data they belong to. */
 const LOOK_AHEAD_NS = 100_000_000n;
-/** How far before the beginning poses are read, and messages along with the clouds, ns. */
+/** How far before the beginning poses and accompanying messages are read, ns. */
 export const PREROLL_NS = 1_000_000_000n;
 
 export interface ReadAheadOptions {
-  /** Of the clouds. */
+  /** Topic of the clouds. */
   cloud: string;
-  /** Topics that say where things are. */
+  /** Topics that give poses. */
   states: ReadonlySet<string>;
-  /** Topics that are shown beside the clouds. */
+  /** Topics that are shown along with the clouds. */
   along: ReadonlySet<string>;
   fromNs: bigint;
-  /** Whether somebody wants that topic now; else its messages are passed over. */
+  /** Whether somebody wants that topic now; otherwise its messages are skipped. */
   wants: (topic: string) => boolean;
-  /** Called as they are read, that is ahead of what they place. */
+  /** Called as they are read, that is, before the data whose position they give. */
   onState: (message: RecordedMessage) => void;
   onFault: (error: RecordingError, where: { topic?: { name: string }; offset?: number }) => void;
 }
 
-/** What is to be shown, in the order of its time; of that before `fromNs` no clouds. */
+/** What is to be shown, in order of time. Before `fromNs`, no clouds. */
 export async function* readAhead(
   recording: Recording,
   { cloud, states, along, fromNs, wants, onState, onFault }: ReadAheadOptions,
@@ -34,7 +34,7 @@ export async function* readAhead(
     const { topic, logNs } = message;
     const isCloud = topic.name === cloud;
     const { cloudNs } = queue;
-    // Two clouds at once are not held: then the poses so far must do.
+    // Two clouds are never held at once; the poses read so far then have to suffice.
     const untilNs = isCloud && cloudNs !== null ? cloudNs : logNs - LOOK_AHEAD_NS;
     for (let next = queue.take(untilNs); next !== null; next = queue.take(untilNs)) yield next;
     if (isCloud) {

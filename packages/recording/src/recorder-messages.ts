@@ -1,20 +1,20 @@
-/** What the threads of a recorded robot say to the one that writes. Times are of the robot's clock, ms. */
+/** Messages from the threads of a recording robot to the thread that writes. Times are of the robot's clock, ms. */
 import type { CloudFormat, PictureFormat, Pose, Twist } from '@farpoint/protocol';
 
 export interface RecorderOptions {
-  /** The MCAP file to write; there must be none yet. */
+  /** The MCAP file to write; it must not exist yet. */
   path: string;
-  /** Its chunks: as they are, or packed. */
+  /** Its chunks: uncompressed or compressed. */
   compression: 'none' | 'zstd';
-  /** The file ends, whole, before it is larger; left out, it may be of any size. */
+  /** The file is closed, complete, before it exceeds this size; unlimited if absent. */
   mostBytes?: number | undefined;
-  /** The time since 1970 at the robot's clock's 0, ns. */
+  /** The time since 1970 at which the robot's clock was 0, ns. */
   epochNs: bigint;
   /** For people: what is recorded. */
   robotId: string;
 }
 
-/** A depth camera's lens, pixels. */
+/** Intrinsics of a depth camera's lens, pixels. */
 export interface Lens {
   fx: number;
   fy: number;
@@ -24,32 +24,32 @@ export interface Lens {
 
 interface RecordedStamp {
   capturedAtMs: number;
-  /** The optical frame in the world. */
+  /** Pose of the optical frame in the world. */
   pose: Pose;
-  /** Counts all there were: a gap is what was dropped. */
+  /** Counts all clouds of its kind: a gap shows dropped ones. */
   sequence: number;
-  /** How many of its kind were, so far. */
+  /** How many of its kind were dropped so far. */
   dropped: number;
   /** Transferred; it comes back with the answer. */
   buffer: ArrayBuffer;
 }
 
-/** A cloud as the source gave it. */
+/** A cloud as the source delivered it. */
 export type CapturedRecord = RecordedStamp &
   (
     | { type: 'points'; count: number; width: number; height: number }
-    /** Depth (float32, metres), then colours (R, G, B, A), of each pixel. */
+    /** For each pixel, depth (float32, metres), then colour (R, G, B, A). */
     | { type: 'images'; lens: Lens; width: number; height: number }
   );
 
-/** A cloud as it was sent: packets in slots, each with its payload's length in its last two bytes. */
+/** A cloud as it was sent: packets in slots, each with its payload's length in the slot's last two bytes. */
 export type SentRecord = RecordedStamp & {
   type: 'sent';
   format: CloudFormat;
   points: number;
   packets: number;
   slotBytes: number;
-  /** What the packets of a coded format are decoded with. */
+  /** The header needed to decode the packets of a coded format. */
   streamHeader: Uint8Array | null;
 };
 
@@ -58,31 +58,31 @@ export type CloudKind = 'captured' | 'sent';
 
 /** A camera whose pictures are recorded. */
 export interface RecordedCamera {
-  /** What people read. */
+  /** Name shown to people. */
   name: string;
-  /** It is the one that the clouds come from. */
+  /** Whether the clouds come from this camera. */
   ofCloud: boolean;
 }
 
-/** A camera's picture as operators are sent it: a JPEG or PNG file. */
+/** A camera's picture as it is sent to operators: a JPEG or PNG file. */
 export interface PictureRecord {
   type: 'picture';
-  /** Place in the list of cameras. */
+  /** Position in the list of cameras. */
   camera: number;
   capturedAtMs: number;
-  /** Counts all there were of the camera: a gap is what was dropped. */
+  /** Counts all pictures of the camera: a gap shows dropped ones. */
   sequence: number;
-  /** How many were, so far, of all cameras. */
+  /** How many pictures of all cameras were dropped so far. */
   dropped: number;
   format: PictureFormat;
   /** Transferred. */
   file: Uint8Array<ArrayBuffer>;
 }
 
-/** What is dropped where the writer does not keep up, each kind with a queue of its own. */
+/** What is dropped if the writer does not keep up; each kind has its own queue. */
 export type DropKind = CloudKind | 'pictures' | 'events';
 
-/** A cloud's memory, free again. */
+/** Returns a cloud's memory for reuse. */
 export interface CloudDone {
   kind: CloudKind;
   buffer: ArrayBuffer;
@@ -105,21 +105,21 @@ export type EventRecord =
   | { type: 'json'; kind: JsonKind; timeMs: number; sequence: number; value: object }
   /** The velocity that the wheels were given. */
   | { type: 'velocity'; timeMs: number; sequence: number; twist: Twist }
-  /** base_link in the world. */
+  /** Pose of base_link in the world. */
   | { type: 'state'; timeMs: number; sequence: number; pose: Pose; twist: Twist };
 
 export type RecorderRequest =
   | EventRecord
   | PictureRecord
-  /** Before the first picture. */
+  /** Sent before the first picture. */
   | { type: 'cameras'; cameras: readonly RecordedCamera[] }
   | { type: 'close' };
 
 export type RecorderReport =
   | { type: 'ready' }
-  /** An event or a picture was taken. */
+  /** An event or a picture was processed. */
   | { type: 'done'; kind: 'events' | 'pictures' }
-  /** The file has as many bytes as it may, and is closed. */
+  /** The file has reached its maximum size and is closed. */
   | { type: 'full' }
   /** Nothing more is written. */
   | { type: 'failed'; detail: string }

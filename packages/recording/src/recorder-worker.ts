@@ -1,4 +1,4 @@
-/** The thread that writes a recording: converting and writing megabytes a frame must delay nothing else. */
+/** The thread that writes a recording: converting and writing megabytes per frame must not delay anything else. */
 import { type MessagePort, parentPort, workerData } from 'node:worker_threads';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { Recorder } from './recorder.ts';

@@ -39,18 +39,18 @@ const ROS_TOPICS = {
 } as const;
 type RosKind = keyof typeof ROS_TOPICS;
 
-/** Turns what a robot's threads tell into messages of an MCAP file. Wait for each call before the next. */
+/** Converts the messages of a robot's threads to messages of an MCAP file. Wait for each call before the next. */
 export class RecordingWriter {
-  /** Records that could not be turned into messages. */
+  /** Records that could not be converted to messages. */
   faults = 0;
-  /** Clouds and pictures that never came here: the writer had not kept up. */
+  /** Clouds and pictures that never arrived here because the writer did not keep up. */
   readonly dropped: Record<CloudKind | 'pictures', number> = { captured: 0, sent: 0, pictures: 0 };
   readonly file: McapFileWriter;
   readonly #epochNs: bigint;
   readonly #decoder: SentCloudDecoder;
   readonly #channels = new Map<RosKind | JsonKind, number>();
   #cameras: { channel: number; frame: string }[] = [];
-  /** What lies in it is written, or copied, before the next cloud. */
+  /** Its content is written, or copied, before the next cloud. */
   readonly #room = new PointRoom();
   #transforms = 0;
   #ownStates = 0;
@@ -70,7 +70,7 @@ export class RecordingWriter {
     }
   }
 
-  /** @throws {Error} where the file exists already, or cannot be made */
+  /** @throws {Error} if the file already exists or cannot be created */
   static async create(options: RecorderOptions, decoder: SentCloudDecoder): Promise<RecordingWriter> {
     const file = await McapFileWriter.create(
       options.path,
@@ -83,7 +83,9 @@ export class RecordingWriter {
     return writer;
   }
 
-  /** @throws {Error} where nothing more can be written; {McapFileFull} where nothing more may be, as all of these */
+  /**
+   * @throws {Error} if writing fails; {McapFileFull} if the file has reached its maximum size, as all these methods do
+   */
   async addCloud(record: CloudRecord): Promise<void> {
     const ns = this.#nsOf(record.capturedAtMs);
     const kind: CloudKind = record.type === 'sent' ? 'sent' : 'captured';
@@ -93,11 +95,11 @@ export class RecordingWriter {
     try {
       cloud = this.#cloudOf(record, ns);
     } catch {
-      // A cloud that no longer decodes is no reason to lose the rest.
+      // A cloud that cannot be decoded is no reason to lose the rest.
       this.faults++;
       return;
     }
-    // One capture may be here twice, as it was and as it was sent.
+    // One capture may arrive twice, as captured and as sent.
     if (ns !== this.#lastTransformNs) {
       this.#lastTransformNs = ns;
       await this.#addTransform(ns, CAMERA_FRAME, record.pose);
@@ -105,7 +107,7 @@ export class RecordingWriter {
     await this.#add(kind, record.sequence, ns, cloud);
   }
 
-  /** A topic for each, also for those that nobody will look at. */
+  /** Creates a topic for each camera, even for those whose pictures nobody will look at. */
   addCameras(cameras: readonly RecordedCamera[]): void {
     const name = 'foxglove_msgs/msg/CompressedImage';
     const schema = { name, encoding: 'ros2msg' as const, text: FOXGLOVE_COMPRESSED_IMAGE_SCHEMA };
@@ -114,12 +116,12 @@ export class RecordingWriter {
       channel: this.file.addChannel({
         ...{ topic: topics[i] as string, messageEncoding: 'cdr', schema, metadata: { camera } },
       }),
-      // Where the others are nobody has said.
+      // The positions of the other cameras are unknown.
       frame: ofCloud ? CAMERA_FRAME : camera,
     }));
   }
 
-  /** @throws {Error} where nothing more can be written */
+  /** @throws {Error} if writing fails */
   async addPicture({
     camera,
     capturedAtMs,
@@ -138,7 +140,7 @@ export class RecordingWriter {
     await this.file.add(of.channel, sequence >>> 0, ns, [compressedImage(ns, of.frame, format, file)]);
   }
 
-  /** @throws {Error} where nothing more can be written */
+  /** @throws {Error} if writing fails */
   async addEvent(record: EventRecord): Promise<void> {
     const ns = this.#nsOf(record.timeMs);
     this.#newestNs = ns;
@@ -151,14 +153,14 @@ export class RecordingWriter {
         await this.#add('velocity', sequence, ns, [twistStamped(ns, record.twist)]);
         break;
       case 'state':
-        // Viewers place frames by tf alone: what is said in base_link would stand nowhere.
+        // Viewers place frames only by tf: without this transform, data in base_link would have no position.
         await this.#addTransform(ns, BASE_FRAME, record.pose);
         await this.#add('odometry', sequence, ns, [odometryOf(ns, record.pose, record.twist)]);
         break;
     }
   }
 
-  /** What became of the recording so far, into the recording. */
+  /** Writes the state of the recording so far into the recording. */
   async addOwnState(): Promise<void> {
     const { messages, bytes } = this.file;
     const value = { messages, bytes, faults: this.faults, dropped: this.dropped };
@@ -169,7 +171,7 @@ export class RecordingWriter {
     return this.#add(kind, sequence, ns, [new TextEncoder().encode(JSON.stringify(value))]);
   }
 
-  /** A frame in the world. */
+  /** Adds the pose of a frame in the world. */
   #addTransform(ns: bigint, frame: string, pose: Pose): Promise<void> {
     return this.#add('tf', this.#transforms++, ns, [transformOf(ns, frame, pose)]);
   }

@@ -1,13 +1,17 @@
-/** What a recording is to whoever plays it, whatever its file format. */
+/** A recording as seen by a player, independent of its file format. */
 import type { RecordingError } from './errors.ts';
 
 export interface RecordedTopic {
   name: string;
-  /** Type of its messages as ROS 2 writes it, e.g. `sensor_msgs/msg/PointCloud2`; ROS 1 names are turned into it. */
+  /** Type of its messages in ROS 2 notation, for example `sensor_msgs/msg/PointCloud2`; ROS 1 names are converted. */
   type: string;
-  /** How many messages; `null` where the file does not say. */
+  /** Number of messages; `null` if the file does not state it. */
   messages: number | null;
-  /** Turns a message's bytes into what its schema says. @throws {Error} where it does not fit, or nobody reads the schema */
+  /**
+   * Decodes a message's bytes according to its schema.
+   *
+   * @throws {Error} if they do not match, or the schema is unsupported
+   */
   decode: (data: Uint8Array) => unknown;
 }
 
@@ -15,7 +19,7 @@ export interface RecordedMessage {
   topic: RecordedTopic;
   /** When it was recorded, ns since 1970. */
   logNs: bigint;
-  /** May be a part of a larger piece of memory: keep a copy of what is kept for long. */
+  /** May be a view of a larger buffer: copy what is kept for long. */
   data: Uint8Array;
   /** Byte of the file near which it lies. */
   offset: number;
@@ -24,16 +28,17 @@ export interface RecordedMessage {
 export interface Recording {
   readonly file: string;
   readonly topics: readonly RecordedTopic[];
-  /** Of the first and the last message. */
+  /** Times of the first and the last message. */
   readonly startNs: bigint;
   readonly endNs: bigint;
-  /** Something that is wrong and does not keep it from being played, e.g. where it was cut short. */
+  /** A problem that does not prevent playing, for example where the file was cut short. */
   readonly warning: string | null;
   /**
-   * In the order of their time, from `fromNs` on.
+   * Messages in order of time, from `fromNs` on.
    *
-   * @param onDamage told of a part that cannot be read, where the file's index says what comes after it: it goes on there
-   * @throws {RecordingError} at a place that cannot be read, and nobody wants to be told or knows what comes after it
+   * @param onDamage called for an unreadable part if the file's index shows what comes after it, where reading
+   * continues
+   * @throws {RecordingError} at an unreadable part, if there is no `onDamage` or what comes after is unknown
    */
   messages(
     topics: readonly string[],

@@ -1,4 +1,4 @@
-/** Definitions of the ROS 2 messages that recordings of ours hold, as `ros2msg` schemas: one text with all that they need. */
+/** Definitions of the ROS 2 messages in our recordings, as `ros2msg` schemas: each text contains all that it needs. */
 
 const SEPARATOR = `\n${'='.repeat(80)}\n`;
 const TIME = 'MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec';
@@ -28,7 +28,7 @@ export const POINT_CLOUD2_SCHEMA = schema(
   TIME,
 );
 
-/** As Foxglove’s schemas had it from the first; later versions add fields behind these. */
+/** As in the first version of Foxglove’s schemas; later versions append fields. */
 export const FOXGLOVE_COMPRESSED_IMAGE_SCHEMA = schema(
   'builtin_interfaces/Time timestamp\nstring frame_id\nuint8[] data\nstring format',
   TIME,

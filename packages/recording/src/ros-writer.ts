@@ -1,4 +1,4 @@
-/** ROS 2 messages in CDR, as recordings of ours hold them. */
+/** ROS 2 messages in CDR, as our recordings contain them. */
 import type { Pose, Twist } from '@farpoint/protocol';
 import { velocityWriter } from '@farpoint/ros';
 import { parse } from '@foxglove/rosmsg';
@@ -41,7 +41,7 @@ function headerOf(stampNs: bigint, frame_id: string) {
   return { stamp: timeOf(stampNs), frame_id };
 }
 
-/** In parts: the points are not copied. @param points 16 bytes each, x, y, z, rgb */
+/** In parts, so that the points are not copied. @param points 16 bytes each, x, y, z, rgb */
 export function pointCloud2(
   stampNs: bigint,
   width: number,
@@ -55,7 +55,7 @@ export function pointCloud2(
     data: new Uint8Array(0),
     is_dense: false,
   });
-  // An empty cloud ends with the length of its points, 0, and one byte more: the length is put right.
+  // An empty cloud ends with the length of its points, 0, and one more byte; the length is corrected here.
   const lengthAt = head.length - TAIL.length - 4;
   new DataView(head.buffer, head.byteOffset).setUint32(lengthAt, points.length, true);
   return [head.subarray(0, lengthAt + 4), points, TAIL];

@@ -13,10 +13,10 @@ import { type Codec, OrganisedDecoder, UnorganisedDecoder } from '@farpoint/wasm
 import { PointRoom } from './captured-cloud.ts';
 import type { SentRecord } from './recorder-messages.ts';
 
-/** Points of a packet at most, whatever its format. */
+/** Maximum number of points in a packet, for any format. */
 const MOST_PACKET_POINTS = 4096;
 
-/** Turns packets back into points, as an operator's page does. */
+/** Converts packets back into points, as an operator's page does. */
 export class SentCloudDecoder {
   readonly #codec: Codec;
   readonly #header = emptyPointPacketHeader();
@@ -30,8 +30,8 @@ export class SentCloudDecoder {
   }
 
   /**
-   * @returns x, y, z in metres and a packed colour (0x00RRGGBB) for each point that could be decoded: four words each, good
-   *   until the next call
+   * @returns x, y, z in metres and a packed colour (0x00RRGGBB) for each point that could be decoded: four words each,
+   * valid until the next call
    */
   decode(record: SentRecord): Uint32Array {
     const packets = [...payloads(record)];
@@ -102,7 +102,7 @@ export class SentCloudDecoder {
   }
 }
 
-/** Packets out of their slots, without a copy. */
+/** Extracts packets from their slots without a copy. */
 function* payloads({ buffer, packets, slotBytes }: SentRecord): Generator<Uint8Array> {
   const view = new DataView(buffer);
   for (let i = 0; i < packets; i++) {
@@ -116,7 +116,7 @@ function dataOf(packet: Uint8Array): Uint8Array {
   return packet.subarray(POINT_PACKET_HEADER_BYTES, packet.length - PLACEMENT_BYTES);
 }
 
-/** From int16 x, y, z in millimetres and 6-6-4 colour. */
+/** Converts from int16 x, y, z in millimetres and 6-6-4 colour. */
 function fromMillimetres(points: Int16Array, count: number, words: Uint32Array, first: number): void {
   const floats = new Float32Array(words.buffer, words.byteOffset, words.length);
   for (let i = 0; i < count; i++) {

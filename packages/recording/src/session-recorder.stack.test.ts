@@ -34,7 +34,7 @@ const poseAt = (k: number): Pose => ({
   orientation: { x: -0.5, y: 0.5, z: -0.5, w: 0.5 },
 });
 
-/** Stand-ins for JPEGs: nobody looks into them. Some are larger than what the writer copies. */
+/** Stand-ins for JPEGs: nothing decodes them. Some are larger than what the writer copies. */
 const pictureOf = (camera: number, k: number): Uint8Array<ArrayBuffer> =>
   Uint8Array.from({ length: k % 10 === 9 ? 300_000 : 2000 + k }, (_, i) => (i * 7 + k * 13 + camera) & 0xff);
 const CAMERAS = [
@@ -42,7 +42,7 @@ const CAMERAS = [
   { name: '/rear/image_raw', ofCloud: false },
 ];
 
-/** The writer has its turn, as between two frames of a camera. */
+/** Lets the writer run, as between two frames of a camera. */
 async function written(tap: CloudTap): Promise<void> {
   while (tap.pending > 0) await new Promise((resolve) => setTimeout(resolve, 1));
 }
@@ -83,7 +83,7 @@ async function record(path: string, compression: 'none' | 'zstd' = 'none'): Prom
 }
 
 describe('SessionRecorder', { timeout: 60_000 }, () => {
-  it.each(['none', 'zstd'] as const)('what it records (%s) is played again', async (compression) => {
+  it.each(['none', 'zstd'] as const)('what it records (%s) can be played', async (compression) => {
     const path = join(folder, `${compression}.mcap`);
     const recorder = await record(path, compression);
     expect(recorder.bytes).toBe(statSync(path).size);
@@ -135,7 +135,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     expect(k).toBe(FRAMES);
   });
 
-  it('every frame that a message names stands in the world by tf alone, as viewers place it', async () => {
+  it('every frame named in a message has a pose in the world through tf alone, as viewers need it', async () => {
     const path = join(folder, 'frames.mcap');
     await record(path);
     const recording = await openRecording(path);
@@ -147,7 +147,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       0n,
     )) {
       const message = topic.decode(data);
-      // Of a camera that the clouds do not come from nobody knows where it is.
+      // The position of a camera that is not the clouds' camera is unknown.
       const image = foxgloveCompressedImageSchema.safeParse(message);
       if (image.success) pictureFrames.add(image.data.frame_id);
       for (const { header, child_frame_id } of tfSchema.safeParse(message).data?.transforms ?? [])
@@ -166,7 +166,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     }
   });
 
-  it('records no more captured clouds than it was asked for', async () => {
+  it('records no more captured clouds than configured', async () => {
     const path = join(folder, 'few.mcap');
     const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
     const tap = new CloudTap(recorder.clouds, { captured: 5, sent: Number.POSITIVE_INFINITY });
@@ -186,7 +186,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
   });
 
   it.each(['none', 'zstd'] as const)(
-    'ends before it is larger than it may be (%s), says so, and every message of it can be read',
+    'ends before it exceeds its maximum size (%s), reports it, and every message of it can be read',
     async (compression) => {
       const path = join(folder, `full-${compression}.mcap`);
       const mostBytes = 2_000_000;
@@ -197,7 +197,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
         recorder.onFull = resolve;
       });
       const tap = new CloudTap(recorder.clouds, { captured: 1000, sent: 1000 });
-      // Nothing that can be packed.
+      // Incompressible data.
       const points = Float32Array.from({ length: 40_000 }, (_, i) => Math.sin(i * i));
       let pushed = 0;
       let ended = false;
@@ -212,7 +212,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
         );
         await written(tap);
       }
-      // What comes later is nobody's.
+      // Later messages are discarded.
       recorder.json('telemetry', pushed, {});
       tap.captured(
         { form: 'points', points, count: 10_000, cameraPose: poseAt(0), capturedAtMs: pushed },
@@ -237,7 +237,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     },
   );
 
-  it('drops the oldest where the writer does not keep up, counts it, and never waits', async () => {
+  it('drops the oldest if the writer does not keep up, counts it, and never waits', async () => {
     const path = join(folder, 'fast.mcap');
     const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
     const tap = new CloudTap(recorder.clouds, {
@@ -245,7 +245,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       sent: Number.POSITIVE_INFINITY,
     });
     const points = new Float32Array(40_000);
-    // All in one turn: no answer can come in between.
+    // All in one turn, so that no answer can arrive in between.
     for (let k = 0; k < 50; k++) {
       const cloud = { form: 'points' as const, points, count: 10_000 };
       tap.captured(
@@ -262,17 +262,17 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     const sequences: number[] = [];
     for await (const { logNs } of recording.messages(['/farpoint/captured'], 0n))
       sequences.push(Number(logNs / 1_000_000n));
-    // The first two were under way at once; the newest four waited.
+    // The first two were in progress at once; the newest four waited.
     expect(sequences).toEqual([0, 1, 46, 47, 48, 49]);
     expect(recording.topics.find(({ name }) => name === '/farpoint/telemetry')?.messages).toBe(256 + 4096);
     await recording.close();
   });
 
-  it('drops the oldest pictures where the writer does not keep up, and says which are missing', async () => {
+  it('drops the oldest pictures if the writer does not keep up, and reports which are missing', async () => {
     const path = join(folder, 'many-pictures.mcap');
     const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
     recorder.cameras([{ name: 'Camera', ofCloud: true }]);
-    // All in one turn: no answer can come in between.
+    // All in one turn, so that no answer can arrive in between.
     for (let k = 0; k < 100; k++) recorder.picture(0, k, 'jpeg', pictureOf(0, k));
     recorder.json('telemetry', 0, {});
     expect(recorder.dropped).toEqual({ ...NOTHING_DROPPED, pictures: 100 - 4 - 24 });
@@ -291,7 +291,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       expect(foxgloveCompressedImageSchema.parse(topic.decode(data)).data).toEqual(pictureOf(0, k));
       times.push(k);
     }
-    // The first four were under way at once; the newest 24 waited.
+    // The first four were in progress at once; the newest 24 waited.
     expect(told).toMatchObject({ dropped: { captured: 0, sent: 0, pictures: 72 }, faults: 0 });
     expect(times).toEqual([0, 1, 2, 3, ...Array.from({ length: 24 }, (_, i) => 76 + i)]);
     await recording.close();
@@ -312,7 +312,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     await recording.close();
   });
 
-  it('does not write over a file', async () => {
+  it('does not overwrite a file', async () => {
     const path = join(folder, 'there.mcap');
     await record(path);
     await expect(record(path)).rejects.toMatchObject({
@@ -321,7 +321,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     });
   });
 
-  it('leaves a file that is read up to its last chunk when it is killed', async () => {
+  it('if it is killed, the file can be read up to its last chunk', async () => {
     const path = join(folder, 'killed.mcap');
     const child = spawn(
       process.execPath,
@@ -346,7 +346,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       clouds++;
     }
     await recording.close();
-    // What the writer had said was written, at least.
+    // At least what the writer had reported as written.
     expect(clouds).toBeGreaterThan(0);
     const all = recording.topics.reduce((sum, { messages }) => sum + (messages ?? 0), 0);
     expect(all).toBeGreaterThanOrEqual(written);
@@ -359,7 +359,7 @@ describe.skipIf(typeof peers === 'string')(
   { timeout: 60_000 },
   () => {
     it.each(['none', 'zstd'] as const)(
-      'every message is there (%s), with its check values and schemas',
+      'every message is there (%s), with its checksums and schemas',
       async (compression) => {
         const path = join(folder, `for-peers-${compression}.mcap`);
         const recorder = await record(path, compression);
@@ -395,7 +395,7 @@ describe.skipIf(typeof peers === 'string')(
         const clouds = topics['/farpoint/captured']?.sums ?? [];
         clouds.forEach(([points, x, , z], k) => {
           expect(points).toBe(192);
-          // 191 pixels have a depth; the one that has none was the first, whose ray goes to the left.
+          // 191 pixels have a depth; the one without was the first, whose ray points to the left.
           expect(z).toBeCloseTo(191 * (2 + k), 3);
           expect(x).toBeCloseTo((7.5 / 8) * (2 + k), 3);
         });

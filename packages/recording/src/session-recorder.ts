@@ -13,23 +13,23 @@ import type {
   RecorderRequest,
 } from './recorder-messages.ts';
 
-/** Events that the writer has, and that wait for it. */
+/** How many events the writer may hold, and how many may wait for it. */
 const LIMITS = { underWay: 256, waiting: 4096 };
-/** The same of pictures: 16 MB of the largest that are sent. */
+/** The same for pictures: 16 MB of the largest that are sent. */
 const PICTURE_LIMITS = { underWay: 4, waiting: 24 };
 
-/** The main thread's end of a recording. The capture thread has one of its own, {@link clouds}. */
+/** The main thread's end of a recording. The capture thread has its own, {@link clouds}. */
 export class SessionRecorder {
   /** For the capture thread, which makes a `CloudTap` of it. */
   readonly clouds: MessagePort;
-  /** Called once, where the file has as many bytes as it may: it is closed, and whole. */
+  /** Called once when the file reaches its maximum size: it is then closed and complete. */
   onFull: (() => void) | null = null;
-  /** Called once, where nothing more can be written. The robot goes on. */
+  /** Called once if nothing more can be written. The robot continues. */
   onFailure: ((error: RecordingError) => void) | null = null;
-  /** So far. */
+  /** Messages so far. */
   messages = 0;
   bytes = 0;
-  /** Clouds and pictures that could not be turned into messages. */
+  /** Clouds and pictures that could not be converted to messages. */
   faults = 0;
   #cloudsDropped = { captured: 0, sent: 0 };
   readonly #worker: Worker;
@@ -62,7 +62,7 @@ export class SessionRecorder {
     worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));
   }
 
-  /** @throws {RecordingError} where the file exists already, or cannot be made */
+  /** @throws {RecordingError} if the file already exists or cannot be created */
   static async open(options: RecorderOptions): Promise<SessionRecorder> {
     const { port1, port2 } = new MessageChannel();
     const worker = new Worker(new URL('./recorder-worker.ts', import.meta.url), {
@@ -93,12 +93,12 @@ export class SessionRecorder {
     };
   }
 
-  /** Whose pictures are recorded: once, before the first of them. */
+  /** The cameras whose pictures are recorded: call once, before the first picture. */
   cameras(cameras: readonly RecordedCamera[]): void {
     this.#post({ type: 'cameras', cameras: cameras.map(({ name, ofCloud }) => ({ name, ofCloud })) });
   }
 
-  /** A picture as operators are sent it. @param file its memory is the recorder's from now on */
+  /** A picture as it is sent to operators. @param file its memory belongs to the recorder from now on */
   picture(camera: number, capturedAtMs: number, format: PictureFormat, file: Uint8Array<ArrayBuffer>): void {
     if (!this.#writing) return;
     const sequence = this.#next(`picture ${camera}`);
@@ -109,12 +109,12 @@ export class SessionRecorder {
     this.#push({ type: 'json', kind, timeMs, value, sequence: this.#next(kind) });
   }
 
-  /** What the wheels were given. */
+  /** Records the velocity that the wheels were given. */
   velocity(timeMs: number, twist: Twist): void {
     this.#push({ type: 'velocity', timeMs, twist, sequence: this.#next('velocity') });
   }
 
-  /** Where the robot is. */
+  /** Records the robot's pose and velocity. */
   state(timeMs: number, pose: Pose, twist: Twist): void {
     this.#push({ type: 'state', timeMs, pose, twist, sequence: this.#next('state') });
   }

@@ -1,4 +1,4 @@
-/** The earliest and the latest, 0 where there are none; bigint has no `Math.min`. */
+/** The earliest and the latest time, 0 if there are none; bigint has no `Math.min`. */
 export function timeRange(times: Iterable<bigint>): { first: bigint; last: bigint } {
   let [first, last]: [bigint | null, bigint | null] = [null, null];
   for (const time of times) {

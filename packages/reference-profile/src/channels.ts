@@ -1,4 +1,4 @@
-/** The data channels of the reference profile. Two of them have the same label: who opened one tells it from the other. */
+/** The data channels of the reference profile. Two of them have the same label: who opened them distinguishes them. */
 export const referenceChannels = {
   /** Operator → robot: a bare twist, UTF-8 JSON as a binary message. Opened by the robot. */
   control: { label: 'controltrack', ordered: true },

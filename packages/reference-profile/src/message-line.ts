@@ -1,11 +1,13 @@
-/** A line to one of the reference system's signaling ports: JSON messages over a WebSocket that comes back for ever. */
+/**
+ * A connection to one of the reference system's signaling ports: JSON messages over a WebSocket that always reconnects.
+ */
 
 import { decodeJson, encodeJson, type JsonCodec, ProtocolError } from '@farpoint/protocol';
 import { Reconnect } from '@farpoint/timing';
 import { WebSocket } from 'ws';
 
 const MAX_BACKLOG_BYTES = 1_048_576;
-/** A line on which nothing is heard for so long, though it was asked, is dead, ms. */
+/** A connection on which nothing is heard for this long despite a ping is dead, ms. */
 const HEARTBEAT_MS = 5000;
 
 export interface MessageLineOptions<In, Out> {
@@ -18,10 +20,10 @@ export interface MessageLineOptions<In, Out> {
 }
 
 export interface MessageLineEvents<In> {
-  /** Connected, at first or again: say who you are. */
+  /** Connected, for the first time or again: identify yourself. */
   onOpen: () => void;
   onMessage: (message: In) => void;
-  /** Told once until it is open again, however often it is tried meanwhile. */
+  /** Called once until the connection is open again, however many attempts fail meanwhile. */
   onDown: (detail: string) => void;
 }
 
@@ -47,7 +49,7 @@ export class MessageLine<In, Out> {
     return this.#socket?.readyState === WebSocket.OPEN;
   }
 
-  /** What is sent while the line is down is dropped: with `onOpen` all begins anew. */
+  /** Messages sent while disconnected are dropped: `onOpen` starts over. */
   send(message: Out): void {
     const socket = this.#socket;
     if (socket?.readyState !== WebSocket.OPEN) return;
@@ -55,7 +57,10 @@ export class MessageLine<In, Out> {
     else socket.send(encodeJson(this.#options.outgoing, message));
   }
 
-  /** Leaves its socket for another, on which all begins anew. Does nothing while the line is down: it has none. */
+  /**
+   * Replaces the socket by a new one, on which everything starts over. Does nothing while disconnected, when there is
+   * no socket.
+   */
   reopen(): void {
     const socket = this.#socket;
     if (this.#closed || socket?.readyState !== WebSocket.OPEN) return;
@@ -81,7 +86,7 @@ export class MessageLine<In, Out> {
         ...(ca == null ? {} : { ca }),
       });
     } catch (error) {
-      // An address that no socket takes: it will not become one.
+      // An address that no socket accepts, and never will.
       this.#onDown(error instanceof Error ? error.message : String(error));
       return;
     }

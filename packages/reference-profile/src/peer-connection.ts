@@ -12,16 +12,16 @@ import {
 } from 'werift';
 
 export interface ReferencePeerOptions {
-  /** None where left out. */
+  /** None by default. */
   iceServers?: { urls: string; username?: string; credential?: string }[] | undefined;
-  /** Local UDP ports, both ends included; any where left out. */
+  /** Local UDP ports, both ends inclusive; any port by default. */
   portRange?: readonly [number, number] | undefined;
   icePolicy?: 'all' | 'relay' | undefined;
 }
 
 /**
- * A connection that offers, or takes, the media of the reference profile: one video m-line of payload type 5, `pcm/90000`,
- * with its feedback and its one header extension. What it hears is guarded.
+ * Creates a connection that offers, or accepts, the media of the reference profile: one video m-line of payload type 5,
+ * `pcm/90000`, with its feedback and its one header extension. Everything it receives passes the guard.
  */
 export function createReferencePeerConnection(
   options: ReferencePeerOptions = {},
@@ -45,7 +45,7 @@ export function createReferencePeerConnection(
         }),
       ],
     },
-    // The first and only one: its id is 1.
+    // The first and only extension: its id is 1.
     headerExtensions: { video: [useTransportWideCC()] },
   });
   guardConnection(connection, events);

@@ -14,7 +14,7 @@ const OFFER = [
 const ANSWER = OFFER.replace(' 5 96', ' 5');
 
 describe('answerMisfit', () => {
-  it('takes an answer to the offer, blanks at the ends of its lines or not', () => {
+  it('accepts an answer to the offer, with or without trailing blanks', () => {
     expect(answerMisfit(OFFER, ANSWER)).toBeNull();
     expect(answerMisfit(OFFER, ANSWER.replaceAll('\r\n', ' \r\n'))).toBeNull();
     expect(answerMisfit(OFFER, ANSWER.replaceAll('\r\n', '\n'))).toBeNull();
@@ -32,7 +32,7 @@ describe('answerMisfit', () => {
     expect(answerMisfit(OFFER, answer)).toBe(misfit);
   });
 
-  it('has an opinion of any text', () => {
+  it('returns a verdict for any text', () => {
     fc.assert(fc.property(fc.string(), (text) => answerMisfit(OFFER, text) !== null));
   });
 });

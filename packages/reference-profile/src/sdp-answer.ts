@@ -1,11 +1,11 @@
-/** Whether an SDP answer belongs to an offer of the reference profile (RFC 3264 §6). Text in, reason out. */
+/** Checks that an SDP answer belongs to an offer of the reference profile (RFC 3264 §6). Text in, reason out. */
 import { REFERENCE_MEDIA } from '@farpoint/protocol';
 import { sdpLines, sdpSections } from './sdp-sections.ts';
 
 export type AnswerMisfit =
-  | 'other-m-lines' // not those of the offer, in their order
-  | 'no-video' // it refuses the points
-  | 'no-transport'; // no ICE credentials, or no certificate's fingerprint
+  | 'other-m-lines' // not those of the offer, in the same order
+  | 'no-video' // it rejects the points
+  | 'no-transport'; // no ICE credentials, or no certificate fingerprint
 
 const TRANSPORT = ['a=ice-ufrag:', 'a=ice-pwd:', 'a=fingerprint:'];
 

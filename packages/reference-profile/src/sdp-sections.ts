@@ -1,12 +1,12 @@
-/** SDP as its media sections (RFC 8866 §5.14). Text in, lines out; nothing is judged. */
+/** Splits SDP into its media sections (RFC 8866 §5.14). Text in, lines out; nothing is validated. */
 export interface SdpSection {
   /** The `m=` line: media, port, protocol, formats. */
   media: string;
-  /** `a=` lines, without the two characters. */
+  /** `a=` lines without the prefix. */
   attributes: string[];
 }
 
-/** Blanks at the ends of lines count for nothing: the released programs write some. */
+/** Trailing blanks are ignored, because the released programs write some. */
 export function sdpSections(sdp: string): SdpSection[] {
   const sections: SdpSection[] = [];
   for (const line of sdpLines(sdp)) {

@@ -1,9 +1,9 @@
-/** CompressedImage of sensor_msgs, or of Foxglove: what it is, by its own first bytes. */
+/** CompressedImage of sensor_msgs, or of Foxglove: identified by the first bytes of its data. */
 import { MAX_PICTURE_SIDE, type PictureFile, readPictureFile } from '@farpoint/protocol';
 import { RosFault } from './fault.ts';
 import type { CompressedImage } from './messages.ts';
 
-/** What compressed_depth_image_transport names its pictures: a PNG behind a header of its own, or worse. */
+/** compressed_depth_image_transport marks its images with this: a PNG with its own header, or another encoding. */
 const DEPTH = 'compressedDepth';
 
 /**

@@ -1,4 +1,4 @@
-/** Definitions of the messages of ROS’s own packages, by type. */
+/** Definitions of the messages in ROS’s own packages, by type. */
 import type { MessageDefinition } from '@foxglove/message-definition';
 import { ros1, ros2jazzy } from '@foxglove/rosmsg-msgs-common';
 import { ros1TypeOf } from './topic-table.ts';
@@ -8,10 +8,10 @@ type Definitions = Readonly<Record<string, MessageDefinition | undefined>>;
 const OLDER_NAMES: Readonly<Record<string, string>> = { 'tf/tfMessage': 'tf2_msgs/TFMessage' };
 
 /**
- * A type’s definition and all that it is made of, itself first.
+ * A type’s definition and those of all its parts, itself first.
  *
- * @param type as ROS 1 or ROS 2 writes it
- * @returns `null` for types that are not ROS’s own
+ * @param type in ROS 1 or ROS 2 notation
+ * @returns `null` for types that are not part of ROS
  */
 export function definitionsOf(version: 1 | 2, type: string): MessageDefinition[] | null {
   const known: Definitions = version === 1 ? ros1 : ros2jazzy;

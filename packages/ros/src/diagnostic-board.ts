@@ -1,8 +1,8 @@
-/** What every node has last said of itself: /diagnostics comes in parts, from many. */
+/** The last report of every node: messages on /diagnostics are partial and come from many nodes. */
 import type { z } from 'zod';
 import { diagnosticArraySchema } from './messages.ts';
 
-/** A node that has said nothing for so long is stale, ms. */
+/** A node that has reported nothing for this long is stale, ms. */
 const STALE_MS = 10_000;
 const MOST_NAMES = 1024;
 const STALE = 3;
@@ -12,7 +12,11 @@ type Status = z.infer<typeof diagnosticArraySchema>['status'][number];
 export class DiagnosticBoard {
   readonly #said = new Map<string, { status: Status; atMs: number }>();
 
-  /** @returns the same message with everything that was said so far @throws {Error} where the message is none */
+  /**
+   * Takes in a message.
+   *
+   * @returns the same message extended by everything reported so far @throws {Error} if the message is invalid
+   */
   take(message: unknown, nowMs: number): z.infer<typeof diagnosticArraySchema> {
     const { header, status } = diagnosticArraySchema.parse(message);
     for (const each of status) {

@@ -1,24 +1,24 @@
 export type RosFaultCode =
-  | 'unavailable' // what is needed to speak to the graph is not there: a library, a master, an interface
-  | 'lost' // it was there, and is gone
-  | 'refused' // a peer or the master said no
-  | 'wrong-type' // the topic has messages of another type
+  | 'unavailable' // something needed to reach the graph is missing: a library, a master, an interface
+  | 'lost' // it was available, and is gone
+  | 'refused' // a peer or the master refused
+  | 'wrong-type' // the topic carries messages of another type
   | 'bad-message' // bytes that are not a message of the type
-  | 'bad-cloud' // a PointCloud2 whose fields and sizes do not agree
-  | 'bad-image' // an image or its camera that is not what it says
+  | 'bad-cloud' // a PointCloud2 whose fields and sizes are inconsistent
+  | 'bad-image' // an image or a camera description that is inconsistent
   | 'too-large' // more than there is room for
-  | 'unsupported'; // an encoding or a type that nobody here reads
+  | 'unsupported'; // an unsupported encoding or type
 
-/** What is wrong with a ROS graph or a message, where, and what helps. */
+/** What is wrong with a ROS graph or a message, where, and how to fix it. */
 export class RosFault extends Error {
   override readonly name = 'RosFault';
   readonly code: RosFaultCode;
-  /** What is wrong, without the place. */
+  /** What is wrong, without the location. */
   readonly what: string;
   readonly topic: string | undefined;
   /** Byte of the message at which it was found. */
   readonly offset: number | undefined;
-  /** What helps, for people. */
+  /** How to fix it, for people. */
   readonly remedy: string | undefined;
 
   constructor(
@@ -38,7 +38,7 @@ export class RosFault extends Error {
     this.remedy = remedy;
   }
 
-  /** The same of a topic; anything else that was thrown while a message was read is a bad message. */
+  /** The same fault with its topic; anything else thrown while reading a message becomes a `bad-message`. */
   static of(error: unknown, topic: string): RosFault {
     if (error instanceof RosFault) {
       const { code, what, offset, remedy } = error;

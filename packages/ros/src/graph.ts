@@ -1,47 +1,50 @@
 /**
- * A live ROS graph, whatever carries it: ROS 1 by its master, ROS 2 by DDS. Bytes in, bytes out; nothing is known here of
- * what messages hold. Types are named as ROS 2 does, `sensor_msgs/msg/PointCloud2`, also for ROS 1.
+ * A live ROS graph, independent of its transport: ROS 1 through its master, ROS 2 through DDS. It passes bytes and does
+ * not know what messages contain. Types are in ROS 2 notation, `sensor_msgs/msg/PointCloud2`, also for ROS 1.
  */
 import type { RosFault } from './fault.ts';
 
-/** What subscriber and publisher of ROS 2 must agree on. ROS 1 has TCP, and latching for `transient-local`. */
+/** Settings that subscriber and publisher of ROS 2 must agree on. ROS 1 has TCP, and latching for `transient-local`. */
 export interface Qos {
   reliability: 'reliable' | 'best-effort';
   durability: 'volatile' | 'transient-local';
-  /** Messages kept for who is slow, or comes late. */
+  /** Messages kept for subscribers that are slow or join late. */
   depth: number;
 }
 
-/** As rmw's sensor data: takes what publishers of either reliability send, newest first. */
+/** As rmw's sensor data profile: accepts publishers of either reliability, newest message first. */
 export const SENSOR_QOS: Qos = { reliability: 'best-effort', durability: 'volatile', depth: 5 };
-/** As rclcpp's default for publishers of few messages. */
+/** As rclcpp's default for publishers of infrequent messages. */
 export const RELIABLE_QOS: Qos = { reliability: 'reliable', durability: 'volatile', depth: 10 };
-/** As static transforms are published. */
+/** As used for static transforms. */
 export const LATCHED_QOS: Qos = { reliability: 'reliable', durability: 'transient-local', depth: 100 };
-/** As Nav2 publishes velocities and twist_mux takes them: an old one is worth nothing. */
+/** As Nav2 publishes velocities and twist_mux receives them: an old velocity is worthless. */
 export const VELOCITY_QOS: Qos = { reliability: 'reliable', durability: 'volatile', depth: 1 };
 
 export interface SubscribeTo {
   /** With its leading slash. */
   topic: string;
   type: string;
-  /** Left out: {@link SENSOR_QOS}. */
+  /** Default: {@link SENSOR_QOS}. */
   qos?: Qos | undefined;
-  /** Messages that may wait to be handed over; beyond it the oldest is dropped and counted. */
+  /** How many messages may wait for delivery; beyond that, the oldest is dropped and counted. */
   queue: number;
 }
 
-/** @param bytes a serialised message, good only during the call @param receivedMs the clock that the graph was given */
+/**
+ * @param bytes a serialised message, valid only during the call
+ * @param receivedMs by the clock that was passed to the graph
+ */
 export type OnMessage = (bytes: Uint8Array, receivedMs: number) => void;
 
 export interface Subscription {
   readonly topic: string;
   readonly received: number;
-  /** Received and not handed over. */
+  /** Messages received but not delivered. */
   readonly dropped: number;
-  /** How many publish it now, as far as known. */
+  /** Number of current publishers, as far as known. */
   readonly publishers: number;
-  /** Definition of its messages as the publisher tells it (ROS 1, once connected); `null` where nobody does. */
+  /** Definition of its messages as stated by the publisher (ROS 1, once connected); `null` if unknown. */
   readonly definition: string | null;
   close(): void;
 }
@@ -49,19 +52,19 @@ export interface Subscription {
 export interface AdvertiseAs {
   topic: string;
   type: string;
-  /** Left out: {@link RELIABLE_QOS}. */
+  /** Default: {@link RELIABLE_QOS}. */
   qos?: Qos | undefined;
 }
 
 export interface Publisher {
   readonly topic: string;
   readonly subscribers: number;
-  /** Without anybody who subscribes nothing is sent. @param bytes a serialised message, copied before it returns */
+  /** Sends nothing without subscribers. @param bytes a serialised message, copied before the call returns */
   publish(bytes: Uint8Array): void;
   close(): void;
 }
 
-/** What discovery sees of a topic. */
+/** A topic as discovery sees it. */
 export interface GraphTopic {
   topic: string;
   type: string;
@@ -71,12 +74,15 @@ export interface GraphTopic {
 
 export interface RosGraph {
   readonly version: 1 | 2;
-  /** Nothing is subscribed that was not asked for here. */
+  /** The only way to subscribe: the graph never subscribes to anything by itself. */
   subscribe(to: SubscribeTo, onMessage: OnMessage): Subscription;
-  /** Nothing is published that was not asked for here. */
+  /** The only way to publish: the graph never publishes anything by itself. */
   advertise(as: AdvertiseAs): Publisher;
   topics(): readonly GraphTopic[];
-  /** Called for what may pass: a master that is gone, a peer that speaks another type. What was wrong before is told at once. */
+  /**
+   * Called for faults that may be temporary: a master that is gone, a peer that uses another type. Earlier faults are
+   * reported at once.
+   */
   onFault: ((fault: RosFault) => void) | null;
   close(): Promise<void>;
 }

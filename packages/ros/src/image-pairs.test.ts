@@ -9,7 +9,7 @@ interface Picture {
 const at = (kind: Picture['kind'], ms: number): Picture => ({ kind, stampNs: BigInt(Math.round(ms * 1e6)) });
 const ms = (picture: Picture | null) => (picture === null ? null : Number(picture.stampNs) / 1e6);
 
-/** Feeds pictures in the order given. @returns the pairs as ms, and which were released */
+/** Feeds images in the given order. @returns the pairs as ms, and which images were released */
 function feed(pictures: readonly Picture[]) {
   const released: Picture[] = [];
   const pairs: [number | null, number | null][] = [];
@@ -36,7 +36,7 @@ describe('ImagePairs', () => {
     ]);
   });
 
-  it('of cameras that are not in step takes the nearest, once a later one is there', () => {
+  it('for unsynchronised cameras, takes the nearest colour image once a later one is there', () => {
     const { pairs } = feed([
       ...[at('colour', 10), at('depth', 20), at('colour', 43), at('depth', 53)],
       ...[at('colour', 76), at('depth', 86), at('colour', 109)],
@@ -48,7 +48,7 @@ describe('ImagePairs', () => {
     ]);
   });
 
-  it('shows depth also where colour is slow, and where it is gone', () => {
+  it('shows depth even if colour is slow or gone', () => {
     const slow = [at('colour', 0), at('depth', 30), at('depth', 60), at('depth', 90)];
     expect(feed(slow).pairs).toEqual([
       [30, 0],
@@ -60,7 +60,7 @@ describe('ImagePairs', () => {
     expect(pairs.every(([, colour]) => colour === null)).toBe(true);
   });
 
-  it('never keeps more than a few pictures, and shows or releases each depth picture once', () => {
+  it('never keeps more than a few images, and shows or releases each depth image once', () => {
     const picture = fc.tuple(
       fc.constantFrom('depth' as const, 'colour' as const),
       fc.integer({ min: 0, max: 60 }),

@@ -1,12 +1,14 @@
-/** Which colour picture belongs to a depth picture: cameras take them together, or nearly, and send them one by one. */
+/** Matches colour images to depth images: cameras take them together, or nearly so, and send them separately. */
 
-/** Taken together, ns: drivers write the same stamp, or one of a clock that jitters. */
+/**
+ * Images within this interval were taken together, ns: drivers write the same stamp, or that of a clock that jitters.
+ */
 const TOGETHER_NS = 3_000_000n;
-/** Beyond this a colour picture says nothing of a depth picture, ns. */
+/** A colour image further away than this is never paired with a depth image, ns. */
 const FAR_NS = 100_000_000n;
-/** Without a colour picture for so long, depth goes on without, ns. */
+/** After this long without colour images, depth continues without colour, ns. */
 const COLOUR_GONE_NS = 1_000_000_000n;
-/** Colour pictures kept. */
+/** Number of colour images kept. */
 const KEPT = 3;
 
 export interface Stamped {
@@ -15,13 +17,13 @@ export interface Stamped {
 
 export interface ImagePair<Image> {
   depth: Image;
-  /** `null` where there is none near it. */
+  /** `null` if there is none close enough. */
   colour: Image | null;
 }
 
 /**
- * Pairs pictures by their stamps. A depth picture waits for its colour picture until a later one shows that it will not
- * come, at most until the next depth picture. What is not needed any more goes to `release`, for its memory.
+ * Pairs images by their stamps. A depth image waits for its colour image until a later one shows that it will not come,
+ * at most until the next depth image. Images that are no longer needed go to `release`, which may reuse their memory.
  */
 export class ImagePairs<Image extends Stamped> {
   readonly #release: (image: Image) => void;
@@ -35,7 +37,10 @@ export class ImagePairs<Image extends Stamped> {
     this.#release = release;
   }
 
-  /** @returns the pair that is complete now; its pictures are the caller's to release, `colour` stays with the pairs */
+  /**
+   * @returns the pair that is now complete. The caller must release the depth image; `colour` still belongs to this
+   * object
+   */
   depth(image: Image): ImagePair<Image> | null {
     this.#firstDepthNs ??= image.stampNs;
     const before = this.#waiting;
@@ -52,14 +57,14 @@ export class ImagePairs<Image extends Stamped> {
       return { depth: image, colour: null };
     }
     if (before === null) return null;
-    // It has waited for as long as it may: with what is nearest, or not at all.
+    // It has waited for as long as it may: pair it with the nearest colour image, or none.
     const colour = this.#nearest(before);
     if (colour !== null) return { depth: before, colour };
     this.#release(before);
     return null;
   }
 
-  /** @returns as {@link depth} does */
+  /** @returns as {@link depth} */
   colour(image: Image): ImagePair<Image> | null {
     this.#colours.push(image);
     this.#newestColourNs = image.stampNs;

@@ -64,7 +64,7 @@ describe('images', () => {
     );
   });
 
-  it('refuses what does not agree, and never reads beyond the data', () => {
+  it('refuses inconsistent images, and never reads beyond the data', () => {
     const wild = fc.record({
       width: fc.oneof(fc.integer({ min: 0, max: 20 }), fc.integer({ min: 0, max: 0xffffffff })),
       height: fc.oneof(fc.integer({ min: 0, max: 4 }), fc.integer({ min: 0, max: 0xffffffff })),
@@ -77,7 +77,7 @@ describe('images', () => {
     fc.assert(
       fc.property(wild, fc.boolean(), (fields, asDepth) => {
         const image: Image = { header, ...fields };
-        // What lies behind the data must not come out.
+        // Bytes behind the data must not appear in the output.
         const around = new Uint8Array(image.data.length + 64).fill(0xee);
         around.set(image.data, 0);
         image.data = around.subarray(0, image.data.length);
@@ -101,7 +101,7 @@ describe('images', () => {
     expect(() => depthOf(image, new Float32Array(11))).toThrow('4 × 3 pixels, room for 11');
   });
 
-  it('takes the camera of rectified pictures, else that of raw ones', () => {
+  it('takes the camera of rectified images, else that of raw ones', () => {
     const k = [500, 0, 320, 0, 501, 240, 0, 0, 1];
     const p = [490, 0, 321, 0, 0, 491, 241, 0, 0, 0, 1, 0];
     const info = { header, width: 640, height: 480 };

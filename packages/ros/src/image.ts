@@ -1,8 +1,8 @@
-/** Depth and colour images of sensor_msgs, and their camera, as pictures of one size. */
+/** Converts depth and colour images of sensor_msgs, and their camera description, to arrays of one size. */
 import { RosFault } from './fault.ts';
 import type { CameraInfo, Image } from './messages.ts';
 
-/** Pinhole of a camera, pixels; pixel centres are whole numbers. */
+/** Pinhole model of a camera, pixels; pixel centres are at integer coordinates. */
 export interface Pinhole {
   fx: number;
   fy: number;
@@ -10,7 +10,7 @@ export interface Pinhole {
   cy: number;
 }
 
-/** Pixels that have no colour: light grey, opaque. */
+/** Colour of pixels without colour: light grey, opaque. */
 export const GREY = 0xffc8_c8c8;
 const OPAQUE = 0xff00_0000;
 
@@ -19,7 +19,7 @@ const DEPTH_BYTES: ReadonlyMap<string, number> = new Map([
   ['mono16', 2],
   ['32FC1', 4],
 ]);
-/** Where a pixel's red, green and blue are, and how many bytes it has. */
+/** Positions of red, green and blue in a pixel, and its number of bytes. */
 const COLOURS: ReadonlyMap<string, readonly [number, number, number, number]> = new Map([
   ['rgb8', [0, 1, 2, 3]],
   ['bgr8', [2, 1, 0, 3]],
@@ -31,9 +31,9 @@ const COLOURS: ReadonlyMap<string, readonly [number, number, number, number]> = 
 ]);
 
 /**
- * Depth along z.
+ * Reads depth along z.
  *
- * @param into width × height; metres, 0 where none was measured (as it came for 32FC1: NaN, infinite)
+ * @param into width × height; metres, 0 where none was measured (unchanged for 32FC1: NaN, infinite)
  * @throws {RosFault} `bad-image`, `unsupported`, `too-large`
  */
 export function depthOf(image: Image, into: Float32Array): void {
@@ -86,7 +86,11 @@ export function colourOf(image: Image, into: Uint32Array): void {
   }
 }
 
-/** The camera of rectified pictures, as depth pictures are, where it is told; else that of raw ones. @throws {RosFault} `bad-image` */
+/**
+ * The camera of rectified images, which depth images are, if it is given; else that of raw images.
+ *
+ * @throws {RosFault} `bad-image`
+ */
 export function pinholeOf({ k, p }: CameraInfo): Pinhole {
   const matrix = p !== undefined && (p[0] as number) > 0 ? { m: p, stride: 4 } : { m: k, stride: 3 };
   const at = (row: number, column: number) => matrix.m?.[row * matrix.stride + column] ?? Number.NaN;
@@ -100,7 +104,7 @@ export function pinholeOf({ k, p }: CameraInfo): Pinhole {
 }
 
 /**
- * Checks that what the image says of its size is there.
+ * Checks that the data is as long as the image's size requires.
  *
  * @returns width × height
  * @throws {RosFault} `bad-image`, `too-large`

@@ -20,7 +20,7 @@ describe.each([1, 2] as const)('decoderOf, ROS %i', (version) => {
   const bytes = messageBytes(version, IMAGE, image);
   const decode = decoderOf(version, IMAGE, null);
 
-  it('reads a message wherever it lies', () => {
+  it('reads a message at any position in memory', () => {
     for (let lead = 0; lead < 4; lead++) {
       const room = new Uint8Array(bytes.length + 100);
       room.set(bytes, lead);
@@ -28,7 +28,7 @@ describe.each([1, 2] as const)('decoderOf, ROS %i', (version) => {
     }
   });
 
-  it('refuses what is cut anywhere, also where other messages follow in memory', () => {
+  it('refuses a message cut short anywhere, even if others follow in memory', () => {
     const room = new Uint8Array(bytes.length + 100).fill(0xee);
     room.set(bytes);
     for (let length = 0; length < bytes.length; length++) {

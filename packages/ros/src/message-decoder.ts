@@ -8,16 +8,16 @@ import { imageFromProtobuf } from './protobuf-image.ts';
 import { type WireLayout, wireCheck } from './wire-check.ts';
 
 export interface MessageSchema {
-  /** As the recording has it, e.g. `foxglove.RawImage`. */
+  /** As in the recording, for example `foxglove.RawImage`. */
   name: string;
-  /** How messages are written: `cdr`, `ros1`, `json` or `protobuf`. */
+  /** How messages are encoded: `cdr`, `ros1`, `json` or `protobuf`. */
   messageEncoding: string;
-  /** How the schema is written: `ros2msg` or `ros1msg`; of the others it is not read. */
+  /** How the schema is encoded: `ros2msg` or `ros1msg`; other schemas are not read. */
   schemaEncoding: string;
   schema: Uint8Array;
 }
 
-/** The decoder is made when the first message wants it: most topics are never read. */
+/** Creates the decoder for the first message that needs it: most topics are never read. */
 export function lazyDecoder(schema: MessageSchema): (data: Uint8Array) => unknown {
   let decode: ((data: Uint8Array) => unknown) | null = null;
   return (data) => {
@@ -26,7 +26,7 @@ export function lazyDecoder(schema: MessageSchema): (data: Uint8Array) => unknow
   };
 }
 
-/** @throws {RosFault} `unsupported`, or `bad-message` where the schema cannot be read */
+/** @throws {RosFault} `unsupported`, or `bad-message` if the schema is unreadable */
 function makeDecoder({ name, messageEncoding, schemaEncoding, schema }: MessageSchema) {
   if (messageEncoding === 'json') {
     return (data: Uint8Array) => JSON.parse(new TextDecoder().decode(data)) as unknown;
@@ -49,8 +49,8 @@ function makeDecoder({ name, messageEncoding, schemaEncoding, schema }: MessageS
 /**
  * Decodes the messages of a live topic.
  *
- * @param definition for types that are not ROS’s own: as its publisher tells it, or with all that it is made of
- * @throws {RosFault} `unsupported` where nobody says what its messages hold
+ * @param definition for types that are not part of ROS: as stated by the publisher, or with all the parts
+ * @throws {RosFault} `unsupported` if the definition is unknown
  */
 export function decoderOf(
   version: 1 | 2,
@@ -65,7 +65,7 @@ export function decoderOf(
   return checkedReader(version === 1 ? 'ros1' : 'cdr', definitions);
 }
 
-/** It reads nothing that is not whole. */
+/** Refuses incomplete messages. */
 function checkedReader(layout: WireLayout, definitions: MessageDefinition[]): (bytes: Uint8Array) => unknown {
   const check = wireCheck(definitions, layout);
   const reader = layout === 'ros1' ? new Ros1Reader(definitions) : new Ros2Reader(definitions);

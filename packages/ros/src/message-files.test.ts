@@ -32,7 +32,7 @@ function gripBytes(): Uint8Array {
 }
 
 describe('definitionsFromFiles', () => {
-  it('puts a type together from its own package, others, and ROS’s', () => {
+  it('combines types from its own package, other packages, and ROS', () => {
     const definitions = definitionsFromFiles('arm_msgs/msg/Grip', read);
     expect(definitions.map(({ name }) => name)).toEqual([
       ...['arm_msgs/Grip', 'std_msgs/Header', 'builtin_interfaces/Time'].filter((name) =>
@@ -49,20 +49,20 @@ describe('definitionsFromFiles', () => {
     });
   });
 
-  it('names the file that is missing or broken', () => {
+  it('names a file that is missing or broken', () => {
     expect(() => definitionsFromFiles('arm_msgs/msg/Wrist', read)).toThrow(
       'arm_msgs/msg/Wrist.msg was not found',
     );
     expect(() => definitionsFromFiles('arm_msgs/msg/Broken', read)).toThrow(
       /arm_msgs\/msg\/Broken.msg cannot be read/,
     );
-    // ROS has none that holds itself: nothing hangs, and reading refuses it.
+    // ROS has no type that contains itself: nothing hangs, and reading refuses it.
     const loop = definitionsFromFiles('arm_msgs/msg/Loop', read);
     const deep = Uint8Array.from({ length: 4004 }, (_, i) => (i === 1 || (i > 3 && i % 4 === 0) ? 1 : 0));
     expect(() => decoderOf(2, 'arm_msgs/msg/Loop', loop)(deep)).toThrow(RosFault);
   });
 
-  it('whatever a file holds gives definitions or a fault', () => {
+  it('any file content gives definitions or a fault', () => {
     const word = fc.constantFrom(
       'float32',
       'Finger',

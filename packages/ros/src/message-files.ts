@@ -1,20 +1,20 @@
-/** Definitions of messages that are not ROS’s own, from the `.msg` files of their packages (ROS 2). */
+/** Definitions of messages that are not part of ROS, from the `.msg` files of their packages (ROS 2). */
 import type { MessageDefinition } from '@foxglove/message-definition';
 import { parse } from '@foxglove/rosmsg';
 import { definitionsOf } from './definitions.ts';
 import { RosFault } from './fault.ts';
 import { ros1TypeOf } from './topic-table.ts';
 
-/** The text of `<package>/msg/<name>.msg`; `null` where there is none. */
+/** Returns the text of `<package>/msg/<name>.msg`; `null` if there is none. */
 export type ReadMessageFile = (packageName: string, name: string) => string | null;
 
-/** More than any message is made of. */
+/** More types than any message contains. */
 const MOST_TYPES = 200;
 
 /**
- * A type’s definition and all that it is made of, itself first.
+ * A type’s definition and those of all its parts, itself first.
  *
- * @throws {RosFault} `unsupported`: a file is missing or cannot be read, with the file’s name
+ * @throws {RosFault} `unsupported`: a file is missing or unreadable, with the file’s name
  */
 export function definitionsFromFiles(type: string, read: ReadMessageFile): MessageDefinition[] {
   const found = new Map<string, MessageDefinition>();
@@ -45,7 +45,7 @@ function fromFile(name: string, read: ReadMessageFile): MessageDefinition {
       cause: error,
     });
   }
-  // Types of the same package are written without it.
+  // Types of the same package are written without the package name.
   const definitions = (parsed[0]?.definitions ?? []).map((field) =>
     field.isComplex === true
       ? { ...field, type: ros1TypeOf(field.type.includes('/') ? field.type : `${packageName}/${field.type}`) }

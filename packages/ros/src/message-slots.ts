@@ -1,10 +1,10 @@
-/** Memory for messages that are kept beyond the call that brought them, used again and again. */
+/** Reusable memory for messages that are kept beyond the call that delivered them. */
 
-/** More are not kept for later use. */
+/** Maximum number of free buffers kept for reuse. */
 const MOST_SPARE = 8;
 
 export interface MessageSlot {
-  /** The message; good until the last user has released it. */
+  /** The message; valid until the last user has released it. */
   readonly bytes: Uint8Array;
 }
 
@@ -20,7 +20,7 @@ export class MessageSlots {
   /**
    * Copies a message; the caller is its first user.
    *
-   * @param lead bytes to leave before it, so that what matters in it lies where words can be read
+   * @param lead bytes to leave before it, for the alignment that its content needs
    */
   keep(message: Uint8Array, lead = 0): MessageSlot {
     const slot: OwnSlot = this.#spare.pop() ?? {

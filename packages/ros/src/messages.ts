@@ -1,9 +1,12 @@
-/** The ROS messages that are read, as far as they are used. They come from a file or from others' nodes: each is checked. */
+/**
+ * The supported ROS messages, as far as their fields are used. They come from files or from other nodes, so each is
+ * checked.
+ */
 import type { Quaternion, Vector3 } from '@farpoint/protocol';
 import * as z from 'zod';
 
 const finite = z.number();
-/** As sensors say it: NaN where they do not know. */
+/** As sensors report it: NaN for unknown values. */
 const number = z.union([
   z.number(),
   z.nan(),
@@ -11,7 +14,7 @@ const number = z.union([
 ]);
 const vector3 = z.object({ x: finite, y: finite, z: finite });
 const quaternion = z.object({ x: finite, y: finite, z: finite, w: finite });
-/** ROS 2 says `nanosec`, ROS 1 `nsec`. */
+/** The field is `nanosec` in ROS 2 and `nsec` in ROS 1. */
 const stamp = z.union([
   z.object({ sec: z.number(), nanosec: z.number() }),
   z.object({ sec: z.number(), nsec: z.number() }),
@@ -81,14 +84,14 @@ export const compressedImageSchema = z.object({
 });
 export type CompressedImage = z.infer<typeof compressedImageSchema>;
 
-/** As JSON has bytes. */
+/** Bytes as represented in JSON. */
 const bytes = z.union([
   z.instanceof(Uint8Array),
   z.base64().transform((text) => new Uint8Array(Buffer.from(text, 'base64'))),
 ]);
 const foxgloveImage = z.object({ timestamp: stamp, frame_id: frameId, data: bytes });
 
-/** foxglove.CompressedImage, whatever it was encoded as. */
+/** foxglove.CompressedImage, in any encoding. */
 export const foxgloveCompressedImageSchema = foxgloveImage.extend({ format: z.string().max(512) });
 
 /** foxglove.RawImage: little-endian. */
@@ -99,7 +102,7 @@ export const foxgloveRawImageSchema = foxgloveImage.extend({
 
 const matrix = (length: number) =>
   z.union([z.array(z.number()), z.instanceof(Float64Array)]).refine((m) => m.length === length);
-/** ROS 1 says `K` and `P`, ROS 2 `k` and `p`. */
+/** The fields are `K` and `P` in ROS 1, `k` and `p` in ROS 2. */
 export const cameraInfoSchema = z
   .object({
     header,
@@ -110,13 +113,13 @@ export const cameraInfoSchema = z
   .transform(({ K, P, k, p, ...rest }) => ({ ...rest, k: k ?? K, p: p ?? P }));
 export type CameraInfo = z.infer<typeof cameraInfoSchema>;
 
-/** Voltage and charge may be NaN: not known. */
+/** Voltage and charge may be NaN for unknown. */
 export const batteryStateSchema = z.object({
   voltage: number,
   percentage: number,
 });
 
-/** As people read it; a battery that is not as it should be counts as a fault. */
+/** For display; a battery in an abnormal state counts as a fault. */
 export const batteryDetailsSchema = batteryStateSchema.extend({
   current: number.optional(),
   power_supply_status: z.int().optional(),
@@ -138,7 +141,7 @@ export const diagnosticArraySchema = z.object({
     .max(4096),
 });
 
-/** Types by the part that they play. `foxglove.` names are those of JSON and Protobuf. */
+/** Types by their role. `foxglove.` names are those of JSON and Protobuf. */
 export const POINT_CLOUD_TYPES: readonly string[] = ['sensor_msgs/msg/PointCloud2'];
 export const TF_TYPES: readonly string[] = ['tf2_msgs/msg/TFMessage', 'tf/msg/tfMessage'];
 export const ODOMETRY_TYPES: readonly string[] = ['nav_msgs/msg/Odometry'];
@@ -149,17 +152,17 @@ export const FOXGLOVE_COMPRESSED_IMAGE_TYPES = [
 ];
 export const FOXGLOVE_RAW_IMAGE_TYPES = ['foxglove_msgs/msg/RawImage', 'foxglove.RawImage'];
 
-/** Nanoseconds since 1970, or whatever the robot's clock counts from. */
+/** Nanoseconds since 1970, or since the epoch of the robot's clock. */
 export function stampNs(time: z.infer<typeof stamp>): bigint {
   return BigInt(time.sec) * 1_000_000_000n + BigInt('nanosec' in time ? time.nanosec : time.nsec);
 }
 
-/** tf names are the same with and without ROS 1's leading slash. */
+/** Removes ROS 1's leading slash from a tf name. */
 export function frameName(id: string): string {
   return id.startsWith('/') ? id.slice(1) : id;
 }
 
-/** @returns `null` for what is no rotation */
+/** @returns `null` if it is no rotation */
 export function unitQuaternion({ x, y, z, w }: Quaternion): Quaternion | null {
   const norm = Math.hypot(x, y, z, w);
   if (!(Math.abs(norm - 1) < 0.01)) return null;

@@ -20,7 +20,7 @@ const shape = (even: boolean) =>
     padding: fc.nat(5),
   });
 
-/** An independent writer: `put` writes pixel (x, y) where its row begins. */
+/** An independent writer: `put` writes pixel (x, y) relative to the start of its row. */
 function imageOf(
   { width, height, padding }: Shape,
   encoding: string,
@@ -144,7 +144,7 @@ describe('pictureRows', () => {
     );
   });
 
-  it('refuses what does not agree, and never reads beyond the data', () => {
+  it('refuses inconsistent images, and never reads beyond the data', () => {
     const wild = fc.record({
       width: fc.oneof({ weight: 5, arbitrary: fc.nat(20) }, fc.integer({ min: 0, max: 0xffffffff })),
       height: fc.oneof({ weight: 5, arbitrary: fc.nat(4) }, fc.integer({ min: 0, max: 0xffffffff })),
@@ -159,7 +159,7 @@ describe('pictureRows', () => {
     let read = 0;
     fc.assert(
       fc.property(wild, (fields) => {
-        // What lies behind the data must not come out: 0xee is nowhere in it.
+        // Bytes behind the data must not appear in the output: 0xee is nowhere in it.
         const around = new Uint8Array(fields.data.length + 64).fill(0xee);
         around.set(fields.data.map((byte) => byte & 0x7f));
         const image = { header, ...fields, data: around.subarray(0, fields.data.length) };
@@ -207,7 +207,7 @@ describe('compressedPicture', () => {
     return { format: 'rgb8; png compressed bgr8', data };
   };
 
-  it('goes by the bytes, not by the name', () => {
+  it('identifies the format by the bytes, not by the name', () => {
     const jpegData = Uint8Array.from([0xff, 0xd8, 0xff, 0xc0, 0, 11, 8, 1, 0xe0, 2, 0x80, 1, 1, 0x11, 0]);
     expect(compressedPicture({ format: 'png', data: jpegData })).toEqual({
       ...{ format: 'jpeg', width: 640, height: 480 },

@@ -1,16 +1,16 @@
 /**
- * Images of sensor_msgs as pictures for people: row by row, as 8-bit colours, whatever they are encoded as.
+ * Converts images of sensor_msgs to pictures for people: row by row, as 8-bit colours, from any encoding.
  *
- * Source: sensor_msgs/image_encodings.hpp. `yuv422` is U Y V Y, `yuv422_yuy2` is Y U Y V; a `bayer_` name gives the upper
- * left square of four pixels, row by row.
+ * Source: sensor_msgs/image_encodings.hpp. `yuv422` is U Y V Y, `yuv422_yuy2` is Y U Y V; a `bayer_` name gives the
+ * upper left square of four pixels, row by row.
  */
 import { RosFault } from './fault.ts';
 import { checkedPixels } from './image.ts';
 import type { Image } from './messages.ts';
 
-/** More pixels than any camera has that a robot carries. */
+/** More pixels than any camera on a robot has. */
 export const MOST_PICTURE_PIXELS = 4096 * 4096;
-/** Depth is shown light where it is near, dark where it is this far, metres; black where there is none. */
+/** Near depth is shown light, depth from this distance on dark, metres; missing depth is black. */
 export const DARKEST_DEPTH_M = 8;
 const NEAREST_GREY = 255;
 const FARTHEST_GREY = 40;
@@ -19,10 +19,10 @@ const FARTHEST_GREY = 40;
 type RowReader = (image: Image, view: DataView, row: number, into: Uint8Array) => void;
 
 interface Encoding {
-  /** Of one pixel; of a pair of pixels they share four. */
+  /** Bytes per pixel; 2 if a pair of pixels shares four bytes. */
   bytes: number;
   read: RowReader;
-  /** Pixels come in squares or pairs: no side may be odd. */
+  /** Pixels come in squares or pairs, so these sides must be even. */
   even?: 'width' | 'both';
 }
 
@@ -53,7 +53,12 @@ const grey = (
   },
 });
 
-/** BT.601 in video range, as cameras give it. @param luma where the first of two is @param chroma where U is; V is two on */
+/**
+ * BT.601 in video range, as delivered by cameras.
+ *
+ * @param luma position of the first of two
+ * @param chroma position of U; V is two further on
+ */
 const yuv = (luma: number, chroma: number): Encoding => ({
   bytes: 2,
   even: 'width',
@@ -72,7 +77,10 @@ const yuv = (luma: number, chroma: number): Encoding => ({
   },
 });
 
-/** The four pixels of a square make one colour, the two greens by their mean: half the sharpness, and no fringes. */
+/**
+ * Combines the four pixels of a square into one colour, averaging the two greens: half the resolution, and no colour
+ * fringes.
+ */
 const bayer = (square: string, bytes: 1 | 2): Encoding => {
   const [red, green, otherGreen, blue] = [
     square.indexOf('r'),
@@ -85,7 +93,7 @@ const bayer = (square: string, bytes: 1 | 2): Encoding => {
     even: 'both',
     read: ({ data, width, step, is_bigendian }, _, row, into) => {
       const top = (row & ~1) * step + (bytes === 2 && !is_bigendian ? 1 : 0);
-      // Of 16 bits the upper eight.
+      // Of 16 bits, the upper eight.
       const value = (pixel: number, place: number) =>
         data[top + (place >> 1) * step + (pixel + (place & 1)) * bytes] as number;
       for (let x = 0, i = 0; x < width; x += 2) {
@@ -138,7 +146,7 @@ export interface ImageRows {
 }
 
 /**
- * Checks an image and gives its rows; its data is read as they are asked for.
+ * Checks an image and returns its rows; its data is read on demand.
  *
  * @throws {RosFault} `bad-image`, `unsupported`, `too-large`
  */

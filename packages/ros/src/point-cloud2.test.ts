@@ -76,7 +76,7 @@ const anyLayout = fc.record({
   gap: fc.constantFrom(0, 0, 1, 3, 4),
   rowPadding: fc.constantFrom(0, 0, 5, 8),
 });
-/** As nearly every driver writes them: words, which are read as such. */
+/** The layout that nearly every driver writes: aligned words, which are read as such. */
 const wordLayout = anyLayout.map((spec) => ({
   ...spec,
   bigEndian: false,
@@ -110,7 +110,7 @@ describe('PointCloud2Decoder', () => {
     );
   });
 
-  it('reads memory that is not aligned as it reads what is', () => {
+  it('reads unaligned memory like aligned memory', () => {
     const cloud = cloudOf({
       ...{ width: 7, height: 2, bigEndian: false, gap: 0, rowPadding: 0 },
       types: { x: 7, y: 7, z: 7, intensity: 7 },
@@ -123,7 +123,7 @@ describe('PointCloud2Decoder', () => {
     moved.set(cloud.data, 1);
     new PointCloud2Decoder().decode({ ...cloud, data: moved.subarray(1) }, 'optical', shifted);
     expect(new Uint32Array(shifted.buffer)).toEqual(new Uint32Array(aligned.buffer));
-    // Intensities are colours that grow brighter.
+    // Intensities become colours of increasing brightness.
     const brightness = Array.from({ length: 14 }, (_, i) => {
       const word = new Uint32Array(aligned.buffer)[i * 4 + 3] as number;
       return (word & 0xff) + ((word >> 8) & 0xff) + ((word >> 16) & 0xff);
@@ -131,7 +131,7 @@ describe('PointCloud2Decoder', () => {
     expect(brightness.at(-1)).toBeGreaterThan(brightness[0] as number);
   });
 
-  it('gives a depth camera’s cloud as pictures: the same depth and colours', () => {
+  it('reads a depth camera’s cloud as images, with the same depth and colours', () => {
     fc.assert(
       fc.property(layout, (spec) => {
         const cloud = cloudOf({ ...spec, value: (field, i) => (field === 'z' ? i % 90 : i + 7) });
@@ -147,7 +147,7 @@ describe('PointCloud2Decoder', () => {
     );
   });
 
-  it('reads r, g and b by themselves', () => {
+  it('reads separate r, g and b fields', () => {
     const cloud = cloudOf({
       ...{ width: 1, height: 1, bigEndian: true, gap: 0, rowPadding: 0 },
       types: { x: 8, y: 8, z: 8, r: 2, g: 2, b: 2 },
@@ -159,7 +159,7 @@ describe('PointCloud2Decoder', () => {
     expect(new Uint32Array(into.buffer)[3]).toBe(0xff03_0201);
   });
 
-  it('refuses what does not agree, whatever the sizes say, and never reads beyond the data', () => {
+  it('refuses inconsistent clouds of any size, and never reads beyond the data', () => {
     const wild = fc.record({
       width: fc.oneof(fc.integer({ min: 0, max: 20 }), fc.integer({ min: 0, max: 0xffffffff })),
       height: fc.oneof(fc.integer({ min: 0, max: 4 }), fc.integer({ min: 0, max: 0xffffffff })),

@@ -32,15 +32,15 @@ const FLOAT32 = 7;
 /** Decodes the clouds of one topic. */
 export class PointCloud2Decoder {
   readonly #palette = Uint32Array.from({ length: LEVELS }, (_, i) => intensityColour(i / (LEVELS - 1)));
-  /** Of the first cloud with intensities: a scale that changed would make everything flicker. */
+  /** Taken from the first cloud with intensities: a changing scale would make everything flicker. */
   #intensityScale: number | null = null;
 
   /**
-   * Fields of any layout, type and endianness: x, y and z; colour from `rgb`, `rgba`, or `r`, `g`, `b`; else from
-   * `intensity`; else grey.
+   * Accepts fields of any layout, type and endianness: x, y and z; colour from `rgb`, `rgba`, or `r`, `g`, `b`; else
+   * from `intensity`; else grey.
    *
-   * @param into four words a point: x, y, z in metres in the optical frame, then the bytes R, G, B, A
-   * @returns how many points there are
+   * @param into four words per point: x, y, z in metres in the optical frame, then the bytes R, G, B, A
+   * @returns the number of points
    * @throws {RosFault} `bad-cloud`, `too-large`
    */
   decode(cloud: PointCloud2, axes: CloudAxes, into: Float32Array): number {
@@ -65,10 +65,12 @@ export class PointCloud2Decoder {
   }
 
   /**
-   * A depth camera's cloud as its pictures: what lies at a pixel is its depth; x and y follow from the camera. The
-   * cloud's axes are optical.
+   * Reads a depth camera's cloud as its images: each pixel holds the depth; x and y follow from the camera. The cloud's
+   * axes are optical.
    *
-   * @param depth along z, metres @param colour R, G, B, A, R lowest @returns how many pixels there are
+   * @param depth along z, metres
+   * @param colour R, G, B, A, R lowest
+   * @returns the number of pixels
    * @throws {RosFault} `bad-cloud`, `too-large`
    */
   decodeImages(cloud: PointCloud2, depth: Float32Array, colour: Uint32Array): number {
@@ -106,7 +108,7 @@ export class PointCloud2Decoder {
     const packed = named('rgb', 'rgba');
     if (packed !== undefined) {
       requireFit(cloud, packed, 4);
-      // As words: which bits they are is the same, whatever the field's type says.
+      // Read as words: the bits are the same, whatever the field's type says.
       const plain = { ...packed, datatype: FLOAT32 };
       if (data.byteOffset % 4 === 0 && isPlain(cloud, [plain], rows.rowBytes)) {
         const source = new Uint32Array(data.buffer, data.byteOffset, data.length >> 2);
@@ -157,7 +159,7 @@ export class PointCloud2Decoder {
   }
 }
 
-/** Checks that what the cloud says of its size is there. @returns width × height */
+/** Checks that the data is as long as the cloud's size requires. @returns width × height */
 export function checkedCount({ width, height, point_step, row_step, data, fields }: PointCloud2): number {
   const count = width * height;
   if (count === 0) return 0;
@@ -194,7 +196,7 @@ function requireFit({ point_step }: PointCloud2, { name, offset }: PointField, b
   throw new RosFault('bad-cloud', `field ${name} at ${offset} is outside its point of ${point_step} bytes`);
 }
 
-/** Little-endian floats at multiples of four, as nearly every driver has them. */
+/** Little-endian floats at multiples of four, as nearly every driver writes them. */
 function isPlain(cloud: PointCloud2, xyz: readonly PointField[], rowBytes: number): boolean {
   return (
     !cloud.is_bigendian &&
@@ -224,7 +226,7 @@ function readCoordinates(
   });
 }
 
-/** As REP-103 has it: optical frames are named so. */
+/** Optical frames are recognised by their names, according to REP-103. */
 export function axesOf(frameId: string): CloudAxes {
   return frameId.includes('optical') ? 'optical' : 'body';
 }

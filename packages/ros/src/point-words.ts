@@ -1,10 +1,10 @@
-/** The fields of points, where they lie as words: nearly every driver lays them out so, and most of the time goes here. */
+/** Reads point fields that are aligned words. Nearly every driver uses such a layout, and most time is spent here. */
 import type { PointField } from './messages.ts';
 
 /** Axes of a cloud's frame (REP-103): optical (z forward, x right, y down) or body (x forward, y left, z up). */
 export type CloudAxes = 'optical' | 'body';
 
-/** How the points lie in the data. */
+/** Layout of the points in the data. */
 export interface Rows {
   width: number;
   height: number;
@@ -12,13 +12,13 @@ export interface Rows {
   step: number;
 }
 
-/** The data as words; copied where it does not lie as such. */
+/** The data as words; copied if it is not aligned. */
 export function alignedWords(data: Uint8Array): Float32Array {
   const bytes = data.byteOffset % 4 === 0 ? data : data.slice();
   return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.length >> 2);
 }
 
-/** One word of each point, one after the other. */
+/** Copies one word of each point, one after the other. */
 export function copyWords(
   words: Float32Array,
   { width, height, rowBytes, step }: Rows,
@@ -33,7 +33,7 @@ export function copyWords(
   }
 }
 
-/** From ROS's packed colours to R, G, B, A. */
+/** Converts ROS's packed colours to R, G, B, A. */
 export function copyColours(
   source: Uint32Array,
   { width, height, rowBytes, step }: Rows,
@@ -53,7 +53,7 @@ export function copyColours(
   }
 }
 
-/** Of each point x, y and z, turned into optical axes; the fourth word is left as it is. */
+/** Copies x, y and z of each point, rotated into optical axes; the fourth word is left unchanged. */
 export function copyPoints(
   words: Float32Array,
   { width, height, rowBytes, step }: Rows,
@@ -80,7 +80,7 @@ export function copyPoints(
   }
 }
 
-/** Row by row. @param visit gets the point's first byte and its number */
+/** Visits points row by row. @param visit gets the point's first byte and its number */
 export function forEachPoint(
   { width, height, rowBytes, step }: Rows,
   visit: (at: number, index: number) => void,

@@ -4,7 +4,7 @@ import { RosFault } from './fault.ts';
 import { foxgloveCompressedImageSchema, foxgloveRawImageSchema, stampNs } from './messages.ts';
 import { imageFromProtobuf } from './protobuf-image.ts';
 
-/** Both as PyPI's protobuf 7.36 and foxglove-schemas-protobuf 0.4 write them. */
+/** Both as written by PyPI's protobuf 7.36 and foxglove-schemas-protobuf 0.4. */
 const COMPRESSED = '0a0c0880e2cfaa061080cab5ee0112030102031a046a706567220566726f6e74';
 const RAW =
   '0a1108ffffffffffffffffff0110ff93ebdc0315020000001d010000002204726762382d2c01000032060001020304053a0566726f6e74';
@@ -36,12 +36,12 @@ describe('imageFromProtobuf', () => {
     expect(stampNs(raw.timestamp)).toBe(-1n);
   });
 
-  it('takes defaults for what is not there, passes over what it does not know, and of two takes the last', () => {
+  it('uses defaults for missing fields, skips unknown ones, and takes the last of duplicates', () => {
     expect(readCompressed(new Uint8Array(0))).toMatchObject({ format: '', data: new Uint8Array(0) });
     // Field 100 as text, 101 as a number, 102 and 103 as eight and four bytes; then another format.
     const more = `${COMPRESSED}a206026964a8060db1060102030405060708bd060a0b0c0d1a03706e67`;
     expect(readCompressed(hex(more))).toMatchObject({ format: 'png', data: Uint8Array.of(1, 2, 3) });
-    // The same number as another kind of value is none of its fields.
+    // The same field number with another wire type is not one of its fields.
     expect(readCompressed(hex('1005'))).toMatchObject({ data: new Uint8Array(0) });
   });
 
@@ -50,9 +50,9 @@ describe('imageFromProtobuf', () => {
     expect(imageFromProtobuf('toString')).toBeNull();
   });
 
-  it('says at which byte a message ends that is cut short', () => {
+  it('reports at which byte a truncated message ends', () => {
     const whole = hex(COMPRESSED);
-    // Between two fields it is whole, with less in it.
+    // Between two fields, it is a complete message with fewer fields.
     const between = [0, 14, 19, 25, 32];
     for (let length = 0; length <= whole.length; length++) {
       const fault = faultOf(() => readCompressed(whole.subarray(0, length)));

@@ -1,9 +1,9 @@
 /**
- * foxglove.CompressedImage and foxglove.RawImage as Protobuf: the fields that are used, by their numbers, which their schema
- * fixes; others are passed over.
+ * Reads foxglove.CompressedImage and foxglove.RawImage in Protobuf: the fields that are used, by their numbers, which
+ * the schema fixes; others are skipped.
  *
- * Sources: Protocol Buffers' encoding, protobuf.dev/programming-guides/encoding; the schemas of foxglove.CompressedImage,
- * foxglove.RawImage and google.protobuf.Timestamp.
+ * Sources: Protocol Buffers' encoding, protobuf.dev/programming-guides/encoding; the schemas of
+ * foxglove.CompressedImage, foxglove.RawImage and google.protobuf.Timestamp.
  */
 import { RosFault } from './fault.ts';
 
@@ -50,13 +50,13 @@ const IMAGES: ReadonlyMap<string, Fields> = new Map([
   ['foxglove.RawImage', RAW_IMAGE],
 ]);
 
-/** @returns what reads messages of that name, throwing {@link RosFault} `bad-message`; `null` for other names */
+/** @returns a reader for messages of that name, which throws {@link RosFault} `bad-message`; `null` for other names */
 export function imageFromProtobuf(name: string): ((data: Uint8Array) => Message) | null {
   const fields = IMAGES.get(name);
   return fields === undefined ? null : (data) => read(data, fields);
 }
 
-/** What is not there has its default: 0, or empty. */
+/** Missing fields have their default: 0, or empty. */
 function read(bytes: Uint8Array, fields: Fields): Message {
   const message: Message = {};
   for (const [name, kind] of fields.values()) message[name] = defaultOf(kind);
@@ -96,7 +96,7 @@ function defaultOf(kind: Kind): Value {
   return kind === 'time' ? { sec: 0, nanosec: 0 } : 0;
 }
 
-/** Where in a message the reader is; every step is checked. */
+/** The reader's position in a message; every step is checked. */
 class Cursor {
   readonly #bytes: Uint8Array;
   readonly #view: DataView;

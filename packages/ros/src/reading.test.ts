@@ -16,7 +16,7 @@ const texts = (as: TopicRole, message: unknown) =>
   readingOf(entry(as), message).values.map(([name, value]) => (name === '' ? value : `${name}: ${value}`));
 
 describe('readingOf', () => {
-  it('tells charge, voltage and what the supply does, and when the battery is low or ill', () => {
+  it('shows charge, voltage and supply status, and whether the battery is low or faulty', () => {
     const full = {
       header,
       voltage: 25.14,
@@ -35,7 +35,7 @@ describe('readingOf', () => {
     expect(texts('battery', { ...full, percentage: Number.NaN })).toEqual(['25.1 V', 'charging']);
   });
 
-  it('tells place, kind of fix and how exact it is', () => {
+  it('shows position, kind of fix and accuracy', () => {
     const covariance = Float64Array.of(0.04, 0, 0, 0, 0.01, 0, 0, 0, 1);
     const message = {
       header,
@@ -55,7 +55,7 @@ describe('readingOf', () => {
     });
   });
 
-  it('tells the worst diagnostics first, and counts the rest', () => {
+  it('shows the worst diagnostics first, and counts the rest', () => {
     const status = (level: number | string, name: string, message: string) => ({ level, name, message });
     const message = {
       header,
@@ -81,7 +81,7 @@ describe('readingOf', () => {
     expect(readingOf(entry('text', 'Mode'), nested).label).toBe('Mode');
   });
 
-  it('is bounded whatever comes, or says that the message is none', () => {
+  it('is bounded for any input, or reports that the message is invalid', () => {
     const roles = fc.constantFrom<TopicRole>('battery', 'fix', 'diagnostics', 'text');
     const anything = fc.oneof(
       fc.anything({ withBigInt: true, withTypedArray: true, maxDepth: 6 }),

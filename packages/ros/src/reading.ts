@@ -1,16 +1,16 @@
-/** What a topic says, as short text for people: bounded, whatever the message holds. */
+/** Formats a topic's message as short text for people, with limited length whatever it contains. */
 import { READING_LIMITS, type Reading, type ReadingLevel } from '@farpoint/protocol';
 import { batteryDetailsSchema, diagnosticArraySchema, navSatFixSchema } from './messages.ts';
 import type { TopicEntry, TopicRole } from './topic-table.ts';
 
-/** As it is sent, but for its age. */
+/** As it is sent, without its age. */
 export type TopicReading = Pick<Reading, 'topic' | 'label' | 'level' | 'values'>;
 
 const { values: MOST_VALUES, label: MOST_LABEL, name: MOST_NAME, text: MOST_TEXT } = READING_LIMITS;
-/** How deep a message of unknown kind is looked into, and how many of an array are shown. */
+/** How deep an unknown message is examined, and how many elements of an array are shown. */
 const MOST_DEPTH = 4;
 const MOST_ITEMS = 8;
-/** Fields that say nothing of the robot. */
+/** Fields that say nothing about the robot. */
 const SKIPPED = ['header', 'covariance'];
 
 /** sensor_msgs/BatteryState. */
@@ -32,14 +32,14 @@ const EMPTY_CHARGE = 0.1;
 const FIXES = ['no fix', 'fix', 'satellite augmented', 'ground augmented'];
 const LEVELS: readonly ReadingLevel[] = ['ok', 'warn', 'error', 'error'];
 
-/** What readings are called that the table does not name. */
+/** Labels for readings that the table does not name. */
 const LABELS: Partial<Record<TopicRole, string>> = {
   battery: 'Battery',
   fix: 'Position',
   diagnostics: 'Diagnostics',
 };
 
-/** @throws {Error} where the message is not what its type says */
+/** @throws {Error} if the message does not match its type */
 export function readingOf({ topic, as, label }: TopicEntry, message: unknown): TopicReading {
   const { level, values } =
     as === 'battery'
@@ -96,7 +96,7 @@ function fix(message: unknown): Body {
   return { level: 'ok', values };
 }
 
-/** The worst first; of those that are well only how many there are. */
+/** The worst first; of those that are OK, only the number. */
 function diagnostics(message: unknown): Body {
   const { status } = diagnosticArraySchema.parse(message);
   const judged = status.map(({ level, name, message }) => ({ level: levelOf(level), name, message }));
@@ -111,7 +111,7 @@ function diagnostics(message: unknown): Body {
   return { level: LEVELS[worst] ?? 'error', values };
 }
 
-/** ROS 2 has it as a byte, and some libraries bytes as text. */
+/** A byte in ROS 2, which some libraries represent as text. */
 function levelOf(level: number | string): number {
   const value = typeof level === 'number' ? level : (level.codePointAt(0) ?? 0);
   return Math.min(Math.max(value, 0), 3);
@@ -120,7 +120,7 @@ function levelOf(level: number | string): number {
 function text(message: unknown): Body {
   const values: [string, string][] = [];
   flatten('', message, 0, values);
-  // The one value of a std_msgs message needs no name.
+  // The single value of a std_msgs message needs no name.
   const [only] = values;
   if (values.length === 1 && only?.[0] === 'data') values[0] = ['', only[1]];
   return { level: 'ok', values };
@@ -150,7 +150,7 @@ function listText(list: ArrayLike<unknown>): string {
   return `[${items.join(', ')}${list.length > MOST_ITEMS ? `, … ${list.length}` : ''}]`;
 }
 
-/** @returns `null` for what has parts */
+/** @returns `null` for structured values */
 function plainText(value: unknown): string | null {
   switch (typeof value) {
     case 'number':
@@ -165,7 +165,7 @@ function plainText(value: unknown): string | null {
   }
 }
 
-/** At most so many characters, no control characters among them. */
+/** At most this many characters, without control characters. */
 function shortened(text: string, most: number): string {
   const clean = text
     .slice(0, most + 1)

@@ -8,7 +8,7 @@ function faults(table: unknown): string[] {
 }
 
 describe('topic table', () => {
-  it('knows the type and the rate of each role, and takes names of both ROS versions', () => {
+  it('knows type and rate of each role, and accepts names of both ROS versions', () => {
     const table = topicTableSchema.parse([
       { topic: '/camera/points', as: 'cloud' },
       { topic: '/bms', type: 'std_msgs/Float32', as: 'text', most: 0.5, label: 'Cells' },
@@ -22,7 +22,7 @@ describe('topic table', () => {
     expect(table.map(({ type }) => ros1TypeOf(type))).toContain('std_msgs/Float32');
   });
 
-  it('takes pictures, by their name raw or compressed', () => {
+  it('recognises raw and compressed pictures by their names', () => {
     const table = topicTableSchema.parse([
       { topic: '/front/image_raw', as: 'picture', label: 'Front' },
       { topic: '/rear/image_raw/compressed', as: 'picture', most: 2 },
@@ -45,19 +45,19 @@ describe('topic table', () => {
     ],
     ['no list', {}, ': must be a list of topics'],
     ['no mapping', ['/points'], '0: must be a mapping with topic and as'],
-    ['a key nobody knows', [{ topic: '/a', as: 'cloud', rate: 3 }], '0: has unknown keys: rate'],
+    ['an unknown key', [{ topic: '/a', as: 'cloud', rate: 3 }], '0: has unknown keys: rate'],
     ['no role', [{ topic: '/a' }], /^0.as: must be one of cloud, depth/],
     ['a relative name', [{ topic: 'points', as: 'cloud' }], /^0.topic: must be a complete topic name/],
     ['a wildcard', [{ topic: '/camera/*', as: 'cloud' }], /^0.topic: must be a complete topic name/],
     ['text of no type', [{ topic: '/a', as: 'text' }], '0.type: is needed for as: text'],
     [
-      'a type that cannot be it',
+      'a type that the role does not allow',
       [{ topic: '/a', type: 'sensor_msgs/LaserScan', as: 'cloud' }],
       '0.type: must be sensor_msgs/msg/PointCloud2 for cloud',
     ],
     ['too fast', [{ topic: '/a', as: 'fix', most: 1e9 }], '0.most: must be at most 1000 messages a second'],
     [
-      'a QoS nobody knows',
+      'an unknown QoS',
       [{ topic: '/a', as: 'cloud', qos: { reliability: 'maybe' } }],
       '0.qos.reliability: must be reliable or best-effort',
     ],
@@ -70,7 +70,7 @@ describe('topic table', () => {
       '1.as: there can be only one cloud',
     ],
     [
-      'one topic twice',
+      'a duplicated topic',
       [
         { topic: '/a', as: 'fix' },
         { topic: '/a', as: 'fix' },

@@ -1,19 +1,19 @@
 /**
- * Which topics the robot may touch, and as what. What is not in the table is neither subscribed nor published, whatever
- * discovery sees.
+ * Which topics the robot may use, and as what. Topics that are not in the table are neither subscribed nor published,
+ * whatever discovery finds.
  */
 import { MAX_CAMERAS } from '@farpoint/protocol';
 import type { MessageDefinition } from '@foxglove/message-definition';
 import * as z from 'zod';
 import { LATCHED_QOS, type Qos, RELIABLE_QOS, SENSOR_QOS, VELOCITY_QOS } from './graph.ts';
 
-/** What a topic is to the robot, and the types that can be it; the first is taken where none is named. */
+/** The roles of a topic, and the types allowed for each; the first is used if none is given. */
 export const TOPIC_ROLES = {
-  /** Points: with a `cameraInfo` beside it, of a depth camera's grid. */
+  /** Points; with a `cameraInfo`, on a depth camera's grid. */
   cloud: ['sensor_msgs/msg/PointCloud2'],
-  /** A depth picture; it needs a `cameraInfo`. */
+  /** A depth image; it needs a `cameraInfo`. */
   depth: ['sensor_msgs/msg/Image'],
-  /** The colour picture of `depth`, registered to it. */
+  /** The colour image for `depth`, registered to it. */
   colour: ['sensor_msgs/msg/Image'],
   cameraInfo: ['sensor_msgs/msg/CameraInfo'],
   /** A camera's picture, for people to look at. */
@@ -29,31 +29,31 @@ export const TOPIC_ROLES = {
   diagnostics: ['diagnostic_msgs/msg/DiagnosticArray'],
   /** Any type: its values as text. */
   text: [],
-  /** Published: what the wheels are to do. */
+  /** Published: the velocity for the wheels. */
   velocity: ['geometry_msgs/msg/Twist', 'geometry_msgs/msg/TwistStamped'],
 } as const satisfies Record<string, readonly string[]>;
 
 export type TopicRole = keyof typeof TOPIC_ROLES;
 const roles = Object.keys(TOPIC_ROLES) as [TopicRole, ...TopicRole[]];
 
-/** Told to people once a second where the table does not say; of the others as many as come. */
+/** Messages per second that are shown to people, unless the table says otherwise; the other roles have no limit. */
 const MOST_TOLD = 1;
 const TOLD: readonly TopicRole[] = ['battery', 'fix', 'diagnostics', 'text'];
 const MOST_TOPICS = 64;
-/** What image_transport's topics end with, and what they are. */
+/** Suffix of image_transport's topics, and their type. */
 const COMPRESSED_SUFFIX = '/compressed';
 const COMPRESSED_IMAGE = 'sensor_msgs/msg/CompressedImage';
 const COMPRESSED_DEPTH_SUFFIX = '/compressedDepth';
-/** Transforms that hold from before they are said. */
+/** Transforms that are valid even before they are published. */
 export const STATIC_SUFFIX = '/tf_static';
 
-/** Names as both ROS 1 and ROS 2 allow them, with the leading slash. */
+/** Names that are valid in both ROS 1 and ROS 2, with the leading slash. */
 const topicName = z
   .string('must be a topic name')
   .max(255, 'must be at most 255 characters long')
   .regex(/^(\/[A-Za-z_][A-Za-z0-9_]*)+$/, 'must be a complete topic name such as /camera/points');
 
-/** `sensor_msgs/PointCloud2` or `sensor_msgs/msg/PointCloud2`; the latter is kept. */
+/** `sensor_msgs/PointCloud2` or `sensor_msgs/msg/PointCloud2`; stored as the latter. */
 const typeName = z
   .string('must be a message type')
   .max(255, 'must be at most 255 characters long')
@@ -80,16 +80,16 @@ const qos = z.strictObject(
 
 export interface TopicEntry {
   topic: string;
-  /** As ROS 2 writes it. */
+  /** In ROS 2 notation. */
   type: string;
   as: TopicRole;
-  /** Messages a second that are looked at; `null`: as many as come. */
+  /** Messages per second that are processed; `null` for no limit. */
   most: number | null;
-  /** What people read beside its values; the topic where left out. */
+  /** Label shown next to its values; the topic if absent. */
   label?: string | undefined;
-  /** Left out: what the role usually needs. ROS 2 only. */
+  /** If absent, what the role usually needs. ROS 2 only. */
   qos?: Qos | undefined;
-  /** Of a type that is not ROS’s own, from files: itself first. */
+  /** For a type that is not part of ROS, from files: itself first. */
   definitions?: MessageDefinition[] | undefined;
 }
 
@@ -140,7 +140,7 @@ const entry = z
     return { ...given, type, most: given.most ?? (TOLD.includes(given.as) ? MOST_TOLD : null) };
   });
 
-/** Roles that one topic at most can have. */
+/** Roles that at most one topic can have. */
 const SINGLE: readonly TopicRole[] = [
   'cloud',
   'depth',
@@ -151,7 +151,7 @@ const SINGLE: readonly TopicRole[] = [
   'velocity',
 ];
 
-/** The table as a configuration file has it: a list of entries. */
+/** The table in a configuration file: a list of entries. */
 export const topicTableSchema = z
   .array(entry, 'must be a list of topics')
   .max(MOST_TOPICS, `must be at most ${MOST_TOPICS} topics`)
@@ -175,24 +175,24 @@ export const topicTableSchema = z
 
 export type TopicTable = TopicEntry[];
 
-/** ROS 1 says `sensor_msgs/PointCloud2`, ROS 2 `sensor_msgs/msg/PointCloud2`: the latter. */
+/** Converts `sensor_msgs/PointCloud2` of ROS 1 to `sensor_msgs/msg/PointCloud2` of ROS 2. */
 export function ros2TypeOf(type: string): string {
   const parts = type.split('/');
   return parts.length === 2 ? `${parts[0]}/msg/${parts[1]}` : type;
 }
 
-/** The former. */
+/** The reverse conversion. */
 export function ros1TypeOf(type: string): string {
   const parts = type.split('/');
   return parts.length === 3 ? `${parts[0]}/${parts[2]}` : type;
 }
 
-/** The one topic of a role, where there is one. */
+/** The only topic with a role, if there is one. */
 export function topicAs(table: readonly TopicEntry[], role: TopicRole): TopicEntry | undefined {
   return table.find(({ as }) => as === role);
 }
 
-/** What a topic is subscribed or published with: as the table says, else as its role needs. */
+/** The QoS of a topic: from the table, else what its role needs. */
 export function qosOf({ topic, as, qos }: TopicEntry): Qos {
   if (qos !== undefined) return qos;
   if (as === 'velocity') return VELOCITY_QOS;

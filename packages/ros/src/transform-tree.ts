@@ -1,6 +1,6 @@
 import { compose, type Pose, type Quaternion } from '@farpoint/protocol';
 
-/** Samples kept of each moving transform. */
+/** Samples kept for each moving transform. */
 const HISTORY = 128;
 const MOST_FRAMES = 1024;
 const MOST_DEPTH = 64;
@@ -17,7 +17,7 @@ interface Edge {
   samples: Sample[];
 }
 
-/** Transforms between frames over time, as tf keeps them; memory is bounded. */
+/** Transforms between frames over time, as in tf; memory is bounded. */
 export class TransformTree {
   readonly #edges = new Map<string, Edge>();
 
@@ -25,7 +25,7 @@ export class TransformTree {
     return this.#edges.has(child);
   }
 
-  /** @returns false where there are too many frames: it was not taken */
+  /** @returns false if there are too many frames, in which case nothing is stored */
   set(parent: string, child: string, stampNs: bigint, pose: Pose, fixed: boolean): boolean {
     const edge = this.#edges.get(child);
     if (edge === undefined || edge.parent !== parent || fixed) {
@@ -35,7 +35,7 @@ export class TransformTree {
     }
     const { samples } = edge;
     edge.fixed = false;
-    // They come nearly in order; one that is late is put in its place.
+    // Samples arrive nearly in order; a late one is inserted in its place.
     let at = samples.length;
     while (at > 0 && (samples[at - 1] as Sample).stampNs > stampNs) at--;
     samples.splice(at, 0, { stampNs, pose });
@@ -44,9 +44,10 @@ export class TransformTree {
   }
 
   /**
-   * A frame's pose in the root of its tree, at a time: between two samples in between, beyond them the nearest.
+   * A frame's pose in the root of its tree at a given time: interpolated between two samples, or the nearest sample
+   * outside their range.
    *
-   * @returns `null` where nothing is known of the frame
+   * @returns `null` if the frame is unknown
    */
   poseInRoot(frame: string, stampNs: bigint): { root: string; pose: Pose } | null {
     let edge = this.#edges.get(frame);
@@ -62,7 +63,7 @@ export class TransformTree {
     return null;
   }
 
-  /** Forgets what moves: after a jump in time. */
+  /** Forgets moving transforms, after a jump in time. */
   forgetMoving(): void {
     for (const [child, { fixed }] of this.#edges) if (!fixed) this.#edges.delete(child);
   }
@@ -83,7 +84,10 @@ function poseAt({ samples }: Edge, stampNs: bigint): Pose {
   return between(before.pose, after.pose, part);
 }
 
-/** Straight in position; in orientation the shortest way, even to a thousandth for turns that tf samples. */
+/**
+ * Interpolates the position linearly and the orientation along the shortest path, accurate to a thousandth for
+ * rotations that tf samples.
+ */
 function between(a: Pose, b: Pose, part: number): Pose {
   const mix = (from: number, to: number) => from + (to - from) * part;
   return {

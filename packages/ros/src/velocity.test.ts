@@ -8,14 +8,14 @@ const twist: Twist = { linear: { x: 0.5, y: 0, z: 0 }, angular: { x: 0, y: 0, z:
 const hex = (bytes: Uint8Array) => Buffer.from(bytes).toString('hex');
 
 describe('velocities', () => {
-  it('is Twist as ROS 1 and as CDR', () => {
-    // Six little-endian doubles; CDR has four bytes before them that say so.
+  it('are Twist in ROS 1 and in CDR', () => {
+    // Six little-endian doubles; CDR has a four-byte header that says so.
     const doubles = `000000000000e03f${'00'.repeat(32)}000000000000f4bf`;
     expect(hex(velocityWriter(1, 'geometry_msgs/msg/Twist')(twist, 0n, ''))).toBe(doubles);
     expect(hex(velocityWriter(2, 'geometry_msgs/msg/Twist')(twist, 0n, ''))).toBe(`00010000${doubles}`);
   });
 
-  it.each([1, 2] as const)('is TwistStamped of ROS %i, with stamp, frame and velocity', (version) => {
+  it.each([1, 2] as const)('are TwistStamped of ROS %i, with stamp, frame and velocity', (version) => {
     const type = 'geometry_msgs/msg/TwistStamped';
     const write = velocityWriter(version, type);
     const message = decoderOf(version, type, null)(write(twist, 1_700_000_000_000_000_009n, 'base_link'));
@@ -27,7 +27,7 @@ describe('velocities', () => {
     expect(stamp.nsec ?? stamp.nanosec).toBe(9);
   });
 
-  it('refuses any other type', () => {
+  it('refuse any other type', () => {
     expect(() => velocityWriter(2, 'std_msgs/msg/String')).toThrow(RosFault);
     expect(() => decoderOf(2, 'my_msgs/msg/Own', null)).toThrow(
       'the message type my_msgs/msg/Own is unknown',

@@ -1,4 +1,4 @@
-/** A velocity as the messages that bases, twist_mux and Nav2 take: geometry_msgs Twist and TwistStamped. */
+/** Velocities in the messages that bases, twist_mux and Nav2 accept: geometry_msgs Twist and TwistStamped. */
 import type { Twist } from '@farpoint/protocol';
 import { MessageWriter as Ros1Writer } from '@foxglove/rosmsg-serialization';
 import { MessageWriter as Ros2Writer } from '@foxglove/rosmsg2-serialization';
@@ -23,7 +23,7 @@ export function velocityWriter(version: 1 | 2, type: string): VelocityWriter {
   return (twist, stampNs, frame_id) => {
     const sec = Number(stampNs / 1_000_000_000n);
     const nsec = Number(stampNs % 1_000_000_000n);
-    // Each writer takes the names of its own version.
+    // Each writer uses the field names of its own version.
     const stamp = { sec, nsec, nanosec: nsec };
     seq = (seq + 1) >>> 0;
     return writer.writeMessage({ header: { seq, stamp, frame_id }, twist });

@@ -65,7 +65,7 @@ describe.each(TYPES)('%s', (type) => {
   const check = wireCheck(all, 'cdr');
   const messages = messagesOf(all, first).map((message) => new MessageWriter(all).writeMessage(message));
 
-  it('is whole as it was written, to its last byte', () => {
+  it('accepts a message as written, to its last byte', () => {
     fc.assert(
       fc.property(messages, (bytes) => {
         expect(check(bytes)).toBe(bytes.length);
@@ -74,7 +74,7 @@ describe.each(TYPES)('%s', (type) => {
     );
   });
 
-  it('is told to be cut short at whichever byte', () => {
+  it('refuses a message cut short at any byte', () => {
     fc.assert(
       fc.property(messages, fc.nat(), (bytes, at) => {
         const length = at % bytes.length;
@@ -92,7 +92,7 @@ describe.each(TYPES)('%s', (type) => {
     );
   });
 
-  it('of bytes at random is refused, or read to the same byte', () => {
+  it('refuses random bytes, or reads to the same byte', () => {
     const reader = new MessageReader(all);
     fc.assert(
       fc.property(
@@ -122,7 +122,7 @@ describe.each(TYPES)('%s of ROS 1', (type) => {
     new Ros1Writer(all).writeMessage(message),
   );
 
-  it('is whole to its last byte, and told to be cut short at whichever byte', () => {
+  it('accepts a message to its last byte, and refuses it cut short at any byte', () => {
     fc.assert(
       fc.property(messages, fc.nat(), (bytes, at) => {
         expect(check(bytes)).toBe(bytes.length);
@@ -133,7 +133,7 @@ describe.each(TYPES)('%s of ROS 1', (type) => {
     );
   });
 
-  it('of bytes at random is refused, or read', () => {
+  it('refuses or reads random bytes', () => {
     const reader = new Ros1Reader(all);
     fc.assert(
       fc.property(fc.uint8Array({ maxLength: 200 }), (bytes) => {
@@ -149,7 +149,7 @@ describe.each(TYPES)('%s of ROS 1', (type) => {
   });
 });
 
-it('a cloud cut short is not filled up with what lies behind it in memory', () => {
+it('a cloud cut short is not completed with what follows it in memory', () => {
   const type = 'sensor_msgs/msg/PointCloud2';
   const data = new Uint8Array(64).fill(7);
   const cloud = {
@@ -157,7 +157,7 @@ it('a cloud cut short is not filled up with what lies behind it in memory', () =
     ...{ is_bigendian: false, point_step: 16, row_step: 64, data, is_dense: true },
   };
   const bytes = new MessageWriter(definitions(type)).writeMessage(cloud);
-  // As a receive buffer that is used again: an older message goes on behind the end of this one.
+  // Like a reused receive buffer: an older message continues behind the end of this one.
   const room = new Uint8Array(2 * bytes.length).fill(9);
   room.set(bytes.subarray(0, bytes.length - 20));
   const decode = decoderOf(2, type, null);
@@ -167,14 +167,14 @@ it('a cloud cut short is not filled up with what lies behind it in memory', () =
   expect(() => decode(bytes)).not.toThrow();
 });
 
-it('a length of four thousand million does not take memory', () => {
+it('a length of four thousand million allocates no memory', () => {
   const check = wireCheck(definitions('tf2_msgs/msg/TFMessage'), 'cdr');
   expect(() => check(Uint8Array.of(0, 1, 0, 0, 255, 255, 255, 255))).toThrow(
     '4294967295 values of transforms',
   );
 });
 
-it('types that nobody can read are unsupported', () => {
+it('types that cannot be read are unsupported', () => {
   const of = (type: string, isComplex: boolean) => [
     { name: 'a/B', definitions: [{ name: 'text', type, isArray: false, isComplex }] },
   ];

@@ -1,6 +1,7 @@
 /**
- * That a message is whole: walks it by its definition before anybody reads it. The library that reads takes lengths on
- * trust, as far as the memory around the message goes, and where it gives up it does not say at which byte.
+ * Checks that a message is complete: walks through it by its definition before anything reads it. The library that
+ * reads trusts lengths as far as the buffer around the message extends, and its errors do not say at which byte they
+ * occurred.
  *
  * Source: DDSI-RTPS 2.5, 10.2 (header), DDS-XTypes 1.3, 7.4.1–7.4.3 (alignment of both versions of CDR).
  */
@@ -9,10 +10,10 @@ import { RosFault } from './fault.ts';
 
 const HEADER_BYTES = 4;
 const FIRST_OF_VERSION_2 = 6;
-/** ROS has no recursive messages; a definition from outside may pretend. */
+/** ROS has no recursive messages, but a definition from outside may be recursive. */
 const DEEPEST = 64;
 
-/** Bytes of one, which it is also aligned to; 8 are aligned to 4 in the second version. */
+/** Size of a value, which is also its alignment; values of 8 bytes are aligned to 4 in the second version. */
 const SIZES: ReadonlyMap<string, number> = new Map([
   ...(['bool', 'byte', 'char', 'int8', 'uint8'] as const).map((type) => [type, 1] as const),
   ...(['int16', 'uint16'] as const).map((type) => [type, 2] as const),
@@ -20,17 +21,17 @@ const SIZES: ReadonlyMap<string, number> = new Map([
   ...(['int64', 'uint64', 'float64'] as const).map((type) => [type, 8] as const),
 ]);
 
-/** ROS 1 writes the same values without a header and without gaps, little-endian. */
+/** ROS 1 writes the same values without a header and without padding, little-endian. */
 export type WireLayout = 'cdr' | 'ros1';
 
 interface Field {
   name: string;
-  /** Of a primitive; 0 for strings and structures. */
+  /** Size of a primitive; 0 for strings and structures. */
   size: number;
-  /** How many of `size` one value is: two in a time. */
+  /** How many units of `size` one value has: two for a time. */
   parts: number;
   structure: Structure | null;
-  /** Of an array of fixed length; 1 of what is none; `null`: a length comes before it. */
+  /** Length of a fixed-size array; 1 for a single value; `null` if a length precedes the values. */
   count: number | null;
 }
 
@@ -39,9 +40,10 @@ interface Structure {
 }
 
 /**
- * @param definitions the type first, then all that it is made of
- * @returns a check that throws for what is not whole, and else gives the bytes that the message takes
- * @throws {RosFault} `unsupported` for types with `wstring`, or that are not all there
+ * @param definitions the type first, then all its parts
+ * @returns a check that throws for incomplete messages, and otherwise returns the number of bytes that the message
+ * takes
+ * @throws {RosFault} `unsupported` for types with `wstring`, or with missing parts
  */
 export function wireCheck(
   definitions: readonly MessageDefinition[],
@@ -88,12 +90,12 @@ function toField(
   return { ...field, size };
 }
 
-/** Where in a message the walk is. */
+/** Position of the walk in a message. */
 class Cursor {
   offset: number;
   readonly #begin: number;
   readonly #view: DataView;
-  /** In CDR one that is empty has a byte, so that it is none. */
+  /** In CDR, an empty structure takes one byte, so that it is not empty. */
   readonly emptyBytes: number;
   readonly #littleEndian: boolean;
   readonly #mostAligned: number;
@@ -117,7 +119,7 @@ class Cursor {
     return this.#view.byteLength - this.offset;
   }
 
-  /** @throws {RosFault} where fewer bytes are left */
+  /** @throws {RosFault} if fewer bytes are left */
   skip(name: string, size: number, count: number): void {
     if (count === 0) return;
     const alignment = Math.min(size, this.#mostAligned);
@@ -127,7 +129,7 @@ class Cursor {
     this.offset = begin + size * count;
   }
 
-  /** A length, of values of at least `least` bytes each. */
+  /** Reads the length of a list whose values take at least `least` bytes each. */
   length(name: string, least: number): number {
     this.skip(name, 4, 1);
     const at = this.offset - 4;
@@ -142,7 +144,7 @@ function walk({ fields }: Structure, cursor: Cursor, depth: number): void {
   if (fields.length === 0) cursor.skip('an empty message', 1, cursor.emptyBytes);
   for (const field of fields) {
     const { name, size, parts, structure } = field;
-    // Anything takes a byte at least; a string has its own length before it.
+    // Every value takes at least one byte; a string starts with its own length.
     const least = structure === null && size === 0 ? 4 : Math.max(1, size * parts);
     const count = field.count ?? cursor.length(name, least);
     if (size > 0) {

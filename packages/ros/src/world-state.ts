@@ -20,38 +20,38 @@ import { TransformTree } from './transform-tree.ts';
 const OPTICAL_IN_BODY: Quaternion = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };
 const NO_TURN: Quaternion = { x: 0, y: 0, z: 0, w: 1 };
 const ORIGIN: Pose = { position: { x: 0, y: 0, z: 0 }, orientation: NO_TURN };
-/** Where a camera is taken to be of which nobody says where: 1 m above the ground, looking ahead. */
+/** Assumed pose of a camera whose pose is unknown: 1 m above the ground, looking ahead. */
 const UNKNOWN_MOUNT: Pose = { position: { x: 0, y: 0, z: 1 }, orientation: OPTICAL_IN_BODY };
 const BASE_FRAMES = ['base_link', 'base_footprint'];
 
-/** A topic and the type of its messages, as ROS 2 writes it. */
+/** A topic and the type of its messages, in ROS 2 notation. */
 export interface TypedTopic {
   name: string;
   type: string;
 }
 
-/** What was said so far of where things are, live or in a recording: from tf, odometry and the battery. */
+/** Collects poses and state, live or from a recording: from tf, odometry and the battery. */
 export class WorldState {
   twist: Twist = zeroTwist();
   battery: Battery | null = null;
   readonly #tree = new TransformTree();
-  /** Frames that odometry places, as long as tf does not. */
+  /** Frames that odometry positions, as long as tf does not. */
   readonly #byOdometry = new Set<string>();
   #base: string | null = null;
   #newestNs = 0n;
 
-  /** Of those topics the ones that say something of it. */
+  /** Selects the topics that contribute to the state. */
   static topicsOf<T extends TypedTopic>(topics: readonly T[]): T[] {
     const types = [...TF_TYPES, ...ODOMETRY_TYPES, ...BATTERY_TYPES];
     return topics.filter(({ type }) => types.includes(type));
   }
 
-  /** Topics whose transforms hold from before they are said. */
+  /** Topics whose transforms are valid even before they are published. */
   static staticTopicsOf<T extends TypedTopic>(topics: readonly T[]): T[] {
     return topics.filter(({ name, type }) => TF_TYPES.includes(type) && name.endsWith(STATIC_SUFFIX));
   }
 
-  /** @throws {Error} where the message is not what its type says */
+  /** @throws {Error} if the message does not match its type */
   take({ name, type }: TypedTopic, message: unknown): void {
     if (TF_TYPES.includes(type)) this.#takeTransforms(message, name.endsWith(STATIC_SUFFIX));
     else if (ODOMETRY_TYPES.includes(type)) this.#takeOdometry(message);
@@ -59,7 +59,10 @@ export class WorldState {
     else this.#takePose(message);
   }
 
-  /** Of a cloud's frame, its optical axes in the world at the time of its stamp; without one (0), as last said. */
+  /**
+   * Pose in the world of the optical axes of a cloud's frame, at the time of its stamp; without a stamp (0), the latest
+   * pose.
+   */
   opticalPose(frameId: string, stampOrNone: bigint, axes: CloudAxes): Pose {
     const stamp = stampOrNone === 0n ? this.#newestNs : stampOrNone;
     const placed = this.#tree.poseInRoot(frameName(frameId), stamp);
@@ -72,13 +75,13 @@ export class WorldState {
     return base === null ? UNKNOWN_MOUNT : compose(base.pose, UNKNOWN_MOUNT);
   }
 
-  /** base_link in the world, as last said. */
+  /** Latest pose of base_link in the world. */
   get basePose(): Pose {
     const frame = BASE_FRAMES.find((name) => this.#tree.has(name)) ?? this.#base;
     return (frame == null ? null : this.#tree.poseInRoot(frame, this.#newestNs)?.pose) ?? ORIGIN;
   }
 
-  /** After a jump in time. */
+  /** Call after a jump in time. */
   forgetMoving(): void {
     this.#tree.forgetMoving();
     this.#newestNs = 0n;
@@ -111,7 +114,7 @@ export class WorldState {
     this.#place(header.frame_id, child, stampNs(header.stamp), position, orientation, false);
   }
 
-  /** Of `base_link`: the message names only the frame that it is in. */
+  /** Pose of `base_link`: the message names only the reference frame. */
   #takePose(message: unknown): void {
     const { header, pose } = poseStampedSchema.parse(message);
     const { position, orientation } = 'pose' in pose ? pose.pose : pose;

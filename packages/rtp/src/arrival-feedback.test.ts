@@ -15,7 +15,7 @@ function takeAll(feedback: ArrivalFeedback) {
 }
 
 describe('ArrivalFeedback', () => {
-  it('tells each packet that came and each gap, once, across messages and the wrap of the number', () => {
+  it('reports each packet that arrived and each gap once, across messages and across the wrap of the number', () => {
     const gaps = fc.array(
       fc.oneof({ weight: 9, arbitrary: fc.constant(1) }, fc.integer({ min: 1, max: 700 })),
       {
@@ -57,7 +57,7 @@ describe('ArrivalFeedback', () => {
     );
   });
 
-  it('has nothing to say of nothing, and leaves out what came after it was told as lost', () => {
+  it('reports nothing if nothing arrived, and leaves out packets that arrive after they were reported lost', () => {
     const feedback = new ArrivalFeedback();
     expect(feedback.take(1, 2)).toBeNull();
     feedback.add(10, 1);

@@ -1,33 +1,39 @@
-/** Collects when packets came, by transport-wide sequence number, until they are told to the sender. Fixed memory. */
+/**
+ * Collects packet arrival times, by transport-wide sequence number, until they are reported to the sender. Uses fixed
+ * memory.
+ */
 import { SequenceNumber, SequenceUnwrapper } from './sequence-number.ts';
 import { writeTransportFeedback } from './transport-feedback-writer.ts';
 
 const CAPACITY = 8192;
 /** One message fits into a datagram, whatever the arrivals. */
 const MAX_PACKETS = 400;
-/** Arrivals further apart go into messages of their own, µs. */
+/** Arrivals further apart go into separate messages, µs. */
 const MAX_SPAN_US = 4_000_000;
 
 export class ArrivalFeedback {
   readonly #arrivalsUs = new Float64Array(CAPACITY).fill(Number.NaN);
   readonly #unwrapper = new SequenceUnwrapper();
-  /** The next that nothing was said of; the newest that came. */
+  /** The next sequence number that was not reported yet; the newest that arrived. */
   #next: number | null = null;
   #newest = -1;
   #count = 0;
 
-  /** @param sequence 16 bits @param nowMs receiver's clock */
+  /**
+   * @param sequence 16 bits
+   * @param nowMs receiver's clock
+   */
   add(sequence: number, nowMs: number): void {
     const index = this.#unwrapper.unwrap(sequence);
     if (this.#next === null) this.#next = index;
-    // Spoken of already, as lost: that cannot be taken back.
+    // Already reported as lost, which cannot be taken back.
     if (index < this.#next) return;
     if (index - this.#next >= CAPACITY) this.#skipTo(index - CAPACITY + 1);
     this.#arrivalsUs[index % CAPACITY] = nowMs * 1000;
     this.#newest = Math.max(this.#newest, index);
   }
 
-  /** One message about all or some of what came, or `null` where nothing did: ask again until then. */
+  /** One message about all or some of the arrivals; `null` if there is nothing to report. Call again until `null`. */
   take(senderSsrc: number, mediaSsrc: number): Uint8Array | null {
     if (this.#next === null) return null;
     while (this.#next <= this.#newest && Number.isNaN(this.#at(this.#next)) && this.#isFarBehind())
@@ -59,7 +65,7 @@ export class ArrivalFeedback {
     });
   }
 
-  /** Whether more lies before the next that came than one message can say. */
+  /** Whether the gap up to the next packet that arrived is longer than one message can report. */
   #isFarBehind(): boolean {
     return this.#newest - (this.#next as number) >= MAX_PACKETS;
   }

@@ -3,7 +3,7 @@ import { LossRequests } from './loss-requests.ts';
 
 const options = { reorderMs: 5, againMs: 25, most: 2, uselessMs: 150 };
 
-it('asks for what is missing once it cannot have been overtaken any more, twice, and then no more', () => {
+it('requests a missing packet once it can no longer have been overtaken, twice, and then no more', () => {
   const requests = new LossRequests(options);
   requests.onPacket(65_534, 0);
   requests.onPacket(1, 1);
@@ -17,7 +17,7 @@ it('asks for what is missing once it cannot have been overtaken any more, twice,
   expect([requests.lost, requests.waiting]).toEqual([1, false]);
 });
 
-it('does not ask for packets that overtook each other, nor for a whole path that was down', () => {
+it('requests neither packets that arrive out of order nor those of a path that was down', () => {
   const requests = new LossRequests(options);
   for (const [sequence, at] of [
     [0, 0],

@@ -1,14 +1,14 @@
-/** Which packets of a stream are missing, and when to ask for them again. Time is an argument. */
+/** Which packets of a stream are missing, and when to request them again. Time is an argument. */
 import { SequenceNumber, SequenceUnwrapper } from './sequence-number.ts';
 
 export interface LossRequestOptions {
-  /** So long a packet may be overtaken before it is asked for, ms. */
+  /** A packet may be late by this much before it is requested, ms. */
   reorderMs: number;
-  /** Between two requests for the same packet, ms. */
+  /** Interval between two requests for the same packet, ms. */
   againMs: number;
-  /** Requests for one packet. */
+  /** Maximum number of requests for one packet. */
   most: number;
-  /** After so long it would be of no use, ms. */
+  /** After this long, the packet would be of no use, ms. */
   uselessMs: number;
 }
 
@@ -18,11 +18,11 @@ interface Missing {
   nextMs: number;
 }
 
-/** More are not asked for: the path is down rather than lossy. */
+/** If more are missing, none is requested: the path is down, not lossy. */
 const MAX_MISSING = 512;
 
 export class LossRequests {
-  /** Packets that never came, or came after having been asked for. */
+  /** Packets that never arrived, or arrived only after a request. */
   lost = 0;
   recovered = 0;
   readonly #options: LossRequestOptions;
@@ -34,7 +34,7 @@ export class LossRequests {
     this.#options = options;
   }
 
-  /** @param sequence RTP sequence number of a packet that came */
+  /** @param sequence RTP sequence number of a packet that arrived */
   onPacket(sequence: number, nowMs: number): void {
     const index = this.#unwrapper.unwrap(sequence);
     const newest = this.#newest;
@@ -52,7 +52,7 @@ export class LossRequests {
     if (missing.asked > 0) this.recovered++;
   }
 
-  /** Sequence numbers to ask for now, in their order. */
+  /** Sequence numbers to request now, in order. */
   due(nowMs: number): number[] {
     const { againMs, most, uselessMs } = this.#options;
     const asked: number[] = [];
@@ -71,7 +71,7 @@ export class LossRequests {
     return asked;
   }
 
-  /** Whether {@link due} may have something later. */
+  /** Whether {@link due} may return something later. */
   get waiting(): boolean {
     return this.#missing.size > 0;
   }

@@ -3,7 +3,7 @@ import { expect, it } from 'vitest';
 import { readNack } from './nack.ts';
 import { writeNack } from './nack-writer.ts';
 
-it('names exactly the packets that are missing', () => {
+it('names exactly the missing packets', () => {
   fc.assert(
     fc.property(
       fc.nat(0xffff),

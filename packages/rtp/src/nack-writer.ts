@@ -5,9 +5,9 @@ import { RTCP_TRANSPORT_FEEDBACK } from './transport-feedback.ts';
 const HEADER_BYTES = 12;
 
 /**
- * A generic NACK (nack.ts).
+ * Writes a generic NACK (nack.ts).
  *
- * @param missing RTP sequence numbers, 16 bits, in the order of sending; at least one
+ * @param missing RTP sequence numbers, 16 bits, in sending order; at least one
  */
 export function writeNack(senderSsrc: number, mediaSsrc: number, missing: readonly number[]): Uint8Array {
   const entries: { first: number; more: number }[] = [];

@@ -22,7 +22,7 @@ function read(bytes: Uint8Array) {
 }
 
 describe('readNack', () => {
-  it('reads a number and the sixteen after it, over the wrap', () => {
+  it('reads a number and the sixteen after it, across the wrap', () => {
     expect(read(nack([[0xfffe, 0b1000_0000_0000_0101]]))).toEqual({
       fault: null,
       missing: [0xfffe, 0xffff, 1, 14],
@@ -37,7 +37,7 @@ describe('readNack', () => {
     ).toEqual({ fault: null, missing: [7, 900, 902] });
   });
 
-  it('refuses what is no NACK, and tells nothing of it', () => {
+  it('refuses what is no NACK, and reports nothing from it', () => {
     const good = nack([[1, 0]]);
     const changed = (at: number, value: number) =>
       Uint8Array.from(good, (byte, i) => (i === at ? value : byte));
@@ -49,7 +49,7 @@ describe('readNack', () => {
     expect(read(changed(0, 0xa1))).toEqual({ fault: 'bad-length', missing: [] });
   });
 
-  it('takes any bytes', () => {
+  it('accepts any bytes without throwing', () => {
     fc.assert(
       fc.property(fc.uint8Array({ maxLength: 80 }), (bytes) => {
         const { fault, missing } = read(bytes);

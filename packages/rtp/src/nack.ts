@@ -1,4 +1,6 @@
-/** Generic NACK (RTPFB, packet type 205, FMT 1; RFC 4585 §6.2.1): which RTP packets of a stream the receiver misses. */
+/**
+ * Generic NACK (RTPFB, packet type 205, FMT 1; RFC 4585 §6.2.1): the RTP packets that a receiver of a stream misses.
+ */
 import { SequenceNumber } from './sequence-number.ts';
 import { RTCP_TRANSPORT_FEEDBACK } from './transport-feedback.ts';
 
@@ -9,11 +11,11 @@ const HEADER_BYTES = 12;
 export type NackFault = 'not-nack' | 'truncated' | 'bad-length';
 
 /**
- * Reads one RTCP packet: header, SSRC of sender and media source, then any number of u16 PID (a sequence number) and u16 BLP
- * (bit i: sequence number PID + i + 1 as well).
+ * Reads one RTCP packet: header, SSRC of sender and media source, then any number of u16 PID (a sequence number) and
+ * u16 BLP (bit i: sequence number PID + i + 1 is missing too).
  *
- * @param onMissing told each missing sequence number, 16 bits
- * @returns why it cannot be read, with nothing told; `null` where all is well
+ * @param onMissing called with each missing sequence number, 16 bits
+ * @returns why the packet cannot be read, in which case `onMissing` is not called; `null` if it is valid
  */
 export function readNack(bytes: Uint8Array, onMissing: (sequence: number) => void): NackFault | null {
   if (bytes.byteLength < HEADER_BYTES + 4) return 'truncated';

@@ -1,8 +1,8 @@
-/** What became of one packet, as transport-wide feedback tells. */
+/** What became of one packet, according to transport-wide feedback. */
 export interface PacketResult {
   transportSequence: number;
   bytes: number;
   sentMs: number;
-  /** The receiver's clock, µs, continuous over feedback messages; only differences mean something. `null`: lost. */
+  /** The receiver's clock, µs, continuous across feedback messages; only differences are meaningful. `null`: lost. */
   arrivalUs: number | null;
 }

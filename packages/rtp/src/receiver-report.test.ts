@@ -30,7 +30,7 @@ describe('readReportBlocks', () => {
     expect(blocksOf(RTCP_RECEIVER_REPORT, hex(`81c90007 00000001 ${duplicates}`))?.[0]?.packetsLost).toBe(-2);
   });
 
-  it('tells nothing of a packet that is too short for its blocks, and never throws', () => {
+  it('reports nothing from a packet that is too short for its blocks, and never throws', () => {
     expect(blocksOf(RTCP_RECEIVER_REPORT, hex(`82c90007 00000001 ${BLOCK}`))).toBeNull();
     fc.assert(
       fc.property(fc.constantFrom(200, 201), fc.uint8Array({ maxLength: 80 }), (packetType, bytes) => {

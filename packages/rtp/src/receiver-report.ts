@@ -8,9 +8,9 @@ const SENDER_INFO_BYTES = 20;
 const BLOCK_BYTES = 24;
 
 export interface ReportBlock {
-  /** Of the stream that is reported on. */
+  /** Of the stream that the block reports on. */
   ssrc: number;
-  /** Since the stream began; a duplicate counts as one less. */
+  /** Since the stream began; a duplicate reduces it by one. */
   packetsLost: number;
   /** Extended by the number of wraps, 32 bits. */
   highestSequence: number;
@@ -19,11 +19,11 @@ export interface ReportBlock {
 }
 
 /**
- * Reads one RTCP packet, header and all.
+ * Reads one RTCP packet, including its header.
  *
  * @param packetType 200 or 201
- * @param onBlock gets each block; one object, overwritten by the next
- * @returns false where the packet is too short for the blocks it announces; nothing is told then
+ * @param onBlock gets each block: one object, which the next block overwrites
+ * @returns false if the packet is too short for the blocks it announces; `onBlock` is not called then
  */
 export function readReportBlocks(
   packetType: number,

@@ -16,7 +16,7 @@ describe('readRemb', () => {
     expect(readRemb(remb(0, (63 << 18) | 0x3ffff, 0))).toBe(0x3ffff * 2 ** 63);
   });
 
-  it('refuses other application feedback, and one whose streams are not all there', () => {
+  it('refuses other application feedback, and a message with an incomplete list of streams', () => {
     expect(readRemb(remb(1, 1000, 1).fill(0x41, 12, 16))).toBeNull();
     expect(readRemb(remb(3, 1000, 1))).toBeNull();
     fc.assert(

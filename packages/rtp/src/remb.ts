@@ -6,7 +6,7 @@ export const FMT_APPLICATION = 15;
 const FIXED_BYTES = 20;
 const IDENTIFIER = 0x52454d42; // "REMB"
 
-/** @returns bit/s over all the streams that it names, `null` for what is no such message */
+/** @returns bit/s over all the streams that it names; `null` if it is no such message */
 export function readRemb(bytes: Uint8Array): number | null {
   if (bytes.byteLength < FIXED_BYTES) return null;
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);

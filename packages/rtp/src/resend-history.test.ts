@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { ResendHistory } from './resend-history.ts';
 
 describe('ResendHistory', () => {
-  it('gives a packet once, while it is of use', () => {
+  it('returns a packet once, while it is of use', () => {
     const history = new ResendHistory<string>(8);
     history.add(0xffff, 'a', 100, 33);
     expect(history.take(0xffff, 120)).toBe('a');
@@ -10,14 +10,14 @@ describe('ResendHistory', () => {
     expect(history.refusals).toEqual({ unknown: 0, 'too-late': 0, resent: 1 });
   });
 
-  it('refuses what would come after its successor', () => {
+  it('refuses a packet that would arrive after its successor', () => {
     const history = new ResendHistory<string>(8);
     history.add(1, 'a', 100, 33);
     expect(history.take(1, 133)).toBeNull();
     expect(history.refusals['too-late']).toBe(1);
   });
 
-  it('forgets the oldest and does not mistake one for another', () => {
+  it('forgets the oldest packets and never confuses two packets', () => {
     const history = new ResendHistory<string>(4);
     for (let sequence = 0; sequence < 6; sequence++) history.add(sequence, String(sequence), 0, 1000);
     expect([0, 1, 2, 5, 9].map((sequence) => history.take(sequence, 1))).toEqual([
@@ -30,7 +30,7 @@ describe('ResendHistory', () => {
     expect(history.refusals.unknown).toBe(3);
   });
 
-  it('has a capacity that a sequence number can be masked with', () => {
+  it('requires a capacity that can mask a sequence number', () => {
     expect(() => new ResendHistory(1000)).toThrow(RangeError);
     expect(() => new ResendHistory(65_536)).toThrow(RangeError);
   });

@@ -1,8 +1,8 @@
-/** Why a missed packet is not sent again. */
+/** Why a requested packet is not sent again. */
 export type ResendRefusal =
-  | 'unknown' // never sent, or so long ago that it is forgotten
-  | 'too-late' // what it shows would be replaced by the time it arrives
-  | 'resent'; // it is on its way again already
+  | 'unknown' // never sent, or so long ago that it has been forgotten
+  | 'too-late' // its content would be outdated when it arrives
+  | 'resent'; // a resent copy is already on its way
 
 interface Entry<T> {
   sequence: number;
@@ -12,14 +12,14 @@ interface Entry<T> {
 }
 
 /**
- * The packets sent last, to be sent again where they can still arrive in time. A packet of a cloud is drawn until the next
- * frame's packet for the same place comes: sent again later than that one it is of no use to anybody. Bounded: a ring in which
- * a newer packet takes the place of the oldest.
+ * The most recently sent packets, to be resent if they can still arrive in time. A packet of a cloud is shown until the
+ * next frame's packet for the same place arrives; resent later than that, it is useless. Bounded: a ring in which a
+ * newer packet replaces the oldest.
  */
 export class ResendHistory<T> {
   readonly #entries: (Entry<T> | undefined)[];
   readonly #mask: number;
-  /** How often a packet was not sent again, by reason. */
+  /** How often a packet was not resent, by reason. */
   readonly refusals: Record<ResendRefusal, number> = { unknown: 0, 'too-late': 0, resent: 0 };
 
   /** @param capacity packets, a power of two, at most 32768 */
@@ -31,7 +31,7 @@ export class ResendHistory<T> {
     this.#entries = new Array<Entry<T> | undefined>(capacity);
   }
 
-  /** @param usefulMs until the next frame's packet for the same place is sent, ms */
+  /** @param usefulMs time until the next frame's packet for the same place is sent, ms */
   add(sequence: number, packet: T, sentMs: number, usefulMs: number): void {
     const at = sequence & this.#mask;
     const entry = this.#entries[at];
@@ -45,7 +45,7 @@ export class ResendHistory<T> {
     }
   }
 
-  /** @returns the packet, to be sent again now; `null` where that is no use, counted in {@link refusals} */
+  /** @returns the packet to resend now; `null` if that is no use, counted in {@link refusals} */
   take(sequence: number, nowMs: number): T | null {
     const at = sequence & this.#mask;
     const entry = this.#entries[at];

@@ -3,17 +3,17 @@ export interface RtcpPacket {
   packetType: number;
   /** The five bits that hold a report count, a source count or a feedback message type. */
   format: number;
-  /** The whole packet, header and padding included; a view into the compound. */
+  /** The whole packet, including header and padding; a view into the compound packet. */
   bytes: Uint8Array;
 }
 
-/** Why the rest of a compound packet is left unread. */
+/** Why the rest of a compound packet is not read. */
 export type RtcpFault = 'truncated' | 'bad-version';
 
 /**
- * Walks a decrypted compound RTCP packet, or a reduced-size one (RFC 5506).
+ * Walks through a decrypted compound RTCP packet, or a reduced-size one (RFC 5506).
  *
- * @param onFault told once, where the walk cannot go on; the packets before it were good
+ * @param onFault called once if the walk cannot continue; the packets before the fault are valid
  */
 export function* walkRtcp(
   compound: Uint8Array,

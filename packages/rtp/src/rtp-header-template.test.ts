@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { emptyRtpHeader, readRtpHeader } from './rtp-header.ts';
 import { RtpHeaderTemplate } from './rtp-header-template.ts';
 
-test('what it writes, the reader reads, packet after packet', () => {
+test('the reader reads back what it writes, packet after packet', () => {
   const template = new RtpHeaderTemplate({
     payloadType: 111,
     ssrc: 0xdeadbeef,

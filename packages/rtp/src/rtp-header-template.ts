@@ -1,7 +1,7 @@
 /**
- * The RTP header of every cloud packet (RFC 3550) with two one-byte header extensions (RFC 8285): the m-line's id
- * (RFC 9143) and the transport-wide sequence number. Only four fields change from packet to packet, so it is written
- * once and patched.
+ * The RTP header of every cloud packet (RFC 3550) with two one-byte header extensions (RFC 8285): the m-line's id (RFC
+ * 9143) and the transport-wide sequence number. Only four fields change from packet to packet, so the header is written
+ * once and then patched.
  */
 
 const FIXED_BYTES = 12;
@@ -13,13 +13,13 @@ export interface RtpHeaderParameters {
   ssrc: number;
   /** `a=mid` of the cloud's m-line, 1–16 ASCII characters. */
   mid: string;
-  /** Extension ids 1–14; absent where the peer refused the extension. */
+  /** Extension ids 1–14; absent if the peer refused the extension. */
   midExtensionId?: number | undefined;
   transportSequenceExtensionId?: number | undefined;
 }
 
 export class RtpHeaderTemplate {
-  /** The header as it goes out; owned by the template, valid until the next `patch`. */
+  /** The header as it is sent; owned by the template, valid until the next `patch`. */
   readonly bytes: Uint8Array;
   readonly #view: DataView;
   readonly #payloadType: number;

@@ -16,7 +16,7 @@ it('reads the reference profile’s 20 bytes', () => {
   });
 });
 
-it('finds the extension among others, does without, and reads no further than there is', () => {
+it('finds the extension among others, works without it, and reads nothing beyond the end', () => {
   // Contributing source, padding, another element before it.
   expect(read('91050001000000010000000200000003bede0002210000001012340000')).toMatchObject({
     bytes: 28,
@@ -30,7 +30,7 @@ it('finds the extension among others, does without, and reads no further than th
   expect(read('900500010000000100000002bede000211')).toBeNull();
   expect(read('9005000100000001000000')).toBeNull();
   expect(read('400500010000000100000002')).toBeNull();
-  // An element that claims more than the extension has.
+  // An element that claims more than the extension holds.
   expect(read('900500010000000100000002bede00011f123400')).toMatchObject({
     bytes: 20,
     transportSequence: -1,

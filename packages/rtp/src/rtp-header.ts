@@ -1,12 +1,12 @@
-/** What a receiver needs of an RTP header (RFC 3550, RFC 8285 one-byte extensions), read without allocating. */
+/** What a receiver needs from an RTP header (RFC 3550, RFC 8285 one-byte extensions). Reading it allocates nothing. */
 
 export interface RtpHeaderView {
-  /** Of the whole header, extension included. */
+  /** Length of the whole header, including the extension. */
   bytes: number;
   payloadType: number;
   sequence: number;
   ssrc: number;
-  /** Transport-wide sequence number; −1 where there is none. */
+  /** Transport-wide sequence number; −1 if there is none. */
   transportSequence: number;
 }
 
@@ -18,9 +18,9 @@ export function emptyRtpHeader(): RtpHeaderView {
 }
 
 /**
- * @param packet sealed or not: only the payload is
+ * @param packet encrypted or not: only the payload is encrypted
  * @param extensionId id of the transport-wide sequence number
- * @returns false where it is no RTP packet
+ * @returns false if it is no RTP packet
  */
 export function readRtpHeader(packet: Uint8Array, extensionId: number, into: RtpHeaderView): boolean {
   if (packet.length < FIXED_BYTES) return false;

@@ -1,7 +1,7 @@
 const SPAN = 0x1_0000_0000;
 
 /**
- * The RTP timestamp of an instant (RFC 3550 §5.1): 32 bits that wrap.
+ * The RTP timestamp of an instant (RFC 3550 §5.1): 32 bits, wrapping.
  *
  * @param clockRate of the payload format, Hz
  */

@@ -2,7 +2,7 @@ import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { SentPacketHistory } from './sent-packet-history.ts';
 
-test('gives back what was sent, once', () => {
+test('returns what was sent, once', () => {
   const history = new SentPacketHistory(16);
   history.add(65_535, 1244, 10.5);
   history.add(0, 300, 11);
@@ -11,11 +11,11 @@ test('gives back what was sent, once', () => {
   expect(history.take(0, 50)).toEqual({ bytes: 300, sentMs: 11 });
 });
 
-test('does not know what was never sent', () => {
+test('does not find what was never sent', () => {
   expect(new SentPacketHistory(16).take(0, 0)).toBeNull();
 });
 
-test('a newer packet takes the place of the one `capacity` numbers before', () => {
+test('a newer packet replaces the one `capacity` numbers before', () => {
   const history = new SentPacketHistory(16);
   history.add(1, 100, 0);
   history.add(17, 200, 1);
@@ -23,13 +23,13 @@ test('a newer packet takes the place of the one `capacity` numbers before', () =
   expect(history.take(17, 2)).toEqual({ bytes: 200, sentMs: 1 });
 });
 
-test('a packet from before the numbers came round again is not found', () => {
+test('does not find a packet from before the numbers wrapped', () => {
   const history = new SentPacketHistory(16, 5000);
   history.add(3, 100, 0);
   expect(history.take(3, 5001)).toBeNull();
 });
 
-test.each([0, 3, 131_072, -2])('capacity %i is refused', (capacity) => {
+test.each([0, 3, 131_072, -2])('refuses capacity %i', (capacity) => {
   expect(() => new SentPacketHistory(capacity)).toThrow(RangeError);
 });
 

@@ -6,8 +6,8 @@ export interface SentPacket {
 }
 
 /**
- * Remembers the packets that were sent last, by transport-wide sequence number. Bounded: a ring of preallocated columns,
- * in which a newer packet takes the place of the one `capacity` numbers before.
+ * Remembers the most recently sent packets by transport-wide sequence number. Bounded: a ring of preallocated columns,
+ * in which a packet replaces the one `capacity` numbers before it.
  */
 export class SentPacketHistory {
   readonly #mask: number;
@@ -17,8 +17,8 @@ export class SentPacketHistory {
   readonly #sentMs: Float64Array;
 
   /**
-   * @param capacity power of two, at most 65536; at 10,000 packets/s 16384 are 1.6 s
-   * @param maxAgeMs older ones are forgotten: their number may have come round again
+   * @param capacity power of two, at most 65536; at 10,000 packets/s, 16384 are 1.6 s
+   * @param maxAgeMs older packets are forgotten, because their number may be in use again
    */
   constructor(capacity = 16_384, maxAgeMs = 5000) {
     if (capacity < 1 || capacity > 65_536 || (capacity & (capacity - 1)) !== 0) {
@@ -38,7 +38,7 @@ export class SentPacketHistory {
     this.#sentMs[at] = nowMs;
   }
 
-  /** Finds a packet and forgets it: what is reported twice counts once. */
+  /** Finds a packet and forgets it, so that a packet reported twice counts once. */
   take(transportSequence: number, nowMs: number): SentPacket | null {
     const at = transportSequence & this.#mask;
     if (this.#sequences[at] !== SequenceNumber.of(transportSequence)) return null;

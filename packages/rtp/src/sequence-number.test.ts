@@ -12,7 +12,7 @@ test.each([
   expect(SequenceNumber.ahead(a, b)).toBe(ahead);
 });
 
-test('adding steps and measuring them are each other’s inverse', () => {
+test('adding steps and measuring them are inverse operations', () => {
   fc.assert(
     fc.property(fc.nat(0xffff), fc.integer({ min: -0x8000, max: 0x7fff }), (from, steps) => {
       const to = SequenceNumber.add(from, steps);
@@ -24,7 +24,7 @@ test('adding steps and measuring them are each other’s inverse', () => {
   expect(SequenceNumber.next(0xffff)).toBe(0);
 });
 
-test('follows a counter over any number of wraps, forwards and back', () => {
+test('follows a counter over any number of wraps, in both directions', () => {
   fc.assert(
     fc.property(
       fc.nat(0xffff),

@@ -3,14 +3,14 @@ export type SequenceNumber = number;
 
 const SPAN = 0x1_0000;
 
-/** Serial number arithmetic (RFC 1982) on 16 bits. Every result is 0–65535 unless said otherwise. */
+/** Serial number arithmetic (RFC 1982) on 16 bits. Every result is 0–65535 unless stated otherwise. */
 export const SequenceNumber = {
-  /** The number that a packet carries whose place in the stream, counted without wrapping, is `index`. */
+  /** The number of the packet at position `index`, counted without wrapping. */
   of(index: number): SequenceNumber {
     return index & (SPAN - 1);
   },
 
-  /** The number `steps` after (or, below 0, before) `from`. */
+  /** The number `steps` after `from`; before it if `steps` is negative. */
   add(from: SequenceNumber, steps: number): SequenceNumber {
     return (from + steps) & (SPAN - 1);
   },
@@ -19,13 +19,13 @@ export const SequenceNumber = {
     return SequenceNumber.add(after, 1);
   },
 
-  /** How far `a` is ahead of `b` on the shorter way round: −32768 … 32767. */
+  /** How far `a` is ahead of `b` in the shorter direction: −32768 … 32767. */
   ahead(a: SequenceNumber, b: SequenceNumber): number {
     return ((a - b) << 16) >> 16;
   },
 } as const;
 
-/** Follows a wrapping sequence number as a count that never wraps. */
+/** Turns a wrapping sequence number into a count that never wraps. */
 export class SequenceUnwrapper {
   #last: number | null = null;
 

@@ -22,7 +22,7 @@ function feedback(
   };
 }
 
-test('joins feedback with what was sent, over the wrap of the numbers', () => {
+test('joins feedback with what was sent, across the wrap of the numbers', () => {
   const adapter = new TransportFeedbackAdapter();
   adapter.onPacketSent(65_535, 1244, 10);
   adapter.onPacketSent(0, 1244, 11);
@@ -34,7 +34,7 @@ test('joins feedback with what was sent, over the wrap of the numbers', () => {
   ]);
 });
 
-test('leaves out and counts what it does not know: never sent, or reported before', () => {
+test('leaves out and counts unknown packets: never sent, or reported before', () => {
   const adapter = new TransportFeedbackAdapter(new SentPacketHistory(16));
   adapter.onPacketSent(5, 100, 0);
   expect(adapter.onFeedback(feedback(4, 0, [0, 250, 500]), 10)).toHaveLength(1);
@@ -42,7 +42,7 @@ test('leaves out and counts what it does not know: never sent, or reported befor
   expect(adapter.unknownPackets).toBe(3);
 });
 
-test('arrival times go on over the wrap of the reference time, and back for a late message', () => {
+test('arrival times continue across the wrap of the reference time, and go back for a late message', () => {
   const adapter = new TransportFeedbackAdapter();
   const last = (2 ** 23 - 1) * 64_000;
   const first = -(2 ** 23) * 64_000;

@@ -2,15 +2,15 @@ import type { PacketResult } from './packet-result.ts';
 import { SentPacketHistory } from './sent-packet-history.ts';
 import type { TransportFeedback } from './transport-feedback.ts';
 
-/** The reference time has 24 bits of 64 ms. */
+/** The reference time has 24 bits, in units of 64 ms. */
 const REFERENCE_WRAP_US = 2 ** 24 * 64_000;
 
-/** Joins transport-wide feedback with what was sent, and makes its arrival times continuous. */
+/** Joins transport-wide feedback with the history of sent packets, and makes the arrival times continuous. */
 export class TransportFeedbackAdapter {
   readonly #history: SentPacketHistory;
   #lastReferenceUs: number | null = null;
   #wrapsUs = 0;
-  /** Packets that feedback named and the history did not know: reported twice, too old, or never sent. */
+  /** Packets named in feedback that are not in the history: reported twice, too old, or never sent. */
   unknownPackets = 0;
 
   constructor(history: SentPacketHistory = new SentPacketHistory()) {
@@ -21,7 +21,7 @@ export class TransportFeedbackAdapter {
     this.#history.add(transportSequence, bytes, nowMs);
   }
 
-  /** @returns what became of each known packet, in the order of sequence numbers */
+  /** @returns the result of each known packet, in sequence order */
   onFeedback(feedback: TransportFeedback, nowMs: number): PacketResult[] {
     const last = this.#lastReferenceUs ?? feedback.referenceTimeUs;
     const step = feedback.referenceTimeUs - last;

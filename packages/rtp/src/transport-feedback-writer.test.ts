@@ -6,7 +6,7 @@ import { writeTransportFeedback } from './transport-feedback-writer.ts';
 const common = { senderSsrc: 1, mediaSsrc: 0xfedcba98, feedbackCount: 255 };
 
 describe('writeTransportFeedback', () => {
-  it('is read back as it was meant, arrivals within half a step', () => {
+  it('can be read back, arrivals within half a step', () => {
     const gap = fc.oneof(fc.nat(500), fc.integer({ min: -20_000, max: 100_000 }), fc.constant(null));
     fc.assert(
       fc.property(
@@ -37,14 +37,14 @@ describe('writeTransportFeedback', () => {
     );
   });
 
-  it('says runs in few bytes', () => {
+  it('encodes runs in few bytes', () => {
     const arrivalsUs = Array.from({ length: 700 }, (_, i) => (i === 350 ? Number.NaN : i * 100));
     const bytes = writeTransportFeedback({ ...common, baseSequence: 65_500, arrivalsUs });
     expect(bytes.length).toBeLessThan(20 + 2 * 4 + 699 + 4);
     expect(parseTransportFeedback(bytes).packets.filter(({ received }) => !received).length).toBe(1);
   });
 
-  it('refuses what cannot be said', () => {
+  it('refuses what cannot be represented', () => {
     const write = (arrivalsUs: number[]) => () =>
       writeTransportFeedback({ ...common, baseSequence: 0, arrivalsUs });
     expect(write([])).toThrow(RangeError);

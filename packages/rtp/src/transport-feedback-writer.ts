@@ -1,4 +1,4 @@
-/** The other side of transport-feedback.ts: what a receiver says of the packets that came. */
+/** Counterpart of transport-feedback.ts: what a receiver reports about the packets that arrived. */
 import { SequenceNumber } from './sequence-number.ts';
 import { FMT_TRANSPORT_WIDE, RTCP_TRANSPORT_FEEDBACK } from './transport-feedback.ts';
 
@@ -15,19 +15,22 @@ const VECTOR_SYMBOLS = 7;
 export interface FeedbackToWrite {
   senderSsrc: number;
   mediaSsrc: number;
-  /** Transport-wide sequence number of the first packet spoken of, 16 bits. */
+  /** Transport-wide sequence number of the first packet reported on, 16 bits. */
   baseSequence: number;
   /** Counts feedback messages, 8 bits. */
   feedbackCount: number;
-  /** For each packet from the base on, when it came, µs of the receiver's clock; NaN where it did not. Some did. */
+  /**
+   * Arrival time of each packet from the base on, µs of the receiver's clock; NaN if it did not arrive. At least one
+   * arrived.
+   */
   arrivalsUs: ArrayLike<number>;
 }
 
 /**
- * One RTCP packet. Arrivals are told in steps of 250 µs; those that lie further apart than ±8.19 s from one to the next
- * cannot be told: split them.
+ * Writes one RTCP packet. Arrivals are in steps of 250 µs. Consecutive arrivals more than ±8.19 s apart cannot be
+ * represented: split them into several messages.
  *
- * @throws {RangeError} where no packet came, or arrivals lie too far apart
+ * @throws {RangeError} if no packet arrived, or arrivals are too far apart
  */
 export function writeTransportFeedback(feedback: FeedbackToWrite): Uint8Array {
   const { arrivalsUs } = feedback;
@@ -39,7 +42,7 @@ export function writeTransportFeedback(feedback: FeedbackToWrite): Uint8Array {
   const symbols = new Uint8Array(count);
   const deltas = new Int16Array(count);
   let deltaBytes = 0;
-  // In whole steps from the reference, so that rounding does not add up.
+  // In whole steps from the reference, so that rounding errors do not add up.
   let lastStep = 0;
   for (let i = 0; i < count; i++) {
     const arrivalUs = arrivalsUs[i] as number;
@@ -84,7 +87,10 @@ export function writeTransportFeedback(feedback: FeedbackToWrite): Uint8Array {
   return bytes;
 }
 
-/** Runs where they are longer than a vector, vectors of seven elsewhere; the last vector is filled up with 0. */
+/**
+ * Run-length chunks where a run is longer than a vector, vectors of seven symbols elsewhere. The last vector is padded
+ * with 0.
+ */
 function chunksOf(symbols: Uint8Array): number[] {
   const chunks: number[] = [];
   for (let i = 0; i < symbols.length; ) {

@@ -50,26 +50,26 @@ describe('conformance vectors', () => {
     );
   });
 
-  test.each(vectors.invalid)('refused: $name', ({ hex, error }) => {
+  test.each(vectors.invalid)('refuses: $name', ({ hex, error }) => {
     expect(errorOf(bytesOf(hex))?.code).toBe(error);
   });
 });
 
-test('reads a view that does not begin at its buffer’s start', () => {
+test('reads a view that does not begin at the start of its buffer', () => {
   const { hex } = vectors.valid[0] as Valid;
   const room = new Uint8Array(hex.length / 2 + 7);
   room.set(bytesOf(hex), 7);
   expect(parseTransportFeedback(room.subarray(7))).toEqual(parseTransportFeedback(bytesOf(hex)));
 });
 
-test('the error says where', () => {
+test('the error says where the fault is', () => {
   const { hex } = vectors.invalid.find(({ name }) => name === 'a small delta missing') as Invalid;
   const error = errorOf(bytesOf(hex));
   expect(error?.offset).toBe(24);
   expect(error?.message).toBe('transport feedback, byte 24: no receive delta for packet 3');
 });
 
-/** Writes feedback by the plainest way the draft allows: one run-length chunk a packet. */
+/** Writes feedback in the simplest way the draft allows: one run-length chunk per packet. */
 function encode(base: number, reference: number, deltas: (number | null)[]): Uint8Array {
   const chunks: number[] = [];
   const tail: number[] = [];
@@ -129,7 +129,7 @@ test('any bytes give feedback or a typed error', () => {
     outcomes.set(outcome, (outcomes.get(outcome) ?? 0) + 1);
   };
   fc.assert(fc.property(fc.uint8Array({ maxLength: 200, size: 'max' }), judge), { seed: 2, numRuns: 2000 });
-  // A right header, then anything.
+  // A valid header, then anything.
   const behindHeader = fc
     .tuple(
       fc.integer({ min: 4, max: 30 }),
@@ -155,7 +155,7 @@ test('any bytes give feedback or a typed error', () => {
       judge(bytes.subarray(0, at));
     }
   }
-  // Every way out was taken.
+  // Every outcome occurred.
   expect([...outcomes.keys()].sort()).toEqual([
     'bad-length',
     'bad-padding',

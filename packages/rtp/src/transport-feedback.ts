@@ -16,11 +16,11 @@ export const FMT_TRANSPORT_WIDE = 15;
 
 /** Why feedback is refused. */
 export type TransportFeedbackErrorCode =
-  | 'truncated' // ends before its header, its chunks or its deltas do
-  | 'not-transport-feedback' // another version, packet type or format
-  | 'bad-length' // the length field does not fit the bytes
+  | 'truncated' // the header, the chunks or the deltas are incomplete
+  | 'not-transport-feedback' // a different version, packet type or format
+  | 'bad-length' // the length field does not match the number of bytes
   | 'bad-padding'
-  | 'empty' // reports no packet
+  | 'empty' // reports on no packet
   | 'reserved-status'; // the status symbol 3
 
 export class TransportFeedbackError extends Error {
@@ -40,7 +40,7 @@ export interface PacketStatus {
   /** Transport-wide sequence number, 16 bits. */
   sequence: number;
   received: boolean;
-  /** The receiver's clock, µs, from the feedback's own reference time; `null` where not received. */
+  /** The receiver's clock, µs, from the feedback's own reference time; `null` if not received. */
   arrivalUs: number | null;
 }
 
@@ -64,7 +64,7 @@ const SMALL_DELTA = 1;
 const LARGE_DELTA = 2;
 
 /**
- * Parses one RTCP packet, from its first byte to its last.
+ * Parses one RTCP packet, which must fill `bytes` exactly.
  *
  * @throws {TransportFeedbackError} for anything else
  */
@@ -130,7 +130,7 @@ function contentEnd(view: DataView): number {
   return length - padding;
 }
 
-/** Expands the chunks into one symbol a packet. @returns where the deltas begin */
+/** Expands the chunks into one symbol per packet. @returns where the deltas begin */
 function readChunks(view: DataView, end: number, symbols: Uint8Array): number {
   let offset = HEADER_BYTES;
   let at = 0;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes transport-feedback.json from draft-holmer-rmcat-transport-wide-cc-extensions-01, section 3.1.
 
-Shares no code with the parser that is tested against it. Standard library only.
+Shares no code with the tested parser. Standard library only.
 """
 import json
 import os
@@ -120,6 +120,6 @@ invalid = [
 ]
 
 with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "transport-feedback.json"), "w") as out:
-    # One vector a line.
+    # One vector per line.
     lines = lambda vectors: ",\n".join("    " + json.dumps(v) for v in vectors)
     out.write('{\n  "valid": [\n%s\n  ],\n  "invalid": [\n%s\n  ]\n}\n' % (lines(valid), lines(invalid)))

@@ -21,14 +21,14 @@ function reasonOf(verdict: CommandVerdict): CommandRejection | 'accepted' {
   return verdict.accepted ? 'accepted' : verdict.reason;
 }
 
-test('a good command passes', () => {
+test('accepts a valid command', () => {
   expect(new CommandGate(defaultDriveLimits).check('a', command(), 0, open)).toEqual({
     accepted: true,
     twist: { linear: { x: 0.5, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -0.25 } },
   });
 });
 
-test('without the lease nothing passes, not even zero', () => {
+test('accepts nothing without the lease, not even zero', () => {
   const gate = new CommandGate(defaultDriveLimits);
   const verdict = gate.check('a', command({}, 0, 0), 0, { ...open, holdsLease: false });
   expect(reasonOf(verdict)).toBe('not-lease-holder');
@@ -48,7 +48,7 @@ describe('sequence', () => {
     expect(reasonOf(gate.check('a', command({ sequence: second }), 0, open))).toBe(expected);
   });
 
-  test('an older wish does not come back after a newer one was refused for what it asked', () => {
+  test('after a newer request was refused for its content, an older one is not accepted', () => {
     const gate = new CommandGate(defaultDriveLimits);
     expect(reasonOf(gate.check('a', command({ sequence: 3, deadMan: false }), 0, open))).toBe(
       'dead-man-released',
@@ -56,14 +56,14 @@ describe('sequence', () => {
     expect(reasonOf(gate.check('a', command({ sequence: 2 }), 0, open))).toBe('repeated');
   });
 
-  test('a stale command leaves the number free', () => {
+  test('a stale command does not use up its sequence number', () => {
     const gate = new CommandGate(defaultDriveLimits);
     gate.check('a', command({ sequence: 1, timeMs: 1000 }), 1000, open);
     expect(reasonOf(gate.check('a', command({ sequence: 9, timeMs: 1000 }), 1200, open))).toBe('stale');
     expect(reasonOf(gate.check('a', command({ sequence: 2, timeMs: 1210 }), 1210, open))).toBe('accepted');
   });
 
-  test('each operator counts alone', () => {
+  test('counts each operator separately', () => {
     const gate = new CommandGate(defaultDriveLimits);
     gate.check('a', command({ sequence: 100 }), 0, open);
     expect(reasonOf(gate.check('b', command({ sequence: 1 }), 0, open))).toBe('accepted');
@@ -71,7 +71,7 @@ describe('sequence', () => {
 });
 
 describe('age', () => {
-  test('150 ms of waiting pass, more do not', () => {
+  test('accepts 150 ms of waiting, and no more', () => {
     const gate = new CommandGate(defaultDriveLimits);
     gate.check('a', command({ sequence: 1, timeMs: 77_000 }), 0, open);
     expect(reasonOf(gate.check('a', command({ sequence: 2, timeMs: 77_010 }), 160, open))).toBe('accepted');
@@ -79,7 +79,7 @@ describe('age', () => {
     expect(late).toEqual({ accepted: false, reason: 'stale', detail: '151 ms late, 150 ms allowed' });
   });
 
-  test('after a stall the old ones of the burst are refused and the fresh ones pass', () => {
+  test('after a stall, refuses the old commands of the burst and accepts the fresh ones', () => {
     const gate = new CommandGate(defaultDriveLimits);
     gate.check('a', command({ sequence: 0, timeMs: 0 }), 30, open);
     const verdicts: string[] = [];
@@ -90,7 +90,7 @@ describe('age', () => {
     expect(verdicts).toEqual([...Array(6).fill('stale'), ...Array(4).fill('accepted')]);
   });
 
-  test('a clock that jumps back locks out its own operator, for one window', () => {
+  test('a clock that jumps back locks out its own operator for one window', () => {
     const gate = new CommandGate(defaultDriveLimits, { delayWindowMs: 2000 });
     gate.check('a', command({ sequence: 1, timeMs: 1e9 }), 0, open);
     gate.check('b', command({ sequence: 1, timeMs: 500 }), 0, open);
@@ -100,25 +100,25 @@ describe('age', () => {
       reasons.push(reasonOf(gate.check('a', command({ sequence, timeMs: t }), t, open)));
       expect(reasonOf(gate.check('b', command({ sequence, timeMs: 500 + t }), t, open))).toBe('accepted');
     }
-    // It is fresh again from here on; the hand held on all the while.
+    // Commands count as fresh again from here on; the hand held on all the while.
     expect(reasons.indexOf('let-go-first')).toBe(19);
     expect(reasons.slice(0, 19).every((r) => r === 'stale')).toBe(true);
     expect(reasons.slice(19).every((r) => r === 'let-go-first')).toBe(true);
   });
 
-  test('a clock probe teaches the way before the first command', () => {
+  test('a clock probe teaches the transit time before the first command', () => {
     const gate = new CommandGate(defaultDriveLimits);
     gate.observeClock('a', 1000, 1040);
     expect(reasonOf(gate.check('a', command({ timeMs: 1100 }), 1400, open))).toBe('stale');
   });
 
-  test('commands of an operator without the lease teach the way too', () => {
+  test('commands of an operator without the lease also teach the transit time', () => {
     const gate = new CommandGate(defaultDriveLimits);
     gate.check('a', command({ timeMs: 0 }), 0, { ...open, holdsLease: false });
     expect(reasonOf(gate.check('a', command({ timeMs: 0 }), 200, open))).toBe('stale');
   });
 
-  test('the configured age counts', () => {
+  test('the configured age applies', () => {
     const gate = new CommandGate(defaultDriveLimits, { maxAgeMs: 20 });
     gate.check('a', command({ sequence: 1 }), 0, open);
     expect(reasonOf(gate.check('a', command({ sequence: 2 }), 21, open))).toBe('stale');
@@ -127,7 +127,7 @@ describe('age', () => {
 
 describe('emergency stop', () => {
   test.each(['latched', 'let-go'] as const)(
-    '%s: motion is refused, zero passes as a sign of life',
+    '%s: refuses motion, accepts zero as a sign of life',
     (answer) => {
       const gate = new CommandGate(defaultDriveLimits);
       const context: GateContext = { ...open, meetEstop: () => answer };
@@ -136,7 +136,7 @@ describe('emergency stop', () => {
     },
   );
 
-  test('is asked about fresh commands only: a late zero is no letting go', () => {
+  test('is asked about fresh commands only: a late zero does not count as letting go', () => {
     const asked: boolean[] = [];
     const gate = new CommandGate(defaultDriveLimits);
     const context: GateContext = {
@@ -164,7 +164,7 @@ test('motion needs the grip, standing still does not', () => {
 describe('range', () => {
   const still = { x: 0, y: 0, z: 0 };
 
-  test('is said in words', () => {
+  test('is stated in words', () => {
     const verdict = new CommandGate(defaultDriveLimits).check('a', command({}, 3.2), 0, open);
     expect(verdict).toEqual({
       accepted: false,
@@ -188,7 +188,7 @@ describe('range', () => {
     expect(reasonOf(gate.check('a', command({ twist }), 0, open))).toBe('out-of-range');
   });
 
-  test('the limits themselves pass; what a float adds to them is cut off', () => {
+  test('accepts the limits themselves; cuts off what a float adds to them', () => {
     const gate = new CommandGate({ ...defaultDriveLimits, maxLinear: 0.7 });
     const verdict = gate.check('a', command({}, Math.fround(0.7), -1.5), 0, open);
     expect(verdict).toMatchObject({
@@ -199,14 +199,14 @@ describe('range', () => {
     expect(over).toMatchObject({ accepted: true, twist: { linear: { x: 0.7 } } });
   });
 
-  test('minus zero comes out as zero', () => {
+  test('returns minus zero as zero', () => {
     const verdict = new CommandGate(defaultDriveLimits).check('a', command({}, -0, -0), 0, open);
     expect(verdict.accepted && Object.is(verdict.twist.linear.x, 0)).toBe(true);
   });
 });
 
 describe('rate', () => {
-  test('a flood is cut to the limit, before anything else is looked at', () => {
+  test('cuts a flood to the limit before it checks anything else', () => {
     const gate = new CommandGate({ ...defaultDriveLimits, maxCommandsPerSecond: 10 });
     const context: GateContext = { ...open, holdsLease: false };
     const reasons: string[] = [];
@@ -215,7 +215,7 @@ describe('rate', () => {
     expect(reasons.slice(10)).toEqual(['rate-limited', 'rate-limited']);
   });
 
-  test('messages that are no commands count', () => {
+  test('counts undecodable messages', () => {
     const gate = new CommandGate({ ...defaultDriveLimits, maxCommandsPerSecond: 10 });
     for (let i = 0; i < 10; i++) {
       expect(gate.malformed('a', 'not valid JSON', 0)).toEqual({
@@ -230,7 +230,7 @@ describe('rate', () => {
   });
 });
 
-test('more operators than are remembered push out who was silent for longest', () => {
+test('beyond the limit, forgets the operator that was silent for longest', () => {
   const gate = new CommandGate(defaultDriveLimits);
   gate.check('a', command({ sequence: 5 }), 0, open);
   gate.check('b', command({ sequence: 5 }), 0, open);
@@ -241,7 +241,7 @@ test('more operators than are remembered push out who was silent for longest', (
   expect(reasonOf(gate.check('b', command({ sequence: 5 }), 0, open))).toBe('accepted');
 });
 
-test('who is forgotten starts anew', () => {
+test('a forgotten operator starts afresh', () => {
   const gate = new CommandGate(defaultDriveLimits);
   gate.check('a', command({ sequence: 5 }), 0, open);
   gate.forget('a');
@@ -252,7 +252,7 @@ describe('a grip held through silence', () => {
   const at = (gate: CommandGate, ms: number, change: Partial<Command> = {}, x = 0.5) =>
     reasonOf(gate.check('a', command({ sequence: ms + 1, timeMs: ms, ...change }, x, 0), ms, open));
 
-  test('a second without a command: motion is refused until the hand has let go', () => {
+  test('after a second without a command, refuses motion until the hand has let go', () => {
     const gate = new CommandGate(defaultDriveLimits);
     expect(at(gate, 0)).toBe('accepted');
     expect(at(gate, 999)).toBe('accepted');
@@ -263,7 +263,7 @@ describe('a grip held through silence', () => {
     expect(at(gate, 9040)).toBe('accepted');
   });
 
-  test('the grip shown released is letting go, too', () => {
+  test('a released grip also counts as letting go', () => {
     const gate = new CommandGate(defaultDriveLimits);
     expect(at(gate, 0)).toBe('accepted');
     expect(at(gate, 5000, { deadMan: false })).toBe('dead-man-released');
@@ -277,7 +277,7 @@ describe('a grip held through silence', () => {
     expect(at(gate, 60_000)).toBe('accepted');
   });
 
-  test('a burst of what the link held back is no sign of life', () => {
+  test('a burst of commands that the link held back is no sign of life', () => {
     const gate = new CommandGate(defaultDriveLimits);
     expect(at(gate, 0)).toBe('accepted');
     expect(at(gate, 3000, { timeMs: 200 })).toBe('stale');

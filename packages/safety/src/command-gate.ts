@@ -13,26 +13,28 @@ import { QueueingDelay } from './queueing-delay.ts';
 export interface RejectedCommand {
   accepted: false;
   reason: CommandRejection;
-  /** For people: what and where, under 200 characters. */
+  /** For people: what is wrong and where, under 200 characters. */
   detail: string;
 }
 
 export type CommandVerdict = { accepted: true; twist: Twist } | RejectedCommand;
 
-/** What the gate must know of the rest of the robot to judge one command. */
+/** What the gate must know about the rest of the robot to judge one command. */
 export interface GateContext {
   /** Whether the command's operator holds the lease that the command names. */
   holdsLease: boolean;
-  /** Asked once for each command that is fresh: what the emergency stop says to this wish (estop.ts). */
+  /** Called once for each fresh command: returns the emergency stop's answer to this request (estop.ts). */
   meetEstop: (motion: boolean) => EstopAnswer;
 }
 
 export interface CommandGateOptions {
-  /** A command that waited longer on its way is stale, ms. */
+  /** A command that was in transit for longer is stale, ms. */
   maxAgeMs?: number;
-  /** After motion, and then no accepted command for so long, a hand that still holds must let go first, ms. */
+  /**
+   * If no command was accepted for this long after motion, the hand must let go of the stick before driving again, ms.
+   */
   letGoAfterMs?: number;
-  /** Over how long the shortest way is remembered, ms (queueing-delay.ts). */
+  /** How long the shortest transit time is remembered, ms (queueing-delay.ts). */
   delayWindowMs?: number;
 }
 
@@ -44,14 +46,18 @@ interface OperatorState {
   movedMs: number | null;
 }
 
-/** Operators whose clock and counter are remembered; beyond it the one silent for longest is forgotten. */
+/**
+ * The number of operators whose clock and counter are remembered. Beyond it, the operator that has been silent for
+ * longest is forgotten.
+ */
 const MAX_OPERATORS = 64;
-/** Relative: what a float32 or a decimal round trip may add to a limit. The excess is cut off. */
+/** Relative tolerance: what a float32 or a decimal round trip may add to a limit. The excess is cut off. */
 const TOLERANCE = 1e-6;
 
 /**
- * Judges each command of each operator by itself: rate, lease, sequence, age, emergency stop, dead-man grip, a
- * grip held through silence, range, in this order. State is kept apart for each operator: a broken or hostile clock or counter spoils its own commands only.
+ * Judges each command of each operator by itself, in this order: rate, lease, sequence, age, emergency stop, dead-man
+ * grip, a grip held through silence, range. Each operator has state of its own: a broken or hostile clock or counter
+ * spoils only its own commands.
  */
 export class CommandGate {
   readonly #limits: Readonly<DriveLimits>;
@@ -70,7 +76,7 @@ export class CommandGate {
   check(operatorId: string, command: Command, nowMs: number, context: GateContext): CommandVerdict {
     const operator = this.#operator(operatorId);
     if (!operator.bucket.take(nowMs)) return this.#rateLimited();
-    // Every command tells of the way, also one that is refused: or a way that became longer would never be learnt.
+    // Refused commands also teach the transit time; otherwise a path that became longer would never be learnt.
     const waitedMs = operator.delay.observe(command.timeMs, nowMs);
     if (!context.holdsLease) return rejected('not-lease-holder', 'the command names no lease that you hold');
     const { lastSequence } = operator;
@@ -80,8 +86,8 @@ export class CommandGate {
     if (!(waitedMs <= this.#maxAgeMs)) {
       return rejected('stale', `${Math.round(waitedMs)} ms late, ${this.#maxAgeMs} ms allowed`);
     }
-    // From here on the command is the operator's latest wish: an older one that comes after it counts no more, even
-    // where this one is refused (the grip let go, say).
+    // From here on, this command is the operator's latest request. Older ones that arrive after it are ignored, even if
+    // this one is refused (because the grip was released, for example).
     operator.lastSequence = command.sequence;
     const motion = !isZeroTwist(command.twist);
     if (!motion || !command.deadMan) operator.movedMs = null;
@@ -105,13 +111,13 @@ export class CommandGate {
     };
   }
 
-  /** Counts a message that is no command against its sender's rate. */
+  /** Counts an undecodable message against its sender's rate. */
   malformed(operatorId: string, detail: string, nowMs: number): RejectedCommand {
     if (!this.#operator(operatorId).bucket.take(nowMs)) return this.#rateLimited();
     return rejected('malformed', detail.slice(0, 200));
   }
 
-  /** Learns the way's delay from another stamped message of the same channel, a clock probe. */
+  /** Learns the transit time from another timestamped message of the same channel: a clock probe. */
   observeClock(operatorId: string, sentMs: number, nowMs: number): void {
     this.#operator(operatorId).delay.observe(sentMs, nowMs);
   }
@@ -135,7 +141,7 @@ export class CommandGate {
     } else {
       this.#operators.delete(operatorId);
     }
-    // Last in the map's order: heard of last.
+    // Moved to the end of the map: the operator heard from most recently.
     this.#operators.set(operatorId, operator);
     return operator;
   }
@@ -144,7 +150,7 @@ export class CommandGate {
     return rejected('rate-limited', `more than ${this.#limits.maxCommandsPerSecond} commands a second`);
   }
 
-  /** A hand that held on while the link was away must not move the robot by itself when it comes back. */
+  /** A hand that kept holding while the link was down must not move the robot by itself when the link returns. */
   #heldThroughSilence({ movedMs }: OperatorState, nowMs: number): RejectedCommand | null {
     if (movedMs === null || nowMs - movedMs < this.#letGoAfterMs) return null;
     const seconds = ((nowMs - movedMs) / 1000).toFixed(1);

@@ -47,7 +47,7 @@ const timedStep = fc.record({
   step,
 });
 
-test('whatever is sent and whenever: within the limits, fresh, by the holder, never while stopped, never by a hand that held on through silence', () => {
+test('whatever is sent: moves only within limits, for fresh commands of a holder who let go, never while stopped', () => {
   let moved = 0;
   let checked = 0;
   let letGo = 0;
@@ -119,7 +119,7 @@ test('whatever is sent and whenever: within the limits, fresh, by the holder, ne
           } else {
             expect(verdict.detail).not.toBe('');
             if (verdict.reason === 'dead-man-released') last = null;
-            // Not a wish of now.
+            // These do not express the operator's present request.
             const passedOver = ['malformed', 'rate-limited', 'not-lease-holder', 'repeated', 'stale'];
             if (!step.deadMan && !passedOver.includes(verdict.reason)) held.delete(by);
             if (verdict.reason === 'let-go-first') letGo++;
@@ -156,7 +156,7 @@ test('whatever is sent and whenever: within the limits, fresh, by the holder, ne
     }),
     { seed: 20_240, numRuns: 400 },
   );
-  // The property would hold for a robot that never moves.
+  // Without this check, the property would hold for a robot that never moves.
   expect(moved / checked).toBeGreaterThan(0.02);
   expect(letGo).toBeGreaterThan(0);
 });

@@ -12,7 +12,7 @@ function guardWith(options: Partial<DriveGuardOptions> = {}): DriveGuard {
   return new DriveGuard({ limits: defaultDriveLimits, randomBytes: randomBytes(), ...options });
 }
 
-/** A guard whose lease `a` holds, and a way to send a's commands. */
+/** A guard whose lease operator `a` holds, and a function that sends a's commands. */
 function driven() {
   const guard = guardWith();
   const outcome = guard.requestLease('a', false, 0);
@@ -42,7 +42,7 @@ test('stands still before anything has happened', () => {
   expect(guard.state(0)).toBe('idle');
 });
 
-test('drives by the latest command until the watchdog runs out', () => {
+test('follows the latest command until the watchdog expires', () => {
   const { guard, send } = driven();
   send(1000, 0.5);
   expect(guard.velocityAt(1149).linear.x).toBe(0.5);
@@ -98,7 +98,7 @@ test('another operator’s released grip stops nobody', () => {
   expect(guard.velocityAt(1010).linear.x).toBe(0.5);
 });
 
-test('blocked is said only of a robot that wants to move', () => {
+test('reports blocked only for a robot that is asked to move', () => {
   const { guard, send } = driven();
   expect(guard.state(0, true)).toBe('idle');
   send(0, 0.5);
@@ -106,7 +106,7 @@ test('blocked is said only of a robot that wants to move', () => {
 });
 
 describe('emergency stop', () => {
-  test('anyone latches, only the holder releases', () => {
+  test('anyone latches it, only the holder releases it', () => {
     const { guard, send } = driven();
     send(0, 0.5);
     guard.latchEstop('operator');
@@ -119,7 +119,7 @@ describe('emergency stop', () => {
     expect(guard.estopState()).toEqual({ type: 'estop', latched: false });
   });
 
-  test('what was asked for before does not come back with the release', () => {
+  test('requests from before the stop do not return with the release', () => {
     const { guard, send } = driven();
     send(0, 0.5);
     guard.latchEstop('robot');
@@ -127,7 +127,7 @@ describe('emergency stop', () => {
     expect(isZeroTwist(guard.velocityAt(2))).toBe(true);
   });
 
-  test('a stick held through the release starts nothing until it was let go', () => {
+  test('a stick held through the release starts nothing until it is let go', () => {
     const { guard, send } = driven();
     guard.latchEstop('operator');
     guard.releaseEstop('a', 0);
@@ -137,7 +137,7 @@ describe('emergency stop', () => {
     expect(guard.velocityAt(30).linear.x).toBe(0.5);
   });
 
-  test('stays latched when the holder leaves; the next one releases it', () => {
+  test('stays latched when the holder leaves; the next holder releases it', () => {
     const { guard } = driven();
     guard.latchEstop('operator');
     guard.operatorGone('a');
@@ -148,7 +148,7 @@ describe('emergency stop', () => {
 });
 
 describe('lease', () => {
-  test('released, lost or taken: the robot stops at once, and the old lease drives no more', () => {
+  test('released, lost or taken: the robot stops at once, and the old lease no longer drives', () => {
     for (const end of ['release', 'gone', 'take'] as const) {
       const { guard, send } = driven();
       send(0, 0.5);
@@ -162,7 +162,7 @@ describe('lease', () => {
     }
   });
 
-  test('nobody takes over from who is moving', () => {
+  test('nobody can take over from an operator who is moving', () => {
     const { guard, send } = driven();
     for (let t = 0; t < 20_000; t += 100) {
       send(t, 0.1);
@@ -170,13 +170,13 @@ describe('lease', () => {
     }
   });
 
-  test('commands for zero do not keep a holder from being taken for idle', () => {
+  test('commands for zero do not prevent the holder from becoming idle', () => {
     const { guard, send } = driven();
     for (let t = 0; t <= 5000; t += 100) send(t, 0);
     expect(guard.requestLease('b', true, 5000).granted).toBe(true);
   });
 
-  test('is told to each operator as it concerns them', () => {
+  test('each operator gets its own view of it', () => {
     const guard = guardWith();
     expect(guard.leaseState('a')).toEqual({ type: 'lease', holder: 'nobody' });
     guard.requestLease('a', false, 0);
@@ -188,7 +188,7 @@ describe('lease', () => {
   });
 });
 
-test('an operator that left and came back under the same name counts its commands anew', () => {
+test('an operator that returns under the same name restarts its sequence', () => {
   const { guard, send } = driven();
   send(0, 0.5, { sequence: 900 });
   guard.operatorGone('a');
@@ -227,7 +227,7 @@ test('neither the limits nor the velocity can be changed from outside', () => {
   expect(moving.velocityAt(1).linear.x).toBe(0.5);
 });
 
-test('a time that is no number stands still', () => {
+test('stands still at a time that is NaN', () => {
   const { guard, send } = driven();
   send(0, 0.5);
   expect(isZeroTwist(guard.velocityAt(Number.NaN))).toBe(true);

@@ -29,11 +29,12 @@ export type EstopReleaseOutcome =
 /**
  * Everything between the operators' messages and the robot's wheels. All times are the robot's monotonic clock in ms.
  *
- * What holds for any sequence of calls:
- * - `velocityAt` is within the limits given at construction, which nothing changes;
- * - it is zero `watchdogMs` after the last accepted command, while the emergency stop is latched, while nobody holds the lease;
- * - it follows the lease holder's commands and nobody else's;
- * - what was asked for before an emergency stop, a change of the lease or a released grip never comes back.
+ * These invariants hold for any sequence of calls:
+ * - `velocityAt` stays within the limits given at construction, which nothing can change;
+ * - it is zero `watchdogMs` after the last accepted command, while the emergency stop is latched, and while nobody
+ *   holds the lease;
+ * - it follows the commands of the lease holder and of nobody else;
+ * - a request from before an emergency stop, a change of the lease or a released grip never takes effect again.
  */
 export class DriveGuard {
   readonly #limits: Readonly<DriveLimits>;
@@ -57,8 +58,8 @@ export class DriveGuard {
   }
 
   /**
-   * Judges a command. An accepted one is the velocity until the next, or until the watchdog runs out: `nextDeadlineMs`
-   * changes with every call.
+   * Judges a command. An accepted command sets the velocity until the next one, or until the watchdog expires.
+   * `nextDeadlineMs` changes with every call.
    */
   onCommand(operatorId: string, command: Command, nowMs: number): CommandVerdict {
     const verdict = this.#gate.check(operatorId, command, nowMs, {
@@ -71,36 +72,37 @@ export class DriveGuard {
       if (!isZeroTwist(verdict.twist)) this.#leases.noteMotion(nowMs);
       return { accepted: true, twist: copyTwist(verdict.twist) };
     }
-    // The gate gives this reason only to the holder's latest wish: the grip was let go, so stop now, not in 150 ms.
+    // The gate gives this reason only for the holder's latest request: the grip was released, so stop now, not in 150
+    // ms.
     if (verdict.reason === 'dead-man-released') this.#halt();
     return verdict;
   }
 
-  /** A message that should have been a command and could not be decoded. It counts against the operator's rate. */
+  /** A message that should have been a command but could not be decoded. It counts against the operator's rate. */
   onMalformed(operatorId: string, detail: string, nowMs: number): RejectedCommand {
     return this.#gate.malformed(operatorId, detail, nowMs);
   }
 
   /**
-   * Optional, for each clock probe of an operator: teaches the gate how long a message takes on this way, so that it tells
+   * Optional, for each clock probe of an operator: teaches the gate the transit time on this path, so that it can tell
    * stale from fresh at the very first command.
    */
   onClockProbe(operatorId: string, sentMs: number, nowMs: number): void {
     this.#gate.observeClock(operatorId, sentMs, nowMs);
   }
 
-  /** The velocity to apply now, a copy. */
+  /** The velocity to apply now, as a copy. */
   velocityAt(nowMs: number): Twist {
     const moving = this.#leases.holder !== null && !this.#estop.latched && !this.#watchdog.expired(nowMs);
     return moving ? copyTwist(this.#wish) : zeroTwist();
   }
 
-  /** When `velocityAt` becomes zero without anybody doing anything: arm a timer for it. `null` where it is zero. */
+  /** When `velocityAt` becomes zero without any further call: arm a timer for it. `null` while the velocity is zero. */
   get nextDeadlineMs(): number | null {
     return isZeroTwist(this.#wish) ? null : this.#watchdog.deadlineMs;
   }
 
-  /** @param blocked whether the robot feels an obstacle */
+  /** @param blocked whether the robot senses an obstacle */
   state(nowMs: number, blocked = false): DriveState {
     if (this.#estop.latched) return 'estop';
     if (this.#leases.holder === null || isZeroTwist(this.#wish)) return 'idle';
@@ -108,12 +110,12 @@ export class DriveGuard {
     return blocked ? 'blocked' : 'driving';
   }
 
-  /** Who holds the lease. */
+  /** The operator that holds the lease. */
   get leaseHolder(): string | null {
     return this.#leases.holder;
   }
 
-  /** After a grant tell every operator its `leaseState`. */
+  /** After a grant, send every operator its `leaseState`. */
   requestLease(operatorId: string, take: boolean, nowMs: number): LeaseOutcome {
     const before = this.#leases.holder;
     const outcome = this.#leases.request(operatorId, take, nowMs);
@@ -121,14 +123,14 @@ export class DriveGuard {
     return outcome;
   }
 
-  /** @returns whether the operator held it: then tell every operator its `leaseState` */
+  /** @returns whether the operator held the lease; if so, send every operator its `leaseState` */
   releaseLease(operatorId: string): boolean {
     const released = this.#leases.release(operatorId);
     if (released) this.#halt();
     return released;
   }
 
-  /** The operator's connection has ended. @returns whether the lease became free */
+  /** The operator's connection has ended. @returns whether this freed the lease */
   operatorGone(operatorId: string): boolean {
     this.#gate.forget(operatorId);
     return this.releaseLease(operatorId);
@@ -141,19 +143,19 @@ export class DriveGuard {
     return { type: 'lease', holder: this.#leases.holder === null ? 'nobody' : 'other' };
   }
 
-  /** Stops at once, whoever asks, however often. @returns false where it was latched already */
+  /** Stops at once, whoever asks and however often. @returns false if it was already latched */
   latchEstop(by: EstopSource): boolean {
     this.#halt();
     return this.#estop.latch(by);
   }
 
-  /** Released by the lease holder only. Motion needs a new command, and a hand that has let go (estop.ts). */
+  /** Only the lease holder can release it. Motion then needs a new command, from a hand that has let go (estop.ts). */
   releaseEstop(operatorId: string, nowMs: number): EstopReleaseOutcome {
     if (this.#leases.holder !== operatorId) return { released: false, reason: 'not-lease-holder' };
     return this.#estop.release(nowMs) ? { released: true } : { released: false, reason: 'not-latched' };
   }
 
-  /** The message that tells every operator of the emergency stop. */
+  /** The message that tells every operator about the emergency stop. */
   estopState(): EstopState {
     const by = this.#estop.by;
     return by === null ? { type: 'estop', latched: false } : { type: 'estop', latched: true, by };

@@ -1,11 +1,11 @@
 import { expect, test } from 'vitest';
 import { EstopLatch } from './estop.ts';
 
-test('clear at first', () => {
+test('is clear at first', () => {
   expect(new EstopLatch(150).meet(true, 0)).toBe('clear');
 });
 
-test('keeps who latched it first', () => {
+test('remembers who latched it first', () => {
   const estop = new EstopLatch(150);
   expect(estop.latch('robot')).toBe(true);
   expect(estop.latch('operator')).toBe(false);
@@ -13,7 +13,7 @@ test('keeps who latched it first', () => {
   expect(estop.meet(false, 1e6)).toBe('latched');
 });
 
-test('released once, then there is nothing to release', () => {
+test('once it is released, a second release does nothing', () => {
   const estop = new EstopLatch(150);
   expect(estop.release(0)).toBe(false);
   estop.latch('operator');
@@ -37,7 +37,7 @@ test('a command for zero is letting go', () => {
   expect(estop.meet(true, 1020)).toBe('clear');
 });
 
-test('so is wishing for nothing for the time', () => {
+test('so is no request for motion for the given time', () => {
   const estop = new EstopLatch(150);
   estop.latch('operator');
   estop.release(1000);
@@ -46,7 +46,7 @@ test('so is wishing for nothing for the time', () => {
   expect(estop.meet(true, 1448)).toBe('clear');
 });
 
-test('a second stop forgets that the hand had let go', () => {
+test('a second stop requires the hand to let go again', () => {
   const estop = new EstopLatch(150);
   estop.latch('operator');
   estop.release(0);

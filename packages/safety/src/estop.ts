@@ -5,14 +5,14 @@ export type EstopSource = 'operator' | 'robot';
 export type EstopAnswer = 'clear' | 'latched' | 'let-go';
 
 /**
- * The emergency stop: latched by anyone, released on purpose only. After the release motion stays refused until the hand
- * has let go of the stick once (a command for zero, or no wish for motion for `letGoMs`), because a reset must not by itself
- * start the machine (ISO 13850, 4.1.4).
+ * The emergency stop: anyone can latch it, and only a deliberate action releases it. After the release, motion stays
+ * refused until the hand has let go of the stick once (a command for zero, or no request for motion for `letGoMs`),
+ * because a reset must not by itself start the machine (ISO 13850, 4.1.4).
  */
 export class EstopLatch {
   readonly #letGoMs: number;
   #by: EstopSource | null = null;
-  /** When motion was last wished for since the release; `null` once the hand has let go. */
+  /** When motion was last requested since the release; `null` once the hand has let go. */
   #heldMs: number | null = null;
 
   constructor(letGoMs: number) {
@@ -28,7 +28,7 @@ export class EstopLatch {
     return this.#by;
   }
 
-  /** @returns false where it was latched already */
+  /** @returns false if it was already latched */
   latch(by: EstopSource): boolean {
     if (this.#by !== null) return false;
     this.#by = by;
@@ -36,7 +36,7 @@ export class EstopLatch {
     return true;
   }
 
-  /** The caller has made sure who asks. @returns false where it was not latched */
+  /** The caller has checked who asks. @returns false if it was not latched */
   release(nowMs: number): boolean {
     if (this.#by === null) return false;
     this.#by = null;
@@ -44,7 +44,7 @@ export class EstopLatch {
     return true;
   }
 
-  /** Takes note of a wish of the lease holder and says what it meets. */
+  /** Records a request of the lease holder and returns the answer to it. */
   meet(motion: boolean, nowMs: number): EstopAnswer {
     if (this.#by !== null) return 'latched';
     if (this.#heldMs === null) return 'clear';

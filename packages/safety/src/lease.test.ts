@@ -12,7 +12,7 @@ function table(options: Partial<LeaseOptions> = {}): LeaseTable {
   return new LeaseTable({ randomBytes: countingBytes(), takeAfterIdleMs: 5000, ...options });
 }
 
-test('the first who asks drives, under a handle of 128 random bits', () => {
+test('the first operator that asks may drive, under a lease of 128 random bits', () => {
   const leases = table();
   const outcome = leases.request('a', false, 0);
   expect(outcome).toEqual({ granted: true, lease: '01'.repeat(16), takenFrom: null });
@@ -21,7 +21,7 @@ test('the first who asks drives, under a handle of 128 random bits', () => {
   expect(leases.holds('a', '01'.repeat(16))).toBe(true);
 });
 
-test('nobody drives with another’s lease, nor the holder with another lease', () => {
+test('nobody drives with another’s lease, and the holder not with a different lease', () => {
   const leases = table();
   leases.request('a', false, 0);
   expect(leases.holds('b', '01'.repeat(16))).toBe(false);
@@ -35,13 +35,13 @@ test('asking again gives the holder the same lease', () => {
   expect(leases.request('a', true, 9000)).toEqual(first);
 });
 
-test('who does not ask to take over is refused, however idle the holder', () => {
+test('a request without take-over is refused, however idle the holder is', () => {
   const leases = table({ takePolicy: 'always' });
   leases.request('a', false, 0);
   expect(leases.request('b', false, 1e9)).toMatchObject({ granted: false, reason: 'held' });
 });
 
-test('idle: taken over only when nothing has moved for the time', () => {
+test('idle: take-over only after nothing has moved for the given time', () => {
   const leases = table();
   leases.request('a', false, 0);
   leases.noteMotion(1000);
@@ -51,7 +51,7 @@ test('idle: taken over only when nothing has moved for the time', () => {
   expect(leases.holds('b', '02'.repeat(16))).toBe(true);
 });
 
-test('a fresh holder has the whole time before being taken for idle', () => {
+test('a new holder has the full time before it counts as idle', () => {
   const leases = table();
   leases.request('a', false, 10_000);
   expect(leases.request('b', true, 14_999).granted).toBe(false);
@@ -66,7 +66,7 @@ test('never and always', () => {
   expect(always.request('b', true, 0)).toMatchObject({ granted: true, takenFrom: 'a' });
 });
 
-test('only the holder releases; then another lease is made', () => {
+test('only the holder can release; the next lease is a different one', () => {
   const leases = table();
   leases.request('a', false, 0);
   expect(leases.release('b')).toBe(false);

@@ -1,15 +1,15 @@
-/** May another operator take the lease from the one who holds it? */
+/** Whether another operator may take the lease from its holder. */
 export type TakePolicy =
   | 'never'
-  | 'idle' // where the holder has asked for no motion for a while
+  | 'idle' // if the holder has requested no motion for a while
   | 'always';
 
 export interface LeaseOptions {
-  /** Cryptographically random bytes: a lease cannot be guessed. */
+  /** Cryptographically random bytes, so that nobody can guess a lease. */
   randomBytes: (count: number) => Uint8Array;
   /** Default `idle`. */
   takePolicy?: TakePolicy;
-  /** After how long without motion a holder counts as idle, ms. */
+  /** A holder counts as idle after this long without motion, ms. */
   takeAfterIdleMs?: number;
 }
 
@@ -27,7 +27,7 @@ interface Held {
   lastMotionMs: number;
 }
 
-/** Who may drive: one operator at a time, under an opaque lease that every command must repeat. */
+/** Decides who may drive: one operator at a time, under an opaque lease that every command must repeat. */
 export class LeaseTable {
   readonly #randomBytes: (count: number) => Uint8Array;
   readonly #takePolicy: TakePolicy;
@@ -44,17 +44,17 @@ export class LeaseTable {
     return this.#held?.operatorId ?? null;
   }
 
-  /** The operator's lease, `null` for everyone but the holder. */
+  /** The operator's lease; `null` for everyone but the holder. */
   leaseOf(operatorId: string): string | null {
     return this.#held?.operatorId === operatorId ? this.#held.lease : null;
   }
 
-  /** True where this very operator holds this very lease. */
+  /** Whether this operator holds this lease. */
   holds(operatorId: string, lease: string): boolean {
     return this.#held?.operatorId === operatorId && this.#held.lease === lease;
   }
 
-  /** Asking again changes nothing for the holder: same lease. */
+  /** For the holder, asking again changes nothing: it gets the same lease. */
   request(operatorId: string, take: boolean, nowMs: number): LeaseOutcome {
     const held = this.#held;
     if (held === null) return this.#grant(operatorId, null, nowMs);
@@ -71,14 +71,14 @@ export class LeaseTable {
     return { granted: false, reason: 'take-refused', detail };
   }
 
-  /** @returns false where the operator did not hold the lease */
+  /** @returns false if the operator did not hold the lease */
   release(operatorId: string): boolean {
     if (this.#held?.operatorId !== operatorId) return false;
     this.#held = null;
     return true;
   }
 
-  /** The holder asked for motion and got it: not idle. */
+  /** Records that the holder requested motion and got it, so it is not idle. */
   noteMotion(nowMs: number): void {
     if (this.#held !== null) this.#held.lastMotionMs = nowMs;
   }

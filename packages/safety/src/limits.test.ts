@@ -11,7 +11,7 @@ test('the defaults are those of the documentation, and frozen', () => {
   expect(Object.isFrozen(defaultDriveLimits)).toBe(true);
 });
 
-test('what is left out takes its default', () => {
+test('an omitted field takes its default', () => {
   expect(driveLimitsSchema.parse({ maxLinear: 0.5 })).toEqual({ ...defaultDriveLimits, maxLinear: 0.5 });
 });
 
@@ -24,11 +24,11 @@ test.each([
   [{ maxAngular: Number.POSITIVE_INFINITY }, 'maxAngular'],
   [{ maxCommandsPerSecond: 9 }, 'maxCommandsPerSecond'],
   [{ maxLinear: '1' }, 'maxLinear'],
-])('%j is refused', (input, field) => {
+])('refuses %j', (input, field) => {
   const parsed = driveLimitsSchema.safeParse(input);
   expect(parsed.error?.issues[0]?.path).toEqual([field]);
 });
 
-test('an unknown field is refused: a misspelt limit must not pass for a limit', () => {
+test('refuses an unknown field: a misspelt limit must not pass unnoticed', () => {
   expect(driveLimitsSchema.safeParse({ maxLinaer: 0.2 }).success).toBe(false);
 });

@@ -2,8 +2,8 @@ import type { DriveLimits } from '@farpoint/protocol';
 import * as z from 'zod';
 
 /**
- * Schema of the drive limits in the robot's configuration; a field left out takes its default. The bounds keep a typing
- * error from switching a protection off: a watchdog of an hour is none.
+ * Schema of the drive limits in the robot's configuration; omitted fields take their defaults. The bounds prevent a
+ * typing error from switching off a protection: a watchdog of an hour is no watchdog.
  */
 export const driveLimitsSchema = z.strictObject({
   /** m/s */

@@ -6,28 +6,28 @@ import { QueueingDelay } from './queueing-delay.ts';
 const OFFSET = -5000 + 40;
 const sentAt = (ms: number) => ms - OFFSET;
 
-test('waiting is what exceeds the shortest way seen', () => {
+test('waiting is the excess over the shortest transit time seen', () => {
   const delay = new QueueingDelay(10_000);
   expect(delay.observe(sentAt(0), 0)).toBe(0);
   expect(delay.observe(sentAt(20), 120)).toBe(100);
   expect(delay.observe(sentAt(140), 140)).toBe(0);
 });
 
-test('a message faster than any before moves the reference', () => {
+test('a message that is faster than all before moves the reference', () => {
   const delay = new QueueingDelay(10_000);
   delay.observe(sentAt(0), 30);
   expect(delay.observe(sentAt(20), 20)).toBe(0);
   expect(delay.observe(sentAt(40), 70)).toBe(30);
 });
 
-test('clocks that drift by 100 ppm are followed for a day', () => {
+test('follows clocks that drift by 100 ppm for a day', () => {
   const delay = new QueueingDelay(10_000);
   let worst = 0;
   for (let t = 0; t < 86_400_000; t += 500) worst = Math.max(worst, delay.observe(t * (1 - 1e-4), t));
   expect(worst).toBeLessThanOrEqual(1.001);
 });
 
-test('a clock that jumps back is right again within the window', () => {
+test('recovers within the window from a clock that jumps back', () => {
   const delay = new QueueingDelay(10_000);
   delay.observe(sentAt(0), 0);
   const waits: [number, number][] = [];
@@ -36,7 +36,7 @@ test('a clock that jumps back is right again within the window', () => {
   expect(waits.filter(([t, wait]) => t >= 10_000 && wait > 0)).toEqual([]);
 });
 
-test('a stamp from the future spoils one window and no more', () => {
+test('a timestamp from the future spoils one window and no more', () => {
   const delay = new QueueingDelay(10_000);
   delay.observe(sentAt(0) + 1e12, 0);
   expect(delay.observe(sentAt(20), 20)).toBe(1e12);
@@ -48,11 +48,11 @@ test('silence is no evidence: what was held back for longer than the window is l
   const delay = new QueueingDelay(10_000);
   for (let t = 0; t < 1000; t += 20) delay.observe(sentAt(t), t);
   expect(delay.observe(sentAt(1000), 61_000)).toBe(60_000);
-  // And what is then sent afresh is not.
+  // What is sent afterwards is not late.
   expect(delay.observe(sentAt(61_020), 61_020)).toBe(0);
 });
 
-test('a longer path is taken for the path after one window', () => {
+test('accepts a longer path after one window', () => {
   const delay = new QueueingDelay(1000);
   for (let t = 0; t < 1000; t += 10) delay.observe(sentAt(t), t);
   expect(delay.observe(sentAt(800), 1000)).toBe(200);
@@ -64,7 +64,7 @@ test.each([
   [Number.NaN, 0],
   [0, Number.NaN],
   [Number.NEGATIVE_INFINITY, 0],
-])('times %d, %d: late, and nothing learnt', (sent, received) => {
+])('times %d, %d: late, and nothing is learnt', (sent, received) => {
   const delay = new QueueingDelay(1000);
   expect(delay.observe(sent, received)).toBe(Number.POSITIVE_INFINITY);
   expect(delay.observe(0, 40)).toBe(0);

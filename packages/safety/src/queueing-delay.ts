@@ -1,25 +1,24 @@
 const BUCKETS = 10;
 
 /**
- * How long a message waited on its way, without synchronised clocks: arrival minus the sender's stamp is the clocks'
- * offset, plus the path's fixed delay, plus waiting. The smallest such difference of the last seconds holds no waiting,
- * so what exceeds it is waiting.
+ * Measures how long a message waited in transit, without synchronised clocks. Arrival time minus the sender's timestamp
+ * is the offset of the clocks, plus the fixed delay of the path, plus waiting. The smallest such difference of the last
+ * seconds contains no waiting, so any excess over it is waiting.
  *
- * The minimum is kept for a window only, so that it follows clocks that drift (100 ppm is 1 ms in 10 s) and paths that
- * change. Three consequences:
- * - A stamp from the future, or a clock that jumps back, makes everything after it look late until the window has
- *   passed; then it is right again.
- * - A path that becomes longer for good looks late for one window.
- * - A queue that stands for a whole window without ever draining is taken for the path.
+ * The minimum is kept only for a window, so that it follows clocks that drift (100 ppm is 1 ms in 10 s) and paths that
+ * change. This has three consequences:
+ * - After a timestamp from the future, or a clock that jumps back, everything looks late until the window has passed.
+ * - A path that becomes permanently longer looks late for one window.
+ * - A queue that stands for a whole window without ever draining is taken for part of the path.
  *
- * Silence is no evidence: the last minimum outlives any pause, so that messages which were held back for longer than the
- * window do not pass for fresh.
+ * Silence is no evidence: the last minimum survives any pause, so that messages that were held back for longer than the
+ * window do not pass as fresh.
  */
 export class QueueingDelay {
   readonly #bucketMs: number;
-  /** Minimum of each tenth of the window, a ring; `Infinity` where nothing came. */
+  /** Minimum of each tenth of the window, as a ring; `Infinity` for a tenth without messages. */
   readonly #minima = new Float64Array(BUCKETS).fill(Number.POSITIVE_INFINITY);
-  /** Number of the newest tenth since time 0. */
+  /** Number of the newest tenth, counted from time 0. */
   #newest: number | null = null;
 
   constructor(windowMs: number) {
@@ -27,11 +26,11 @@ export class QueueingDelay {
   }
 
   /**
-   * Takes one message in.
+   * Takes in one message.
    *
    * @param sentMs the sender's clock
    * @param receivedMs our clock
-   * @returns how long it waited, ms, at least 0; `Infinity` where a time is not a finite number
+   * @returns how long it waited, ms, at least 0; `Infinity` if a time is not a finite number
    */
   observe(sentMs: number, receivedMs: number): number {
     const difference = receivedMs - sentMs;

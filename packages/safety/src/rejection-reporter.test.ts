@@ -4,7 +4,7 @@ import { RejectionReporter } from './rejection-reporter.ts';
 
 const stale = { reason: 'stale', detail: '200 ms late' } as const;
 
-test('the first refusal is told at once, with its number', () => {
+test('reports the first refusal at once, with its number', () => {
   expect(new RejectionReporter().add(stale, 7, 0)).toEqual({
     type: 'rejected',
     sequence: 7,
@@ -14,7 +14,7 @@ test('the first refusal is told at once, with its number', () => {
   });
 });
 
-test('a flood is summed up to ten reports a second, and no refusal is lost', () => {
+test('combines a flood into ten reports a second, and loses no refusal', () => {
   const reporter = new RejectionReporter();
   const reports: CommandRejected[] = [];
   for (let t = 0; t < 1000; t++) {
@@ -31,19 +31,19 @@ test('a flood is summed up to ten reports a second, and no refusal is lost', () 
   expect(reporter.nextDueMs).toBeNull();
 });
 
-test('each reason has its own ten', () => {
+test('each reason has its own limit of ten', () => {
   const reporter = new RejectionReporter();
   expect(reporter.add(stale, 1, 0)).not.toBeNull();
   expect(reporter.add({ reason: 'repeated', detail: '' }, 1, 0)).not.toBeNull();
   expect(reporter.add(stale, 2, 1)).toBeNull();
 });
 
-test('without a readable sequence number there is none in the report', () => {
+test('without a readable sequence number, the report has none', () => {
   const report = new RejectionReporter().add({ reason: 'malformed', detail: 'not valid JSON' }, undefined, 0);
   expect(report).not.toHaveProperty('sequence');
 });
 
-test('a report is a valid session message however long its detail', () => {
+test('a report is a valid session message, however long its detail is', () => {
   const report = new RejectionReporter().add({ reason: 'malformed', detail: 'x'.repeat(9999) }, 1, 0);
   expect(report).not.toBeNull();
   const text = encodeJson(robotSessionCodec, report as CommandRejected);

@@ -10,7 +10,7 @@ interface Pending {
 const MAX_DETAIL = 512;
 
 /**
- * Tells one operator of refusals, at most ten times a second for each reason: the first at once, what follows summed up.
+ * Reports refusals to one operator, at most ten times a second for each reason: the first at once, later ones combined.
  * A report carries the latest detail and sequence number.
  */
 export class RejectionReporter {
@@ -26,7 +26,7 @@ export class RejectionReporter {
     this.#intervalMs = intervalMs;
   }
 
-  /** @returns the report to send now, or `null` where it must wait (`nextDueMs`) */
+  /** @returns the report to send now, or `null` if it must wait (`nextDueMs`) */
   add(
     rejection: { reason: CommandRejection; detail: string },
     sequence: number | undefined,
@@ -39,7 +39,7 @@ export class RejectionReporter {
     return this.#report(rejection.reason, pending, nowMs);
   }
 
-  /** @returns every report that waited and is due now */
+  /** @returns every waiting report that is due now */
   due(nowMs: number): CommandRejected[] {
     const reports: CommandRejected[] = [];
     for (const [reason, pending] of this.#pending) {
@@ -49,7 +49,7 @@ export class RejectionReporter {
     return reports;
   }
 
-  /** When `due` has something next; `null` where nothing waits. */
+  /** When `due` has the next report; `null` if none is waiting. */
   get nextDueMs(): number | null {
     let next: number | null = null;
     for (const { count, reportedMs } of this.#pending.values()) {

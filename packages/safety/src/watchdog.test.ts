@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { Watchdog } from './watchdog.ts';
 
-test('has expired before it was ever fed', () => {
+test('is expired before it is first fed', () => {
   const watchdog = new Watchdog(150);
   expect(watchdog.expired(0)).toBe(true);
   expect(watchdog.deadlineMs).toBeNull();
@@ -18,7 +18,7 @@ test('expires exactly at its deadline', () => {
   expect(watchdog.expired(1299)).toBe(true);
 });
 
-test('after a reset it is as if never fed', () => {
+test('after a reset it is as if it had never been fed', () => {
   const watchdog = new Watchdog(150);
   watchdog.feed(0);
   watchdog.reset();
@@ -26,7 +26,7 @@ test('after a reset it is as if never fed', () => {
   expect(watchdog.deadlineMs).toBeNull();
 });
 
-test('a time that is no number has expired', () => {
+test('is expired at a time that is NaN', () => {
   const watchdog = new Watchdog(150);
   watchdog.feed(0);
   expect(watchdog.expired(Number.NaN)).toBe(true);

@@ -1,6 +1,6 @@
 /**
- * Runs out when it has not been fed for its time. It owns no timer: `deadlineMs` says when to look again, and looking
- * late or often changes nothing.
+ * Expires if it is not fed in time. It owns no timer: `deadlineMs` says when to check again, and checking late or often
+ * changes nothing.
  */
 export class Watchdog {
   readonly #timeMs: number;
@@ -14,17 +14,17 @@ export class Watchdog {
     this.#fedMs = nowMs;
   }
 
-  /** As if never fed. */
+  /** Returns to the state before the first feeding. */
   reset(): void {
     this.#fedMs = null;
   }
 
-  /** When it runs out if it is not fed before; `null` where it was never fed. */
+  /** When it expires unless it is fed before; `null` if it was never fed. */
   get deadlineMs(): number | null {
     return this.#fedMs === null ? null : this.#fedMs + this.#timeMs;
   }
 
-  /** True also where it was never fed, and for a time that is no number: what is not surely fresh has expired. */
+  /** Also true if it was never fed, and for a time that is NaN: whatever is not certainly fresh has expired. */
   expired(nowMs: number): boolean {
     return !(this.#fedMs !== null && nowMs - this.#fedMs < this.#timeMs);
   }

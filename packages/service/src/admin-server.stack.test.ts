@@ -28,7 +28,7 @@ async function statusOf(response: Response): Promise<string> {
   return ((await response.json()) as { status: string }).status;
 }
 
-test('/healthz is 200 while every check is well, 503 once one is not or the program stops', async () => {
+test('/healthz is 200 while every check is ok, 503 once one fails or the program shuts down', async () => {
   let now = 0;
   const health = new Health(() => now);
   let ok = true;
@@ -60,7 +60,7 @@ test('a check that throws is a failing check', () => {
   });
 });
 
-test('/metrics speaks Prometheus, with the process in it', async () => {
+test('/metrics has Prometheus format, with metrics of the process', async () => {
   const { get, metrics } = await start(new Health());
   new Counter({ name: 'farpoint_test_total', help: 'x', registers: [metrics] }).inc(3);
   const response = await get('/metrics');
@@ -78,7 +78,7 @@ test('other paths 404, other methods 405, HEAD without a body', async () => {
   expect([head.status, await head.text()]).toEqual([200, '']);
 });
 
-test('a taken port is an error', async () => {
+test('a port that is in use is an error', async () => {
   await start(new Health());
   const handler = createAdminHandler(new Health(), createMetrics());
   await expect(startAdminServer(handler, { host: '127.0.0.1', port: server!.port })).rejects.toThrow(

@@ -5,17 +5,17 @@ import type { Health } from './health.ts';
 
 export { Counter, Gauge, Histogram, Registry } from 'prom-client';
 
-/** A registry of its own, with the process's memory, CPU, event-loop delay and garbage collection in it. */
+/** A new registry with metrics of the process's memory, CPU, event-loop delay and garbage collection. */
 export function createMetrics(): Registry {
   const registry = new Registry();
   collectDefaultMetrics({ register: registry });
   return registry;
 }
 
-/** Answers `/healthz` and `/metrics`; returns false, having done nothing, for any other path. */
+/** Answers `/healthz` and `/metrics`; returns false for any other path, without doing anything. */
 export type AdminHandler = (request: IncomingMessage, response: ServerResponse) => boolean;
 
-/** The handler to mount on an HTTP server that a program has anyway. */
+/** The handler to mount on a program's own HTTP server. */
 export function createAdminHandler(health: Health, metrics: Registry): AdminHandler {
   return (request, response) => {
     const path = request.url?.split('?', 1)[0];
@@ -52,9 +52,9 @@ export interface AdminServer {
 }
 
 /**
- * An HTTP server with nothing but health and metrics, for programs that serve no HTTP otherwise.
+ * An HTTP server with nothing but health and metrics, for programs without an HTTP server of their own.
  *
- * @throws {Error} where the address cannot be listened on, e.g. EADDRINUSE
+ * @throws {Error} if it cannot listen on the address, for example EADDRINUSE
  */
 export async function startAdminServer(
   handler: AdminHandler,

@@ -1,13 +1,13 @@
-/** ` (did you mean x?)` where one of the known names is close to a mistyped one, else nothing. */
+/** ` (did you mean x?)` if one of the known names is close to a mistyped one, else an empty string. */
 export function closest(name: string, known: readonly string[]): string {
   return didYouMean(nearest(name, known));
 }
 
 /**
- * As {@link closest}, of dotted keys of a file: a key mistyped, one in the wrong group (`robot.maxLinear` for
- * `robot.limits.maxLinear`), or both.
+ * Like {@link closest}, for dotted keys of a file: finds a mistyped key, a key in the wrong group (`robot.maxLinear`
+ * for `robot.limits.maxLinear`), or both.
  *
- * @param parent the mapping that the key was found in, dotted; empty at the top
+ * @param parent the mapping that contains the key, dotted; empty at the top
  * @param known every key, dotted
  */
 export function closestKey(parent: string, name: string, known: readonly string[]): string {
@@ -18,7 +18,7 @@ export function closestKey(parent: string, name: string, known: readonly string[
   const sibling = nearest(name, [...siblings]);
   if (sibling !== null) return didYouMean(`${inside}${sibling}`);
   const leaf = (key: string) => key.slice(key.lastIndexOf('.') + 1);
-  // A key that had no group before: adminPort is admin.port now.
+  // A key that formerly had no group: adminPort is now admin.port.
   const joined = known.find((key) => key.replaceAll('.', '').toLowerCase() === name.toLowerCase());
   const moved = joined ?? known.find((key) => leaf(key).toLowerCase() === name.toLowerCase());
   if (moved !== undefined) return didYouMean(moved);

@@ -11,25 +11,25 @@ export interface ConfigFile {
   readonly path: string;
   /** Values by dotted key within the section. */
   readonly values: ReadonlyMap<string, unknown>;
-  /** Where a key is, or something inside its value: for mistakes. */
+  /** Location of a key, or of something inside its value, for error messages. */
   place(key: string, inside?: Path): { where: string; file: string; line: number; key: string };
 }
 
 interface Expected {
   section: string;
-  /** Dotted, e.g. `limits.maxLinear`. */
+  /** Dotted, for example `limits.maxLinear`. */
   keys: readonly string[];
   mustExist: boolean;
-  /** Which flag or variable named the file. */
+  /** The flag or variable that named the file. */
   source: string;
 }
 
 /**
  * Reads one program's section of a configuration file: YAML, a mapping from program to its options, in groups.
  *
- * @param mistakes gets a sentence for every section or key that nobody knows; the rest is read all the same
- * @returns null where there is no such file and none was asked for
- * @throws {OptionsError} where the file is missing, or is not YAML
+ * @param mistakes gets a sentence for every unknown section or key; the rest is still read
+ * @returns null if there is no such file and none was requested
+ * @throws {OptionsError} if the file is missing, or is not YAML
  */
 export function readConfigFile(
   path: string,
@@ -100,7 +100,7 @@ function parseYaml(file: string, content: string): ParsedYaml {
   try {
     root = document.toJS();
   } catch (error) {
-    // Aliases are resolved only by toJS: one that points nowhere, or too many of them, throw there.
+    // Aliases are resolved only by toJS, which throws if one points nowhere or there are too many.
     throw new OptionsError([{ where: `${file}:`, detail: `not valid YAML: ${firstLine(error)}`, file }]);
   }
   return {
@@ -113,7 +113,7 @@ function parseYaml(file: string, content: string): ParsedYaml {
   };
 }
 
-/** Where a key begins, or the innermost one that there is on the way to it. */
+/** Where a key begins, or else the innermost existing key on the path to it. */
 function offsetOf(document: Document.Parsed, path: Path): number {
   let node: unknown = document.contents;
   let offset = document.contents?.range[0] ?? 0;

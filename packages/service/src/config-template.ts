@@ -1,20 +1,20 @@
-/** A commented configuration file, written from a program's own options: it cannot say other than what is read. */
+/** Writes a commented configuration file from a program's own options, so it always matches what the program reads. */
 import { stringify } from 'yaml';
 import { type OptionPlace, type OptionTable, optionPlaces, type ProgramDefinition } from './option-table.ts';
 
 export interface ConfigTemplate {
-  /** Comment at the top; one line an entry. */
+  /** Comment at the top; one line per entry. */
   readonly head: readonly string[];
-  /** Values in force by option; the others stand behind a `#`, at their defaults. */
+  /** Active values by option; the other options are written behind a `#`, with their defaults. */
   readonly values: Readonly<Record<string, unknown>>;
   /** Options that are not shown. */
   readonly leftOut?: readonly string[];
 }
 
-/** Columns that a comment may take. */
+/** Maximum width of a comment, columns. */
 const WIDTH = 110;
 
-/** @returns YAML that the program accepts as it is, also with every `#key:` line in force */
+/** @returns YAML that the program accepts as it is, and also with every `#key:` line active */
 export function configTemplate<Table extends OptionTable>(
   definition: ProgramDefinition<Table>,
   { head, values, leftOut = [] }: ConfigTemplate,
@@ -36,7 +36,7 @@ export function configTemplate<Table extends OptionTable>(
 
 type FilePlace = OptionPlace & { file: string };
 
-/** In the order of the table; what has no group first. */
+/** In the order of the table; options without a group first. */
 function byGroup(places: readonly OptionPlace[], leftOut: readonly string[]): Map<string, FilePlace[]> {
   const groups = new Map<string, FilePlace[]>([['', []]]);
   for (const place of places) {
@@ -50,7 +50,7 @@ function byGroup(places: readonly OptionPlace[], leftOut: readonly string[]): Ma
 }
 
 function entry(name: string, value: unknown, indent: string, argument: string | undefined): string[] {
-  // Nothing after the colon is YAML's null: as good as left out.
+  // Nothing after the colon is YAML's null, which counts as absent.
   if (value === null) return [`${indent}${name}:${argument === undefined ? '' : ` # ${argument}`}`];
   if (!Array.isArray(value) || value.length === 0) return [`${indent}${name}: ${flow(value)}`];
   return [`${indent}${name}:`, ...value.map((item) => `${indent}  - ${flow(item)}`)];

@@ -5,11 +5,11 @@ import type { OptionPlace, OptionTable, ProgramDefinition } from './option-table
 export type ParsedFlags =
   | { action: 'help' }
   | { action: 'version' }
-  /** Key → text (or boolean, for a flag that takes no argument), only of flags that were given. */
+  /** Key → text (or boolean, for a flag without an argument), only for flags that were given. */
   | { action: 'run'; values: Map<string, unknown> };
 
 /**
- * Reads the command line.
+ * Parses the command line.
  *
  * @throws {OptionsError} for an unknown flag, a flag without its argument, or an argument without a flag
  */
@@ -37,7 +37,7 @@ export function parseFlags(
   return { action: 'run', values };
 }
 
-/** What `--help` prints: every option with its default and its environment variable. */
+/** The output of `--help`: every option with its default and its environment variable. */
 export function helpText(definition: ProgramDefinition<OptionTable>, places: readonly OptionPlace[]): string {
   const { command } = buildCommand(definition, places);
   const commands = Object.entries(definition.commands ?? {});
@@ -74,7 +74,7 @@ function buildCommand(
       command.addOption(option);
       continue;
     }
-    // A boolean: both `--x` and `--no-x` work, help shows the one that changes something.
+    // For a boolean, both `--x` and `--no-x` work; help shows the one that changes the default.
     const negated = new Option(flag.replace(/^--/, '--no-'), description);
     command.addOption(option.hideHelp(spec.default === true));
     command.addOption(negated.hideHelp(spec.default !== true));
@@ -85,7 +85,7 @@ function buildCommand(
 function origins(place: OptionPlace): string {
   const { spec, env, file, key } = place;
   const parts: string[] = [];
-  // Of a boolean, help shows only the flag that changes something: that says it.
+  // For a boolean, help shows only the flag that changes the default, so no default is printed.
   if (
     spec.argument !== undefined &&
     spec.default !== null &&

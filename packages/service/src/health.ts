@@ -1,7 +1,7 @@
 /** One aspect of a program's health. */
 export interface HealthCheck {
   readonly ok: boolean;
-  /** Whatever helps who looks: counts, ages, a reason. Must be JSON. */
+  /** Details for whoever looks at it: counts, ages, a reason. Must be JSON. */
   readonly detail?: unknown;
 }
 
@@ -11,7 +11,7 @@ export interface HealthReport {
   readonly checks: Readonly<Record<string, HealthCheck>>;
 }
 
-/** What `/healthz` says: ok while every check is, and failing checks by name where not. */
+/** The content of `/healthz`: ok while every check is, otherwise the failing checks by name. */
 export class Health {
   readonly #checks = new Map<string, () => HealthCheck>();
   readonly #now: () => number;
@@ -23,12 +23,12 @@ export class Health {
     this.#startedAt = now();
   }
 
-  /** Adds a check, asked anew for each report. One that throws counts as failing. */
+  /** Adds a check, which runs anew for each report. A check that throws counts as failing. */
   add(name: string, check: () => HealthCheck): void {
     this.#checks.set(name, check);
   }
 
-  /** From here on the program is on its way out and wants no new work. */
+  /** From now on the program is shutting down and wants no new work. */
   stopping(): void {
     this.#stopping = true;
   }

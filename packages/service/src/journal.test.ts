@@ -3,7 +3,7 @@ import { pino } from 'pino';
 import { expect, test } from 'vitest';
 import { isJournal, toJournal } from './journal.ts';
 
-test('the journal is the file of that device and inode, and no other', () => {
+test('the journal is the file with that device and inode, and no other', () => {
   const descriptor = openSync(import.meta.filename, 'r');
   const { dev, ino } = fstatSync(descriptor, { bigint: true });
   expect(isJournal(`${dev}:${ino}`, descriptor)).toBe(true);

@@ -1,8 +1,8 @@
-/** Lines for systemd's journal: each begins with its priority, sd-daemon(3), which the journal takes away again. */
+/** Lines for systemd's journal: each begins with its priority, sd-daemon(3), which the journal strips. */
 import { fstatSync } from 'node:fs';
 import type { DestinationStream } from 'pino';
 
-/** Of syslog(3), for pino's levels from `fatal` on down. */
+/** syslog(3) priorities, for pino's levels from `fatal` downwards. */
 const PRIORITIES: readonly (readonly [number, number])[] = [
   [60, 2],
   [50, 3],
@@ -12,8 +12,9 @@ const PRIORITIES: readonly (readonly [number, number])[] = [
 const DEBUG = 7;
 
 /**
- * Is this file the journal's? systemd tells its device and inode, and a program that was started with its output sent
- * elsewhere still has the variable.
+ * Whether this descriptor is the journal. systemd states the journal's device and inode, but a program whose output was
+ * redirected still has the variable.
+ *
  * @param journalStream `JOURNAL_STREAM`, systemd.exec(5)
  */
 export function isJournal(journalStream: string | undefined, descriptor: number): boolean {
@@ -22,7 +23,7 @@ export function isJournal(journalStream: string | undefined, descriptor: number)
   return journalStream === `${dev}:${ino}`;
 }
 
-/** What is written to it goes on to `out`, its priority before it. */
+/** Forwards everything written to it to `out`, preceded by its priority. */
 export function toJournal(out: DestinationStream): DestinationStream {
   return {
     // Asks pino to set `lastLevel` before each line.

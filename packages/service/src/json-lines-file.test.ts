@@ -8,7 +8,7 @@ const folder = mkdtempSync(join(tmpdir(), 'farpoint-lines-'));
 afterAll(() => rmSync(folder, { recursive: true }));
 
 describe('JsonLinesFile', () => {
-  it('writes one object a line, all of them before it is closed', async () => {
+  it('writes one object per line, all of them before it is closed', async () => {
     const path = join(folder, 'a.jsonl');
     const file = new JsonLinesFile(path, (error) => expect.unreachable(error.message));
     for (let i = 0; i < 1000; i++) file.write({ i, text: 'ä\n' });
@@ -18,7 +18,7 @@ describe('JsonLinesFile', () => {
     expect(file.dropped).toBe(0);
   });
 
-  it('tells of a file that cannot be written, and closes all the same', async () => {
+  it('reports a file that cannot be written, and still closes', async () => {
     const told = Promise.withResolvers<Error>();
     const file = new JsonLinesFile(join(folder, 'none', 'a.jsonl'), told.resolve);
     expect((await told.promise).message).toContain('ENOENT');

@@ -1,9 +1,9 @@
 import { createWriteStream, type WriteStream } from 'node:fs';
 
-/** What waits for the disk at most, bytes. */
+/** Maximum amount of data that waits for the disk, bytes. */
 const MOST_BACKLOG = 1 << 22;
 
-/** Lines of JSON to a file, in the order in which they come. A disk that does not keep up loses lines, counted. */
+/** Writes lines of JSON to a file, in order. If the disk does not keep up, lines are dropped and counted. */
 export class JsonLinesFile {
   readonly #stream: WriteStream;
   dropped = 0;

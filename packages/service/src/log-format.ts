@@ -7,7 +7,7 @@ const COLOURS: Readonly<Record<string, string>> = {
   fatal: '31;1',
 };
 
-/** One line of JSON log as people read it: `12:30:01.250 info  signaling: robot joined  robot=r1`. */
+/** Formats one line of JSON log for people: `12:30:01.250 info  signaling: robot joined  robot=r1`. */
 export function formatLogLine(line: string, colour: boolean): string {
   let record: Record<string, unknown>;
   try {

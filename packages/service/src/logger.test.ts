@@ -7,7 +7,7 @@ function collect(isTTY: boolean): { lines: string[]; stream: { isTTY: boolean; w
   return { lines, stream: { isTTY, write: (line) => void lines.push(line) } };
 }
 
-test('JSON where it is not a terminal, with level names and ISO time', () => {
+test('JSON if it is not a terminal, with level names and ISO time', () => {
   const { lines, stream } = collect(false);
   const log = createLogger({ name: 'robot', level: 'info', format: 'auto', stream });
   log.debug('unseen');
@@ -31,7 +31,7 @@ test('readable on a terminal, with the stack of an error', () => {
   expect(lines[0]).toContain('Error: no link\n    at ');
 });
 
-test('what caused an error stands beside it, once; a remedy follows an arrow', () => {
+test('shows an error’s cause separately, once; a remedy follows an arrow', () => {
   const { lines, stream } = collect(false);
   const log = createLogger({ name: 'robot', level: 'info', format: 'auto', stream });
   log.error({ err: new Error('no camera', { cause: new Error('no file') }), remedy: 'plug it in' }, 'failed');
@@ -43,7 +43,7 @@ test('what caused an error stands beside it, once; a remedy follows an arrow', (
   expect(text).toContain('\ncaused by: Error: no file');
 });
 
-test('format wins over the kind of stream', () => {
+test('format takes precedence over the kind of stream', () => {
   const terminal = collect(true);
   createLogger({ name: 'a', level: 'info', format: 'json', stream: terminal.stream }).info('x');
   expect(() => JSON.parse(terminal.lines[0]!)).not.toThrow();
@@ -52,6 +52,6 @@ test('format wins over the kind of stream', () => {
   expect(file.lines[0]).toMatch(/^\d\d:\d\d:\d\d\.\d{3} info {2}a: x\n$/);
 });
 
-test('a line that is no log record passes unchanged', () => {
+test('a line that is not a log record passes unchanged', () => {
   expect(formatLogLine('plain\n', false)).toBe('plain\n');
 });

@@ -6,17 +6,17 @@ import type { CommonValues } from './option-table.ts';
 export type { Logger } from 'pino';
 
 export interface LoggerOptions {
-  /** Said in every line, e.g. `signaling`. */
+  /** Appears in every line, for example `signaling`. */
   name: string;
   level: CommonValues['logLevel'];
   format: CommonValues['logFormat'];
-  /** Default: standard output, written at once so that nothing is lost at exit. */
+  /** Default: standard output, written synchronously so that nothing is lost at exit. */
   stream?: DestinationStream & { isTTY?: boolean };
 }
 
 /**
- * One JSON object a line for machines, or one readable line on a terminal. Errors go under the key `err`, what helps under
- * `remedy`. In systemd's journal each line has its level as priority.
+ * One JSON object per line for machines, or one readable line on a terminal. Errors are under the key `err`, remedies
+ * under `remedy`. In systemd's journal, each line has its level as priority.
  */
 export function createLogger(options: LoggerOptions): Logger {
   const tty = options.stream === undefined ? process.stdout.isTTY === true : options.stream.isTTY === true;
@@ -28,7 +28,7 @@ export function createLogger(options: LoggerOptions): Logger {
       base: { name: options.name },
       timestamp: pino.stdTimeFunctions.isoTime,
       formatters: { level: (label) => ({ level: label }) },
-      // Causes stand beside the error: pino's own way puts all their messages and stacks into one.
+      // Causes are separate from the error: pino's default merges all their messages and stacks into one.
       serializers: { err: pino.stdSerializers.errWithCause },
     },
     readable ? { write: (line) => void out.write(formatLogLine(line, tty)) } : out,
@@ -40,7 +40,7 @@ function standardOutput(): DestinationStream {
   return isJournal(process.env.JOURNAL_STREAM, 1) ? toJournal(out) : out;
 }
 
-/** A logger that says nothing, for tests and libraries without one. */
+/** A logger that writes nothing, for tests and for libraries used without one. */
 export function silentLogger(): Logger {
   return pino({ level: 'silent' });
 }

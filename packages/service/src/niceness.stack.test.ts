@@ -4,7 +4,7 @@ import { expect, test } from 'vitest';
 
 const module = fileURLToPath(new URL('./niceness.ts', import.meta.url));
 
-test('a process may make room for others, and learns it where the system refuses it more', () => {
+test('a process may lower its priority, and gets an error if the system refuses to raise it', () => {
   const script = `
     import { getPriority } from 'node:os';
     import { setNiceness } from ${JSON.stringify(module)};

@@ -2,10 +2,10 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { setPriority } from 'node:os';
 
 /**
- * Sets the niceness of this process. Linux weighs whole sessions against each other before their processes (sched(7),
- * autogroup), so a process that leads its own session sets that one's too.
+ * Sets the niceness of this process. Linux schedules sessions against each other before their processes (sched(7),
+ * autogroup), so a process that leads its own session also sets the session's niceness.
  *
- * @throws {Error} where the system does not let it
+ * @throws {Error} if the system does not permit it
  */
 export function setNiceness(niceness: number): void {
   setPriority(niceness);
@@ -15,13 +15,13 @@ export function setNiceness(niceness: number): void {
   } catch {
     return; // Not Linux.
   }
-  // After the name, which may hold anything: state, parent, process group, session.
+  // After the name, which may contain any characters: state, parent, process group, session.
   const session = Number(stat.slice(stat.lastIndexOf(')') + 2).split(' ')[3]);
   if (session !== process.pid) return;
   try {
     writeFileSync('/proc/self/autogroup', String(niceness));
   } catch (error) {
-    // A kernel without autogroups has nothing to set.
+    // On a kernel without autogroups there is nothing to set.
     if ((error as NodeJS.ErrnoException).code !== 'ENOENT') throw error;
   }
 }

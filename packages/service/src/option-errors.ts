@@ -1,20 +1,20 @@
-/** One thing that is wrong with the options. */
+/** One mistake in the options. */
 export interface OptionMistake {
-  /** As people read it: `--port`, `FARPOINT_SIGNALING_PORT` or `farpoint.yaml:3: signaling.port`. */
+  /** As shown to people: `--port`, `FARPOINT_SIGNALING_PORT` or `farpoint.yaml:3: signaling.port`. */
   readonly where: string;
-  /** Completes the sentence that begins with `where`, e.g. `must be a whole number from 0 to 65535`. */
+  /** Completes the sentence that begins with `where`, for example `must be a whole number from 0 to 65535`. */
   readonly detail: string;
-  /** Path of the configuration file, where it is one's mistake. */
+  /** Path of the configuration file, if the mistake is in one. */
   readonly file?: string;
-  /** In that file, from 1. */
+  /** Line in that file, from 1. */
   readonly line?: number;
-  /** Its place in the file (`signaling.port`), its flag or its variable. */
+  /** Its key in the file (`signaling.port`), its flag or its variable. */
   readonly key?: string;
-  /** As JSON, cut short; left out of secrets. */
+  /** As JSON, shortened; absent for secrets. */
   readonly found?: string;
 }
 
-/** Mistakes in flags, environment or configuration file: all that there are, each a sentence that names the place. Exit code 2. */
+/** All mistakes in flags, environment and configuration file, each as a sentence that names the place. Exit code 2. */
 export class OptionsError extends Error {
   override readonly name = 'OptionsError';
   /** At least one. */
@@ -28,13 +28,13 @@ export class OptionsError extends Error {
     this.mistakes = mistakes;
   }
 
-  /** Of the first mistake. */
+  /** Place of the first mistake. */
   get where(): string {
     return this.mistakes[0]?.where ?? '';
   }
 }
 
-/** Throws all of them at once, if there are any. @throws {OptionsError} */
+/** Throws all of them together, if there are any. @throws {OptionsError} */
 export function throwMistakes(mistakes: readonly OptionMistake[]): void {
   if (mistakes.length > 0) throw new OptionsError(mistakes);
 }

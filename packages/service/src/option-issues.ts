@@ -1,11 +1,11 @@
-/** From what a schema has against a value to sentences that name the place in it. */
+/** Converts schema errors to sentences that name the place in the value. */
 import type * as z from 'zod';
 import { closest } from './closest.ts';
 
 type Issue = z.core.$ZodIssue;
 type Steps = (string | number)[];
 
-/** Something wrong inside one option's value. */
+/** A mistake inside one option's value. */
 export interface ValueIssue {
   /** Keys and list positions from the value's root. */
   inside: Steps;
@@ -14,7 +14,7 @@ export interface ValueIssue {
   found: unknown;
 }
 
-/** @param value what the schema refused */
+/** @param value the refused value */
 export function valueIssues(schema: z.core.$ZodType, error: z.core.$ZodError, value: unknown): ValueIssue[] {
   const all = error.issues.flatMap((issue) => {
     const inside = steps(issue.path);
@@ -28,7 +28,7 @@ export function valueIssues(schema: z.core.$ZodType, error: z.core.$ZodError, va
     }
     return [{ inside, detail: sentence(issue, at(value, inside)), found: at(value, inside) }];
   });
-  // What follows from the first fault of a place says nothing new.
+  // Errors that follow from the first one at a place add nothing.
   const places = new Set<string>();
   return all.filter(({ inside }) => {
     const place = inside.join('.');
@@ -36,7 +36,7 @@ export function valueIssues(schema: z.core.$ZodType, error: z.core.$ZodError, va
   });
 }
 
-/** Schemas of options bring sentences of their own; those of nested values may speak zod's. */
+/** Schemas of options have their own sentences; those of nested values may use zod's. */
 function sentence(issue: Issue, found: unknown): string {
   if (!/^(Invalid|Too )/.test(issue.message)) return issue.message;
   const missing = found === undefined ? 'is missing: ' : '';
@@ -77,14 +77,14 @@ function steps(path: readonly PropertyKey[]): Steps {
 function at(value: unknown, path: Steps): unknown {
   let here = value;
   for (const step of path) {
-    // Text that the schema itself took apart: it is shown whole.
+    // Text that the schema itself parsed: it is shown whole.
     if (typeof here !== 'object' || here === null) return here;
     here = (here as Record<string | number, unknown>)[step];
   }
   return here;
 }
 
-/** Keys of the mapping at a path, as far as the schema shows them. */
+/** Keys of the mapping at a path, as far as the schema defines them. */
 function knownKeys(schema: z.core.$ZodType, path: Steps): string[] {
   let here: SchemaShape | undefined = (schema as unknown as { _zod: { def: SchemaShape } })._zod.def;
   for (const step of [...path, null]) {

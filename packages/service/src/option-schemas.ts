@@ -1,14 +1,14 @@
 import * as z from 'zod';
 
 /**
- * Schemas for options. Each takes what a flag or the environment gives (text) as well as what YAML gives (typed values),
- * and refuses with a message that completes the sentence "<option> …", e.g. "must be a whole number from 0 to 65535".
+ * Schemas for options. Each accepts both text from a flag or the environment and typed values from YAML. Its messages
+ * complete the sentence "<option> …", for example "must be a whole number from 0 to 65535".
  */
 
 export function text(limits: { min?: number; max?: number } = {}): z.ZodType<string> {
   const { min = 1, max = 4096 } = limits;
   const range = `must be ${min}–${max} characters long`;
-  // YAML reads an unquoted 7 or true as a number or a boolean; as a name they are meant as written.
+  // YAML reads an unquoted 7 or true as a number or a boolean; for a name, the text is meant.
   return z.preprocess(
     (value) => (typeof value === 'number' || typeof value === 'boolean' ? String(value) : value),
     z.string('must be text').min(min, range).max(max, range),
@@ -23,14 +23,14 @@ export function integer(limits: { min?: number; max?: number } = {}): z.ZodType<
   return numeric('a whole number', limits, Number.isSafeInteger);
 }
 
-/** A TCP or UDP port; 0 takes any free one. */
+/** A TCP or UDP port; 0 chooses any free one. */
 export function port(): z.ZodType<number> {
   return integer({ min: 0, max: 65_535 });
 }
 
 const SIZE_UNITS: Readonly<Record<string, number>> = { '': 1, k: 1e3, m: 1e6, g: 1e9, t: 1e12 };
 
-/** Bytes: a number, or text with a unit (`500MB`, `4 GB`, 10^6 and 10^9). `none`, where it may be, is infinity. */
+/** Bytes: a number, or text with a unit (`500MB`, `4 GB`, 10^6 and 10^9). If allowed, `none` means infinity. */
 export function size(limits: { min: number; none?: boolean }): z.ZodType<number> {
   const { min, none = false } = limits;
   const message = `must be a size such as 500MB or 4GB, of at least ${min} bytes${none ? ', or none' : ''}`;
@@ -68,7 +68,7 @@ export function choice<const T extends readonly [string, ...string[]]>(values: T
   return z.enum(values, `must be one of ${values.join(', ')}`) as z.ZodType<T[number]>;
 }
 
-/** Text separated by commas, or a YAML list. */
+/** Comma-separated text, or a YAML list. */
 export function list<T>(element: z.core.$ZodType<T>): z.ZodType<T[]> {
   return z.preprocess(
     (value) =>
@@ -82,7 +82,7 @@ export function list<T>(element: z.core.$ZodType<T>): z.ZodType<T[]> {
   ) as z.ZodType<T[]>;
 }
 
-/** An option that may be left out altogether. Its default is `null`. */
+/** An option that may be omitted. Its default is `null`. */
 export function optional<T>(schema: z.core.$ZodType<T>): z.ZodType<T | null> {
   return z.nullable(schema);
 }

@@ -16,7 +16,7 @@ test.each([
 });
 
 test.each(['', 'much', '12XB', '-4GB', '999', null, [], {}, true, Number.NaN, '1e9'])(
-  '%j is refused',
+  'refuses %j',
   (given) => {
     const { success, error } = size.safeParse(given);
     expect(success).toBe(false);

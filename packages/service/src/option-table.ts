@@ -3,18 +3,18 @@ import { choice, optional, text } from './option-schemas.ts';
 
 /** One option of a program. */
 export interface OptionSpec<T = unknown> {
-  /** From text or YAML to the value; see option-schemas.ts. Of zod or of zod/mini, as those of the protocol are. */
+  /** Converts text or YAML to the value; see option-schemas.ts. Of zod or, as in the protocol package, of zod/mini. */
   readonly schema: z.core.$ZodType<T>;
-  /** Used as it is: not run through the schema. */
+  /** Used unchanged, without the schema. */
   readonly default: NoInfer<T>;
   readonly help: string;
-  /** Name of the argument in `--help`, e.g. `MS`. Leave out for a boolean, which takes none. */
+  /** Name of the argument in `--help`, for example `MS`. Omit it for a boolean, which takes no argument. */
   readonly argument?: string;
-  /** Default: the key as kebab-case after `--`. `false`: no flag. */
+  /** Default: the key in kebab case after `--`. `false`: no flag. */
   readonly flag?: `--${string}` | false;
-  /** Default: `FARPOINT_<SECTION>_<KEY>`. `false`: not from the environment. */
+  /** Default: `FARPOINT_<SECTION>_<KEY>`. `false`: not read from the environment. */
   readonly env?: string | false;
-  /** Its place in the program's section of the configuration file, dotted. Default: the key. `false`: not from the file. */
+  /** Dotted key in the program's section of the configuration file. Default: the key. `false`: not read from a file. */
   readonly file?: string | false;
   /** Its value is never shown, neither in errors nor in help. */
   readonly secret?: boolean;
@@ -27,18 +27,18 @@ export type OptionValues<Table extends OptionTable> = {
 };
 
 export interface ProgramDefinition<Table extends OptionTable> {
-  /** As on the command line, e.g. `farpoint-signaling`. */
+  /** As on the command line, for example `farpoint-signaling`. */
   readonly name: string;
   readonly summary: string;
   readonly version: string;
-  /** Its section of the configuration file and the second word of its environment variables. */
+  /** Its section of the configuration file, which is also the second word of its environment variables. */
   readonly section: ConfigSection;
   readonly options: Table;
-  /** Its other commands, as `--help` lists them: name to what it does. */
+  /** Its other commands, as `--help` lists them: name to description. */
   readonly commands?: Readonly<Record<string, string>>;
 }
 
-/** Every program's section: a section that is none of these is a typing mistake and refused. */
+/** The sections of all programs: any other section is a typing mistake and refused. */
 export const configSections = ['robot', 'signaling', 'bridge', 'web', 'link'] as const;
 export type ConfigSection = (typeof configSections)[number];
 
@@ -76,12 +76,12 @@ export const commonOptions = {
 } satisfies OptionTable;
 export type CommonValues = OptionValues<typeof commonOptions>;
 
-/** Gives one option its type: `default` must be what the schema puts out. */
+/** Types one option: `default` must have the schema's output type. */
 export function defineOption<T>(spec: OptionSpec<T>): OptionSpec<T> {
   return spec;
 }
 
-/** Puts options into a group of the configuration file: the key of each follows the group's name and a dot. */
+/** Puts options into a group of the configuration file: each key gets the group's name and a dot as prefix. */
 export function optionGroup<const Table extends OptionTable>(group: string, table: Table): Table {
   const grouped = Object.entries(table).map(([key, spec]) => [
     key,
@@ -90,14 +90,14 @@ export function optionGroup<const Table extends OptionTable>(group: string, tabl
   return Object.fromEntries(grouped) as Table;
 }
 
-/** Gives a program's table its types. */
+/** Types a program's table. */
 export function defineProgram<const Table extends OptionTable>(
   definition: ProgramDefinition<Table>,
 ): ProgramDefinition<Table> {
   return definition;
 }
 
-/** An option with the names under which it is found. */
+/** An option with its names in each source. */
 export interface OptionPlace {
   readonly key: string;
   readonly spec: OptionSpec;

@@ -78,7 +78,7 @@ function mistake(input: Parameters<typeof resolve>[0]): string {
   throw new Error('expected a mistake');
 }
 
-describe('where a value comes from', () => {
+describe('the source of a value', () => {
   const files = {
     'farpoint.yaml': 'robot:\n  port: 1\n  maxSpeed: 1.5\n  cameras: [a, b]\nsignaling:\n  any: 1\n',
   };
@@ -154,14 +154,14 @@ describe('where a value comes from', () => {
 });
 
 describe('groups of the file', () => {
-  test('give a key a place; flag and variable keep their names', () => {
+  test('define where a key is; flag and variable keep their names', () => {
     expect(run({ files: { 'farpoint.yaml': 'robot:\n  limits:\n    turn: 2\n' } }).values.turn).toBe(2);
     expect(run({ argv: ['--turn', '3'], env: { FARPOINT_ROBOT_TURN: '4' } }).values.turn).toBe(3);
     expect(run({ files: { 'farpoint.yaml': 'robot: {log: {level: debug}}' } }).values.logLevel).toBe('debug');
     expect(run({ files: { 'farpoint.yaml': 'robot:\n  limits:\n' } }).values.turn).toBe(1);
   });
 
-  test('say where a value is from', () => {
+  test('report where a value comes from', () => {
     const files = { 'farpoint.yaml': 'robot:\n  limits:\n    turn: 2\n' };
     const { where } = run({ files, argv: ['--port', '1'], env: { FARPOINT_TOKEN: 'long enough' } });
     expect([where('turn'), where('port'), where('token'), where('source'), where('topics')]).toEqual([
@@ -203,12 +203,12 @@ describe('groups of the file', () => {
       /2: robot.topics.0.most must be at most 100, not 900\n.*2: robot.topics.1.most/,
     ],
     ['robot: {port: 1, port: 2}', /^farpoint.yaml:1: not valid YAML: Map keys must be unique/],
-  ])('%j is refused by name', (file, message) => {
+  ])('refuses %j by name', (file, message) => {
     if (typeof message === 'string') expect(mistake({ files: { 'farpoint.yaml': file } })).toBe(message);
     else expect(mistake({ files: { 'farpoint.yaml': file } })).toMatch(message);
   });
 
-  test('every mistake of flags, environment and file is told at once, typed', () => {
+  test('every mistake in flags, environment and file is reported at once, typed', () => {
     const file = 'robto: {}\nrobot:\n  port: no\n  brake: true\n  limits:\n    turn: -1\n';
     try {
       resolve({
@@ -276,17 +276,17 @@ describe('mistakes name their place', () => {
     expect(mistake(input)).toBe(message);
   });
 
-  test('positional arguments are refused', () => {
+  test('refuses positional arguments', () => {
     expect(mistake({ argv: ['extra'] })).toMatch(/^command line: too many arguments/);
   });
 
-  test('a file that is not YAML is refused with its line', () => {
+  test('refuses a file that is not YAML, with the line', () => {
     expect(mistake({ files: { 'farpoint.yaml': 'robot:\n  a: [\n' } })).toMatch(
       /^farpoint\.yaml:3: not valid YAML: /,
     );
   });
 
-  test('any command line and any file either resolve or are refused as an OptionsError', () => {
+  test('any command line and any file either resolve or are refused with an OptionsError', () => {
     const argument = fc.oneof(
       fc.string(),
       fc.constantFrom('--port', '--no-port', '--record', '--', '-h', '--cameras', '--config', '--__proto__'),

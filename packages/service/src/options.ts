@@ -14,14 +14,14 @@ import {
   type ProgramDefinition,
 } from './option-table.ts';
 
-/** Where a value came from, as error messages name it. */
+/** The source of a value, as named in error messages. */
 export type OptionSource = 'flag' | 'environment' | 'config' | 'default';
 
 export interface OptionInput {
   /** Without node and the script. */
   readonly argv: readonly string[];
   readonly env: Readonly<Record<string, string | undefined>>;
-  /** The file's text, or `null` where there is none. Default: from disk. */
+  /** Returns the file's text, or `null` if it does not exist. Default: from disk. */
   readonly readFile?: (path: string) => string | null;
 }
 
@@ -32,19 +32,20 @@ export type ResolvedOptions<Table extends OptionTable> =
       readonly action: 'run';
       readonly values: OptionValues<Table> & CommonValues;
       readonly sources: Readonly<Record<string, OptionSource>>;
-      /** How messages name the place of a value: its flag, variable, or line of the file. */
+      /** How messages name the source of a value: its flag, variable, or line of the file. */
       readonly where: (key: keyof Table & string) => string;
       /** The configuration file that was read, if any. */
       readonly configPath: string | null;
-      /** Set variables that begin like this program's own and are none of them: typing mistakes, worth a warning. */
+      /** Environment variables with this program's prefix that name no option: typing mistakes, worth a warning. */
       readonly unknownEnvironment: readonly string[];
     };
 
 /**
- * Takes each option from the first place that has it: flags, environment, configuration file, default.
- * An empty environment variable counts as unset.
+ * Takes each option from the first source that has it: flags, environment, configuration file, default. An empty
+ * environment variable counts as unset.
  *
- * @throws {OptionsError} with every unknown section or key, and every value that its schema refuses; for an unknown flag alone
+ * @throws {OptionsError} with every unknown section or key, and every value that its schema refuses; for an unknown
+ * flag, only that
  */
 export function resolveOptions<Table extends OptionTable>(
   definition: ProgramDefinition<Table>,
@@ -145,7 +146,7 @@ function whereIs(place: OptionPlace, source: OptionSource, file: ConfigFile | nu
   if (source === 'environment') return env!;
   if (source === 'config') return file!.place(key!).where;
   if (source === 'flag' || file === null || key === null) return flag ?? `${section}.${key}`;
-  // Nothing was given: both ways to give it.
+  // No source has it: name both ways to set it.
   return flag === null ? `${file.path}: ${section}.${key}` : `${flag} (or ${section}.${key} in ${file.path})`;
 }
 

@@ -8,14 +8,14 @@ const TABLE = `  sl  local_address rem_address   st tx_queue rx_queue tr tm->whe
    2: 00000000:24B8 00000000:0000 0A 00000000:00000000 00:00000000 00000000     0        0 41232 1 0000 100 0 0 10 0
 `;
 
-test('only sockets that listen on the port count', () => {
+test('counts only sockets that listen on the port', () => {
   expect(listeningInodes(TABLE, 3000)).toEqual(['41230']);
   expect(listeningInodes(TABLE, 9400)).toEqual(['41232']);
   expect(listeningInodes(TABLE, 3001)).toEqual([]);
   expect(listeningInodes('', 3000)).toEqual([]);
 });
 
-test('programs have the name under which people start them', () => {
+test('names programs as people start them', () => {
   expect(programName('/usr/bin/node\0/srv/apps/signaling/src/main.ts\0--port\0')).toBe(
     'node signaling/src/main.ts',
   );
@@ -24,7 +24,7 @@ test('programs have the name under which people start them', () => {
   expect(programName('')).toBe('a program');
 });
 
-test.skipIf(process.platform !== 'linux')('finds this process by the port that it listens on', async () => {
+test.skipIf(process.platform !== 'linux')('finds this process by the port on which it listens', async () => {
   const server = createServer();
   await new Promise<void>((resolve) => server.listen(0, '127.0.0.1', resolve));
   const { port } = server.address() as AddressInfo;

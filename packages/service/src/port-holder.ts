@@ -1,9 +1,12 @@
-/** Which program listens on a TCP port of this machine. Linux tells it in /proc; elsewhere nobody is named. */
+/**
+ * Finds the program that listens on a TCP port of this machine. Linux lists it in /proc; on other systems no program is
+ * found.
+ */
 import { readdirSync, readFileSync, readlinkSync } from 'node:fs';
 
 export interface PortHolder {
   readonly pid: number;
-  /** As people started it: the program, and for Node, Python and the like the script. */
+  /** As people start it: the program or, for Node, Python and the like, the script. */
   readonly program: string;
 }
 
@@ -29,20 +32,20 @@ export function listeningInodes(table: string, port: number): string[] {
 const INTERPRETERS = /^(node|nodejs|bun|deno|python[\d.]*|ruby|perl|java|sh|bash)$/;
 
 /**
- * What people call a program.
+ * The name by which people know a program.
  *
  * @param commandLine text of /proc/PID/cmdline: arguments that end with NUL
  */
 export function programName(commandLine: string): string {
   const [first = '', ...rest] = commandLine.split('\0').filter((part) => part !== '');
-  // A program that has given itself a title has put words into one argument.
+  // A program that has set its own title has several words in one argument.
   const name = (first.split(' ')[0] ?? '').split('/').at(-1) ?? '';
   if (!INTERPRETERS.test(name)) return name === '' ? 'a program' : name;
   const script = rest.find((part) => !part.startsWith('-'));
   return script === undefined ? name : `${name} ${script.split('/').slice(-3).join('/')}`;
 }
 
-/** @returns `null` where nobody is found: nobody listens, it is another user's, or the system does not tell */
+/** @returns `null` if none is found: nobody listens, it belongs to another user, or the system does not tell */
 export function portHolder(port: number): PortHolder | null {
   const tables = ['/proc/net/tcp', '/proc/net/tcp6'];
   const inodes = new Set(
@@ -61,7 +64,7 @@ export function portHolder(port: number): PortHolder | null {
   return null;
 }
 
-/** Processes come and go, and others' are closed to us. */
+/** Processes may end meanwhile, and those of other users are not readable. */
 function orElse<T>(otherwise: T, read: () => T): T {
   try {
     return read();

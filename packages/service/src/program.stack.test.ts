@@ -24,7 +24,7 @@ test('a mistake in the options is one sentence on standard error and exit code 2
   );
 });
 
-test('a port that is taken is one line with what to do, without a stack, and exit code 1', async () => {
+test('a port that is in use is one line with what to do, without a stack, and exit code 1', async () => {
   const server = createServer();
   await new Promise<void>((resolve) => server.listen(0, '127.0.0.1', resolve));
   const { port } = server.address() as AddressInfo;
@@ -40,7 +40,7 @@ test('a port that is taken is one line with what to do, without a stack, and exi
   expect(said).not.toHaveProperty('err');
 });
 
-test('an exception nobody caught ends the program in order with exit code 1', async () => {
+test('an uncaught exception ends the program in order with exit code 1', async () => {
   const fixture = start(['--admin-port', '0', '--fail']);
   await fixture.logged('unhandled rejection');
   await fixture.logged('closed the fixture');

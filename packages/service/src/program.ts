@@ -15,16 +15,16 @@ import { resolveOptions } from './options.ts';
 import { Shutdown } from './shutdown.ts';
 import { startFailureOf } from './start-failure.ts';
 
-/** What a running program gets from its rim. */
+/** What the framework provides to a running program. */
 export interface ProgramContext<Table extends OptionTable> {
   readonly options: OptionValues<Table> & CommonValues;
-  /** How messages name the place of an option's value. */
+  /** How messages name the source of an option's value. */
   readonly where: (key: keyof Table & string) => string;
   readonly log: Logger;
   readonly health: Health;
   readonly metrics: Registry;
   readonly shutdown: Shutdown;
-  /** Serves `/healthz` and `/metrics` until shutdown, for programs that have no HTTP server of their own. */
+  /** Serves `/healthz` and `/metrics` until shutdown, for programs without an HTTP server of their own. */
   serveAdmin(address: { host: string; port: number }): Promise<AdminServer>;
 }
 
@@ -52,8 +52,9 @@ export function adminOptions(defaultPort: number) {
  * Runs a program: reads its options, sets up log, health, metrics and shutdown, calls `main`, and lets it run until a
  * signal. Exit codes: 0 after an orderly end, 1 for a failure, 2 for a mistake in the options.
  *
- * `main` may throw OptionsError too, for mistakes that only show once files are read, and StartFailure for what is to be
- * mended outside the program. It returns once the program is up; what keeps it alive (servers, timers) is closed through `shutdown.onClose`.
+ * `main` may also throw OptionsError, for mistakes that only show once files are read, and StartFailure for problems
+ * that must be solved outside the program. It returns once the program is up; what keeps the program alive (servers,
+ * timers) is closed through `shutdown.onClose`.
  */
 export async function runProgram<const Table extends OptionTable>(
   definition: ProgramDefinition<Table>,

@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { PulledMetrics } from './pulled-metrics.ts';
 
 describe('PulledMetrics', () => {
-  it('reads each value anew when asked', async () => {
+  it('reads each value anew for each request', async () => {
     const registry = new Registry();
     const metrics = new PulledMetrics(registry, 'rover');
     let value = 1;
@@ -17,7 +17,7 @@ describe('PulledMetrics', () => {
     expect(text).toContain('# TYPE rover_operators gauge\nrover_operators 10\n');
   });
 
-  it('labels values, forgets labels that are gone, and adds up those that come twice', async () => {
+  it('labels values, forgets labels that are gone, and adds up duplicates', async () => {
     const registry = new Registry();
     const metrics = new PulledMetrics(registry, 'rover');
     let counts: [string, number][] = [

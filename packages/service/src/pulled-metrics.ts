@@ -3,18 +3,18 @@ import { Counter, Gauge, type Registry } from 'prom-client';
 /** One metric's values by the value of its label. */
 export type LabelledValues = Iterable<readonly [label: string, value: number]>;
 
-/** Metrics whose values live elsewhere and are read when somebody asks for `/metrics`. */
+/** Metrics whose values are kept elsewhere and read for each request of `/metrics`. */
 export class PulledMetrics {
   readonly #registers: Registry[];
   readonly #prefix: string;
 
-  /** @param prefix of every name, e.g. `farpoint_robot` */
+  /** @param prefix of every name, for example `farpoint_robot` */
   constructor(registry: Registry, prefix: string) {
     this.#registers = [registry];
     this.#prefix = prefix;
   }
 
-  /** A sum since the start; its name gets `_total`. */
+  /** A counter since the start; `_total` is appended to its name. */
   sum(name: string, help: string, read: () => number): void {
     new Counter({
       ...this.#identity(`${name}_total`, help),
@@ -25,7 +25,7 @@ export class PulledMetrics {
     });
   }
 
-  /** Sums since the start, by the values of one label; its name gets `_total`. */
+  /** Counters since the start, by the values of one label; `_total` is appended to their name. */
   sums(name: string, help: string, label: string, read: () => LabelledValues): void {
     new Counter({
       ...this.#identity(`${name}_total`, help),
@@ -37,7 +37,7 @@ export class PulledMetrics {
     });
   }
 
-  /** A value that rises and falls. */
+  /** A gauge: a value that may rise and fall. */
   gauge(name: string, help: string, read: () => number): void {
     new Gauge({
       ...this.#identity(name, help),
@@ -47,7 +47,7 @@ export class PulledMetrics {
     });
   }
 
-  /** Values that rise and fall, by the values of one label; those of the same label value are added up. */
+  /** Gauges, by the values of one label; entries with the same label value are added up. */
   gauges(name: string, help: string, label: string, read: () => LabelledValues): void {
     new Gauge({
       ...this.#identity(name, help),

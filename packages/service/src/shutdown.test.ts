@@ -29,7 +29,7 @@ test('closers run one after the other, the last added first, then exit 0', async
   expect(exits).toEqual([0]);
 });
 
-test('a closer that fails does not keep the others from running; exit 1', async () => {
+test('a closer that fails does not prevent the others from running; exit 1', async () => {
   const { exits, shutdown } = make();
   const closed = vi.fn();
   shutdown.onClose('good', closed);

@@ -14,8 +14,8 @@ export interface ShutdownOptions {
 const SIGNALS = ['SIGINT', 'SIGTERM'] as const;
 
 /**
- * Ends a program once and in order: closers run one after the other, the last added first, within one deadline.
- * A closer that fails is logged and does not keep the others from running.
+ * Ends a program once and in order: closers run one after the other, the last added first, within a common deadline. A
+ * closer that fails is logged and does not prevent the others from running.
  */
 export class Shutdown {
   readonly #log: Logger;
@@ -31,17 +31,17 @@ export class Shutdown {
     this.#exit = options.exit ?? ((code) => process.exit(code));
   }
 
-  /** Aborted when the end begins: for loops and waits. */
+  /** Aborted when shutdown begins: for loops and waits. */
   get signal(): AbortSignal {
     return this.#abort.signal;
   }
 
-  /** Adds what must be closed; it runs before everything that was added earlier. */
+  /** Adds something to close; it is closed before everything that was added earlier. */
   onClose(name: string, close: Closer): void {
     this.#closers.push({ name, close });
   }
 
-  /** SIGINT and SIGTERM begin the end; a second one exits at once with 128 + its number. */
+  /** SIGINT and SIGTERM start the shutdown; a second signal exits at once with 128 + its number. */
   listen(): void {
     for (const signal of SIGNALS) process.on(signal, () => this.handleSignal(signal));
   }
@@ -56,8 +56,8 @@ export class Shutdown {
   }
 
   /**
-   * Closes everything, then exits: 0, or `code`, or 1 where a closer failed or the deadline passed.
-   * Further calls wait for the first.
+   * Closes everything, then exits with 0, or `code`, or 1 if a closer failed or the deadline passed. Further calls wait
+   * for the first.
    */
   end(reason: string, code = 0): Promise<number> {
     this.#ending ??= this.#run(reason, code);

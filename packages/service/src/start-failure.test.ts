@@ -25,7 +25,7 @@ function of(fields: object, cause = true) {
 
 const listen = { syscall: 'listen', address: '127.0.0.1' };
 
-test('a port that is taken: by whom, and which option moves it', () => {
+test('a port that is in use: by which program, and which option changes it', () => {
   expect(of({ ...listen, code: 'EADDRINUSE', port: 3000 })).toBe(
     '127.0.0.1:3000 is already used by node signaling/src/main.ts (process 42) → set --port to another port, or stop that program',
   );
@@ -43,7 +43,7 @@ test('an address that is another machine’s, a port for root only', () => {
   expect(of({ ...listen, code: 'ESTRANGE', port: 80 })).toContain('cannot listen on 127.0.0.1:80: ESTRANGE');
 });
 
-test('a file that is not there: which option names it', () => {
+test('a missing file: which option names it', () => {
   expect(of({ syscall: 'open', code: 'ENOENT', path: '/data/a.mcap' })).toBe(
     '/data/a.mcap does not exist → set --path to another path',
   );
@@ -52,7 +52,7 @@ test('a file that is not there: which option names it', () => {
   );
 });
 
-test('what is no fault of the machine is left to the stack', () => {
+test('other errors keep their stack', () => {
   expect(of({})).toBeNull();
   expect(of({ code: 'ERR_INVALID_ARG_TYPE' })).toBeNull();
   expect(startFailureOf('a word', definition, values)).toBeNull();

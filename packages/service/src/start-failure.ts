@@ -2,7 +2,7 @@ import { type OptionPlace, type OptionTable, optionPlaces, type ProgramDefinitio
 import { type PortHolder, portHolder } from './port-holder.ts';
 import { fileFault, type ListenFault, listenFault } from './system-error.ts';
 
-/** Why a program cannot begin, and what to do about it: said in one line, without a stack. Exit code 1. */
+/** Why a program cannot start, and what to do about it: printed in one line, without a stack. Exit code 1. */
 export class StartFailure extends Error {
   override readonly name = 'StartFailure';
   readonly remedy: string;
@@ -16,10 +16,10 @@ export class StartFailure extends Error {
 type Values = Readonly<Record<string, unknown>>;
 
 /**
- * What came out of a program's beginning, as a fault of the machine or of a file if it is one: a port that is taken, an
- * address that is not this machine's, a file that is not there.
+ * Classifies an exception thrown during the start as a fault of the machine or of a file, if it is one: a port that is
+ * in use, an address that is not this machine's, a missing file.
  *
- * @returns `null` where it is a fault of the program itself
+ * @returns `null` if it is a fault of the program itself
  */
 export function startFailureOf<Table extends OptionTable>(
   error: unknown,

@@ -1,6 +1,6 @@
-/** What the system says of files and sockets, in words that people act on. */
+/** Translates the system's errors about files and sockets into words that people can act on. */
 
-/** An error of the system, wherever in the chain of causes it is; `null` where there is none. */
+/** The system error, wherever it is in the chain of causes; `null` if there is none. */
 export function systemErrorOf(error: unknown): NodeJS.ErrnoException | null {
   for (let at: unknown = error, depth = 0; at instanceof Error && depth < 8; at = at.cause, depth++) {
     const { code, syscall } = at as NodeJS.ErrnoException;
@@ -21,7 +21,7 @@ const FILE_WORDS: Readonly<Record<string, string>> = {
   EMFILE: 'cannot be opened: too many open files',
 };
 
-/** One sentence about a file, without the system's own name for the fault where there is a plain one. */
+/** One sentence about a file, without the system's own name for the fault if there is a plain one. */
 export function fileFault(error: unknown): string | null {
   const found = systemErrorOf(error);
   if (found === null || found.path === undefined || found.syscall === 'listen') return null;
@@ -36,7 +36,7 @@ export interface ListenFault {
   readonly port: number;
 }
 
-/** `null` where the error is of something else. */
+/** `null` if the error is about something else. */
 export function listenFault(error: unknown): ListenFault | null {
   const found = systemErrorOf(error) as (NodeJS.ErrnoException & { address?: string; port?: number }) | null;
   if (found?.syscall !== 'listen' || typeof found.port !== 'number') return null;

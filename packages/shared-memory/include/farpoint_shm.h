@@ -59,7 +59,7 @@ static inline uint64_t fp_now_ns(void) {
   return (uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec;
 }
 
-/* Opens or makes a file that is no link and that not everybody may write, with exactly `bytes` bytes; maps it. */
+/* Opens or creates a file with exactly `bytes` bytes that is not a link and not writable by everybody; maps it. */
 static inline int fp_map_(const char *path, size_t bytes, unsigned mode, int exclusive, int *fd, uint8_t **base) {
   const int flags = O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
   struct stat status;
@@ -91,9 +91,9 @@ failed:
 /* Farpoint's layout ------------------------------------------------------------------------------------------------ */
 
 enum fp_format {
-  /* 16 bytes a point: x, y, z as float in metres (optical frame: x right, y down, z forward), then R, G, B, A. */
+  /* 16 bytes per point: x, y, z as float in metres (optical frame: x right, y down, z forward), then R, G, B, A. */
   FP_POINTS = 1,
-  /* uint16_t depth in units of depth_unit metres, 0 where there is none; then R, G, B, A of each pixel. */
+  /* uint16_t depth in units of depth_unit metres, 0 if none was measured; then R, G, B, A of each pixel. */
   FP_DEPTH16 = 2,
   /* float depth in metres; then R, G, B, A of each pixel. */
   FP_DEPTH32 = 3
@@ -103,7 +103,7 @@ struct fp_cloud_config {
   enum fp_format format;
   /* Of a frame, at most 4194304. */
   uint32_t max_points;
-  /* What the camera gives, for the robot's planning; 0: not known. */
+  /* The camera's frame rate, for the robot's planning; 0 if unknown. */
   float frames_per_second;
   /* Default /dev/shm. */
   const char *folder;
@@ -112,21 +112,24 @@ struct fp_cloud_config {
 };
 
 struct fp_frame {
-  /* CLOCK_MONOTONIC when the picture was taken; 0: not known. */
+  /* CLOCK_MONOTONIC when the picture was taken; 0 if unknown. */
   uint64_t capture_ns;
-  /* width * height points; height 1 where they lie on no grid. */
+  /* width * height points; height 1 if they are not on a grid. */
   uint32_t width;
   uint32_t height;
   /* The camera's optical frame in the world (x forward, y left, z up): has_pose, metres, unit quaternion x, y, z, w. */
   int has_pose;
   double position[3];
   double orientation[4];
-  /* Pinhole model of the grid: has_lens, fx, fy, cx, cy in pixels. Needed for depth. Points that have one lie on its rays. */
+  /*
+   * Pinhole model of the grid: has_lens, fx, fy, cx, cy in pixels. Needed for depth. With it, points must lie on its
+   * rays.
+   */
   int has_lens;
   double lens[4];
   /* Every point was made green for a latency test. */
   int latency_test;
-  /* Metres a unit of FP_DEPTH16, e.g. 0.001f. */
+  /* Metres per unit of FP_DEPTH16, for example 0.001f. */
   float depth_unit;
 };
 
@@ -144,7 +147,7 @@ enum { FP_SLOTS = 4 };
 
 static inline size_t fp_align64_(size_t bytes) { return (bytes + 63u) / 64u * 64u; }
 
-/* Where the colours of a depth frame begin, counted from its payload. */
+/* Offset of a depth frame's colours within its payload. */
 static inline size_t fp_colour_offset(enum fp_format format, uint32_t width, uint32_t height) {
   return fp_align64_((size_t)width * height * (format == FP_DEPTH16 ? 2u : 4u));
 }
@@ -156,7 +159,8 @@ static inline size_t fp_payload_bytes_(enum fp_format format, uint32_t points) {
 static inline void fp_put32_(uint8_t *at, uint32_t value) { memcpy(at, &value, sizeof value); }
 
 /*
- * Makes the file; EBUSY while another producer lives. It is made under another name and takes its place in one step.
+ * Creates the file; EBUSY while another producer is running. The file is created under a temporary name and then
+ * renamed.
  */
 static inline int fp_cloud_open(struct fp_cloud *cloud, const struct fp_cloud_config *config) {
   char path[FP_PATH_BYTES];
@@ -184,7 +188,7 @@ static inline int fp_cloud_open(struct fp_cloud *cloud, const struct fp_cloud_co
   cloud->bytes = FP_HEADER_BYTES + FP_SLOTS * cloud->slot_bytes;
   error = fp_map_(unfinished, cloud->bytes, mode, 1, &cloud->fd, &cloud->base);
   if (error == EEXIST) {
-    /* Left by a producer that was killed as it began. */
+    /* Left behind by a producer that was killed while it started. */
     unlink(unfinished);
     error = fp_map_(unfinished, cloud->bytes, mode, 1, &cloud->fd, &cloud->base);
   }
@@ -214,14 +218,14 @@ static inline uint8_t *fp_slot_(struct fp_cloud *cloud) {
 }
 
 /*
- * Begins the next frame: where its payload goes, aligned to 64 bytes. Until it is published readers see the one before;
- * a frame that is begun and not published is begun anew by the next call.
+ * Begins the next frame: returns where its payload goes, aligned to 64 bytes. Until it is published, readers see the
+ * previous frame. If a frame is begun and not published, the next call begins it again.
  */
 static inline void *fp_cloud_begin(struct fp_cloud *cloud) {
   uint8_t *slot = fp_slot_(cloud);
   const uint32_t frame = cloud->frame + 1;
   __atomic_store_n((uint32_t *)(void *)slot, frame * 2 - 1, __ATOMIC_RELAXED);
-  /* No byte of the frame may be seen before the lock is seen closed. */
+  /* No byte of the frame may become visible before the closed lock does. */
   __atomic_thread_fence(__ATOMIC_SEQ_CST);
   return slot + FP_SLOT_HEADER_BYTES;
 }
@@ -246,7 +250,7 @@ static inline int fp_frame_is_right_(const struct fp_cloud *cloud, const struct 
   return cloud->format != FP_DEPTH16 || (frame->depth_unit > 0 && frame->depth_unit <= 1);
 }
 
-/* Shows the frame that was begun: EINVAL where it cannot be, ESTALE where another file has taken this one's place. */
+/* Publishes the frame that was begun. EINVAL if it is invalid, ESTALE if another file has replaced this one. */
 static inline int fp_cloud_publish(struct fp_cloud *cloud, const struct fp_frame *info) {
   uint8_t *slot = fp_slot_(cloud);
   const uint32_t frame = cloud->frame + 1;
@@ -288,7 +292,7 @@ struct fp_reference {
   uint8_t *flags;
 };
 
-/* Makes the files, or goes on with those that are there. */
+/* Creates the files, or continues with existing ones. */
 static inline int fp_reference_open(struct fp_reference *reference, const char *folder, unsigned mode) {
   char path[FP_PATH_BYTES];
   int error;
@@ -307,8 +311,8 @@ static inline int fp_reference_open(struct fp_reference *reference, const char *
 }
 
 /*
- * Waits until the last frame was taken: ETIMEDOUT where it was not in time. Then what the robot wants: the rate that the
- * frame is to fit, and whether it is to be green (0x03F0).
+ * Waits until the last frame was taken: ETIMEDOUT if it was not in time. Then returns the robot's request: the rate
+ * that the frame should fit, and whether it should be green (0x03F0).
  */
 static inline int fp_reference_wait(struct fp_reference *reference, uint32_t timeout_ms, uint32_t *bits_per_second,
                                     int *latency_test) {
@@ -326,7 +330,7 @@ static inline int fp_reference_wait(struct fp_reference *reference, uint32_t tim
 /* Blocks of 150 points, 1200 bytes: 150 x (x, y, z as int16 millimetres), then 150 x colour (6-6-4 bits). */
 static inline uint8_t *fp_reference_payload(struct fp_reference *reference) { return reference->cloud + 3; }
 
-/* After fp_reference_wait only: shows `bytes` of the payload. */
+/* Only after fp_reference_wait: publishes `bytes` of the payload. */
 static inline int fp_reference_publish(struct fp_reference *reference, uint32_t bytes) {
   if (bytes > FP_REFERENCE_PAYLOAD_BYTES || bytes % 8 != 0) return EINVAL;
   reference->cloud[0] = (uint8_t)(bytes & 0xff);

@@ -1,6 +1,6 @@
 /*
- * The shared-memory addon: guarded access to mapped files, and threads that wait. What the bytes mean is decided in TypeScript
- * (src/addon.ts); nothing here knows a layout but the two decoders and the command block.
+ * The shared-memory addon: guarded access to mapped files, and threads that wait. TypeScript decides what the bytes
+ * mean (src/addon.ts); only the two decoders and the command block know a layout here.
  */
 #include "guard.h"
 #include "js_exports.h"

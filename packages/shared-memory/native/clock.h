@@ -1,4 +1,4 @@
-/* CLOCK_MONOTONIC in nanoseconds, and condition variables that wait by it. */
+/* CLOCK_MONOTONIC in nanoseconds, and condition variables that use it. */
 #ifndef FARPOINT_CLOCK_H
 #define FARPOINT_CLOCK_H
 

@@ -6,7 +6,7 @@
 
 #include "clock.h"
 
-/* After a zero that could not be written (a file that is being made anew) it is tried again so soon. */
+/* If a zero could not be written (because the file is being recreated), it is retried after this time. */
 static const int64_t RETRY_NS = 5 * 1000 * 1000;
 
 struct control {
@@ -68,7 +68,7 @@ struct control *control_start(struct mapping *block, struct mapping *busy, uint3
   control->block = mapping_retain(block);
   control->busy = mapping_retain(busy);
   control->silence_ns = (int64_t)silence_ms * NS_PER_MS;
-  /* A relay knows a living writer by a counter that changes: ours goes on where the last one ended. */
+  /* A relay recognises a running writer by a counter that changes, so ours continues where the last one ended. */
   mapping_copy_out(block, 0, &control->counter, sizeof control->counter);
   pthread_mutex_init(&control->lock, NULL);
   init_condition(&control->changed);
@@ -87,7 +87,7 @@ int64_t control_write(struct control *control, const double values[CONTROL_VALUE
   const int64_t fault = put(control, values);
   bool moving = false;
   for (int i = 0; i < CONTROL_VALUES; i++) moving = moving || values[i] != 0;
-  /* A zero that did not arrive leaves the dead man at work. */
+  /* If a zero could not be written, the dead man keeps working. */
   if (fault < 0 || moving) control->moving = moving;
   control->written_ns = now_ns();
   *counter = control->counter;

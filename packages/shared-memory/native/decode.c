@@ -8,7 +8,7 @@
 
 enum { BLOCK_POINTS = 150, LATENCY_COLOUR = 0x03f0 };
 
-/* Channel values at the centre of each step, as 0xAABBGGRR. */
+/* Channel values at the centre of each quantisation step, as 0xAABBGGRR. */
 static inline uint32_t colour_of(uint16_t packed) {
   const uint32_t red = (uint32_t)(packed >> 10) * 4 + 2;
   const uint32_t green = (uint32_t)((packed >> 4) & 0x3f) * 4 + 2;

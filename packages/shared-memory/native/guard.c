@@ -23,7 +23,10 @@ static void on_bus_error(int signal_number, siginfo_t *info, void *context) {
   } else if (previous.sa_handler != SIG_DFL && previous.sa_handler != SIG_IGN) {
     previous.sa_handler(signal_number);
   } else {
-    /* Returning runs the faulting instruction again, now without us: the process ends as it would have. */
+    /*
+     * Returning runs the faulting instruction again, now without this handler: the process ends as it would have
+     * without it.
+     */
     sigaction(SIGBUS, &previous, NULL);
   }
 }

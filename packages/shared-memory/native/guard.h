@@ -1,9 +1,9 @@
 /*
- * Access to a mapping that another process may cut short.
+ * Access to a mapping whose file another process may truncate.
  *
- * A mapped file that is truncated raises SIGBUS at the first touch of a page that is gone, which would end the process.
- * Between guard_run's set-up and its end such a fault inside the given mapping is caught instead, and reported with the
- * offset at which it happened. Faults anywhere else go to whoever handled SIGBUS before.
+ * If a mapped file is truncated, the first access to a missing page raises SIGBUS, which would end the process. Between
+ * guard_run's set-up and its end, such a fault inside the given mapping is caught and reported with its offset. Faults
+ * anywhere else go to the previous handler of SIGBUS.
  */
 #ifndef FARPOINT_GUARD_H
 #define FARPOINT_GUARD_H
@@ -20,15 +20,18 @@ struct guard {
   const uint8_t *fault;
 };
 
-/* The guard of the calling thread, NULL outside. In the thread's static block: a signal handler must not allocate. */
+/*
+ * The guard of the calling thread, NULL outside. In the thread's static block, because a signal handler must not
+ * allocate.
+ */
 extern _Thread_local struct guard *volatile active_guard __attribute__((tls_model("initial-exec")));
 
-/* Once for each process. Returns 0, or errno. */
+/* Once per process. Returns 0, or errno. */
 int guard_install(void);
 
 /*
- * Runs `statement` guarded; `faulted` becomes the offset of the fault, or -1. What the statement assigns to local
- * variables is not to be used after a fault.
+ * Runs `statement` guarded; `faulted` becomes the offset of the fault, or -1. Do not use local variables assigned in
+ * the statement after a fault.
  */
 #define GUARDED(mapping_base, mapping_bytes, faulted, statement)     \
   do {                                                               \

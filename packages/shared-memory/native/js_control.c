@@ -1,4 +1,4 @@
-/* The reference system's command block, as JavaScript has it. */
+/* The reference system's command block for JavaScript. */
 #include "control.h"
 
 #include <stdlib.h>

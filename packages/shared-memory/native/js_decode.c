@@ -1,4 +1,4 @@
-/* Frames in a mapping, decoded into JavaScript's arrays. */
+/* Decodes frames in a mapping into JavaScript's arrays. */
 #include "decode.h"
 #include "js_exports.h"
 #include "js_mapping.h"
@@ -36,7 +36,7 @@ static napi_value js_images(napi_env env, napi_callback_info info) {
       !take_bytes(env, values[6], &depth) || !take_bytes(env, values[7], &colour)) {
     return NULL;
   }
-  /* More pixels than there is room for are refused before they are multiplied. */
+  /* Too many pixels are refused before their number is multiplied. */
   if (kind > DEPTH_32 || depth.count / 4 < frame.pixels || colour.count / 4 < frame.pixels ||
       (uintptr_t)depth.at % 4 != 0 || (uintptr_t)colour.at % 4 != 0) {
     return fail(env, "RANGE", (int64_t)frame.pixels);

@@ -1,4 +1,4 @@
-/* Mapped files, as JavaScript has them. */
+/* Mapped files for JavaScript. */
 #include "js_mapping.h"
 
 #include <stdlib.h>
@@ -101,7 +101,7 @@ static napi_value js_size(napi_env env, napi_callback_info info) {
   return result;
 }
 
-/* Whether the path still leads to the mapped file, and that still has its size: current(handle) */
+/* Whether the path still leads to the mapped file, and the file still has its size: current(handle) */
 static napi_value js_current(napi_env env, napi_callback_info info) {
   napi_value values[MOST_ARGUMENTS];
   napi_value result;
@@ -114,7 +114,7 @@ static napi_value js_current(napi_env env, napi_callback_info info) {
   return result;
 }
 
-/* Whether nobody else holds the file's lock; it is ours until the mapping is closed: lock(handle) */
+/* Locks the file until the mapping is closed; returns whether nobody else holds the lock: lock(handle) */
 static napi_value js_lock(napi_env env, napi_callback_info info) {
   napi_value values[MOST_ARGUMENTS];
   napi_value result;

@@ -1,4 +1,4 @@
-/* Watches, as JavaScript has them: a callback for each order. */
+/* Watches for JavaScript: one callback for each order. */
 #include "watch.h"
 
 #include <stdlib.h>
@@ -62,7 +62,7 @@ static napi_value js_watch(napi_env env, napi_callback_info info) {
     free(handle);
     return fail(env, "RANGE", 0);
   }
-  /* Whoever waits for frames alone may end. */
+  /* A program that only waits for frames may exit. */
   napi_unref_threadsafe_function(env, handle->callback);
   handle->watch = watch_start(mapping, place, on_outcome, handle);
   if (handle->watch == NULL || napi_create_object(env, &object) != napi_ok ||

@@ -17,7 +17,7 @@ static enum open_fault fault(int fd, enum open_fault kind, int64_t value, int64_
   return kind;
 }
 
-/* Opens what is there, or makes it: only a file that we made gets our mode, whatever the umask. */
+/* Opens an existing file, or creates it: only a file that this call creates gets the given mode, whatever the umask. */
 static int open_file(const struct open_request *request) {
   const int flags = (request->writable ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
   for (int attempt = 0; attempt < 8; attempt++) {

@@ -23,21 +23,21 @@ enum open_fault {
   /* `detail` is errno. */
   OPEN_ERRNO,
   OPEN_NOT_A_FILE,
-  /* Anybody may write it. */
+  /* Everybody may write to it. */
   OPEN_WORLD_WRITABLE,
-  /* `detail` is the size found. */
+  /* `detail` is the actual size. */
   OPEN_WRONG_SIZE,
 };
 
 struct open_request {
   const char *path;
   bool writable;
-  /* Made where it is missing, and where `resize`, brought to `bytes`. */
+  /* Creates the file if it is missing; with `resize`, sets its size to `bytes`. */
   bool create;
-  /* It must not be there yet. */
+  /* The file must not exist yet. */
   bool exclusive;
   bool resize;
-  /* The size it must have; 0 takes any but 0. */
+  /* The required size; 0 accepts any size but 0. */
   size_t bytes;
   unsigned mode;
 };

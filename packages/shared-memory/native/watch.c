@@ -9,7 +9,7 @@
 
 #include "clock.h"
 
-/* A thread asleep on a futex looks up so often, to see whether it is to end or the file is gone. */
+/* How often a thread that sleeps on a futex wakes up to check whether it should end or the file is gone. */
 static const int64_t LONGEST_FUTEX_WAIT_NS = 50 * 1000 * 1000;
 
 struct watch {
@@ -35,7 +35,7 @@ static void futex_wait(struct watch *watch, uint32_t value, int64_t ns) {
   syscall(SYS_futex, watch->mapping->base + watch->place.offset, FUTEX_WAIT, value, &timeout, NULL, 0);
 }
 
-/* With the lock held; returns early where the watch is to end. */
+/* Call with the lock held; returns early if the watch is to end. */
 static void pause_until(struct watch *watch, int64_t until_ns) {
   const struct timespec until = to_timespec(until_ns);
   while (!watch->stopping && now_ns() < until_ns) {
@@ -43,7 +43,7 @@ static void pause_until(struct watch *watch, int64_t until_ns) {
   }
 }
 
-/* With the lock held, but for the futex. */
+/* Call with the lock held; releases it while waiting on the futex. */
 static enum watch_outcome follow(struct watch *watch, struct watch_order order) {
   const int64_t started = now_ns();
   const int64_t deadline = started + (int64_t)order.timeout_ms * NS_PER_MS;

@@ -38,11 +38,11 @@ LATENCY_TEST_COLOUR = 0x03F0
 
 
 class SharedMemoryError(Exception):
-    """A file that is not as it should be, or in use by another producer."""
+    """An invalid file, or one that another producer uses."""
 
 
 def _open(path, size, mode, exclusive):
-    """Opens or makes a file that is no link and that not everybody may write, with exactly `size` bytes."""
+    """Opens or creates a file with exactly `size` bytes that is not a link and not writable by everybody."""
     flags = os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK
     fd = None
     if not exclusive:
@@ -69,7 +69,7 @@ def _open(path, size, mode, exclusive):
 
 
 class _Barrier:
-    """Orders memory between processors: a lock taken and given twice does, on every machine that Python runs on."""
+    """A memory barrier: acquiring and releasing a lock twice is one on every machine that Python runs on."""
 
     def __init__(self):
         self._lock = threading.Lock()
@@ -103,11 +103,11 @@ def _align64(size):
 
 
 class CloudProducer:
-    """Writes frames in Farpoint's own layout. The newest frame wins; readers never hold the producer up.
+    """Writes frames in Farpoint's own layout. The newest frame wins; readers never block the producer.
 
     format: "points" (float32 x, y, z in metres in the optical frame: x right, y down, z forward; then R, G, B, A),
-    "depth16" (uint16 in units of `depth_unit` metres, 0 where there is none) or "depth32" (float32 metres), both with
-    colours apart. Raises SharedMemoryError while another producer lives.
+    "depth16" (uint16 in units of `depth_unit` metres, 0 if none was measured) or "depth32" (float32 metres), both
+    with separate colours. Raises SharedMemoryError while another producer is running.
     """
 
     def __init__(self, width, height, format="points", frames_per_second=0.0, folder=DEFAULT_FOLDER, mode=0o600):
@@ -137,16 +137,16 @@ class CloudProducer:
         self._published_address = self._words.ctypes.data + _PUBLISHED_OFFSET
 
     def begin(self):
-        """Where the next frame goes.
+        """Returns where the next frame goes.
 
-        Returns float32 of shape (height, width, 4) for points; for depth a pair: uint16 or float32 of shape (height, width),
-        and uint8 of shape (height, width, 4) for R, G, B, A. Until it is published readers see the frame before; a frame
-        that is begun and not published is begun anew by the next call.
+        For points: float32 of shape (height, width, 4). For depth a pair: uint16 or float32 of shape (height,
+        width), and uint8 of shape (height, width, 4) for R, G, B, A. Until it is published, readers see the previous
+        frame. If a frame is begun and not published, the next call begins it again.
         """
         slot = self._slot()
         frame = self._frame + 1 & 0xFFFFFFFF
         self._words[slot // 4] = frame * 2 - 1 & 0xFFFFFFFF
-        # No byte of the frame may be seen before the lock is seen closed.
+        # No byte of the frame may become visible before the closed lock does.
         self._barrier()
         payload, points = slot + _SLOT_HEADER_BYTES, self.width * self.height
         shape = (self.height, self.width)
@@ -157,12 +157,12 @@ class CloudProducer:
         return depth.reshape(shape), colours.reshape(*shape, 4)
 
     def publish(self, capture_ns=0, position=None, orientation=None, lens=None, latency_test=False, depth_unit=0.001):
-        """Shows the frame that was begun.
+        """Publishes the frame that was begun.
 
-        capture_ns: time.monotonic_ns() when the picture was taken; 0 where it is not known.
+        capture_ns: time.monotonic_ns() when the picture was taken; 0 if unknown.
         position, orientation: of the camera's optical frame in the world, metres and unit quaternion (x, y, z, w).
-        lens: fx, fy, cx, cy in pixels; needed for depth. Points that have one lie on its rays.
-        Raises SharedMemoryError where another producer has taken over.
+        lens: fx, fy, cx, cy in pixels; needed for depth. With it, points must lie on its rays.
+        Raises SharedMemoryError if another producer has taken over.
         """
         header = self._frame_header(capture_ns, position, orientation, lens, latency_test, depth_unit)
         status = os.fstat(self._fd)
@@ -179,7 +179,7 @@ class CloudProducer:
         self._frame = frame
 
     def close(self):
-        """Lets another producer begin. The file stays until then."""
+        """Lets another producer start. The file stays until then."""
         if self._fd is not None:
             os.close(self._fd)
             self._fd = None
@@ -229,12 +229,12 @@ class CloudProducer:
         return former
 
     def _make(self, path, frames_per_second, mode):
-        """Under another name, which takes the place of a former file in one step."""
+        """Creates the file under a temporary name, then renames it."""
         unfinished = path + ".new"
         try:
             self._fd, self._map = _open(unfinished, self._size, mode, exclusive=True)
         except FileExistsError:
-            # Left by a producer that was killed as it began.
+            # Left behind by a producer that was killed while it started.
             os.unlink(unfinished)
             self._fd, self._map = _open(unfinished, self._size, mode, exclusive=True)
         points = self.width * self.height
@@ -257,7 +257,8 @@ class ReferenceProducer:
     def wait(self, timeout_s=math.inf):
         """Waits until the last frame was taken.
 
-        Returns (bits a second that the frame is to fit, whether it is to be green), or None where it was not in time.
+        Returns (the rate in bit/s that the frame should fit, whether it should be green), or None if it was not
+        taken in time.
         """
         deadline = time.monotonic() + timeout_s
         while self._flags[0] != 0:
@@ -268,7 +269,7 @@ class ReferenceProducer:
         return struct.unpack("<I", self._flags[2:6])[0], self._flags[1] == 1
 
     def publish(self, packed):
-        """Shows a frame of packed points (see `pack_points`); after `wait` only."""
+        """Publishes a frame of packed points (see `pack_points`); only after `wait`."""
         packed = np.ascontiguousarray(packed).view(np.uint8).reshape(-1)
         if packed.size > REFERENCE_MAX_POINTS * 8 or packed.size % 8 != 0:
             raise ValueError(f"{packed.size} bytes cannot be a payload")
@@ -285,8 +286,9 @@ class ReferenceProducer:
 def pack_points(points, latency_test=False):
     """Packs points as the reference system sends them.
 
-    points: float32 of shape (n, 4), metres and the bytes R, G, B, A; those that cannot be sent are left out.
-    Returns uint8: blocks of 150 × (x, y, z as int16 millimetres), then 150 × colour of 6-6-4 bits; a last block of fewer.
+    points: float32 of shape (n, 4), metres and the bytes R, G, B, A; points that cannot be sent are left out.
+    Returns uint8: blocks of 150 × (x, y, z as int16 millimetres), then 150 × colour of 6-6-4 bits; the last block
+    may be shorter.
     """
     points = np.ascontiguousarray(points, dtype=np.float32).reshape(-1, 4)
     with np.errstate(invalid="ignore"):
@@ -307,10 +309,10 @@ def pack_points(points, latency_test=False):
 
 
 def sample_points(points, bits_per_second, frames_per_second, generator, power=1.0, near=3.85, floor=0.1):
-    """Draws the points that a rate carries, near ones rather than far ones: the paper's equations 2 to 5.
+    """Draws as many points as the rate carries, favouring near ones: the paper's equations 2 to 5.
 
-    points: float32 of shape (n, 4); those without a depth are never drawn. power is λ, near is D in metres, floor the
-    share of the cloud a second that is sent whatever the rate. Returns the points drawn, in their order.
+    points: float32 of shape (n, 4); points without a depth are never drawn. power is λ, near is D in metres, floor
+    the fraction of the cloud per second that is sent at any rate. Returns the drawn points in their original order.
     """
     points = np.ascontiguousarray(points, dtype=np.float32).reshape(-1, 4)
     total = len(points)
@@ -324,6 +326,6 @@ def sample_points(points, bits_per_second, frames_per_second, generator, power=1
     depth = depth[candidates]
     weight = 1 / ((depth / depth.max()) ** power + 1e-6)
     weight[depth < near] = weight.max()
-    # Exponential keys: the smallest of E/w are a draw without replacement in proportion to w.
+    # Exponential keys: the smallest values of E/w are a draw without replacement in proportion to w.
     keys = generator.exponential(size=len(candidates)) / weight
     return points[candidates[np.sort(np.argpartition(keys, most)[:most])]]

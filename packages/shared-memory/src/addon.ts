@@ -1,4 +1,4 @@
-/** The native addon: what it offers, and loading it. */
+/** Interface of the native addon, and loading it. */
 import { createRequire } from 'node:module';
 import { ADDON_FILE, BUILD_REMEDY } from './build.ts';
 import { SharedMemoryError } from './errors.ts';
@@ -16,8 +16,8 @@ export interface ControlHandle {
 export type ByteView = Uint8Array | Uint32Array | Float32Array | Float64Array;
 
 /**
- * Errors carry `code` (an errno name; `CLOSED`; `RANGE`: a mistake of the caller; `FAULT`: the file ended at this offset;
- * `UNSAFE`: mode; `SIZE`: the size found; `FILE`: no regular file) and the number in their message.
+ * Errors carry `code` and a number in their message. Codes: an errno name; `CLOSED`; `RANGE`: a mistake of the caller;
+ * `FAULT`: the file ended at this offset; `UNSAFE`: its mode; `SIZE`: the actual size; `FILE`: not a regular file.
  */
 export interface Addon {
   open(
@@ -85,7 +85,7 @@ export function loadAddon(): Addon {
   return loaded;
 }
 
-/** Whether shared memory can be used here. */
+/** Whether shared memory can be used on this machine. */
 export function isAvailable(): boolean {
   try {
     loadAddon();

@@ -1,15 +1,15 @@
-/** Where the addon is, and building it. */
+/** Location of the addon, and building it. */
 import { join } from 'node:path';
 import { addonFile, type BuildResult, buildNativeAddon } from '@farpoint/native-addon';
 
 const ADDON = { folder: join(import.meta.dirname, '..', 'native'), name: 'farpoint_shared_memory' };
 export const ADDON_FILE = addonFile(ADDON);
 
-/** How to get what the build needs. */
+/** How to install what the build needs. */
 export const BUILD_REMEDY =
   'install a C compiler, make and Python 3 (Debian: `apt-get install build-essential python3`) and run `pnpm build:native`';
 
-/** Builds it where its sources have changed since the last time, or it is not there. */
+/** Builds the addon if it is missing or its sources have changed. */
 export function buildAddon(): BuildResult {
   if (process.platform !== 'linux') return { ok: false, output: 'shared memory needs Linux' };
   return buildNativeAddon(ADDON);

@@ -2,28 +2,28 @@
 export type SharedMemoryErrorCode =
   | 'unavailable' // the addon is not built, or this is not Linux
   | 'absent' // no such file
-  | 'not-permitted' // the system refuses it
-  | 'unsafe-permissions' // anybody may write it
+  | 'not-permitted' // the system refuses access
+  | 'unsafe-permissions' // everybody may write to it
   | 'not-a-file' // a symbolic link, a folder, a device
-  | 'wrong-size' // other than the layout says
-  | 'truncated' // it became shorter while it was used
-  | 'bad-magic' // not this layout's file
+  | 'wrong-size' // not the size that the layout requires
+  | 'truncated' // it became shorter while it was in use
+  | 'bad-magic' // not a file with this layout
   | 'bad-version'
   | 'bad-header' // a header that contradicts itself or the file's size
-  | 'bad-length' // a payload length that cannot be
-  | 'bad-frame' // a frame's own header is impossible
+  | 'bad-length' // an impossible payload length
+  | 'bad-frame' // an impossible header of a frame
   | 'too-large' // more points than the reader has room for
-  | 'in-use' // another producer is at work
+  | 'in-use' // another producer is running
   | 'out-of-memory'
   | 'io';
 
-/** Thrown for every file that is not as it should be; nothing else is thrown for what another process did. */
+/** Thrown for every invalid file. Nothing that another process does causes any other exception. */
 export class SharedMemoryError extends Error {
   override readonly name = 'SharedMemoryError';
   readonly code: SharedMemoryErrorCode;
-  /** The file concerned; empty where it is none. */
+  /** The file concerned; empty if there is none. */
   readonly file: string;
-  /** Byte at which the fault is, or `null` for the whole. */
+  /** Byte of the fault, or `null` for the whole file. */
   readonly offset: number | null;
 
   constructor(code: SharedMemoryErrorCode, file: string, offset: number | null, detail: string) {

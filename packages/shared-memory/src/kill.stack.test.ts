@@ -1,4 +1,7 @@
-/** Whole frames only, and no standstill, while producer and reader are killed at random. `pnpm bench shm --kill 100000` is the long run. */
+/**
+ * Only complete frames, and no deadlock, while producer and reader are killed at random. `pnpm bench shm --kill 100000`
+ * is the long run.
+ */
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { ADDON_SUITE, removeFolder, scratchFolder } from './testing/helpers.ts';
 import { runKillTest } from './testing/kill-test.ts';
@@ -11,7 +14,7 @@ beforeEach(() => {
 afterEach(() => removeFolder(folder));
 
 describe('marked frames', () => {
-  it('show a single word of another frame', () => {
+  it('reveal a single word of another frame', () => {
     const room = { points: new Float32Array(1600), depth: new Float32Array(0), colour: new Uint32Array(0) };
     const words = new Uint32Array(room.points.buffer);
     const frame = { points: 400 } as Parameters<typeof areWordsWhole>[0];
@@ -26,7 +29,7 @@ describe('marked frames', () => {
     }
   });
 
-  it('show a single packed value of another frame', () => {
+  it('reveal a single packed value of another frame', () => {
     const unpacked = (edit: (values: Int16Array, other: Int16Array) => void) => {
       const [packed, next] = [new Uint8Array(8 * 160), new Uint8Array(8 * 160)];
       fillPacked(packed, 29_990);
@@ -50,7 +53,7 @@ describe('marked frames', () => {
 });
 
 describe.skipIf(ADDON_SUITE.skip)(`killed at random (${ADDON_SUITE.note})`, { timeout: 300_000 }, () => {
-  it.each(['farpoint', 'reference'] as const)('%s: no torn frame, no standstill', async (layout) => {
+  it.each(['farpoint', 'reference'] as const)('%s: no torn frame, no deadlock', async (layout) => {
     const result = await runKillTest({
       ...{ layout, folder, frames: 1000, points: 6000, leastKills: 4, seed: 11, lifeMs: [10, 250] },
     });

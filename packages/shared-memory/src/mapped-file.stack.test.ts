@@ -23,7 +23,7 @@ afterEach(() => removeFolder(folder));
 const room = (pixels: number) => ({ depth: new Float32Array(pixels), colour: new Uint32Array(pixels) });
 
 describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
-  it('is shared by all who map it', () => {
+  it('is shared by all processes that map it', () => {
     using writer = MappedFile.open(path, { bytes: 100, create: true });
     using reader = MappedFile.open(path, { bytes: 100 });
     writer.copyIn(3, Uint8Array.of(1, 2, 3));
@@ -36,7 +36,7 @@ describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
     expect(reader.load8(0)).toBe(255);
   });
 
-  it('is made for its owner alone, or for a group, never for everybody, whatever the umask', () => {
+  it('is created for its owner alone or for a group, never for everybody, whatever the umask', () => {
     const before = process.umask(0);
     try {
       MappedFile.open(path, { bytes: 1, create: true }).close();
@@ -82,7 +82,7 @@ describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
     expect(error.message).toContain(path);
   });
 
-  it('survives a file that is cut short, and names the byte', () => {
+  it('survives truncation of the file, and names the byte', () => {
     using file = MappedFile.open(path, { bytes: 20_000, create: true });
     truncateSync(path, 5000);
     const bytes = new Uint8Array(20_000);
@@ -97,7 +97,7 @@ describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
     ]) {
       expect(errorOf(access)).toMatchObject({ code: 'truncated', file: path, offset: 16_384 });
     }
-    // What is read first is what memcpy happens to touch first, within the missing pages.
+    // The first byte read is whichever memcpy touches first within the missing pages.
     const error = errorOf(() => file.copyOut(0, bytes));
     expect(error.code).toBe('truncated');
     expect(error.offset).toBeGreaterThanOrEqual(8192);
@@ -107,7 +107,7 @@ describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
     expect(file.load32(16_384)).toBe(0);
   });
 
-  it('notices that another file has taken its place', () => {
+  it('notices that another file has replaced it', () => {
     using file = MappedFile.open(path, { bytes: 10, create: true });
     expect(file.current).toBe(true);
     writeFileSync(`${path}2`, 'x'.repeat(10));
@@ -116,7 +116,7 @@ describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
     expect(file.load8(0)).toBe(0);
   });
 
-  it('can be locked once', () => {
+  it('can be locked only once', () => {
     using first = MappedFile.open(path, { bytes: 10, create: true });
     expect(first.lock()).toBe(true);
     {
@@ -128,7 +128,7 @@ describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
     expect(third.lock()).toBe(true);
   });
 
-  it('takes no access beyond its end, none that is not aligned, none to write what is only read, none once closed', () => {
+  it('refuses unaligned access, access beyond its end or once closed, and writes to a read-only mapping', () => {
     MappedFile.open(path, { bytes: 10, create: true }).close();
     const file = MappedFile.open(path);
     const bytes = new Uint8Array(11);

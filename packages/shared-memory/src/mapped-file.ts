@@ -2,20 +2,20 @@ import { type Addon, type ByteView, loadAddon, type MappingHandle } from './addo
 import { SharedMemoryError, type SharedMemoryErrorCode } from './errors.ts';
 
 export interface MapOptions {
-  /** Bytes that the file must have; left out, whatever it has. */
+  /** Required size of the file; any size if absent. */
   bytes?: number;
   writable?: boolean;
-  /** Made where it is missing, with `bytes` zeros. A file that is there with another size gets `bytes`. */
+  /** Creates the file if it is missing, with `bytes` zeros. An existing file of another size is resized to `bytes`. */
   create?: boolean;
-  /** With `create`: it must not be there yet. */
+  /** With `create`: the file must not exist yet. */
   exclusive?: boolean;
-  /** Permissions of a file that is made; nobody but owner and group ever gets any. Default 0600. */
+  /** Permissions of a created file; never any for others than owner and group. Default 0600. */
   mode?: number;
 }
 
 const IMAGE_KINDS = ['points', 'depth16', 'depth32'] as const;
 
-/** A file in shared memory, mapped. Every access is safe whatever another process does to the file meanwhile. */
+/** A file in shared memory, mapped. Every access is safe, whatever another process does to the file meanwhile. */
 export class MappedFile implements Disposable {
   readonly path: string;
   readonly bytes: number;
@@ -44,27 +44,31 @@ export class MappedFile implements Disposable {
     }
   }
 
-  /** False once the file was removed, replaced or changed its size: open it anew. */
+  /** False once the file was removed, replaced or resized: open it again. */
   get current(): boolean {
     return this.#do(() => this.#addon.current(this.handle));
   }
 
-  /** Takes the file's lock for as long as it is mapped; false where another process has it. */
+  /** Locks the file for as long as it is mapped; false if another process holds the lock. */
   lock(): boolean {
     return this.#addon.lock(this.handle);
   }
 
-  /** A byte, with everything that was stored before it. @throws {SharedMemoryError} as every access: `truncated` */
+  /**
+   * Loads a byte with acquire semantics: it sees everything stored before that byte.
+   *
+   * @throws {SharedMemoryError} as every access: `truncated`
+   */
   load8(offset: number): number {
     return this.#do(() => this.#addon.load8(this.handle, offset));
   }
 
-  /** An aligned word, with everything that was stored before it. */
+  /** Loads an aligned word with acquire semantics. */
   load32(offset: number): number {
     return this.#do(() => this.#addon.load32(this.handle, offset));
   }
 
-  /** Seen by others after everything that was stored before. */
+  /** Stores a byte with release semantics: others see it after everything stored before. */
   store8(offset: number, value: number): void {
     this.#do(() => this.#addon.store8(this.handle, offset, value));
   }
@@ -73,7 +77,7 @@ export class MappedFile implements Disposable {
     this.#do(() => this.#addon.store32(this.handle, offset, value));
   }
 
-  /** Nothing is moved past it, in either direction. */
+  /** A full memory fence: no access moves past it in either direction. */
   fence(): void {
     this.#addon.fence();
   }
@@ -92,7 +96,7 @@ export class MappedFile implements Disposable {
   }
 
   /**
-   * The reference system's packed points, as points of 16 bytes, in one pass.
+   * Unpacks the reference system's points to points of 16 bytes, in one pass.
    *
    * @param bytes 8 for each point
    * @returns whether every point has the latency test's colour
@@ -102,9 +106,10 @@ export class MappedFile implements Disposable {
   }
 
   /**
-   * Depth and colour of each pixel, in one pass.
+   * Reads depth and colour of each pixel, in one pass.
    *
-   * @param kind points of 16 bytes, of which z and colour are taken; 16-bit depth in `unit` metres; or float32 metres
+   * @param kind points of 16 bytes, of which z and colour are used; 16-bit depth in units of `unit` metres; or float32
+   * metres
    */
   images(
     kind: 'points' | 'depth16' | 'depth32',
@@ -147,7 +152,7 @@ const SYSTEM_CODES: Readonly<Record<string, readonly [SharedMemoryErrorCode, str
   ENOMEM: ['out-of-memory', 'out of memory'],
 };
 
-/** The addon's error in this package's terms; mistakes of the caller stay what they are. */
+/** Translates the addon's error to this package's errors; mistakes of the caller are not translated. */
 export function translated(error: unknown, path: string, wantedBytes: number): unknown {
   if (!(error instanceof Error)) return error;
   const { code = '' } = error as NodeJS.ErrnoException;

@@ -1,4 +1,4 @@
-/** The C header and the Python module as producers, read by the reader that the robot has; the examples as they run. */
+/** The C header and the Python module as producers, read by the robot's reader; and the examples as programs. */
 import { spawnSync } from 'node:child_process';
 import { readdirSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -105,11 +105,11 @@ describe.each(producers)('producer in $name', ({ there, command }) => {
       }
     });
 
-    it('refuses what cannot be, a second producer, and to write on in vain', () => {
+    it('refuses invalid arguments, a second producer, and to keep writing in vain', () => {
       run([...program, folder, 'refusals']);
     });
 
-    it('goes on over what a killed producer left', () => {
+    it('continues over what a killed producer left', () => {
       writeFileSync(cloudFile(folder), 'half');
       writeFileSync(`${cloudFile(folder)}.new`, 'half');
       run([...program, folder, 'points']);
@@ -117,7 +117,7 @@ describe.each(producers)('producer in $name', ({ there, command }) => {
       expect(reader.read(room)?.frame).toBe(6);
     });
 
-    it('writes the reference layout, and hears what the robot wants', () => {
+    it('writes the reference layout, and reads the robot’s requests', () => {
       const files = referenceFiles(folder);
       writeFileSync(files.flags, Uint8Array.of(0, 1, 0x80, 0xc3, 0xc9, 0x01), { mode: 0o600 });
       expect(run([...program, folder, 'reference']).trim()).toBe('30000000 1');
@@ -133,7 +133,7 @@ describe.each(producers)('producer in $name', ({ there, command }) => {
 });
 
 describe.skipIf(python === null || ADDON_SUITE.skip)('Python packing (needs numpy and the addon)', () => {
-  it('gives the packets’ blocks, without what cannot be sent', () => {
+  it('produces the packets’ blocks, without points that cannot be sent', () => {
     const points = Array.from({ length: 320 }, (_, i) => [
       ...[Math.fround((i - 100) * 0.0123), Math.fround(i * 0.0005), Math.fround(1 + i * 0.03)],
       ...[i % 256, (i * 7) % 256, (i * 13) % 256],
@@ -175,7 +175,7 @@ describe.skipIf(python === null || ADDON_SUITE.skip)('examples (need numpy and t
       ...args,
     ]);
 
-  it.each(['points', 'depth16', 'depth32'])('the camera that is none gives %s', (format) => {
+  it.each(['points', 'depth16', 'depth32'])('the synthetic camera produces %s', (format) => {
     synthetic('--frames', '3', '--fps', '1000', '--format', format);
     using reader = CloudReader.open(folder);
     expect(reader.read(room)).toMatchObject({ frame: 3, form: 'images', width: 64, height: 64 });
@@ -184,16 +184,16 @@ describe.skipIf(python === null || ADDON_SUITE.skip)('examples (need numpy and t
     expect(Math.min(...depths)).toBeGreaterThan(0.5);
   });
 
-  it('the camera that is none gives the reference’s points', () => {
+  it('the synthetic camera produces the reference’s points', () => {
     synthetic('--frames', '1', '--layout', 'reference');
     using consumer = ReferenceFrameConsumer.open(folder);
     const frame = consumer.take(room.points, { bitsPerSecond: 0, latencyTest: false });
-    // In whole packets, as the paper's equation 3 has it.
+    // In whole packets, as in the paper's equation 3.
     expect(frame?.points).toBe(27 * 150);
     for (let i = 0; i < 27 * 150; i++) expect(room.points[i * 4 + 2]).toBeLessThanOrEqual(4.001);
   });
 
-  it('the ZED’s says what is missing', () => {
+  it('the ZED example says what is missing', () => {
     const zed = join(EXAMPLES, 'zed_camera.py');
     run([python as string, '-m', 'py_compile', zed]);
     if (runs(python as string, '-c', 'import pyzed.sl')) return;

@@ -37,7 +37,7 @@ function watchOutcomes(futex: boolean) {
 
 describe.skipIf(ADDON_SUITE.skip)(`watch (${ADDON_SUITE.note})`, () => {
   it.each([true, false])(
-    'tells of a change that was there already, and of one that comes (futex: %s)',
+    'reports an earlier change, and one that happens later (futex: %s)',
     async (futex) => {
       const { watch, next } = watchOutcomes(futex);
       file.store8(8, 5);
@@ -53,7 +53,7 @@ describe.skipIf(ADDON_SUITE.skip)(`watch (${ADDON_SUITE.note})`, () => {
   );
 
   it.each([true, false])(
-    'tells once for each time it is armed, and of nothing (futex: %s)',
+    'reports once each time it is armed, and nothing without a change (futex: %s)',
     async (futex) => {
       const { watch, next, outcomes } = watchOutcomes(futex);
       watch.arm({ value: 0, timeoutMs: 3 });
@@ -66,7 +66,7 @@ describe.skipIf(ADDON_SUITE.skip)(`watch (${ADDON_SUITE.note})`, () => {
     },
   );
 
-  it.each([true, false])('survives a file that is cut short while it waits (futex: %s)', async (futex) => {
+  it.each([true, false])('survives truncation of the file while it waits (futex: %s)', async (futex) => {
     const { watch, next } = watchOutcomes(futex);
     watch.arm({ value: 0, timeoutMs: 60_000 });
     truncateSync(path, 0);

@@ -2,20 +2,20 @@ import { type Addon, loadAddon, type WatchHandle } from './addon.ts';
 import type { MappedFile } from './mapped-file.ts';
 
 export type WatchOutcome =
-  /** The value is another one. */
+  /** The value has changed. */
   | 'changed'
-  /** It is still the same after the time given. */
+  /** It is still the same when the time is over. */
   | 'timeout'
-  /** The file was cut short. */
+  /** The file was truncated. */
   | 'fault';
 const OUTCOMES: readonly WatchOutcome[] = ['changed', 'timeout', 'fault'];
 
 export interface WatchOrder {
-  /** Tells when the byte or word is no longer this. */
+  /** Reports when the byte or word differs from this. */
   value: number;
-  /** Without a futex: looks once, and then not again for so long, ms. Default 0. */
+  /** Without a futex: checks once, then waits for this long before polling, ms. Default 0. */
   quietMs?: number;
-  /** Without a futex: time between two looks, ms. Default 1. */
+  /** Without a futex: polling interval, ms. Default 1. */
   pollMs?: number;
   timeoutMs: number;
 }
@@ -28,7 +28,7 @@ export class Watch implements Disposable {
 
   /**
    * @param where a word that its writer wakes (`futex`), or a byte
-   * @param onOutcome called once after each {@link arm}; none is called after {@link close}
+   * @param onOutcome called once after each {@link arm}; never after {@link close}
    */
   constructor(
     file: MappedFile,
@@ -41,7 +41,7 @@ export class Watch implements Disposable {
     });
   }
 
-  /** Waits for the next change. Does nothing while it waits already. */
+  /** Waits for the next change. Does nothing while it is already waiting. */
   arm({ value, quietMs = 0, pollMs = 1, timeoutMs }: WatchOrder): void {
     if (this.#closed) return;
     this.#addon.arm(this.#handle, value, Math.round(quietMs * 1000), Math.round(pollMs * 1000), timeoutMs);

@@ -1,4 +1,4 @@
-/** The ZED's example against a stand-in for the SDK's Python module, which is as strict as the published interface. */
+/** The ZED example against a stand-in for the SDK's Python module, which is as strict as the published interface. */
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
@@ -20,7 +20,7 @@ beforeEach(() => {
 });
 afterEach(() => removeFolder(folder));
 
-/** Runs the example until the stand-in's camera is gone. */
+/** Runs the example until the stand-in's camera is disconnected. */
 function run(args: readonly string[] = [], script: Record<string, string> = {}) {
   const command = [join(EXAMPLES, 'zed_camera.py'), '--folder', folder, '--size', String(SIZE)];
   const env = { ...process.env, PYTHONPATH: join(import.meta.dirname, 'testing'), ...script };
@@ -34,7 +34,7 @@ function run(args: readonly string[] = [], script: Record<string, string> = {}) 
 const GONE = 'the camera gives no more pictures: CAMERA NOT DETECTED';
 
 describe.skipIf(python === null || ADDON_SUITE.skip)('the ZED’s example (needs numpy and the addon)', () => {
-  it('gives clouds in the optical frame with lens, pose and time', () => {
+  it('produces clouds in the optical frame with lens, pose and time', () => {
     const { status, said } = run(['--track'], { STANDIN_GRABS: 'SUCCESS,SUCCESS,SUCCESS' });
     expect({ status, said }).toEqual({ status: 1, said: [GONE] });
     using reader = CloudReader.open(folder);
@@ -45,9 +45,9 @@ describe.skipIf(python === null || ADDON_SUITE.skip)('the ZED’s example (needs
       expect(frame?.lens?.[name as keyof typeof lens]).toBeCloseTo(value, 4);
     const pose = frame?.pose;
     if (pose == null) throw new Error('no pose');
-    // The stand-in's camera is 1 m right, 2 m down, 3 m forward of where it began.
+    // The stand-in's camera is 1 m right, 2 m down, 3 m forward of its start.
     expect(pose.position).toEqual({ x: 3, y: -1, z: -2 });
-    // Turned right about its own down axis: forward and right become, in the world, axes of that turn.
+    // Rotated right about its own down axis: in the world, forward and right become axes of that rotation.
     expect(rotate(pose.orientation, [0, 1, 0]).map((v) => v.toFixed(6))).toEqual([
       '0.000000',
       '0.000000',
@@ -62,11 +62,11 @@ describe.skipIf(python === null || ADDON_SUITE.skip)('the ZED’s example (needs
       expect(room.depth[row * SIZE + column]).toBe(2);
       expect(room.colour[row * SIZE + column]).toBe((column | (row << 8) | (3 << 16) | (255 << 24)) >>> 0);
     }
-    // Unknown, too near, too far: none of them is a place.
+    // Unknown, too near, too far: none of them is a position.
     expect([...room.depth.subarray(1, 4)].every((depth) => !(depth > 0 && depth < 100))).toBe(true);
   });
 
-  it('gives the time at which a picture was taken, by the monotonic clock, and no pose unless asked', () => {
+  it('uses the picture’s capture time by the monotonic clock, and adds a pose only on request', () => {
     const before = monotonicMs();
     run();
     const after = monotonicMs();
@@ -77,7 +77,7 @@ describe.skipIf(python === null || ADDON_SUITE.skip)('the ZED’s example (needs
     expect(frame?.capturedAtMs).toBeLessThan(after - 39);
   });
 
-  it('shows no picture of a camera that boots or whose picture is broken, and those of other warnings', () => {
+  it('hides pictures of a booting camera and corrupted ones, but shows those with other warnings', () => {
     const grabs = 'CAMERA_REBOOTING,CORRUPTED_FRAME,POTENTIAL_CALIBRATION_ISSUE';
     run([], { STANDIN_GRABS: grabs });
     using reader = CloudReader.open(folder);
@@ -85,7 +85,7 @@ describe.skipIf(python === null || ADDON_SUITE.skip)('the ZED’s example (needs
     expect((room.colour[0] ?? 0) >>> 16).toBe((255 << 8) | 3);
   });
 
-  it('goes on where the SDK fell back to another configuration, and says so', () => {
+  it('continues if the SDK falls back to another configuration, and reports it', () => {
     const { said } = run([], { STANDIN_OPEN: 'CONFIGURATION_FALLBACK' });
     expect(said).toEqual(['opening the camera: CONFIGURATION FALLBACK', GONE]);
     using reader = CloudReader.open(folder);
@@ -96,11 +96,11 @@ describe.skipIf(python === null || ADDON_SUITE.skip)('the ZED’s example (needs
     [[], { STANDIN_OPEN: 'NO_GPU_COMPATIBLE' }, 'opening the camera: NO GPU COMPATIBLE'],
     [['--track'], { STANDIN_TRACKING: 'FAILURE' }, 'tracking its position: FAILURE'],
     [['--size', '1200'], {}, 'no cloud of 1200 × 1200 to be had: INVALID RESOLUTION'],
-  ])('says what went wrong and ends: %j %j', (args, script, message) => {
+  ])('reports what went wrong and ends: %j %j', (args, script, message) => {
     expect(run(args, script as Record<string, string>)).toEqual({ status: 1, said: [message] });
   });
 
-  it('gives the reference’s points', () => {
+  it('produces the reference’s points', () => {
     run(['--layout', 'reference']);
     using consumer = ReferenceFrameConsumer.open(folder);
     const taken = consumer.take(room.points, { bitsPerSecond: 0, latencyTest: false });
@@ -108,7 +108,7 @@ describe.skipIf(python === null || ADDON_SUITE.skip)('the ZED’s example (needs
     for (let i = 0; i < (taken?.points ?? 0); i++) expect(room.points[i * 4 + 2]).toBe(2);
   });
 
-  it('the stand-in is strict: what the SDK would not take fails', () => {
+  it('the stand-in is strict: it fails where the SDK would', () => {
     const refused = [
       ['sl.InitParameters().camera_fsp = 30', 'AttributeError camera_fsp'],
       ['sl.InitParameters().camera_fps = 30.0', 'TypeError 30.0 is no int'],
@@ -142,7 +142,7 @@ function monotonicMs(): number {
 
 type Quaternion = { x: number; y: number; z: number; w: number };
 
-/** A vector turned by a unit quaternion. */
+/** Rotates a vector by a unit quaternion. */
 function rotate({ x, y, z, w }: Quaternion, [a, b, c]: [number, number, number]): number[] {
   const [tx, ty, tz] = [2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)];
   return [a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx];

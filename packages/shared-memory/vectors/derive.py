@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the conformance vectors of this folder from the layouts in docs/shared-memory.md.
 
-Shares no code with the implementations that are tested against them. Standard library only.
+Shares no code with the tested implementations. Standard library only.
 """
 import json
 import os
@@ -11,7 +11,7 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 
 
 def write(name, lists):
-    """One vector a line, so that a change can be read."""
+    """One vector per line, so that changes are readable."""
     parts = []
     for key, vectors in lists.items():
         rows = ",\n".join("    " + json.dumps(v) for v in vectors)
@@ -41,7 +41,7 @@ def packed(points):
 
 
 def rgb(colour):
-    """The centre of each channel's step."""
+    """The centre of each channel's quantisation step."""
     return [colour // 1024 * 4 + 2, colour // 16 % 64 * 4 + 2, colour % 16 * 16 + 8]
 
 

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { Battery } from './battery.ts';
 
-test('charge only falls under load, and faster when driving', () => {
+test('charge only falls under load, and faster while driving', () => {
   const idle = new Battery();
   const driving = new Battery();
   let before = driving.state.percentage;

@@ -1,4 +1,4 @@
-/** State of charge as sensor_msgs/BatteryState has it. */
+/** State of charge as in sensor_msgs/BatteryState. */
 export interface BatteryState {
   /** Terminal voltage under the present load, V. */
   voltage: number;
@@ -19,7 +19,7 @@ const ROLLING_NEWTONS = 9;
 const TURNING_NEWTON_METRES = 5;
 const DRIVE_EFFICIENCY = 0.65;
 
-/** A lead of eight lithium iron phosphate cells: voltage falls a little with charge and with current. */
+/** A pack of eight lithium iron phosphate cells: the voltage falls slightly with charge and current. */
 export class Battery {
   #percentage: number;
   #watts = IDLE_WATTS;
@@ -29,7 +29,7 @@ export class Battery {
     this.#percentage = percentage;
   }
 
-  /** Draws what `dt` seconds of this motion cost, or charges. Speeds in m/s and rad/s, acceleration in m/s². */
+  /** Draws the energy for `dt` seconds of this motion, or charges. Speeds in m/s and rad/s, acceleration in m/s². */
   step(dt: number, linear: number, angular: number, acceleration: number, docked: boolean): void {
     const rolling = ROLLING_NEWTONS * Math.abs(linear) + TURNING_NEWTON_METRES * Math.abs(angular);
     const accelerating = Math.max(0, MASS_KG * acceleration * linear);

@@ -9,7 +9,7 @@ export interface CameraOptions {
   height?: number;
   /** Horizontal field of view, radians; default 90°. */
   fieldOfView?: number;
-  /** Where the camera sits on the robot: metres ahead of and above base_link, radians downwards, radians to the left. */
+  /** Position on the robot: metres ahead of and above base_link, radians downwards, radians to the left. */
   forward?: number;
   up?: number;
   pitch?: number;
@@ -23,7 +23,7 @@ export interface CameraOptions {
   /** Depth outside this range, metres, is invalid. */
   near?: number;
   far?: number;
-  /** Share of pixels lost as scattered speckle. */
+  /** Fraction of pixels lost as scattered speckle. */
   speckle?: number;
   /** Peak of the colour noise, in levels of 255. */
   colourNoise?: 0 | 1 | 3 | 7;
@@ -50,8 +50,8 @@ export const DEFAULT_CAMERA: Readonly<Required<CameraOptions>> = {
 /** Views into the camera's memory, row by row; the next frame overwrites them. */
 export interface Images {
   /**
-   * x, y, z in metres in the optical frame, NaN where invalid; the fourth float's bits are R, G, B, 255. Empty where only
-   * the images were asked for.
+   * x, y, z in metres in the optical frame, NaN where invalid; the fourth float's bits are R, G, B, 255. Empty if only
+   * the images were requested.
    */
   points: Float32Array;
   /** R, G, B, 255: the plain picture of the same view. */
@@ -60,7 +60,7 @@ export interface Images {
   depth: Float32Array;
 }
 
-/** Numbers of a pose as the rasteriser takes them. */
+/** How many numbers the rasteriser takes for a pose. */
 const POSE_LENGTH = 12;
 
 interface WasmMemory {
@@ -72,7 +72,7 @@ export type WasmSource = Uint8Array<ArrayBuffer> | ArrayBuffer;
 
 let loading: Promise<WasmMemory> | undefined;
 
-/** Starts the WASM module once; `source` is needed only where the file beside this one cannot be read. */
+/** Starts the WASM module once; `source` is needed only if the file next to this one cannot be read. */
 function loadRasteriser(source?: WasmSource): Promise<WasmMemory> {
   loading ??= (async () => {
     const bytes = source ?? (await readModule());
@@ -84,13 +84,13 @@ function loadRasteriser(source?: WasmSource): Promise<WasmMemory> {
   return loading;
 }
 
-/** Imports Node's file system only here: a browser passes the bytes. */
+/** Imports Node's file system only here, because browsers pass the bytes. */
 async function readModule(): Promise<WasmSource> {
   const { readFile } = await import('node:fs/promises');
   return readFile(new URL('../wasm/farpoint_sim_camera_bg.wasm', import.meta.url));
 }
 
-/** The simulated camera: poses in, images out. */
+/** The simulated camera: takes poses, returns images. */
 export class StereoCamera {
   readonly intrinsics: Readonly<CameraIntrinsics>;
   readonly options: Readonly<Required<CameraOptions>>;
@@ -113,7 +113,7 @@ export class StereoCamera {
     this.#images = this.#viewImages(false);
   }
 
-  /** @throws SimulationError `bad-camera` when the rasteriser refuses the scene or the options */
+  /** @throws SimulationError `bad-camera` if the rasteriser refuses the scene or the options */
   static async create(
     scene: CompiledScene,
     seed: number,
@@ -130,7 +130,7 @@ export class StereoCamera {
         `${fieldOfView} rad is not between 0 and π`,
       );
     }
-    // tan(π/4) is exact here so that the usual 90° gives the same bits in every engine.
+    // Uses the exact value of tan(π/4), so that the usual 90° gives the same bits in every engine.
     const tangent = fieldOfView === Math.PI / 2 ? 1 : Math.tan(fieldOfView / 2);
     const focal = width / 2 / tangent;
     const intrinsics = { width, height, fx: focal, fy: focal, cx: (width - 1) / 2, cy: (height - 1) / 2 };
@@ -174,10 +174,10 @@ export class StereoCamera {
     this.#write(body + 1, rotation, x, y, z);
   }
 
-  /** Draws. The same poses and number give the same bits. Ground truth has neither noise nor holes. */
+  /** Renders a frame. The same poses and number give the same bits. Ground truth has neither noise nor holes. */
   render(frameNumber: number, groundTruth: boolean, points: boolean): Images {
     this.#rasteriser.render(frameNumber, groundTruth, points);
-    // What makes the memory grow (the first points, another camera) detaches older views.
+    // Growing the memory (for the first points, or another camera) detaches older views.
     const hasPoints = this.#images.points.length > 0;
     if (this.#images.depth.buffer !== this.#memory.buffer || hasPoints !== points)
       this.#images = this.#viewImages(points);
@@ -216,7 +216,7 @@ export class StereoCamera {
   }
 }
 
-/** Depth as depth cameras often send it: whole millimetres, 0 where invalid, saturating at 65.535 m. */
+/** Depth as many depth cameras send it: integer millimetres, 0 where invalid, saturating at 65.535 m. */
 export function depthToMillimetres(depth: Float32Array, into = new Uint16Array(depth.length)): Uint16Array {
   for (let i = 0; i < depth.length; i++) into[i] = Math.min(65535, depth[i]! * 1000 + 0.5);
   return into;

@@ -2,7 +2,7 @@ import { GROUND_CLEARANCE, ROBOT_HEIGHT } from './drive.ts';
 import { cos, sin } from './trigonometry.ts';
 import type { WorldDescription } from './world.ts';
 
-/** A shape on the floor: a rectangle turned by (cos, sin), or a disc where both halves are zero. */
+/** A shape on the floor: a rectangle rotated by (cos, sin), or a disc if both halves are zero. */
 export interface Obstacle {
   x: number;
   y: number;
@@ -10,7 +10,7 @@ export interface Obstacle {
   sin: number;
   halfLength: number;
   halfWidth: number;
-  /** Added all around: a disc's radius. */
+  /** Added on all sides: a disc's radius. */
   margin: number;
 }
 
@@ -43,7 +43,7 @@ export function staticObstacles(world: WorldDescription): Obstacle[] {
   return [...boxes, ...discs];
 }
 
-/** How far a point is from an obstacle, and in which direction to leave it; negative inside. */
+/** The distance of a point from an obstacle, and the direction away from it; negative inside. */
 export interface Separation {
   distance: number;
   normalX: number;
@@ -89,9 +89,9 @@ const SKIN = 1e-6;
 
 /** Keeps a disc out of obstacles. */
 export class CollisionWorld {
-  /** What stands still. */
+  /** Stationary obstacles. */
   readonly fixed: readonly Obstacle[];
-  /** What moves; its owner updates the entries in place. */
+  /** Moving obstacles; their owner updates the entries in place. */
   readonly moving: Obstacle[];
   readonly #scratch: Separation = { distance: 0, normalX: 0, normalY: 0 };
   readonly #nearest: Separation = { distance: 0, normalX: 0, normalY: 0 };
@@ -107,8 +107,8 @@ export class CollisionWorld {
   }
 
   /**
-   * Where a disc of this radius ends up that wants to go from `from` to `to`: there, or slid along what is
-   * in its way, or where it was. `from` must be free.
+   * Where a disc of this radius that wants to move from `from` to `to` ends up: there, or slid along an obstacle, or
+   * where it was. `from` must be free.
    */
   move(
     from: { x: number; y: number },

@@ -11,7 +11,7 @@ function twist(linear: number, angular: number) {
   return command;
 }
 
-test('speeds and accelerations stay within the limits whatever is commanded', () => {
+test('speeds and accelerations stay within the limits, whatever is commanded', () => {
   const any = fc.double({ min: -1e6, max: 1e6, noNaN: true });
   fc.assert(
     fc.property(
@@ -69,7 +69,7 @@ test('wheels turn at the speeds that give the motion', () => {
   expect(drive.wheelSpeeds.right).toBeCloseTo(8, 9);
 });
 
-test.each(['linear', 'angular'] as const)('a command whose %s part is not finite is refused', (part) => {
+test.each(['linear', 'angular'] as const)('refuses a command whose %s part is not finite', (part) => {
   for (const axis of ['x', 'y', 'z'] as const) {
     for (const value of [Number.NaN, Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY]) {
       const drive = new DifferentialDrive();
@@ -85,7 +85,7 @@ test.each(['linear', 'angular'] as const)('a command whose %s part is not finite
   }
 });
 
-test('limits that make no sense are refused', () => {
+test('refuses invalid limits', () => {
   expect(() => new DifferentialDrive({ radius: 0 })).toThrow(SimulationError);
   expect(() => new DifferentialDrive({ maxLinearSpeed: Number.NaN })).toThrow(SimulationError);
 });

@@ -1,12 +1,12 @@
 import { type Twist, zeroTwist } from '@farpoint/protocol';
 import { requireFinite, SimulationError } from './errors.ts';
 
-/** What the base can do: m/s, rad/s, m/s², rad/s², metres. */
+/** The limits of the base: m/s, rad/s, m/s², rad/s², metres. */
 export interface RobotLimits {
   maxLinearSpeed: number;
   maxAngularSpeed: number;
   linearAcceleration: number;
-  /** Braking, and the way down to a lower speed. */
+  /** Deceleration for braking and for lower speeds. */
   linearDeceleration: number;
   angularAcceleration: number;
   /** Radius of the round body. */
@@ -27,12 +27,12 @@ export const DEFAULT_LIMITS: Readonly<RobotLimits> = {
   wheelRadius: 0.08,
 };
 
-/** Height of the body and mast: what lies higher does not stop the robot. */
+/** Height of body and mast: higher obstacles do not stop the robot. */
 export const ROBOT_HEIGHT = 1.0;
-/** What lies lower is driven over. */
+/** Lower obstacles are driven over. */
 export const GROUND_CLEARANCE = 0.03;
 
-/** A differential drive: follows the wanted velocity as fast as its limits allow. */
+/** A differential drive: follows the commanded velocity as fast as its limits allow. */
 export class DifferentialDrive {
   readonly limits: Readonly<RobotLimits>;
   /** Actual velocity of base_link, m/s and rad/s. */
@@ -51,9 +51,9 @@ export class DifferentialDrive {
   }
 
   /**
-   * Wants linear.x and angular.z, clamped to the limits; a wheeled base cannot do the rest.
+   * Commands linear.x and angular.z, clamped to the limits; a wheeled base cannot follow the other components.
    *
-   * @throws SimulationError `not-finite` when any component is not a number; the old command stays
+   * @throws SimulationError `not-finite` if any component is not a finite number; the old command stays
    */
   command(twist: Twist): void {
     for (const part of ['linear', 'angular'] as const) {
@@ -88,7 +88,7 @@ export class DifferentialDrive {
   }
 }
 
-/** Moves `current` towards `target`: up by at most `rise` away from zero, down by at most `fall`. */
+/** Moves `current` towards `target`: by at most `rise` away from zero, by at most `fall` towards it. */
 export function approach(current: number, target: number, rise: number, fall: number): number {
   const turns = current * target < 0;
   const goal = turns ? 0 : target;

@@ -1,7 +1,7 @@
 /** Why the simulation refused something. */
 export type SimulationErrorCode =
   | 'not-finite' // a number was NaN or infinite
-  | 'out-of-range' // a number had no meaning, such as a negative duration
+  | 'out-of-range' // a number without meaning, such as a negative duration
   | 'bad-world' // a world description contradicts itself
   | 'bad-camera'; // the camera refused its configuration or the scene
 
@@ -9,7 +9,7 @@ export type SimulationErrorCode =
 export class SimulationError extends Error {
   override readonly name = 'SimulationError';
   readonly code: SimulationErrorCode;
-  /** What was refused, e.g. `twist.linear.x`. */
+  /** What was refused, for example `twist.linear.x`. */
   readonly what: string;
 
   constructor(code: SimulationErrorCode, what: string, detail: string) {

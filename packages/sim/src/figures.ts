@@ -1,17 +1,17 @@
 import { boxFaces, ellipsoidFaces, type Face } from './mesh.ts';
 import type { Mover } from './world.ts';
 
-/** A rigid part of a mover: turns about its pivot as the mover walks. */
+/** A rigid part of a mover: rotates about its pivot as the mover walks. */
 export interface Part {
   /** In the mover's frame: x forward, origin on the floor. */
   pivot: { x: number; y: number; z: number };
-  /** Largest angle of its swing about the y axis, radians; negative swings the other way. */
+  /** Maximum angle of its swing about the y axis, radians; negative values swing the other way. */
   swing: number;
-  /** Faces in the part's frame, with their plain colour; `smooth` ones carry brightness in u. */
+  /** Faces in the part's frame, with their plain colour; `smooth` ones store brightness in u. */
   faces: { face: Face; colour: number; smooth: boolean }[];
 }
 
-/** Metres walked for a step with each leg. */
+/** Metres per stride: one step with each leg. */
 export const STRIDE = 1.3;
 
 type Triple = readonly [number, number, number];

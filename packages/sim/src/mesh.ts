@@ -43,7 +43,7 @@ export function boxFaces(centre: Vector, size: Vector, cosYaw = 1, sinYaw = 0): 
   });
 }
 
-/** A rectangle about `middle` whose front is along `uAxis × vAxis`. */
+/** A rectangle around `middle` whose front faces along `uAxis × vAxis`. */
 export function rectangle(middle: Triple, uAxis: Triple, vAxis: Triple, width: number, height: number): Face {
   const corner = (a: number, b: number): Triple => [
     middle[0] + uAxis[0] * a * width + vAxis[0] * b * height,
@@ -58,8 +58,8 @@ export function rectangle(middle: Triple, uAxis: Triple, vAxis: Triple, width: n
 }
 
 /**
- * An ellipsoid as triangles. Their u is the brightness of the curved surface, lit from above and a little
- * from +x, so that it looks round without a normal per pixel.
+ * An ellipsoid as triangles. Their u is the brightness of the curved surface, lit from above and slightly from +x, so
+ * that it looks round without a normal per pixel.
  */
 export function ellipsoidFaces(centre: Vector, size: Vector, segments = 10, rings = 6): Face[] {
   const ringOf = (ring: number): Triple[] => {
@@ -96,7 +96,7 @@ export function ellipsoidFaces(centre: Vector, size: Vector, segments = 10, ring
   return faces;
 }
 
-/** The affine function, constant along the triangle's normal, that takes these values at its corners. */
+/** The affine function, constant along the triangle's normal, that has these values at its corners. */
 function affineThrough(corners: Triple[], values: Triple): Affine {
   const [a, b, c] = corners as [Triple, Triple, Triple];
   const e = subtract(b, a);

@@ -4,7 +4,7 @@ import type { Mover } from './world.ts';
 
 /** Corners of a path are rounded by looking this far ahead and behind, metres. */
 const ROUNDING = 0.35;
-/** A mover waits when its next step would bring it this near the robot's edge. */
+/** A mover waits if its next step would bring it this close to the robot's edge. */
 const COURTESY = 0.3;
 
 const SHAPES = {
@@ -12,12 +12,12 @@ const SHAPES = {
   cart: { halfLength: 0.45, halfWidth: 0.3, margin: 0 },
 } as const;
 
-/** One person or cart on its path. It stops for the robot and goes on when the way is free. */
+/** One person or cart on its path. It stops for the robot and continues when the way is free. */
 export class MovingBody {
   readonly mover: Mover;
   /** Its footprint; x, y, cos and sin are its pose. */
   readonly obstacle: Obstacle;
-  /** Distance walked since the start, metres: drives the gait. */
+  /** Distance walked since the start, metres: determines the gait. */
   walked = 0;
   moving = true;
   readonly #path: Path;
@@ -41,7 +41,7 @@ export class MovingBody {
     this.#path.pose(mover.offset ?? 0, this.obstacle);
   }
 
-  /** Walks on for `dt` seconds unless the robot (a disc) is in the way. */
+  /** Walks for `dt` seconds unless the robot (a disc) is in the way. */
   step(dt: number, robot: { x: number; y: number }, robotRadius: number): void {
     const stride = this.mover.speed * dt;
     this.#path.pose((this.mover.offset ?? 0) + this.walked + stride, this.#next);

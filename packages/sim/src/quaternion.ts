@@ -1,7 +1,7 @@
 import type { Quaternion } from '@farpoint/protocol';
 import { cos, sin } from './trigonometry.ts';
 
-/** A turn by `yaw` about z. */
+/** A rotation by `yaw` about z. */
 export function fromYaw(yaw: number): Quaternion {
   return { x: 0, y: 0, z: sin(yaw / 2), w: cos(yaw / 2) };
 }

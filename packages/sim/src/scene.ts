@@ -4,7 +4,7 @@ import { boxFaces, ellipsoidFaces, type Face, rectangle, type Triple } from './m
 import { cos, sin } from './trigonometry.ts';
 import { type Material, materialIndex, type Panel, type WorldDescription } from './world.ts';
 
-// The layout is the camera's (crate sim-camera, scene.rs).
+// The layout is defined by the camera (crate sim-camera, scene.rs).
 const VERSION = 1;
 const MATERIAL_LENGTH = 16;
 
@@ -21,24 +21,24 @@ const TEXTURES = [
   'picture',
 ] as const;
 
-/** A world as the camera wants it. */
+/** A world in the camera's format. */
 export interface CompiledScene {
   numbers: Float32Array;
-  /** Rigid bodies; the first is all that stands still. */
+  /** Rigid bodies; the first contains everything stationary. */
   bodyCount: number;
   /** For each mover of the world, its parts and the body number of the first. */
   figures: { parts: Part[]; firstBody: number }[];
 }
 
 /**
- * Turns a world into the camera's flat buffer.
+ * Converts a world to the camera's flat buffer.
  *
- * @throws SimulationError `bad-world` for a material that is not defined
+ * @throws SimulationError `bad-world` for an undefined material
  */
 export function compileScene(world: WorldDescription): CompiledScene {
   const materials = Object.values(world.materials).map(materialNumbers);
   const plain = new Map<string, number>();
-  /** A material of one colour, made when first asked for. */
+  /** A material of one colour, created when first requested. */
   const plainMaterial = (colour: number, smooth: boolean): number => {
     const key = `${colour} ${smooth}`;
     let index = plain.get(key);

@@ -11,7 +11,7 @@ import { basePose, type WorldSnapshot } from './world-snapshot.ts';
 /** Length of one internal step, seconds: 2 mm of travel at 1 m/s. */
 export const TIME_STEP = 0.002;
 const DOCK_REACH = 0.2;
-/** A call may not ask for more than this; it would block the process for long. */
+/** Longer calls are refused, because they would block the process for too long. */
 const MAX_SECONDS_PER_CALL = 600;
 
 export interface BaseState {
@@ -22,7 +22,7 @@ export interface BaseState {
   yaw: number;
   /** Actual velocity in base_link. */
   twist: Twist;
-  /** Radians turned since the start, and rad/s. */
+  /** Radians rotated since the start, and rad/s. */
   wheelAngles: { left: number; right: number };
   wheelSpeeds: { left: number; right: number };
   battery: BatteryState;
@@ -33,8 +33,8 @@ export interface BaseState {
 }
 
 /**
- * A wheeled base in a world of walls, furniture, people and carts. Same commands, same steps: same motion, to the bit. No
- * clock is read.
+ * A wheeled base in a world of walls, furniture, people and carts. The same commands and steps give the same motion,
+ * bit for bit. Reads no clock.
  */
 export class SimulatedBase {
   readonly world: WorldDescription;
@@ -50,7 +50,7 @@ export class SimulatedBase {
   #distance = 0;
   #collision = false;
 
-  /** @throws SimulationError for a world or limits that make no sense */
+  /** @throws SimulationError for an invalid world or invalid limits */
   constructor(world: WorldDescription, limits?: Partial<RobotLimits>) {
     this.world = world;
     this.#drive = new DifferentialDrive(limits);
@@ -67,7 +67,7 @@ export class SimulatedBase {
   }
 
   /**
-   * Sets the wanted velocity, kept until the next call: linear.x and angular.z, clamped to the limits.
+   * Sets the commanded velocity, kept until the next call: linear.x and angular.z, clamped to the limits.
    *
    * @throws SimulationError `not-finite`; the old command stays
    */
@@ -76,7 +76,7 @@ export class SimulatedBase {
   }
 
   /**
-   * Lets time pass, in whole internal steps of 2 ms; what is left over counts towards the next call.
+   * Lets time pass, in whole internal steps of 2 ms; the remainder counts towards the next call.
    *
    * @throws SimulationError for a duration that is not finite, negative or above ten minutes
    */
@@ -90,7 +90,7 @@ export class SimulatedBase {
       );
     }
     this.#unspent += seconds;
-    // A hair more, so that 500 calls of 0.002 s are 500 steps.
+    // A tiny bit more, so that 500 calls of 0.002 s are 500 steps.
     const steps = Math.floor(this.#unspent / TIME_STEP + 1e-6);
     this.#unspent -= steps * TIME_STEP;
     if (steps > 0) this.#collision = false;
@@ -112,7 +112,7 @@ export class SimulatedBase {
     const { x, y, contact } = this.#collisions.move(from, to, drive.limits.radius);
     if (contact) {
       this.#collision = true;
-      // What is left of the speed is what was driven; contact never pushes.
+      // The remaining speed is the distance actually driven; contact never pushes.
       const driven = ((x - from.x) * c + (y - from.y) * s) / TIME_STEP;
       drive.linear = drive.linear > 0 ? clamp(driven, 0, drive.linear) : clamp(driven, drive.linear, 0);
     }
@@ -163,7 +163,7 @@ export class SimulatedBase {
     };
   }
 
-  /** Puts the robot somewhere else, at rest. @throws SimulationError when it would stand in something */
+  /** Places the robot somewhere else, at rest. @throws SimulationError if it would overlap an obstacle */
   teleport(x: number, y: number, yaw: number): void {
     requireFinite(x, 'teleport.x');
     requireFinite(y, 'teleport.y');
@@ -177,7 +177,7 @@ export class SimulatedBase {
     this.#drive.angular = 0;
   }
 
-  /** Where people and carts are. */
+  /** Positions of people and carts. */
   get movers(): readonly { name: string; x: number; y: number; walking: boolean }[] {
     return this.#movers.map((body) => ({
       name: body.mover.name,

@@ -10,10 +10,10 @@ import { type BodyPlace, basePose, type WorldSnapshot } from './world-snapshot.t
 
 export interface SimulatedCameraOptions {
   world: WorldDescription;
-  /** Selects the noise: a whole number from 0 to 2³² − 1. */
+  /** Selects the noise: an integer from 0 to 2³² − 1. */
   seed: number;
   camera?: CameraOptions | undefined;
-  /** The camera's module, where it cannot be read from this package's folder. */
+  /** The camera's module, if it cannot be read from this package's folder. */
   wasm?: WasmSource | undefined;
 }
 
@@ -22,7 +22,7 @@ export interface CloudFrame extends Images {
   width: number;
   height: number;
   intrinsics: Readonly<CameraIntrinsics>;
-  /** Simulated seconds at which it was taken, and where the camera was then. */
+  /** Simulated time at which it was taken, seconds, and the camera's pose at that time. */
   captureTime: number;
   cameraPose: Pose;
   /** Counts from 0. */
@@ -30,13 +30,13 @@ export interface CloudFrame extends Images {
 }
 
 export interface RenderOptions {
-  /** Neither noise nor holes. */
+  /** Without noise and holes. */
   groundTruth?: boolean;
-  /** False: images only, which is quicker. */
+  /** False for images only, which is faster. */
   points?: boolean;
 }
 
-/** A depth camera on the base. Same seed, same snapshots: same frames, to the bit. */
+/** A depth camera on the base. The same seed and snapshots give the same frames, bit for bit. */
 export class SimulatedCamera {
   readonly intrinsics: Readonly<CameraIntrinsics>;
   readonly #camera: StereoCamera;
@@ -55,7 +55,7 @@ export class SimulatedCamera {
     this.#mount = { position: { x: forward, y: 0, z: up }, orientation };
   }
 
-  /** @throws SimulationError for a seed, world or camera that makes no sense */
+  /** @throws SimulationError for an invalid seed, world or camera */
   static async create({ world, seed, camera, wasm }: SimulatedCameraOptions): Promise<SimulatedCamera> {
     if (!(Number.isInteger(seed) && seed >= 0 && seed <= 0xffffffff)) {
       throw new SimulationError('out-of-range', 'seed', `${seed} is not a whole number below 2^32`);
@@ -64,12 +64,12 @@ export class SimulatedCamera {
     return new SimulatedCamera(await StereoCamera.create(scene, seed, camera, wasm), scene.figures);
   }
 
-  /** The optical frame in the world, with the base at `base`. */
+  /** Pose of the optical frame in the world, with the base at `base`. */
   poseAt(base: Pose): Pose {
     return compose(base, this.#mount);
   }
 
-  /** Takes a picture of the world as the snapshot has it. */
+  /** Renders the world as described by the snapshot. */
   render(snapshot: WorldSnapshot, { groundTruth = false, points = true }: RenderOptions = {}): CloudFrame {
     const cameraPose = this.poseAt(basePose(snapshot));
     this.#camera.setCameraPose(cameraPose);

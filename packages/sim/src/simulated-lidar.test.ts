@@ -16,7 +16,7 @@ async function lidarIn(world: WorldDescription, noise = 0): Promise<SimulatedLid
   return lidar;
 }
 
-/** A square room of 8 m, the robot in its middle. */
+/** A square room of 8 m with the robot in its middle. */
 function room(): WorldDescription {
   const wall = (x: number, y: number) => ({
     centre: { x: x * 4.5, y: y * 4.5, z: 0 },
@@ -36,7 +36,7 @@ function room(): WorldDescription {
 }
 
 describe('SimulatedLidar', () => {
-  test('hits the walls all around where they stand', async () => {
+  test('hits the walls on all sides at their true positions', async () => {
     const world = room();
     const lidar = await lidarIn(world);
     const { points, pose } = lidar.turn(new SimulatedBase(world).snapshot);
@@ -48,13 +48,13 @@ describe('SimulatedLidar', () => {
       const wx = px + r[0]! * x + r[1]! * y + r[2]! * z;
       const wy = py + r[3]! * x + r[4]! * y + r[5]! * z;
       expect(pz + r[6]! * x + r[7]! * y + r[8]! * z).toBeGreaterThan(-2);
-      // On a wall: the nearest pixel's depth is off by half a pixel's worth of a slanted wall.
+      // On a wall: the depth of the nearest pixel is off by up to half a pixel of a slanted wall.
       farthest = Math.max(farthest, Math.abs(Math.max(Math.abs(wx), Math.abs(wy)) - 4));
     }
     expect(farthest).toBeLessThan(0.06);
   });
 
-  test('same seed, same world, same turn; noise is of the size it says', async () => {
+  test('the same seed and world give the same revolution; the noise has the stated size', async () => {
     const world = officeWorld();
     const { snapshot } = new SimulatedBase(world);
     const turn = async (noise: number) => (await lidarIn(world, noise)).turn(snapshot).points.slice();

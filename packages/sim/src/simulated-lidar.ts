@@ -6,21 +6,21 @@ import type { WorldDescription } from './world.ts';
 import { basePose, type WorldSnapshot } from './world-snapshot.ts';
 
 export interface LidarOptions {
-  /** Beams, one above the other. */
+  /** Number of beams, one above the other. */
   rings: number;
-  /** Measurements of each beam in a turn. */
+  /** Measurements of each beam per revolution. */
   columns: number;
-  /** Between the lowest and the highest beam, radians, half of it above the horizon. */
+  /** Angle between the lowest and the highest beam, radians, half of it above the horizon. */
   verticalFieldOfView: number;
-  /** Metres above base_link. */
+  /** Height above base_link, metres. */
   up: number;
   /** Standard deviation of a range, metres. */
   noise: number;
-  /** Ranges beyond it are not measured, metres. */
+  /** Longer ranges are not measured, metres. */
   far: number;
 }
 
-/** A small spinning LiDAR as robots of this size carry it. */
+/** A small spinning LiDAR as carried by robots of this size. */
 export const DEFAULT_LIDAR: Readonly<LidarOptions> = {
   rings: 16,
   columns: 900,
@@ -30,37 +30,38 @@ export const DEFAULT_LIDAR: Readonly<LidarOptions> = {
   far: 30,
 };
 
-/** One turn. The points are a view that the next turn overwrites. */
+/** One revolution. The points are a view that the next revolution overwrites. */
 export interface LidarTurn {
-  /** x, y, z in metres in the optical frame (z forward, x right, y down), NaN where nothing was hit; then R, G, B, 255. */
+  /** x, y, z in metres in the optical frame (z forward, x right, y down), NaN if nothing was hit; then R, G, B, 255. */
   points: Float32Array;
-  /** The LiDAR's frame in the world, with optical axes. */
+  /** Pose of the LiDAR's frame in the world, with optical axes. */
   pose: Pose;
   /** Simulated seconds. */
   captureTime: number;
 }
 
-/** Cameras that look all around, each a third of it. */
+/** Number of cameras, which together cover the full circle. */
 const VIEWS = 3;
 const VIEW_FIELD = (2 * Math.PI) / VIEWS;
-/** A little more, so that the outermost beams meet pixels, too. */
+/** Slightly more, so that the outermost beams also meet pixels. */
 const CAMERA_FIELD = VIEW_FIELD + Math.PI / 90;
-/** Pixels across a view: finer than the beams, so that each meets its own. */
+/** Pixels across a view: finer than the beams, so that each beam meets a pixel of its own. */
 const VIEW_WIDTH = 640;
 
-/** Where each beam meets a view. */
+/** Where a beam meets a view. */
 interface Beam {
   view: number;
   pixel: number;
-  /** Of the range, per metre of depth along the view's axis. */
+  /** Components of the range vector, per metre of depth along the view's axis. */
   x: number;
   y: number;
   z: number;
 }
 
 /**
- * A spinning LiDAR on the base, drawn by depth cameras that look all around: each beam takes the depth of the pixel that it
- * meets. A turn is taken in one moment: points need no correction for motion. Same seed, same snapshots: same turns.
+ * A spinning LiDAR on the base, rendered by depth cameras that cover the full circle: each beam takes the depth of the
+ * pixel that it meets. A revolution is taken at one instant, so points need no motion correction. The same seed and
+ * snapshots give the same revolutions.
  */
 export class SimulatedLidar {
   readonly options: Readonly<LidarOptions>;
@@ -81,7 +82,7 @@ export class SimulatedLidar {
     this.#noiseState = (seed ^ 0x9e3779b9) >>> 0 || 1;
   }
 
-  /** @throws SimulationError for a seed or world that makes no sense */
+  /** @throws SimulationError for an invalid seed or world */
   static async create(
     { world, seed, wasm }: { world: WorldDescription; seed: number; wasm?: WasmSource | undefined },
     given: Partial<LidarOptions> = {},
@@ -105,7 +106,7 @@ export class SimulatedLidar {
     return this.#beams.length;
   }
 
-  /** Takes a turn in the world as the snapshot has it. */
+  /** Scans one revolution of the world as described by the snapshot. */
   turn(snapshot: WorldSnapshot): LidarTurn {
     const images = this.#views.map((view) => view.render(snapshot, { groundTruth: true, points: false }));
     const { far, noise } = this.options;
@@ -134,7 +135,7 @@ export class SimulatedLidar {
     for (const view of this.#views) view.close();
   }
 
-  /** Nearly normal, deviation 1: the sum of four uniform numbers. */
+  /** Approximately normal, deviation 1: the sum of four uniform numbers. */
   #gaussian(): number {
     let sum = 0;
     for (let i = 0; i < 4; i++) {
@@ -148,7 +149,7 @@ export class SimulatedLidar {
   }
 }
 
-/** Rows that hold the outermost beams also at a view's edge, where they stand highest; a multiple of 4. */
+/** Number of rows for the outermost beams even at a view's edge, where they are highest; a multiple of 4. */
 function viewHeight(verticalFieldOfView: number): number {
   const focal = VIEW_WIDTH / 2 / Math.tan(CAMERA_FIELD / 2);
   return (
@@ -164,7 +165,7 @@ function beamsOf(
   for (let ring = 0; ring < rings; ring++) {
     const elevation = rings === 1 ? 0 : verticalFieldOfView * (ring / (rings - 1) - 0.5);
     for (let column = 0; column < columns; column++) {
-      // To the left, as REP-103 has it, from straight ahead.
+      // To the left, as in REP-103, from straight ahead.
       const azimuth = (2 * Math.PI * column) / columns;
       const view = Math.round(azimuth / VIEW_FIELD) % VIEWS;
       const { fx, fy, cx, cy, width } = views[view]!.intrinsics;
@@ -173,7 +174,7 @@ function beamsOf(
       const right = -Math.tan(local);
       const down = -Math.tan(elevation) / Math.cos(local);
       const pixel = Math.round(cy + fy * down) * width + Math.round(cx + fx * right);
-      // Turned into the frame that looks ahead.
+      // Rotated into the frame that looks ahead.
       const [c, s] = [Math.cos(view * VIEW_FIELD), Math.sin(view * VIEW_FIELD)];
       beams.push({ view, pixel, x: right * c - s, y: down, z: right * s + c });
     }

@@ -73,16 +73,16 @@ async function drive(seed: number): Promise<string[]> {
 }
 
 describe('determinism', () => {
-  test('the frames of a drive are these, to the bit, on any machine', async () => {
+  test('the frames of a drive are these, bit for bit, on any machine', async () => {
     expect(await drive(7)).toEqual(GOLDEN);
   });
 
-  test('another run gives the same frames, another seed others', async () => {
+  test('another run gives the same frames, another seed different ones', async () => {
     expect(await drive(8)).toEqual(await drive(8));
     expect((await drive(8))[0]).not.toBe((await drive(9))[0]);
   });
 
-  test('time may pass in any pieces', async () => {
+  test('the result does not depend on how time is divided into calls', async () => {
     const [whole, pieces] = [await simulate(), await simulate()];
     for (const simulation of [whole, pieces]) simulation.setCommand(twist(0.6, 0.3));
     whole.step(2);
@@ -93,7 +93,7 @@ describe('determinism', () => {
 });
 
 describe('camera', () => {
-  test('a wall straight ahead is where it is, and unprojects by the intrinsics', async () => {
+  test('a wall straight ahead is at its distance, and unprojects by the intrinsics', async () => {
     const simulation = await simulate({ world: wallWorld(3), camera: { pitch: 0, forward: 0.1 } });
     const frame = simulation.renderFrame({ groundTruth: true });
     const { fx, fy, cx, cy, width, height } = frame.intrinsics;
@@ -127,7 +127,7 @@ describe('camera', () => {
     }
   });
 
-  test('camera pose and points together put a wall where the world has it', async () => {
+  test('camera pose and points together give a wall its true position', async () => {
     const simulation = await simulate({ world: wallWorld(3) });
     simulation.setCommand(twist(0.3, 0.5));
     simulation.step(1);
@@ -197,7 +197,7 @@ describe('camera', () => {
     expect([intrinsics.cx, intrinsics.cy]).toEqual([159.5, 99.5]);
   });
 
-  test('two cameras do not disturb each other', async () => {
+  test('two cameras do not affect each other', async () => {
     const first = await simulate({ seed: 3 });
     const before = digest(first.renderFrame());
     const second = await simulate({ seed: 3, camera: { width: 1280, height: 960 } });
@@ -212,7 +212,7 @@ describe('camera', () => {
     expect([...depthToMillimetres(depth)]).toEqual([0, 1234, 1235, 65535]);
   });
 
-  test('options that make no sense are refused', async () => {
+  test('refuses invalid options', async () => {
     await expect(simulate({ camera: { width: 482 } })).rejects.toMatchObject({ code: 'bad-camera' });
     await expect(simulate({ camera: { fieldOfView: 4 } })).rejects.toMatchObject({ code: 'out-of-range' });
     await expect(simulate({ camera: { noise: Number.NaN } })).rejects.toMatchObject({ code: 'not-finite' });
@@ -232,7 +232,7 @@ describe('motion', () => {
     const simulation = await simulate({ world: wallWorld(30) });
     simulation.setCommand(twist(0.5, 0));
     simulation.step(4.25);
-    // A quarter of a metre less for speeding up: v²/2a is driven in v/a.
+    // A quarter of a metre less for accelerating: v²/2a is driven in v/a.
     expect(simulation.state.pose.position.x).toBeCloseTo(0.5 * 4.25 - 0.125, 2);
     expect(simulation.state.odometryDistance).toBeCloseTo(simulation.state.pose.position.x, 9);
     expect(simulation.state.wheelAngles.left).toBeCloseTo(simulation.state.odometryDistance / 0.08, 6);
@@ -246,7 +246,7 @@ describe('motion', () => {
     expect(simulation.state.wheelSpeeds.left).toBeLessThan(0);
   });
 
-  test('stops at a wall and says so', async () => {
+  test('stops at a wall and reports it', async () => {
     const simulation = await simulate({ world: wallWorld(1) });
     simulation.setCommand(twist(1, 0));
     simulation.step(3);
@@ -259,7 +259,7 @@ describe('motion', () => {
     expect(simulation.state.pose.position.x).toBeLessThan(0.6);
   });
 
-  test('the narrow door can be passed, and not by a robot off its middle', async () => {
+  test('fits through the narrow door, but not off its middle', async () => {
     const simulation = await simulate();
     simulation.teleport(16.42, 6.3, -Math.PI / 2);
     simulation.setCommand(twist(0.5, 0));
@@ -318,7 +318,7 @@ describe('motion', () => {
     expect(simulation.clearance).toBeGreaterThan(0.25);
   });
 
-  test('the battery drains on the way and charges at the dock', async () => {
+  test('the battery drains while driving and charges at the dock', async () => {
     const simulation = await simulate();
     const start = simulation.state.battery.percentage;
     simulation.step(60);
@@ -332,7 +332,7 @@ describe('motion', () => {
     expect(simulation.state.battery.percentage).toBeGreaterThan(driven.percentage);
   });
 
-  test('bad commands and durations are refused', async () => {
+  test('refuses invalid commands and durations', async () => {
     const simulation = await simulate();
     expect(() => simulation.setCommand(twist(Number.NaN, 0))).toThrow(
       expect.objectContaining({ code: 'not-finite' }),

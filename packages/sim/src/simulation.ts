@@ -7,22 +7,22 @@ import type { WorldDescription } from './world.ts';
 import { officeWorld } from './worlds/office.ts';
 
 export interface SimulationOptions {
-  /** Selects the noise: a whole number from 0 to 2³² − 1. */
+  /** Selects the noise: an integer from 0 to 2³² − 1. */
   seed: number;
   /** Default: the office. */
   world?: WorldDescription;
   camera?: CameraOptions;
   robot?: Partial<RobotLimits>;
-  /** The camera's module, where it cannot be read from this package's folder. */
+  /** The camera's module, if it cannot be read from this package's folder. */
   wasm?: WasmSource;
 }
 
 export interface RobotState extends BaseState {
-  /** The camera's optical frame in the world. */
+  /** Pose of the camera's optical frame in the world. */
   cameraPose: Pose;
 }
 
-/** Base and camera in one place and one time. Same seed, same commands, same steps: same frames, to the bit. */
+/** Base and camera in a common place and time. The same seed, commands and steps give the same frames, bit for bit. */
 export class Simulation {
   readonly base: SimulatedBase;
   readonly #camera: SimulatedCamera;
@@ -32,7 +32,7 @@ export class Simulation {
     this.#camera = camera;
   }
 
-  /** @throws SimulationError for a seed, world, camera or robot that makes no sense */
+  /** @throws SimulationError for an invalid seed, world, camera or robot */
   static async create(options: SimulationOptions): Promise<Simulation> {
     const { seed, camera, wasm, robot, world = officeWorld() } = options;
     const base = new SimulatedBase(world, robot);

@@ -12,7 +12,7 @@ test('sine and cosine agree with the library to 1e-13', () => {
   );
 });
 
-test('a wrapped angle points the same way', () => {
+test('a wrapped angle has the same direction', () => {
   fc.assert(
     fc.property(fc.double({ min: -100, max: 100, noNaN: true }), (x) => {
       const wrapped = wrapAngle(x);

@@ -1,11 +1,11 @@
 /**
- * Sine and cosine from additions and multiplications alone. `Math.sin` may differ in its last bit between
- * engines; these give the same bits everywhere, and with them so does the whole simulation.
+ * Sine and cosine from additions and multiplications alone. `Math.sin` may differ in its last bit between engines.
+ * These functions, and with them the whole simulation, give the same bits everywhere.
  */
 
 const HALF_PI = Math.PI / 2;
 
-/** Taylor polynomials, good to 1e-16 for |x| ≤ π/4. */
+/** Taylor polynomials, accurate to 1e-16 for |x| ≤ π/4. */
 function sinNearZero(x: number): number {
   const s = x * x;
   return (

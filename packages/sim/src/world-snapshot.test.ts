@@ -3,7 +3,7 @@ import { SimulatedBase } from './simulated-base.ts';
 import { readSnapshot, snapshotNumbers, writeSnapshot } from './world-snapshot.ts';
 import { officeWorld } from './worlds/office.ts';
 
-test('numbers hold all of a snapshot', () => {
+test('the numbers contain the whole snapshot', () => {
   const base = new SimulatedBase(officeWorld());
   base.setCommand({ linear: { x: 0.5, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0.3 } });
   base.step(3);

@@ -1,7 +1,7 @@
 import type { Pose } from '@farpoint/protocol';
 import { fromYaw } from './quaternion.ts';
 
-/** Where a person or cart is, and how far it has walked, for its gait. */
+/** Position of a person or cart, and the distance it has walked, which determines its gait. */
 export interface BodyPlace {
   x: number;
   y: number;
@@ -10,7 +10,7 @@ export interface BodyPlace {
   walked: number;
 }
 
-/** All that a sensor must know of the world to draw it. */
+/** Everything that a sensor needs to render the world. */
 export interface WorldSnapshot {
   /** Simulated seconds since the start. */
   time: number;
@@ -25,12 +25,12 @@ export interface WorldSnapshot {
 const BASE_NUMBERS = 4;
 const BODY_NUMBERS = 5;
 
-/** How many numbers a snapshot of a world with so many movers takes. */
+/** How many numbers a snapshot of a world with this many movers takes. */
 export function snapshotNumbers(movers: number): number {
   return BASE_NUMBERS + movers * BODY_NUMBERS;
 }
 
-/** Writes the snapshot as plain numbers, for memory that threads share. */
+/** Writes the snapshot as plain numbers, for memory shared between threads. */
 export function writeSnapshot(snapshot: WorldSnapshot, into: Float64Array): void {
   into[0] = snapshot.time;
   into[1] = snapshot.x;
@@ -47,7 +47,7 @@ export function writeSnapshot(snapshot: WorldSnapshot, into: Float64Array): void
   }
 }
 
-/** @param from what {@link writeSnapshot} wrote, and nothing more */
+/** @param from exactly what {@link writeSnapshot} wrote */
 export function readSnapshot(from: Float64Array): WorldSnapshot {
   const bodies: BodyPlace[] = [];
   for (let at = BASE_NUMBERS; at + BODY_NUMBERS <= from.length; at += BODY_NUMBERS) {
@@ -63,7 +63,7 @@ export function readSnapshot(from: Float64Array): WorldSnapshot {
   return { time: from[0]!, x: from[1]!, y: from[2]!, yaw: from[3]!, bodies };
 }
 
-/** base_link in the world. */
+/** Pose of base_link in the world. */
 export function basePose({ x, y, yaw }: Pick<WorldSnapshot, 'x' | 'y' | 'yaw'>): Pose {
   return { position: { x, y, z: 0 }, orientation: fromYaw(yaw) };
 }

@@ -1,23 +1,23 @@
 import { SimulationError } from './errors.ts';
 
 /**
- * A world as data. REP-103 axes: x forward, y left, z up, metres; yaw about z in radians. Colours are
- * `0xRRGGBB`. Materials are named, and everything else refers to them by name.
+ * A world as data. REP-103 axes: x forward, y left, z up, metres; yaw about z in radians. Colours are `0xRRGGBB`.
+ * Materials have names, by which everything else refers to them.
  */
 export interface WorldDescription {
   name: string;
   /** Where the robot starts. */
   start: PlanarPose;
-  /** Where it charges; absent when the world has no dock. */
+  /** Where it charges; absent if the world has no dock. */
   dock?: PlanarPose;
   /** Distance between ceiling lamps along x and y. */
   lampSpacing: number;
   materials: Record<string, Material>;
-  /** Solid boxes: walls, furniture, things. They stop the robot unless they are out of its reach in height. */
+  /** Solid boxes: walls, furniture, objects. They stop the robot unless their height is out of its reach. */
   boxes: Box[];
-  /** Thin flat pictures: posters, signs, screens, markings on the floor. The robot passes through them. */
+  /** Thin flat pictures: posters, signs, screens, floor markings. The robot passes through them. */
   panels: Panel[];
-  /** Round things of revolution that stand still: plants, bins, balls. They stop the robot. */
+  /** Stationary round objects: plants, bins, balls. They stop the robot. */
   ellipsoids: Ellipsoid[];
   /** People and carts that move along closed paths. */
   movers: Mover[];
@@ -32,9 +32,9 @@ export interface PlanarPose {
 interface MaterialBase {
   /** Main colour. */
   colour: number;
-  /** Share of the surface on which a stereo matcher fails: glass 0.9, whiteboard 0.4, wallpaper 0. */
+  /** Fraction of the surface on which a stereo matcher fails: glass 0.9, whiteboard 0.4, wallpaper 0. */
   unmatched?: number;
-  /** 1 for lamps, screens and windows: lit by itself. */
+  /** 1 for lamps, screens and windows, which emit light. */
   emission?: number;
 }
 
@@ -49,16 +49,16 @@ export type Material =
       width: number;
       height: number;
       joint: number;
-      /** Shift of each row against the one before, in tiles. */
+      /** Shift of each row against the previous one, in tiles. */
       bond?: number;
     })
   | (MaterialBase & {
       texture: 'stripes';
       second: number;
       period: number;
-      /** Share of the period in the second colour; default 0.5. */
+      /** Fraction of the period in the second colour; default 0.5. */
       share?: number;
-      /** 0: upright stripes, 1: level ones, 0.5: diagonal ones. */
+      /** 0 for vertical stripes, 1 for horizontal, 0.5 for diagonal ones. */
       turn?: number;
     })
   | (MaterialBase & { texture: 'grain'; second: number; size: number })
@@ -80,7 +80,7 @@ export interface Box {
   size: Vector;
   yaw?: number;
   material: string;
-  /** Materials of single faces. `front` is the face towards +x of the box's own frame. */
+  /** Materials of individual faces. `front` is the face towards +x of the box's own frame. */
   faces?: { front?: string; back?: string; left?: string; right?: string; top?: string; bottom?: string };
 }
 
@@ -89,9 +89,9 @@ export interface Panel {
   centre: Vector;
   /** Horizontal size as seen from the front. */
   width: number;
-  /** Vertical size; for a level panel the size along `yaw`. */
+  /** Vertical size; for a horizontal panel, the size along `yaw`. */
   height: number;
-  /** Direction that the front looks towards. */
+  /** Direction that the front faces. */
   yaw: number;
   level?: 'up' | 'down';
   material: string;
@@ -107,7 +107,7 @@ export interface Ellipsoid {
 export interface Mover {
   name: string;
   kind: 'person' | 'cart';
-  /** Corners of a closed path at floor level, walked in this order again and again. */
+  /** Corners of a closed path at floor level, walked repeatedly in this order. */
   path: { x: number; y: number }[];
   /** Walking speed, m/s. */
   speed: number;
@@ -119,7 +119,7 @@ export interface Mover {
   second: number;
 }
 
-/** Material of that name, or `bad-world`. */
+/** Index of the material with that name; throws `bad-world` if there is none. */
 export function materialIndex(world: WorldDescription, name: string, user: string): number {
   const index = Object.keys(world.materials).indexOf(name);
   if (index < 0) throw new SimulationError('bad-world', user, `no material is named "${name}"`);

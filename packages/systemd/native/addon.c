@@ -1,6 +1,7 @@
 /*
- * notify(socket, message): one datagram to a Unix socket, as sd_notify(3) describes it. Node has no such sockets of its
- * own. A path that begins with @ names an abstract socket. Never waits: what does not fit the queue is refused.
+ * notify(socket, message): sends one datagram to a Unix socket, as described in sd_notify(3). Node has no such sockets
+ * of its own. A path that begins with @ names an abstract socket. Never blocks: a message that does not fit the queue
+ * is refused.
  */
 #include <errno.h>
 #include <farpoint_addon.h>

@@ -7,7 +7,7 @@
       "defines": ["NAPI_VERSION=8", "_GNU_SOURCE"],
       "cflags": ["-std=c11", "-Wall", "-Wextra", "-Wno-unused-parameter", "-O2", "-fvisibility=hidden"],
       "cflags_c": ["-std=c11"],
-      # Node unloads an addon with the last worker that uses it, which may be before that thread is done with it.
+      # Node unloads an addon with the last worker that uses it, possibly before that thread has finished with it.
       "ldflags": ["-Wl,-z,nodelete"]
     }
   ]

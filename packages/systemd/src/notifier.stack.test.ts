@@ -7,7 +7,7 @@ import { afterAll, afterEach, beforeEach, describe, expect, it, vi } from 'vites
 import { loadSend, type Send } from './addon.ts';
 import { Notifier, notifyOrder } from './notifier.ts';
 
-describe('what systemd asks for', () => {
+describe('what systemd expects', () => {
   it.each([
     [{}, null],
     [{ NOTIFY_SOCKET: '' }, null],
@@ -38,7 +38,7 @@ describe('notifier', () => {
   beforeEach(() => void vi.useFakeTimers());
   afterEach(() => void vi.useRealTimers());
 
-  it('beats twice in each watchdog time while the service is alive, and no more once it stops', () => {
+  it('notifies twice per watchdog time while the service is alive, and no more once it stops', () => {
     const told: string[] = [];
     const notifier = new Notifier({ socket: '@n', watchdogMs: 1000 }, (_, message) => {
       told.push(message);
@@ -62,7 +62,7 @@ describe('notifier', () => {
     expect(notifier.failed).toBe(0);
   });
 
-  it('tells a new status within a second, and one that is told not again', () => {
+  it('reports a new status within a second, and never repeats it', () => {
     const told: string[] = [];
     const notifier = new Notifier({ socket: '@n', watchdogMs: null }, (_, message) => {
       told.push(message);
@@ -82,7 +82,7 @@ describe('notifier', () => {
     expect(told).toEqual(['READY=1\nSTATUS=not registered', 'STATUS=registered', 'STOPPING=1']);
   });
 
-  it('goes on where nobody takes its words', () => {
+  it('continues if nobody accepts its messages', () => {
     const notifier = new Notifier({ socket: '@n', watchdogMs: null }, () => 111);
     notifier.ready(
       () => true,
@@ -92,7 +92,7 @@ describe('notifier', () => {
     expect(notifier.failed).toBe(2);
   });
 
-  it('asks for the time that its start may take', () => {
+  it('requests the time that its start may take', () => {
     const told: string[] = [];
     const notifier = new Notifier({ socket: '@n', watchdogMs: null }, (_, message) => {
       told.push(message);
@@ -106,7 +106,7 @@ describe('notifier', () => {
 const send = available();
 const python = spawnSync('python3', ['--version']).status === 0;
 
-/** Binds a datagram socket, says so, and prints each message and its sender's process. */
+/** Binds a datagram socket, reports that, and prints each message and its sender's process. */
 const LISTENER = `
 import socket, struct, sys
 s = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
@@ -128,7 +128,7 @@ describe.skipIf(send === null || !python)(
     afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
     it.each([join(folder, 'notify'), `@farpoint-test-${process.pid}`])(
-      '%s hears us, by our own process',
+      '%s receives our messages, sent by our own process',
       async (path) => {
         listener = spawn('python3', ['-c', LISTENER, path], { stdio: ['ignore', 'pipe', 'inherit'] });
         const lines = createInterface({ input: listener.stdout! })[Symbol.asyncIterator]();
@@ -145,7 +145,7 @@ describe.skipIf(send === null || !python)(
       },
     );
 
-    it('that is not there, or whose name is too long, is an errno', () => {
+    it('a missing socket, or a name that is too long, gives an errno', () => {
       expect(send?.(join(folder, 'nobody'), 'READY=1')).not.toBe(0);
       expect(send?.(`/${'x'.repeat(107)}`, 'READY=1')).not.toBe(0);
       expect(() => send?.(1 as never, '')).toThrow();

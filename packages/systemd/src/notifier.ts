@@ -1,13 +1,13 @@
 import { loadSend, type Send } from './addon.ts';
 
-/** What systemd gave a service to be told by: sd_notify(3), sd_watchdog_enabled(3). */
+/** What systemd expects a service to report, and where: sd_notify(3), sd_watchdog_enabled(3). */
 export interface NotifyOrder {
   socket: string;
-  /** Without a word for this long systemd kills the service, ms; `null` where it does not watch. */
+  /** Without a message for this long, systemd kills the service, ms; `null` without a watchdog. */
   watchdogMs: number | null;
 }
 
-/** @returns `null` where nobody waits for a word: not under systemd, or a unit that is not of `Type=notify` */
+/** @returns `null` if nobody expects messages: not under systemd, or a unit without `Type=notify` */
 export function notifyOrder(
   env: Readonly<Record<string, string | undefined>>,
   pid: number,
@@ -20,16 +20,16 @@ export function notifyOrder(
   return { socket, watchdogMs: ours && microseconds > 0 ? microseconds / 1000 : null };
 }
 
-/** A new status is told within this time, ms. */
+/** A new status is reported within this time, ms. */
 const STATUS_MS = 1000;
 
-/** Tells systemd how the service is. */
+/** Reports the service's state to systemd. */
 export class Notifier {
   readonly #order: NotifyOrder;
   readonly #send: Send;
   readonly #timers: NodeJS.Timeout[] = [];
   #status = '';
-  /** Words that the socket did not take. */
+  /** Messages that the socket did not accept. */
   failed = 0;
 
   constructor(order: NotifyOrder, send: Send = loadSend()) {
@@ -37,12 +37,12 @@ export class Notifier {
     this.#send = send;
   }
 
-  /** The service will be up within `mostMs`, ms: systemd waits for that long. */
+  /** The service will be up within `mostMs`, ms; systemd waits that long. */
   starting(mostMs: number): void {
     this.#tell(`EXTEND_TIMEOUT_USEC=${Math.ceil(mostMs * 1000)}`);
   }
 
-  /** The service is up. From here on systemd hears of it twice in each watchdog time, while `isAlive` says so. */
+  /** The service is up. From now on, systemd gets a message twice per watchdog time, as long as `isAlive` holds. */
   ready(isAlive: () => boolean, status: () => string): void {
     this.#status = status();
     this.#tell(`READY=1\nSTATUS=${this.#status}`);
@@ -54,7 +54,7 @@ export class Notifier {
     });
   }
 
-  /** The service is on its way out. */
+  /** The service is shutting down. */
   stopping(): void {
     for (const timer of this.#timers.splice(0)) clearInterval(timer);
     this.#tell('STOPPING=1');

@@ -5,7 +5,7 @@ const BITS_A_BYTE = 8;
 const MS_A_SECOND = 1000;
 const BITS_A_MEGABIT = 1e6;
 
-/** The one place where bytes, bits, milliseconds and megabits meet. */
+/** The only place that converts between bytes, bits, milliseconds and megabits. */
 export const BitRate = {
   fromMbps(mbps: number): BitRate {
     return mbps * BITS_A_MEGABIT;
@@ -15,7 +15,7 @@ export const BitRate = {
     return rate / BITS_A_MEGABIT;
   },
 
-  /** Of so many bytes in so long a time. */
+  /** The rate of this many bytes in this time. */
   of(bytes: number, ms: number): BitRate {
     return (bytes * BITS_A_BYTE * MS_A_SECOND) / ms;
   },
@@ -28,12 +28,12 @@ export const BitRate = {
     return rate / BITS_A_BYTE;
   },
 
-  /** How many bytes go in so long a time. */
+  /** The number of bytes in this time. */
   bytesIn(rate: BitRate, ms: number): number {
     return (rate * ms) / (BITS_A_BYTE * MS_A_SECOND);
   },
 
-  /** How long so many bytes take, ms. */
+  /** The time that this many bytes take, ms. */
   msFor(rate: BitRate, bytes: number): number {
     return (bytes * BITS_A_BYTE * MS_A_SECOND) / rate;
   },

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { RateMeter } from './rate-meter.ts';
 
-test('measures over its window and forgets what is older', () => {
+test('measures over its window and forgets older samples', () => {
   const meter = new RateMeter(1000);
   expect(meter.perSecond).toBe(0);
   for (let now = 0; now <= 2000; now += 250) meter.update(now * 2, now);
@@ -10,7 +10,7 @@ test('measures over its window and forgets what is older', () => {
   expect(meter.perSecond).toBe(0);
 });
 
-test('measures over as much of the window as there is, from two samples on', () => {
+test('measures over as much of the window as is available, from two samples on', () => {
   const meter = new RateMeter();
   meter.update(100, 0);
   expect(meter.perSecond).toBe(0);

@@ -1,4 +1,7 @@
-/** How much a sum that is sampled now and then grows a second, over the last second or so. Time is an argument. */
+/**
+ * How fast a cumulative sum that is sampled from time to time grows per second, over the last second or so. Time is an
+ * argument.
+ */
 export class RateMeter {
   readonly #times: number[] = [];
   readonly #sums: number[] = [];
@@ -11,14 +14,14 @@ export class RateMeter {
   update(sum: number, nowMs: number): void {
     this.#times.push(nowMs);
     this.#sums.push(sum);
-    // One sample at or before the window's beginning is kept, so that it is covered whole.
+    // Keeps one sample at or before the start of the window, so that the whole window is covered.
     while (this.#times.length > 2 && nowMs - (this.#times[1] as number) >= this.#windowMs) {
       this.#times.shift();
       this.#sums.shift();
     }
   }
 
-  /** Per second; 0 before two updates, and where the sum fell. */
+  /** Per second; 0 before the second update, and if the sum fell. */
   get perSecond(): number {
     const elapsedMs = (this.#times.at(-1) ?? 0) - (this.#times[0] ?? 0);
     if (elapsedMs <= 0) return 0;

@@ -2,8 +2,8 @@ import { Backoff } from './backoff.ts';
 
 const FIRST_RETRY_MS = 250;
 /**
- * The longest wait between two attempts, ms, a second with its spread: short for as long as a network is usually away,
- * then kinder to the service.
+ * The longest wait between two attempts, ms; with its random spread, one second. Short for as long as a network is
+ * usually down, later longer to spare the service.
  */
 const MOST_RETRY_MS = 800;
 const PATIENT_RETRY_MS = 10_000;
@@ -13,9 +13,9 @@ const SHORT_MS = 2500;
 const LONG_MS = 5000;
 
 /**
- * How a peer comes back to signaling after its network was away. TCP repeats a lost SYN after 1, 3 and 7 s: who waits for
- * that misses the moment in which the network is back, so attempts are given up early and made anew. Every fourth may take
- * longer, for networks that are slow.
+ * How a peer returns to signaling after a network outage. TCP repeats a lost SYN after 1, 3 and 7 s, and a peer that
+ * waits for that misses the moment when the network returns. Attempts are therefore aborted early and repeated. Every
+ * fourth attempt may take longer, for slow networks.
  */
 export class Reconnect {
   readonly #quick: Backoff;
@@ -33,12 +33,12 @@ export class Reconnect {
     return this.#failures % 4 === 3 ? LONG_MS : SHORT_MS;
   }
 
-  /** After an attempt that failed, or a connection that broke. @returns ms to wait before the next */
+  /** Call after a failed attempt or a broken connection. @returns ms to wait before the next attempt */
   nextMs(): number {
     return this.#failures++ < PATIENT_AFTER ? this.#quick.nextMs() : this.#patient.nextMs();
   }
 
-  /** After success. */
+  /** Call after a success. */
   reset(): void {
     this.#failures = 0;
     this.#quick.reset();

@@ -1,4 +1,4 @@
-/** What came and has not been looked at. Bounded: the oldest go. */
+/** Messages that have arrived and were not read yet. Bounded: the oldest are dropped. */
 const MOST = 10_000;
 
 export class Inbox<T> {
@@ -12,12 +12,12 @@ export class Inbox<T> {
     this.#waiting.clear();
   }
 
-  /** Forgets what has come. */
+  /** Discards what has arrived. */
   clear(): void {
     this.#items.length = 0;
   }
 
-  /** The next one that is as wanted; those before it are forgotten. @throws {Error} where none comes in time */
+  /** Returns the next message that matches and discards earlier ones. @throws {Error} if none arrives in time */
   async next(
     is: (item: T) => boolean = () => true,
     timeoutMs = 10_000,

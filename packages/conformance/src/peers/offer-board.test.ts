@@ -17,7 +17,7 @@ function robot(id: number, more: Partial<ReferenceRobot> = {}): ReferenceRobot {
 const idsOf = (offers: { robotId: number }[]) => offers.map(({ robotId }) => robotId);
 
 describe('OfferBoard', () => {
-  it('answers robots of its name that have offered, from the list and as they register', () => {
+  it('answers robots with its name that have offered, from the list and as they register', () => {
     const board = new OfferBoard('robot');
     const robots = [robot(0), robot(1, { name: 'other' }), robot(2, { sdpOffer: null })];
     expect(idsOf(board.read({ type: 'robots', robots }))).toEqual([0]);
@@ -25,7 +25,7 @@ describe('OfferBoard', () => {
     expect(idsOf(board.read({ type: 'register', robot: robot(4, { name: 'other' }) }))).toEqual([]);
   });
 
-  it('passes a registration over that is listed beside an open one, its own offer answered', () => {
+  it('ignores a registration listed beside an open one whose own offer was answered', () => {
     const board = new OfferBoard('robot');
     expect(
       idsOf(board.read({ type: 'robots', robots: [robot(0, { sdpAnswer: 'answer' }), robot(1)] })),

@@ -1,4 +1,4 @@
-/** Which offers of a robot are worth an answer, from what signaling tells a client. Pure. */
+/** Decides which offers of a robot to answer, from what signaling tells a client. Pure. */
 import type { ReferenceRobot, ReferenceServiceToClient } from '@farpoint/protocol';
 
 export interface OpenOffer {
@@ -9,14 +9,14 @@ export interface OpenOffer {
 
 export class OfferBoard {
   readonly #name: string;
-  /** Robots of that name, be their offer taken or not. */
+  /** Robots with that name, whether or not their offer was answered. */
   readonly #ids = new Set<number>();
 
   constructor(name: string) {
     this.#name = name;
   }
 
-  /** What is to be answered because of this message. */
+  /** The offers to answer because of this message. */
   read(message: ReferenceServiceToClient): OpenOffer[] {
     switch (message.type) {
       case 'robots':
@@ -24,7 +24,7 @@ export class OfferBoard {
       case 'register':
         return this.#isOurs(message.robot) ? [toOffer(message.robot)] : [];
       case 'offer':
-        // The reference system's robot offers so, some 6 s after its operator has gone.
+        // The reference system's robot sends such an offer about 6 s after its operator has left.
         return this.#ids.has(message.robotId)
           ? [{ robotId: message.robotId, sdpOffer: message.sdpOffer, candidates: [] }]
           : [];
@@ -34,8 +34,9 @@ export class OfferBoard {
   }
 
   /**
-   * Registrations may be listed that have ended: the reference signaling keeps some, and their robot would take an answer for
-   * one to its newer offer. An offer without an answer is open; where each has one, the last may be open still.
+   * The list may contain registrations that have ended: the reference signaling keeps some, and their robot would take
+   * an answer to such an offer for one to its newer offer. An offer without an answer is open; if each has one, the
+   * last may still be open.
    */
   #fromList(robots: readonly ReferenceRobot[]): OpenOffer[] {
     const ours = robots.filter((robot) => this.#isOurs(robot));

@@ -1,4 +1,4 @@
-/** The WebRTC half of a robot that speaks as the reference system's does: it offers, and streams packets of payload type 5. */
+/** The WebRTC half of a robot like the reference system's: it offers, and streams packets of payload type 5. */
 
 import { Buffer } from 'node:buffer';
 import { REFERENCE_MEDIA } from '@farpoint/protocol';
@@ -11,7 +11,7 @@ export interface OfferingEvents {
   onCommand(data: string | Buffer): void;
   onBandwidth(data: string | Buffer): void;
   onWord(word: string): void;
-  /** The operator has gone. */
+  /** The operator has left. */
   onLost?(): void;
 }
 
@@ -56,7 +56,7 @@ export class OfferingConnection {
     return this.#connection.connectionState === 'connected';
   }
 
-  /** Its SDP; candidates follow one by one. */
+  /** Returns its SDP; candidates follow one by one. */
   async offer(): Promise<string> {
     const offer = await this.#connection.createOffer();
     // Resolves only when every candidate is gathered.
@@ -64,25 +64,25 @@ export class OfferingConnection {
     return offer.sdp;
   }
 
-  /** @throws {Error} for one that it does not take */
+  /** @throws {Error} for an answer that it does not accept */
   async answer(sdp: string): Promise<void> {
     await this.#connection.setRemoteDescription({ type: 'answer', sdp });
   }
 
-  /** One that cannot be used is passed over. */
+  /** Ignores an unusable candidate. */
   async addCandidate(candidate: string): Promise<void> {
     await this.#connection.addIceCandidate({ candidate, sdpMLineIndex: 0 }).catch(() => undefined);
   }
 
-  /** Resolves once its own channel and the one for `start` and `stop` are open: what is said before may be lost. */
+  /** Resolves once its own channel and the one for `start` and `stop` are open: anything sent earlier may be lost. */
   async ready(timeoutMs?: number): Promise<void> {
     await this.#ready.next(undefined, timeoutMs, 'an operator whose channels are open');
   }
 
   /**
-   * One packet each, all of one frame.
+   * Sends one packet per payload, all of one frame.
    *
-   * @param timestampStep since the frame before, of the clock of 90 kHz
+   * @param timestampStep since the previous frame, in units of the 90 kHz clock
    */
   sendFrame(payloads: readonly Uint8Array[], timestampStep = 9000): void {
     if (this.#closed) return;

@@ -1,4 +1,4 @@
-/** An operator that speaks as the reference system's bridge does: a client of signaling, the one who answers. */
+/** An operator that behaves like the reference system's bridge: a client of signaling that answers offers. */
 import { Buffer } from 'node:buffer';
 import {
   encodeBandwidth,
@@ -15,15 +15,15 @@ import { Inbox } from './inbox.ts';
 import { OfferBoard, type OpenOffer } from './offer-board.ts';
 import { SocketPeer } from './socket-peer.ts';
 
-/** The reference system's robot needs some 6 s. */
+/** The reference system's robot needs about 6 s. */
 const OFFERS_AGAIN_WITHIN_MS = 15_000;
 
 export class ReferenceOperator {
   readonly offer: string;
   readonly robotId: number;
-  /** Decrypted RTP packets, headers included. */
+  /** Decrypted RTP packets, including headers. */
   readonly packets = new Inbox<Uint8Array>();
-  /** Called with each as well. */
+  /** Also called for each packet. */
   onPacket: ((packet: Uint8Array) => void) | null = null;
   /** Labels and options of the channels that the robot opened. */
   readonly robotChannels: { label: string; ordered: boolean; reliable: boolean }[] = [];
@@ -32,7 +32,7 @@ export class ReferenceOperator {
   readonly #bandwidth: RTCDataChannel;
   readonly #words: RTCDataChannel;
   readonly #channels = new Inbox<RTCDataChannel>();
-  /** Made since this one was connected. */
+  /** Offers made since this operator connected. */
   readonly #laterOffers = new Inbox<OpenOffer>();
   #control: RTCDataChannel | null = null;
 
@@ -74,8 +74,8 @@ export class ReferenceOperator {
   }
 
   /**
-   * Answers the robot of this name, waiting for it where it is not there yet, and each of its later offers; resolves when a
-   * connection's channels are open, the robot's and ours.
+   * Answers the robot with this name, waiting for it if necessary, and each of its later offers. Resolves when the
+   * channels of a connection are open, the robot's and ours.
    *
    * @param url the clients' port of signaling
    */
@@ -89,7 +89,7 @@ export class ReferenceOperator {
       const operator = new ReferenceOperator(line, offer);
       attempts.set(offer.robotId, operator);
       await before?.disconnect();
-      // Where this one comes to nothing another offer may come.
+      // If this connection fails, another offer may come.
       await operator.#answer(offer.candidates, timeoutMs).then(
         () => opened.push(operator),
         () => undefined,
@@ -151,8 +151,8 @@ export class ReferenceOperator {
   }
 
   /**
-   * Leaves the robot, and signaling once the robot offers again: who came before would find its old offer listed, and the
-   * reference system's robot takes an answer to that for one to its next.
+   * Leaves the robot, and leaves signaling once the robot offers again. Otherwise the next operator would find the old
+   * offer listed, and the reference system's robot takes an answer to that for one to its next offer.
    */
   async leave(): Promise<void> {
     this.#laterOffers.clear();
@@ -161,7 +161,7 @@ export class ReferenceOperator {
     await this.#line.close();
   }
 
-  /** Leaves the robot, not signaling. */
+  /** Leaves the robot, but not signaling. */
   async disconnect(): Promise<void> {
     await this.#connection.close();
   }
@@ -169,7 +169,7 @@ export class ReferenceOperator {
   async #answer(candidates: readonly string[], timeoutMs: number): Promise<void> {
     const connection = this.#connection;
     await connection.setRemoteDescription({ type: 'offer', sdp: this.offer });
-    // As the reference system's own stack does.
+    // Like the reference system's own stack.
     helloAtOnce(connection);
     const answer = await connection.createAnswer();
     this.#line.send({ type: 'answer', robotId: this.robotId, sdpAnswer: answer.sdp });
@@ -185,7 +185,7 @@ export class ReferenceOperator {
     for (const channel of [control, this.#words, this.#bandwidth]) await opened(channel, timeoutMs);
   }
 
-  /** One that cannot be used is passed over. */
+  /** Ignores an unusable candidate. */
   async addCandidate(candidate: string): Promise<void> {
     await this.#connection.addIceCandidate({ candidate, sdpMLineIndex: 0 }).catch(() => undefined);
   }

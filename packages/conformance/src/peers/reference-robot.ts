@@ -1,11 +1,11 @@
-/** A robot for tests that speaks as the reference system's does: signaling, channels, payload type 5. */
+/** A robot for tests that behaves like the reference system's: signaling, channels, payload type 5. */
 import { decodeBandwidth, decodeJson, referenceControlCodec, type Twist } from '@farpoint/protocol';
 import { Inbox } from './inbox.ts';
 import { OfferingConnection } from './offering-connection.ts';
 import { SocketPeer } from './socket-peer.ts';
 
 export interface ReferenceRobotOptions {
-  /** Leads a side's ICE candidate elsewhere, through an emulated link say. */
+  /** Replaces a side's ICE candidate, for example to route it through an emulated link. */
   lead?: (side: 'robot' | 'operator', candidate: string) => Promise<string>;
 }
 
@@ -14,7 +14,7 @@ export class ReferenceRobot {
   readonly words = new Inbox<string>();
   readonly commands = new Inbox<Twist>();
   readonly reports = new Inbox<number>();
-  /** The robots' port at which it is registered. */
+  /** The robots' port of the signaling at which it is registered. */
   readonly url: string;
   readonly #registered = new Inbox<number>();
   readonly #line: SocketPeer;
@@ -45,7 +45,7 @@ export class ReferenceRobot {
     return this.#offer;
   }
 
-  /** As the reference system's robot after a failure: another connection, offered under the same id. */
+  /** Like the reference system's robot after a failure: a new connection, offered under the same id. */
   async reconnect(): Promise<void> {
     const before = this.#connection;
     await this.#connect((sdpOffer) => ({ type: 'offer', robotId: this.id, sdpOffer }));
@@ -56,12 +56,12 @@ export class ReferenceRobot {
     this.#line.send(message);
   }
 
-  /** Resolves once an operator has connected and both sides may speak. */
+  /** Resolves once an operator has connected and both sides may send. */
   ready(): Promise<void> {
     return this.#connection.ready();
   }
 
-  /** Resolves once this word came; words before it are forgotten. */
+  /** Resolves once this word has arrived; discards earlier words. */
   async heard(word: 'start' | 'stop'): Promise<void> {
     await this.words.next((heard) => heard === word, undefined, `'${word}'`);
   }
@@ -74,7 +74,7 @@ export class ReferenceRobot {
     return this.reports.next(undefined, undefined, 'a report');
   }
 
-  /** One packet each, all of one frame. */
+  /** Sends one packet per payload, all of one frame. */
   sendFrame(payloads: readonly Uint8Array[]): void {
     this.#connection.sendFrame(payloads);
   }

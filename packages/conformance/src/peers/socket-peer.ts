@@ -1,7 +1,7 @@
 import { WebSocket } from 'ws';
 import { Inbox } from './inbox.ts';
 
-/** A plain WebSocket of the reference system, as a test sees it: text as it came, bytes as they came. */
+/** A plain WebSocket of the reference system for tests: text and bytes as received. */
 export class SocketPeer {
   readonly inbox = new Inbox<string | Uint8Array>();
   readonly #socket: WebSocket;
@@ -14,7 +14,7 @@ export class SocketPeer {
     socket.on('error', () => undefined);
   }
 
-  /** @throws {Error} where nobody answers */
+  /** @throws {Error} if nobody answers */
   static async open(url: string, origin?: string): Promise<SocketPeer> {
     const socket = new WebSocket(url, origin === undefined ? {} : { origin });
     const peer = new SocketPeer(socket);
@@ -56,7 +56,7 @@ export class SocketPeer {
     )) as Uint8Array;
   }
 
-  /** Reads nothing any more. */
+  /** Stops reading. */
   pause(): void {
     this.#socket.pause();
   }
@@ -77,7 +77,7 @@ function matches(text: string, like: object): boolean {
   }
 }
 
-/** Whether all that `like` has is in `value`, at any depth. */
+/** Whether `value` contains everything in `like`, at any depth. */
 export function includes(value: unknown, like: unknown): boolean {
   if (typeof like !== 'object' || like === null) return value === like;
   if (typeof value !== 'object' || value === null) return false;

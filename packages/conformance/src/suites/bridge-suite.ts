@@ -6,11 +6,11 @@ import { SocketPeer } from '../peers/socket-peer.ts';
 import { nextPoints, showFrames } from './shown-frames.ts';
 import { type ConformanceCase, type Level, must } from './suite.ts';
 
-/** A bridge, and the signaling at which it is, or becomes, a client. No other robot is there. */
+/** A bridge, and the signaling of which it is, or becomes, a client. No other robot is registered there. */
 export interface BridgeTarget {
   /** Robots' port of signaling. */
   robot: string;
-  /** Clients' port of the same, as the bridge reaches it. */
+  /** Clients' port of the same signaling, as the bridge reaches it. */
   client: string;
   control: string;
   telemetry: string;
@@ -33,10 +33,10 @@ interface Page {
   streaming: SocketPeer;
 }
 
-/** Bridges that were told where signaling is: the released one opens another line each time. */
+/** Bridges that were told where signaling is: the released one opens another connection each time. */
 const initialised = new WeakSet<BridgeTarget>();
 
-/** A page and robots of these names, connected; the first of them shown. */
+/** A page and robots with these names, connected; the first of them shown. */
 function withRobots(
   names: readonly string[],
   run: (robots: ReferenceRobot[], page: Page, level: Level, target: BridgeTarget) => Promise<void>,
@@ -62,7 +62,7 @@ function withRobots(
         closers.push(() => robot.close());
         robots.push(robot);
       }
-      // What is said to a channel that is not open may be lost.
+      // Messages to a channel that is not open may be lost.
       for (const robot of robots) await robot.ready();
       page.control.send({ type: 'updateRobots' });
       for (const { id } of robots) await listed(page.control, id);
@@ -82,7 +82,7 @@ async function initBridge(control: SocketPeer, { client }: BridgeTarget): Promis
   await control.message({ type: 'updateRobots' });
 }
 
-/** Asks for the list until the robot is in it. */
+/** Requests the list until it contains the robot. */
 async function listed(control: SocketPeer, id: number): Promise<void> {
   for (;;) {
     control.send({ type: 'updateRobots' });
@@ -105,7 +105,7 @@ const VECTOR_DEFECTS: Readonly<Record<string, KnownDefect>> = {
   'packets of two frames between each other': 'late-in-wrong-frame',
   'packets that cannot be are passed over': 'reads-what-is-no-packet',
 };
-/** Later than those of any vector. */
+/** Later than the frame numbers of any vector. */
 const NEXT_FRAME = 1000;
 
 const vectorCases = frames.map(({ name, payloads, messages }): ConformanceCase<BridgeTarget> => {
@@ -139,7 +139,7 @@ async function passesCommands(robot: ReferenceRobot, telemetry: SocketPeer): Pro
 export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
   ...vectorCases,
   {
-    name: 'shows one robot, goes over to another at once, and shows no other meanwhile',
+    name: 'shows one robot, switches to another at once, and shows no other meanwhile',
     run: withRobots(['first', 'second'], async (robots, { control, streaming }, level) => {
       const [first, second] = robots as [ReferenceRobot, ReferenceRobot];
       const shown = await showFrames(first, 1, 300, streaming, level);
@@ -147,11 +147,11 @@ export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
       await switchTo(control, second.id);
       await first.heard('stop');
       await second.heard('start');
-      // One that does not heed the word.
+      // A robot that ignores the word.
       first.sendFrame(knownFrame(900, 300));
       for (;;) {
         const { frame, places, strays } = await showFrames(second, 2000, 300, streaming, level);
-        // What was given out before the switch is on its way still.
+        // Frames given out before the switch may still be in transit.
         if (frame < 900) continue;
         must(
           frame >= 2000 && places.length === 300 && strays === 0,
@@ -162,7 +162,7 @@ export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
     }),
   },
   {
-    name: 'passes commands on as they are, and reports a rate for each frame',
+    name: 'passes commands on unchanged, and reports a rate for each frame',
     run: withRobots(['conformance'], async ([robot], { telemetry, streaming }, level) => {
       await passesCommands(robot as ReferenceRobot, telemetry);
       for (let i = 0; i < 3; i++) {
@@ -172,7 +172,7 @@ export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
     }),
   },
   {
-    name: 'lives through garbage on its sockets',
+    name: 'survives garbage on its sockets',
     run: withRobots(['conformance'], async ([robot], { control, telemetry, streaming }, level) => {
       for (const peer of [control, telemetry, streaming])
         for (const data of ['null', '{', '{"type":"switchRobot","robotId":"x"}', new Uint8Array([0xff, 0])])
@@ -182,11 +182,11 @@ export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
     }),
   },
   {
-    name: 'goes on showing its robot where a page chooses one that is not there',
+    name: 'keeps showing its robot if a page selects one that does not exist',
     defect: 'shows-nobody',
     run: withRobots(['conformance'], async ([robot], { control, streaming }, level) => {
       control.send({ type: 'switchRobot', robotId: 0xffffffff });
-      // Answered in order: what came before is done.
+      // Messages are answered in order, so everything earlier has been processed.
       control.send({ type: 'updateRobots' });
       await listed(control, (robot as ReferenceRobot).id);
       robot?.sendFrame(knownFrame(1, 300));
@@ -206,7 +206,7 @@ export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
         await mute.message({ type: 'sdpAnswer' });
         await switchTo(control, robotId);
         telemetry.send({ type: 'command', command: DRIVE });
-        // The answer comes after the command was read, or another is lost.
+        // The answer arrives after the bridge has read the command; if it has not, another command is lost.
         await switchTo(control, id);
         await robot?.heard('start');
         await passesCommands(robot as ReferenceRobot, telemetry);
@@ -216,7 +216,7 @@ export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
     }),
   },
   {
-    name: 'answers each initBridge by the list, also with the address in use',
+    name: 'answers each initBridge with the list, even for the address in use',
     run: withRobots(['conformance'], async ([robot], { control }, _level, target) => {
       for (let i = 0; i < 2; i++) {
         await initBridge(control, target);
@@ -225,7 +225,7 @@ export const bridgeSuite: readonly ConformanceCase<BridgeTarget>[] = [
     }),
   },
   {
-    name: 'lives through an offer that is none',
+    name: 'survives an invalid offer',
     defect: 'offer-ends-bridge',
     deadly: true,
     run: withRobots(['conformance'], async ([robot], { streaming }, level) => {

@@ -1,6 +1,7 @@
 /**
- * Every mixture of theirs and ours: robot, signaling, bridge, page. Theirs are stand-ins that behave as the released programs do, defects
- * included; ours are the real programs, but for the page: a stand-in that says on the bridge's sockets what ours says.
+ * Every combination of theirs and ours: robot, signaling, bridge, page. Theirs are stand-ins that behave like the
+ * released programs, including their defects. Ours are the real programs, except for the page: a stand-in that sends on
+ * the bridge's sockets what our page sends.
  */
 import { BridgeProcess, LocalStack } from '@farpoint/local-stack';
 import { LATENCY_TEST_COLOUR, type Twist, zeroTwist } from '@farpoint/protocol';
@@ -60,7 +61,7 @@ afterEach(async () => {
   for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
 }, 30_000);
 
-/** Resolves once a robot of this name has an offer that nobody has answered. */
+/** Resolves once a robot with this name has an unanswered offer. */
 async function openOffer(signaling: Signaling, name: string): Promise<void> {
   const client = await SocketPeer.open(signaling.clientUrl);
   const isOpen = (robot: ListedOffer) => robot.name === name && robot.sdpAnswer === null;
@@ -70,7 +71,10 @@ async function openOffer(signaling: Signaling, name: string): Promise<void> {
   await client.close();
 }
 
-/** @returns its sockets, and what resolves once it may tell a robot to start: theirs loses the word before */
+/**
+ * @returns its sockets, and a promise that resolves once it may tell a robot to start: their bridge loses an earlier
+ * word
+ */
 async function openBridge(
   whose: 'ours' | 'theirs',
   signaling: Signaling,
@@ -93,7 +97,7 @@ type Page = FarpointPage | ReleasedPage;
 async function expectPoints(page: Page, name: keyof typeof POINTS): Promise<void> {
   for (;;) {
     const message = await page.points();
-    // Of the robot that was shown before; an empty one; one whose first packet theirs has swallowed.
+    // A frame of the robot shown before; an empty one; or one whose first packet their bridge has swallowed.
     if (message.length !== 8 * POINTS[name]) continue;
     if (name === THEIRS && !isGreen(message)) expect(readKnownFrame(message).strays).toBe(0);
     return;
@@ -106,7 +110,7 @@ async function expectGreen(page: Page, name: keyof typeof POINTS): Promise<void>
   page.command(twist);
   for (;;) {
     const message = await page.points();
-    // Theirs does not ask for lost packets again.
+    // Their bridge does not request lost packets again.
     if (message.length > 0 && message.length <= 8 * POINTS[name] && isGreen(message)) return;
   }
 }
@@ -128,7 +132,7 @@ async function expectDriven(page: Page, robot: ReleasedRobot): Promise<void> {
 
 describe.each(['ours', 'theirs'] as const)('signaling: %s', (whoseSignaling) => {
   describe.each(['ours', 'theirs'] as const)('bridge: %s', (whoseBridge) => {
-    it('shows and drives both robots on both pages, after a reload too', { timeout: 60_000 }, async () => {
+    it('shows and drives both robots on both pages, also after a reload', { timeout: 60_000 }, async () => {
       const signaling = signalings[whoseSignaling];
       const robot = robots.get(signaling) as ReleasedRobot;
       await openOffer(signaling, OURS);
@@ -149,7 +153,7 @@ describe.each(['ours', 'theirs'] as const)('signaling: %s', (whoseSignaling) => 
         await page.close();
         expect(page.errors).toEqual([]);
       }
-      // Their robot must have seen its operator go before another comes.
+      // Their robot must notice that its operator has left before another comes.
       const { offers } = robot;
       for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
       await robot.offered.next((count) => count > offers, undefined, 'another offer of their robot');

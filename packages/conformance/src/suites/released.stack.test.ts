@@ -1,4 +1,6 @@
-/** The suites against stand-ins for the released programs: they pass at level `reference`, and are found out at level `strict`. */
+/**
+ * The suites against stand-ins for the released programs: they pass at level `reference` and fail at level `strict`.
+ */
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import type { KnownDefect } from '../known-defects.ts';
 import { ReleasedBridge, ReleasedRobot, ReleasedSignaling } from '../testing/index.ts';
@@ -34,12 +36,12 @@ async function expectAllDefects<Target>(
 describe('signaling', { timeout: 60_000 }, () => {
   const target = () => ({ robot: signaling.robotUrl, client: signaling.clientUrl });
 
-  it('passes at level reference, its defects named, and lives', async () => {
+  it('passes at level reference with its defects named, and keeps running', async () => {
     await expectAllDefects(signalingSuite, target());
     expect(signaling.death).toBeNull();
   });
 
-  it('fails at level strict at each of them, and ends', async () => {
+  it('fails at level strict for each of them, and ends', async () => {
     const results = await runSuite(signalingSuite, target(), 'strict');
     expect(failed(results).map(({ name }) => name)).toEqual(
       signalingSuite.filter(({ defect }) => defect !== undefined).map(({ name }) => name),
@@ -73,7 +75,7 @@ describe('bridge', { timeout: 120_000 }, () => {
     return { bridge, target };
   };
 
-  it('passes at level reference, its defects named, and lives', async () => {
+  it('passes at level reference with its defects named, and keeps running', async () => {
     const { bridge } = await run('reference');
     expect(bridge.death).toBeNull();
   });

@@ -8,12 +8,12 @@ import { type ConformanceCase, must } from './suite.ts';
 export interface RobotTarget {
   /** Clients' port of its signaling. */
   client: string;
-  /** As it registers. */
+  /** The name under which it registers. */
   name: string;
 }
 
 const FRAMES = 20;
-/** After `stop` what is on its way still comes, then nothing for so long. */
+/** After `stop`, packets in transit may still arrive; then there must be none for this long. */
 const QUIET_MS = 400;
 const STOP_WITHIN_MS = 3000;
 
@@ -55,7 +55,7 @@ export const robotSuite: readonly ConformanceCase<RobotTarget>[] = [
     }),
   },
   {
-    name: 'sends nothing before "start", whatever the operator before said',
+    name: 'sends nothing before "start", whatever the previous operator sent',
     defect: 'streams-unasked',
     run: withOperator(async (operator) => {
       const packet = await operator.packets.next(undefined, QUIET_MS).catch(() => null);
@@ -90,7 +90,7 @@ export const robotSuite: readonly ConformanceCase<RobotTarget>[] = [
     }),
   },
   {
-    name: 'goes on streaming, whatever comes on its channels',
+    name: 'keeps streaming, whatever arrives on its channels',
     run: withOperator(async (operator) => {
       for (const bytes of [
         new Uint8Array([0]),

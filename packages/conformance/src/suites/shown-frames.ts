@@ -1,4 +1,4 @@
-/** What a bridge gives to a page of known frames, at either level. */
+/** What a bridge sends to a page when it gets known frames, at either level. */
 import { knownFrame, type ReadFrame, readKnownFrame } from '../frames.ts';
 import type { SocketPeer } from '../peers/socket-peer.ts';
 import type { Level } from './suite.ts';
@@ -6,7 +6,9 @@ import type { Level } from './suite.ts';
 const TIMEOUT_MS = 5000;
 const STREAM_INTERVAL_MS = 20;
 
-/** The next message of points. At level `reference` empty ones are passed over: one goes before a stream that does not begin at 0. */
+/**
+ * The next message of points. At level `reference`, skips empty ones: one precedes a stream that does not begin at 0.
+ */
 export async function nextPoints(
   streaming: SocketPeer,
   level: Level,
@@ -23,9 +25,10 @@ interface Sender {
 }
 
 /**
- * Sends known frames, counting up, until one of them is shown, so that it does not matter whether the bridge waits for the next frame.
+ * Sends known frames, counting up, until one of them is shown. It thus does not matter whether the bridge waits for the
+ * next frame.
  *
- * @returns the first that is shown, of numbers from `from` on
+ * @returns the first frame shown with a number of at least `from`
  */
 export async function showFrames(
   sender: Sender,

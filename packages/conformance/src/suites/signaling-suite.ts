@@ -15,7 +15,7 @@ const { exchanges } = JSON.parse(
 
 export const signalingSuite: readonly ConformanceCase<SignalingTarget>[] = [
   {
-    name: 'robot 0, where the service has given no id yet, is a robot like any other',
+    name: 'robot 0, if the service has assigned no id yet, is a robot like any other',
     run: (target) => playExchange(exchanges[0], target),
     defect: 'robot-0-dropped',
   },
@@ -32,7 +32,7 @@ export const signalingSuite: readonly ConformanceCase<SignalingTarget>[] = [
   ),
 ];
 
-/** So that no exchange is judged by what becomes of robot 0. */
+/** Takes an id, so that no exchange is affected by the defects of robot 0. */
 async function takeAnId(target: SignalingTarget): Promise<void> {
   const socket = await SocketPeer.open(target.robot);
   socket.send({ type: 'register', name: 'conformance', sdpOffer: 'v=0' });

@@ -1,16 +1,16 @@
 import { type KnownDefect, knownDefects } from '../known-defects.ts';
 
 export const LEVELS = ['reference', 'strict'] as const;
-/** `reference`: what the released programs do, known defects let pass; `strict`: what they should have done. */
+/** `reference`: what the released programs do, tolerating known defects; `strict`: what they should have done. */
 export type Level = (typeof LEVELS)[number];
 
-/** One thing that an implementation must do; it throws where it does not. */
+/** One requirement for an implementation; it throws if the implementation fails it. */
 export interface ConformanceCase<Target> {
   name: string;
   run(target: Target, level: Level): Promise<void>;
-  /** Why the released program fails here. */
+  /** Why the released program fails this case. */
   defect?: KnownDefect | undefined;
-  /** With that defect the case ends the program: it is tried at level `strict` only. */
+  /** With that defect, the case ends the program: it is run at level `strict` only. */
   deadly?: boolean | undefined;
 }
 
@@ -19,13 +19,13 @@ export type Outcome = 'passed' | 'failed' | 'known-defect' | 'not-tried';
 export interface CaseResult {
   name: string;
   outcome: Outcome;
-  /** What went wrong, or why it was not tried; `null` where all is well. */
+  /** What went wrong, or why it was not run; `null` if it passed. */
   fault: string | null;
-  /** Of a case that has not passed for it. */
+  /** The known defect because of which the case did not pass. */
   defect: KnownDefect | null;
 }
 
-/** Runs all of them, one after another, whatever becomes of each. */
+/** Runs all cases one after the other, whatever the result of each. */
 export async function runSuite<Target>(
   cases: readonly ConformanceCase<Target>[],
   target: Target,
@@ -58,7 +58,7 @@ export async function runCase<Target>(
   }
 }
 
-/** @throws {Error} with `what` where it does not hold */
+/** @throws {Error} with `what` if it does not hold */
 export function must(holds: boolean, what: string): asserts holds {
   if (!holds) throw new Error(what);
 }

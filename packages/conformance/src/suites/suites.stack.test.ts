@@ -1,4 +1,6 @@
-/** The suites against our own programs, as anybody would run them: over the network, knowing nothing of their insides. */
+/**
+ * The suites against our own programs, as anybody would run them: over the network, without knowing their internals.
+ */
 import { BridgeProcess, LocalStack } from '@farpoint/local-stack';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { bridgeSuite } from './bridge-suite.ts';
@@ -33,7 +35,7 @@ afterAll(async () => {
 const at = (port: number) => `ws://127.0.0.1:${port}`;
 
 describe('signaling', () => {
-  // The one to which it gives its first id: no robot is there.
+  // The service without robots, so that the suite gets its first id.
   it.each(signalingSuite.map(({ name, run }) => [name, run] as const))('%s', async (_name, run) => {
     const { referenceRobot, referenceClient } = fresh.ports;
     await run({ robot: at(referenceRobot), client: at(referenceClient) }, 'strict');
@@ -60,7 +62,7 @@ describe('bridge', { timeout: 30_000 }, () => {
   });
 });
 
-it('the suites find what is wrong', async () => {
+it('the suites detect faults', async () => {
   const wrong = { robot: at(1), client: at(1) };
   for (const { run } of signalingSuite) await expect(run(wrong, 'strict')).rejects.toThrow('step 1');
 });

@@ -1,6 +1,7 @@
 /**
- * What Farpoint's own page says on a bridge's three sockets (apps/webxr, bridge-session.ts; its tests hold it to this): `initBridge` where it is told of a
- * signaling, else `updateRobots`; it chooses by name, takes a switched robot for shown only where the list names it, and says its commands at 50 Hz.
+ * What Farpoint's own page sends on a bridge's three sockets (apps/webxr, bridge-session.ts, whose tests check this):
+ * `initBridge` if it is given a signaling service, else `updateRobots`. It chooses robots by name, treats a switched
+ * robot as shown only if the list contains it, and sends its commands at 50 Hz.
  */
 import { type Twist, zeroTwist } from '@farpoint/protocol';
 import { SocketPeer } from '../peers/socket-peer.ts';
@@ -57,7 +58,7 @@ export class FarpointPage {
     }
   }
 
-  /** What the hand wishes from now on; a latency test is asked for once. */
+  /** The commanded velocity from now on; a latency test is requested once. */
   command(twist: Twist): void {
     if (twist.linear.z === 0) this.#wish = twist;
     else this.#telemetry.send({ type: 'command', command: twist });

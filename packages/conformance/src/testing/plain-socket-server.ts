@@ -1,4 +1,4 @@
-/** A WebSocket server as the reference system's programs have them: any path, any origin, on a free port of this machine. */
+/** A WebSocket server like the reference system's: any path, any origin, on a free port of this machine. */
 import { once } from 'node:events';
 import type { AddressInfo } from 'node:net';
 import { WebSocketServer } from 'ws';
@@ -13,7 +13,7 @@ export function plainServerUrl(server: WebSocketServer): string {
   return `ws://127.0.0.1:${(server.address() as AddressInfo).port}`;
 }
 
-/** Cuts off who is there. May be called again. */
+/** Disconnects all clients. May be called again. */
 export async function closePlainServer(server: WebSocketServer): Promise<void> {
   const closed = new Promise<void>((resolve) => server.close(() => resolve()));
   for (const socket of server.clients) socket.terminate();

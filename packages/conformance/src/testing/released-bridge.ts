@@ -1,15 +1,17 @@
 /**
- * Stand-in for the reference system's released bridge, as it behaves, defects included:
+ * Stand-in for the reference system's released bridge, with its actual behaviour, including defects:
  *
  * - three WebSocket servers, pages of any origin;
- * - no signaling before the first `initBridge`; each opens another socket to the address it names, and the one before stays open, unread;
- * - every robot of a list, or that registers, is answered; candidates of a list are not used, only those told afterwards;
- * - a list replaces the robots known; every change goes to every page, an empty list as `null`; connections of robots that left stay open;
- * - another offer of a robot is set on the connection that stands;
- * - robot 0 counts as shown from the start; `switchRobot` shows any number, tells `start` or `stop` to every robot, and answers `switchedRobot`:
- *   a word to a channel that is not open yet is lost;
+ * - no signaling before the first `initBridge`; each opens another socket to the address it names, and the previous
+ *   socket stays open, unread;
+ * - every robot that is listed or registers is answered; candidates in a list are not used, only later ones;
+ * - a list replaces the known robots; every change goes to every page, an empty list as `null`; connections of robots
+ *   that have left stay open;
+ * - another offer of a robot is set on the existing connection;
+ * - robot 0 counts as shown from the start; `switchRobot` shows any number, sends `start` or `stop` to every robot, and
+ *   answers `switchedRobot`: a word to a channel that is not open yet is lost;
  * - a command for a robot whose channel is not open breaks the handler: the page's telemetry socket ends;
- * - an offer that cannot be read ends the program.
+ * - an unreadable offer ends the program.
  */
 import { Buffer } from 'node:buffer';
 import { createReferencePeerConnection, referenceChannels } from '@farpoint/reference-profile';
@@ -54,7 +56,7 @@ export class ReleasedBridge {
   readonly #streaming: WebSocketServer;
   readonly #listed = new Map<number, string>();
   readonly #robots = new Map<number, Robot>();
-  /** Also those that it has forgotten. */
+  /** Includes connections that it has forgotten. */
   readonly #connections: RTCPeerConnection[] = [];
   readonly #lines: WebSocket[] = [];
   readonly #opened = new Inbox<true>();
@@ -81,12 +83,12 @@ export class ReleasedBridge {
     );
   }
 
-  /** On free ports of this machine. */
+  /** Starts it on free ports of this machine. */
   static async start(): Promise<ReleasedBridge> {
     return new ReleasedBridge(await Promise.all([openPlainServer(), openPlainServer(), openPlainServer()]));
   }
 
-  /** For tests: resolves once a robot of this name is connected, so that it hears `start` and commands. */
+  /** For tests: resolves once a robot with this name is connected, so that it receives `start` and commands. */
   async ready(name: string): Promise<void> {
     for (;;) {
       for (const [id, listed] of this.#listed) {
@@ -120,7 +122,7 @@ export class ReleasedBridge {
     broadcast(this.#control, JSON.stringify({ type: 'switchedRobot', robotId }));
   }
 
-  /** @returns false where its handler breaks */
+  /** @returns false if its handler breaks */
   #onTelemetry(text: string): boolean {
     const message = parse<FromPage>(text);
     const robot = this.#robots.get(this.#selected);

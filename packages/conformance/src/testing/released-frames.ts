@@ -1,13 +1,17 @@
 /**
- * How the reference system's released bridge makes messages of packets: a frame goes out when a packet with another number comes, in the
- * order in which its packets came, as many points as packets times 150 but no more than the frame has; blocks that are not full are left
- * out; what is late or doubled counts for the frame of now; the header is cut off at byte 20 without looking. The first frame that is not
- * number 0 sends an empty message before it. Bytes and time are arguments.
+ * How the reference system's released bridge turns packets into messages. A frame is sent when a packet with another
+ * number arrives. Its points are in the order of its packets, as many as packets times 150 but no more than the frame
+ * has. Blocks that are not full are left out. Late and duplicated packets count for the present frame. The header is
+ * cut off at byte 20 without being parsed. The first frame, if it is not number 0, is preceded by an empty message.
+ * Bytes and time are arguments.
  */
 import { encodeBandwidth } from '@farpoint/protocol';
 
 export interface ReleasedFrameEvents {
-  /** Before each frame: what was received of it over the time since the one before, bit/s, on the `bandwidth` channel. */
+  /**
+   * Called before each frame: the rate at which it was received since the previous frame, bit/s, for the `bandwidth`
+   * channel.
+   */
   onReport(report: Uint8Array): void;
   onFrame(frame: Uint8Array): void;
 }
@@ -31,13 +35,13 @@ export class ReleasedFrames {
     this.#events = events;
   }
 
-  /** @param shown whether its robot is the chosen one: the first packet after it was another is swallowed */
+  /** @param shown whether its robot is the selected one: the first packet after a switch is swallowed */
   accept(packet: Uint8Array, shown: boolean, nowMs: number): void {
     if (!shown || this.#swallowNext) {
       this.#swallowNext = !shown;
       return;
     }
-    // Shorter ones would be read together with what the buffer held before.
+    // Shorter ones would be read together with the buffer's previous content.
     const padded = new Uint8Array(RTP_HEADER_BYTES + HEADER_BYTES + BLOCK_BYTES);
     padded.set(packet.subarray(0, padded.length));
     const view = new DataView(padded.buffer);
@@ -61,7 +65,7 @@ export class ReleasedFrames {
     const seconds = Math.max(nowMs - this.#beganMs, 0.001) / 1000;
     this.#events.onReport(encodeBandwidth(Math.max((bytes * 8) / seconds, LEAST_BITS_PER_SECOND)));
     const points = Math.min(this.#packets * BLOCK_POINTS, Math.floor(this.#total / 8));
-    // Where blocks were left out, the rest is whatever the memory held: zeros here.
+    // Where blocks were left out, the rest is whatever the memory contained: zeros here.
     const frame = new Uint8Array(8 * points);
     const coordinates = Buffer.concat(this.#blocks.map((block) => block.subarray(0, 900)));
     const colours = Buffer.concat(this.#blocks.map((block) => block.subarray(900, 1200)));

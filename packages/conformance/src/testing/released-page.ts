@@ -1,10 +1,12 @@
 /**
- * Stand-in for the reference system's released page, as it behaves on a bridge's three sockets, defects included:
+ * Stand-in for the reference system's released page, with its actual behaviour on a bridge's three sockets, including
+ * defects:
  *
- * - at its first load and after each reload it sends `initBridge`, always with the same address, and nothing else until somebody chooses a robot;
- * - it takes the list as it comes, `null` included, and chooses by a robot's place in it;
- * - it looks a switched robot up in the list that it has: `switchedRobot` breaks its handler where that is `null`, and shows nobody where the
- *   robot is not in it.
+ * - at its first load and after each reload it sends `initBridge`, always with the same address, and nothing else until
+ *   somebody selects a robot;
+ * - it takes the list as it arrives, including `null`, and selects by a robot's position in it;
+ * - it looks up a switched robot in its list: `switchedRobot` breaks its handler if the list is `null`, and shows no
+ *   robot if the list does not contain it.
  */
 import type { Twist } from '@farpoint/protocol';
 import { Inbox } from '../peers/inbox.ts';
@@ -26,7 +28,7 @@ type Message = { type: string; robots: ListedRobot[] | null; robotId: number };
 export class ReleasedPage {
   robots: ListedRobot[] | null = [];
   selected: ListedRobot | null = null;
-  /** What went wrong in it. */
+  /** Errors in its handlers. */
   readonly errors: string[] = [];
   /** Messages of the control socket, each after it was handled. */
   readonly handled = new Inbox<Message>();
@@ -63,7 +65,7 @@ export class ReleasedPage {
     void this.#follow(this.#control);
   }
 
-  /** The robot of this name, once it is listed. */
+  /** The robot with this name, once it is listed. */
   async listed(name: string): Promise<ListedRobot> {
     for (;;) {
       const found = this.robots?.find((robot) => robot.name === name);

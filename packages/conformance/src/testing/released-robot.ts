@@ -1,15 +1,18 @@
 /**
- * Stand-in for the reference system's released robot, as it behaves, defects included:
+ * Stand-in for the reference system's released robot, with its actual behaviour, including defects:
  *
- * - one socket to signaling for its whole life, never opened again; one peer connection at a time; its id is 0 until told;
- * - its offer lists the stack's other payload types beside 5, and writes attribute lines with a trailing blank;
- * - candidates wait for the answer, and are told once more when it has connected;
- * - whatever answer comes on its socket is set on the connection of now;
- * - some 6 s after its operator has gone it offers again: by `offer` under its id, but, as 0 counts as none, by another `register` on the
- *   same socket where it is robot 0;
- * - `start` and `stop` switch the stream; the word outlives the connection: a robot that was started streams to the next operator unasked;
- * - frames of whole packets count from 0 for each connection, each sent as a burst; the timestamp advances by a second a frame;
- * - commands are obeyed as they come; `linear.z ≠ 0` makes the next frame green and is no motion.
+ * - one socket to signaling for its whole life, never reopened; one peer connection at a time; its id is 0 until it is
+ *   told another;
+ * - its offer lists the stack's other payload types beside 5, and its attribute lines end with a blank;
+ * - candidates wait for the answer, and are sent once more when it has connected;
+ * - any answer that arrives on its socket is set on the present connection;
+ * - about 6 s after its operator has left it offers again: by `offer` under its id or, because 0 counts as no id, by
+ *   another `register` on the same socket if it is robot 0;
+ * - `start` and `stop` switch the stream; the word outlives the connection: a robot that was started streams to the
+ *   next operator without being asked;
+ * - frames of whole packets count from 0 for each connection, each sent as a burst; the timestamp advances by one
+ *   second per frame;
+ * - commands are obeyed as they arrive; `linear.z ≠ 0` makes the next frame green and is no motion.
  */
 import type { Buffer } from 'node:buffer';
 import { decodeBandwidth, LATENCY_TEST_COLOUR, POINTS_PER_PACKET, type Twist } from '@farpoint/protocol';
@@ -19,9 +22,9 @@ import { OfferingConnection } from '../peers/offering-connection.ts';
 import { SocketPeer } from '../peers/socket-peer.ts';
 
 export interface ReleasedRobotOptions {
-  /** As it registers; the released one is always called so. */
+  /** The name under which it registers; the released robot always uses the default. */
   name?: string;
-  /** From its operator's leaving to the next offer, ms: the released one needs some 6 s. */
+  /** Time from its operator's leaving to the next offer, ms: the released one needs about 6 s. */
   offerAgainMs?: number;
   points?: number;
   framesPerSecond?: number;
@@ -128,7 +131,7 @@ export class ReleasedRobot {
     this.#line.send({ type: 'candidate', robotId: this.id, candidate });
   }
 
-  /** What cannot be read is passed over; what is left out is 0. */
+  /** Unreadable commands are ignored; missing components are 0. */
   #onCommand(data: string | Buffer): void {
     let read: Partial<Twist> | null;
     try {
@@ -161,7 +164,7 @@ function paintGreen(payload: Uint8Array): void {
   for (let i = 0; i < POINTS_PER_PACKET; i++) view.setUint16(2 * i, LATENCY_TEST_COLOUR, true);
 }
 
-/** The same offer as the released robot's stack writes it. */
+/** The same offer as written by the released robot's stack. */
 function asReleased(sdp: string): string {
   return sdp
     .replace(/^(m=video .*)\r$/m, '$1 96 97\r')

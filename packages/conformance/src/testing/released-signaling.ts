@@ -1,12 +1,14 @@
 /**
- * Stand-in for the reference system's released signaling server, as it behaves, defects included:
+ * Stand-in for the reference system's released signaling server, with its actual behaviour, including defects:
  *
  * - two plain WebSocket servers, any path, ids from 0;
  * - `0` counts as no id in a robot's `offer`, `candidate` and `deregister`: they are dropped;
- * - any robot's socket may speak for any robot but 0;
- * - one client: what is pushed goes to the socket that connected last; `getRobots` is answered to whoever asks;
- * - an explicit `deregister` is pushed as `deregister` without an id; the robot is then forgotten, its socket's end told to nobody;
- * - a socket that ends takes the registration with the smallest id with it: one that registered twice leaves the other listed;
+ * - any robot's socket may act for any robot but 0;
+ * - one client: messages are pushed to the socket that connected last; `getRobots` is answered to whoever asks;
+ * - an explicit `deregister` is pushed as `deregister` without an id; the robot is then forgotten, and the end of its
+ *   socket is reported to nobody;
+ * - a socket that ends removes the registration with the smallest id: a robot that registered twice leaves the other
+ *   one listed;
  * - an answer is passed on whatever became of the offer, and is kept in the list beside the next one;
  * - text that is not JSON, or `null`, ends the program.
  */
@@ -53,7 +55,7 @@ export class ReleasedSignaling {
     });
   }
 
-  /** On free ports of this machine. */
+  /** Starts it on free ports of this machine. */
   static async start(): Promise<ReleasedSignaling> {
     const [robotPort, clientPort] = await Promise.all([openPlainServer(), openPlainServer()]);
     return new ReleasedSignaling(robotPort, clientPort);
@@ -138,7 +140,7 @@ export class ReleasedSignaling {
   }
 }
 
-/** @throws {Error} for what ends the program */
+/** @throws {Error} for a message that ends the program */
 function parse(data: unknown): Message {
   const message = JSON.parse(String(data)) as Message | null;
   if (message === null) throw new TypeError('a message that is null');

@@ -1,10 +1,10 @@
 import type { DropReason, FlowListener } from '@farpoint/network-sim';
 import type { RateController } from '../rate-controller.ts';
 
-/** The width of the bins, ms. */
+/** Width of the bins, ms. */
 export const BIN_MS = 100;
 
-/** What a flow did, for the measures of a scenario. */
+/** Records what a flow did, for the measures of a scenario. */
 export class FlowRecord implements FlowListener {
   readonly name: string;
   /** Bytes by time of arrival, in bins of BIN_MS. */
@@ -13,7 +13,7 @@ export class FlowRecord implements FlowListener {
   readonly sentPackets: number[] = [];
   readonly overflowed: number[] = [];
   readonly lost: number[] = [];
-  /** Every packet that arrived: when it was sent, how long it waited, how old its picture was on arrival; ms. */
+  /** Every packet that arrived: when it was sent, how long it waited, how old its picture was on arrival, ms. */
   readonly packetMs: number[] = [];
   readonly queueMs: number[] = [];
   readonly ageMs: number[] = [];
@@ -34,7 +34,7 @@ export class FlowRecord implements FlowListener {
     add(reason === 'queue-full' ? this.overflowed : this.lost, sentMs, 1);
   }
 
-  /** @param createdMs of the picture that the packet carries */
+  /** @param createdMs creation time of the picture that the packet carries */
   delivered(bytes: number, sentMs: number, arrivalMs: number, queueMs: number, createdMs = sentMs): void {
     this.packetMs.push(sentMs);
     this.queueMs.push(queueMs);

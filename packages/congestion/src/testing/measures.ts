@@ -1,23 +1,23 @@
 import { BIN_MS, type FlowRecord, sumBins } from './flow-record.ts';
 import { carriedAtMost, type Outcome } from './scenario.ts';
 
-/** Arrived over what the link could carry, between two times. */
+/** Arrived bits as a fraction of what the link could carry between two times. */
 export function utilisation({ scenario }: Outcome, flow: FlowRecord, fromMs: number, toMs: number): number {
   return (sumBins(flow.arrivedBytes, fromMs, toMs) * 8) / carriedAtMost(scenario, fromMs, toMs);
 }
 
-/** Arrived, bit/s. */
+/** Arrival rate, bit/s. */
 export function throughput(flow: FlowRecord, fromMs: number, toMs: number): number {
   return (sumBins(flow.arrivedBytes, fromMs, toMs) * 8000) / (toMs - fromMs);
 }
 
-/** The first flow's part of what both got. */
+/** The first flow's fraction of what both received. */
 export function share(a: FlowRecord, b: FlowRecord, fromMs: number, toMs: number): number {
   const bytes = sumBins(a.arrivedBytes, fromMs, toMs);
   return bytes / (bytes + sumBins(b.arrivedBytes, fromMs, toMs));
 }
 
-/** Of the packets sent between two times, those that a full queue dropped (`overflow`) or that were lost otherwise. */
+/** Of the packets sent between two times, the fractions dropped by a full queue (`overflow`) and lost otherwise. */
 export function losses(flow: FlowRecord, fromMs: number, toMs: number): { overflow: number; other: number } {
   const sent = Math.max(sumBins(flow.sentPackets, fromMs, toMs), 1);
   return {
@@ -26,7 +26,7 @@ export function losses(flow: FlowRecord, fromMs: number, toMs: number): { overfl
   };
 }
 
-/** The quantiles of waiting in the queue over the packets sent between two times that arrived, ms. */
+/** Quantiles of the queueing time of the packets that were sent between two times and arrived, ms. */
 export function queueQuantiles(
   flow: FlowRecord,
   fromMs: number,
@@ -36,7 +36,7 @@ export function queueQuantiles(
   return quantiles(flow.queueMs, flow, fromMs, toMs, at);
 }
 
-/** The same for how old a packet's picture was on arrival, ms. */
+/** The same for the age of a packet's picture on arrival, ms. */
 export function ageQuantiles(
   flow: FlowRecord,
   fromMs: number,
@@ -46,7 +46,10 @@ export function ageQuantiles(
   return quantiles(flow.ageMs, flow, fromMs, toMs, at);
 }
 
-/** How long packets that waited longer than `limitMs` kept arriving, ms: sums gaps between such arrivals below 100 ms. */
+/**
+ * How long packets that waited for more than `limitMs` kept arriving, ms: the sum of the gaps below 100 ms between such
+ * arrivals.
+ */
 export function msAboveQueue(flow: FlowRecord, limitMs: number, fromMs: number, toMs: number): number {
   let sum = 0;
   let lastArrival = Number.NaN;
@@ -64,7 +67,7 @@ export function msAboveQueue(flow: FlowRecord, limitMs: number, fromMs: number, 
   return sum;
 }
 
-/** From `fromMs` until the flow first fills `part` of the link over a whole window of 500 ms; NaN: never. */
+/** Time from `fromMs` until the flow first fills `part` of the link over a whole window of 500 ms; NaN for never. */
 export function msUntilUsed(
   outcome: Outcome,
   flow: FlowRecord,

@@ -8,29 +8,29 @@ export interface MediaFlowOptions {
   name?: string;
   controller: RateController;
   forward: Path;
-  /** The way of the feedback. */
+  /** The path of the feedback. */
   back: Path;
   startMs?: number;
   stopMs?: number;
   /** Pauses: no frames between these times, ms. */
   pauses?: readonly (readonly [number, number])[];
-  /** The most the source has to give in a frame, bytes; with `probes` false padding does not exceed it either. */
+  /** The most the source has to send per frame, bytes; with `probes` false, padding does not exceed it either. */
   maxFrameBytes?: number;
-  /** Whether the source fulfils probes. Default true. */
+  /** Whether the source sends probes. Default true. */
   probes?: boolean;
-  /** Whole frames at once, in place of pacing. */
+  /** Sends whole frames at once instead of pacing them. */
   bursts?: boolean;
-  /** The receiver gives its sums and no transport-wide feedback. */
+  /** The receiver reports its sums and gives no transport-wide feedback. */
   reports?: boolean;
   /** Bounds of the interval between two feedback messages, ms. */
   feedbackMs?: readonly [number, number];
-  /** Feedback messages, 0–1, that come twice. */
+  /** Fraction of feedback messages that arrive twice, 0–1. */
   duplicateFeedback?: number;
-  /** At these times the receiver's clock jumps by so much, ms. */
+  /** Times at which the receiver's clock jumps, and by how much, ms. */
   clockJumps?: readonly (readonly [number, number])[];
-  /** The receiver's clock runs faster by so many millionths. */
+  /** The receiver's clock is faster by this many millionths. */
   clockSkewPpm?: number;
-  /** When sender and receiver stand still; the arrivals' own delay by it is the forward path's. */
+  /** When sender and receiver stall. Delays of the arrivals themselves belong to the forward path. */
   senderStalls?: Stalls | null;
   receiverStalls?: Stalls | null;
 }
@@ -42,12 +42,12 @@ interface SimFrame extends PacedFrame {
 const PACKET_BYTES = 1244;
 const FRAME_MS = 1000 / 30;
 const TICK_MS = 25;
-/** Packets of the window that feedback is told of at most; more are lost from sight. */
+/** The most packets that the receiver remembers for feedback; older ones are never reported. */
 const RECEIVER_WINDOW = 1 << 15;
 
 /**
- * A robot and an operator as the robot's sender and Chromium's receiver behave: frames at 30 a second, as large as the
- * target allows, paced; feedback at intervals; a window and probes obeyed.
+ * A robot and an operator that behave as the robot's sender and Chromium's receiver do: paced frames at 30 per second,
+ * as large as the target allows; feedback at intervals; window and probes obeyed.
  */
 export class MediaFlow {
   readonly record: FlowRecord;
@@ -105,7 +105,7 @@ export class MediaFlow {
     const target = this.#controller.decision(now).targetBitsPerSecond;
     const most = this.#options.maxFrameBytes ?? Number.POSITIVE_INFINITY;
     const bytes = Math.min((target * FRAME_MS) / 8000, most);
-    // Whole packets; what is over goes to the next frame, as a planner in points would have it.
+    // Whole packets only; the remainder goes to the next frame, as with a planner that counts points.
     this.#budgetBytes = Math.min(this.#budgetBytes + bytes, bytes + PACKET_BYTES);
     const count = Math.floor(this.#budgetBytes / PACKET_BYTES);
     this.#budgetBytes -= count * PACKET_BYTES;
@@ -142,7 +142,7 @@ export class MediaFlow {
       this.#pacer.nextDueMs ?? Number.POSITIVE_INFINITY,
       this.#probeBytesLeft > 0 ? this.#probeNextMs : Number.POSITIVE_INFINITY,
     );
-    // A wake-up for a rate that has changed meanwhile does no harm: pacer and probe know their own times.
+    // A wake-up for an outdated rate does no harm: pacer and probe know their own times.
     if (next < Number.POSITIVE_INFINITY && (next < this.#wakeMs || this.#wakeMs <= now)) {
       const at = Math.max(next, now + 0.25);
       this.#wakeMs = at;
@@ -220,7 +220,7 @@ export class MediaFlow {
       const arrival = this.#arrivals[at] as number;
       const received = !Number.isNaN(arrival);
       this.#arrivals[at] = Number.NaN;
-      // The format counts in steps of 250 µs.
+      // The wire format has a resolution of 250 µs.
       packets.push({
         sequence: sequence & 0xffff,
         received,
@@ -252,7 +252,7 @@ export class MediaFlow {
     });
   }
 
-  /** As a receiver report has it: how many came, and the highest number. */
+  /** As in a receiver report: how many packets arrived, and the highest number. */
   #sendSums(): void {
     const highest = this.#highestArrived;
     const packetsReceived = this.#received;
@@ -269,7 +269,7 @@ export class MediaFlow {
     });
   }
 
-  /** What the sender's process is to do at a time. */
+  /** Schedules work of the sender's process. */
   #senderAt(atMs: number, action: () => void): void {
     this.#events.at(this.#options.senderStalls?.after(atMs) ?? atMs, action);
   }

@@ -1,6 +1,6 @@
 /**
- * RFC 8867 gives test cases and no pass marks. Ours: use the link, keep the queue short where nobody else fills it, share it
- * with one's like, neither starve beside TCP nor starve it.
+ * RFC 8867 defines test cases but no pass marks. Ours: use the link, keep the queue short if nobody else fills it,
+ * share fairly with flows of the same kind, and neither starve beside TCP nor starve it.
  */
 import { describe, expect, test } from 'vitest';
 import { AdaptiveRateController } from '../adaptive-rate-controller.ts';
@@ -43,7 +43,7 @@ test('5.1 variable capacity', () => {
   ] as const) {
     const used = sum(rates(outcome, from, to)) / capacity;
     expect(used, `${from} s`).toBeGreaterThan(0.8);
-    // A packet alone takes 17 ms at 0.6 Mbit/s.
+    // A single packet takes 17 ms at 0.6 Mbit/s.
     expect(queue95(outcome, from, to), `${from} s`).toBeLessThan(150);
   }
   expect(msAboveQueue(outcome.media[0]!, 100, 60_000, 80_000)).toBeLessThan(2000);
@@ -107,7 +107,7 @@ test('5.7 short TCP flows', () => {
   const got = rates(outcome, 10, 120);
   expect(Math.min(...got)).toBeGreaterThan(0.25);
   expect(fairness(got)).toBeGreaterThan(0.85);
-  // Every transfer comes to its end.
+  // Every transfer completes.
   for (const [i, flow] of outcome.cubic.entries()) {
     const bytes = sum(flow.arrivedBytes);
     expect(bytes, flow.name).toBeGreaterThanOrEqual(SHORT_TCP.cubic![i]!.bytes! * 0.99);
@@ -117,11 +117,11 @@ test('5.7 short TCP flows', () => {
 
 describe('5.8 pause and resume', () => {
   const outcome = run(PAUSE_RESUME);
-  test('the others take what the paused flow leaves', () => {
+  test('the others use what the paused flow leaves', () => {
     const [first, , third] = rates(outcome, 45, 60) as [number, number, number];
     expect((first + third) / 3.5).toBeGreaterThan(0.85);
   });
-  test('it gets its share back within 10 s', () => {
+  test('it recovers its share within 10 s', () => {
     const got = rates(outcome, 70, 120);
     expect(sum(got) / 3.5).toBeGreaterThan(0.85);
     expect(fairness(got)).toBeGreaterThan(0.9);

@@ -1,6 +1,7 @@
 /**
- * Scenarios after the test cases of RFC 8867 ("Test Cases for Evaluating Congestion Control for Interactive Real-Time Media"):
- * 50 ms of propagation each way and a queue of 300 ms unless the case says otherwise. Cases 5.5 and 5.7 are shortened from 300 s.
+ * Scenarios after the test cases of RFC 8867 ("Test Cases for Evaluating Congestion Control for Interactive Real-Time
+ * Media"): 50 ms of propagation each way and a queue of 300 ms unless the case says otherwise. Cases 5.5 and 5.7 are
+ * shortened from 300 s.
  */
 import type { CapacityStep } from '@farpoint/network-sim';
 import type { Scenario } from './scenario.ts';
@@ -27,7 +28,7 @@ export const VARIABLE_CAPACITY_TWO_FLOWS: Scenario = {
   media: [{}, {}],
 };
 
-/** §5.3: the feedback's way is narrow and carries a TCP flow besides. */
+/** §5.3: the feedback path is narrow and also carries a TCP flow. */
 export const CONGESTED_FEEDBACK: Scenario = {
   ...BASE,
   name: 'RFC 8867 5.3 congested feedback link',

@@ -32,40 +32,40 @@ export interface CubicSpec {
   startMs?: number;
   stopMs?: number;
   bytes?: number;
-  /** It loads the feedback's way in place of the media's. */
+  /** It loads the feedback path instead of the media path. */
   reverse?: boolean;
 }
 
-/** A dumbbell: flows over one link each way. */
+/** A dumbbell topology: flows over one link in each direction. */
 export interface Scenario {
   name: string;
   durationMs: number;
   capacity: readonly CapacityStep[];
-  /** Propagation both ways together. */
+  /** Propagation, both directions together. */
   rttMs: number;
-  /** Drop-tail, ms at the first capacity; or in bytes. */
+  /** Drop-tail, in ms at the first capacity; or in bytes. */
   queueMs?: number;
-  /** The queue's ms are reckoned at the capacity of the moment. */
+  /** Converts the queue's ms at the current capacity. */
   queueFollows?: boolean;
   queueBytes?: number;
-  /** Behind the bottleneck: what is lost has taken its share of the capacity. */
+  /** Behind the bottleneck: lost packets have used their share of the capacity. */
   loss?: number;
   burstLoss?: BurstLoss;
-  /** From when on the media's way is longer or shorter, and by how much, ms: another route. In order of time. */
+  /** Route changes on the media path: from when on it is longer or shorter, and by how much, ms. In order of time. */
   delaySteps?: readonly (readonly [fromMs: number, moreMs: number])[];
-  /** Of the media's way, as in {@link LinkProfile}. */
+  /** On the media path, as in {@link LinkProfile}. */
   jitterMs?: number;
   tailMs?: number;
-  /** Packets, 0–1, that are held back by 10 ms and overtaken meanwhile. */
+  /** Fraction of packets that are delayed by 10 ms and overtaken meanwhile, 0–1. */
   reorder?: number;
   /** Sender, link and receiver are processes on busy machines. */
   stalls?: { sender?: StallOptions; link?: StallOptions; receiver?: StallOptions };
-  /** Of the feedback. */
+  /** Of the feedback path. */
   backLoss?: number;
-  /** A bottleneck on the feedback's way. */
+  /** A bottleneck on the feedback path. */
   backCapacity?: readonly CapacityStep[];
   backQueueMs?: number;
-  /** Default: one, from the beginning. */
+  /** Default: one flow, from the beginning. */
   media?: readonly MediaSpec[];
   cubic?: readonly CubicSpec[];
   seed?: number;
@@ -77,23 +77,23 @@ export interface Outcome {
   cubic: FlowRecord[];
 }
 
-/** What a queue of so many ms holds at the first capacity. */
+/** The bytes that a queue of this many ms holds at the first capacity. */
 const queueOf = (steps: readonly CapacityStep[], ms: number): QueueLimit => ({
   bytes: ((steps[0]?.mbps ?? 0) * 1000 * ms) / 8,
 });
 
-/** Runs it in virtual time. The same scenario and controller give the same outcome. */
+/** Runs the scenario in virtual time. The same scenario and controller give the same outcome. */
 export function runScenario(scenario: Scenario, controller: () => RateController): Outcome {
   const { rttMs, seed = 1, cubic: cubicSpecs = [], media: mediaSpecs = [{}] } = scenario;
   const events = new EventQueue();
   const random = new Random(seed, 6);
-  // Of their own seed, so that they are the same whatever the flows do.
+  // A seed of their own, so that stalls are the same whatever the flows do.
   const stallRandom = new Random(seed, 7);
   const stalls = (options: StallOptions | undefined) => {
     const own = new Random(stallRandom.next() * 2 ** 32, 8);
     return options === undefined ? null : new Stalls(options, own);
   };
-  /** The link has the shortest way's delay; the others have theirs behind it. */
+  /** The link has the delay of the shortest path; flows with a longer one add the rest behind it. */
   const delayMs = Math.min(rttMs, ...mediaSpecs.map((spec) => spec.rttMs ?? rttMs)) / 2;
   const link = new VirtualLink(events, {
     profile: forwardProfile(scenario, delayMs),
@@ -160,7 +160,7 @@ function backProfile({ backCapacity, backQueueMs = 100 }: Scenario): LinkProfile
   return { ...idealProfile, capacity, queue: queueOf(backCapacity, backQueueMs) };
 }
 
-/** Bits that the scenario's link could carry between two times. */
+/** The number of bits that the scenario's link could carry between two times. */
 export function carriedAtMost({ capacity }: Scenario, fromMs: number, toMs: number): number {
   return new CapacitySchedule({ steps: capacity, periodMs: null }, 0).bitsBetween(fromMs, toMs);
 }

@@ -1,33 +1,35 @@
-/** What a peer's cloud says of itself. */
+/** Reads the marks in a peer's cloud. */
 import { RELIABLE_QOS } from '@farpoint/ros';
 
-/** In order and without a gap, where the publisher is reliable too. */
+/** In order and without gaps if the publisher is reliable, too. */
 export const CLOUD_QOS = { ...RELIABLE_QOS, depth: 5 };
 
 const POINT_BYTES = 16;
 const COLOUR_OFFSET = 12;
-/** A frame’s colour is its number times this, modulo 2²⁴; as the factor is odd, the number can be had back. */
+/** A frame’s colour is its number times this, modulo 2²⁴; because the factor is odd, the number can be recovered. */
 const MIX = 0x9e3779;
 const MASK = 0xffffff;
 const UNMIX = inverse(MIX);
 
 export interface MarkedCloud {
-  /** From 1. */
+  /** Starts at 1. */
   number: number;
-  /** When it was made, ms since 1970. */
+  /** When it was created, ms since 1970. */
   madeMs: number;
-  /** Colours of another frame are among its own. */
+  /** Whether it contains colours of another frame. */
   torn: boolean;
 }
 
 /**
- * Reads a PointCloud2 of a peer without the help of any reader of messages. @param side its points, and its rows
- * @returns `null` where it does not hold as many points
+ * Reads a PointCloud2 of a peer without using any message reader.
+ *
+ * @param side points per row, and number of rows
+ * @returns `null` if it does not contain as many points
  */
 export function readMarkedCloud(bytes: Uint8Array, side: number): MarkedCloud | null {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const dataBytes = side * side * POINT_BYTES;
-  // After the data come is_dense, one byte, and what pads it to a multiple of four at most.
+  // The data is followed by is_dense, one byte, and at most enough padding for a multiple of four.
   for (let after = 1; after <= 4; after++) {
     const begin = bytes.length - after - dataBytes;
     if (begin < 8 || view.getUint32(begin - 4, true) !== dataBytes) continue;
@@ -41,7 +43,7 @@ export function readMarkedCloud(bytes: Uint8Array, side: number): MarkedCloud | 
   return null;
 }
 
-/** Modulo 2³², by Newton’s method: each step doubles how many bits are right. */
+/** Modulo 2³², by Newton’s method: each step doubles the number of correct bits. */
 function inverse(odd: number): number {
   let result = odd;
   for (let bits = 3; bits < 32; bits *= 2) result = Math.imul(result, 2 - Math.imul(odd, result));

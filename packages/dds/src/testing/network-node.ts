@@ -1,6 +1,7 @@
 /**
- * A program with a graph: `publish` gives messages of a cloud's size ten times a second until it is ended, `hear` ends with 0
- * after ten of them, with 3 where none comes within the time given: network-node.ts ROLE DOMAIN MS OPTIONS
+ * A program with a graph. `publish` sends messages of a cloud's size ten times per second until it is killed. `hear`
+ * exits with 0 after ten of them, and with 3 if none arrives within the given time: network-node.ts ROLE DOMAIN MS
+ * OPTIONS
  */
 import { RELIABLE_QOS } from '@farpoint/ros';
 import { DdsGraph } from '../dds-graph.ts';

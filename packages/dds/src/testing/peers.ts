@@ -1,4 +1,4 @@
-/** Other makers' DDS programs that the tests and the benchmark speak to, where they can be run. */
+/** Other vendors' DDS programs for the tests and the benchmark, if they can be run. */
 import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, renameSync } from 'node:fs';
@@ -14,15 +14,18 @@ export type PeerKind = 'Fast DDS' | 'Python';
 
 export interface PeerOptions {
   domain: number;
-  /** DDS topic on which it gives clouds of `side` × `side` points, `hz` a second, all of a frame in a colour of its own. */
+  /**
+   * DDS topic on which it publishes clouds of `side` × `side` points, `hz` per second, each frame in a single colour of
+   * its own.
+   */
   cloud?: string;
   side?: number;
   hz?: number;
   reliability?: 'reliable' | 'best-effort';
-  /** DDS topic on which it hears Twists, each told, and the one on which it sends each back at once. */
+  /** DDS topic on which it receives Twists and reports each, and the one on which it sends each back at once. */
   twist?: string;
   echo?: string;
-  /** Fast DDS only: another type name for its clouds. */
+  /** Fast DDS only: a different type name for its clouds. */
   type?: string;
   /** Fast DDS only: DDS topic and type of what {@link Peer.send} sends. */
   raw?: string;
@@ -32,7 +35,7 @@ export interface PeerOptions {
 const event = z.discriminatedUnion('event', [
   z.object({ event: z.literal('ready') }),
   z.object({ event: z.literal('bad') }),
-  /** Somebody hears its raw messages. */
+  /** Its raw messages have a subscriber. */
   z.object({ event: z.literal('matched') }),
   /** @param ms CLOCK_MONOTONIC */
   z.object({ event: z.literal('twist'), x: z.number(), z: z.number(), ms: z.number() }),
@@ -40,12 +43,12 @@ const event = z.discriminatedUnion('event', [
 export type PeerEvent = z.infer<typeof event>;
 export type HeardTwist = Extract<PeerEvent, { event: 'twist' }>;
 
-/** The command of a peer, compiled where it must be; `null` where it cannot be run here. */
+/** The command of a peer, compiled if necessary; `null` if it cannot be run here. */
 export function findPeer(kind: PeerKind): string[] | null {
   return kind === 'Fast DDS' ? findFastDds() : findPython();
 }
 
-/** How to get a peer, for those who skip what needs it. */
+/** How to install a peer, shown when tests that need it are skipped. */
 export const PEER_REMEDY: Record<PeerKind, string> = {
   'Fast DDS': 'apt-get install libfastrtps-dev g++',
   Python: 'pip install cyclonedds',
@@ -54,13 +57,13 @@ export const PEER_REMEDY: Record<PeerKind, string> = {
 export class Peer {
   readonly pid: number;
   readonly twists: HeardTwist[] = [];
-  /** Whether somebody hears what {@link send} sends. */
+  /** Whether what {@link send} sends has a subscriber. */
   matched = false;
   onTwist: ((twist: HeardTwist) => void) | null = null;
   readonly #child: ChildProcess;
   readonly #ended: Promise<void>;
 
-  /** Resolves once it takes part in the domain. */
+  /** Resolves once it has joined the domain. */
   static async start(command: readonly string[], options: PeerOptions): Promise<Peer> {
     const [program, ...first] = command as [string, ...string[]];
     const { rawType, ...rest } = options;
@@ -78,7 +81,7 @@ export class Peer {
     this.#child = child;
     this.pid = child.pid as number;
     this.#ended = new Promise((resolve) => child.once('exit', () => resolve()));
-    // What it is told after it was killed is nobody's.
+    // Input sent after it was killed is discarded.
     child.stdin?.on('error', () => undefined);
     this.#ready = new Promise((resolve, reject) => {
       child.once('error', reject);
@@ -96,12 +99,12 @@ export class Peer {
     this.#ready.catch(() => undefined);
   }
 
-  /** Sends bytes as they are, header included. */
+  /** Sends bytes unchanged, including their header. */
   send(bytes: Uint8Array): void {
     this.#child.stdin?.write(`${Buffer.from(bytes).toString('hex')}\n`);
   }
 
-  /** Lets it end by itself, saying goodbye. */
+  /** Lets it exit by itself, leaving the domain properly. */
   async stop(): Promise<void> {
     this.#child.stdin?.end();
     await this.#ended;

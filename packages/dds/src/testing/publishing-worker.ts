@@ -1,4 +1,4 @@
-/** A thread that publishes until it is ended. */
+/** A thread that publishes until it is terminated. */
 import { workerData } from 'node:worker_threads';
 import { DdsGraph, type DdsGraphOptions } from '../dds-graph.ts';
 import { cdr } from './helpers.ts';

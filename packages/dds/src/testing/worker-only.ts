@@ -1,4 +1,4 @@
-/** A program that uses DDS in a worker alone, which ends; so should the program, with 0. */
+/** A program that uses DDS only in a worker that ends; the program should then exit with 0. */
 import { Worker } from 'node:worker_threads';
 
 const source = new URL('./closing-worker.ts', import.meta.url);

@@ -1,6 +1,6 @@
-// A program on Fast DDS, as another maker's ROS 2 node would be: gives clouds, hears Twists and sends them back, and sends
-// bytes as they are told. Loopback only. What it is asked is on its command line, what happens on its standard output, a JSON
-// object a line; it ends with its standard input. See peers.ts.
+// A program on Fast DDS, like another vendor's ROS 2 node: publishes clouds, receives Twists and sends them back, and
+// sends bytes given to it. Loopback only. Its command line says what to do; it reports events on its standard output,
+// one JSON object per line, and ends with its standard input. See peers.ts.
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
 
@@ -37,7 +37,7 @@ using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 using Bytes = std::vector<char>;
 
-// A sample is its bytes, encapsulation header included.
+// A sample is its bytes, including the encapsulation header.
 class RawType : public TopicDataType {
  public:
   explicit RawType(const std::string &name) {
@@ -81,15 +81,15 @@ static void say(const std::string &line) {
 class Peer {
  public:
   explicit Peer(int domain) {
-    // As a robot's own node would be set: one interface, and room for a cloud.
+    // Configured like a robot's own node: one interface, and buffers for a cloud.
     auto transport = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     transport->interfaceWhiteList.push_back("127.0.0.1");
     transport->sendBufferSize = transport->receiveBufferSize = 4 * 1024 * 1024;
     DomainParticipantQos qos;
     qos.transport().use_builtin_transports = false;
     qos.transport().user_transports.push_back(transport);
-    // Debian's build, with its assertions, ends itself where a participant it has not sent to before is matched too quickly
-    // (Fast DDS pull request 3169): so all that there can be here are known from the beginning.
+    // Debian's build, which has assertions enabled, aborts if a participant it has not sent to before is matched too
+    // quickly (Fast DDS pull request 3169). Therefore all possible participants are known from the beginning.
     for (int port = 7400; port < 7440; port++) {
       eprosima::fastrtps::rtps::Locator_t locator;
       eprosima::fastrtps::rtps::IPLocator::setIPv4(locator, port < 7410 ? "239.255.0.1" : "127.0.0.1");
@@ -173,7 +173,7 @@ class Matched : public DataWriterListener {
   }
 };
 
-// sensor_msgs/msg/PointCloud2 of side × side points, all of the frame's own colour: its number, its bits mixed.
+// sensor_msgs/msg/PointCloud2 of side × side points, all in the frame's own colour: its number with mixed bits.
 static Bytes cloud(uint32_t side, uint32_t number) {
   const uint32_t colour = number * 0x9E3779U & 0xFFFFFFU;
   const uint32_t step = 16, points = side * side;

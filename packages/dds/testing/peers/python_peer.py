@@ -1,7 +1,7 @@
-"""A program on Python's DDS, as another maker's ROS 2 node would be: gives clouds, hears Twists and sends them back.
+"""A program on Python's DDS, like another vendor's ROS 2 node: publishes clouds, receives Twists and sends them back.
 
-Loopback only. What it is asked is on its command line, what happens on its standard output, a JSON object a line; it ends
-with its standard input. See peers.ts.
+Loopback only. Its command line says what to do; it reports events on its standard output, one JSON object per line,
+and ends with its standard input. See peers.ts.
 """
 import argparse
 import json
@@ -120,9 +120,10 @@ if asked.twist:
 
 
 class Clouds:
-    """Clouds of side × side points, all of the frame's own colour: its number, its bits mixed.
+    """Clouds of side × side points, all in the frame's own colour: its number with mixed bits.
 
-    The library takes a second to serialise four million bytes: it does so once, and what differs is put into its bytes.
+    The library takes a second to serialise four million bytes, so this does it once and then changes the bytes that
+    differ.
     """
 
     def __init__(self, side):

@@ -5,7 +5,7 @@ import { MAX_SIGNALING_BYTES, type RobotToService, robotToServiceCodec } from '.
 
 const offerOf = (sdp: string): RobotToService => ({ type: 'session.offer', session: 's1', sdp });
 
-test('an SDP has its bound, and one of it fits a message', () => {
+test('an SDP is bounded, and the largest fits a message', () => {
   const longest = offerOf('x'.repeat(60_000));
   expect(z.safeParse(robotToServiceCodec.schema, longest).success).toBe(true);
   expect(encodeJsonBytes(robotToServiceCodec, longest).length).toBeLessThan(MAX_SIGNALING_BYTES);

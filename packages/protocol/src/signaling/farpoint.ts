@@ -1,7 +1,8 @@
 /**
  * Farpoint's own signaling: JSON text over one WebSocket, `/robot` for robots and `/operator` for operators. A session
- * is one operator with one robot; the robot offers, the operator answers, ICE trickles, the service only introduces:
- * a session outlives the loss of either signaling socket for as long as its peers hear each other.
+ * connects one operator with one robot; the robot offers, the operator answers, ICE candidates trickle. The service
+ * only introduces them: a session survives the loss of either signaling socket for as long as its peers hear each
+ * other.
  */
 import * as z from 'zod/mini';
 import { displayNameSchema, handleSchema, robotIdSchema, tokenSchema } from '../identifiers.ts';
@@ -11,7 +12,7 @@ export const MAX_SIGNALING_BYTES = 65_536;
 
 const sdpSchema = z.string().check(z.minLength(1), z.maxLength(60_000));
 
-/** RTCIceCandidateInit; an empty `candidate` ends the candidates. */
+/** RTCIceCandidateInit; an empty `candidate` marks the end of candidates. */
 export const iceCandidateSchema = z.strictObject({
   candidate: z.string().check(z.maxLength(1024)),
   sdpMid: z.optional(z.nullable(z.string().check(z.maxLength(64)))),
@@ -20,7 +21,7 @@ export const iceCandidateSchema = z.strictObject({
 });
 export type IceCandidate = z.infer<typeof iceCandidateSchema>;
 
-/** RTCIceServer, as the service hands it to both peers. */
+/** RTCIceServer, as the service sends it to both peers. */
 export const iceServerSchema = z.strictObject({
   urls: z.union([z.string(), z.array(z.string())]),
   username: z.optional(z.string()),
@@ -28,56 +29,56 @@ export const iceServerSchema = z.strictObject({
 });
 export type IceServer = z.infer<typeof iceServerSchema>;
 
-/** Why a session ended, as told to the robot. */
+/** Why a session ended, as reported to the robot. */
 export const operatorEndReasons = ['operator-left', 'closed-by-operator'] as const;
 export type OperatorEndReason = (typeof operatorEndReasons)[number];
 
-/** Why a robot ends a session, or does not begin it. */
+/** Why a robot ends a session, or does not start it. */
 export const robotCloseReasons = [
-  'robot-full', // as many operators as it takes
-  'bad-answer', // the SDP answer, or what it agrees to, cannot be used
-  'unproven-peer', // its certificate is not the one that the answer names, or it did not prove that the key is its own
-  'not-connected', // no connection came about in time
+  'robot-full', // it already serves its maximum of operators
+  'bad-answer', // the SDP answer is unusable, or what it agrees to is
+  'unproven-peer', // the peer's certificate is not the answer's, or the peer did not prove that it holds the key
+  'not-connected', // no connection was established in time
   'connection-lost', // DTLS or a channel ended
-  'silent', // nothing was heard of the operator for too long
+  'silent', // nothing was heard from the operator for too long
   'not-reading', // reliable messages piled up
   'shutting-down',
 ] as const;
 export type RobotCloseReason = (typeof robotCloseReasons)[number];
 
-/** Why a session ended, as told to the operator. */
+/** Why a session ended, as reported to the operator. */
 export const robotEndReasons = [
   ...robotCloseReasons,
-  'robot-left', // its socket to the service closed
-  'closed-by-robot', // it gave no reason
-  'unknown-session', // it does not have the session that was to be resumed
+  'robot-left', // the robot's socket to the service closed
+  'closed-by-robot', // the robot gave no reason
+  'unknown-session', // the robot does not have the session that was to be resumed
 ] as const;
 export type RobotEndReason = (typeof robotEndReasons)[number];
 
 /** Why a robot does not resume a session. */
 export const resumeRefusals = [
-  'unknown-session', // it does not have it
-  'wrong-resume-key', // who asks has not proven that the session is its own
-  'resume-too-soon', // the last offer waits for its answer, or has only just been answered
+  'unknown-session', // it does not have the session
+  'wrong-resume-key', // the asker has not proved that the session is its own
+  'resume-too-soon', // the last offer still waits for its answer, or was answered only just now
 ] as const;
 export type ResumeRefusal = (typeof resumeRefusals)[number];
 
-/** Why the service refuses a message. After `fatal` ones it closes the socket. */
+/** Why the service refuses a message. After errors marked `fatal`, it closes the socket. */
 export const signalingErrorCodes = [
   'malformed', // not a message of this protocol
   'too-large',
   'rate-limited',
-  'hello-first', // the first message must say who you are
+  'hello-first', // the first message must be a hello
   'unauthorized', // token missing or wrong: fatal
-  'robot-id-taken', // a live robot of another key has this id: fatal
-  'unknown-robot', // no such robot here now
-  'unknown-session', // not a session of yours
+  'robot-id-taken', // a connected robot with another key has this id: fatal
+  'unknown-robot', // no such robot is connected now
+  'unknown-session', // not one of your sessions
   'too-many-sessions',
   'wrong-resume-key', // the robot refused a session.resume; nothing else has changed
-  'resume-too-soon', // the same: ask again later
-  'unsupported-protocol', // `protocol` of the hello is not spoken here: fatal
+  'resume-too-soon', // the same, but ask again later
+  'unsupported-protocol', // the hello's `protocol` is not supported here: fatal
   'full', // no room for another robot or operator: fatal
-  'shutting-down', // come back in a moment: fatal
+  'shutting-down', // reconnect in a moment: fatal
 ] as const;
 export type SignalingErrorCode = (typeof signalingErrorCodes)[number];
 
@@ -104,16 +105,16 @@ const sessionCandidate = z.strictObject({
   candidate: iceCandidateSchema,
 });
 const sessionClose = z.strictObject({ type: z.literal('session.close'), session: handleSchema });
-/** What may come with a robot's reason. */
+/** Optional additions to a robot's reason. */
 const robotEndFields = {
-  /** With `robot-full`: how many operators it takes. */
+  /** With `robot-full`: how many operators it accepts. */
   maxOperators: z.optional(z.int().check(z.minimum(0), z.maximum(1_000_000))),
   /** For people: what exactly was wrong. */
   detail: z.optional(z.string().check(z.maxLength(300))),
 };
 
 const robotListing = z.strictObject({ id: robotIdSchema, name: displayNameSchema });
-/** A robot that is here now. */
+/** A robot that is connected now. */
 export interface RobotListing {
   /** Its id at the signaling service. */
   id: string;
@@ -123,9 +124,9 @@ export interface RobotListing {
 
 const robotsChanged = z.strictObject({
   type: z.literal('robots.changed'),
-  /** Who came, or changed its name. */
+  /** Robots that connected or changed their names. */
   here: z.array(robotListing),
-  /** Ids of who went. */
+  /** Ids of robots that disconnected. */
   gone: z.array(robotIdSchema),
 });
 export interface RobotsChanged {
@@ -140,15 +141,15 @@ const robotToService = z.discriminatedUnion('type', [
     protocol: z.int().check(z.minimum(1)),
     id: robotIdSchema,
     name: displayNameSchema,
-    /** Made by the robot, kept over reconnects: proves that a second socket for the same id is the same robot. */
+    /** Made by the robot and kept over reconnects. It proves that a second socket for the same id is the same robot. */
     key: handleSchema,
     token: z.optional(tokenSchema),
   }),
-  /** `claim` where it answers a `session.resume`. */
+  /** `claim` if it answers a `session.resume`. */
   z.extend(sessionOffer, { claim: z.optional(handleSchema) }),
   sessionCandidate,
   z.extend(sessionClose, { reason: z.optional(z.enum(robotCloseReasons)), ...robotEndFields }),
-  /** Does not resume a session; nothing else changes. */
+  /** The robot does not resume a session; nothing else changes. */
   z.strictObject({
     type: z.literal('session.refuse'),
     session: handleSchema,
@@ -164,17 +165,17 @@ const serviceToRobot = z.discriminatedUnion('type', [
     id: robotIdSchema,
     iceServers: z.array(iceServerSchema),
   }),
-  /** An operator asks for a session: offer. */
+  /** An operator requests a session: send an offer. */
   z.strictObject({ type: z.literal('session.request'), session: handleSchema, operator: displayNameSchema }),
   /**
-   * Somebody says that it is this session's operator and hears nothing. With the session's key: offer an ICE restart under
-   * this claim; else refuse it.
+   * Somebody claims to be this session's operator and to hear nothing. If the session's key is correct, offer an ICE
+   * restart under this claim; otherwise refuse it.
    */
   z.strictObject({
     type: z.literal('session.resume'),
     session: handleSchema,
     operator: displayNameSchema,
-    /** Made by the service: tells its askers apart. */
+    /** Made by the service to tell several claimants apart. */
     claim: handleSchema,
     resumeKey: handleSchema,
   }),
@@ -198,15 +199,15 @@ const operatorToService = z.discriminatedUnion('type', [
   }),
   z.strictObject({ type: z.literal('session.open'), robotId: robotIdSchema }),
   /**
-   * For a session that has connected once: its path is silent. Also where the service has forgotten the session with an
-   * earlier socket of either side. Answered with `session.resuming`; then, where the robot accepts, with `session.opened` and
-   * its offer of an ICE restart.
+   * For a session that has been connected before and whose path is silent. Also works if the service has forgotten the
+   * session together with an earlier socket of either side. Answered with `session.resuming`; then, if the robot
+   * accepts, with `session.opened` and the robot's offer of an ICE restart.
    */
   z.strictObject({
     type: z.literal('session.resume'),
     session: handleSchema,
     robotId: robotIdSchema,
-    /** What the robot told this session's operator in its welcome. */
+    /** From the robot's welcome to this session's operator. */
     resumeKey: handleSchema,
   }),
   sessionAnswer,
@@ -217,7 +218,7 @@ export type OperatorToService = z.infer<typeof operatorToService>;
 
 const serviceToOperator = z.discriminatedUnion('type', [
   z.strictObject({ type: z.literal('operator.welcome'), iceServers: z.array(iceServerSchema) }),
-  /** Every robot that is here now; sent after the welcome, and to an operator that fell far behind. */
+  /** Every robot that is connected now; sent after the welcome, and to an operator that has fallen far behind. */
   z.strictObject({ type: z.literal('robots'), robots: z.array(robotListing) }),
   /** What has changed since the last `robots` or `robots.changed`. */
   robotsChanged,
@@ -251,7 +252,7 @@ export const operatorToServiceCodec: JsonCodec<OperatorToService> = {
   schema: operatorToService,
   maxBytes: MAX_SIGNALING_BYTES,
 };
-/** Larger: it lists every robot. */
+/** Larger, because it lists every robot. */
 export const serviceToOperatorCodec: JsonCodec<ServiceToOperator> = {
   what: 'message to operator',
   schema: serviceToOperator,

@@ -1,6 +1,6 @@
 /**
  * The reference system's signaling: JSON text, any path, robots on port 3001 and clients on port 3002. Robot ids are
- * integers from 0. Unknown fields are let through, as its own peers send some.
+ * integers from 0. Unknown fields are accepted, because its own peers send some.
  */
 import * as z from 'zod/mini';
 import type { JsonCodec } from '../json.ts';
@@ -31,13 +31,13 @@ export type ReferenceClientToService = z.infer<typeof clientToService>;
 const robotRecord = z.object({
   id: robotId,
   name: z.string(),
-  /** Null for a robot that registered without one. */
+  /** Null for a robot that registered without an offer. */
   sdpOffer: z.nullable(z.string()),
   sdpAnswer: z.nullable(z.string()),
   robotCandidates: z.array(z.string()),
   clientCandidates: z.array(z.string()),
 });
-/** A robot as clients of the reference protocol see it. */
+/** A robot as the clients of the reference protocol see it. */
 export type ReferenceRobot = z.infer<typeof robotRecord>;
 
 const serviceToRobot = z.discriminatedUnion('type', [
@@ -52,7 +52,7 @@ const serviceToClient = z.discriminatedUnion('type', [
   z.object({ type: z.literal('register'), robot: robotRecord }),
   z.object({ type: z.literal('offer'), robotId, sdpOffer: sdp }),
   z.object({ type: z.literal('candidate'), robotId, candidate }),
-  /** Sent at a robot's explicit farewell; the reference bridge knows only `deregistered`, so ours sends both. */
+  /** Sent when a robot deregisters explicitly. The reference bridge knows only `deregistered`, so ours sends both. */
   z.object({ type: z.literal('deregister'), robotId: z.optional(robotId) }),
   z.object({ type: z.literal('deregistered'), robotId }),
 ]);

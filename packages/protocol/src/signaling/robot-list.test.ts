@@ -4,7 +4,7 @@ import { applyRobotsChanged } from './robot-list.ts';
 const a = { id: 'a', name: 'A' };
 const b = { id: 'b', name: 'B' };
 
-test('who is new comes last, who is renamed keeps its place, who is gone is gone', () => {
+test('appends new robots, keeps the place of renamed ones, removes those that are gone', () => {
   const list = [a, b];
   const renamed = { id: 'a', name: 'Anna' };
   const c = { id: 'c', name: 'C' };
@@ -13,6 +13,6 @@ test('who is new comes last, who is renamed keeps its place, who is gone is gone
   expect(list).toEqual([a, b]);
 });
 
-test('what is known already and what was never there change nothing', () => {
+test('known robots and unknown removals change nothing', () => {
   expect(applyRobotsChanged([a], { here: [a], gone: ['x'] })).toEqual([a]);
 });

@@ -1,6 +1,8 @@
 import type { RobotListing, RobotsChanged } from './farpoint.ts';
 
-/** The list after a change: who stays keeps its place, who is new comes last. The given list is left as it is. */
+/**
+ * The list after a change: remaining robots keep their places, new ones are appended. The given list is not modified.
+ */
 export function applyRobotsChanged(
   robots: readonly RobotListing[],
   { here, gone }: Pick<RobotsChanged, 'here' | 'gone'>,

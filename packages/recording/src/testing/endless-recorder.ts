@@ -1,4 +1,4 @@
-/** Records until it is killed; says how many messages are written so far, a line each. */
+/** Records until it is killed; prints how many messages are written so far, one line each. */
 import { CloudTap } from '../cloud-tap.ts';
 import { SessionRecorder } from '../session-recorder.ts';
 

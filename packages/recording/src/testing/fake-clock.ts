@@ -1,6 +1,6 @@
 import type { PlayClock } from '../play-timeline.ts';
 
-/** A clock that jumps to whatever is waited for. */
+/** A clock that jumps to whatever time is waited for. */
 export class FakeClock implements PlayClock {
   ms = 0;
   readonly waits: number[] = [];

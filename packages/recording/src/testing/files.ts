@@ -1,4 +1,4 @@
-/** Small recordings made here, for tests that need no peer. */
+/** Small recordings generated here, for tests that need no other software. */
 import { writeFileSync } from 'node:fs';
 import { parse } from '@foxglove/rosmsg';
 import { MessageWriter } from '@foxglove/rosmsg2-serialization';
@@ -22,10 +22,10 @@ export function cloudMessage(k: number, points: number, frameId = 'camera_optica
   });
 }
 
-/** What an MCAP file is made of. */
+/** The contents of one topic of an MCAP file. */
 export interface TestTopic {
   topic: string;
-  /** As its schema has it. */
+  /** As in its schema. */
   type: string;
   messageEncoding?: string;
   schemaEncoding?: string;
@@ -33,7 +33,7 @@ export interface TestTopic {
   messages: readonly { logNs: bigint; data: Uint8Array }[];
 }
 
-/** Messages of several topics, in the order of their times. */
+/** Messages of several topics, in order of time. */
 export async function mcapOfTopics(topics: readonly TestTopic[], chunkSize = 4096): Promise<Uint8Array> {
   const pieces: Uint8Array[] = [];
   let position = 0;
@@ -69,7 +69,7 @@ export async function mcapOfTopics(topics: readonly TestTopic[], chunkSize = 409
 /** When the first message of such a file was recorded. */
 export const START_NS = 1_000_000_000n;
 
-/** 10 clouds a second. @param message the bytes of cloud k */
+/** 10 clouds per second. @param message the bytes of cloud k */
 export function mcapOf(
   clouds: number,
   message: (k: number) => Uint8Array,

@@ -24,7 +24,9 @@ TRANSFORMS = 100
 
 
 def cloud_bytes(k: int) -> bytes:
-    """x forward k + i / 1000, y left i / 100, z up 0.5, intensity i; as a LiDAR driver packs it, with a ring and a time."""
+    """x forward k + i / 1000, y left i / 100, z up 0.5, intensity i; packed as by a LiDAR driver, with a ring and a
+    time.
+    """
     layout = np.dtype({
         "names": ["x", "y", "z", "intensity", "ring", "time"],
         "formats": ["<f4", "<f4", "<f4", "<f4", "<u2", "<f4"],
@@ -41,11 +43,11 @@ FIELDS = [("x", 0, 7), ("y", 4, 7), ("z", 8, 7), ("intensity", 12, 7), ("ring", 
 
 
 def events():
-    """(time in ns, topic, kind, content), in order: 2 s at 10 clouds and 50 transforms a second, 1 m/s ahead."""
+    """(time in ns, topic, kind, content), in order: 2 s with 10 clouds and 50 transforms per second, 1 m/s ahead."""
     found = [(START_S * 10**9, "/tf_static", "tf", [("base_link", "lidar", (0.5, 0, 1.0), 0.0)])]
     for n in range(TRANSFORMS):
         at = START_S * 10**9 + n * 20_000_000
-        # A transform is published a little later than what it is of.
+        # A transform is published slightly later than the time it describes.
         found.append((at + 5_000_000, "/tf", "tf", [("odom", "base_link", (n * 0.02, 0, 0), math.pi / 2)], at))
         found.append((at + 6_000_000, "/odom", "odom", (n * 0.02, 1.0), at))
     for k in range(CLOUDS):
@@ -131,7 +133,7 @@ def write(folder: Path) -> None:
 
 
 def write_by_rosbags(folder: Path, drive, ros2) -> None:
-    """A ROS 2 bag as its own recorder lays it out: a folder with an MCAP file in it."""
+    """A ROS 2 bag as written by ROS 2's own recorder: a folder with an MCAP file in it."""
     from rosbags.rosbag2 import StoragePlugin, Writer
 
     with Writer(folder / "rosbag2", version=9, storage_plugin=StoragePlugin.MCAP) as bag:
@@ -148,7 +150,7 @@ WIDTH, HEIGHT = 8, 4
 
 
 def pixels(k: int) -> bytes:
-    """R, G, B of each: red says which picture it is."""
+    """R, G, B of each pixel: red identifies the picture."""
     return bytes((k * 20, 50, 100)) * (WIDTH * HEIGHT)
 
 
@@ -174,7 +176,7 @@ def picture_message(types, compressed: bool, k: int, at: int, ros1: bool):
 
 
 def write_pictures(folder: Path) -> None:
-    """A cloud each 100 ms, and 50 ms after it one picture of each topic."""
+    """A cloud every 100 ms, and 50 ms after it one picture of each topic."""
     from mcap.writer import Writer as McapWriter
     from rosbags.rosbag1 import Writer as Bag1
     from rosbags.typesys import Stores, get_typestore
@@ -309,7 +311,7 @@ def count(path: Path) -> None:
 
 
 def sum_of(cloud) -> list:
-    """Points, and the sums of x, y, z and of the packed colours."""
+    """Number of points, and the sums of x, y, z and of the packed colours."""
     layout = np.dtype({
         "names": [field.name for field in cloud.fields],
         "formats": [{7: "<f4", 6: "<u4"}[field.datatype] for field in cloud.fields],

@@ -1,4 +1,4 @@
-/** Runs PyPI's readers and writers of recordings, in an environment of their own that is made once. */
+/** Runs PyPI's readers and writers of recordings, in a virtual environment that is created once. */
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, mkdtempSync, renameSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -19,7 +19,7 @@ const contentSchema = z.object({
       metadata: z.record(z.string(), z.string()),
       count: z.int(),
       sequence: z.int(),
-      /** Of each cloud: points, and the sums of x, y and z. */
+      /** For each cloud: number of points, and the sums of x, y and z. */
       sums: z.array(z.tuple([z.number(), z.number(), z.number(), z.number()])),
       pictures: z.array(
         z.object({
@@ -47,7 +47,7 @@ export class Peers {
     this.#python = python;
   }
 
-  /** @returns why there are none, where they cannot be installed: no Python 3, no package index */
+  /** @returns the reason if they cannot be installed: no Python 3, no package index */
   static install(): Peers | string {
     const folder = join(
       tmpdir(),
@@ -57,7 +57,7 @@ export class Peers {
     if (existsSync(python)) return new Peers(python);
     const making = mkdtempSync(join(tmpdir(), 'farpoint-recording-making-'));
     try {
-      // Made beside it and renamed: tests that run at the same time see all of it or nothing.
+      // Created under a temporary name and renamed, so that parallel tests see all of it or nothing.
       execFileSync('python3', ['-m', 'venv', making], { stdio: 'pipe', timeout: 120_000 });
       execFileSync(
         join(making, 'bin', 'python'),
@@ -76,13 +76,13 @@ export class Peers {
     }
   }
 
-  /** The same drive in every format. */
+  /** Writes the same drive in every format. */
   write(folder: string): void {
     mkdirSync(folder, { recursive: true });
     execFileSync(this.#python, [SCRIPT, 'write', folder], { stdio: ['ignore', 'pipe', 'inherit'] });
   }
 
-  /** Clouds and pictures: `ros1.bag`, `ros1.mcap`, `ros2.mcap` and `foxglove.mcap`. */
+  /** Writes clouds and pictures: `ros1.bag`, `ros1.mcap`, `ros2.mcap` and `foxglove.mcap`. */
   writePictures(folder: string): void {
     mkdirSync(folder, { recursive: true });
     execFileSync(this.#python, [SCRIPT, 'pictures', folder], { stdio: ['ignore', 'pipe', 'inherit'] });

@@ -20,7 +20,7 @@ describe('which graph', () => {
     [{ sourced: false, installed: false }, 'no ROS 2 installation is sourced'],
     [{ installed: false }, 'rclnodejs is not installed'],
     [{ needsDds: true }, 'rclnodejs cannot be given a network interface'],
-  ])('asked for by name, with %j, is a fault in one sentence', (missing, what) => {
+  ])('reports a one-sentence fault for a choice by name with %j', (missing, what) => {
     const choose = () => chooseRos2Graph('rclnodejs', { ...there, ...missing });
     expect(choose).toThrow(RosFault);
     expect(choose).toThrow(
@@ -33,14 +33,14 @@ describe('which graph', () => {
   });
 });
 
-it('ROS is sourced where both of its variables say something', () => {
+it('ROS is sourced if both of its variables are set', () => {
   expect(isSourced({ AMENT_PREFIX_PATH: '/opt/ros/jazzy', ROS_DISTRO: 'jazzy' })).toBe(true);
   expect(isSourced({ AMENT_PREFIX_PATH: '', ROS_DISTRO: 'jazzy' })).toBe(false);
   expect(isSourced({ AMENT_PREFIX_PATH: '/opt/ros/jazzy' })).toBe(false);
 });
 
 describe('the environment of its process', () => {
-  it('is ours where nothing is said, less what systemd told us', () => {
+  it('equals ours by default, without systemd’s variables', () => {
     const env = {
       PATH: '/bin',
       ROS_DOMAIN_ID: '3',
@@ -51,7 +51,7 @@ describe('the environment of its process', () => {
     expect(rclEnvironment({}, env)).toEqual({ PATH: '/bin', ROS_DOMAIN_ID: '3' });
   });
 
-  it('has the options before ROS’s variables', () => {
+  it('options take precedence over ROS’s variables', () => {
     const env = { ROS_DISTRO: 'jazzy', ROS_DOMAIN_ID: '3', ROS_STATIC_PEERS: 'x' };
     expect(rclEnvironment({ domain: 0, peers: ['a', 'b'], localhostOnly: true }, env)).toEqual({
       ROS_DISTRO: 'jazzy',

@@ -1,20 +1,23 @@
-/** What of ROS 2 is there beside us, and which graph that makes. */
+/** Finds out which parts of ROS 2 are available, and which kind of graph to use. */
 import { createRequire } from 'node:module';
 import { RosFault } from '../fault.ts';
 
 export type Environment = Readonly<Record<string, string | undefined>>;
 
-/** How to take part in a ROS 2 graph: DDS by itself, or rclnodejs with the installation that is sourced. */
+/** How to join a ROS 2 graph: with DDS alone, or with rclnodejs and the sourced ROS installation. */
 export type Ros2Graph = 'dds' | 'rclnodejs';
 
 const WITHOUT = 'set ros.graph: dds, which needs no ROS';
 
-/** Is a ROS 2 installation sourced? */
+/** Whether a ROS 2 installation is sourced. */
 export function isSourced(env: Environment): boolean {
   return (env.AMENT_PREFIX_PATH ?? '') !== '' && (env.ROS_DISTRO ?? '') !== '';
 }
 
-/** Where rclnodejs begins, beside this package or along `NODE_PATH`; `null` where it is not installed. Nothing of it is run. */
+/**
+ * Entry point of rclnodejs, next to this package or along `NODE_PATH`; `null` if it is not installed. Runs none of its
+ * code.
+ */
 export function findRclnodejs(): string | null {
   try {
     return createRequire(import.meta.url).resolve('rclnodejs');
@@ -24,8 +27,8 @@ export function findRclnodejs(): string | null {
 }
 
 /**
- * @param needsDds something is asked for that only DDS by itself can do
- * @throws {RosFault} `unavailable`: it was asked for by name, and something is missing
+ * @param needsDds an option was given that only DDS alone supports
+ * @throws {RosFault} `unavailable`: it was chosen by name, and something is missing
  */
 export function chooseRos2Graph(
   asked: Ros2Graph | 'auto',
@@ -51,18 +54,21 @@ export function chooseRos2Graph(
   return 'rclnodejs';
 }
 
-/** Left out: as ROS's own variables say. */
+/** Absent options follow ROS's own variables. */
 export interface RclOptions {
   domain?: number | undefined;
   peers?: readonly string[] | undefined;
-  /** Nodes of this machine alone. */
+  /** Only nodes on this machine. */
   localhostOnly?: boolean | undefined;
 }
 
-/** The environment of a process that uses rcl: options become ROS's variables, and what systemd told us is ours alone. */
+/**
+ * The environment of a process that uses rcl: options become ROS's variables, and systemd's variables for this service
+ * are removed.
+ */
 export function rclEnvironment({ domain, peers, localhostOnly }: RclOptions, env: Environment): Environment {
   const { NOTIFY_SOCKET: _, WATCHDOG_USEC: __, WATCHDOG_PID: ___, ...rest } = env;
-  // ROS_AUTOMATIC_DISCOVERY_RANGE came with Iron; later ones warn of the older variable.
+  // ROS_AUTOMATIC_DISCOVERY_RANGE came with Iron; later versions warn about the older variable.
   const reach =
     localhostOnly === undefined
       ? {}

@@ -1,6 +1,6 @@
 /**
- * rclnodejs builds itself anew, for minutes, where it finds no binary that loads. A robot that starts must not: so it is
- * looked first whether there is one.
+ * If rclnodejs finds no loadable binary, it rebuilds itself, which takes minutes. A robot that starts must not do that,
+ * so this checks for a binary first.
  */
 import { existsSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -11,7 +11,7 @@ import type { Environment } from './environment.ts';
 
 const REMEDY = 'run `npm rebuild rclnodejs` where it is installed, with the same ROS sourced';
 
-/** Where it looks, first of all the one that fits this system. @param osRelease text of os-release(5) */
+/** The paths it searches, best match for this system first. @param osRelease text of os-release(5) */
 export function binaryPaths(folder: string, env: Environment, osRelease: string): string[] {
   const codename = /^VERSION_CODENAME=(.*)$/m.exec(osRelease)?.[1]?.trim() ?? '';
   const name = `${env.ROS_DISTRO}-${codename}-${arch()}-node-rclnodejs.node`;
@@ -23,7 +23,7 @@ export function binaryPaths(folder: string, env: Environment, osRelease: string)
 
 /**
  * @param entry of {@link findRclnodejs}
- * @throws {RosFault} `unavailable`: there is none, or it does not load
+ * @throws {RosFault} `unavailable`: there is no binary, or it does not load
  */
 export function checkBinary(entry: string, env: Environment): void {
   const require = createRequire(entry);

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { Outbox } from './outbox.ts';
 
-it('sends few at a time, and drops the oldest of what waits', () => {
+it('sends few at a time, and drops the oldest waiting message', () => {
   const sent: number[] = [];
   const out = new Outbox<number>(2, (message) => sent.push(message));
   for (let message = 1; message <= 6; message++) out.add(message);

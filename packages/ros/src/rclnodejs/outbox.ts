@@ -1,4 +1,4 @@
-/** Messages on their way to the robot: few at a time, so that the newest waits here and not behind old ones. */
+/** How many messages may be in transit to the robot: few, so that the newest waits here and not behind old ones. */
 
 const AT_ONCE = 2;
 
@@ -10,7 +10,7 @@ export class Outbox<T> {
   readonly #waiting: T[] = [];
   #underway = 0;
 
-  /** @param most that may wait; beyond it the oldest is dropped and counted */
+  /** @param most that may wait; beyond that, the oldest is dropped and counted */
   constructor(most: number, send: (message: T) => void) {
     this.#most = most;
     this.#send = send;
@@ -25,7 +25,7 @@ export class Outbox<T> {
     this.dropped++;
   }
 
-  /** One has arrived. */
+  /** Call when a message has arrived. */
   taken(): void {
     this.#underway = Math.max(0, this.#underway - 1);
     this.#sendOn();

@@ -1,4 +1,4 @@
-/** Between the robot and the process in which rclnodejs runs. */
+/** Messages between the robot and the process in which rclnodejs runs. */
 import type { RosFaultCode } from '../fault.ts';
 import type { GraphTopic, Qos } from '../graph.ts';
 
@@ -13,23 +13,23 @@ export type ProcessRequest =
   | { is: 'subscribe'; endpoint: Endpoint; queue: number }
   | { is: 'advertise'; endpoint: Endpoint }
   | { is: 'publish'; id: number; bytes: Uint8Array }
-  /** A message was handed over: there is room for another. */
+  /** A message was delivered: there is room for another. */
   | { is: 'taken'; id: number }
   | { is: 'remove'; id: number }
   | { is: 'close' };
 
-/** Of one subscription or publisher. */
+/** Counters of one subscription or publisher. */
 export interface EndpointCounts {
   id: number;
   received: number;
   dropped: number;
-  /** At the other end. */
+  /** Number of endpoints at the other end. */
   others: number;
 }
 
 export type ProcessReport =
   | { is: 'ready' }
-  /** It cannot go on. */
+  /** The process cannot continue. */
   | { is: 'failed'; what: string; remedy: string | undefined }
   | { is: 'fault'; code: RosFaultCode; what: string; topic: string }
   /** @param receivedMs CLOCK_MONOTONIC */
@@ -37,9 +37,9 @@ export type ProcessReport =
   | { is: 'counts'; counts: EndpointCounts[] }
   | { is: 'topics'; topics: GraphTopic[] };
 
-/** What the process is started with, as JSON. */
+/** Start parameters of the process, as JSON. */
 export interface ProcessSetup {
   name: string;
-  /** Of rclnodejs. */
+  /** Entry point of rclnodejs. */
   entry: string;
 }

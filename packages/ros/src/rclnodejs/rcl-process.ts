@@ -1,6 +1,6 @@
 /**
- * The process in which rclnodejs runs: its addon may be loaded by one thread of a process only, and what goes wrong in it
- * must not end the robot. Ends with the robot.
+ * The process in which rclnodejs runs: only one thread of a process may load its addon, and a crash in it must not end
+ * the robot. Ends with the robot.
  */
 import { createRequire } from 'node:module';
 import { RosFault } from '../fault.ts';
@@ -23,7 +23,7 @@ import { othersOf } from './topics.ts';
 const SPIN_MS = 10;
 const COUNTS_MS = 100;
 const TOPICS_MS = 500;
-/** A last message may take this long to arrive, ns. */
+/** How long the last message may take to be acknowledged, ns. */
 const LAST_ACKNOWLEDGED_NS = 100_000_000n;
 
 type Out = Outbox<{ bytes: Buffer; receivedMs: number }>;
@@ -113,7 +113,7 @@ function topicsOf(node: RclNode, own: string): GraphTopic[] {
   });
 }
 
-// The robot ends us, after the last zero: systemd's signal goes to all processes at once.
+// The robot ends this process, after the last zero velocity: systemd's signal goes to all processes at once.
 for (const signal of ['SIGTERM', 'SIGINT', 'SIGHUP'] as const) process.on(signal, () => undefined);
 const setup = JSON.parse(process.argv[2] ?? '') as ProcessSetup;
 try {

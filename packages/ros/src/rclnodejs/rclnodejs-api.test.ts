@@ -9,11 +9,11 @@ it.each([
   ['sensors', SENSOR_QOS, [1, 5, 2, 2]],
   ['velocities', VELOCITY_QOS, [1, 1, 1, 2]],
   ['what is latched', LATCHED_QOS, [1, 100, 1, 1]],
-] as const)('QoS of %s, as rmw numbers it: keep last, depth, reliability, durability', (_, qos, values) => {
+] as const)('QoS of %s in rmw’s numbers: keep last, depth, reliability, durability', (_, qos, values) => {
   expect(qosValues(qos)).toEqual(values);
 });
 
-it('a module that is something else is none of it', () => {
+it('rejects a module that is not rclnodejs', () => {
   const nothing = () => undefined;
   const api = { init: nothing, shutdown: nothing, Node: nothing, NodeOptions: nothing, QoS: nothing };
   const Context = Object.assign(() => undefined, { defaultContext: nothing });
@@ -22,7 +22,7 @@ it('a module that is something else is none of it', () => {
   expect(rclnodejsSchema.safeParse({ ...api, Context, init: 1 }).success).toBe(false);
 });
 
-it('a binary is one of this ROS and this system, or one built here', () => {
+it('a binary is one for this ROS and this system, or one built here', () => {
   const osRelease = 'ID=ubuntu\nVERSION_CODENAME=noble\nUBUNTU_CODENAME=noble\n';
   expect(binaryPaths('/m', { ROS_DISTRO: 'jazzy' }, osRelease)).toEqual([
     `/m/prebuilds/${platform()}-${arch()}/jazzy-noble-${arch()}-node-rclnodejs.node`,
@@ -30,7 +30,7 @@ it('a binary is one of this ROS and this system, or one built here', () => {
   ]);
 });
 
-it('others on a topic are counted by type, without ourselves', () => {
+it('counts others on a topic by type, without ourselves', () => {
   const node = (node_name: string, topic_type: string) => ({ node_name, node_namespace: '/', topic_type });
   const publishers = [node('a', 'T'), node('a', 'U'), node('robot', 'T'), node('b', 'T')];
   expect(othersOf('/x', 'robot', publishers, [node('robot', 'T'), node('c', 'V')])).toEqual([

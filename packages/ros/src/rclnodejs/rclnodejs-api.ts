@@ -1,6 +1,6 @@
 /**
- * What we use of rclnodejs 2, as it is: its own declarations call counts methods that are properties. Source: its sources
- * (lib/node.js, lib/publisher.js, lib/subscription.js, lib/qos.js).
+ * The parts of rclnodejs 2 that we use, as they really are: its own declarations describe counts as methods that are in
+ * fact properties. Source: lib/node.js, lib/publisher.js, lib/subscription.js, lib/qos.js.
  */
 import * as z from 'zod';
 import type { Qos } from '../graph.ts';
@@ -11,7 +11,7 @@ export interface RclSubscription {
 
 export interface RclPublisher {
   readonly subscriptionCount: number;
-  /** A `Buffer` is sent as it is. */
+  /** A `Buffer` is sent unchanged. */
   publish(message: Buffer): void;
   /** @param timeout ns */
   waitForAllAcked(timeout: bigint): boolean;
@@ -30,7 +30,7 @@ export interface RclNode {
   getTopicNamesAndTypes(): unknown;
   getPublishersInfoByTopic(topic: string, noDemangle: boolean): unknown;
   getSubscriptionsInfoByTopic(topic: string, noDemangle: boolean): unknown;
-  /** On the event loop; waits in a thread of its own. @param timeout ms */
+  /** Delivers on the event loop; waits in its own thread. @param timeout ms */
   spin(timeout: number): void;
   destroy(): void;
 }
@@ -44,7 +44,7 @@ export interface Rclnodejs {
   Context: { defaultContext(): object };
 }
 
-/** History, depth, reliability, durability, as rmw numbers them. */
+/** History, depth, reliability, durability, with rmw's numbers. */
 export type QosValues = [number, number, number, number];
 
 const KEEP_LAST = 1;
@@ -62,9 +62,9 @@ export const rclnodejsSchema = z.looseObject({
   Context: callable.refine((context) => 'defaultContext' in context),
 });
 
-/** Of `getTopicNamesAndTypes`. */
+/** Result of `getTopicNamesAndTypes`. */
 export const topicNamesSchema = z.array(z.object({ name: z.string(), types: z.array(z.string()) }));
-/** Of `getPublishersInfoByTopic` and its like for subscriptions. */
+/** Result of `getPublishersInfoByTopic` and its counterpart for subscriptions. */
 export const endpointsSchema = z.array(
   z.object({ node_name: z.string(), node_namespace: z.string(), topic_type: z.string() }),
 );

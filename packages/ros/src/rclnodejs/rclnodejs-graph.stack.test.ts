@@ -1,4 +1,4 @@
-/** Graphs by rclnodejs, in the ROS 2 installation that is sourced. */
+/** Graphs through rclnodejs, in the sourced ROS 2 installation. */
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -15,7 +15,7 @@ const now = () => performance.now();
 const until = async (is: () => boolean) => {
   while (!is()) await new Promise((resolve) => setTimeout(resolve, 5));
 };
-/** std_msgs/String in little-endian CDR, filled up to `size` bytes. */
+/** std_msgs/String in little-endian CDR, padded to `size` bytes. */
 function text(size: number): Uint8Array {
   const bytes = new Uint8Array(size);
   bytes[1] = 1;
@@ -24,7 +24,7 @@ function text(size: number): Uint8Array {
   return bytes;
 }
 
-it('what has no binary is a fault, and builds nothing', async () => {
+it('without a binary, reports a fault and builds nothing', async () => {
   const folder = mkdtempSync(join(tmpdir(), 'farpoint-rclnodejs-'));
   const module = join(folder, 'node_modules', 'rclnodejs');
   mkdirSync(module, { recursive: true });
@@ -64,7 +64,7 @@ describe.skipIf(entry === null)(
       await theirs.close();
     });
 
-    it('bytes come as they were given, whatever their size', async () => {
+    it('bytes arrive unchanged, whatever their size', async () => {
       const heard: number[] = [];
       let sound = true;
       const to = { topic: '/a', type: STRING, queue: 16, qos: { ...RELIABLE_QOS, depth: 16 } };
@@ -74,7 +74,7 @@ describe.skipIf(entry === null)(
       });
       const publisher = theirs.advertise({ topic: '/a', type: STRING, qos: { ...RELIABLE_QOS, depth: 16 } });
       await until(() => publisher.subscribers === 1 && subscription.publishers === 1);
-      // RTPS pads what is no whole number of four bytes.
+      // RTPS pads sizes that are not multiples of four bytes.
       const sizes = [12, 16, 4096, 300_004, 5_000_000, 12];
       for (const size of sizes) publisher.publish(text(size));
       await until(() => heard.length === sizes.length);
@@ -90,13 +90,13 @@ describe.skipIf(entry === null)(
       await until(() => subscription.publishers === 0);
     }, 60_000);
 
-    it('a type that is not there is a fault with its topic', async () => {
+    it('a missing type is a fault with its topic', async () => {
       ours.subscribe({ topic: '/b', type: 'nobody_msgs/msg/Nothing', queue: 1 }, () => undefined);
       await until(() => faults.length > 0);
       expect(faults[0]).toMatchObject({ code: 'unsupported', topic: '/b' });
     }, 60_000);
 
-    it('a process that is killed is started again, and hears again', async () => {
+    it('restarts a process that was killed, and receives again', async () => {
       const heard: number[] = [];
       ours.subscribe({ topic: '/c', type: STRING, queue: 4, qos: RELIABLE_QOS }, (bytes) =>
         heard.push(bytes.length),
@@ -113,7 +113,7 @@ describe.skipIf(entry === null)(
       expect(heard[0]).toBe(20);
     }, 60_000);
 
-    it('the last message goes out before it ends', async () => {
+    it('sends the last message before it ends', async () => {
       const heard: number[] = [];
       ours.subscribe({ topic: '/d', type: STRING, queue: 4, qos: RELIABLE_QOS }, (bytes) =>
         heard.push(bytes.length),

@@ -1,4 +1,4 @@
-/** A ROS 2 graph by rclnodejs and the ROS installation that is sourced, whatever middleware it has. */
+/** A ROS 2 graph through rclnodejs and the sourced ROS installation, with any middleware. */
 import { type ChildProcess, fork } from 'node:child_process';
 import { fileURLToPath } from 'node:url';
 import { RosFault } from '../fault.ts';
@@ -17,26 +17,26 @@ import { type Environment, type RclOptions, rclEnvironment } from './environment
 import type { EndpointCounts, ProcessReport, ProcessRequest } from './process-messages.ts';
 
 const PROGRAM = fileURLToPath(new URL('./rcl-process.ts', import.meta.url));
-/** rclnodejs may have messages to generate at its first start. */
+/** rclnodejs may have to generate messages at its first start. */
 const START_MS = 60_000;
 const AGAIN_MS = 1000;
-/** Beyond the wait for the last message's arrival. */
+/** In addition to the wait for the last acknowledgement. */
 const END_MS = 2000;
-/** A process that lets so many requests lie hangs, and is ended. */
+/** A process with this many unread requests hangs, and is killed. */
 const MOST_UNSENT = 64;
 
 export interface RclnodejsGraphOptions extends RclOptions {
   /** The node's name. */
   name: string;
-  /** Of `findRclnodejs`. */
+  /** From `findRclnodejs`. */
   entry: string;
-  /** Of `receivedMs`, ms. */
+  /** The clock of `receivedMs`, ms. */
   now: () => number;
   env?: Environment;
 }
 
 interface Member extends EndpointCounts {
-  /** Of processes that have ended. */
+  /** Counts of earlier processes. */
   before: { received: number; dropped: number };
   request: ProcessRequest & { is: 'subscribe' | 'advertise' };
   onMessage: OnMessage | null;
@@ -58,7 +58,7 @@ export class RclnodejsGraph implements RosGraph {
     this.#options = options;
   }
 
-  /** @throws {RosFault} `unavailable`: it does not start, and why */
+  /** @throws {RosFault} `unavailable`: it does not start, with the reason */
   static async open(options: RclnodejsGraphOptions): Promise<RclnodejsGraph> {
     const graph = new RclnodejsGraph(options);
     try {
@@ -139,7 +139,7 @@ export class RclnodejsGraph implements RosGraph {
   }
 
   #send(request: ProcessRequest): void {
-    // To one that has ended nothing is said: it is told everything when it has started again.
+    // Nothing is sent to a process that has ended; a restarted one is sent everything.
     const child = this.#process;
     if (!child?.connected) return;
     this.#unsent++;
@@ -154,7 +154,7 @@ export class RclnodejsGraph implements RosGraph {
     const { name, entry, env = process.env } = this.#options;
     const child = fork(PROGRAM, [JSON.stringify({ name, entry })], {
       ...{ serialization: 'advanced', execArgv: [], env: rclEnvironment(this.#options, env) },
-      // Its words to people go to standard error, where ours do not.
+      // Its standard output joins standard error, which our own output does not use.
       stdio: ['ignore', 2, 2, 'ipc'],
     });
     this.#process = child;

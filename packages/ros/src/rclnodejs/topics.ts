@@ -1,7 +1,7 @@
 import type { GraphTopic } from '../graph.ts';
 import type { Endpoints } from './rclnodejs-api.ts';
 
-/** What others publish and subscribe of a topic, by type; a node of our name is ourselves. */
+/** What other nodes publish and subscribe on a topic, by type; a node with our name is ourselves. */
 export function othersOf(
   topic: string,
   own: string,

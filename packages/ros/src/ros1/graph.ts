@@ -1,6 +1,6 @@
 /**
- * A ROS 1 graph by its master. The library speaks the protocol; what is registered and connected is watched here, so that
- * a master or a peer that comes back is found again.
+ * A ROS 1 graph through its master. The library implements the protocol; this class monitors registrations and
+ * connections, so that a master or a peer that returns is found again.
  */
 
 import { Subscription as LibrarySubscription, Publication } from '@foxglove/ros1';
@@ -27,13 +27,16 @@ import { RosTcpServer, RosTcpSocket } from './tcp.ts';
 const WATCH_MS = 1000;
 const LOOPBACK = ['localhost', '127.0.0.1', '::1'];
 
-/** @param now the clock of `receivedMs`, ms @throws {RosFault} where no port can be opened; a master that is not there is waited for */
+/**
+ * @param now the clock of `receivedMs`, ms
+ * @throws {RosFault} if no port can be opened; it waits for a master that is not running
+ */
 export async function openRos1Graph(options: Ros1Options, now: () => number): Promise<RosGraph> {
   return Ros1Graph.open(options, now);
 }
 
 interface OwnSubscription extends Subscription {
-  /** Whether somebody published it at the last look, and what had come by then. */
+  /** Whether it had a publisher at the last check, and the messages received by then. */
   served: boolean;
   receivedThen: number;
   readonly type: string;
@@ -43,7 +46,7 @@ interface OwnSubscription extends Subscription {
 class Ros1Graph implements RosGraph {
   readonly version = 1;
   #onFault: ((fault: RosFault) => void) | null = null;
-  /** What was wrong last when nobody listened. */
+  /** The last fault that occurred without a listener. */
   #untold: RosFault | null = null;
   readonly #options: Ros1Options;
   readonly #now: () => number;
@@ -51,14 +54,14 @@ class Ros1Graph implements RosGraph {
   readonly #master: Master;
   readonly #subscriptions = new Map<string, OwnSubscription>();
   readonly #publications = new Map<string, Publication>();
-  /** Connections that were not there at the last look either are given up. */
+  /** Connections that were already missing at the last check are given up. */
   #unconnected = new Set<unknown>();
   #topics: readonly GraphTopic[] = [];
   #masterLost = false;
   #timer: NodeJS.Timeout | null = null;
   #watching: Promise<void> = Promise.resolve();
   #closed = false;
-  /** Velocities and the like that a subscriber did not take in time. */
+  /** Messages, such as velocities, that a subscriber did not take in time. */
   dropped = 0;
 
   private constructor(options: Ros1Options, now: () => number, node: OwnNode) {
@@ -80,7 +83,7 @@ class Ros1Graph implements RosGraph {
   static async open(options: Ros1Options, now: () => number): Promise<Ros1Graph> {
     const { masterUrl, hostname: host } = options;
     const name = options.name.startsWith('/') ? options.name : `/${options.name}`;
-    // Who is reached at this machine only need not listen to the network.
+    // A node that is reached only from this machine need not listen on the network.
     const bind = LOOPBACK.includes(host) ? '127.0.0.1' : undefined;
     let graph: Ros1Graph | null = null;
     const onDropped = () => {
@@ -148,7 +151,7 @@ class Ros1Graph implements RosGraph {
       get received() {
         return received;
       },
-      // Each is handed over as it comes; what waits, waits in the kernel and with the publisher.
+      // Each is delivered as it arrives; waiting messages stay in the kernel and with the publisher.
       dropped: 0,
       get publishers() {
         return linksOf(library).filter(({ connection }) => connection.connected()).length;
@@ -218,7 +221,7 @@ class Ros1Graph implements RosGraph {
     this.#node.shutdown();
   }
 
-  /** One look after the other: what is not registered is registered, what is not connected is connected anew. */
+  /** One check after the other: registers what is not registered, reconnects what is not connected. */
   #watch(): Promise<void> {
     this.#watching = this.#watching.then(() => this.#look());
     return this.#watching;
@@ -248,7 +251,7 @@ class Ros1Graph implements RosGraph {
     }
   }
 
-  /** @throws {Error} where the master does not answer */
+  /** @throws {Error} if the master does not answer */
   async #lookAfter(own: OwnSubscription, state: MasterState): Promise<void> {
     const { topic, type, library } = own;
     const wasServed = own.served || own.received > own.receivedThen;
@@ -266,8 +269,8 @@ class Ros1Graph implements RosGraph {
     const publishers = state.publishers.get(topic)?.length ?? 0;
     if (registered && linksOf(library).length >= publishers) return;
     const urls = await this.#master.registerSubscriber(topic, type);
-    // The library takes it as the master’s own word: it connects to those that are new. Who lives on without being known
-    // to a new master stays connected.
+    // The library treats it as an update from the master and connects to publishers that are new. A publisher that is
+    // unknown to a new master stays connected.
     const linked = linksOf(library)
       .filter(({ connection }) => connection.connected())
       .map((link) => link.publisherXmlRpcUrl());

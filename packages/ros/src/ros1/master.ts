@@ -1,10 +1,10 @@
-/** The master’s answers, checked. */
+/** The master’s answers, validated. */
 import type { RosMasterClient } from '@foxglove/ros1';
 import * as z from 'zod';
 import type { GraphTopic } from '../graph.ts';
 import { ros2TypeOf } from '../topic-table.ts';
 
-/** A master that does not answer for so long is gone, ms. */
+/** A master that does not answer for this long is gone, ms. */
 const ANSWER_MS = 2000;
 const OK = 1;
 
@@ -13,7 +13,7 @@ const systemState = z.tuple([nodesOfTopics, nodesOfTopics, z.unknown()]);
 const topicTypes = z.array(z.tuple([z.string(), z.string()]));
 const urls = z.array(z.string());
 
-/** Who publishes and subscribes what, nodes by name. */
+/** Who publishes and subscribes to what, nodes by name. */
 export interface MasterState {
   publishers: ReadonlyMap<string, readonly string[]>;
   subscribers: ReadonlyMap<string, readonly string[]>;
@@ -25,14 +25,17 @@ export class Master {
   readonly #name: string;
   readonly #ownUrl: string;
 
-  /** @param name of the node that asks @param ownUrl where others reach it */
+  /**
+   * @param name of the calling node
+   * @param ownUrl where others reach it
+   */
   constructor(client: RosMasterClient, name: string, ownUrl: string) {
     this.#client = client;
     this.#name = name;
     this.#ownUrl = ownUrl;
   }
 
-  /** @throws {Error} where it does not answer */
+  /** @throws {Error} if it does not answer */
   async state(): Promise<MasterState> {
     const [published, subscribed] = systemState.parse(await answer(this.#client.getSystemState(this.#name)));
     const types = new Map(topicTypes.parse(await answer(this.#client.getTopicTypes(this.#name))));
@@ -48,7 +51,7 @@ export class Master {
     return { publishers, subscribers, topics };
   }
 
-  /** @returns where its publishers are reached @throws {Error} */
+  /** @returns the addresses of its publishers @throws {Error} */
   async registerSubscriber(topic: string, type: string): Promise<string[]> {
     return urls.parse(await answer(this.#client.registerSubscriber(this.#name, topic, type, this.#ownUrl)));
   }

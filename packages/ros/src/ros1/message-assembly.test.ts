@@ -10,7 +10,7 @@ function framed(message: Uint8Array): Uint8Array {
 }
 
 describe('MessageAssembly', () => {
-  it('puts messages together, however the stream is cut, from memory that is overwritten', () => {
+  it('assembles messages, however the stream is split, from memory that is overwritten', () => {
     const messages = fc.array(fc.uint8Array({ maxLength: 300 }), { maxLength: 12 });
     fc.assert(
       fc.property(messages, fc.array(fc.integer({ min: 1, max: 200 }), { minLength: 1 }), (sent, cuts) => {
@@ -30,7 +30,7 @@ describe('MessageAssembly', () => {
     );
   });
 
-  it('takes messages larger than its memory, then small ones again', () => {
+  it('accepts messages larger than its memory, then small ones again', () => {
     const got: number[] = [];
     const assembly = new MessageAssembly((message) => got.push(message.length));
     assembly.add(framed(new Uint8Array(1_000_000)));
@@ -38,7 +38,7 @@ describe('MessageAssembly', () => {
     expect(got).toEqual([1_000_004, 7]);
   });
 
-  it('refuses a length that cannot be, before it takes any memory for it', () => {
+  it('refuses an impossible length before it allocates memory for it', () => {
     const assembly = new MessageAssembly(() => {});
     const head = new Uint8Array(8);
     new DataView(head.buffer).setUint32(0, MOST_MESSAGE_BYTES + 1, true);

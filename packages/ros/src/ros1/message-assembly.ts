@@ -1,6 +1,6 @@
-/** Messages of a TCPROS stream, whole, in memory that is used again: a length in four bytes, little-endian, before each. */
+/** Assembles messages of a TCPROS stream in reusable memory: each follows its length in four bytes, little-endian. */
 
-/** Longer ones are refused: a cloud of 10 million points is shorter. */
+/** Longer messages are refused: a cloud of 10 million points is shorter. */
 export const MOST_MESSAGE_BYTES = 512 * 1024 * 1024;
 const LENGTH_BYTES = 4;
 
@@ -9,14 +9,14 @@ export class MessageAssembly {
   #room = new Uint8Array(64 * 1024);
   #filled = 0;
 
-  /** @param onMessage gets each message with its length before it, good only during the call */
+  /** @param onMessage gets each message preceded by its length, valid only during the call */
   constructor(onMessage: (framed: Uint8Array) => void) {
     this.#onMessage = onMessage;
   }
 
   /**
-   * @param chunk what came next; it may be overwritten after the call
-   * @throws {RangeError} where a message would be too long: nothing that follows can be read
+   * @param chunk the next bytes, which may be overwritten after the call
+   * @throws {RangeError} if a message would be too long: nothing that follows can be read
    */
   add(chunk: Uint8Array): void {
     for (let at = 0; at < chunk.length; ) {
@@ -32,7 +32,7 @@ export class MessageAssembly {
     }
   }
 
-  /** Bytes of the message that is coming, its length included; of an unknown one, of that length. */
+  /** Length of the present message, including its length field; before that is known, the size of the field. */
   #needed(): number {
     if (this.#filled < LENGTH_BYTES) return LENGTH_BYTES;
     const length = new DataView(this.#room.buffer).getUint32(0, true);
@@ -41,7 +41,7 @@ export class MessageAssembly {
     return LENGTH_BYTES + length;
   }
 
-  /** Grows as the message comes, not as it says: who claims much must send much. */
+  /** Grows with the bytes that arrive, not with the claimed length: whoever claims much must send much. */
   #reserve(bytes: number, needed: number): void {
     if (this.#room.length >= bytes) return;
     const room = new Uint8Array(Math.max(bytes, Math.min(needed, this.#room.length * 2)));

@@ -1,16 +1,16 @@
-/** The library’s node, told what it cannot know: who is connected already, and that others may end it. */
+/** The library’s node, extended: it knows who is already connected, and that others may end it. */
 import { RosNode, type Subscription } from '@foxglove/ros1';
 
 type NodeOptions = ConstructorParameters<typeof RosNode>[0];
 
 export class OwnNode extends RosNode {
-  /** Called where the master ends this node: by `rosnode kill`, or as another of its name has come. */
+  /** Called when the master ends this node: by `rosnode kill`, or because another node with its name has registered. */
   onShutdown: (() => void) | null = null;
   readonly #connecting = new Set<string>();
 
   constructor(options: NodeOptions) {
     super(options);
-    // Whoever calls finds these among the node’s own events; without a listener they would be lost anyway.
+    // Callers see these errors in the node’s own events; without a listener, they would be lost anyway.
     this.on('error', () => {});
   }
 
@@ -19,7 +19,7 @@ export class OwnNode extends RosNode {
     this.onShutdown?.();
   }
 
-  /** Not twice to the same: the master and the watch may both ask for it. */
+  /** Does not connect twice to the same publisher: the master and the monitor may both request it. */
   override async _subscribeToPublisher(url: string, subscription: Subscription): Promise<void> {
     const key = `${subscription.name} ${url}`;
     const linked = [...subscription.publishers().values()].some((link) => link.publisherXmlRpcUrl() === url);

@@ -1,5 +1,5 @@
 export interface Ros1Options {
-  /** The master, e.g. `http://localhost:11311`. */
+  /** The master, for example `http://localhost:11311`. */
   masterUrl: string;
   /** The node’s name, with or without a leading slash. */
   name: string;

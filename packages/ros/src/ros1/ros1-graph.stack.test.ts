@@ -1,4 +1,4 @@
-/** The graph against a real master and real rospy nodes. */
+/** Tests the graph with a real master and real rospy nodes. */
 import { once } from 'node:events';
 import { connect } from 'node:net';
 import type { Twist } from '@farpoint/protocol';
@@ -46,7 +46,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
   });
   afterEach(() => graph.close());
 
-  /** Counts what comes, without looking into it. */
+  /** Counts messages without decoding them. */
   function counted(topic = '/points', type = CLOUD) {
     const counter = {
       count: 0,
@@ -55,7 +55,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     return counter;
   }
 
-  it('takes 230,400 points at 10 Hz and pictures of a rospy node', async () => {
+  it('receives 230,400 points at 10 Hz and pictures from a rospy node', async () => {
     const node = await peers.startNode('cloud,image', 'camera');
     let points = 0;
     let pixel = 0;
@@ -85,7 +85,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     await node.kill();
   });
 
-  it('is heard by rospy, as Twist and as TwistStamped', async () => {
+  it('rospy receives its Twist and TwistStamped', async () => {
     const node = await peers.startNode('velocity', 'base');
     const send = (topic: string, type: string) => {
       const write = velocityWriter(1, type);
@@ -100,7 +100,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     await node.kill();
   });
 
-  it('finds a node again that was killed and comes back, and says meanwhile that it is gone', async () => {
+  it('reports a killed node as gone, and finds it when it returns', async () => {
     const first = await peers.startNode('cloud', 'camera');
     const counter = counted();
     await until(() => counter.count > 2);
@@ -114,7 +114,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     await second.kill();
   });
 
-  it('lives through a new master: both directions work again with nodes that know it', async () => {
+  it('survives a new master: both directions work again with nodes that know it', async () => {
     const old = await peers.startNode('cloud,velocity', 'camera');
     const counter = counted();
     const publisher = graph.advertise({ topic: '/cmd_vel', type: TWIST });
@@ -139,7 +139,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     await fresh.kill();
   });
 
-  it('waits for a master that is not there yet', async () => {
+  it('waits for a master that is not running yet', async () => {
     await graph.close();
     await peers.killCore();
     graph = await open();
@@ -152,7 +152,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     await node.kill();
   });
 
-  it('says where a topic has another type, and hands none of it over', async () => {
+  it('reports a topic of another type, and delivers none of its messages', async () => {
     const node = await peers.startNode('cloud', 'camera');
     const counter = counted('/points', 'sensor_msgs/msg/Image');
     await until(() => faults.length > 0);
@@ -162,7 +162,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     await node.kill();
   });
 
-  it('reads types that nobody here knows as their publisher tells them', async () => {
+  it('reads unknown types by their publisher’s definition', async () => {
     const node = await peers.startNode('own', 'arm');
     let message: unknown = null;
     const type = 'my_robot/msg/Arm';
@@ -174,7 +174,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     await node.kill();
   });
 
-  it('outlives peers that speak nonsense to its ports', async () => {
+  it('survives peers that send garbage to its ports', async () => {
     graph.advertise({ topic: '/cmd_vel', type: TWIST });
     await until(() => graph.topics().some(({ topic }) => topic === '/cmd_vel'));
     const [, , url] = await new RosMasterClient(peers.masterUrl).lookupNode('/prober', '/farpoint_test');
@@ -210,7 +210,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     await node.kill();
   });
 
-  it('leaves nothing behind at the master when it is closed', async () => {
+  it('leaves no registration at the master when it is closed', async () => {
     const other = await open('farpoint_other');
     other.subscribe({ topic: '/points', type: CLOUD, queue: 1 }, () => {});
     other.advertise({ topic: '/left', type: TWIST });
@@ -219,7 +219,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     await until(() => !graph.topics().some(({ topic }) => topic === '/left'));
   });
 
-  it('ends where the master ends it: another node of its name has come', async () => {
+  it('ends when the master ends it because another node with its name has registered', async () => {
     const counter = counted();
     await until(() => graph.topics().some(({ topic }) => topic === '/points'));
     const other = await open();

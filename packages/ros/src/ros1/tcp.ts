@@ -1,18 +1,18 @@
 /**
- * TCP for the library’s connections. Ours end once and for all when they are closed, as its own would read the header of a
- * connection made anew as a message; messages are put together here, in memory that is used again; and what a slow subscriber
- * does not take is dropped instead of kept.
+ * TCP sockets for the library’s connections. A closed socket stays closed, because the library's own would read the
+ * header of a new connection as a message. Messages are assembled here, in reusable memory. What a slow subscriber does
+ * not take is dropped, not kept.
  */
 import { createServer, type Server, Socket, type SocketConstructorOpts } from 'node:net';
 import type { TcpAddress, TcpServer, TcpServerEvents, TcpSocket, TcpSocketEvents } from '@foxglove/ros1';
 import { EventEmitter } from 'eventemitter3';
 import { MessageAssembly } from './message-assembly.ts';
 
-/** Bytes that may wait for a slow subscriber, beside those in the kernel. */
+/** Bytes that may wait for a slow subscriber, in addition to those in the kernel. */
 const MOST_WAITING = 64 * 1024;
-/** Read at a time. */
+/** Size of one read. */
 const READ_BYTES = 256 * 1024;
-/** What has not gone out by then after the connection was closed is lost, ms. */
+/** Data not sent by this time after the connection was closed is lost, ms. */
 const LINGER_MS = 300;
 
 export class RosTcpSocket extends EventEmitter<TcpSocketEvents> implements TcpSocket {
@@ -21,7 +21,7 @@ export class RosTcpSocket extends EventEmitter<TcpSocketEvents> implements TcpSo
   readonly #port: number;
   readonly #onDropped: () => void;
   #ended = false;
-  /** The library gets a message at a time, whole. */
+  /** Passes the library one complete message at a time. */
   readonly #assembly = new MessageAssembly((framed) => this.emit('data', framed));
 
   private constructor(host: string, port: number, socket: Socket, onDropped: () => void) {
@@ -41,10 +41,10 @@ export class RosTcpSocket extends EventEmitter<TcpSocketEvents> implements TcpSo
     });
   }
 
-  /** To a publisher. @param onDropped called for what it does not take */
+  /** To a publisher. @param onDropped called for each message it does not take */
   static to(host: string, port: number, onDropped: () => void): RosTcpSocket {
     let own: RosTcpSocket | null = null;
-    // One piece of memory for all that comes: megabytes a message are too much to leave to the collector.
+    // One reusable buffer for everything received: megabytes per message are too much for the garbage collector.
     const buffer = new Uint8Array(READ_BYTES);
     const callback = (bytes: number) => {
       if (own !== null) own.#onBytes(buffer.subarray(0, bytes));
@@ -80,7 +80,9 @@ export class RosTcpSocket extends EventEmitter<TcpSocketEvents> implements TcpSo
     return !this.#ended && !this.#socket.connecting;
   }
 
-  /** Once: the library calls it again after a loss, and who watches the graph makes a new connection then. */
+  /**
+   * Connects only once: the library calls it again after a loss, but the graph's monitor then makes a new connection.
+   */
   async connect(): Promise<void> {
     if (this.#ended) return;
     this.#socket.connect(this.#port, this.#host);
@@ -97,7 +99,7 @@ export class RosTcpSocket extends EventEmitter<TcpSocketEvents> implements TcpSo
     else if (!this.#ended) this.#socket.write(data);
   }
 
-  /** Always: velocities do not wait for company. */
+  /** Always set: velocities must not wait for more data. */
   async setNoDelay(): Promise<void> {}
 
   #onBytes(chunk: Uint8Array): void {
@@ -124,7 +126,7 @@ export class RosTcpServer extends EventEmitter<TcpServerEvents> implements TcpSe
     server.on('error', (error) => this.emit('error', error));
   }
 
-  /** @param host `undefined`: every interface */
+  /** @param host `undefined` for every interface */
   static async listen(host: string | undefined, onDropped: () => void): Promise<RosTcpServer> {
     const server = createServer();
     await new Promise<void>((resolve, reject) => {

@@ -1,4 +1,4 @@
-/** A graph within one process, for tests of what is built on graphs: bytes go from publisher to subscriber at once. */
+/** A graph within one process, for tests of code that uses graphs: bytes go from publisher to subscriber at once. */
 import { MessageWriter as Ros1Writer } from '@foxglove/rosmsg-serialization';
 import { MessageWriter as Ros2Writer } from '@foxglove/rosmsg2-serialization';
 import { definitionsOf } from '../definitions.ts';
@@ -17,12 +17,12 @@ export class MemoryGraph implements RosGraph {
   readonly version: 1 | 2;
   onFault: ((fault: RosFault) => void) | null = null;
   closed = false;
-  /** Everything that was asked for, in order. */
+  /** All requested subscriptions, in order. */
   readonly subscribed: SubscribeTo[] = [];
   readonly advertised: AdvertiseAs[] = [];
   /** What was published, by topic. */
   readonly published = new Map<string, Uint8Array[]>();
-  /** What discovery is to see beside that. */
+  /** Additional topics that discovery should report. */
   others: GraphTopic[] = [];
   readonly #receivers = new Map<string, OnMessage>();
   readonly #now: () => number;
@@ -64,14 +64,14 @@ export class MemoryGraph implements RosGraph {
     this.closed = true;
   }
 
-  /** Somebody else publishes a message. @param reuse overwrites the bytes after the call, as a graph may */
+  /** Publishes a message as another node. @param reuse overwrites the bytes after the call, as a graph may */
   say(topic: string, type: string, message: unknown, { reuse = true } = {}): void {
     const bytes = messageBytes(this.version, type, message);
     this.#receivers.get(topic)?.(bytes, this.#now());
     if (reuse) bytes.fill(0xdd);
   }
 
-  /** The same of bytes that may be no message at all. */
+  /** The same with bytes that need not be a message. */
   sayBytes(topic: string, bytes: Uint8Array): void {
     this.#receivers.get(topic)?.(bytes, this.#now());
   }

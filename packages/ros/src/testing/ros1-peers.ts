@@ -7,19 +7,19 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
 const SCRIPT = join(import.meta.dirname, 'ros1_node.py');
-/** Debian's rospy belongs to the system's Python, whatever else is in the path. */
+/** Debian's rospy belongs to the system's Python, which may not be the first in the path. */
 const PYTHONS = ['python3', '/usr/bin/python3'];
 const REMEDY =
   'on Debian: apt-get install python3-rospy python3-rosmaster python3-sensor-msgs python3-nav-msgs python3-diagnostic-msgs';
 
-/** What a rospy node heard on a topic for velocities. */
+/** What a rospy node received on a velocity topic. */
 export interface Heard {
   topic: string;
   x: number;
   turn: number;
-  /** When it was heard, ms since 1970. */
+  /** When the node received it, ms since 1970. */
   nodeMs: number;
-  /** When the line came here, ms of `performance.now()`. */
+  /** When the line arrived here, ms of `performance.now()`. */
   atMs: number;
 }
 
@@ -37,7 +37,7 @@ export class Ros1Peers {
     this.masterUrl = `http://127.0.0.1:${port}`;
   }
 
-  /** @returns the Python that has rospy, or in `missing` what is missing and what helps */
+  /** @returns the Python that has rospy, or in `missing` what is missing and how to install it */
   static find(): { python: string; missing: null } | { python: null; missing: string } {
     for (const python of PYTHONS) {
       try {
@@ -47,7 +47,7 @@ export class Ros1Peers {
         execFileSync('which', ['rosmaster'], { stdio: 'pipe' });
         return { python, missing: null };
       } catch {
-        // The next one.
+        // Try the next one.
       }
     }
     return { python: null, missing: `needs rosmaster and rospy; ${REMEDY}` };
@@ -58,7 +58,8 @@ export class Ros1Peers {
   }
 
   async startCore(): Promise<void> {
-    // What roscore runs; roscore itself puts it where a kill of the group does not reach it.
+    // The program that roscore runs; roscore itself starts it outside the process group, where it cannot be killed with
+    // it.
     this.#core = spawn('rosmaster', ['--core', '-p', String(this.port)], {
       env: this.#environment,
       stdio: 'ignore',
@@ -68,13 +69,13 @@ export class Ros1Peers {
     await this.untilAnswers();
   }
 
-  /** Without a word to anybody, its children with it. */
+  /** Kills it without warning, together with its children. */
   async killCore(): Promise<void> {
     await killGroup(this.#core);
     this.#core = null;
   }
 
-  /** @param parts of `ros1_node.py`, comma between them */
+  /** @param parts of `ros1_node.py`, separated by commas */
   async startNode(parts: string, name: string, hz = 10): Promise<Ros1Node> {
     const child = spawn(this.#python, [SCRIPT, parts, name, String(hz)], {
       env: this.#environment,
@@ -123,7 +124,7 @@ export class Ros1Node {
         text += chunk.toString();
         const lines = text.split('\n');
         text = lines.pop() ?? '';
-        // rospy has words of its own, too.
+        // rospy also prints lines of its own.
         for (const line of lines.filter((each) => each.startsWith('{'))) {
           const said = JSON.parse(line) as Heard | { ready: true };
           if ('ready' in said) resolve();
@@ -138,13 +139,13 @@ export class Ros1Node {
     return this.#child.pid ?? -1;
   }
 
-  /** Without a word to the master. */
+  /** Kills it without deregistering from the master. */
   async kill(): Promise<void> {
     await killGroup(this.#child);
   }
 }
 
-/** A test that is ended from outside leaves nothing behind. */
+/** Leaves no process behind if the test is ended from outside. */
 function endWithUs(child: ChildProcess): void {
   const kill = () => child.pid !== undefined && process.kill(-child.pid, 'SIGKILL');
   process.once('exit', kill);

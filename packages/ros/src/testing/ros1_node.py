@@ -1,4 +1,6 @@
-"""A rospy node for tests: publishes clouds, pictures and small topics, and prints what velocities it hears, a line each."""
+"""A rospy node for tests: publishes clouds, pictures and small topics, and prints the velocities it receives, one per
+line.
+"""
 
 import json
 import sys
@@ -58,7 +60,7 @@ def bars():
 
 
 def broken_jpeg():
-    """A header of 320 x 240 pixels, and nothing behind it that could be decoded."""
+    """A header for 320 x 240 pixels, followed by nothing that could be decoded."""
     frame = bytes((0xFF, 0xC0, 0, 17, 8, 0, 240, 1, 64, 3, 1, 0x22, 0, 2, 0x11, 1, 3, 0x11, 1))
     return b"\xff\xd8" + frame + b"\xff\xda" + bytes(range(200))
 

@@ -2,22 +2,20 @@ import { createSecretKey, type KeyObject } from 'node:crypto';
 
 const KEY_BYTES = 16;
 const NONCE_BYTES = 12;
-/** Of the authentication tag (RFC 7714 §13.2). */
+/** Length of the authentication tag (RFC 7714 §13.2). */
 export const SRTP_GCM_TAG_BYTES = 16;
-/** As DTLS-SRTP negotiates it (RFC 7714 §14.2). */
+/** The protection profile's number in DTLS-SRTP (RFC 7714 §14.2). */
 export const SRTP_AEAD_AES_128_GCM = 7;
 
-/**
- * Key and nonces of SRTP with AES-128-GCM. A nonce is the salt, with the SSRC and the packet's index in their places
- * (RFC 7714 §8.1).
- */
+/** Key and nonces of SRTP with AES-128-GCM. A nonce is the salt XORed with SSRC and packet index (RFC 7714 §8.1). */
 export class SrtpNonce {
   readonly key: KeyObject;
   readonly #salt: Uint8Array;
   readonly #bytes = new Uint8Array(NONCE_BYTES);
 
   /**
-   * @param key session key, 16 bytes; @param salt session salt, its first 12 bytes count (RFC 3711 §4.3)
+   * @param key session key, 16 bytes
+   * @param salt session salt; only the first 12 bytes count (RFC 3711 §4.3)
    * @throws {RangeError} for other sizes
    */
   constructor(key: Uint8Array, salt: Uint8Array) {

@@ -7,7 +7,7 @@ import { SrtpOpener } from './srtp-opener.ts';
 const masterKey = Buffer.from('000102030405060708090a0b0c0d0e0f', 'hex');
 const masterSalt = Buffer.from('a0a1a2a3a4a5a6a7a8a9aaab', 'hex');
 
-/** The sender is werift's own. */
+/** The sender is werift's own implementation. */
 function session() {
   const keys = {
     localMasterKey: masterKey,
@@ -26,12 +26,12 @@ function session() {
 }
 
 describe('SrtpOpener', () => {
-  it('opens what another implementation sealed, past wraps, out of order within its window, once', () => {
+  it('decrypts what another implementation encrypted, past wraps, out of order within its window, once', () => {
     const { opener, seal } = session();
     const packets = Array.from({ length: 70_000 }, (_, i) =>
       seal(65_000 + i, new Uint8Array([i & 0xff, i >> 8])),
     );
-    // Every tenth comes three later.
+    // Every tenth packet arrives three packets later.
     const order = packets
       .map((packet, i) => ({ packet, i, at: i + (i % 10 === 0 ? 3.5 : 0) }))
       .sort((a, b) => a.at - b.at);
@@ -45,14 +45,15 @@ describe('SrtpOpener', () => {
     expect(opener.drops).toEqual({ replayed: 2 });
   }, 30_000);
 
-  it('refuses whatever was changed, and goes on', () => {
+  it('refuses every modified packet, and continues', () => {
     const { opener, seal } = session();
     let sequence = 0;
     fc.assert(
       fc.property(fc.nat(27), fc.integer({ min: 1, max: 255 }), (at, flip) => {
         const packet = seal(sequence++, new Uint8Array(40));
         const changed = Buffer.from(packet);
-        // Not the sequence number's high bits and the source: they choose the key stream, not the packet's fate alone.
+        // Except the high bits of the sequence number and the SSRC: they select the key stream, not only this packet's
+        // fate.
         changed[at] = (changed[at] as number) ^ flip;
         expect(opener.open(changed, 12)).toBeNull();
         expect(opener.open(packet, 12)).not.toBeNull();
@@ -61,7 +62,7 @@ describe('SrtpOpener', () => {
     );
   });
 
-  it('takes any bytes', () => {
+  it('accepts any bytes without throwing', () => {
     const { opener } = session();
     const header = emptyRtpHeader();
     fc.assert(

@@ -1,23 +1,23 @@
 /**
- * SRTP of incoming streams with AES-128-GCM (RFC 7714 §8): finds each packet's index (RFC 3711 §3.3.1), refuses what was
- * changed, and what came before (§3.3.2).
+ * Decrypts SRTP of incoming streams with AES-128-GCM (RFC 7714 §8). Finds each packet's index (RFC 3711 §3.3.1), and
+ * refuses packets that were modified or received before (§3.3.2).
  */
 import type { Buffer } from 'node:buffer';
 import { createDecipheriv } from 'node:crypto';
 import { SequenceNumber } from '../sequence-number.ts';
 import { SRTP_GCM_TAG_BYTES, SrtpNonce } from './srtp-nonce.ts';
 
-/** Packets behind the newest that are told from repeated ones; what is older is refused. */
+/** Replay window in packets; packets older than this are refused. */
 const WINDOW = 4096;
 const MAX_STREAMS = 4;
 
-/** Why a packet is not opened. */
+/** Why a packet is not decrypted. */
 export type SrtpDrop = 'too-short' | 'replayed' | 'not-authentic' | 'too-many-streams';
 
 interface Stream {
   /** Index of the newest authentic packet. */
   newest: number;
-  /** For each index modulo the window, the index that was seen. */
+  /** For each index modulo the window, the index that was last received. */
   readonly seen: Float64Array;
 }
 
@@ -26,15 +26,18 @@ export class SrtpOpener {
   readonly #nonce: SrtpNonce;
   readonly #streams = new Map<number, Stream>();
 
-  /** @param key session key, 16 bytes; @param salt session salt, its first 12 bytes count */
+  /**
+   * @param key session key, 16 bytes
+   * @param salt session salt; only the first 12 bytes count
+   */
   constructor(key: Uint8Array, salt: Uint8Array) {
     this.#nonce = new SrtpNonce(key, salt);
   }
 
   /**
-   * @param packet as it came
-   * @param headerBytes of its RTP header, extension included
-   * @returns the payload, or `null`: counted
+   * @param packet as received
+   * @param headerBytes length of its RTP header, including the extension
+   * @returns the payload, or `null` if the packet was dropped and counted
    */
   open(packet: Buffer, headerBytes: number): Buffer | null {
     if (packet.length < headerBytes + SRTP_GCM_TAG_BYTES || headerBytes < 12) return this.#drop('too-short');
@@ -80,7 +83,7 @@ export class SrtpOpener {
   }
 }
 
-/** The index nearest to the newest that ends with this sequence number; below 0 where there is none. */
+/** The index nearest to the newest one that ends with this sequence number; negative if there is none. */
 function indexOf(sequence: number, newest: number): number {
   return newest + SequenceNumber.ahead(sequence, newest);
 }

@@ -8,7 +8,7 @@ const masterKey = Buffer.from('000102030405060708090a0b0c0d0e0f', 'hex');
 const masterSalt = Buffer.from('a0a1a2a3a4a5a6a7a8a9aaab', 'hex');
 const SSRC = 0xdeadbeef;
 
-/** Both ends of one SRTP session, the receiver being werift's own. */
+/** Both ends of one SRTP session; the receiver is werift's own implementation. */
 function session(firstSequence: number) {
   const keys = {
     localMasterKey: masterKey,
@@ -34,7 +34,7 @@ function session(firstSequence: number) {
 }
 
 describe('SrtpSealer and RtpHeaderTemplate', () => {
-  it('make packets that another implementation opens', () => {
+  it('make packets that another implementation decrypts', () => {
     const { receiver, send } = session(7);
     fc.assert(
       fc.property(
@@ -57,12 +57,12 @@ describe('SrtpSealer and RtpHeaderTemplate', () => {
     );
   });
 
-  it('go on past the wrap of the sequence number', () => {
+  it('continue past the wrap of the sequence number', () => {
     const { receiver, send } = session(0x7fff);
     const payload = Uint8Array.of(1, 2, 3);
     for (let i = 0; i < 0x1_8001; i++) {
       const packet = send(payload, false, 0, 0);
-      // Opening each of 98,000 packets takes seconds; around the wraps and now and then is enough.
+      // Decrypting each of 98,000 packets takes seconds; a sample, and those around the wraps, are enough.
       const sequence = packet.readUInt16BE(2);
       if (sequence > 16 && sequence < 0xfff0 && i % 4096 !== 0) continue;
       const opened = RtpPacket.deSerialize(receiver.decrypt(packet));
@@ -71,7 +71,7 @@ describe('SrtpSealer and RtpHeaderTemplate', () => {
     }
   });
 
-  it('do not pass with a flipped bit', () => {
+  it('make packets that are refused with a flipped bit', () => {
     const { receiver, send } = session(0);
     const packet = send(Uint8Array.of(1, 2, 3), false, 0, 0);
     packet[packet.length - 20] = (packet[packet.length - 20] as number) ^ 1;

@@ -1,7 +1,7 @@
 /**
- * SRTP for one outgoing stream with AES-128-GCM (RFC 7714 §8). The nonce is derived from SSRC, rollover counter and
- * sequence number, so a sealer must be the only one that seals for its SSRC under its key, and no sequence number is
- * ever sealed twice: the sealer counts them itself.
+ * Encrypts SRTP for one outgoing stream with AES-128-GCM (RFC 7714 §8). The nonce is derived from SSRC, rollover
+ * counter and sequence number. A sealer must therefore be the only one for its SSRC and key, and must never use a
+ * sequence number twice, so it counts them itself.
  */
 import type { Buffer } from 'node:buffer';
 import { createCipheriv } from 'node:crypto';
@@ -14,7 +14,8 @@ export class SrtpSealer {
   #index: number;
 
   /**
-   * @param key session key, 16 bytes; @param salt session salt, 12 bytes (RFC 3711 §4.3)
+   * @param key session key, 16 bytes
+   * @param salt session salt, 12 bytes (RFC 3711 §4.3)
    * @param firstSequence of the first packet, below 2¹⁵ so that an early loss cannot be taken for a wrap
    */
   constructor(key: Uint8Array, salt: Uint8Array, ssrc: number, firstSequence: number) {
@@ -23,13 +24,13 @@ export class SrtpSealer {
     this.#index = firstSequence & 0x7fff;
   }
 
-  /** The sequence number that the next sealed packet must carry. */
+  /** The sequence number that the next packet must carry. */
   get nextSequence(): SequenceNumber {
     return SequenceNumber.of(this.#index);
   }
 
   /**
-   * Seals one packet whose header carries `nextSequence`, and moves on to the next.
+   * Encrypts one packet whose header carries `nextSequence`, and advances to the next number.
    *
    * @returns header, ciphertext and tag, to be sent in this order; the header is the given one
    */

@@ -1,11 +1,11 @@
-/** A program as a test runs it: a Node process that logs JSON lines (see logger.ts) on its standard output. */
+/** A program under test: a Node process that logs JSON lines (see logger.ts) to its standard output. */
 import { type ChildProcess, type SpawnOptions, spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { createInterface } from 'node:readline';
 
 export class LoggingProcess {
   readonly child: ChildProcess;
-  /** Its exit status, once its output has ended too; null where a signal ended it. */
+  /** Its exit status, once its output has also ended; null if a signal ended it. */
   readonly exited: Promise<number | null>;
   readonly #lines: AsyncIterator<string>;
   #errors = '';
@@ -24,15 +24,15 @@ export class LoggingProcess {
     this.child = child;
   }
 
-  /** All that it has written on its standard error. */
+  /** Everything it has written to its standard error. */
   get errors(): string {
     return this.#errors;
   }
 
   /**
-   * The next record with this message, or one that the pattern fits; those before it are passed over.
+   * The next record with this message, or one that matches the pattern; skips earlier records.
    *
-   * @throws {Error} with what it wrote on its standard error, where its output ends first
+   * @throws {Error} with its standard error output, if its output ends first
    */
   async logged(message: string | RegExp): Promise<Record<string, unknown>> {
     for (;;) {

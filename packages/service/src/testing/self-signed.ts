@@ -2,9 +2,9 @@ import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 
 /**
- * Makes a key and a certificate for one name that nobody vouches for, in a folder that is there: `key.pem`, `cert.pem`.
+ * Creates a key and a self-signed certificate for one name in an existing folder: `key.pem`, `cert.pem`.
  *
- * @throws {Error} where openssl is not there or refuses
+ * @throws {Error} if openssl is missing or fails
  */
 export function selfSigned(folder: string, name: string): { key: string; cert: string } {
   const [key, cert] = [join(folder, 'key.pem'), join(folder, 'cert.pem')];

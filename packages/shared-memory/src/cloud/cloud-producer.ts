@@ -31,14 +31,14 @@ export interface CloudProducerOptions {
 
 export type FrameContent =
   | {
-      /** 16 bytes a point. */
+      /** 16 bytes per point. */
       points: ByteView;
     }
   | { depth: Uint8Array | Uint16Array | Float32Array; colours: Uint8Array };
 
 /**
- * The producer in TypeScript. A file is made under another name and then takes its place in one step, so that no reader
- * ever sees half a header; readers of a former file notice and open the new one.
+ * The producer in TypeScript. A new file is created under a temporary name and then renamed, so that no reader ever
+ * sees half a header. Readers of an earlier file notice this and open the new one.
  */
 export class CloudProducer implements Disposable {
   readonly header: CloudHeader;
@@ -46,7 +46,7 @@ export class CloudProducer implements Disposable {
   readonly #slotHeader = new Uint8Array(SLOT_HEADER_BYTES);
   #frame = 0;
 
-  /** @throws {SharedMemoryError} `in-use` while another producer lives */
+  /** @throws {SharedMemoryError} `in-use` while another producer is running */
   constructor(options: CloudProducerOptions) {
     const { folder, format, maxPoints, framesPerSecond = 0, slots = 4, mode = 0o600 } = options;
     this.header = makeHeader({ format, maxPoints, framesPerSecond, slots, pid: process.pid });
@@ -60,7 +60,7 @@ export class CloudProducer implements Disposable {
     }
   }
 
-  /** Writes one frame and wakes who waits for it. @throws {SharedMemoryError} `bad-frame`, `in-use`, `truncated` */
+  /** Writes one frame and wakes its waiting readers. @throws {SharedMemoryError} `bad-frame`, `in-use`, `truncated` */
   publish(content: FrameContent, header: Omit<FrameHeader, 'depthUnit'> & { depthUnit?: number }): number {
     const file = this.#file;
     if (!file.current) throw inUse(file.path);
@@ -70,7 +70,7 @@ export class CloudProducer implements Disposable {
     const { width, height } = parseFrameHeader(this.#slotHeader, this.header, file.path, at);
     checkContent(content, this.header.format, width * height);
     file.store32(at, (frame * 2 - 1) >>> 0);
-    // No byte of the frame may be seen before the lock is seen closed.
+    // No byte of the frame may become visible before the closed lock does.
     file.fence();
     file.copyIn(at + 4, this.#slotHeader.subarray(4));
     const payload = at + SLOT_HEADER_BYTES;
@@ -97,7 +97,7 @@ export class CloudProducer implements Disposable {
   }
 }
 
-/** A payload that is too long would run into the next slot. */
+/** A payload that is too long would overwrite the next slot. */
 function checkContent(content: FrameContent, format: CloudFormat, points: number): void {
   const right =
     'points' in content
@@ -108,7 +108,7 @@ function checkContent(content: FrameContent, format: CloudFormat, points: number
   if (!right) throw new RangeError(`this is not a ${format} frame of ${points} points`);
 }
 
-/** What is there already, whatever it is; its lock says whether its producer lives. */
+/** Opens an existing file, whatever it is; its lock shows whether its producer is running. */
 function openFormer(path: string): MappedFile | null {
   try {
     return MappedFile.open(path);
@@ -125,7 +125,7 @@ function makeFile(path: string, header: CloudHeader, mode: number): MappedFile {
     file = MappedFile.open(unfinished, create);
   } catch (error) {
     if (!(error instanceof SharedMemoryError && error.code === 'in-use')) throw error;
-    // Left by a producer that was killed as it began.
+    // Left behind by a producer that was killed while it started.
     unlinkSync(unfinished);
     file = MappedFile.open(unfinished, create);
   }

@@ -13,35 +13,35 @@ import {
   slotOffset,
 } from './layout.ts';
 
-/** Where a frame is put; what does not concern its form is left alone. */
+/** Where a frame is stored; buffers for the other form are left unchanged. */
 export interface FrameRoom {
-  /** 4 floats a point: x, y, z in metres, and the bytes R, G, B, A. */
+  /** 4 floats per point: x, y, z in metres, and the bytes R, G, B, A. */
   points: Float32Array;
-  /** Metres along z, each pixel. */
+  /** Metres along z, per pixel. */
   depth: Float32Array;
   /** R, G, B, A of each pixel, R lowest. */
   colour: Uint32Array;
 }
 
 export interface CloudFrame extends FrameHeader {
-  /** Counts from 1; it wraps at 2³². */
+  /** Counts from 1; wraps at 2³². */
   frame: number;
-  /** What it was read as: a camera's `images` where there is a lens, else `points`. */
+  /** The form it was read as: `images` for a camera with a lens, else `points`. */
   form: 'points' | 'images';
   /** width × height. */
   points: number;
 }
 
-/** A frame that was overtaken while it was copied is given up after so many newer ones. */
+/** If a frame is overtaken while it is copied, reading is given up after this many newer frames. */
 const MOST_ATTEMPTS = 8;
 
-/** Reads the newest frame. It only reads: no reader can hold up or harm the producer, or another reader. */
+/** Reads the newest frame. It only reads, so no reader can block or harm the producer or another reader. */
 export class CloudReader implements Disposable {
   readonly file: MappedFile;
   readonly header: CloudHeader;
-  /** Copies that were begun anew because the producer had come round to the same slot. */
+  /** Copies that were restarted because the producer had returned to the same slot. */
   overtaken = 0;
-  /** Frames that were never looked at because a newer one was there. */
+  /** Frames that were never read because a newer one was available. */
   skipped = 0;
   readonly #slotHeader = new Uint8Array(SLOT_HEADER_BYTES);
   #last = 0;
@@ -69,21 +69,21 @@ export class CloudReader implements Disposable {
     return this.file.current;
   }
 
-  /** The newest whole frame's number; 0 before the first. */
+  /** Number of the newest complete frame; 0 before the first. */
   get published(): number {
     return this.file.load32(PUBLISHED_OFFSET);
   }
 
-  /** The frame that was read last; what a watch waits to see exceeded. */
+  /** Number of the frame that was read last; a watch waits for it to be exceeded. */
   get last(): number {
     return this.#last;
   }
 
   /**
-   * The newest frame, where it is newer than the one read last.
+   * Reads the newest frame if it is newer than the one read last.
    *
-   * @param to after an error, or where there is no frame, what is in it means nothing
-   * @returns `null` where there is no newer one, or the producer has overtaken every attempt
+   * @param to its content is undefined after an error, or if there is no frame
+   * @returns `null` if there is no newer frame, or the producer has overtaken every attempt
    * @throws {SharedMemoryError} `bad-frame`, `too-large`, `truncated`; the frame then counts as read
    */
   read(to: FrameRoom): CloudFrame | null {
@@ -105,7 +105,7 @@ export class CloudReader implements Disposable {
     return null;
   }
 
-  /** The newest frame counts as read. @throws {SharedMemoryError} `truncated` */
+  /** Marks the newest frame as read. @throws {SharedMemoryError} `truncated` */
   skip(): void {
     this.#last = this.published;
   }
@@ -118,7 +118,7 @@ export class CloudReader implements Disposable {
     this.close();
   }
 
-  /** `null` where the slot was written to meanwhile. */
+  /** `null` if the slot was written to meanwhile. */
   #copy(frame: number, at: number, whole: number, to: FrameRoom): CloudFrame | null {
     const { file } = this;
     let header: FrameHeader;
@@ -127,7 +127,7 @@ export class CloudReader implements Disposable {
       header = parseFrameHeader(this.#slotHeader, this.header, file.path, at);
       this.#copyPoints(header, at, to);
     } catch (error) {
-      // What cannot be may be the half of a newer frame.
+      // Impossible values may belong to a half-written newer frame.
       file.fence();
       if (file.load32(at) !== whole) return null;
       this.#last = frame;
@@ -159,7 +159,7 @@ export class CloudReader implements Disposable {
   }
 }
 
-/** Points on a camera's grid are its pixels: depth and colour say all. */
+/** Points on a camera's grid are its pixels: depth and colour contain everything. */
 function formOf({ lens }: FrameHeader): 'points' | 'images' {
   return lens === null ? 'points' : 'images';
 }

@@ -40,7 +40,7 @@ function publish(to: CloudProducer, value: number, points = 100): void {
 }
 
 describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
-  it('gives the newest frame, once, with all that is known of it', () => {
+  it('returns the newest frame once, with all its metadata', () => {
     const [write, read] = [producer(), reader()];
     expect(read.read(room)).toBeNull();
     for (let i = 1; i <= 6; i++) publish(write, i);
@@ -48,7 +48,7 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     const header = { capturedAtMs: 12.5, width: 4, height: 3, pose, lens: null, latencyTest: true };
     write.publish({ points: new Uint32Array(48).fill(0x7fc00001) }, header);
     expect(read.read(room)).toEqual({ frame: 7, form: 'points', points: 12, ...header, depthUnit: 0 });
-    // Bit for bit, NaNs too.
+    // Bit for bit, including NaNs.
     expect(words.subarray(0, 48).every((word) => word === 0x7fc00001)).toBe(true);
     expect(read.read(room)).toBeNull();
     expect(read.skipped).toBe(0);
@@ -57,7 +57,7 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     expect(read.skipped).toBe(2);
   });
 
-  it('gives a camera’s frames as images, whatever they are made of', () => {
+  it('returns a camera’s frames as images, whatever their format', () => {
     const lens = { fx: 2, fy: 4, cx: 1, cy: 0.5 };
     const metres = [1, 0, 2.5, 65.535, 0.001, 0.5].map(Math.fround);
     const colours = new Uint8Array(24).map((_, i) => i * 10);
@@ -86,7 +86,7 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     }
   });
 
-  it('reads no frame that is being written, nor one that a killed producer has left half', () => {
+  it('reads no frame that is being written, nor one that a killed producer has left unfinished', () => {
     const [write, read] = [producer(), reader()];
     publish(write, 1);
     expect(read.read(room)?.frame).toBe(1);
@@ -94,7 +94,7 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     const slot = 4096 + 2 * write.header.slotBytes;
     other.store32(slot, 3);
     expect(read.read(room)).toBeNull();
-    // Announced although the slot was not finished: as good as never.
+    // Published although the slot was not finished: treated as never published.
     other.store32(PUBLISHED_OFFSET, 2);
     expect(read.read(room)).toBeNull();
     expect(read.overtaken).toBe(8);
@@ -102,7 +102,7 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     expect(read.read(room)?.frame).toBe(2);
   });
 
-  it('takes what is announced and impossible for what it is, once', () => {
+  it('reports an impossible published frame as such, once', () => {
     const [write, read] = [producer(), reader()];
     publish(write, 1);
     using other = MappedFile.open(path, { writable: true });
@@ -120,7 +120,7 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     expect(codeOf(() => read.read({ ...room, points: room.points.subarray(0, 399) }))).toBe('too-large');
   });
 
-  it('is never harmed by bytes that anybody has written into it', () => {
+  it('survives any bytes written into it', () => {
     const [write, read] = [producer(20), reader()];
     using other = MappedFile.open(path, { writable: true });
     const { slotBytes } = write.header;
@@ -152,11 +152,11 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     publish(second, 9, 50);
     expect(reader().read(room)).toMatchObject({ frame: 1, points: 50 });
     expect(words[0]).toBe(9);
-    // What is mapped stays readable.
+    // The mapping stays readable.
     expect(read.read(room)?.points).toBe(100);
   });
 
-  it('begins anew over what a killed producer left at its very start, or what is no such file', () => {
+  it('starts over what a producer left that was killed while it started, or what is no such file', () => {
     writeFileSync(path, 'something else');
     writeFileSync(`${path}.new`, 'half a header');
     publish(producer(), 3);
@@ -164,13 +164,13 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     expect(statSync(path).mode & 0o777).toBe(0o600);
   });
 
-  it('a producer whose file was removed does not write on in vain', () => {
+  it('a producer whose file was removed does not keep writing to it', () => {
     const write = producer();
     rmSync(path);
     expect(codeOf(() => publish(write, 1))).toBe('in-use');
   });
 
-  it('refuses files that are absent, cut short, too long, of another kind or open to everybody', () => {
+  it('refuses files that are missing, truncated, too long, of another kind or open to everybody', () => {
     expect(errorOf(() => reader())).toMatchObject({ code: 'absent', file: path });
     producer();
     const whole = readFileSync(path);
@@ -184,7 +184,7 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     expect(codeOf(() => reader())).toBe('unsafe-permissions');
   });
 
-  it('survives being cut short while it is read', () => {
+  it('survives truncation while it is read', () => {
     const [write, read] = [producer(), reader()];
     publish(write, 1);
     truncateSync(path, 4096);
@@ -193,7 +193,7 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     expect(codeOf(() => publish(write, 2))).toBe('in-use');
   });
 
-  it('takes no content that does not fit', () => {
+  it('refuses content that does not fit', () => {
     const write = producer();
     expect(() => write.publish({ points: new Uint32Array(404) }, { ...FRAME, width: 100 })).toThrow(
       RangeError,
@@ -204,7 +204,7 @@ describe.skipIf(ADDON_SUITE.skip)(`cloud ring (${ADDON_SUITE.note})`, () => {
     expect(codeOf(() => new CloudProducer({ folder, format: 'points', maxPoints: 0 }))).toBe('bad-header');
   });
 
-  it('wakes who waits for a frame', async () => {
+  it('wakes waiting readers when a frame is published', async () => {
     const [write, read] = [producer(), reader()];
     const outcome = await new Promise((resolve) => {
       const watch = keep(new Watch(read.file, { offset: PUBLISHED_OFFSET, futex: true }, resolve));

@@ -79,7 +79,7 @@ describe('cloud layout', () => {
     if (format !== 'points') expect(colourOffset(format, points)).toBe(at);
   });
 
-  it('takes nothing that cannot be, whatever the bytes', () => {
+  it('accepts nothing impossible, whatever the bytes', () => {
     const good = new Uint8Array(HEADER_BYTES);
     const header = makeHeader({ format: 'depth16', maxPoints: 100 });
     writeHeader(good, header);

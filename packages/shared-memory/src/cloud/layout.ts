@@ -1,6 +1,6 @@
 /**
- * Farpoint's own layout, byte by byte in docs/shared-memory.md: a header of one page, then slots that are filled in turn.
- * Bytes in, values out; no I/O. Little-endian.
+ * Farpoint's own layout, specified byte by byte in docs/shared-memory.md: a header of one page, then slots that are
+ * filled in turn. Bytes in, values out; no I/O. Little-endian.
  */
 import { join } from 'node:path';
 import type { Pose } from '@farpoint/protocol';
@@ -12,7 +12,7 @@ export const VERSION = 1;
 export const HEADER_BYTES = 4096;
 export const SLOT_HEADER_BYTES = 128;
 export const MAX_POINTS = 4_194_304;
-/** The number of the newest whole frame: the word that readers wait for. */
+/** Number of the newest complete frame: the word that readers wait for. */
 export const PUBLISHED_OFFSET = 64;
 
 export const CLOUD_FORMATS = ['points', 'depth16', 'depth32'] as const;
@@ -30,15 +30,15 @@ export interface CloudHeader {
   /** 4, 8 or 16. */
   slots: number;
   slotBytes: number;
-  /** Most points of a frame. */
+  /** Maximum number of points in a frame. */
   maxPoints: number;
-  /** What the producer means to give, frames a second; 0 where it does not say. */
+  /** The producer's intended frame rate, frames per second; 0 if not stated. */
   framesPerSecond: number;
-  /** The producer's process, for people. */
+  /** The producer's process id, for people. */
   pid: number;
 }
 
-/** Pinhole model; pixel centres are whole numbers. */
+/** Pinhole model; pixel centres are at integer coordinates. */
 export interface Lens {
   fx: number;
   fy: number;
@@ -47,18 +47,18 @@ export interface Lens {
 }
 
 export interface FrameHeader {
-  /** CLOCK_MONOTONIC, ms; `null` where the producer does not know. */
+  /** CLOCK_MONOTONIC, ms; `null` if the producer does not know it. */
   capturedAtMs: number | null;
   width: number;
-  /** 1 where the points lie on no grid. */
+  /** 1 if the points are not on a grid. */
   height: number;
-  /** The camera's optical frame in the world. */
+  /** Pose of the camera's optical frame in the world. */
   pose: Pose | null;
-  /** Always there for depth formats. */
+  /** Always present for depth formats. */
   lens: Lens | null;
   /** Every point was made green. */
   latencyTest: boolean;
-  /** Metres a unit of `depth16`; else 0. */
+  /** Metres per unit of `depth16`; else 0. */
   depthUnit: number;
 }
 
@@ -78,7 +78,7 @@ export function fileBytes({ slots, slotBytes }: CloudHeader): number {
   return HEADER_BYTES + slots * slotBytes;
 }
 
-/** Where the colours of a depth frame begin, counted from its payload. */
+/** Offset of a depth frame's colours within its payload. */
 export function colourOffset(format: CloudFormat, points: number): number {
   return align64(points * (format === 'depth16' ? 2 : 4));
 }
@@ -148,7 +148,7 @@ export function parseHeader(bytes: Uint8Array, size: number, file: string): Clou
   return header;
 }
 
-/** Everything of a slot's header but the lock. */
+/** Writes everything in a slot's header except for the lock. */
 export function writeFrameHeader(bytes: Uint8Array, frame: number, header: FrameHeader): void {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const { capturedAtMs, width, height, pose, lens, latencyTest, depthUnit } = header;

@@ -8,7 +8,7 @@ export interface ControlBlock {
   twist: Twist;
 }
 
-/** Reads `shared_control`, as whatever moves the wheels does. */
+/** Reads `shared_control`, like the program that moves the wheels. */
 export class ReferenceControlReader implements Disposable {
   readonly #block: MappedFile;
   readonly #busy: MappedFile;
@@ -31,16 +31,16 @@ export class ReferenceControlReader implements Disposable {
   }
 
   /**
-   * The block, or `null` while it is being written: ask again.
+   * The block, or `null` while it is being written: call again.
    *
-   * @throws {SharedMemoryError} `bad-frame` for velocities that are no finite numbers; `truncated`
+   * @throws {SharedMemoryError} `bad-frame` for velocities that are not finite; `truncated`
    */
   read(): ControlBlock | null {
     if (this.#busy.load8(0) !== 0) return null;
     this.#block.copyOut(0, this.#bytes);
     this.#block.fence();
     const view = new DataView(this.#bytes.buffer);
-    // A whole write may have gone by meanwhile: then the counter is another one.
+    // A complete write may have happened meanwhile, which changes the counter.
     if (this.#busy.load8(0) !== 0 || this.#block.load32(0) !== view.getUint32(0, true)) return null;
     const value = (index: number): number => {
       const offset = 4 + index * 8;

@@ -5,15 +5,15 @@ import { BUSY_BYTES, CONTROL_BYTES, referenceFiles } from './layout.ts';
 
 export interface ControlWriterOptions {
   folder?: string | undefined;
-  /** Permissions of files that are made. Default 0600. */
+  /** Permissions of created files. Default 0600. */
   mode?: number | undefined;
-  /** Without a write for this long a native thread writes zero velocity, ms. */
+  /** After this long without a write, a native thread writes zero velocity, ms. */
   silenceMs: number;
 }
 
 /**
- * Writes the velocity into `shared_control`, with a counter that grows by one each time. What reads it makes the velocity
- * zero once the counter stands still.
+ * Writes the velocity into `shared_control`, with a counter that grows by one each time. The reader sets the velocity
+ * to zero when the counter stops.
  */
 export class ReferenceControlWriter implements Disposable {
   readonly #options: ControlWriterOptions;
@@ -29,10 +29,10 @@ export class ReferenceControlWriter implements Disposable {
   }
 
   /**
-   * Writes a velocity. Files that the reader has removed or made anew are opened again.
+   * Writes a velocity. Files that the reader has removed or recreated are opened again.
    *
    * @returns the counter
-   * @throws {SharedMemoryError} where it could not be written; the next write tries again
+   * @throws {SharedMemoryError} if it could not be written; the next write tries again
    */
   write({ linear, angular }: Twist): number {
     if (this.#files !== null && !(this.#files.block.current && this.#files.busy.current)) this.#close();
@@ -45,14 +45,14 @@ export class ReferenceControlWriter implements Disposable {
     }
   }
 
-  /** How often silence has made the velocity zero. */
+  /** How often silence has set the velocity to zero. */
   get silences(): number {
     return (
       this.#silencesBefore + (this.#files === null ? 0 : this.#addon.controlSilences(this.#files.control))
     );
   }
 
-  /** Writes zero velocity and lets go. */
+  /** Writes zero velocity and closes the files. */
   close(): void {
     this.#close();
   }

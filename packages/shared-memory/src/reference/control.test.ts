@@ -36,7 +36,7 @@ afterEach(() => {
   removeFolder(folder);
 });
 
-/** No test waits for this silence but the one that is about it. */
+/** Only the test about this silence waits for it. */
 function writer(silenceMs = 60_000): ReferenceControlWriter {
   const made = new ReferenceControlWriter({ folder, silenceMs });
   open.push(made);
@@ -54,7 +54,7 @@ const twistOf = ([x, y, z]: number[], [ax, ay, az]: number[]): Twist =>
 const forward = twistOf([0.5, 0, 0], [0, 0, 0.1]);
 
 describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
-  it('makes the files as they must be, for their owner', () => {
+  it('creates the files correctly, for their owner', () => {
     writer();
     expect(statSync(files.control)).toMatchObject({ size: 52 });
     expect(statSync(files.busy)).toMatchObject({ size: 5 });
@@ -88,7 +88,7 @@ describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
     );
   });
 
-  it('is not read while it is written, and a velocity that is no number is refused', () => {
+  it('is not read while it is written, and refuses a velocity that is not finite', () => {
     writer().write(forward);
     const read = reader();
     writeFileSync(files.busy, Uint8Array.of(1, 0, 0, 0, 0));
@@ -100,7 +100,7 @@ describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
     expect(errorOf(() => read.read())).toMatchObject({ code: 'bad-frame', file: files.control, offset: 12 });
   });
 
-  it('a busy flag left by a killed writer is cleared by the next', () => {
+  it('clears a busy flag that a killed writer left', () => {
     const first = writer();
     first.write(forward);
     writeFileSync(files.busy, Uint8Array.of(1, 0, 0, 0, 0));
@@ -108,7 +108,7 @@ describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
     expect(reader().read()?.twist).toEqual(zeroTwist());
   });
 
-  it('becomes zero by itself where nothing is written, with a counter that shows it', async () => {
+  it('becomes zero by itself if nothing is written, and its counter shows this', async () => {
     const write = writer(5);
     const read = reader();
     const counter = write.write(forward);
@@ -119,7 +119,7 @@ describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
     expect(write.write(zeroTwist())).toBe(counter + 2);
   });
 
-  it('becomes zero even while this thread hangs', () => {
+  it('becomes zero even while this thread is blocked', () => {
     const write = writer(5);
     const read = reader();
     const counter = write.write(forward);
@@ -136,7 +136,7 @@ describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
     expect(read.read()).toEqual({ counter: counter + 1, twist: zeroTwist() });
   });
 
-  it('goes on when whoever reads it makes the files anew, or cuts them short and long again', () => {
+  it('continues if the reader recreates the files, or truncates and restores them', () => {
     const write = writer();
     const counter = write.write(forward);
     truncateSync(files.control, 0);
@@ -150,7 +150,7 @@ describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
     expect(counter).toBe(1);
   });
 
-  it('says which file cannot be had', () => {
+  it('says which file is unavailable', () => {
     rmSync(folder, { recursive: true });
     expect(errorOf(() => writer())).toMatchObject({ code: 'absent', file: files.control });
   });

@@ -12,11 +12,11 @@ import {
   referenceFiles,
 } from './layout.ts';
 
-/** What the consumer tells the producer with each frame it takes. */
+/** What the consumer requests from the producer with each frame it takes. */
 export interface ConsumerWishes {
-  /** Rate that the next frames are to fit, bit/s. */
+  /** Bit rate that the next frames should fit, bit/s. */
   bitsPerSecond: number;
-  /** Make the next frame green. */
+  /** Whether the next frame should be green. */
   latencyTest: boolean;
 }
 
@@ -38,7 +38,7 @@ export class ReferenceFrameConsumer implements Disposable {
     this.flags = flags;
   }
 
-  /** @throws {SharedMemoryError} naming the file that is not as it should be */
+  /** @throws {SharedMemoryError} naming the invalid file */
   static open(folder?: string): ReferenceFrameConsumer {
     const paths = referenceFiles(folder);
     const cloud = MappedFile.open(paths.cloud, { bytes: CLOUD_BYTES });
@@ -53,7 +53,7 @@ export class ReferenceFrameConsumer implements Disposable {
     }
   }
 
-  /** False once a producer has made the files anew: open them again. */
+  /** False once a producer has recreated the files: open them again. */
   get current(): boolean {
     return this.#cloud.current && this.flags.current;
   }
@@ -63,11 +63,11 @@ export class ReferenceFrameConsumer implements Disposable {
   }
 
   /**
-   * Takes the frame that is ready and lets the producer make the next one. A frame that is not as it should be is given
-   * back all the same: the producer would wait for ever.
+   * Takes the frame that is ready and lets the producer make the next one. An invalid frame is also released, because
+   * otherwise the producer would wait for ever.
    *
-   * @param to 16 bytes for each point, for the most points there can be
-   * @returns `null` where none is ready
+   * @param to 16 bytes for each point, for the maximum number of points
+   * @returns `null` if no frame is ready
    * @throws {SharedMemoryError} `bad-length`, `truncated`
    */
   take(to: ByteView, wishes: ConsumerWishes): ConsumedFrame | null {

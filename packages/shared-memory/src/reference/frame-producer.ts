@@ -18,8 +18,8 @@ export class ReferenceFrameProducer implements Disposable {
   readonly #length = new Uint8Array(LENGTH_BYTES);
 
   /**
-   * Makes the files, or goes on with those that are there: where the flag is up, the frame in them is whole and waits for
-   * the consumer; where it is down, what is in them does not count.
+   * Creates the files, or continues with existing ones: if the flag is set, they contain a complete frame that waits
+   * for the consumer; if not, their content is ignored.
    *
    * @throws {SharedMemoryError}
    */
@@ -29,12 +29,12 @@ export class ReferenceFrameProducer implements Disposable {
     this.flags = MappedFile.open(paths.flags, { bytes: FLAG_BYTES, create: true, mode });
   }
 
-  /** The consumer has taken the last frame. */
+  /** Whether the consumer has taken the last frame. */
   get free(): boolean {
     return this.flags.load8(READY_OFFSET) === 0;
   }
 
-  /** What the consumer asked for last: bit/s, and whether the next frame is to be green. */
+  /** The consumer's latest request: bit/s, and whether the next frame should be green. */
   get wishes(): { bitsPerSecond: number; latencyTest: boolean } {
     const rate = new Uint8Array(4);
     this.flags.copyOut(BITRATE_OFFSET, rate);
@@ -45,9 +45,9 @@ export class ReferenceFrameProducer implements Disposable {
   }
 
   /**
-   * Writes a frame, where the last one was taken.
+   * Writes a frame if the last one was taken.
    *
-   * @param packed blocks of 150 points as they are sent
+   * @param packed blocks of 150 points, as they are sent
    * @returns whether it was written
    * @throws {SharedMemoryError} `bad-length`, `truncated`
    */

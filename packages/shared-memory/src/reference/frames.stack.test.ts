@@ -56,7 +56,7 @@ function pointAt(index: number): number[] {
 }
 
 describe.skipIf(ADDON_SUITE.skip)(`reference frames (${ADDON_SUITE.note})`, () => {
-  it('makes the files as they must be', () => {
+  it('creates the files correctly', () => {
     expect(readFileSync(files.cloud)).toHaveLength(1_843_203);
     expect(readFileSync(files.flags)).toHaveLength(6);
   });
@@ -83,12 +83,12 @@ describe.skipIf(ADDON_SUITE.skip)(`reference frames (${ADDON_SUITE.note})`, () =
         expect((words[i * 4 + 3] as number) >>> 24).toBe(255);
       });
     }
-    // Good or bad, the producer can go on and knows what is wanted.
+    // Whether valid or not, the producer can continue and knows what is requested.
     expect(producer.free).toBe(true);
     expect(producer.wishes).toEqual({ bitsPerSecond: 7, latencyTest: true });
   });
 
-  it('hands over any points, as the packet format has them', () => {
+  it('transfers any points, as in the packet format', () => {
     const anyPacked = fc
       .uint8Array({ maxLength: 8 * 460 })
       .map((bytes) => bytes.subarray(0, bytes.length & ~7));
@@ -116,7 +116,7 @@ describe.skipIf(ADDON_SUITE.skip)(`reference frames (${ADDON_SUITE.note})`, () =
     );
   });
 
-  it('is never harmed by what another program has written', () => {
+  it('survives anything that another program has written', () => {
     fc.assert(
       fc.property(fc.uint8Array({ minLength: 3, maxLength: 40 }), fc.nat({ max: 255 }), (bytes, flag) => {
         patch(files.cloud, bytes);
@@ -133,7 +133,7 @@ describe.skipIf(ADDON_SUITE.skip)(`reference frames (${ADDON_SUITE.note})`, () =
     );
   });
 
-  it('carries the most points there can be', () => {
+  it('carries the maximum number of points', () => {
     const packed = new Uint8Array(MAX_PAYLOAD_BYTES).fill(1);
     expect(producer.publish(packed)).toBe(true);
     expect(consumer.take(words, NO_WISHES)?.points).toBe(230_400);
@@ -142,7 +142,7 @@ describe.skipIf(ADDON_SUITE.skip)(`reference frames (${ADDON_SUITE.note})`, () =
     expect(codeOf(() => producer.publish(new Uint8Array(7)))).toBe('bad-length');
   });
 
-  it('survives files that are cut short, and goes on once they are whole again', () => {
+  it('survives truncated files, and continues once they are restored', () => {
     producer.publish(new Uint8Array(1200));
     truncateSync(files.cloud, 0);
     expect(codeOf(() => consumer.take(words, NO_WISHES))).toBe('truncated');
@@ -155,7 +155,7 @@ describe.skipIf(ADDON_SUITE.skip)(`reference frames (${ADDON_SUITE.note})`, () =
     expect(codeOf(() => consumer.ready)).toBe('truncated');
   });
 
-  it('names the file that is absent, of another size or open to everybody', () => {
+  it('names a file that is missing, of another size or open to everybody', () => {
     truncateSync(files.flags, 7);
     expect(errorOf(() => ReferenceFrameConsumer.open(folder))).toMatchObject({
       code: 'wrong-size',
@@ -173,7 +173,7 @@ describe.skipIf(ADDON_SUITE.skip)(`reference frames (${ADDON_SUITE.note})`, () =
     });
   });
 
-  it('goes on where a producer was killed: before it raised the flag, or after', () => {
+  it('continues after a producer was killed: before it set the flag, or after', () => {
     patch(files.cloud, fromHex('ffffff'));
     expect(consumer.take(words, NO_WISHES)).toBeNull();
     {

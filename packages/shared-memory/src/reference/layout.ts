@@ -3,7 +3,7 @@ import { join } from 'node:path';
 
 export const DEFAULT_FOLDER = '/dev/shm';
 
-/** Most bytes of packed points: 480 × 480 points of 8 bytes. */
+/** Maximum length of packed points: 480 × 480 points of 8 bytes. */
 export const MAX_PAYLOAD_BYTES = 1_843_200;
 export const MAX_POINTS = MAX_PAYLOAD_BYTES / 8;
 

@@ -3,15 +3,15 @@ import { parseArgs } from 'node:util';
 export interface ProcessArguments {
   layout: 'reference' | 'farpoint';
   folder: string;
-  /** Of each frame. */
+  /** Per frame. */
   points: number;
-  /** 0: as fast as it goes. */
+  /** 0 for as fast as possible. */
   fps: number;
-  /** A file for what happens; see the process. */
+  /** A file for the results; see the process. */
   log: string;
 }
 
-/** The arguments of this folder's processes. */
+/** Parses the arguments of this folder's processes. */
 export function readArguments(): ProcessArguments {
   const { values } = parseArgs({
     options: {

@@ -1,6 +1,6 @@
 /**
- * A process that reads frames and checks that each is of one piece, until it is killed:
- * `node checking-reader.ts --layout … --folder … --points N --log FILE`. Its counts lie in FILE and outlive it.
+ * A process that reads frames and checks that each is consistent, until it is killed:
+ * `node checking-reader.ts --layout … --folder … --points N --log FILE`. Its counts are in FILE, which survives it.
  */
 import { CloudReader } from '../cloud/cloud-reader.ts';
 import { PUBLISHED_OFFSET } from '../cloud/layout.ts';
@@ -24,7 +24,7 @@ setInterval(() => undefined, 1000);
 
 interface Reading {
   current: () => boolean;
-  /** Whether there was a frame. */
+  /** Returns whether there was a frame. */
   take: () => boolean;
   wait: () => Promise<WatchOutcome>;
   close: () => void;

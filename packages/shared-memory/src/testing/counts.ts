@@ -2,7 +2,7 @@ import type { MappedFile } from '../mapped-file.ts';
 
 export const COUNT_BYTES = 12;
 
-/** What a process has counted, in a file that outlives it. */
+/** A process's counters, in a file that survives it. */
 export class Counts {
   readonly #file: MappedFile;
 
@@ -15,7 +15,7 @@ export class Counts {
     return this.#file.load32(0);
   }
 
-  /** Of those, which were mixtures of two. */
+  /** How many of those were mixtures of two. */
   get torn(): number {
     return this.#file.load32(4);
   }

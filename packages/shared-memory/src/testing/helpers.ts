@@ -1,4 +1,4 @@
-/** Helpers of this package's tests. */
+/** Helpers for this package's tests. */
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -6,10 +6,10 @@ import { join } from 'node:path';
 import { isAvailable } from '../addon.ts';
 import { SharedMemoryError, type SharedMemoryErrorCode } from '../errors.ts';
 
-/** Tests that need the addon name the command that builds it where they are left out. */
+/** Tests that need the addon are skipped without it, and then name the command that builds it. */
 export const ADDON_SUITE = { skip: !isAvailable(), note: 'needs the addon: pnpm build:native' };
 
-/** A folder of its own, in shared memory where there is any. */
+/** A new folder, in shared memory if there is any. */
 export function scratchFolder(): string {
   return mkdtempSync(join(existsSync('/dev/shm') ? '/dev/shm' : tmpdir(), 'farpoint-test-'));
 }
@@ -30,7 +30,7 @@ export function readVectors<T>(name: string): T {
   return JSON.parse(readFileSync(join(import.meta.dirname, '..', '..', 'vectors', name), 'utf8')) as T;
 }
 
-/** What an action is refused with. */
+/** The error that an action throws. */
 export function errorOf(action: () => unknown): SharedMemoryError {
   try {
     action();
@@ -45,7 +45,7 @@ export function codeOf(action: () => unknown): SharedMemoryErrorCode {
   return errorOf(action).code;
 }
 
-/** Resolves once `is` holds; what changes it is another thread or process. */
+/** Resolves once `is` returns true; another thread or process changes its result. */
 export async function until(is: () => boolean): Promise<void> {
   while (!is()) await new Promise((resolve) => setTimeout(resolve, 1));
 }
@@ -53,7 +53,7 @@ export async function until(is: () => boolean): Promise<void> {
 const root = join(import.meta.dirname, '..', '..', '..', '..');
 export const EXAMPLES = join(root, 'examples');
 
-/** A Python with numpy, as `pnpm test` finds or makes it, or `null`. */
+/** A Python with numpy, as `pnpm test` finds or installs it, or `null`. */
 export function findPython(): string | null {
   const candidates = [
     process.env.FARPOINT_PYTHON,
@@ -63,7 +63,7 @@ export function findPython(): string | null {
   return candidates.find((python) => python !== undefined && runs(python, '-c', 'import numpy')) ?? null;
 }
 
-/** Whether a program is there and ends well. */
+/** Whether a program exists and exits successfully. */
 export function runs(program: string, ...args: string[]): boolean {
   return spawnSync(program, args, { stdio: 'ignore' }).status === 0;
 }

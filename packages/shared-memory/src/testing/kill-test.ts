@@ -1,4 +1,4 @@
-/** Producer and reader as processes of their own, killed again and again while frames flow. */
+/** Runs producer and reader as separate processes, which are killed repeatedly while frames flow. */
 import { type ChildProcess, spawn } from 'node:child_process';
 import { join } from 'node:path';
 import { Random } from '@farpoint/network-sim/random';
@@ -7,16 +7,16 @@ import { COUNT_BYTES, Counts } from './counts.ts';
 
 export interface KillTestOptions {
   layout: 'reference' | 'farpoint';
-  /** Empty. */
+  /** An empty folder. */
   folder: string;
-  /** Ends when so many frames have been read, */
+  /** Ends when this many frames have been read, */
   frames: number;
-  /** each of so many points, */
+  /** each of this many points, */
   points: number;
-  /** and each side was killed at least so often. */
+  /** and each side was killed at least this often. */
   leastKills: number;
   seed: number;
-  /** A process works for at least and at most so long, ms; its start does not count. */
+  /** Minimum and maximum time for which a process works, ms, not counting its start. */
   lifeMs: readonly [number, number];
 }
 
@@ -27,16 +27,16 @@ export interface KillTestResult {
   faults: number;
   producerKills: number;
   readerKills: number;
-  /** Longest time in which no frame was read, ms: both sides' restarts, and whatever else held it up. */
+  /** Longest time without a frame, ms: includes both sides' restarts and all other delays. */
   longestPauseMs: number;
   seconds: number;
 }
 
 const LOOK_MS = 2;
-/** Without a frame for so long it has come to a standstill, ms. */
+/** After this long without a frame, the test counts as deadlocked, ms. */
 const STANDSTILL_MS = 20_000;
 
-/** @throws {Error} where frames stop flowing, or a process ends by itself */
+/** @throws {Error} if frames stop flowing, or a process ends by itself */
 export async function runKillTest(options: KillTestOptions): Promise<KillTestResult> {
   const { layout, folder, frames, points, leastKills, seed, lifeMs } = options;
   const log = join(folder, 'counts');
@@ -91,7 +91,7 @@ class Side {
   start(lifeMs: number): void {
     const child = spawn(process.execPath, this.#command, { stdio: ['ignore', 'pipe', 'pipe'] });
     this.#output = '';
-    // It says so when it begins its work; on a busy machine that may take long.
+    // The process reports when it starts working, which may take long on a busy machine.
     this.#killAtMs = Number.POSITIVE_INFINITY;
     child.stdout.once('data', () => {
       this.#killAtMs = performance.now() + lifeMs;

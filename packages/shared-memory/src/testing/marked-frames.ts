@@ -1,16 +1,16 @@
-/** Frames every part of which tells which frame it belongs to, so that a mixture of two shows. */
+/** Frames in which every part identifies its frame, so that a mixture of two is detected. */
 import type { CloudFrame, FrameRoom } from '../cloud/cloud-reader.ts';
 
-/** Numbers that a frame can be marked with. */
+/** How many different marks there are. */
 const MARKS = 30_000;
 
-/** Points of 16 bytes for Farpoint's layout: every word follows from the mark and its own index. */
+/** Fills points of 16 bytes for Farpoint's layout: every word follows from the mark and its own index. */
 export function fillWords(words: Uint32Array, mark: number): void {
   const base = Math.imul(mark, 0x9e37_79b1);
   for (let i = 0; i < words.length; i++) words[i] = base + i;
 }
 
-/** Whether the points of a frame all have the mark of the first. */
+/** Whether all points of a frame have the mark of the first. */
 export function areWordsWhole({ points }: CloudFrame, room: FrameRoom): boolean {
   const words = new Uint32Array(room.points.buffer, room.points.byteOffset, points * 4);
   const base = words[0] as number;
@@ -18,7 +18,7 @@ export function areWordsWhole({ points }: CloudFrame, room: FrameRoom): boolean 
   return true;
 }
 
-/** The reference system's packed points: x is the mark, y follows from mark and index, z and colour are the mark. */
+/** Fills the reference system's packed points: x, z and colour are the mark, y follows from mark and index. */
 export function fillPacked(packed: Uint8Array, mark: number): void {
   const values = new Int16Array(packed.buffer, packed.byteOffset, packed.length / 2);
   const of = mark % MARKS;
@@ -35,7 +35,7 @@ export function fillPacked(packed: Uint8Array, mark: number): void {
   }
 }
 
-/** @param points as they were unpacked, 4 floats each */
+/** @param points as unpacked, 4 floats each */
 export function arePackedWhole(points: Float32Array, count: number): boolean {
   if (count === 0) return true;
   const words = new Uint32Array(points.buffer, points.byteOffset, count * 4);

@@ -1,14 +1,11 @@
-/**
- * A process that produces marked frames until it is killed:
- * `node marked-producer.ts --layout … --folder … --points N`.
- */
+/** A process that produces marked frames until killed: `node marked-producer.ts --layout … --folder … --points N`. */
 import { CloudProducer } from '../cloud/cloud-producer.ts';
 import { ReferenceFrameProducer } from '../reference/frame-producer.ts';
 import { readArguments } from './arguments.ts';
 import { fillPacked, fillWords } from './marked-frames.ts';
 
 const { layout, folder, points } = readArguments();
-// Producers that follow each other are told apart.
+// Makes the marks of successive producers different.
 let mark = process.pid * 1000;
 
 if (layout === 'farpoint') {

@@ -67,7 +67,7 @@ static struct fp_cloud open_cloud(const char *folder, enum fp_format format, int
 static void clouds(const char *folder, enum fp_format format) {
   struct fp_cloud cloud = open_cloud(folder, format, 0);
   for (int number = 1; number <= 6; number++) write_frame(&cloud, number);
-  /* Begun and not published: not to be seen. */
+  /* Begun and not published: must not be visible. */
   memset(fp_cloud_begin(&cloud), 0xff, 12);
   fp_cloud_close(&cloud);
 }

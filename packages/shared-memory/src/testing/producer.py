@@ -25,7 +25,7 @@ def clouds(folder, format):
             room[0][...] = (pixels + number) * (1000 if format == "depth16" else 1)
             room[1][...] = rgba
         producer.publish(123456789, (1.5, 0, 0), (0, 0, 0, 1), lens, latency_test=True)
-    # Begun and not published: not to be seen.
+    # Begun and not published: must not be visible.
     producer.begin()
     producer.close()
 

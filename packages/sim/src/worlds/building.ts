@@ -23,7 +23,7 @@ export interface Wall {
   doors?: Doorway[];
 }
 
-/** The wall's boxes: stretches, lintels, and a coloured trim about every doorway. */
+/** The wall's boxes: segments, lintels, and a coloured trim around every doorway. */
 export function wallBoxes(wall: Wall): Box[] {
   const piece = (
     from: number,
@@ -52,7 +52,7 @@ export function wallBoxes(wall: Wall): Box[] {
     start = door.to + TRIM;
   }
   boxes.push(piece(start, wall.to, 0, ROOM_HEIGHT, WALL_THICKNESS, wall.material));
-  // A dark skirting board tells where wall and floor meet.
+  // A dark skirting board shows where wall and floor meet.
   start = wall.from;
   for (const end of [...doors.map((door) => door.from - TRIM), wall.to]) {
     boxes.push(piece(start, end, 0, 0.1, WALL_THICKNESS + 0.02, 'skirting'));
@@ -87,7 +87,7 @@ export function ceiling(
 /** The four directions that a wall's face may look towards. */
 export const FACING = { east: 0, north: Math.PI / 2, west: Math.PI, south: -Math.PI / 2 } as const;
 
-/** Something flat on a wall's face that looks in direction `facing`. */
+/** Something flat on the face of a wall that looks in direction `facing`. */
 export function onWall(
   x: number,
   y: number,

@@ -1,7 +1,7 @@
 import { cos, sin } from '../trigonometry.ts';
 import type { Box, Ellipsoid, Panel, PlanarPose } from '../world.ts';
 
-/** Boxes, panels and round things that stand together, in the frame of the piece: x is its front. */
+/** Boxes, panels and round objects that belong together, in the frame of the piece: x is its front. */
 export interface Piece {
   boxes: Box[];
   panels: Panel[];
@@ -12,7 +12,7 @@ export function emptyPiece(): Piece {
   return { boxes: [], panels: [], ellipsoids: [] };
 }
 
-/** A box from its centre on the floor plan, the height of its underside, and its size. */
+/** A box, given its centre on the floor plan, the height of its underside, and its size. */
 export function box(
   x: number,
   y: number,
@@ -40,7 +40,7 @@ export function ball(
   return { centre: { x, y, z }, size: { x: size[0], y: size[1], z: size[2] }, material };
 }
 
-/** The piece as it stands in the world. */
+/** The piece at its position in the world. */
 export function place(piece: Partial<Piece>, at: PlanarPose): Piece {
   const [c, s] = [cos(at.yaw), sin(at.yaw)];
   const move = <T extends { centre: { x: number; y: number; z: number } }>(thing: T): T => ({
@@ -58,7 +58,7 @@ export function place(piece: Partial<Piece>, at: PlanarPose): Piece {
   };
 }
 
-/** Repeatable choices for things on shelves: a small counter-based generator. */
+/** Repeatable choices for objects on shelves: a small counter-based generator. */
 export function chooser(seed: number): (count: number) => number {
   let state = seed;
   return (count) => {
@@ -69,7 +69,7 @@ export function chooser(seed: number): (count: number) => number {
 
 const THINGS = ['red', 'orange', 'yellow', 'green', 'teal', 'blue', 'purple', 'cream', 'cardboard'] as const;
 
-/** A shelf with its back at x = 0; every level carries books or boxes of many colours. */
+/** A shelf with its back at x = 0; every level holds books or boxes of many colours. */
 export function shelf(
   width: number,
   height: number,

@@ -2,7 +2,7 @@ import type { Material } from '../world.ts';
 
 const flat = (colour: number, unmatched = 0): Material => ({ texture: 'flat', colour, unmatched });
 
-/** What the office is made of. */
+/** The materials of the office. */
 export const OFFICE_MATERIALS = {
   // Plain colours.
   red: flat(0xc0392b),

@@ -1,4 +1,4 @@
-/** What stands in the rooms of the office (office.ts has its plan). */
+/** The furniture in the rooms of the office (office.ts has the plan). */
 import {
   ball,
   box,

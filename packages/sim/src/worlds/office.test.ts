@@ -32,11 +32,11 @@ test('every room can be reached from the start', () => {
   for (const [name, [x, y]] of Object.entries({ ...rooms, dock: [world.dock!.x, world.dock!.y] })) {
     expect(seen.has(key(Math.round(x! / cell), Math.round(y! / cell))), name).toBe(true);
   }
-  // The outer walls are tight.
+  // The outer walls have no gaps.
   expect(seen.size).toBeLessThan((20 * 12) / (cell * cell));
 });
 
-test('people and carts walk through nothing that stands still', () => {
+test('people and carts walk through nothing stationary', () => {
   const nowhere = { x: 1e6, y: 1e6 };
   for (const mover of world.movers) {
     const body = new MovingBody(mover);

@@ -1,4 +1,4 @@
-/** The two greetings of a client (RFC 6347 §4.2.1): the second repeats the first and adds the server's cookie. */
+/** The two ClientHello messages (RFC 6347 §4.2.1): the second repeats the first and adds the server's cookie. */
 
 export interface SplitHello {
   /** Everything but the cookie. */
@@ -6,7 +6,7 @@ export interface SplitHello {
   cookie: Buffer;
 }
 
-/** @returns `null` for what is no ClientHello */
+/** @returns `null` if the body is no ClientHello */
 export function splitClientHello(body: Buffer): SplitHello | null {
   const sessionIdAt = 2 + 32;
   if (body.length <= sessionIdAt) return null;
@@ -20,7 +20,7 @@ export function splitClientHello(body: Buffer): SplitHello | null {
   };
 }
 
-/** Whether the second hello is the first with this cookie, and nothing else. */
+/** Whether the second hello equals the first except for this cookie. */
 export function repeatsWithCookie(first: Buffer, second: Buffer, cookie: Buffer): boolean {
   const [a, b] = [splitClientHello(first), splitClientHello(second)];
   return a !== null && b !== null && a.rest.equals(b.rest) && b.cookie.length > 0 && b.cookie.equals(cookie);

@@ -5,7 +5,7 @@ import { dtlsRecord } from '../testing/dtls-record.ts';
 import { type DtlsEndpoint, DtlsGate } from './dtls-gate.ts';
 import { serializeHandshake } from './handshake-message.ts';
 
-/** Takes everything down; records decrypt where their fragment begins with a 1. */
+/** Records every call. A record decrypts if its fragment begins with a 1. */
 class FakeEndpoint implements DtlsEndpoint {
   readonly role: 'server' | 'client';
   readonly fingerprints = [{ algorithm: 'sha-256', value: '00' }];
@@ -73,7 +73,7 @@ const datagrams = fc
   .map(({ contentType, epoch, sequence, fragment }) => dtlsRecord(contentType, epoch, sequence, fragment));
 
 describe('DtlsGate', () => {
-  it('gives an endpoint without keys neither data nor an end, whatever comes, and never throws', () => {
+  it('never throws, and without keys passes on neither data nor a close, whatever arrives', () => {
     fc.assert(
       fc.property(
         fc.constantFrom('server', 'client'),
@@ -86,7 +86,7 @@ describe('DtlsGate', () => {
           expect(gate.connected).toBe(false);
           expect(endpoint.calls).not.toContain('data');
           expect(endpoint.calls).not.toContain('closed');
-          // A handshake goes as far as the first proof and no further.
+          // A handshake gets as far as the first proof and no further.
           for (const late of [12, 15, 20]) expect(endpoint.calls).not.toContain(`handshake ${late}`);
         },
       ),
@@ -94,7 +94,7 @@ describe('DtlsGate', () => {
     );
   });
 
-  it('takes a second hello that is the first with the cookie, and repeats its flight for a repeated one', () => {
+  it('accepts a second hello that is the first plus the cookie, and repeats its flight for a repeated one', () => {
     const endpoint = new FakeEndpoint('server');
     const refusals = new Refusals();
     const gate = new DtlsGate(endpoint, refusals);
@@ -124,7 +124,7 @@ describe('DtlsGate', () => {
     expect(refusals.get('dtls-early')).toBe(2);
   });
 
-  it('is ended by an authentic alert, fatal or closing, and by no warning', () => {
+  it('ends on an authentic alert that is fatal or a close, but not on a warning', () => {
     const endpoint = new FakeEndpoint('server');
     const gate = new DtlsGate(endpoint, new Refusals());
     endpoint.masterSecret = Buffer.alloc(48);

@@ -1,10 +1,10 @@
 /**
- * Stands before a DTLS 1.2 endpoint that believes what it is told, and lets through what a strict endpoint would act on:
- * whole handshake messages, each once and in order, whose proofs hold; after the handshake nothing but authentic records
- * of its keys. The endpoint keeps its flights, its keys and its timers.
+ * Guards a DTLS 1.2 endpoint that trusts its input. It passes on only what a strict endpoint would act on: during the
+ * handshake, complete messages, each once and in order, with valid proofs; afterwards, only records that are authentic
+ * under the session's keys. The endpoint keeps its own flights, keys and timers.
  *
- * A path's own bytes may still fail a handshake, for nothing in it is authentic before its end; they never start, change or
- * end a session.
+ * An attacker on the path can still make a handshake fail, because nothing in it is authentic before its end. It can
+ * never start, change or end a session.
  */
 import type { KeyObject } from 'node:crypto';
 import type { Refusals } from '../refusal.ts';
@@ -25,29 +25,29 @@ import { ReplayWindow } from './replay-window.ts';
 /** The endpoint behind the gate. */
 export interface DtlsEndpoint {
   readonly role: 'server' | 'client';
-  /** Of the peer's certificate, as its description says. */
+  /** Of the peer's certificate, as the session description states. */
   readonly fingerprints: readonly Fingerprint[];
-  /** That a server gave out; empty before. */
+  /** The cookie that the server issued; empty before that. */
   readonly cookie: Buffer;
   /** `null` until the key exchange. */
   readonly masterSecret: Buffer | null;
   /** The client's and the server's, in that order. */
   readonly randoms: Buffer;
-  /** Every message of the handshake so far, sent and received, as the proofs count them. */
+  /** Every handshake message so far, sent and received, as the proofs cover them. */
   transcript(): Buffer;
-  /** @throws where the record is not authentic */
+  /** @throws if the record is not authentic */
   decrypt(record: DtlsRecord): Buffer;
   /** The next message of the peer. */
   onHandshake(message: HandshakeMessage): void;
-  /** The peer has not had our last flight. */
+  /** The peer has not received our last flight. */
   resendFlight(): void;
   onData(plaintext: Buffer): void;
-  /** The peer has closed the session, or given it up. */
+  /** The peer has closed or aborted the session. */
   onClosed(): void;
   onFailed(error: UnprovenPeerError): void;
 }
 
-/** What may follow each message of the peer; `start` before the first. */
+/** Which messages of the peer may follow each other; `start` before the first. */
 const ORDER: Record<'server' | 'client', Record<number | 'start', readonly number[]>> = {
   server: {
     start: [HandshakeType.clientHello],
@@ -70,9 +70,9 @@ const ORDER: Record<'server' | 'client', Record<number | 'start', readonly numbe
 };
 const ALERT_CLOSE_NOTIFY = 0;
 const ALERT_FATAL = 2;
-/** Encrypted records that overtook the key exchange. */
+/** Limit on encrypted records that overtake the key exchange. */
 const MAX_EARLY_RECORDS = 4;
-/** An endless repetition of somebody's first message must not make us talk for ever. */
+/** Someone who repeats the first message endlessly must not make us answer for ever. */
 const MAX_RESENDS = 20;
 
 export class DtlsGate {
@@ -92,12 +92,12 @@ export class DtlsGate {
     this.#refusals = refusals;
   }
 
-  /** The peer has proved itself, and its data is let through. */
+  /** Whether the peer has proved its identity, so that its data is passed on. */
   get connected(): boolean {
     return this.#state === 'connected';
   }
 
-  /** Never throws for what the datagram holds. */
+  /** Never throws, whatever the datagram contains. */
   onDatagram(datagram: Buffer): void {
     const { records, malformed } = parseRecords(datagram);
     for (const record of records) {
@@ -111,7 +111,7 @@ export class DtlsGate {
 
   #onPlaintext(record: DtlsRecord): void {
     const { contentType, fragment } = record;
-    // It says that encrypted records follow, which their epoch says too.
+    // It announces encrypted records, which their epoch shows anyway.
     if (contentType === ContentType.changeCipherSpec) return;
     if (contentType !== ContentType.handshake || this.#state !== 'handshake') {
       this.#refusals.add('dtls-plaintext');
@@ -128,7 +128,7 @@ export class DtlsGate {
       return;
     }
     const isHandshake = record.contentType === ContentType.handshake;
-    // A repeated last flight may have been sealed only once.
+    // A repeated last flight may have been encrypted only once.
     if (!isHandshake && this.#replay.has(record.sequence)) {
       this.#refusals.add('dtls-replayed');
       return;
@@ -145,7 +145,7 @@ export class DtlsGate {
     else if (record.contentType === ContentType.alert) this.#onAlert(plaintext);
     else if (record.contentType !== ContentType.applicationData) this.#refusals.add('dtls-out-of-order');
     else if (this.#state === 'connected') this.#endpoint.onData(plaintext);
-    // Overtook the peer's Finished: SCTP sends it again.
+    // Overtook the peer's Finished: SCTP retransmits it.
     else this.#refusals.add('dtls-out-of-order');
   }
 
@@ -167,7 +167,7 @@ export class DtlsGate {
       return;
     }
     for (const fragment of fragments) {
-      // Finished is the one message that is encrypted, and the one that must be.
+      // Finished is the only handshake message that is encrypted, and it must be.
       if ((fragment.type === HandshakeType.finished) !== encrypted) {
         this.#refusals.add('dtls-out-of-order');
         continue;
@@ -208,7 +208,7 @@ export class DtlsGate {
     }
   }
 
-  /** A second hello is the first with the cookie that proves the peer's address; there is no third. */
+  /** A second hello must be the first plus the cookie that proves the peer's address; there is no third. */
   #helloFits(type: number, body: Buffer): boolean {
     if (type !== HandshakeType.clientHello || this.#firstHello === null) return true;
     if (this.#assembler.next !== 1) return false;
@@ -233,7 +233,7 @@ export class DtlsGate {
     }
   }
 
-  /** Repeats its last flight who has not had our answer to it. */
+  /** A peer that repeats its last flight has not received our answer. */
   #onRepeated(type: number): void {
     const { role } = this.#endpoint;
     const ended = this.#state === 'connected' && role === 'server' && type === HandshakeType.finished;

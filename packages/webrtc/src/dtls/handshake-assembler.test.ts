@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { HandshakeAssembler } from './handshake-assembler.ts';
 import type { HandshakeFragment } from './handshake-message.ts';
 
-/** Messages, cut into pieces that may overlap, shuffled and doubled. */
+/** Messages, cut into pieces that may overlap, shuffled and duplicated. */
 const cutMessages = fc
   .array(fc.uint8Array({ maxLength: 40 }), { minLength: 1, maxLength: 6 })
   .chain((bodies) =>
@@ -19,7 +19,7 @@ function whole(body: Uint8Array, messageSequence: number): HandshakeFragment {
 }
 
 describe('HandshakeAssembler', () => {
-  it('gives each message once, whole and in order, however its fragments come', () => {
+  it('returns each message once, complete and in order, however its fragments arrive', () => {
     fc.assert(
       fc.property(cutMessages, ({ bodies, cuts, order }) => {
         const pieces = bodies.flatMap((body, n) => {
@@ -55,7 +55,7 @@ describe('HandshakeAssembler', () => {
     );
   });
 
-  it('refuses what contradicts itself, and what is far ahead', () => {
+  it('refuses fragments that contradict each other or are too far ahead', () => {
     const assembler = new HandshakeAssembler();
     const body = Buffer.from([1, 2, 3, 4]);
     const { data, ...rest } = whole(body, 0);
@@ -67,7 +67,7 @@ describe('HandshakeAssembler', () => {
     expect(assembler.peek()).toBeNull();
   });
 
-  it('takes another one in place of a discarded message', () => {
+  it('accepts another message in place of a discarded one', () => {
     const assembler = new HandshakeAssembler();
     assembler.add(whole(Buffer.from([1]), 0));
     assembler.discard();

@@ -6,23 +6,23 @@ const MAX_AHEAD = 8;
 interface Partial {
   type: number;
   body: Buffer;
-  /** One flag a byte: fragments may overlap and come in any order. */
+  /** One flag per byte: fragments may overlap and arrive in any order. */
   come: Uint8Array;
   missing: number;
 }
 
-/** What became of a fragment: `old` belongs to a message that was taken already. */
+/** What happened to a fragment; `old`: its message was taken before. */
 export type FragmentFate = 'kept' | 'old' | 'contradictory' | 'too-far-ahead';
 
 /**
- * Puts handshake messages together from fragments that were lost, doubled or overtaken, and hands them out strictly in the
- * order of their numbers (RFC 6347 §4.2.2 and §4.2.3). Bounded in messages and bytes.
+ * Assembles handshake messages from fragments that may be lost, duplicated or reordered, and returns them strictly in
+ * the order of their numbers (RFC 6347 §4.2.2 and §4.2.3). Bounded in messages and bytes.
  */
 export class HandshakeAssembler {
   #next = 0;
   readonly #partials = new Map<number, Partial>();
 
-  /** Number of the message that is due. */
+  /** Number of the message that is expected next. */
   get next(): number {
     return this.#next;
   }
@@ -48,7 +48,7 @@ export class HandshakeAssembler {
     return 'kept';
   }
 
-  /** The message that is due, once it is whole. It stays until it is {@link take}n or {@link discard}ed. */
+  /** The next message, once it is complete. It stays until {@link take} or {@link discard} is called. */
   peek(): HandshakeMessage | null {
     const partial = this.#partials.get(this.#next);
     if (partial === undefined || partial.missing > 0) return null;
@@ -60,7 +60,7 @@ export class HandshakeAssembler {
     this.#next++;
   }
 
-  /** It was not the peer's: another one of its number may come. */
+  /** The message was not the peer's: another one with its number may come. */
   discard(): void {
     this.#partials.delete(this.#next);
   }

@@ -1,4 +1,4 @@
-/** Handshake messages of DTLS 1.2 (RFC 6347 §4.2.2): 12 bytes of header before each fragment of one. */
+/** Handshake messages of DTLS 1.2 (RFC 6347 §4.2.2): each fragment has a 12-byte header. */
 
 export const HandshakeType = {
   clientHello: 1,
@@ -14,12 +14,12 @@ export const HandshakeType = {
 } as const;
 
 export const HANDSHAKE_HEADER_BYTES = 12;
-/** Certificates are the longest. A peer's is self-signed and has less than 1 KB. */
+/** Certificates are the longest messages. A peer's certificate is self-signed and shorter than 1 KB. */
 export const MAX_MESSAGE_BYTES = 16_384;
 
 export interface HandshakeFragment {
   type: number;
-  /** Of the whole message, bytes. */
+  /** Length of the whole message, bytes. */
   length: number;
   messageSequence: number;
   offset: number;
@@ -27,14 +27,14 @@ export interface HandshakeFragment {
   data: Buffer;
 }
 
-/** A whole message, in the form in which the transcript counts it: as if it had come in one fragment. */
+/** A complete message, in the form in which the transcript includes it: as if it had arrived in one fragment. */
 export interface HandshakeMessage {
   type: number;
   messageSequence: number;
   body: Buffer;
 }
 
-/** @returns the fragments of a record's plaintext, or `null` where it is not made of whole fragments */
+/** @returns the fragments of a record's plaintext, or `null` if it does not consist of whole fragments */
 export function parseHandshakeFragments(plaintext: Buffer): HandshakeFragment[] | null {
   const fragments: HandshakeFragment[] = [];
   let at = 0;

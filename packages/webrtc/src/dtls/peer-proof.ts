@@ -1,6 +1,6 @@
 /**
- * What makes a DTLS peer the one that was signaled: its certificate has the signaled fingerprint, it holds the certificate's
- * key, and it has seen the same handshake as we (RFC 5246 §7.4.3, §7.4.8, §7.4.9; RFC 8122 §6).
+ * Checks that a DTLS peer is the signaled one: its certificate has the signaled fingerprint, it holds the certificate's
+ * private key, and it has seen the same handshake as we have (RFC 5246 §7.4.3, §7.4.8, §7.4.9; RFC 8122 §6).
  */
 import {
   createHash,
@@ -11,13 +11,13 @@ import {
   X509Certificate,
 } from 'node:crypto';
 
-/** Why a peer is not believed. */
+/** Why a peer fails the proof. */
 export type Unproven =
-  | 'fingerprint-mismatch' // the certificate is not the one of the description
-  | 'bad-certificate' // none, or one that cannot be read
-  | 'bad-certificate-verify' // the peer does not hold its certificate's key
-  | 'bad-key-exchange' // the server's key exchange is not signed by its certificate's key
-  | 'bad-finished'; // the peer has seen another handshake, or derived other keys
+  | 'fingerprint-mismatch' // the certificate does not match the description
+  | 'bad-certificate' // none, or unreadable
+  | 'bad-certificate-verify' // the peer does not hold the certificate's private key
+  | 'bad-key-exchange' // the server's key exchange is not signed with its certificate's key
+  | 'bad-finished'; // the peer has seen a different handshake, or derived different keys
 
 export class UnprovenPeerError extends Error {
   override readonly name = 'UnprovenPeerError';
@@ -40,7 +40,7 @@ const FINGERPRINT_HASHES: readonly [name: string, algorithm: string][] = [
   ['sha-384', 'sha384'],
   ['sha-256', 'sha256'],
 ];
-/** Signature schemes that our CertificateRequest and our hello offer, and what they are to Node. */
+/** Signature schemes that our CertificateRequest and our hello offer, and what Node calls them. */
 const SIGNATURE_HASHES: ReadonlyMap<number, { hash: string; key: 'ec' | 'rsa' }> = new Map([
   [0x0403, { hash: 'sha256', key: 'ec' }],
   [0x0401, { hash: 'sha256', key: 'rsa' }],
@@ -50,8 +50,8 @@ const VERIFY_DATA_BYTES = 12;
 const MIN_RSA_BITS = 2048;
 
 /**
- * The key of the peer's certificate, once the certificate is the signaled one. Of the described fingerprints those of the
- * strongest algorithm count, and one of them must match.
+ * Returns the public key of the peer's certificate, after checking that the certificate is the signaled one. Of the
+ * described fingerprints, only those with the strongest algorithm count, and one of them must match.
  *
  * @param body of the Certificate message
  * @throws {UnprovenPeerError}
@@ -71,12 +71,18 @@ export function provenCertificateKey(body: Buffer, fingerprints: readonly Finger
   throw new UnprovenPeerError('bad-certificate');
 }
 
-/** @throws {UnprovenPeerError} @param transcript all messages before this one */
+/**
+ * @param transcript all messages before this one
+ * @throws {UnprovenPeerError}
+ */
 export function checkCertificateVerify(body: Buffer, transcript: Buffer, key: KeyObject): void {
   if (!isSignature(body, 0, transcript, key)) throw new UnprovenPeerError('bad-certificate-verify');
 }
 
-/** @throws {UnprovenPeerError} @param randoms the client's and the server's, 32 bytes each (RFC 8422 §5.4) */
+/**
+ * @param randoms the client's and the server's, 32 bytes each (RFC 8422 §5.4)
+ * @throws {UnprovenPeerError}
+ */
 export function checkServerKeyExchange(body: Buffer, randoms: Buffer, key: KeyObject): void {
   const paramsLength = body.length < 4 ? 0 : 4 + body.readUInt8(3);
   const isNamed = paramsLength > 4 && body.readUInt8(0) === NAMED_CURVE && body.length > paramsLength;
@@ -86,7 +92,10 @@ export function checkServerKeyExchange(body: Buffer, randoms: Buffer, key: KeyOb
   }
 }
 
-/** @throws {UnprovenPeerError} @param transcript all messages before this one */
+/**
+ * @param transcript all messages before this one
+ * @throws {UnprovenPeerError}
+ */
 export function checkFinished(
   body: Buffer,
   transcript: Buffer,
@@ -123,7 +132,7 @@ function matchesFingerprint(der: Buffer, fingerprints: readonly Fingerprint[]): 
   return false;
 }
 
-/** A `digitally-signed` struct (RFC 5246 §4.7) at an offset, which must end the body. */
+/** Verifies a `digitally-signed` struct (RFC 5246 §4.7) at an offset; it must end the body. */
 function isSignature(body: Buffer, at: number, signed: Buffer, key: KeyObject): boolean {
   if (body.length < at + 4 || at + 4 + body.readUInt16BE(at + 2) !== body.length) return false;
   const scheme = SIGNATURE_HASHES.get(body.readUInt16BE(at));

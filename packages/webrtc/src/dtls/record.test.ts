@@ -14,7 +14,7 @@ const records = fc.array(
 );
 
 describe('parseRecords', () => {
-  it('reads what was written, up to the first damage', () => {
+  it('reads back what was written, up to the first damage', () => {
     fc.assert(
       fc.property(records, fc.nat(12), (written, cut) => {
         const bytes = Buffer.concat(

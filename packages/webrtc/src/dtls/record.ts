@@ -1,14 +1,14 @@
-/** DTLS 1.2 records (RFC 6347 §4.1): 13 bytes of header, then the fragment. */
+/** DTLS 1.2 records (RFC 6347 §4.1): a 13-byte header, then the fragment. */
 
 export const ContentType = { changeCipherSpec: 20, alert: 21, handshake: 22, applicationData: 23 } as const;
 
 export const RECORD_HEADER_BYTES = 13;
-/** 2^14 of plaintext, and what a cipher may add (RFC 5246 §6.2.3). */
+/** 2^14 bytes of plaintext, plus what a cipher may add (RFC 5246 §6.2.3). */
 const MAX_FRAGMENT_BYTES = 16_384 + 2048;
 
 export interface DtlsRecord {
   contentType: number;
-  /** As it stands in the header: 0xfefd is DTLS 1.2, 0xfeff DTLS 1.0. */
+  /** As in the header: 0xfefd is DTLS 1.2, 0xfeff DTLS 1.0. */
   version: number;
   epoch: number;
   /** 48 bits. */
@@ -18,10 +18,10 @@ export interface DtlsRecord {
 }
 
 /**
- * The records of a datagram, as views into it.
+ * Parses the records of a datagram, as views into it.
  *
- * @returns the whole records before the first malformed one, and whether there was one: a damaged rest does not spoil the
- * records before it (RFC 6347 §4.1.2.7)
+ * @returns the complete records before the first malformed one, and whether there was a malformed one: damage does not
+ * invalidate the records before it (RFC 6347 §4.1.2.7)
  */
 export function parseRecords(datagram: Buffer): { records: DtlsRecord[]; malformed: boolean } {
   const records: DtlsRecord[] = [];

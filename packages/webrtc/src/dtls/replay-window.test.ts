@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { ReplayWindow } from './replay-window.ts';
 
 describe('ReplayWindow', () => {
-  it('knows what came among the last 64, and takes everything older for come', () => {
+  it('knows which of the last 64 were received, and counts everything older as received', () => {
     fc.assert(
       fc.property(fc.array(fc.nat(300), { maxLength: 200 }), fc.nat(300), (marked, asked) => {
         const window = new ReplayWindow();
@@ -16,7 +16,7 @@ describe('ReplayWindow', () => {
     );
   });
 
-  it('works at the end of 48 bits', () => {
+  it('works at the end of the 48-bit range', () => {
     const window = new ReplayWindow();
     window.mark(2 ** 48 - 2);
     expect(window.has(2 ** 48 - 1)).toBe(false);

@@ -1,14 +1,14 @@
 /**
- * Which records of an epoch have come already (RFC 6347 §4.1.2.6): a window of 64 sequence numbers that slides with the
- * highest authentic one. What is older than the window counts as come.
+ * Records which sequence numbers of an epoch have been received (RFC 6347 §4.1.2.6): a window of 64 numbers that slides
+ * with the highest authentic one. Anything older than the window counts as received.
  */
 export class ReplayWindow {
   #highest = -1;
-  /** Bit n: `highest − n` has come. Two halves of 32, because shifts of numbers are 32 bits wide. */
+  /** Bit n: `highest − n` was received. Two halves of 32 bits, because JavaScript shifts 32-bit numbers. */
   #low = 0;
   #high = 0;
 
-  /** Ask before a record is decrypted; {@link mark} it once it has proved authentic. */
+  /** Call before decrypting a record; call {@link mark} once the record has proved authentic. */
   has(sequence: number): boolean {
     const age = this.#highest - sequence;
     if (age < 0) return false;

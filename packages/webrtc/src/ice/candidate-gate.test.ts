@@ -16,7 +16,7 @@ const candidate = (
 };
 
 describe('CandidateGate', () => {
-  it('keeps candidates until the description is set, then gives them out in the order they came', () => {
+  it('keeps candidates until the description is set, then returns them in order of arrival', () => {
     const gate = new CandidateGate();
     const early = [candidate('a'), candidate(), candidate('a')];
     expect(early.map((one) => gate.take(one))).toEqual(['wait', 'wait', 'wait']);
@@ -26,7 +26,7 @@ describe('CandidateGate', () => {
     expect(gate.waiting).toBe(0);
   });
 
-  it('an end of candidates is told as such, whenever it comes', () => {
+  it('reports an end of candidates as such, whenever it arrives', () => {
     const gate = new CandidateGate();
     expect(gate.take({ candidate: '' })).toBe('end');
     expect(gate.open(['a'])).toEqual([]);
@@ -34,14 +34,14 @@ describe('CandidateGate', () => {
     expect(gate.take(candidate('a'))).toBe('add');
   });
 
-  it('candidates of the next generation wait for its description, those of the last are left out', () => {
+  it('candidates of the next generation wait for its description; those of the last are left out', () => {
     const gate = new CandidateGate();
     gate.open(['first']);
     const next = candidate('second');
     expect(gate.take(next)).toBe('wait');
     expect(gate.take(candidate('first'))).toBe('add');
     gate.hold();
-    // It may come again, as where a description changes without a restart of ICE.
+    // The fragment may recur, for example if a description changes without an ICE restart.
     const unsure = candidate('first');
     expect(gate.take(unsure)).toBe('wait');
     const unnamed = candidate();
@@ -54,7 +54,7 @@ describe('CandidateGate', () => {
     expect(gate.take(next)).toBe('old-generation');
   });
 
-  it('reads the fragment from the candidate itself where it stands nowhere else', () => {
+  it('reads the fragment from the candidate itself if it is given nowhere else', () => {
     const gate = new CandidateGate();
     gate.open(['a']);
     gate.hold();
@@ -64,7 +64,7 @@ describe('CandidateGate', () => {
     expect(gate.take({ candidate: `${text} ufrag b` })).toBe('add');
   });
 
-  it('leaves out what is no candidate and what is not UDP, whether or not there is a description', () => {
+  it('leaves out invalid candidates and those that are not UDP, with or without a description', () => {
     const gate = new CandidateGate();
     for (let round = 0; round < 2; round++) {
       for (const text of [
@@ -82,7 +82,7 @@ describe('CandidateGate', () => {
     expect(gate.waiting).toBe(0);
   });
 
-  it('bounds what waits, what is added and what is looked up', () => {
+  it('limits how many candidates wait, are added and are looked up', () => {
     const gate = new CandidateGate({ waiting: 3, added: 4, names: 2 });
     const early = [1, 2, 3, 4].map(() => candidate());
     expect(early.map((one) => gate.take(one))).toEqual(['wait', 'wait', 'wait', 'queue-full']);
@@ -95,7 +95,7 @@ describe('CandidateGate', () => {
     expect(gate.take(name())).toBe('add');
   });
 
-  it('remembers a bounded number of former generations', () => {
+  it('remembers a limited number of former generations', () => {
     const gate = new CandidateGate();
     for (let generation = 0; generation < 100; generation++) gate.open([`g${generation}`]);
     expect(gate.take(candidate('g98'))).toBe('old-generation');
@@ -104,7 +104,7 @@ describe('CandidateGate', () => {
 });
 
 describe('takeCandidates', () => {
-  it('takes candidates and their end out, and leaves the rest as it was', () => {
+  it('removes candidates and their end, and leaves the rest unchanged', () => {
     const line = 'candidate:1 1 UDP 2122252543 192.0.2.1 5000 typ host';
     const sdp = `v=0\r\nm=audio 9 x\r\na=ice-ufrag:ab\r\na=${line}\r\na=mid:0\r\nm=video 9 x\r\na=end-of-candidates\r\na=${line}\r\na=ice-ufrag:cd\r\n`;
     expect(takeCandidates(sdp)).toEqual({
@@ -117,7 +117,7 @@ describe('takeCandidates', () => {
     });
   });
 
-  it('takes any text', () => {
+  it('accepts any text', () => {
     const piece = fc.constantFrom(
       'm=audio\r\n',
       'a=candidate:x\n',

@@ -1,34 +1,34 @@
 /**
- * Which of a peer's ICE candidates may go to the ICE agent, and when: none before the description that it belongs to is
- * set, none of another generation, none that could not be used. Pure.
+ * Decides which of a peer's ICE candidates may go to the ICE agent, and when: none before its description is set, none
+ * of another generation, none that is unusable. Pure.
  */
 import type { IceCandidate } from '@farpoint/protocol';
 
 /** Why a candidate is left out. */
 export const candidateRefusals = [
-  'malformed', // no candidate of RFC 8839
-  'not-udp', // points over TCP would arrive late in heaps
-  'old-generation', // of a description that another has replaced
-  'queue-full', // too many wait for their description; the oldest goes
-  'too-many', // more than are meant to connect anything
+  'malformed', // not a candidate as in RFC 8839
+  'not-udp', // over TCP, points would arrive late and in bursts
+  'old-generation', // its description has been replaced by another
+  'queue-full', // too many candidates wait for their description; the oldest is dropped
+  'too-many', // more than any real connection needs
   'unusable', // the ICE agent refuses it
 ] as const;
 export type CandidateRefusal = (typeof candidateRefusals)[number];
 
-/** `wait`: the gate keeps it until {@link CandidateGate.open}. `end`: there are no more, as far as the peer knows. */
+/** `wait`: the gate keeps it until {@link CandidateGate.open}. `end`: the peer knows no more candidates. */
 export type CandidateVerdict = 'add' | 'wait' | 'end' | CandidateRefusal;
 
 export interface CandidateLimits {
-  /** That wait for their description. */
+  /** Candidates that wait for their description. */
   waiting: number;
-  /** Of one description. */
+  /** Candidates added for one description. */
   added: number;
-  /** Of those, names that have to be looked up. */
+  /** How many of those are names that need a look-up. */
   names: number;
 }
 
 const LIMITS: CandidateLimits = { waiting: 64, added: 128, names: 16 };
-/** Username fragments of former generations that are remembered. */
+/** How many username fragments of former generations are remembered. */
 const MAX_PAST_FRAGMENTS = 32;
 
 // candidate:foundation component transport priority address port typ …
@@ -38,7 +38,7 @@ const CANDIDATE =
 export class CandidateGate {
   readonly #limits: CandidateLimits;
   #waiting: IceCandidate[] = [];
-  /** Username fragments of the description that is set; `null` while one is awaited. */
+  /** Username fragments of the current description; `null` while one is awaited. */
   #current: ReadonlySet<string> | null = null;
   readonly #past = new Set<string>();
   #added = 0;
@@ -52,7 +52,7 @@ export class CandidateGate {
     return this.#waiting.length;
   }
 
-  /** Another description is awaited: what comes may belong to it. */
+  /** Another description is awaited, and candidates that arrive now may belong to it. */
   hold(): void {
     for (const fragment of this.#current ?? []) this.#past.add(fragment);
     for (const fragment of this.#past) {
@@ -63,9 +63,9 @@ export class CandidateGate {
   }
 
   /**
-   * A description with these username fragments is set.
+   * A description with these username fragments has been set.
    *
-   * @returns what waited for it, in the order it came; each is to be taken again
+   * @returns the candidates that waited for it, in order of arrival; submit each of them again
    */
   open(fragments: Iterable<string>): IceCandidate[] {
     this.hold();
@@ -103,19 +103,21 @@ export class CandidateGate {
 }
 
 export interface TakenApart {
-  /** Without candidates, and without saying that there are no more. */
+  /** Without candidates and without the end-of-candidates line. */
   sdp: string;
   candidates: IceCandidate[];
   /** The description's username fragments. */
   fragments: Set<string>;
 }
 
-/** Takes the candidates out of a session description, to go through the gate as trickled ones do. Takes any text. */
+/**
+ * Removes the candidates from a session description, so that they pass the gate like trickled ones. Accepts any text.
+ */
 export function takeCandidates(sdp: string): TakenApart {
   const candidates: IceCandidate[] = [];
   const fragments = new Set<string>();
   let mLineIndex = -1;
-  // Lines with what ends them, so that nothing else changes.
+  // Lines keep their line endings, so that nothing else changes.
   const lines = sdp.split(/(?<=\n)/).filter((line) => {
     const text = line.trimEnd();
     if (text.startsWith('m=')) mLineIndex++;

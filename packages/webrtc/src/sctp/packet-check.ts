@@ -1,6 +1,7 @@
 /**
- * Whether an SCTP packet is framed as RFC 9260 §3 says. werift's parser trusts every length in it: a chunk or parameter of
- * length 0 would keep it busy for ever, an overlapping list of gaps for seconds.
+ * Checks that an SCTP packet is framed according to RFC 9260 §3. werift's parser trusts every length in the packet: a
+ * chunk or parameter of length 0 would make it loop for ever, an overlapping list of gaps would keep it busy for
+ * seconds.
  */
 
 const COMMON_HEADER_BYTES = 12;
@@ -8,7 +9,7 @@ const CHUNK_HEADER_BYTES = 4;
 const PARAMETER_HEADER_BYTES = 4;
 const SACK_CHUNK = 3;
 
-/** Chunks that werift knows: fewest bytes of the body, and where in it a list of parameters begins. */
+/** Chunks that werift knows: minimum length of the body, and where in it a list of parameters begins. */
 const CHUNKS: ReadonlyMap<number, { min: number; parameters?: number }> = new Map([
   [0, { min: 12 }], // DATA
   [1, { min: 16, parameters: 16 }], // INIT
@@ -61,7 +62,7 @@ function areParameters(list: Buffer): boolean {
   return true;
 }
 
-/** Gap blocks stand in order and apart (RFC 9260 §3.3.4), so that all of them hold 65,535 numbers at most. */
+/** Gap blocks must be in order and disjoint (RFC 9260 §3.3.4), so that together they cover at most 65,535 numbers. */
 function isSack(body: Buffer): boolean {
   const [gaps, duplicates] = [body.readUInt16BE(8), body.readUInt16BE(10)];
   if (body.length !== 12 + 4 * (gaps + duplicates)) return false;

@@ -4,7 +4,7 @@ import { isUserMessage } from './user-message-check.ts';
 const open = Buffer.from([3, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0x61, 0x62, 0x63]);
 
 describe('isUserMessage', () => {
-  it('takes messages of channels, and openings whose lengths fit', () => {
+  it('accepts messages of channels, and open messages whose lengths fit', () => {
     for (const protocol of [51, 53, 56, 57])
       expect(isUserMessage(protocol, Buffer.alloc(0), false)).toBe(true);
     expect(isUserMessage(50, open, false)).toBe(true);

@@ -1,4 +1,4 @@
-/** Whether a message of SCTP can be one of a data channel (RFC 8831 §8, RFC 8832 §5). */
+/** Checks that an SCTP message is valid for a data channel (RFC 8831 §8, RFC 8832 §5). */
 
 export const PayloadProtocol = {
   dcep: 50,
@@ -9,11 +9,11 @@ export const PayloadProtocol = {
 } as const;
 export const DCEP_OPEN = 3;
 const DCEP_ACK = 2;
-/** Type, channel type, priority, reliability, lengths of label and protocol. */
+/** Message type, channel type, priority, reliability, lengths of label and protocol. */
 const OPEN_BYTES = 12;
 const KNOWN = new Set<number>(Object.values(PayloadProtocol));
 
-/** @param isOpen whether there is a channel on the stream */
+/** @param isOpen whether the stream has a channel */
 export function isUserMessage(payloadProtocol: number, data: Buffer, isOpen: boolean): boolean {
   if (!KNOWN.has(payloadProtocol)) return false;
   if (payloadProtocol !== PayloadProtocol.dcep) return true;

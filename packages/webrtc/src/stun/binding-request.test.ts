@@ -17,12 +17,12 @@ const PASSWORD = 'VOkJxbRl1RmTxUk/WvJxBt';
 const passwordOf = (fragment: string) => (fragment === 'evtj' ? PASSWORD : undefined);
 
 describe('isAuthenticRequest', () => {
-  it('takes the sample request of RFC 5769', () => {
+  it('accepts the sample request of RFC 5769', () => {
     expect(stunKind(SAMPLE_REQUEST)).toBe('request');
     expect(isAuthenticRequest(SAMPLE_REQUEST, passwordOf)).toBe(true);
   });
 
-  it('refuses another password, another fragment, and no seal', () => {
+  it('refuses another password, another fragment, and a missing MESSAGE-INTEGRITY', () => {
     expect(isAuthenticRequest(SAMPLE_REQUEST, () => 'another')).toBe(false);
     expect(isAuthenticRequest(SAMPLE_REQUEST, () => undefined)).toBe(false);
     const unsealed = Buffer.from(SAMPLE_REQUEST.subarray(0, SAMPLE_REQUEST.length - 32));
@@ -30,18 +30,18 @@ describe('isAuthenticRequest', () => {
     expect(isAuthenticRequest(unsealed, passwordOf)).toBe(false);
   });
 
-  it('refuses every change of a bit before the end of the seal', () => {
+  it('refuses every changed bit up to the end of the MESSAGE-INTEGRITY', () => {
     const sealed = SAMPLE_REQUEST.length - 8;
     for (let bit = 0; bit < sealed * 8; bit++) {
       const changed = Buffer.from(SAMPLE_REQUEST);
       changed[bit >> 3] = (changed[bit >> 3] as number) ^ (1 << (bit & 7));
-      // The length in the header is not sealed as it stands; a wrong one fits no datagram.
+      // The header's length is not authenticated as it stands, but a wrong one does not fit the datagram.
       if (stunKind(changed) !== 'request') continue;
       expect(isAuthenticRequest(changed, passwordOf), `bit ${bit}`).toBe(false);
     }
   });
 
-  it('refuses attributes after the seal: nobody vouches for them', () => {
+  it('refuses attributes after the MESSAGE-INTEGRITY, which nothing authenticates', () => {
     const useCandidate = Buffer.from('00250000', 'hex');
     const appended = Buffer.concat([SAMPLE_REQUEST.subarray(0, SAMPLE_REQUEST.length - 8), useCandidate]);
     appended.writeUInt16BE(appended.length - 20, 2);
@@ -68,11 +68,11 @@ describe('stunKind', () => {
     ['0111', 'response'],
     ['0011', 'indication'],
     ['0001', 'request'],
-  ])('tells the class of %s', (type, kind) => {
+  ])('recognises the class of %s', (type, kind) => {
     expect(stunKind(Buffer.concat([Buffer.from(type, 'hex'), SAMPLE_REQUEST.subarray(2)]))).toBe(kind);
   });
 
-  it('tells STUN from DTLS and RTP', () => {
+  it('distinguishes STUN from DTLS and RTP', () => {
     for (const first of [20, 22, 23, 63, 128, 191]) {
       expect(stunKind(Buffer.from(SAMPLE_REQUEST).fill(first, 0, 1).fill(0, 4, 8))).toBeNull();
     }

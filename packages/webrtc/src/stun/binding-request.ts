@@ -1,4 +1,4 @@
-/** Whether a connectivity check is one of our session (RFC 8489 §9.1, §14.5; RFC 8445 §7.3). */
+/** Checks that a connectivity check belongs to our session (RFC 8489 §9.1, §14.5; RFC 8445 §7.3). */
 import { createHmac, timingSafeEqual } from 'node:crypto';
 
 const HEADER_BYTES = 20;
@@ -9,7 +9,7 @@ const FINGERPRINT = 0x8028;
 const INTEGRITY_BYTES = 20;
 const MAX_USERNAME_BYTES = 513;
 
-/** `request`, `response` (or error), `indication`; `null` for what is no STUN message. */
+/** `request`, `response` (including error responses) or `indication`; `null` for anything but a STUN message. */
 export type StunKind = 'request' | 'response' | 'indication';
 
 export function stunKind(datagram: Buffer): StunKind | null {
@@ -22,9 +22,9 @@ export function stunKind(datagram: Buffer): StunKind | null {
 }
 
 /**
- * @param passwordOf our password for a username fragment of ours, `undefined` for one that is not
- * @returns whether the request carries our fragment and was sealed with its password, with nothing but a fingerprint after
- * the seal
+ * @param passwordOf returns our password for a username fragment of ours, `undefined` for any other
+ * @returns whether the request carries our fragment and a MESSAGE-INTEGRITY made with its password, followed by nothing
+ * but a fingerprint
  */
 export function isAuthenticRequest(
   datagram: Buffer,
@@ -53,7 +53,7 @@ export function isAuthenticRequest(
   return false;
 }
 
-/** The seal covers what stands before it, with a length as if it were the last attribute. */
+/** The MESSAGE-INTEGRITY covers everything before it, with the length set as if it were the last attribute. */
 function isSealed(datagram: Buffer, sealAt: number, password: string): boolean {
   const covered = Buffer.from(datagram.subarray(0, sealAt));
   covered.writeUInt16BE(sealAt + 4 + INTEGRITY_BYTES - HEADER_BYTES, 2);

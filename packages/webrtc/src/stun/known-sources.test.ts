@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { KnownSources } from './known-sources.ts';
 
 describe('KnownSources', () => {
-  it('knows an address by host and port', () => {
+  it('identifies an address by host and port', () => {
     const sources = new KnownSources();
     sources.add('192.0.2.1', 1000);
     expect(sources.has('192.0.2.1', 1000)).toBe(true);
@@ -11,7 +11,7 @@ describe('KnownSources', () => {
     expect(sources.has('192.0.2.2', 1000)).toBe(false);
   });
 
-  it('forgets the oldest of too many, also where it was asked for last', () => {
+  it('when full, forgets the oldest address, even if it was the last one looked up', () => {
     const sources = new KnownSources();
     sources.add('192.0.2.1', 0);
     expect(sources.has('192.0.2.1', 0)).toBe(true);

@@ -1,10 +1,10 @@
-/** More addresses than a peer's interfaces and NATs make are not one peer's. */
+/** A single peer's interfaces and NATs never need more addresses than this. */
 const MAX_SOURCES = 32;
 
-/** The addresses from which authentic connectivity checks came; the oldest gives way. */
+/** The addresses that sent authentic connectivity checks. When full, the oldest is dropped. */
 export class KnownSources {
   readonly #known = new Set<string>();
-  /** Data comes from the same address again and again. */
+  /** Cached, because data comes from the same address again and again. */
   #lastHost = '';
   #lastPort = -1;
 

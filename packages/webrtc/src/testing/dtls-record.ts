@@ -1,4 +1,4 @@
-/** For tests: a DTLS 1.2 record as it stands on the wire. */
+/** For tests: a DTLS 1.2 record as on the wire. */
 export function dtlsRecord(
   contentType: number,
   epoch: number,

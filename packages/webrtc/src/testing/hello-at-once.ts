@@ -5,8 +5,8 @@ interface DtlsClientShape {
 }
 
 /**
- * Makes a werift peer that answers begin its DTLS handshake in the moment its own connectivity checks are through, as other
- * stacks do; werift waits 100 ms. Call it once the connection has its transport.
+ * Makes an answering werift peer begin its DTLS handshake as soon as its own connectivity checks succeed, as other
+ * stacks do; werift waits for 100 ms. Call it once the connection has its transport.
  */
 export function helloAtOnce(connection: RTCPeerConnection): void {
   for (const transport of connection.dtlsTransports) {
@@ -17,7 +17,7 @@ export function helloAtOnce(connection: RTCPeerConnection): void {
       const connect = client?.connect?.bind(client);
       if (client !== undefined && connect !== undefined) {
         client.connect = async () => undefined;
-        // What becomes of it shows in the connection's state.
+        // The connection's state shows the result.
         connect().catch(() => undefined);
       }
       return started;

@@ -1,4 +1,4 @@
-/** For tests: a guarded peer that offers, and an unguarded one of werift's that answers and may misbehave. */
+/** For tests: a guarded peer that offers, and an unguarded werift peer that answers and may misbehave. */
 import {
   MediaStream,
   type RTCDataChannel,
@@ -19,13 +19,13 @@ interface DtlsKeys {
 }
 
 export interface LoopbackOptions {
-  /** Of the answering peer's certificate. */
+  /** Keys of the answering peer's certificate. */
   keys?: DtlsKeys | undefined;
-  /** Changes the answer on its way. */
+  /** Modifies the answer in transit. */
   onAnswer?: ((sdp: string) => string) | undefined;
   /** Gets the answering peer's DTLS socket before its handshake begins. */
   onClientSocket?: ((socket: DtlsSocketShape) => void) | undefined;
-  /** The guarded peer answers, in DTLS as a client, and the other one offers. */
+  /** The guarded peer answers, as the DTLS client, and the other one offers. */
   guardedAnswers?: boolean | undefined;
   /** Gets the guarded peer's transport before anything happens on it. */
   onGuardedTransport?: ((transport: RTCDtlsTransport) => void) | undefined;
@@ -39,7 +39,7 @@ export class LoopbackPeers {
   readonly faults: unknown[] = [];
   unproven: UnprovenPeerError | null = null;
   toGuarded!: RTCDataChannel;
-  /** Throws in the guarded peer's listener. */
+  /** May throw inside the guarded peer's listener. */
   onHeard: ((text: string) => void) | null = null;
   readonly #waiters = new Set<() => void>();
 
@@ -128,7 +128,7 @@ export class LoopbackPeers {
     return this.guarded.connectionState === 'connected';
   }
 
-  /** Sends a text over the data channel and waits until the guarded peer has heard it. */
+  /** Sends a text over the data channel and waits until the guarded peer has received it. */
   async exchange(text: string): Promise<void> {
     await new Promise<void>((resolve) => {
       if (this.toGuarded.readyState === 'open') return resolve();
@@ -138,12 +138,12 @@ export class LoopbackPeers {
     await this.until(() => this.heard.includes(text));
   }
 
-  /** The other peer sends a datagram as its own. */
+  /** Makes the other peer send a datagram from its own socket. */
   async inject(datagram: Buffer): Promise<void> {
     await this.other.iceTransports[0]?.connection.send(datagram);
   }
 
-  /** Where the guarded peer hears the other one. */
+  /** The address at which the guarded peer receives from the other one. */
   get guardedAddress(): readonly [host: string, port: number] {
     return this.other.iceTransports[0]?.connection.nominated?.remoteAddr as [string, number];
   }

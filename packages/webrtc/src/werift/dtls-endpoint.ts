@@ -1,4 +1,4 @@
-/** werift's DTLS socket, as the gate wants to see it. */
+/** Adapts werift's DTLS socket to the interface of the gate. */
 import { Buffer } from 'node:buffer';
 import type { RTCDtlsTransport } from 'werift';
 import type { DtlsEndpoint } from '../dtls/dtls-gate.ts';
@@ -41,7 +41,7 @@ export interface DtlsSocketShape {
 const SERVER_SESSION = 2;
 /** An explicit nonce and a tag (RFC 5288 §3). */
 const MIN_SEALED_BYTES = 8 + 16;
-/** Flight in which a server has asked for its cookie. */
+/** The flight in which a server requests its cookie. */
 const COOKIE_FLIGHT = 2;
 
 /** @throws {WeriftShapeError} */
@@ -172,8 +172,9 @@ export class WeriftDtlsEndpoint implements DtlsEndpoint {
       if (first.fragment[0] === HandshakeType.helloVerifyRequest) this.#cookieRequest = bytes;
       return;
     }
-    // werift begins the encrypted records anew after its Finished, and would seal one of them with the same nonce
-    // (RFC 5288 §3 forbids it: two records of one nonce give both plaintexts and the key of their tags away).
+    // werift restarts the numbering of encrypted records after its Finished, and would encrypt one of them with the
+    // same nonce. RFC 5288 §3 forbids this: two records with one nonce reveal both plaintexts and the authentication
+    // key.
     const { dtls } = this.#socket;
     dtls.recordSequenceNumber = Math.max(dtls.recordSequenceNumber, first.sequence);
   }

@@ -35,14 +35,14 @@ async function connect(options: LoopbackOptions = {}): Promise<LoopbackPeers> {
   return peers;
 }
 
-/** The description of another certificate, whatever the first byte of the real one is. */
+/** Replaces the described fingerprint, whatever the first byte of the real one is. */
 function withAnotherFingerprint(sdp: string): string {
   return sdp.replaceAll(/(?<=fingerprint:sha-256 )../g, (byte) =>
     byte.toUpperCase() === 'FF' ? '00' : 'FF',
   );
 }
 
-/** A certificate, and the key of another one. */
+/** A certificate with the key of another one. */
 async function stolenCertificate() {
   const signatureHash = { hash: 4, signature: 3 } as const;
   const [victim, thief] = await Promise.all([0, 0].map(() => createSelfSignedCertificate(signatureHash)));
@@ -54,7 +54,7 @@ function plainRecord(contentType: number, fragment: readonly number[], epoch = 0
   return Buffer.concat([header, Buffer.from(fragment)]);
 }
 
-/** A ClientHello that begins a new handshake, 105 bytes with its headers. */
+/** A ClientHello that begins a new handshake, 105 bytes including headers. */
 function clientHello(): Buffer {
   const body = [0xfe, 0xfd, ...new Array(32).fill(7), 0, 0, 0, 2, 0xc0, 0x2b, 1, 0, ...new Array(38).fill(0)];
   const header = [1, 0, 0, body.length, 0, 0, 0, 0, 0, 0, 0, body.length];
@@ -65,12 +65,12 @@ const closeAlert = plainRecord(21, [1, 0]);
 
 for (const guardedAnswers of [false, true]) {
   describe(`a guarded connection that ${guardedAnswers ? 'answers' : 'offers'}`, () => {
-    it('connects with the peer of the description, and refuses nothing of it', async () => {
+    it('connects with the described peer, and refuses nothing from it', async () => {
       const peers = await connect({ guardedAnswers });
       expect([...peers.refusals.entries()]).toEqual([]);
     });
 
-    it('fails where the peer does not hold the key of its certificate', async () => {
+    it('fails if the peer does not hold the key of its certificate', async () => {
       const peers = await open({ guardedAnswers, keys: await stolenCertificate() });
       await peers.until(() => peers.unproven !== null);
       expect(peers.unproven?.reason).toBe(guardedAnswers ? 'bad-key-exchange' : 'bad-certificate-verify');
@@ -81,7 +81,7 @@ for (const guardedAnswers of [false, true]) {
 }
 
 describe('the handshake', () => {
-  it('fails where the certificate is not the described one', async () => {
+  it('fails if the certificate is not the described one', async () => {
     const peers = await open({ onAnswer: withAnotherFingerprint });
     await peers.until(() => peers.unproven !== null);
     expect(peers.unproven?.reason).toBe('fingerprint-mismatch');
@@ -89,7 +89,7 @@ describe('the handshake', () => {
     expect(peers.heard).toEqual([]);
   });
 
-  it('fails where Finished does not prove that both saw the same', async () => {
+  it('fails if Finished does not prove that both saw the same handshake', async () => {
     const peers = await open({
       onClientSocket: (socket) => {
         Object.assign(socket.cipher, {
@@ -101,12 +101,12 @@ describe('the handshake', () => {
     expect(peers.unproven?.reason).toBe('bad-finished');
   });
 
-  it('takes a hello that came before the transport was ready, without a second one', async () => {
+  it('accepts a hello that arrived before the transport was ready, without a second one', async () => {
     let hellos = 0;
     const greeted = Promise.withResolvers<void>();
     const peers = await open({
       onGuardedTransport: (transport) => {
-        // As a slow check of ours does: the peer's own is through already.
+        // As with a slow check of ours: the peer's own check has already succeeded.
         const start = transport.start.bind(transport);
         transport.start = async () => {
           await greeted.promise;
@@ -130,7 +130,7 @@ describe('the handshake', () => {
     await peers.exchange('hello');
   });
 
-  it('seals no two records with one nonce', async () => {
+  it('never encrypts two records with one nonce', async () => {
     const sequences: number[] = [];
     const peers = await open({
       onGuardedTransport: (transport) => {
@@ -150,14 +150,14 @@ describe('the handshake', () => {
     expect(new Set(sequences).size).toBe(sequences.length);
   });
 
-  it('survives flights that are lost, doubled and turned round', async () => {
+  it('survives flights that are lost, duplicated and reordered', async () => {
     let sent = 0;
     const peers = await open({
       onClientSocket: (socket) => {
         const send = socket.transport.send;
         const held: Buffer[] = [];
         socket.transport.send = async (bytes) => {
-          // The last flight's first copy comes in the wrong order, and twice.
+          // The first copy of the last flight arrives in the wrong order, and twice.
           if (bytes[0] === 22 && bytes[13] !== 1 && sent < 5) held.push(bytes);
           else if (held.length === 0) return send(bytes);
           else held.push(bytes);
@@ -175,7 +175,7 @@ describe('the handshake', () => {
 });
 
 describe('a running session', () => {
-  it('is not ended by plaintext of the peer’s own address', async () => {
+  it('plaintext from the peer’s own address does not end it', async () => {
     const peers = await connect();
     for (const datagram of [
       closeAlert,
@@ -190,7 +190,7 @@ describe('a running session', () => {
     expect(peers.connected).toBe(true);
   });
 
-  it('is not ended by plaintext that calls itself encrypted', async () => {
+  it('plaintext that claims to be encrypted does not end it', async () => {
     const peers = await connect();
     await peers.inject(plainRecord(21, [1, 0], 1));
     await peers.inject(plainRecord(21, new Array(40).fill(0), 1));
@@ -200,7 +200,7 @@ describe('a running session', () => {
     await peers.exchange('still here');
   });
 
-  it('hears nothing of a stranger: no alert, no hello, no unsealed connectivity check', async () => {
+  it('hears nothing from a stranger: no alert, no hello, no unauthenticated connectivity check', async () => {
     const peers = await connect();
     const [host, port] = peers.guardedAddress;
     const stranger = createSocket('udp4').bind(0);
@@ -217,7 +217,8 @@ describe('a running session', () => {
     await peers.until(() => peers.refusals.get('stun-unauthenticated') === 1);
     await peers.until(() => peers.refusals.get('unknown-source') === 2);
     await peers.exchange('still here');
-    // What is sealed with the session's password is answered, and it alone: an answer to the others came before it.
+    // Only the request authenticated with the session's password is answered: an answer to the others would have come
+    // first.
     const { localPassword } = peers.guarded.iceTransports[0]?.connection ?? { localPassword: '' };
     const sealed = new Message(1, 0)
       .setAttribute('USERNAME', `${peers.guarded.iceTransports[0]?.connection.localUsername}:x`)
@@ -230,7 +231,7 @@ describe('a running session', () => {
     expect(stunKind(answers[0] as Buffer)).toBe('response');
   });
 
-  it('takes a record once', async () => {
+  it('accepts a record once', async () => {
     const records: Buffer[] = [];
     const peers = await connect({
       onClientSocket: (socket) => {
@@ -248,7 +249,7 @@ describe('a running session', () => {
     expect(peers.heard).toEqual(['hello', 'still here']);
   });
 
-  it('ends when the peer says so under its keys', async () => {
+  it('ends when the peer closes it under its keys', async () => {
     const peers = await connect();
     const sealed = (
       peers.socket.cipher as unknown as { encryptPacket(packet: unknown): { serialize(): Buffer } }
@@ -275,7 +276,7 @@ describe('a running session', () => {
     expect(await closed).toBe('closed');
   });
 
-  it('survives malformed SCTP and messages that cannot be, of a peer that has its keys', async () => {
+  it('survives malformed SCTP and invalid messages from a peer that has the keys', async () => {
     const peers = await connect();
     const transport = peers.other.dtlsTransports[0];
     const association = peers.guarded.sctpTransport?.sctp as unknown as { localVerificationTag: number };
@@ -293,7 +294,7 @@ describe('a running session', () => {
     await transport?.sendData(packet(130, 0, 0, 8, 0, 13, 0, 0));
     await transport?.sendData(packet(77, 0, 0, 4));
     await peers.until(() => peers.refusals.get('sctp-malformed') === 4);
-    // Well framed, and two openings beside each other: RFC 9260 forbids it.
+    // Well framed, but two INIT chunks in one packet, which RFC 9260 forbids.
     const init = [1, 0, 0, 20, ...new Array(16).fill(1)];
     await transport?.sendData(packet(...init, ...init));
     await transport?.sendData(packet(4, 0, 0, 8, 0, 1, 0, 4).fill(0, 8, 12));
@@ -306,7 +307,7 @@ describe('a running session', () => {
     await peers.exchange('still here');
   });
 
-  it('tells of a listener that throws, and lives on', async () => {
+  it('reports a listener that throws, and keeps working', async () => {
     const peers = await connect();
     peers.onHeard = () => {
       throw new Error('a fault of ours');
@@ -317,7 +318,7 @@ describe('a running session', () => {
     await peers.exchange('still here');
   });
 
-  it('announces an unordered channel with a lifetime as RFC 8832 has it', async () => {
+  it('announces an unordered channel with a lifetime as RFC 8832 requires', async () => {
     const peers = await connect();
     const opened = new Promise<boolean>((resolve) =>
       peers.other.onDataChannel.subscribe((channel) => {
@@ -330,7 +331,7 @@ describe('a running session', () => {
 });
 
 describe('guardConnection', () => {
-  it('refuses a connection that is under way', () => {
+  it('refuses a connection that is already under way', () => {
     const connection = new RTCPeerConnection({ iceServers: [] });
     cleanups.push(() => connection.close());
     connection.createDataChannel('early');

@@ -8,9 +8,9 @@ import { useKeyObjects } from './key-objects.ts';
 import { expectMethods, WeriftShapeError } from './werift-shape.ts';
 
 export interface ConnectionGuardEvents {
-  /** Something was dropped. */
+  /** Called for each dropped packet. */
   onRefused?(reason: Refusal): void;
-  /** The peer is not the one of the description; the connection fails right after. */
+  /** The peer is not the one in the description; the connection fails right after this call. */
   onUnproven?(error: UnprovenPeerError): void;
   /** A listener of a data channel threw. */
   onFault?(error: unknown): void;
@@ -22,10 +22,10 @@ interface ConnectionShape {
 }
 
 /**
- * Guards everything that a connection hears: ICE, DTLS and SCTP. Call it before the connection has any transceiver or
- * channel.
+ * Guards everything that a connection receives: ICE, DTLS and SCTP. Call it before the connection has any transceiver
+ * or channel.
  *
- * @returns what was dropped since
+ * @returns counters of what is dropped from then on
  * @throws {WeriftShapeError}
  */
 export function guardConnection(connection: RTCPeerConnection, events: ConnectionGuardEvents = {}): Refusals {

@@ -5,12 +5,12 @@ import type { Refusals } from '../refusal.ts';
 import { asDtlsSocket, WeriftDtlsEndpoint } from './dtls-endpoint.ts';
 import { expectMethods } from './werift-shape.ts';
 
-/** A peer greets once or twice before our own checks are through. */
+/** A peer sends one or two hellos before our own connectivity checks succeed. */
 const MAX_EARLY_DATAGRAMS = 8;
 
 /**
- * Puts a {@link DtlsGate} before a transport's DTLS socket as soon as there is one. Datagrams that come before are kept
- * and played to it: werift would lose them, and a peer greets again only after a second.
+ * Puts a {@link DtlsGate} in front of a transport's DTLS socket as soon as the socket exists. Datagrams that arrive
+ * earlier are kept and replayed to it: werift would lose them, and a peer repeats its hello only after a second.
  *
  * @throws {WeriftShapeError}
  */
@@ -28,7 +28,7 @@ export function guardDtls(
     else refusals.add('dtls-early');
   });
   const start = transport.start.bind(transport);
-  // werift makes its socket before it first waits for anything.
+  // werift creates its socket before its first await.
   transport.start = () => {
     const started = start();
     if (transport.dtls === undefined) return started;

@@ -8,7 +8,7 @@ import { expectMethods, WeriftShapeError } from './werift-shape.ts';
 type Address = readonly [host: string, port: number];
 type Receive = (datagram: Buffer, address: Address) => void;
 
-/** A socket of ICE, or a relay's allocation: each has one of the two. */
+/** An ICE socket, or a relay allocation: each has one of the two. */
 interface ProtocolShape {
   datagramReceived?: Receive;
   handleStunMessage?: Receive;
@@ -21,8 +21,8 @@ interface ConnectionShape {
 }
 
 /**
- * Lets through, of what comes to ICE's sockets, connectivity checks that are sealed with our password, answers to our own
- * (werift verifies these), and data from addresses that such checks have shown to be the peer's.
+ * Filters what arrives at the ICE sockets. It passes on connectivity checks authenticated with our password, answers to
+ * our own checks (which werift verifies), and data from addresses that such checks have shown to be the peer's.
  *
  * @throws {WeriftShapeError}
  */
@@ -40,7 +40,7 @@ export function guardIce(transport: RTCDtlsTransport, refusals: Refusals): void 
     expectMethods(protocol, 'the ICE socket', [name]);
     const receive = (protocol[name] as Receive).bind(protocol);
     const sources = new KnownSources();
-    // A peer of ICE lite answers checks and sends none.
+    // An ICE lite peer answers checks and sends none.
     const hasAnswered = (host: string, port: number) =>
       connection.checkList.some(
         (pair) =>

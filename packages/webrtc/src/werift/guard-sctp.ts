@@ -19,14 +19,14 @@ interface TransportShape {
   datachannelReceive: Receive;
 }
 
-/** Channel types of RFC 8832 §5.1: this bit says that the channel is unordered. */
+/** Channel types of RFC 8832 §5.1: this bit marks the channel as unordered. */
 const UNORDERED = 0x80;
 
 /**
- * Checks what comes to an SCTP association before werift parses it. Whatever werift still fails at ends with the packet:
- * unguarded, its promise would be nobody's and end the process.
+ * Checks what arrives at an SCTP association before werift parses it. An error that werift still throws ends with the
+ * packet; unguarded, it would be an unhandled rejection and end the process.
  *
- * @param onFault a listener of ours threw at a message
+ * @param onFault called if one of our listeners throws while handling a message
  * @throws {WeriftShapeError}
  */
 export function guardSctp(

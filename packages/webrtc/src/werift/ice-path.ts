@@ -3,7 +3,7 @@ import type { Socket } from 'node:dgram';
 import type { RTCDtlsTransport } from 'werift';
 import { guardSocket } from './ice-sockets.ts';
 
-/** A socket on which more than this waits, bytes, gets no more for now: the kernel's queue is full already. */
+/** A socket with a longer backlog than this, bytes, gets no more for now: the kernel's queue is already full. */
 const MAX_SOCKET_BACKLOG = 524_288;
 
 interface UdpPath {
@@ -17,7 +17,7 @@ interface StunProtocolShape {
   transport: { type: string; closed: boolean; socket: Socket };
 }
 
-/** The peer as ICE sees it now: datagrams go straight to the socket where the path is plain UDP. */
+/** The peer as ICE currently sees it. If the path is plain UDP, datagrams go straight to the socket. */
 export class IcePath {
   readonly #dtls: RTCDtlsTransport;
   #udp: UdpPath | null = null;
@@ -30,9 +30,9 @@ export class IcePath {
   }
 
   /**
-   * Looks the selected pair up again; call before each burst.
+   * Looks up the selected pair again; call before each burst.
    *
-   * @returns false where nothing may be sent: no pair, the peer's consent (RFC 7675) has run out, a socket that is full
+   * @returns false if nothing may be sent: no pair, the peer's consent (RFC 7675) has expired, or the socket is full
    */
   refresh(): boolean {
     this.#udp = null;

@@ -1,4 +1,4 @@
-/** What werift leaves undone in ICE, above all where it is restarted by the side that offers. */
+/** Completes werift's ICE, above all for restarts by the side that offers. */
 import { CandidatePairState, type RTCDtlsTransport } from 'werift';
 import { WeriftShapeError } from './werift-shape.ts';
 
@@ -22,7 +22,7 @@ function protocolsOf(dtls: RTCDtlsTransport): ProtocolShape[] {
   return protocols;
 }
 
-/** Before candidates are gathered: where no STUN server is configured werift would ask a public one. */
+/** Call before candidates are gathered: without a configured STUN server, werift would ask a public one. */
 export function dropDefaultStun(dtls: RTCDtlsTransport): void {
   const connection = dtls.iceTransport.connection as unknown as Partial<ConnectionShape>;
   if (connection.options === undefined) throw new WeriftShapeError('no ICE options');
@@ -30,9 +30,9 @@ export function dropDefaultStun(dtls: RTCDtlsTransport): void {
 }
 
 /**
- * Between the new offer and its local description: closes every socket and relay allocation of the old generation, so that
- * the next gathering opens new ones on the addresses of now. werift would offer the old ones again: bound to addresses
- * that may be gone, without asking STUN anew, and with one more relay allocation each time.
+ * Call between the new offer and its local description. Closes every socket and relay allocation of the old generation,
+ * so that the next gathering opens new ones on the present addresses. werift would offer the old ones again: bound to
+ * addresses that may be gone, without asking STUN anew, and with one more relay allocation each time.
  */
 export function discardSockets(dtls: RTCDtlsTransport): void {
   const protocols = protocolsOf(dtls);
@@ -40,21 +40,21 @@ export function discardSockets(dtls: RTCDtlsTransport): void {
 }
 
 /**
- * After an answer, once there is a local candidate: starts connectivity checks. werift starts them only before its first
- * DTLS handshake; afterwards it would wait for the peer's, which a NAT before us may not let in.
+ * Call after an answer, once there is a local candidate: starts connectivity checks. werift starts them only before its
+ * first DTLS handshake. Later it would wait for the peer's checks, which a NAT in front of us may block.
  *
- * @returns false where there is no local candidate yet
+ * @returns false if there is no local candidate yet
  */
 export function startChecks(dtls: RTCDtlsTransport): boolean {
   if (protocolsOf(dtls).length === 0) return false;
-  // Where all fail the next restart tries anew.
+  // If all checks fail, the next restart tries again.
   dtls.iceTransport.start().catch(() => undefined);
   return true;
 }
 
 /**
- * Pairs local candidates that were found after the peer's: werift pairs them only at the start of its checks, so that a
- * relay, which takes a moment to be allocated, would stay unused. Does nothing where there is nothing to do.
+ * Pairs local candidates that were found after the peer's. werift pairs them only when its checks start, so a relay,
+ * which takes a moment to be allocated, would stay unused. Does nothing if there is nothing to pair.
  */
 export function pairLateCandidates(dtls: RTCDtlsTransport): void {
   const connection = dtls.iceTransport.connection as unknown as Partial<ConnectionShape>;
@@ -63,7 +63,7 @@ export function pairLateCandidates(dtls: RTCDtlsTransport): void {
     throw new WeriftShapeError('no list of candidate pairs');
   }
   for (const protocol of protocolsOf(dtls)) connection.pairLocalProtocol(protocol);
-  // Before that the peer's password is not known.
+  // Until then, the peer's password is unknown.
   if (connection.nominated !== undefined || !connection.remotePassword || checkList.length === 0) return;
   for (const pair of checkList) {
     if (pair.state === CandidatePairState.WAITING) pair.handle = connection.checkStart?.(pair);

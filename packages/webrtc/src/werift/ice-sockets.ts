@@ -1,4 +1,4 @@
-/** The UDP sockets below a werift connection, which it keeps to itself. */
+/** The UDP sockets of a werift connection, which werift does not expose. */
 import type { RTCPeerConnection } from 'werift';
 
 interface UdpSocketShape {
@@ -11,14 +11,14 @@ interface IceShape {
   lookup?: { mdnsInstance?: { on?: UdpSocketShape['on'] } };
 }
 
-/** As a browser has it; the system may give less. A frame of 100,000 points is 0.8 MB. */
+/** The same as in a browser; the system may grant less. A frame of 100,000 points is 0.8 MB. */
 const RECEIVE_BUFFER_BYTES = 2 * 1024 * 1024;
 
 const prepared = new WeakSet<object>();
 
 /**
- * Gives each socket room for bursts, and a listener for errors: without one a network that goes away would end the
- * process. Call it whenever there may be new ones.
+ * Gives each socket a buffer for bursts and an error listener: without one, a network that goes away would end the
+ * process. Call it whenever there may be new sockets.
  */
 export function prepareSockets(connection: RTCPeerConnection): void {
   for (const transport of connection.iceTransports) {
@@ -27,7 +27,7 @@ export function prepareSockets(connection: RTCPeerConnection): void {
   }
 }
 
-/** One of them, as it comes into use. Does nothing for what is no socket, or is prepared. */
+/** Prepares one socket when it comes into use. Does nothing for other values or a socket that is already prepared. */
 export function guardSocket(candidate: unknown): void {
   const socket = candidate as Partial<UdpSocketShape> | undefined;
   if (socket === undefined || typeof socket.on !== 'function' || prepared.has(socket)) return;
@@ -36,20 +36,20 @@ export function guardSocket(candidate: unknown): void {
   try {
     socket.setRecvBufferSize?.(RECEIVE_BUFFER_BYTES);
   } catch {
-    // Not bound yet, or TCP: it does without.
+    // Not bound yet, or TCP: it works without.
   }
 }
 
 /**
- * Gives the mDNS look-ups a listener for errors: without one a port 5353 that another program keeps to itself would end the
- * process. Call it in the same turn as `addIceCandidate`.
+ * Gives the mDNS look-ups an error listener: without one, the process would end if another program uses port 5353
+ * exclusively. Call it in the same turn as `addIceCandidate`.
  */
 export function guardLookups(connection: RTCPeerConnection): void {
   for (const transport of connection.iceTransports) {
     const mdns = (transport.connection as unknown as IceShape).lookup?.mdnsInstance;
     if (mdns === undefined || typeof mdns.on !== 'function' || prepared.has(mdns)) continue;
     prepared.add(mdns);
-    // The name stays unknown.
+    // The name stays unresolved.
     mdns.on('error', () => undefined);
   }
 }

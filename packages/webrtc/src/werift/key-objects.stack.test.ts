@@ -8,7 +8,7 @@ import { WeriftShapeError } from './werift-shape.ts';
 let peers: LoopbackPeers | null = null;
 afterEach(() => peers?.close());
 
-it('gives every cipher of a guarded connection its keys as objects, with which it goes on', async () => {
+it('gives every cipher of a guarded connection its keys as objects, and the connection still works', async () => {
   peers = await LoopbackPeers.open({});
   await peers.until(() => peers?.connected === true);
   const [transport] = peers.guarded.dtlsTransports;
@@ -23,6 +23,6 @@ it('gives every cipher of a guarded connection its keys as objects, with which i
   await peers.exchange('sealed with them');
 });
 
-it('says so where werift is built otherwise', () => {
+it('throws if werift’s internals differ', () => {
   expect(() => useKeyObjects({} as RTCDtlsTransport)).toThrow(WeriftShapeError);
 });

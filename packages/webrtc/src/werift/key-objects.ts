@@ -26,8 +26,9 @@ interface TransportShape {
 const KEYS = ['srtpSessionKey', 'srtcpSessionKey', 'clientWriteKey', 'serverWriteKey'] as const;
 
 /**
- * Gives werift's ciphers their keys as objects as soon as they have them. werift makes a cipher for each packet and record,
- * and Node 24 makes and drops an exception, stack and all, for each whose key is bytes: 23 µs instead of 7.
+ * Replaces the keys of werift's ciphers by key objects as soon as they exist. werift creates a cipher for each packet
+ * and record. If the key is given as bytes, Node 24 creates and discards an exception with its stack for each of them:
+ * 23 µs instead of 7.
  *
  * @throws {WeriftShapeError}
  */

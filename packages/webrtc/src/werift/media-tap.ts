@@ -1,11 +1,14 @@
-/** What we need of a connected werift DTLS transport to send and receive RTP ourselves: keys, and what it deciphers. */
+/**
+ * Access to what we need of a connected werift DTLS transport to send and receive RTP ourselves: its keys and the
+ * packets it decrypts.
+ */
 import { Buffer } from 'node:buffer';
 import { RTCP_TRANSPORT_FEEDBACK } from '@farpoint/rtp';
 import type { RTCDtlsTransport } from 'werift';
 import { WeriftShapeError } from './werift-shape.ts';
 
 const NO_RTCP = Buffer.alloc(0);
-/** What werift gets to parse instead of a packet: an RTP header of no stream that it knows. */
+/** What werift parses instead of a packet: an RTP header of a stream that it does not know. */
 const NO_RTP = Buffer.from([0x80, 0x7f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
 
 export interface SrtpKeys {
@@ -19,7 +22,7 @@ export interface SrtpKeys {
 
 type Deciphering = 'srtp' | 'srtcp';
 
-/** @throws {WeriftShapeError} for a werift that is built differently, and before DTLS has connected */
+/** @throws {WeriftShapeError} if werift's internals differ from what is expected, and before DTLS has connected */
 export function srtpKeys(dtls: RTCDtlsTransport, direction: 'incoming' | 'outgoing'): SrtpKeys {
   const context = direction === 'incoming' ? dtls.srtp?.remoteContext : dtls.srtp?.localContext;
   if (context === undefined) throw new WeriftShapeError('no SRTP context after DTLS connected');
@@ -31,8 +34,8 @@ export function srtpKeys(dtls: RTCDtlsTransport, direction: 'incoming' | 'outgoi
 }
 
 /**
- * Hands every decrypted RTCP compound packet to `tap`. Feedback on packets goes to it alone: werift would read it again,
- * for packets that it never sent.
+ * Passes every decrypted compound RTCP packet to `tap`. Feedback on packets goes only to `tap`: werift would process it
+ * again, for packets that it never sent.
  *
  * @throws {WeriftShapeError}
  */
@@ -44,7 +47,11 @@ export function tapRtcp(dtls: RTCDtlsTransport, tap: (compound: Uint8Array) => v
   });
 }
 
-/** Hands every decrypted RTP packet to `tap`, header and all, before werift parses it. @throws {WeriftShapeError} */
+/**
+ * Passes every decrypted RTP packet, including its header, to `tap` before werift parses it.
+ *
+ * @throws {WeriftShapeError}
+ */
 export function tapRtp(dtls: RTCDtlsTransport, tap: (packet: Buffer) => void): void {
   intercept(dtls, 'srtp', (data, decipher) => {
     const packet = decipher(data);
@@ -54,9 +61,10 @@ export function tapRtp(dtls: RTCDtlsTransport, tap: (packet: Buffer) => void): v
 }
 
 /**
- * Hands every RTP packet to `take`, sealed as it came, and none to werift.
+ * Passes every RTP packet, still encrypted, to `take`, and none to werift.
  *
- * @param take gets werift's own deciphering, for what it cannot open itself; that throws for what is not authentic
+ * @param take also gets werift's own decryption, for what it cannot decrypt itself; that throws if a packet is not
+ * authentic
  * @throws {WeriftShapeError}
  */
 export function takeRtp(

@@ -4,7 +4,7 @@ import type { CandidateRefusal } from '../ice/candidate-gate.ts';
 import { guardConnection } from './guard-connection.ts';
 import { RemoteCandidates } from './remote-candidates.ts';
 
-/** As a peer sends them that hides its addresses; nobody knows the names here. */
+/** As sent by a peer that hides its addresses; nothing can resolve these names. */
 const HIDDEN = [
   'candidate:0 1 UDP 2122252543 7e1b2c1a-0000-4000-8000-00000000000a.local 40001 typ host',
   'candidate:4 1 TCP 2105524479 7e1b2c1a-0000-4000-8000-00000000000a.local 9 typ host tcptype active',
@@ -35,7 +35,7 @@ async function connected(connection: RTCPeerConnection): Promise<void> {
 }
 
 describe('RemoteCandidates', () => {
-  // Look-ups take ten seconds, longer than a test may.
+  // Look-ups take ten seconds, longer than a test may take.
   for (const hides of ['offerer', 'answerer'] as const) {
     it(`connects to a hidden ${hides} while its names are being looked up`, async () => {
       const [offerer, answerer] = [peer(), peer()];
@@ -65,7 +65,7 @@ describe('RemoteCandidates', () => {
     });
   }
 
-  it('a port 5353 that cannot be had ends nothing', async () => {
+  it('survives a port 5353 that cannot be used', async () => {
     const [offerer, answerer] = [peer(), peer()];
     offerer.connection.addTransceiver('video', { direction: 'sendonly' });
     await offerer.connection.setLocalDescription(await offerer.connection.createOffer());

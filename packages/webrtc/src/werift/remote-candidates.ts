@@ -1,4 +1,4 @@
-/** A werift connection's remote descriptions, and the peer's ICE candidates for them. */
+/** The remote descriptions of a werift connection, and the peer's ICE candidates for them. */
 import type { IceCandidate } from '@farpoint/protocol';
 import type { RTCPeerConnection } from 'werift';
 import { CandidateGate, type CandidateRefusal, takeCandidates } from '../ice/candidate-gate.ts';
@@ -7,17 +7,18 @@ import { guardLookups } from './ice-sockets.ts';
 const MAX_DETAIL = 300;
 
 /**
- * Hands a peer's candidates to werift when they can be used. werift would add those that come while a description is being
- * set one after the other, before it connects, and wait up to 10 s for each mDNS name; and would give up as soon as the peer
- * knows no more and no pair works. Here each is looked up beside the connecting. The peer's end of candidates is not passed
- * on: its checks may still make a peer-reflexive pair (RFC 8863); who connects sets the time.
+ * Passes a peer's candidates to werift when they can be used. While a description is being set, werift would add
+ * candidates one after the other before it connects, and wait up to 10 s for each mDNS name. It would also give up as
+ * soon as the peer knows no more candidates and no pair works. Here, each name is looked up while the connection is
+ * being made. The peer's end of candidates is not passed on, because its checks may still produce a peer-reflexive pair
+ * (RFC 8863); the caller sets the time limit.
  */
 export class RemoteCandidates {
   readonly #connection: RTCPeerConnection;
   readonly #onRefused: (reason: CandidateRefusal, detail: string) => void;
   readonly #gate = new CandidateGate();
 
-  /** @param onRefused for each that is left out; others may do */
+  /** @param onRefused called for each candidate that is left out; others may still work */
   constructor(
     connection: RTCPeerConnection,
     onRefused: (reason: CandidateRefusal, detail: string) => void = () => undefined,
@@ -26,7 +27,7 @@ export class RemoteCandidates {
     this.#onRefused = onRefused;
   }
 
-  /** A new description was asked for: what comes from now on may belong to it. */
+  /** A new description was requested, and candidates that arrive from now on may belong to it. */
   hold(): void {
     this.#gate.hold();
   }
@@ -34,7 +35,7 @@ export class RemoteCandidates {
   /**
    * Sets the remote description, then adds its candidates and those that waited for it.
    *
-   * @throws {Error} where the description cannot be used
+   * @throws {Error} if the description is unusable
    */
   async describe(type: 'offer' | 'answer', text: string): Promise<void> {
     const { sdp, candidates, fragments } = takeCandidates(text);
@@ -45,7 +46,7 @@ export class RemoteCandidates {
     for (const candidate of waited) this.add(candidate);
   }
 
-  /** At any time, in any order. Never throws. */
+  /** May be called at any time, in any order. Never throws. */
   add(candidate: IceCandidate): void {
     const verdict = this.#gate.take(candidate);
     if (verdict === 'wait' || verdict === 'end') return;

@@ -1,9 +1,10 @@
-"""A stand-in for the ZED SDK's Python module, for tests without SDK, GPU and camera: what examples/zed_camera.py uses of it.
+"""A stand-in for the ZED SDK's Python module, for tests without SDK, GPU and camera: the parts that
+examples/zed_camera.py uses.
 
-Written to the published interface of pyzed 5 (https://github.com/stereolabs/zed-python-api): the same names, in the same order,
-with the same defaults, and as strict: arguments of another type, names that are not there and attributes that are not the
-class's are errors. What the camera answers is told by the environment: STANDIN_OPEN and STANDIN_TRACKING are codes' names,
-STANDIN_GRABS those of one grab after another, after which the camera is gone.
+Written to the published interface of pyzed 5 (https://github.com/stereolabs/zed-python-api): the same names in the
+same order, with the same defaults, and as strict: arguments of another type, unknown names and unknown attributes
+are errors. The environment sets the camera's answers: STANDIN_OPEN and STANDIN_TRACKING are names of codes,
+STANDIN_GRABS lists those of successive grabs, after which the camera is disconnected.
 """
 import enum
 import os
@@ -50,16 +51,16 @@ POSITIONAL_TRACKING_STATE = _Ordered(
     "POSITIONAL_TRACKING_STATE", "SEARCHING OK OFF FPS_TOO_LOW SEARCHING_FLOOR_PLANE UNAVAILABLE"
 )
 
-# The rectified left camera at full size, 1920 × 1080; the stamps' age; how it stands in the world.
+# The rectified left camera at full size, 1920 × 1080; the age of the stamps; its pose in the world.
 FOCAL, CENTRE_X, CENTRE_Y = 1000.0, 960.0, 540.0
 AGE_NS = 40_000_000
 POSITION, ORIENTATION = (1.0, 2.0, 3.0), (0.0, 0.6, 0.0, 0.8)
-# What a pixel shows, by column: known depth, unknown, too near, too far.
+# The depth of a pixel, by column: known depth, unknown, too near, too far.
 DEPTHS = (2.0, np.nan, -np.inf, np.inf)
 
 
 def _expect(value, kind):
-    # A bool is an int to Python; the module's own checks say so too.
+    # In Python, a bool is an int, and the module's own checks agree.
     if not isinstance(value, kind):
         raise TypeError(f"{value!r} is no {kind.__name__}")
     return value
@@ -158,7 +159,7 @@ class Pose:
     def __init__(self):
         self._known = False
 
-    # One object for every call that brings none, as there.
+    # One object for all calls without an argument, as in the original.
     def get_translation(self, py_translation=Translation()):
         py_translation._values = POSITION if self._known else (0.0, 0.0, 0.0)
         return py_translation
@@ -257,7 +258,9 @@ class Camera:
         return POSITIONAL_TRACKING_STATE.OK if self._tracks else POSITIONAL_TRACKING_STATE.OFF
 
     def _draw(self, cloud):
-        """A wall at a right angle to the line of sight, in the units and axes asked for; the blue of its colour is the frame."""
+        """A wall perpendicular to the line of sight, in the requested units and axes; the blue of its colour is the
+        frame.
+        """
         height, width = cloud.shape[:2]
         metres = self._open.coordinate_units == UNIT.METER and self._open.coordinate_system == COORDINATE_SYSTEM.IMAGE
         depth = np.resize(np.array(DEPTHS, np.float32), width) * (1 if metres else 1000)
