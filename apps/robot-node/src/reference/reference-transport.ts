@@ -3,6 +3,7 @@ import {
   FULL_POINT_PACKET_BYTES,
   MAX_POINT_DATA_BYTES,
   PLACEMENT_BYTES,
+  POINT_PACKET_OFFSETS,
   REFERENCE_MEDIA,
 } from '@farpoint/protocol';
 import type { ReportBlock, ResendRefusal } from '@farpoint/rtp';
@@ -67,12 +68,13 @@ export class ReferenceTransport implements CloudTransport {
     usefulMs: number,
   ): number | null {
     this.#payload.set(payload.subarray(0, FULL_POINT_PACKET_BYTES));
-    this.#beginFrame(this.#view.getUint32(0, true));
-    this.#view.setUint32(0, this.frameNumber, true);
+    this.#beginFrame(this.#view.getUint32(POINT_PACKET_OFFSETS.frameNumber, true));
+    this.#view.setUint32(POINT_PACKET_OFFSETS.frameNumber, this.frameNumber, true);
     // The frame may have a last, partial packet in Farpoint's profile; here it ends with its last whole one.
-    const length = this.#view.getUint32(4, true);
-    this.#view.setUint32(4, length - (length % MAX_POINT_DATA_BYTES), true);
-    this.#view.setUint32(12, MAX_POINT_DATA_BYTES, true);
+    const length = this.#view.getUint32(POINT_PACKET_OFFSETS.frameLength, true);
+    const whole = length - (length % MAX_POINT_DATA_BYTES);
+    this.#view.setUint32(POINT_PACKET_OFFSETS.frameLength, whole, true);
+    this.#view.setUint32(POINT_PACKET_OFFSETS.sequenceLength, MAX_POINT_DATA_BYTES, true);
     return this.#inner.send(this.#payload, this.#rtpTimestamp, marker, nowMs, usefulMs);
   }
 
