@@ -5,6 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { BridgeProcess, LocalStack } from '@farpoint/local-stack';
+import { bytesOfPoints, MAX_POINT_DATA_BYTES, POINTS_PER_PACKET, packetCountOf } from '@farpoint/protocol';
 import { type BridgeFrame, nextMessage, nowMs, profile, wait } from './bridge-profile.ts';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { readPacketLog, type SentTimes } from './packet-log.ts';
@@ -26,7 +27,6 @@ frames count in neither; see framesPartial.
 stage of a frame, up to the complete message in the reader.`;
 
 const WARM_UP_MS = 6000;
-const POINTS_PER_PACKET = 150;
 /** On the wire: IP 20, UDP 8, RTP 12, extension 8, payload 1216, SRTP tag 16. */
 const WIRE_BYTES_PER_PACKET = 1280;
 const RSS_EVERY_MS = 250;
@@ -78,7 +78,7 @@ export const bench: Bench = {
     if (values.profile) return profile({ points, fps, seconds, json: values.json ?? false });
     const mbps = numberOption('mbps', values.mbps, 0);
 
-    const first = await run(Math.ceil(points / POINTS_PER_PACKET), fps, seconds);
+    const first = await run(packetCountOf(points), fps, seconds);
     const packets = Math.floor((mbps * 1e6) / 8 / WIRE_BYTES_PER_PACKET / fps);
     const sustained = packets === 0 ? null : await run(packets, fps, seconds);
     const runs = sustained === null ? [first] : [first, sustained];
@@ -253,11 +253,12 @@ function join3(
       continue;
     }
     if (arrival === undefined) continue;
-    if (arrival.bytes !== record.points * 8)
+    if (arrival.bytes !== bytesOfPoints(record.points))
       throw new Error('the reader’s messages are not the bridge’s frames');
     joined.emitMs.push(arrival.atMs - record.lastPacketMs);
     joined.handOverMs.push(record.emittedMs - record.lastPacketMs);
-    const sentMs = sent.get(`${record.frameNumber}:${record.expectedPoints * 8 - 1200}`);
+    const lastPacketOffset = bytesOfPoints(record.expectedPoints) - MAX_POINT_DATA_BYTES;
+    const sentMs = sent.get(`${record.frameNumber}:${lastPacketOffset}`);
     if (sentMs !== undefined) joined.sendToReadMs.push(arrival.atMs - sentMs);
   }
   return joined;

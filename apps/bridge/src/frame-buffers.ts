@@ -1,5 +1,7 @@
 /** Memory for frames under way, used again: a frame is about a megabyte, and new ones ten times a second keep the collector busy. */
 
+import { bytesOfPoints } from '@farpoint/protocol';
+
 export interface FrameBuffer {
   /** As long as asked for. What was in it before may still be there. */
   readonly bytes: Uint8Array;
@@ -13,7 +15,6 @@ interface FrameMemory {
   readonly seen: Uint8Array;
 }
 
-const BYTES_PER_POINT = 8;
 /** Frames that are seldom larger than the last ones need no memory of their own. */
 const SPARE = 1.25;
 
@@ -30,10 +31,10 @@ export class FrameBuffers {
     let memory = this.#free.pop();
     if (memory === undefined || memory.seen.length < points) {
       const room = Math.ceil(points * SPARE);
-      memory = { bytes: new Uint8Array(room * BYTES_PER_POINT), seen: new Uint8Array(room) };
+      memory = { bytes: new Uint8Array(bytesOfPoints(room)), seen: new Uint8Array(room) };
     }
     const seen = memory.seen.subarray(0, points).fill(0);
-    return { bytes: memory.bytes.subarray(0, points * BYTES_PER_POINT), seen, memory };
+    return { bytes: memory.bytes.subarray(0, bytesOfPoints(points)), seen, memory };
   }
 
   /** Nobody looks at it any more. Once only. */

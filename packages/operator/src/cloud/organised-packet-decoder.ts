@@ -4,6 +4,7 @@ import {
   emptyPointPacketHeader,
   type Placement,
   type PointPacketHeader,
+  pointsOfBytes,
 } from '@farpoint/protocol';
 import { type Codec, OrganisedDecoder, type PutResult } from '@farpoint/wasm-codec';
 import type { PointLook } from './batch.ts';
@@ -126,12 +127,13 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
       writer.drop(result.fault);
       return;
     }
-    if (result.points !== header.sequenceLength / 8) {
+    if (result.points !== pointsOfBytes(header.sequenceLength)) {
       writer.drop('bad-count');
       return;
     }
     const bytes = decoder.unpack();
-    const points = new Int16Array(bytes.buffer, bytes.byteOffset + start * 8, result.points * 4);
+    const at = bytes.byteOffset + start * 4 * Int16Array.BYTES_PER_ELEMENT;
+    const points = new Int16Array(bytes.buffer, at, result.points * 4);
     this.#look.cover = COVER * Math.sqrt(writer.every);
     this.#points.write(points, header, placement, receivedAtMs, this.#look, writer);
   }

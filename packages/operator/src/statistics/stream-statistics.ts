@@ -1,6 +1,6 @@
 /** What is counted and measured about the stream, from the network to the display. Time is an argument. */
 
-import type { ClockOffset } from '@farpoint/protocol';
+import { type ClockOffset, pointsOfBytes } from '@farpoint/protocol';
 import { BitRate, RateMeter } from '@farpoint/timing';
 import type { Batch } from '../cloud/batch.ts';
 import type { DropCounts } from '../cloud/packet-intake.ts';
@@ -96,7 +96,7 @@ export class StreamStatistics {
       batch.frameNumber(packet),
       captureUs,
       batch.pointsCame(packet),
-      batch.frameLength(packet) / 8,
+      pointsOfBytes(batch.frameLength(packet)),
     );
   }
 

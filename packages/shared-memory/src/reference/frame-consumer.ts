@@ -1,3 +1,4 @@
+import { pointsOfBytes } from '@farpoint/protocol';
 import type { ByteView } from '../addon.ts';
 import { SharedMemoryError } from '../errors.ts';
 import { MappedFile } from '../mapped-file.ts';
@@ -75,7 +76,7 @@ export class ReferenceFrameConsumer implements Disposable {
     try {
       const bytes = this.#payloadBytes();
       const green = this.#cloud.unpackPoints64(LENGTH_BYTES, bytes, to);
-      return { points: bytes / 8, green };
+      return { points: pointsOfBytes(bytes), green };
     } finally {
       this.release(wishes);
     }
