@@ -1,4 +1,5 @@
 /** `pnpm bench bridge`: the robot in the reference profile, through the bridge, to a page's streaming socket. */
+
 import { type ChildProcess, fork } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -6,6 +7,7 @@ import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { BridgeProcess, LocalStack } from '@farpoint/local-stack';
 import { bytesOfPoints, MAX_POINT_DATA_BYTES, POINTS_PER_PACKET, packetCountOf } from '@farpoint/protocol';
+import { BitRate } from '@farpoint/timing';
 import { type BridgeFrame, nextMessage, nowMs, profile, wait } from './bridge-profile.ts';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { readPacketLog, type SentTimes } from './packet-log.ts';
@@ -79,7 +81,9 @@ export const bench: Bench = {
     const mbps = numberOption('mbps', values.mbps, 0);
 
     const first = await run(packetCountOf(points), fps, seconds);
-    const packets = Math.floor((mbps * 1e6) / 8 / WIRE_BYTES_PER_PACKET / fps);
+    const packets = Math.floor(
+      BitRate.toBytesPerSecond(BitRate.fromMbps(mbps)) / WIRE_BYTES_PER_PACKET / fps,
+    );
     const sustained = packets === 0 ? null : await run(packets, fps, seconds);
     const runs = sustained === null ? [first] : [first, sustained];
     printTable(
@@ -122,7 +126,7 @@ async function run(packets: number, fps: number, seconds: number): Promise<RunRe
   const folder = mkdtempSync(join(tmpdir(), 'farpoint-bridge-'));
   const [sentFile, frameFile] = [join(folder, 'sent.csv'), join(folder, 'frames.jsonl')];
   const env = { FARPOINT_LOG_LEVEL: 'warn' };
-  const mbps = (packets * WIRE_BYTES_PER_PACKET * 8 * fps) / 1e6;
+  const mbps = BitRate.toMbps(BitRate.fromBytesPerSecond(packets * WIRE_BYTES_PER_PACKET * fps));
   console.error(`${packets * POINTS_PER_PACKET} points at ${fps} frames/s: ${mbps.toFixed(1)} Mbit/s`);
   const stack = await LocalStack.start({ robots: [], env });
   let bridge: BridgeProcess | null = null;
@@ -176,7 +180,7 @@ async function run(packets: number, fps: number, seconds: number): Promise<RunRe
     const times = join3(records, read, readPacketLog(sentFile), beganMs, endedMs);
     const elapsedMs = endedMs - beganMs;
     const received = times.points / POINTS_PER_PACKET;
-    const wireMbps = (received * WIRE_BYTES_PER_PACKET * 8) / elapsedMs / 1000;
+    const wireMbps = BitRate.toMbps(BitRate.of(received * WIRE_BYTES_PER_PACKET, elapsedMs));
     const robotCpu = coresBetween(before.robot, after.robot, elapsedMs);
     const bridgeCpu = coresBetween(before.bridge, after.bridge, elapsedMs);
     const perMbps = (cores: number | null) => (cores === null ? null : Number((cores / wireMbps).toFixed(5)));

@@ -1,3 +1,5 @@
+import { BitRate } from '@farpoint/timing';
+
 /** The first two trains, in parts of the rate at the start; later ones in parts of the rate found. */
 const FIRST_FACTOR = 3;
 const SECOND_FACTOR = 6;
@@ -42,7 +44,7 @@ export class StartProbes {
 
   /** A train's length, bytes. */
   static bytes(bitsPerSecond: number): number {
-    return Math.max((bitsPerSecond * TRAIN_MS) / 8000, TRAIN_BYTES);
+    return Math.max(BitRate.bytesIn(bitsPerSecond, TRAIN_MS), TRAIN_BYTES);
   }
 
   /** @returns the rate that the train has shown, bit/s */

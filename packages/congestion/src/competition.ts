@@ -1,3 +1,4 @@
+import { BitRate } from '@farpoint/timing';
 import { packetMs } from './delay-law.ts';
 import type { PathObservation } from './path-observer.ts';
 import { TcpShare } from './tcp-share.ts';
@@ -95,7 +96,7 @@ export class Competition {
     this.#tcp.update(rttMs, congested, o.oldestSentMs, elapsedMs, nowMs);
     if (this.#testSaysAlone(o, congested, toleratedMs, nowMs)) return null;
     this.#calmMs = o.queueMs < toleratedMs / 2 ? this.#calmMs + elapsedMs : 0;
-    return this.#calmMs > CALM_MS ? null : (this.#tcp.windowBytes * 8000) / rttMs;
+    return this.#calmMs > CALM_MS ? null : BitRate.of(this.#tcp.windowBytes, rttMs);
   }
 
   /** What is held back because of a test, as a part of the rate. */

@@ -1,3 +1,5 @@
+import { BitRate } from '@farpoint/timing';
+
 /** Traffic that shares the link with the peers, made by the model itself. */
 export interface CrossFlow {
   /** When it next wants to do something; Infinity for never. */
@@ -18,7 +20,7 @@ export class CbrFlow implements CrossFlow {
   constructor(mbps: number, startMs: number, wireBytes = 1250) {
     if (!(mbps > 0 && Number.isFinite(mbps))) throw new RangeError(`a flow of ${mbps} Mbit/s cannot be`);
     this.#wireBytes = wireBytes;
-    this.#intervalMs = (wireBytes * 8) / (mbps * 1000);
+    this.#intervalMs = BitRate.msFor(BitRate.fromMbps(mbps), wireBytes);
     this.nextMs = startMs;
   }
 

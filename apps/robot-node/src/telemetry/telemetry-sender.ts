@@ -1,12 +1,13 @@
 import { encodeJson, type Telemetry, telemetryCodec } from '@farpoint/protocol';
 import type { DriveGuard } from '@farpoint/safety';
+import { BitRate } from '@farpoint/timing';
 import type { TimedBaseState } from '../base/base.ts';
 import type { OperatorSession } from '../session/operator-session.ts';
 import type { ReadingBoard } from './reading-board.ts';
 import type { StageTimer } from './stage-timer.ts';
 
 /** On a path that carries less, telemetry goes out only so often: it would take a fifth of it. */
-const NARROW_BITS_PER_SECOND = 1e6;
+const NARROW_BITS_PER_SECOND = BitRate.fromMbps(1);
 const NARROW_EVERY = 4;
 
 /** Tells each operator the robot's state, what became of its stream, and readings, five a second at most. Call `send` 20 times a second. */

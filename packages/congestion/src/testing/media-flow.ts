@@ -1,5 +1,6 @@
 import type { EventQueue, Path, Random, Stalls } from '@farpoint/network-sim';
 import { type PacketStatus, type TransportFeedback, TransportFeedbackAdapter } from '@farpoint/rtp';
+import { BitRate } from '@farpoint/timing';
 import { type PacedFrame, PacketPacer } from '../pacer.ts';
 import type { ProbeRequest, RateController, RateSnapshot } from '../rate-controller.ts';
 import { FlowRecord } from './flow-record.ts';
@@ -104,7 +105,7 @@ export class MediaFlow {
     if (this.#options.pauses?.some(([from, to]) => now >= from && now < to)) return;
     const target = this.#controller.decision(now).targetBitsPerSecond;
     const most = this.#options.maxFrameBytes ?? Number.POSITIVE_INFINITY;
-    const bytes = Math.min((target * FRAME_MS) / 8000, most);
+    const bytes = Math.min(BitRate.bytesIn(target, FRAME_MS), most);
     // Whole packets; what is over goes to the next frame, as a planner in points would have it.
     this.#budgetBytes = Math.min(this.#budgetBytes + bytes, bytes + PACKET_BYTES);
     const count = Math.floor(this.#budgetBytes / PACKET_BYTES);
@@ -169,7 +170,7 @@ export class MediaFlow {
     const cluster = this.#probeBytesLeft > 0 ? this.#probeCluster : 0;
     if (cluster !== 0) {
       this.#probeBytesLeft -= PACKET_BYTES;
-      this.#probeNextMs = Math.max(this.#probeNextMs, now - 2) + (PACKET_BYTES * 8000) / this.#probeRate;
+      this.#probeNextMs = Math.max(this.#probeNextMs, now - 2) + BitRate.msFor(this.#probeRate, PACKET_BYTES);
     }
     const sequence = this.#sequence++;
     if (this.#options.reports) this.#sentMs[sequence] = now;
