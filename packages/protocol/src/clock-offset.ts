@@ -1,4 +1,5 @@
 import type { ClockAnswer } from './control.ts';
+import { sequenceDelta32 } from './sequence.ts';
 
 /**
  * The operator's estimate of the robot's clock, from probe and answer (NTP's on-wire calculation, RFC 5905 §8, with the
@@ -44,12 +45,16 @@ export class ClockOffset {
   }
 }
 
+/** The wrapping u32 microsecond stamp of an instant on the robot's monotonic clock, given in ms. */
+export function stampUsOf(robotMs: number): number {
+  return Math.floor((robotMs * 1000) % 0x1_0000_0000) >>> 0;
+}
+
 /**
  * How long ago, in ms, a wrapping u32 microsecond stamp of the robot was, given the robot's clock now.
  *
  * @param robotNowMs the robot's monotonic clock, ms, as estimated by the reader; may run slightly behind the stamp
  */
 export function ageOfStampMs(stampUs: number, robotNowMs: number): number {
-  const nowUs = Math.floor((robotNowMs * 1000) % 0x1_0000_0000) | 0;
-  return ((nowUs - stampUs) | 0) / 1000;
+  return sequenceDelta32(stampUsOf(robotNowMs), stampUs) / 1000;
 }

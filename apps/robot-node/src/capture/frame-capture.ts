@@ -1,4 +1,4 @@
-import { POINTS_PER_PACKET } from '@farpoint/protocol';
+import { nextSequence32, POINTS_PER_PACKET } from '@farpoint/protocol';
 import type { CloudTap } from '@farpoint/recording';
 import type { Codec } from '@farpoint/wasm-codec';
 import type { CaptureBudget } from '../encode/capture-budget.ts';
@@ -116,7 +116,7 @@ export class FrameCapture {
     const probeBytes = this.#probeBytes(budget);
     const workMs = this.#workMs;
     const encoded = this.#formats.encode(frame, { frameNumber, budget, probeBytes, workMs, latencyTest });
-    this.#frameNumber = (frameNumber + 1) >>> 0;
+    this.#frameNumber = nextSequence32(frameNumber);
     this.#announceStream();
     const { intervalMs, usefulBitsPerSecond } = encoded;
     const facts = {

@@ -1,7 +1,13 @@
 /** The picture thread: pictures from the capture thread, made fit for the link, to the main thread. */
 import { type MessagePort, parentPort, workerData } from 'node:worker_threads';
 import { PictureCodec } from '@farpoint/pictures';
-import { MAX_PICTURE_CHUNK_BYTES, pictureChunks, writePictureChunk } from '@farpoint/protocol';
+import {
+  MAX_PICTURE_CHUNK_BYTES,
+  nextSequence32,
+  pictureChunks,
+  stampUsOf,
+  writePictureChunk,
+} from '@farpoint/protocol';
 import { threadCpuMs } from '../clock.ts';
 import { PictureLossError, PictureMaker } from './picture-maker.ts';
 import type {
@@ -50,8 +56,8 @@ function makeReady(offered: OfferedPicture, plan: CameraPlan): ReadyPicture {
   const began = threadCpuMs();
   const { format, width, height, bytes, untouched } = maker.make(offered, plan);
   const pictureId = nextIds[camera] ?? 0;
-  nextIds[camera] = (pictureId + 1) >>> 0;
-  const captureTimeUs = Math.floor((capturedAtMs * 1000) % 0x1_0000_0000);
+  nextIds[camera] = nextSequence32(pictureId);
+  const captureTimeUs = stampUsOf(capturedAtMs);
   const header = { format, camera, width, height, pictureId, captureTimeUs };
   const room = new Uint8Array(pictureChunks(bytes.length) * MAX_PICTURE_CHUNK_BYTES);
   const chunks: Uint8Array<ArrayBuffer>[] = [];

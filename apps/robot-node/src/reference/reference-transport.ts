@@ -2,12 +2,13 @@ import type { ReceiverSums } from '@farpoint/congestion';
 import {
   FULL_POINT_PACKET_BYTES,
   MAX_POINT_DATA_BYTES,
+  nextSequence32,
   PLACEMENT_BYTES,
   POINT_PACKET_OFFSETS,
   REFERENCE_MEDIA,
 } from '@farpoint/protocol';
 import type { ReportBlock, ResendRefusal } from '@farpoint/rtp';
-import { rtpTimestamp } from '@farpoint/rtp';
+import { nextRtpTimestamp, rtpTimestamp } from '@farpoint/rtp';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
 
 /** The RTP header, extension included, that the reference system's bridge cuts off without looking. */
@@ -85,9 +86,9 @@ export class ReferenceTransport implements CloudTransport {
   #beginFrame(source: number): void {
     if (source === this.#source) return;
     this.#source = source;
-    this.frameNumber = (this.frameNumber + 1) >>> 0;
+    this.frameNumber = nextSequence32(this.frameNumber);
     const timestamp = rtpTimestamp(this.#now(), REFERENCE_MEDIA.clockRate);
     // It advances with every frame, were two to begin at once.
-    this.#rtpTimestamp = timestamp === this.#rtpTimestamp ? (timestamp + 1) >>> 0 : timestamp;
+    this.#rtpTimestamp = timestamp === this.#rtpTimestamp ? nextRtpTimestamp(timestamp) : timestamp;
   }
 }

@@ -1,4 +1,4 @@
-import { encodeJson, type Telemetry, telemetryCodec } from '@farpoint/protocol';
+import { encodeJson, nextSequence32, type Telemetry, telemetryCodec } from '@farpoint/protocol';
 import type { DriveGuard } from '@farpoint/safety';
 import { BitRate } from '@farpoint/timing';
 import type { TimedBaseState } from '../base/base.ts';
@@ -33,7 +33,7 @@ export class TelemetrySender {
   send(state: TimedBaseState, nowMs: number): void {
     if (this.#operators.size === 0) return;
     const stages = this.#stages.take();
-    this.#sequence = (this.#sequence + 1) >>> 0;
+    this.#sequence = nextSequence32(this.#sequence);
     // With what narrow paths get, too: one that is told is told to all.
     const reading = this.#sequence % NARROW_EVERY === 0 ? this.#readings.next(nowMs) : null;
     for (const operator of this.#operators.values()) {

@@ -1,5 +1,10 @@
 import type { EventQueue, Path, Random, Stalls } from '@farpoint/network-sim';
-import { type PacketStatus, type TransportFeedback, TransportFeedbackAdapter } from '@farpoint/rtp';
+import {
+  type PacketStatus,
+  SequenceNumber,
+  type TransportFeedback,
+  TransportFeedbackAdapter,
+} from '@farpoint/rtp';
 import { BitRate } from '@farpoint/timing';
 import { type PacedFrame, PacketPacer } from '../pacer.ts';
 import type { ProbeRequest, RateController, RateSnapshot } from '../rate-controller.ts';
@@ -174,8 +179,9 @@ export class MediaFlow {
     }
     const sequence = this.#sequence++;
     if (this.#options.reports) this.#sentMs[sequence] = now;
-    this.#adapter.onPacketSent(sequence & 0xffff, PACKET_BYTES, now);
-    this.#controller.onPacketSent(sequence & 0xffff, PACKET_BYTES, now, cluster);
+    const carried = SequenceNumber.of(sequence);
+    this.#adapter.onPacketSent(carried, PACKET_BYTES, now);
+    this.#controller.onPacketSent(carried, PACKET_BYTES, now, cluster);
     this.record.sent(PACKET_BYTES, now);
     this.#options.forward.send(PACKET_BYTES, {
       dropped: (reason) => this.record.dropped(now, reason),
@@ -223,7 +229,7 @@ export class MediaFlow {
       this.#arrivals[at] = Number.NaN;
       // The format counts in steps of 250 µs.
       packets.push({
-        sequence: sequence & 0xffff,
+        sequence: SequenceNumber.of(sequence),
         received,
         arrivalUs: received ? Math.round(arrival * 4) * 250 : null,
       });
@@ -233,7 +239,7 @@ export class MediaFlow {
     const feedback: TransportFeedback = {
       senderSsrc: 1,
       mediaSsrc: 2,
-      baseSequence: first & 0xffff,
+      baseSequence: SequenceNumber.of(first),
       referenceTimeUs: 0,
       feedbackCount: 0,
       packets,

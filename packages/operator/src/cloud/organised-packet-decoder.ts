@@ -5,6 +5,7 @@ import {
   type Placement,
   type PointPacketHeader,
   pointsOfBytes,
+  sequenceDelta32,
 } from '@farpoint/protocol';
 import { type Codec, OrganisedDecoder, type PutResult } from '@farpoint/wasm-codec';
 import type { PointLook } from './batch.ts';
@@ -144,7 +145,7 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
     if (newest.frameNumber === frameNumber) return newest.decoder;
     const other = this.#open[1 - this.#newest] as FrameDecoder;
     if (other.frameNumber === frameNumber) return other.decoder;
-    if (newest.frameNumber !== null && ((frameNumber - newest.frameNumber) | 0) < 0) return null;
+    if (newest.frameNumber !== null && sequenceDelta32(frameNumber, newest.frameNumber) < 0) return null;
     other.frameNumber = frameNumber;
     other.decoder.begin();
     this.#newest = 1 - this.#newest;
