@@ -1,4 +1,4 @@
-import { pointsOfBytes } from '@farpoint/protocol';
+import { BYTES_PER_POINT, pointsOfBytes } from '@farpoint/protocol';
 import type { ByteView } from '../addon.ts';
 import { SharedMemoryError } from '../errors.ts';
 import { MappedFile } from '../mapped-file.ts';
@@ -106,7 +106,8 @@ export class ReferenceFrameConsumer implements Disposable {
     const bytes = low | (middle << 8) | (high << 16);
     if (bytes > MAX_PAYLOAD_BYTES)
       throw this.#badLength(`a payload of ${bytes} bytes, ${MAX_PAYLOAD_BYTES} is the most`);
-    if (bytes % 8 !== 0) throw this.#badLength(`a payload of ${bytes} bytes, which are no whole points`);
+    if (bytes % BYTES_PER_POINT !== 0)
+      throw this.#badLength(`a payload of ${bytes} bytes, which are no whole points`);
     return bytes;
   }
 
