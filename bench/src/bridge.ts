@@ -1,10 +1,13 @@
 /** `pnpm bench bridge`: the robot in the reference profile, through the bridge, to a page's streaming socket. */
+
 import { type ChildProcess, fork } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { BridgeProcess, LocalStack } from '@farpoint/local-stack';
+import { bytesOfPoints, MAX_POINT_DATA_BYTES, POINTS_PER_PACKET, packetCountOf } from '@farpoint/protocol';
+import { BitRate } from '@farpoint/timing';
 import { type BridgeFrame, nextMessage, nowMs, profile, wait } from './bridge-profile.ts';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { readPacketLog, type SentTimes } from './packet-log.ts';
@@ -26,7 +29,6 @@ frames count in neither; see framesPartial.
 stage of a frame, up to the complete message in the reader.`;
 
 const WARM_UP_MS = 6000;
-const POINTS_PER_PACKET = 150;
 /** On the wire: IP 20, UDP 8, RTP 12, extension 8, payload 1216, SRTP tag 16. */
 const WIRE_BYTES_PER_PACKET = 1280;
 const RSS_EVERY_MS = 250;
@@ -78,8 +80,10 @@ export const bench: Bench = {
     if (values.profile) return profile({ points, fps, seconds, json: values.json ?? false });
     const mbps = numberOption('mbps', values.mbps, 0);
 
-    const first = await run(Math.ceil(points / POINTS_PER_PACKET), fps, seconds);
-    const packets = Math.floor((mbps * 1e6) / 8 / WIRE_BYTES_PER_PACKET / fps);
+    const first = await run(packetCountOf(points), fps, seconds);
+    const packets = Math.floor(
+      BitRate.toBytesPerSecond(BitRate.fromMbps(mbps)) / WIRE_BYTES_PER_PACKET / fps,
+    );
     const sustained = packets === 0 ? null : await run(packets, fps, seconds);
     const runs = sustained === null ? [first] : [first, sustained];
     printTable(
@@ -122,7 +126,7 @@ async function run(packets: number, fps: number, seconds: number): Promise<RunRe
   const folder = mkdtempSync(join(tmpdir(), 'farpoint-bridge-'));
   const [sentFile, frameFile] = [join(folder, 'sent.csv'), join(folder, 'frames.jsonl')];
   const env = { FARPOINT_LOG_LEVEL: 'warn' };
-  const mbps = (packets * WIRE_BYTES_PER_PACKET * 8 * fps) / 1e6;
+  const mbps = BitRate.toMbps(BitRate.fromBytesPerSecond(packets * WIRE_BYTES_PER_PACKET * fps));
   console.error(`${packets * POINTS_PER_PACKET} points at ${fps} frames/s: ${mbps.toFixed(1)} Mbit/s`);
   const stack = await LocalStack.start({ robots: [], env });
   let bridge: BridgeProcess | null = null;
@@ -176,7 +180,7 @@ async function run(packets: number, fps: number, seconds: number): Promise<RunRe
     const times = join3(records, read, readPacketLog(sentFile), beganMs, endedMs);
     const elapsedMs = endedMs - beganMs;
     const received = times.points / POINTS_PER_PACKET;
-    const wireMbps = (received * WIRE_BYTES_PER_PACKET * 8) / elapsedMs / 1000;
+    const wireMbps = BitRate.toMbps(BitRate.of(received * WIRE_BYTES_PER_PACKET, elapsedMs));
     const robotCpu = coresBetween(before.robot, after.robot, elapsedMs);
     const bridgeCpu = coresBetween(before.bridge, after.bridge, elapsedMs);
     const perMbps = (cores: number | null) => (cores === null ? null : Number((cores / wireMbps).toFixed(5)));
@@ -256,11 +260,12 @@ function join3(
       continue;
     }
     if (arrival === undefined) continue;
-    if (arrival.bytes !== record.points * 8)
+    if (arrival.bytes !== bytesOfPoints(record.points))
       throw new Error('the reader’s messages are not the bridge’s frames');
     joined.emitMs.push(arrival.atMs - record.lastPacketMs);
     joined.handOverMs.push(record.emittedMs - record.lastPacketMs);
-    const sentMs = sent.get(`${record.frameNumber}:${record.expectedPoints * 8 - 1200}`);
+    const lastPacketOffset = bytesOfPoints(record.expectedPoints) - MAX_POINT_DATA_BYTES;
+    const sentMs = sent.get(`${record.frameNumber}:${lastPacketOffset}`);
     if (sentMs !== undefined) joined.sendToReadMs.push(arrival.atMs - sentMs);
   }
   return joined;

@@ -1,4 +1,5 @@
 /** `pnpm bench congestion`: rate controllers on simulated links. */
+
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { AdaptiveRateController, FixedRateController, type RateController } from '@farpoint/congestion';
@@ -17,6 +18,7 @@ import {
   utilisation,
 } from '@farpoint/congestion/testing';
 import { BUSY_COMPUTER, type CapacityStep, parseTrace } from '@farpoint/network-sim';
+import { BitRate } from '@farpoint/timing';
 import { GccController } from './gcc/gcc-controller.ts';
 import { type Panel, renderChart, type Series } from './plot/chart.ts';
 import { type Bench, type Cell, numberOption, printJson, printTable } from './report.ts';
@@ -32,12 +34,11 @@ used: share of the link's capacity that arrived, after 5 s. queue: waiting time 
 of the sent packets that the full queue dropped. until90: from the start (or the last rise) until 90 % of the link is used over
 0.5 s. above100: how long after the fall packets still arrive that waited more than 100 ms. share: of what both flows got.`;
 
-const M = 1e6;
-const LINK = 41.44 * M;
+const LINK = BitRate.fromMbps(41.44);
 const CONTROLLERS: Record<string, () => RateController> = {
   adaptive: () => new AdaptiveRateController(),
   gcc: () => new GccController(),
-  fixed: () => new FixedRateController({ bitsPerSecond: 40 * M }),
+  fixed: () => new FixedRateController({ bitsPerSecond: BitRate.fromMbps(40) }),
 };
 /** The outcomes of one scenario that are plotted, one per controller. */
 type Runs = Map<string, Outcome>;
@@ -47,15 +48,19 @@ interface Case extends Scenario {
   riseMs?: number;
 }
 
-const flat = (bitsPerSecond: number): CapacityStep[] => [{ atMs: 0, mbps: bitsPerSecond / M }];
+const flat = (bitsPerSecond: number): CapacityStep[] => [{ atMs: 0, mbps: BitRate.toMbps(bitsPerSecond) }];
 const BASE = { durationMs: 30_000, capacity: flat(LINK), rttMs: 42.4, queueMs: 100 };
-const TCP = { ...BASE, durationMs: 60_000, capacity: flat(20 * M), cubic: [{ startMs: 5000 }] };
+const TCP = { ...BASE, durationMs: 60_000, capacity: flat(BitRate.fromMbps(20)), cubic: [{ startMs: 5000 }] };
 
-const STEP: CapacityStep[] = [...flat(LINK), { atMs: 15_000, mbps: 8 }, { atMs: 28_000, mbps: LINK / M }];
+const STEP: CapacityStep[] = [
+  ...flat(LINK),
+  { atMs: 15_000, mbps: 8 },
+  { atMs: 28_000, mbps: BitRate.toMbps(LINK) },
+];
 
 const CASES: readonly Case[] = [
   { ...BASE, name: 'steady 41.44 Mbit/s' },
-  { ...BASE, name: 'steady 8 Mbit/s', capacity: flat(8 * M) },
+  { ...BASE, name: 'steady 8 Mbit/s', capacity: flat(BitRate.fromMbps(8)) },
   {
     ...BASE,
     name: 'step 41.44–8–41.44 Mbit/s',
@@ -101,7 +106,7 @@ const CASES: readonly Case[] = [
     ...BASE,
     name: 'outage of 10 s',
     durationMs: 40_000,
-    capacity: [...flat(LINK), { atMs: 15_000, mbps: 0 }, { atMs: 25_000, mbps: LINK / M }],
+    capacity: [...flat(LINK), { atMs: 15_000, mbps: 0 }, { atMs: 25_000, mbps: BitRate.toMbps(LINK) }],
     riseMs: 25_000,
   },
   { ...TCP, name: 'CUBIC, 20 Mbit/s, queue 50 ms', queueMs: 50 },
@@ -205,7 +210,7 @@ function panels(one: Case, runs: Runs): Panel[] {
   for (const [label, outcome] of runs) {
     const flow = outcome.media[0] as FlowRecord;
     const x = times.map((t) => t / 1000);
-    rates.push({ label, x, y: times.map((t) => throughput(flow, t, t + bin) / M) });
+    rates.push({ label, x, y: times.map((t) => BitRate.toMbps(throughput(flow, t, t + bin))) });
     queues.push({ label, x, y: times.map((t) => mostWaited(flow, t, t + bin)) });
   }
   const axis = { xLabel: 'time (s)' };

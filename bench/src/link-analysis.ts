@@ -1,4 +1,5 @@
 /** Analyses a run over an emulated link: pure functions of the records from the link, the robot and the page. */
+import { BitRate } from '@farpoint/timing';
 
 /** One line of `farpoint-link --stats`: one direction in 100 ms. */
 export interface LinkBin {
@@ -48,7 +49,7 @@ export function utilisationOf(bins: readonly LinkBin[]): number {
   for (const bin of bins) {
     if (bin.capacityMbps === null) continue;
     bytes += bin.deliveredBytes;
-    capacity += (bin.capacityMbps * BIN_MS * 1000) / 8;
+    capacity += BitRate.bytesIn(BitRate.fromMbps(bin.capacityMbps), BIN_MS);
   }
   return bytes / capacity;
 }
@@ -138,8 +139,9 @@ function recovery(bins: readonly LinkBin[], from: number, capacityMbps: number):
     const span = bins.slice(i, i + window);
     if (span.some((bin) => Math.abs((bin.capacityMbps ?? 0) - capacityMbps) > 0.02 * capacityMbps))
       return null;
-    const mbps = span.reduce((sum, bin) => sum + bin.deliveredBytes, 0) / (SMOOTH_MS * 125);
-    if (mbps >= 0.9 * capacityMbps) return ((i + window - from) * BIN_MS) / 1000;
+    const bytes = span.reduce((sum, bin) => sum + bin.deliveredBytes, 0);
+    if (BitRate.toMbps(BitRate.of(bytes, SMOOTH_MS)) >= 0.9 * capacityMbps)
+      return ((i + window - from) * BIN_MS) / 1000;
   }
   return null;
 }

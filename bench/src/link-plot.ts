@@ -1,4 +1,5 @@
 /** Plots a run over time, as figure 6 of the paper does for its field tests. */
+import { BitRate } from '@farpoint/timing';
 import { BIN_MS, type LinkBin, type RobotSample, type TimeSpan } from './link-analysis.ts';
 import type { LatencySample } from './link-run.ts';
 import { renderChart } from './plot/chart.ts';
@@ -17,7 +18,7 @@ export function plotLink({ title, subtitle, zeroMs, bins, robot, latencies, outa
   const seconds = (timeMs: number) => (timeMs - zeroMs) / 1000;
   const binTimes = bins.map(({ timeMs }) => seconds(timeMs));
   const robotTimes = robot.map(({ timeMs }) => seconds(timeMs));
-  const mbps = (bytes: number) => (bytes * 8) / BIN_MS / 1000;
+  const mbps = (bytes: number) => BitRate.toMbps(BitRate.of(bytes, BIN_MS));
   const answered = latencies.filter(({ mtpMs }) => mtpMs !== null);
   const spans = outages.map(({ fromMs, toMs }) => ({
     from: seconds(fromMs),
@@ -45,7 +46,11 @@ export function plotLink({ title, subtitle, zeroMs, bins, robot, latencies, outa
             shape: 'area',
           },
           { label: 'delivered', x: binTimes, y: bins.map((bin) => mbps(bin.deliveredBytes)) },
-          { label: 'estimate', x: robotTimes, y: robot.map((sample) => sample.estimateBitsPerSecond / 1e6) },
+          {
+            label: 'estimate',
+            x: robotTimes,
+            y: robot.map((sample) => BitRate.toMbps(sample.estimateBitsPerSecond)),
+          },
           ...(bins.some((bin) => bin.crossBytes > 0)
             ? [{ label: 'competing flow', x: binTimes, y: bins.map((bin) => mbps(bin.crossBytes)) }]
             : []),

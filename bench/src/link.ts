@@ -1,7 +1,9 @@
 /** `pnpm bench link`: the real robot and the real browser over an emulated link. */
+
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
+import { BitRate } from '@farpoint/timing';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import {
   capacityRises,
@@ -206,7 +208,7 @@ export const bench: Bench = {
                   ).toFixed(3),
                 ),
         },
-        robotMbps: Number(((ownBytes * 8) / elapsedS / 1e6).toFixed(2)),
+        robotMbps: Number(BitRate.toMbps(BitRate.of(ownBytes, endMs - fromMs)).toFixed(2)),
         browserCpu: coresBetween(cpuBefore.browser, cpuAfter.browser, endMs - zeroMs),
         linkCpu: coresBetween(cpuBefore.link, cpuAfter.link, endMs - zeroMs),
         renderMs: statistics.renderMs,

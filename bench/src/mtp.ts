@@ -1,5 +1,6 @@
 /** `pnpm bench mtp`: motion-to-photon latency of the whole stack on this machine, without a network in between. */
 import { parseArgs } from 'node:util';
+import { POINTS_PER_PACKET } from '@farpoint/protocol';
 import { startLiveStack } from './live-stack.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
@@ -27,7 +28,7 @@ export const bench: Bench = {
       },
     });
     if (values.help) return console.log(USAGE);
-    const points = numberOption('points', values.points, 150);
+    const points = numberOption('points', values.points, POINTS_PER_PACKET);
     const fps = numberOption('fps', values.fps, 1);
     const samples = numberOption('samples', values.samples, 1);
     const mbps = numberOption('mbps', values.mbps, 1);

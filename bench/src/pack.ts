@@ -1,6 +1,6 @@
 /** `pnpm bench pack`: a kernel benchmark of the points64 layout. */
 import { parseArgs } from 'node:util';
-import { CloudDecoder, Points64Encoder, packetsFor } from '@farpoint/wasm-codec';
+import { CloudDecoder, POINTS_PER_PACKET, Points64Encoder, packetsFor } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { packPlainly, unpackPlainly } from './pack-plain.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
@@ -42,7 +42,8 @@ export const bench: Bench = {
 
     const pack = rounded(distribution(timeCalls(() => encoder.pack(), rounds)), 4);
     decoder.slots.set(encoder.packets.subarray(0, packets * layout.stride));
-    for (let i = 0; i < packets; i++) decoder.counts[i] = Math.min(150, kept - i * 150);
+    for (let i = 0; i < packets; i++)
+      decoder.counts[i] = Math.min(POINTS_PER_PACKET, kept - i * POINTS_PER_PACKET);
     const unpack = rounded(distribution(timeCalls(() => decoder.unpack(packets), rounds)), 4);
 
     const slots = new Uint8Array(packets * layout.stride);

@@ -1,6 +1,8 @@
 /** `pnpm bench picture`: the same view over the same link in each mode, side by side. */
+
 import { writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
+import { BitRate } from '@farpoint/timing';
 import { decode, encode } from 'fast-png';
 import { startLiveStack } from './live-stack.ts';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
@@ -70,7 +72,7 @@ export const bench: Bench = {
           throw new Error(`the canvas is ${size.width}×${size.height}, not ${values.size}`);
         pictures.push({
           ...{ mode, pixels: Uint8Array.from(data), channels },
-          ...{ pointsPerFrame, framesPerSecond, mbps: bitsPerSecond / 1e6 },
+          ...{ pointsPerFrame, framesPerSecond, mbps: BitRate.toMbps(bitsPerSecond) },
         });
       } finally {
         await live.close();

@@ -3,7 +3,12 @@
  * took.
  */
 import { readFileSync } from 'node:fs';
-import { emptyPointPacketHeader, readPointPacketHeader } from '@farpoint/protocol';
+import {
+  emptyPointPacketHeader,
+  POINT_PACKET_HEADER_BYTES,
+  pointsOfBytes,
+  readPointPacketHeader,
+} from '@farpoint/protocol';
 
 /** The colours of the frames that arrived. A frame with more than one colour is torn. */
 export class FrameColours {
@@ -17,8 +22,9 @@ export class FrameColours {
     if (readPointPacketHeader(view, this.#header) !== null) return;
     this.packets++;
     const { frameNumber, sequenceLength } = this.#header;
-    const points = sequenceLength / 8;
-    for (let i = 0; i < points; i++) this.#see(frameNumber, view.getUint16(16 + points * 6 + i * 2, true));
+    const points = pointsOfBytes(sequenceLength);
+    for (let i = 0; i < points; i++)
+      this.#see(frameNumber, view.getUint16(POINT_PACKET_HEADER_BYTES + points * 6 + i * 2, true));
     if (this.#colours.size > 100) this.#colours.delete(this.#colours.keys().next().value as number);
   }
 

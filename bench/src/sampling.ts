@@ -1,7 +1,9 @@
 /** `pnpm bench sampling`: how many points survive sampling at each distance (the paper's figures 4 and 5). */
+
 import { writeFile } from 'node:fs/promises';
 import { basename } from 'node:path';
 import { parseArgs } from 'node:util';
+import { BitRate } from '@farpoint/timing';
 import { maxPoints, Points64Encoder } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { type Panel, renderChart, type Series } from './plot/chart.ts';
@@ -69,7 +71,7 @@ export const bench: Bench = {
     const curves: Curve[] = [];
     for (const nearDistance of nearDistances) {
       for (const mbps of MEGABITS) {
-        const count = maxPoints({ bitsPerSecond: mbps * 1e6, framesPerSecond, points });
+        const count = maxPoints({ bitsPerSecond: BitRate.fromMbps(mbps), framesPerSecond, points });
         for (const lambda of LAMBDAS) {
           const { kept } = encoder.sample({ points, count, lambda, nearDistance, seed: 1 });
           curves.push({ nearDistance, lambda, mbps, kept, ...histogram() });

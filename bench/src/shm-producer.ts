@@ -5,7 +5,14 @@
  */
 import { writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
-import { unpackBlue664, unpackGreen664, unpackRed664, writePoints64Block } from '@farpoint/protocol';
+import {
+  bytesOfPoints,
+  POINTS_PER_PACKET,
+  unpackBlue664,
+  unpackGreen664,
+  unpackRed664,
+  writePoints64Block,
+} from '@farpoint/protocol';
 import { CloudProducer, ReferenceFrameProducer } from '@farpoint/shared-memory';
 import { Simulation } from '@farpoint/sim';
 
@@ -78,8 +85,8 @@ function referencePublisher(): (frame: number) => boolean {
     // Like the reference system's producer: makes nothing before the last frame was taken.
     if (!producer.free) return false;
     const values16 = new Uint16Array(packed.buffer);
-    for (let block = 0; block < values16.length; block += 600)
-      values16.fill(frame & 0xffff, block + 450, block + 600);
+    for (let block = 0; block < values16.length; block += POINTS_PER_PACKET * 4)
+      values16.fill(frame & 0xffff, block + POINTS_PER_PACKET * 3, block + POINTS_PER_PACKET * 4);
     begun.push(nowMs());
     return producer.publish(packed);
   };
@@ -94,10 +101,12 @@ function pack(): Uint8Array {
     const from = (valid[i % valid.length] as number) * 4;
     positions.set(scene.points.subarray(from, from + 3), i * 3);
   }
-  const packed = new Uint8Array(count * 8);
+  const packed = new Uint8Array(bytesOfPoints(count));
   const view = new DataView(packed.buffer);
   const colours = new Uint16Array(count);
-  for (let first = 0; first < count; first += 150)
-    writePoints64Block(view, first * 8, positions, colours, first, Math.min(150, count - first));
+  for (let first = 0; first < count; first += POINTS_PER_PACKET) {
+    const points = Math.min(POINTS_PER_PACKET, count - first);
+    writePoints64Block(view, bytesOfPoints(first), positions, colours, first, points);
+  }
   return packed;
 }

@@ -1,8 +1,11 @@
 /** `pnpm bench transport`: the point stream from the robot process to the browser's worker, at a fixed rate. */
+
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
+import { MAX_POINT_DATA_BYTES } from '@farpoint/protocol';
+import { BitRate } from '@farpoint/timing';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { startLiveStack } from './live-stack.ts';
 import { deliveryTimes, readPacketLog } from './packet-log.ts';
@@ -60,7 +63,9 @@ export const bench: Bench = {
       const robotPid = stack.robot('sim-1').pid;
       const cpu = () => ({ robot: cpuSecondsOfTree(robotPid), browser: cpuSecondsOfTree(browserPid) });
       console.error(`${seconds} s at ${mbps} Mbit/s`);
-      const capacity = Math.ceil(((mbps * 1e6) / 8 / 1200) * seconds * 1.2);
+      const capacity = Math.ceil(
+        (BitRate.toBytesPerSecond(BitRate.fromMbps(mbps)) / MAX_POINT_DATA_BYTES) * seconds * 1.2,
+      );
       const before = await page.evaluate((capacity) => {
         window.farpoint.recordPackets(capacity);
         return { nowMs: performance.now(), ...window.farpoint.stats() };
@@ -75,8 +80,8 @@ export const bench: Bench = {
       const elapsedMs = after.nowMs - before.nowMs;
       const received = after.packetsReceived - before.packetsReceived;
       const lost = after.packetsLost - before.packetsLost;
-      const payloadMbps = ((after.bytesReceived - before.bytesReceived) * 8) / elapsedMs / 1000;
-      const wireMbps = payloadMbps + (received * WIRE_OVERHEAD_BYTES * 8) / elapsedMs / 1000;
+      const payloadMbps = BitRate.toMbps(BitRate.of(after.bytesReceived - before.bytesReceived, elapsedMs));
+      const wireMbps = payloadMbps + BitRate.toMbps(BitRate.of(received * WIRE_OVERHEAD_BYTES, elapsedMs));
       const deliveryMs = rounded(distribution(deliveryTimes(readPacketLog(logFile), record.values)), 2);
       const result = {
         bench: 'transport',

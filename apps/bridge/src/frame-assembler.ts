@@ -3,10 +3,11 @@
  * lands in its own frame and place or nowhere. Pure: bytes and time are arguments.
  */
 import {
-  BYTES_PER_POINT,
+  bytesOfPoints,
   emptyPointPacketHeader,
   POINT_PACKET_HEADER_BYTES,
   type PointPacketFault,
+  pointsOfBytes,
   readPointPacketHeader,
   sequenceDelta32,
 } from '@farpoint/protocol';
@@ -109,7 +110,7 @@ export class FrameAssembler {
       header,
     );
     if (fault !== null) return fault;
-    const total = header.frameLength / BYTES_PER_POINT;
+    const total = pointsOfBytes(header.frameLength);
     if (total > this.#options.maxPoints) return 'too-many-points';
     const number = header.frameNumber;
     if (this.#lastGiven !== null) {
@@ -121,14 +122,14 @@ export class FrameAssembler {
     }
     const frame = this.#frame(number, total);
     if (frame === null) return 'inconsistent';
-    const first = header.sequenceOffset / BYTES_PER_POINT;
-    const count = header.sequenceLength / BYTES_PER_POINT;
+    const first = pointsOfBytes(header.sequenceOffset);
+    const count = pointsOfBytes(header.sequenceLength);
     const { seen, bytes } = frame.buffer;
     for (let i = first; i < first + count; i++) if (seen[i] !== 0) return 'duplicate';
     seen.fill(1, first, first + count);
     const from = POINT_PACKET_HEADER_BYTES;
     bytes.set(payload.subarray(from, from + 6 * count), 6 * first);
-    bytes.set(payload.subarray(from + 6 * count, from + 8 * count), 6 * total + 2 * first);
+    bytes.set(payload.subarray(from + 6 * count, from + bytesOfPoints(count)), 6 * total + 2 * first);
     frame.points += count;
     const isLast = first + count === total;
     for (const other of this.#open) {
@@ -186,7 +187,7 @@ export class FrameAssembler {
 
 /** The received points without gaps, in order, in memory of their own. */
 function compact({ buffer: { bytes, seen }, points, total }: OpenFrame): Uint8Array {
-  const out = new Uint8Array(points * BYTES_PER_POINT);
+  const out = new Uint8Array(bytesOfPoints(points));
   let to = 0;
   for (let from = 0; from < total; ) {
     if (seen[from] === 0) {

@@ -3,6 +3,8 @@
  * garbage collector busy.
  */
 
+import { bytesOfPoints } from '@farpoint/protocol';
+
 export interface FrameBuffer {
   /** Has the requested length. Its previous contents may still be there. */
   readonly bytes: Uint8Array;
@@ -16,7 +18,6 @@ interface FrameMemory {
   readonly seen: Uint8Array;
 }
 
-const BYTES_PER_POINT = 8;
 /** Extra room, so that slightly larger frames can reuse the memory. */
 const SPARE = 1.25;
 
@@ -33,10 +34,10 @@ export class FrameBuffers {
     let memory = this.#free.pop();
     if (memory === undefined || memory.seen.length < points) {
       const room = Math.ceil(points * SPARE);
-      memory = { bytes: new Uint8Array(room * BYTES_PER_POINT), seen: new Uint8Array(room) };
+      memory = { bytes: new Uint8Array(bytesOfPoints(room)), seen: new Uint8Array(room) };
     }
     const seen = memory.seen.subarray(0, points).fill(0);
-    return { bytes: memory.bytes.subarray(0, points * BYTES_PER_POINT), seen, memory };
+    return { bytes: memory.bytes.subarray(0, bytesOfPoints(points)), seen, memory };
   }
 
   /** Returns a buffer that is no longer in use. Call this once only. */

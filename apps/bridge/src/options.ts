@@ -1,4 +1,4 @@
-import { POINTS_PER_PACKET } from '@farpoint/protocol';
+import { MAX_POINTS_PER_FRAME, POINTS_PER_PACKET } from '@farpoint/protocol';
 import { adminOptions, defineOption, defineProgram, type OptionValues, schema } from '@farpoint/service';
 import * as z from 'zod';
 import manifest from '../package.json' with { type: 'json' };
@@ -50,7 +50,7 @@ export const program = defineProgram({
       help: 'maximum robots connected at once',
     }),
     maxPoints: defineOption({
-      schema: schema.integer({ min: POINTS_PER_PACKET, max: 4_194_304 }),
+      schema: schema.integer({ min: POINTS_PER_PACKET, max: MAX_POINTS_PER_FRAME }),
       default: 500_000,
       argument: 'N',
       help: 'maximum points in a frame; larger frames are refused',

@@ -1,4 +1,5 @@
 /** What the codec benchmark needs of a codec. */
+import { MAX_POINT_DATA_BYTES } from '@farpoint/protocol';
 
 /** A frame with its points in file or raster order. */
 export interface BenchCloud {
@@ -59,7 +60,7 @@ export interface CodecRun extends Disposable {
 }
 
 /** Size of a packet's block, bytes. */
-export const PACKET_BYTES = 1200;
+export const PACKET_BYTES = MAX_POINT_DATA_BYTES;
 
 /** The sizes of a blob's packets. */
 export function blobPackets(bytes: number): number[] {

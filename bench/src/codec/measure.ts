@@ -1,4 +1,5 @@
 /** Measures one codec on one cloud. */
+import { bitsOfBytes } from '@farpoint/timing';
 import { distribution, timeCalls } from '../stats.ts';
 import type { BenchCloud, CodecRun } from './adapter.ts';
 import { type LossRate, type LossResult, measureLoss } from './loss.ts';
@@ -57,7 +58,7 @@ export function measureCodec(cloud: BenchCloud, run: CodecRun, rounds: number, n
     setting: run.setting,
     validPoints: cloud.valid.length,
     sentPoints: decoded.points,
-    bitsPerPoint: round((bytes * 8) / decoded.points, 3),
+    bitsPerPoint: round(bitsOfBytes(bytes) / decoded.points, 3),
     depthErrorMmPerZ2: round(depthErrorMmPerZ2, 4),
     depthErrorMm: round(depthErrorMm, 3),
     colorPsnrDb: colorPsnrDb === null || run.hasColour === false ? null : round(colorPsnrDb, 2),

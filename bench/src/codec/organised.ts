@@ -1,3 +1,4 @@
+import { bitsOfBytes } from '@farpoint/timing';
 import {
   type Codec,
   CodecError,
@@ -138,7 +139,7 @@ function organisedAs(
       ? {
           independenceCost() {
             const bytes = run.packetBytes().reduce((sum, size) => sum + size, 0);
-            return (bytes * 8) / encoder.bitsInOnePacket() - 1;
+            return bitsOfBytes(bytes) / encoder.bitsInOnePacket() - 1;
           },
         }
       : {}),

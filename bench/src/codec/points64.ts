@@ -1,10 +1,8 @@
 /** `points64`, and Zstandard over its bytes. */
 import { zstdCompressSync, zstdDecompressSync } from 'node:zlib';
+import { bytesOfPoints, MAX_POINT_DATA_BYTES, POINTS_PER_PACKET } from '@farpoint/protocol';
 import { CloudDecoder, type Codec, Points64Encoder, packetsFor } from '@farpoint/wasm-codec';
 import { type BenchCloud, blobPackets, type CodecRun, type DecodedCloud, write664 } from './adapter.ts';
-
-const POINTS = 150;
-const POINT_BYTES = 8;
 
 /** The mandatory format, with all points that it can represent, in their order. */
 export function points64(codec: Codec, cloud: BenchCloud): CodecRun {
@@ -17,7 +15,8 @@ export function points64(codec: Codec, cloud: BenchCloud): CodecRun {
   let chosen = new Uint32Array(0);
   let decodedPackets: readonly number[] = [];
   let points: Int16Array = new Int16Array(0);
-  const bytesOf = (packet: number) => Math.min(POINTS, kept - packet * POINTS) * POINT_BYTES;
+  const bytesOf = (packet: number) =>
+    bytesOfPoints(Math.min(POINTS_PER_PACKET, kept - packet * POINTS_PER_PACKET));
   return {
     codec: 'points64',
     setting: '1 mm, 6-6-4',
@@ -78,11 +77,11 @@ export function zstd(codec: Codec, cloud: BenchCloud): CodecRun {
       inner.pack();
       chosen = inner.chosen.slice();
       const { stride, dataOffset } = inner.layout;
-      const blocks = new Uint8Array(kept * POINT_BYTES);
+      const blocks = new Uint8Array(bytesOfPoints(kept));
       for (let i = 0; i < packetsFor(kept); i++) {
-        const bytes = Math.min(POINTS, kept - i * POINTS) * POINT_BYTES;
+        const bytes = bytesOfPoints(Math.min(POINTS_PER_PACKET, kept - i * POINTS_PER_PACKET));
         const at = i * stride + dataOffset;
-        blocks.set(inner.packets.subarray(at, at + bytes), i * POINTS * POINT_BYTES);
+        blocks.set(inner.packets.subarray(at, at + bytes), i * MAX_POINT_DATA_BYTES);
       }
       blob = zstdCompressSync(blocks);
     },
@@ -93,13 +92,13 @@ export function zstd(codec: Codec, cloud: BenchCloud): CodecRun {
     decoded() {
       const view = new DataView(plain.buffer, plain.byteOffset, plain.byteLength);
       const points = new Int16Array(kept * 4);
-      for (let first = 0; first < kept; first += POINTS) {
-        const count = Math.min(POINTS, kept - first);
+      for (let first = 0; first < kept; first += POINTS_PER_PACKET) {
+        const count = Math.min(POINTS_PER_PACKET, kept - first);
         for (let i = 0; i < count; i++) {
           for (let axis = 0; axis < 3; axis++) {
-            points[(first + i) * 4 + axis] = view.getInt16(first * POINT_BYTES + i * 6 + axis * 2, true);
+            points[(first + i) * 4 + axis] = view.getInt16(bytesOfPoints(first) + i * 6 + axis * 2, true);
           }
-          points[(first + i) * 4 + 3] = view.getInt16(first * POINT_BYTES + count * 6 + i * 2, true);
+          points[(first + i) * 4 + 3] = view.getInt16(bytesOfPoints(first) + count * 6 + i * 2, true);
         }
       }
       return fromWords(points, cloud, chosen);
@@ -124,7 +123,9 @@ function fromWords(points: Int16Array, cloud: BenchCloud, source: Uint32Array): 
 }
 
 function sourcesOf(packets: readonly number[], chosen: Uint32Array): Uint32Array {
-  const parts = packets.map((packet) => chosen.subarray(packet * POINTS, packet * POINTS + POINTS));
+  const parts = packets.map((packet) =>
+    chosen.subarray(packet * POINTS_PER_PACKET, (packet + 1) * POINTS_PER_PACKET),
+  );
   const sources = new Uint32Array(parts.reduce((sum, part) => sum + part.length, 0));
   let at = 0;
   for (const part of parts) {

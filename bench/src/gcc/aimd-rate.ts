@@ -1,3 +1,4 @@
+import { bitsOfBytes } from '@farpoint/timing';
 import { LinkCapacity } from './link-capacity.ts';
 import type { BandwidthUsage } from './overuse-detector.ts';
 
@@ -13,7 +14,7 @@ const MOST_WAIT_MS = 200;
 const COLLAPSE = 0.5;
 /** Assumed frame rate for the size of a packet near convergence. */
 const FRAMES_PER_SECOND = 30;
-const PACKET_BITS = 1200 * 8;
+const PACKET_BITS = bitsOfBytes(1200);
 /** Minimum growth: bit/s per s near convergence; bit/s per update far from it. */
 const LEAST_ADDITIVE = 4000;
 const LEAST_MULTIPLICATIVE = 1000;

@@ -1,3 +1,5 @@
+import { BitRate } from '@farpoint/timing';
+
 /** The window `T`, ms. On a fast path, the last MOST_PACKETS packets, which span less. */
 const WINDOW_MS = 1000;
 const MOST_PACKETS = 500;
@@ -32,7 +34,7 @@ export class IncomingRate {
     // The first packet arrived before the measured time span.
     for (let i = this.#first + 1; i < this.#end; i++) bytes += this.#bytes[i % MOST_PACKETS] as number;
     const elapsedMs = Math.max(this.#spanMs(this.#sent), this.#spanMs(this.#arrived));
-    return elapsedMs > 0 ? (bytes * 8000) / elapsedMs : Number.NaN;
+    return elapsedMs > 0 ? BitRate.of(bytes, elapsedMs) : Number.NaN;
   }
 
   reset(): void {

@@ -1,3 +1,5 @@
+import { BitRate } from '@farpoint/timing';
+
 /** Rates of the first two trains as multiples of the initial rate; of later ones as multiples of the rate found. */
 const FIRST_FACTOR = 3;
 const SECOND_FACTOR = 6;
@@ -43,7 +45,7 @@ export class StartProbes {
 
   /** Length of a train, bytes. */
   static bytes(bitsPerSecond: number): number {
-    return Math.max((bitsPerSecond * TRAIN_MS) / 8000, TRAIN_BYTES);
+    return Math.max(BitRate.bytesIn(bitsPerSecond, TRAIN_MS), TRAIN_BYTES);
   }
 
   /** @returns the rate that the train has shown, bit/s */

@@ -9,7 +9,7 @@
  * order; its front is hidden packet by packet as the next frame replaces it. What is drawn lies between {@link head} and
  * {@link tail}; hidden stretches inside it (they come from packets that arrive out of order) are told by the runs.
  */
-import { sequenceDelta32 } from '@farpoint/protocol';
+import { pointsOfBytes, sequenceDelta32 } from '@farpoint/protocol';
 
 export const MAX_RUNS = 32;
 /** int32 fields of a run in {@link FrameWindow.runs}: first vertex, first visible vertex, pose slot, unused. */
@@ -131,7 +131,7 @@ export class FrameWindow {
     frameLength: number,
     sequenceOffset: number,
     sequenceLength: number,
-    points = sequenceLength / 8,
+    points = pointsOfBytes(sequenceLength),
   ): WindowDrop | null {
     const place = sequenceOffset / frameLength;
     const isPrevious = this.newestFrame !== null && sequenceDelta32(frameNumber, this.newestFrame) < 0;
@@ -177,7 +177,7 @@ export class FrameWindow {
     this.previousFrame = this.newestFrame;
     this.newestFrame = frameNumber;
     this.newestSlot = oldSlot;
-    this.newestTotal = frameLength / 8;
+    this.newestTotal = pointsOfBytes(frameLength);
     this.progress = 0;
     this.#dropHiddenFront();
   }

@@ -1,5 +1,11 @@
 /** Frames with known content, to check that a point arrives in its frame and place. */
-import { FULL_POINT_PACKET_BYTES, POINTS_PER_PACKET, writePointPacketHeader } from '@farpoint/protocol';
+import {
+  bytesOfPoints,
+  FULL_POINT_PACKET_BYTES,
+  POINTS_PER_PACKET,
+  pointsOfBytes,
+  writePointPacketHeader,
+} from '@farpoint/protocol';
 
 /** The point at position `place` of frame `frame`. */
 export function knownPoint(
@@ -21,9 +27,9 @@ export function knownFrame(frame: number, points: number): Uint8Array[] {
     const view = new DataView(payload.buffer);
     writePointPacketHeader(view, 0, {
       frameNumber: frame,
-      frameLength: points * 8,
-      sequenceOffset: first * 8,
-      sequenceLength: count * 8,
+      frameLength: bytesOfPoints(points),
+      sequenceOffset: bytesOfPoints(first),
+      sequenceLength: bytesOfPoints(count),
     });
     for (let i = 0; i < count; i++) {
       const { x, y, z, colour } = knownPoint(frame, first + i);
@@ -48,7 +54,7 @@ export interface ReadFrame {
 /** Reads a message of the streaming socket that was made from {@link knownFrame}s. */
 export function readKnownFrame(message: Uint8Array): ReadFrame {
   const view = new DataView(message.buffer, message.byteOffset, message.byteLength);
-  const points = message.byteLength / 8;
+  const points = pointsOfBytes(message.byteLength);
   const frame = points === 0 ? -1 : view.getInt16(0, true);
   const places: number[] = [];
   let strays = 0;

@@ -1,4 +1,5 @@
 import type { PacketResult } from '@farpoint/rtp';
+import { BitRate } from '@farpoint/timing';
 import { Competition } from './competition.ts';
 import { DelayLaw, growth, noiseAllowanceMs, toleratedQueueMs } from './delay-law.ts';
 import { InFlight } from './in-flight.ts';
@@ -168,7 +169,7 @@ export class AdaptiveRateController implements RateController {
     // missing without stopping the sender, except while a queue is being drained.
     const missedMs = this.#state === 'drain' ? 0 : feedbackIntervalMs + 15;
     const rate = this.#estimate * (1 - (this.#state === 'drain' ? this.#heldBack : 0));
-    const bytes = (rate * (baseRttMs + feedbackIntervalMs + 5 + missedMs)) / 8000;
+    const bytes = BitRate.bytesIn(rate, baseRttMs + feedbackIntervalMs + 5 + missedMs);
     if (this.#state === 'compete') return this.#competition.windowBytes + bytes;
     // A probe train must fit in beside what is already in flight.
     return Math.max(bytes, LEAST_WINDOW_BYTES) + (this.#probe.wish?.bytes ?? 0);

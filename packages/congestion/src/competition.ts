@@ -1,3 +1,4 @@
+import { BitRate } from '@farpoint/timing';
 import { packetMs } from './delay-law.ts';
 import type { PathObservation } from './path-observer.ts';
 import { TcpShare } from './tcp-share.ts';
@@ -96,7 +97,7 @@ export class Competition {
     this.#tcp.update(rttMs, congested, o.oldestSentMs, elapsedMs, nowMs);
     if (this.#testSaysAlone(o, congested, toleratedMs, nowMs)) return null;
     this.#calmMs = o.queueMs < toleratedMs / 2 ? this.#calmMs + elapsedMs : 0;
-    return this.#calmMs > CALM_MS ? null : (this.#tcp.windowBytes * 8000) / rttMs;
+    return this.#calmMs > CALM_MS ? null : BitRate.of(this.#tcp.windowBytes, rttMs);
   }
 
   /** The fraction of the rate that a test holds back. */

@@ -43,7 +43,7 @@ export function noiseAllowanceMs(noiseMs: number): number {
  * bounded for slow links.
  */
 export function growth(bitsPerSecond: number): number {
-  return Math.min(0.4e6 * Math.sqrt(bitsPerSecond / 1e6), Math.max(0.25 * bitsPerSecond, 0.1e6));
+  return Math.min(0.4e6 * Math.sqrt(BitRate.toMbps(bitsPerSecond)), Math.max(0.25 * bitsPerSecond, 0.1e6));
 }
 
 /** What the delay indicates. `over`: the queue is longer than tolerated; `clear`: it is (nearly) empty. */

@@ -1,5 +1,5 @@
 import { type PacketResult, SequenceNumber } from '@farpoint/rtp';
-import { WindowedMinimum } from '@farpoint/timing';
+import { BitRate, WindowedMinimum } from '@farpoint/timing';
 import { SettledDelay } from './settled-delay.ts';
 
 /** Summary of one feedback message. The next message overwrites it. */
@@ -127,7 +127,7 @@ export class PathObserver {
         bytes -= this.#sizes[++from] as number;
       const spanMs = arrival - (this.#arrivals[from] as number);
       if (spanMs < windowMs || to - from < RATE_PACKETS) continue;
-      const rate = (bytes * 8000) / spanMs;
+      const rate = BitRate.of(bytes, spanMs);
       if (!(rate <= most)) most = rate;
     }
     return most;
@@ -234,7 +234,7 @@ export class PathObserver {
       bytes += this.#bytes[(this.#messages - 1 - back) % MESSAGES] as number;
       spanMs = newestArrivalMs - (this.#ends[(this.#messages - 2 - back) % MESSAGES] as number);
     }
-    if (spanMs > 0) o.ackedBitsPerSecond = (bytes * 8000) / spanMs;
+    if (spanMs > 0) o.ackedBitsPerSecond = BitRate.of(bytes, spanMs);
   }
 
   #push(endMs: number, bytes: number): void {

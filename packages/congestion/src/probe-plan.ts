@@ -1,3 +1,4 @@
+import { BitRate } from '@farpoint/timing';
 import type { ProbeOutcome } from './probe-tester.ts';
 
 /** Length of a train: as time, and the minimum in bytes. */
@@ -71,7 +72,7 @@ export class ProbePlan {
   }
 
   bytes(rate: number, noiseMs: number): number {
-    return Math.max((rate * (TRAIN_MS + TRAIN_PER_NOISE * noiseMs)) / 8000, TRAIN_BYTES);
+    return Math.max(BitRate.bytesIn(rate, TRAIN_MS + TRAIN_PER_NOISE * noiseMs), TRAIN_BYTES);
   }
 
   onAsked(nowMs: number): void {

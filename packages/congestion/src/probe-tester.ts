@@ -1,4 +1,5 @@
 import type { PacketResult } from '@farpoint/rtp';
+import { BitRate } from '@farpoint/timing';
 import type { InFlight } from './in-flight.ts';
 import type { ProbeRequest } from './rate-controller.ts';
 
@@ -89,12 +90,12 @@ export class ProbeTester {
     }
     if (!past) return null;
     this.#request = null;
-    const bits = (this.#bytes - this.#firstBytes) * 8;
+    const bytes = this.#bytes - this.#firstBytes;
     const sentMs = this.#lastSentMs - this.#firstSentMs;
     const arrivedMs = this.#lastArrivalMs - this.#firstArrivalMs;
     if (this.#packets < LEAST_PACKETS || sentMs <= 0 || arrivedMs <= 0) return null;
-    this.outcome.sentBitsPerSecond = (bits * 1000) / sentMs;
-    this.outcome.arrivedBitsPerSecond = (bits * 1000) / arrivedMs;
+    this.outcome.sentBitsPerSecond = BitRate.of(bytes, sentMs);
+    this.outcome.arrivedBitsPerSecond = BitRate.of(bytes, arrivedMs);
     return this.outcome;
   }
 }

@@ -1,5 +1,5 @@
 import type { PacketResult } from '@farpoint/rtp';
-import { WindowedMinimum } from '@farpoint/timing';
+import { BitRate, WindowedMinimum } from '@farpoint/timing';
 import { LossJudge } from './loss-judge.ts';
 import {
   emptyDecision,
@@ -192,7 +192,7 @@ export class ReportRateController implements RateController {
   #judge(received: number, lost: number, sinceMs: number, nowMs: number): void {
     const elapsedMs = nowMs - sinceMs;
     this.#loss = lost / (received + lost);
-    this.#acked = (received * this.#packetBytes * 8000) / elapsedMs;
+    this.#acked = BitRate.of(received * this.#packetBytes, elapsedMs);
     const verdict = this.#judgeOfLoss.onFeedback(received, lost, sinceMs - (this.#rttMs ?? 0), nowMs);
     // The rate that had to be sent for this much to arrive, on a link that always loses some.
     const through = this.#acked / (1 - this.#judgeOfLoss.base);

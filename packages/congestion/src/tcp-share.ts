@@ -1,3 +1,5 @@
+import { BitRate } from '@farpoint/timing';
+
 /** CUBIC's constants (RFC 9438 §4.1, §4.6), in segments. */
 const C = 0.4;
 const BETA = 0.7;
@@ -21,7 +23,7 @@ export class TcpShare {
 
   /** Starts with the window that `bitsPerSecond` needs at this round trip. */
   start(bitsPerSecond: number, rttMs: number, nowMs: number): void {
-    this.#window = Math.max((bitsPerSecond * rttMs) / 8000 / SEGMENT_BYTES, 2);
+    this.#window = Math.max(BitRate.bytesIn(bitsPerSecond, rttMs) / SEGMENT_BYTES, 2);
     this.#windowMax = this.#window;
     this.#begin(nowMs);
   }

@@ -1,3 +1,4 @@
+import { bitsOfBytes, bytesOfBits } from '@farpoint/timing';
 import { CapacitySchedule, type CapacitySpec } from './capacity.ts';
 import { PacketRing, type QueuedPacket } from './packet-queue.ts';
 import { LEAST_QUEUE_BYTES, type QueueLimit } from './profile.ts';
@@ -110,11 +111,11 @@ export class Bottleneck {
     if ('bytes' in this.#limit) return this.#limit.bytes;
     this.#schedule.seek(nowMs);
     if (this.#schedule.rate > 0) this.#knownRate = this.#schedule.rate;
-    return Math.max(LEAST_QUEUE_BYTES, (this.#limit.ms * this.#knownRate) / 8);
+    return Math.max(LEAST_QUEUE_BYTES, bytesOfBits(this.#limit.ms * this.#knownRate));
   }
 
   #begin(atMs: number): void {
-    this.#remainingBits = this.#queue.headBytes * 8;
+    this.#remainingBits = bitsOfBytes(this.#queue.headBytes);
     this.#servedMs = atMs;
     this.#plan();
   }

@@ -1,4 +1,5 @@
 /** Capacity over time: piecewise constant, in bits per millisecond, read forward in amortised constant time. */
+import { BitRate } from '@farpoint/timing';
 
 /** Capacity from `atMs` on, until the next step. */
 export interface CapacityStep {
@@ -37,7 +38,7 @@ export function constantCapacity(mbps: number): CapacitySpec {
 }
 
 /** Bits per millisecond in 1 Mbit/s. */
-const BITS_PER_MS = 1000;
+const BITS_PER_MS = BitRate.bitsIn(BitRate.fromMbps(1), 1);
 
 /** A specification placed on the clock: its time 0 is `originMs`. */
 export class CapacitySchedule {

@@ -1,3 +1,5 @@
+import { BitRate } from '@farpoint/timing';
+
 /** Why a packet does not leave the link. */
 export const dropReasons = ['loss', 'burst-loss', 'queue-full', 'blackhole'] as const;
 export type DropReason = (typeof dropReasons)[number];
@@ -58,7 +60,9 @@ export class LinkStatistics {
     const packets = this.deliveredPackets;
     const bin: LinkBin = {
       timeMs,
-      capacityMbps: Number.isFinite(capacityBits) ? capacityBits / BIN_MS / 1000 : null,
+      capacityMbps: Number.isFinite(capacityBits)
+        ? BitRate.toMbps(BitRate.ofBits(capacityBits, BIN_MS))
+        : null,
       offeredBytes: this.offeredBytes,
       deliveredBytes: this.deliveredBytes,
       crossBytes: this.crossBytes,

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { ageOfStampMs, ClockOffset } from './clock-offset.ts';
+import { ageOfStampMs, ClockOffset, stampUsOf } from './clock-offset.ts';
 
 /** Robot clock 5000 ms ahead of the operator's. */
 function probe(clock: ClockOffset, sentMs: number, thereMs: number, backMs: number): void {
@@ -52,6 +52,16 @@ test('the error is at most half the shortest round trip', () => {
     }),
     { seed: 1, numRuns: 300 },
   );
+});
+
+test('a stamp wraps after 2³² µs', () => {
+  expect([0, 1.2509, 4_294_967.295, 4_294_967.296, 4_294_968.3].map(stampUsOf)).toEqual([
+    0,
+    1250,
+    2 ** 32 - 1,
+    0,
+    1004,
+  ]);
 });
 
 test('the age of a timestamp, across its wrap and slightly negative', () => {

@@ -1,4 +1,5 @@
 import type { ClockAnswer } from './control.ts';
+import { sequenceDelta32 } from './sequence.ts';
 
 /**
  * The operator's estimate of the robot's clock, from probes and answers (NTP's on-wire calculation, RFC 5905 §8, with
@@ -44,6 +45,11 @@ export class ClockOffset {
   }
 }
 
+/** The wrapping u32 microsecond stamp of an instant on the robot's monotonic clock, given in ms. */
+export function stampUsOf(robotMs: number): number {
+  return Math.floor((robotMs * 1000) % 0x1_0000_0000) >>> 0;
+}
+
 /**
  * Age of a wrapping u32 microsecond timestamp of the robot, ms.
  *
@@ -51,6 +57,5 @@ export class ClockOffset {
  * timestamp
  */
 export function ageOfStampMs(stampUs: number, robotNowMs: number): number {
-  const nowUs = Math.floor((robotNowMs * 1000) % 0x1_0000_0000) | 0;
-  return ((nowUs - stampUs) | 0) / 1000;
+  return sequenceDelta32(stampUsOf(robotNowMs), stampUs) / 1000;
 }

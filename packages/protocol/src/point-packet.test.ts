@@ -2,11 +2,15 @@ import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import {
+  bytesOfPoints,
   emptyPointPacketHeader,
   MAX_POINTS_PER_FRAME,
+  POINT_PACKET_HEADER_BYTES,
+  POINT_PACKET_OFFSETS,
   type PointPacketFault,
   type PointPacketHeader,
   packetCountOf,
+  pointsOfBytes,
   readPointPacketHeader,
   writePointPacketHeader,
 } from './point-packet.ts';
@@ -41,6 +45,19 @@ describe('conformance vectors', () => {
     expect(Buffer.from(view.buffer, 3, 16).toString('hex')).toBe(vector.headerHex);
     expect([view.getUint8(2), view.getUint8(19)]).toEqual([0, 0]);
   });
+});
+
+test('the offsets are where the header has its fields', () => {
+  const header = { frameNumber: 1, frameLength: 4800, sequenceOffset: 1200, sequenceLength: 800 };
+  const view = new DataView(new ArrayBuffer(POINT_PACKET_HEADER_BYTES));
+  writePointPacketHeader(view, 0, header);
+  const fields = Object.entries(POINT_PACKET_OFFSETS).map(([name, at]) => [name, view.getUint32(at, true)]);
+  expect(Object.fromEntries(fields)).toEqual(header);
+});
+
+test('points and their bytes', () => {
+  expect([0, 1, 150].map(bytesOfPoints)).toEqual([0, 8, 1200]);
+  expect([0, 8, 1200].map(pointsOfBytes)).toEqual([0, 1, 150]);
 });
 
 test('packets of a frame', () => {

@@ -15,9 +15,16 @@ export const POINT_PACKET_HEADER_BYTES = 16;
 /** int16 x, y, z and 16 bits of colour. */
 export const BYTES_PER_POINT = 8;
 export const POINTS_PER_PACKET = 150;
-export const MAX_POINT_DATA_BYTES = POINTS_PER_PACKET * BYTES_PER_POINT;
+export const MAX_POINT_DATA_BYTES = bytesOfPoints(POINTS_PER_PACKET);
 /** Header and a full data block: the reference profile always sends this length. */
 export const FULL_POINT_PACKET_BYTES = POINT_PACKET_HEADER_BYTES + MAX_POINT_DATA_BYTES;
+/** Where the header's fields are, as bytes from its beginning; each is a little-endian u32. */
+export const POINT_PACKET_OFFSETS = {
+  frameNumber: 0,
+  frameLength: 4,
+  sequenceOffset: 8,
+  sequenceLength: 12,
+} as const;
 /** More points than any supported camera has; a frame that claims more is refused. */
 export const MAX_POINTS_PER_FRAME = 4_194_304;
 
@@ -41,10 +48,10 @@ export function emptyPointPacketHeader(): PointPacketHeader {
 
 /** Writes the 16 bytes at `offset`, where the view must have room. */
 export function writePointPacketHeader(view: DataView, offset: number, header: PointPacketHeader): void {
-  view.setUint32(offset, header.frameNumber, true);
-  view.setUint32(offset + 4, header.frameLength, true);
-  view.setUint32(offset + 8, header.sequenceOffset, true);
-  view.setUint32(offset + 12, header.sequenceLength, true);
+  view.setUint32(offset + POINT_PACKET_OFFSETS.frameNumber, header.frameNumber, true);
+  view.setUint32(offset + POINT_PACKET_OFFSETS.frameLength, header.frameLength, true);
+  view.setUint32(offset + POINT_PACKET_OFFSETS.sequenceOffset, header.sequenceOffset, true);
+  view.setUint32(offset + POINT_PACKET_OFFSETS.sequenceLength, header.sequenceLength, true);
 }
 
 /**
@@ -64,19 +71,29 @@ export function readPointPacketHeader(view: DataView, into: PointPacketHeader): 
 /** The same for a header whose data is coded: any number of points, in any number of bytes. */
 export function readPointPlace(view: DataView, into: PointPacketHeader): PointPacketFault | null {
   if (view.byteLength < POINT_PACKET_HEADER_BYTES) return 'too-short';
-  into.frameNumber = view.getUint32(0, true);
-  into.frameLength = view.getUint32(4, true);
-  into.sequenceOffset = view.getUint32(8, true);
-  into.sequenceLength = view.getUint32(12, true);
+  into.frameNumber = view.getUint32(POINT_PACKET_OFFSETS.frameNumber, true);
+  into.frameLength = view.getUint32(POINT_PACKET_OFFSETS.frameLength, true);
+  into.sequenceOffset = view.getUint32(POINT_PACKET_OFFSETS.sequenceOffset, true);
+  into.sequenceLength = view.getUint32(POINT_PACKET_OFFSETS.sequenceLength, true);
   const { frameLength, sequenceOffset, sequenceLength } = into;
   if (sequenceLength === 0 || sequenceLength % BYTES_PER_POINT !== 0) return 'bad-length';
-  if (frameLength % BYTES_PER_POINT !== 0 || frameLength > MAX_POINTS_PER_FRAME * BYTES_PER_POINT) {
+  if (frameLength % BYTES_PER_POINT !== 0 || frameLength > bytesOfPoints(MAX_POINTS_PER_FRAME)) {
     return 'bad-frame-length';
   }
   if (sequenceOffset % BYTES_PER_POINT !== 0 || sequenceOffset + sequenceLength > frameLength) {
     return 'bad-offset';
   }
   return null;
+}
+
+/** Bytes of point data that `points` points take, as the header counts them in every format. */
+export function bytesOfPoints(points: number): number {
+  return points * BYTES_PER_POINT;
+}
+
+/** How many points the header means by so many bytes of point data. Whole for every header that was read without a fault. */
+export function pointsOfBytes(bytes: number): number {
+  return bytes / BYTES_PER_POINT;
 }
 
 /** How many packets a frame of `points` points takes. */

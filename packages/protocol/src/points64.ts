@@ -6,7 +6,7 @@
  * points use the WASM codec, which gives the same bytes.
  */
 import { LATENCY_TEST_COLOUR } from './colour664.ts';
-import { BYTES_PER_POINT } from './point-packet.ts';
+import { pointsOfBytes } from './point-packet.ts';
 
 export const MAX_COORDINATE_MM = 32767;
 
@@ -69,7 +69,7 @@ export function readPoints64Block(
   into: Int16Array,
   at: number,
 ): number {
-  const count = length / BYTES_PER_POINT;
+  const count = pointsOfBytes(length);
   const colourOffset = offset + count * 6;
   for (let i = 0; i < count; i++) {
     const to = at + i * 4;
@@ -83,7 +83,7 @@ export function readPoints64Block(
 
 /** Whether every colour of a block is the latency test's green. */
 export function isLatencyTestBlock(view: DataView, offset: number, length: number): boolean {
-  const count = length / BYTES_PER_POINT;
+  const count = pointsOfBytes(length);
   const colourOffset = offset + count * 6;
   for (let i = 0; i < count; i++) {
     if (view.getUint16(colourOffset + i * 2, true) !== LATENCY_TEST_COLOUR) return false;

@@ -6,3 +6,13 @@
 export function sequenceDelta32(a: number, b: number): number {
   return (a - b) | 0;
 }
+
+/** The counter's value after `sequence`: 0 after 2³²−1. */
+export function nextSequence32(sequence: number): number {
+  return (sequence + 1) >>> 0;
+}
+
+/** What a 32-bit counter reads at `count`, which counts without wrapping. */
+export function sequence32Of(count: number): number {
+  return count >>> 0;
+}

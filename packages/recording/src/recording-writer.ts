@@ -1,4 +1,4 @@
-import type { Pose } from '@farpoint/protocol';
+import { type Pose, sequence32Of } from '@farpoint/protocol';
 import { PointRoom, recordedPoints } from './captured-cloud.ts';
 import { McapFileWriter } from './mcap-file-writer.ts';
 import { pictureTopics } from './picture-topics.ts';
@@ -137,7 +137,9 @@ export class RecordingWriter {
       return;
     }
     const ns = this.#nsOf(capturedAtMs);
-    await this.file.add(of.channel, sequence >>> 0, ns, [compressedImage(ns, of.frame, format, file)]);
+    await this.file.add(of.channel, sequence32Of(sequence), ns, [
+      compressedImage(ns, of.frame, format, file),
+    ]);
   }
 
   /** @throws {Error} if writing fails */
@@ -177,7 +179,7 @@ export class RecordingWriter {
   }
 
   #add(kind: RosKind | JsonKind, sequence: number, ns: bigint, data: readonly Uint8Array[]): Promise<void> {
-    return this.file.add(this.#channels.get(kind) as number, sequence >>> 0, ns, data);
+    return this.file.add(this.#channels.get(kind) as number, sequence32Of(sequence), ns, data);
   }
 
   #cloudOf(record: CloudRecord, ns: bigint): Uint8Array[] {

@@ -1,4 +1,5 @@
 import {
+  bytesOfPoints,
   type CloudFormat,
   emptyPointPacketHeader,
   PLACEMENT_BYTES,
@@ -49,7 +50,11 @@ export class SentCloudDecoder {
     for (const packet of packets) {
       const view = new DataView(packet.buffer, packet.byteOffset, packet.byteLength);
       if (readPointPlace(view, this.#header) !== null) continue;
-      const room = Math.min(this.#header.sequenceLength, (points - count) * 8, this.#block.length * 2);
+      const room = Math.min(
+        this.#header.sequenceLength,
+        bytesOfPoints(points - count),
+        this.#block.byteLength,
+      );
       const read = readPoints64Block(view, POINT_PACKET_HEADER_BYTES, room, this.#block, 0);
       fromMillimetres(this.#block, read, words, count);
       count += read;

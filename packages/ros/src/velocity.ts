@@ -1,5 +1,5 @@
 /** Velocities in the messages that bases, twist_mux and Nav2 accept: geometry_msgs Twist and TwistStamped. */
-import type { Twist } from '@farpoint/protocol';
+import { nextSequence32, type Twist } from '@farpoint/protocol';
 import { MessageWriter as Ros1Writer } from '@foxglove/rosmsg-serialization';
 import { MessageWriter as Ros2Writer } from '@foxglove/rosmsg2-serialization';
 import { definitionsOf } from './definitions.ts';
@@ -25,7 +25,7 @@ export function velocityWriter(version: 1 | 2, type: string): VelocityWriter {
     const nsec = Number(stampNs % 1_000_000_000n);
     // Each writer uses the field names of its own version.
     const stamp = { sec, nsec, nanosec: nsec };
-    seq = (seq + 1) >>> 0;
+    seq = nextSequence32(seq);
     return writer.writeMessage({ header: { seq, stamp, frame_id }, twist });
   };
 }

@@ -8,3 +8,8 @@ const SPAN = 0x1_0000_0000;
 export function rtpTimestamp(atMs: number, clockRate: number): number {
   return Math.floor(((atMs * clockRate) / 1000) % SPAN) >>> 0;
 }
+
+/** The timestamp one tick later. */
+export function nextRtpTimestamp(timestamp: number): number {
+  return (timestamp + 1) >>> 0;
+}

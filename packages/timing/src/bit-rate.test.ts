@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { BitRate } from './bit-rate.ts';
+import { BitRate, bitsOfBytes, bytesOfBits } from './bit-rate.ts';
 
 test('one megabit a second carries 125,000 bytes a second', () => {
   const rate = BitRate.fromMbps(1);
@@ -11,6 +11,19 @@ test('one megabit a second carries 125,000 bytes a second', () => {
   expect(BitRate.bytesIn(rate, 20)).toBe(2500);
   expect(BitRate.msFor(rate, 2500)).toBe(20);
   expect(BitRate.of(2500, 20)).toBe(rate);
+});
+
+test('a megabit a second is a thousand bits a millisecond', () => {
+  const rate = BitRate.fromMbps(1);
+  expect(BitRate.bitsIn(rate, 1)).toBe(1000);
+  expect(BitRate.ofBits(1000, 1)).toBe(rate);
+  expect(BitRate.ofBits(BitRate.bitsIn(rate, 20), 20)).toBe(rate);
+});
+
+test('a byte is eight bits', () => {
+  expect(bitsOfBytes(1250)).toBe(10_000);
+  expect(bytesOfBits(10_000)).toBe(1250);
+  expect(bytesOfBits(4)).toBe(0.5);
 });
 
 test('bytes and their duration convert both ways', () => {

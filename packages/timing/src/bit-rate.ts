@@ -5,6 +5,16 @@ const BITS_A_BYTE = 8;
 const MS_A_SECOND = 1000;
 const BITS_A_MEGABIT = 1e6;
 
+/** Bits of so many bytes. */
+export function bitsOfBytes(bytes: number): number {
+  return bytes * BITS_A_BYTE;
+}
+
+/** Bytes of so many bits, not rounded. */
+export function bytesOfBits(bits: number): number {
+  return bits / BITS_A_BYTE;
+}
+
 /** The only place that converts between bytes, bits, milliseconds and megabits. */
 export const BitRate = {
   fromMbps(mbps: number): BitRate {
@@ -20,6 +30,11 @@ export const BitRate = {
     return (bytes * BITS_A_BYTE * MS_A_SECOND) / ms;
   },
 
+  /** Of so many bits in so long a time. */
+  ofBits(bits: number, ms: number): BitRate {
+    return (bits * MS_A_SECOND) / ms;
+  },
+
   fromBytesPerSecond(bytesPerSecond: number): BitRate {
     return bytesPerSecond * BITS_A_BYTE;
   },
@@ -31,6 +46,11 @@ export const BitRate = {
   /** The number of bytes in this time. */
   bytesIn(rate: BitRate, ms: number): number {
     return (rate * ms) / (BITS_A_BYTE * MS_A_SECOND);
+  },
+
+  /** How many bits go in so long a time. */
+  bitsIn(rate: BitRate, ms: number): number {
+    return (rate * ms) / MS_A_SECOND;
   },
 
   /** The time that this many bytes take, ms. */

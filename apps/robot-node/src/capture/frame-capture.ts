@@ -1,4 +1,4 @@
-import { POINTS_PER_PACKET } from '@farpoint/protocol';
+import { nextSequence32, packetCountOf } from '@farpoint/protocol';
 import type { CloudTap } from '@farpoint/recording';
 import type { Codec } from '@farpoint/wasm-codec';
 import type { CaptureBudget } from '../encode/capture-budget.ts';
@@ -60,7 +60,7 @@ export class FrameCapture {
     this.#send = send;
     this.#pictures = pictures;
     this.#recording = recording;
-    this.#pool = new BufferPool(BUFFERS, Math.ceil(description.capacity / POINTS_PER_PACKET) * SLOT_BYTES);
+    this.#pool = new BufferPool(BUFFERS, packetCountOf(description.capacity) * SLOT_BYTES);
     const planner = new FramePlanner({
       policy: plan,
       mostFramesPerSecond: Math.min(framesPerSecond, description.framesPerSecond ?? framesPerSecond),
@@ -116,7 +116,7 @@ export class FrameCapture {
     const probeBytes = this.#probeBytes(budget);
     const workMs = this.#workMs;
     const encoded = this.#formats.encode(frame, { frameNumber, budget, probeBytes, workMs, latencyTest });
-    this.#frameNumber = (frameNumber + 1) >>> 0;
+    this.#frameNumber = nextSequence32(frameNumber);
     this.#announceStream();
     const { intervalMs, usefulBitsPerSecond } = encoded;
     const facts = {

@@ -1,4 +1,4 @@
-import type { CloudFormat, Placement } from '@farpoint/protocol';
+import { type CloudFormat, type Placement, stampUsOf } from '@farpoint/protocol';
 import type { RejectedPoints } from '@farpoint/wasm-codec';
 import type { CaptureRoom, SourceFrame } from '../capture/frame-source.ts';
 
@@ -49,7 +49,7 @@ export function placementOf(
 ): Placement {
   return {
     pose: frame.cameraPose,
-    captureTimeUs: Math.floor((frame.capturedAtMs * 1000) % 0x1_0000_0000),
+    captureTimeUs: stampUsOf(frame.capturedAtMs),
     latencyTest,
     saturated,
     sensor,

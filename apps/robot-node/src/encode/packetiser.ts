@@ -1,11 +1,13 @@
 /** Adds header and placement to the data that a codec has written to a frame's slots. */
 import {
-  BYTES_PER_POINT,
+  bytesOfPoints,
   MAX_POINT_DATA_BYTES,
   PLACEMENT_BYTES,
   type Placement,
   POINT_PACKET_HEADER_BYTES,
+  POINT_PACKET_OFFSETS,
   packetCountOf,
+  pointsOfBytes,
   writePlacement,
   writePointPacketHeader,
 } from '@farpoint/protocol';
@@ -32,7 +34,8 @@ export function slotPayloadBytes(slots: Uint8Array, index: number): number {
 
 /** The sequence offset of a slot's packet within its frame, from its header. */
 export function slotSequenceOffset(slots: Uint8Array, index: number): number {
-  return new DataView(slots.buffer, slots.byteOffset + index * SLOT_BYTES).getUint32(8, true);
+  const header = new DataView(slots.buffer, slots.byteOffset + index * SLOT_BYTES);
+  return header.getUint32(POINT_PACKET_OFFSETS.sequenceOffset, true);
 }
 
 /** Completes the packets of one frame in place. The caller says how many points and bytes of data each slot holds. */
@@ -50,7 +53,7 @@ export class Packetiser {
   begin(slots: Uint8Array, frameNumber: number, points: number, placement: Placement): void {
     this.#view = new DataView(slots.buffer, slots.byteOffset, slots.byteLength);
     this.#header.frameNumber = frameNumber;
-    this.#header.frameLength = points * BYTES_PER_POINT;
+    this.#header.frameLength = bytesOfPoints(points);
     this.#placement = placement;
     this.#count = 0;
     this.#point = 0;
@@ -60,8 +63,8 @@ export class Packetiser {
   add(points: number, dataBytes: number): void {
     const at = this.#count * SLOT_BYTES;
     const header = this.#header;
-    header.sequenceOffset = this.#point * BYTES_PER_POINT;
-    header.sequenceLength = points * BYTES_PER_POINT;
+    header.sequenceOffset = bytesOfPoints(this.#point);
+    header.sequenceLength = bytesOfPoints(points);
     writePointPacketHeader(this.#view, at, header);
     writePlacement(this.#view, at + SLOT_DATA_OFFSET + dataBytes, this.#placement as Placement);
     this.#view.setUint16(at + LENGTH_OFFSET, SLOT_DATA_OFFSET + dataBytes + PLACEMENT_BYTES, true);
@@ -85,8 +88,8 @@ export function completePackets(
   packetiser.begin(slots, frameNumber, points, placement);
   const packets = packetCountOf(points);
   for (let i = 0; i < packets; i++) {
-    const bytes = Math.min(MAX_POINT_DATA_BYTES, points * BYTES_PER_POINT - i * MAX_POINT_DATA_BYTES);
-    packetiser.add(bytes / BYTES_PER_POINT, bytes);
+    const bytes = Math.min(MAX_POINT_DATA_BYTES, bytesOfPoints(points) - i * MAX_POINT_DATA_BYTES);
+    packetiser.add(pointsOfBytes(bytes), bytes);
   }
   return packets;
 }

@@ -9,13 +9,14 @@
  */
 
 import {
+  BYTES_PER_POINT,
   type CloudFormat,
   MAX_POINT_DATA_BYTES,
   PLACEMENT_BYTES,
   POINT_PACKET_HEADER_BYTES,
   POINTS_PER_PACKET,
 } from '@farpoint/protocol';
-import { BitRate } from '@farpoint/timing';
+import { BitRate, bitsOfBytes, bytesOfBits } from '@farpoint/timing';
 import { maxPoints } from '@farpoint/wasm-codec';
 
 export const PLAN_POLICIES = ['latency', 'paper'] as const;
@@ -64,6 +65,8 @@ export interface CodedPlan {
   budgetBytes: number;
 }
 
+/** Of `points64`. */
+const BITS_PER_POINT = bitsOfBytes(BYTES_PER_POINT);
 /** Fewer points do not make a picture of a room. The frame rate drops instead. */
 const LEAST_POINTS = 3000;
 const LEAST_BYTES = LEAST_POINTS;
@@ -123,7 +126,11 @@ export class FramePlanner {
       });
       return { framesPerSecond, points: Math.min(planned, most) };
     }
-    const framesPerSecond = this.#chooseFrameRate(pointBitsPerSecond / 64, Math.min(most, rawPoints), input);
+    const framesPerSecond = this.#chooseFrameRate(
+      pointBitsPerSecond / BITS_PER_POINT,
+      Math.min(most, rawPoints),
+      input,
+    );
     return { framesPerSecond, points: this.pointsAt(framesPerSecond, input) };
   }
 
@@ -156,7 +163,7 @@ export class FramePlanner {
     const dataShare = MAX_POINT_DATA_BYTES / wireBytes;
     const bitsPerSecond = input.targetBitsPerSecond * dataShare;
     const framesPerSecond = this.#chooseFrameRate(bitsPerSecond / need.whole, rawPoints, input, rawPoints);
-    const enough = (rawPoints * need.enough) / 8;
+    const enough = bytesOfBits(rawPoints * need.enough);
     const afforded = Math.min(BitRate.toBytesPerSecond(bitsPerSecond) / framesPerSecond, enough);
     const probed = Math.min(
       input.probeBytes * dataShare * CODED_SLACK,
@@ -172,7 +179,9 @@ export class FramePlanner {
   usefulBitsPerSecond(format: CloudFormat, { rawPoints, overheadBytes }: PlanInput): number {
     const { mostFramesPerSecond, mostPoints } = this.#options;
     const plain = format === 'points64';
-    const bits = plain ? Math.min(rawPoints, mostPoints) * 64 : rawPoints * CODED_NEEDS[format].enough;
+    const bits = plain
+      ? Math.min(rawPoints, mostPoints) * BITS_PER_POINT
+      : rawPoints * CODED_NEEDS[format].enough;
     return (bits * mostFramesPerSecond * wireBytesOfPacket(overheadBytes)) / MAX_POINT_DATA_BYTES;
   }
 

@@ -1,5 +1,5 @@
 /** What operators receive. */
-import { POINTS_PER_PACKET } from '@farpoint/protocol';
+import { MAX_POINTS_PER_FRAME, POINTS_PER_PACKET } from '@farpoint/protocol';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import { PLAN_POLICIES } from '../encode/plan.ts';
 import { STREAM_MODES } from '../encode/stream-mode.ts';
@@ -36,7 +36,7 @@ export const streamOptions = optionGroup('stream', {
     help: 'latency: as many frames a second as the rate can fill with useful pictures; paper: every frame, with points by the paper’s equations 2 and 3',
   }),
   maxPoints: defineOption({
-    schema: schema.integer({ min: POINTS_PER_PACKET, max: 4_194_304 }),
+    schema: schema.integer({ min: POINTS_PER_PACKET, max: MAX_POINTS_PER_FRAME }),
     default: 4_194_304,
     argument: 'N',
     help: 'maximum points in a points64 frame, even if the rate allows more',

@@ -1,4 +1,10 @@
-import { MAX_PICTURE_CHUNK_BYTES, pictureChunks, writePictureChunk } from '@farpoint/protocol';
+import {
+  MAX_PICTURE_CHUNK_BYTES,
+  nextSequence32,
+  pictureChunks,
+  stampUsOf,
+  writePictureChunk,
+} from '@farpoint/protocol';
 import { type MadePicture, PictureLossError, type PictureMaker } from './picture-maker.ts';
 import type {
   CameraPlan,
@@ -60,9 +66,9 @@ export class PictureProcessor {
     const began = threadCpu();
     const made = maker.make(offered, plan);
     const pictureId = this.#nextIds[camera] ?? 0;
-    this.#nextIds[camera] = (pictureId + 1) >>> 0;
+    this.#nextIds[camera] = nextSequence32(pictureId);
     const { format, width, height, untouched } = made;
-    const captureTimeUs = Math.floor((capturedAtMs * 1000) % 0x1_0000_0000);
+    const captureTimeUs = stampUsOf(capturedAtMs);
     const header = { format, camera, width, height, pictureId, captureTimeUs };
     return {
       ...{ type: 'picture', header, capturedAtMs, untouched },

@@ -1,3 +1,4 @@
+import { BitRate } from '@farpoint/timing';
 import type { ReadyPicture } from './picture-messages.ts';
 
 /** Why this operator did not get a picture, or not all of it. */
@@ -116,7 +117,7 @@ export class PictureSender {
   }
 
   #fill(nowMs: number, bitsPerSecond: number): void {
-    const bytesPerMs = bitsPerSecond / 8000;
+    const bytesPerMs = BitRate.bytesIn(bitsPerSecond, 1);
     const elapsed = this.#filledMs === null ? 0 : Math.max(0, nowMs - this.#filledMs);
     this.#filledMs = nowMs;
     // A chunk is sent only while there is credit; the last one may overdraw it slightly.

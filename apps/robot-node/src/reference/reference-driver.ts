@@ -4,7 +4,7 @@
  * errs on the side of standing still.
  */
 
-import { type Command, isZeroTwist, type Twist, zeroTwist } from '@farpoint/protocol';
+import { type Command, isZeroTwist, nextSequence32, type Twist, zeroTwist } from '@farpoint/protocol';
 import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
 import { TokenBucket } from '@farpoint/timing';
 
@@ -93,7 +93,7 @@ export class ReferenceDriver {
   }
 
   #toCommand(twist: Twist, nowMs: number): Command {
-    this.#sequence = (this.#sequence + 1) >>> 0;
+    this.#sequence = nextSequence32(this.#sequence);
     const state = this.#guard.leaseState(this.#id);
     return {
       type: 'command',

@@ -2,11 +2,13 @@ import type { ReceiverSums } from '@farpoint/congestion';
 import {
   FULL_POINT_PACKET_BYTES,
   MAX_POINT_DATA_BYTES,
+  nextSequence32,
   PLACEMENT_BYTES,
+  POINT_PACKET_OFFSETS,
   REFERENCE_MEDIA,
 } from '@farpoint/protocol';
 import type { ReportBlock, ResendRefusal } from '@farpoint/rtp';
-import { rtpTimestamp } from '@farpoint/rtp';
+import { nextRtpTimestamp, rtpTimestamp } from '@farpoint/rtp';
 import type { CloudTransport } from '../transport/cloud-transport.ts';
 
 /**
@@ -72,12 +74,13 @@ export class ReferenceTransport implements CloudTransport {
     usefulMs: number,
   ): number | null {
     this.#payload.set(payload.subarray(0, FULL_POINT_PACKET_BYTES));
-    this.#beginFrame(this.#view.getUint32(0, true));
-    this.#view.setUint32(0, this.frameNumber, true);
+    this.#beginFrame(this.#view.getUint32(POINT_PACKET_OFFSETS.frameNumber, true));
+    this.#view.setUint32(POINT_PACKET_OFFSETS.frameNumber, this.frameNumber, true);
     // In Farpoint's profile, the frame may end with a partial packet. Here it ends with its last whole packet.
-    const length = this.#view.getUint32(4, true);
-    this.#view.setUint32(4, length - (length % MAX_POINT_DATA_BYTES), true);
-    this.#view.setUint32(12, MAX_POINT_DATA_BYTES, true);
+    const length = this.#view.getUint32(POINT_PACKET_OFFSETS.frameLength, true);
+    const whole = length - (length % MAX_POINT_DATA_BYTES);
+    this.#view.setUint32(POINT_PACKET_OFFSETS.frameLength, whole, true);
+    this.#view.setUint32(POINT_PACKET_OFFSETS.sequenceLength, MAX_POINT_DATA_BYTES, true);
     return this.#inner.send(this.#payload, this.#rtpTimestamp, marker, nowMs, usefulMs);
   }
 
@@ -88,9 +91,9 @@ export class ReferenceTransport implements CloudTransport {
   #beginFrame(source: number): void {
     if (source === this.#source) return;
     this.#source = source;
-    this.frameNumber = (this.frameNumber + 1) >>> 0;
+    this.frameNumber = nextSequence32(this.frameNumber);
     const timestamp = rtpTimestamp(this.#now(), REFERENCE_MEDIA.clockRate);
     // The timestamp must advance with every frame, even if two frames begin at the same time.
-    this.#rtpTimestamp = timestamp === this.#rtpTimestamp ? (timestamp + 1) >>> 0 : timestamp;
+    this.#rtpTimestamp = timestamp === this.#rtpTimestamp ? nextRtpTimestamp(timestamp) : timestamp;
   }
 }

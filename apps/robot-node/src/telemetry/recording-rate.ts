@@ -1,11 +1,12 @@
 /** Estimates how fast a recording grows, to announce it before it fills a disk. */
+import { BitRate } from '@farpoint/timing';
 
 /** A point of a recorded cloud: x, y, z and colour, four bytes each. */
 const POINT_BYTES = 16;
 /** Poses, velocities, telemetry, estimates and latencies while somebody drives. */
 const EVENT_BYTES_PER_SECOND = 50_000;
 /** The most that pictures may take of any link, 3 Mbit/s. */
-const PICTURE_BYTES_PER_SECOND = 375_000;
+const PICTURE_BYTES_PER_SECOND = BitRate.toBytesPerSecond(BitRate.fromMbps(3));
 
 export interface RecordedKinds {
   /** Highest number of clouds recorded per second; 0 records none. */

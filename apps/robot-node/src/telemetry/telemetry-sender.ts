@@ -1,12 +1,13 @@
-import { encodeJson, type Telemetry, telemetryCodec } from '@farpoint/protocol';
+import { encodeJson, nextSequence32, type Telemetry, telemetryCodec } from '@farpoint/protocol';
 import type { DriveGuard } from '@farpoint/safety';
+import { BitRate } from '@farpoint/timing';
 import type { TimedBaseState } from '../base/base.ts';
 import type { OperatorSession } from '../session/operator-session.ts';
 import type { ReadingBoard } from './reading-board.ts';
 import type { StageTimer } from './stage-timer.ts';
 
 /** On a path that carries less, telemetry is sent less often, because it would take a fifth of the path. */
-const NARROW_BITS_PER_SECOND = 1e6;
+const NARROW_BITS_PER_SECOND = BitRate.fromMbps(1);
 const NARROW_EVERY = 4;
 
 /**
@@ -35,7 +36,7 @@ export class TelemetrySender {
   send(state: TimedBaseState, nowMs: number): void {
     if (this.#operators.size === 0) return;
     const stages = this.#stages.take();
-    this.#sequence = (this.#sequence + 1) >>> 0;
+    this.#sequence = nextSequence32(this.#sequence);
     // Readings go with the telemetry that narrow paths get, too, so that every reading reaches all operators.
     const reading = this.#sequence % NARROW_EVERY === 0 ? this.#readings.next(nowMs) : null;
     for (const operator of this.#operators.values()) {

@@ -8,6 +8,7 @@ import {
   type OperatorControlMessage,
   type OperatorSessionMessage,
   PictureAssembler,
+  pointsOfBytes,
   type Reading,
   type RobotSessionMessage,
   readCloudPayload,
@@ -256,8 +257,8 @@ export class OperatorClient {
       complete: false,
     };
     frame.packets++;
-    frame.points += sequenceLength / 8;
-    frame.complete = frame.points * 8 === frameLength;
+    frame.points += pointsOfBytes(sequenceLength);
+    frame.complete = frame.points === pointsOfBytes(frameLength);
     frames.set(frameNumber, frame);
     if (frames.size > 1000) frames.delete(frames.keys().next().value as number);
     this.#changed();

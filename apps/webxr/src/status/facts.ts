@@ -1,5 +1,6 @@
 /** The contents of the table of figures over the picture. */
 import type { EstopState, Telemetry } from '@farpoint/operator';
+import { BitRate } from '@farpoint/timing';
 import type { PageStats } from './page-stats.ts';
 import type { ShownReading } from './shown-readings.ts';
 import { driveWords, type Tone } from './words.ts';
@@ -86,7 +87,7 @@ export function lossTone({ lossRate }: PageStats): Tone {
 }
 
 export function mbps({ bitsPerSecond }: PageStats): string {
-  return (bitsPerSecond / 1e6).toFixed(1);
+  return BitRate.toMbps(bitsPerSecond).toFixed(1);
 }
 
 export function ms(value: number | null | undefined): string {

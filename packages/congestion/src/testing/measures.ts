@@ -1,14 +1,15 @@
+import { BitRate, bitsOfBytes } from '@farpoint/timing';
 import { BIN_MS, type FlowRecord, sumBins } from './flow-record.ts';
 import { carriedAtMost, type Outcome } from './scenario.ts';
 
 /** Arrived bits as a fraction of what the link could carry between two times. */
 export function utilisation({ scenario }: Outcome, flow: FlowRecord, fromMs: number, toMs: number): number {
-  return (sumBins(flow.arrivedBytes, fromMs, toMs) * 8) / carriedAtMost(scenario, fromMs, toMs);
+  return bitsOfBytes(sumBins(flow.arrivedBytes, fromMs, toMs)) / carriedAtMost(scenario, fromMs, toMs);
 }
 
 /** Arrival rate, bit/s. */
 export function throughput(flow: FlowRecord, fromMs: number, toMs: number): number {
-  return (sumBins(flow.arrivedBytes, fromMs, toMs) * 8000) / (toMs - fromMs);
+  return BitRate.of(sumBins(flow.arrivedBytes, fromMs, toMs), toMs - fromMs);
 }
 
 /** The first flow's fraction of what both received. */

@@ -1,5 +1,11 @@
 import type { EventQueue, Path, Random, Stalls } from '@farpoint/network-sim';
-import { type PacketStatus, type TransportFeedback, TransportFeedbackAdapter } from '@farpoint/rtp';
+import {
+  type PacketStatus,
+  SequenceNumber,
+  type TransportFeedback,
+  TransportFeedbackAdapter,
+} from '@farpoint/rtp';
+import { BitRate } from '@farpoint/timing';
 import { type PacedFrame, PacketPacer } from '../pacer.ts';
 import type { ProbeRequest, RateController, RateSnapshot } from '../rate-controller.ts';
 import { FlowRecord } from './flow-record.ts';
@@ -104,7 +110,7 @@ export class MediaFlow {
     if (this.#options.pauses?.some(([from, to]) => now >= from && now < to)) return;
     const target = this.#controller.decision(now).targetBitsPerSecond;
     const most = this.#options.maxFrameBytes ?? Number.POSITIVE_INFINITY;
-    const bytes = Math.min((target * FRAME_MS) / 8000, most);
+    const bytes = Math.min(BitRate.bytesIn(target, FRAME_MS), most);
     // Whole packets only; the remainder goes to the next frame, as with a planner that counts points.
     this.#budgetBytes = Math.min(this.#budgetBytes + bytes, bytes + PACKET_BYTES);
     const count = Math.floor(this.#budgetBytes / PACKET_BYTES);
@@ -169,12 +175,13 @@ export class MediaFlow {
     const cluster = this.#probeBytesLeft > 0 ? this.#probeCluster : 0;
     if (cluster !== 0) {
       this.#probeBytesLeft -= PACKET_BYTES;
-      this.#probeNextMs = Math.max(this.#probeNextMs, now - 2) + (PACKET_BYTES * 8000) / this.#probeRate;
+      this.#probeNextMs = Math.max(this.#probeNextMs, now - 2) + BitRate.msFor(this.#probeRate, PACKET_BYTES);
     }
     const sequence = this.#sequence++;
     if (this.#options.reports) this.#sentMs[sequence] = now;
-    this.#adapter.onPacketSent(sequence & 0xffff, PACKET_BYTES, now);
-    this.#controller.onPacketSent(sequence & 0xffff, PACKET_BYTES, now, cluster);
+    const carried = SequenceNumber.of(sequence);
+    this.#adapter.onPacketSent(carried, PACKET_BYTES, now);
+    this.#controller.onPacketSent(carried, PACKET_BYTES, now, cluster);
     this.record.sent(PACKET_BYTES, now);
     this.#options.forward.send(PACKET_BYTES, {
       dropped: (reason) => this.record.dropped(now, reason),
@@ -222,7 +229,7 @@ export class MediaFlow {
       this.#arrivals[at] = Number.NaN;
       // The wire format has a resolution of 250 µs.
       packets.push({
-        sequence: sequence & 0xffff,
+        sequence: SequenceNumber.of(sequence),
         received,
         arrivalUs: received ? Math.round(arrival * 4) * 250 : null,
       });
@@ -232,7 +239,7 @@ export class MediaFlow {
     const feedback: TransportFeedback = {
       senderSsrc: 1,
       mediaSsrc: 2,
-      baseSequence: first & 0xffff,
+      baseSequence: SequenceNumber.of(first),
       referenceTimeUs: 0,
       feedbackCount: 0,
       packets,

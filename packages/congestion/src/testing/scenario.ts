@@ -15,6 +15,7 @@ import {
   TcpFlow,
   VirtualLink,
 } from '@farpoint/network-sim';
+import { BitRate } from '@farpoint/timing';
 import type { RateController } from '../rate-controller.ts';
 import { FlowRecord } from './flow-record.ts';
 import { MediaFlow, type MediaFlowOptions } from './media-flow.ts';
@@ -79,7 +80,7 @@ export interface Outcome {
 
 /** The bytes that a queue of this many ms holds at the first capacity. */
 const queueOf = (steps: readonly CapacityStep[], ms: number): QueueLimit => ({
-  bytes: ((steps[0]?.mbps ?? 0) * 1000 * ms) / 8,
+  bytes: BitRate.bytesIn(BitRate.fromMbps(steps[0]?.mbps ?? 0), ms),
 });
 
 /** Runs the scenario in virtual time. The same scenario and controller give the same outcome. */

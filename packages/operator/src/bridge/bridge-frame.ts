@@ -1,11 +1,12 @@
 /** A frame as the bridge's streaming socket gives it, into the batches in which points go to the page. */
 import {
-  BYTES_PER_POINT,
+  bytesOfPoints,
   LATENCY_TEST_COLOUR,
   MAX_POINT_DATA_BYTES,
   type Placement,
   POINTS_PER_PACKET,
   type PointPacketHeader,
+  pointsOfBytes,
 } from '@farpoint/protocol';
 import { type Batch, SAMPLED_COVER } from '../cloud/batch.ts';
 import type { ImageExtent } from '../cloud/image-extent.ts';
@@ -44,7 +45,7 @@ export function splitFrame(
   extent: ImageExtent,
   sink: FrameSink,
 ): FrameOutcome | null {
-  const total = message.byteLength / BYTES_PER_POINT;
+  const total = pointsOfBytes(message.byteLength);
   if (!Number.isInteger(total) || total === 0 || !HOST_IS_LITTLE_ENDIAN) return null;
   const coordinates = new Int16Array(message, 0, total * 3);
   const colours = new Int16Array(message, total * 6, total);
@@ -59,7 +60,7 @@ export function splitFrame(
   };
   const header: PointPacketHeader = {
     frameNumber,
-    frameLength: total * BYTES_PER_POINT,
+    frameLength: bytesOfPoints(total),
     sequenceOffset: 0,
     sequenceLength: 0,
   };
@@ -67,8 +68,8 @@ export function splitFrame(
     const batch = sink.next();
     if (batch === null) return { points: first, dropped: total - first };
     const count = Math.min(POINTS_PER_PACKET, total - first);
-    header.sequenceOffset = first * BYTES_PER_POINT;
-    header.sequenceLength = Math.min(count * BYTES_PER_POINT, MAX_POINT_DATA_BYTES);
+    header.sequenceOffset = bytesOfPoints(first);
+    header.sequenceLength = Math.min(bytesOfPoints(count), MAX_POINT_DATA_BYTES);
     extent.add(frameNumber, view, first * 6, count);
     interleave(coordinates, colours, first, count, batch.points, batch.pointCount);
     const look = { imageExtent: extent.value, unit: 0.001, cover: SAMPLED_COVER };

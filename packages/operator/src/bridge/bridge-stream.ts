@@ -1,5 +1,5 @@
 /** The bridge's streaming socket, in the cloud's worker: comes back for ever, each frame goes to the page in batches. */
-import { POINTS_PER_PACKET } from '@farpoint/protocol';
+import { packetCountOf } from '@farpoint/protocol';
 import { Backoff } from '@farpoint/timing';
 import type { Batch } from '../cloud/batch.ts';
 import type { BatchPool } from '../cloud/batch-pool.ts';
@@ -56,9 +56,8 @@ export class BridgeStream {
     if (outcome === null) {
       countDrop(intake.drops, 'bad-frame-length');
     } else {
-      intake.packetsReceived += Math.ceil((outcome.points + outcome.dropped) / POINTS_PER_PACKET);
-      if (outcome.dropped > 0)
-        countDrop(intake.drops, 'no-buffer', Math.ceil(outcome.dropped / POINTS_PER_PACKET));
+      intake.packetsReceived += packetCountOf(outcome.points + outcome.dropped);
+      if (outcome.dropped > 0) countDrop(intake.drops, 'no-buffer', packetCountOf(outcome.dropped));
     }
     intake.bytesReceived += message.byteLength;
     const batch = this.#batch;

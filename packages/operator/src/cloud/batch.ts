@@ -10,7 +10,7 @@
  *                    68 f32 unit of the coordinates, metres       72 f32 cover: diameter of a point in mean distances
  *     POINTS_OFFSET  the packets' points one after another, x, y, z in units and the colour's bits, int16 each
  */
-import type { Placement, PointPacketHeader } from '@farpoint/protocol';
+import { type Placement, type PointPacketHeader, pointsOfBytes } from '@farpoint/protocol';
 
 /** Most packets that a batch holds. */
 export const BATCH_PACKETS = 128;
@@ -20,7 +20,7 @@ const POINTS_OFFSET = BATCH_PACKETS * ENTRY_BYTES;
 /** A packet of a coded format may hold any number of points: one that does not fit goes on in the next batch. */
 export const BATCH_POINTS = 65_536;
 /** Size of a batch's buffer, bytes. */
-export const BATCH_BYTES = POINTS_OFFSET + BATCH_POINTS * 8;
+export const BATCH_BYTES = POINTS_OFFSET + BATCH_POINTS * 4 * Int16Array.BYTES_PER_ELEMENT;
 export const ENTRY_LATENCY_TEST = 1;
 
 /** Samples are drawn at random, so that circles of c mean distances cover 1 − exp(−π·c²/4) of a surface: 96 % at 2. */
@@ -168,7 +168,7 @@ export class Batch {
   }
   /** Points of the frame that the packet carried, drawn or not. */
   pointsCame(packet: number): number {
-    return this.sequenceLength(packet) / 8;
+    return pointsOfBytes(this.sequenceLength(packet));
   }
   /** One step of a coordinate, metres. */
   unit(packet: number): number {

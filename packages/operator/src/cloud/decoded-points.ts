@@ -1,4 +1,4 @@
-import type { Placement, PointPacketHeader } from '@farpoint/protocol';
+import { bytesOfPoints, type Placement, type PointPacketHeader } from '@farpoint/protocol';
 import { BATCH_POINTS, type PointLook } from './batch.ts';
 import type { BatchWriter } from './packet-decoder.ts';
 
@@ -39,8 +39,8 @@ export class DecodedPoints {
       const at = batch.pointCount * 4;
       if (every === 1) batch.points.set(points.subarray(first * 4, (first + came) * 4), at);
       else copyThinned(points, first, came, every, batch.points, at);
-      part.sequenceOffset = header.sequenceOffset + first * 8;
-      part.sequenceLength = came * 8;
+      part.sequenceOffset = header.sequenceOffset + bytesOfPoints(first);
+      part.sequenceLength = bytesOfPoints(came);
       batch.add(part, placement, drawn, receivedAtMs, look);
       first += came;
     }

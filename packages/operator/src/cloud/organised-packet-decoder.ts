@@ -4,6 +4,8 @@ import {
   emptyPointPacketHeader,
   type Placement,
   type PointPacketHeader,
+  pointsOfBytes,
+  sequenceDelta32,
 } from '@farpoint/protocol';
 import { type Codec, OrganisedDecoder, type PutResult } from '@farpoint/wasm-codec';
 import type { PointLook } from './batch.ts';
@@ -126,12 +128,13 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
       writer.drop(result.fault);
       return;
     }
-    if (result.points !== header.sequenceLength / 8) {
+    if (result.points !== pointsOfBytes(header.sequenceLength)) {
       writer.drop('bad-count');
       return;
     }
     const bytes = decoder.unpack();
-    const points = new Int16Array(bytes.buffer, bytes.byteOffset + start * 8, result.points * 4);
+    const at = bytes.byteOffset + start * 4 * Int16Array.BYTES_PER_ELEMENT;
+    const points = new Int16Array(bytes.buffer, at, result.points * 4);
     this.#look.cover = COVER * Math.sqrt(writer.every);
     this.#points.write(points, header, placement, receivedAtMs, this.#look, writer);
   }
@@ -142,7 +145,7 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
     if (newest.frameNumber === frameNumber) return newest.decoder;
     const other = this.#open[1 - this.#newest] as FrameDecoder;
     if (other.frameNumber === frameNumber) return other.decoder;
-    if (newest.frameNumber !== null && ((frameNumber - newest.frameNumber) | 0) < 0) return null;
+    if (newest.frameNumber !== null && sequenceDelta32(frameNumber, newest.frameNumber) < 0) return null;
     other.frameNumber = frameNumber;
     other.decoder.begin();
     this.#newest = 1 - this.#newest;

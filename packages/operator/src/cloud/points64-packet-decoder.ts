@@ -1,4 +1,4 @@
-import type { Placement, PointPacketHeader } from '@farpoint/protocol';
+import { type Placement, type PointPacketHeader, pointsOfBytes } from '@farpoint/protocol';
 import { CloudDecoder, type Codec } from '@farpoint/wasm-codec';
 import { BATCH_PACKETS, type Batch, type PointLook, SAMPLED_COVER } from './batch.ts';
 import { copyThinned } from './decoded-points.ts';
@@ -24,7 +24,7 @@ export class Points64PacketDecoder implements PacketDecoder {
     receivedAtMs: number,
     writer: BatchWriter,
   ): void {
-    const points = header.sequenceLength / 8;
+    const points = pointsOfBytes(header.sequenceLength);
     const drawn = Math.ceil(points / writer.everySample);
     const batch = writer.batchFor(drawn);
     if (batch === null) {
@@ -55,7 +55,7 @@ export class Points64PacketDecoder implements PacketDecoder {
     let first = 0;
     let at = 0;
     for (let packet = 0; packet < batch.packets; packet++) {
-      const came = batch.sequenceLength(packet) / 8;
+      const came = batch.pointsCame(packet);
       copyThinned(points, first, came, this.#every, batch.points, at);
       first += came;
       at += batch.pointsOf(packet) * 4;

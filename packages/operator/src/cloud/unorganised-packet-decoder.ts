@@ -1,4 +1,9 @@
-import { decodeUnorganisedStream, type Placement, type PointPacketHeader } from '@farpoint/protocol';
+import {
+  decodeUnorganisedStream,
+  type Placement,
+  type PointPacketHeader,
+  pointsOfBytes,
+} from '@farpoint/protocol';
 import { type Codec, UnorganisedDecoder } from '@farpoint/wasm-codec';
 import { type PointLook, SAMPLED_COVER } from './batch.ts';
 import { DecodedPoints } from './decoded-points.ts';
@@ -38,7 +43,7 @@ export class UnorganisedPacketDecoder implements PacketDecoder, Disposable {
       writer.drop(count);
       return;
     }
-    if (count !== header.sequenceLength / 8) {
+    if (count !== pointsOfBytes(header.sequenceLength)) {
       writer.drop('bad-count');
       return;
     }

@@ -2,7 +2,7 @@
  * What is sent on the control channel, and when: while the dead-man grip is held a command at a fixed rate; when it is
  * let go a few zeros, since any one may be lost, and then nothing. Time is an argument.
  */
-import { type Command, type DriveLimits, zeroTwist } from '@farpoint/protocol';
+import { type Command, type DriveLimits, nextSequence32, zeroTwist } from '@farpoint/protocol';
 import { type DriveWish, REST, toTwist } from './velocity-mapping.ts';
 
 export const COMMANDS_PER_SECOND = 40;
@@ -96,7 +96,7 @@ export class CommandStream {
   }
 
   #make(nowMs: number, limits: DriveLimits, lease: string): Command {
-    this.#sequence = (this.#sequence + 1) >>> 0;
+    this.#sequence = nextSequence32(this.#sequence);
     return {
       type: 'command',
       sequence: this.#sequence,

@@ -1,4 +1,5 @@
 /** From the capture of a frame to the end of the display frame that shows the last of it. No clock here. */
+import { sequenceDelta32 } from '@farpoint/protocol';
 import { type Distribution, SampleWindow } from './sample-window.ts';
 
 /** Age of a capture stamp at a time of ours, ms; `null` while the robot's clock is unknown. */
@@ -39,7 +40,7 @@ export class FrameLatency {
   onPacket(frameNumber: number, captureUs: number, points: number, totalPoints: number): void {
     if (frameNumber !== this.#frame) {
       // A late packet of the frame before: that one is accounted for.
-      if (this.#frame !== null && ((frameNumber - this.#frame) | 0) < 0) return;
+      if (this.#frame !== null && sequenceDelta32(frameNumber, this.#frame) < 0) return;
       this.#close();
       this.#frame = frameNumber;
       this.#captureUs = captureUs;

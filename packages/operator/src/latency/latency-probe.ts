@@ -1,5 +1,5 @@
 /** Runs latency tests: asks for the lease, sends the flagged command, gives up when nothing comes. */
-import type { LatencyFrame } from '@farpoint/protocol';
+import { type LatencyFrame, pointsOfBytes } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 import type { Driver } from '../drive/driver.ts';
 import type { RobotLink } from '../link/robot-link.ts';
@@ -103,7 +103,7 @@ export class LatencyProbe {
       batch.isLatencyTest(packet),
       batch.frameNumber(packet),
       batch.pointsCame(packet),
-      batch.frameLength(packet) / 8,
+      pointsOfBytes(batch.frameLength(packet)),
       batch.receivedAtMs(packet) - performance.timeOrigin,
     );
   }

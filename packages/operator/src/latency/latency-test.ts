@@ -3,6 +3,7 @@
  * display frame that shows it. Two times are told: the first green points, and the whole green cloud (all its packets,
  * or what came of it before the next frame began). No clock and no GPU here.
  */
+import { nextSequence32, sequenceDelta32 } from '@farpoint/protocol';
 
 /** What a latency test measured. Times run from the input event. */
 export interface LatencyResult {
@@ -56,7 +57,7 @@ export class LatencyTest {
 
   /** @param startedAtMs the input event's time. @returns the id that the command must carry */
   start(startedAtMs: number): number {
-    this.#lastId = (this.#lastId + 1) >>> 0;
+    this.#lastId = nextSequence32(this.#lastId);
     this.#running = {
       id: this.#lastId,
       startedAtMs,
@@ -88,7 +89,8 @@ export class LatencyTest {
     if (test === null || test.complete) return;
     if (!isLatencyTest) {
       // The frame after it has begun: what is missing of the green one was lost.
-      if (test.frameNumber !== null && ((frameNumber - test.frameNumber) | 0) > 0) test.complete = true;
+      if (test.frameNumber !== null && sequenceDelta32(frameNumber, test.frameNumber) > 0)
+        test.complete = true;
       return;
     }
     if (test.frameNumber === null) {

@@ -3,6 +3,7 @@ import {
   type Command,
   encodeBandwidth,
   encodeJson,
+  nextSequence32,
   type OperatorControlMessage,
   type OperatorSessionMessage,
   operatorControlCodec,
@@ -190,7 +191,7 @@ export class WebRtcLink implements RobotLink {
 
   sendReport(report: IntakeReport): void {
     if (report.generation !== this.#generation || this.interrupted) return;
-    this.#reportSequence = (this.#reportSequence + 1) >>> 0;
+    this.#reportSequence = nextSequence32(this.#reportSequence);
     const { packetsReceived, packetsLost, bytesReceived } = report;
     this.#sendControl({
       type: 'receiverReport',

@@ -11,6 +11,7 @@ import {
   type LatencyFrame,
   type LeaseState,
   type MessageData,
+  nextSequence32,
   PictureAssembler,
   ProtocolError,
   type Reading,
@@ -92,7 +93,7 @@ export class RobotSession {
 
   /** Number for the next clock probe; wraps at 2³². */
   nextProbeId(): number {
-    this.#probeId = (this.#probeId + 1) >>> 0;
+    this.#probeId = nextSequence32(this.#probeId);
     return this.#probeId;
   }
 

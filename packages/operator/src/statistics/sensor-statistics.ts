@@ -1,3 +1,4 @@
+import { pointsOfBytes } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 import { type AgeOfStamp, FrameLatency } from '../latency/frame-latency.ts';
 import type { Distribution } from '../latency/sample-window.ts';
@@ -47,7 +48,12 @@ export class SensorStatistics {
     const came = batch.pointsCame(packet);
     this.#points += came;
     this.#packets++;
-    this.#latency.onPacket(frame, batch.captureTimeUs(packet), came, batch.frameLength(packet) / 8);
+    this.#latency.onPacket(
+      frame,
+      batch.captureTimeUs(packet),
+      came,
+      pointsOfBytes(batch.frameLength(packet)),
+    );
   }
 
   onDrawn(nowMs: number): void {

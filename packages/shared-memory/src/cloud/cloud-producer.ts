@@ -1,4 +1,5 @@
 import { renameSync, unlinkSync } from 'node:fs';
+import { nextSequence32 } from '@farpoint/protocol';
 import type { ByteView } from '../addon.ts';
 import { SharedMemoryError } from '../errors.ts';
 import { MappedFile } from '../mapped-file.ts';
@@ -7,6 +8,7 @@ import {
   type CloudHeader,
   cloudFile,
   colourOffset,
+  completeLock,
   type FrameHeader,
   fileBytes,
   HEADER_BYTES,
@@ -17,6 +19,7 @@ import {
   slotOffset,
   writeFrameHeader,
   writeHeader,
+  writingLock,
 } from './layout.ts';
 
 export interface CloudProducerOptions {
@@ -64,12 +67,12 @@ export class CloudProducer implements Disposable {
   publish(content: FrameContent, header: Omit<FrameHeader, 'depthUnit'> & { depthUnit?: number }): number {
     const file = this.#file;
     if (!file.current) throw inUse(file.path);
-    const frame = (this.#frame + 1) >>> 0;
+    const frame = nextSequence32(this.#frame);
     const at = slotOffset(this.header, frame);
     writeFrameHeader(this.#slotHeader, frame, { depthUnit: 0, ...header });
     const { width, height } = parseFrameHeader(this.#slotHeader, this.header, file.path, at);
     checkContent(content, this.header.format, width * height);
-    file.store32(at, (frame * 2 - 1) >>> 0);
+    file.store32(at, writingLock(frame));
     // No byte of the frame may become visible before the closed lock does.
     file.fence();
     file.copyIn(at + 4, this.#slotHeader.subarray(4));
@@ -81,7 +84,7 @@ export class CloudProducer implements Disposable {
       file.copyIn(payload, new Uint8Array(buffer, byteOffset, byteLength));
       file.copyIn(payload + colourOffset(this.header.format, width * height), content.colours);
     }
-    file.store32(at, (frame * 2) >>> 0);
+    file.store32(at, completeLock(frame));
     file.store32(PUBLISHED_OFFSET, frame);
     file.wake(PUBLISHED_OFFSET);
     this.#frame = frame;

@@ -1,9 +1,11 @@
+import { sequence32Of } from '@farpoint/protocol';
 import { SharedMemoryError } from '../errors.ts';
 import { MappedFile } from '../mapped-file.ts';
 import {
   type CloudHeader,
   cloudFile,
   colourOffset,
+  completeLock,
   type FrameHeader,
   HEADER_BYTES,
   PUBLISHED_OFFSET,
@@ -91,11 +93,11 @@ export class CloudReader implements Disposable {
       const frame = this.published;
       if (frame === this.#last) return null;
       const at = slotOffset(this.header, frame);
-      const whole = (frame * 2) >>> 0;
+      const whole = completeLock(frame);
       if (this.file.load32(at) === whole) {
         const read = this.#copy(frame, at, whole, to);
         if (read !== null) {
-          if (this.#last !== 0) this.skipped += ((frame - this.#last) >>> 0) - 1;
+          if (this.#last !== 0) this.skipped += sequence32Of(frame - this.#last) - 1;
           this.#last = frame;
           return read;
         }

@@ -6,6 +6,7 @@ import {
   type CloudFormat,
   type CloudHeader,
   colourOffset,
+  completeLock,
   type FrameHeader,
   HEADER_BYTES,
   makeHeader,
@@ -15,6 +16,7 @@ import {
   SLOT_HEADER_BYTES,
   writeFrameHeader,
   writeHeader,
+  writingLock,
 } from './layout.ts';
 
 interface Vectors {
@@ -111,5 +113,16 @@ describe('cloud layout', () => {
       }),
       { numRuns: 1000, seed: 1 },
     );
+  });
+});
+
+describe('the lock of a slot', () => {
+  it.each([
+    [1, 1, 2],
+    [2, 3, 4],
+    [0x8000_0000, 0xffff_ffff, 0],
+    [0xffff_ffff, 0xffff_fffd, 0xffff_fffe],
+  ])('of frame %i is %i while it is written and %i after', (frame, writing, complete) => {
+    expect([writingLock(frame), completeLock(frame)]).toEqual([writing, complete]);
   });
 });

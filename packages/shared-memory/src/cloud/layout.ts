@@ -3,7 +3,7 @@
  * filled in turn. Bytes in, values out; no I/O. Little-endian.
  */
 import { join } from 'node:path';
-import type { Pose } from '@farpoint/protocol';
+import { type Pose, sequence32Of } from '@farpoint/protocol';
 import { SharedMemoryError, type SharedMemoryErrorCode } from '../errors.ts';
 
 export const CLOUD_FILE = 'farpoint_cloud';
@@ -146,6 +146,16 @@ export function parseHeader(bytes: Uint8Array, size: number, file: string): Clou
   if (fileBytes(header) !== size)
     throw fault('bad-header', 20, `${slots} slots of ${slotBytes} bytes in a file of ${size}`);
   return header;
+}
+
+/** The lock of the slot of a complete frame. */
+export function completeLock(frame: number): number {
+  return sequence32Of(frame * 2);
+}
+
+/** The lock of the slot of a frame that is being written. */
+export function writingLock(frame: number): number {
+  return sequence32Of(frame * 2 - 1);
 }
 
 /** Writes everything in a slot's header except for the lock. */

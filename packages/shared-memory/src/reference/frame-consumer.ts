@@ -1,3 +1,4 @@
+import { BYTES_PER_POINT, pointsOfBytes } from '@farpoint/protocol';
 import type { ByteView } from '../addon.ts';
 import { SharedMemoryError } from '../errors.ts';
 import { MappedFile } from '../mapped-file.ts';
@@ -75,7 +76,7 @@ export class ReferenceFrameConsumer implements Disposable {
     try {
       const bytes = this.#payloadBytes();
       const green = this.#cloud.unpackPoints64(LENGTH_BYTES, bytes, to);
-      return { points: bytes / 8, green };
+      return { points: pointsOfBytes(bytes), green };
     } finally {
       this.release(wishes);
     }
@@ -105,7 +106,8 @@ export class ReferenceFrameConsumer implements Disposable {
     const bytes = low | (middle << 8) | (high << 16);
     if (bytes > MAX_PAYLOAD_BYTES)
       throw this.#badLength(`a payload of ${bytes} bytes, ${MAX_PAYLOAD_BYTES} is the most`);
-    if (bytes % 8 !== 0) throw this.#badLength(`a payload of ${bytes} bytes, which are no whole points`);
+    if (bytes % BYTES_PER_POINT !== 0)
+      throw this.#badLength(`a payload of ${bytes} bytes, which are no whole points`);
     return bytes;
   }
 

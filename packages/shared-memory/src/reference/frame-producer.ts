@@ -1,3 +1,4 @@
+import { BYTES_PER_POINT } from '@farpoint/protocol';
 import { SharedMemoryError } from '../errors.ts';
 import { MappedFile } from '../mapped-file.ts';
 import {
@@ -53,7 +54,7 @@ export class ReferenceFrameProducer implements Disposable {
    */
   publish(packed: Uint8Array): boolean {
     const { length } = packed;
-    if (length > MAX_PAYLOAD_BYTES || length % 8 !== 0) {
+    if (length > MAX_PAYLOAD_BYTES || length % BYTES_PER_POINT !== 0) {
       throw new SharedMemoryError('bad-length', this.#cloud.path, 0, `${length} bytes cannot be a payload`);
     }
     if (!this.free) return false;

@@ -1,11 +1,12 @@
 /** The reference system's four files. Little-endian; offsets are not aligned. */
 import { join } from 'node:path';
+import { pointsOfBytes } from '@farpoint/protocol';
 
 export const DEFAULT_FOLDER = '/dev/shm';
 
 /** Maximum length of packed points: 480 × 480 points of 8 bytes. */
 export const MAX_PAYLOAD_BYTES = 1_843_200;
-export const MAX_POINTS = MAX_PAYLOAD_BYTES / 8;
+export const MAX_POINTS = pointsOfBytes(MAX_PAYLOAD_BYTES);
 
 /** `shared_pc`: the payload's length in three bytes, then the payload. */
 export const LENGTH_BYTES = 3;

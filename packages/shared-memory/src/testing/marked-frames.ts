@@ -1,4 +1,5 @@
 /** Frames in which every part identifies its frame, so that a mixture of two is detected. */
+import { POINTS_PER_PACKET, pointsOfBytes } from '@farpoint/protocol';
 import type { CloudFrame, FrameRoom } from '../cloud/cloud-reader.ts';
 
 /** How many different marks there are. */
@@ -22,9 +23,9 @@ export function areWordsWhole({ points }: CloudFrame, room: FrameRoom): boolean 
 export function fillPacked(packed: Uint8Array, mark: number): void {
   const values = new Int16Array(packed.buffer, packed.byteOffset, packed.length / 2);
   const of = mark % MARKS;
-  const points = packed.length / 8;
-  for (let first = 0; first < points; first += 150) {
-    const count = Math.min(150, points - first);
+  const points = pointsOfBytes(packed.length);
+  for (let first = 0; first < points; first += POINTS_PER_PACKET) {
+    const count = Math.min(POINTS_PER_PACKET, points - first);
     const at = first * 4;
     for (let i = 0; i < count; i++) {
       values[at + i * 3] = of;

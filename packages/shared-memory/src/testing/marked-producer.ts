@@ -1,4 +1,5 @@
 /** A process that produces marked frames until killed: `node marked-producer.ts --layout … --folder … --points N`. */
+import { bytesOfPoints } from '@farpoint/protocol';
 import { CloudProducer } from '../cloud/cloud-producer.ts';
 import { ReferenceFrameProducer } from '../reference/frame-producer.ts';
 import { readArguments } from './arguments.ts';
@@ -21,7 +22,7 @@ if (layout === 'farpoint') {
   produce();
 } else {
   const producer = new ReferenceFrameProducer(folder);
-  const packed = new Uint8Array(points * 8);
+  const packed = new Uint8Array(bytesOfPoints(points));
   console.log('working');
   const produce = () => {
     fillPacked(packed, mark++);
