@@ -1,11 +1,11 @@
 export interface BackoffOptions {
   readonly firstMs: number;
   readonly mostMs: number;
-  /** Uniform in [0, 1): keeps many peers from coming back in step. */
+  /** Uniform in [0, 1): keeps many peers from reconnecting at the same moment. */
   readonly random: () => number;
 }
 
-/** How long to wait before the next attempt: doubles from `firstMs` to `mostMs`, spread by ±25 %, for ever. */
+/** Exponential backoff between attempts, without end: doubles from `firstMs` to `mostMs`, spread by ±25 %. */
 export class Backoff {
   readonly #options: BackoffOptions;
   #stepMs: number;
@@ -15,14 +15,14 @@ export class Backoff {
     this.#stepMs = options.firstMs;
   }
 
-  /** After a failure. @returns ms to wait */
+  /** Call after a failure. @returns the time to wait, ms */
   nextMs(): number {
     const stepMs = this.#stepMs;
     this.#stepMs = Math.min(stepMs * 2, this.#options.mostMs);
     return stepMs * (0.75 + this.#options.random() * 0.5);
   }
 
-  /** After success: the next wait is short again. */
+  /** Call after success: the next wait is short again. */
   reset(): void {
     this.#stepMs = this.#options.firstMs;
   }

@@ -13,7 +13,7 @@ test('one megabit a second carries 125,000 bytes a second', () => {
   expect(BitRate.of(2500, 20)).toBe(rate);
 });
 
-test('what goes in the time that bytes take is those bytes', () => {
+test('the bytes carried in the time that some bytes take are those bytes', () => {
   fc.assert(
     fc.property(fc.integer({ min: 1, max: 1e9 }), fc.integer({ min: 1, max: 1e7 }), (rate, bytes) => {
       expect(BitRate.bytesIn(rate, BitRate.msFor(rate, bytes))).toBeCloseTo(bytes, 3);

@@ -1,11 +1,11 @@
-/** Bits a second. 1 Mbit/s is 10⁶ bit/s. */
+/** Bits per second. 1 Mbit/s is 10⁶ bit/s. */
 export type BitRate = number;
 
 const BITS_A_BYTE = 8;
 const MS_A_SECOND = 1000;
 const BITS_A_MEGABIT = 1e6;
 
-/** The one place where bytes, bits, milliseconds and megabits meet. */
+/** The only place that converts between bytes, bits, milliseconds and megabits. */
 export const BitRate = {
   fromMbps(mbps: number): BitRate {
     return mbps * BITS_A_MEGABIT;
@@ -15,7 +15,7 @@ export const BitRate = {
     return rate / BITS_A_MEGABIT;
   },
 
-  /** Of so many bytes in so long a time. */
+  /** The rate of this many bytes in this time. */
   of(bytes: number, ms: number): BitRate {
     return (bytes * BITS_A_BYTE * MS_A_SECOND) / ms;
   },
@@ -28,12 +28,12 @@ export const BitRate = {
     return rate / BITS_A_BYTE;
   },
 
-  /** How many bytes go in so long a time. */
+  /** How many bytes this rate carries in this time. */
   bytesIn(rate: BitRate, ms: number): number {
     return (rate * ms) / (BITS_A_BYTE * MS_A_SECOND);
   },
 
-  /** How long so many bytes take, ms. */
+  /** How long this many bytes take at this rate, ms. */
   msFor(rate: BitRate, bytes: number): number {
     return (bytes * BITS_A_BYTE * MS_A_SECOND) / rate;
   },

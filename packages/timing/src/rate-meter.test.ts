@@ -10,7 +10,7 @@ test('measures over its window and forgets what is older', () => {
   expect(meter.perSecond).toBe(0);
 });
 
-test('measures over as much of the window as there is, from two samples on', () => {
+test('measures over a partial window from two samples on', () => {
   const meter = new RateMeter();
   meter.update(100, 0);
   expect(meter.perSecond).toBe(0);

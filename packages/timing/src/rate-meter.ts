@@ -1,4 +1,4 @@
-/** How much a sum that is sampled now and then grows a second, over the last second or so. Time is an argument. */
+/** Growth rate of an occasionally sampled total, over a window of about a second. Time is an argument. */
 export class RateMeter {
   readonly #times: number[] = [];
   readonly #sums: number[] = [];
@@ -11,14 +11,14 @@ export class RateMeter {
   update(sum: number, nowMs: number): void {
     this.#times.push(nowMs);
     this.#sums.push(sum);
-    // One sample at or before the window's beginning is kept, so that it is covered whole.
+    // Keep one sample at or before the start of the window, so that the whole window is covered.
     while (this.#times.length > 2 && nowMs - (this.#times[1] as number) >= this.#windowMs) {
       this.#times.shift();
       this.#sums.shift();
     }
   }
 
-  /** Per second; 0 before two updates, and where the sum fell. */
+  /** Growth per second; 0 before two updates, and if the total has fallen. */
   get perSecond(): number {
     const elapsedMs = (this.#times.at(-1) ?? 0) - (this.#times[0] ?? 0);
     if (elapsedMs <= 0) return 0;

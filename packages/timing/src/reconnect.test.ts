@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { Reconnect } from './reconnect.ts';
 
-/** When a SYN leaves: at the attempt's start, and again 1 and 3 s later where the attempt still waits (RFC 6298). */
+/** When a SYN leaves: at the start of an attempt, and again 1 and 3 s later if the attempt still waits (RFC 6298). */
 function synTimes(untilMs: number, random: () => number): number[] {
   const reconnect = new Reconnect(random);
   const times: number[] = [];
@@ -13,7 +13,7 @@ function synTimes(untilMs: number, random: () => number): number[] {
   return times;
 }
 
-test('in two minutes of a silent network a SYN leaves at least every 3 s, mostly every 2.5 s', () => {
+test('during two minutes without a network, a SYN leaves at least every 3 s, mostly every 2.5 s', () => {
   for (const random of [() => 0, () => 0.5, () => 0.999]) {
     const times = synTimes(120_000, random);
     const gaps = times.slice(1).map((time, i) => time - (times[i] as number));
@@ -23,7 +23,7 @@ test('in two minutes of a silent network a SYN leaves at least every 3 s, mostly
   }
 });
 
-test('slow networks get longer now and then', () => {
+test('gives slow networks more time now and then', () => {
   const reconnect = new Reconnect(() => 0.5);
   const timeouts = [0, 1, 2, 3, 4].map(() => {
     const { timeoutMs } = reconnect;
@@ -33,7 +33,7 @@ test('slow networks get longer now and then', () => {
   expect(timeouts).toEqual([2500, 2500, 2500, 5000, 2500]);
 });
 
-test('waits no longer than 1 s for minutes, up to 12.5 s after that, and little again after success', () => {
+test('waits at most 1 s for the first minutes, up to 12.5 s after that, and briefly again after success', () => {
   const reconnect = new Reconnect(() => 0.999);
   const waits = Array.from({ length: 80 }, () => reconnect.nextMs());
   expect(Math.max(...waits.slice(0, 60))).toBeLessThan(1000);

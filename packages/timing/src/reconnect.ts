@@ -2,20 +2,20 @@ import { Backoff } from './backoff.ts';
 
 const FIRST_RETRY_MS = 250;
 /**
- * The longest wait between two attempts, ms, a second with its spread: short for as long as a network is usually away,
- * then kinder to the service.
+ * The longest wait between two attempts, ms; with its spread it is a second. It is short for as long as network outages
+ * usually last; after that a longer wait spares the service.
  */
 const MOST_RETRY_MS = 800;
 const PATIENT_RETRY_MS = 10_000;
-/** About three minutes of failures. */
+/** Number of failures with the short wait: about three minutes. */
 const PATIENT_AFTER = 60;
 const SHORT_MS = 2500;
 const LONG_MS = 5000;
 
 /**
- * How a peer comes back to signaling after its network was away. TCP repeats a lost SYN after 1, 3 and 7 s: who waits for
- * that misses the moment in which the network is back, so attempts are given up early and made anew. Every fourth may take
- * longer, for networks that are slow.
+ * Schedules how a peer reconnects to signaling after a network outage. TCP repeats a lost SYN after 1, 3 and 7 s.
+ * Waiting for that would miss the moment at which the network is back, so attempts are given up early and repeated.
+ * Every fourth may take longer, for slow networks.
  */
 export class Reconnect {
   readonly #quick: Backoff;
@@ -33,12 +33,12 @@ export class Reconnect {
     return this.#failures % 4 === 3 ? LONG_MS : SHORT_MS;
   }
 
-  /** After an attempt that failed, or a connection that broke. @returns ms to wait before the next */
+  /** Call after a failed attempt or a broken connection. @returns the time to wait before the next attempt, ms */
   nextMs(): number {
     return this.#failures++ < PATIENT_AFTER ? this.#quick.nextMs() : this.#patient.nextMs();
   }
 
-  /** After success. */
+  /** Call after success. */
   reset(): void {
     this.#failures = 0;
     this.#quick.reset();

@@ -8,7 +8,7 @@ function takes(bucket: TokenBucket, times: number, nowMs: number): number {
   return taken;
 }
 
-test('one second’s worth at once, then as it refills', () => {
+test('allows one second’s takes at once, then as many as it refills', () => {
   const bucket = new TokenBucket({ perSecond: 100 });
   expect(takes(bucket, 150, 0)).toBe(100);
   expect(takes(bucket, 5, 9)).toBe(0);
@@ -16,13 +16,13 @@ test('one second’s worth at once, then as it refills', () => {
   expect(takes(bucket, 50, 110)).toBe(10);
 });
 
-test('a long pause fills it no further than its burst', () => {
+test('does not fill beyond its burst in a long pause', () => {
   const bucket = new TokenBucket({ perSecond: 10, burst: 25 });
   expect(takes(bucket, 100, 0)).toBe(25);
   expect(takes(bucket, 100, 60_000)).toBe(25);
 });
 
-test('rates whose interval is no whole number of milliseconds add up exactly', () => {
+test('rates whose interval is not a whole number of milliseconds add up exactly', () => {
   const bucket = new TokenBucket({ perSecond: 30, burst: 7 });
   expect(takes(bucket, 10, 0)).toBe(7);
   let taken = 0;
@@ -30,7 +30,7 @@ test('rates whose interval is no whole number of milliseconds add up exactly', (
   expect(taken).toBe(300);
 });
 
-test('a clock that runs backwards fills nothing, and does not fill twice when it comes back', () => {
+test('a clock that runs backwards adds no credit, and adds none twice when it recovers', () => {
   const bucket = new TokenBucket({ perSecond: 10 });
   expect(takes(bucket, 20, 1000)).toBe(10);
   expect(takes(bucket, 5, 0)).toBe(0);
@@ -44,7 +44,7 @@ test('a clock that runs backwards takes no credit away', () => {
   expect(takes(bucket, 20, 0)).toBe(6);
 });
 
-test('never lets through more than burst + rate × time, and always that after a rest', () => {
+test('never allows more than burst + rate × time, and always that much after a pause', () => {
   fc.assert(
     fc.property(fc.array(fc.integer({ min: 0, max: 300 }), { maxLength: 200 }), (gaps) => {
       const bucket = new TokenBucket({ perSecond: 10, burst: 5 });

@@ -1,14 +1,14 @@
-/** Credit is counted in thousandths of a token: whole rates and whole milliseconds then add up exactly. */
+/** Credit is counted in thousandths of a token, so that integer rates and integer milliseconds add up exactly. */
 const TOKEN = 1000;
 
 export interface TokenBucketOptions {
-  /** Takes a second, in the long run. */
+  /** Takes per second, in the long run. */
   readonly perSecond: number;
-  /** Takes at once after a pause. Default: one second's worth. */
+  /** Takes at once after a pause. Default: as many as in one second. */
   readonly burst?: number;
 }
 
-/** A token bucket, full at first: on average `perSecond` takes a second, and up to `burst` at once. Time is an argument. */
+/** A token bucket, initially full. It allows `perSecond` takes on average, `burst` at once. Time is an argument. */
 export class TokenBucket {
   readonly #perSecond: number;
   readonly #capacity: number;
@@ -21,9 +21,9 @@ export class TokenBucket {
     this.#credit = this.#capacity;
   }
 
-  /** @returns false where the bucket is empty; nothing is taken then */
+  /** @returns false if the bucket is empty; nothing is then taken */
   take(nowMs: number): boolean {
-    // A clock that stands or runs backwards fills nothing.
+    // A clock that stops or runs backwards adds no credit.
     if (this.#filledMs === null) {
       this.#filledMs = nowMs;
     } else if (nowMs > this.#filledMs) {

@@ -1,4 +1,4 @@
-/** The least of the samples of the last `windowMs`, in `BUCKETS` steps of time. */
+/** The minimum of the samples of the last `windowMs`, which expire in `BUCKETS` steps of time. */
 export class WindowedMinimum {
   static readonly #BUCKETS = 10;
   readonly #bucketMs: number;
