@@ -1,20 +1,20 @@
-/** What the threads of a recorded robot say to the one that writes. Times are of the robot's clock, ms. */
+/** Messages between a robot's threads and the one that writes its recording. Times are ms on the robot's clock. */
 import type { CloudFormat, PictureFormat, Pose, Twist } from '@farpoint/protocol';
 
 export interface RecorderOptions {
-  /** The MCAP file to write; there must be none yet. */
+  /** The MCAP file to write; it must not exist yet. */
   path: string;
-  /** Its chunks: as they are, or packed. */
+  /** Compression of the file's chunks. */
   compression: 'none' | 'zstd';
-  /** The file ends, whole, before it is larger; left out, it may be of any size. */
+  /** Maximum size, bytes: the file is completed before it exceeds it. Default: no limit. */
   mostBytes?: number | undefined;
-  /** The time since 1970 at the robot's clock's 0, ns. */
+  /** Zero of the robot's clock, ns since 1970. */
   epochNs: bigint;
-  /** For people: what is recorded. */
+  /** The robot's id, for people who read the file. */
   robotId: string;
 }
 
-/** A depth camera's lens, pixels. */
+/** A depth camera's intrinsics, pixels. */
 export interface Lens {
   fx: number;
   fy: number;
@@ -24,17 +24,17 @@ export interface Lens {
 
 interface RecordedStamp {
   capturedAtMs: number;
-  /** The optical frame in the world. */
+  /** Pose of the optical frame in the world. */
   pose: Pose;
-  /** Counts all there were: a gap is what was dropped. */
+  /** Numbers all clouds of the kind: a gap means that clouds were dropped. */
   sequence: number;
-  /** How many of its kind were, so far. */
+  /** How many of its kind have been dropped so far. */
   dropped: number;
-  /** Transferred; it comes back with the answer. */
+  /** Transferred; returned with the answer. */
   buffer: ArrayBuffer;
 }
 
-/** A cloud as the source gave it. */
+/** A cloud as the source captured it. */
 export type CapturedRecord = RecordedStamp &
   (
     | { type: 'points'; count: number; width: number; height: number }
@@ -49,7 +49,7 @@ export type SentRecord = RecordedStamp & {
   points: number;
   packets: number;
   slotBytes: number;
-  /** What the packets of a coded format are decoded with. */
+  /** The stream header with which the packets of a coded format are decoded; `null` for `points64`. */
   streamHeader: Uint8Array | null;
 };
 
@@ -58,31 +58,31 @@ export type CloudKind = 'captured' | 'sent';
 
 /** A camera whose pictures are recorded. */
 export interface RecordedCamera {
-  /** What people read. */
+  /** The name that people read. */
   name: string;
-  /** It is the one that the clouds come from. */
+  /** Whether the clouds come from this camera. */
   ofCloud: boolean;
 }
 
-/** A camera's picture as operators are sent it: a JPEG or PNG file. */
+/** A camera's picture as sent to operators: a JPEG or PNG file. */
 export interface PictureRecord {
   type: 'picture';
-  /** Place in the list of cameras. */
+  /** Index in the list of cameras. */
   camera: number;
   capturedAtMs: number;
-  /** Counts all there were of the camera: a gap is what was dropped. */
+  /** Numbers all pictures of the camera: a gap means that pictures were dropped. */
   sequence: number;
-  /** How many were, so far, of all cameras. */
+  /** How many pictures of all cameras have been dropped so far. */
   dropped: number;
   format: PictureFormat;
   /** Transferred. */
   file: Uint8Array<ArrayBuffer>;
 }
 
-/** What is dropped where the writer does not keep up, each kind with a queue of its own. */
+/** The kinds of records that are dropped if the writer cannot keep up. Each kind has its own queue. */
 export type DropKind = CloudKind | 'pictures' | 'events';
 
-/** A cloud's memory, free again. */
+/** Returns a cloud's memory. */
 export interface CloudDone {
   kind: CloudKind;
   buffer: ArrayBuffer;
@@ -90,7 +90,7 @@ export interface CloudDone {
   ended: boolean;
 }
 
-/** Topics of what is written as JSON. */
+/** Topics of the messages that are written as JSON. */
 export const JSON_TOPICS = {
   command: '/farpoint/commands',
   telemetry: '/farpoint/telemetry',
@@ -103,25 +103,25 @@ export type JsonKind = keyof typeof JSON_TOPICS;
 
 export type EventRecord =
   | { type: 'json'; kind: JsonKind; timeMs: number; sequence: number; value: object }
-  /** The velocity that the wheels were given. */
+  /** The velocity that was sent to the wheels. */
   | { type: 'velocity'; timeMs: number; sequence: number; twist: Twist }
-  /** base_link in the world. */
+  /** Pose of base_link in the world, and its velocity. */
   | { type: 'state'; timeMs: number; sequence: number; pose: Pose; twist: Twist };
 
 export type RecorderRequest =
   | EventRecord
   | PictureRecord
-  /** Before the first picture. */
+  /** Sent before the first picture. */
   | { type: 'cameras'; cameras: readonly RecordedCamera[] }
   | { type: 'close' };
 
 export type RecorderReport =
   | { type: 'ready' }
-  /** An event or a picture was taken. */
+  /** An event or a picture has been processed. */
   | { type: 'done'; kind: 'events' | 'pictures' }
-  /** The file has as many bytes as it may, and is closed. */
+  /** The file has reached its maximum size and is closed. */
   | { type: 'full' }
-  /** Nothing more is written. */
+  /** Writing failed: nothing more is written. */
   | { type: 'failed'; detail: string }
   | {
       type: 'written';

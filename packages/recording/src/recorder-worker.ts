@@ -1,4 +1,4 @@
-/** The thread that writes a recording: converting and writing megabytes a frame must delay nothing else. */
+/** The thread that writes a recording, so that converting and writing megabytes per frame delays nothing else. */
 import { type MessagePort, parentPort, workerData } from 'node:worker_threads';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { Recorder } from './recorder.ts';
@@ -13,7 +13,7 @@ import { RecordingWriter } from './recording-writer.ts';
 import { SentCloudDecoder } from './sent-cloud.ts';
 
 const FLUSH_MS = 500;
-/** How long the capture thread has for its last clouds after all others have closed, ms. */
+/** How long the capture thread may take to send its last clouds after all others have closed, ms. */
 const LINGER_MS = 2000;
 
 const port = parentPort;
