@@ -37,21 +37,21 @@ import { SendLoop } from './transport/send-loop.ts';
 
 const TICK_MS = 25;
 
-/** The robot put together: a base and a sink, sensors, and any number of operators under one guard over the wheels. */
+/** The complete robot: a base, a velocity sink, sensors, operators, and one guard over the wheels. */
 export class Robot {
   readonly sensors: CloudSensors;
-  /** `null` where the wheels are not simulated. */
+  /** `null` if the wheels are not simulated. */
   readonly base: BaseThread | null;
   readonly drive: DriveStation;
   readonly signaling: SignalingClient;
   readonly counters = new RobotCounters();
-  /** Its other face, to the reference system's operators; `null` where it has none. */
+  /** The interface to the reference system's operators; `null` if it is not enabled. */
   reference: ReferenceProfile | null = null;
-  /** `null` where no camera's pictures are to be had. */
+  /** `null` if there are no cameras with pictures. */
   readonly pictures: PictureHub | null;
-  /** Called once, where the robot cannot go on. */
+  /** Called if the robot cannot continue. */
   onFailure: ((error: Error) => void) | null = null;
-  /** `null` where nothing is recorded. */
+  /** `null` if nothing is recorded. */
   readonly recording: SessionRecording | null;
   readonly #options: RobotOptions;
   readonly #log: Logger;
@@ -67,9 +67,9 @@ export class Robot {
   readonly #reports: RobotReports;
   readonly #ticking: NodeJS.Timeout;
   #state: TimedBaseState | null = null;
-  /** When the capture thread last gave a sign of life, robot's clock, ms. */
+  /** When the first sensor's capture thread last gave a sign of life, ms on the robot's clock. */
   #captureSeenMs: number | null = null;
-  /** It ends because it must: the next start is latched. */
+  /** The robot ends because of a failure: the next start begins with the emergency stop latched. */
   #failed = false;
 
   private constructor(
@@ -194,7 +194,7 @@ export class Robot {
     });
   }
 
-  /** Opens the source and begins to call the signaling service. @throws {CaptureError} */
+  /** Opens the sources and connects to the signaling service. @throws {CaptureError} if a source cannot be opened */
   static async start(options: RobotOptions, log: Logger): Promise<Robot> {
     const recording =
       options.record === undefined ? null : await SessionRecording.open(options.record, options.id, log);
@@ -239,12 +239,12 @@ export class Robot {
     return this.#sessions.operators;
   }
 
-  /** Since the capture thread last gave a sign of life, ms; 0 before the first. */
+  /** Time since the capture thread last gave a sign of life, ms; 0 before the first. */
   get captureSilenceMs(): number {
     return this.#captureSeenMs === null ? 0 : monotonicMs() - this.#captureSeenMs;
   }
 
-  /** Stops the wheels first, then takes leave of everyone. */
+  /** Stops the wheels first, then ends all sessions and closes everything. */
   async close(): Promise<void> {
     if (!this.#failed) this.#estop.end();
     this.drive.guard.latchEstop('robot');
@@ -266,14 +266,14 @@ export class Robot {
     await reported;
   }
 
-  /** Of a connection with any operator. */
+  /** Options for the connection with any operator. */
   get #peerOptions() {
     const { portRange, icePolicy, connectTimeoutMs } = this.#options;
     const onRefused = (reason: Refusal) => this.counters.datagramsRefused.add(reason);
     return { portRange, icePolicy, connectTimeoutMs, onRefused };
   }
 
-  /** Without its first sensor the robot shows nothing; without another it shows less. */
+  /** The robot cannot continue without its first sensor. Without another it shows less, but continues. */
   #onSensorFailure(sensor: CloudSensor, error: Error): void {
     if (sensor === this.sensors.first) {
       this.#fail(error);

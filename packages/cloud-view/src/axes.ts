@@ -4,14 +4,14 @@
  */
 import { Matrix4, type Quaternion, Vector3 } from 'three';
 
-/** Takes world coordinates to three's; the root group of everything in the robot's world has it. */
+/** Converts world coordinates to three's; the matrix of the root group of everything in the robot's world. */
 export function worldToThree(): Matrix4 {
   return new Matrix4().makeBasis(new Vector3(0, 0, -1), new Vector3(-1, 0, 0), new Vector3(0, 1, 0));
 }
 
 /**
  * Heading of an optical frame (z forward) in the world: angle about z, counter-clockwise from x, radians; `fallback`
- * where it looks straight up or down.
+ * if it looks straight up or down.
  *
  * @param q unit quaternion
  * @param fallback radians

@@ -1,16 +1,16 @@
 import type { RobotClient } from '@farpoint/operator';
 
-/** Where the clouds come from: a {@link RobotClient}, or something that behaves as one. */
+/** Where the clouds come from: a {@link RobotClient}, or an object with the same interface. */
 export type CloudSource = Pick<
   RobotClient,
   'on' | 'release' | 'noteUploaded' | 'noteDrawn' | 'pointsAtMs'
 > & {
-  /** Of the latency tests: whether the display frame being drawn must be timed. */
+  /** Latency tests: `wantsTime` says whether the display frame being drawn must be timed. */
   readonly latency: Pick<RobotClient['latency'], 'wantsTime'>;
 };
 
-/** What a {@link CloudView} can be told. */
+/** Options of a {@link CloudView}. */
 export interface CloudViewOptions {
-  /** Whose clouds are drawn; the first sensor's where left out. */
+  /** Number of the sensor whose clouds are drawn; default: the first. */
   sensor?: number;
 }

@@ -1,6 +1,6 @@
 /**
- * The cloud on the GPU: takes batches as they come, uploads what is drawn in the frame loop, and tells what was drawn.
- * Nothing is parsed and nothing allocated here.
+ * The cloud on the GPU: takes batches as they arrive, uploads them in the frame loop, and reports what was drawn.
+ * Parses nothing and allocates nothing.
  */
 import type {
   Batch,
@@ -21,30 +21,31 @@ import { PointRing } from './point-ring.ts';
 const FIRST_CAPACITY = 1 << 19;
 /** 128 MiB on the GPU. */
 const MAX_CAPACITY = 1 << 24;
-/** Batches that may wait for the next display frame; beyond it the oldest are dropped. */
+/** Maximum number of batches that wait for the next display frame; beyond it the oldest are dropped. */
 const MAX_WAITING = 40;
-/** Without points for so long the picture begins to turn grey, and so much later it is. */
+/** After this time without points the picture starts to turn grey; {@link STALE_FADE_MS} later it is grey. */
 const STALE_AFTER_MS = 600;
 const STALE_FADE_MS = 1400;
-/** As of a camera that sees 90°, until a frame has told better. */
+/** A field of view of 90°, until a frame has given an estimate. */
 const DEFAULT_EXTENT = 2;
 
 /**
- * The clouds of one of a robot's sensors, as an object of a three.js scene. Its axes are the robot's world (REP-103: x forward, z up):
- * add it to a {@link RobotWorld}. Call {@link update} before and {@link noteDrawn} after each rendering.
+ * The clouds of one of a robot's sensors, as an object of a three.js scene. Its axes are those of the robot's world
+ * (REP-103: x forward, z up), so add it to a {@link RobotWorld}. Call {@link update} before each rendering, and
+ * {@link noteDrawn} after it.
  */
 export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   /** Which of the received points are drawn. */
   readonly window = new FrameWindow(FIRST_CAPACITY, MAX_CAPACITY);
   /** Packets that were not drawn, by reason. */
   readonly drops: DropCounts = {};
-  /** Frames of which some point was drawn, since the session began. */
+  /** Frames of which at least one point was drawn, since the session began. */
   frames = 0;
   /** Packets drawn, since the session began. */
   packets = 0;
-  /** Points that came in the packets drawn, since the session began. */
+  /** Points received in the packets drawn, since the session began. */
   points = 0;
-  /** How wide the robot's camera sees: side of its picture at 1 m, metres. */
+  /** The camera's field of view, as the side of its picture at a distance of 1 m, metres. */
   imageExtent = DEFAULT_EXTENT;
   readonly #renderer: WebGLRenderer;
   readonly #source: CloudSource;
@@ -55,9 +56,9 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   readonly #stop: (() => void)[];
 
   /**
-   * @param renderer draws this object, and no other renderer does
+   * @param renderer the only renderer that draws this object
    * @param source a {@link RobotClient}
-   * @param options whose clouds are drawn
+   * @param options which sensor's clouds are drawn
    */
   constructor(renderer: WebGLRenderer, source: CloudSource, { sensor = 0 }: CloudViewOptions = {}) {
     const { material, uniforms } = createPointMaterial();
@@ -71,7 +72,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
       renderer.getContext() as WebGL2RenderingContext,
       FIRST_CAPACITY,
       (attribute) => {
-        // three wants a BufferAttribute by its types; it draws GLBufferAttribute all the same.
+        // three's types require a BufferAttribute, but three also draws a GLBufferAttribute.
         this.geometry.setAttribute('position', attribute as never);
       },
     );
@@ -79,7 +80,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.frustumCulled = false;
     this.visible = false;
     const recreate = () => this.#recreate();
-    // three itself listens first, and has made its state anew by then.
+    // three's own listener runs first, so its state has been restored by then.
     renderer.domElement.addEventListener('webglcontextrestored', recreate);
     this.#stop = [
       source.on(sensor === 0 ? 'cloud' : `cloud:${sensor}`, (batch) => this.#enqueue(batch)),
@@ -91,30 +92,30 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     ];
   }
 
-  /** The operator's taste: 1 draws points as large as computed. */
+  /** Scale of the point size, for the operator's preference: 1 draws points as large as computed. */
   set sizeScale(scale: number) {
     this.#uniforms.sizeScale.value = scale;
   }
 
-  /** Vertices that the next display frame draws, hidden ones of late packets included. */
+  /** Number of vertices that the next display frame draws, including hidden ones of late packets. */
   get drawn(): number {
     return this.window.tail - this.window.head;
   }
 
-  /** Of the newest frame: where its camera stood, metres, REP-103 world. */
+  /** Position of the newest frame's camera, metres, REP-103 world. */
   get cameraPosition(): Position {
     return this.#uniforms.framePosition.value[this.window.newestSlot]!;
   }
-  /** Of the newest frame: how its camera's optical frame (z forward, x right, y down) was turned, as a unit quaternion. */
+  /** Orientation of the newest frame's camera: its optical frame (z forward, x right, y down), a unit quaternion. */
   get cameraOrientation(): Quaternion {
     return this.#uniforms.frameOrientation.value[this.window.newestSlot]!;
   }
-  /** Whether any frame has come in this session. */
+  /** Whether any frame has been received in this session. */
   get hasPoints(): boolean {
     return this.window.newestFrame !== null;
   }
 
-  /** Pixels of one eye's picture, from top to bottom. */
+  /** Height of one eye's picture, pixels. */
   get viewportHeight(): number {
     const { xr, domElement } = this.#renderer;
     if (!xr.isPresenting) return domElement.height;
@@ -122,7 +123,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   }
 
   /**
-   * In the frame loop, before rendering: uploads what has come.
+   * Uploads the points received. Call it in the frame loop, before rendering.
    *
    * @param nowMs `performance.now()`
    */
@@ -141,9 +142,9 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.visible = tail > head;
   }
 
-  /** In the frame loop, after rendering: the client learns when the points that {@link update} uploaded were drawn. */
+  /** Reports when the points that {@link update} uploaded were drawn. Call it in the frame loop, after rendering. */
   noteDrawn(): void {
-    // Only where a time is taken: waiting for the GPU costs frames.
+    // Wait only if the frame is timed, because waiting for the GPU costs frames.
     if (this.#source.latency.wantsTime) this.#completion.wait();
     this.#source.noteDrawn(performance.now());
   }
@@ -158,11 +159,11 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.#ring.dispose();
   }
 
-  /** Points lie on the GPU alone: no ray meets them. */
+  /** Does nothing: the points exist only on the GPU, so rays cannot hit them. */
   override raycast(): void {}
 
   #enqueue(batch: Batch): void {
-    // Nobody would draw it.
+    // Hidden pages do not draw.
     if (document.hidden && !this.#renderer.xr.isPresenting) {
       this.#source.release(batch);
       return;
@@ -179,7 +180,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.drops[reason] = (this.drops[reason] ?? 0) + packets;
   }
 
-  /** What was drawn goes, and what waits to be: another session begins, or nobody wants these clouds any more. */
+  /** Discards all points, drawn and waiting: another session begins, or these clouds are no longer wanted. */
   forget(): void {
     for (const batch of this.#waiting) this.#source.release(batch);
     this.#waiting.length = 0;
@@ -191,7 +192,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.points = 0;
   }
 
-  /** After a lost GPU context came back. */
+  /** A lost GPU context was restored. */
   #recreate(): void {
     this.#ring.recreate();
     this.window.reset();
@@ -222,7 +223,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     const { window } = this;
     const move = window.reserve(batch.pointCount);
     if (move !== null) this.#ring.relocate(move);
-    // Packets that lie next to each other go in one write.
+    // Adjacent packets are uploaded in one write.
     let first = 0;
     let count = 0;
     let vertex = window.tail;

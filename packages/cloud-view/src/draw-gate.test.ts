@@ -21,18 +21,18 @@ describe('DrawGate', () => {
     expect(gate.mayDraw(6, 121)).toBe(true);
   });
 
-  it('does not wait long for a frame that lost a packet, nor while nothing comes', () => {
+  it('waits only briefly for a frame that lost a packet, or while nothing arrives', () => {
     const gate = gateWithCost(30);
     gate.onDraw(5, 100);
     expect(gate.mayDraw(5, 149)).toBe(false);
     expect(gate.mayDraw(5, 150)).toBe(true);
   });
 
-  it('draws before anything is known', () => {
+  it('draws before it knows any cost', () => {
     expect(new DrawGate().mayDraw(null, 0)).toBe(true);
   });
 
-  it('forgets a slow time', () => {
+  it('recovers from a slow period', () => {
     const gate = gateWithCost(30);
     for (let i = 0; i < 20; i++) gate.onCost(2);
     gate.onDraw(5, 100);

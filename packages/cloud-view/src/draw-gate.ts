@@ -1,17 +1,17 @@
 /**
- * When a slow machine draws on a flat screen. A GPU that needs most of a display interval for one picture is better spent
- * on whole frames of the robot than on every fragment of them: drawing a fragment delays the rest. A fast one draws
- * always. No clock here.
+ * Decides when a slow machine draws on a flat screen. A GPU that needs most of a display interval for one picture
+ * should draw the robot's frames when they are whole, because drawing a fragment delays the rest. A fast GPU always
+ * draws. No clock here.
  */
 
-/** A picture that costs less than this is drawn at every display frame, ms. */
+/** Pictures that take less than this are drawn at every display frame, ms. */
 const CHEAP_MS = 8;
-/** A frame that does not become whole is not waited for longer, ms. */
+/** Longest wait for a frame to become whole, ms. */
 const MAX_HOLD_MS = 50;
 /** Weight of the latest cost in the running mean. */
 const SMOOTHING = 0.2;
 
-/** Decides whether a flat screen is drawn at a display frame, from what a picture costs the GPU. */
+/** Decides whether a flat screen is drawn at a display frame, from the time that a picture takes the GPU. */
 export class DrawGate {
   #costMs = 0;
   #lastDrawMs = Number.NEGATIVE_INFINITY;
@@ -20,7 +20,7 @@ export class DrawGate {
   /**
    * Asks before each display frame.
    *
-   * @param endedFrame the newest frame of the robot of which no more is waited for; `null` where there is none
+   * @param endedFrame the robot's newest frame that has ended; `null` if there is none
    * @param nowMs `performance.now()`
    * @returns whether to draw now
    */
@@ -31,7 +31,7 @@ export class DrawGate {
   }
 
   /**
-   * A picture was begun.
+   * Drawing of a picture has started.
    *
    * @param endedFrame as in {@link mayDraw}
    * @param nowMs `performance.now()`

@@ -25,7 +25,7 @@ test('a short stall changes nothing', () => {
   expect(governor.step.scale).toBe(1);
 });
 
-test('fast enough for long: finer again; where that was too much, not again soon', () => {
+test('fast enough for long: finer again; if that was too much, not again soon', () => {
   const governor = new DrawingGovernor();
   run(governor, 10, 0, 2000);
   run(governor, 60, 2000, 9000);

@@ -1,13 +1,13 @@
 /**
- * How much is drawn: fewer points of a whole cloud, and on a flat screen fewer pixels, where the machine cannot keep up. A
- * late picture is worse than a coarse one. No clock here.
+ * Reduces what is drawn if the machine cannot keep up: fewer points of a whole cloud, and on a flat screen fewer
+ * pixels. A late picture is worse than a coarse one. No clock here.
  */
 
 /** How much is drawn. */
 export interface DrawingStep {
-  /** Share of the screen's own resolution. */
+  /** Fraction of the screen's own resolution. */
   scale: number;
-  /** Of coded clouds one of every so many points. */
+  /** Only one of this many points of a coded cloud is drawn. */
   every: number;
 }
 
@@ -23,10 +23,10 @@ const SLOW_FPS = 24;
 const FAST_FPS = 50;
 const SLOW_FOR_MS = 1500;
 const FAST_FOR_MS = 6000;
-/** After a step up that was too much, the next is tried only after so long. */
+/** Wait before the next step up after one that was too much. */
 const PATIENCE_MS = 60_000;
 
-/** Chooses how much is drawn from the display frames a second that the machine reaches. */
+/** Chooses how much is drawn, from the display frame rate that the machine reaches. */
 export class DrawingGovernor {
   #step = 0;
   #slowSinceMs: number | null = null;
@@ -42,7 +42,7 @@ export class DrawingGovernor {
   /**
    * Call it about once a second.
    *
-   * @param displayFps display frames a second over the last second
+   * @param displayFps display frames per second over the last second
    * @param nowMs `performance.now()`
    * @returns whether {@link step} has changed
    */
@@ -66,7 +66,7 @@ export class DrawingGovernor {
     return false;
   }
 
-  /** The page was not looked at, or VR ran: what was measured says nothing. */
+  /** Discards measurements: the page was hidden, or VR was active. */
   pause(): void {
     this.#slowSinceMs = null;
     this.#fastSinceMs = null;

@@ -2,7 +2,7 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { FrameWindow, MAX_RUNS } from './frame-window.ts';
 
-/** What the ring's vertices hold, as the GPU would: `frame:offset` of each point's packet. */
+/** The ring's vertices as on the GPU: `frame:offset` of each point's packet. */
 class Ring {
   readonly window: FrameWindow;
   #cells: string[] = [];
@@ -46,7 +46,7 @@ class Ring {
 }
 
 describe('FrameWindow', () => {
-  test('a frame has ended with its last packet, or when the next one begins, whatever was lost', () => {
+  test('a frame ends with its last packet or when the next one begins, even if packets were lost', () => {
     const ring = new Ring(64);
     expect(ring.window.endedFrame).toBe(null);
     ring.take(7, 3, 0);
@@ -61,7 +61,7 @@ describe('FrameWindow', () => {
     expect(ring.window.endedFrame).toBe(9);
   });
 
-  test('a frame that trickles in replaces the previous one place by place', () => {
+  test('a frame that arrives bit by bit replaces the previous one place by place', () => {
     const ring = new Ring(64);
     for (let i = 0; i < 4; i++) ring.take(0, 4, i);
     ring.take(1, 4, 0);
@@ -82,7 +82,7 @@ describe('FrameWindow', () => {
     expect(ring.names()).toEqual(['1:2', '1:3', '2:0', '2:1']);
   });
 
-  test('a lost tail goes when the frame after begins', () => {
+  test('points left over because of a lost tail disappear when the next frame begins', () => {
     const ring = new Ring(64);
     for (const i of [0, 1, 2, 3]) ring.take(0, 4, i);
     for (const i of [0, 1]) ring.take(1, 4, i);
@@ -91,7 +91,7 @@ describe('FrameWindow', () => {
     expect(ring.names()).toEqual(['1:1', '2:0']);
   });
 
-  test('late packets: drawn while their place is not replaced, else dropped by reason', () => {
+  test('late packets: drawn unless their place has been replaced, else dropped by reason', () => {
     const ring = new Ring(64);
     for (const i of [0, 1]) ring.take(0, 4, i);
     ring.take(1, 4, 0);
@@ -106,7 +106,7 @@ describe('FrameWindow', () => {
     expect(ring.take(0, 4, 3)).toBe('late');
   });
 
-  test('frames of different size replace each other by place', () => {
+  test('frames of different sizes replace each other by place', () => {
     const ring = new Ring(64);
     for (let i = 0; i < 8; i++) ring.take(0, 8, i);
     ring.take(1, 2, 0);
@@ -121,20 +121,20 @@ describe('FrameWindow', () => {
     expect(ring.take(0xfffffffe, 1, 0)).toBe('late');
   });
 
-  test('the ring grows to what frames need, up to its largest', () => {
+  test('the ring grows as frames need it, up to its largest size', () => {
     const ring = new Ring(8, 64);
     for (let frame = 0; frame < 5; frame++) for (let i = 0; i < 8; i++) ring.take(frame, 8, i);
     expect(ring.window.capacity).toBe(64);
     expect(ring.names()).toEqual(Array.from({ length: 8 }, (_, i) => `4:${i}`));
   });
 
-  test('more than the largest ring holds begins anew instead of overrunning', () => {
+  test('starts over instead of overrunning if frames exceed the largest ring', () => {
     const ring = new Ring(16, 16);
     for (let i = 0; i < 50; i++) expect(ring.take(0, 50, i)).toBe(null);
     expect(ring.window.tail).toBeLessThanOrEqual(16);
   });
 
-  test('any order of arrival, against the plain rule', () => {
+  test('agrees with the plain rule for any order of arrival', () => {
     const frames = fc.array(fc.integer({ min: 1, max: 12 }), { minLength: 1, maxLength: 8 });
     const anyArrival = frames.chain((sizes) => {
       const packets = sizes.flatMap((size, frame) =>
@@ -159,11 +159,11 @@ describe('FrameWindow', () => {
         for (const { frame, size, index } of packets) {
           const runsWereFull = ring.window.runCount >= MAX_RUNS - 3;
           const drop = ring.take(frame, size, index);
-          // What happens when runs are used up is another test's.
+          // Another test covers what happens when all runs are in use.
           fc.pre(!runsWereFull && drop !== 'window-full');
           expect(drop).toBe(model.take(frame, size, index));
           expect(new Set(ring.names())).toEqual(model.drawn);
-          // One pose a frame, never shared.
+          // One pose per frame, never shared.
           const slots = new Map<string, Set<number>>();
           for (const [name, slot] of ring.drawn()) {
             const of = name.split(':')[0]!;
@@ -177,7 +177,7 @@ describe('FrameWindow', () => {
     );
   });
 
-  test('runs used up: packets of the newest frame are never refused', () => {
+  test('packets of the newest frame are never refused, even if all runs are in use', () => {
     const ring = new Ring(1024);
     ring.take(0, 100, 0);
     ring.take(1, 100, 0);
@@ -192,7 +192,7 @@ describe('FrameWindow', () => {
   });
 });
 
-/** The rule of frame-window.ts, said plainly. */
+/** The rule of frame-window.ts in its simplest form. */
 class PlainRule {
   #newest = -1;
   #previous = -1;

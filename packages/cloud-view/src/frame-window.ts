@@ -1,13 +1,13 @@
 /**
  * Which received points are drawn, and where they lie in the ring of vertices. No GPU here: indices only.
  *
- * Drawn are all points of the newest frame that have come, and of the frame before it those whose place in the frame
- * (sequenceOffset ÷ frameLength) lies beyond the newest frame's progress. So the picture is whole while a frame trickles
- * in; a lost packet leaves a hole for one frame; nothing waits for a last packet or the next frame.
+ * All received points of the newest frame are drawn, and those points of the frame before it whose place in the frame
+ * (sequenceOffset ÷ frameLength) lies beyond the newest frame's progress. The picture is therefore whole while a frame
+ * arrives bit by bit, a lost packet leaves a hole for one frame, and nothing waits for a last packet or the next frame.
  *
- * Packets are appended to the ring as they come. A *run* is a stretch of the ring with packets of one frame in rising
- * order; its front is hidden packet by packet as the next frame replaces it. What is drawn lies between {@link head} and
- * {@link tail}; hidden stretches inside it (they come from packets that arrive out of order) are told by the runs.
+ * Packets are appended to the ring as they arrive. A *run* is a stretch of the ring with packets of one frame in
+ * ascending order. Its front is hidden packet by packet as the next frame replaces it. The drawn vertices lie between
+ * {@link head} and {@link tail}; the runs describe hidden stretches among them, which out-of-order packets cause.
  */
 import { pointsOfBytes, sequenceDelta32 } from '@farpoint/protocol';
 
@@ -18,65 +18,65 @@ export const RUN_FIELDS = 4;
 /** Why a packet is not drawn. */
 export type WindowDrop =
   | 'late' // of a frame before the previous one
-  | 'superseded' // of the previous frame, at a place the newest has passed
+  | 'superseded' // of the previous frame, at a place that the newest has passed
   | 'window-full'; // more packets or runs than there is room for
 
-/** The live part of the ring must move to the ring's front, in a larger ring where `capacity` has grown. */
+/** The live part of the ring must move to the ring's front, in a larger ring if `capacity` has grown. */
 export interface Relocation {
   from: number;
   count: number;
   capacity: number;
 }
 
-/** Of the runs, those that packets out of order may not use. */
+/** Number of runs that out-of-order packets may not use. */
 const RUNS_KEPT = 3;
 const ENTRIES = 65_536;
 const ENTRY_MASK = ENTRIES - 1;
 
 export class FrameWindow {
-  /** Of the ring, in vertices. */
+  /** Size of the ring, vertices. */
   capacity: number;
   readonly maxCapacity: number;
-  /** First and one past the last vertex to draw. */
+  /** The first vertex to draw, and one past the last. */
   head = 0;
   tail = 0;
-  /** Runs in ring order, {@link RUN_FIELDS} each: the shader's uniform. */
+  /** Runs in ring order, {@link RUN_FIELDS} each, as in the shader's uniform. */
   readonly runs = new Int32Array(MAX_RUNS * RUN_FIELDS);
   runCount = 0;
   newestFrame: number | null = null;
   previousFrame: number | null = null;
   /** Which pose (0 or 1) the newest frame has; the previous frame has the other. */
   newestSlot = 0;
-  /** Points of the newest frame, when it is whole. */
+  /** Number of points of the whole newest frame. */
   newestTotal = 0;
-  /** How far the newest frame has come, 0–1: the end of its furthest packet. */
+  /** Progress of the newest frame, 0–1: the end of its furthest packet. */
   progress = 0;
 
-  // One entry a packet, in ring order, numbered without end; the arrays are rings.
+  // One entry per packet, in ring order. Entry numbers only grow; the arrays are rings.
   readonly #entryStart = new Int32Array(ENTRIES);
   readonly #entryPlace = new Float64Array(ENTRIES);
   #firstEntry = 0;
   #endEntry = 0;
-  /** For each run: its first entry, the entry its visible part begins with, the place where its last packet ended. */
+  /** For each run: its first entry, the first entry of its visible part, and the place where its last packet ended. */
   readonly #runFirstEntry = new Float64Array(MAX_RUNS);
   readonly #runEntry = new Float64Array(MAX_RUNS);
   readonly #runPlace = new Float64Array(MAX_RUNS);
 
-  /** @param capacity vertices at first; grows to `maxCapacity` as frames ask for it */
+  /** @param capacity initial size, vertices; grows up to `maxCapacity` as frames need it */
   constructor(capacity: number, maxCapacity: number) {
     this.capacity = capacity;
     this.maxCapacity = maxCapacity;
   }
 
   /**
-   * The newest frame of which no more is waited for: its last packet has come, or a newer frame has overtaken it. Some of
-   * its packets may be lost.
+   * The newest frame that has ended: its last packet has arrived, or a newer frame has overtaken it. Some of its
+   * packets may be lost.
    */
   get endedFrame(): number | null {
     return this.progress >= 1 ? this.newestFrame : this.previousFrame;
   }
 
-  /** Forgets everything: a new session's frame numbers begin anew. */
+  /** Forgets everything: in a new session frame numbers restart. */
   reset(): void {
     this.head = 0;
     this.tail = 0;
@@ -90,8 +90,8 @@ export class FrameWindow {
   }
 
   /**
-   * Makes room for `points` more vertices at the tail. What it returns must be done to the ring before the next
-   * {@link accept}; the window already counts on it.
+   * Makes room for `points` more vertices at the tail. The caller must carry out the returned move before the next
+   * {@link accept}; the window already assumes it.
    *
    * @param points at most half the largest capacity
    */
@@ -99,12 +99,12 @@ export class FrameWindow {
     if (this.tail + points <= this.capacity) return null;
     const count = this.tail - this.head;
     const from = this.head;
-    // At most half full after moving: else it would move at every batch, and onto itself.
+    // At most half full after the move; otherwise it would move at every batch, and onto itself.
     while ((count + points) * 2 > this.capacity && this.capacity < this.maxCapacity) {
       this.capacity = Math.min(this.capacity * 2, this.maxCapacity);
     }
     if ((count + points) * 2 > this.capacity) {
-      // More than the largest ring holds: begin anew.
+      // More than the largest ring holds: start over.
       this.reset();
       return { from: 0, count: 0, capacity: this.capacity };
     }
@@ -121,10 +121,10 @@ export class FrameWindow {
   }
 
   /**
-   * Takes one packet whose `points` vertices will be written at {@link tail} (as it is before the call).
+   * Takes one packet whose `points` vertices will be written at {@link tail} (its value before the call).
    *
-   * @param sequenceLength bytes of the frame that it carries, 8 a point; there may be fewer vertices
-   * @returns why it is not drawn, or `null`: the tail has moved on
+   * @param sequenceLength bytes of the frame that it carries, 8 per point; there may be fewer vertices
+   * @returns why it is not drawn, or `null` if it is: the tail has then advanced
    */
   accept(
     frameNumber: number,
@@ -159,7 +159,7 @@ export class FrameWindow {
     return null;
   }
 
-  /** Whether a vertex between head and tail is drawn, and with which pose: what the shader does. `null`: hidden. */
+  /** The pose slot with which a vertex between head and tail is drawn, as in the shader; `null` if it is hidden. */
   slotOf(vertex: number): number | null {
     for (let run = this.runCount - 1; run >= 0; run--) {
       if (vertex < this.#runStart(run)) continue;
@@ -169,7 +169,7 @@ export class FrameWindow {
   }
 
   #beginFrame(frameNumber: number, frameLength: number): void {
-    // What is left of the previous frame was never replaced (lost packets): it goes now.
+    // The rest of the previous frame was never replaced because of lost packets: hide it now.
     const oldSlot = 1 - this.newestSlot;
     for (let run = 0; run < this.runCount; run++) {
       if (this.#runSlot(run) === oldSlot) this.#hideRun(run);
@@ -186,8 +186,8 @@ export class FrameWindow {
     const last = this.runCount - 1;
     const sameFrame = last >= 0 && this.#runSlot(last) === slot;
     if (sameFrame && (this.#runPlace[last] as number) <= place) return true;
-    // The last runs are kept for the newest frame to go on and the next to begin: these never lack one. Out of order
-    // within its frame and without a run, a packet is replaced a little late or early, no more.
+    // The last runs are reserved, so that the newest frame can always continue and the next can begin. A packet that is
+    // out of order within its frame and gets no run is only replaced a little late or early.
     const isReordered = sameFrame || isPrevious;
     if (isReordered && this.runCount >= MAX_RUNS - RUNS_KEPT) return sameFrame;
     if (this.runCount === MAX_RUNS) return false;
@@ -223,7 +223,7 @@ export class FrameWindow {
     this.#setRun(run, this.#runStart(run), this.#startOf(end));
   }
 
-  /** Lets go of runs at the front that are wholly hidden, and moves the head to the first visible vertex. */
+  /** Removes completely hidden runs at the front, and moves the head to the first visible vertex. */
   #dropHiddenFront(): void {
     let gone = 0;
     while (gone < this.runCount && this.#runEntry[gone] === this.#endEntryOf(gone)) gone++;

@@ -1,21 +1,21 @@
-/** Whether the GPU has drawn what it was given. */
+/** Completion of the GPU's work. */
 import type { WebGLRenderer } from 'three';
 
-/** Tells whether the GPU has drawn what it was given. */
+/** Tells whether the GPU has finished drawing. */
 export class GpuCompletion {
-  /** Told how long each picture took from its marking, ms, as far as {@link busy} was asked. */
+  /** Called with the time from {@link mark} until {@link busy} finds the picture finished, ms. */
   onCost: ((costMs: number) => void) | null = null;
   #fence: WebGLSync | null = null;
   #markedMs = 0;
   readonly #pixel = new Uint8Array(4);
   readonly #renderer: WebGLRenderer;
 
-  /** @param renderer of WebGL 2, by which everything is drawn */
+  /** @param renderer the WebGL 2 renderer that draws everything */
   constructor(renderer: WebGLRenderer) {
     this.#renderer = renderer;
   }
 
-  /** Waits for it, by reading a pixel of it. Only where a time is measured: it stalls the pipeline. */
+  /** Waits for the GPU by reading a pixel. This stalls the pipeline, so call it only for a measurement. */
   wait(): void {
     const gl = this.#renderer.getContext() as WebGL2RenderingContext;
     const { xr, state } = this.#renderer;
@@ -25,7 +25,7 @@ export class GpuCompletion {
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, this.#pixel);
   }
 
-  /** The display frame is submitted. */
+  /** The display frame has been submitted. */
   mark(): void {
     const gl = this.#renderer.getContext() as WebGL2RenderingContext;
     if (this.#fence !== null) gl.deleteSync(this.#fence);
@@ -35,8 +35,8 @@ export class GpuCompletion {
   }
 
   /**
-   * Whether the GPU still draws the display frame marked last. Another one behind it would only be shown later: a slow
-   * GPU shows what is newest when it is free, not what was newest when it was asked.
+   * Whether the GPU is still drawing the display frame that was marked last. Then nothing should be submitted: a queued
+   * frame would be outdated when shown. A slow GPU should get the newest points once it is free.
    */
   get busy(): boolean {
     if (this.#fence === null) return false;

@@ -1,11 +1,11 @@
 /**
- * The point shader: int16 coordinates and 6-6-4 colour as they came, the pose of the point's frame, the paper's size
- * equation.
+ * The point shader: takes int16 coordinates and 6-6-4 colours as received, and applies the frame's pose and the paper's
+ * size equation.
  *
- * Size (diameter, pixels): `s0 · (1/w) · (m + |z|·k)`, z the depth in the capturing camera, w the clip coordinate. With
- * s0 the pixels that one metre at w = 1 covers in this viewport, m + |z|·k is a size in metres: the distance of
- * neighbouring samples at depth z. k is the angle between neighbours, so that points just close their gaps whatever the
- * resolution, the eye and the density of the frame; m keeps the nearest from vanishing.
+ * Size (diameter, pixels): `s0 · (1/w) · (m + |z|·k)`, where z is the depth in the capturing camera and w the clip
+ * coordinate. s0 is the number of pixels that one metre at w = 1 covers in this viewport, so m + |z|·k is a size in
+ * metres: the distance between neighbouring samples at depth z. k is the angle between neighbours, so that points just
+ * close their gaps at any resolution, eye and density of the frame. m keeps the nearest points from vanishing.
  */
 import { GLSL3, RawShaderMaterial, Vector4 } from 'three';
 import { MAX_RUNS, RUN_FIELDS } from './frame-window.ts';
@@ -90,11 +90,11 @@ export interface PointUniforms {
   framePosition: { value: Vector4[] };
   frameOrientation: { value: Vector4[] };
   frameUnit: { value: number[] };
-  /** Of one eye, pixels of the drawing buffer. */
+  /** Height of one eye's viewport, pixels of the drawing buffer. */
   viewportHeight: { value: number };
-  /** The operator's taste, 1 = as computed. */
+  /** Scale for the operator's preference, 1 = as computed. */
   sizeScale: { value: number };
-  /** 1 live … 0 not fed any more. */
+  /** From 1 (live) to 0 (no points are arriving). */
   freshness: { value: number };
 }
 
@@ -119,9 +119,9 @@ export function createPointMaterial(): { material: RawShaderMaterial; uniforms: 
 }
 
 /**
- * k of the size equation: the distance of neighbours at 1 m of depth, metres.
+ * k of the size equation: the distance between neighbours at a depth of 1 m, metres.
  *
- * @param points of the frame
+ * @param points number of points of the frame
  * @param imageExtent side of the camera's picture at 1 m, metres (image-extent.ts)
  * @param cover diameter of a point in mean distances
  */

@@ -1,4 +1,4 @@
-/** The ring of vertices on the GPU: 4 int16 a point, as they came. Written in ranges, never copied on the CPU. */
+/** The ring of vertices on the GPU: 4 int16 per point, as received. Written in ranges, never copied on the CPU. */
 import { GLBufferAttribute, IntType } from 'three';
 import type { Relocation } from './frame-window.ts';
 
@@ -7,8 +7,8 @@ const VERTEX_COMPONENTS = 4;
 
 export class PointRing {
   /**
-   * Called with the integer vertex attribute `ivec4` when there is another buffer: three keeps what it bound for an
-   * attribute, so another buffer must be another attribute.
+   * Called with a new `ivec4` vertex attribute when the buffer changes: three caches the binding of an attribute, so a
+   * new buffer needs a new attribute.
    */
   readonly #onAttribute: (attribute: GLBufferAttribute) => void;
   readonly #gl: WebGL2RenderingContext;
@@ -67,7 +67,7 @@ export class PointRing {
     }
   }
 
-  /** After the GPU lost everything. */
+  /** Creates everything again after the GPU context was lost. */
   recreate(): void {
     this.#buffer = this.#create(this.#capacity);
     this.#publish();

@@ -1,9 +1,9 @@
 import { Group } from 'three';
 import { worldToThree } from './axes.ts';
 
-/** The robot's world in a three.js scene: what is added to it is placed in metres by REP-103 (x forward, y left, z up). */
+/** The robot's world in a three.js scene. Children are placed in metres, by REP-103 (x forward, y left, z up). */
 export class RobotWorld extends Group {
-  /** Makes an empty group. Its matrix turns the robot's axes into three's and is not updated by three. */
+  /** Creates an empty group. Its matrix converts the robot's axes to three's, and three does not update it. */
   constructor() {
     super();
     this.matrixAutoUpdate = false;

@@ -5,7 +5,7 @@ import type { CloudRecord, RecorderReport } from './recorder-messages.ts';
 
 const CLOUD = { type: 'sent' } as CloudRecord;
 
-/** A recorder whose file only notes what is done to it; `answer` decides how each cloud ends. */
+/** A recorder whose file only records the calls to it; `answer` decides the outcome of each cloud. */
 function setUp(answer: (cloud: number) => Promise<void> = async () => undefined) {
   const done: string[] = [];
   const reports: RecorderReport[] = [];
@@ -29,7 +29,7 @@ function setUp(answer: (cloud: number) => Promise<void> = async () => undefined)
 }
 
 describe('Recorder', () => {
-  it('does one thing after the other, however long one takes', async () => {
+  it('processes requests one after another, however long each takes', async () => {
     const first = Promise.withResolvers<void>();
     const { recorder, done } = setUp((cloud) => (cloud === 0 ? first.promise : Promise.resolve()));
     const clouds = [recorder.addCloud(CLOUD), recorder.addCloud(CLOUD)];
@@ -40,7 +40,7 @@ describe('Recorder', () => {
     expect(done).toEqual(['cloud 0', 'cloud 1', 'state', 'close']);
   });
 
-  it('reports what is written at each flush, and syncs at every tenth', async () => {
+  it('reports what has been written at each flush, and syncs at every tenth', async () => {
     const { recorder, done, reports } = setUp();
     for (let i = 0; i < 20; i++) await recorder.flush();
     expect(done.filter((what) => what === 'sync')).toHaveLength(2);
@@ -51,7 +51,7 @@ describe('Recorder', () => {
     });
   });
 
-  it('closes a full file and writes nothing more', async () => {
+  it('closes a full file and writes nothing after that', async () => {
     const { recorder, done, reports } = setUp(async (cloud) => {
       if (cloud === 1) throw new McapFileFull();
     });
@@ -62,7 +62,7 @@ describe('Recorder', () => {
     expect(reports.map(({ type }) => type)).toEqual(['written', 'full']);
   });
 
-  it('reports a failure once, and still gives the memory of clouds back', async () => {
+  it('reports a failure once, and still returns the memory of clouds', async () => {
     const { recorder, done, reports } = setUp(async () => {
       throw new Error('no space left on device');
     });

@@ -3,16 +3,16 @@ import { McapFileFull, type McapFileWriter } from './mcap-file-writer.ts';
 import type { CloudRecord, RecorderReport, RecorderRequest } from './recorder-messages.ts';
 import type { RecordingWriter } from './recording-writer.ts';
 
-/** Every so many flushes the file is written through to the disk, so that it also survives the end of the machine. */
+/** The file is synced to disk once in this many flushes, so that it also survives a crash of the machine. */
 const SYNC_EVERY = 10;
 
-/** What a recorder needs of a {@link RecordingWriter}. */
+/** The parts of {@link RecordingWriter} that a recorder uses. */
 export type RecorderTarget = Pick<
   RecordingWriter,
   'addCameras' | 'addCloud' | 'addEvent' | 'addOwnState' | 'addPicture' | 'dropped' | 'faults'
 > & { readonly file: Pick<McapFileWriter, 'bytes' | 'close' | 'flush' | 'messages' | 'sync'> };
 
-/** A recording in progress: does what it is asked to one thing after the other, until the file is full or cannot be written. */
+/** A recording in progress: processes requests in order, until the file is full or cannot be written. */
 export class Recorder {
   readonly #writer: RecorderTarget;
   readonly #send: (report: RecorderReport) => void;
@@ -27,17 +27,17 @@ export class Recorder {
     this.#send = send;
   }
 
-  /** The file has all that it may, and is closed. */
+  /** Whether the file has reached its maximum size and is closed. */
   get full(): boolean {
     return this.#full;
   }
 
-  /** Resolves once the cloud's memory is free again, which is also so after a failure. */
+  /** Writes a cloud. Resolves once its memory can be reused, also after a failure. */
   addCloud(record: CloudRecord): Promise<void> {
     return this.#inTurn(() => this.#writer.addCloud(record));
   }
 
-  /** All but `close`. */
+  /** Handles all requests except `close`. */
   onRequest(request: Exclude<RecorderRequest, { type: 'close' }>): void {
     if (request.type === 'cameras') {
       void this.#inTurn(async () => this.#writer.addCameras(request.cameras));
@@ -50,7 +50,7 @@ export class Recorder {
     }
   }
 
-  /** Call it every half second: what was recorded up to then survives the end of the process. */
+  /** Call it every half second: everything recorded until then survives the end of the process. */
   flush(): Promise<void> {
     return this.#inTurn(async () => {
       await this.#addOwnState();
@@ -61,7 +61,7 @@ export class Recorder {
     });
   }
 
-  /** Ends the file, whole. */
+  /** Completes and closes the file. */
   async close(): Promise<void> {
     await this.#inTurn(async () => {
       await this.#addOwnState();
@@ -70,7 +70,7 @@ export class Recorder {
     this.#tell();
   }
 
-  /** Nothing waits for it: a slow disk shows in what is dropped. */
+  /** Syncs without anything waiting for it: a slow disk shows in the number of dropped records. */
   #sync(): void {
     if (this.#syncing) return;
     this.#syncing = true;

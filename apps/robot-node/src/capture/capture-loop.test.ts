@@ -7,7 +7,7 @@ import type { FrameSource } from './frame-source.ts';
 const STREAMING = { ...NO_BUDGET, type: 'budget', streaming: true } as const;
 const PAUSED = { ...NO_BUDGET, type: 'budget' } as const;
 
-/** A loop over a source and frames that only note what they are asked for, on a clock that stands until it is moved. */
+/** A loop over a source and frames that only record the calls to them, on a clock that the test advances. */
 function setUp(ownRhythm = false) {
   let nowMs = 1000;
   const reports: CaptureReport[] = [];
@@ -53,7 +53,7 @@ function setUp(ownRhythm = false) {
     wait: (ms: number) => {
       nowMs += ms;
     },
-    /** Ticks as its owner does, until `ms` have passed. */
+    /** Ticks as the loop's owner does, until `ms` have passed. */
     run: (ms: number) => {
       const until = nowMs + ms;
       while (nowMs < until) nowMs = Math.min(until, nowMs + Math.max(loop.tick(), 1));
@@ -62,7 +62,7 @@ function setUp(ownRhythm = false) {
 }
 
 describe('CaptureLoop over a source that can be asked at any time', () => {
-  it('captures nothing while nobody watches, then at the rhythm of the plan', () => {
+  it('captures nothing while nobody watches, then at the rate of the plan', () => {
     const { loop, run, captures } = setUp();
     loop.onRequest(PAUSED);
     run(200);
@@ -72,7 +72,7 @@ describe('CaptureLoop over a source that can be asked at any time', () => {
     expect(captures).toEqual([1200, 1250, 1300, 1350]);
   });
 
-  it('does not make up for frames that a stall has cost', () => {
+  it('does not make up for frames missed in a stall', () => {
     const { loop, run, wait, captures } = setUp();
     loop.onRequest(STREAMING);
     run(60);
@@ -81,7 +81,7 @@ describe('CaptureLoop over a source that can be asked at any time', () => {
     expect(captures).toEqual([1000, 1050, 1560, 1610]);
   });
 
-  it('asks a source without a cloud again at the rate it was opened with', () => {
+  it('asks a source that had no cloud again at the rate it was opened with', () => {
     const { loop, run, plan, captures } = setUp();
     loop.onRequest(STREAMING);
     plan(null);
@@ -92,8 +92,8 @@ describe('CaptureLoop over a source that can be asked at any time', () => {
   });
 });
 
-describe('CaptureLoop over a source with a rhythm of its own', () => {
-  it('takes each cloud that the plan has room for and lets the others go', () => {
+describe('CaptureLoop over a source with its own timing', () => {
+  it('takes each cloud that the plan has room for and skips the others', () => {
     const { loop, ready, captures, skips } = setUp(true);
     loop.onRequest(STREAMING);
     expect(captures).toEqual([1000]);
@@ -115,7 +115,7 @@ describe('CaptureLoop over a source with a rhythm of its own', () => {
     expect([captures, skips]).toEqual([[1540], [2091]]);
   });
 
-  it('lets a cloud go where all buffers are out', () => {
+  it('skips a cloud if all buffers are in use', () => {
     const { loop, ready, fillBuffers, captures, skips } = setUp(true);
     loop.onRequest(STREAMING);
     fillBuffers();
@@ -125,7 +125,7 @@ describe('CaptureLoop over a source with a rhythm of its own', () => {
 });
 
 describe('CaptureLoop', () => {
-  it('tells a state at once where it changed, and else ten times a second', () => {
+  it('reports a changed state at once, and an unchanged one ten times a second', () => {
     const { source, run, states } = setUp();
     run(500);
     expect(states()).toBe(5);
@@ -134,7 +134,7 @@ describe('CaptureLoop', () => {
     expect(states()).toBe(6);
   });
 
-  it('tells a fault that repeats itself once, until there was a cloud again', () => {
+  it('reports a repeated fault once, until there is a cloud again', () => {
     const { loop, source, run, plan, reports } = setUp();
     const faults = () => reports.flatMap((report) => (report.type === 'fault' ? [report.detail] : []));
     for (let i = 0; i < 3; i++) source.onFault?.(new Error('no producer'));
@@ -146,7 +146,7 @@ describe('CaptureLoop', () => {
     expect(faults()).toEqual(['no producer', 'no producer']);
   });
 
-  it('captures nothing more once it is closed', () => {
+  it('captures nothing after it is closed', () => {
     const { loop, ready, captures, reports } = setUp(true);
     loop.onRequest(STREAMING);
     loop.onRequest({ type: 'close' });

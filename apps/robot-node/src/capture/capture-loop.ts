@@ -8,27 +8,28 @@ import { ReadyGate } from './ready-gate.ts';
 const STATE_INTERVAL_MS = 20;
 /** An unchanged state is repeated at this interval, as a sign of life, ms. */
 const UNCHANGED_STATE_INTERVAL_MS = 100;
-/** Longest time between two looks at a source that is asked for clouds, ms. */
+/** Longest time between two ticks for a source that is polled, ms. */
 const MAX_WAIT_MS = 10;
-/** A cloud of a source with a rhythm of its own that has waited longer for an operator is let go, ms. */
+/** A cloud from a source with its own timing is skipped if it has waited longer than this for an operator, ms. */
 const MAX_READY_AGE_MS = 50;
 
 export interface CaptureLoopOptions {
-  /** The most the source may be asked for. */
+  /** The highest rate at which the source may be asked for clouds. */
   framesPerSecond: number;
   now: () => number;
   send: ReportSink;
 }
 
-/** What the loop needs of a {@link FrameCapture}. */
+/** The parts of {@link FrameCapture} that the loop uses. */
 export type LoopFrames = Pick<
   FrameCapture,
   'capture' | 'close' | 'framesWithoutBuffer' | 'hasRoom' | 'recycle' | 'requestLatencyTest' | 'wishes'
 >;
 
 /**
- * When clouds are captured: at the plan's rhythm where the source can be asked at any time, else as the source offers them,
- * as many as the plan has room for. The owner calls {@link tick} and, after as many ms as that returns, again.
+ * Decides when clouds are captured. A source that can be asked at any time is asked at the plan's rate. A source with
+ * its own timing offers its clouds, and the loop takes as many as the plan has room for. The owner calls {@link tick},
+ * and calls it again after the number of ms that it returned.
  */
 export class CaptureLoop {
   readonly #source: FrameSource;
@@ -36,14 +37,14 @@ export class CaptureLoop {
   readonly #now: () => number;
   readonly #send: ReportSink;
   readonly #gate: ReadyGate;
-  /** Between two frames before the first plan, ms. */
+  /** Time between two frames before the first plan, ms. */
   readonly #defaultIntervalMs: number;
   #budget: CaptureBudget = NO_BUDGET;
   #nextFrameMs: number;
   #nextStateMs = 0;
   #toldState: BaseState | null = null;
   #toldStateMs = 0;
-  /** Since when a source with a rhythm of its own has had a cloud ready. */
+  /** Since when a source with its own timing has had a cloud ready, ms; `null` if it has none. */
   #readySinceMs: number | null = null;
   #lastFault = '';
   #closed = false;
@@ -57,7 +58,7 @@ export class CaptureLoop {
     this.#nextFrameMs = now();
     this.#gate = new ReadyGate(now(), this.#defaultIntervalMs);
     if (this.#ownRhythm) {
-      // A cloud may have come before anybody listened.
+      // A cloud may have arrived before there was a listener.
       this.#readySinceMs = now();
       source.onReady = () => {
         this.#readySinceMs = this.#now();
@@ -76,7 +77,7 @@ export class CaptureLoop {
     switch (request.type) {
       case 'budget':
         this.#budget = request;
-        // A cloud may have waited for an operator.
+        // A cloud may have been waiting for an operator.
         this.#takeReady();
         break;
       case 'latencyTest':
@@ -107,7 +108,7 @@ export class CaptureLoop {
     return Math.min(Math.max(this.#nextFrameMs - after, 0), MAX_WAIT_MS);
   }
 
-  /** It calls by itself when it has a cloud; ticks are for its state alone. */
+  /** Whether the source has its own timing: it calls `onReady` when it has a cloud, and ticks only report its state. */
   get #ownRhythm(): boolean {
     return this.#source.onReady !== undefined;
   }
@@ -115,12 +116,12 @@ export class CaptureLoop {
   #captureAtPlan(): void {
     const beganMs = this.#now();
     const interval = (this.#budget.streaming ? this.#capture() : null) ?? this.#defaultIntervalMs;
-    // After a stall the rhythm starts anew; missed frames are not made up for.
+    // After a stall the schedule restarts; missed frames are not made up for.
     const dueMs = beganMs - this.#nextFrameMs > interval ? beganMs : this.#nextFrameMs;
     this.#nextFrameMs = Math.max(dueMs + interval, this.#now());
   }
 
-  /** Takes or skips the cloud that is ready; while nobody watches it stays with the source. */
+  /** Takes or skips the cloud that is ready. While nobody watches, the source keeps it. */
   #takeReady(): void {
     if (this.#readySinceMs === null || this.#closed || !this.#budget.streaming) return;
     const now = this.#now();
@@ -134,7 +135,7 @@ export class CaptureLoop {
     if (interval !== null) this.#gate.taken(now, interval);
   }
 
-  /** @returns the time until the next frame, ms; `null` where there was none */
+  /** @returns the time until the next frame, ms; `null` if there was no cloud or no buffer */
   #capture(): number | null {
     const intervalMs = this.#frames.capture(this.#budget);
     if (intervalMs !== null) this.#lastFault = '';
@@ -151,7 +152,7 @@ export class CaptureLoop {
     this.#send(report);
   }
 
-  /** A source that keeps failing the same way reports it once, until it gives a cloud again. */
+  /** Reports a repeated fault only once, until the source delivers a cloud again. */
   #onFault(detail: string): void {
     if (detail !== this.#lastFault) this.#send({ type: 'fault', detail });
     this.#lastFault = detail;

@@ -5,7 +5,7 @@ import type { CameraDescription, FrameSource, ImageFrame } from './frame-source.
 
 const CLOUD_CAMERA: CameraDescription = { name: 'Camera', most: null, ofCloud: true };
 
-/** The pictures of a capture thread: from its source's cameras, and the colour pictures that its clouds come with. */
+/** A capture thread's pictures: those of its source's cameras, and the colour pictures that clouds are made from. */
 export class CapturePictures {
   readonly cameras: readonly CameraDescription[];
   readonly #source: FrameSource;
@@ -36,7 +36,7 @@ export class CapturePictures {
     this.#source.usePictures?.(tap);
   }
 
-  /** Offers the colour picture that a cloud came with. */
+  /** Offers the colour picture of a cloud that was just captured. */
   offer({ colour, capturedAtMs }: ImageFrame): void {
     const camera = this.cameras.indexOf(CLOUD_CAMERA);
     if (this.#tap === null || camera < 0 || !this.#tap.wants(camera, capturedAtMs)) return;

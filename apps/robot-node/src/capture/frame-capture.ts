@@ -11,9 +11,9 @@ import type { CaptureOptions, ReportSink } from './capture-messages.ts';
 import type { CapturePictures } from './capture-pictures.ts';
 import type { CaptureWishes, FrameSource, SourceFrame } from './frame-source.ts';
 
-/** One frame being sent, one waiting, one being filled; and one more, as some frames go out in two formats. */
+/** One frame being sent, one waiting, one being filled, and one more because some frames are sent in two formats. */
 const BUFFERS = 4;
-/** Weight of the latest frame in the mean of what a frame costs. */
+/** Weight of the latest frame in the moving average of the time per frame. */
 const SMOOTHING = 0.1;
 
 /** The clocks that capturing reads, ms. */
@@ -24,7 +24,7 @@ export interface CaptureClocks {
   threadCpu: () => number;
 }
 
-/** Takes one cloud at a time from the source, encodes it as the budget says, and sends its packets off in a pooled buffer. */
+/** Takes one cloud at a time from the source, encodes it to the budget, and sends its packets in a pooled buffer. */
 export class FrameCapture {
   readonly #source: FrameSource;
   readonly #sensor: number;
@@ -35,11 +35,11 @@ export class FrameCapture {
   readonly #pool: BufferPool;
   readonly #formats: FrameFormats;
   #frameNumber = 0;
-  /** The stream that the main thread knows. */
+  /** The stream that was last reported to the main thread. */
   #stream: CodedStream | null = null;
-  /** The probe that the last enlarged frame was made for. */
+  /** The cluster of the probe for which a frame was last enlarged. */
   #probeCluster = 0;
-  /** Mean time that a frame takes, ms. */
+  /** Moving average of the time that a frame takes, ms. */
   #workMs = 0;
   #latencyTest = false;
 
@@ -49,7 +49,7 @@ export class FrameCapture {
     options: Omit<CaptureOptions, 'source'>,
     clocks: CaptureClocks,
     send: ReportSink,
-    /** Where else clouds go. */
+    /** Other receivers of the clouds. */
     { pictures, recording }: { pictures: CapturePictures; recording: CloudTap | null },
   ) {
     const { description } = source;
@@ -75,22 +75,22 @@ export class FrameCapture {
     return this.#pool.free > 0;
   }
 
-  /** Frames not captured because all buffers were out. */
+  /** Frames not sent because all buffers were in use. */
   get framesWithoutBuffer(): number {
     return this.#pool.refused;
   }
 
-  /** Makes the next cloud a latency-test cloud. */
+  /** Makes the next cloud a green latency-test cloud, if the source can. */
   requestLatencyTest(): void {
     this.#latencyTest = true;
   }
 
-  /** Takes a frame's buffer back. */
+  /** Returns a frame's buffer to the pool. */
   recycle(buffer: ArrayBuffer): void {
     this.#pool.release(buffer);
   }
 
-  /** What the source is told. */
+  /** What the source is told when it is asked for a cloud, or told to skip one. */
   wishes({ targetBitsPerSecond }: CaptureBudget): CaptureWishes {
     return { bitsPerSecond: targetBitsPerSecond, latencyTest: this.#latencyTest };
   }
@@ -98,7 +98,7 @@ export class FrameCapture {
   /**
    * Captures and encodes one frame.
    *
-   * @returns the time until the next one, ms; `null` where there was no cloud or no buffer
+   * @returns the time until the next one, ms; `null` if there was no cloud or no buffer
    */
   capture(budget: CaptureBudget): number | null {
     const buffer = this.#pool.take();
@@ -163,7 +163,7 @@ export class FrameCapture {
     this.#send({ type: 'frame', ...encoded, ...facts, sensor, audience, buffer, readyMs }, [buffer]);
   }
 
-  /** After the packets are on their way: recording delays only the next cloud. */
+  /** Called after the packets have been sent, so that recording delays only the next cloud. */
   #record(frame: SourceFrame, formatted: readonly FormattedFrame[]): void {
     const recording = this.#recording;
     if (recording === null) return;
@@ -179,7 +179,7 @@ export class FrameCapture {
   }
 }
 
-/** What a frame's report says beside what came of encoding it. */
+/** The part of a frame's report that does not come from encoding it. */
 interface FrameFacts {
   usefulBitsPerSecond: number;
   intervalMs: number;

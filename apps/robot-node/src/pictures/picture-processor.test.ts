@@ -49,7 +49,7 @@ describe('PictureProcessor', () => {
     expect(new Set(chunks.map(({ buffer }) => buffer)).size).toBe(1);
   });
 
-  it('tells the capture thread how often each camera is watched, and gives every picture’s memory back', () => {
+  it('tells the capture thread each camera’s rate, and returns every picture’s memory', () => {
     const { processor, offer, toTap, toMain } = setUp();
     processor.onRequest({ type: 'plans', plans: [{ ...PLAN, perSecond: 0 }, PLAN] });
     const [unwatched, unknown] = [offer(0), offer(7)];
@@ -61,7 +61,7 @@ describe('PictureProcessor', () => {
     expect(toMain).toEqual([]);
   });
 
-  it('reports pictures that were dropped or cannot be read, and goes on', () => {
+  it('reports pictures that were dropped or cannot be read, and continues', () => {
     let broken = true;
     const { processor, offer, toMain, toTap } = setUp(() => {
       if (broken) throw new PictureLossError('unreadable', 'no end of image');

@@ -19,13 +19,13 @@ export interface PictureProcessorOptions {
   maker: Pick<PictureMaker, 'make'>;
   /** Processor time of this thread, ms. */
   threadCpu: () => number;
-  /** To the main thread; what is in `transfer` changes hands. */
+  /** Sends to the main thread; buffers in `transfer` are transferred. */
   tellMain: (report: PictureReport, transfer?: ArrayBuffer[]) => void;
-  /** To the capture thread. */
+  /** Sends to the capture thread; buffers in `transfer` are transferred. */
   tellTap: (report: TapReport, transfer?: ArrayBuffer[]) => void;
 }
 
-/** Prepares the pictures that the capture thread offers, as the main thread's plans say, one at a time. */
+/** Prepares the pictures that the capture thread offers, one at a time, by the main thread's plans. */
 export class PictureProcessor {
   readonly #options: PictureProcessorOptions;
   readonly #nextIds: number[] = [];
@@ -40,7 +40,7 @@ export class PictureProcessor {
     this.#options.tellTap({ type: 'rates', perSecond: plans.map(({ perSecond }) => perSecond) });
   }
 
-  /** Every offered picture ends as `picture`, as `lost` or unwatched; its memory always goes back. */
+  /** Reports each offered picture as `picture` or `lost`, or ignores it if unwatched. Its memory always goes back. */
   onOffered(offered: OfferedPicture): void {
     const { tellMain, tellTap } = this.#options;
     const { camera, missed, data, origin } = offered;

@@ -5,18 +5,18 @@ import { type FanOutOptions, FrameFanOut, type FrameTarget } from '../session/fr
 import type { CloudClaim } from './cloud-shares.ts';
 
 export interface CloudSensorOptions {
-  /** What people read. */
+  /** The name that people read. */
   name: string;
   capture: CaptureOptions;
-  /** Lower goes first, on the wire and when the link is shared out. */
+  /** A lower number goes first, on the wire and when the link is shared. */
   priority: number;
   /** Share of the link among sensors of the same priority. */
   weight: number;
 }
 
-/** One source of clouds: a thread that captures and encodes, and what goes from it to operators. */
+/** One source of clouds: its capture and encoding thread, and the distribution of its frames to operators. */
 export class CloudSensor {
-  /** Its number, in the placement of its packets and in the list that operators get. */
+  /** The sensor's number, in its packets' placement and in the list that operators get. */
   readonly number: number;
   readonly name: string;
   readonly capture: Capture;
@@ -47,7 +47,7 @@ export class CloudSensor {
     return this.#claim;
   }
 
-  /** Its thread has ended: what it was given goes to the others. */
+  /** The sensor's thread has ended: its share of the link goes to the others. */
   fail(): void {
     this.#failed = true;
     this.#claim.usefulBitsPerSecond = 0;
@@ -62,7 +62,7 @@ export class CloudSensor {
   }
 }
 
-/** What operators read of a sensor whose thread has ended. */
+/** The reading that operators get for a sensor whose thread has ended. */
 export function failureReading({ number, name }: CloudSensor): TopicReading {
   const values: [string, string][] = [['', 'no more clouds: its thread has ended']];
   return { topic: `sensor ${number}`, label: name, level: 'error', values };

@@ -5,22 +5,22 @@ import { CloudSensor, type CloudSensorOptions } from './cloud-sensor.ts';
 import type { CloudClaim } from './cloud-shares.ts';
 
 export interface CloudSensorsEvents {
-  /** What the first sensor knows of the base. */
+  /** The state of the base, as the first sensor reports it. */
   onState(state: TimedBaseState): void;
   onFault(sensor: CloudSensor, detail: string): void;
-  /** A sensor's thread has ended; the others go on. */
+  /** A sensor's thread has ended; the others continue. */
   onFailure(sensor: CloudSensor, error: CaptureError): void;
 }
 
-/** All of a robot's sources of clouds; the first is the one that latency tests, recordings and the reference profile use. */
+/** All of a robot's sources of clouds. Latency tests, recordings and the reference profile use the first. */
 export class CloudSensors {
   readonly all: readonly CloudSensor[];
 
   /**
-   * Opens each source in a thread of its own.
+   * Opens each source in its own thread.
    *
-   * @param recording of the first one's clouds
-   * @throws {CaptureError} where one cannot be opened; none stays open then
+   * @param recording records the first source's clouds
+   * @throws {CaptureError} if a source cannot be opened; the others are then closed again
    */
   static async open(
     options: readonly CloudSensorOptions[],
@@ -35,7 +35,7 @@ export class CloudSensors {
     throw failed.reason;
   }
 
-  /** @param captures of the same sensors, in their order */
+  /** @param captures one for each of `options`, in the same order */
   constructor(
     options: readonly CloudSensorOptions[],
     captures: readonly Capture[],
@@ -44,7 +44,7 @@ export class CloudSensors {
   ) {
     this.all = options.map((each, i) => {
       const first = i === 0;
-      // What is measured and logged of frames is of the first sensor's: numbers of others would mix with them.
+      // Frames are logged and recorded for the first sensor only: frame numbers of several sensors would get mixed up.
       const { frameLog: _, onFrame: __, ...others } = fanOut;
       const sensor = new CloudSensor(each, captures[i] as Capture, first ? fanOut : others);
       const { capture } = sensor;
@@ -62,12 +62,12 @@ export class CloudSensors {
     return this.all[0] as CloudSensor;
   }
 
-  /** By sensor number. */
+  /** Indexed by sensor number. */
   get claims(): readonly CloudClaim[] {
     return this.all.map(({ claim }) => claim);
   }
 
-  /** Faults of sources that may pass. */
+  /** Number of temporary faults of all sources. */
   get faults(): number {
     return this.all.reduce((sum, { capture }) => sum + capture.faults, 0);
   }
@@ -80,7 +80,7 @@ export class CloudSensors {
     for (const sensor of this.all) sensor.updateBudget();
   }
 
-  /** Tells what coded frames of the sensors that it wants are decoded with. */
+  /** Sends a target the coded streams' headers of the sensors that it wants. */
   announceTo(target: FrameTarget): void {
     for (const sensor of this.all) sensor.announceTo(target);
   }

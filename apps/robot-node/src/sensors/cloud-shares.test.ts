@@ -10,21 +10,21 @@ const claim = (usefulBitsPerSecond: number, weight = 1, priority = 0): CloudClai
 });
 
 describe('cloudShare', () => {
-  it('gives everything to a sensor that is alone, also beyond what it was known to use', () => {
+  it('gives everything to a single sensor, even more than it was known to use', () => {
     expect(cloudShare(0, 40 * M, [claim(10 * M), claim(10 * M)], new Set([0]))).toBe(40 * M);
   });
 
-  it('gives nothing to a sensor that is not wanted or not there', () => {
+  it('gives nothing to a sensor that is not wanted or does not exist', () => {
     expect(cloudShare(1, 40 * M, [claim(10 * M), claim(10 * M)], new Set([0]))).toBe(0);
     expect(cloudShare(5, 40 * M, [claim(10 * M)], new Set([0, 5]))).toBe(0);
   });
 
-  it('gives the share of one that can use nothing any more to the others', () => {
+  it('gives the share of a sensor that can no longer use anything to the others', () => {
     const claims = [claim(Number.POSITIVE_INFINITY), claim(0)];
     expect([0, 1].map((sensor) => cloudShare(sensor, 40 * M, claims, new Set([0, 1])))).toEqual([40 * M, 0]);
   });
 
-  it('gives each as much as it can use where there is enough', () => {
+  it('gives each sensor as much as it can use if there is enough', () => {
     const claims = [claim(30 * M, 3), claim(6 * M)];
     expect([0, 1].map((sensor) => cloudShare(sensor, 50 * M, claims, new Set([0, 1])))).toEqual([
       30 * M,
@@ -32,7 +32,7 @@ describe('cloudShare', () => {
     ]);
   });
 
-  it('shares by weight where there is not, and by priority before that', () => {
+  it('shares by priority, then by weight, if there is not enough', () => {
     const wanted = new Set([0, 1]);
     const byWeight = [claim(Number.POSITIVE_INFINITY, 3), claim(Number.POSITIVE_INFINITY)];
     expect(cloudShare(0, 9 * M, byWeight, wanted)).toBe(0.5 * M + 8 * M * 0.75);
@@ -67,13 +67,13 @@ describe('cloudShare', () => {
 describe('probingSensor', () => {
   const claims = [claim(Number.POSITIVE_INFINITY, 1, 1), claim(8 * M, 1, 0), claim(8 * M, 1, 0)];
 
-  it('is the most important of those that are wanted, the first of equals', () => {
+  it('is the most important wanted sensor, the first of equals', () => {
     expect(probingSensor(claims, new Set([0, 1, 2]))).toBe(1);
     expect(probingSensor(claims, new Set([0, 2]))).toBe(2);
     expect(probingSensor(claims, new Set([0]))).toBe(0);
   });
 
-  it('is none that has failed, and none where none is wanted', () => {
+  it('is never a failed sensor, and is null if none is wanted', () => {
     expect(probingSensor([claim(0), claim(M, 1, 3)], new Set([0, 1]))).toBe(1);
     expect(probingSensor([claim(0)], new Set([0]))).toBeNull();
     expect(probingSensor(claims, new Set())).toBeNull();

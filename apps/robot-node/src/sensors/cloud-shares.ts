@@ -1,25 +1,25 @@
 import { allocate } from '@farpoint/congestion';
 import { BitRate } from '@farpoint/timing';
 
-/** How a sensor's clouds stand against those of others. */
+/** A sensor's claim to a share of the link. */
 export interface CloudClaim {
-  /** Lower goes first: it gets what it can use before the next gets more than its least. */
+  /** A lower number goes first: it gets all that it can use before the next gets more than its minimum. */
   priority: number;
   /** Share among sensors of the same priority. */
   weight: number;
-  /** What its clouds could use at most on the wire, bit/s; infinite while that is not known. */
+  /** The most that its clouds could use on the wire, bit/s; infinite while unknown. */
   usefulBitsPerSecond: number;
 }
 
-/** Clouds at less than this show nothing: so much everybody gets first, as far as it reaches. */
+/** Clouds below this rate show nothing useful, so each sensor gets this much first, as far as the link allows. */
 const LEAST_BITS_PER_SECOND = BitRate.fromMbps(0.5);
 
 /**
- * The sensor whose frames carry the padding of a path's probes: the most important one that sends anything.
+ * The sensor whose frames are enlarged for a path's probes: the most important one that sends anything.
  *
- * @param claims by sensor number
+ * @param claims indexed by sensor number
  * @param wanted sensor numbers
- * @returns its number, `null` where none of those that are wanted sends
+ * @returns its number, or `null` if none of the wanted sensors sends
  */
 export function probingSensor(claims: readonly CloudClaim[], wanted: ReadonlySet<number>): number | null {
   let best: { number: number; priority: number } | null = null;
@@ -31,11 +31,11 @@ export function probingSensor(claims: readonly CloudClaim[], wanted: ReadonlySet
 }
 
 /**
- * Shares what a path has for clouds among the sensors that its operator wants.
+ * Shares a path's rate for clouds among the sensors that its operator wants.
  *
- * @param claims by sensor number
+ * @param claims indexed by sensor number
  * @param wanted sensor numbers; those without a claim get nothing
- * @returns of `sensor`, bit/s on the wire
+ * @returns the share of `sensor`, bit/s on the wire
  */
 export function cloudShare(
   sensor: number,
@@ -47,7 +47,7 @@ export function cloudShare(
   const rivals = claims
     .map((claim, number) => ({ ...claim, number }))
     .filter(({ number }) => wanted.has(number));
-  // Alone it is not held to what it is known to use: it may have learnt to use more.
+  // A single sensor is not limited to what it was last known to use: it may be able to use more by now.
   if (rivals.length === 1) return totalBitsPerSecond;
   const rates = allocate(
     totalBitsPerSecond,

@@ -1,7 +1,7 @@
 import type { BaseThread } from '../base/base-thread.ts';
 import type { CloudSensorOptions } from './cloud-sensor.ts';
 
-/** The simulator's sensors draw the base's world. */
+/** Gives simulated sensors the world of the simulated base, so that they see the robot move. */
 export function inWorld(
   sensors: readonly CloudSensorOptions[],
   base: BaseThread | null,

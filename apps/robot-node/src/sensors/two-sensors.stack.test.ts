@@ -1,4 +1,4 @@
-/** A robot with a camera and a LiDAR, as it runs, with the real signaling service. */
+/** The real robot program with a camera and a LiDAR, and the real signaling service. */
 import { describe, expect, it } from 'vitest';
 import { useRobot } from '../testing/use-robot.ts';
 
@@ -10,7 +10,7 @@ const robot = useRobot(ROBOT, ARGS);
 const connect = async () => (await robot.connect()).client;
 
 describe('a robot with two sensors', { timeout: 30_000 }, () => {
-  it('names them, and sends the second one’s clouds to who asks for them alone', async () => {
+  it('names its sensors, and sends only the second one’s clouds to an operator who asks for only those', async () => {
     const [client, other] = [await connect(), await connect()];
     expect((await client.message('sensors')).sensors).toEqual([{ name: 'Camera' }, { name: 'LiDAR' }]);
     client.sendSession({ type: 'sensors', sensors: [CAMERA, LIDAR] });
@@ -24,14 +24,14 @@ describe('a robot with two sensors', { timeout: 30_000 }, () => {
     expect(client.malformedPackets).toBe(0);
   });
 
-  it('switches each off and on without the other noticing', async () => {
+  it('switches each sensor off and on without affecting the other', async () => {
     const client = await connect();
     client.sendSession({ type: 'sensors', sensors: [LIDAR] });
     await client.until(() => client.completeFramesOf(LIDAR).length >= 3);
     const before = client.completeFramesOf(CAMERA).length;
     const count = client.completeFramesOf(LIDAR).length;
     await client.until(() => client.completeFramesOf(LIDAR).length >= count + 5);
-    // What was under way when it was asked for no more.
+    // Let packets arrive that were under way when the sensor was switched off.
     expect(client.completeFramesOf(CAMERA).length - before).toBeLessThanOrEqual(2);
     client.sendSession({ type: 'sensors', sensors: [CAMERA] });
     const camera = client.completeFramesOf(CAMERA).length;
@@ -40,7 +40,7 @@ describe('a robot with two sensors', { timeout: 30_000 }, () => {
     await client.until(() => client.telemetry?.stream.framesPerSecond === 0);
   });
 
-  it('tells for each sensor what its coded frames are decoded with', async () => {
+  it('announces each sensor’s coded stream', async () => {
     const client = await connect();
     client.sendSession({ type: 'sensors', sensors: [CAMERA, LIDAR] });
     client.sendSession({ type: 'cloudFormats', formats: ['points64', 'organised', 'unorganised'] });

@@ -13,7 +13,7 @@ class Viewer implements FrameTarget {
   readonly #bitsPerSecond: number;
   readonly formats: readonly CodedFormat[];
   sender: FrameTarget['sender'] = null;
-  /** The sensor that its probes go with. */
+  /** The sensor whose frames carry the target's probes. */
   probed = 0;
   frames = 0;
   readonly announced: string[] = [];
@@ -92,7 +92,7 @@ const coded = (
   plainBitsPerSecond,
 });
 
-it('each format counts by itself: who reads one of them gets it', () => {
+it('sends each coded format to those who read it, independently of other formats', () => {
   const { budget } = setUp([new Viewer('a', 5e6, ['organised'])]);
   expect(budget?.coded).toEqual([coded('organised', 5e6)]);
   expect(setUp([new Viewer('a', 5e6, ['unorganised'])]).budget?.coded).toEqual([coded('unorganised', 5e6)]);
@@ -103,7 +103,7 @@ it('each format counts by itself: who reads one of them gets it', () => {
   expect(setUp([new Viewer('a', 5e6, [])]).budget?.coded).toEqual([]);
 });
 
-it('who drives decides the formats and the rate; who does not read them gets points64 beside them', () => {
+it('lets the driver decide formats and rate, and sends points64 in parallel to those who cannot read them', () => {
   const viewers = [
     new Viewer('driver', 8e6, ['organised']),
     new Viewer('both', 1e6, BOTH),
@@ -117,12 +117,12 @@ it('who drives decides the formats and the rate; who does not read them gets poi
   expect(received('everyone')).toHaveLength(4);
 });
 
-it('a driver who reads points64 alone has everybody get it', () => {
+it('sends points64 to everyone if the driver reads nothing else', () => {
   const { budget } = setUp([new Viewer('driver', 8e6, []), new Viewer('both', 1e6, BOTH)], 'driver');
   expect(budget).toMatchObject({ coded: [], targetBitsPerSecond: 8e6 });
 });
 
-it('where nobody drives, each format that anybody reads may be used, at the narrowest path of those who read it', () => {
+it('uses every format that anyone reads if nobody drives, at the slowest path among its readers', () => {
   const viewers = [
     new Viewer('a', 8e6, ['organised']),
     new Viewer('b', 4e6, BOTH),
@@ -137,14 +137,14 @@ it('where nobody drives, each format that anybody reads may be used, at the narr
   });
 });
 
-it('a stream is told to those who read its format', () => {
+it('announces a stream to those who read its format', () => {
   const viewers = [new Viewer('a', 1e6, ['organised']), new Viewer('b', 1e6, ['unorganised'])];
   const { capture } = setUp(viewers);
   capture.onStream?.({ format: 'organised', header: new Uint8Array(1) });
   expect(viewers.map(({ announced }) => announced)).toEqual([['organised'], []]);
 });
 
-it('a probe enlarges the frames of one sensor, where one path decides', () => {
+it('enlarges the frames of one sensor for a probe, if a single path decides', () => {
   const probeWish = { clusterId: 4, bytes: 9000 };
   const viewers = ['a', 'b'].map((id) => new Viewer(id, 1e6, []));
   for (const viewer of viewers) viewer.sender = { probeWish, overheadBytes: 0 } as Viewer['sender'];

@@ -12,47 +12,47 @@ import type { SendLoop } from '../transport/send-loop.ts';
 import { SharedFrame } from '../transport/shared-frame.ts';
 import type { StreamSender } from '../transport/stream-sender.ts';
 
-/** A frame that is older than this when it comes out of the worker is not worth sending. */
+/** A frame older than this when it leaves the worker is not sent. */
 const MAX_FRAME_AGE_MS = 250;
 
-/** Whom frames go to, whatever protocol it speaks. */
+/** A receiver of frames, of either protocol. */
 export interface FrameTarget {
-  /** As the guard knows it. */
+  /** The name by which the guard knows the operator. */
   readonly id: string;
   readonly streaming: boolean;
-  /** Whether it wants the clouds of this sensor. */
+  /** Whether the operator wants this sensor's clouds. */
   wants(sensor: number): boolean;
-  /** What the clouds of this sensor may take of its path, bit/s on the wire. */
+  /** How much of the operator's path this sensor's clouds may take, bit/s on the wire. */
   cloudBitsPerSecond(sensor: number): number;
-  /** Whether this sensor's frames are enlarged where the path's rate control probes for a higher rate. */
+  /** Whether this sensor's frames are enlarged when the path's rate control probes for a higher rate. */
   probesWith(sensor: number): boolean;
   reads(format: CodedFormat): boolean;
   readonly sender: Pick<StreamSender, 'probeWish' | 'overheadBytes'> | null;
   enqueue(shared: SharedFrame): void;
-  /** What coded frames are decoded with; told to those who read them. */
+  /** Sends the header that a coded stream's frames are decoded with, to operators who read the format. */
   announce?(stream: CodedStream, sensor: number): void;
 }
 
 export interface FanOutOptions {
-  /** Number of the sensor. */
+  /** The sensor's number. */
   sensor: number;
-  /** Of the pacer: packets of a lower one go first. */
+  /** The pacer's lane: packets in a lower lane leave first. */
   lane: number;
   capture: Pick<Capture, 'onFrame' | 'onStream' | 'setBudget' | 'recycle' | 'requestLatencyTest'>;
   targets: () => Iterable<FrameTarget>;
   sendLoop: Pick<SendLoop, 'run'>;
-  /** Whose path decides how much is captured; `null` where nobody drives. */
+  /** The operator whose path decides how much is captured; `null` if nobody drives. */
   driver: () => string | null;
   counters: RobotCounters;
   stages: StageTimer;
   frameLog?: Pick<FrameLog, 'add'> | undefined;
   onFrame?: ((frame: ReadyFrame) => void) | undefined;
   now: () => number;
-  /** Coded formats may be used. */
+  /** Whether coded formats may be used. */
   mayCode: boolean;
 }
 
-/** One encode for all: each captured frame goes to every operator who wants it, and their paths decide its size. */
+/** Encodes each frame once for all operators: it goes to everyone who wants it, and their paths decide its size. */
 export class FrameFanOut {
   readonly #options: FanOutOptions;
   #budget: CaptureBudget = NO_BUDGET;
@@ -67,7 +67,7 @@ export class FrameFanOut {
     };
   }
 
-  /** Tells what coded frames are decoded with, where there are any and the target reads them. */
+  /** Sends the coded stream's header to a target, if there is a stream and the target wants and reads it. */
   announceTo(target: FrameTarget): void {
     const { sensor } = this.#options;
     if (this.#stream === null || !target.wants(sensor) || !target.reads(this.#stream.format)) return;
@@ -75,9 +75,10 @@ export class FrameFanOut {
   }
 
   /**
-   * Tells the worker how much to capture and in which formats, where that changed. The driver decides; where nobody drives,
-   * all who watch do: the formats that any of them reads, at the rate of the narrowest path of those who read it. Operators
-   * with slower paths skip frames. Those who do not read a frame's format get `points64` beside it.
+   * Tells the worker how much to capture and in which formats, if that has changed. The driver decides. If nobody
+   * drives, all watchers decide together: every format that any of them reads may be used, at the rate of the slowest
+   * path among its readers. Operators with slower paths skip frames. Operators who cannot read a frame's format get
+   * `points64` in parallel.
    */
   updateBudget(): void {
     const { capture, targets, driver, mayCode, sensor } = this.#options;
@@ -89,7 +90,7 @@ export class FrameFanOut {
       : [];
     const readers = driven.filter((target) => coded.some(({ format }) => target.reads(format)));
     const deciding = readers.length > 0 ? readers : driven;
-    // One path at a time can be tried with larger frames: they go to everyone.
+    // Only one path can be probed at a time, because the enlarged frames go to everyone.
     const [only] = deciding;
     const probing = deciding.length === 1 && only?.probesWith(sensor) === true;
     const probe = probing ? (only.sender?.probeWish ?? null) : null;
@@ -142,7 +143,7 @@ function isFor(target: FrameTarget, audience: FrameAudience): boolean {
   return 'readers' in audience ? target.reads(audience.readers) : !target.reads(audience.others);
 }
 
-/** None where nobody who decides reads the format. */
+/** Empty if none of the deciding operators reads the format. */
 function codedBudget(
   format: CodedFormat,
   sensor: number,

@@ -10,7 +10,7 @@ beforeEach(() => {
   tests = new LatencyTests();
 });
 
-it('a green frame answers all tests that wait, once', () => {
+it('a green frame answers all waiting tests, once', () => {
   expect(tests.ask({ id: 1, commandMs: 10 })).toBe(true);
   expect(tests.ask({ id: 1, commandMs: 11 })).toBe(false);
   expect(tests.ask({ id: 2, commandMs: 12 })).toBe(true);
@@ -19,7 +19,7 @@ it('a green frame answers all tests that wait, once', () => {
   expect(tests.answeredBy(green())).toEqual([]);
 });
 
-it('tests whose frame was lost wait for the next', () => {
+it('tests whose frame was lost wait for the next green frame', () => {
   tests.ask({ id: 1, commandMs: 10 });
   const [lost, sent] = [green(), green()];
   tests.answeredBy(lost);
@@ -29,7 +29,7 @@ it('tests whose frame was lost wait for the next', () => {
   expect(tests.onLost(sent)).toBe(false);
 });
 
-it('keeps the newest of too many', () => {
+it('drops the oldest tests when too many wait', () => {
   for (let id = 0; id < 100; id++) tests.ask({ id, commandMs: id });
   expect(tests.answeredBy(green()).map(({ id }) => id)).toEqual(Array.from({ length: 16 }, (_, i) => 84 + i));
 });

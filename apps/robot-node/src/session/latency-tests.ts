@@ -1,21 +1,21 @@
 import type { SharedFrame } from '../transport/shared-frame.ts';
 
-/** A latency test that waits for its green frame. */
+/** A latency test that is waiting for its green frame. */
 export interface LatencyTest {
   id: number;
   commandMs: number;
 }
 
-/** More tests than this wait only where the operator misbehaves. */
+/** More tests than this wait only if the operator misbehaves. */
 const MAX_WAITING = 16;
 
-/** One operator's latency tests: those that wait for a green frame, and those whose frame is on its way. */
+/** One operator's latency tests: those waiting for a green frame, and those whose frame is being sent. */
 export class LatencyTests {
   #waiting: LatencyTest[] = [];
   #lastId: number | null = null;
   readonly #inFlight = new Map<SharedFrame, LatencyTest[]>();
 
-  /** @returns false where the test is known: the operator repeats a request until it is answered. */
+  /** @returns false if the test is already known: the operator repeats a request until it is answered */
   ask(test: LatencyTest): boolean {
     if (test.id === this.#lastId) return false;
     this.#lastId = test.id;
@@ -23,7 +23,7 @@ export class LatencyTests {
     return true;
   }
 
-  /** A frame is about to be sent. @returns the tests that it answers: all that wait, where it is green */
+  /** A frame is about to be sent. @returns the tests that it answers: all waiting tests if it is green, else none */
   answeredBy(shared: SharedFrame): readonly LatencyTest[] {
     if (!shared.frame.latencyTest || this.#waiting.length === 0) return [];
     const answered = this.#waiting;
@@ -36,7 +36,7 @@ export class LatencyTests {
     this.#inFlight.delete(shared);
   }
 
-  /** The frame was not sent whole. @returns whether tests wait again because of it */
+  /** The frame was not sent completely. @returns whether any tests wait again because of that */
   onLost(shared: SharedFrame): boolean {
     const tests = this.#inFlight.get(shared);
     if (tests === undefined) return false;

@@ -18,7 +18,7 @@ afterEach(() => {
   for (const station of stations.splice(0)) station.close();
 });
 
-/** A robot with the real guard and two operators, on a clock of its own. */
+/** A robot with the real guard and two operators, on a simulated clock. */
 function robot() {
   let nowMs = 1000;
   let speed = 0;
@@ -56,7 +56,7 @@ function robot() {
     const inbox: RobotSessionMessage[] = [];
     const control: string[] = [];
     const session = new OperatorMessages(id, id, host, {
-      // What leaves the robot must be readable by the other side's own decoder.
+      // The operator's own decoder must be able to read what the robot sends.
       sendSession: (text) => inbox.push(decodeJson(robotSessionCodec, text)),
       sendControl: (text) => control.push(text),
     });
@@ -98,7 +98,7 @@ function robot() {
 }
 
 describe('OperatorMessages', () => {
-  it('lets the lease holder drive and tells the other who does', () => {
+  it('lets the lease holder drive and tells the other operator who drives', () => {
     const { alice, bob, speed } = robot();
     const lease = alice.takeLease();
     expect(bob.inbox.at(-1)).toEqual({ type: 'lease', holder: 'other' });
@@ -106,7 +106,7 @@ describe('OperatorMessages', () => {
     expect(speed()).toBe(0.4);
   });
 
-  it('refuses the other’s commands and says why, summed up', () => {
+  it('rejects the other operator’s commands and reports the reason in summary', () => {
     const { alice, bob, speed, pass, rejected } = robot();
     const lease = alice.takeLease();
     bob.inbox.length = 0;
@@ -125,7 +125,7 @@ describe('OperatorMessages', () => {
     expect(reports.every((report) => report.reason === 'not-lease-holder')).toBe(true);
   });
 
-  it('stops at once for an emergency stop by anyone; only the driver releases it', () => {
+  it('stops at once when anyone presses the emergency stop, which only the driver can release', () => {
     const { alice, bob, speed } = robot();
     const lease = alice.takeLease();
     alice.command(0, lease, 0.4);
@@ -138,7 +138,7 @@ describe('OperatorMessages', () => {
     expect(bob.inbox.at(-1)).toEqual({ type: 'estop', latched: false });
   });
 
-  it('stops when the lease is given back', () => {
+  it('stops when the lease is released', () => {
     const { alice, bob, speed } = robot();
     const lease = alice.takeLease();
     alice.command(0, lease, 0.4);
@@ -147,7 +147,7 @@ describe('OperatorMessages', () => {
     expect(bob.inbox.at(-1)).toEqual({ type: 'lease', holder: 'nobody' });
   });
 
-  it('says why a lease is not given', () => {
+  it('says why a lease is not granted', () => {
     const { alice, bob } = robot();
     alice.takeLease();
     bob.send({ type: 'leaseRequest', take: false });
@@ -157,7 +157,7 @@ describe('OperatorMessages', () => {
     ]);
   });
 
-  it('asks for a latency-test frame for an accepted command only', () => {
+  it('requests a latency-test frame only for an accepted command', () => {
     const { alice, bob, tests } = robot();
     const lease = alice.takeLease();
     bob.command(0, lease, 0, { latencyTest: 1 });
@@ -174,7 +174,7 @@ describe('OperatorMessages', () => {
     ]);
   });
 
-  it('passes on receiver reports, newer ones only, and limits', () => {
+  it('passes on limits, and receiver reports unless a newer one came before', () => {
     const { alice } = robot();
     const reports: number[] = [];
     alice.session.onReceiverReport = (report) => reports.push(report.sequence);
@@ -207,7 +207,7 @@ describe('OperatorMessages', () => {
     expect(switches).toEqual([false, true]);
   });
 
-  it('calls a broken command malformed, and a broken request a fault', () => {
+  it('reports a broken command as malformed and a broken request as a fault', () => {
     const { alice, refused } = robot();
     alice.session.onMessage('control', '{"type":"command"}');
     expect(alice.inbox.at(-1)).toMatchObject({ type: 'rejected', reason: 'malformed', count: 1 });
@@ -217,7 +217,7 @@ describe('OperatorMessages', () => {
     expect(refused.map(([channel]) => channel)).toEqual(['control', 'session', 'bandwidth']);
   });
 
-  it('stands still whatever bytes a watcher sends', () => {
+  it('stands still whatever bytes a watching operator sends', () => {
     const { alice, bob, speed } = robot();
     alice.takeLease();
     const text = fc.oneof(fc.string(), fc.json(), fc.constantFrom('start', '{"type":"leaseRelease"}'));

@@ -1,4 +1,4 @@
-/** What one operator's messages mean, and what it is told. */
+/** Interprets one operator's messages and sends the answers. */
 import {
   type CloudFormat,
   type Command,
@@ -20,24 +20,24 @@ import {
 import { type CommandVerdict, type RejectedCommand, RejectionReporter } from '@farpoint/safety';
 import type { DriveStation } from '../drive/drive-station.ts';
 
-/** Where a session's messages go. */
+/** Sends a session's messages to its operator. */
 export interface SessionLink {
   sendSession(text: string): void;
   sendControl(text: string): void;
 }
 
-/** What a session asks of the robot. */
+/** What a session needs from the robot. */
 export interface SessionHost {
   readonly drive: DriveStation;
   now(): number;
-  /** Everyone must be told who drives now. */
+  /** The driver has changed, and all operators must be told. */
   leaseChanged(): void;
   estopChanged(): void;
   latencyTestRequested(session: OperatorMessages, id: number, commandMs: number): void;
   /** For the counters. */
   commandAccepted(): void;
   commandRejected(rejection: RejectedCommand): void;
-  /** For a recording: each command, and what the guard said. */
+  /** For a recording: each command, and the guard's verdict. */
   commandJudged?(session: OperatorMessages, command: Command, verdict: CommandVerdict): void;
   /** For a recording: what an operator measured. */
   latencyMeasured?(session: OperatorMessages, measured: LatencyMeasured): void;
@@ -50,9 +50,9 @@ const MAX_DETAIL = 200;
 export class OperatorMessages {
   readonly id: string;
   readonly operatorName: string;
-  /** Points are sent to this operator. */
+  /** Whether the operator has the stream switched on. */
   streaming = true;
-  /** When the operator was last heard of on any channel, robot's clock, ms. */
+  /** When a message last came from the operator on any channel, ms on the robot's clock. */
   heardMs: number;
   onReceiverReport: ((report: ReceiverReport) => void) | null = null;
   onReceiverLimit: ((bitsPerSecond: number) => void) | null = null;
@@ -73,7 +73,7 @@ export class OperatorMessages {
     this.heardMs = host.now();
   }
 
-  /** Who drives and whether anybody may: sent after the welcome and at each change. */
+  /** Tells the operator the state of the drive lease; sent after the welcome and at each change. */
   sendLease(): void {
     this.send(this.#host.drive.guard.leaseState(this.id));
   }
@@ -86,7 +86,7 @@ export class OperatorMessages {
     this.#link.sendSession(encodeJson(robotSessionCodec, message));
   }
 
-  /** Reports of refusals that waited for their turn; call a few times a second. */
+  /** Sends rejection reports that were held back to limit their rate. Call a few times a second. */
   flushRejections(): void {
     for (const report of this.#rejections.due(this.#host.now())) this.send(report);
   }
@@ -100,7 +100,7 @@ export class OperatorMessages {
     } catch (error) {
       if (!(error instanceof ProtocolError)) throw error;
       this.#host.messageRefused(channel, error);
-      // What was meant for the control channel should have been a command.
+      // A malformed control message counts as a malformed command.
       if (channel === 'control') this.#onMalformed(error);
       else this.send({ type: 'fault', message: error.message.slice(0, 512) });
     }
@@ -128,7 +128,7 @@ export class OperatorMessages {
         break;
       }
       case 'receiverReport':
-        // They may overtake each other; an older one says nothing new.
+        // Reports may overtake each other. One older than the latest says nothing new.
         if (this.#lastReport !== null && sequenceDelta32(message.sequence, this.#lastReport) <= 0) break;
         this.#lastReport = message.sequence;
         this.onReceiverReport?.(message);
@@ -140,7 +140,7 @@ export class OperatorMessages {
     const { drive } = this.#host;
     const verdict = drive.guard.onCommand(this.id, command, now);
     this.#host.commandJudged?.(this, command, verdict);
-    // Also after a refusal: letting go of the grip stops the robot.
+    // Also after a rejection: releasing the grip stops the robot.
     drive.apply();
     if (!verdict.accepted) {
       this.#reject(verdict, command.sequence);
@@ -166,7 +166,7 @@ export class OperatorMessages {
   }
 
   #onSession(data: string | Uint8Array): void {
-    // The reference system's operators switch the stream with bare words.
+    // The reference system's operators switch the stream with plain words, not JSON.
     if (typeof data === 'string' && !data.startsWith('{')) {
       this.#switchStream(decodeStreamSwitch(data) === 'start');
       return;

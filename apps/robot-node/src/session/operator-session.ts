@@ -24,16 +24,16 @@ import { RestartPolicy } from './restart-policy.ts';
 import { ResumeKey } from './resume-key.ts';
 
 export interface OperatorSessionOptions {
-  /** The session's handle; also the operator's name towards the guard. */
+  /** The session's handle, by which the guard also knows the operator. */
   session: string;
   operatorName: string;
   peer: OperatorPeerOptions;
-  /** @param transportFeedback whether the operator gives transport-wide feedback */
+  /** @param transportFeedback whether the operator sends transport-wide feedback */
   makeController: (transportFeedback: boolean) => RateController;
   packetLog?: PacketLog | undefined;
-  /** Most of the path that pictures may take, 0–1. */
+  /** The largest share of the path that pictures may take, 0–1. */
   pictureShare: number;
-  /** What the robot's cloud sensors ask of a path, by number. */
+  /** What the robot's cloud sensors claim of a path, indexed by sensor number. */
   claims: () => readonly CloudClaim[];
 }
 
@@ -41,11 +41,11 @@ export interface OperatorSessionEvents {
   onCandidate(candidate: IceCandidate): void;
   onCandidateRefused(reason: CandidateRefusal, detail: string): void;
   onConnected(): void;
-  /** Streaming began, paused, or may go at another rate or in another format. */
+  /** Streaming started or paused, or its bit rate or formats may have changed. */
   onBudgetChanged(): void;
-  /** The operator has said which formats it reads: it may need to know the stream. */
+  /** The operator has named the formats or sensors that it reads, and may need the streams' headers. */
   onCloudFormats(): void;
-  /** A green frame did not get through: another is needed. */
+  /** A latency test's green frame was dropped; another is needed. */
   onLatencyFrameLost(): void;
   onEnded(end: PeerEnd, detail: string): void;
 }
@@ -58,11 +58,11 @@ export class OperatorSession implements FrameTarget {
   readonly resumeKey = new ResumeKey();
   sender: StreamSender | null = null;
   readonly #claims: OperatorSessionOptions['claims'];
-  /** The sensors whose clouds it wants. */
+  /** The sensors whose clouds the operator wants. */
   #sensors: ReadonlySet<number> = new Set([0]);
-  /** What the operator has said that it reads. */
+  /** The coded formats that the operator says it reads. */
   #formats: ReadonlySet<CloudFormat> = new Set();
-  /** Nothing is heard: points would go nowhere. */
+  /** Nothing has been heard from the operator for a while, so its points would be lost. */
   quiet = false;
   readonly #host: SessionHost;
   readonly #sendLoop: SendLoop;
@@ -134,22 +134,22 @@ export class OperatorSession implements FrameTarget {
     return verdict;
   }
 
-  /** Each format counts by itself. */
+  /** Whether the operator reads this format. Formats are independent: reading one implies no other. */
   reads(format: CodedFormat): boolean {
     return this.#formats.has(format);
   }
 
-  /** As the guard knows it. */
+  /** The name by which the guard knows the operator. */
   get id(): string {
     return this.messages.id;
   }
 
-  /** Connected, not paused, and heard of. */
+  /** Whether the operator is connected, not paused and not silent. */
   get streaming(): boolean {
     return this.sender !== null && this.messages.streaming && !this.quiet;
   }
 
-  /** When anything was last heard from the operator, message, RTCP or connectivity check, robot's clock, ms. */
+  /** When the operator was last heard from (a message, RTCP or a connectivity check), ms on the robot's clock. */
   get heardMs(): number {
     return Math.max(this.messages.heardMs, this.sender?.heardMs ?? 0, this.#pathHeardMs);
   }
@@ -162,7 +162,7 @@ export class OperatorSession implements FrameTarget {
     return probingSensor(this.#claims(), this.#sensors) === sensor;
   }
 
-  /** What a sensor's points may take of the path, bit/s on the wire; 0 while there is none. */
+  /** How much of the path a sensor's points may take, bit/s on the wire; 0 while there is no path. */
   cloudBitsPerSecond(sensor: number): number {
     const { sender } = this;
     if (sender === null) return 0;
@@ -174,7 +174,7 @@ export class OperatorSession implements FrameTarget {
     return this.pictures.watched;
   }
 
-  /** What pictures may take of the path, bit/s on the wire; 0 while there is none. */
+  /** How much of the path pictures may take, bit/s on the wire; 0 while there is no path. */
   get pictureBitsPerSecond(): number {
     const { sender } = this;
     return sender === null ? 0 : this.#budget.pictureBitsPerSecond(sender.targetBitsPerSecond);
@@ -189,12 +189,12 @@ export class OperatorSession implements FrameTarget {
     return drops === undefined ? 0 : drops.superseded + drops.overdue;
   }
 
-  /** @returns false where the test is known */
+  /** @returns false if the test is already known */
   askLatencyTest(test: LatencyTest): boolean {
     return this.#tests.ask(test);
   }
 
-  /** Sends the frame when its time comes; a green one answers the latency tests that wait. */
+  /** Queues a frame for the pacer. A green frame answers the waiting latency tests. */
   enqueue(shared: SharedFrame): void {
     if (this.sender === null || !this.streaming) return;
     const { frame } = shared;
@@ -212,7 +212,7 @@ export class OperatorSession implements FrameTarget {
     this.messages.send({ type: 'cloudStream', format, header: text, ...(sensor === 0 ? {} : { sensor }) });
   }
 
-  /** Every 25 ms. */
+  /** Call every 25 ms. */
   tick(): void {
     if (this.peer.heardSinceLast()) this.#pathHeardMs = this.#host.now();
     this.#budget.update(this.peer.messageBytesSent, this.pictures.bytesSent, this.#host.now());
@@ -221,7 +221,7 @@ export class OperatorSession implements FrameTarget {
     this.messages.flushRejections();
   }
 
-  /** What telemetry says of this operator's stream; call once for each telemetry message. */
+  /** This operator's stream for telemetry. Call once per telemetry message: rates count from the previous call. */
   status(captureStages: StageTimings, nowMs: number): { stages: StageTimings; stream: StreamStatus } {
     this.#frames.update(this.#framesSent, nowMs);
     this.#points.update(this.#pointsSent, nowMs);
@@ -242,7 +242,7 @@ export class OperatorSession implements FrameTarget {
     };
   }
 
-  /** Telemetry tells of the first sensor's frames, and of all bytes. */
+  /** For telemetry: called for frames of the first sensor only, whereas bytes count for all sensors. */
   #countSent({ frame }: SharedFrame): void {
     this.#lastFrameNumber = frame.frameNumber;
     this.#framesSent++;
@@ -253,7 +253,7 @@ export class OperatorSession implements FrameTarget {
     this.pictures.tick(this.#host.now(), this.streaming ? this.pictureBitsPerSecond : 0);
   }
 
-  /** What waits to be sent is not wanted any more. */
+  /** Discards what is waiting to be sent. */
   #clear(): void {
     this.sender?.clear();
     this.pictures.clear();

@@ -11,15 +11,15 @@ import { OperatorSession } from './operator-session.ts';
 import type { ResumeRequest } from './path-keeper.ts';
 
 export interface OperatorSessionsOptions {
-  /** More are refused. */
+  /** The maximum number of operators; further ones are refused. */
   most: number;
-  /** Besides those of the signaling service. */
+  /** In addition to the signaling service's ICE servers. */
   iceServers: readonly IceServer[];
   peer: Omit<OperatorPeerOptions, 'iceServers'>;
-  /** Most of a path that pictures may take, 0–1. */
+  /** The largest share of a path that pictures may take, 0–1. */
   pictureShare: number;
   makeController: (transportFeedback: boolean) => RateController;
-  /** What the robot's cloud sensors ask of a path, by number. */
+  /** What the robot's cloud sensors claim of a path, indexed by sensor number. */
   claims: () => readonly CloudClaim[];
   sendLoop: SendLoop;
   packetLog: PacketLog | undefined;
@@ -30,17 +30,17 @@ export interface OperatorSessionsOptions {
 }
 
 export interface OperatorSessionsEvents {
-  /** Somebody asks for a new path of a session, having lost the old one. */
+  /** Somebody asks for a new path for a session that has lost its old one. */
   resume: (request: ResumeRequest, iceServers: readonly IceServer[]) => void;
   connected: (operator: OperatorSession) => void;
   budgetChanged: () => void;
   cloudFormats: (operator: OperatorSession) => void;
   latencyFrameLost: () => void;
-  /** It is not among the operators any more. */
+  /** The operator has been removed from `operators`. */
   ended: (operator: OperatorSession) => void;
 }
 
-/** Sessions with operators, opened and closed as signaling says; each has a connection of its own. */
+/** The sessions with operators, each with its own connection. Signaling opens and closes them. */
 export class OperatorSessions {
   readonly operators = new Map<string, OperatorSession>();
   readonly #options: OperatorSessionsOptions;
@@ -71,7 +71,7 @@ export class OperatorSessions {
         break;
       case 'session.closed': {
         const operator = this.operators.get(message.session);
-        // The operator's line to signaling is gone, or ours was: while its connection lives, the session does.
+        // Only a signaling connection was lost, the operator's or ours: the session lives on with its connection.
         if (message.reason === 'operator-left' && operator?.peer.connected) break;
         operator?.peer.close('closed', message.reason);
         break;
@@ -82,7 +82,7 @@ export class OperatorSessions {
     }
   }
 
-  /** Takes leave of everyone. */
+  /** Ends all sessions and tells the signaling service. */
   close(): void {
     for (const operator of [...this.operators.values()]) {
       const { id: session } = operator.messages;
@@ -111,7 +111,7 @@ export class OperatorSessions {
     const { most, peer, pictureShare, makeController, claims, sendLoop, packetLog } = this.#options;
     const { host, signaling, counters } = this.#options;
     if (this.operators.has(session)) {
-      // Its operator came by another way into a session that we have: that is what session.resume is for.
+      // To reconnect to an open session, an operator must use session.resume.
       this.#options.log.warn({ session }, 'an open session was requested again');
       return;
     }
@@ -165,7 +165,7 @@ export class OperatorSessions {
     this.#events.ended(operator);
     counters.sessionsEnded.add(end);
     log.info({ end, detail, operators: this.operators.size }, 'session ended');
-    // What ends by us has been told, or was told to us.
+    // The other side knows already: we told it, or it told us.
     if (end === 'closed') return;
     signaling.send({ type: 'session.close', session: id, reason: end, detail: detail.slice(0, 300) });
   }

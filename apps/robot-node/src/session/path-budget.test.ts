@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { PathBudget } from './path-budget.ts';
 
 describe('PathBudget', () => {
-  it('leaves the cloud what messages do not take', () => {
+  it('leaves the cloud whatever messages do not use', () => {
     const budget = new PathBudget();
     expect(budget.cloudBitsPerSecond(10e6)).toBe(10e6 - 20_000);
     // 20 kB a second.
@@ -12,10 +12,10 @@ describe('PathBudget', () => {
     expect(budget.cloudBitsPerSecond(10e6)).toBe(9.8e6);
   });
 
-  it('leaves clouds at least 85 % of what messages do not take, however much pictures want', () => {
+  it('leaves clouds at least 85 % of what messages do not use, however much pictures want', () => {
     for (const target of [0.1e6, 0.5e6, 1e6, 2e6, 4e6, 8e6, 20e6, 60e6]) {
       const budget = new PathBudget(0.15);
-      // Pictures that take all they may, and more.
+      // Pictures use their whole allowance, and more.
       for (let i = 0; i <= 10; i++) budget.update(i * 200, i * 1e6, i * 100);
       const cloud = budget.cloudBitsPerSecond(target);
       expect(cloud).toBeGreaterThanOrEqual(target * 0.85 - 20_000 - 1);
@@ -23,14 +23,14 @@ describe('PathBudget', () => {
     }
   });
 
-  it('gives clouds what pictures may take and do not', () => {
+  it('gives clouds the part of the allowance that pictures do not use', () => {
     const budget = new PathBudget(0.15);
     for (let i = 0; i <= 10; i++) budget.update(0, 0, i * 100);
     expect(budget.pictureBitsPerSecond(10e6)).toBe(1.5e6);
     expect(budget.cloudBitsPerSecond(10e6)).toBe(10e6 - 20_000);
   });
 
-  it('gives messages all of a path that carries hardly anything', () => {
+  it('gives messages all of a path that carries almost nothing', () => {
     expect(new PathBudget().cloudBitsPerSecond(15_000)).toBe(0);
   });
 });

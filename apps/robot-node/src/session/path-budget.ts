@@ -2,41 +2,41 @@ import { allocate, type StreamClaim } from '@farpoint/congestion';
 import { BitRate, RateMeter } from '@farpoint/timing';
 import { pictureAllowance } from '../pictures/picture-plan.ts';
 
-/** Messages (answers to commands, session, telemetry) are counted with this margin: they come in fits. */
+/** Margin on the measured rate of messages (answers to commands, session, telemetry), which come in bursts. */
 const MESSAGE_MARGIN = 1.25;
-/** Kept for them always, bit/s. */
+/** Always reserved for messages, bit/s. */
 const LEAST_MESSAGES = 20_000;
 
-/** Pictures are counted with this one. */
+/** Margin on the measured rate of pictures. */
 const PICTURE_MARGIN = 1.1;
 
-/** How the streams of one operator's path share what it carries. Messages first: the robot must be able to say that it stops. */
+/** Divides one operator's path among its streams. Messages come first: the robot must be able to say that it stops. */
 export class PathBudget {
   readonly #messages = new RateMeter();
   readonly #pictures = new RateMeter();
   readonly #pictureShare: number;
 
-  /** @param pictureShare most of the path that pictures may take, 0–1 */
+  /** @param pictureShare the largest share of the path that pictures may take, 0–1 */
   constructor(pictureShare = 0) {
     this.#pictureShare = pictureShare;
   }
 
-  /** @param messageBytes @param pictureBytes sent so far, all headers counted */
+  /** @param messageBytes @param pictureBytes totals sent so far, including all headers */
   update(messageBytes: number, pictureBytes: number, nowMs: number): void {
     this.#messages.update(messageBytes, nowMs);
     this.#pictures.update(pictureBytes, nowMs);
   }
 
-  /** What pictures may take of the path's target, bit/s on the wire. */
+  /** How much of the path's target rate pictures may take, bit/s on the wire. */
   pictureBitsPerSecond(targetBitsPerSecond: number): number {
     const left = targetBitsPerSecond - this.#messageBitsPerSecond;
     return Math.max(0, Math.min(pictureAllowance(targetBitsPerSecond, this.#pictureShare), left));
   }
 
-  /** What the cloud may take of the path's target, bit/s on the wire. */
+  /** How much of the path's target rate the cloud may take, bit/s on the wire. */
   cloudBitsPerSecond(targetBitsPerSecond: number): number {
     const messages = this.#messageBitsPerSecond;
-    // What they may take and do not is the cloud's.
+    // The cloud gets whatever part of their allowance pictures do not use.
     const pictures = Math.min(
       BitRate.fromBytesPerSecond(this.#pictures.perSecond) * PICTURE_MARGIN,
       this.pictureBitsPerSecond(targetBitsPerSecond),

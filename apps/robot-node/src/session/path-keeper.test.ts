@@ -52,13 +52,13 @@ function setUp(connected = true) {
   return { resume, pass, done, counters, key: resumeKey.text };
 }
 
-it('restarts ICE for who has the key, under the claim that asked', async () => {
+it('restarts ICE for an operator with the right key, and repeats its claim in the offer', async () => {
   const { resume, done, key, counters } = setUp();
   expect(await resume(key)).toEqual({ type: 'session.offer', session: 's', sdp: 'v=0', claim: 'c' });
   expect([done, counters.iceRestarts]).toEqual([['servers', 'restart'], 1]);
 });
 
-it('touches nothing for who does not, and does not make the operator wait for it', async () => {
+it('ignores a request with a wrong key, without delaying the real operator’s request', async () => {
   const { resume, done, key, counters } = setUp();
   for (let i = 0; i < 9; i++) {
     expect(await resume(`${key}x`)).toEqual({
@@ -80,7 +80,7 @@ it('says why it does not resume', async () => {
   expect(await early.resume(early.key)).toMatchObject({ code: 'resume-too-soon' });
 });
 
-it('whoever asks without end gets few answers: the service counts what the robot says', async () => {
+it('answers few of endless requests, because the service limits the rate at which the robot sends', async () => {
   const { resume, pass, counters } = setUp();
   let answers = 0;
   for (let i = 0; i < 1000; i++) {

@@ -8,7 +8,7 @@ import { type SilenceLimits, silenceStep } from './silence.ts';
 
 export type ResumeRequest = Extract<ServiceToRobot, { type: 'session.resume' }>;
 
-/** What is needed of an operator here. */
+/** The parts of an operator session that {@link PathKeeper} uses. */
 export type KeptOperator = Pick<
   OperatorSession,
   'tick' | 'sender' | 'heardMs' | 'quiet' | 'messages' | 'restarts' | 'resumeKey'
@@ -20,7 +20,7 @@ export interface PathKeeperOptions {
   drive: DriveStation;
   signaling: {
     send(message: RobotToService): boolean;
-    /** Is the line alive? Find out soon. */
+    /** Checks soon whether the connection is alive. */
     check(): void;
   };
   leaseChanged: () => void;
@@ -29,7 +29,7 @@ export interface PathKeeperOptions {
   now: () => number;
 }
 
-/** Keeps sessions whose path is lost, as long as that makes sense, and offers new paths when operators ask. */
+/** Keeps sessions that have lost their path, within the limits on silence, and offers new paths on request. */
 export class PathKeeper {
   readonly #options: PathKeeperOptions;
   readonly #refusals = new TokenBucket({ perSecond: 5, burst: 10 });
@@ -38,7 +38,7 @@ export class PathKeeper {
     this.#options = options;
   }
 
-  /** Every 25 ms. */
+  /** Call every 25 ms. */
   tick(): void {
     const { operators, limits, drive, signaling, leaseChanged, now } = this.#options;
     for (const operator of [...operators.values()]) {
@@ -59,8 +59,8 @@ export class PathKeeper {
   }
 
   /**
-   * An operator hears nothing and asks for a new path. A restart of ICE gives up the sockets of the path that there is: nobody
-   * gets one who has not proven that the session is its own.
+   * An operator hears nothing and asks for a new path. An ICE restart gives up the sockets of the existing path, so
+   * only an operator who proves that the session is its own gets one.
    */
   async resume(request: ResumeRequest, iceServers: readonly IceServer[]): Promise<void> {
     const { operators, signaling, counters, log, now } = this.#options;
@@ -68,7 +68,7 @@ export class PathKeeper {
     const operator = operators.get(session);
     if (operator === undefined) return this.#refuse(request, 'unknown-session');
     if (!operator.resumeKey.matches(request.resumeKey)) return this.#refuse(request, 'wrong-resume-key');
-    // While it is being set up it has an offer already.
+    // A session that is still being set up already has an offer.
     if (!operator.peer.connected || !operator.restarts.request(now())) {
       return this.#refuse(request, 'resume-too-soon');
     }
@@ -88,7 +88,7 @@ export class PathKeeper {
     const { signaling, counters, log, now } = this.#options;
     counters.resumesRefused.add(code);
     log.debug({ session, operator, code }, 'session not resumed');
-    // Whoever asks without end must not use up what the service lets us say.
+    // Endless requests must not use up the rate at which the service lets the robot send.
     if (this.#refusals.take(now())) signaling.send({ type: 'session.refuse', session, claim, code });
   }
 }

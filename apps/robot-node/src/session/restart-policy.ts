@@ -1,11 +1,12 @@
-/** An offer that is not answered by then was lost, ms. */
+/** An offer that has no answer after this time counts as lost, ms. */
 export const ANSWER_WAIT_MS = 3000;
-/** From one offer to the next at least, ms: a path needs a moment to be found. */
+/** Minimum time between an answered offer and the next, ms: ICE needs a moment to find a path. */
 export const RESTART_SPACING_MS = 400;
 
 /**
- * When an operator who asks for an ICE restart gets an offer. Each offer gives up the path of the last one, so they must not
- * overtake each other, and whoever asks without end costs little. Robot's clock, ms.
+ * Decides when a request for an ICE restart gets an offer. Each offer gives up the path of the offer before it, so
+ * offers must not overtake each other. The spacing also keeps the cost of endless requests low. Times are in ms on the
+ * robot's clock.
  */
 export class RestartPolicy {
   #offeredMs = Number.NEGATIVE_INFINITY;

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { ResumeKey } from './resume-key.ts';
 
-it('is 128 bits as text, another each time, and matches itself alone', () => {
+it('is 128 random bits as text, different each time, and matches only itself', () => {
   const [key, other] = [new ResumeKey(), new ResumeKey()];
   expect(Buffer.from(key.text, 'base64url')).toHaveLength(16);
   expect(key.matches(key.text)).toBe(true);

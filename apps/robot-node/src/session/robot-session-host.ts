@@ -20,7 +20,7 @@ export interface RobotSessionHostParts {
   now: () => number;
 }
 
-/** What sessions ask of the robot, and what they tell it. */
+/** Handles the requests and reports of all sessions on behalf of the robot. */
 export class RobotSessionHost implements SessionHost {
   readonly drive: DriveStation;
   readonly #parts: RobotSessionHostParts;
@@ -40,7 +40,7 @@ export class RobotSessionHost implements SessionHost {
   }
 
   operatorGone(id: string): void {
-    // Its wheels stand before anything else is said.
+    // Stop the wheels before telling anyone.
     const leaseFreed = this.drive.guard.operatorGone(id);
     this.drive.apply();
     if (leaseFreed) this.leaseChanged();

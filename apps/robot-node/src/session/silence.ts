@@ -1,24 +1,24 @@
-/** What a robot does about an operator of whom nothing is heard, by how long it has been so. */
+/** How long an operator may be silent before the robot takes each step. */
 export interface SilenceLimits {
-  /** From here on points would only fill a path that does not carry them, ms. */
+  /** Stop sending points, which would only fill a path that does not deliver them, ms. */
   streamMs: number;
-  /** The line to signaling may be dead with it: ask, ms. */
+  /** Check the signaling connection, which may have failed together with the path, ms. */
   signalingMs: number;
-  /** Whoever is away for this long does not drive, ms. */
+  /** Release the drive lease, ms. */
   leaseMs: number;
-  /** Gone, ms. */
+  /** End the session, ms. */
   sessionMs: number;
 }
 
 export type SilenceStep = 'none' | 'check-signaling' | 'release-lease' | 'end';
 
-/** @param sessionMs after which the session ends; nothing before it comes later */
+/** @param sessionMs silence after which the session ends, ms; no other step comes later than that */
 export function silenceLimits(sessionMs: number): SilenceLimits {
   const least = (ms: number) => Math.min(ms, sessionMs);
   return { streamMs: least(2000), signalingMs: least(1000), leaseMs: least(5000), sessionMs };
 }
 
-/** The gravest step due. */
+/** The most severe step that is due. */
 export function silenceStep(silentMs: number, limits: SilenceLimits): SilenceStep {
   if (silentMs > limits.sessionMs) return 'end';
   if (silentMs > limits.leaseMs) return 'release-lease';

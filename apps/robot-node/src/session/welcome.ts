@@ -6,11 +6,11 @@ export interface WelcomeFacts {
   id: string;
   name: string;
   limits: DriveLimits;
-  /** Of the first sensor, at most. */
+  /** The first sensor's highest frame rate. */
   framesPerSecond: number;
 }
 
-/** The first messages of a session: what the robot is, who drives, and what there is to see. */
+/** Sends a session's first messages: what the robot is, who drives, and which cameras and sensors there are. */
 export function welcome(
   { messages, resumeKey }: OperatorSession,
   { id, name, limits, framesPerSecond }: WelcomeFacts,

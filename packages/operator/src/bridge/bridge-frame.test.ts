@@ -29,7 +29,7 @@ function split(data: ArrayBuffer, most = 10) {
 }
 
 describe('splitFrame', () => {
-  it('puts each point with its own colour, in batches of packets that know their place', () => {
+  it('puts points with their colours into batches, and each packet in its place', () => {
     const total = BATCH_PACKETS * 150 + 400;
     const { outcome, batches } = split(message(total, (i) => (i * 7) & 0xffff));
     expect(outcome).toEqual({ points: total, dropped: 0 });
@@ -54,14 +54,14 @@ describe('splitFrame', () => {
     expect(last.isLatencyTest(0)).toBe(false);
   });
 
-  it('knows a latency-test frame by its colour', () => {
+  it('recognises a latency-test frame by its colour', () => {
     expect(split(message(300, () => LATENCY_TEST_COLOUR)).batches[0]?.isLatencyTest(1)).toBe(true);
     expect(
       split(message(300, (i) => LATENCY_TEST_COLOUR + Number(i === 299))).batches[0]?.isLatencyTest(0),
     ).toBe(false);
   });
 
-  it('drops what there is no batch for, and what is no frame', () => {
+  it('drops points without a batch, and messages that are not frames', () => {
     expect(
       split(
         message(BATCH_PACKETS * 150 + 400, () => 0),
@@ -76,7 +76,7 @@ describe('splitFrame', () => {
   });
 });
 
-it('parseBridge takes a host, or a host and three ports', () => {
+it('parseBridge accepts a host, or a host and three ports', () => {
   expect(parseBridge('ws://localhost')).toEqual({
     control: 'ws://localhost:8085/',
     telemetry: 'ws://localhost:8090/',

@@ -1,4 +1,4 @@
-/** A frame as the bridge's streaming socket gives it, into the batches in which points go to the page. */
+/** Splits a frame from the bridge's streaming socket into the batches in which points go to the page. */
 import {
   bytesOfPoints,
   LATENCY_TEST_COLOUR,
@@ -12,8 +12,8 @@ import { type Batch, SAMPLED_COVER } from '../cloud/batch.ts';
 import type { ImageExtent } from '../cloud/image-extent.ts';
 
 /**
- * The reference stream says nothing of where its camera stands: a camera at a person's chest, level, looking along x. (A
- * quarter turn each from the body's axes to the optical ones, REP-103.)
+ * The reference stream has no camera pose. This assumes a level camera at the height of a person's chest that looks
+ * along x. (From the body's axes to the optical ones it is a quarter turn each, REP-103.)
  */
 export const DEFAULT_CAMERA_POSE = {
   position: { x: 0, y: 0, z: 1 },
@@ -23,20 +23,22 @@ export const DEFAULT_CAMERA_POSE = {
 const HOST_IS_LITTLE_ENDIAN = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1;
 
 export interface FrameSink {
-  /** A batch that is not full, or `null`: what is left of the frame is dropped. */
+  /** A batch that is not full, or `null`: then the rest of the frame is dropped. */
   next(): Batch | null;
 }
 
 export interface FrameOutcome {
   points: number;
-  /** Points there was no batch for. */
+  /** Points dropped because there was no batch for them. */
   dropped: number;
 }
 
 /**
+ * Splits a frame into batches.
+ *
  * @param message N × 3 int16 coordinates, then N × u16 colours, little-endian
- * @param receivedAtMs since the epoch
- * @returns `null` where it is no frame
+ * @param receivedAtMs ms since the epoch
+ * @returns `null` if the message is not a frame
  */
 export function splitFrame(
   message: ArrayBuffer,

@@ -1,4 +1,4 @@
-/** The page's link by way of a bridge: its sockets, and {@link BridgeSession} put together. */
+/** The page's link through a bridge: combines the bridge's sockets and {@link BridgeSession}. */
 import type { Command, OperatorSessionMessage, RobotListing } from '@farpoint/protocol';
 import type { ToCloudWorker } from '../cloud/worker-messages.ts';
 import type { RobotLink, RobotLinkEvents } from '../link/robot-link.ts';
@@ -109,7 +109,7 @@ export class BridgeLink implements RobotLink {
     this.#bridge.session(message);
   }
 
-  /** The bridge itself reports to the robot. */
+  /** Does nothing: the bridge itself reports to the robot. */
   limitBandwidth(): void {}
 
   onPoints(nowMs: number): void {

@@ -41,7 +41,7 @@ function forward(x: number, more: Partial<Command> = {}): Command {
 }
 
 describe('BridgeSession', () => {
-  it('chooses the wanted robot once it is listed, and is live when the bridge shows it', () => {
+  it('chooses the wanted robot once it is listed, and is live when the bridge confirms it', () => {
     const { session, control, told, phases, robots, switched } = setUp();
     session.want('1');
     session.onSockets(true);
@@ -57,7 +57,7 @@ describe('BridgeSession', () => {
     expect(told.map(({ type }) => type)).toEqual(['welcome', 'lease', 'estop']);
   });
 
-  it('tells the bridge which signaling to use, where the page was told', () => {
+  it('tells the bridge which signaling service to use, if the page was given one', () => {
     const { session, control } = setUp('ws://signaling.example:3002/');
     session.onSockets(true);
     session.onSockets(false);
@@ -66,7 +66,7 @@ describe('BridgeSession', () => {
     expect(control).toEqual([init, init]);
   });
 
-  it('is not live by a robot that no list names', () => {
+  it('is not live with a robot that no list names', () => {
     const { session, phases, robots, switched } = setUp();
     session.want('1');
     session.onSockets(true);
@@ -91,16 +91,16 @@ describe('BridgeSession', () => {
     expect(control.at(-1)).toEqual({ type: 'switchRobot', robotId: 4 });
     switched(4);
     expect([session.phase, session.robotId]).toEqual(['live', '4']);
-    // The bridge itself goes over to its next registration.
+    // The bridge itself switches to the robot's next registration.
     robots([4, 'second'], [7, 'second']);
     switched(7);
     expect([session.phase, session.robotId]).toEqual(['live', '7']);
-    // Another page chose.
+    // Another page chose another robot.
     switched(5);
     expect(session.phase).toBe('waiting');
   });
 
-  it('passes motion on only with the grip, the page’s lease, no stop, and points that come', () => {
+  it('passes motion on only with the grip held, the page’s lease, no stop, and points arriving', () => {
     const { session, said, paths, live } = setUp();
     live();
     session.command(forward(0.4), 0);
@@ -114,14 +114,14 @@ describe('BridgeSession', () => {
     session.session({ type: 'estop', latch: true });
     session.command(forward(0.4), 0);
     expect(said.at(-1)?.linear.x).toBe(0);
-    // Released with the stick held: not before it was let go.
+    // Released while the grip is held: no motion until the grip is released.
     session.session({ type: 'estop', latch: false });
     session.command(forward(0.4), 0);
     expect(said.at(-1)?.linear.x).toBe(0);
     session.command(forward(0), 0);
     session.command(forward(0.4), 0);
     expect(said.at(-1)?.linear.x).toBe(0.4);
-    // Blind: told to stop, then silent.
+    // No points: the robot is told to stop, then nothing is sent.
     session.tick(1001);
     expect(said.at(-1)?.linear.x).toBe(0);
     const { length } = said;
@@ -132,7 +132,7 @@ describe('BridgeSession', () => {
     expect([said.at(-1)?.linear.x, paths]).toEqual([0.4, [false, true]]);
   });
 
-  it('its stop only ever latches, and stays when its robot comes back', () => {
+  it('latches its stop, and keeps it when the robot comes back', () => {
     const { session, said, told, robots, switched, live } = setUp();
     live();
     for (let i = 0; i < 3; i++) session.session({ type: 'estop', latch: true });
@@ -147,7 +147,7 @@ describe('BridgeSession', () => {
     expect(told.at(-1)).toEqual({ type: 'estop', latched: false });
   });
 
-  it('asks for a green frame by linear.z, not with every repetition', () => {
+  it('asks for a green frame by linear.z, but not with every repetition', () => {
     const { session, said, live } = setUp();
     live();
     const greens = () => said.filter(({ linear }) => linear.z !== 0).length;
@@ -158,7 +158,7 @@ describe('BridgeSession', () => {
     expect(greens()).toBe(3);
   });
 
-  it('says stop to the robot that it leaves, and passes garbage over', () => {
+  it('stops the robot that it leaves, and ignores garbage', () => {
     const { session, said, live } = setUp();
     live();
     session.command(forward(0.4), 0);

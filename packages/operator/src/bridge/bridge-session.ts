@@ -1,7 +1,7 @@
 /**
- * What the page says to a bridge and hears of it, without a socket or a clock. The reference protocol has no lease, no
- * emergency stop, no limits and no telemetry: what the page's surface needs of them is made here, for this page alone, and
- * always on the side of standing still.
+ * The page's conversation with a bridge, without a socket or a clock. The reference protocol has no lease, no emergency
+ * stop, no limits and no telemetry. This class emulates them as far as the page's interface needs them. They hold for
+ * this page only, and in case of doubt the robot stands still.
  */
 import {
   type Command,
@@ -28,19 +28,19 @@ export interface BridgeSessionActions {
   sendTelemetry(text: string): void;
   onRobots(robots: readonly RobotListing[]): void;
   onPhase(phase: SessionPhase): void;
-  /** Another robot's points come from now on. */
+  /** From now on points come from another robot. */
   onBegin(): void;
-  /** As a robot of Farpoint's would have told it. */
+  /** A message such as a Farpoint robot would send. */
   onRobotMessage(text: string): void;
-  /** Within a session: no points come (`false`), or some do again. */
+  /** Within a session: no points arrive (`false`), or points arrive again (`true`). */
   onPath(up: boolean): void;
 }
 
-/** Nobody tells them; the robot has its own. The reference system drives at half a metre a second. */
+/** Assumed, because the robot does not send its limits. The reference system drives at 0.5 m/s. */
 export const BRIDGE_LIMITS = { maxLinear: 0.5, maxAngular: 1, watchdogMs: 150, maxCommandsPerSecond: 100 };
-/** Who sees nothing new does not drive, ms. */
+/** The page stops driving if no points have arrived for this long, ms. */
 const BLIND_AFTER_MS = 1000;
-/** A green frame is asked for again after so long, ms: each request makes one. */
+/** A green frame is requested again after this time, ms: each request produces one. */
 const GREEN_AGAIN_MS = 500;
 const STOP_REPEATS = 4;
 
@@ -49,20 +49,20 @@ export class BridgeSession {
   readonly #signaling: string | null;
   #phase: SessionPhase = 'none';
   #wanted: string | null = null;
-  /** The same robot is known by another id each time it registers. */
+  /** The wanted robot's name: its id changes each time it registers. */
   #wantedName: string | null = null;
   #robots: RobotListing[] = [];
   #open = false;
   #holdsLease = false;
-  /** Until it is released on purpose, whichever robot is shown and however often it comes back. */
+  /** The emergency stop. It stays latched until released on purpose, even if the robot changes or comes back. */
   #stopped = false;
-  /** Since the stop was released the hand has not been open. */
+  /** The grip has been held ever since the stop was released. */
   #mustRest = false;
   #pathUp = true;
   #heardMs = 0;
   #green: { id: number; askedMs: number } | null = null;
 
-  /** @param signaling which service the bridge is to use; `null`: the one that it uses */
+  /** @param signaling the service that the bridge is to use; `null` leaves its choice unchanged */
   constructor(actions: BridgeSessionActions, signaling: string | null = null) {
     this.#actions = actions;
     this.#signaling = signaling;
@@ -96,18 +96,18 @@ export class BridgeSession {
     this.#choose();
   }
 
-  /** Both the control and the telemetry socket are open, or no longer. */
+  /** @param open whether the control and telemetry sockets are both open */
   onSockets(open: boolean): void {
     this.#open = open;
     if (open) {
-      // Either is answered by the list.
+      // The bridge answers either message with the list.
       this.#control(
         this.#signaling === null ? { type: 'updateRobots' } : { type: 'initBridge', url: this.#signaling },
       );
       this.#choose();
       return;
     }
-    // Another bridge may come back in its place, with other ids.
+    // A different bridge may come back, with different ids.
     this.#setRobots([]);
     if (this.#phase !== 'none') this.#enter('waiting');
   }
@@ -134,7 +134,7 @@ export class BridgeSession {
       if (this.#phase !== 'none' && (isRenumbered || !this.robotListed)) this.#enter('waiting');
       if (this.#phase === 'waiting') this.#choose();
     } else if (String(message.robotId) === this.#wanted) {
-      // Not in the list: it has left meanwhile.
+      // The robot is not in the list: it has left in the meantime.
       if (!this.robotListed) return;
       if (this.#phase !== 'live') this.#begin(nowMs);
     } else if (this.#wantedName !== null && this.#nameOf(String(message.robotId)) === this.#wantedName) {
@@ -248,7 +248,7 @@ export class BridgeSession {
     this.#say(twist);
   }
 
-  /** The channel beyond the bridge is reliable, the socket may not be there any more: several times. */
+  /** Sent several times: the channel beyond the bridge is reliable, but the socket may be gone. */
   #sayStop(): void {
     for (let i = 0; i < STOP_REPEATS; i++) this.#say(zeroTwist());
   }

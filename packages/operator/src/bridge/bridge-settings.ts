@@ -1,4 +1,4 @@
-/** Where the bridge's three sockets are. */
+/** The addresses of a bridge's three sockets. */
 export interface BridgeAddress {
   /** WebSocket address for commands. */
   control: string;
@@ -6,18 +6,19 @@ export interface BridgeAddress {
   telemetry: string;
   /** WebSocket address for point clouds. */
   streaming: string;
-  /** Clients' port of the signaling service that the bridge is to use; `null`: the one that it uses. */
+  /** Address of the clients' port of the signaling service that the bridge is to use; `null`: leave it unchanged. */
   signaling: string | null;
 }
 
 const PORTS = { control: 8085, telemetry: 8090, streaming: 8095 };
 
 /**
- * Reads the address of a bridge: `ws://localhost`, or with other ports than usual `ws://localhost:8085,8090,8095` (control, telemetry, streaming).
+ * Reads the address of a bridge: `ws://localhost`, or with all three ports (control, telemetry, streaming)
+ * `ws://localhost:8085,8090,8095`.
  *
  * @param text the bridge's address
- * @param signaling an address too: the released bridge has none before a page tells it
- * @returns `null` where it is no such address
+ * @param signaling address of a signaling service: the released bridge has none until a page sends it one
+ * @returns `null` if the text is not such an address
  */
 export function parseBridge(text: string, signaling: string | null = null): BridgeAddress | null {
   const match =

@@ -5,10 +5,10 @@ export interface BridgeSocketEvents {
   onText(text: string): void;
 }
 
-/** More than this unsent, bytes: what would be said now would come too late. */
+/** With more than this unsent, bytes, a message would arrive too late and is dropped. */
 const MAX_BACKLOG = 4096;
 
-/** One of the bridge's local WebSockets: comes back for ever. */
+/** One of the bridge's local WebSockets. Reconnects without end. */
 export class BridgeSocket {
   readonly #url: string;
   readonly #events: BridgeSocketEvents;

@@ -1,4 +1,4 @@
-/** The bridge's streaming socket, in the cloud's worker: comes back for ever, each frame goes to the page in batches. */
+/** The bridge's streaming socket, in the cloud worker. Reconnects without end, and hands each frame on in batches. */
 import { packetCountOf } from '@farpoint/protocol';
 import { Backoff } from '@farpoint/timing';
 import type { Batch } from '../cloud/batch.ts';
@@ -13,7 +13,7 @@ export interface BridgeStreamPort {
 }
 
 export class BridgeStream {
-  /** Sums of this session, as of a direct one. */
+  /** Totals of this session, as for a direct one. */
   intake = new PacketIntake();
   readonly #url: string;
   readonly #pool: BatchPool;
@@ -31,7 +31,7 @@ export class BridgeStream {
     this.#connect();
   }
 
-  /** Another robot: its frames count anew. */
+  /** The robot has changed: restarts the counters. */
   restart(): void {
     this.intake = new PacketIntake();
     this.#extent = new ImageExtent();

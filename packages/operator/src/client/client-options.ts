@@ -7,17 +7,17 @@ import type { TransformSupport } from '../peer/encoded-transform.ts';
 export interface RobotClientOptions {
   /** WebSocket address of the signaling service's endpoint for operators. */
   signalingUrl: string;
-  /** By which other operators and the robot's log know this one. */
+  /** The name by which other operators and the robot's log know this one. */
   name: string;
-  /** The operator's token, where the service asks for one. */
+  /** The operator's token, if the service requires one. */
   token: string | undefined;
   /** `relay`: through TURN servers only. */
   icePolicy: RTCIceTransportPolicy;
   /** How this browser hands encoded frames to a worker. */
   transform: TransformSupport;
-  /** Takes the stream from a bridge instead of from the robots themselves. */
+  /** Takes the stream from a bridge instead of directly from the robots. */
   bridge?: BridgeAddress | null;
-  /** The formats of clouds that the robot may choose from; all where left out. */
+  /** The cloud formats that the robot may choose from; default: all. */
   cloudFormats?: readonly CloudFormat[] | undefined;
   /** Devices that drive, besides {@link RobotClient.drive}. The first whose grip is held drives. */
   inputs?: readonly DriveInput[];

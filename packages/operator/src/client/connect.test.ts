@@ -14,7 +14,7 @@ const failure = (options: ConnectOptions, act: (options: ConnectOptions) => unkn
 const check = (options: ConnectOptions) => checkConnectOptions(options, true);
 
 describe('connect', () => {
-  test('adds what is left out', () => {
+  test('fills in defaults', () => {
     expect(check(good)).toEqual({
       signalingUrl: 'wss://x.org/operator',
       robot: 'rover-1',
@@ -25,7 +25,7 @@ describe('connect', () => {
     });
   });
 
-  test('names what cannot be', () => {
+  test('names an option that cannot be used', () => {
     expect(failure({ ...good, signaling: 'ftp://x' }, check)).toMatchObject({
       reason: 'bad-signaling-address',
       message: expect.stringContaining('ftp://x'),
@@ -36,7 +36,7 @@ describe('connect', () => {
     expect(failure({ ...good, name: '' }, check).reason).toBe('bad-name');
   });
 
-  test('says that there is no WebRTC', () => {
+  test('reports missing WebRTC', () => {
     expect(failure(good, connect).reason).toBe('no-webrtc');
   });
 });

@@ -7,15 +7,15 @@ import { RobotClient } from './robot-client.ts';
 export interface ConnectOptions {
   /** Address of the signaling service, e.g. `wss://robots.example.org`. */
   signaling: string;
-  /** Id of the robot to connect to. Where left out, choose one of the `robots` event by {@link RobotClient.choose}. */
+  /** Id of the robot to connect to. Without it, choose one from the `robots` event with {@link RobotClient.choose}. */
   robot?: string | undefined;
-  /** The operator's token, where the service asks for one. */
+  /** The operator's token, if the service requires one. */
   token?: string | undefined;
-  /** By which other operators and the robot's log know this one; `Operator` where left out. */
+  /** The name by which other operators and the robot's log know this one; default: `Operator`. */
   name?: string | undefined;
   /** `relay`: through TURN servers only. */
   icePolicy?: RTCIceTransportPolicy | undefined;
-  /** The formats of clouds that the robot may choose from; all where left out. */
+  /** The cloud formats that the robot may choose from; default: all. */
   cloudFormats?: readonly CloudFormat[] | undefined;
 }
 
@@ -30,9 +30,9 @@ export type ConnectFailure =
   /** This browser cannot hand encoded frames to a worker. */
   | 'no-encoded-transform';
 
-/** Thrown by {@link connect}. The message says in words what is wrong. */
+/** Thrown by {@link connect}. The message says what is wrong. */
 export class ConnectError extends Error {
-  /** Tells the class where `instanceof` cannot. */
+  /** Identifies the class where `instanceof` cannot. */
   override readonly name = 'ConnectError';
   /** What is wrong, for programs. */
   readonly reason: ConnectFailure;
@@ -43,7 +43,7 @@ export class ConnectError extends Error {
   }
 }
 
-/** What {@link connect} was given, checked. @throws {ConnectError} */
+/** Checks the options of {@link connect}. @throws {ConnectError} */
 export function checkConnectOptions(options: ConnectOptions, securePage: boolean) {
   const { signaling, robot, token, name = 'Operator', icePolicy = 'all', cloudFormats } = options;
   const address = parseSignalingUrl(signaling, securePage);
@@ -58,15 +58,15 @@ export function checkConnectOptions(options: ConnectOptions, securePage: boolean
 }
 
 /**
- * Connects to a robot, and keeps the connection: lost paths, sessions and sockets are made anew until
- * {@link RobotClient.close} is called. Listeners that are added at once miss no event.
+ * Connects to a robot and keeps the connection: lost paths, sessions and sockets are restored until
+ * {@link RobotClient.close} is called. Listeners that are added synchronously miss no event.
  *
  * ```js
  * const robot = connect({ signaling: 'wss://robots.example.org', robot: 'rover-1', token });
  * robot.on('telemetry', ({ pose }) => show(pose));
  * ```
  *
- * @throws {ConnectError} for options that cannot be, and where this browser lacks what a session needs
+ * @throws {ConnectError} if an option cannot be used, or if this browser lacks something that a session needs
  */
 export function connect(options: ConnectOptions): RobotClient {
   const { robot, ...checked } = checkConnectOptions(options, globalThis.location?.protocol === 'https:');

@@ -18,7 +18,7 @@ test('calls each listener of the type, until it is removed', () => {
   expect(heard).toEqual([1, -1, -2]);
 });
 
-test('tells whether anybody listens', () => {
+test('tells whether there are listeners', () => {
   const emitter = new Emitter<Events>();
   expect(emitter.emit('name', 'a')).toBe(false);
   emitter.on('name', () => undefined)();

@@ -1,4 +1,4 @@
-/** Typed events. A listener that throws does not keep the others from being called. */
+/** Typed events. If a listener throws, the others are still called. */
 export class Emitter<Events extends object> {
   readonly #listeners = new Map<keyof Events, Set<(event: never) => void>>();
 
@@ -13,7 +13,7 @@ export class Emitter<Events extends object> {
     return () => listeners.delete(listener);
   }
 
-  /** @returns whether anybody listens */
+  /** @returns whether there are listeners */
   emit<Type extends keyof Events>(type: Type, event: Events[Type]): boolean {
     const listeners = this.#listeners.get(type);
     if (listeners === undefined || listeners.size === 0) return false;
@@ -21,7 +21,7 @@ export class Emitter<Events extends object> {
       try {
         (listener as (event: Events[Type]) => void)(event);
       } catch (error) {
-        // Reported as an error of the page's own, as for events of the browser.
+        // Report it as an uncaught error of the page, as browsers do for their own events.
         queueMicrotask(() => {
           throw error;
         });

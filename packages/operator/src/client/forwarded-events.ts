@@ -2,7 +2,7 @@ import type { RobotLinkEvents } from '../link/robot-link.ts';
 import type { Emitter } from './emitter.ts';
 import type { RobotEvents } from './robot-events.ts';
 
-/** What the link tells and the client passes on as it is. */
+/** Events of the link that the client forwards unchanged. */
 export function forwardedEvents(emitter: Emitter<RobotEvents>) {
   return {
     onSignaling: (state) => emitter.emit('signaling', state),

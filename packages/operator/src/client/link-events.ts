@@ -1,4 +1,4 @@
-/** What becomes of the link's events in a client: its parts are told, and its listeners. */
+/** Passes the link's events to a client's parts and listeners. */
 import type { CloudReceiver } from '../cloud/cloud-receiver.ts';
 import type { Driver } from '../drive/driver.ts';
 import type { LatencyProbe } from '../latency/latency-probe.ts';
@@ -9,7 +9,7 @@ import type { Emitter } from './emitter.ts';
 import { forwardedEvents } from './forwarded-events.ts';
 import type { RobotEvents } from './robot-events.ts';
 
-/** Of a client. Read when an event comes: some are made after the link. */
+/** The client's parts. They are read when an event comes, because some are created after the link. */
 export interface LinkedClient {
   readonly driver: Driver;
   readonly latency: LatencyProbe;
@@ -17,12 +17,12 @@ export interface LinkedClient {
   pointsAtMs: number;
 }
 
-/** Parts that a client keeps to itself. */
+/** The client's private parts. */
 export interface ClientParts {
   readonly emitter: Emitter<RobotEvents>;
   readonly receiver: CloudReceiver;
   readonly pictures: PictureFeed;
-  /** Tells the robot which formats can be read here. */
+  /** Tells the robot which cloud formats this browser reads. */
   tellFormats(): void;
 }
 

@@ -3,7 +3,7 @@ import { BATCH_BYTES, type Batch } from '../cloud/batch.ts';
 import type { FromCloudWorker, ToCloudWorker } from '../cloud/worker-messages.ts';
 import { RobotClient } from './robot-client.ts';
 
-/** Stands for the cloud worker. */
+/** Stands in for the cloud worker. */
 class WorkerStub {
   static last: WorkerStub;
   onmessage: ((event: { data: FromCloudWorker }) => void) | null = null;
@@ -32,14 +32,14 @@ function bench(): { client: RobotClient; worker: WorkerStub } {
   const client = new RobotClient({ ...options, icePolicy: 'all', transform: 'script-transform' });
   return { client, worker: WorkerStub.last };
 }
-/** Points of a session; none has begun here, and the receiver counts from 0. */
+/** Points of a session. No session has begun, and the receiver counts from 0. */
 const batch = (generation: number, sensor = 0): FromCloudWorker => ({
   ...{ type: 'batch', generation, sensor, packets: 0, points: 0 },
   buffer: new ArrayBuffer(BATCH_BYTES),
 });
 
 describe('RobotClient', () => {
-  test('points that nobody takes go back to the worker, as those of an earlier session do', () => {
+  test('points without a listener go back to the worker, as do those of an earlier session', () => {
     const { client, worker } = bench();
     worker.say(batch(0));
     expect(worker.told.map(({ type }) => type)).toEqual(['return']);
@@ -55,7 +55,7 @@ describe('RobotClient', () => {
     expect(worker.told).toHaveLength(3);
   });
 
-  test('points of each sensor go to who draws it, and back where nobody does', () => {
+  test('points of each sensor go to its listener, or back if there is none', () => {
     const { client, worker } = bench();
     const taken: [string, number][] = [];
     client.on('cloud', ({ sensor }) => taken.push(['first', sensor]));
@@ -68,7 +68,7 @@ describe('RobotClient', () => {
     expect(worker.told.map(({ type }) => type)).toEqual(['return']);
   });
 
-  test('tells that the decoder cannot be loaded', () => {
+  test('reports that the decoder cannot be loaded', () => {
     const { client, worker } = bench();
     const failed: unknown[] = [];
     client.on('failed', (failure) => failed.push(failure));
@@ -76,7 +76,7 @@ describe('RobotClient', () => {
     expect(failed).toEqual([{ reason: 'cloud-worker', detail: 'no WASM' }]);
   });
 
-  test('waits for the robot that was chosen', () => {
+  test('waits for the chosen robot', () => {
     const { client } = bench();
     const phases: string[] = [];
     client.on('phase', (phase) => phases.push(phase));
@@ -87,7 +87,7 @@ describe('RobotClient', () => {
     expect(phases).toEqual(['waiting', 'none']);
   });
 
-  test('a wish that is not renewed has been let go', () => {
+  test('a wish that is not renewed expires', () => {
     const { client } = bench();
     client.drive({ forward: 1, left: 0 });
     expect(client.driver.input?.wish.forward).toBe(1);
@@ -98,13 +98,13 @@ describe('RobotClient', () => {
     expect(client.driver.input).toBe(null);
   });
 
-  test('without a session nothing can be stopped or released, and the caller is told', () => {
+  test('without a session an emergency stop or its release is not sent, and the caller is told', () => {
     const { client } = bench();
     expect(client.estop()).toBe(false);
     expect(client.releaseEstop()).toBe(false);
   });
 
-  test('a closed client has ended its worker, and chooses no more', () => {
+  test('closing ends the worker, and a closed client connects to no robot', () => {
     const { client, worker } = bench();
     client.close();
     expect(worker.ended).toBe(true);

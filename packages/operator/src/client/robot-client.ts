@@ -1,4 +1,4 @@
-/** An operator's connection to robots: what they send, as events; what the operator wishes, as methods. */
+/** An operator's connection to robots. */
 import type { RobotListing, Telemetry } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 import { CloudReceiver } from '../cloud/cloud-receiver.ts';
@@ -23,19 +23,19 @@ const TICK_MS = 25;
 const STATISTICS_MS = 250;
 
 /**
- * An operator's connection to robots: what they send, as events; what the operator wishes, as methods. Use {@link connect} where
- * one robot is driven; this class itself where an app has devices of its own.
+ * An operator's connection to robots. Events report what robots send; methods send what the operator wants. Use
+ * {@link connect} to drive one robot. Use this class directly if an app has its own input devices.
  */
 export class RobotClient {
-  /** The link itself: signaling state, session state, what the robot has told in this session. */
+  /** The link itself: signaling state, session state, and what the robot has sent in this session. */
   readonly link: RobotLink;
   /** Which device drives, and who holds the lease. */
   readonly driver: Driver;
   /** Runs latency tests. */
   readonly latency: LatencyProbe;
-  /** What is counted and measured about the stream. */
+  /** Statistics of the stream. */
   readonly statistics: StreamStatistics;
-  /** When points came last, or the session's phase changed: `performance.now()`. */
+  /** When points last arrived or the session's phase last changed, `performance.now()`. */
   pointsAtMs = 0;
   readonly #emitter = new Emitter<RobotEvents>();
   readonly #receiver: CloudReceiver;
@@ -97,7 +97,7 @@ export class RobotClient {
   }
 
   /**
-   * Calls `listener` for each event of the type, see {@link RobotEvents}.
+   * Calls `listener` for each event of the type; see {@link RobotEvents}.
    *
    * @returns a function that removes the listener
    */
@@ -124,7 +124,7 @@ export class RobotClient {
     this.#pictures.close();
   }
 
-  /** Where the session with the chosen robot stands. */
+  /** The phase of the session with the chosen robot. */
   get phase(): SessionPhase {
     return this.link.phase;
   }
@@ -134,17 +134,20 @@ export class RobotClient {
     return this.link.robots;
   }
 
-  /** The robot that is connected to, or will be once the present one stands. */
+  /** The robot that this client is connected to, or will be once the present one has stopped. */
   get chosenRobotId(): string | null {
     return this.#switch.target ?? this.link.robotId;
   }
 
-  /** What the robot measured last in this session. */
+  /** The robot's latest telemetry in this session. */
   get telemetry(): Telemetry | null {
     return this.link.session.telemetry;
   }
 
-  /** Connects to this robot as soon as it is listed, and again whenever the session is lost. Another robot stops first. */
+  /**
+   * Connects to this robot as soon as it is listed, and again whenever the session is lost. The present robot is
+   * stopped first.
+   */
   choose(robotId: string): void {
     if (this.#closed) return;
     this.#switch.choose(robotId, presentRobot(this.link, this.driver.holder), performance.now());
@@ -157,8 +160,8 @@ export class RobotClient {
   }
 
   /**
-   * Moves the robot. Call it again at least every 200 ms for as long as the operator holds on: a wish that is not renewed
-   * has been let go, and the robot stops. The first call asks for the lease where nobody drives.
+   * Moves the robot. Call it again at least every 200 ms while the operator holds on: a wish that is not renewed
+   * expires, and the robot stops. The first call requests the lease if nobody drives.
    */
   drive(wish: DriveWish): void {
     const nowMs = performance.now();
@@ -166,7 +169,7 @@ export class RobotClient {
     this.driver.tick(nowMs);
   }
 
-  /** Lets go at once, without waiting for the wish to lapse. The lease is kept. */
+  /** Stops at once, without waiting for the wish to expire. The operator keeps the lease. */
   stop(): void {
     this.#wish.release();
     this.driver.tick(performance.now());
@@ -178,9 +181,9 @@ export class RobotClient {
   }
 
   /**
-   * Latches the emergency stop. Nothing but {@link releaseEstop}, of whoever drives, releases it.
+   * Latches the emergency stop. Only {@link releaseEstop}, called by the driver, releases it.
    *
-   * @returns whether it was sent: not without a session. The `estop` event confirms it.
+   * @returns whether it was sent, which needs a session. The `estop` event confirms it.
    */
   estop(): boolean {
     if (this.link.phase !== 'live') return false;
@@ -189,10 +192,10 @@ export class RobotClient {
   }
 
   /**
-   * Asks the robot to release the emergency stop. Only who drives may: where nobody does, the lease is asked for first.
-   * Call it for a deliberate act alone, e.g. a button held for a second.
+   * Asks the robot to release the emergency stop. Only the driver may release it; if nobody drives, this requests the
+   * lease first. Call it only for a deliberate act, e.g. a button held for a second.
    *
-   * @returns whether it was sent: not without a session. The `estop` event confirms it.
+   * @returns whether it was sent, which needs a session. The `estop` event confirms it.
    */
   releaseEstop(): boolean {
     if (this.link.phase !== 'live') return false;
@@ -201,44 +204,44 @@ export class RobotClient {
     return true;
   }
 
-  /** Asks for pictures of these cameras, and of no others. Indices in the list of the `cameras` event. */
+  /** Asks for pictures of these cameras only: indices into the list of the `cameras` event. */
   watch(cameras: readonly number[]): void {
     this.#pictures.watch(cameras);
     this.link.sendSession({ type: 'pictures', cameras: [...cameras] });
   }
 
-  /** Asks for the clouds of these sensors (numbers in the list of `sensors`), and of no others. At first: of the first. */
+  /** Asks for the clouds of these sensors only: indices into the list of the `sensors` event. Initially the first. */
   wantClouds(sensors: readonly number[]): void {
     this.link.sendSession({ type: 'sensors', sensors: [...sensors] });
   }
 
   /**
-   * Measures motion to photon: until a green cloud that is asked for now has been drawn. What draws the clouds must tell
-   * by {@link noteUploaded} and {@link noteDrawn}; `CloudView` of `@farpoint/cloud-view` does.
+   * Measures motion to photon: the time until a green cloud that is requested now has been drawn. Whatever draws the
+   * clouds must call {@link noteUploaded} and {@link noteDrawn}, as `CloudView` of `@farpoint/cloud-view` does.
    *
    * @param startedAtMs when the operator acted, `performance.now()`
-   * @throws {LatencyError} where there is no session, another test runs, somebody else drives, or nothing came within 3 s
+   * @throws {LatencyError} if there is no session, another test runs, somebody else drives, or no frame came within 3 s
    */
   latencyTest(startedAtMs = performance.now()): Promise<LatencyReport> {
     return this.latency.run(startedAtMs);
   }
 
-  /** Asks the robot to send no more than this, bit/s; through a bridge it does nothing. */
+  /** Asks the robot to send at most this rate, bit/s. No effect through a bridge. */
   limitBandwidth(bitsPerSecond: number): void {
     this.link.limitBandwidth(bitsPerSecond);
   }
 
-  /** Hands on one of every so many points: of coded clouds, and of `points64`, which is a sample already. */
+  /** Draws only one of every N points: one N for coded clouds, and one for `points64`, which is already a sample. */
   drawEvery(every: number, everySample = 1): void {
     this.#receiver.drawEvery(every, everySample);
   }
 
-  /** Rates, losses, round trips and latencies of the stream now. */
+  /** The stream's present rates, losses, round trips and latencies. */
   stats(): StreamStats {
     return this.statistics.snapshot(this.link.session.clock);
   }
 
-  /** Gives back a batch of the `cloud` event. Its buffer is empty afterwards. */
+  /** Returns a batch of a `cloud` event to the worker. Its buffer is detached afterwards. */
   release(batch: Batch): void {
     this.#receiver.release(batch);
   }
@@ -246,13 +249,13 @@ export class RobotClient {
   /** A packet's points were uploaded for the display frame being prepared. */
   noteUploaded(batch: Batch, packet: number): void {
     this.statistics.onUploaded(batch, packet);
-    // Latency tests are answered by the first sensor.
+    // Only the first sensor answers latency tests.
     if (batch.sensor !== 0) return;
     this.latency.onPacket(batch, packet);
   }
 
   /**
-   * The display frame with what {@link noteUploaded} told is finished.
+   * The display frame with the points reported by {@link noteUploaded} is finished.
    *
    * @param nowMs `performance.now()`
    */
@@ -262,7 +265,7 @@ export class RobotClient {
   }
 
   /**
-   * Called by the client's own timer. An app calls it right after reading its devices, too.
+   * Called by the client's own timer. An app also calls it right after reading its devices.
    *
    * @param nowMs `performance.now()`
    */

@@ -19,21 +19,21 @@ import type { SignalingState } from '../signaling/signaling-state.ts';
 /** Why the client cannot work at all. */
 export type ClientFailure = 'cloud-worker';
 
-/** What {@link RobotClient.on} can be asked for, and what its listeners are called with. */
+/** The event types of {@link RobotClient.on}, and the arguments of their listeners. */
 export interface RobotEvents {
-  /** The connection to the signaling service. */
+  /** The state of the connection to the signaling service. */
   signaling: SignalingState;
   /** The robots that the service lists, whenever the list changes. */
   robots: readonly RobotListing[];
-  /** Where the session with the chosen robot stands. */
+  /** The phase of the session with the chosen robot. */
   phase: SessionPhase;
-  /** A new session begins: what was received before is of another one. */
+  /** A new session begins: whatever was received before belongs to an earlier one. */
   session: number;
-  /** Within a session: the network path is lost (`false`), or carries again. */
+  /** Within a session: the network path is lost (`false`) or restored (`true`). */
   path: boolean;
-  /** A session was given up. The client opens another one by itself. */
+  /** A session was given up. The client opens another automatically. */
   loss: SessionLoss;
-  /** The signaling service refused a request, in its own words. */
+  /** The signaling service refused a request; the text is the service's. */
   refused: string;
   /** The robot's first message: its name, its drive limits. */
   welcome: Welcome;
@@ -43,19 +43,19 @@ export interface RobotEvents {
   commandRejected: CommandRejected;
   /** The emergency stop, latched or released. */
   estop: EstopState;
-  /** The grip was taken, but another operator drives. */
+  /** The grip was pressed, but another operator drives. */
   otherDrives: undefined;
   /** Pose, velocity, drive state, battery; 20 times a second. */
   telemetry: Telemetry;
-  /** What a sensor or topic of the robot says. */
+  /** A reading of one of the robot's sensors or topics. */
   reading: Reading;
   /** The cameras that {@link RobotClient.watch} can be called with. */
   cameras: Cameras['cameras'];
-  /** The sensors that {@link RobotClient.wantClouds} can be called with; of a robot that has more than one. */
+  /** The sensors that {@link RobotClient.wantClouds} can be called with; sent by robots that have more than one. */
   sensors: Sensors['sensors'];
-  /** A picture of a camera that is watched. */
+  /** A picture of a watched camera. */
   picture: Picture;
-  /** A file of this camera that cannot be decoded. */
+  /** A picture of this camera could not be decoded. */
   pictureFault: {
     /** Index in the list of the `cameras` event. */
     camera: number;
@@ -63,15 +63,15 @@ export interface RobotEvents {
     detail: string;
   };
   /**
-   * Decoded points of the first sensor, each packet with the pose of its frame. Whoever takes the batch gives it back by
-   * {@link RobotClient.release}: there is a bounded number of them. Register at most one listener that takes batches.
+   * Decoded points of the first sensor, each packet with the pose of its frame. The listener must return the batch with
+   * {@link RobotClient.release}, because the number of batches is limited. Register at most one listener.
    */
   cloud: Batch;
-  /** The same of sensors other than the first, by number. */
+  /** Decoded points of a sensor other than the first, with its number. */
   [cloud: `cloud:${number}`]: Batch;
   /** A latency test ended. */
   latency: LatencyResult;
-  /** The robot could not use a message of ours, in its own words. */
+  /** The robot could not use a message from this client; the text is the robot's. */
   robotFault: string;
   /** The client cannot work in this browser or with this server. */
   failed: {

@@ -6,7 +6,7 @@ import type { FromCloudWorker } from './worker-messages.ts';
 
 const codec = await loadCodecFromDisk();
 
-/** An assembler on a clock of its own, and what it told. */
+/** An assembler on a simulated clock, and the messages that it posted. */
 class Bench {
   nowMs = 1000;
   readonly told: FromCloudWorker[] = [];
@@ -62,7 +62,7 @@ describe('BatchAssembler', () => {
     expect(told).toMatchObject([{ type: 'batch', generation: 1, packets: 2, points: 20 }]);
   });
 
-  test('puts no two sensors into one batch, and decodes each by its own stream', () => {
+  test('never mixes sensors in a batch, and decodes each by its own stream', () => {
     const it = bench();
     const of = (sensor: number) => {
       const buffer = packet(1, 0, 2);
@@ -76,13 +76,13 @@ describe('BatchAssembler', () => {
       { sensor: 1, packets: 2 },
       { sensor: 0, packets: 1 },
     ]);
-    // No robot announces so many.
+    // Beyond the maximum number of sensors.
     it.assembler.take(of(200), 4, 1000);
     it.assembler.report();
     expect(it.told.at(-1)).toMatchObject({ drops: { 'no-stream': 1 } });
   });
 
-  test('hands over what came of a frame whose last packet does not come', () => {
+  test('hands over the received part of a frame whose last packet is missing', () => {
     const it = bench();
     it.assembler.take(packet(1, 0, 2), 0, 1000);
     it.wait(FLUSH_AFTER_MS - 1);
@@ -91,7 +91,7 @@ describe('BatchAssembler', () => {
     expect(it.batches).toMatchObject([{ packets: 1, points: 10 }]);
   });
 
-  test('fills buffers while the page is behind, and goes on when one comes back', () => {
+  test('fills buffers while the page is behind, and continues when one comes back', () => {
     const it = bench();
     for (let frame = 1; frame <= BATCHES_AHEAD + 2; frame++) it.assembler.take(packet(frame), frame, 1000);
     it.wait(FLUSH_AFTER_MS);
@@ -102,7 +102,7 @@ describe('BatchAssembler', () => {
     expect(it.batches.at(-1)).toMatchObject({ packets: 2, points: 20 });
   });
 
-  test('what waited too long is left out and counted', () => {
+  test('drops and counts packets that waited too long', () => {
     const it = bench();
     it.assembler.take(packet(1), 0, 1000);
     it.assembler.take(packet(2), 1, 800);
@@ -110,7 +110,7 @@ describe('BatchAssembler', () => {
     expect(it.told.at(-1)).toMatchObject({ type: 'report', drops: { 'decoder-behind': 1 } });
   });
 
-  test('a coded packet without its stream header is counted, and a header that is none is refused', () => {
+  test('counts a coded packet without its stream header, and refuses an invalid header', () => {
     const it = bench();
     const coded = packet(1);
     writePlacement(new DataView(coded), 96, { ...emptyPlacement(), format: 'organised' });
@@ -121,7 +121,7 @@ describe('BatchAssembler', () => {
     expect(it.told.at(-1)).toMatchObject({ drops: { 'no-stream': 1 } });
   });
 
-  test('a new session forgets what was not handed over, and counts anew', () => {
+  test('a new session forgets what was not handed over, and restarts the counters', () => {
     const it = bench();
     it.assembler.take(packet(1, 0, 2), 0, 1000);
     it.assembler.begin(2, codec);
@@ -133,7 +133,7 @@ describe('BatchAssembler', () => {
     ]);
   });
 
-  test('reports once for what has come', () => {
+  test('reports only if packets have arrived since the last report', () => {
     const it = bench();
     it.assembler.report();
     it.assembler.take(packet(1, 0, 2), 0, 1000);

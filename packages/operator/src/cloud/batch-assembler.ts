@@ -1,6 +1,6 @@
 /**
- * What the cloud worker does, without the worker: takes RTP payloads, decodes them, fills batches and hands them over.
- * The clock and the timer are arguments.
+ * The logic of the cloud worker, without the worker: takes RTP payloads, decodes them, fills batches and hands them
+ * over. The clock and the timer are arguments.
  */
 import { type CloudFormat, MAX_SENSORS, PLACEMENT_BYTES } from '@farpoint/protocol';
 import type { Codec } from '@farpoint/wasm-codec';
@@ -14,39 +14,39 @@ import { Points64PacketDecoder } from './points64-packet-decoder.ts';
 import { UnorganisedPacketDecoder } from './unorganised-packet-decoder.ts';
 import type { FromCloudWorker } from './worker-messages.ts';
 
-/** A burst that has begun is handed over after so long at the latest, ms; a frame's last packet does not wait. */
+/** Points are handed over within this time, ms; a frame's last packet causes it at once. */
 export const FLUSH_AFTER_MS = 4;
-/** With so many batches undrawn the page is slower than we are: fill buffers before handing over. */
+/** With this many undrawn batches the page is behind: fill buffers before handing them over. */
 export const BATCHES_AHEAD = 6;
 const MAX_BATCHES = 48;
 const HEADER_BYTES = 16;
 
 export interface BatchAssemblerPort {
   post(message: FromCloudWorker, transfer: Transferable[]): void;
-  /** As `performance.now()`, and when that was 0, ms since the epoch. */
+  /** The worker's `performance.now()`; `timeOriginMs` is its zero in ms since the epoch. */
   nowMs(): number;
   readonly timeOriginMs: number;
-  /** Calls `act` once after so long. */
+  /** Calls `act` once after `afterMs`. */
   setTimer(act: () => void, afterMs: number): number;
   clearTimer(timer: number): void;
 }
 
-/** Of one sensor: `points64` always, coded formats once their stream header has come. */
+/** One sensor's decoders: always `points64`, coded formats once their stream header has arrived. */
 type Decoders = Partial<Record<CloudFormat, PacketDecoder & Partial<Disposable>>>;
 
 export class BatchAssembler implements BatchWriter {
   readonly pool = new BatchPool(MAX_BATCHES);
-  /** Counts sessions; none has begun before 0. */
+  /** Number of the session; −1 before the first. */
   generation = -1;
   every = 1;
   everySample = 1;
   readonly #port: BatchAssemblerPort;
   readonly #backlog = new DecoderBacklog();
   #intake = new PacketIntake();
-  /** By sensor number. */
+  /** Indexed by sensor number. */
   #decoders: Decoders[] = [];
   #batch: Batch | null = null;
-  /** Whose packets are in the batch, and of which sensor. */
+  /** The decoder, and the sensor, whose packets are in the batch. */
   #filling: PacketDecoder | null = null;
   #sensor = 0;
   #flushTimer: number | null = null;
@@ -58,7 +58,7 @@ export class BatchAssembler implements BatchWriter {
     this.#port = port;
   }
 
-  /** A session's packets and its stream header come on different ways: whichever is first begins it. */
+  /** Begins a session. Its packets and stream headers take different routes, and whichever is first begins it. */
   begin(generation: number, codec: Codec): void {
     if (generation <= this.generation) return;
     this.beginCounting(generation, new PacketIntake());
@@ -73,14 +73,14 @@ export class BatchAssembler implements BatchWriter {
     }));
   }
 
-  /** A session whose packets are decoded elsewhere. @param intake counts them */
+  /** Begins a session whose packets are decoded elsewhere. @param intake counts them */
   beginCounting(generation: number, intake: PacketIntake): void {
     this.generation = generation;
     this.#intake = intake;
     this.#reportedPackets = -1;
   }
 
-  /** What packets of a coded format are decoded with from now on. */
+  /** Sets the header with which a format's packets are decoded from now on. */
   beginStream(codec: Codec, format: 'organised' | 'unorganised', header: Uint8Array, sensor = 0): void {
     const decoders = this.#decoders[sensor];
     if (decoders === undefined) return;
@@ -97,9 +97,11 @@ export class BatchAssembler implements BatchWriter {
   }
 
   /**
+   * Takes a payload, and decodes it unless it is faulty or stale.
+   *
    * @param payload of one RTP packet
-   * @param rtpSequence 16 bits; absent where the browser does not tell
-   * @param receiveTimeMs when it came, as `nowMs`; NaN where the browser does not tell
+   * @param rtpSequence 16 bits; absent if the browser does not provide it
+   * @param receiveTimeMs when it arrived, on the clock of `nowMs`; NaN if the browser does not provide it
    */
   take(payload: ArrayBuffer, rtpSequence: number | undefined, receiveTimeMs: number): void {
     const beganMs = this.#port.nowMs();
@@ -112,14 +114,14 @@ export class BatchAssembler implements BatchWriter {
     this.#busyPackets++;
   }
 
-  /** One of every so many points is handed on from now on. */
+  /** From now on hands on only one of every `every` points, of `points64` one of every `everySample`. */
   drawEvery(every: number, everySample: number): void {
     this.#flush();
     this.every = every;
     this.everySample = everySample;
   }
 
-  /** The page gave a buffer back. */
+  /** The page returned a buffer. */
   giveBack(buffer: ArrayBuffer): void {
     this.pool.giveBack(buffer);
     if (this.#batch !== null && this.#flushTimer === null && this.pool.out < BATCHES_AHEAD)
@@ -133,7 +135,7 @@ export class BatchAssembler implements BatchWriter {
     this.#port.post({ type: 'batch', generation, sensor, packets, points, buffer }, [buffer]);
   }
 
-  /** Tells the sums of the session, where packets have come since the last time. */
+  /** Reports the session's totals, if packets have arrived since the last report. */
   report(): void {
     const { packetsReceived, bytesReceived, packetsLost, drops } = this.#intake;
     if (this.generation < 0 || packetsReceived === this.#reportedPackets) return;
@@ -182,7 +184,7 @@ export class BatchAssembler implements BatchWriter {
       const beganMs = this.#port.nowMs();
       this.#filling?.settle(this);
       this.#busyMs += this.#port.nowMs() - beganMs;
-      // Otherwise the next buffer that comes back, or a full one, brings it on its way.
+      // Otherwise it is handed over when a buffer comes back or when it is full.
       if (this.pool.out < BATCHES_AHEAD) this.#flush();
     }, FLUSH_AFTER_MS);
   }

@@ -1,4 +1,4 @@
-/** Buffers in the worker's hands and out with the page. Bounded: a page that stops drawing cannot eat the memory. */
+/** Buffers shared by the worker and the page. Their number is bounded, so memory is, too, if the page stops drawing. */
 import { BATCH_BYTES, Batch } from './batch.ts';
 
 export class BatchPool {
@@ -7,17 +7,17 @@ export class BatchPool {
   #made = 0;
   #out = 0;
 
-  /** @param most how many buffers there may be */
+  /** @param most maximum number of buffers */
   constructor(most: number) {
     this.#most = most;
   }
 
-  /** Buffers the page has. */
+  /** Number of buffers that the page has. */
   get out(): number {
     return this.#out;
   }
 
-  /** An empty batch, or `null` where all are out. */
+  /** An empty batch, or `null` if all buffers are in use. */
   take(): Batch | null {
     const buffer = this.#free.pop();
     if (buffer !== undefined) return new Batch(buffer);
@@ -31,7 +31,7 @@ export class BatchPool {
     this.#out++;
   }
 
-  /** The page gave a buffer back; one that is not ours by its size is left out. */
+  /** The page returned a buffer. A buffer of the wrong size is ignored. */
   giveBack(buffer: ArrayBuffer): void {
     if (buffer.byteLength !== BATCH_BYTES || this.#out === 0) return;
     this.#out--;

@@ -54,7 +54,7 @@ describe('Batch', () => {
 });
 
 describe('BatchPool', () => {
-  test('lends so many buffers and no more, until they come back', () => {
+  test('lends a limited number of buffers until they come back', () => {
     const pool = new BatchPool(2);
     const [a, b] = [pool.take(), pool.take()];
     pool.sent();
@@ -67,7 +67,7 @@ describe('BatchPool', () => {
     expect(pool.out).toBe(1);
     pool.giveBack(a!.buffer);
     expect(pool.out).toBe(0);
-    // More than was lent cannot come back.
+    // No more buffers than were lent can come back.
     pool.giveBack(new ArrayBuffer(BATCH_BYTES));
     expect(pool.take()?.buffer).toBe(a!.buffer);
     expect(pool.take()).toBe(null);

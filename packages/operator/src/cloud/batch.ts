@@ -1,29 +1,29 @@
 /**
- * Points on their way from the worker to the page: one buffer, handed over by transfer and given back empty.
+ * Points on their way from the worker to the page: one buffer, transferred to the page and returned for reuse.
  *
- *     0             `BATCH_PACKETS` entries of 80 bytes, one a packet, in the platform's byte order:
+ *     0             `BATCH_PACKETS` entries of 80 bytes, one per packet, in the platform's byte order:
  *                     0 f64 received, ms since the epoch    8 u32 frameNumber   12 u32 frameLength   16 u32 sequenceOffset
  *                    20 u32 points    24 u32 captureTimeUs  28 u32 flags (1 = latency test)
  *                    32 f32 ×3 position of the camera       44 f32 ×4 its orientation x, y, z, w
  *                    60 f32 how wide the camera sees (image-extent.ts)
- *                    64 u32 sequenceLength: the points that came, as bytes of the frame; `points` are those that are drawn
+ *                    64 u32 sequenceLength: the points received, as bytes of the frame; `points` counts those drawn
  *                    68 f32 unit of the coordinates, metres       72 f32 cover: diameter of a point in mean distances
  *     POINTS_OFFSET  the packets' points one after another, x, y, z in units and the colour's bits, int16 each
  */
 import { type Placement, type PointPacketHeader, pointsOfBytes } from '@farpoint/protocol';
 
-/** Most packets that a batch holds. */
+/** Maximum number of packets in a batch. */
 export const BATCH_PACKETS = 128;
 const ENTRY_BYTES = 80;
 const WORDS = ENTRY_BYTES / 4;
 const POINTS_OFFSET = BATCH_PACKETS * ENTRY_BYTES;
-/** A packet of a coded format may hold any number of points: one that does not fit goes on in the next batch. */
+/** A packet of a coded format may hold any number of points: what does not fit goes into the next batch. */
 export const BATCH_POINTS = 65_536;
 /** Size of a batch's buffer, bytes. */
 export const BATCH_BYTES = POINTS_OFFSET + BATCH_POINTS * 4 * Int16Array.BYTES_PER_ELEMENT;
 export const ENTRY_LATENCY_TEST = 1;
 
-/** Samples are drawn at random, so that circles of c mean distances cover 1 − exp(−π·c²/4) of a surface: 96 % at 2. */
+/** Samples are random: circles with a diameter of c mean distances cover 1 − exp(−π·c²/4) of a surface, 96 % at 2. */
 export const SAMPLED_COVER = 2;
 
 /** How a packet's points are to be drawn. */
@@ -37,30 +37,30 @@ export interface PointLook {
 }
 
 /**
- * Decoded points of one sensor, in one buffer: an entry for each packet, then the points of all packets one after another. The
- * accessors that take a `packet` expect its index, 0 to `packets` − 1.
+ * Decoded points of one sensor, in one buffer: an entry for each packet, then the points of all packets one after
+ * another. The accessors that take a `packet` expect its index, 0 to `packets` − 1.
  */
 export class Batch {
   /** The memory behind all views, `BATCH_BYTES` long. Detached once the batch is released. */
   readonly buffer: ArrayBuffer;
-  /** Four numbers a point: x, y and z in steps of {@link unit}, in the axes of the camera's optical frame, and the colour's bits. */
+  /** Four numbers per point: x, y, z in steps of {@link unit} in the camera's optical frame, and the colour's bits. */
   readonly points: Int16Array;
   readonly #u32: Uint32Array;
   readonly #f32: Float32Array;
   readonly #f64: Float64Array;
-  /** Packets in use. */
+  /** Number of packets in the batch. */
   packets = 0;
-  /** Points of all packets in use. */
+  /** Number of points of all packets. */
   pointCount = 0;
-  /** Whose points they are: its number among the robot's sensors. */
+  /** Number of the sensor that the points come from. */
   sensor: number;
 
   /**
    * @param buffer `BATCH_BYTES` long
-   * @param packets in use already
-   * @param pointCount points of those
-   * @param sensor whose points they are
-   * @throws {RangeError} where the buffer is too small
+   * @param packets number of packets that the buffer already holds
+   * @param pointCount number of their points
+   * @param sensor number of the sensor that the points come from
+   * @throws {RangeError} if the buffer is too small
    */
   constructor(buffer: ArrayBuffer, packets = 0, pointCount = 0, sensor = 0) {
     this.buffer = buffer;
@@ -78,18 +78,18 @@ export class Batch {
     return this.packets === BATCH_PACKETS;
   }
 
-  /** Points that still fit. */
+  /** Number of points that still fit. */
   get room(): number {
     return BATCH_POINTS - this.pointCount;
   }
 
   /**
-   * Adds the entry of one packet, or of a part of one; its points are written by the caller, from the batch's point
-   * `pointCount` on. Must not be full.
+   * Adds the entry of one packet, or of a part of one. The caller writes its points, from the batch's point
+   * `pointCount` on. The batch must not be full.
    *
-   * @param header tells the place in the frame, of all points that came
+   * @param header place in the frame of all points received, drawn or not
    * @param placement pose of the camera, capture time and flags of the frame
-   * @param points those that are drawn; no more than there is room for
+   * @param points number of points to draw; no more than there is room for
    * @param receivedAtMs ms since the epoch
    * @param look how the points are to be drawn
    */
@@ -138,19 +138,19 @@ export class Batch {
   frameNumber(packet: number): number {
     return this.#u32[packet * WORDS + 2] as number;
   }
-  /** Size of the whole frame, bytes, 8 a point. */
+  /** Size of the whole frame, bytes, 8 per point. */
   frameLength(packet: number): number {
     return this.#u32[packet * WORDS + 3] as number;
   }
-  /** Where the packet's points begin in the frame, bytes, 8 a point. */
+  /** Where the packet's points begin in the frame, bytes, 8 per point. */
   sequenceOffset(packet: number): number {
     return this.#u32[packet * WORDS + 4] as number;
   }
-  /** Points of the packet in this batch. */
+  /** Number of the packet's points in this batch. */
   pointsOf(packet: number): number {
     return this.#u32[packet * WORDS + 5] as number;
   }
-  /** When the robot captured the frame, by its monotonic clock, µs; wraps at 2³². */
+  /** When the robot captured the frame, on its monotonic clock, µs; wraps at 2³². */
   captureTimeUs(packet: number): number {
     return this.#u32[packet * WORDS + 6] as number;
   }
@@ -158,15 +158,15 @@ export class Batch {
   isLatencyTest(packet: number): boolean {
     return ((this.#u32[packet * WORDS + 7] as number) & ENTRY_LATENCY_TEST) !== 0;
   }
-  /** How wide the camera sees: side of its picture at a distance of 1 m, metres. */
+  /** The camera's field of view, as the side of its picture at a distance of 1 m, metres. */
   imageExtent(packet: number): number {
     return this.#f32[packet * WORDS + 15] as number;
   }
-  /** Bytes of the frame that the packet carried, 8 a point, drawn or not. */
+  /** Bytes of the frame that the packet carried, 8 per point, drawn or not. */
   sequenceLength(packet: number): number {
     return this.#u32[packet * WORDS + 16] as number;
   }
-  /** Points of the frame that the packet carried, drawn or not. */
+  /** Number of points that the packet carried, drawn or not. */
   pointsCame(packet: number): number {
     return pointsOfBytes(this.sequenceLength(packet));
   }

@@ -33,7 +33,7 @@ function payload(frameNumber: number): EncodedPayload {
   return { data, getMetadata: () => ({ sequenceNumber: frameNumber }) };
 }
 
-/** A receiver's stream that tests feed. */
+/** A receiver's stream, fed by the test. */
 function receiver() {
   let controller: ReadableStreamDefaultController<EncodedPayload> | undefined;
   let cancelled = false;
@@ -55,7 +55,7 @@ function receiver() {
   };
 }
 
-test('is ready once the codec is there, and decodes what came before that', async () => {
+test('is ready once the codec is loaded, and decodes packets that came before', async () => {
   const { decoding, told } = decode(Promise.resolve(codec));
   const { readable, push, end } = receiver();
   const consumed = decoding.consume(readable, 1);
@@ -80,7 +80,7 @@ test('leaves the stream of an older session when a newer one begins', async () =
   expect(older.cancelled).toBe(true);
 });
 
-test('tells the page where the codec cannot be loaded, and takes nothing', async () => {
+test('tells the page if the codec cannot be loaded, and takes nothing', async () => {
   const { decoding, told } = decode(Promise.reject(new Error('blocked by policy')));
   const { readable, push, end } = receiver();
   push(1);

@@ -3,20 +3,20 @@ import { BridgeStream } from '../bridge/bridge-stream.ts';
 import { BatchAssembler, type BatchAssemblerPort } from './batch-assembler.ts';
 import type { ToCloudWorker } from './worker-messages.ts';
 
-/** An RTP payload as encoded transforms hand it over (https://w3c.github.io/webrtc-encoded-transform/). */
+/** An RTP payload as an encoded transform delivers it (https://w3c.github.io/webrtc-encoded-transform/). */
 export interface EncodedPayload {
   data: ArrayBuffer;
   getMetadata(): {
     sequenceNumber?: number;
-    /** When the packet came, as `performance.now()`, in browsers that tell. */
+    /** When the packet arrived, as `performance.now()`, in browsers that provide it. */
     receiveTime?: number;
   };
 }
 
-/** What the cloud worker does: takes the receiver's payloads or a bridge's frames, and decodes those of the newest session. */
+/** The cloud worker's work: decodes the receiver's payloads or a bridge's frames, those of the newest session only. */
 export class CloudDecoding {
   readonly #assembler: BatchAssembler;
-  /** `null` where the codec cannot be loaded; the page has been told. */
+  /** `null` if the codec cannot be loaded; the page has been told. */
   readonly #codec: Promise<Codec | null>;
   #bridge: BridgeStream | null = null;
 
@@ -69,7 +69,7 @@ export class CloudDecoding {
     reader.cancel().catch(() => undefined);
   }
 
-  /** Reports the session's sums. */
+  /** Reports the session's totals. */
   report(): void {
     this.#assembler.report();
   }

@@ -4,9 +4,9 @@ import { Batch } from './batch.ts';
 import type { FromCloudWorker, IntakeReport, ToCloudWorker } from './worker-messages.ts';
 
 export interface CloudReceiverEvents {
-  /** Points came. Whoever takes the batch gives it back by {@link CloudReceiver.release}. */
+  /** Points were received. The listener must return the batch with {@link CloudReceiver.release}. */
   onBatch(batch: Batch): void;
-  /** Sums of the session, ten times a second while packets come. */
+  /** Totals of the session, ten times a second while packets arrive. */
   onReport(report: IntakeReport): void;
   /** A coded stream that this browser cannot decode. */
   onStreamRefused(format: CloudFormat, detail: string): void;
@@ -32,19 +32,19 @@ export class CloudReceiver {
     this.#generation = generation;
   }
 
-  /** What packets of a coded format are decoded with from now on. */
+  /** Sets the header with which a format's packets are decoded from now on. */
   beginStream({ format, header, sensor = 0 }: Omit<CloudStream, 'type'>): void {
     const bytes = Uint8Array.from(atob(header), (character) => character.charCodeAt(0));
     const generation = this.#generation;
     this.#post({ type: 'cloudStream', generation, sensor, format, header: bytes }, [bytes.buffer]);
   }
 
-  /** Gives a batch back to the worker, which has a bounded number of them. Its buffer is empty afterwards. */
+  /** Returns a batch to the worker, which has a limited number of them. Its buffer is detached afterwards. */
   release({ buffer }: Batch): void {
     this.#post({ type: 'return', buffer }, [buffer]);
   }
 
-  /** Hands on one of every so many points: of coded clouds, and of `points64`, which is a sample already. */
+  /** Draws only one of every N points: one N for coded clouds, and one for `points64`, which is already a sample. */
   drawEvery(every: number, everySample: number): void {
     this.#post({ type: 'drawEvery', every, everySample }, []);
   }

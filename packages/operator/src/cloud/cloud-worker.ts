@@ -1,5 +1,5 @@
 /// <reference lib="webworker" />
-/** The cloud worker: decodes point packets beside the page's thread. */
+/** The cloud worker: decodes point packets off the main thread. */
 import { loadCodec } from '@farpoint/wasm-codec';
 import { CloudDecoding, type EncodedPayload } from './cloud-decoding.ts';
 import type { CloudTransformOptions, ToCloudWorker } from './worker-messages.ts';

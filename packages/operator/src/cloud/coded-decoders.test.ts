@@ -11,7 +11,7 @@ import { UnorganisedPacketDecoder } from './unorganised-packet-decoder.ts';
 const codec = await loadCodecFromDisk();
 const placement = emptyPlacement();
 
-/** Batches as the worker fills them, as many as `most`. */
+/** Batches as the worker fills them, at most `most`. */
 class Batches implements BatchWriter {
   every = 1;
   readonly everySample = 1;
@@ -80,7 +80,7 @@ describe('OrganisedPacketDecoder', () => {
   const add = (decoder: OrganisedPacketDecoder, packet: Packet, into: BatchWriter) =>
     decoder.add(packet.header, placement, packet.data, 5, into);
 
-  it('hands on every point of every packet, in its place', () => {
+  it('hands on every point of every packet at its place in the frame', () => {
     const decoder = new OrganisedPacketDecoder(codec, header);
     const batches = new Batches();
     for (const packet of first) add(decoder, packet, batches);
@@ -104,14 +104,14 @@ describe('OrganisedPacketDecoder', () => {
             expect.unreachable(`point ${point}: pixel ${u}, ${v}, ${z} mm`);
         }
       }
-      // As wide as the camera sees: 90°, less half a pixel on each side.
+      // The camera's field of view: 90°, less half a pixel on each side.
       expect(batch.imageExtent(0)).toBeCloseTo(2, 2);
       expect(batch.unit(0)).toBeCloseTo(0.001, 9);
     }
     expect(next).toBe(total * 8);
   });
 
-  it('keeps two frames open: the last packets of one may come after the first of the next', () => {
+  it('keeps two frames open, since the last packets of one may come after the first of the next', () => {
     const decoder = new OrganisedPacketDecoder(codec, header);
     const batches = new Batches();
     const late = first.slice(-2);
@@ -121,7 +121,7 @@ describe('OrganisedPacketDecoder', () => {
     for (const packet of second.slice(1)) add(decoder, packet, batches);
     decoder.settle(batches);
     expect(batches.drops).toEqual([]);
-    // Twice is once too often; and two frames back is gone.
+    // A duplicate is refused; a packet from two frames back is late.
     add(decoder, second[3] as Packet, batches);
     add(decoder, third[0] as Packet, batches);
     add(decoder, late[0] as Packet, batches);
@@ -133,7 +133,7 @@ describe('OrganisedPacketDecoder', () => {
     const decoder = new OrganisedPacketDecoder(codec, header);
     const batches = new Batches();
     const moved = emptyPlacement();
-    // The page reads every packet's into the same object.
+    // The page reads every packet's pose into the same object.
     for (const [i, packet] of first.slice(0, 3).entries()) {
       moved.pose.position.x = i;
       moved.pose.orientation.y = i / 4;
@@ -144,7 +144,7 @@ describe('OrganisedPacketDecoder', () => {
       passing.sequenceOffset = 0;
     }
     const batch = batches.all[0] as Batch;
-    // The third waits for a fourth.
+    // The third packet waits for a fourth.
     expect(batch.packets).toBe(2);
     decoder.settle(batches);
     decoder.settle(batches);
@@ -156,7 +156,7 @@ describe('OrganisedPacketDecoder', () => {
       expect(batch.isLatencyTest(i)).toBe(i === 1);
       expect([batch.poseComponent(i, 0), batch.poseComponent(i, 4)]).toEqual([i, i / 4]);
     }
-    // What is held of a session that is over is not of the next.
+    // A packet held from an ended session must not appear in the next.
     add(decoder, first[3] as Packet, batches);
     decoder.abandon();
     decoder.settle(batches);
@@ -164,7 +164,7 @@ describe('OrganisedPacketDecoder', () => {
     expect(batches.drops).toEqual([]);
   });
 
-  it('hands on fewer points where they cannot all be drawn, larger, and tells the same places', () => {
+  it('hands on fewer and larger points if not all can be drawn, at unchanged places in the frame', () => {
     const [whole, thin] = [new Batches(), new Batches()];
     thin.every = 8;
     for (const batches of [whole, thin]) {
@@ -188,7 +188,7 @@ describe('OrganisedPacketDecoder', () => {
     }
   });
 
-  it('refuses a wrong count, foreign bytes, and says when there is no buffer', () => {
+  it('refuses a wrong count and foreign bytes, and reports a missing buffer', () => {
     const decoder = new OrganisedPacketDecoder(codec, header);
     const batches = new Batches();
     const packet = first[0] as Packet;
@@ -197,7 +197,7 @@ describe('OrganisedPacketDecoder', () => {
     const damaged = (first[1] as Packet).data.slice();
     damaged[20] = (damaged[20] as number) ^ 1;
     add(decoder, { ...(first[1] as Packet), data: damaged }, batches);
-    // Of two, one that is refused does the other no harm.
+    // If one of two packets is refused, the other is still decoded.
     add(decoder, { ...(first[1] as Packet), data: damaged }, batches);
     add(decoder, first[2] as Packet, batches);
     expect(batches.drops).toEqual(['bad-count', 'bad-check', 'bad-check']);
@@ -212,7 +212,7 @@ describe('OrganisedPacketDecoder', () => {
 });
 
 describe('UnorganisedPacketDecoder', () => {
-  it('turns packets into the stream’s unit, far points too', () => {
+  it('converts packets into the stream’s unit, far points too', () => {
     const encoder = new UnorganisedEncoder(codec, 3000);
     for (let i = 0; i < 3000; i++) {
       const [angle, range] = [i / 40, 2 + ((i * 37) % 100)];
@@ -244,7 +244,7 @@ describe('UnorganisedPacketDecoder', () => {
       expect(Math.abs(range - (expected[i] as number))).toBeLessThan(0.01);
   });
 
-  it('refuses a header that is none', () => {
+  it('refuses an invalid header', () => {
     expect(() => new UnorganisedPacketDecoder(codec, new Uint8Array(8))).toThrow(/FPUC/);
   });
 });

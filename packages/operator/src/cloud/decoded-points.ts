@@ -3,8 +3,8 @@ import { BATCH_POINTS, type PointLook } from './batch.ts';
 import type { BatchWriter } from './packet-decoder.ts';
 
 /**
- * Hands a decoded packet's points on, one of every `writer.every`. A packet that holds more than a batch goes on in the
- * next ones: each part has its own place in the frame, as if it were a packet of its own.
+ * Hands a decoded packet's points on, one of every `writer.every`. A packet with more points than fit into a batch
+ * continues in the next ones: each part has its own place in the frame, like a packet.
  */
 export class DecodedPoints {
   readonly #part: PointPacketHeader = {
@@ -47,7 +47,7 @@ export class DecodedPoints {
   }
 }
 
-/** Copies, from point `first` on, one of every so many of `came` points to index `at`. */
+/** Copies one of every `every` of the `came` points from point `first` on to index `at`. */
 export function copyThinned(
   from: Int16Array,
   first: number,
@@ -68,8 +68,8 @@ export function copyThinned(
 }
 
 /**
- * Which of `count` points is drawn, as if by chance: coded points come in rows of 16, of which every 16th would stand in
- * lines with nothing between.
+ * Picks pseudo-randomly which of `count` points is drawn. Coded points come in rows of 16, so every 16th point would
+ * form lines with gaps between them.
  */
 function chosenOf(count: number, begin: number): number {
   const mixed = Math.imul(begin ^ (begin >>> 7), 0x9e37_79b1);

@@ -1,20 +1,22 @@
-/** What waited so much longer than the least that ever waited shows the past, ms. */
+/** A packet that waited this much longer than the shortest wait so far is stale, ms. */
 const MOST_MS = 100;
-/** What waited only so much longer is what comes now, ms. */
+/** A packet that waited at most this much longer is fresh: the decoder has caught up, ms. */
 const CAUGHT_UP_MS = 20;
 
 /**
- * Tells which packets are left out where they come faster than this machine decodes them: the browser would keep them all,
- * and show ever older ones. Once it is behind, the decoder leaves out all until it has caught up. So what it decodes is new,
- * and not always as old as is just allowed.
+ * Decides which packets to drop when they arrive faster than this machine decodes them. The browser would queue them
+ * all, and the page would show ever older ones. Once behind, the decoder drops everything until it has caught up. The
+ * packets that it decodes are then fresh, rather than always just within the limit.
  */
 export class DecoderBacklog {
   #behind = false;
   #leastMs = Number.POSITIVE_INFINITY;
 
   /**
-   * @param waitedMs from the packet's arrival until now, but for what a browser's clocks of the two are apart; NaN where it
-   *   does not tell: then none is left out
+   * Whether to drop a packet.
+   *
+   * @param waitedMs time since the packet's arrival, up to a constant offset between the browser's clocks; NaN if the
+   *   browser does not provide it, in which case nothing is dropped
    */
   isStale(waitedMs: number): boolean {
     if (waitedMs < this.#leastMs) this.#leastMs = waitedMs;

@@ -18,7 +18,7 @@ function frame(extent: ImageExtent, number: number, tanX: number, tanY: number, 
   }
 }
 
-test('finds how wide a camera sees, from a narrow one to a wide one', () => {
+test('finds the field of view of narrow and wide cameras', () => {
   for (const [tanX, tanY] of [
     [1, 1],
     [0.2, 0.2],
@@ -30,7 +30,7 @@ test('finds how wide a camera sees, from a narrow one to a wide one', () => {
   }
 });
 
-test('a single packet, or points without depth, tell nothing', () => {
+test('learns nothing from a single packet or from points without depth', () => {
   const extent = new ImageExtent();
   const view = new DataView(new ArrayBuffer(6));
   for (let number = 0; number < 50; number++) extent.add(number, view, 0, 1);

@@ -1,20 +1,20 @@
 /**
- * How wide a camera sees, from the points themselves: the stream does not tell the field of view, and the size of a point
- * follows from it. A few points of each packet are looked at; nothing is allocated.
+ * Estimates a camera's field of view from the points themselves, because the stream does not include it and the size of
+ * a drawn point depends on it. Samples a few points of each packet; allocates nothing.
  */
 
-/** As of a camera that sees 90°, until a frame has told better. */
+/** A field of view of 90°, until a frame has given an estimate. */
 export const DEFAULT_EXTENT = 2;
 
 const SAMPLES_PER_PACKET = 4;
-/** A frame with fewer samples tells nothing. */
+/** A frame with fewer samples is ignored. */
 const LEAST_SAMPLES = 16;
-/** Points beside the camera (LiDAR) have tangents without bound. */
+/** Tangents are clamped, since those of points beside the camera (LiDAR) are unbounded. */
 const MOST_TANGENT = 3;
 const SMOOTHING = 0.3;
 
 export class ImageExtent {
-  /** Side of a square on the plane at z = 1 m that is as large as the camera's picture. */
+  /** Side of a square on the plane at z = 1 m that has the area of the camera's picture, metres. */
   value = DEFAULT_EXTENT;
   #frame: number | null = null;
   #measured = false;
@@ -24,7 +24,7 @@ export class ImageExtent {
   #sumXx = 0;
   #sumYy = 0;
 
-  /** The same of a decoded packet: `points` from point `first` on, 4 int16 each. */
+  /** Adds a decoded packet: `count` of the `points` from point `first` on, 4 int16 each. */
   addVertices(frameNumber: number, points: Int16Array, first: number, count: number): void {
     if (frameNumber !== this.#frame) this.#close(frameNumber);
     const step = Math.max(1, Math.floor(count / SAMPLES_PER_PACKET));
@@ -33,7 +33,7 @@ export class ImageExtent {
     }
   }
 
-  /** @param payload from byte `offset`: x, y, z as int16 mm of `count` points (points64) */
+  /** Adds a points64 packet. @param payload from byte `offset` on: x, y, z as int16 mm of `count` points */
   add(frameNumber: number, payload: DataView, offset: number, count: number): void {
     if (frameNumber !== this.#frame) this.#close(frameNumber);
     const step = Math.max(1, Math.floor(count / SAMPLES_PER_PACKET));
@@ -58,7 +58,7 @@ export class ImageExtent {
     if (n >= LEAST_SAMPLES) {
       const varianceX = this.#sumXx / n - (this.#sumX / n) ** 2;
       const varianceY = this.#sumYy / n - (this.#sumY / n) ** 2;
-      // Evenly spread over a side a the variance is a²/12; the geometric mean of both sides keeps the area.
+      // Points spread evenly over a side a have variance a²/12; the geometric mean of both sides keeps the area.
       const extent = Math.sqrt(12) * Math.max(varianceX * varianceY, 0) ** 0.25;
       this.value += (extent - this.value) * (this.#measured ? SMOOTHING : 1);
       this.#measured = true;

@@ -12,7 +12,7 @@ import type { PointLook } from './batch.ts';
 import { DecodedPoints } from './decoded-points.ts';
 import type { BatchWriter, PacketDecoder } from './packet-decoder.ts';
 
-/** Neighbours on the grid are one mean distance apart: circles of its diagonal close the gaps. */
+/** Neighbours on the grid are one mean distance apart: circles as wide as a cell's diagonal close the gaps. */
 const COVER = Math.SQRT2;
 /** Where the stream header has the image's size and focal lengths (docs/organised-codec.md). */
 const [WIDTH_AT, HEIGHT_AT, FX_AT, FY_AT] = [8, 10, 12, 16];
@@ -23,13 +23,13 @@ interface FrameDecoder {
   frameNumber: number | null;
 }
 
-/** The first of two packets, until the second comes. */
+/** The first of two packets, held until the second comes. */
 class HeldPacket {
   readonly header: PointPacketHeader = emptyPointPacketHeader();
   readonly placement: Placement = emptyPlacement();
   receivedAtMs = 0;
   data: Uint8Array = new Uint8Array(0);
-  /** Its frame's; `null` where none is held. */
+  /** The decoder of the held packet's frame; `null` if no packet is held. */
   decoder: OrganisedDecoder | null = null;
 
   hold(
@@ -48,8 +48,9 @@ class HeldPacket {
 }
 
 /**
- * `organised`: two packets of a frame are decoded at once, for that takes less time; what is left alone at the end of a frame
- * or of a burst, by itself. Two frames are open at a time: packets at a frame's end may overtake each other.
+ * Decodes `organised`. Two packets of a frame are decoded together, which is faster; a single one left at the end of a
+ * frame or burst is decoded by itself. Two frames are open at a time, because packets at a frame's end may overtake
+ * each other.
  */
 export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
   readonly #open: [FrameDecoder, FrameDecoder];
@@ -76,7 +77,7 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
     writer: BatchWriter,
   ): void {
     const held = this.#held;
-    // A new frame may take the place of the held packet's.
+    // A new frame may replace the held packet's frame.
     if (held.header.frameNumber !== header.frameNumber) this.settle(writer);
     const decoder = this.#frame(header.frameNumber);
     if (decoder === null) {
@@ -114,7 +115,7 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
     for (const { decoder } of this.#open) decoder[Symbol.dispose]();
   }
 
-  /** Hands a packet's points on, which begin at the decoder's point `start`. */
+  /** Hands on a packet's points, which begin at the decoder's point `start`. */
   #write(
     decoder: OrganisedDecoder,
     start: number,
@@ -139,7 +140,7 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
     this.#points.write(points, header, placement, receivedAtMs, this.#look, writer);
   }
 
-  /** The decoder of a frame; a new frame takes the place of the older of the two. `null` for one before them. */
+  /** The decoder of a frame; a new frame replaces the older of the two. `null` for a frame before them. */
   #frame(frameNumber: number): OrganisedDecoder | null {
     const newest = this.#open[this.#newest] as FrameDecoder;
     if (newest.frameNumber === frameNumber) return newest.decoder;

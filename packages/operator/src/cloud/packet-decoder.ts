@@ -1,17 +1,17 @@
-/** From a packet's data to points in the layout of the GPU. One class a format; the worker picks by the placement. */
+/** Decodes a packet's data into the GPU's layout. One class per format; the worker chooses by the placement. */
 import type { Placement, PointPacketHeader } from '@farpoint/protocol';
 import type { Batch } from './batch.ts';
 import type { DropReason } from './packet-intake.ts';
 
 /** Where decoders put points. */
 export interface BatchWriter {
-  /** The batch being filled; with `wanted` points it has room for them, or is empty. `null`: all buffers are out. */
+  /** The batch being filled. It has room for `wanted` points, or is empty. `null`: all buffers are in use. */
   batchFor(wanted: number): Batch | null;
-  /** Of a coded frame only one of every so many points is handed on. */
+  /** Only one of this many points of a coded frame is handed on. */
   readonly every: number;
-  /** The same of `points64`, which is a sample already. Changes between batches only. */
+  /** The same for `points64`, which is already a sample. Changes only between batches. */
   readonly everySample: number;
-  /** Counts a packet that gives no points. */
+  /** Counts a packet that yields no points. */
   drop(reason: DropReason): void;
 }
 
@@ -19,8 +19,8 @@ export interface PacketDecoder {
   /**
    * Decodes one packet and adds its points to the writer's batch, at once or with the next one.
    *
-   * @param data the codec's own bytes, without header and placement; they must stay as they are
-   * @param receivedAtMs since the epoch
+   * @param data the codec's own bytes, without header and placement; they must not be modified later
+   * @param receivedAtMs ms since the epoch
    */
   add(
     header: PointPacketHeader,
@@ -29,9 +29,9 @@ export interface PacketDecoder {
     receivedAtMs: number,
     writer: BatchWriter,
   ): void;
-  /** Decodes what waits for a next one: none may come, or too late for the batch. */
+  /** Decodes a packet that waits for the next, which may be missing or too late for the batch. */
   settle(writer: BatchWriter): void;
-  /** The batch is about to be handed over: what is not yet in it must come now. */
+  /** The batch is about to be handed over: writes whatever is not in it yet. */
   finish(batch: Batch): void;
   /** The batch will not be handed over. */
   abandon(): void;

@@ -17,7 +17,7 @@ function payload(points: number, frameNumber = 1): DataView {
 }
 
 describe('PacketIntake', () => {
-  test('reads what is well formed, counts bytes', () => {
+  test('reads well-formed payloads and counts bytes', () => {
     const intake = new PacketIntake();
     expect(intake.take(payload(3, 9), 0)).toBe(null);
     expect(intake.header.frameNumber).toBe(9);
@@ -36,7 +36,7 @@ describe('PacketIntake', () => {
     expect(intake.packetsLost).toBe(0);
   });
 
-  test('gaps in the sequence are losses until they are filled, across the wrap', () => {
+  test('counts gaps in the sequence as losses until they are filled, across the wrap', () => {
     const intake = new PacketIntake();
     for (const sequence of [65_533, 65_534, 1, 2]) intake.take(payload(1), sequence);
     expect(intake.packetsLost).toBe(2);
@@ -46,19 +46,19 @@ describe('PacketIntake', () => {
     expect(intake.packetsLost).toBe(0);
   });
 
-  test('a first packet that overtook others is no loss of theirs', () => {
+  test('does not count packets as lost that the first one overtook', () => {
     const intake = new PacketIntake();
     for (const sequence of [12, 10, 11]) intake.take(payload(1), sequence);
     expect(intake.packetsLost).toBe(0);
   });
 
-  test('without sequence numbers no loss is claimed', () => {
+  test('counts no losses without sequence numbers', () => {
     const intake = new PacketIntake();
     for (let i = 0; i < 5; i++) intake.take(payload(1), undefined);
     expect(intake.packetsLost).toBe(0);
   });
 
-  test('losses add up whatever the order', () => {
+  test('counts losses correctly in any order of arrival', () => {
     const fates = fc.array(fc.record({ lost: fc.boolean(), delay: fc.nat(20) }), {
       minLength: 1,
       maxLength: 200,
@@ -79,7 +79,7 @@ describe('PacketIntake', () => {
     );
   });
 
-  test('any bytes at all: counted, not thrown', () => {
+  test('counts any bytes without throwing', () => {
     const intake = new PacketIntake();
     fc.assert(
       fc.property(fc.uint8Array({ maxLength: 1400 }), fc.nat(65_535), (bytes, sequence) => {

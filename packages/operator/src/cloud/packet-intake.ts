@@ -10,24 +10,24 @@ import {
 import { SequenceNumber, SequenceUnwrapper } from '@farpoint/rtp';
 import type { PacketFault, UnorganisedFault } from '@farpoint/wasm-codec';
 
-/** Why a packet is not drawn. The first are the wire format's and its codecs'. */
+/** Why a packet is not drawn. The first reasons are those of the wire format and its codecs. */
 export type DropReason =
   | CloudPayloadFault
   | PacketFault
   | UnorganisedFault
-  /** Of a coded format whose stream header has not come. */
+  /** The packet has a coded format whose stream header has not arrived. */
   | 'no-stream'
-  /** Decoded, but not into as many points as its header says. */
+  /** Decoded, but the number of points differs from the header's. */
   | 'bad-count'
-  /** Packets come faster than they are decoded: this one waited too long. */
+  /** Packets arrive faster than they are decoded, and this one waited too long. */
   | 'decoder-behind'
-  /** The page has not given buffers back: it draws too slowly. */
+  /** The page has not returned buffers: it draws too slowly. */
   | 'no-buffer'
-  /** Handed to the page, but newer points came before it could draw. */
+  /** Handed to the page, but newer points came before it was drawn. */
   | 'page-behind'
-  /** Its frame was replaced on the screen already. */
+  /** Its frame had already been replaced on the screen. */
   | 'late'
-  /** Its place in the picture was replaced already. */
+  /** Its place in the picture had already been replaced. */
   | 'superseded'
   /** More fragments than can be drawn at once. */
   | 'window-full';
@@ -40,7 +40,7 @@ export function countDrop(counts: DropCounts, reason: DropReason, by = 1): void 
 }
 
 export class PacketIntake {
-  /** Of the last payload that {@link take} accepted; overwritten by the next. */
+  /** The header of the last payload that {@link take} accepted; the next one overwrites it. */
   readonly header: PointPacketHeader = emptyPointPacketHeader();
   readonly placement: Placement = emptyPlacement();
   readonly drops: DropCounts = {};
@@ -51,7 +51,7 @@ export class PacketIntake {
   packetsReceived = 0;
   bytesReceived = 0;
 
-  /** Packets missing between the first and the highest sequence number, less those that came late. */
+  /** Packets missing between the first and the highest sequence number, not counting those that came late. */
   get packetsLost(): number {
     if (this.#firstSequence === null) return 0;
     // A duplicate can fill a gap in this sum, as in RFC 3550 A.3.
@@ -61,7 +61,7 @@ export class PacketIntake {
   /**
    * Counts the packet and reads it into {@link header} and {@link placement}.
    *
-   * @param rtpSequence 16 bits; absent where the browser does not tell
+   * @param rtpSequence 16 bits; absent if the browser does not provide it
    * @returns why it is dropped, or `null`
    */
   take(payload: DataView, rtpSequence: number | undefined): CloudPayloadFault | null {

@@ -8,7 +8,7 @@ import { Points64PacketDecoder } from './points64-packet-decoder.ts';
 const codec = await loadCodecFromDisk();
 const placement = emptyPlacement();
 
-/** One batch, without end of room; nothing may be dropped. */
+/** A writer with a single batch; nothing may be dropped. */
 function writer(every: number): BatchWriter & { batch: Batch } {
   const batch = new Batch(new ArrayBuffer(BATCH_BYTES));
   const drop = (reason: string) => expect.unreachable(reason);
@@ -41,7 +41,7 @@ function decode(every: number, counts: readonly number[]): Batch {
   return into.batch;
 }
 
-/** Packed as four int16: the first value of each point tells them apart well enough. */
+/** Points as four int16 each; the first value is enough to tell them apart. */
 const pointsOf = (batch: Batch) =>
   Array.from({ length: batch.pointCount }, (_, i) => [...batch.points.subarray(i * 4, i * 4 + 4)]);
 
@@ -54,7 +54,7 @@ describe('Points64PacketDecoder', () => {
     expect(counts.map((_, i) => batch.pointsOf(i))).toEqual(counts);
   });
 
-  it('hands on one of every so many points of each packet, larger, and tells what came', () => {
+  it('hands on one of every few points of each packet, larger, and reports how many came', () => {
     const [whole, thin] = [decode(1, counts), decode(5, counts)];
     let rest = pointsOf(whole);
     const stretches = counts.flatMap((count) => {
@@ -66,14 +66,14 @@ describe('Points64PacketDecoder', () => {
       (stretches[i] ?? []).findIndex((other) => other.join() === point.join()),
     );
     expect(places).toHaveLength(stretches.length);
-    // Not always the same one: that would make lines.
+    // Not always the same position, which would form lines.
     expect(new Set(places)).toEqual(new Set([0, 1, 2, 3, 4]));
     expect(counts.map((_, i) => thin.pointsOf(i))).toEqual([29, 29, 8, 1]);
     expect(counts.map((_, i) => thin.pointsCame(i))).toEqual(counts);
     expect(thin.cover(0) / whole.cover(0)).toBeCloseTo(Math.sqrt(5), 5);
   });
 
-  it('gives up a batch that is not handed over', () => {
+  it('abandons a batch that is not handed over', () => {
     const decoder = new Points64PacketDecoder(codec);
     const [block] = blocks([10]);
     const data = (block as { data: Uint8Array }).data;

@@ -5,7 +5,7 @@ import { copyThinned } from './decoded-points.ts';
 import { ImageExtent } from './image-extent.ts';
 import type { BatchWriter, PacketDecoder } from './packet-decoder.ts';
 
-/** `points64`: a batch's packets are unpacked together, when it is handed over. All of a batch are thinned alike. */
+/** Decodes `points64`. A batch's packets are unpacked together when it is handed over, and are all thinned alike. */
 export class Points64PacketDecoder implements PacketDecoder {
   readonly #decoder: CloudDecoder;
   readonly #extent = new ImageExtent();
@@ -44,7 +44,7 @@ export class Points64PacketDecoder implements PacketDecoder {
   settle(): void {}
 
   finish(batch: Batch): void {
-    // A batch holds packets of one format: these begin at its first point.
+    // A batch holds packets of one format only, so they begin at its first point.
     if (this.#waiting === 0) return;
     const points = this.#decoder.unpack();
     this.#waiting = 0;

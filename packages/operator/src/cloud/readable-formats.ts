@@ -1,6 +1,6 @@
 import { CLOUD_FORMATS, type CloudFormat } from '@farpoint/protocol';
 
-/** The formats of clouds that this browser reads: of those that it may, all but those that it failed to decode. */
+/** The cloud formats that this browser reads: the permitted ones, except those that it has failed to decode. */
 export class ReadableFormats {
   readonly #allowed: readonly CloudFormat[];
   readonly #refused = new Set<CloudFormat>();
@@ -9,7 +9,7 @@ export class ReadableFormats {
     this.#allowed = allowed;
   }
 
-  /** Its stream cannot be decoded here: it is not asked for any more. */
+  /** A stream of this format cannot be decoded here: the format is no longer requested. */
   refuse(format: CloudFormat): void {
     this.#refused.add(format);
   }

@@ -10,10 +10,10 @@ import { DecodedPoints } from './decoded-points.ts';
 import { ImageExtent } from './image-extent.ts';
 import type { BatchWriter, PacketDecoder } from './packet-decoder.ts';
 
-/** A packet of 1200 bytes with more points than this is none. */
+/** A packet with more points than this is invalid, since packets have at most 1200 bytes. */
 const MOST_POINTS = 65_536;
 
-/** `unorganised`: each packet at once, turned from its own origin and step into the stream's unit. */
+/** Decodes `unorganised`: each packet by itself, converted from its own origin and step to the stream's unit. */
 export class UnorganisedPacketDecoder implements PacketDecoder, Disposable {
   readonly #decoder: UnorganisedDecoder;
   readonly #unit: number;
@@ -22,7 +22,7 @@ export class UnorganisedPacketDecoder implements PacketDecoder, Disposable {
   readonly #look: PointLook;
   #turned = new Int16Array(4 * 1024);
 
-  /** @throws {ProtocolError} for a stream header that is none */
+  /** @throws {ProtocolError} if the stream header is invalid */
   constructor(codec: Codec, header: Uint8Array) {
     this.#unit = decodeUnorganisedStream(header).unitMm / 1000;
     this.#decoder = new UnorganisedDecoder(codec, MOST_POINTS, { colour: '664' });
@@ -79,7 +79,7 @@ export class UnorganisedPacketDecoder implements PacketDecoder, Disposable {
   }
 }
 
-/** Rounds; what does not fit saturates, as it would come out on the other side. */
+/** Rounds, and saturates values that do not fit, which would otherwise wrap around. */
 function toInt16(value: number): number {
   return Math.min(Math.max(Math.round(value), -32_767), 32_767);
 }

@@ -1,15 +1,15 @@
-/** What the page and the cloud worker say to each other. */
+/** Messages between the page and the cloud worker. */
 import type { CloudStream } from '@farpoint/protocol';
 import type { DropCounts } from './packet-intake.ts';
 
 export type ToCloudWorker =
-  /** A buffer of an earlier batch, empty again. */
+  /** A buffer of an earlier batch, for reuse. */
   | { type: 'return'; buffer: ArrayBuffer }
-  /** Take frames from a bridge's streaming socket; another generation is another robot. */
+  /** Take frames from a bridge's streaming socket; a new generation means another robot. */
   | { type: 'bridge'; url: string; generation: number }
-  /** Where the browser lacks `RTCRtpScriptTransform`: the receiver's stream of encoded frames. */
+  /** In browsers without `RTCRtpScriptTransform`: the receiver's stream of encoded frames. */
   | { type: 'stream'; readable: ReadableStream<RTCEncodedAudioFrame>; generation: number }
-  /** What packets of a coded format are decoded with from now on. */
+  /** The header with which a format's packets are decoded from now on. */
   | {
       type: 'cloudStream';
       generation: number;
@@ -17,19 +17,19 @@ export type ToCloudWorker =
       format: CloudStream['format'];
       header: Uint8Array;
     }
-  /** Only one of every so many points is handed on, of a coded frame and of `points64`: the machine draws too slowly for more. */
+  /** Hand on only one of this many points, of coded frames and of `points64`: the machine draws too slowly for more. */
   | { type: 'drawEvery'; every: number; everySample: number };
 
 /** Options of the `RTCRtpScriptTransform`. */
 export interface CloudTransformOptions {
-  /** Counts sessions: batches of an earlier one are told by it. */
+  /** Number of the session, by which batches of an earlier one are recognised. */
   generation: number;
 }
 
 export type FromCloudWorker =
   | { type: 'ready' }
   | { type: 'failed'; message: string }
-  /** A coded stream that cannot be decoded here. */
+  /** A coded stream cannot be decoded here. */
   | { type: 'streamRefused'; generation: number; format: CloudStream['format']; message: string }
   /** Points of one sensor. */
   | {
@@ -42,18 +42,18 @@ export type FromCloudWorker =
     }
   | ({ type: 'report' } & IntakeReport);
 
-/** Sums since the session began. */
+/** Totals since the session began. */
 export interface IntakeReport {
-  /** Counts sessions: the same as that of the `session` event. */
+  /** Number of the session, as in the `session` event. */
   generation: number;
-  /** Packets that arrived, dropped ones included. */
+  /** Packets that arrived, including dropped ones. */
   packetsReceived: number;
   /** Bytes of their RTP payloads. */
   bytesReceived: number;
-  /** Packets missing in the RTP sequence, less those that came late. */
+  /** Packets missing in the RTP sequence, not counting those that came late. */
   packetsLost: number;
   /** Packets that arrived and were not decoded, by reason. */
   drops: DropCounts;
-  /** Mean µs the worker spent on a packet since the last report. */
+  /** Mean time that the worker spent on a packet since the last report, µs. */
   decodeUs: number;
 }

@@ -23,7 +23,7 @@ function run(stream: CommandStream, fromMs: number, toMs: number, stepMs = 5): C
 }
 
 describe('CommandStream', () => {
-  test('while held: 40 a second, in sequence, with the wish', () => {
+  test('while the grip is held: 40 commands a second, in sequence, with the wish', () => {
     const stream = leased();
     stream.set(true, forward);
     const commands = run(stream, 0, 1000);
@@ -34,7 +34,7 @@ describe('CommandStream', () => {
     }
   });
 
-  test('let go: a few zeros at once, then nothing', () => {
+  test('when the grip is released: a few zero commands, the first at once, then nothing', () => {
     const stream = leased();
     stream.set(true, forward);
     run(stream, 0, 100);
@@ -47,7 +47,7 @@ describe('CommandStream', () => {
     expect(stream.active).toBe(false);
   });
 
-  test('without a lease nothing is sent, and nothing is sent late', () => {
+  test('without a lease nothing is sent, and nothing is made up for later', () => {
     const stream = new CommandStream();
     stream.setLimits(limits);
     stream.set(true, forward);
@@ -58,7 +58,7 @@ describe('CommandStream', () => {
     expect(run(stream, 600, 700)).toEqual([]);
   });
 
-  test('keeps below the robot’s command rate', () => {
+  test('stays below the robot’s command rate', () => {
     const stream = leased();
     stream.setLimits({ ...limits, maxCommandsPerSecond: 10 });
     stream.set(true, forward);
@@ -73,7 +73,7 @@ describe('CommandStream', () => {
     expect(stream.tick(5001)).toBe(null);
   });
 
-  test('a latency test is one more command with the current wish', () => {
+  test('a latency test is an extra command with the current wish', () => {
     const stream = leased();
     expect(stream.latencyTest(3, 7)).toMatchObject({
       sequence: 1,
@@ -92,7 +92,7 @@ describe('CommandStream', () => {
     expect(stream.latencyTest(12, 9)).toBe(null);
   });
 
-  test('a new session begins with nothing held', () => {
+  test('a new session begins with the grip released', () => {
     const stream = leased();
     stream.set(true, forward);
     stream.tick(0);
@@ -104,7 +104,7 @@ describe('CommandStream', () => {
     expect(stream.tick(200)?.sequence).toBe(1);
   });
 
-  test('motion is only ever asked for with the grip held', () => {
+  test('motion is only requested while the grip is held', () => {
     const step = fc.record({ held: fc.boolean(), forward: fc.double(), left: fc.double(), ms: fc.nat(80) });
     fc.assert(
       fc.property(fc.array(step, { maxLength: 60 }), (steps) => {

@@ -1,14 +1,15 @@
 /**
- * What is sent on the control channel, and when: while the dead-man grip is held a command at a fixed rate; when it is
- * let go a few zeros, since any one may be lost, and then nothing. Time is an argument.
+ * Decides what is sent on the control channel, and when. While the dead-man grip is held, it sends commands at a fixed
+ * rate. When the grip is released, it sends a few zero commands, since any of them may be lost, and then nothing. Time
+ * is an argument.
  */
 import { type Command, type DriveLimits, nextSequence32, zeroTwist } from '@farpoint/protocol';
 import { type DriveWish, REST, toTwist } from './velocity-mapping.ts';
 
 export const COMMANDS_PER_SECOND = 40;
-/** Zeros sent after the grip is let go. */
+/** Number of zero commands sent after the grip is released. */
 export const STOP_REPEATS = 4;
-/** Commands of rest before motion, where {@link CommandStream.restFirst} asks for it: one may be lost. */
+/** Number of zero commands before motion after {@link CommandStream.restFirst}, since one may be lost. */
 export const FIRST_RESTS = 2;
 
 export class CommandStream {
@@ -21,7 +22,7 @@ export class CommandStream {
   #restsLeft = 0;
   #nextMs = 0;
 
-  /** A new session: nothing is held any more, the counter begins anew. */
+  /** A new session: the grip counts as released, and the counter restarts. */
   reset(): void {
     this.#limits = null;
     this.#lease = null;
@@ -52,7 +53,7 @@ export class CommandStream {
     return this.#held;
   }
 
-  /** The operator's hand now. A change of the grip is answered at the next {@link tick}, whatever the rate. */
+  /** Sets the state of the operator's hand. A change of the grip takes effect at the next {@link tick}, at any rate. */
   set(held: boolean, wish: DriveWish): void {
     this.#wish.forward = wish.forward;
     this.#wish.left = wish.left;
@@ -62,7 +63,7 @@ export class CommandStream {
     this.#nextMs = 0;
   }
 
-  /** The next grip begins with rest: the robot may not have heard that the hand was open in between. */
+  /** The next grip starts with zero commands: the robot may not have heard that the grip was released in between. */
   restFirst(): void {
     this.#restsLeft = FIRST_RESTS;
   }
@@ -71,13 +72,13 @@ export class CommandStream {
   tick(nowMs: number): Command | null {
     if (!this.active || nowMs < this.#nextMs) return null;
     if (this.#limits === null || this.#lease === null) {
-      // Nobody to tell: what was moving has no lease and is stopped by the robot.
+      // Without the lease commands would be rejected, and the robot stops by itself.
       this.#stopsLeft = 0;
       return null;
     }
-    // The robot reads only so many a second; a fifth is left for other messages and jitter.
+    // The robot limits commands per second; a fifth is left for other messages and jitter.
     const perSecond = Math.min(COMMANDS_PER_SECOND, this.#limits.maxCommandsPerSecond * 0.8);
-    // 2 ms less: a timer that fires a little early is meant for this command.
+    // 2 ms less, so that a timer that fires slightly early still sends this command.
     this.#nextMs = nowMs + 1000 / perSecond - 2;
     const command = this.#make(nowMs, this.#limits, this.#lease);
     if (!this.#held) this.#stopsLeft--;
@@ -86,7 +87,7 @@ export class CommandStream {
   }
 
   /**
-   * A command outside the rhythm that asks for a latency-test frame; it repeats the current wish.
+   * Makes an extra command, outside the fixed rate, that asks for a latency-test frame. It repeats the current wish.
    *
    * @returns `null` without a lease
    */

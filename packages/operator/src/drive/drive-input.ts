@@ -1,4 +1,4 @@
-/** One hand on one device: what every input device tells the driver. */
+/** The interface of input devices: each reports the state of one hand. */
 import type { DriveWish } from './velocity-mapping.ts';
 
 /** A device that can drive the robot. It is read at every tick of the client. */
@@ -7,23 +7,23 @@ export interface DriveInput {
   readonly name: 'keyboard' | 'gamepad' | 'touch' | 'headset' | 'script';
   /** The dead-man grip. */
   readonly held: boolean;
-  /** Shaped: dead zone and curve applied. */
+  /** The wished motion, with dead zone and curve applied. */
   readonly wish: Readonly<DriveWish>;
 }
 
-/** Buttons beside the grip: which went down since a device was last read, and which is held. */
+/** Buttons besides the grip: those pressed since the device was last read, and one that is held. */
 export interface PressedButtons {
-  /** Went down: latches the emergency stop. */
+  /** Pressed: latches the emergency stop. */
   readonly estop: boolean;
-  /** Went down: starts a latency test. */
+  /** Pressed: starts a latency test. */
   readonly latencyTest: boolean;
-  /** Went down: connects to the next robot of the list. */
+  /** Pressed: connects to the next robot of the list. */
   readonly nextRobot: boolean;
-  /** Held now: the control that releases the emergency stop. */
+  /** Held now: the button that releases the emergency stop. */
   readonly releaseHeld: boolean;
 }
 
-/** The first device whose grip is held drives; the others are ignored until it lets go. */
+/** The first device whose grip is held drives; the others are ignored until it is released. */
 export function activeInput(inputs: readonly DriveInput[], before: DriveInput | null): DriveInput | null {
   if (before?.held === true && inputs.includes(before)) return before;
   return inputs.find((input) => input.held) ?? null;

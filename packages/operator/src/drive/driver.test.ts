@@ -18,7 +18,7 @@ function bench() {
 }
 
 describe('Driver', () => {
-  test('the first grip asks for the lease; with it the commands flow', () => {
+  test('pressing the grip requests the lease, after which commands are sent', () => {
     const { commands, messages, hand, driver } = bench();
     hand.held = true;
     hand.wish.forward = 1;
@@ -31,7 +31,7 @@ describe('Driver', () => {
     expect(commands[0]?.twist.linear.x).toBe(1);
   });
 
-  test('asks again while nobody answers, never to take over', () => {
+  test('requests the lease again while there is no answer, but never takes it over', () => {
     const { messages, hand, driver, told } = bench();
     hand.held = true;
     for (let now = 0; now <= 1000; now += 25) driver.tick(now);
@@ -42,7 +42,7 @@ describe('Driver', () => {
     expect(told()).toBe(1);
   });
 
-  test('a page that is not looked at lets go', () => {
+  test('the grip counts as released while the page is hidden', () => {
     const { commands, hand, driver } = bench();
     driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
     hand.held = true;
@@ -54,7 +54,7 @@ describe('Driver', () => {
     expect(commands.length).toBeLessThan(8);
   });
 
-  test('letting go stops, gives the lease back, and counts nothing that stays held', () => {
+  test('letting go stops, releases the lease, and ignores a grip that stays held', () => {
     const { commands, messages, hand, driver } = bench();
     driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
     hand.held = true;
@@ -66,7 +66,7 @@ describe('Driver', () => {
       [false, 0],
     ]);
     expect(messages).toEqual([{ type: 'leaseRelease' }]);
-    // The next robot: the hand is still closed.
+    // The next robot: the grip is still held.
     driver.reset();
     driver.onLimits({ maxLinear: 1, maxAngular: 1, watchdogMs: 150, maxCommandsPerSecond: 100 });
     driver.onLease({ type: 'lease', holder: 'nobody' });
@@ -79,7 +79,7 @@ describe('Driver', () => {
     expect(messages.at(-1)).toEqual({ type: 'leaseRequest', take: false });
   });
 
-  test('a hand that holds while the path is lost moves nothing until it has opened', () => {
+  test('a grip held while the path is lost moves nothing until it is released', () => {
     const { commands, hand, driver } = bench();
     driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
     hand.held = true;
@@ -88,7 +88,7 @@ describe('Driver', () => {
     expect(commands.splice(0).map(({ deadMan }) => deadMan)).toEqual([true]);
     driver.onPath(1000);
     for (let now = 1025; now < 5000; now += 25) driver.tick(now);
-    // Opened and closed again while nothing could be heard of it.
+    // The grip is released and pressed again while nothing reaches the robot.
     hand.held = false;
     driver.tick(5000);
     hand.held = true;
@@ -101,13 +101,13 @@ describe('Driver', () => {
     driver.tick(9025);
     hand.held = true;
     for (let now = 9050; now < 9150; now += 25) driver.tick(now);
-    // With rest first: the robot may have heard nothing of the open hand.
+    // Zero commands come first: the robot may not have heard that the grip was released.
     expect(commands.filter(({ deadMan }) => deadMan).map(({ twist }) => twist.linear.x)).toEqual([
       0, 0, 1, 1,
     ]);
   });
 
-  test('without its lease nothing is sent', () => {
+  test('nothing is sent once another operator holds the lease', () => {
     const { commands, hand, driver } = bench();
     driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
     driver.onLease({ type: 'lease', holder: 'other' });

@@ -1,4 +1,4 @@
-/** From the operator's hands to commands: which device drives, who may, what is sent when. Time is an argument. */
+/** Turns the operator's hands into commands: device, lease and timing. Time is an argument. */
 import type { Command, DriveLimits, LeaseState, OperatorSessionMessage } from '@farpoint/protocol';
 import { CommandStream } from './command-stream.ts';
 import { activeInput, type DriveInput } from './drive-input.ts';
@@ -7,16 +7,16 @@ import { REST } from './velocity-mapping.ts';
 export interface DriverPort {
   sendCommand(command: Command): void;
   sendSession(message: OperatorSessionMessage): void;
-  /** The grip was taken, but somebody else drives. */
+  /** The grip was pressed, but somebody else drives. */
   onOtherDrives(): void;
 }
 
-/** While the grip is held and nobody drives, the lease is asked for this often. */
+/** While the grip is held and nobody drives, the lease is requested at this interval. */
 const LEASE_RETRY_MS = 500;
 
 /**
- * Turns the operator's hands into commands: chooses the device that drives, asks for the lease and decides what is sent when.
- * {@link RobotClient} makes one and calls it; an app reads {@link input} and {@link holder}.
+ * Turns the operator's hands into commands: chooses the device that drives, requests the lease and decides what is sent
+ * when. {@link RobotClient} creates and calls it; an app reads {@link input} and {@link holder}.
  */
 export class Driver {
   /** The commands that are sent. */
@@ -39,22 +39,22 @@ export class Driver {
     this.#port = port;
   }
 
-  /** One more device that may drive. */
+  /** Adds a device that may drive. */
   add(input: DriveInput): void {
     this.#inputs.push(input);
   }
 
-  /** The device that drives now; `null` where no grip is held. */
+  /** The device that drives now; `null` if no grip is held. */
   get input(): DriveInput | null {
     return this.#input;
   }
 
-  /** Who holds the lease, as the robot said last. */
+  /** Who holds the lease, by the robot's latest message. */
   get holder(): LeaseState['holder'] {
     return this.#holder;
   }
 
-  /** A session begins or ends: nothing is held any more. */
+  /** A session begins or ends: all grips count as released. */
   reset(): void {
     this.stream.reset();
     this.#holder = 'nobody';
@@ -62,18 +62,18 @@ export class Driver {
     this.#toldOther = false;
   }
 
-  /** The robot told its limits: wishes are scaled to them from now on. */
+  /** The robot sent its limits: wishes are scaled to them from now on. */
   onLimits(limits: DriveLimits): void {
     this.stream.setLimits(limits);
   }
 
-  /** The robot told who drives. */
+  /** The robot sent the state of the lease. */
   onLease(lease: LeaseState): void {
     this.#holder = lease.holder;
     this.stream.setLease(lease.holder === 'you' ? (lease.lease ?? null) : null);
   }
 
-  /** The page is hidden or lost the focus: whatever is held counts as let go. */
+  /** Whether the page is hidden or has lost the focus: all grips then count as released. */
   set suspended(suspended: boolean) {
     this.#suspended = suspended;
   }
@@ -87,13 +87,13 @@ export class Driver {
     this.#port.sendSession({ type: 'leaseRequest', take });
   }
 
-  /** Gives the lease back. */
+  /** Releases the lease. */
   releaseLease(): void {
     this.#port.sendSession({ type: 'leaseRelease' });
   }
 
   /**
-   * Stops and gives the lease back. What is held now counts as let go until every hand has been open once: it must not
+   * Stops and releases the lease. All grips count as released until no grip is held: a grip that is still held must not
    * move the next robot.
    *
    * @param nowMs `performance.now()`
@@ -102,13 +102,13 @@ export class Driver {
     this.#mustOpen = true;
     this.tick(nowMs);
     if (this.#holder === 'you') this.releaseLease();
-    // Zeros that came after the release would be refused.
+    // The robot would reject zero commands that arrive after the release.
     this.stream.setLease(null);
   }
 
   /**
-   * The path to the robot is lost, or carries again. What is held counts as let go until every hand has been open once: a
-   * hand that waited must not move the robot by itself.
+   * The path to the robot is lost or restored. All grips count as released until no grip is held: the robot must not
+   * start to move because a grip was held during the outage.
    *
    * @param nowMs `performance.now()`
    */
@@ -119,7 +119,7 @@ export class Driver {
   }
 
   /**
-   * Reads the devices and sends what is due. Call it at the stream's rate, and at once when the grip or the stick changes.
+   * Reads the devices and sends what is due. Call it at the stream's rate, and at once when a grip or stick changes.
    *
    * @param nowMs `performance.now()`
    */
@@ -140,7 +140,7 @@ export class Driver {
       this.#nextLeaseRequestMs = nowMs + LEASE_RETRY_MS;
       this.requestLease(false);
     } else if (!this.#toldOther) {
-      // Taking over is asked for on purpose, by a button.
+      // Taking over from another operator needs a deliberate act, a button.
       this.#toldOther = true;
       this.#port.onOtherDrives();
     }

@@ -13,12 +13,12 @@ function bench() {
 }
 
 describe('RobotSwitch', () => {
-  test('lets go, and connects to the other once the lease is back and the robot stands', () => {
+  test('lets go, and connects to the other once the lease is released and the robot has stopped', () => {
     const { done, change } = bench();
     change.choose('b', driven, 0);
     expect(done).toEqual(['let go']);
-    change.tick({ ...driven, speed: 0 }, 25); // the lease is still ours
-    change.tick({ ...driven, holder: 'nobody' }, 50); // it still rolls
+    change.tick({ ...driven, speed: 0 }, 25); // we still hold the lease
+    change.tick({ ...driven, holder: 'nobody' }, 50); // the robot is still moving
     expect([done, change.target]).toEqual([['let go'], 'b']);
     change.tick({ ...driven, holder: 'nobody', speed: 0.01 }, 75);
     expect([done, change.target]).toEqual([['let go', 'connect b'], null]);
@@ -26,7 +26,7 @@ describe('RobotSwitch', () => {
     expect(done).toHaveLength(2);
   });
 
-  test('does not wait for a robot that nobody here moves', () => {
+  test('does not wait for a robot that somebody else drives', () => {
     for (const present of [
       { ...driven, holder: 'other' as const },
       { ...driven, holder: 'nobody' as const, speed: null },
@@ -37,13 +37,13 @@ describe('RobotSwitch', () => {
     }
   });
 
-  test('connects at once where there is no session', () => {
+  test('connects at once if there is no session', () => {
     const { done, change } = bench();
     change.choose('b', { robotId: null, live: false, holder: 'nobody', speed: null }, 0);
     expect(done).toEqual(['connect b']);
   });
 
-  test('leaves a robot that does not answer in the end, and one that is lost at once', () => {
+  test('leaves a robot that does not answer after a while, and a lost one at once', () => {
     const silent = bench();
     silent.change.choose('b', driven, 0);
     silent.change.tick(driven, LONGEST_WAIT_MS - 1);
@@ -56,7 +56,7 @@ describe('RobotSwitch', () => {
     expect(lost.done).toEqual(['let go', 'connect b']);
   });
 
-  test('the last choice counts; the present robot, or leaving, takes it back', () => {
+  test('the last choice counts; choosing the present robot or cancelling revokes it', () => {
     const { done, change } = bench();
     change.choose('b', driven, 0);
     change.choose('c', driven, 1000);

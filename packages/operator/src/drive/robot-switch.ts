@@ -1,29 +1,29 @@
 /**
- * From one robot to another in one action: the robot left behind gets its lease back and stands before the other is
- * connected to. Time is an argument.
+ * Switches from one robot to another in one action: the present robot's lease is released and the robot stops before
+ * the page connects to the other. Time is an argument.
  */
 import type { LeaseState, RobotListing } from '@farpoint/protocol';
 import type { RobotLink } from '../link/robot-link.ts';
 
-/** The robot that the page has now. */
+/** The robot that the page is connected to now. */
 export interface PresentRobot {
   readonly robotId: string | null;
   /** Whether there is a session with it. */
   readonly live: boolean;
   readonly holder: LeaseState['holder'];
-  /** As the robot measures, the greater of m/s and rad/s; `null` before its first telemetry. */
+  /** As the robot measures it, the greater of m/s and rad/s; `null` before its first telemetry. */
   readonly speed: number | null;
 }
 
 export interface RobotSwitchPort {
-  /** Ends all motion asked for here and gives the lease back. */
+  /** Ends all motion requested by this page and releases the lease. */
   letGo(): void;
   connect(robotId: string): void;
 }
 
-/** Slower than this a robot counts as standing: gauges are never quite still. */
+/** Below this speed a robot counts as stopped, because measurements are never exactly zero. */
 const STANDING_SPEED = 0.02;
-/** A robot that does not answer is left by then; its own watchdog has stopped it long before. */
+/** Longest wait for a robot that does not answer, ms; its own watchdog has stopped it long before. */
 export const LONGEST_WAIT_MS = 1500;
 
 export class RobotSwitch {
@@ -35,7 +35,7 @@ export class RobotSwitch {
     this.#port = port;
   }
 
-  /** The robot that is gone to once the present one stands. */
+  /** The robot to connect to once the present one has stopped. */
   get target(): string | null {
     return this.#target;
   }
@@ -45,25 +45,25 @@ export class RobotSwitch {
       this.#target = null;
       return;
     }
-    // A second choice while the first one waits gets no longer wait of its own.
+    // A second choice during the wait does not extend it.
     if (this.#target === null) this.#deadlineMs = nowMs + LONGEST_WAIT_MS;
     this.#target = robotId;
     if (present.live) this.#port.letGo();
     this.tick(present, nowMs);
   }
 
-  /** Stays, or leaves for good. */
+  /** Drops the choice. */
   cancel(): void {
     this.#target = null;
   }
 
-  /** Some times a second. */
+  /** Call several times a second. */
   tick(present: PresentRobot, nowMs: number): void {
     const target = this.#target;
     if (target === null) return;
     if (present.live && nowMs < this.#deadlineMs) {
       if (present.holder === 'you') return;
-      // What somebody else does with it is not ours to wait for.
+      // If somebody else drives, there is no need to wait.
       if (present.holder === 'nobody' && (present.speed ?? 0) > STANDING_SPEED) return;
     }
     this.#target = null;
@@ -71,7 +71,7 @@ export class RobotSwitch {
   }
 }
 
-/** What {@link RobotSwitch} is told of the robot that the link has now. */
+/** Describes the link's present robot for {@link RobotSwitch}. */
 export function presentRobot(link: RobotLink, holder: LeaseState['holder']): PresentRobot {
   const { robotId, phase } = link;
   const { telemetry } = link.session;
@@ -82,7 +82,7 @@ export function presentRobot(link: RobotLink, holder: LeaseState['holder']): Pre
   return { robotId, live: phase === 'live', holder, speed };
 }
 
-/** The robot after this one in the list, and the first after the last; `null` where there is no other. */
+/** The next robot in the list, cyclically; `null` if there is no other. */
 export function robotAfter(robots: readonly RobotListing[], robotId: string | null): RobotListing | null {
   const index = robots.findIndex(({ id }) => id === robotId);
   const next = robots[(index + 1) % robots.length];

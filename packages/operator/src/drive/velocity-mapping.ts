@@ -1,4 +1,4 @@
-/** From a stick to geometry_msgs/Twist of base_link (REP-103: x forward, positive rotation to the left). */
+/** Maps a stick to the geometry_msgs/Twist of base_link (REP-103: x forward, positive rotation to the left). */
 import type { DriveLimits, Twist } from '@farpoint/protocol';
 
 /** −1…1, dead zone and curve already applied. */
@@ -11,7 +11,7 @@ export interface DriveWish {
 
 export const REST: Readonly<DriveWish> = Object.freeze({ forward: 0, left: 0 });
 
-/** Scales to the robot's limits. What is beyond ±1 or not a number is cut to the limits, to 0. */
+/** Scales to the robot's limits. Values beyond ±1 are clamped to the limits; NaN becomes 0. */
 export function toTwist(wish: DriveWish, limits: Pick<DriveLimits, 'maxLinear' | 'maxAngular'>): Twist {
   return {
     linear: { x: unit(wish.forward) * limits.maxLinear, y: 0, z: 0 },
@@ -20,6 +20,6 @@ export function toTwist(wish: DriveWish, limits: Pick<DriveLimits, 'maxLinear' |
 }
 
 function unit(value: number): number {
-  // + 0: never −0.
+  // + 0 turns −0 into 0.
   return Number.isNaN(value) ? 0 : Math.min(Math.max(value, -1), 1) + 0;
 }

@@ -1,8 +1,8 @@
-/** A program's hand: its wish holds for a moment only, so that a program that hangs has let go. Time is an argument. */
+/** Input from a program. A wish expires soon, so that a program that hangs stops the robot. Time is an argument. */
 import type { DriveInput } from './drive-input.ts';
 import type { DriveWish } from './velocity-mapping.ts';
 
-/** A wish that is not renewed for so long has been let go, ms. */
+/** A wish that is not renewed within this time expires, ms. */
 export const WISH_HOLDS_MS = 200;
 
 export class WishInput implements DriveInput {
@@ -24,7 +24,7 @@ export class WishInput implements DriveInput {
     this.wish.left = 0;
   }
 
-  /** Some times a second. */
+  /** Call several times a second. */
   lapse(nowMs: number): void {
     if (this.held && nowMs - this.#renewedMs >= WISH_HOLDS_MS) this.release();
   }

@@ -1,8 +1,8 @@
-/** From the capture of a frame to the end of the display frame that shows the last of it. No clock here. */
+/** Latency from a frame's capture to the end of the display frame that shows its last points. No clock here. */
 import { sequenceDelta32 } from '@farpoint/protocol';
 import { type Distribution, SampleWindow } from './sample-window.ts';
 
-/** Age of a capture stamp at a time of ours, ms; `null` while the robot's clock is unknown. */
+/** Age of a capture timestamp at a local time, ms; `null` while the robot's clock is unknown. */
 export type AgeOfStamp = (captureTimeUs: number, nowMs: number) => number | null;
 
 const MAX_DONE = 16;
@@ -16,7 +16,7 @@ export class FrameLatency {
   /** Packets of the current frame wait for the display frame being drawn. */
   #fresh = false;
   #lastDrawnMs = 0;
-  /** Captures of frames whose last packets are in the display frame being drawn. */
+  /** Capture times of the frames whose last packets are in the display frame being drawn. */
   readonly #done = new Float64Array(MAX_DONE);
   #doneCount = 0;
   readonly #ageOf: AgeOfStamp;
@@ -39,7 +39,7 @@ export class FrameLatency {
   /** A packet was uploaded for the display frame being prepared. */
   onPacket(frameNumber: number, captureUs: number, points: number, totalPoints: number): void {
     if (frameNumber !== this.#frame) {
-      // A late packet of the frame before: that one is accounted for.
+      // A late packet of the previous frame, which has been counted already.
       if (this.#frame !== null && sequenceDelta32(frameNumber, this.#frame) < 0) return;
       this.#close();
       this.#frame = frameNumber;
@@ -64,7 +64,7 @@ export class FrameLatency {
     this.#fresh = false;
   }
 
-  /** The next frame begins: what is missing of this one was lost. */
+  /** The next frame begins: whatever is missing of this one was lost. */
   #close(): void {
     if (this.#frame === null || this.#finished) return;
     if (this.#fresh) this.#push(this.#captureUs);

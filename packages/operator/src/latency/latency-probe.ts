@@ -1,19 +1,19 @@
-/** Runs latency tests: asks for the lease, sends the flagged command, gives up when nothing comes. */
+/** Runs latency tests: requests the lease, sends the flagged command, gives up if no frame comes. */
 import { type LatencyFrame, pointsOfBytes } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 import type { Driver } from '../drive/driver.ts';
 import type { RobotLink } from '../link/robot-link.ts';
 import { type LatencyFailure, type LatencyResult, LatencyTest } from './latency-test.ts';
 
-/** The result of a latency test, with the robot's part of it. */
+/** The result of a latency test, with the robot's measurements. */
 export type LatencyReport = LatencyResult & {
-  /** What the robot told of the frame that answered; `null` where its message was lost. */
+  /** What the robot reported of the answering frame; `null` if its message was lost. */
   robot: LatencyFrame | null;
 };
 
-/** Thrown where a latency test has no result. */
+/** Thrown if a latency test has no result. */
 export class LatencyError extends Error {
-  /** Tells the class where `instanceof` cannot. */
+  /** Identifies the class where `instanceof` cannot. */
   override readonly name = 'LatencyError';
   /** Why there is no result. */
   readonly reason: LatencyFailure;
@@ -29,16 +29,16 @@ interface Waiting {
   reject: (error: LatencyError) => void;
   deadlineMs: number;
   repeatMs: number;
-  /** Not sent yet: the lease is being asked for. */
+  /** Not sent yet: the lease has been requested. */
   needsLease: boolean;
   robot: LatencyFrame | null;
 }
 
 const TIMEOUT_MS = 3000;
-/** A request that the robot has not confirmed is sent again after so long, as every command is: messages get lost. */
+/** A request that the robot has not confirmed is repeated at this interval, because commands may be lost. */
 const REPEAT_MS = 50;
 
-/** Runs latency tests over a link. {@link RobotClient} makes one and calls it; an app calls {@link RobotClient.latencyTest}. */
+/** Runs latency tests. {@link RobotClient} creates and calls it; an app calls {@link RobotClient.latencyTest}. */
 export class LatencyProbe {
   readonly #link: RobotLink;
   readonly #driver: Driver;
@@ -60,8 +60,8 @@ export class LatencyProbe {
   /**
    * Runs a test. Only one can run at a time.
    *
-   * @param startedAtMs when the operator acted. Where the lease must be asked for first, the time runs from its coming.
-   * @throws {LatencyError} where there is no session, another test runs, somebody else drives, or nothing came within 3 s
+   * @param startedAtMs when the operator acted. If the lease must be requested first, time runs from its grant.
+   * @throws {LatencyError} if there is no session, another test runs, somebody else drives, or no frame came within 3 s
    */
   run(startedAtMs: number): Promise<LatencyReport> {
     if (this.#waiting !== null) return Promise.reject(new LatencyError('busy'));
@@ -81,14 +81,14 @@ export class LatencyProbe {
     });
   }
 
-  /** The robot told who drives: a test that waits for the lease begins or fails. */
+  /** The robot sent the state of the lease: a test that waits for it begins or fails. */
   onLease(): void {
     if (this.#waiting?.needsLease !== true) return;
     if (this.#driver.stream.lease !== null) this.#send(performance.now());
     else if (this.#driver.holder === 'other') this.fail('no-lease');
   }
 
-  /** The robot told which frame answers a test. */
+  /** The robot said which frame answers a test. */
   onRobotFrame(frame: LatencyFrame): void {
     if (this.#waiting !== null && frame.id === this.#test.runningId) this.#waiting.robot = frame;
   }
@@ -114,7 +114,7 @@ export class LatencyProbe {
   }
 
   /**
-   * The display frame with what {@link onPacket} told is finished.
+   * The display frame with the points reported by {@link onPacket} is finished.
    *
    * @param nowMs `performance.now()`
    */
@@ -129,7 +129,7 @@ export class LatencyProbe {
   }
 
   /**
-   * Repeats a request that got lost and gives up in time. Call it some times a second.
+   * Repeats an unanswered request, and gives up after the time limit. Call it several times a second.
    *
    * @param nowMs `performance.now()`
    */

@@ -1,7 +1,7 @@
 /**
- * Motion-to-photon as the paper measures it: an input event asks for a green cloud; the time runs until the end of the
- * display frame that shows it. Two times are told: the first green points, and the whole green cloud (all its packets,
- * or what came of it before the next frame began). No clock and no GPU here.
+ * Motion-to-photon latency as the paper measures it: an input event requests a green cloud, and the time runs until the
+ * end of the display frame that shows it. There are two results: for the first green points, and for the whole green
+ * cloud (all its packets, or those that came before the next frame began). No clock and no GPU here.
  */
 import { nextSequence32, sequenceDelta32 } from '@farpoint/protocol';
 
@@ -28,7 +28,7 @@ export type LatencyFailure =
   /** The command, or every packet of its frame, was lost. */
   | 'timeout'
   | 'no-session'
-  /** Another test runs. */
+  /** Another test is running. */
   | 'busy'
   /** Somebody else drives. */
   | 'no-lease';
@@ -72,7 +72,7 @@ export class LatencyTest {
     return this.#lastId;
   }
 
-  /** Gives up. */
+  /** Ends the test without a result. */
   cancel(): void {
     this.#running = null;
   }
@@ -88,7 +88,7 @@ export class LatencyTest {
     const test = this.#running;
     if (test === null || test.complete) return;
     if (!isLatencyTest) {
-      // The frame after it has begun: what is missing of the green one was lost.
+      // The next frame has begun: whatever is missing of the green one was lost.
       if (test.frameNumber !== null && sequenceDelta32(frameNumber, test.frameNumber) > 0)
         test.complete = true;
       return;
@@ -111,9 +111,9 @@ export class LatencyTest {
   }
 
   /**
-   * The display frame with what {@link onPacket} told is finished on the GPU.
+   * The GPU has finished the display frame with the points reported by {@link onPacket}.
    *
-   * @returns the result, where the test is over
+   * @returns the result if the test is over
    */
   onDrawn(nowMs: number): LatencyResult | null {
     const test = this.#running;
@@ -126,7 +126,7 @@ export class LatencyTest {
     test.fresh = false;
     if (!test.complete || test.firstMs === null) return null;
     this.#running = null;
-    // Ended by the next frame's begin: the last green points were shown by an earlier display frame.
+    // The start of the next frame ended the test: an earlier display frame showed the last green points.
     const endMs = hadFresh ? nowMs : this.#lastFreshMs;
     return {
       id: test.id,

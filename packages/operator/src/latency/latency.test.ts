@@ -4,7 +4,7 @@ import { LatencyTest } from './latency-test.ts';
 import { SampleWindow } from './sample-window.ts';
 
 describe('LatencyTest', () => {
-  test('first points and whole cloud are timed apart', () => {
+  test('first points and whole cloud are timed separately', () => {
     const latency = new LatencyTest();
     expect(latency.start(1000)).toBe(1);
     latency.onPacket(false, 5, 150, 300, 0);
@@ -26,7 +26,7 @@ describe('LatencyTest', () => {
     expect(latency.runningId).toBe(null);
   });
 
-  test('lost packets: the last green points that came count, once the next frame begins', () => {
+  test('lost packets: the last green points received count, once the next frame begins', () => {
     const latency = new LatencyTest();
     latency.start(0);
     latency.onPacket(true, 6, 150, 450, 0);
@@ -46,7 +46,7 @@ describe('LatencyTest', () => {
     expect(latency.onDrawn(30)).toMatchObject({ firstMs: 30, mtpMs: 30, points: 150 });
   });
 
-  test('a late packet of the frame before does not end it, a second green frame does not count', () => {
+  test('a late packet of the previous frame does not end a test, and a second green frame does not count', () => {
     const latency = new LatencyTest();
     latency.start(0);
     latency.onPacket(true, 0, 150, 300, 0);
@@ -58,7 +58,7 @@ describe('LatencyTest', () => {
     expect(latency.onDrawn(40)).toMatchObject({ points: 300, mtpMs: 40 });
   });
 
-  test('without a test nothing wants a time', () => {
+  test('without a test no display frame needs timing', () => {
     const latency = new LatencyTest();
     latency.onPacket(true, 6, 150, 150, 0);
     expect(latency.wantsTime).toBe(false);
@@ -82,7 +82,7 @@ describe('FrameLatency', () => {
     expect(latency.distribution?.max).toBe(36);
   });
 
-  test('a frame that lost packets counts by the last that came', () => {
+  test('a frame that lost packets counts by the last one received', () => {
     const latency = new FrameLatency(age);
     latency.onPacket(1, 0, 150, 450);
     latency.onDrawn(20);
@@ -95,7 +95,7 @@ describe('FrameLatency', () => {
     expect(latency.distribution?.max).toBe(104);
   });
 
-  test('without the robot’s clock nothing is claimed', () => {
+  test('without the robot’s clock there are no samples', () => {
     const latency = new FrameLatency(() => null);
     latency.onPacket(1, 0, 150, 150);
     latency.onDrawn(20);

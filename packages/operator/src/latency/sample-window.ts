@@ -25,7 +25,7 @@ export class SampleWindow {
     return Math.min(this.#count, this.#samples.length);
   }
 
-  /** Adds a sample; the oldest goes where there is no room. */
+  /** Adds a sample, in place of the oldest if the window is full. */
   add(value: number): void {
     this.#samples[this.#count++ % this.#samples.length] = value;
   }

@@ -1,8 +1,8 @@
-/** Tells when the browser has another network, or none. Until `signal` is aborted. */
+/** Reports, until `signal` is aborted, when the browser's network changes or is lost. */
 export function watchNetwork(onChange: (online: boolean) => void, signal: AbortSignal): void {
   const changed = () => onChange(navigator.onLine);
   window.addEventListener('online', changed, { signal });
   window.addEventListener('offline', changed, { signal });
-  // Not in every browser, nor in TypeScript's types.
+  // Missing in some browsers, and in TypeScript's types.
   (navigator as { connection?: EventTarget }).connection?.addEventListener('change', changed, { signal });
 }

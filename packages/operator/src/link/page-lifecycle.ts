@@ -1,13 +1,13 @@
-/** When the page goes, and when the browser brings it back from its cache as it was. */
+/** Reports when the page is left, and when the browser restores it from its back/forward cache. */
 
 export interface PageLifecycleEvents {
-  /** The page is closed, left or put away: the last moment in which anything is sent. */
+  /** The page is closed, left or put into the cache: the last moment at which it can send anything. */
   onLeave(): void;
-  /** It is back, where it was only put away. */
+  /** The page is restored from the cache. */
   onReturn(): void;
 }
 
-/** Until `signal` is aborted. */
+/** Listens until `signal` is aborted. */
 export function watchPageLifecycle(
   target: EventTarget,
   events: PageLifecycleEvents,
@@ -15,7 +15,7 @@ export function watchPageLifecycle(
 ): void {
   target.addEventListener('pagehide', () => events.onLeave(), { signal });
   const onShow = (event: Event) => {
-    // After a load, too; then nothing was left.
+    // This event also follows a normal load, before which no page was left.
     if ((event as PageTransitionEvent).persisted) events.onReturn();
   };
   target.addEventListener('pageshow', onShow, { signal });

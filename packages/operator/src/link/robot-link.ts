@@ -1,4 +1,4 @@
-/** The link to the robots, whichever way it goes: directly (webrtc-link.ts) or through a bridge (bridge/bridge-link.ts). */
+/** The link to the robots, either direct (webrtc-link.ts) or through a bridge (bridge/bridge-link.ts). */
 import type { Command, OperatorSessionMessage, RobotListing } from '@farpoint/protocol';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
 import type { RobotSession, RobotSessionEvents } from '../session/robot-session.ts';
@@ -11,54 +11,54 @@ export interface RobotLinkEvents extends RobotSessionEvents {
   onRobots(robots: readonly RobotListing[]): void;
   onPhase(phase: SessionPhase): void;
   onLoss(loss: SessionLoss): void;
-  /** Within a session: nothing comes through (`false`), or something does again. */
+  /** Within a session: nothing is received (`false`), or something is again (`true`). */
   onPath(up: boolean): void;
-  /** A peer connection is being made: batches of this generation are its own. */
+  /** A peer connection is being set up; its batches have this generation. */
   onGeneration(generation: number): void;
-  /** The service refused something, in its own words. */
+  /** The service refused a request; the text is the service's. */
   onRefusal(message: string): void;
 }
 
-/** The way to the robots: by WebRTC, or through a bridge. {@link RobotClient} makes one and keeps it. */
+/** The link to the robots, by WebRTC or through a bridge. {@link RobotClient} creates and owns it. */
 export interface RobotLink {
-  /** Where the session with the wanted robot stands. */
+  /** The phase of the session with the wanted robot. */
   readonly phase: SessionPhase;
-  /** The connection to the signaling service. */
+  /** The state of the connection to the signaling service. */
   readonly signaling: SignalingState;
   /** The robots that the service lists now. */
   readonly robots: readonly RobotListing[];
-  /** The wanted robot; `null` where none is wanted. */
+  /** The wanted robot; `null` if none is wanted. */
   readonly robotId: string | null;
   /** Whether the service lists the wanted robot. */
   readonly robotListed: boolean;
-  /** What the robot has told in this session. */
+  /** What the robot has sent in this session. */
   readonly session: RobotSession;
-  /** Within a session, nothing comes through. */
+  /** Whether nothing is being received within a session. */
   readonly interrupted: boolean;
-  /** Sessions opened since the link was made. */
+  /** Number of sessions opened since the link was created. */
   readonly sessionsOpened: number;
-  /** Why the last session was given up; `null` where none was. */
+  /** Why the last session was given up; `null` if none was. */
   readonly lastLoss: SessionLoss | null;
-  /** How many operators the robot takes, where it has said that it is full. */
+  /** How many operators the robot accepts, if it has said that it is full. */
   readonly maxOperators: number | null;
   /** Connects to the signaling service or bridge, and stays connected. */
   start(): void;
-  /** Ends the session, and everything with it. */
+  /** Ends the session and frees everything. */
   close(): void;
   /** Opens a session with this robot as soon as it is listed, and again whenever it is lost. */
   connect(robotId: string): void;
   /** Ends the session and wants no robot. */
   disconnect(): void;
-  /** Since anything was last heard, ms. */
+  /** Time since anything was last received, ms. */
   silentMs(nowMs: number): number;
-  /** Sends a command, unordered and never repeated; it is lost while nothing comes through. */
+  /** Sends a command, unordered and never repeated; it is lost while the path is. */
   sendCommand(command: Command): void;
   /** Sends a message, in order and reliably; without a session it is lost. */
   sendSession(message: OperatorSessionMessage): void;
-  /** Asks the robot to send no more than this, bit/s; through a bridge it does nothing. */
+  /** Asks the robot to send at most this rate, bit/s. No effect through a bridge. */
   limitBandwidth(bitsPerSecond: number): void;
-  /** Points came. */
+  /** Points were received. */
   onPoints(nowMs: number): void;
-  /** Tells the robot what has arrived; through a bridge it does nothing. */
+  /** Reports to the robot what has arrived. No effect through a bridge. */
   sendReport(report: IntakeReport): void;
 }

@@ -1,4 +1,4 @@
-/** One robot's link: signaling, session keeper, peer connection and what comes over it, put together. */
+/** The direct link to a robot: combines signaling, the session keeper and the peer connection. */
 import {
   type Command,
   encodeBandwidth,
@@ -29,7 +29,7 @@ export interface WebRtcLinkOptions {
   token: string | undefined;
   worker: Worker;
   transform: TransformSupport;
-  /** `relay`: by TURN servers only. */
+  /** `relay`: through TURN servers only. */
   icePolicy: RTCIceTransportPolicy;
 }
 
@@ -50,11 +50,11 @@ export class WebRtcLink implements RobotLink {
   #lastHeardMs = 0;
   #probeDueMs = 0;
   sessionsOpened = 0;
-  /** Requests for an ICE restart. */
+  /** Number of requests for an ICE restart. */
   resumesAsked = 0;
   lastLoss: SessionLoss | null = null;
   maxOperators: number | null = null;
-  /** The robot to come back to, while the page is put away. */
+  /** The robot to reconnect to when the page is restored from the browser's cache. */
   #left: string | null = null;
 
   constructor(options: WebRtcLinkOptions, events: RobotLinkEvents) {
@@ -85,7 +85,7 @@ export class WebRtcLink implements RobotLink {
         requestSession: (robotId) => this.#signaling.send({ type: 'session.open', robotId }),
         resumeSession: (session, robotId) => {
           const resumeKey = this.#session.welcome?.resumeKey;
-          // The path was lost before the robot had said anything, or it is one that resumes nothing.
+          // The path was lost before the robot's welcome, or the robot cannot resume sessions.
           if (resumeKey === undefined) return this.#keeper.onPeerFailed(performance.now());
           this.resumesAsked++;
           this.#signaling.ask({ type: 'session.resume', session, robotId, resumeKey });
@@ -112,7 +112,7 @@ export class WebRtcLink implements RobotLink {
     const timer = setInterval(() => this.#tick(performance.now()), TICK_MS);
     signal.addEventListener('abort', () => clearInterval(timer));
     watchNetwork((online) => {
-      // What is waiting need not wait any longer.
+      // Retry now whatever is waiting for its next attempt.
       if (online) this.#signaling.retryNow();
       this.#keeper.onNetworkChange(performance.now());
     }, signal);
@@ -125,7 +125,7 @@ export class WebRtcLink implements RobotLink {
     this.#leave();
   }
 
-  /** Takes leave of the robot, which would else keep this session for a minute in case its path was lost. */
+  /** Ends the session explicitly; otherwise the robot would keep it for a minute in case only its path was lost. */
   #leave(): void {
     this.#left = this.robotId;
     this.disconnect();
@@ -171,7 +171,7 @@ export class WebRtcLink implements RobotLink {
     return nowMs - this.#lastHeardMs;
   }
 
-  /** On a path that carries nothing a command is lost, and would keep later ones waiting. */
+  /** Skipped while the path is lost: a command would not arrive, but would keep later ones waiting. */
   sendCommand(command: Command): void {
     if (!this.interrupted) this.#sendControl(command);
   }
@@ -184,7 +184,7 @@ export class WebRtcLink implements RobotLink {
     this.#peer?.sendBandwidth(encodeBandwidth(bitsPerSecond) as Uint8Array<ArrayBuffer>);
   }
 
-  /** Points came. */
+  /** Points were received. */
   onPoints(nowMs: number): void {
     this.#heard(nowMs);
   }
@@ -210,7 +210,7 @@ export class WebRtcLink implements RobotLink {
     const nowMs = performance.now();
     switch (message.type) {
       case 'session.opened': {
-        // The robot has accepted our request for a new path: its offer follows.
+        // The robot has accepted the request for a new path; its offer follows.
         if (message.session === this.#keeper.session) return;
         const ours = this.#keeper.onOpened(message.session, message.robotId);
         if (!ours) this.#signaling.send({ type: 'session.close', session: message.session });
@@ -235,7 +235,7 @@ export class WebRtcLink implements RobotLink {
       case 'session.resuming':
         return;
       case 'error':
-        // A session that stands needs no service: that it is unknown, or the robot away, is all right.
+        // An established session does not need the service, so it may be unknown there, or the robot away.
         if (message.code !== 'unknown-session' && !(this.phase === 'live' && message.session !== undefined)) {
           this.#events.onRefusal(message.message);
         }
@@ -263,7 +263,7 @@ export class WebRtcLink implements RobotLink {
           if (peer !== this.#peer) return;
           const nowMs = performance.now();
           this.#heard(nowMs);
-          // What the robot sends here answers our clock probes.
+          // On this channel the robot sends answers to clock probes.
           if (channel === 'control') this.#keeper.onAnswered(nowMs);
           this.#session.onMessage(channel, data, nowMs);
         },

@@ -1,4 +1,4 @@
-/** How this browser lets a worker take a receiver's encoded frames, if it does. */
+/** Detects whether and how this browser lets a worker take a receiver's encoded frames. */
 import type { CloudTransformOptions, ToCloudWorker } from '../cloud/worker-messages.ts';
 
 /** How this browser hands a receiver's encoded frames to a worker. */
@@ -20,13 +20,13 @@ export function transformSupport(): TransformSupport {
   return 'createEncodedStreams' in RTCRtpReceiver.prototype ? 'encoded-streams' : 'none';
 }
 
-/** What the peer connection must be made with. */
+/** Options that the peer connection needs. */
 export function transformConfiguration(support: TransformSupport): RTCConfiguration {
-  // Not in the standard any more, so not in its types.
+  // No longer in the standard, so missing in the types.
   return support === 'encoded-streams' ? ({ encodedInsertableStreams: true } as RTCConfiguration) : {};
 }
 
-/** Hands the receiver's frames to the worker. Must be called synchronously in `ontrack`, or the first frames are lost. */
+/** Hands the receiver's frames to the worker. Call it synchronously in `ontrack`, or the first frames are lost. */
 export function attachWorker(
   receiver: RTCRtpReceiver,
   worker: Worker,

@@ -1,4 +1,4 @@
-/** The WebRTC connection with the robot: it offers, we answer, ICE trickles. */
+/** The WebRTC connection with the robot: the robot offers, the page answers, both use trickle ICE. */
 import {
   CLOUD_STREAM_ID,
   channels,
@@ -12,24 +12,24 @@ import { attachWorker, type TransformSupport, transformConfiguration } from './e
 export interface RobotPeerEvents {
   onAnswer(sdp: string): void;
   onCandidate(candidate: IceCandidate): void;
-  /** The path stands and the robot's session channel is open. */
+  /** The path is established and the robot's session channel is open. */
   onConnected(): void;
   onMessage(channel: RobotChannel, data: MessageData): void;
-  /** The last event, unless {@link RobotPeer.close} was called. */
+  /** The connection ended; no event follows. Not sent after {@link RobotPeer.close}. */
   onFailed(detail: string): void;
 }
 
 export interface RobotPeerOptions {
   iceServers: readonly IceServer[];
-  /** `relay`: by TURN servers only. */
+  /** `relay`: through TURN servers only. */
   icePolicy: RTCIceTransportPolicy;
   worker: Worker;
   transform: TransformSupport;
-  /** Counts sessions, for the worker's batches. */
+  /** Number of the session, for the worker's batches. */
   generation: number;
 }
 
-/** Unreliable messages are not sent while this much waits, bytes: what waits is late. */
+/** Unreliable messages are dropped while more than this is queued, bytes, because they would arrive late. */
 const MAX_BACKLOG = 8192;
 const MAX_QUEUED_CANDIDATES = 64;
 
@@ -71,10 +71,10 @@ export class RobotPeer {
     connection.onconnectionstatechange = () => this.#onState(connection.connectionState);
   }
 
-  /** From the next offer on. */
+  /** Used from the next offer on. */
   useIceServers(iceServers: readonly IceServer[], icePolicy: RTCIceTransportPolicy): void {
     if (this.#ended) return;
-    // What of the configuration is left out would change, and may not.
+    // Repeat the whole configuration: omitted members would be reset, which is not allowed.
     const configuration = {
       ...this.#connection.getConfiguration(),
       ...iceConfiguration({ iceServers, icePolicy }),
@@ -86,7 +86,7 @@ export class RobotPeer {
     }
   }
 
-  /** Answers an offer, the first or one that restarts ICE. Never throws: what cannot be used ends the connection. */
+  /** Answers an offer, the first or one that restarts ICE. Never throws: an unusable offer ends the connection. */
   async offer(sdp: string): Promise<void> {
     const connection = this.#connection;
     try {
@@ -103,11 +103,11 @@ export class RobotPeer {
     }
   }
 
-  /** Never throws: one that cannot be used is left out, others may do. */
+  /** Adds a candidate. Never throws: an unusable candidate is ignored, since others may work. */
   async candidate(candidate: IceCandidate): Promise<void> {
     if (this.#ended) return;
     if (this.#queuedCandidates !== null) {
-      // They may overtake the offer.
+      // Candidates may overtake the offer.
       if (this.#queuedCandidates.length < MAX_QUEUED_CANDIDATES) this.#queuedCandidates.push(candidate);
       return;
     }
@@ -122,14 +122,14 @@ export class RobotPeer {
       .catch(() => undefined);
   }
 
-  /** Unordered, never repeated. @returns whether it was handed to the network */
+  /** Sends unordered, without retransmission. @returns whether it was handed to the network */
   sendControl(text: string): boolean {
     if (this.#control.readyState !== 'open' || this.#control.bufferedAmount > MAX_BACKLOG) return false;
     this.#control.send(text);
     return true;
   }
 
-  /** Reliable and in order. */
+  /** Sends reliably and in order. */
   sendSession(text: string): boolean {
     if (this.#session?.readyState !== 'open') return false;
     this.#session.send(text);
@@ -177,7 +177,7 @@ export class RobotPeer {
 
   #onState(state: RTCPeerConnectionState): void {
     if (this.#ended) return;
-    // Once connected, a failed path is healed by a restart of ICE; who hears nothing asks for one.
+    // Once connected, an ICE restart repairs a failed path; the operator requests one when it hears nothing.
     if (state === 'failed' && !this.#connected) this.#fail('no network path to the robot');
     else if (state === 'connected') this.#checkConnected();
   }

@@ -8,7 +8,7 @@ const picture = (camera: number, pictureId: number): WholePicture => ({
   bytes: new Uint8Array(1),
 });
 
-test('one of a camera is decoded, the newest waits, and those between are counted', () => {
+test('decodes one picture per camera, keeps the newest waiting and counts those skipped', () => {
   const tickets: number[] = [];
   const queue = new DecodeQueue(({ ticket }) => tickets.push(ticket));
   for (const id of [1, 2, 3]) queue.add(picture(0, id));
@@ -21,7 +21,7 @@ test('one of a camera is decoded, the newest waits, and those between are counte
   expect(queue.superseded).toBe(1);
 });
 
-test('what was under way for another robot is not shown', () => {
+test('does not show pictures of the previous robot', () => {
   const queue = new DecodeQueue(() => undefined);
   queue.add(picture(0, 1));
   queue.clear();
@@ -30,7 +30,7 @@ test('what was under way for another robot is not shown', () => {
   expect(queue.ended(2)?.pictureId).toBe(2);
 });
 
-test('never more than one a camera is decoded, and each is accounted for', () => {
+test('never decodes more than one picture per camera, and accounts for each', () => {
   fc.assert(
     fc.property(fc.array(fc.oneof(fc.nat(3), fc.constant(null)), { maxLength: 100 }), (steps) => {
       const open: number[] = [];

@@ -6,9 +6,9 @@ interface Slot {
   waiting: WholePicture | null;
 }
 
-/** Of each camera one picture is being decoded and the newest waits: a slow machine shows fewer, not later ones. */
+/** Decodes one picture per camera at a time; only the newest waits. Slow machines show fewer pictures, not old ones. */
 export class DecodeQueue {
-  /** Pictures that gave way to newer ones. */
+  /** Pictures that were replaced by newer ones before they were decoded. */
   superseded = 0;
   readonly #decode: (picture: PictureToDecode) => void;
   readonly #slots: Slot[] = Array.from({ length: MAX_CAMERAS }, () => ({ decoding: null, waiting: null }));
@@ -27,7 +27,7 @@ export class DecodeQueue {
     }
   }
 
-  /** @returns the picture whose decoding ended; `null` where nobody waits for it any more */
+  /** @returns the picture whose decoding ended; `null` if it was cleared in the meantime */
   ended(ticket: number): WholePicture | null {
     for (const slot of this.#slots) {
       if (slot.decoding?.ticket !== ticket) continue;
@@ -41,7 +41,7 @@ export class DecodeQueue {
     return null;
   }
 
-  /** Another robot, or none: what is under way concerns nobody. */
+  /** The robot has changed: forgets the pictures that are being decoded or waiting. */
   clear(): void {
     for (const slot of this.#slots) Object.assign(slot, { decoding: null, waiting: null });
   }

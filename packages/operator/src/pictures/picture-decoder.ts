@@ -1,4 +1,4 @@
-/** Decodes cameras' pictures in a worker, of each camera the newest. */
+/** Decodes cameras' pictures in a worker, the newest of each camera. */
 import type { WholePicture } from '@farpoint/protocol';
 import { DecodeQueue } from './decode-queue.ts';
 import type { FromPictureWorker, PictureToDecode } from './worker-messages.ts';
@@ -6,7 +6,7 @@ import type { FromPictureWorker, PictureToDecode } from './worker-messages.ts';
 export interface PictureDecoderEvents {
   /** Whoever takes the bitmap closes it. */
   onPicture(picture: WholePicture, receivedAtMs: number, bitmap: ImageBitmap): void;
-  /** A file that cannot be decoded. */
+  /** A picture could not be decoded. */
   onFault(picture: WholePicture, detail: string): void;
 }
 
@@ -26,7 +26,7 @@ export class PictureDecoder {
     this.#queue.add(picture);
   }
 
-  /** Another robot, or none: what is under way concerns nobody. */
+  /** The robot has changed: forgets the pictures that are being decoded or waiting. */
   clear(): void {
     this.#queue.clear();
   }
@@ -43,7 +43,7 @@ export class PictureDecoder {
       worker.onmessage = ({ data }: MessageEvent<FromPictureWorker>) => this.#onDecoded(data);
       worker.onerror = (event) => {
         console.warn('picture worker:', event.message);
-        // The next picture starts another one.
+        // The next picture starts a new worker.
         worker.terminate();
         this.#worker = null;
         this.#queue.clear();

@@ -1,4 +1,4 @@
-/** The pictures of the cameras that are watched, decoded, each with the time at which it was taken. */
+/** Decoded pictures of the watched cameras, each with the time at which it was taken. */
 import type { WholePicture } from '@farpoint/protocol';
 import type { AgeOfStamp } from '../latency/frame-latency.ts';
 import { PictureDecoder } from './picture-decoder.ts';
@@ -9,14 +9,14 @@ export interface Picture {
   camera: number;
   /** Close it when it has been drawn. */
   bitmap: ImageBitmap;
-  /** When it was taken, as `performance.now()` of this page; when it was received, until the robot's clock is known. */
+  /** When it was taken, in this page's `performance.now()`; until the robot's clock is known, when it was received. */
   takenAtMs: number;
 }
 
 export interface PictureFeedEvents {
-  /** @returns whether anybody takes it, and closes the bitmap */
+  /** @returns whether a listener takes it and will close the bitmap */
   onPicture(picture: Picture): boolean;
-  /** A file that cannot be decoded. */
+  /** A picture could not be decoded. */
   onFault(camera: number, detail: string): void;
 }
 
@@ -34,12 +34,12 @@ export class PictureFeed {
     });
   }
 
-  /** Pictures of these cameras are decoded, and of no others. */
+  /** Decodes the pictures of these cameras only. */
   watch(cameras: readonly number[]): void {
     this.#watched = [...cameras];
   }
 
-  /** The robot has other cameras, or another robot has. */
+  /** The list of cameras has changed, perhaps because the robot has. */
   reset(): void {
     this.#decoder.clear();
     this.#watched = [];

@@ -1,10 +1,10 @@
-/** Decodes pictures beside the page's thread. What the robot sends is anybody's bytes: only files that are what they say are tried. */
+/** Decodes pictures off the main thread. The bytes are untrusted: only files as announced are decoded. */
 import { readPictureFile } from '@farpoint/protocol';
 import type { FromPictureWorker, PictureToDecode } from './worker-messages.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
-/** Longest side that is handed to the page: its panels are no larger. */
+/** Longest side of the bitmaps for the page, pixels: its panels are no larger. */
 const MOST_SIDE = 1280;
 const TYPES = { jpeg: 'image/jpeg', png: 'image/png' } as const;
 
@@ -14,7 +14,7 @@ self.onmessage = ({ data }: MessageEvent<PictureToDecode>) => {
 
 async function decode({ ticket, format, width, height, bytes }: PictureToDecode): Promise<void> {
   try {
-    // Before anything is decoded: a small file may say that it is a huge picture.
+    // Check before decoding: a small file may claim to be a huge picture.
     const file = readPictureFile(bytes);
     if (typeof file === 'string') throw new Error(file);
     if (file.format !== format || file.width !== width || file.height !== height)
@@ -22,7 +22,7 @@ async function decode({ ticket, format, width, height, bytes }: PictureToDecode)
     const factor = Math.max(1, Math.max(width, height) / MOST_SIDE);
     const bitmap = await createImageBitmap(new Blob([bytes], { type: TYPES[format] }), {
       ...(factor === 1 ? {} : { resizeWidth: Math.max(1, Math.round(width / factor)) }),
-      // Its size is the one that was told, whatever its metadata say of turning it.
+      // Ignore rotation in the metadata, so that the size is as announced.
       imageOrientation: 'none',
     });
     tell({ ticket, bitmap }, [bitmap]);

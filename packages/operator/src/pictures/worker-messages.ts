@@ -1,8 +1,8 @@
-/** What the page and the picture worker say to each other. */
+/** Messages between the page and the picture worker. */
 import type { PictureFormat } from '@farpoint/protocol';
 
 export interface PictureToDecode {
-  /** Comes back with the answer. */
+  /** Identifies the request; repeated in the answer. */
   ticket: number;
   format: PictureFormat;
   width: number;

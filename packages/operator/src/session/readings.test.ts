@@ -12,7 +12,7 @@ describe('Readings', () => {
     const readings = new Readings();
     expect(readings.take(battery('80 %'), 1000)).toBe(true);
     expect(readings.take(battery('79 %', 100), 2000)).toBe(true);
-    // Unordered: this one was overtaken.
+    // The channel is unordered: this reading was overtaken.
     expect(readings.take(battery('81 %', 1500), 2010)).toBe(false);
     expect(readings.list(2010)).toEqual([{ reading: battery('79 %', 100), ageMs: 110 }]);
   });

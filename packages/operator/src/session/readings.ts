@@ -1,15 +1,15 @@
-/** What the robot's sensors and topics say: the newest reading of each topic. */
+/** Readings of the robot's sensors and topics: the newest of each topic. */
 import type { Reading } from '@farpoint/protocol';
 
 /** A reading and its age. */
 export interface AgedReading {
   /** As the robot sent it. */
   reading: Reading;
-  /** Since the robot read it, ms. */
+  /** Time since the robot took the reading, ms. */
   ageMs: number;
 }
 
-/** A robot has no more topics for people. */
+/** Maximum number of topics that are kept. */
 const MOST_TOPICS = 64;
 
 /** The newest reading of each topic of one robot. */
@@ -17,7 +17,7 @@ export class Readings {
   readonly #newest = new Map<string, { reading: Reading; readAtMs: number }>();
 
   /**
-   * Unordered: a reading that is older than the one known is left out.
+   * Takes a reading. The channel is unordered: a reading older than the known one is ignored.
    *
    * @param nowMs this browser's clock
    * @returns whether it is the newest of its topic
@@ -26,14 +26,14 @@ export class Readings {
     const readAtMs = nowMs - reading.ageMs;
     const before = this.#newest.get(reading.topic);
     if (before === undefined && this.#newest.size >= MOST_TOPICS) return false;
-    // Delivery times differ: up to half a second says nothing about the order.
+    // Delivery times vary: ages that differ by less than half a second say nothing about the order.
     if (before !== undefined && readAtMs < before.readAtMs - 500) return false;
     this.#newest.set(reading.topic, { reading, readAtMs });
     return true;
   }
 
   /**
-   * The newest reading of each topic, in the order in which the topics came first.
+   * The newest reading of each topic, in the order in which topics first appeared.
    *
    * @param nowMs this browser's clock
    */

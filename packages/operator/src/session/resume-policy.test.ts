@@ -7,7 +7,7 @@ import {
   UNANSWERED_MS,
 } from './resume-policy.ts';
 
-/** Ticks each 250 ms up to `toMs`; returns when it asked. */
+/** Ticks every 250 ms up to `toMs`. @returns the times of the requests */
 function run(policy: ResumePolicy, fromMs: number, toMs: number, each: (ms: number) => boolean = () => true) {
   const asked: number[] = [];
   for (let ms = fromMs; ms <= toMs; ms += 250) if (policy.tick(ms, each(ms))) asked.push(ms);
@@ -32,7 +32,7 @@ describe('ResumePolicy', () => {
     expect(run(policy, 0, 60_000)).toHaveLength(60);
   });
 
-  test('a session that is heard is left alone', () => {
+  test('a session that is received normally makes no requests', () => {
     const policy = new ResumePolicy();
     policy.begin(0);
     const asked = run(policy, 0, 60_000, (ms) => {
@@ -43,7 +43,7 @@ describe('ResumePolicy', () => {
     expect(asked).toEqual([]);
   });
 
-  test('heard, but never answered: the robot does not hear us', () => {
+  test('the robot is heard but never answers: it does not hear us', () => {
     const policy = new ResumePolicy();
     policy.begin(0);
     const asked = run(policy, 0, 4000, (ms) => {
@@ -53,7 +53,7 @@ describe('ResumePolicy', () => {
     expect(asked).toEqual([UNANSWERED_MS, UNANSWERED_MS + 1000]);
   });
 
-  test('after an outage the answers get their time again', () => {
+  test('after an outage answers get the full time limit again', () => {
     const policy = new ResumePolicy();
     policy.begin(0);
     run(policy, 0, 20_000);
@@ -63,7 +63,7 @@ describe('ResumePolicy', () => {
     expect(run(policy, 20_250, 21_500)).toEqual([]);
   });
 
-  test('a change of the network is not waited for long', () => {
+  test('after a change of the network the path counts as lost sooner', () => {
     const policy = new ResumePolicy();
     policy.begin(0);
     policy.onNetworkChange(0);
@@ -71,7 +71,7 @@ describe('ResumePolicy', () => {
     expect(policy.tick(LOST_AFTER_CHANGE_MS, true)).toBe(true);
   });
 
-  test('without signaling nothing is asked; once it is back, at once', () => {
+  test('makes no request without signaling, and one at once when it is back', () => {
     const policy = new ResumePolicy();
     policy.begin(0);
     expect(run(policy, 0, 9000, () => false)).toEqual([]);
@@ -80,7 +80,7 @@ describe('ResumePolicy', () => {
     expect(policy.tick(9200, true)).toBe(true);
   });
 
-  test('a page that was asleep gives the robot its time to be heard', () => {
+  test('a page that was asleep waits for the full time limit before a request', () => {
     const policy = new ResumePolicy();
     policy.begin(0);
     policy.tick(0, true);

@@ -1,18 +1,18 @@
-/** Silence from which the path counts as lost, ms: points, telemetry and clock answers come many times a second. */
+/** Silence after which the path counts as lost, ms: points, telemetry and clock answers come many times a second. */
 export const LOST_AFTER_MS = 1000;
-/** The same just after the network has changed: then it is no accident. */
+/** The same shortly after a change of the network, when silence is less likely to be a coincidence, ms. */
 export const LOST_AFTER_CHANGE_MS = 300;
 const CHANGE_COUNTS_MS = 5000;
-/** The robot is heard, but hears nothing: so long its answers to our clock probes stay away, ms. */
+/** The path also counts as lost if the robot has not answered our clock probes for this long, ms: it hears nothing. */
 export const UNANSWERED_MS = 2500;
-/** From one request for an ICE restart to the next, ms. */
+/** Interval between requests for an ICE restart, ms. */
 export const RESUME_EVERY_MS = 1000;
-/** Who was not called for so long was asleep, not cut off, ms. */
+/** If ticks are this far apart, the page was asleep and not cut off, ms. */
 const ASLEEP_MS = 2500;
 
 /**
- * When the path to the robot counts as lost and the robot is asked for an ICE restart: at once, and again each second for as
- * long as the session is kept. Time is an argument, ms.
+ * Decides when the path to the robot counts as lost and when to ask for an ICE restart: at once, then every second for
+ * as long as the session is kept. Time is an argument, ms.
  */
 export class ResumePolicy {
   #heardMs = 0;
@@ -21,16 +21,16 @@ export class ResumePolicy {
   #nextMs = 0;
   #tickMs: number | null = null;
 
-  /** A path stands. */
+  /** A path has been established. */
   begin(nowMs: number): void {
     this.#heardMs = nowMs;
     this.#answeredMs = nowMs;
     this.#nextMs = 0;
   }
 
-  /** Any packet or message of the robot. */
+  /** A packet or message came from the robot. */
   onHeard(nowMs: number): void {
-    // Answers to what was sent meanwhile are lost.
+    // Answers during the outage are lost; do not count them as missing.
     if (nowMs - this.#heardMs >= LOST_AFTER_MS) this.#answeredMs = nowMs;
     this.#heardMs = nowMs;
   }
@@ -40,13 +40,13 @@ export class ResumePolicy {
     this.#answeredMs = nowMs;
   }
 
-  /** The browser has another network, or none. */
+  /** The browser's network has changed or is lost. */
   onNetworkChange(nowMs: number): void {
     this.#changedMs = nowMs;
     this.#nextMs = 0;
   }
 
-  /** The way to the robot by signaling stands anew: do not wait any longer. */
+  /** Signaling to the robot works again: make the next request without waiting. */
   onSignalingBack(): void {
     this.#nextMs = 0;
   }
@@ -63,7 +63,7 @@ export class ResumePolicy {
     );
   }
 
-  /** @returns whether to ask the robot for an ICE restart now; it then counts as asked */
+  /** @returns whether to ask the robot for an ICE restart now; the request then counts as made */
   tick(nowMs: number, canAsk: boolean): boolean {
     const asleep = this.#tickMs !== null && nowMs - this.#tickMs >= ASLEEP_MS;
     this.#tickMs = nowMs;

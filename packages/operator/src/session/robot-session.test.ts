@@ -49,7 +49,7 @@ function telemetry(sequence: number): string {
 }
 
 describe('RobotSession', () => {
-  test('keeps what the robot tells', () => {
+  test('keeps what the robot sends', () => {
     const { session, told } = bench();
     session.onMessage('session', '{"type":"lease","holder":"you","lease":"abc"}', 0);
     session.onMessage('session', '{"type":"estop","latched":true,"by":"robot"}', 0);
@@ -59,7 +59,7 @@ describe('RobotSession', () => {
     expect(told).toEqual(['lease', 'estop', 'fault']);
   });
 
-  test('older telemetry that comes later is left out, also across the wrap', () => {
+  test('ignores telemetry that was overtaken, also across the wrap', () => {
     const { session, told } = bench();
     for (const sequence of [0xffffffff, 0, 0xfffffffe, 0, 1]) {
       session.onMessage('telemetry', telemetry(sequence), 0);
@@ -68,7 +68,7 @@ describe('RobotSession', () => {
     expect(told).toHaveLength(3);
   });
 
-  test('puts pictures together, and takes any bytes for them', () => {
+  test('assembles pictures, and tolerates any bytes', () => {
     const { session, told } = bench();
     const chunk = new Uint8Array(1200);
     const header = {
@@ -96,7 +96,7 @@ describe('RobotSession', () => {
     );
   });
 
-  test('ages stamps by the robot’s clock', () => {
+  test('computes the age of timestamps by the robot’s clock', () => {
     const { session } = bench();
     expect(session.ageMs(0, 0)).toBe(null);
     // 10 ms round trip, robot 1000 ms ahead.
@@ -104,7 +104,7 @@ describe('RobotSession', () => {
     expect(session.ageMs(1_105_000, 110)).toBeCloseTo(5, 6);
   });
 
-  test('whatever comes on any channel is counted, not thrown', () => {
+  test('never throws for any bytes on any channel, and counts them', () => {
     const { session } = bench();
     fc.assert(
       fc.property(

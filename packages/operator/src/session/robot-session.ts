@@ -1,4 +1,4 @@
-/** What the robot has told on its channels in this session. Takes bytes and the time; no channel, no clock. */
+/** What the robot has sent on its channels in this session. Takes bytes and the time; no channel and no clock here. */
 import {
   ageOfStampMs,
   type Cameras,
@@ -25,7 +25,7 @@ import {
 } from '@farpoint/protocol';
 import { Readings } from './readings.ts';
 
-/** Channels by which the robot speaks. */
+/** Channels on which the robot sends. */
 export type RobotChannel = 'session' | 'telemetry' | 'control' | 'pictures';
 
 export interface RobotSessionEvents {
@@ -35,47 +35,47 @@ export interface RobotSessionEvents {
   onEstop(estop: EstopState): void;
   onLatencyFrame(frame: LatencyFrame): void;
   onTelemetry(telemetry: Telemetry): void;
-  /** The newest of its topic. */
+  /** A reading that is the newest of its topic. */
   onReading(reading: Reading): void;
-  /** What coded packets are decoded with. */
+  /** The header with which a stream's coded packets are decoded. */
   onCloudStream(stream: CloudStream): void;
-  /** The cameras whose pictures can be asked for. */
+  /** The cameras whose pictures can be requested. */
   onCameras(cameras: Cameras['cameras']): void;
-  /** The sensors whose clouds can be had; told by robots that have more than one. */
+  /** The sensors whose clouds can be requested; sent by robots that have more than one. */
   onSensors(sensors: Sensors['sensors']): void;
   onPicture(picture: WholePicture, nowMs: number): void;
-  /** The robot could not use a message of ours. */
+  /** The robot could not use a message from this client. */
   onRobotFault(message: string): void;
 }
 
-/** What the robot has told in this session. {@link RobotLink} makes one for each session. */
+/** What the robot has sent in this session. {@link RobotLink} creates one for each session. */
 export class RobotSession {
-  /** The robot's first message; `null` until it has come. */
+  /** The robot's first message; `null` until it arrives. */
   welcome: Welcome | null = null;
   /** Who drives. */
   lease: LeaseState = { type: 'lease', holder: 'nobody' };
   /** Whether the emergency stop is latched. */
   estop: EstopState = { type: 'estop', latched: false };
-  /** What the robot measured last; `null` before its first telemetry. */
+  /** The robot's latest telemetry; `null` before the first. */
   telemetry: Telemetry | null = null;
-  /** What the robot's sensors and topics say. */
+  /** Readings of the robot's sensors and topics. */
   readonly readings = new Readings();
-  /** Puts the cameras' pictures together from their messages. */
+  /** Assembles the cameras' pictures from their messages. */
   readonly pictures = new PictureAssembler();
   /** Estimate of the robot's clock. */
   readonly clock = new ClockOffset();
-  /** Messages that are not of the protocol and were left out. */
+  /** Number of messages that do not conform to the protocol and were ignored. */
   malformed = 0;
   #probeId = 0;
   readonly #events: RobotSessionEvents;
 
-  /** @param events told of each message */
+  /** @param events called for each message */
   constructor(events: RobotSessionEvents) {
     this.#events = events;
   }
 
   /**
-   * Takes a message of the robot. One that is not of the protocol is counted and left out.
+   * Takes a message from the robot. One that does not conform to the protocol is counted and ignored.
    *
    * @param nowMs when it arrived, `performance.now()`
    */
@@ -98,7 +98,7 @@ export class RobotSession {
   }
 
   /**
-   * How long ago a stamp of the robot's clock was, ms; `null` until its clock is known.
+   * The age of a timestamp of the robot's clock, ms; `null` until its clock is known.
    *
    * @param stampUs of the robot's monotonic clock, µs, modulo 2³²
    * @param nowMs `performance.now()`
@@ -160,7 +160,7 @@ export class RobotSession {
       if (this.readings.take(telemetry, nowMs)) this.#events.onReading(telemetry);
       return;
     }
-    // Unordered: an older one that comes later tells nothing.
+    // The channel is unordered: ignore telemetry that was overtaken.
     if (this.telemetry !== null && sequenceDelta32(telemetry.sequence, this.telemetry.sequence) <= 0) return;
     this.telemetry = telemetry;
     this.#events.onTelemetry(telemetry);

@@ -26,7 +26,7 @@ class Bench {
     () => 0.5,
   );
 
-  /** The service and the robot are here, the robot is wanted. */
+  /** The service and the robot are available, and the robot is wanted. */
   wanted(): this {
     this.keeper.onSignaling(true, this.now);
     this.keeper.want('rover', HERE, this.now);
@@ -54,7 +54,7 @@ class Bench {
 }
 
 describe('SessionKeeper', () => {
-  test('opens a session once the service and the robot are here', () => {
+  test('opens a session once the service and the robot are available', () => {
     const bench = new Bench();
     bench.keeper.want('rover', [], 0);
     bench.keeper.onSignaling(true, 0);
@@ -86,7 +86,7 @@ describe('SessionKeeper', () => {
     expect(bench.drops).toBe(0);
   });
 
-  test('an outage of the path: the robot is asked for a new one in the same session until it is heard again', () => {
+  test('during an outage, asks for a new path in the same session until the robot is heard again', () => {
     const bench = new Bench().live();
     bench.pass(35_000);
     expect(bench.keeper.phase).toBe('live');
@@ -110,7 +110,7 @@ describe('SessionKeeper', () => {
     expect(bench.closed).toEqual(['s1']);
   });
 
-  test('signaling comes back after the path was lost: asked at once', () => {
+  test('asks for a new path at once when signaling comes back', () => {
     const bench = new Bench().live();
     bench.keeper.onSignaling(false, bench.now);
     bench.pass(10_000);
@@ -124,7 +124,7 @@ describe('SessionKeeper', () => {
     expect(bench.resumed).toHaveLength(2);
   });
 
-  test('a restarted robot does not know the session: a new one, at once', () => {
+  test('opens a new session at once if the robot has restarted and does not know the old one', () => {
     const bench = new Bench().live();
     bench.keeper.onRobots([], bench.now);
     bench.pass(4000);
@@ -137,7 +137,7 @@ describe('SessionKeeper', () => {
     expect(bench.drops).toBe(1);
   });
 
-  test('a restart quicker than the silence it takes to see it', () => {
+  test('a robot that restarts before its silence is noticed', () => {
     const bench = new Bench().live();
     bench.keeper.onClosed('s1', 'robot-left', bench.now);
     bench.pass(750);
@@ -162,7 +162,7 @@ describe('SessionKeeper', () => {
     expect(bench.requests).toHaveLength(2);
   });
 
-  test('left with the page, and wanted again when the page is back', () => {
+  test('leaving the page ends the session, and returning opens another', () => {
     const bench = new Bench().live();
     bench.keeper.want(null, HERE, bench.now);
     bench.keeper.onSignaling(false, bench.now);
@@ -173,7 +173,7 @@ describe('SessionKeeper', () => {
     expect(bench.requests).toHaveLength(2);
   });
 
-  test('a failed connection is opened again, each time later, and at once when the robot comes back', () => {
+  test('retries a failed connection at growing intervals, and at once when the robot comes back', () => {
     const bench = new Bench().live();
     const gaps: number[] = [];
     for (let i = 0; i < 5; i++) {
@@ -191,7 +191,7 @@ describe('SessionKeeper', () => {
     expect(bench.keeper.phase).toBe('opening');
   });
 
-  test('a session that does not come about is given up and tried again', () => {
+  test('gives up a session that is not established in time, and tries again', () => {
     const bench = new Bench().wanted();
     bench.keeper.onOpened('s1', 'rover');
     bench.pass(15_000);
@@ -201,7 +201,7 @@ describe('SessionKeeper', () => {
     expect(bench.requests).toHaveLength(2);
   });
 
-  test('refusals count only where they concern what is being opened', () => {
+  test('refusals count only if they concern the session that is being opened', () => {
     const bench = new Bench().wanted();
     bench.keeper.onRefused('old', bench.now);
     expect(bench.keeper.phase).toBe('opening');
@@ -212,7 +212,7 @@ describe('SessionKeeper', () => {
     expect(live.keeper.phase).toBe('live');
   });
 
-  test('signaling lost before the peers met: again when it is back', () => {
+  test('signaling lost before the peers are connected: tries again when it is back', () => {
     const bench = new Bench().wanted();
     bench.keeper.onSignaling(false, bench.now);
     expect(bench.losses).toEqual(['signaling-lost']);
@@ -222,13 +222,13 @@ describe('SessionKeeper', () => {
     expect(bench.requests).toHaveLength(2);
   });
 
-  test('a session we did not ask for is refused', () => {
+  test('refuses a session that was not requested', () => {
     const bench = new Bench().live();
     expect(bench.keeper.onOpened('other', 'rover')).toBe(false);
     expect(bench.keeper.session).toBe('s1');
   });
 
-  test('leaving closes the session and asks for no other', () => {
+  test('leaving closes the session and requests no other', () => {
     const bench = new Bench().live();
     bench.keeper.want(null, HERE, bench.now);
     bench.pass(10_000);
@@ -237,7 +237,7 @@ describe('SessionKeeper', () => {
     expect(bench.requests).toHaveLength(1);
   });
 
-  test('whatever happens, a robot that is here and answers is live in the end', () => {
+  test('after any events, the session with a robot that answers becomes live', () => {
     const anything = fc.constantFrom(
       'signaling',
       'noSignaling',

@@ -1,7 +1,7 @@
 /**
- * Keeps one media session with the wanted robot alive, without a socket, a peer connection or a clock: told what happens,
- * it decides when to open, keep, give up and open again. A session lives on while its peers hear each other, whatever
- * becomes of signaling.
+ * Keeps one media session with the wanted robot alive, without a socket, a peer connection or a clock. From the events
+ * that it is told, it decides when to open a session, keep it, give it up and open another. A session lives on while
+ * its peers hear each other, even if signaling is lost.
  */
 
 import type { RobotEndReason, RobotListing } from '@farpoint/protocol';
@@ -9,34 +9,34 @@ import { Backoff } from '@farpoint/timing';
 import { ResumePolicy } from './resume-policy.ts';
 import { lossOf, type SessionLoss } from './session-loss.ts';
 
-/** Where the session with the wanted robot stands. */
+/** The phase of the session with the wanted robot. */
 export type SessionPhase =
   /** No robot is wanted. */
   | 'none'
-  /** The wanted robot, or the signaling service, is not here. */
+  /** The wanted robot or the signaling service is not available. */
   | 'waiting'
-  /** Asked for, until the peer connection stands. */
+  /** Requested; the peer connection is not established yet. */
   | 'opening'
-  /** The peer connection stands. */
+  /** The peer connection is established. */
   | 'live';
 
 export interface SessionActions {
   requestSession(robotId: string): void;
-  /** Ask the robot to restart ICE in the session that stands. */
+  /** Ask the robot to restart ICE in the existing session. */
   resumeSession(session: string, robotId: string): void;
-  /** Tell the service; the session may already be unknown to it. */
+  /** Tell the service, to which the session may already be unknown. */
   closeSession(session: string): void;
   /** Close the peer connection, if there is one. */
   dropPeer(): void;
   onPhase(phase: SessionPhase): void;
   onLoss(loss: SessionLoss): void;
-  /** Within a live session: the path is lost (`false`), or carries again. */
+  /** Within a live session: the path is lost (`false`) or restored (`true`). */
   onPath(up: boolean): void;
 }
 
-/** From the request to a peer connection. */
+/** Time limit from the request to an established peer connection, ms. */
 const OPEN_TIMEOUT_MS = 15_000;
-/** Then the robot has given the session up too. */
+/** Silence after which the session is given up, ms: the robot has given it up by then, too. */
 const SILENCE_LIMIT_MS = 60_000;
 
 export class SessionKeeper {
@@ -71,7 +71,7 @@ export class SessionKeeper {
     return this.#listed;
   }
 
-  /** The peer connection stands, but nothing comes through. */
+  /** Whether the peer connection is established, but nothing is received. */
   get interrupted(): boolean {
     return this.#phase === 'live' && !this.#pathUp;
   }
@@ -100,7 +100,7 @@ export class SessionKeeper {
 
   onRobots(robots: readonly RobotListing[], nowMs: number): void {
     const listed = robots.some((robot) => robot.id === this.#robotId);
-    // It is back: do not let an old failure delay it.
+    // The robot is back: an old failure must not delay the next attempt.
     if (listed && !this.#listed) {
       this.#retryAtMs = 0;
       this.#backoff.reset();
@@ -110,7 +110,7 @@ export class SessionKeeper {
     this.tick(nowMs);
   }
 
-  /** The service opened a session. @returns false where it is not the one we wait for: close it */
+  /** The service opened a session. @returns false if it is not the requested one and must be closed */
   onOpened(session: string, robotId: string): boolean {
     if (this.#phase !== 'opening' || this.#session !== null || robotId !== this.#robotId) return false;
     this.#session = session;
@@ -119,15 +119,15 @@ export class SessionKeeper {
 
   onClosed(session: string, reason: RobotEndReason, nowMs: number): void {
     if (session !== this.#session) return;
-    // Only its signaling went; the peers may still hear each other.
+    // Only the robot's signaling is lost; the peers may still hear each other.
     if (reason === 'robot-left' && this.#phase === 'live') return;
     this.#lose(lossOf[reason], nowMs);
-    // It is here, and new.
+    // The robot has restarted and is available.
     if (reason === 'unknown-session') this.#retryAtMs = 0;
     this.tick(nowMs);
   }
 
-  /** The service refused a request of ours. `session` where it named one. */
+  /** The service refused a request. @param session the one that the service named, if any */
   onRefused(session: string | undefined, nowMs: number): void {
     if (this.#phase !== 'opening') return;
     if (session === undefined ? this.#session === null : session === this.#session) {
@@ -143,7 +143,7 @@ export class SessionKeeper {
     this.#enter('live');
   }
 
-  /** Any packet or message of the robot. */
+  /** A packet or message came from the robot. */
   onHeard(nowMs: number): void {
     this.#resume.onHeard(nowMs);
     if (this.#phase !== 'live') return;
@@ -156,7 +156,7 @@ export class SessionKeeper {
     this.#resume.onAnswered(nowMs);
   }
 
-  /** The browser has another network, or none. */
+  /** The browser's network has changed or is lost. */
   onNetworkChange(nowMs: number): void {
     this.#resume.onNetworkChange(nowMs);
     this.tick(nowMs);

@@ -2,35 +2,35 @@ import type { RobotEndReason } from '@farpoint/protocol';
 
 /** Why a session was given up. */
 export type SessionLoss =
-  /** No peer connection came about in time. */
+  /** No peer connection was established in time. */
   | 'not-connected'
   /** ICE, DTLS or a channel ended. */
   | 'connection-failed'
-  /** It takes no more operators. */
+  /** The robot accepts no more operators. */
   | 'robot-full'
-  /** It does not know the session any more. */
+  /** The robot no longer knows the session. */
   | 'robot-restarted'
-  /** It was shut down. */
+  /** The robot was shut down. */
   | 'robot-stopped'
-  /** It went away before the peers had met. */
+  /** The robot left the service before the peers were connected. */
   | 'robot-left'
-  /** It cannot use what this browser answered. */
+  /** The robot cannot use this browser's answer. */
   | 'bad-answer'
-  /** Somebody between the peers, or another certificate than this browser named. */
+  /** Somebody is between the peers, or the certificate is not the one that this browser named. */
   | 'unproven-peer'
-  /** Its messages piled up. */
+  /** The page did not read the robot's messages fast enough. */
   | 'not-reading'
-  /** It heard nothing of this page for long. */
+  /** The robot heard nothing from this page for too long. */
   | 'unheard'
   | 'closed-by-robot'
-  /** Nothing heard for long. */
+  /** The page heard nothing from the robot for too long. */
   | 'silent'
-  /** Before the peers had met. */
+  /** Signaling was lost before the peers were connected. */
   | 'signaling-lost'
-  /** The service would not open it. */
+  /** The service refused to open the session. */
   | 'refused';
 
-/** What a robot's reason is to the page. */
+/** Maps the robot's reason to the page's. */
 export const lossOf: Readonly<Record<RobotEndReason, SessionLoss>> = {
   'robot-full': 'robot-full',
   'bad-answer': 'bad-answer',

@@ -51,7 +51,7 @@ class Bench {
 }
 
 describe('OperatorSignaling', () => {
-  test('says hello, is welcomed, hears the list', () => {
+  test('says hello, is welcomed and receives the list', () => {
     const bench = new Bench('secret').ready();
     expect(bench.sent).toEqual([{ type: 'operator.hello', protocol: 1, name: 'Ada', token: 'secret' }]);
     expect(bench.machine.iceServers).toEqual([{ urls: 'stun:a' }]);
@@ -73,7 +73,7 @@ describe('OperatorSignaling', () => {
     expect(bench.sent.at(-1)).toEqual({ type: 'session.open', robotId: 'r' });
   });
 
-  test('comes back for ever, within a second or so, and fast again after a welcome', () => {
+  test('reconnects without end, within about a second, and fast again after a welcome', () => {
     const bench = new Bench();
     bench.machine.start();
     const waits: number[] = [];
@@ -91,7 +91,7 @@ describe('OperatorSignaling', () => {
     expect(bench.timerMs).toBe(250);
   });
 
-  test('a service that never welcomes is given up and tried again', () => {
+  test('gives up a service that sends no welcome, and tries again', () => {
     const bench = new Bench();
     bench.machine.start();
     bench.machine.onOpen();
@@ -101,10 +101,10 @@ describe('OperatorSignaling', () => {
     expect(bench.machine.state).toBe('waiting');
   });
 
-  test('a line on which a question gets no answer is dead', () => {
+  test('reconnects if a request gets no answer', () => {
     const bench = new Bench().ready();
     const question = { type: 'session.resume', session: 's', robotId: 'r', resumeKey: 'k' } as const;
-    // The timer of the welcome says nothing any more.
+    // The timer of the welcome has no effect any more.
     bench.machine.onTimer();
     expect(bench.machine.state).toBe('ready');
     bench.machine.ask(question);
@@ -118,7 +118,7 @@ describe('OperatorSignaling', () => {
     expect(bench.calls).toEqual(['open', 'close', 'open']);
   });
 
-  test('a refused token is told, and tried again slowly or when asked', () => {
+  test('reports a refused token, and tries again slowly or on request', () => {
     const bench = new Bench('wrong');
     bench.machine.start();
     bench.machine.onOpen();
@@ -131,7 +131,7 @@ describe('OperatorSignaling', () => {
     expect(bench.machine.state).toBe('connecting');
   });
 
-  test('stopped is stopped', () => {
+  test('does nothing after it is stopped', () => {
     const bench = new Bench().ready();
     bench.machine.stop();
     bench.machine.onClose();
@@ -140,7 +140,7 @@ describe('OperatorSignaling', () => {
     expect(bench.calls).toEqual(['open', 'close']);
   });
 
-  test('whatever comes over the socket, nothing is thrown', () => {
+  test('never throws for anything received over the socket', () => {
     const bench = new Bench().ready();
     fc.assert(
       fc.property(fc.oneof(fc.string(), fc.json()), (text) => {

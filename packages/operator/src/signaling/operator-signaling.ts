@@ -1,6 +1,6 @@
 /**
- * The operator's side of Farpoint's signaling, without a socket or a clock: what comes in are events, what goes out are
- * calls on the port. Reconnects for ever.
+ * The operator's side of Farpoint's signaling, without a socket or a clock: inputs are events, outputs are calls on the
+ * port. Reconnects without end.
  */
 
 import {
@@ -22,7 +22,7 @@ import type { SignalingState } from './signaling-state.ts';
 
 /** The socket and the timer. */
 export interface SignalingPort {
-  /** Opens a new socket; the machine has at most one. */
+  /** Opens a new socket; there is at most one. */
   open(): void;
   send(text: string): void;
   close(): void;
@@ -35,7 +35,7 @@ export interface SignalingEvents {
   onRobots(robots: readonly RobotListing[]): void;
   /** Every message about sessions, and errors. */
   onSession(message: SessionSignal): void;
-  /** The service said something that is not of this protocol. */
+  /** The service sent something that does not conform to the protocol. */
   onFault(error: ProtocolError): void;
 }
 
@@ -45,7 +45,7 @@ export type SessionSignal = Exclude<
 >;
 
 const REFUSED_RETRY_MS = 30_000;
-/** A question that the service answers by itself: without an answer by then the line is dead, ms. */
+/** Time limit for answers that the service gives by itself, ms; after it the connection counts as dead. */
 const ANSWER_TIMEOUT_MS = 2000;
 
 export class OperatorSignaling {
@@ -76,7 +76,7 @@ export class OperatorSignaling {
     return this.#state;
   }
 
-  /** What the service handed out at the last welcome. */
+  /** The ICE servers of the service's latest welcome. */
   get iceServers(): readonly IceServer[] {
     return this.#iceServers;
   }
@@ -98,7 +98,7 @@ export class OperatorSignaling {
     return true;
   }
 
-  /** Sends what the service answers at once. A line that stays silent then is given up, and made anew. */
+  /** Sends a request that the service answers at once. Without an answer, reconnects. @returns as {@link send} */
   ask(message: OperatorToService): boolean {
     if (!this.send(message)) return false;
     if (!this.#answerDue) this.#port.setTimer(ANSWER_TIMEOUT_MS);
@@ -118,7 +118,7 @@ export class OperatorSignaling {
     this.#port.send(encodeJson(operatorToServiceCodec, hello));
   }
 
-  /** The socket is gone, whoever closed it. */
+  /** The socket was closed, by either side. */
   onClose(): void {
     if (this.#state !== 'connecting' && this.#state !== 'ready') return;
     this.#enter('waiting');
@@ -138,7 +138,7 @@ export class OperatorSignaling {
     }
   }
 
-  /** The network came back, or the person asks: do not wait any longer. */
+  /** The network came back, or the user asks: reconnects without waiting. */
   retryNow(): void {
     if (this.#state === 'waiting' || this.#state === 'refused') this.#connect();
   }

@@ -1,10 +1,10 @@
-/** The connection to the signaling service. */
+/** The state of the connection to the signaling service. */
 export type SignalingState =
   | 'connecting'
   /** Welcomed: sessions can be opened. */
   | 'ready'
-  /** Unreachable; tries again by itself. */
+  /** Unreachable; reconnects automatically. */
   | 'waiting'
-  /** The token is wrong or missing; tries again slowly, in case the service's configuration is the fault. */
+  /** The token is wrong or missing. Tries again slowly, in case the service's configuration is wrong. */
   | 'refused'
   | 'stopped';

@@ -1,4 +1,4 @@
-/** The WebSocket address of a signaling service's endpoint for operators, or why a text is none. */
+/** The WebSocket address of a signaling service's endpoint for operators, or why a text is not one. */
 export type SignalingAddress =
   | {
       /** The whole address. */
@@ -10,8 +10,8 @@ export type SignalingAddress =
     };
 
 /**
- * Reads the address of a signaling service: accepts `host`, `host:port`, http, https, ws and wss addresses, and adds what is
- * missing.
+ * Reads the address of a signaling service: accepts `host`, `host:port`, http, https, ws and wss addresses, and adds
+ * what is missing.
  *
  * @param text as a person wrote it
  * @param securePage whether the page was served by https: it may use `wss:` only, except on the loopback interface

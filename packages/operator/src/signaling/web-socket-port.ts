@@ -18,12 +18,12 @@ export class WebSocketPort implements SignalingPort {
     try {
       socket = new WebSocket(this.#url);
     } catch {
-      // An address that is none, or ws: from an https: page.
+      // Not a valid address, or ws: from an https: page.
       queueMicrotask(() => this.#machine().onClose());
       return;
     }
     this.#socket = socket;
-    // Events of a socket that was replaced meanwhile concern nobody.
+    // Ignore events of a socket that has been replaced.
     const current = (act: () => void) => () => {
       if (this.#socket === socket) act();
     };

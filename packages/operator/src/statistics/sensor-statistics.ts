@@ -7,9 +7,9 @@ import type { Distribution } from '../latency/sample-window.ts';
 export interface SensorStats {
   /** The sensor's number. */
   sensor: number;
-  /** Frames of which some point was drawn. */
+  /** Frames of which at least one point was drawn. */
   frames: number;
-  /** Points that came in the packets that were drawn. */
+  /** Points received in the packets that were drawn. */
   points: number;
   /** Packets that were drawn. */
   packets: number;
@@ -25,7 +25,7 @@ export class SensorStatistics {
   #points = 0;
   #packets = 0;
 
-  /** @param ageOf how long ago a stamp of the robot's clock was, ms */
+  /** @param ageOf the age of a timestamp of the robot's clock, ms */
   constructor(ageOf: AgeOfStamp) {
     this.#latency = new FrameLatency(ageOf);
   }
@@ -35,7 +35,7 @@ export class SensorStatistics {
     return this.#latency.distribution;
   }
 
-  /** The distribution begins anew; the sums go on. */
+  /** Restarts the latency distribution; the totals continue. */
   resetDistribution(): void {
     this.#latency.reset();
   }

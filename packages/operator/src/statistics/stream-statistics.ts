@@ -1,4 +1,4 @@
-/** What is counted and measured about the stream, from the network to the display. Time is an argument. */
+/** Statistics of the stream, from the network to the display. Time is an argument. */
 
 import type { ClockOffset } from '@farpoint/protocol';
 import { BitRate, RateMeter } from '@farpoint/timing';
@@ -10,7 +10,7 @@ import type { LatencyResult } from '../latency/latency-test.ts';
 import { type Distribution, SampleWindow } from '../latency/sample-window.ts';
 import { SensorStatistics, type SensorStats } from './sensor-statistics.ts';
 
-/** Times in ms, rates a second. */
+/** Statistics of the stream. Times are in ms, rates per second. */
 export interface StreamStats {
   /** Packets that arrived since the session began. */
   packetsReceived: number;
@@ -36,7 +36,7 @@ export interface StreamStats {
   mtpMs: Distribution | null;
   /** Motion to photon: until the first points of the green cloud were drawn. */
   mtpFirstMs: Distribution | null;
-  /** Mean µs the worker spent on a packet. */
+  /** Mean time that the worker spent on a packet, µs. */
   decodeUs: number;
   /** What was drawn of each sensor, by number. */
   sensors: SensorStats[];
@@ -54,13 +54,13 @@ export class StreamStatistics {
   readonly #bytes = new RateMeter();
   readonly #lost = new RateMeter(LOSS_WINDOW_MS);
   readonly #received = new RateMeter(LOSS_WINDOW_MS);
-  /** By sensor number; made at a sensor's first packet. */
+  /** Indexed by sensor number; created at a sensor's first packet. */
   readonly #sensors: SensorStatistics[] = [];
   #report: IntakeReport | null = null;
-  /** Latency tests, the oldest forgotten. */
+  /** The latest latency tests. */
   readonly results: LatencyResult[] = [];
 
-  /** @param ageOf how long ago a stamp of the robot's clock was, ms */
+  /** @param ageOf the age of a timestamp of the robot's clock, ms */
   constructor(ageOf: AgeOfStamp) {
     this.#ageOf = ageOf;
   }
@@ -73,7 +73,7 @@ export class StreamStatistics {
     this.#sensors.length = 0;
   }
 
-  /** Distributions begin anew. */
+  /** Restarts the latency distributions. */
   resetDistributions(): void {
     this.#delivery.clear();
     for (const sensor of this.#sensors) sensor.resetDistribution();
@@ -81,7 +81,7 @@ export class StreamStatistics {
     this.#mtpFirst.clear();
   }
 
-  /** The cloud worker reported its sums. */
+  /** The cloud worker reported its totals. */
   onReport(report: IntakeReport): void {
     this.#report = report;
   }
@@ -92,7 +92,7 @@ export class StreamStatistics {
    * @param packet index in the batch
    */
   onUploaded(batch: Batch, packet: number): void {
-    // No gaps: every sensor up to the highest has statistics.
+    // Leave no gaps: every sensor up to the highest number has statistics.
     while (this.#sensors.length <= batch.sensor) this.#sensors.push(new SensorStatistics(this.#ageOf));
     this.#sensors[batch.sensor]?.onUploaded(batch, packet);
     if (batch.sensor !== 0) return;
@@ -130,9 +130,9 @@ export class StreamStatistics {
   }
 
   /**
-   * Everything as it is now.
+   * All statistics as they are now.
    *
-   * @param clock tells the round trips
+   * @param clock knows the round trips
    */
   snapshot(clock: Pick<ClockOffset, 'lastRttMs' | 'minRttMs'>): StreamStats {
     const lost = this.#lost.perSecond;
