@@ -20,7 +20,7 @@ test('the robot stops by itself when the browser that drives it is killed', asyn
     const driver = await OperatorPage.open(await browser.newPage(), stack, { robot: 'sim-1' });
     await driver.expectPoints();
     await driver.holdForward();
-    await watcher.expectMovedFrom(start, 0.3);
+    await watcher.expectMovedFrom(start, 0.3, driver);
     await server.kill();
     // From here on, no command can arrive.
     const atKill = await watcher.body();
