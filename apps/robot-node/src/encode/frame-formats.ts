@@ -1,10 +1,12 @@
+import { MAX_POINT_DATA_BYTES } from '@farpoint/protocol';
 import type { Codec } from '@farpoint/wasm-codec';
 import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/frame-source.ts';
 import type { CaptureBudget } from './capture-budget.ts';
 import { CodedFrameEncoder, type CodedStream } from './coded-frame-encoder.ts';
 import type { EncodedFrame, EncoderOptions, PacketSource } from './encoded-frame.ts';
-import type { CodedFormat, FramePlanner, PlanInput } from './plan.ts';
+import type { CodedFormat, CodedPlan, FramePlanner, PlanInput } from './plan.ts';
 import { Points64FrameEncoder } from './points64-frame-encoder.ts';
+import { UsefulRate } from './useful-rate.ts';
 
 /** The operators that a frame is for: those who read a coded format, those who do not, or everyone. */
 export type FrameAudience = 'everyone' | { readers: CodedFormat } | { others: CodedFormat };
@@ -36,6 +38,7 @@ export interface FormattedFrames {
 /** Encodes a frame once for each format that somebody reads. */
 export class FrameFormats {
   readonly #planner: FramePlanner;
+  readonly #useful = new UsefulRate();
   readonly #points64: Points64FrameEncoder;
   readonly #makeCoded: () => CodedFrameEncoder;
   /** Created when first needed, because it takes megabytes of memory. */
@@ -94,7 +97,13 @@ export class FrameFormats {
       const encoded = this.#points64.encode(frame, frameNumber, points, latencyTest);
       frames.push({ encoded, audience: { others: format }, packets: this.#points64 });
     }
-    const usefulBitsPerSecond = this.#planner.usefulBitsPerSecond(format, input);
+    const usefulBitsPerSecond = this.#useful.update({
+      wireBits: this.#planner.wireBits(formatted.encoded.packets, input),
+      budgetBits: this.#planner.wireBits(coded.budgetBytes / MAX_POINT_DATA_BYTES, input),
+      limited: coded.budgetBytes < Math.floor(this.#planner.enoughBytes(format, rawPoints)),
+      framesPerSecond,
+      mostBitsPerSecond: this.#planner.usefulBitsPerSecond(format, input),
+    });
     return { intervalMs: 1000 / framesPerSecond, usefulBitsPerSecond, frames };
   }
 
@@ -103,7 +112,7 @@ export class FrameFormats {
     frame: SourceFrame,
     { frameNumber, budget, latencyTest }: FormatRequest,
     input: PlanInput,
-  ): { formatted: FormattedFrame; format: CodedFormat; framesPerSecond: number } | null {
+  ): ({ formatted: FormattedFrame; format: CodedFormat } & CodedPlan) | null {
     if (budget.coded.length === 0) return null;
     this.#coded ??= this.#makeCoded();
     const allowed = budget.coded.map(({ format }) => format);
@@ -115,6 +124,6 @@ export class FrameFormats {
     if (encoded === null) return null;
     const format = encoded.format as CodedFormat;
     const formatted: FormattedFrame = { encoded, audience: { readers: format }, packets: this.#coded };
-    return { formatted, format, framesPerSecond: plan.framesPerSecond };
+    return { formatted, format, ...plan };
   }
 }

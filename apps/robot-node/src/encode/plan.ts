@@ -163,7 +163,7 @@ export class FramePlanner {
     const dataShare = MAX_POINT_DATA_BYTES / wireBytes;
     const bitsPerSecond = input.targetBitsPerSecond * dataShare;
     const framesPerSecond = this.#chooseFrameRate(bitsPerSecond / need.whole, rawPoints, input, rawPoints);
-    const enough = bytesOfBits(rawPoints * need.enough);
+    const enough = this.enoughBytes(format, rawPoints);
     const afforded = Math.min(BitRate.toBytesPerSecond(bitsPerSecond) / framesPerSecond, enough);
     const probed = Math.min(
       input.probeBytes * dataShare * CODED_SLACK,
@@ -173,6 +173,16 @@ export class FramePlanner {
       framesPerSecond,
       budgetBytes: Math.floor(Math.max(afforded, probed, MAX_POINT_DATA_BYTES)),
     };
+  }
+
+  /** What so many packets' worth of data takes on the wire, all headers counted, bits. */
+  wireBits(packets: number, { overheadBytes }: PlanInput): number {
+    return bitsOfBytes(packets * wireBytesOfPacket(overheadBytes));
+  }
+
+  /** The most data that a coded frame like this one can use, bytes. */
+  enoughBytes(format: CodedFormat, rawPoints: number): number {
+    return bytesOfBits(rawPoints * CODED_NEEDS[format].enough);
   }
 
   /** The highest bit rate that frames like this one can use, all headers counted, bit/s. */
