@@ -56,19 +56,6 @@ const steps: Step[] = [
     run: () => runQuietly('pnpm', ['run', 'typecheck']),
   },
   {
-    name: 'pure',
-    what: 'unit tests without processes, threads or sockets (vitest)',
-    run: () => runVitest('pure'),
-  },
-  {
-    name: 'rust',
-    what: 'Rust: committed WASM is fresh, rebuilds from source, format, clippy, tests',
-    run: async () => {
-      const result = await testRust(say);
-      return { ...result, tally: tallyCargo(result.output) };
-    },
-  },
-  {
     name: 'native',
     what: 'native addons build from source (node-gyp)',
     run: async () => {
@@ -87,6 +74,19 @@ const steps: Step[] = [
       await ensureNumpy(say);
       if (dds.buildAddon().ok) await ensureDdsPeers(say);
       return left.length === 0 ? { ok: true } : { ok: true, skipped: left.join('; ') };
+    },
+  },
+  {
+    name: 'pure',
+    what: 'unit tests without processes, threads or sockets (vitest)',
+    run: () => runVitest('pure'),
+  },
+  {
+    name: 'rust',
+    what: 'Rust: committed WASM is fresh, rebuilds from source, format, clippy, tests',
+    run: async () => {
+      const result = await testRust(say);
+      return { ...result, tally: tallyCargo(result.output) };
     },
   },
   {

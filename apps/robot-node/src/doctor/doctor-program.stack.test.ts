@@ -68,7 +68,7 @@ describe('the doctor’s program', () => {
         { verdict: 'ok', detail: expect.stringMatching(/^sim, 64 × 64: [\d.]+ frames/) as string },
       ]);
       expect(of(report, 'clock').map(({ verdict }) => verdict)).toEqual(['ok', 'ok']);
-      if (turn !== null) expect(of(report, 'STUN and TURN')[0]?.detail).toMatch(/ lends /);
+      if (turn !== null) expect(of(report, 'STUN and TURN')[0]?.detail).toMatch(/ allocates /);
     } finally {
       await stack.stop();
       await turn?.stop();
