@@ -200,6 +200,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'npx -y pnpm@12 bench link --trace FILE.csv --seconds 60 --json': MEASURES,
   'npx -y pnpm@12 bench link --rate-mbps 20 --cross cubic --seconds 40': MEASURES,
   'npx -y pnpm@12 bench link --mode auto': MEASURES,
+  'npx -y pnpm@12 bench link --mode auto --sensors 2': MEASURES,
   'npx -y pnpm@12 bench repair': MEASURES,
   'npx -y pnpm@12 bench repair --robot="--mode points64 --fps 15 --rate-control fixed --bitrate-mbps 8"': {
     because: 'measures for minutes',
