@@ -1,4 +1,4 @@
-import { Gauge, type Registry } from 'prom-client';
+import { PulledMetrics, type Registry } from '@farpoint/service';
 import type { Bridge } from './bridge.ts';
 
 export function registerBridgeMetrics(registry: Registry, bridge: Bridge): void {
@@ -35,14 +35,6 @@ export function registerBridgeMetrics(registry: Registry, bridge: Bridge): void 
     messages_refused_total: ['unreadable messages from pages', () => bridge.messagesRefused],
     commands_dropped_total: ['commands for a robot that could not take them', () => bridge.commandsDropped],
   };
-  for (const [name, [help, value]] of Object.entries(gauges)) {
-    new Gauge({
-      name: `farpoint_bridge_${name}`,
-      help,
-      registers: [registry],
-      collect() {
-        this.set(value());
-      },
-    });
-  }
+  const metrics = new PulledMetrics(registry, 'farpoint_bridge');
+  for (const [name, [help, value]] of Object.entries(gauges)) metrics.gauge(name, help, value);
 }
