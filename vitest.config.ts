@@ -32,6 +32,8 @@ export default defineConfig({
           include: [STACK],
           exclude: NOT_OURS,
           setupFiles: ['scripts/lib/test-setup.ts'],
+          // These tests mostly wait for a process or a timer, so one file per core leaves none idle.
+          maxWorkers: '100%',
         },
       },
     ],

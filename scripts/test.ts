@@ -12,6 +12,7 @@ import { ensureCycloneDds, ensureDdsPeers } from './lib/ensure-dds.ts';
 import { ensureFirefox } from './lib/ensure-firefox.ts';
 import { ensureNumpy } from './lib/ensure-numpy.ts';
 import { ensureTurnServer } from './lib/ensure-turn-server.ts';
+import { failuresOf } from './lib/failures.ts';
 import { run } from './lib/run.ts';
 import { addTallies, emptyTally, type Tally, tallyCargo, tallyPlaywright, tallyVitest } from './lib/tally.ts';
 import { testRust } from './lib/test-rust.ts';
@@ -22,6 +23,8 @@ interface StepResult {
   skipped?: string;
   tally?: Tally;
   output?: string;
+  /** Whether `output` was on the screen while the step ran. */
+  echoed?: boolean;
 }
 
 interface Step {
@@ -39,13 +42,13 @@ async function runQuietly(program: string, args: string[]): Promise<StepResult> 
 
 async function runVitest(project: 'pure' | 'stack'): Promise<StepResult> {
   const { code, output } = await run('vitest', ['run', '--project', project], { echo: true });
-  return { ok: code === 0, tally: tallyVitest(output) };
+  return { ok: code === 0, tally: tallyVitest(output), output, echoed: true };
 }
 
 async function runPlaywright(project: 'chromium' | 'firefox'): Promise<StepResult> {
   const args = ['--dir', 'e2e', 'exec', 'playwright', 'test', '--project', project];
   const { code, output } = await run('pnpm', args, { echo: true });
-  return { ok: code === 0, tally: tallyPlaywright(output) };
+  return { ok: code === 0, tally: tallyPlaywright(output), output, echoed: true };
 }
 
 const steps: Step[] = [
@@ -145,8 +148,10 @@ for (const [index, step] of chosen.entries()) {
   const seconds = ((performance.now() - started) / 1000).toFixed(1);
   if (result.tally !== undefined) total = addTallies(total, result.tally);
   if (!result.ok) {
-    if (result.output !== undefined) console.log(result.output);
-    faults.push(`${step.name}: failed`);
+    if (result.output !== undefined && !result.echoed) console.log(result.output);
+    // Said again below: a reader of a long log looks at its end first.
+    const failures = result.output === undefined ? '' : `\n${failuresOf(result.output)}`;
+    faults.push(`${step.name}: failed${failures}`);
     console.log(`  ✗ failed after ${seconds} s`);
   } else if (result.skipped !== undefined) {
     console.log(`  – partly skipped: ${result.skipped}`);
@@ -158,7 +163,7 @@ for (const [index, step] of chosen.entries()) {
 
 // A step that fails without a failing test (a lint, a build) counts as one failure.
 const failed = Math.max(total.failed, faults.length);
-for (const fault of faults) console.log(fault);
+for (const fault of faults) console.log(`\n${fault}`);
 if (only?.join() === 'pure' && faults.length === 0) {
   console.log(
     'next: pnpm test --only lint,types,stack, then pnpm test for everything; one package: see CONTRIBUTING.md',

@@ -1,17 +1,22 @@
 /**
- * Keeps the tests of the project `pure` pure: starting a process or a thread, or opening a socket, throws. A test
- * that needs one belongs in a file named `*.stack.test.ts`.
+ * Keeps the tests of the project `pure` pure: starting a process or a thread, or opening a socket, throws, and fails
+ * the test even if the code under test catches that. A test that needs one belongs in a file named
+ * `*.stack.test.ts`.
  */
 import childProcess from 'node:child_process';
 import dgram from 'node:dgram';
 import { syncBuiltinESMExports } from 'node:module';
 import net from 'node:net';
 import workerThreads from 'node:worker_threads';
+import { afterEach } from 'vitest';
+
+let refusal: Error | null = null;
 
 function refuse(what: string): () => never {
   // A plain function, because `Worker` is called with `new`.
   return function refused(): never {
-    throw new Error(`a pure test may not ${what}: name the file *.stack.test.ts`);
+    refusal = new Error(`a pure test may not ${what}: name the file *.stack.test.ts`);
+    throw refusal;
   };
 }
 
@@ -32,3 +37,9 @@ Object.assign(net.Server.prototype, { listen: openSocket });
 Object.assign(net.Socket.prototype, { connect: openSocket });
 Object.assign(dgram.Socket.prototype, { bind: openSocket, connect: openSocket, send: openSocket });
 syncBuiltinESMExports();
+
+afterEach(() => {
+  const refused = refusal;
+  refusal = null;
+  if (refused !== null) throw refused;
+});
