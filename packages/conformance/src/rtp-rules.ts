@@ -57,8 +57,7 @@ export class RtpStreamRules {
     if (view.getUint8(16) !== 0x11 || view.getUint8(19) !== 0)
       this.#find('extension-element', `0x${view.getUint32(16).toString(16)}`);
     const sequence = view.getUint16(2);
-    if (this.#lastSequence !== null && ((sequence - this.#lastSequence) & 0xffff) === 0)
-      this.#find('sequence', `${sequence} twice`);
+    if (sequence === this.#lastSequence) this.#find('sequence', `${sequence} twice`);
     this.#lastSequence = sequence;
   }
 
