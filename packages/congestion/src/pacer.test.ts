@@ -128,7 +128,7 @@ describe('a full queue', () => {
     expect(pacer.enqueue(frame(2, 2), 0)).toEqual([]);
     expect(pacer.enqueue(frame(3, 2), 0)).toEqual([{ frame: frame(2, 2), reason: 'superseded', packets: 2 }]);
     expect(drain(pacer, 0).map(([id]) => id)).toEqual([1, 3, 3]);
-    expect(pacer.drops).toEqual({ superseded: 1, overdue: 0, cleared: 0 });
+    expect(pacer.drops).toEqual({ superseded: 1, overdue: 0, undecodable: 0, cleared: 0 });
   });
 
   test('a frame whose first packet must still wait has not begun', () => {
@@ -252,5 +252,52 @@ describe('lanes', () => {
     pacer.enqueue(inLane(4, 3, 0), 10);
     expect(pacer.clear()).toHaveLength(2);
     expect(pacer.nextDueMs).toBeNull();
+  });
+});
+
+describe('frames that need the one before', () => {
+  const video = (id: number, key = false): NumberedFrame => ({
+    ...frame(id, 10),
+    ...{ lane: -1, maxWaitingFrames: 3, maxSpanMs: 50, needsPrevious: !key },
+  });
+
+  test('wait for their turn in order', () => {
+    const pacer = exact(10 * MBIT);
+    for (const id of [1, 2, 3]) expect(pacer.enqueue(video(id), 0)).toEqual([]);
+    expect(drain(pacer, 0).map(([id]) => id)).toEqual([1, 2, 3].flatMap((id) => new Array(10).fill(id)));
+  });
+
+  test('are dropped with it, up to the next that needs none', () => {
+    const pacer = exact(10 * MBIT);
+    for (const id of [1, 2]) pacer.enqueue(video(id), 0);
+    pacer.enqueue(video(3, true), 0);
+    const dropped = pacer.enqueue(video(4), 0);
+    expect(dropped.map(({ frame: { id }, reason }) => [id, reason])).toEqual([
+      [1, 'superseded'],
+      [2, 'undecodable'],
+    ]);
+    expect(drain(pacer, 0).map(([id]) => id)).toEqual([3, 4].flatMap((id) => new Array(10).fill(id)));
+    expect(pacer.drops).toEqual({ superseded: 1, overdue: 0, undecodable: 1, cleared: 0 });
+  });
+
+  test('are dropped with one that was cut off, the new one included', () => {
+    const pacer = exact(MBIT);
+    pacer.enqueue(video(1, true), 0);
+    pacer.due(0);
+    pacer.enqueue(video(2), 10);
+    const dropped = pacer.enqueue(video(3), 60);
+    expect(dropped.map(({ frame: { id }, reason }) => [id, reason])).toEqual([
+      [1, 'overdue'],
+      [2, 'undecodable'],
+      [3, 'undecodable'],
+    ]);
+    expect(pacer.nextDueMs).toBeNull();
+  });
+
+  test('leave other lanes alone', () => {
+    const pacer = exact(MBIT);
+    pacer.enqueue({ ...frame(7, 2), lane: 0 }, 0);
+    for (const id of [1, 2, 3, 4]) pacer.enqueue(video(id), 0);
+    expect(drain(pacer, 0).map(([id]) => id)).toEqual([7, 7]);
   });
 });

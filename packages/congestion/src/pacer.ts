@@ -10,6 +10,10 @@ export interface PacedFrame {
   minSpanMs?: number;
   /** In progress for this long, ms, the frame gives way to a newer one; the pacer's `maxFrameMs` if absent. */
   maxSpanMs?: number;
+  /** The receiver can use the frame only with the one before it in its lane. */
+  needsPrevious?: boolean;
+  /** How many frames of its lane may wait to be begun; the pacer's `maxWaitingFrames` if absent. */
+  maxWaitingFrames?: number;
   /** Lower lanes go first; 0 if absent. */
   lane?: number;
 }
@@ -18,6 +22,7 @@ export interface PacedFrame {
 export type FrameDropReason =
   | 'superseded' // a newer frame came before this one was begun
   | 'overdue' // begun, but it has taken too long and a newer frame is waiting
+  | 'undecodable' // a frame that this one needs was dropped
   | 'cleared'; // the stream was stopped
 
 export interface DroppedFrame<T extends PacedFrame> {
@@ -81,7 +86,9 @@ export class PacketPacer<T extends PacedFrame> {
   readonly #options: Required<PacerOptions>;
   /** In order of lane number. */
   readonly #lanes: Lane<T>[] = [];
-  readonly #drops: Record<FrameDropReason, number> = { superseded: 0, overdue: 0, cleared: 0 };
+  readonly #drops: Record<FrameDropReason, number> = {
+    ...{ superseded: 0, overdue: 0, undecodable: 0, cleared: 0 },
+  };
   #bitsPerSecond: number;
   /** The next packet must not be sent before this time. */
   #nextMs = Number.NEGATIVE_INFINITY;
@@ -118,9 +125,16 @@ export class PacketPacer<T extends PacedFrame> {
       lane.current = null;
     }
     waiting.push({ frame, sinceMs: nowMs });
-    while (waiting.length > this.#options.maxWaitingFrames) {
+    const most = frame.maxWaitingFrames ?? this.#options.maxWaitingFrames;
+    while (waiting.length > most) {
       const oldest = (waiting.shift() as { frame: T }).frame;
       dropped.push(this.#dropped(oldest, 'superseded', oldest.packets));
+    }
+    if (dropped.length > 0) {
+      for (let next = waiting[0]; next?.frame.needsPrevious === true; next = waiting[0]) {
+        waiting.shift();
+        dropped.push(this.#dropped(next.frame, 'undecodable', next.frame.packets));
+      }
     }
     return dropped;
   }

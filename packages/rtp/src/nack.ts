@@ -12,7 +12,7 @@ export type NackFault = 'not-nack' | 'truncated' | 'bad-length';
 
 /**
  * Reads one RTCP packet: header, SSRC of sender and media source, then any number of u16 PID (a sequence number) and
- * u16 BLP (bit i: sequence number PID + i + 1 is missing too).
+ * u16 BLP (bit i: sequence number PID + i + 1 is missing too). `mediaSsrcOf` (feedback-header.ts) says of which stream.
  *
  * @param onMissing called with each missing sequence number, 16 bits
  * @returns why the packet cannot be read, in which case `onMissing` is not called; `null` if it is valid

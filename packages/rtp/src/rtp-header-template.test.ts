@@ -27,6 +27,30 @@ test('the reader reads back what it writes, packet after packet', () => {
   expect(String.fromCharCode(...template.bytes)).toContain('cloud');
 });
 
+test('carries the capture time beside the other extensions', () => {
+  const ids = { midExtensionId: 1, transportSequenceExtensionId: 2, captureTimeExtensionId: 3 };
+  const template = new RtpHeaderTemplate({ payloadType: 96, ssrc: 1, mid: '12', ...ids });
+  expect(template.hasCaptureTime).toBe(true);
+  template.patchCaptureTime(0xe0000001, 0x80000000);
+  template.patch(true, 7, 9, 0x0102);
+  // Three words of header, one of the extension's, then the elements in 15 bytes, padded to 16.
+  expect([...template.bytes.subarray(12)]).toEqual([
+    ...[0xbe, 0xde, 0, 4],
+    ...[0x21, 0x01, 0x02],
+    ...[0x11, 0x31, 0x32],
+    ...[0x37, 0xe0, 0, 0, 1, 0x80, 0, 0, 0],
+    0,
+  ]);
+});
+
+test('without the capture time’s extension, a time changes nothing', () => {
+  const template = new RtpHeaderTemplate({ payloadType: 96, ssrc: 1, mid: '1' });
+  const before = [...template.bytes];
+  template.patchCaptureTime(1, 2);
+  expect([...template.bytes]).toEqual(before);
+  expect(template.hasCaptureTime).toBe(false);
+});
+
 test.each(['', 'a-mid-that-is-too-long', 'ä'])('refuses the mid “%s”', (mid) => {
   expect(() => new RtpHeaderTemplate({ payloadType: 111, ssrc: 1, mid })).toThrow(RangeError);
 });

@@ -1,7 +1,7 @@
 /**
- * The RTP header of every cloud packet (RFC 3550) with two one-byte header extensions (RFC 8285): the m-line's id (RFC
- * 9143) and the transport-wide sequence number. Only four fields change from packet to packet, so the header is written
- * once and then patched.
+ * The RTP header of every packet of a stream (RFC 3550) with up to three one-byte header extensions (RFC 8285): the
+ * m-line's id (RFC 9143), the transport-wide sequence number and the absolute capture time. Only these and four fields
+ * change from packet to packet, so the header is written once and then patched.
  */
 
 const FIXED_BYTES = 12;
@@ -11,11 +11,12 @@ export interface RtpHeaderParameters {
   /** 0–127. */
   payloadType: number;
   ssrc: number;
-  /** `a=mid` of the cloud's m-line, 1–16 ASCII characters. */
+  /** `a=mid` of the stream's m-line, 1–16 ASCII characters. */
   mid: string;
   /** Extension ids 1–14; absent if the peer refused the extension. */
   midExtensionId?: number | undefined;
   transportSequenceExtensionId?: number | undefined;
+  captureTimeExtensionId?: number | undefined;
 }
 
 export class RtpHeaderTemplate {
@@ -24,15 +25,18 @@ export class RtpHeaderTemplate {
   readonly #view: DataView;
   readonly #payloadType: number;
   readonly #transportSequenceOffset: number | null;
+  readonly #captureTimeOffset: number | null;
 
   constructor(parameters: RtpHeaderParameters) {
     const { payloadType, ssrc, mid, midExtensionId, transportSequenceExtensionId } = parameters;
+    const { captureTimeExtensionId } = parameters;
     if (!/^[!-~]{1,16}$/.test(mid)) {
       throw new RangeError(`mid '${mid}' does not fit a one-byte header extension`);
     }
     const elements =
       (transportSequenceExtensionId === undefined ? 0 : 3) +
-      (midExtensionId === undefined ? 0 : 1 + mid.length);
+      (midExtensionId === undefined ? 0 : 1 + mid.length) +
+      (captureTimeExtensionId === undefined ? 0 : 9);
     const words = Math.ceil(elements / 4);
     const bytes = new Uint8Array(FIXED_BYTES + 4 + words * 4);
     const view = new DataView(bytes.buffer);
@@ -51,10 +55,35 @@ export class RtpHeaderTemplate {
     if (midExtensionId !== undefined) {
       bytes[at] = (midExtensionId << 4) | (mid.length - 1);
       for (let i = 0; i < mid.length; i++) bytes[at + 1 + i] = mid.charCodeAt(i);
+      at += 1 + mid.length;
+    }
+    if (captureTimeExtensionId === undefined) {
+      this.#captureTimeOffset = null;
+    } else {
+      bytes[at] = (captureTimeExtensionId << 4) | 7;
+      this.#captureTimeOffset = at + 1;
     }
     this.bytes = bytes;
     this.#view = view;
     this.#payloadType = payloadType;
+  }
+
+  /** Whether packets carry the time at which their content was captured. */
+  get hasCaptureTime(): boolean {
+    return this.#captureTimeOffset !== null;
+  }
+
+  /**
+   * The capture time of the next packets, NTP (RFC 5905 §6); without the extension it is ignored.
+   *
+   * @param seconds since 1900, u32
+   * @param fraction of a second, in 2⁻³² s, u32
+   */
+  patchCaptureTime(seconds: number, fraction: number): void {
+    const at = this.#captureTimeOffset;
+    if (at === null) return;
+    this.#view.setUint32(at, seconds);
+    this.#view.setUint32(at + 4, fraction);
   }
 
   patch(marker: boolean, sequence: number, timestamp: number, transportSequence: number): void {

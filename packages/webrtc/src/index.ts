@@ -5,6 +5,6 @@ export { type ConnectionGuardEvents, guardConnection } from './werift/guard-conn
 export { IcePath } from './werift/ice-path.ts';
 export { discardSockets, dropDefaultStun, pairLateCandidates, startChecks } from './werift/ice-restart.ts';
 export { prepareSockets } from './werift/ice-sockets.ts';
-export { type SrtpKeys, srtpKeys, takeRtp, tapRtcp, tapRtp } from './werift/media-tap.ts';
+export { type SrtpKeys, sendRtcp, srtpKeys, takeRtp, tapRtcp, tapRtp } from './werift/media-tap.ts';
 export { RemoteCandidates } from './werift/remote-candidates.ts';
 export { WeriftShapeError } from './werift/werift-shape.ts';

@@ -4,7 +4,7 @@
  */
 import { Buffer } from 'node:buffer';
 import { RTCP_TRANSPORT_FEEDBACK } from '@farpoint/rtp';
-import type { RTCDtlsTransport } from 'werift';
+import type { RTCDtlsTransport, RtcpPacket } from 'werift';
 import { WeriftShapeError } from './werift-shape.ts';
 
 const NO_RTCP = Buffer.alloc(0);
@@ -45,6 +45,14 @@ export function tapRtcp(dtls: RTCDtlsTransport, tap: (compound: Uint8Array) => v
     tap(compound);
     return compound[1] === RTCP_TRANSPORT_FEEDBACK ? NO_RTCP : compound;
   });
+}
+
+/** Encrypts and sends a compound RTCP packet, if the connection still takes it. */
+export function sendRtcp(dtls: RTCDtlsTransport, compound: Uint8Array): void {
+  const bytes = Buffer.from(compound.buffer, compound.byteOffset, compound.byteLength);
+  // werift asks nothing else of a packet.
+  const packet = { serialize: () => bytes } as unknown as RtcpPacket;
+  dtls.sendRtcp([packet]).catch(() => undefined);
 }
 
 /**
