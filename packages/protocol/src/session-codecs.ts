@@ -7,10 +7,14 @@ import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
 import type { OperatorSessionMessage, RobotSessionMessage } from './session-messages.ts';
+import { MAX_VIDEOS, VIDEO_CODECS } from './video-media.ts';
 
 const positive = z.number().check(z.positive());
 const cameraSchema = z.int().check(z.minimum(0), z.maximum(MAX_CAMERAS - 1));
 const sensorSchema = z.int().check(z.minimum(0), z.maximum(MAX_SENSORS - 1));
+const videoSchema = z.int().check(z.minimum(0), z.maximum(MAX_VIDEOS - 1));
+/** An SDP token (RFC 8866 §9) that fits a one-byte header extension. */
+const midSchema = z.string().check(z.regex(/^[!#-'*+.0-9A-Z^-~-]{1,16}$/));
 /** A palette of 256 colours with its tables is 2,210 bytes. */
 const MAX_STREAM_HEADER_BASE64 = 3200;
 /** A test that takes longer has failed. */
@@ -78,6 +82,19 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
       type: z.literal('sensors'),
       sensors: z.array(z.strictObject({ name: displayNameSchema })).check(z.maxLength(MAX_SENSORS)),
     }),
+    z.strictObject({
+      type: z.literal('videos'),
+      videos: z
+        .array(
+          z.strictObject({
+            name: displayNameSchema,
+            mid: midSchema,
+            codec: z.enum(VIDEO_CODECS),
+            fault: z.optional(z.string().check(z.maxLength(256))),
+          }),
+        )
+        .check(z.maxLength(MAX_VIDEOS)),
+    }),
     z.strictObject({ type: z.literal('fault'), message: z.string().check(z.maxLength(512)) }),
   ]),
   maxBytes: 4096,
@@ -101,6 +118,11 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
     z.strictObject({
       type: z.literal('sensors'),
       sensors: z.array(sensorSchema).check(z.maxLength(MAX_SENSORS)),
+    }),
+    z.strictObject({
+      type: z.literal('videos'),
+      videos: z.array(videoSchema).check(z.maxLength(MAX_VIDEOS)),
+      barcode: z.optional(z.boolean()),
     }),
     z.strictObject({
       type: z.literal('latencyMeasured'),

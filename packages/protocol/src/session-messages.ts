@@ -3,6 +3,7 @@
  */
 import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
+import type { VideoCodec } from './video-media.ts';
 
 /** The robot's drive limits. No message can raise any of them. */
 export interface DriveLimits {
@@ -133,6 +134,29 @@ export interface Sensors {
   }[];
 }
 
+/** One of the robot's cameras that is streamed as video on an m-line of its own. */
+export interface VideoDescription {
+  /** For people. */
+  name: string;
+  /** `a=mid` of its m-line in the robot's offer. */
+  mid: string;
+  /** What it is encoded with, for every operator. */
+  codec: VideoCodec;
+  /** Why there are no pictures at present, for people; absent while there are. */
+  fault?: string | undefined;
+}
+
+/**
+ * The videos of the robot's cameras; a video's position in the list is its number. Sent after the welcome by robots
+ * with such cameras, and again whenever a video's state changes.
+ */
+export interface Videos {
+  /** Tells the message from others. */
+  type: 'videos';
+  /** In the order of their numbers. */
+  videos: VideoDescription[];
+}
+
 /** A message of the operator, other than a command, that the robot could not use. */
 export interface SessionFault {
   type: 'fault';
@@ -148,6 +172,7 @@ export type RobotSessionMessage =
   | CloudStream
   | Cameras
   | Sensors
+  | Videos
   | SessionFault;
 
 /** Requests the lease. `take` asks to take over from another operator; the robot's policy decides. */
@@ -189,6 +214,14 @@ export interface WantedSensors {
   sensors: number[];
 }
 
+/** The videos that the operator wants from now on, by number. Before this message, none are sent. */
+export interface WantedVideos {
+  type: 'videos';
+  videos: number[];
+  /** Draws the capture time into their pictures, for everyone who watches: to measure latency. */
+  barcode?: boolean | undefined;
+}
+
 /** The result of a latency test, for the robot's recording. */
 export interface LatencyMeasured {
   type: 'latencyMeasured';
@@ -211,6 +244,7 @@ export type OperatorSessionMessage =
   | CloudFormats
   | Pictures
   | WantedSensors
+  | WantedVideos
   | LatencyMeasured;
 
 export const PROTOCOL_VERSION = 1;

@@ -321,6 +321,74 @@ write("picture-chunk.json", {
     ],
 })
 
+# latency barcode -----------------------------------------------------------------------------------------------------
+
+
+def checksum(data):
+    """CRC-16/CCITT-FALSE as a remainder: the polynomial x^16 + x^12 + x^5 + 1, the first 16 bits inverted."""
+    value = (int.from_bytes(data, "big") << 16) ^ (0xFFFF << 8 * len(data))
+    for bit in range(8 * len(data) + 15, 15, -1):
+        if value >> bit & 1:
+            value ^= 0x11021 << bit - 16
+    return value
+
+
+assert checksum(b"123456789") == 0x29B1
+
+
+def squares(nanoseconds, damage=0):
+    """The seven rows of 18 squares, 1 for white; damage inverts bits of the 80 that the frame surrounds."""
+    data = nanoseconds.to_bytes(8, "big")
+    bits = format(int.from_bytes(data + checksum(data).to_bytes(2, "big"), "big") ^ damage, "080b")
+    inner = [bits[i:i + 16] for i in range(0, 80, 16)]
+    rows = ["101010101010101010"]
+    for i, row in enumerate(inner):
+        rows.append("01"[i % 2] + row + "10"[i % 2])
+    return rows + ["101010101010101010"]
+
+
+def barcode(name, nanoseconds):
+    return {"name": name, "hi": nanoseconds >> 32, "lo": nanoseconds % 2 ** 32, "squares": squares(nanoseconds)}
+
+
+def seen(name, rows, black=16, white=235, time=None, fault=None):
+    case = {"name": name, "squares": rows, "black": black, "white": white}
+    if fault:
+        return {**case, "fault": fault}
+    return {**case, "hi": time >> 32, "lo": time % 2 ** 32}
+
+
+def inverted(rows):
+    return [row.translate(str.maketrans("01", "10")) for row in rows]
+
+
+NOW = 1_795_413_600_123_456_789
+write("latency-barcode.json", {
+    "draw": [
+        barcode("zero", 0), barcode("all ones", 2 ** 64 - 1), barcode("one", 1), barcode("the highest bit", 2 ** 63),
+        barcode("the upper half", 2 ** 64 - 2 ** 32), barcode("ascending", 0x0123456789ABCDEF), barcode("a time of day", NOW),
+    ],
+    "read": [
+        seen("as drawn", squares(NOW), time=NOW),
+        seen("full range", squares(NOW), 0, 255, time=NOW),
+        seen("dark", squares(NOW), 3, 60, time=NOW),
+        seen("bright", squares(NOW), 190, 250, time=NOW),
+        seen("nothing to see", squares(NOW), 128, 128, fault="no-barcode"),
+        seen("too little contrast", squares(NOW), 120, 151, fault="no-barcode"),
+        seen("black and white exchanged", squares(NOW), 235, 16, fault="no-barcode"),
+        seen("all black", ["0" * 18] * 7, fault="no-barcode"),
+        seen("a chessboard", [("10" * 9, "01" * 9)[i % 2] for i in range(7)], fault="bad-checksum"),
+        seen("a square of the frame inverted", squares(NOW)[:6] + ["101010101110101010"], fault="no-barcode"),
+        seen("the data inverted", [a[0] + b[1:17] + a[17] if 0 < i < 6 else a for i, (a, b) in
+                                   enumerate(zip(squares(NOW), inverted(squares(NOW))))], fault="bad-checksum"),
+        seen("the first bit inverted", squares(NOW, 1 << 79), fault="bad-checksum"),
+        seen("the last bit inverted", squares(NOW, 1), fault="bad-checksum"),
+        seen("a row of data exchanged with the next", (lambda r: [*r[:3], r[3][0] + r[4][1:17] + r[3][17],
+                                                                  r[4][0] + r[3][1:17] + r[4][17], *r[5:]])(squares(NOW)),
+             fault="bad-checksum"),
+    ],
+})
+
 # JSON messages -------------------------------------------------------------------------------------------------------
 
 ABSENT = object()
@@ -429,6 +497,8 @@ cameras = robot_session.good({"type": "cameras", "cameras": [{"name": "Front"}, 
 robot_session.good({"type": "cloudStream", "format": "unorganised", "header": "RlBVQwEBAAA=", "sensor": 1}, "cloudStream: of the second sensor")
 sensors = robot_session.good({"type": "sensors", "sensors": [{"name": "Camera"}, {"name": "LiDAR"}]})
 robot_session.good({"type": "cameras", "cameras": []}, "cameras: none")
+videos = robot_session.good({"type": "videos", "videos": [{"name": "Front", "mid": "1", "codec": "H264"}, {"name": "Rear", "mid": "2", "codec": "VP8", "fault": "the camera is unplugged"}]})
+robot_session.good({"type": "videos", "videos": []}, "videos: none")
 fault = robot_session.good({"type": "fault", "message": "operator session message: latch: expected boolean"})
 robot_session.common(fault, 4096)
 robot_session.spoil(welcome, ("protocol", 0), ("protocol", 1.5), ("robotId", "Sim"), ("robotId", "-sim"), ("robotId", "x" * 65), ("name", ""),
@@ -444,6 +514,9 @@ robot_session.spoil(cloud_stream, ("sensor", 8), ("sensor", -1), ("sensor", "0")
 robot_session.spoil(sensors, ("sensors", ABSENT), ("sensors", [{"name": "x"}] * 9), ("sensors.0.name", ""), ("sensors.1.extra", 1, "sensors.1"))
 robot_session.spoil(cameras, ("cameras", ABSENT), ("cameras", [{"name": "x"}] * 9), ("cameras.0.name", ""), ("cameras.1.name", 7),
                     ("cameras.0.name", "a\nb"), ("cameras.0.extra", 1, "cameras.0"))
+robot_session.spoil(videos, ("videos", ABSENT), ("videos", [{"name": "x", "mid": "1", "codec": "VP8"}] * 9), ("videos.0.name", ""), ("videos.0.mid", ""),
+                    ("videos.0.mid", "a b"), ("videos.0.mid", "x" * 17), ("videos.0.mid", 1), ("videos.1.codec", "AV1"), ("videos.1.codec", ABSENT),
+                    ("videos.1.fault", "x" * 257), ("videos.1.extra", 1, "videos.1"))
 robot_session.spoil(fault, ("message", "x" * 513), ("message", 1))
 write("robot-session.json", robot_session.lists())
 
@@ -460,11 +533,15 @@ pictures = operator_session.good({"type": "pictures", "cameras": [0, 2]})
 wanted = operator_session.good({"type": "sensors", "sensors": [0, 1]})
 operator_session.good({"type": "sensors", "sensors": []}, "sensors: none")
 operator_session.good({"type": "pictures", "cameras": []}, "pictures: none")
+wanted_videos = operator_session.good({"type": "videos", "videos": [0, 1]})
+operator_session.good({"type": "videos", "videos": []}, "videos: none")
+operator_session.good({"type": "videos", "videos": [0], "barcode": True}, "videos: with the latency barcode")
 measured = operator_session.good({"type": "latencyMeasured", "id": 4, "frameNumber": 902, "mtpMs": 98.5, "firstMs": 91.25})
 operator_session.good(changed(measured, "mtpMs", 60000), "latencyMeasured: the longest")
 operator_session.spoil(measured, ("id", -1), ("id", 2 ** 32), ("frameNumber", 1.5), ("frameNumber", ABSENT), ("mtpMs", 60000.5), ("mtpMs", -1),
                        ("firstMs", ABSENT), ("firstMs", "91"), ("points", 1, ""))
 operator_session.spoil(wanted, ("sensors", ABSENT), ("sensors", [8], "sensors.0"), ("sensors", [-1], "sensors.0"), ("sensors", [0] * 9))
+operator_session.spoil(wanted_videos, ("videos", ABSENT), ("videos", [8], "videos.0"), ("videos", [-1], "videos.0"), ("videos", [0] * 9), ("barcode", 1))
 operator_session.spoil(pictures, ("cameras", ABSENT), ("cameras", 0), ("cameras", [8], "cameras.0"), ("cameras", [-1], "cameras.0"),
                        ("cameras", [0.5], "cameras.0"), ("cameras", [0] * 9))
 operator_session.spoil(formats, ("formats", ABSENT), ("formats", ["draco"], "formats.0"), ("formats", ["points64"] * 4))
