@@ -7,9 +7,11 @@ import { CHROMIUM_REMEDY } from '@farpoint/local-stack';
 import * as dds from '../packages/dds/src/build.ts';
 import * as sharedMemory from '../packages/shared-memory/src/build.ts';
 import * as systemd from '../packages/systemd/src/build.ts';
+import * as video from '../packages/video/src/build.ts';
 import { ensureChromium } from './lib/ensure-chromium.ts';
 import { ensureCycloneDds, ensureDdsPeers } from './lib/ensure-dds.ts';
 import { ensureFirefox } from './lib/ensure-firefox.ts';
+import { ensureGStreamer } from './lib/ensure-gstreamer.ts';
 import { ensureNumpy } from './lib/ensure-numpy.ts';
 import { ensureTurnServer } from './lib/ensure-turn-server.ts';
 import { failuresOf } from './lib/failures.ts';
@@ -63,11 +65,13 @@ const steps: Step[] = [
     what: 'native addons build from source (node-gyp)',
     run: async () => {
       await ensureCycloneDds(say);
+      await ensureGStreamer(say);
       const left: string[] = [];
       for (const [what, { buildAddon, BUILD_REMEDY }] of [
         ['shared memory', sharedMemory],
         ['the systemd unit', systemd],
         ['ROS 2', dds],
+        ['camera video', video],
       ] as const) {
         const { ok, output } = buildAddon();
         if (ok) continue;

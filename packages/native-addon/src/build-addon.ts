@@ -1,5 +1,5 @@
 /**
- * Builds a Node-API addon with node-gyp if its sources have changed. Node's headers come from the Node that runs this
+ * Builds a Node-API addon or a program with node-gyp if its sources have changed. Node's headers come from the Node that runs this
  * if it includes them, or from the system; only if there are none does node-gyp download them.
  */
 import { spawnSync } from 'node:child_process';
@@ -21,14 +21,16 @@ export interface NativeAddon {
   name: string;
   /** Further dependencies of the build: environment, versions of libraries. */
   depends?: string;
+  /** What is built: an addon, or a program of its own. */
+  kind?: 'addon' | 'program';
 }
 
 /** Header files shared by the addons' C sources. Each `binding.gyp` finds them through this package. */
 export const INCLUDE_FOLDER = join(import.meta.dirname, '..', 'include');
 
-/** Where the built addon is. */
-export function addonFile({ folder, name }: NativeAddon): string {
-  return join(folder, 'build', 'Release', `${name}.node`);
+/** Where the built addon or program is. */
+export function addonFile({ folder, name, kind = 'addon' }: NativeAddon): string {
+  return join(folder, 'build', 'Release', kind === 'addon' ? `${name}.node` : name);
 }
 
 /** Builds the addon if it is missing or its sources have changed. */
