@@ -3,6 +3,7 @@ import type { TakePolicy } from '@farpoint/safety';
 import type { BaseOptions } from './base/base-messages.ts';
 import type { SinkOptions } from './drive/open-sink.ts';
 import type { StreamMode } from './encode/stream-mode.ts';
+import type { VideoCameraOptions } from './options/videos.ts';
 import type { PicturePolicy } from './pictures/picture-plan.ts';
 import type { CloudSensorOptions } from './sensors/cloud-sensor.ts';
 import type { SignalingOptions } from './signaling/signaling-client.ts';
@@ -29,6 +30,8 @@ export interface RobotOptions extends RateControlOptions {
   /** `auto`: our own coded formats for everyone who reads them; `points64`: only `points64`, for everyone. */
   mode: StreamMode;
   pictures: PicturePolicy;
+  /** Cameras that are streamed as video. */
+  videos: readonly VideoCameraOptions[];
   maxOperators: number;
   /** An operator that has not been heard from for this long is gone, ms. */
   silenceMs: number;

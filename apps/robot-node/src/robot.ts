@@ -2,21 +2,20 @@ import type { TopicReading } from '@farpoint/ros';
 import type { Logger } from '@farpoint/service';
 import type { Refusal } from '@farpoint/webrtc';
 import type { TimedBaseState } from './base/base.ts';
-import { BaseThread } from './base/base-thread.ts';
+import type { BaseThread } from './base/base-thread.ts';
 import type { Capture } from './capture/capture.ts';
 import { monotonicMs, threadCpuMs } from './clock.ts';
 import { DriveStation } from './drive/drive-station.ts';
 import type { EstopJournal } from './drive/estop-journal.ts';
 import { openGuard } from './drive/open-guard.ts';
-import { openSink } from './drive/open-sink.ts';
 import type { VelocitySink } from './drive/velocity-sink.ts';
-import { PictureHub } from './pictures/picture-hub.ts';
 import { openReferenceProfile } from './reference/open-reference-profile.ts';
 import type { ReferenceProfile } from './reference/reference-profile.ts';
+import { RobotCameras } from './robot-cameras.ts';
 import type { RobotOptions } from './robot-configuration.ts';
+import { openParts, type RobotParts } from './robot-parts.ts';
 import { type CloudSensor, failureReading } from './sensors/cloud-sensor.ts';
 import { CloudSensors } from './sensors/cloud-sensors.ts';
-import { inWorld } from './sensors/in-world.ts';
 import type { OperatorSession } from './session/operator-session.ts';
 import { OperatorSessions } from './session/operator-sessions.ts';
 import { PathKeeper } from './session/path-keeper.ts';
@@ -28,7 +27,7 @@ import { FrameLog } from './telemetry/frame-log.ts';
 import { ReadingBoard } from './telemetry/reading-board.ts';
 import { RobotCounters } from './telemetry/robot-counters.ts';
 import { RobotReports } from './telemetry/robot-reports.ts';
-import { SessionRecording } from './telemetry/session-recording.ts';
+import type { SessionRecording } from './telemetry/session-recording.ts';
 import { StageTimer } from './telemetry/stage-timer.ts';
 import { TelemetrySender } from './telemetry/telemetry-sender.ts';
 import { makeRateController } from './transport/make-rate-controller.ts';
@@ -47,8 +46,7 @@ export class Robot {
   readonly counters = new RobotCounters();
   /** The interface to the reference system's operators; `null` if it is not enabled. */
   reference: ReferenceProfile | null = null;
-  /** `null` if there are no cameras with pictures. */
-  readonly pictures: PictureHub | null;
+  readonly cameras: RobotCameras;
   /** Called if the robot cannot continue. */
   onFailure: ((error: Error) => void) | null = null;
   /** `null` if nothing is recorded. */
@@ -72,14 +70,8 @@ export class Robot {
   /** The robot ends because of a failure: the next start begins with the emergency stop latched. */
   #failed = false;
 
-  private constructor(
-    captures: readonly Capture[],
-    base: BaseThread | null,
-    sink: VelocitySink,
-    recording: SessionRecording | null,
-    options: RobotOptions,
-    log: Logger,
-  ) {
+  private constructor(parts: RobotParts, options: RobotOptions, log: Logger) {
+    const { captures, base, sink, recording, videos } = parts;
     this.recording = recording;
     this.#options = options;
     this.#log = log;
@@ -102,6 +94,7 @@ export class Robot {
       ...{ drive: this.drive, estop: this.#estop, counters: this.counters, recording, log },
       operators: () => this.operators,
       sensors: () => this.sensors,
+      videos: () => this.cameras.videos,
       now: monotonicMs,
     });
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
@@ -109,10 +102,15 @@ export class Robot {
       {
         most: options.maxOperators,
         iceServers: options.iceServers,
-        peer: { ...this.#peerOptions, pictures: capture.cameras.length > 0 },
+        peer: {
+          ...this.#peerOptions,
+          pictures: capture.cameras.length > 0,
+          videos: videos.map(({ codec }) => codec),
+        },
         pictureShare: options.pictures.share,
         makeController: (transportFeedback) => makeRateController(options, transportFeedback),
         claims: () => this.sensors.claims,
+        mostVideoBitsPerSecond: (video) => this.cameras.videos.mostBitsPerSecond(video),
         sendLoop: this.#sendLoop,
         packetLog: this.#packetLog,
         host: this.#host,
@@ -123,11 +121,13 @@ export class Robot {
         connected: (operator) => {
           const { id, name, limits, sensors } = options;
           const framesPerSecond = sensors[0]?.capture.framesPerSecond ?? 0;
-          welcome(operator, { id, name, limits, framesPerSecond }, this.sensors);
+          const facts = { id, name, limits, framesPerSecond };
+          welcome(operator, facts, this.sensors, this.cameras.videos);
           this.sensors.updateBudgets();
         },
         budgetChanged: () => this.sensors.updateBudgets(),
         cloudFormats: (operator) => this.sensors.announceTo(operator),
+        needsKeyFrame: (video) => this.cameras.videos.requestKeyFrame(video),
         latencyFrameLost: () => capture.requestLatencyTest(),
         ended: ({ id }) => this.#host.operatorGone(id),
       },
@@ -162,17 +162,14 @@ export class Robot {
       },
     );
     recording?.cameras(capture.cameras);
-    this.pictures =
-      capture.cameras.length === 0
-        ? null
-        : new PictureHub({
-            policy: options.pictures,
-            capture,
-            targets: () => this.operators.values(),
-            driver: () => guard.leaseHolder,
-            onMade: (picture) => recording?.picture(picture),
-            log,
-          });
+    this.cameras = new RobotCameras({
+      ...{ policy: options.pictures, capture, videos, log },
+      targets: () => this.operators.values(),
+      driver: () => guard.leaseHolder,
+      onMade: (picture) => recording?.picture(picture),
+      onStateChanged: () => this.#host.tellVideos(),
+      onFrame: () => this.#sendLoop.run(),
+    });
     this.#paths = new PathKeeper({
       ...{ operators: this.operators, drive: this.drive, signaling: this.signaling },
       ...{ counters: this.counters, log, now: monotonicMs },
@@ -196,28 +193,9 @@ export class Robot {
 
   /** Opens the sources and connects to the signaling service. @throws {CaptureError} if a source cannot be opened */
   static async start(options: RobotOptions, log: Logger): Promise<Robot> {
-    const recording =
-      options.record === undefined ? null : await SessionRecording.open(options.record, options.id, log);
-    const base = options.base === null ? null : new BaseThread(options.base);
-    let captures: Capture[] = [];
-    try {
-      captures = await CloudSensors.open(inWorld(options.sensors, base), recording?.capture ?? null);
-      captures.forEach(({ description }, i) => {
-        log.info({ sensor: options.sensors[i]?.name, source: description }, 'source open');
-      });
-      const [main] = captures;
-      const [{ capture } = { capture: null }] = options.sensors;
-      if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond);
-      const sink = openSink(options.sink, base, log);
-      const robot = new Robot(captures, base, sink, recording, options, log);
-      robot.#begin();
-      return robot;
-    } catch (error) {
-      for (const capture of captures) await capture.close();
-      await base?.close();
-      await recording?.close();
-      throw error;
-    }
+    const robot = new Robot(await openParts(options, log), options, log);
+    robot.#begin();
+    return robot;
   }
 
   #begin(): void {
@@ -258,7 +236,7 @@ export class Robot {
     await this.base?.close();
     this.#sendLoop.close();
     await this.signaling.close();
-    await this.pictures?.close();
+    await this.cameras.close();
     await this.sensors.close();
     await this.recording?.close();
     this.#packetLog?.write();
@@ -292,7 +270,7 @@ export class Robot {
   #tick(): void {
     this.#paths.tick();
     this.reference?.tick();
-    this.pictures?.tick(monotonicMs());
+    this.cameras.tick(monotonicMs());
     this.sensors.updateBudgets();
     this.#sendLoop.run();
   }

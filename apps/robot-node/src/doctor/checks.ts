@@ -14,6 +14,7 @@ import { checkAddresses, checkUdpPorts } from './check-network.ts';
 import { checkProcessor, judgeCodec, timeCodec } from './check-processor.ts';
 import { judgeSignaling } from './check-signaling.ts';
 import { judgeClosedSource, judgeSource, trialSource } from './check-source.ts';
+import { judgeVideo } from './check-video.ts';
 import { type Check, type Result, warn } from './finding.ts';
 import type { Host } from './host.ts';
 import { iceTargets, probeIce } from './ice-probe.ts';
@@ -21,6 +22,7 @@ import { checkRos, graphOf } from './ros-probe.ts';
 import { findRunningRobot, judgeRunning, type RunningRobot } from './running-robot.ts';
 import { askTime, probeSignaling } from './signaling-probe.ts';
 import { trySource } from './source-trial.ts';
+import { timeEncoders } from './video-trial.ts';
 
 /** Longest wait for a server, ms. */
 const ANSWER_MS = 5000;
@@ -115,6 +117,11 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
       withinMs: 20_000,
       run: () => checkSource(capture, robot, running.state === 'runs'),
     })),
+    {
+      name: 'video',
+      withinMs: 30_000,
+      run: async () => judgeVideo(await timeEncoders(), robot.videos),
+    },
     {
       name: 'recording',
       withinMs: SLACK_MS,

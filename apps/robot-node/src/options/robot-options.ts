@@ -60,6 +60,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       quality: values.picturesQuality,
       share: values.picturesShare,
     },
+    videos: values.videos,
     maxOperators: values.maxOperators,
     silenceMs: values.silenceS * 1000,
     connectTimeoutMs: 20_000,

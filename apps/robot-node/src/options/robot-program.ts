@@ -17,6 +17,7 @@ import { sourceOptions } from './source.ts';
 import { stateOptions } from './state.ts';
 import { streamOptions } from './stream.ts';
 import { topicsOptions } from './topics.ts';
+import { videosOptions } from './videos.ts';
 
 const options = {
   ...identityOptions,
@@ -32,6 +33,7 @@ const options = {
   ...stateOptions,
   ...streamOptions,
   ...picturesOptions,
+  ...videosOptions,
   ...networkOptions,
   ...recordingOptions,
   ...adminOptions(9400),

@@ -7,13 +7,15 @@ import {
   ProtocolError,
   referenceControlCodec,
 } from '@farpoint/protocol';
+import { slotSequenceOffset } from '../encode/packetiser.ts';
 import type { FrameTarget } from '../session/frame-fan-out.ts';
 import type { SessionHost } from '../session/operator-messages.ts';
+import type { OutgoingFrame } from '../transport/outgoing-frame.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
 import type { PeerEnd } from '../transport/peer-events.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
-import type { SharedFrame } from '../transport/shared-frame.ts';
-import type { SrtpCloudTransport } from '../transport/srtp-cloud-transport.ts';
+import { SharedFrame } from '../transport/shared-frame.ts';
+import type { SrtpTransport } from '../transport/srtp-transport.ts';
 import { StreamSender } from '../transport/stream-sender.ts';
 import { ReferenceDriver } from './reference-driver.ts';
 import { toReferenceFrame } from './reference-frame.ts';
@@ -188,17 +190,20 @@ export class ReferenceOperator implements FrameTarget {
     this.#events.onBudgetChanged();
   }
 
-  #onConnected(inner: SrtpCloudTransport): void {
+  #onConnected(inner: SrtpTransport): void {
     const transport = new ReferenceTransport(inner, () => this.#host.now());
     const sender = new StreamSender(transport, this.#options.controller, () => this.#host.now());
     const { packetLog } = this.#options;
     if (packetLog !== undefined)
-      sender.onPacketSent = (_frame, offset, sentMs) => packetLog.add(transport.frameNumber, offset, sentMs);
-    sender.onFrameSent = ({ shared }) => {
-      if (shared.frame.latencyTest) this.#greenWanted = false;
+      sender.onPacketSent = (frame, index, sentMs) => {
+        if (frame instanceof SharedFrame)
+          packetLog.add(transport.frameNumber, slotSequenceOffset(frame.slots, index), sentMs);
+      };
+    sender.onFrameSent = ({ frame }) => {
+      if (isGreen(frame)) this.#greenWanted = false;
     };
-    sender.onFrameDropped = (shared) => {
-      if (shared.frame.latencyTest && this.#greenWanted) this.#host.requestLatencyFrame();
+    sender.onFrameDropped = (frame) => {
+      if (isGreen(frame) && this.#greenWanted) this.#host.requestLatencyFrame();
     };
     sender.onRateChanged = () => {
       this.#events.onBudgetChanged();
@@ -224,4 +229,8 @@ export class ReferenceOperator implements FrameTarget {
     if (leaseFreed) this.#host.leaseChanged();
     this.#events.onEnded(end, detail);
   }
+}
+
+function isGreen(frame: OutgoingFrame): boolean {
+  return frame instanceof SharedFrame && frame.frame.latencyTest;
 }

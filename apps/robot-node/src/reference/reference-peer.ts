@@ -13,7 +13,7 @@ import {
 import type { RTCDataChannel, RTCPeerConnection, RTCRtpTransceiver } from 'werift';
 import { errorText, toWeriftServers } from '../transport/open-peer-connection.ts';
 import type { PeerEnd } from '../transport/peer-events.ts';
-import { SrtpCloudTransport } from '../transport/srtp-cloud-transport.ts';
+import { SrtpTransport } from '../transport/srtp-transport.ts';
 
 export interface ReferencePeerOptions {
   iceServers: readonly IceServer[];
@@ -28,7 +28,7 @@ export interface ReferencePeerOptions {
 export interface ReferencePeerEvents {
   /** Called with each candidate. They are kept from first to last, and sent again after the answer. */
   onCandidate(candidate: string): void;
-  onConnected(transport: SrtpCloudTransport): void;
+  onConnected(transport: SrtpTransport): void;
   onMessage(channel: 'control' | 'bandwidth' | 'words', data: string | Uint8Array): void;
   /** The last event. `detail` is for people. */
   onEnded(end: PeerEnd, detail: string): void;
@@ -46,7 +46,7 @@ export class ReferencePeer {
   readonly #connection: RTCPeerConnection;
   readonly #cloud: RTCRtpTransceiver;
   readonly #candidates: RemoteCandidates;
-  #transport: SrtpCloudTransport | null = null;
+  #transport: SrtpTransport | null = null;
   #offerSdp = '';
   #timer: NodeJS.Timeout | null = null;
   #state: 'offering' | 'answered' | 'connected' | 'ended' = 'offering';
@@ -176,10 +176,12 @@ export class ReferencePeer {
 
   #onConnected(): void {
     if (this.#state !== 'answered') return;
-    let transport: SrtpCloudTransport;
+    let transport: SrtpTransport;
     try {
       // Fixed, whatever the answer says: the reference system's bridge assumes a header of 20 bytes.
-      transport = new SrtpCloudTransport(this.#cloud, REFERENCE_MEDIA.extensionId);
+      transport = new SrtpTransport(this.#cloud, {
+        transportSequenceExtensionId: REFERENCE_MEDIA.extensionId,
+      });
     } catch (error) {
       this.close('bad-answer', errorText(error));
       return;

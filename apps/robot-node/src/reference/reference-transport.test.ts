@@ -2,7 +2,7 @@ import { emptyPointPacketHeader, readPointPacketHeader } from '@farpoint/protoco
 import { expect, it } from 'vitest';
 import type { ReadyFrame } from '../capture/capture-messages.ts';
 import { completePackets, SLOT_BYTES } from '../encode/packetiser.ts';
-import type { CloudTransport } from '../transport/cloud-transport.ts';
+import type { RtpTransport } from '../transport/rtp-transport.ts';
 import { SharedFrame } from '../transport/shared-frame.ts';
 import { toReferenceFrame } from './reference-frame.ts';
 import { ReferenceTransport } from './reference-transport.ts';
@@ -13,14 +13,15 @@ interface Sent {
   marker: boolean;
 }
 
-function fakeInner(sent: Sent[]): CloudTransport {
+function fakeInner(sent: Sent[]): RtpTransport {
   return {
+    ssrc: 1,
     overheadBytes: 64,
     ready: true,
     onRtcp: null,
     transportFeedback: true,
     receiverSums: () => null,
-    resendRefusals: {} as CloudTransport['resendRefusals'],
+    resendRefusals: {} as RtpTransport['resendRefusals'],
     send: (payload, timestamp, marker) => sent.push({ payload: payload.slice(), timestamp, marker }),
     resend: () => 0,
   };

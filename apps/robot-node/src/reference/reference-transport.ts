@@ -9,7 +9,7 @@ import {
 } from '@farpoint/protocol';
 import type { ReportBlock, ResendRefusal } from '@farpoint/rtp';
 import { nextRtpTimestamp, rtpTimestamp } from '@farpoint/rtp';
-import type { CloudTransport } from '../transport/cloud-transport.ts';
+import type { RtpTransport } from '../transport/rtp-transport.ts';
 
 /**
  * Size of the RTP header with its extension. The reference system's bridge cuts off this many bytes without checking.
@@ -20,11 +20,11 @@ export const REFERENCE_RTP_HEADER_BYTES = 20;
  * Sends Farpoint's payloads in the form of the reference profile: the same points, without the placement, always 1216
  * bytes, with frames counted from 0 for each connection.
  */
-export class ReferenceTransport implements CloudTransport {
+export class ReferenceTransport implements RtpTransport {
   /** Number of the last frame sent; −1 before the first. */
   frameNumber = -1;
   readonly overheadBytes: number;
-  readonly #inner: CloudTransport;
+  readonly #inner: RtpTransport;
   readonly #now: () => number;
   readonly #payload = new Uint8Array(FULL_POINT_PACKET_BYTES);
   readonly #view = new DataView(this.#payload.buffer);
@@ -32,10 +32,14 @@ export class ReferenceTransport implements CloudTransport {
   #rtpTimestamp = 0;
 
   /** @param now robot's clock, ms */
-  constructor(inner: CloudTransport, now: () => number) {
+  constructor(inner: RtpTransport, now: () => number) {
     this.#inner = inner;
     this.#now = now;
     this.overheadBytes = inner.overheadBytes - PLACEMENT_BYTES;
+  }
+
+  get ssrc(): number {
+    return this.#inner.ssrc;
   }
 
   get ready(): boolean {

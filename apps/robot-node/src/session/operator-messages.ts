@@ -60,6 +60,7 @@ export class OperatorMessages {
   onCloudFormats: ((formats: readonly CloudFormat[]) => void) | null = null;
   onPictures: ((cameras: readonly number[]) => void) | null = null;
   onSensors: ((sensors: readonly number[]) => void) | null = null;
+  onVideos: ((videos: readonly number[], barcode: boolean) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #rejections = new RejectionReporter();
@@ -210,6 +211,9 @@ export class OperatorMessages {
         break;
       case 'sensors':
         this.onSensors?.(message.sensors);
+        break;
+      case 'videos':
+        this.onVideos?.(message.videos, message.barcode ?? false);
         break;
       case 'latencyMeasured':
         this.#host.latencyMeasured?.(this, message);

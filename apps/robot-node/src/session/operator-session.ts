@@ -1,54 +1,29 @@
-import type { RateController } from '@farpoint/congestion';
-import type { CloudFormat, IceCandidate, StageTimings, StreamStatus } from '@farpoint/protocol';
-import { BitRate, RateMeter } from '@farpoint/timing';
-import type { CandidateRefusal } from '@farpoint/webrtc';
+import type { CloudFormat, StageTimings, StreamStatus } from '@farpoint/protocol';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
+import { slotSequenceOffset } from '../encode/packetiser.ts';
 import type { CodedFormat } from '../encode/plan.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
 import { PictureSender } from '../pictures/picture-sender.ts';
-import { type CloudClaim, cloudShare, probingSensor } from '../sensors/cloud-shares.ts';
-import { StageTimer } from '../telemetry/stage-timer.ts';
+import { cloudShare, probingSensor } from '../sensors/cloud-shares.ts';
 import type { AnswerVerdict } from '../transport/answer-gate.ts';
-import type { CloudTransport } from '../transport/cloud-transport.ts';
 import { OperatorPeer } from '../transport/operator-peer.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
-import type { OperatorPeerOptions, PeerEnd } from '../transport/peer-events.ts';
+import type { PeerEnd } from '../transport/peer-events.ts';
+import type { RtpTransport } from '../transport/rtp-transport.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
-import type { SharedFrame } from '../transport/shared-frame.ts';
+import { SharedFrame } from '../transport/shared-frame.ts';
 import { StreamSender } from '../transport/stream-sender.ts';
+import type { VideoLine } from '../transport/video-line.ts';
+import { OperatorVideos } from '../video/operator-videos.ts';
+import type { VideoFrame } from '../video/video-frame.ts';
 import type { FrameTarget } from './frame-fan-out.ts';
 import { type LatencyTest, LatencyTests } from './latency-tests.ts';
 import { OperatorMessages, type SessionHost } from './operator-messages.ts';
+import type { OperatorSessionEvents, OperatorSessionOptions } from './operator-session-options.ts';
 import { PathBudget } from './path-budget.ts';
 import { RestartPolicy } from './restart-policy.ts';
 import { ResumeKey } from './resume-key.ts';
-
-export interface OperatorSessionOptions {
-  /** The session's handle, by which the guard also knows the operator. */
-  session: string;
-  operatorName: string;
-  peer: OperatorPeerOptions;
-  /** @param transportFeedback whether the operator sends transport-wide feedback */
-  makeController: (transportFeedback: boolean) => RateController;
-  packetLog?: PacketLog | undefined;
-  /** The largest share of the path that pictures may take, 0–1. */
-  pictureShare: number;
-  /** What the robot's cloud sensors claim of a path, indexed by sensor number. */
-  claims: () => readonly CloudClaim[];
-}
-
-export interface OperatorSessionEvents {
-  onCandidate(candidate: IceCandidate): void;
-  onCandidateRefused(reason: CandidateRefusal, detail: string): void;
-  onConnected(): void;
-  /** Streaming started or paused, or its bit rate or formats may have changed. */
-  onBudgetChanged(): void;
-  /** The operator has named the formats or sensors that it reads, and may need the streams' headers. */
-  onCloudFormats(): void;
-  /** A latency test's green frame was dropped; another is needed. */
-  onLatencyFrameLost(): void;
-  onEnded(end: PeerEnd, detail: string): void;
-}
+import { droppedFrames, StreamMeter } from './stream-meter.ts';
 
 /** One operator: connection, session and stream. */
 export class OperatorSession implements FrameTarget {
@@ -69,18 +44,12 @@ export class OperatorSession implements FrameTarget {
   readonly #makeController: OperatorSessionOptions['makeController'];
   readonly #packetLog: PacketLog | undefined;
   readonly #events: OperatorSessionEvents;
-  readonly #frames = new RateMeter();
-  readonly #points = new RateMeter();
-  readonly #bytes = new RateMeter();
-  readonly #stages = new StageTimer();
+  readonly #meter = new StreamMeter();
   readonly #budget: PathBudget;
   readonly pictures: PictureSender;
+  readonly videos: OperatorVideos;
   readonly #tests = new LatencyTests();
   #pathHeardMs = 0;
-  #framesSent = 0;
-  #pointsSent = 0;
-  #lastFrameNumber = 0;
-  #lastValidPoints = 0;
 
   constructor(
     options: OperatorSessionOptions,
@@ -98,12 +67,15 @@ export class OperatorSession implements FrameTarget {
     this.peer = new OperatorPeer(options.peer, {
       onCandidate: (candidate) => events.onCandidate(candidate),
       onCandidateRefused: (reason, detail) => events.onCandidateRefused(reason, detail),
-      onConnected: (transport) => this.#onConnected(transport),
+      onConnected: (transport, videos) => this.#onConnected(transport, videos),
       onMessage: (channel, data) => this.messages.onMessage(channel, data),
       onPicturesLow: () => this.#sendPictures(),
       onEnded: (end, detail) => this.#onEnded(end, detail),
     });
     this.pictures = new PictureSender(this.peer);
+    this.videos = new OperatorVideos(this.#budget, options.mostVideoBitsPerSecond, (video) =>
+      events.onNeedsKeyFrame(video),
+    );
     this.messages = new OperatorMessages(options.session, options.operatorName, host, this.peer);
     this.messages.onReceiverReport = (report) => this.sender?.onReceiverReport(report);
     this.messages.onReceiverLimit = (bitsPerSecond) => {
@@ -120,6 +92,10 @@ export class OperatorSession implements FrameTarget {
       events.onBudgetChanged();
     };
     this.messages.onPictures = (cameras) => this.pictures.watch(cameras);
+    this.messages.onVideos = (videos, barcode) => {
+      this.videos.want(videos, barcode);
+      events.onBudgetChanged();
+    };
     this.messages.onCloudFormats = (formats) => {
       this.#formats = new Set(formats);
       events.onCloudFormats();
@@ -180,13 +156,30 @@ export class OperatorSession implements FrameTarget {
     return sender === null ? 0 : this.#budget.pictureBitsPerSecond(sender.targetBitsPerSecond);
   }
 
+  get wantedVideos(): ReadonlySet<number> {
+    return this.videos.wanted;
+  }
+
+  get wantsBarcode(): boolean {
+    return this.videos.barcode;
+  }
+
+  /** How much of the path a video may take, bit/s without headers; 0 while there is no path. */
+  videoBitsPerSecond(video: number): number {
+    const { sender } = this;
+    return sender === null ? 0 : this.#budget.videoBitsPerSecond(video, sender.targetBitsPerSecond);
+  }
+
+  offerVideo(frame: VideoFrame): void {
+    if (this.streaming) this.videos.offer(frame);
+  }
+
   offerPicture(picture: ReadyPicture): void {
     if (this.streaming) this.pictures.offer(picture);
   }
 
   get droppedFrames(): number {
-    const drops = this.sender?.droppedFrames;
-    return drops === undefined ? 0 : drops.superseded + drops.overdue;
+    return droppedFrames(this.sender);
   }
 
   /** @returns false if the test is already known */
@@ -203,7 +196,7 @@ export class OperatorSession implements FrameTarget {
       const moments = { commandMs, captureMs: capturedAtMs };
       this.messages.send({ type: 'latencyFrame', id, frameNumber, points, ...moments });
     }
-    if (frame.sensor === 0) this.#lastValidPoints = frame.validPoints;
+    this.#meter.onQueued(shared);
     this.sender.enqueue(shared);
   }
 
@@ -217,36 +210,14 @@ export class OperatorSession implements FrameTarget {
     if (this.peer.heardSinceLast()) this.#pathHeardMs = this.#host.now();
     this.#budget.update(this.peer.messageBytesSent, this.pictures.bytesSent, this.#host.now());
     this.#sendPictures();
+    this.videos.tick(this.#host.now());
     this.sender?.tick();
     this.messages.flushRejections();
   }
 
   /** This operator's stream for telemetry. Call once per telemetry message: rates count from the previous call. */
   status(captureStages: StageTimings, nowMs: number): { stages: StageTimings; stream: StreamStatus } {
-    this.#frames.update(this.#framesSent, nowMs);
-    this.#points.update(this.#pointsSent, nowMs);
-    this.#bytes.update(this.sender?.counters.bytesSent ?? 0, nowMs);
-    const framesPerSecond = this.#frames.perSecond;
-    return {
-      stages: { ...captureStages, sendMs: this.#stages.take().sendMs },
-      stream: {
-        frameNumber: this.#lastFrameNumber,
-        framesPerSecond,
-        pointsPerFrame: framesPerSecond > 0 ? this.#points.perSecond / framesPerSecond : 0,
-        validPoints: this.#lastValidPoints,
-        bitsPerSecond: BitRate.fromBytesPerSecond(this.#bytes.perSecond),
-        targetBitsPerSecond: this.sender?.targetBitsPerSecond ?? 0,
-        droppedFrames: this.droppedFrames,
-        ...(this.sender?.transportFeedback === false ? { feedback: 'reports' as const } : {}),
-      },
-    };
-  }
-
-  /** For telemetry: called for frames of the first sensor only, whereas bytes count for all sensors. */
-  #countSent({ frame }: SharedFrame): void {
-    this.#lastFrameNumber = frame.frameNumber;
-    this.#framesSent++;
-    this.#pointsSent += frame.points;
+    return this.#meter.status(captureStages, this.sender, nowMs);
   }
 
   #sendPictures(): void {
@@ -257,22 +228,30 @@ export class OperatorSession implements FrameTarget {
   #clear(): void {
     this.sender?.clear();
     this.pictures.clear();
+    this.videos.clear();
   }
 
-  #onConnected(transport: CloudTransport): void {
+  #onConnected(transport: RtpTransport, lines: readonly VideoLine[]): void {
     const sender = new StreamSender(transport, this.#makeController(transport.transportFeedback), () =>
       this.#host.now(),
     );
     const log = this.#packetLog;
-    if (log !== undefined) sender.onPacketSent = (frame, offset, sentMs) => log.add(frame, offset, sentMs);
-    sender.onFrameSent = ({ shared, sendMs }) => {
-      this.#stages.add('sendMs', sendMs);
-      if (shared.frame.sensor === 0) this.#countSent(shared);
-      this.#tests.onSent(shared);
+    if (log !== undefined) {
+      sender.onPacketSent = (frame, index, sentMs) => {
+        if (frame instanceof SharedFrame)
+          log.add(frame.frame.frameNumber, slotSequenceOffset(frame.slots, index), sentMs);
+      };
+    }
+    sender.onFrameSent = ({ frame, sendMs }) => {
+      if (!(frame instanceof SharedFrame)) return;
+      this.#meter.onSent(frame, sendMs);
+      this.#tests.onSent(frame);
     };
-    sender.onFrameDropped = (shared) => {
-      if (this.#tests.onLost(shared)) this.#events.onLatencyFrameLost();
+    sender.onFrameDropped = (frame) => {
+      if (!(frame instanceof SharedFrame)) this.videos.onDropped(frame.stream);
+      else if (this.#tests.onLost(frame)) this.#events.onLatencyFrameLost();
     };
+    this.videos.connect(sender, lines);
     sender.onRateChanged = () => {
       this.#events.onBudgetChanged();
       this.#sendLoop.run();
@@ -288,6 +267,7 @@ export class OperatorSession implements FrameTarget {
     this.sender = null;
     this.#tests.clear();
     this.pictures.clear();
+    this.videos.disconnect();
     if (sender !== null) {
       this.#sendLoop.remove(sender);
       sender.clear();

@@ -21,6 +21,7 @@ export interface OperatorSessionsOptions {
   makeController: (transportFeedback: boolean) => RateController;
   /** What the robot's cloud sensors claim of a path, indexed by sensor number. */
   claims: () => readonly CloudClaim[];
+  mostVideoBitsPerSecond: (video: number) => number;
   sendLoop: SendLoop;
   packetLog: PacketLog | undefined;
   host: SessionHost;
@@ -35,6 +36,7 @@ export interface OperatorSessionsEvents {
   connected: (operator: OperatorSession) => void;
   budgetChanged: () => void;
   cloudFormats: (operator: OperatorSession) => void;
+  needsKeyFrame: (video: number) => void;
   latencyFrameLost: () => void;
   /** The operator has been removed from `operators`. */
   ended: (operator: OperatorSession) => void;
@@ -126,7 +128,7 @@ export class OperatorSessions {
       {
         ...{ session, operatorName, packetLog, pictureShare },
         peer: { ...peer, iceServers: this.#iceServers },
-        ...{ makeController, claims },
+        ...{ makeController, claims, mostVideoBitsPerSecond: this.#options.mostVideoBitsPerSecond },
       },
       host,
       sendLoop,
@@ -142,6 +144,7 @@ export class OperatorSessions {
         },
         onBudgetChanged: () => this.#events.budgetChanged(),
         onCloudFormats: () => this.#events.cloudFormats(operator),
+        onNeedsKeyFrame: (video) => this.#events.needsKeyFrame(video),
         onLatencyFrameLost: () => this.#events.latencyFrameLost(),
         onEnded: (end, detail) => this.#ended(operator, end, detail, log),
       },

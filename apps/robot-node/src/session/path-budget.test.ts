@@ -30,6 +30,25 @@ describe('PathBudget', () => {
     expect(budget.cloudBitsPerSecond(10e6)).toBe(10e6 - 20_000);
   });
 
+  it('gives videos what they want where there is room, and a share where there is none', () => {
+    const budget = new PathBudget();
+    budget.wantVideos(
+      new Map([
+        [0, 1e6],
+        [2, 1e6],
+      ]),
+    );
+    expect(budget.videoBitsPerSecond(0, 20e6)).toBeCloseTo(1e6);
+    expect(budget.cloudBitsPerSecond(20e6)).toBeCloseTo(20e6 - 20_000 - 2 * 1.08e6);
+    // Clouds count twice.
+    const [video, cloud] = [budget.videoBitsPerSecond(2, 2.02e6), budget.cloudBitsPerSecond(2.02e6)];
+    expect(video * 1.08).toBeCloseTo(0.5e6);
+    expect(cloud).toBeCloseTo(1e6);
+    expect(budget.videoBitsPerSecond(1, 20e6)).toBe(0);
+    budget.wantVideos(new Map());
+    expect(budget.cloudBitsPerSecond(20e6)).toBe(20e6 - 20_000);
+  });
+
   it('gives messages all of a path that carries almost nothing', () => {
     expect(new PathBudget().cloudBitsPerSecond(15_000)).toBe(0);
   });

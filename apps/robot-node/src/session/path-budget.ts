@@ -10,11 +10,17 @@ const LEAST_MESSAGES = 20_000;
 /** Margin on the measured rate of pictures. */
 const PICTURE_MARGIN = 1.1;
 
+/** What a video's packets take besides the encoder's bits, as a factor. */
+const VIDEO_OVERHEAD = 1.08;
+/** Clouds count as much as this many videos where both want more than there is. */
+const CLOUD_WEIGHT = 2;
+
 /** Divides one operator's path among its streams. Messages come first: the robot must be able to say that it stops. */
 export class PathBudget {
   readonly #messages = new RateMeter();
   readonly #pictures = new RateMeter();
   readonly #pictureShare: number;
+  #videos: ReadonlyMap<number, number> = new Map();
 
   /** @param pictureShare the largest share of the path that pictures may take, 0–1 */
   constructor(pictureShare = 0) {
@@ -35,6 +41,24 @@ export class PathBudget {
 
   /** How much of the path's target rate the cloud may take, bit/s on the wire. */
   cloudBitsPerSecond(targetBitsPerSecond: number): number {
+    return this.#shares(targetBitsPerSecond).get('cloud') ?? 0;
+  }
+
+  /**
+   * What the operator's videos may use.
+   *
+   * @param most by video, its highest rate without headers, bit/s
+   */
+  wantVideos(most: ReadonlyMap<number, number>): void {
+    this.#videos = most;
+  }
+
+  /** How much of the path's target rate a video may take, bit/s without headers. */
+  videoBitsPerSecond(video: number, targetBitsPerSecond: number): number {
+    return (this.#shares(targetBitsPerSecond).get(videoClaim(video)) ?? 0) / VIDEO_OVERHEAD;
+  }
+
+  #shares(targetBitsPerSecond: number): ReadonlyMap<string, number> {
     const messages = this.#messageBitsPerSecond;
     // The cloud gets whatever part of their allowance pictures do not use.
     const pictures = Math.min(
@@ -53,15 +77,26 @@ export class PathBudget {
       {
         name: 'cloud',
         priority: 2,
-        weight: 1,
+        weight: CLOUD_WEIGHT,
         leastBitsPerSecond: 0,
         mostBitsPerSecond: Number.POSITIVE_INFINITY,
       },
+      ...[...this.#videos].map(([video, bitsPerSecond]) => ({
+        name: videoClaim(video),
+        priority: 2,
+        weight: 1,
+        leastBitsPerSecond: 0,
+        mostBitsPerSecond: bitsPerSecond * VIDEO_OVERHEAD,
+      })),
     ];
-    return allocate(targetBitsPerSecond, claims).get('cloud') ?? 0;
+    return allocate(targetBitsPerSecond, claims);
   }
 
   get #messageBitsPerSecond(): number {
     return Math.max(BitRate.fromBytesPerSecond(this.#messages.perSecond) * MESSAGE_MARGIN, LEAST_MESSAGES);
   }
+}
+
+function videoClaim(video: number): string {
+  return `video ${video}`;
 }

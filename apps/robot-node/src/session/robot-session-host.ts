@@ -6,14 +6,17 @@ import type { EstopJournal } from '../drive/estop-journal.ts';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { SessionRecording } from '../telemetry/session-recording.ts';
+import type { VideoHub } from '../video/video-hub.ts';
 import type { OperatorMessages, SessionHost } from './operator-messages.ts';
 import type { OperatorSession } from './operator-session.ts';
+import { tellVideos } from './welcome.ts';
 
 export interface RobotSessionHostParts {
   drive: DriveStation;
   estop: EstopJournal;
   operators: () => ReadonlyMap<string, OperatorSession>;
   sensors: () => CloudSensors;
+  videos: () => VideoHub;
   counters: RobotCounters;
   recording: SessionRecording | null;
   log: Logger;
@@ -58,6 +61,10 @@ export class RobotSessionHost implements SessionHost {
   latencyTestRequested({ id: operator }: OperatorMessages, id: number, commandMs: number): void {
     const isNew = this.#parts.operators().get(operator)?.askLatencyTest({ id, commandMs }) ?? false;
     if (isNew) this.requestLatencyFrame();
+  }
+
+  tellVideos(): void {
+    for (const operator of this.#parts.operators().values()) tellVideos(operator, this.#parts.videos());
   }
 
   requestLatencyFrame(): void {

@@ -1,5 +1,6 @@
-import { type DriveLimits, PROTOCOL_VERSION } from '@farpoint/protocol';
+import { type DriveLimits, PROTOCOL_VERSION, type VideoCodec } from '@farpoint/protocol';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
+import type { VideoHub } from '../video/video-hub.ts';
 import type { OperatorSession } from './operator-session.ts';
 
 export interface WelcomeFacts {
@@ -12,10 +13,12 @@ export interface WelcomeFacts {
 
 /** Sends a session's first messages: what the robot is, who drives, and which cameras and sensors there are. */
 export function welcome(
-  { messages, resumeKey }: OperatorSession,
+  operator: OperatorSession,
   { id, name, limits, framesPerSecond }: WelcomeFacts,
   sensors: CloudSensors,
+  videos: VideoHub,
 ): void {
+  const { messages, resumeKey } = operator;
   const { description, cameras } = sensors.first.capture;
   const { width, height } = description;
   messages.send({
@@ -33,4 +36,23 @@ export function welcome(
   if (sensors.all.length > 1) {
     messages.send({ type: 'sensors', sensors: sensors.all.map(({ name }) => ({ name })) });
   }
+  tellVideos(operator, videos);
+}
+
+/** Tells an operator which videos there are, and which of them have no pictures. */
+export function tellVideos({ messages, videos }: OperatorSession, { descriptions }: VideoHub): void {
+  const { lines } = videos;
+  if (lines.length === 0) return;
+  messages.send({
+    type: 'videos',
+    videos: descriptions.map((description, video) => {
+      const line = lines[video];
+      const refused = line?.transport === null ? { fault: refusal(description.codec) } : {};
+      return { ...description, ...refused, mid: line?.mid ?? '' };
+    }),
+  });
+}
+
+function refusal(codec: VideoCodec): string {
+  return `this client does not decode ${codec}: give the camera another encoder (vp8enc works everywhere)`;
 }

@@ -17,18 +17,24 @@ import {
   type TelemetryMessage,
   type Twist,
   telemetryCodec,
+  VIDEO_CODECS,
+  type VideoCodec,
   type WholePicture,
   zeroTwist,
 } from '@farpoint/protocol';
+import { ABS_CAPTURE_TIME_URI } from '@farpoint/rtp';
 import { helloAtOnce } from '@farpoint/webrtc/testing';
 import {
   type RTCDataChannel,
   RTCPeerConnection,
   RTCRtpCodecParameters,
+  RTCRtpHeaderExtensionParameters,
   useSdesMid,
   useTransportWideCC,
   useTWCC,
 } from 'werift';
+import { videoCodecParameters } from '../transport/media-codecs.ts';
+import { type ReceivedVideo, VideoReception } from './video-reception.ts';
 
 /** What has been received of one frame so far. */
 export interface ReceivedFrame {
@@ -50,6 +56,8 @@ export interface OperatorClientOptions {
   keys?: DtlsKeys | undefined;
   /** Begins the DTLS handshake without werift's usual pause. */
   helloAtOnce?: boolean | undefined;
+  /** The video codecs that it decodes; default both. */
+  videoCodecs?: readonly VideoCodec[] | undefined;
   /** Whether to give transport-wide feedback; default `true`. */
   transportFeedback?: boolean | undefined;
 }
@@ -67,6 +75,7 @@ export class OperatorClient {
   /** The newest picture of each camera. */
   readonly pictures = new Map<number, WholePicture>();
   readonly #assembler = new PictureAssembler();
+  readonly #video: VideoReception;
   telemetry: Telemetry | null = null;
   /** The newest reading of each topic. */
   readonly readings = new Map<string, Reading>();
@@ -79,9 +88,15 @@ export class OperatorClient {
   #probes: NodeJS.Timeout | null = null;
   #sequence = 0;
 
-  constructor({ keys, transportFeedback = true, ...options }: OperatorClientOptions = {}) {
+  constructor({
+    keys,
+    transportFeedback = true,
+    videoCodecs = VIDEO_CODECS,
+    ...options
+  }: OperatorClientOptions = {}) {
     this.#helloAtOnce = options.helloAtOnce ?? false;
     const extensions = transportFeedback ? [useSdesMid(), useTransportWideCC()] : [useSdesMid()];
+    const captureTime = new RTCRtpHeaderExtensionParameters({ uri: ABS_CAPTURE_TIME_URI });
     const rtcpFeedback = transportFeedback ? [useTWCC()] : [];
     this.connection = new RTCPeerConnection({
       iceServers: [],
@@ -90,14 +105,16 @@ export class OperatorClient {
         audio: [
           new RTCRtpCodecParameters({ mimeType: 'audio/opus', clockRate: 48_000, channels: 2, rtcpFeedback }),
         ],
-        video: [new RTCRtpCodecParameters({ mimeType: 'video/VP8', clockRate: 90_000, rtcpFeedback })],
+        video: videoCodecs.map((codec) => videoCodecParameters(codec)),
       },
-      headerExtensions: { audio: extensions, video: extensions },
+      headerExtensions: { audio: extensions, video: [...extensions, captureTime] },
       ...(keys === undefined ? {} : { dtls: { keys } }),
     });
     const { connection } = this;
+    this.#video = new VideoReception(connection, () => this.#changed());
     connection.onTrack.subscribe((track) => {
-      track.onReceiveRtp.subscribe((packet) => this.#onPayload(packet.payload));
+      if (track.kind === 'video') this.#video.add(track);
+      else track.onReceiveRtp.subscribe((packet) => this.#onPayload(packet.payload));
     });
     connection.onIceCandidate.subscribe((candidate) => {
       if (candidate === undefined) return;
@@ -202,6 +219,11 @@ export class OperatorClient {
       twist: { ...zeroTwist(), linear: { x: linear, y: 0, z: 0 } },
       ...more,
     });
+  }
+
+  /** By the `mid` of its m-line. */
+  get videos(): ReadonlyMap<string, ReceivedVideo> {
+    return this.#video.videos;
   }
 
   get completeFrames(): ReceivedFrame[] {

@@ -22,14 +22,22 @@ it.each([
   [without('a=fingerprint'), 'no a=fingerprint'],
   [without('a=ice-pwd'), 'no a=ice-pwd'],
 ] as const)('%#', (lines, fault) => {
-  expect(answerFault(lines.join('\r\n'))).toBe(fault);
-  expect(answerFault(lines.join('\n'))).toBe(fault);
+  expect(answerFault(lines.join('\r\n'), 1)).toBe(fault);
+  expect(answerFault(lines.join('\n'), 1)).toBe(fault);
+});
+
+it('knows how many video lines the offer had, any of which may be refused', () => {
+  const video = good.slice(10, 12);
+  const two = [...good.slice(0, 10), ...video, ...video, ...good.slice(12)].join('\n');
+  expect(answerFault(two, 2)).toBeNull();
+  expect(answerFault(two, 1)).toBe('4 m-lines, where the offer has 3');
+  expect(answerFault(good.join('\n'), 2)).toBe('3 m-lines, where the offer has 4');
 });
 
 it('returns a short fault or none for any text', () => {
   fc.assert(
     fc.property(fc.array(fc.oneof(fc.string(), fc.constantFrom(...good))), (lines) => {
-      expect((answerFault(lines.join('\n')) ?? '').length).toBeLessThan(100);
+      expect((answerFault(lines.join('\n'), 1) ?? '').length).toBeLessThan(100);
     }),
     { seed: 3 },
   );

@@ -1,6 +1,4 @@
-/** Our offer's m-lines in order. An answer repeats them (RFC 3264 §6). */
-const SECTIONS = ['audio', 'video', 'application'] as const;
-/** M-lines that must not be refused. The video line is idle. */
+/** M-lines that must not be refused. Without video, an operator still sees clouds. */
 const NEEDED: Readonly<Record<string, string>> = {
   audio: 'the cloud is refused (m=audio has port 0)',
   application: 'the data channels are refused (m=application has port 0)',
@@ -11,15 +9,18 @@ const ATTRIBUTES = ['ice-ufrag', 'ice-pwd', 'fingerprint'] as const;
  * Finds faults of an SDP answer before it is used. werift accepts texts that can never connect, and the operator
  * would only learn of it by a timeout.
  *
+ * @param videoLines number of video m-lines in the offer
  * @returns the fault, for people; `null` if there is none
  */
-export function answerFault(sdp: string): string | null {
+export function answerFault(sdp: string, videoLines: number): string | null {
+  // An answer repeats the offer's m-lines in order (RFC 3264 §6).
+  const sections = ['audio', ...Array.from({ length: videoLines }, () => 'video'), 'application'];
   const lines = sdp.split(/\r?\n/);
   if (lines[0] !== 'v=0') return 'no SDP: it does not begin with v=0';
   const media = lines.filter((line) => line.startsWith('m=')).map((line) => line.slice(2).split(' '));
-  if (media.length !== SECTIONS.length)
-    return `${media.length} m-lines, where the offer has ${SECTIONS.length}`;
-  for (const [index, kind] of SECTIONS.entries()) {
+  if (media.length !== sections.length)
+    return `${media.length} m-lines, where the offer has ${sections.length}`;
+  for (const [index, kind] of sections.entries()) {
     const [found, port] = media[index] as string[];
     if (found !== kind) return `m-line ${index + 1} is ${found?.slice(0, 20)}, where the offer has ${kind}`;
     if (port === '0' && NEEDED[kind] !== undefined) return NEEDED[kind];

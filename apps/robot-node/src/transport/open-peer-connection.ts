@@ -1,13 +1,7 @@
-import { CLOUD_MEDIA, type IceServer } from '@farpoint/protocol';
-import {
-  RTCPeerConnection,
-  RTCRtpCodecParameters,
-  useNACK,
-  useREMB,
-  useSdesMid,
-  useTransportWideCC,
-  useTWCC,
-} from 'werift';
+import { type IceServer, VIDEO_CODECS } from '@farpoint/protocol';
+import { ABS_CAPTURE_TIME_URI } from '@farpoint/rtp';
+import { RTCPeerConnection, RTCRtpHeaderExtensionParameters, useSdesMid, useTransportWideCC } from 'werift';
+import { cloudCodecParameters, videoCodecParameters } from './media-codecs.ts';
 import type { OperatorPeerOptions } from './peer-events.ts';
 
 /** Creates a connection that offers the media of a session with a Farpoint operator. */
@@ -16,9 +10,9 @@ export function openPeerConnection({
   icePolicy = 'all',
   portRange,
 }: Pick<OperatorPeerOptions, 'iceServers' | 'icePolicy' | 'portRange'>): RTCPeerConnection {
-  // Both m-lines share these objects, because ids must agree within a bundle.
+  // All m-lines share these objects, because ids must agree within a bundle.
   const extensions = [useSdesMid(), useTransportWideCC()];
-  const { mimeType, clockRate, channels } = CLOUD_MEDIA;
+  const captureTime = new RTCRtpHeaderExtensionParameters({ uri: ABS_CAPTURE_TIME_URI });
   return new RTCPeerConnection({
     iceServers: toWeriftServers(iceServers),
     bundlePolicy: 'max-bundle',
@@ -26,19 +20,8 @@ export function openPeerConnection({
     iceUseTcp: false,
     iceTransportPolicy: icePolicy,
     ...(portRange === undefined ? {} : { icePortRange: [...portRange] as [number, number] }),
-    codecs: {
-      audio: [
-        new RTCRtpCodecParameters({
-          ...{ mimeType, clockRate, channels },
-          // REMB for peers that support nothing better.
-          rtcpFeedback: [useTWCC(), useNACK(), useREMB()],
-        }),
-      ],
-      video: [
-        new RTCRtpCodecParameters({ mimeType: 'video/VP8', clockRate: 90_000, rtcpFeedback: [useTWCC()] }),
-      ],
-    },
-    headerExtensions: { audio: extensions, video: extensions },
+    codecs: { audio: [cloudCodecParameters()], video: VIDEO_CODECS.map(videoCodecParameters) },
+    headerExtensions: { audio: extensions, video: [...extensions, captureTime] },
   });
 }
 

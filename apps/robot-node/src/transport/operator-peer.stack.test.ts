@@ -4,9 +4,9 @@ import type { IceServer } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { OperatorClient } from '../testing/operator-client.ts';
-import type { CloudTransport } from './cloud-transport.ts';
 import { OperatorPeer } from './operator-peer.ts';
 import type { PeerEnd } from './peer-events.ts';
+import type { RtpTransport } from './rtp-transport.ts';
 
 const cleanups: (() => unknown)[] = [];
 const unhandled: unknown[] = [];
@@ -36,7 +36,7 @@ function robotPeer(connectTimeoutMs = 20_000, iceServers: IceServer[] = []) {
   let client: OperatorClient | null = null;
   let answering: Promise<unknown> = Promise.resolve();
   const answers: string[] = [];
-  const connected = Promise.withResolvers<CloudTransport>();
+  const connected = Promise.withResolvers<RtpTransport>();
   const ended = Promise.withResolvers<[PeerEnd, string]>();
   const heard = Promise.withResolvers<void>();
   const peer = new OperatorPeer(

@@ -20,14 +20,16 @@ import { MediaStream, type RTCDataChannel, type RTCPeerConnection, type RTCRtpTr
 import { answerFault } from './answer-fault.ts';
 import { AnswerGate, type AnswerVerdict } from './answer-gate.ts';
 import { MAX_RELIABLE_BACKLOG, MAX_UNRELIABLE_BACKLOG, MESSAGE_OVERHEAD_BYTES } from './message-limits.ts';
+import { OfferedVideos } from './offered-videos.ts';
 import { errorText, openPeerConnection, toWeriftServers } from './open-peer-connection.ts';
 import type { OperatorPeerEvents, OperatorPeerOptions, PeerEnd } from './peer-events.ts';
-import { SrtpCloudTransport } from './srtp-cloud-transport.ts';
+import { SrtpTransport } from './srtp-transport.ts';
 
 export class OperatorPeer {
   readonly #events: OperatorPeerEvents;
   readonly #connection: RTCPeerConnection;
   readonly #cloud: RTCRtpTransceiver;
+  readonly #videos: OfferedVideos;
   readonly #session: RTCDataChannel;
   readonly #telemetry: RTCDataChannel;
   readonly #connectTimer: NodeJS.Timeout;
@@ -35,7 +37,7 @@ export class OperatorPeer {
   readonly #pictures: RTCDataChannel | null = null;
   #control: RTCDataChannel | null = null;
   #bandwidth: RTCDataChannel | null = null;
-  #transport: SrtpCloudTransport | null = null;
+  #transport: SrtpTransport | null = null;
   #connected = false;
   #ended = false;
   readonly #answers = new AnswerGate();
@@ -67,8 +69,7 @@ export class OperatorPeer {
       direction: 'sendonly',
       streams: [new MediaStream({ id: CLOUD_STREAM_ID })],
     });
-    // Idle, but a video m-line in the bundle raises the browser's UDP receive buffer from 128 KiB to 2 MiB.
-    connection.addTransceiver('video', { direction: 'sendonly' });
+    this.#videos = new OfferedVideos(connection, options.videos ?? []);
     const { session, telemetry, pictures } = channels;
     this.#session = connection.createDataChannel(session.label, { ordered: session.ordered });
     this.#telemetry = connection.createDataChannel(telemetry.label, {
@@ -168,7 +169,7 @@ export class OperatorPeer {
   async answer(sdp: string): Promise<AnswerVerdict> {
     const verdict = this.#ended ? 'unasked' : this.#answers.judge(sdp);
     if (verdict !== 'taken') return verdict;
-    const fault = answerFault(sdp);
+    const fault = answerFault(sdp, this.#videos.lines);
     if (fault !== null) {
       this.#end('bad-answer', fault);
       return verdict;
@@ -272,9 +273,9 @@ export class OperatorPeer {
   #checkConnected(): void {
     if (this.#connected || this.#ended) return;
     if (this.#connection.connectionState !== 'connected' || this.#session.readyState !== 'open') return;
-    let transport: SrtpCloudTransport;
+    let transport: SrtpTransport;
     try {
-      transport = new SrtpCloudTransport(this.#cloud);
+      transport = new SrtpTransport(this.#cloud);
     } catch (error) {
       this.#end('bad-answer', errorText(error));
       return;
@@ -282,7 +283,7 @@ export class OperatorPeer {
     clearTimeout(this.#connectTimer);
     this.#connected = true;
     this.#transport = transport;
-    this.#events.onConnected(transport);
+    this.#events.onConnected(transport, this.#videos.connect());
   }
 
   #end(end: PeerEnd, detail: string): void {

@@ -1,6 +1,7 @@
-import type { IceCandidate, IceServer } from '@farpoint/protocol';
+import type { IceCandidate, IceServer, VideoCodec } from '@farpoint/protocol';
 import type { CandidateRefusal, Refusal } from '@farpoint/webrtc';
-import type { CloudTransport } from './cloud-transport.ts';
+import type { RtpTransport } from './rtp-transport.ts';
+import type { VideoLine } from './video-line.ts';
 
 /** Why a connection ended. */
 export type PeerEnd =
@@ -21,6 +22,8 @@ export interface OperatorPeerOptions {
   connectTimeoutMs: number;
   /** Whether to open a channel for pictures. */
   pictures?: boolean | undefined;
+  /** The codec of each video to offer; none if undefined. */
+  videos?: readonly VideoCodec[] | undefined;
   /** Called when something from the network was dropped unread. */
   onRefused?: ((reason: Refusal) => void) | undefined;
 }
@@ -30,7 +33,7 @@ export interface OperatorPeerEvents {
   /** A candidate of the operator is left out; others may work. */
   onCandidateRefused?(reason: CandidateRefusal, detail: string): void;
   /** The path and our channels are up. */
-  onConnected(transport: CloudTransport): void;
+  onConnected(clouds: RtpTransport, videos: readonly VideoLine[]): void;
   onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void;
   /** Almost all queued picture data has been sent. */
   onPicturesLow?(): void;

@@ -10,7 +10,7 @@ import {
   readRemb,
   readReportBlocks,
 } from '@farpoint/rtp';
-import type { CloudTransport } from './cloud-transport.ts';
+import type { RtpTransport } from './rtp-transport.ts';
 
 /** An operator's own counts take precedence over its RTCP for this long after the last of them, ms. */
 const OWN_SUMS_HOLD_MS = 3000;
@@ -19,7 +19,7 @@ const OWN_SUMS_HOLD_MS = 3000;
 export type ReportOutcome = 'changed' | 'nothing-new' | 'malformed';
 
 export class ReportIntake {
-  readonly #transport: CloudTransport;
+  readonly #transport: RtpTransport;
   readonly #controller: RateController;
   /** The receiver's limits: one from the operator itself, one from its WebRTC stack. */
   #ownLimit = Number.POSITIVE_INFINITY;
@@ -29,7 +29,7 @@ export class ReportIntake {
   #rttMs: number | null = null;
   #rttHeardMs = Number.NEGATIVE_INFINITY;
 
-  constructor(transport: CloudTransport, controller: RateController) {
+  constructor(transport: RtpTransport, controller: RateController) {
     this.#transport = transport;
     this.#controller = controller;
   }

@@ -1,14 +1,15 @@
-import type { PacedFrame } from '@farpoint/congestion';
 import { CLOUD_MEDIA } from '@farpoint/protocol';
 import { rtpTimestamp } from '@farpoint/rtp';
 import type { ReadyFrame } from '../capture/capture-messages.ts';
-import { slotPayloadBytes } from '../encode/packetiser.ts';
+import { slotPayload, slotPayloadBytes } from '../encode/packetiser.ts';
+import type { OutgoingFrame } from './outgoing-frame.ts';
 
 /** A frame takes one interval to send. When it has taken this many, its farthest points are dropped. */
 const MOST_INTERVALS = 2;
 
-/** One captured frame on its way to several operators. Its buffer is returned when the last of them has released it. */
-export class SharedFrame implements PacedFrame {
+/** One captured cloud on its way to several operators. Its buffer is returned when the last of them has released it. */
+export class SharedFrame implements OutgoingFrame {
+  readonly stream = 0;
   readonly frame: ReadyFrame;
   readonly slots: Uint8Array;
   readonly packets: number;
@@ -38,6 +39,23 @@ export class SharedFrame implements PacedFrame {
     this.rtpTimestamp = rtpTimestamp(frame.capturedAtMs, CLOUD_MEDIA.clockRate);
     this.maxSpanMs = frame.intervalMs * MOST_INTERVALS;
     this.#recycle = recycle;
+  }
+
+  get points(): number {
+    return this.frame.points;
+  }
+
+  get capturedAtMs(): number {
+    return this.frame.capturedAtMs;
+  }
+
+  /** The next frame replaces it. */
+  get usefulMs(): number {
+    return this.frame.intervalMs;
+  }
+
+  payload(index: number): Uint8Array {
+    return slotPayload(this.slots, index);
   }
 
   hold(): this {

@@ -1,5 +1,6 @@
 /** Totals since the session began. */
 export interface StreamCounters {
+  /** Of clouds. */
   framesSent: number;
   packetsSent: number;
   /** On the wire, all headers counted. */

@@ -9,7 +9,8 @@ import type { ReportBlock } from '@farpoint/rtp';
 import { describe, expect, it } from 'vitest';
 import type { ReadyFrame } from '../capture/capture-messages.ts';
 import { completePackets, SLOT_BYTES } from '../encode/packetiser.ts';
-import type { CloudTransport } from './cloud-transport.ts';
+import type { OutgoingFrame } from './outgoing-frame.ts';
+import type { RtpTransport } from './rtp-transport.ts';
 import { SharedFrame } from './shared-frame.ts';
 import { StreamSender } from './stream-sender.ts';
 
@@ -22,7 +23,8 @@ interface Sent {
 }
 
 /** A path whose other end is the test. */
-class RecordingTransport implements CloudTransport {
+class RecordingTransport implements RtpTransport {
+  readonly ssrc = 1;
   readonly overheadBytes = 68;
   ready = true;
   transportFeedback = true;
@@ -188,7 +190,7 @@ describe('StreamSender', () => {
 
   it('drops the older of two queued frames, reports it, and returns its buffer', () => {
     const { sender, recycled, share, runUntil } = stage(1e6);
-    const dropped: [SharedFrame, string][] = [];
+    const dropped: [OutgoingFrame, string][] = [];
     sender.onFrameDropped = (shared, reason) => dropped.push([shared, reason]);
     const frames = [share(frame(1500)), share(frame(1500)), share(frame(1500))] as const;
     sender.enqueue(frames[0]);
@@ -335,6 +337,7 @@ describe('StreamSender', () => {
       bytes.writeUInt8(0x81, 0);
       bytes.writeUInt8(205, 1);
       bytes.writeUInt16BE(3, 2);
+      bytes.writeUInt32BE(1, 8);
       bytes.writeUInt16BE(pid, 12);
       bytes.writeUInt16BE(blp, 14);
       return bytes;

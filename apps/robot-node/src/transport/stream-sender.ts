@@ -5,25 +5,16 @@ import {
   type RateController,
   type RateSnapshot,
 } from '@farpoint/congestion';
-import {
-  FMT_GENERIC_NACK,
-  FMT_TRANSPORT_WIDE,
-  parseTransportFeedback,
-  type ResendRefusal,
-  RTCP_TRANSPORT_FEEDBACK,
-  readNack,
-  TransportFeedbackAdapter,
-  TransportFeedbackError,
-  walkRtcp,
-} from '@farpoint/rtp';
-import { TokenBucket } from '@farpoint/timing';
-import { slotPayload, slotSequenceOffset } from '../encode/packetiser.ts';
-import type { CloudTransport } from './cloud-transport.ts';
+import type { ResendRefusal } from '@farpoint/rtp';
 import { FrameFit } from './frame-fit.ts';
+import type { OutgoingFrame } from './outgoing-frame.ts';
 import { ReportIntake } from './report-intake.ts';
-import type { SharedFrame } from './shared-frame.ts';
+import type { RtpTransport } from './rtp-transport.ts';
 import { emptyStreamCounters } from './stream-counters.ts';
+import { StreamFeedback } from './stream-feedback.ts';
 
+/** The number of the clouds' stream. */
+const CLOUD_STREAM = 0;
 /** Packets leave in bursts of this length, ms. Waking up for each packet would cost more than sending it. */
 const BURST_MS = 2.5;
 /**
@@ -35,36 +26,38 @@ const SHORT_TRAIN_PACKETS = 20;
 
 /** A frame has been sent to its last packet. */
 export interface SentFrame {
-  shared: SharedFrame;
+  frame: OutgoingFrame;
   /** Time from the first packet to the last, ms. */
   sendMs: number;
 }
 
 /**
- * One operator's stream. Takes whole frames, sends their packets evenly at the rate that the controller allows, and
- * reports the result to the controller. It owns no timer: call `pump` at `nextDueMs`.
+ * What is streamed to one operator: clouds, and the videos of cameras. Takes whole frames, sends their packets evenly
+ * at the rate that the controller allows, and reports the result to the controller. It owns no timer: call `pump` at
+ * `nextDueMs`.
  */
 export class StreamSender {
   readonly counters = emptyStreamCounters();
   onFrameSent: ((sent: SentFrame) => void) | null = null;
-  onFrameDropped: ((shared: SharedFrame, reason: FrameDropReason) => void) | null = null;
-  /**
-   * Called for each packet sent, with the frame number, the offset of its data in the frame, and the robot's clock.
-   * For measurements.
-   */
-  onPacketSent: ((frameNumber: number, sequenceOffset: number, sentMs: number) => void) | null = null;
+  onFrameDropped: ((frame: OutgoingFrame, reason: FrameDropReason) => void) | null = null;
+  /** Called for each packet sent, with its index in the frame and the robot's clock. For measurements. */
+  onPacketSent: ((frame: OutgoingFrame, index: number, sentMs: number) => void) | null = null;
   /** The rate controller got new information: what may be sent, and when, has changed. */
   onRateChanged: (() => void) | null = null;
-  readonly #transport: CloudTransport;
+  /** The clouds' stream; the operator's feedback on all streams arrives here. */
+  readonly #transport: RtpTransport;
+  /** By stream number. */
+  readonly #streams: Map<number, RtpTransport>;
   readonly #controller: RateController;
-  readonly #pacer: PacketPacer<SharedFrame>;
-  readonly #feedback = new TransportFeedbackAdapter();
+  readonly #pacer: PacketPacer<OutgoingFrame>;
+  readonly #feedback: StreamFeedback;
   readonly #reports: ReportIntake;
   readonly #fit = new FrameFit();
-  /** A peer that requests every packet again gets a tenth of them. */
-  readonly #resends = new TokenBucket({ perSecond: 400, burst: 50 });
   readonly #now: () => number;
-  readonly #beganMs = new WeakMap<SharedFrame, number>();
+  readonly #beganMs = new WeakMap<OutgoingFrame, number>();
+  readonly #cloudDrops: Record<FrameDropReason, number> = {
+    ...{ superseded: 0, overdue: 0, undecodable: 0, cleared: 0 },
+  };
   /** The probe that is being sent, its rate, and its remaining bytes. */
   #probeCluster = 0;
   #probeBitsPerSecond = 0;
@@ -74,8 +67,9 @@ export class StreamSender {
   /** When RTCP from the operator last arrived, ms. */
   heardMs = 0;
 
-  constructor(transport: CloudTransport, controller: RateController, now: () => number) {
+  constructor(transport: RtpTransport, controller: RateController, now: () => number) {
     this.#transport = transport;
+    this.#streams = new Map([[CLOUD_STREAM, transport]]);
     this.#controller = controller;
     this.#reports = new ReportIntake(transport, controller);
     this.#now = now;
@@ -84,7 +78,25 @@ export class StreamSender {
       factor: 1,
       burstMs: BURST_MS,
     });
-    transport.onRtcp = (compound) => this.#onRtcp(compound);
+    const { counters } = this;
+    this.#feedback = new StreamFeedback({
+      streams: this.#streams,
+      ...{ controller, reports: this.#reports, counters },
+    });
+    transport.onRtcp = (compound) => {
+      this.heardMs = this.#now();
+      if (this.#feedback.onRtcp(compound, this.heardMs)) this.onRateChanged?.();
+    };
+  }
+
+  /** @param stream the number by which frames name it, not 0 */
+  addStream(stream: number, transport: RtpTransport): void {
+    this.#streams.set(stream, transport);
+  }
+
+  /** @param handler called with a stream whose video the operator cannot show before the next key frame */
+  set onPictureLoss(handler: (stream: number) => void) {
+    this.#feedback.onPictureLoss = handler;
   }
 
   get overheadBytes(): number {
@@ -111,8 +123,9 @@ export class StreamSender {
     return probe === null || probe.clusterId === this.#probeCluster ? null : probe;
   }
 
+  /** Frames of clouds that were dropped, wholly or in part, by reason. */
   get droppedFrames(): Readonly<Record<FrameDropReason, number>> {
-    return this.#pacer.drops;
+    return this.#cloudDrops;
   }
 
   /** How often a retransmission was refused, by reason. */
@@ -126,55 +139,60 @@ export class StreamSender {
   }
 
   /** Retains the frame and sends it in its turn, unless a newer one comes first. */
-  enqueue(shared: SharedFrame): void {
-    if (shared.packets === 0) return;
-    this.#takeProbe(shared);
-    for (const { frame, reason } of this.#pacer.enqueue(shared.hold(), this.#now())) {
+  enqueue(outgoing: OutgoingFrame): void {
+    if (outgoing.packets === 0) return;
+    this.#takeProbe(outgoing);
+    for (const { frame, reason } of this.#pacer.enqueue(outgoing.hold(), this.#now())) {
       // A frame that waits for the congestion window is not late through our own fault.
-      if (!this.#windowFull) this.#fit.onCut();
-      this.onFrameDropped?.(frame, reason);
-      frame.release();
+      if (!this.#windowFull && frame.stream === CLOUD_STREAM) this.#fit.onCut();
+      this.#drop(frame, reason);
     }
+  }
+
+  #drop(frame: OutgoingFrame, reason: FrameDropReason): void {
+    if (frame.stream === CLOUD_STREAM) this.#cloudDrops[reason]++;
+    this.onFrameDropped?.(frame, reason);
+    frame.release();
   }
 
   /**
    * Uses the frame as the probe train if it has the requested length. If frames stay shorter, a whole frame is
    * enough: otherwise a source that has no more to give would never learn how fast its frames may go.
    */
-  #takeProbe(shared: SharedFrame): void {
+  #takeProbe(frame: OutgoingFrame): void {
     const wish = this.probeWish;
     if (wish === null) {
       this.#framesTooShort = 0;
       return;
     }
     // Frames in other lanes are not sized for probes.
-    if (shared.lane !== 0) return;
-    if (shared.bytes < wish.bytes) {
+    if (frame.lane !== 0) return;
+    if (frame.bytes < wish.bytes) {
       this.#framesTooShort++;
-      if (this.#framesTooShort <= PATIENT_FRAMES || shared.packets < SHORT_TRAIN_PACKETS) return;
+      if (this.#framesTooShort <= PATIENT_FRAMES || frame.packets < SHORT_TRAIN_PACKETS) return;
     }
     this.#framesTooShort = 0;
     this.#probeCluster = wish.clusterId;
     this.#probeBitsPerSecond = wish.bitsPerSecond;
-    this.#probeBytesLeft = Math.min(wish.bytes, shared.bytes);
+    this.#probeBytesLeft = Math.min(wish.bytes, frame.bytes);
   }
 
   /** Sends what is due now. */
   pump(): void {
-    const transport = this.#transport;
     for (;;) {
       const now = this.#now();
       if (this.#windowFull) return;
       this.#setPace(now);
       const run = this.#pacer.due(now);
       if (run === null) return;
-      const { frame: shared, first, count, last } = run;
-      if (first === 0) this.#beganMs.set(shared, now);
-      const { points } = shared.frame;
+      const { frame, first, count, last } = run;
+      if (first === 0) this.#beganMs.set(frame, now);
+      const { rtpTimestamp, usefulMs, capturedAtMs } = frame;
+      const transport = this.#streams.get(frame.stream) ?? this.#transport;
       for (let i = first; i < first + count; i++) {
-        const payload = slotPayload(shared.slots, i);
-        const marker = i === shared.packets - 1;
-        const sequence = transport.send(payload, shared.rtpTimestamp, marker, now, shared.frame.intervalMs);
+        const payload = frame.payload(i);
+        const marker = i === frame.packets - 1;
+        const sequence = transport.send(payload, rtpTimestamp, marker, now, usefulMs, capturedAtMs);
         if (sequence === null) {
           this.counters.packetsUnsent++;
           continue;
@@ -188,16 +206,18 @@ export class StreamSender {
           this.#probeBytesLeft > 0 ? this.#probeCluster : 0,
         );
         this.#probeBytesLeft -= wireBytes;
-        this.onPacketSent?.(shared.frame.frameNumber, slotSequenceOffset(shared.slots, i), this.#now());
+        this.onPacketSent?.(frame, i, this.#now());
         this.counters.packetsSent++;
         this.counters.bytesSent += wireBytes;
       }
       if (!last) continue;
-      this.#fit.onSent();
-      this.counters.framesSent++;
-      this.counters.pointsSent += points;
-      this.onFrameSent?.({ shared, sendMs: this.#now() - (this.#beganMs.get(shared) ?? now) });
-      shared.release();
+      if (frame.stream === CLOUD_STREAM) {
+        this.#fit.onSent();
+        this.counters.framesSent++;
+        this.counters.pointsSent += frame.points;
+      }
+      this.onFrameSent?.({ frame, sendMs: this.#now() - (this.#beganMs.get(frame) ?? now) });
+      frame.release();
     }
   }
 
@@ -224,49 +244,7 @@ export class StreamSender {
 
   /** Drops everything queued, because the stream was stopped or the session is over. */
   clear(): void {
-    for (const { frame, reason } of this.#pacer.clear()) {
-      this.onFrameDropped?.(frame, reason);
-      frame.release();
-    }
-  }
-
-  #onRtcp(compound: Uint8Array): void {
-    this.heardMs = this.#now();
-    let changed = false;
-    for (const packet of walkRtcp(compound, () => this.counters.feedbackMalformed++)) {
-      if (packet.packetType !== RTCP_TRANSPORT_FEEDBACK) {
-        const outcome = this.#reports.onRtcp(packet, this.#now());
-        if (outcome === 'malformed') this.counters.feedbackMalformed++;
-        changed ||= outcome === 'changed';
-        continue;
-      }
-      if (packet.format === FMT_GENERIC_NACK) this.#onNack(packet.bytes);
-      if (packet.format !== FMT_TRANSPORT_WIDE) continue;
-      try {
-        const now = this.#now();
-        const results = this.#feedback.onFeedback(parseTransportFeedback(packet.bytes), now);
-        this.counters.feedbackMessages++;
-        if (results.length === 0) continue;
-        this.#controller.onFeedback(results, now);
-        changed = true;
-      } catch (error) {
-        if (!(error instanceof TransportFeedbackError)) throw error;
-        this.counters.feedbackMalformed++;
-      }
-    }
-    if (changed) this.onRateChanged?.();
-  }
-
-  #onNack(bytes: Uint8Array): void {
-    const now = this.#now();
-    const fault = readNack(bytes, (sequence) => {
-      if (!this.#resends.take(now)) return;
-      const sent = this.#transport.resend(sequence, now);
-      if (sent === 0) return;
-      this.counters.packetsResent++;
-      this.counters.bytesSent += sent;
-    });
-    if (fault !== null) this.counters.feedbackMalformed++;
+    for (const { frame, reason } of this.#pacer.clear()) this.#drop(frame, reason);
   }
 
   get #windowFull(): boolean {

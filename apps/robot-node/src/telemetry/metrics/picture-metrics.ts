@@ -3,7 +3,7 @@ import type { Robot } from '../../robot.ts';
 import type { OperatorSession } from '../../session/operator-session.ts';
 
 /** Metrics of camera pictures: made, lost, sent. None if the robot has no camera. */
-export function addPictureMetrics(metrics: PulledMetrics, { pictures, operators }: Robot): void {
+export function addPictureMetrics(metrics: PulledMetrics, { cameras: { pictures }, operators }: Robot): void {
   if (pictures === null) return;
   const made = pictures.counters;
   const total = (read: (operator: OperatorSession) => number) => () =>

@@ -8,6 +8,7 @@ import { addReferenceMetrics } from './reference-metrics.ts';
 import { addSensorMetrics } from './sensor-metrics.ts';
 import { addSessionMetrics } from './session-metrics.ts';
 import { addSignalingMetrics } from './signaling-metrics.ts';
+import { addVideoMetrics } from './video-metrics.ts';
 
 /** Registers all of the robot's counts for `/metrics`. */
 export function registerRobotMetrics(registry: Registry, robot: Robot): void {
@@ -18,6 +19,7 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   addSensorMetrics(metrics, robot);
   addPathMetrics(metrics, robot);
   addPictureMetrics(metrics, robot);
+  addVideoMetrics(metrics, robot);
   addRecordingMetrics(metrics, robot);
   addReferenceMetrics(metrics, robot);
 }

@@ -1,6 +1,6 @@
 /**
- * The interface between what is sent and how: one operator's unreliable path for cloud packets. Pacing, frames and
- * rates are above it; RTP, SRTP and sockets below it.
+ * The interface between what is sent and how: one RTP stream to one operator. Pacing, frames and rates are
+ * above it; RTP, SRTP and sockets below it.
  */
 
 import type { ReceiverSums } from '@farpoint/congestion';
@@ -9,7 +9,9 @@ import type { ReportBlock, ResendRefusal } from '@farpoint/rtp';
 /** Bytes of UDP and IPv4 headers per packet on the wire. */
 export const UDP_IPV4_BYTES = 28;
 
-export interface CloudTransport {
+export interface RtpTransport {
+  /** The stream's SSRC, by which feedback names it. */
+  readonly ssrc: number;
   /** Bytes added to each payload on the wire: RTP header, SRTP tag, UDP and IP. */
   readonly overheadBytes: number;
   /** False before the path is up and after it is closed. */
@@ -18,10 +20,11 @@ export interface CloudTransport {
   /**
    * Sends one payload immediately or not at all: nothing is queued.
    *
-   * @param timestamp RTP timestamp, u32 in 1/48000 s, the same for all packets of a frame
+   * @param timestamp RTP timestamp, u32 in units of the stream's clock, the same for all packets of a frame
    * @param marker set on the last packet of a frame
    * @param nowMs robot's clock
    * @param usefulMs how long the packet may be retransmitted on request
+   * @param capturedAtMs when the frame was captured, robot's clock; streams that do not carry it ignore it
    * @returns the packet's transport-wide sequence number (u16), or `null` if the path is closed
    */
   send(
@@ -30,6 +33,7 @@ export interface CloudTransport {
     marker: boolean,
     nowMs: number,
     usefulMs: number,
+    capturedAtMs?: number,
   ): number | null;
 
   /**
@@ -48,6 +52,6 @@ export interface CloudTransport {
   /** What a block of a receiver report says about our stream; `null` for a block about another stream. */
   receiverSums(block: Readonly<ReportBlock>, nowMs: number): ReceiverSums | null;
 
-  /** Raw RTCP compound packets from the peer, decrypted. */
+  /** Raw RTCP compound packets from the peer, decrypted: those on all streams of its bundle. */
   onRtcp: ((compound: Uint8Array) => void) | null;
 }

@@ -1,25 +1,44 @@
 import { Buffer } from 'node:buffer';
 import { randomInt } from 'node:crypto';
 import type { ReceiverSums } from '@farpoint/congestion';
-import { type ReportBlock, ResendHistory, RtpHeaderTemplate, SequenceNumber } from '@farpoint/rtp';
+import {
+  ABS_CAPTURE_TIME_URI,
+  ntpOfUnixMs,
+  type ReportBlock,
+  ResendHistory,
+  RtpHeaderTemplate,
+  rtpTimestamp,
+  SequenceNumber,
+  writeSenderReport,
+} from '@farpoint/rtp';
 import { SRTP_AEAD_AES_128_GCM, SRTP_GCM_TAG_BYTES, SrtpSealer } from '@farpoint/rtp/srtp';
-import { IcePath, srtpKeys, tapRtcp } from '@farpoint/webrtc';
+import { IcePath, sendRtcp, srtpKeys, tapRtcp } from '@farpoint/webrtc';
 import { type RTCDtlsTransport, type RTCRtpTransceiver, RTP_EXTENSION_URI } from 'werift';
-import { type CloudTransport, UDP_IPV4_BYTES } from './cloud-transport.ts';
 import { ReportSums } from './report-sums.ts';
+import { type RtpTransport, UDP_IPV4_BYTES } from './rtp-transport.ts';
 
 /** The peer does not support what the stream needs. */
-export class CloudTransportError extends Error {
-  override readonly name = 'CloudTransportError';
+export class RtpTransportError extends Error {
+  override readonly name = 'RtpTransportError';
+}
+
+export interface SrtpTransportOptions {
+  /** Overrides the negotiated id of the transport-wide sequence number. */
+  transportSequenceExtensionId?: number | undefined;
+  /** Called with the bundle's RTCP; only one transport of a bundle may ask for it. */
+  rtcp?: boolean | undefined;
+  /** What to add to the robot's clock for the time since 1970, ms. With it, packets carry their capture time. */
+  unixOffsetMs?: number | undefined;
 }
 
 /**
- * Sends cloud packets on a connected werift transceiver, encrypted by us, because werift's own sender copies and
+ * Sends an RTP stream on a connected werift transceiver, encrypted by us, because werift's own sender copies and
  * serialises each packet several times. werift never sends RTP on this SSRC, so each nonce is used once. The
  * transport-wide sequence number is werift's own counter, shared with everything else that it sends in the bundle.
  */
-export class SrtpCloudTransport implements CloudTransport {
+export class SrtpTransport implements RtpTransport {
   onRtcp: ((compound: Uint8Array) => void) | null = null;
+  readonly ssrc: number;
   readonly overheadBytes: number;
   readonly transportFeedback: boolean;
   readonly #dtls: RTCDtlsTransport;
@@ -32,6 +51,9 @@ export class SrtpCloudTransport implements CloudTransport {
    * §8.4).
    */
   readonly #sent = new ResendHistory<readonly Buffer[]>();
+  readonly #unixOffsetMs: number;
+  #packetsSent = 0;
+  #payloadBytesSent = 0;
   /** The path is looked up once per turn of the event loop, not once per packet. */
   #pathIsFresh = false;
   #pathIsOpen = false;
@@ -39,21 +61,19 @@ export class SrtpCloudTransport implements CloudTransport {
 
   /**
    * @param transceiver negotiated, on a connected DTLS transport
-   * @param transportSequenceExtensionId overrides the negotiated id of the transport-wide sequence number
-   * @throws {CloudTransportError} if the answer refused the codec or AES-128-GCM
+   * @throws {RtpTransportError} if the answer refused the codec or AES-128-GCM
    */
-  constructor(transceiver: RTCRtpTransceiver, transportSequenceExtensionId?: number) {
+  constructor(transceiver: RTCRtpTransceiver, options: SrtpTransportOptions = {}) {
     const { sender, mid } = transceiver;
     const codec = sender.codec;
-    if (codec === undefined || mid === null)
-      throw new CloudTransportError('the peer refused the cloud stream');
+    if (codec === undefined || mid === null) throw new RtpTransportError('the peer refused the stream');
     const dtls = transceiver.dtlsTransport;
     const { profile, key, salt } = srtpKeys(dtls, 'outgoing');
     if (profile !== SRTP_AEAD_AES_128_GCM)
-      throw new CloudTransportError('the peer does not take SRTP with AES-128-GCM');
+      throw new RtpTransportError('the peer does not take SRTP with AES-128-GCM');
     const extensionId = (uri: string) => transceiver.headerExtensions.find((e) => e.uri === uri)?.id;
     const transportSequenceId =
-      transportSequenceExtensionId ?? extensionId(RTP_EXTENSION_URI.transportWideCC);
+      options.transportSequenceExtensionId ?? extensionId(RTP_EXTENSION_URI.transportWideCC);
     this.transportFeedback =
       transportSequenceId !== undefined && codec.rtcpFeedback.some(({ type }) => type === 'transport-cc');
     // A peer that gives transport-wide feedback is not asked for receiver reports as well.
@@ -64,12 +84,16 @@ export class SrtpCloudTransport implements CloudTransport {
       mid,
       midExtensionId: extensionId(RTP_EXTENSION_URI.sdesMid),
       transportSequenceExtensionId: transportSequenceId,
+      captureTimeExtensionId:
+        options.unixOffsetMs === undefined ? undefined : extensionId(ABS_CAPTURE_TIME_URI),
     });
+    this.ssrc = sender.ssrc;
+    this.#unixOffsetMs = options.unixOffsetMs ?? 0;
     this.#sealer = new SrtpSealer(key, salt, sender.ssrc, randomInt(0x8000));
     this.#dtls = dtls;
     this.#path = new IcePath(dtls);
     this.overheadBytes = this.#header.bytes.length + SRTP_GCM_TAG_BYTES + UDP_IPV4_BYTES;
-    tapRtcp(dtls, (compound) => this.onRtcp?.(compound));
+    if (options.rtcp !== false) tapRtcp(dtls, (compound) => this.onRtcp?.(compound));
   }
 
   get ready(): boolean {
@@ -87,12 +111,17 @@ export class SrtpCloudTransport implements CloudTransport {
     marker: boolean,
     nowMs: number,
     usefulMs: number,
+    capturedAtMs = nowMs,
   ): number | null {
     this.#refreshPath();
     if (!this.#pathIsOpen) return null;
     const transportSequence = SequenceNumber.next(this.#dtls.transportSequenceNumber);
     this.#dtls.transportSequenceNumber = transportSequence;
     const { nextSequence } = this.#sealer;
+    if (this.#header.hasCaptureTime) {
+      const { seconds, fraction } = ntpOfUnixMs(capturedAtMs + this.#unixOffsetMs);
+      this.#header.patchCaptureTime(seconds, fraction);
+    }
     this.#header.patch(marker, nextSequence, timestamp, transportSequence);
     // A copy is needed: the kernel may read a datagram that it cannot take immediately from memory later.
     const header = Buffer.from(this.#header.bytes);
@@ -100,7 +129,27 @@ export class SrtpCloudTransport implements CloudTransport {
     this.#sent.add(nextSequence, sealed, nowMs, usefulMs);
     this.#reports?.onSent(nextSequence, nowMs);
     this.#path.send(sealed);
+    this.#packetsSent++;
+    this.#payloadBytesSent += payload.length;
     return transportSequence;
+  }
+
+  /**
+   * Sends a sender report (RFC 3550 §6.4.1) that pairs the robot's clock with the stream's timestamps, which are capture
+   * times on that clock.
+   *
+   * @param clockRate of the stream's timestamps, 1/s
+   */
+  sendReport(nowMs: number, clockRate: number): void {
+    if (!this.ready) return;
+    const report = writeSenderReport({
+      ssrc: this.ssrc,
+      ntp: ntpOfUnixMs(nowMs + this.#unixOffsetMs),
+      rtpTimestamp: rtpTimestamp(nowMs, clockRate),
+      packets: this.#packetsSent,
+      octets: this.#payloadBytesSent,
+    });
+    sendRtcp(this.#dtls, report);
   }
 
   receiverSums(block: Readonly<ReportBlock>, nowMs: number): ReceiverSums | null {

@@ -1,0 +1,43 @@
+import { PictureHub, type PictureHubOptions, type PictureTarget } from './pictures/picture-hub.ts';
+import type { VideoCamera } from './video/video-encoder.ts';
+import { VideoHub, type VideoHubOptions, type VideoTarget } from './video/video-hub.ts';
+
+export interface RobotCamerasOptions
+  extends Omit<PictureHubOptions, 'targets'>,
+    Pick<VideoHubOptions, 'onStateChanged' | 'onFrame'> {
+  videos: readonly VideoCamera[];
+  targets: () => Iterable<PictureTarget & VideoTarget>;
+}
+
+/** Everything that the robot's cameras show beside the clouds: a few pictures a second of some, video of others. */
+export class RobotCameras {
+  /** `null` if no camera shows pictures. */
+  readonly pictures: PictureHub | null;
+  readonly videos: VideoHub;
+
+  constructor({
+    policy,
+    capture,
+    targets,
+    driver,
+    onMade,
+    onStateChanged,
+    onFrame,
+    videos,
+    log,
+  }: RobotCamerasOptions) {
+    this.pictures =
+      capture.cameras.length === 0 ? null : new PictureHub({ policy, capture, targets, driver, onMade, log });
+    this.videos = new VideoHub({ cameras: videos, targets, driver, onStateChanged, onFrame, log });
+  }
+
+  /** Call often. */
+  tick(nowMs: number): void {
+    this.pictures?.tick(nowMs);
+    this.videos.tick(nowMs);
+  }
+
+  async close(): Promise<void> {
+    await Promise.all([this.pictures?.close(), this.videos.close()]);
+  }
+}

@@ -1,0 +1,47 @@
+import type { Logger } from '@farpoint/service';
+import { BaseThread } from './base/base-thread.ts';
+import type { Capture } from './capture/capture.ts';
+import { openSink } from './drive/open-sink.ts';
+import type { VelocitySink } from './drive/velocity-sink.ts';
+import type { RobotOptions } from './robot-configuration.ts';
+import { CloudSensors } from './sensors/cloud-sensors.ts';
+import { inWorld } from './sensors/in-world.ts';
+import { SessionRecording } from './telemetry/session-recording.ts';
+import { openVideoCameras } from './video/open-video-cameras.ts';
+import type { VideoCamera } from './video/video-encoder.ts';
+
+/** What a robot is made of, opened and ready. */
+export interface RobotParts {
+  /** The sources of clouds, the main one first. */
+  captures: readonly Capture[];
+  /** Simulated wheels; `null` for real ones. */
+  base: BaseThread | null;
+  sink: VelocitySink;
+  recording: SessionRecording | null;
+  /** The cameras that are streamed as video. */
+  videos: readonly VideoCamera[];
+}
+
+/** Opens everything, or nothing. @throws {CaptureError} if a source of clouds cannot be opened */
+export async function openParts(options: RobotOptions, log: Logger): Promise<RobotParts> {
+  const recording =
+    options.record === undefined ? null : await SessionRecording.open(options.record, options.id, log);
+  const base = options.base === null ? null : new BaseThread(options.base);
+  let captures: Capture[] = [];
+  try {
+    captures = await CloudSensors.open(inWorld(options.sensors, base), recording?.capture ?? null);
+    captures.forEach(({ description }, i) => {
+      log.info({ sensor: options.sensors[i]?.name, source: description }, 'source open');
+    });
+    const [main] = captures;
+    const [{ capture } = { capture: null }] = options.sensors;
+    if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond);
+    const videos = await openVideoCameras(options.videos, log);
+    return { captures, base, sink: openSink(options.sink, base, log), recording, videos };
+  } catch (error) {
+    for (const capture of captures) await capture.close();
+    await base?.close();
+    await recording?.close();
+    throw error;
+  }
+}

@@ -1,0 +1,21 @@
+import type { PacedFrame } from '@farpoint/congestion';
+
+/** One frame on its way to several operators, cut into the payloads of RTP packets. */
+export interface OutgoingFrame extends PacedFrame {
+  readonly lane: number;
+  /** The RTP stream that carries it, by the number under which the sender knows its transport; 0 for clouds. */
+  readonly stream: number;
+  /** Points in it; 0 for a video's frame. */
+  readonly points: number;
+  /** RTP timestamp, u32 in units of the stream's clock. */
+  readonly rtpTimestamp: number;
+  /** When it was captured, ms on the robot's clock; for streams that carry the time in each packet. */
+  readonly capturedAtMs: number;
+  /** For how long a packet may be retransmitted on request, ms. */
+  readonly usefulMs: number;
+  /** The payload of a packet, without a copy. */
+  payload(index: number): Uint8Array;
+  /** Every holder releases the frame once; its memory is reused when the last one has. */
+  hold(): this;
+  release(): void;
+}

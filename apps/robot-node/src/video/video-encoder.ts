@@ -1,0 +1,31 @@
+/** The interface between a camera's encoder, in a process of its own, and what the robot does with its pictures. */
+import type { VideoCodec } from '@farpoint/protocol';
+import type { EncodedPicture } from './video-frame.ts';
+import type { EncodedFormat, VideoFormat } from './video-plan.ts';
+
+export interface VideoEncoderEvents {
+  onPicture(picture: EncodedPicture): void;
+  /** @param fault why there are no pictures, for people; `null` when they come again */
+  onFault(fault: string | null): void;
+}
+
+export interface VideoEncoder {
+  /** May be called at any time; what has changed takes effect within a few frames. */
+  configure(format: EncodedFormat): void;
+  /** The next picture that can be a key frame is one. */
+  requestKeyFrame(): void;
+  /** Pictures that were captured but not encoded, because the encoder was too slow. */
+  readonly dropped: number;
+  close(): Promise<void>;
+}
+
+/** A camera that is streamed as video. */
+export interface VideoCamera {
+  /** For people. */
+  name: string;
+  codec: VideoCodec;
+  /** What it is configured for; a slow link gets less. */
+  most: VideoFormat;
+  /** Starts the camera and its encoder. Never throws: faults are events. */
+  open(format: EncodedFormat, events: VideoEncoderEvents): VideoEncoder;
+}

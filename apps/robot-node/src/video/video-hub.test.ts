@@ -1,0 +1,223 @@
+import { beforeEach, describe, expect, it } from 'vitest';
+import type { VideoEncoder, VideoEncoderEvents } from './video-encoder.ts';
+import type { VideoFrame } from './video-frame.ts';
+import { VideoHub, type VideoTarget } from './video-hub.ts';
+import type { EncodedFormat, VideoFormat } from './video-plan.ts';
+
+const most: VideoFormat = { width: 640, height: 480, framesPerSecond: 30, bitsPerSecond: 1e6 };
+
+/** Records what it is told; the test plays the camera. */
+class FakeEncoder implements VideoEncoder {
+  readonly events: VideoEncoderEvents;
+  readonly formats: EncodedFormat[];
+  keyFrames = 0;
+  dropped = 0;
+  closed = false;
+
+  constructor(format: EncodedFormat, events: VideoEncoderEvents) {
+    this.formats = [format];
+    this.events = events;
+  }
+
+  configure(format: EncodedFormat): void {
+    this.formats.push(format);
+  }
+
+  requestKeyFrame(): void {
+    this.keyFrames++;
+  }
+
+  close(): Promise<void> {
+    this.closed = true;
+    return Promise.resolve();
+  }
+
+  /** A VP8 key frame, or one that builds on others. */
+  picture(capturedAtMs: number, key = true): void {
+    const bytes = new Uint8Array(2000);
+    bytes.set(key ? [0x10, 0, 0, 0x9d, 0x01, 0x2a, 0x80, 0x02, 0xe0, 0x01] : [0x11]);
+    this.events.onPicture({ bytes, key, capturedAtMs, width: 640, height: 480 });
+  }
+}
+
+class FakeOperator implements VideoTarget {
+  readonly id: string;
+  streaming = true;
+  wantsBarcode = false;
+  wantedVideos: ReadonlySet<number> = new Set([0]);
+  bitsPerSecond: number;
+  readonly frames: VideoFrame[] = [];
+
+  constructor(id: string, bitsPerSecond: number) {
+    this.id = id;
+    this.bitsPerSecond = bitsPerSecond;
+  }
+
+  videoBitsPerSecond(): number {
+    return this.bitsPerSecond;
+  }
+
+  offerVideo(frame: VideoFrame): void {
+    this.frames.push(frame);
+  }
+}
+
+describe('VideoHub', () => {
+  let encoders: FakeEncoder[];
+  let operators: FakeOperator[];
+  let driver: string | null;
+  let changes: number;
+  let hub: VideoHub;
+
+  beforeEach(() => {
+    encoders = [];
+    operators = [];
+    driver = null;
+    changes = 0;
+    const open = (format: EncodedFormat, events: VideoEncoderEvents) => {
+      const encoder = new FakeEncoder(format, events);
+      encoders.push(encoder);
+      return encoder;
+    };
+    hub = new VideoHub({
+      cameras: [
+        { name: 'Front', codec: 'VP8', most, open },
+        { name: 'Rear', codec: 'VP8', most, open },
+      ],
+      targets: () => operators,
+      driver: () => driver,
+      onStateChanged: () => changes++,
+      onFrame: () => undefined,
+      log: { info: () => undefined, warn: () => undefined },
+    });
+  });
+
+  it('opens a camera while somebody watches, and no other', () => {
+    hub.tick(0);
+    expect(encoders).toHaveLength(0);
+    operators = [new FakeOperator('a', 5e6)];
+    hub.tick(1000);
+    expect(encoders).toHaveLength(1);
+    expect(encoders[0]!.formats).toEqual([{ ...most, barcode: false }]);
+    operators = [];
+    hub.tick(2000);
+    expect(encoders[0]!.closed).toBe(false);
+    hub.tick(5000);
+    expect(encoders[0]!.closed).toBe(true);
+    operators = [new FakeOperator('b', 5e6)];
+    hub.tick(6000);
+    expect(encoders).toHaveLength(2);
+  });
+
+  it('encodes once for everyone, at the rate of the narrowest path', () => {
+    operators = [new FakeOperator('a', 800_000), new FakeOperator('b', 500_000)];
+    hub.tick(0);
+    encoders[0]!.picture(10);
+    expect(encoders).toHaveLength(1);
+    expect(encoders[0]!.formats.at(-1)?.bitsPerSecond).toBe(500_000);
+    expect(operators.map(({ frames }) => frames.length)).toEqual([1, 1]);
+    expect(operators[0]!.frames[0]).toBe(operators[1]!.frames[0]);
+  });
+
+  it('follows the driver’s path, whoever watches', () => {
+    operators = [new FakeOperator('a', 800_000), new FakeOperator('b', 200_000)];
+    driver = 'a';
+    hub.tick(0);
+    expect(encoders[0]!.formats.at(-1)?.bitsPerSecond).toBe(800_000);
+    // A driver who does not watch the camera has no say.
+    operators[0]!.wantedVideos = new Set();
+    hub.tick(1000);
+    expect(encoders[0]!.formats.at(-1)?.bitsPerSecond).toBe(200_000);
+  });
+
+  it('tells the encoder only of changes that matter', () => {
+    const operator = new FakeOperator('a', 800_000);
+    operators = [operator];
+    hub.tick(0);
+    operator.bitsPerSecond = 810_000;
+    hub.tick(1000);
+    expect(encoders[0]!.formats).toHaveLength(1);
+    operator.bitsPerSecond = 700_000;
+    hub.tick(2000);
+    expect(encoders[0]!.formats.map(({ bitsPerSecond }) => bitsPerSecond)).toEqual([800_000, 700_000]);
+  });
+
+  it('draws the capture time while anybody wants it', () => {
+    operators = [new FakeOperator('a', 800_000), new FakeOperator('b', 800_000)];
+    driver = 'a';
+    hub.tick(0);
+    operators[1]!.wantsBarcode = true;
+    hub.tick(1000);
+    operators[1]!.wantedVideos = new Set();
+    hub.tick(2000);
+    expect(encoders[0]!.formats.map(({ barcode }) => barcode)).toEqual([false, true, false]);
+  });
+
+  it('sends nothing while the path carries no video, and a key frame after that', () => {
+    const operator = new FakeOperator('a', 800_000);
+    operators = [operator];
+    hub.tick(0);
+    encoders[0]!.picture(10);
+    operator.bitsPerSecond = 10_000;
+    hub.tick(1000);
+    encoders[0]!.picture(20, false);
+    expect(operator.frames).toHaveLength(1);
+    operator.bitsPerSecond = 800_000;
+    hub.tick(2000);
+    expect(encoders[0]!.keyFrames).toBe(1);
+    encoders[0]!.picture(30);
+    expect(operator.frames.map(({ capturedAtMs }) => capturedAtMs)).toEqual([10, 30]);
+  });
+
+  it('says why there are no pictures, and that they are back, once each', () => {
+    operators = [new FakeOperator('a', 800_000)];
+    hub.tick(0);
+    const { events } = encoders[0]!;
+    events.onFault(null);
+    expect(changes).toBe(0);
+    for (let i = 0; i < 2; i++) events.onFault('the camera is unplugged');
+    expect(changes).toBe(1);
+    expect(hub.descriptions).toEqual([
+      { name: 'Front', codec: 'VP8', fault: 'the camera is unplugged' },
+      { name: 'Rear', codec: 'VP8' },
+    ]);
+    events.onFault(null);
+    expect(changes).toBe(2);
+    expect(hub.descriptions[0]).toEqual({ name: 'Front', codec: 'VP8' });
+  });
+
+  it('drops what is no picture, and pictures that are not newer', () => {
+    operators = [new FakeOperator('a', 800_000)];
+    hub.tick(0);
+    const [encoder] = encoders as [FakeEncoder];
+    encoder.events.onPicture({ bytes: new Uint8Array(0), key: true, capturedAtMs: 1, width: 1, height: 1 });
+    for (const capturedAtMs of [10, 10, 5, 11]) encoder.picture(capturedAtMs);
+    expect(operators[0]!.frames.map(({ capturedAtMs }) => capturedAtMs)).toEqual([10, 11]);
+    expect(hub.streams[0]!.counters).toMatchObject({ frames: 2, keyFrames: 2, bytes: 4000, badPictures: 1 });
+  });
+
+  it('ignores what a closed encoder still sends, and adds up what encoders skipped', async () => {
+    operators = [new FakeOperator('a', 800_000)];
+    hub.tick(0);
+    encoders[0]!.dropped = 7;
+    await hub.close();
+    expect(encoders[0]!.closed).toBe(true);
+    encoders[0]!.picture(10);
+    encoders[0]!.events.onFault('gone');
+    expect(operators[0]!.frames).toHaveLength(0);
+    expect(hub.streams[0]!.dropped).toBe(7);
+    expect(changes).toBe(0);
+  });
+
+  it('makes packets that fit a path, with the capture time as their timestamp', () => {
+    operators = [new FakeOperator('a', 800_000)];
+    hub.tick(0);
+    encoders[0]!.picture(1000.5);
+    const [frame] = operators[0]!.frames as [VideoFrame];
+    expect(frame.packets).toBe(2);
+    expect(frame.rtpTimestamp).toBe(90_045);
+    const sizes = [0, 1].map((i) => frame.payload(i).length);
+    expect(Math.max(...sizes)).toBeLessThanOrEqual(1180);
+    expect(frame.bytes).toBe(sizes[0]! + sizes[1]! + 2 * 76);
+  });
+});

@@ -1,0 +1,105 @@
+import type { VideoDescription } from '@farpoint/protocol';
+import type { Logger } from '@farpoint/service';
+import type { VideoCamera } from './video-encoder.ts';
+import type { VideoFrame } from './video-frame.ts';
+import { VideoStream, type VideoWish } from './video-stream.ts';
+
+/** An operator who may watch videos. */
+export interface VideoTarget {
+  /** The operator's id, as known to the guard. */
+  readonly id: string;
+  readonly streaming: boolean;
+  readonly wantedVideos: ReadonlySet<number>;
+  /** Whether they are to carry their capture time. */
+  readonly wantsBarcode: boolean;
+  /** How much of the operator's path a video may take, bit/s without headers. */
+  videoBitsPerSecond(video: number): number;
+  offerVideo(frame: VideoFrame): void;
+}
+
+export interface VideoHubOptions {
+  cameras: readonly VideoCamera[];
+  targets: () => Iterable<VideoTarget>;
+  /** The operator whose path decides the rates; `null` if nobody drives. */
+  driver: () => string | null;
+  /** A video has stopped or returned. */
+  onStateChanged: () => void;
+  /** Sends what is due. */
+  onFrame: () => void;
+  log: Pick<Logger, 'info' | 'warn'>;
+}
+
+const PLAN_MS = 200;
+
+/** All cameras that are streamed as video. Each is encoded once, while anybody wants it, for all who do. */
+export class VideoHub {
+  readonly streams: readonly VideoStream[];
+  readonly #options: VideoHubOptions;
+  #plannedMs = Number.NEGATIVE_INFINITY;
+
+  constructor(options: VideoHubOptions) {
+    this.#options = options;
+    this.streams = options.cameras.map(
+      (camera, video) =>
+        new VideoStream(video, camera, {
+          onFrame: (frame) => {
+            for (const target of options.targets()) if (target.streaming) target.offerVideo(frame);
+            options.onFrame();
+          },
+          onFault: (fault) => {
+            if (fault === null) options.log.info({ camera: camera.name }, 'a camera’s video is back');
+            else options.log.warn({ camera: camera.name, detail: fault }, 'a camera has no video');
+            options.onStateChanged();
+          },
+          onBadPicture: (detail) =>
+            options.log.warn({ camera: camera.name, detail }, 'a picture was dropped'),
+        }),
+    );
+  }
+
+  /** Of each video what an operator is told, besides its m-line. */
+  get descriptions(): Omit<VideoDescription, 'mid'>[] {
+    return this.streams.map(({ camera: { name, codec }, fault }) => ({
+      ...{ name, codec },
+      ...(fault === null ? {} : { fault: fault.slice(0, 256) }),
+    }));
+  }
+
+  /** By video, its highest rate, bit/s without headers. */
+  mostBitsPerSecond(video: number): number {
+    return this.streams[video]?.camera.most.bitsPerSecond ?? 0;
+  }
+
+  requestKeyFrame(video: number): void {
+    this.streams[video]?.requestKeyFrame();
+  }
+
+  /** Call often; plans a few times a second. */
+  tick(nowMs: number): void {
+    if (nowMs - this.#plannedMs < PLAN_MS) return;
+    this.#plannedMs = nowMs;
+    for (const stream of this.streams) stream.plan(this.#wish(stream.video), nowMs);
+  }
+
+  async close(): Promise<void> {
+    await Promise.all(this.streams.map((stream) => stream.close()));
+  }
+
+  /**
+   * The driver's path decides; without a driver among those who watch, the narrowest path does.
+   *
+   * @returns `null` if nobody wants the video
+   */
+  #wish(video: number): VideoWish | null {
+    const watching = [...this.#options.targets()].filter(
+      ({ streaming, wantedVideos }) => streaming && wantedVideos.has(video),
+    );
+    if (watching.length === 0) return null;
+    const driver = watching.find(({ id }) => id === this.#options.driver());
+    const deciding = driver === undefined ? watching : [driver];
+    return {
+      bitsPerSecond: Math.min(...deciding.map((target) => target.videoBitsPerSecond(video))),
+      barcode: watching.some(({ wantsBarcode }) => wantsBarcode),
+    };
+  }
+}

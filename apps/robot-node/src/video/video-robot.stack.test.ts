@@ -1,0 +1,72 @@
+/** The real robot program with cameras encoded by GStreamer. */
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { availableEncoders } from '@farpoint/video';
+import { BUILD_REMEDY } from '@farpoint/video/build';
+import { afterAll, describe, expect, it } from 'vitest';
+import { useRobot } from '../testing/use-robot.ts';
+
+const isBuilt = await availableEncoders().then(
+  () => true,
+  () => false,
+);
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-video-'));
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const config = join(folder, 'farpoint.yaml');
+writeFileSync(
+  config,
+  JSON.stringify({
+    robot: {
+      videos: [
+        {
+          name: 'Front',
+          source: { kind: 'test' },
+          encoder: 'vp8enc',
+          width: 320,
+          height: 240,
+          kbitPerS: 400,
+        },
+        {
+          name: 'Rear',
+          source: { kind: 'test', pattern: 'ball' },
+          encoder: 'x264enc',
+          width: 320,
+          height: 240,
+        },
+        { name: 'Broken', source: { kind: 'gst', pipeline: 'nonsense ! more' }, encoder: 'vp8enc' },
+      ],
+    },
+  }),
+);
+
+describe.skipIf(!isBuilt)(`cameras with video (needs: ${BUILD_REMEDY})`, { timeout: 60_000 }, () => {
+  const robot = useRobot('sim-1', [
+    ...['--config', config, '--sim-size', '64', '--max-points', '600'],
+    ...['--rate-control', 'fixed', '--bitrate-mbps', '10'],
+  ]);
+
+  it('stream what an operator asks for, and say what does not work', async () => {
+    const { client } = await robot.connect();
+    const described = await client.message('videos');
+    expect(described.videos.map(({ name, codec }) => [name, codec])).toEqual([
+      ['Front', 'VP8'],
+      ['Rear', 'H264'],
+      ['Broken', 'VP8'],
+    ]);
+    expect(client.videos.size).toBe(0);
+    client.sendSession({ type: 'videos', videos: [0, 1, 2] });
+    const [front = '', rear = ''] = described.videos.map(({ mid }) => mid);
+    const frames = (mid: string) => client.videos.get(mid)?.frames ?? [];
+    await client.until(() => frames(front).length >= 20 && frames(rear).length >= 20);
+    for (const mid of [front, rear]) {
+      expect(frames(mid)[0]?.isKeyFrame).toBe(true);
+      const stamps = frames(mid).map(({ timestamp }) => timestamp);
+      const steps = stamps.slice(1).map((stamp, i) => (stamp - stamps[i]!) >>> 0);
+      expect(steps.every((step) => step > 0 && step < 90_000)).toBe(true);
+    }
+    const told = await client.message('videos', ({ videos }) => videos[2]?.fault !== undefined);
+    expect(told.videos[2]?.fault).toMatch(/element.*nonsense/);
+    expect(told.videos[0]?.fault).toBeUndefined();
+  });
+});

@@ -1,0 +1,146 @@
+import { VideoPayloadError } from '@farpoint/rtp';
+import type { VideoCamera, VideoEncoder } from './video-encoder.ts';
+import { type EncodedPicture, VideoFrame } from './video-frame.ts';
+import { type EncodedFormat, VideoPlanner } from './video-plan.ts';
+
+export interface VideoStreamEvents {
+  onFrame(frame: VideoFrame): void;
+  onFault(fault: string | null): void;
+  /** The encoder gave bytes that are no picture. */
+  onBadPicture(detail: string): void;
+}
+
+/** What those who watch a video want of it together. */
+export interface VideoWish {
+  /** What it may take, without headers. */
+  bitsPerSecond: number;
+  /** Whether its pictures are to carry their capture time. */
+  barcode: boolean;
+}
+
+/** After the last operator has switched a video off, its camera stays open for this long, ms: a page may be reloading. */
+const LINGER_MS = 3000;
+/** Smaller changes of the bit rate are not worth telling the encoder. */
+const RATE_STEP = 0.03;
+/** VP8's picture id has 15 bits. */
+const PICTURE_IDS = 0x8000;
+
+/** One camera's video: opens and closes its encoder, plans its format, and packetises what it encodes. */
+export class VideoStream {
+  readonly video: number;
+  readonly camera: VideoCamera;
+  /** Why there are no pictures; `null` while there are, or nobody watches. */
+  fault: string | null = null;
+  readonly counters = { frames: 0, keyFrames: 0, bytes: 0, badPictures: 0, opened: 0 };
+  readonly #events: VideoStreamEvents;
+  readonly #planner: VideoPlanner;
+  #encoder: VideoEncoder | null = null;
+  #format: EncodedFormat | null = null;
+  #wantedMs = 0;
+  #droppedBefore = 0;
+  #lastCapturedMs = Number.NEGATIVE_INFINITY;
+  #pictureId = 0;
+  /** The path carries no video at present. */
+  #paused = false;
+
+  constructor(video: number, camera: VideoCamera, events: VideoStreamEvents) {
+    this.video = video;
+    this.camera = camera;
+    this.#events = events;
+    this.#planner = new VideoPlanner(camera.most);
+  }
+
+  /** What is encoded at present; `null` if the camera is closed. */
+  get format(): Readonly<EncodedFormat> | null {
+    return this.#format;
+  }
+
+  /** Pictures that a slow encoder has skipped. */
+  get dropped(): number {
+    return this.#droppedBefore + (this.#encoder?.dropped ?? 0);
+  }
+
+  requestKeyFrame(): void {
+    this.#encoder?.requestKeyFrame();
+  }
+
+  /** @param wish `null` if nobody wants the video */
+  plan(wish: VideoWish | null, nowMs: number): void {
+    if (wish === null) {
+      if (this.#encoder !== null && nowMs - this.#wantedMs >= LINGER_MS) void this.close();
+      return;
+    }
+    this.#wantedMs = nowMs;
+    const planned = this.#planner.plan(wish.bitsPerSecond);
+    const wasPaused = this.#paused;
+    this.#paused = planned === null;
+    if (planned === null) return;
+    const next = { ...planned, barcode: wish.barcode };
+    if (this.#encoder === null) this.#open(next);
+    else if (isWorthTelling(this.#format, next)) {
+      this.#format = next;
+      this.#encoder.configure(next);
+    }
+    if (wasPaused) this.requestKeyFrame();
+  }
+
+  async close(): Promise<void> {
+    const encoder = this.#encoder;
+    if (encoder === null) return;
+    this.#droppedBefore += encoder.dropped;
+    this.#encoder = null;
+    this.#format = null;
+    this.fault = null;
+    await encoder.close();
+  }
+
+  #open(format: EncodedFormat): void {
+    this.#format = format;
+    this.counters.opened++;
+    const encoder = this.camera.open(format, {
+      onPicture: (picture) => {
+        if (this.#encoder === encoder) this.#onPicture(picture, format.framesPerSecond);
+      },
+      onFault: (fault) => {
+        if (this.#encoder !== encoder || fault === this.fault) return;
+        this.fault = fault;
+        this.#events.onFault(fault);
+      },
+    });
+    this.#encoder = encoder;
+  }
+
+  #onPicture(picture: EncodedPicture, framesPerSecond: number): void {
+    // Receivers take equal or falling timestamps for parts of one picture, or for a fault.
+    if (this.#paused || picture.capturedAtMs <= this.#lastCapturedMs) return;
+    const { video, counters } = this;
+    const { codec } = this.camera;
+    let frame: VideoFrame;
+    try {
+      frame = new VideoFrame(picture, { video, codec, pictureId: this.#pictureId, framesPerSecond });
+    } catch (error) {
+      if (!(error instanceof VideoPayloadError)) throw error;
+      counters.badPictures++;
+      this.#events.onBadPicture(error.message);
+      return;
+    }
+    this.#lastCapturedMs = picture.capturedAtMs;
+    this.#pictureId = (this.#pictureId + 1) % PICTURE_IDS;
+    counters.frames++;
+    counters.bytes += picture.bytes.length;
+    if (picture.key) counters.keyFrames++;
+    this.#events.onFrame(frame);
+  }
+}
+
+function isWorthTelling(now: EncodedFormat | null, next: EncodedFormat): boolean {
+  if (now === null) return true;
+  const { width, height, framesPerSecond, bitsPerSecond, barcode } = now;
+  return (
+    next.width !== width ||
+    next.height !== height ||
+    next.framesPerSecond !== framesPerSecond ||
+    next.barcode !== barcode ||
+    Math.abs(next.bitsPerSecond - bitsPerSecond) > bitsPerSecond * RATE_STEP
+  );
+}
