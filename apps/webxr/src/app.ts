@@ -4,10 +4,13 @@ import { RobotClient, type TransformSupport } from '@farpoint/operator';
 import { effect, untracked } from '@preact/signals-core';
 import { ReleaseHold } from './drive/release-hold.ts';
 import type { Settings } from './settings.ts';
+import { CloudAppearance } from './state/cloud-appearance.ts';
 import type { Notices } from './state/notices.ts';
 import { PageState } from './state/page-state.ts';
 import { PageStatistics, type PageStats } from './status/page-stats.ts';
 import { failureWords, leavingWords, rejectionWords, wordsOfLoss } from './status/words.ts';
+import { loadAppearance, storeAppearance } from './stored-appearance.ts';
+import { CloudPanel } from './ui/cloud-panel.ts';
 import { ControlsUi } from './ui/controls-ui.ts';
 import { elements } from './ui/elements.ts';
 import { EstopUi } from './ui/estop-ui.ts';
@@ -17,6 +20,9 @@ import { showRobotList } from './ui/robot-list.ts';
 import { showRobotSwitcher } from './ui/robot-switcher.ts';
 import { showSensorSwitches } from './ui/sensor-switches.ts';
 import { showStatus } from './ui/status-ui.ts';
+import { VideoFeed } from './video/video-feed.ts';
+import { videoReading } from './video/video-reader.ts';
+import { applyAppearance } from './view/apply-appearance.ts';
 import { FrameLoop } from './view/frame-loop.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
 import { Stage } from './view/stage.ts';
@@ -35,11 +41,15 @@ export class App {
   /** The clouds of a robot with several sensors. */
   readonly clouds: SensorClouds;
   readonly client: RobotClient;
+  /** Reads and presents the robot's videos. */
+  readonly videos: VideoFeed;
+  readonly appearance = new CloudAppearance(loadAppearance(), storeAppearance);
   readonly stats = new PageStatistics();
   readonly vr: VrSession;
   readonly frames: FrameLoop;
   readonly #inputs: OperatorInputs;
   readonly #controls: ControlsUi;
+  readonly #cloudPanel: CloudPanel;
   readonly #release = new ReleaseHold();
   readonly #estop: EstopUi;
 
@@ -66,6 +76,11 @@ export class App {
       newCanvas: () => document.createElement('canvas'),
     });
     const { sensors, pointScale } = this.state;
+    this.videos = new VideoFeed({
+      ...{ client: this.client, views: this.state.videos, synchronised: settings.synchronised },
+      open: videoReading(),
+      now: () => performance.now(),
+    });
     this.cloud = new CloudView(renderer, this.client);
     world.add(this.cloud);
     this.clouds = new SensorClouds({
@@ -73,11 +88,12 @@ export class App {
     });
     this.vr = new VrSession(renderer);
     this.#estop = new EstopUi(this.client, this.state.robot, this.#release);
-    const { client, state, stage, cloud, clouds, stats, vr } = this;
+    const { client, state, stage, cloud, clouds, videos, stats, vr, appearance } = this;
     const choose = (robotId: string) => this.choose(robotId);
-    this.#controls = new ControlsUi({ client, state, stage, vr, estop: this.#estop, choose });
+    this.#controls = new ControlsUi({ client, state, stage, vr, appearance, estop: this.#estop, choose });
+    this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all });
     const readHeadset = () => this.#inputs.readHeadset(vr.inputSources);
-    this.frames = new FrameLoop({ settings, client, stage, cloud, clouds, stats, vr, readHeadset });
+    this.frames = new FrameLoop({ settings, client, stage, cloud, clouds, videos, stats, vr, readHeadset });
   }
 
   start(): void {
@@ -97,8 +113,10 @@ export class App {
     setInterval(() => {
       const nowMs = performance.now();
       this.stats.tick(this.cloud, nowMs);
+      this.videos.measure(nowMs);
       this.state.looking.value = this.vr.active.value || !document.hidden;
       this.state.sample();
+      this.#cloudPanel.update();
       this.frames.govern(nowMs);
     }, STATUS_TICK_MS);
     this.frames.start();
@@ -113,7 +131,8 @@ export class App {
 
   /** Current figures of the stream and of the drawing. */
   figures(): PageStats {
-    return this.stats.snapshot(this.client.stats(), this.cloud, this.stage.renderer.domElement);
+    const videos = this.videos.stats(performance.now());
+    return this.stats.snapshot(this.client.stats(), this.cloud, this.stage.renderer.domElement, videos);
   }
 
   #show(): void {
@@ -126,6 +145,8 @@ export class App {
     showRobotSwitcher(state.link, choose);
     showSensorSwitches(state.sensors);
     showPicturePanels(state);
+    const { appearance, clouds } = this;
+    applyAppearance({ appearance, sensors: state.sensors, clouds, stage, inVr: vr.active });
     const panel = new WristPanel(stage.renderer, stage.rig);
     showOnWrist({ state, panel, active: vr.active, releaseProgress: this.#release.progress });
     effect(() => {
@@ -154,7 +175,10 @@ export class App {
       this.stats.reset();
       stage.forgetPose();
     });
-    client.on('telemetry', ({ pose }) => stage.setBody(pose));
+    client.on('telemetry', ({ pose }) => {
+      stage.setBody(pose);
+      this.clouds.ground = pose.position.z;
+    });
     client.on('loss', (loss) => notices.tell(wordsOfLoss(loss, client.link.maxOperators), 'warning'));
     client.on('refused', (message) => notices.tell(message, 'warning'));
     client.on('welcome', ({ name }) => notices.tell(`Connected to ${name}`, 'good'));

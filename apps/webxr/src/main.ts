@@ -1,4 +1,5 @@
 import './ui/style.css';
+import './ui/cloud-panel.css';
 import { transformSupport } from '@farpoint/operator';
 import { App } from './app.ts';
 import { readSettings } from './settings.ts';

@@ -37,6 +37,16 @@ describe('readSettings', () => {
     expect(settings.signalingUrl).toBe('wss://x.org:8443/operator');
   });
 
+  test('presents videos in step unless the page address or the stored settings say otherwise', () => {
+    expect(read('').synchronised).toBe(true);
+    expect(read('sync=0').synchronised).toBe(false);
+    expect(read('', { synchronised: false }).synchronised).toBe(false);
+    expect(read('sync=1', { synchronised: false }).synchronised).toBe(true);
+    expect(read('sync=maybe').synchronised).toBe(true);
+    expect(parseStored('{"synchronised":false}', 'wss://x.org').synchronised).toBe(false);
+    expect(parseStored('{"synchronised":"no"}', 'wss://x.org').synchronised).toBeUndefined();
+  });
+
   test('ignores invalid robot ids and canvas sizes', () => {
     expect(read('robot=sim-1&canvas=640x360')).toMatchObject({
       robot: 'sim-1',

@@ -10,6 +10,7 @@ export interface StoredSettings {
   tokens?: SignalingTokens | undefined;
   name?: string | undefined;
   pointScale?: number | undefined;
+  synchronised?: boolean | undefined;
 }
 
 /** Where the page was loaded from. */
@@ -40,6 +41,10 @@ export interface Settings {
   /** Draw only every n-th point, for benchmarks with an emulated GPU; `null`: draw as many as possible. */
   drawEvery: number | null;
   pointScale: number;
+  /** Whether videos are presented in step: frames wait for what was captured at the same time. */
+  synchronised: boolean;
+  /** Whether the robot draws the capture time into videos, to measure latency. */
+  barcode: boolean;
 }
 
 /** Port of the signaling service if something else serves the page. */
@@ -79,7 +84,13 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     mode: query.get('mode') === 'points64' ? 'points64' : 'auto',
     drawEvery: parseEvery(query.get('every')),
     pointScale: clampScale(stored.pointScale),
+    synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
+    barcode: parseSwitch(query.get('barcode')) ?? false,
   };
+}
+
+function parseSwitch(text: string | null): boolean | undefined {
+  return text === '1' ? true : text === '0' ? false : undefined;
 }
 
 function parseEvery(text: string | null): number | null {
@@ -110,6 +121,7 @@ export function parseStored(text: string | null, ownUrl: string): StoredSettings
     tokens: single === undefined || tokens.has(own) ? tokens : withToken(tokens, own, single),
     name: textOf('name'),
     pointScale: typeof record.pointScale === 'number' ? clampScale(record.pointScale) : undefined,
+    synchronised: typeof record.synchronised === 'boolean' ? record.synchronised : undefined,
   };
 }
 

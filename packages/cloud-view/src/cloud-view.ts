@@ -11,10 +11,12 @@ import type {
   RobotClient,
 } from '@farpoint/operator';
 import { BufferGeometry, Points, type RawShaderMaterial, Sphere, Vector3, type WebGLRenderer } from 'three';
+import type { CloudColouring } from './cloud-colouring.ts';
 import type { CloudSource, CloudViewOptions } from './cloud-source.ts';
 import type { DrawnPoints, FramePose } from './drawn-points.ts';
 import { FrameWindow } from './frame-window.ts';
 import { GpuCompletion } from './gpu-completion.ts';
+import { PointColouring } from './point-colouring.ts';
 import { createPointMaterial, spacingPerMetre } from './point-material.ts';
 import { PointRing } from './point-ring.ts';
 
@@ -47,6 +49,10 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   points = 0;
   /** The camera's field of view, as the side of its picture at a distance of 1 m, metres. */
   imageExtent = DEFAULT_EXTENT;
+  /** What the points' colours mean, and between which heights points are drawn. */
+  readonly colouring: CloudColouring;
+  readonly #colouring: PointColouring;
+  #nowMs = 0;
   readonly #renderer: WebGLRenderer;
   readonly #source: CloudSource;
   readonly #completion: GpuCompletion;
@@ -67,6 +73,8 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.#source = source;
     this.#completion = new GpuCompletion(renderer);
     this.#uniforms = uniforms;
+    this.#colouring = new PointColouring(uniforms);
+    this.colouring = this.#colouring;
     uniforms.runs.value = this.window.runs;
     this.#ring = new PointRing(
       renderer.getContext() as WebGL2RenderingContext,
@@ -128,6 +136,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
    * @param nowMs `performance.now()`
    */
   update(nowMs: number): void {
+    this.#nowMs = nowMs;
     for (const batch of this.#waiting) {
       this.#upload(batch);
       this.#source.release(batch);
@@ -138,6 +147,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.#uniforms.viewportHeight.value = this.viewportHeight;
     const stale = (nowMs - this.#source.pointsAtMs - STALE_AFTER_MS) / STALE_FADE_MS;
     this.#uniforms.freshness.value = 1 - Math.min(Math.max(stale, 0), 1);
+    this.#colouring.update(nowMs);
     this.geometry.setDrawRange(head, tail - head);
     this.visible = tail > head;
   }
@@ -185,6 +195,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     for (const batch of this.#waiting) this.#source.release(batch);
     this.#waiting.length = 0;
     this.window.reset();
+    this.#colouring.forget();
     this.visible = false;
     for (const reason of Object.keys(this.drops)) delete this.drops[reason as DropReason];
     this.frames = 0;
@@ -241,6 +252,8 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
       );
       if (drop === null) {
         if (window.newestFrame !== before) this.#beginFrame(batch, packet);
+        const newest = window.newestSlot;
+        this.#colouring.sample(batch.points, at, points, frame === window.newestFrame ? newest : 1 - newest);
         count += points;
         this.packets++;
         this.points += batch.pointsCame(packet);
@@ -261,6 +274,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.frames++;
     this.imageExtent = batch.imageExtent(packet);
     const slot = this.window.newestSlot;
+    this.#colouring.beginFrame(slot, this.window.newestTotal, this.#nowMs);
     this.#uniforms.frameUnit.value[slot] = batch.unit(packet);
     this.#uniforms.framePosition.value[slot]!.set(
       batch.poseComponent(packet, 0),

@@ -4,8 +4,16 @@
  * @module cloud-view
  */
 export { bodyYaw, opticalYaw, worldToThree } from './axes.ts';
+export {
+  type CloudColouring,
+  COLOUR_MODES,
+  type ColourMode,
+  type HeightCut,
+  type ValueRange,
+} from './cloud-colouring.ts';
 export type { CloudSource, CloudViewOptions } from './cloud-source.ts';
 export { CloudView } from './cloud-view.ts';
+export { COLOUR_STOPS, colourAt, colourStops, type Rgb } from './colour-map.ts';
 export { DrawGate } from './draw-gate.ts';
 export { DrawingGovernor, type DrawingStep } from './drawing-governor.ts';
 export type { DrawnPoints, FramePose } from './drawn-points.ts';

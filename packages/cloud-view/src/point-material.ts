@@ -7,11 +7,21 @@
  * metres: the distance between neighbouring samples at depth z. k is the angle between neighbours, so that points just
  * close their gaps at any resolution, eye and density of the frame. m keeps the nearest points from vanishing.
  */
-import { GLSL3, RawShaderMaterial, Vector4 } from 'three';
+import { GLSL3, RawShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
+import { COLOUR_STOPS, colourStops } from './colour-map.ts';
 import { MAX_RUNS, RUN_FIELDS } from './frame-window.ts';
+import { INTENSITY_LUMAS, LUMA_WEIGHTS } from './point-values.ts';
 
 /** m: metres added to every point's size. */
 export const SIZE_OFFSET_M = 0.002;
+/** Share of its brightness that the oldest point loses when colours show ages. */
+export const AGE_FADE = 0.75;
+
+/** Adds up how far a brightness has come on each stretch of the intensity's map. */
+const intensityTerms = INTENSITY_LUMAS.slice(1).map((to, i) => {
+  const from = INTENSITY_LUMAS[i] as number;
+  return `clamp((luma - ${from.toFixed(3)}) / ${(to - from).toFixed(3)}, 0.0, 1.0)`;
+});
 
 const vertexShader = /* glsl */ `
 precision highp float;
@@ -29,12 +39,41 @@ uniform float frameUnit[2];
 uniform float viewportHeight;
 uniform float sizeScale;
 uniform float freshness;
+// What colours mean: captured, height, distance, intensity, age (cloud-colouring.ts).
+uniform int colourMode;
+// The value with the first colour, and 1 / the values' span.
+uniform vec2 colourRange;
+uniform vec3 colourMap[${COLOUR_STOPS}];
+// Height of the robot's ground in the world, metres.
+uniform float groundHeight;
+// The lowest and the highest height in the world that is drawn, metres.
+uniform vec2 heightCut;
+// Seconds since the frame began to arrive.
+uniform float frameAge[2];
 in ivec4 position;
 flat out vec3 pointColour;
 flat out float pointSize;
 
 vec3 rotate(vec4 q, vec3 v) {
   return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
+}
+
+// The intensity from its colour (point-values.ts).
+float intensityOf(vec3 rgb) {
+  float luma = 255.0 * dot(rgb, vec3(${LUMA_WEIGHTS.join(', ')}));
+  return (${intensityTerms.join(' + ')}) / ${(INTENSITY_LUMAS.length - 1).toFixed(1)};
+}
+
+vec3 coloured(vec3 rgb, vec3 fromSensor, float height, float age) {
+  float value = colourMode == 1 ? height
+    : colourMode == 2 ? length(fromSensor)
+    : colourMode == 3 ? intensityOf(rgb)
+    : age;
+  float level = clamp((value - colourRange.x) * colourRange.y, 0.0, 1.0);
+  if (colourMode == 4) return rgb * (1.0 - ${AGE_FADE} * level);
+  float place = level * ${(COLOUR_STOPS - 1).toFixed(1)};
+  int low = min(int(place), ${COLOUR_STOPS - 2});
+  return mix(colourMap[low], colourMap[low + 1], place - float(low));
 }
 
 void main() {
@@ -48,6 +87,11 @@ void main() {
   int slot = runs[run].z;
   vec3 camera = vec3(position.xyz) * frameUnit[slot];
   vec3 world = rotate(frameOrientation[slot], camera) + framePosition[slot].xyz;
+  if (world.z < heightCut.x || world.z > heightCut.y) {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    gl_PointSize = 1.0;
+    return;
+  }
   gl_Position = projectionMatrix * (modelViewMatrix * vec4(world, 1.0));
 
   float s0 = 0.5 * viewportHeight * projectionMatrix[1][1];
@@ -62,6 +106,7 @@ void main() {
     float(((colour >> 4) & 63u) * 4u + 2u),
     float((colour & 15u) * 16u + 8u)
   ) / 255.0;
+  if (colourMode != 0) rgb = coloured(rgb, camera, world.z - groundHeight, frameAge[slot]);
   // The latency test's green has no grey in it.
   if (colour == 0x03f0u) rgb = vec3(0.0, 1.0, 0.0);
   // A picture that is no longer fed turns grey: nobody may take it for the present.
@@ -96,6 +141,17 @@ export interface PointUniforms {
   sizeScale: { value: number };
   /** From 1 (live) to 0 (no points are arriving). */
   freshness: { value: number };
+  /** Index in the list of colour modes (cloud-colouring.ts). */
+  colourMode: { value: number };
+  /** The value with the first colour, and 1 / the values' span. */
+  colourRange: { value: Vector2 };
+  colourMap: { value: Vector3[] };
+  /** Height of the robot's ground in the world, metres. */
+  groundHeight: { value: number };
+  /** The lowest and the highest height in the world that is drawn, metres. */
+  heightCut: { value: Vector2 };
+  /** Seconds since each frame began to arrive. */
+  frameAge: { value: number[] };
 }
 
 export function createPointMaterial(): { material: RawShaderMaterial; uniforms: PointUniforms } {
@@ -108,6 +164,12 @@ export function createPointMaterial(): { material: RawShaderMaterial; uniforms: 
     viewportHeight: { value: 1 },
     sizeScale: { value: 1 },
     freshness: { value: 1 },
+    colourMode: { value: 0 },
+    colourRange: { value: new Vector2(0, 1) },
+    colourMap: { value: colourStops().map(([red, green, blue]) => new Vector3(red, green, blue)) },
+    groundHeight: { value: 0 },
+    heightCut: { value: new Vector2(-1e30, 1e30) },
+    frameAge: { value: [0, 0] },
   };
   const material = new RawShaderMaterial({
     glslVersion: GLSL3,

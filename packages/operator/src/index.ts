@@ -28,6 +28,9 @@ export type {
   Telemetry,
   Twist,
   Vector3,
+  VideoCodec,
+  VideoDescription,
+  Videos,
   Welcome,
 } from '@farpoint/protocol';
 export { type BridgeAddress, parseBridge } from './bridge/bridge-settings.ts';
@@ -39,6 +42,16 @@ export { BATCH_BYTES, BATCH_PACKETS, BATCH_POINTS, Batch, type PointLook } from 
 export { DEFAULT_EXTENT } from './cloud/image-extent.ts';
 export type { DropCounts, DropReason } from './cloud/packet-intake.ts';
 export type { IntakeReport } from './cloud/worker-messages.ts';
+export { captureMsOfRtp, captureMsOfStamp } from './compositor/capture-instant.ts';
+export type { ItemDropReason } from './compositor/capture-source.ts';
+export {
+  Compositor,
+  type CompositorOptions,
+  type DroppedItem,
+  type Presentation,
+  type PresentedItem,
+} from './compositor/compositor.ts';
+export type { CompositorStats, SourceFigures, SourceState } from './compositor/compositor-statistics.ts';
 export { activeInput, type DriveInput, type PressedButtons } from './drive/drive-input.ts';
 export type { Driver } from './drive/driver.ts';
 export { robotAfter } from './drive/robot-switch.ts';
@@ -57,3 +70,4 @@ export type { SignalingState } from './signaling/signaling-state.ts';
 export { parseSignalingUrl, type SignalingAddress } from './signaling/signaling-url.ts';
 export type { SensorStats } from './statistics/sensor-statistics.ts';
 export type { StreamStatistics, StreamStats } from './statistics/stream-statistics.ts';
+export type { VideoTrack } from './video/video-track.ts';

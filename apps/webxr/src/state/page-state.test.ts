@@ -33,6 +33,7 @@ class Client {
   };
   heardAtMs = 0;
   readonly watched: (readonly number[])[] = [];
+  readonly watchedVideos: (readonly number[])[] = [];
   readonly clouds: (readonly number[])[] = [];
   readonly #listeners: [keyof RobotEvents, (event: never) => void][] = [];
 
@@ -42,6 +43,9 @@ class Client {
   };
   watch(cameras: readonly number[]): void {
     this.watched.push(cameras);
+  }
+  watchVideos(videos: readonly number[]): void {
+    this.watchedVideos.push(videos);
   }
   wantClouds(sensors: readonly number[]): void {
     this.clouds.push(sensors);
@@ -63,7 +67,7 @@ class Bench {
   constructor(signalingFault: string | null = null) {
     this.state = new PageState({
       client: this.client as unknown as RobotClient,
-      settings: { signalingFault, pointScale: 1 },
+      settings: { signalingFault, pointScale: 1, barcode: false },
       notices: new Notices(),
       figures: () => ({ framesDrawn: this.nowMs }) as PageStats,
       now: () => this.nowMs,
@@ -167,6 +171,26 @@ describe('what the page requests from the robot', () => {
     client.say('session', 2);
     client.say('cameras', cameras);
     expect(client.watched).toEqual([[0, 1], [1], [], [1], [1]]);
+  });
+
+  test('requests the videos that are on, again in each session, but not when only a fault changes', () => {
+    const { client, state } = new Bench();
+    const videos: RobotEvents['videos'] = [
+      { name: 'front', mid: '1', codec: 'H264' },
+      { name: 'rear', mid: '2', codec: 'VP8' },
+    ];
+    client.say('videos', videos);
+    client.say('videos', [videos[0]!, { ...videos[1]!, fault: 'unplugged' }]);
+    const [, rear] = state.views.value;
+    expect(rear?.fault.value).toBe('unplugged');
+    rear?.toggle();
+    state.looking.value = false;
+    state.looking.value = true;
+    client.say('session', 2);
+    expect(state.views.value).toEqual([]);
+    client.say('videos', videos);
+    expect(state.views.value[1]?.fault.value).toBe(null);
+    expect(client.watchedVideos).toEqual([[0, 1], [0], [], [0], [0]]);
   });
 
   test('requests clouds of sensors that are on', () => {

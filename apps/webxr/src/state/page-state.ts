@@ -4,11 +4,14 @@
  * whatever commands are made of, is not a signal.
  */
 import type { RobotClient } from '@farpoint/operator';
-import { effect, type ReadonlySignal, type Signal, signal } from '@preact/signals-core';
+import { computed, effect, type ReadonlySignal, type Signal, signal } from '@preact/signals-core';
 import { CameraPictures } from '../pictures/camera-pictures.ts';
+import type { CameraView } from '../pictures/camera-view.ts';
 import type { Settings } from '../settings.ts';
 import type { PageStats } from '../status/page-stats.ts';
+import { VideoViews } from '../video/video-views.ts';
 import { type DrivingState, drivingState } from './driving-state.ts';
+import { Enlarged } from './enlarged.ts';
 import { type LinkState, linkState } from './link-state.ts';
 import type { Notices } from './notices.ts';
 import { type RobotState, robotState } from './robot-state.ts';
@@ -23,7 +26,7 @@ const SAMPLED = ['signaling', 'robots', 'phase', 'path', 'session', 'lease', 'es
 
 export interface PageStateParts {
   readonly client: RobotClient;
-  readonly settings: Pick<Settings, 'signalingFault' | 'pointScale'>;
+  readonly settings: Pick<Settings, 'signalingFault' | 'pointScale' | 'barcode'>;
   readonly notices: Notices;
   /** Current figures of the stream and of the drawing. */
   figures(): PageStats;
@@ -40,9 +43,16 @@ export class PageState {
   readonly figures: ReadonlySignal<PageStats>;
   /** The sensors of a robot that has several, and which of them should send clouds. */
   readonly sensors = new Switches();
-  /** The robot's cameras, and which of them are shown. */
+  /** The robot's cameras that send single pictures, and which of them are shown. */
   readonly cameras = new Switches();
   readonly pictures: CameraPictures;
+  /** The robot's cameras that send videos, and which of them are shown. */
+  readonly videos: VideoViews;
+  /** What is shown of all cameras: videos, then pictures. */
+  readonly views: ReadonlySignal<readonly CameraView[]>;
+  readonly enlarged: Enlarged;
+  /** When the values that change with time were read last: page's clock, ms. */
+  readonly sampledAtMs: ReadonlySignal<number>;
   /** Size of the points, relative to the patch of surface that each stands for. */
   readonly pointScale: Signal<number>;
   /** Whether the page is visible to anybody. */
@@ -57,11 +67,15 @@ export class PageState {
     this.robot = robotState(client, this.#samples);
     this.driving = drivingState(client, this.#samples);
     this.figures = this.#samples.of(figures);
-    this.pictures = new CameraPictures(this.cameras, this.#samples.atMs, newCanvas);
+    this.sampledAtMs = this.#samples.atMs;
+    this.pictures = new CameraPictures(this.cameras, this.sampledAtMs, newCanvas);
+    this.videos = new VideoViews(this.sampledAtMs, newCanvas);
+    this.views = computed(() => [...this.videos.views.value, ...this.pictures.views.value]);
+    this.enlarged = new Enlarged(this.views);
     this.pointScale = signal(settings.pointScale);
     this.sample();
     this.#listen(client);
-    this.#ask(client);
+    this.#ask(client, settings.barcode);
   }
 
   /** Updates the signals now. Also called a few times a second, for values that change with time. */
@@ -74,18 +88,25 @@ export class PageState {
     client.on('session', () => {
       this.cameras.set([]);
       this.sensors.set([]);
+      this.videos.clear();
     });
     client.on('cameras', (cameras) => this.cameras.set(cameras));
+    client.on('videos', (videos) => this.videos.list(videos));
     client.on('sensors', (sensors) => this.sensors.set(sensors));
     client.on('picture', (picture) => this.pictures.show(picture, this.#now()));
     client.on('pictureFault', ({ camera, detail }) => this.pictures.onFault(camera, detail));
   }
 
   /** A camera or sensor that is switched off or that nobody looks at takes nothing of the link. */
-  #ask(client: RobotClient): void {
+  #ask(client: RobotClient, barcode: boolean): void {
     effect(() => {
       const watched = this.looking.value ? this.cameras.wanted.value : [];
       if (this.cameras.all.value.length > 0) client.watch(watched);
+    });
+    effect(() => {
+      const { all, wanted } = this.videos.switches;
+      const watched = this.looking.value ? wanted.value : [];
+      if (all.value.length > 0) client.watchVideos(watched, barcode);
     });
     effect(() => {
       const wanted = this.sensors.wanted.value;

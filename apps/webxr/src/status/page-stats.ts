@@ -2,6 +2,7 @@
 
 import { type Distribution, type DropCounts, SampleWindow, type StreamStats } from '@farpoint/operator';
 import { RateMeter } from '@farpoint/timing';
+import type { VideoStats } from '../video/video-figures.ts';
 
 export interface PageStats extends StreamStats {
   /** Since the session began. */
@@ -14,6 +15,8 @@ export interface PageStats extends StreamStats {
   renderMs: Distribution | null;
   displayFramesPerSecond: number;
   canvas: { width: number; height: number };
+  /** How the cameras' videos are presented. */
+  videos: VideoStats;
 }
 
 /** What of the cloud has been drawn since the session began. */
@@ -57,7 +60,12 @@ export class PageStatistics {
     return this.#display.perSecond;
   }
 
-  snapshot(stream: StreamStats, drawn: DrawnCounts, canvas: { width: number; height: number }): PageStats {
+  snapshot(
+    stream: StreamStats,
+    drawn: DrawnCounts,
+    canvas: { width: number; height: number },
+    videos: VideoStats,
+  ): PageStats {
     const drops: DropCounts = { ...stream.drops };
     for (const [reason, count] of Object.entries(drawn.drops)) {
       drops[reason as keyof DropCounts] = (drops[reason as keyof DropCounts] ?? 0) + count;
@@ -73,6 +81,7 @@ export class PageStatistics {
       renderMs: this.#render.distribution(),
       displayFramesPerSecond: this.#display.perSecond,
       canvas: { width: canvas.width, height: canvas.height },
+      videos,
     };
   }
 }

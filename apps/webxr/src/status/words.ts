@@ -132,6 +132,12 @@ export function linkWords(facts: LinkFacts): Words {
   }
 }
 
+/** Why a camera's video is not shown, if it is this browser that cannot. */
+export const videoWords = {
+  tooOld: 'This browser cannot show videos in step. Update it.',
+  noCodec: 'This browser cannot decode this video.',
+} as const;
+
 export const failureWords = {
   noWebGl2: {
     title: 'This browser cannot draw the point cloud',

@@ -67,6 +67,24 @@ export interface CameraProbe {
   failures: number;
 }
 
+/** A video's panel. */
+export interface VideoProbe {
+  name: string;
+  shown: boolean;
+  /** Pixels of the newest frame. */
+  width: number;
+  height: number;
+  /** `null` before the first frame. */
+  ageMs: number | null;
+  /** When the shown frame was captured, on the page's clock (`performance.now()`); `null` before the first. */
+  takenAtMs: number | null;
+  /** Frames shown since the session began. */
+  frames: number;
+  /** The words in place of the video; `null` if nothing is wrong. */
+  fault: string | null;
+  enlarged: boolean;
+}
+
 export interface FarpointTestApi {
   readonly version: 1;
   state(): PageState;
@@ -91,6 +109,21 @@ export interface FarpointTestApi {
   limitBandwidth(bitsPerSecond: number): void;
   probe(): DrawnProbe;
   cameras(): CameraProbe[];
+  videos(): VideoProbe[];
+  /** Starts recording what videos show, for up to `capacity` presentations; `null` stops it. Needs `barcode=1`. */
+  recordPresentations(capacity: number | null): void;
+  /**
+   * Of each recorded presentation: when its display frame was finished, and the time that is drawn in each video's
+   * picture (`null` if it cannot be read); ms on the robot's clock.
+   */
+  recordedPresentations(): { finishedMs: number | null; drawnMs: (number | null)[] }[];
+  /** The robot's clock now, as the page estimates it, ms; `null` until it is known. */
+  robotNowMs(): number | null;
+  /**
+   * The canvas to which a video is drawn, by the video's number. It has the frame of {@link VideoProbe.takenAtMs} for as
+   * long as the script runs without a pause, e.g. to read the frame's own time from its pixels.
+   */
+  videoCanvas(video: number): HTMLCanvasElement | null;
   /** The sensors of a robot with several: which should send clouds, and how many points of each are drawn. */
   sensors(): { name: string; wanted: boolean; points: number }[];
   /** Starts recording when packets arrive, for up to `capacity` packets; `null` stops it. */

@@ -5,6 +5,7 @@ import { LATENCY_TEST_COLOUR, type Pose } from '@farpoint/protocol';
 import { Quaternion, Vector3 } from 'three';
 import type { App } from '../app.ts';
 import { PacketRecord } from './packet-record.ts';
+import { PresentationRecord } from './presentation-record.ts';
 import { ScriptInput } from './script-input.ts';
 import type { DrawnProbe, FarpointTestApi } from './test-api.ts';
 
@@ -14,6 +15,11 @@ export function installTestApi(app: App): void {
   const script = new ScriptInput();
   driver.add(script);
   let packets: PacketRecord | null = null;
+  let presentations: PresentationRecord | null = null;
+  const robotNowMs = () => {
+    const { offsetMs } = app.client.link.session.clock;
+    return offsetMs === null ? null : performance.now() + offsetMs;
+  };
   client.on('cloud', (batch) => packets?.add(batch, performance.timeOrigin));
   const api: FarpointTestApi = {
     version: 1,
@@ -46,6 +52,7 @@ export function installTestApi(app: App): void {
     resetStats: () => {
       client.statistics.resetDistributions();
       app.stats.resetDistributions();
+      app.videos.resetDistributions();
     },
     robots: () => link.robots,
     connect(robotId, timeoutMs = 30_000) {
@@ -74,6 +81,22 @@ export function installTestApi(app: App): void {
         ...{ name: camera.name, shown: camera.on.value, width: canvas.width, height: canvas.height },
         ...{ ageMs: ageMs.value, pictures: newest.value?.number ?? 0, failures },
       })),
+    videos: () =>
+      app.state.videos.views.value.map(({ camera, canvas, newest, ageMs, fault }) => ({
+        ...{ name: camera.name, shown: camera.on.value, width: canvas.width, height: canvas.height },
+        ...{ ageMs: ageMs.value, frames: newest.value?.number ?? 0, fault: fault.value },
+        takenAtMs: newest.value?.takenAtMs ?? null,
+        enlarged: app.state.enlarged.view.value?.canvas === canvas,
+      })),
+    robotNowMs,
+    recordPresentations(capacity) {
+      const record = capacity === null ? null : new PresentationRecord(capacity, robotNowMs);
+      presentations = record;
+      app.videos.onPresented =
+        record === null ? null : () => record.add(app.state.videos.views.value.map(({ canvas }) => canvas));
+    },
+    recordedPresentations: () => [...(presentations?.rows ?? [])],
+    videoCanvas: (video) => app.state.videos.views.value[video]?.canvas ?? null,
     sensors: () =>
       app.state.sensors.all.value.map(({ index, name, on }) => ({
         ...{ name, wanted: on.value, points: app.clouds.drawnOf(index) },

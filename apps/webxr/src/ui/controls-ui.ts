@@ -1,6 +1,7 @@
 /** Maps buttons, mouse, wheel and keys to actions. */
 import { LatencyError, type RobotClient } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
+import type { CloudAppearance } from '../state/cloud-appearance.ts';
 import type { PageState } from '../state/page-state.ts';
 import type { Stage } from '../view/stage.ts';
 import type { VrSession } from '../view/vr-session.ts';
@@ -20,6 +21,7 @@ const latencyFailureWords: Record<LatencyError['reason'], string> = {
 export interface Controlled {
   readonly client: RobotClient;
   readonly state: PageState;
+  readonly appearance: CloudAppearance;
   readonly stage: Pick<Stage, 'look' | 'camera'>;
   readonly vr: VrSession;
   readonly estop: EstopUi;
@@ -51,7 +53,8 @@ export class ControlsUi {
   }
 
   act(action: Action, timeMs: number): void {
-    const { stage, estop } = this.#parts;
+    const { stage, estop, appearance } = this.#parts;
+    const { fromAbove } = appearance;
     switch (action) {
       case 'estop':
         estop.stop();
@@ -63,7 +66,15 @@ export class ControlsUi {
         stage.look.recentre();
         return;
       case 'view':
-        stage.look.switchMode();
+        // From above, it returns to the view from before.
+        if (fromAbove.peek()) fromAbove.value = false;
+        else stage.look.switchMode();
+        return;
+      case 'from-above':
+        fromAbove.value = !fromAbove.peek();
+        return;
+      case 'enlarge':
+        this.#parts.state.enlarged.next();
         return;
       case 'next-robot':
         this.#nextRobot();

@@ -21,6 +21,7 @@ export const elements = {
   hud: byId('hud', HTMLElement),
   facts: byId('facts', HTMLElement),
   sensors: byId('sensors', HTMLElement),
+  clouds: byId('clouds', HTMLElement),
   pictures: byId('pictures', HTMLElement),
   notice: byId('notice', HTMLElement),
   drive: byId('drive', HTMLElement),

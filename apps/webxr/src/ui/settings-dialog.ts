@@ -26,6 +26,7 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
     field('signaling').value = stored.signaling ?? '';
     field('name').value = stored.name ?? '';
     field('pointScale').value = String(stored.pointScale ?? 1);
+    field('synchronised').checked = stored.synchronised ?? true;
     tokenTyped = false;
     showToken();
     dialog.showModal();
@@ -53,10 +54,11 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
       tokens: 'url' in at ? withToken(tokens, tokenOrigin(at.url), field('token').value.trim()) : tokens,
       name: field('name').value,
       pointScale: clampScale(Number(field('pointScale').value)),
+      synchronised: field('synchronised').checked,
     });
     // These parameters in the page's address would override what was just saved.
     const address = new URL(location.href);
-    for (const name of ['signaling', 'token', 'name']) address.searchParams.delete(name);
+    for (const name of ['signaling', 'token', 'name', 'sync']) address.searchParams.delete(name);
     location.replace(address);
   });
 }

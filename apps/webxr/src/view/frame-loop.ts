@@ -3,6 +3,7 @@ import { type CloudView, DrawGate, DrawingGovernor, GpuCompletion } from '@farpo
 import type { RobotClient } from '@farpoint/operator';
 import type { Settings } from '../settings.ts';
 import type { PageStatistics } from '../status/page-stats.ts';
+import type { VideoFeed } from '../video/video-feed.ts';
 import type { SensorClouds } from './sensor-clouds.ts';
 import type { Stage } from './stage.ts';
 import type { VrSession } from './vr-session.ts';
@@ -13,6 +14,7 @@ export interface FrameLoopParts {
   readonly stage: Stage;
   readonly cloud: CloudView;
   readonly clouds: SensorClouds;
+  readonly videos: VideoFeed;
   readonly stats: PageStatistics;
   readonly vr: VrSession;
   /** Called before each picture in VR, because controllers send no events. */
@@ -56,7 +58,9 @@ export class FrameLoop {
   }
 
   #frame(nowMs: number): void {
-    const { client, cloud, clouds, settings, stage, stats, vr } = this.#parts;
+    const { client, cloud, clouds, videos, settings, stage, stats, vr } = this.#parts;
+    // Videos are shown beside the scene: they need not wait until it can be drawn again.
+    videos.tick(performance.now());
     const inVr = vr.active.peek();
     // In VR the headset's compositor sets the pace.
     if (!inVr && this.#completion.busy) return;
@@ -67,7 +71,7 @@ export class FrameLoop {
     this.#gate.onDraw(cloud.window.endedFrame, beganMs);
     if (inVr) this.#parts.readHeadset();
     stage.prepare(cloud, nowMs);
-    stage.renderer.render(stage.scene, stage.camera);
+    stage.renderer.render(stage.scene, stage.viewCamera);
     // Wait only when a time is being measured: waiting for the GPU costs frames.
     if (client.latency.wantsTime || settings.canvas !== null) {
       this.#completion.wait();

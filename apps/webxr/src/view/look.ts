@@ -9,10 +9,18 @@ const FIT_MARGIN = 1.15;
 const LEAST_FIT_FOV = 35;
 /** The view is not changed while it fits to within this, degrees. */
 const FIT_TOLERANCE = 5;
+/** How far the view from above reaches to the nearest edge of the screen, metres. */
+export const DEFAULT_REACH = 6;
+export const MIN_REACH = 1;
+export const MAX_REACH = 60;
 const MAX_PITCH = (Math.PI / 180) * 85;
 
 export class Look {
   mode: ViewMode = 'first-person';
+  /** From straight above instead, whatever the mode. */
+  fromAbove = false;
+  /** Metres from the robot to the nearest edge of the screen, from above. */
+  reach = DEFAULT_REACH;
   /** Radians; positive to the left. */
   yaw = 0;
   /** Radians; positive upwards. */
@@ -26,6 +34,8 @@ export class Look {
 
   /** A drag over the screen. @param radiansPerPixel chosen so that the point under the cursor stays under it */
   drag(dx: number, dy: number, radiansPerPixel: number): void {
+    // From above, the robot stays in the middle.
+    if (this.fromAbove) return;
     this.yaw += dx * radiansPerPixel;
     this.pitch = clamp(this.pitch + dy * radiansPerPixel, -MAX_PITCH, MAX_PITCH);
   }
@@ -44,13 +54,19 @@ export class Look {
 
   /** @param factor above 1: further away */
   zoom(factor: number): void {
-    if (this.mode === 'first-person') {
+    if (this.fromAbove) {
+      this.reach = clamp(this.reach * factor, MIN_REACH, MAX_REACH);
+    } else if (this.mode === 'first-person') {
       this.fov = clamp(this.fov * factor, MIN_FOV, MAX_FOV);
       this.#zoomed = true;
     } else this.distance = clamp(this.distance * factor, 0.8, 15);
   }
 
   recentre(): void {
+    if (this.fromAbove) {
+      this.reach = DEFAULT_REACH;
+      return;
+    }
     this.yaw = 0;
     this.pitch = this.mode === 'first-person' ? 0 : -0.35;
     this.fov = this.mode === 'first-person' ? this.#fitted : DEFAULT_FOV;

@@ -19,12 +19,14 @@ const HEIGHT = 0.25;
 export class RobotMarker {
   /** In the world's axes (REP-103), at base_link. */
   readonly object = new Group();
+  readonly #outline: LineBasicMaterial;
+  readonly #heading: MeshBasicMaterial;
 
   constructor() {
-    const outline = new LineSegments(
-      new EdgesGeometry(new BoxGeometry(LENGTH, WIDTH, HEIGHT)),
-      new LineBasicMaterial({ color: 0x35c9b5, transparent: true, opacity: 0.8 }),
-    );
+    this.#outline = new LineBasicMaterial({ color: 0x35c9b5, transparent: true, opacity: 0.8 });
+    this.#heading = new MeshBasicMaterial({ color: 0x35c9b5, transparent: true, opacity: 0.7 });
+    const box = new EdgesGeometry(new BoxGeometry(LENGTH, WIDTH, HEIGHT));
+    const outline = new LineSegments(box, this.#outline);
     outline.position.z = HEIGHT / 2 + 0.03;
     const arrow = new BufferGeometry();
     arrow.setAttribute(
@@ -32,11 +34,14 @@ export class RobotMarker {
       new Float32BufferAttribute([0.62, 0, 0.02, 0.4, 0.12, 0.02, 0.4, -0.12, 0.02], 3),
     );
     arrow.setIndex([0, 1, 2]);
-    const heading = new Mesh(
-      arrow,
-      new MeshBasicMaterial({ color: 0x35c9b5, transparent: true, opacity: 0.7 }),
-    );
+    const heading = new Mesh(arrow, this.#heading);
     this.object.add(outline, heading);
     this.object.visible = false;
+  }
+
+  /** Whether points that are nearer do not hide it. */
+  set onTop(onTop: boolean) {
+    this.#outline.depthTest = !onTop;
+    this.#heading.depthTest = !onTop;
   }
 }

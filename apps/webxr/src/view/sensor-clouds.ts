@@ -1,7 +1,7 @@
 /** Draws the clouds of a robot with several sensors, except the first sensor's, which has an object of its own. */
 import { CloudView } from '@farpoint/cloud-view';
 import type { RobotClient } from '@farpoint/operator';
-import { effect, type ReadonlySignal } from '@preact/signals-core';
+import { effect, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { Object3D, WebGLRenderer } from 'three';
 import type { Switches } from '../state/switches.ts';
 
@@ -27,12 +27,25 @@ export class SensorClouds {
   readonly #parts: SensorCloudsParts;
   /** Indexed by sensor number. */
   #views: readonly CloudView[] = [];
+  readonly #all = signal<readonly CloudView[]>([]);
+  #ground = 0;
 
   constructor(parts: SensorCloudsParts) {
     this.#parts = parts;
     const { sensors, pointScale } = parts;
     effect(() => this.#build(sensors.all.value.length));
     effect(() => this.#scale(pointScale.value));
+  }
+
+  /** What draws each sensor's cloud, by sensor number; also for a robot with one sensor. */
+  get all(): ReadonlySignal<readonly CloudView[]> {
+    return this.#all;
+  }
+
+  /** Height of the robot's ground in its world, metres. */
+  set ground(height: number) {
+    this.#ground = height;
+    for (const { colouring } of this.#all.peek()) colouring.ground = height;
   }
 
   /** Call this in the frame loop, before rendering. */
@@ -58,6 +71,8 @@ export class SensorClouds {
     );
     for (const view of others) world.add(view);
     this.#views = sensors === 0 ? [] : [first, ...others];
+    this.#all.value = [first, ...others];
+    this.ground = this.#ground;
     this.#scale(pointScale.peek());
   }
 

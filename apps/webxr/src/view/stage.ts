@@ -1,11 +1,12 @@
 /** Renderer, scene and cameras. The frame loop only uploads new data, places the camera and draws. */
 
-import { type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud-view';
-import { Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { bodyYaw, type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud-view';
+import { type Camera, Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
 import { GroundGrid } from './ground-grid.ts';
 import { Look } from './look.ts';
 import { PoseFollower } from './pose-follower.ts';
 import { RobotMarker } from './robot-marker.ts';
+import { TopDownCamera } from './top-down-camera.ts';
 
 const BACKGROUND = 0x0b0f14;
 const NEAR_M = 0.05;
@@ -29,9 +30,14 @@ export class Stage {
   readonly rig = new Group();
   readonly camera = new PerspectiveCamera(75, 1, NEAR_M, FAR_M);
   readonly look = new Look();
+  /** From above, the robot's heading is up; otherwise north. */
+  headingUp = true;
   readonly #marker = new RobotMarker();
   readonly #grid = new GroundGrid();
   readonly #follower = new PoseFollower(FOLLOW_MS);
+  readonly #topDown = new TopDownCamera();
+  /** Follows the robot's body, in its world. */
+  readonly #bodyFollower = new PoseFollower(FOLLOW_MS);
   readonly #fixedSize: { width: number; height: number } | null;
   #lastMs = 0;
   #resolution = 1;
@@ -54,6 +60,16 @@ export class Stage {
 
   get gl(): WebGL2RenderingContext {
     return this.renderer.getContext() as WebGL2RenderingContext;
+  }
+
+  /** What the flat screen shows, or the headset. */
+  get viewCamera(): Camera {
+    return this.#isFromAbove ? this.#topDown.camera : this.camera;
+  }
+
+  /** In VR the world stays as it is. */
+  get #isFromAbove(): boolean {
+    return this.look.fromAbove && !this.renderer.xr.isPresenting;
   }
 
   /** Share of the screen's resolution that is drawn, for machines that cannot keep up. */
@@ -80,6 +96,7 @@ export class Stage {
   /** Makes the next pose apply at once: it belongs to another robot. */
   forgetPose(): void {
     this.#follower.reset();
+    this.#bodyFollower.reset();
     this.#marker.object.visible = false;
   }
 
@@ -106,7 +123,20 @@ export class Stage {
       this.rig.rotation.y = follower.yaw;
     }
     this.#grid.centreOn(this.rig.position.x, this.rig.position.z);
-    if (!this.renderer.xr.isPresenting) this.#placeFlatCamera();
+    this.#marker.onTop = this.#isFromAbove;
+    if (this.#isFromAbove) this.#placeTopDown(elapsed);
+    else if (!this.renderer.xr.isPresenting) this.#placeFlatCamera();
+  }
+
+  #placeTopDown(elapsedMs: number): void {
+    const { object } = this.#marker;
+    const { x, y, z } = object.position;
+    // Without telemetry, the camera is the best guess.
+    const body = this.#bodyFollower;
+    if (object.visible) body.follow(x, y, z, bodyYaw(object.quaternion), elapsedMs);
+    const { headingUp, look, camera } = this;
+    const robot = body.started ? body : this.#follower;
+    this.#topDown.place(robot, { headingUp, reach: look.reach, aspect: camera.aspect });
   }
 
   #placeFlatCamera(): void {

@@ -2,7 +2,7 @@ import { bodyYaw, opticalYaw, worldToThree } from '@farpoint/cloud-view';
 import fc from 'fast-check';
 import { Quaternion, Vector3 } from 'three';
 import { describe, expect, test } from 'vitest';
-import { DEFAULT_FOV, Look, MAX_FOV, MIN_FOV } from './look.ts';
+import { DEFAULT_FOV, DEFAULT_REACH, Look, MAX_FOV, MAX_REACH, MIN_FOV, MIN_REACH } from './look.ts';
 import { PoseFollower, shortestTurn } from './pose-follower.ts';
 
 /** Optical frame (z forward, x right, y down) of a level camera with the given heading, in REP-103 axes. */
@@ -85,6 +85,23 @@ describe('Look', () => {
     look.switchMode();
     look.zoom(1000);
     expect(look.distance).toBe(15);
+  });
+
+  test('from above, a drag does nothing, zoom changes the reach, and the other view stays as it was', () => {
+    const look = new Look();
+    look.drag(10, 0, 0.01);
+    look.zoom(0.9);
+    const { yaw, fov } = look;
+    look.fromAbove = true;
+    look.drag(100, 100, 0.01);
+    look.zoom(2);
+    expect([look.yaw, look.pitch, look.fov, look.reach]).toEqual([yaw, 0, fov, 2 * DEFAULT_REACH]);
+    look.zoom(1000);
+    expect(look.reach).toBe(MAX_REACH);
+    look.zoom(1e-6);
+    expect(look.reach).toBe(MIN_REACH);
+    look.recentre();
+    expect([look.reach, look.fov]).toEqual([DEFAULT_REACH, fov]);
   });
 
   test('fits a narrow camera until the operator zooms, and again after recentring', () => {

@@ -1,7 +1,7 @@
 /** The cameras' pictures in VR, stacked beside the wrist panel. */
 import { signal } from '@preact/signals-core';
 import { CanvasTexture, Group, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from 'three';
-import type { CameraView } from '../pictures/camera-pictures.ts';
+import type { CameraView } from '../pictures/camera-view.ts';
 
 const WIDTH_M = 0.2;
 const GAP_M = 0.012;
@@ -61,7 +61,7 @@ export class WristPictures {
       const tall = (WIDTH_M * height) / width;
       mesh.scale.set(WIDTH_M, tall, 1);
       mesh.position.set(0, top + tall / 2, 0);
-      mesh.material.color.set(view.stale.value ? STALE_COLOUR : FRESH_COLOUR);
+      mesh.material.color.set(view.stale.value || view.fault.value !== null ? STALE_COLOUR : FRESH_COLOUR);
       top += tall + GAP_M;
     }
   }

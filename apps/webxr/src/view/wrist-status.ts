@@ -15,7 +15,7 @@ export interface WristStatusParts {
 }
 
 export function showOnWrist({ state, panel, active, releaseProgress }: WristStatusParts): void {
-  const { link, driving, robot, figures, pictures } = state;
+  const { link, driving, robot, figures, views } = state;
   const sheets = new WristPictures();
   panel.addBeside(sheets.object);
   effect(() => {
@@ -34,7 +34,7 @@ export function showOnWrist({ state, panel, active, releaseProgress }: WristStat
   effect(() => {
     if (active.value) panel.showProgress(releaseProgress.value);
   });
-  effect(() => sheets.setViews(pictures.views.value.filter(({ camera }) => camera.on.value)));
+  effect(() => sheets.setViews(views.value.filter(({ camera }) => camera.on.value)));
   effect(() => {
     if (active.value) sheets.update();
   });

@@ -5,6 +5,7 @@ import type { LatencyProbe } from '../latency/latency-probe.ts';
 import type { RobotLinkEvents } from '../link/robot-link.ts';
 import type { PictureFeed } from '../pictures/picture-feed.ts';
 import type { StreamStatistics } from '../statistics/stream-statistics.ts';
+import { VideoTracks } from '../video/video-tracks.ts';
 import type { Emitter } from './emitter.ts';
 import { forwardedEvents } from './forwarded-events.ts';
 import type { RobotEvents } from './robot-events.ts';
@@ -28,6 +29,7 @@ export interface ClientParts {
 
 export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkEvents {
   const { emitter, receiver, pictures } = parts;
+  const tracks = new VideoTracks((track) => emitter.emit('videoTrack', track));
   return {
     ...forwardedEvents(emitter),
     onPhase: (phase) => {
@@ -45,6 +47,7 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
     onGeneration: (generation) => {
       receiver.begin(generation);
       pictures.reset();
+      tracks.reset();
       client.statistics.reset();
       emitter.emit('session', generation);
     },
@@ -64,6 +67,11 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
       pictures.reset();
       emitter.emit('cameras', cameras);
     },
+    onVideos: (videos) => {
+      emitter.emit('videos', videos);
+      tracks.list(videos.length);
+    },
+    onVideoTrack: (track) => tracks.add(track),
     onPicture: (picture, nowMs) => pictures.add(picture, nowMs),
   };
 }

@@ -210,6 +210,14 @@ export class RobotClient {
     this.link.sendSession({ type: 'pictures', cameras: [...cameras] });
   }
 
+  /**
+   * Asks for these videos only: indices into the list of the `videos` event. Initially none.
+   * @param barcode whether the robot draws the capture time into their pictures, for everyone: to measure latency
+   */
+  watchVideos(videos: readonly number[], barcode = false): void {
+    this.link.sendSession({ type: 'videos', videos: [...videos], ...(barcode ? { barcode } : {}) });
+  }
+
   /** Asks for the clouds of these sensors only: indices into the list of the `sensors` event. Initially the first. */
   wantClouds(sensors: readonly number[]): void {
     this.link.sendSession({ type: 'sensors', sensors: [...sensors] });

@@ -7,6 +7,7 @@ import type {
   RobotListing,
   Sensors,
   Telemetry,
+  Videos,
   Welcome,
 } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
@@ -15,6 +16,7 @@ import type { Picture } from '../pictures/picture-feed.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
 import type { SignalingState } from '../signaling/signaling-state.ts';
+import type { VideoTrack } from '../video/video-track.ts';
 
 /** Why the client cannot work at all. */
 export type ClientFailure = 'cloud-worker';
@@ -53,6 +55,13 @@ export interface RobotEvents {
   cameras: Cameras['cameras'];
   /** The sensors that {@link RobotClient.wantClouds} can be called with; sent by robots that have more than one. */
   sensors: Sensors['sensors'];
+  /**
+   * The cameras that {@link RobotClient.watchVideos} can be called with. Comes again, with the same cameras in the same
+   * order, when a camera's video stops or returns: then its `fault` appears or disappears.
+   */
+  videos: Videos['videos'];
+  /** The track of a listed video, after the `videos` event. It is silent until the video is watched. */
+  videoTrack: VideoTrack;
   /** A picture of a watched camera. */
   picture: Picture;
   /** A picture of this camera could not be decoded. */

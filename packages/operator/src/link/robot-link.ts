@@ -5,6 +5,7 @@ import type { RobotSession, RobotSessionEvents } from '../session/robot-session.
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
 import type { SignalingState } from '../signaling/signaling-state.ts';
+import type { VideoTrack } from '../video/video-track.ts';
 
 export interface RobotLinkEvents extends RobotSessionEvents {
   onSignaling(state: SignalingState): void;
@@ -15,6 +16,8 @@ export interface RobotLinkEvents extends RobotSessionEvents {
   onPath(up: boolean): void;
   /** A peer connection is being set up; its batches have this generation. */
   onGeneration(generation: number): void;
+  /** The robot offers a camera's video, in the session that is being set up or that there is. */
+  onVideoTrack(track: VideoTrack): void;
   /** The service refused a request; the text is the service's. */
   onRefusal(message: string): void;
 }

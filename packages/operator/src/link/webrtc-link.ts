@@ -267,6 +267,7 @@ export class WebRtcLink implements RobotLink {
           if (channel === 'control') this.#keeper.onAnswered(nowMs);
           this.#session.onMessage(channel, data, nowMs);
         },
+        onVideoTrack: (track) => this.#events.onVideoTrack(track),
         onFailed: (detail) => {
           if (peer !== this.#peer) return;
           console.warn('peer:', detail);

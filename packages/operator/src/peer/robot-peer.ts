@@ -7,6 +7,7 @@ import {
   type MessageData,
 } from '@farpoint/protocol';
 import type { RobotChannel } from '../session/robot-session.ts';
+import { playWithoutDelay, type VideoTrack, videoOfStreams } from '../video/video-track.ts';
 import { attachWorker, type TransformSupport, transformConfiguration } from './encoded-transform.ts';
 
 export interface RobotPeerEvents {
@@ -15,6 +16,8 @@ export interface RobotPeerEvents {
   /** The path is established and the robot's session channel is open. */
   onConnected(): void;
   onMessage(channel: RobotChannel, data: MessageData): void;
+  /** The robot offers a camera's video. */
+  onVideoTrack(track: VideoTrack): void;
   /** The connection ended; no event follows. Not sent after {@link RobotPeer.close}. */
   onFailed(detail: string): void;
 }
@@ -59,8 +62,13 @@ export class RobotPeer {
     this.#bandwidth = connection.createDataChannel(bandwidth.label, { ordered: bandwidth.ordered });
     this.#listen(this.#control, 'control');
     connection.ontrack = ({ streams, receiver, track }) => {
-      const isCloud = track.kind === 'audio' && streams.some((stream) => stream.id === CLOUD_STREAM_ID);
-      if (isCloud) attachWorker(receiver, options.worker, options.transform, options.generation);
+      const ids = streams.map(({ id }) => id);
+      if (track.kind === 'audio' && ids.includes(CLOUD_STREAM_ID))
+        attachWorker(receiver, options.worker, options.transform, options.generation);
+      const video = track.kind === 'video' ? videoOfStreams(ids) : null;
+      if (video === null || this.#ended) return;
+      playWithoutDelay(receiver);
+      events.onVideoTrack({ video, track });
     };
     connection.ondatachannel = ({ channel }) => this.#adopt(channel);
     connection.onicecandidate = ({ candidate }) => {

@@ -19,6 +19,7 @@ function bench(): { session: RobotSession; told: string[] } {
     onReading: tell('reading'),
     onCameras: tell('cameras'),
     onSensors: tell('sensors'),
+    onVideos: tell('videos'),
     onPicture: tell('picture'),
     onRobotFault: tell('fault'),
   });
@@ -56,7 +57,10 @@ describe('RobotSession', () => {
     session.onMessage('session', new TextEncoder().encode('{"type":"fault","message":"no"}'), 0);
     expect(session.lease).toEqual({ type: 'lease', holder: 'you', lease: 'abc' });
     expect(session.estop.latched).toBe(true);
-    expect(told).toEqual(['lease', 'estop', 'fault']);
+    const videos =
+      '[{"name":"Front","mid":"1","codec":"H264"},{"name":"Rear","mid":"2","codec":"VP8","fault":"gone"}]';
+    session.onMessage('session', `{"type":"videos","videos":${videos}}`, 0);
+    expect(told).toEqual(['lease', 'estop', 'fault', 'videos']);
   });
 
   test('ignores telemetry that was overtaken, also across the wrap', () => {

@@ -20,6 +20,7 @@ import {
   sequenceDelta32,
   type Telemetry,
   telemetryCodec,
+  type Videos,
   type Welcome,
   type WholePicture,
 } from '@farpoint/protocol';
@@ -43,6 +44,8 @@ export interface RobotSessionEvents {
   onCameras(cameras: Cameras['cameras']): void;
   /** The sensors whose clouds can be requested; sent by robots that have more than one. */
   onSensors(sensors: Sensors['sensors']): void;
+  /** The cameras whose videos can be requested, and which of them have no pictures at present. */
+  onVideos(videos: Videos['videos']): void;
   onPicture(picture: WholePicture, nowMs: number): void;
   /** The robot could not use a message from this client. */
   onRobotFault(message: string): void;
@@ -138,6 +141,9 @@ export class RobotSession {
         return;
       case 'sensors':
         this.#events.onSensors(message.sensors);
+        return;
+      case 'videos':
+        this.#events.onVideos(message.videos);
         return;
       case 'fault':
         this.#events.onRobotFault(message.message);

@@ -1,0 +1,45 @@
+/** Where a legend's numbers stand beside its colour bar. */
+import type { ColourMode } from '@farpoint/cloud-view';
+
+export interface Tick {
+  /** Share of the bar's length, 0–1. */
+  readonly place: number;
+  readonly text: string;
+}
+
+export interface Quantity {
+  /** What the colours stand for. */
+  readonly name: string;
+  readonly unit: string;
+  /** The unit's value in the mode's own unit is 1 / this. */
+  readonly scale: number;
+}
+
+/** `captured` colours stand for no quantity. */
+export const QUANTITIES: Readonly<Record<Exclude<ColourMode, 'captured'>, Quantity>> = {
+  height: { name: 'height', unit: 'm', scale: 1 },
+  distance: { name: 'distance', unit: 'm', scale: 1 },
+  intensity: { name: 'intensity', unit: '%', scale: 100 },
+  age: { name: 'age', unit: 'ms', scale: 1000 },
+};
+
+/**
+ * Round numbers within a range, at most `most` of them.
+ *
+ * @param min less than `max`
+ */
+export function ticksOf(min: number, max: number, most = 5): Tick[] {
+  const span = max - min;
+  if (!(span > 0) || !Number.isFinite(span)) return [];
+  const least = span / most;
+  const power = 10 ** Math.floor(Math.log10(least));
+  const step = power * ([1, 2, 5, 10].find((factor) => factor * power >= least * (1 - 1e-9)) ?? 10);
+  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  const ticks: Tick[] = [];
+  for (let i = Math.ceil(min / step - 1e-9); i * step <= max + step * 1e-9; i++) {
+    // Not "-0".
+    const value = i === 0 ? 0 : i * step;
+    ticks.push({ place: (value - min) / span, text: value.toFixed(digits) });
+  }
+  return ticks.length > most ? ticks.filter((_, i) => i % 2 === 0) : ticks;
+}

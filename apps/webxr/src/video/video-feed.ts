@@ -1,0 +1,152 @@
+/**
+ * Brings the robot's videos to their canvases: reads the tracks of those that are on, and draws together the frames that
+ * were captured together.
+ */
+import { type Batch, Compositor, captureMsOfStamp, type RobotClient } from '@farpoint/operator';
+import { effect, signal, untracked } from '@preact/signals-core';
+import { videoWords } from '../status/words.ts';
+import { captureMsOf } from './frame-time.ts';
+import { VideoFigures, type VideoStats } from './video-figures.ts';
+import type { VideoImage } from './video-image.ts';
+import type { OpenReader, ReadFrame } from './video-reader.ts';
+import type { VideoViews } from './video-views.ts';
+
+const VIDEO = 'video:';
+const CLOUD = 'cloud';
+
+export interface VideoFeedParts {
+  readonly client: RobotClient;
+  readonly views: VideoViews;
+  /** Whether frames wait for what was captured at the same time. */
+  readonly synchronised: boolean;
+  /** `null` if this browser cannot read videos. */
+  readonly open: OpenReader | null;
+  /** Page's clock, ms. */
+  now(): number;
+}
+
+export class VideoFeed {
+  readonly #parts: VideoFeedParts;
+  /** A cloud has no payload: its points are drawn as they come, and only the videos wait. */
+  readonly #compositor: Compositor<VideoImage | null>;
+  readonly #figures = new VideoFigures();
+  readonly #tracks = signal<ReadonlyMap<number, MediaStreamTrack>>(new Map());
+  readonly #readers = new Map<number, ReturnType<OpenReader>>();
+  /** Called after each presentation has been drawn. */
+  onPresented: (() => void) | null = null;
+  /** The cloud's frame that was offered last. */
+  #cloudFrame: number | null = null;
+
+  /** Make it before anything that takes the `cloud` event's batches. */
+  constructor(parts: VideoFeedParts) {
+    this.#parts = parts;
+    const { client, views, synchronised } = parts;
+    this.#compositor = new Compositor({
+      synchronised,
+      onDrop: ({ payload }) => payload?.close(),
+      holds: (source) => source.startsWith(VIDEO),
+    });
+    client.on('session', () => this.#reset());
+    client.on('videoTrack', ({ video, track }) => this.#onTrack(video, track));
+    client.on('cloud', (batch) => this.#onCloud(batch));
+    effect(() => {
+      const wanted = views.switches.wanted.value;
+      const tracks = this.#tracks.value;
+      untracked(() => this.#readOnly(wanted.filter((video) => tracks.has(video))));
+    });
+  }
+
+  /** Draws what is to be shown from now on. Call it for each display frame. */
+  tick(nowMs: number): void {
+    const presentation = this.#compositor.tick(nowMs);
+    if (presentation === null) return;
+    const { client, views } = this.#parts;
+    for (const { source, captureMs, payload } of presentation.items) {
+      if (payload === null) continue;
+      const video = Number(source.slice(VIDEO.length));
+      const takenAtMs = captureMs - (client.link.session.clock.offsetMs ?? 0);
+      views.show(video, payload, takenAtMs, nowMs);
+      this.#figures.onShown(video, nowMs - takenAtMs);
+    }
+    this.onPresented?.();
+  }
+
+  /** Call this a few times a second. */
+  measure(nowMs: number): void {
+    this.#figures.tick(nowMs);
+  }
+
+  stats(nowMs: number): VideoStats {
+    return this.#figures.snapshot(this.#compositor.stats(nowMs));
+  }
+
+  resetDistributions(): void {
+    this.#figures.resetDistributions();
+    this.#compositor.resetDistributions();
+  }
+
+  #reset(): void {
+    this.#readOnly([]);
+    this.#tracks.value = new Map();
+    this.#compositor.clear();
+    this.#figures.reset();
+    this.#cloudFrame = null;
+  }
+
+  #onTrack(video: number, track: MediaStreamTrack): void {
+    const { views, open } = this.#parts;
+    // It has ended if the browser has refused the video's line in the robot's offer.
+    const ended = track.readyState === 'ended';
+    if (open === null || ended) {
+      views.cannotShow(video, ended ? videoWords.noCodec : videoWords.tooOld);
+      return;
+    }
+    // Without the video for a moment, so that the reader of its earlier track ends.
+    const others = [...this.#tracks.peek()].filter(([number]) => number !== video);
+    this.#tracks.value = new Map(others);
+    this.#tracks.value = new Map(others).set(video, track);
+  }
+
+  /** Reads these videos and no others. */
+  #readOnly(videos: readonly number[]): void {
+    for (const [video, reader] of this.#readers) {
+      if (videos.includes(video)) continue;
+      reader.close();
+      this.#readers.delete(video);
+      this.#compositor.remove(VIDEO + video);
+    }
+    for (const video of videos) {
+      const track = this.#tracks.peek().get(video);
+      const { open } = this.#parts;
+      if (open === null || track === undefined || this.#readers.has(video)) continue;
+      this.#readers.set(
+        video,
+        open(track, (frame) => this.#onFrame(video, frame)),
+      );
+    }
+  }
+
+  #onFrame(video: number, frame: ReadFrame): void {
+    const nowMs = this.#parts.now();
+    const { offsetMs } = this.#parts.client.link.session.clock;
+    const captureMs = offsetMs === null ? null : captureMsOf(frame, offsetMs, nowMs);
+    if (captureMs === null) {
+      this.#figures.undated++;
+      frame.image.close();
+    } else this.#compositor.offer(VIDEO + video, captureMs, frame.image, nowMs);
+  }
+
+  /** A video's frame waits for the first points of the cloud that was captured with it. */
+  #onCloud(batch: Batch): void {
+    const { offsetMs } = this.#parts.client.link.session.clock;
+    if (offsetMs === null || this.#readers.size === 0) return;
+    const nowMs = this.#parts.now();
+    for (let packet = 0; packet < batch.packets; packet++) {
+      const frame = batch.frameNumber(packet);
+      if (frame === this.#cloudFrame) continue;
+      this.#cloudFrame = frame;
+      const captureMs = captureMsOfStamp(batch.captureTimeUs(packet), nowMs + offsetMs);
+      this.#compositor.offer(CLOUD, captureMs, null, nowMs);
+    }
+  }
+}

@@ -1,0 +1,70 @@
+/** Reads the frames of a video's track, each with its time. */
+import { takeImage, type VideoImage } from './video-image.ts';
+
+/** A frame, and what the browser knows about when it was captured. */
+export interface ReadFrame {
+  readonly image: VideoImage;
+  /** `null` where the browser does not tell. */
+  readonly rtpTimestamp: number | null;
+  /** When it was captured, on the page's clock as the browser estimates it; `null` where the browser does not tell. */
+  readonly capturedAtMs: number | null;
+}
+
+/** Begins to read a track. */
+export type OpenReader = (
+  track: MediaStreamTrack,
+  onFrame: (frame: ReadFrame) => void,
+) => Pick<VideoReader, 'close'>;
+
+/** @returns `null` if this browser does not tell when a video shows another frame */
+export function videoReading(): OpenReader | null {
+  if (!('requestVideoFrameCallback' in HTMLVideoElement.prototype)) return null;
+  return (track, onFrame) => new VideoReader(track, onFrame);
+}
+
+export class VideoReader {
+  /** Is not part of the page: its frames are drawn elsewhere, when their time has come. */
+  readonly #video = document.createElement('video');
+  readonly #onFrame: (frame: ReadFrame) => void;
+  #callback = 0;
+  #closed = false;
+
+  constructor(track: MediaStreamTrack, onFrame: (frame: ReadFrame) => void) {
+    this.#onFrame = onFrame;
+    const video = this.#video;
+    Object.assign(video, { muted: true, autoplay: true, playsInline: true });
+    // In a stream of its own: a browser may delay tracks of one stream to play them in step, by rules of its own.
+    video.srcObject = new MediaStream([track]);
+    // Refused or interrupted: frames come all the same as soon as the browser plays.
+    video.play().catch(() => undefined);
+    this.#await();
+  }
+
+  close(): void {
+    this.#closed = true;
+    this.#video.cancelVideoFrameCallback(this.#callback);
+    this.#video.srcObject = null;
+  }
+
+  #await(): void {
+    this.#callback = this.#video.requestVideoFrameCallback((_, metadata) => {
+      this.#read(metadata);
+      if (!this.#closed) this.#await();
+    });
+  }
+
+  #read({ rtpTimestamp, captureTime }: VideoFrameCallbackMetadata): void {
+    takeImage(this.#video, (image) => {
+      if (image === null) return;
+      if (this.#closed) image.close();
+      else {
+        this.#onFrame({
+          image,
+          // The element may already show a newer picture than the one that the callback is about.
+          rtpTimestamp: image.rtpTimestamp ?? rtpTimestamp ?? null,
+          capturedAtMs: captureTime ?? null,
+        });
+      }
+    });
+  }
+}

@@ -1,0 +1,33 @@
+/** Applies what people have chosen about clouds to what draws them. */
+import { effect, type ReadonlySignal } from '@preact/signals-core';
+import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
+import type { Switches } from '../state/switches.ts';
+import type { SensorClouds } from './sensor-clouds.ts';
+import type { Stage } from './stage.ts';
+
+export interface AppearanceParts {
+  readonly appearance: CloudAppearance;
+  readonly sensors: Switches;
+  readonly clouds: SensorClouds;
+  readonly stage: Pick<Stage, 'look' | 'headingUp'>;
+  readonly inVr: ReadonlySignal<boolean>;
+}
+
+export function applyAppearance({ appearance, sensors, clouds, stage, inVr }: AppearanceParts): void {
+  const { fromAbove, headingUp, cut, cutFromAbove } = appearance;
+  effect(() => {
+    for (const [i, { colouring }] of clouds.all.value.entries()) {
+      const { mode, fixed } = appearance.lookOf(sensors.all.value[i]?.name ?? UNNAMED);
+      colouring.mode = mode;
+      colouring.fixedRange = fixed;
+    }
+  });
+  effect(() => {
+    const inUse = fromAbove.value && !inVr.value ? cutFromAbove.value : cut.value;
+    for (const { colouring } of clouds.all.value) colouring.cut = inUse;
+  });
+  effect(() => {
+    stage.look.fromAbove = fromAbove.value;
+    stage.headingUp = headingUp.value;
+  });
+}
