@@ -17,6 +17,10 @@ export interface OpenOptions {
   every?: string;
   /** Take the stream from this bridge. */
   bridge?: string;
+  /** `1`: videos carry their capture time in the picture. */
+  barcode?: '1';
+  /** `0`: videos are shown as they come, not in step. */
+  sync?: '0';
 }
 
 /** What both Playwright's pages and Puppeteer's in Firefox support. */
@@ -51,7 +55,17 @@ export class OperatorPage {
   static async open(page: BrowserPage, stack: LocalStack, options: OpenOptions = {}): Promise<OperatorPage> {
     const url = new URL(stack.webUrl);
     if (options.robot !== undefined) url.searchParams.set('robot', options.robot);
-    for (const name of ['token', 'signaling', 'ice', 'bridge', 'canvas', 'mode', 'every'] as const) {
+    for (const name of [
+      'token',
+      'signaling',
+      'ice',
+      'bridge',
+      'canvas',
+      'mode',
+      'every',
+      'barcode',
+      'sync',
+    ] as const) {
       const value = options[name];
       if (value !== undefined) url.searchParams.set(name, value);
     }

@@ -108,3 +108,37 @@ async function compareParts(input: { base64: string; a: Part; b: Part }): Promis
   }
   return differing / (a.length / 4);
 }
+
+/** Red, green and blue, 0–255. */
+export type Rgb = readonly [red: number, green: number, blue: number];
+
+/** For each colour, the share of a part's pixels that differ from it by at most 20 in every channel, 0–1. */
+export async function sharesNear(page: Page, png: Buffer, part: Part, colours: Rgb[]): Promise<number[]> {
+  const reader = await page.context().newPage();
+  try {
+    return await reader.evaluate(readShares, { base64: png.toString('base64'), part, colours });
+  } finally {
+    await reader.close();
+  }
+}
+
+async function readShares(input: { base64: string; part: Part; colours: Rgb[] }): Promise<number[]> {
+  const blob = await (await fetch(`data:image/png;base64,${input.base64}`)).blob();
+  const bitmap = await createImageBitmap(blob);
+  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+  const context = canvas.getContext('2d') as OffscreenCanvasRenderingContext2D;
+  context.drawImage(bitmap, 0, 0);
+  const { data } = context.getImageData(
+    Math.round(input.part.left * bitmap.width),
+    Math.round(input.part.top * bitmap.height),
+    Math.round(input.part.width * bitmap.width),
+    Math.round(input.part.height * bitmap.height),
+  );
+  return input.colours.map((colour) => {
+    let near = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (colour.every((value, channel) => Math.abs(value - (data[i + channel] as number)) <= 20)) near++;
+    }
+    return near / (data.length / 4);
+  });
+}

@@ -1,0 +1,24 @@
+import { expect, it } from 'vitest';
+import { presentationFigures } from './presentation-figures.ts';
+
+it('counts each picture once, and the spread of each presentation', () => {
+  const figures = presentationFigures(
+    [
+      { finishedMs: 1050, drawnMs: [1000, 1000] },
+      { finishedMs: 1083, drawnMs: [1033, 1000] },
+      { finishedMs: 1100, drawnMs: [1033, null] },
+      { finishedMs: 2050, drawnMs: [2000, 2000.5] },
+      { finishedMs: null, drawnMs: [3000, 3000] },
+    ],
+    2,
+  );
+  expect(figures.glassToGlassMs.map(({ max }) => max)).toEqual([50, 50]);
+  expect(figures.framesPerSecond).toEqual([3, 2]);
+  expect(figures.spreadMs.max).toBe(33);
+  expect(figures.share1Ms).toBeCloseTo(2 / 3);
+  expect(figures.unreadable).toBe(1);
+});
+
+it('has no spread for a single camera', () => {
+  expect(presentationFigures([{ finishedMs: 10, drawnMs: [5] }], 1).share1Ms).toBe(1);
+});

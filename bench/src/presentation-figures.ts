@@ -1,0 +1,50 @@
+/** What recorded presentations say about latency and spread: pure functions. */
+import { type Distribution, distribution } from './stats.ts';
+
+/** One presentation: when its display frame ended, and the capture time in each camera's picture, ms, same clock. */
+export interface Presented {
+  finishedMs: number | null;
+  drawnMs: readonly (number | null)[];
+}
+
+export interface PresentationFigures {
+  /** From capture to the end of the display frame that shows it, by camera; each picture counts once. */
+  glassToGlassMs: Distribution[];
+  /** Between the earliest and the latest capture in a presentation. */
+  spreadMs: Distribution;
+  /** Share of presentations with a spread of less than 1 ms, 0–1. */
+  share1Ms: number;
+  framesPerSecond: number[];
+  /** Pictures whose barcode could not be read. */
+  unreadable: number;
+}
+
+export function presentationFigures(rows: readonly Presented[], cameras: number): PresentationFigures {
+  const whole = rows.filter(({ finishedMs }) => finishedMs !== null);
+  const spreads = whole.flatMap(({ drawnMs }) => {
+    const times = drawnMs.filter((time) => time !== null);
+    return times.length < cameras || cameras < 2 ? [] : [Math.max(...times) - Math.min(...times)];
+  });
+  const first = whole[0]?.finishedMs ?? 0;
+  const seconds = ((whole.at(-1)?.finishedMs ?? 0) - first) / 1000;
+  const ages = Array.from({ length: cameras }, (_, camera) => agesOf(whole, camera));
+  return {
+    glassToGlassMs: ages.map((each) => distribution(each)),
+    spreadMs: distribution(spreads),
+    share1Ms: spreads.length === 0 ? 1 : spreads.filter((spread) => spread < 1).length / spreads.length,
+    framesPerSecond: ages.map((each) => (seconds > 0 ? each.length / seconds : 0)),
+    unreadable: whole.reduce((sum, { drawnMs }) => sum + drawnMs.filter((time) => time === null).length, 0),
+  };
+}
+
+function agesOf(rows: readonly Presented[], camera: number): number[] {
+  const ages: number[] = [];
+  let last: number | null = null;
+  for (const { finishedMs, drawnMs } of rows) {
+    const drawn = drawnMs[camera] ?? null;
+    if (drawn === null || drawn === last || finishedMs === null) continue;
+    last = drawn;
+    ages.push(finishedMs - drawn);
+  }
+  return ages;
+}

@@ -1,0 +1,98 @@
+import type { Page } from '@playwright/test';
+import { OperatorPage } from '../src/operator-page.ts';
+import { readShownVideos, type ShownVideos } from '../src/shown-videos.ts';
+import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { hasVideo, testCamera, videoRobot } from '../src/video-robot.ts';
+
+test.skip(!hasVideo, 'needs GStreamer and `pnpm build:native video`');
+
+const panel = (page: Page, name: string) => page.locator('#pictures figure', { hasText: name });
+/** Leaves the processor to the videos. */
+const light = {
+  ...simulatedRobot,
+  args: [...simulatedRobot.args.slice(0, -1), '600', '--sim-size', '64', '--fps', '10'],
+};
+const small = { width: 320, height: 240, framesPerS: 15, kbitPerS: 400 };
+const pictured = (pattern: string) => ({ source: { kind: 'test', pattern, ...sizeOf(small) }, ...small });
+
+function sizeOf({ width, height, framesPerS }: typeof small) {
+  return { width, height, framesPerS };
+}
+
+const videos = (page: Page) => page.evaluate(() => window.farpoint.videos());
+const fewestFrames = async (page: Page) => Math.min(...(await videos(page)).map(({ frames }) => frames));
+
+test('three cameras are shown live and in step, each picture with its own time', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const cameras = [
+    testCamera('Front', 'vp8enc', pictured('pinwheel')),
+    testCamera('Left', 'x264enc', pictured('ball')),
+    testCamera('Right', 'vp8enc', pictured('smpte')),
+  ];
+  const stack = await startStack({ robots: [videoRobot(light, cameras)] });
+  const operator = await OperatorPage.open(page, stack, {
+    ...{ robot: light.id, barcode: '1', canvas: '160x90' },
+  });
+  await operator.expectPoints(300);
+  for (const { name } of cameras) await expect(panel(page, name).locator('canvas')).toBeVisible();
+  await expect.poll(() => fewestFrames(page), { timeout: 20_000 }).toBeGreaterThan(20);
+  expect((await videos(page)).map(({ name, width, height, fault }) => [name, width, height, fault])).toEqual(
+    cameras.map(({ name }) => [name, 320, 240, null]),
+  );
+  const samples: ShownVideos[] = [];
+  for (let i = 0; i < 40; i++) {
+    samples.push(await readShownVideos(page, [0, 1, 2]));
+    const before = await fewestFrames(page);
+    await expect.poll(() => fewestFrames(page)).toBeGreaterThan(before);
+  }
+  await operator.screenshot(testInfo, 'videos');
+  // What the page knows is what is drawn.
+  for (const { videos: each } of samples) {
+    for (const { knownMs, drawnMs } of each) {
+      if (drawnMs !== null) expect(Math.abs(knownMs - drawnMs)).toBeLessThan(0.1);
+    }
+  }
+  // On a busy machine, an encoder may leave out a picture for which the others do not wait.
+  const times = samples.map((sample) => sample.videos.map(({ drawnMs }) => drawnMs ?? Number.NaN));
+  const inStep = times.filter((row) => Math.max(...row) - Math.min(...row) < 1);
+  expect(inStep.length / times.length).toBeGreaterThan(0.7);
+});
+
+test('a camera without pictures says why, one that is hidden is not sent, and the others go on', async ({
+  page,
+  startStack,
+}) => {
+  const cameras = [
+    testCamera('Front', 'vp8enc', pictured('pinwheel')),
+    testCamera('Rear', 'vp8enc', { ...small, source: { kind: 'v4l2', device: '/dev/no-such-camera' } }),
+  ];
+  const stack = await startStack({ robots: [videoRobot(light, cameras)] });
+  const operator = await OperatorPage.open(page, stack, { robot: light.id, canvas: '160x90' });
+  await operator.expectPoints(300);
+  await expect.poll(async () => (await videos(page))[0]?.frames, { timeout: 20_000 }).toBeGreaterThan(5);
+  await expect(panel(page, 'Rear')).toContainText('/dev/no-such-camera');
+
+  await page.getByRole('button', { name: 'Hide Front' }).click();
+  await expect(panel(page, 'Front').locator('canvas')).toBeHidden();
+  const encoded = async () => {
+    const text = await (await fetch(`${stack.robotAdminUrl(light.id)}/metrics`)).text();
+    return Number(/^farpoint_robot_video_frames_total\{camera="Front"\} (\d+)/m.exec(text)?.[1]);
+  };
+  await expect
+    .poll(
+      async () => {
+        const before = await encoded();
+        await operator.expectFrames(10);
+        return (await encoded()) - before;
+      },
+      { timeout: 20_000 },
+    )
+    .toBe(0);
+  const frames = (await videos(page))[0]?.frames ?? 0;
+  await page.getByRole('button', { name: 'Show Front' }).click();
+  await expect
+    .poll(async () => (await videos(page))[0]?.frames, { timeout: 20_000 })
+    .toBeGreaterThan(frames + 5);
+});
