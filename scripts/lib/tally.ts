@@ -1,3 +1,5 @@
+import { stripVTControlCharacters } from 'node:util';
+
 /** Counts tests from the summaries that the test runners print. */
 export interface Tally {
   passed: number;
@@ -26,12 +28,12 @@ export function tallyCargo(output: string): Tally {
 
 /** Reads vitest's `Tests  1 failed | 2 passed | 3 skipped (6)` line. */
 export function tallyVitest(output: string): Tally {
-  return readCounts(/^\s*Tests\s+(.*)$/m.exec(plain(output))?.[1] ?? '');
+  return readCounts(/^\s*Tests\s+(.*)$/m.exec(stripVTControlCharacters(output))?.[1] ?? '');
 }
 
 /** Reads Playwright's last lines, `3 passed (12.0s)`, `1 failed`, `2 skipped`; a flaky test counts as failed. */
 export function tallyPlaywright(output: string): Tally {
-  const lines = plain(output)
+  const lines = stripVTControlCharacters(output)
     .split('\n')
     .filter((line) => /^\s*\d+ (passed|failed|skipped|flaky|did not run)\b/.test(line))
     .join(' | ');
@@ -45,9 +47,4 @@ function readCounts(text: string): Tally {
     failed: count('failed') + count('flaky'),
     skipped: count('skipped') + count('did not run'),
   };
-}
-
-function plain(output: string): string {
-  // biome-ignore lint/suspicious/noControlCharactersInRegex: terminal colours begin with ESC
-  return output.replaceAll(/\u001b\[[0-9;]*m/g, '');
 }

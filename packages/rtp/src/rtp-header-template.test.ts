@@ -31,7 +31,7 @@ test('carries the capture time beside the other extensions', () => {
   const ids = { midExtensionId: 1, transportSequenceExtensionId: 2, captureTimeExtensionId: 3 };
   const template = new RtpHeaderTemplate({ payloadType: 96, ssrc: 1, mid: '12', ...ids });
   expect(template.hasCaptureTime).toBe(true);
-  template.patchCaptureTime(0xe0000001, 0x80000000);
+  template.patchCaptureTime({ seconds: 0xe0000001, fraction: 0x80000000 });
   template.patch(true, 7, 9, 0x0102);
   // Three words of header, one of the extension's, then the elements in 15 bytes, padded to 16.
   expect([...template.bytes.subarray(12)]).toEqual([
@@ -46,7 +46,7 @@ test('carries the capture time beside the other extensions', () => {
 test('without the capture time’s extension, a time changes nothing', () => {
   const template = new RtpHeaderTemplate({ payloadType: 96, ssrc: 1, mid: '1' });
   const before = [...template.bytes];
-  template.patchCaptureTime(1, 2);
+  template.patchCaptureTime({ seconds: 1, fraction: 2 });
   expect([...template.bytes]).toEqual(before);
   expect(template.hasCaptureTime).toBe(false);
 });

@@ -3,6 +3,7 @@
  * m-line's id (RFC 9143), the transport-wide sequence number and the absolute capture time. Only these and four fields
  * change from packet to packet, so the header is written once and then patched.
  */
+import { type NtpTime, writeNtp } from './ntp-time.ts';
 
 const FIXED_BYTES = 12;
 const EXTENSION_PROFILE_ONE_BYTE = 0xbede;
@@ -73,17 +74,9 @@ export class RtpHeaderTemplate {
     return this.#captureTimeOffset !== null;
   }
 
-  /**
-   * The capture time of the next packets, NTP (RFC 5905 §6); without the extension it is ignored.
-   *
-   * @param seconds since 1900, u32
-   * @param fraction of a second, in 2⁻³² s, u32
-   */
-  patchCaptureTime(seconds: number, fraction: number): void {
-    const at = this.#captureTimeOffset;
-    if (at === null) return;
-    this.#view.setUint32(at, seconds);
-    this.#view.setUint32(at + 4, fraction);
+  /** The capture time of the next packets; without the extension it is ignored. */
+  patchCaptureTime(time: NtpTime): void {
+    if (this.#captureTimeOffset !== null) writeNtp(this.#view, this.#captureTimeOffset, time);
   }
 
   patch(marker: boolean, sequence: number, timestamp: number, transportSequence: number): void {

@@ -2,7 +2,11 @@
 import * as z from 'zod';
 import { BARCODE_CLOCKS } from './wire.ts';
 
-const side = z.int('must be a whole number').min(16, 'must be at least 16').max(8192, 'must be at most 8192');
+/** Of a picture, pixels. */
+export const sideSchema = z
+  .int('must be a whole number')
+  .min(16, 'must be at least 16')
+  .max(8192, 'must be at most 8192');
 
 export const videoSettingsSchema = z.strictObject({
   bitsPerS: z
@@ -16,8 +20,8 @@ export const videoSettingsSchema = z.strictObject({
     .max(240, 'must be at most 240')
     .optional(),
   /** The picture is made smaller until it fits into this, with its proportions kept; by default it is not. */
-  width: side.optional(),
-  height: side.optional(),
+  width: sideSchema.optional(),
+  height: sideSchema.optional(),
   /** Draws the capture time into the picture, by this clock (docs/protocol.md, "Latency barcode"). */
   barcode: z.enum(BARCODE_CLOCKS, 'must be monotonic or unix').optional(),
 });

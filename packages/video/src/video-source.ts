@@ -1,10 +1,10 @@
 /** Where the pictures come from: configuration in, the text of a GStreamer pipeline out. */
 import * as z from 'zod';
+import { sideSchema } from './video-settings.ts';
 
 /** The name of the element that takes raw pictures; `native/pipeline.c` looks for it. */
 const FRAMES_ELEMENT = 'farpoint-frames';
 
-const side = z.int('must be a whole number').min(16, 'must be at least 16').max(8192, 'must be at most 8192');
 const rate = z.number('must be a number').min(1, 'must be at least 1').max(240, 'must be at most 240');
 
 export const TEST_PATTERNS = ['smpte', 'ball', 'snow', 'pinwheel', 'black', 'white', 'checkers-8'] as const;
@@ -12,8 +12,8 @@ export const TEST_PATTERNS = ['smpte', 'ball', 'snow', 'pinwheel', 'black', 'whi
 const test = z.strictObject({
   kind: z.literal('test'),
   pattern: z.enum(TEST_PATTERNS, `must be one of ${TEST_PATTERNS.join(', ')}`).default('pinwheel'),
-  width: side.default(1024),
-  height: side.default(768),
+  width: sideSchema.default(1024),
+  height: sideSchema.default(768),
   framesPerS: rate.default(30),
 });
 
@@ -25,8 +25,8 @@ const v4l2 = z.strictObject({
     .refine((device) => !device.includes('..'), 'must be a device such as /dev/video0'),
   /** What the camera sends: raw pictures, or JPEG, without which USB 2 carries few large pictures. */
   format: z.enum(['raw', 'jpeg'], 'must be raw or jpeg').default('raw'),
-  width: side.optional(),
-  height: side.optional(),
+  width: sideSchema.optional(),
+  height: sideSchema.optional(),
   framesPerS: rate.optional(),
 });
 

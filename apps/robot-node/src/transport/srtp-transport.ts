@@ -52,6 +52,8 @@ export class SrtpTransport implements RtpTransport {
    */
   readonly #sent = new ResendHistory<readonly Buffer[]>();
   readonly #unixOffsetMs: number;
+  /** The capture time in the header: that of a frame's packets is the same. */
+  #capturedAtMs = Number.NaN;
   #packetsSent = 0;
   #payloadBytesSent = 0;
   /** The path is looked up once per turn of the event loop, not once per packet. */
@@ -118,9 +120,9 @@ export class SrtpTransport implements RtpTransport {
     const transportSequence = SequenceNumber.next(this.#dtls.transportSequenceNumber);
     this.#dtls.transportSequenceNumber = transportSequence;
     const { nextSequence } = this.#sealer;
-    if (this.#header.hasCaptureTime) {
-      const { seconds, fraction } = ntpOfUnixMs(capturedAtMs + this.#unixOffsetMs);
-      this.#header.patchCaptureTime(seconds, fraction);
+    if (this.#header.hasCaptureTime && capturedAtMs !== this.#capturedAtMs) {
+      this.#capturedAtMs = capturedAtMs;
+      this.#header.patchCaptureTime(ntpOfUnixMs(capturedAtMs + this.#unixOffsetMs));
     }
     this.#header.patch(marker, nextSequence, timestamp, transportSequence);
     // A copy is needed: the kernel may read a datagram that it cannot take immediately from memory later.

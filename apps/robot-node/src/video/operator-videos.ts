@@ -39,10 +39,11 @@ export class OperatorVideos {
 
   connect(sender: StreamSender, lines: readonly VideoLine[]): void {
     this.lines = lines;
-    const accepted = [...lines.keys()].filter((video) => lines[video]?.transport !== null);
-    for (const video of accepted) {
-      const transport = lines[video]?.transport;
-      if (transport) sender.addStream(streamOfVideo(video), transport);
+    const accepted: number[] = [];
+    for (const [video, { transport }] of lines.entries()) {
+      if (transport === null) continue;
+      sender.addStream(streamOfVideo(video), transport);
+      accepted.push(video);
     }
     const videos = new VideoSender(accepted, (frame) => sender.enqueue(frame), this.#needsKeyFrame);
     sender.onPictureLoss = (stream) => videos.onPictureLoss(videoOfStream(stream));
@@ -72,9 +73,7 @@ export class OperatorVideos {
 
   /** The pacer dropped a frame of a video; what waits behind it cannot be decoded without it. */
   onDropped(stream: number): void {
-    const connected = this.#connected;
-    if (connected === null) return;
-    connected.videos.onDropped(videoOfStream(stream));
+    this.#connected?.videos.onDropped(videoOfStream(stream));
   }
 
   clear(): void {

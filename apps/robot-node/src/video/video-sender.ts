@@ -10,7 +10,6 @@ export class VideoSender {
   /** The videos that the operator wants. */
   wanted: ReadonlySet<number> = new Set();
   readonly drops: Record<VideoDropReason, number> = { 'no-key-frame': 0, overdue: 0 };
-  framesSent = 0;
   readonly #lines: ReadonlySet<number>;
   readonly #enqueue: (frame: VideoFrame) => void;
   readonly #needsKeyFrame: (video: number) => void;
@@ -49,10 +48,6 @@ export class VideoSender {
       return;
     }
     this.#enqueue(frame);
-  }
-
-  onSent(): void {
-    this.framesSent++;
   }
 
   /** The pacer dropped a frame: those that follow cannot be decoded. */

@@ -31,7 +31,7 @@ export class VideoStream {
   readonly camera: VideoCamera;
   /** Why there are no pictures; `null` while there are, or nobody watches. */
   fault: string | null = null;
-  readonly counters = { frames: 0, keyFrames: 0, bytes: 0, badPictures: 0, opened: 0 };
+  readonly counters = { frames: 0, keyFrames: 0, bytes: 0, badPictures: 0 };
   readonly #events: VideoStreamEvents;
   readonly #planner: VideoPlanner;
   #encoder: VideoEncoder | null = null;
@@ -96,7 +96,6 @@ export class VideoStream {
 
   #open(format: EncodedFormat): void {
     this.#format = format;
-    this.counters.opened++;
     const encoder = this.camera.open(format, {
       onPicture: (picture) => {
         if (this.#encoder === encoder) this.#onPicture(picture, format.framesPerSecond);
