@@ -13,6 +13,7 @@ const positive = z.number().check(z.positive());
 const cameraSchema = z.int().check(z.minimum(0), z.maximum(MAX_CAMERAS - 1));
 const sensorSchema = z.int().check(z.minimum(0), z.maximum(MAX_SENSORS - 1));
 const videoSchema = z.int().check(z.minimum(0), z.maximum(MAX_VIDEOS - 1));
+const weightSchema = z.int().check(z.minimum(1), z.maximum(100));
 /** An SDP token (RFC 8866 §9) that fits a one-byte header extension. */
 const midSchema = z.string().check(z.regex(/^[!#-'*+.0-9A-Z^-~-]{1,16}$/));
 /** A palette of 256 colours with its tables is 2,210 bytes. */
@@ -123,6 +124,11 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
       type: z.literal('videos'),
       videos: z.array(videoSchema).check(z.maxLength(MAX_VIDEOS)),
       barcode: z.optional(z.boolean()),
+    }),
+    z.strictObject({
+      type: z.literal('shares'),
+      cloud: weightSchema,
+      videos: z.array(weightSchema).check(z.maxLength(MAX_VIDEOS)),
     }),
     z.strictObject({
       type: z.literal('latencyMeasured'),

@@ -222,6 +222,19 @@ export interface WantedVideos {
   barcode?: boolean | undefined;
 }
 
+/**
+ * How the operator wants its link divided among the streams that want more than it carries. Weights are relative, 1–100.
+ * A stream that needs less than its share leaves the rest to the others. Messages and what keeps the robot safe always
+ * come first.
+ */
+export interface LinkShares {
+  type: 'shares';
+  /** Of all clouds together; 2 before this message. */
+  cloud: number;
+  /** By the video's number; 1 for those that are not listed, and before this message. */
+  videos: number[];
+}
+
 /** The result of a latency test, for the robot's recording. */
 export interface LatencyMeasured {
   type: 'latencyMeasured';
@@ -245,6 +258,7 @@ export type OperatorSessionMessage =
   | Pictures
   | WantedSensors
   | WantedVideos
+  | LinkShares
   | LatencyMeasured;
 
 export const PROTOCOL_VERSION = 1;

@@ -536,11 +536,15 @@ operator_session.good({"type": "pictures", "cameras": []}, "pictures: none")
 wanted_videos = operator_session.good({"type": "videos", "videos": [0, 1]})
 operator_session.good({"type": "videos", "videos": []}, "videos: none")
 operator_session.good({"type": "videos", "videos": [0], "barcode": True}, "videos: with the latency barcode")
+shares = operator_session.good({"type": "shares", "cloud": 4, "videos": [2, 1, 100]})
+operator_session.good({"type": "shares", "cloud": 1, "videos": []}, "shares: of the cloud only")
 measured = operator_session.good({"type": "latencyMeasured", "id": 4, "frameNumber": 902, "mtpMs": 98.5, "firstMs": 91.25})
 operator_session.good(changed(measured, "mtpMs", 60000), "latencyMeasured: the longest")
 operator_session.spoil(measured, ("id", -1), ("id", 2 ** 32), ("frameNumber", 1.5), ("frameNumber", ABSENT), ("mtpMs", 60000.5), ("mtpMs", -1),
                        ("firstMs", ABSENT), ("firstMs", "91"), ("points", 1, ""))
 operator_session.spoil(wanted, ("sensors", ABSENT), ("sensors", [8], "sensors.0"), ("sensors", [-1], "sensors.0"), ("sensors", [0] * 9))
+operator_session.spoil(shares, ("cloud", ABSENT), ("cloud", 0), ("cloud", 101), ("cloud", 1.5), ("videos", ABSENT), ("videos", [1] * 9), ("videos", [0], "videos.0"),
+                       ("videos", ["1"], "videos.0"), ("sound", 1, ""))
 operator_session.spoil(wanted_videos, ("videos", ABSENT), ("videos", [8], "videos.0"), ("videos", [-1], "videos.0"), ("videos", [0] * 9), ("barcode", 1))
 operator_session.spoil(pictures, ("cameras", ABSENT), ("cameras", 0), ("cameras", [8], "cameras.0"), ("cameras", [-1], "cameras.0"),
                        ("cameras", [0.5], "cameras.0"), ("cameras", [0] * 9))

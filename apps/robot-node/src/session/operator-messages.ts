@@ -8,6 +8,7 @@ import {
   decodeStreamSwitch,
   encodeJson,
   type LatencyMeasured,
+  type LinkShares,
   type OperatorSessionMessage,
   operatorControlCodec,
   operatorSessionCodec,
@@ -61,6 +62,7 @@ export class OperatorMessages {
   onPictures: ((cameras: readonly number[]) => void) | null = null;
   onSensors: ((sensors: readonly number[]) => void) | null = null;
   onVideos: ((videos: readonly number[], barcode: boolean) => void) | null = null;
+  onShares: ((shares: LinkShares) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #rejections = new RejectionReporter();
@@ -214,6 +216,9 @@ export class OperatorMessages {
         break;
       case 'videos':
         this.onVideos?.(message.videos, message.barcode ?? false);
+        break;
+      case 'shares':
+        this.onShares?.(message);
         break;
       case 'latencyMeasured':
         this.#host.latencyMeasured?.(this, message);

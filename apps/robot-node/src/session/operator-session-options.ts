@@ -18,7 +18,7 @@ export interface OperatorSessionOptions {
   pictureShare: number;
   /** What the robot's cloud sensors claim of a path, indexed by sensor number. */
   claims: () => readonly CloudClaim[];
-  /** What a video may use at most, bit/s without headers. */
+  /** What a video may use at most, bit/s without headers; 0 while it has no pictures. */
   mostVideoBitsPerSecond: (video: number) => number;
 }
 

@@ -96,6 +96,10 @@ export class OperatorSession implements FrameTarget {
       this.videos.want(videos, barcode);
       events.onBudgetChanged();
     };
+    this.messages.onShares = (shares) => {
+      this.#budget.weigh(shares);
+      events.onBudgetChanged();
+    };
     this.messages.onCloudFormats = (formats) => {
       this.#formats = new Set(formats);
       events.onCloudFormats();

@@ -63,7 +63,12 @@ export class OperatorVideos {
     const sender = this.#connected.videos;
     sender.want(videos);
     this.#budget.wantVideos(
-      new Map([...sender.wanted].map((video) => [video, this.#mostBitsPerSecond(video)])),
+      () =>
+        new Map(
+          [...sender.wanted]
+            .map((video) => [video, this.#mostBitsPerSecond(video)] as const)
+            .filter(([, bitsPerSecond]) => bitsPerSecond > 0),
+        ),
     );
   }
 

@@ -109,6 +109,33 @@ describe('VideoHub', () => {
     expect(encoders).toHaveLength(2);
   });
 
+  it('asks an encoder that gives too little for more, and begins anew when the rate changes', () => {
+    const operator = new FakeOperator('a', 800_000);
+    operators = [operator];
+    hub.tick(0);
+    const encoder = encoders[0]!;
+    // 2000 bytes of 3333.
+    for (let i = 1; i <= 30; i++) encoder.picture(i * 33);
+    expect(encoder.formats.map(({ bitsPerSecond }) => bitsPerSecond)).toEqual([800_000, 1_040_000]);
+    operator.bitsPerSecond = 400_000;
+    hub.tick(1000);
+    expect(encoder.formats.at(-1)?.bitsPerSecond).toBe(520_000);
+    for (let i = 31; i <= 60; i++) encoder.picture(i * 33);
+    expect(encoder.formats.at(-1)?.bitsPerSecond).toBeLessThan(450_000);
+    expect(hub.streams[0]!.format?.bitsPerSecond).toBe(400_000);
+  });
+
+  it('claims nothing of the link for a camera without pictures', () => {
+    operators = [new FakeOperator('a', 800_000)];
+    hub.tick(0);
+    expect(hub.mostBitsPerSecond(0)).toBe(1e6);
+    encoders[0]!.events.onFault('unplugged');
+    expect(hub.mostBitsPerSecond(0)).toBe(0);
+    encoders[0]!.events.onFault(null);
+    expect(hub.mostBitsPerSecond(0)).toBe(1e6);
+    expect(hub.mostBitsPerSecond(7)).toBe(0);
+  });
+
   it('encodes once for everyone, at the rate of the narrowest path', () => {
     operators = [new FakeOperator('a', 800_000), new FakeOperator('b', 500_000)];
     hub.tick(0);

@@ -65,9 +65,10 @@ export class VideoHub {
     }));
   }
 
-  /** By video, its highest rate, bit/s without headers. */
+  /** A video's highest rate, bit/s without headers; 0 while it has no pictures, so that others get its share. */
   mostBitsPerSecond(video: number): number {
-    return this.streams[video]?.camera.most.bitsPerSecond ?? 0;
+    const stream = this.streams[video];
+    return stream === undefined || stream.fault !== null ? 0 : stream.camera.most.bitsPerSecond;
   }
 
   requestKeyFrame(video: number): void {

@@ -1,4 +1,5 @@
 import { VideoPayloadError } from '@farpoint/rtp';
+import { RateTrim } from './rate-trim.ts';
 import type { VideoCamera, VideoEncoder } from './video-encoder.ts';
 import { type EncodedPicture, VideoFrame } from './video-frame.ts';
 import { type EncodedFormat, VideoPlanner } from './video-plan.ts';
@@ -34,6 +35,7 @@ export class VideoStream {
   readonly counters = { frames: 0, keyFrames: 0, bytes: 0, badPictures: 0 };
   readonly #events: VideoStreamEvents;
   readonly #planner: VideoPlanner;
+  readonly #trim = new RateTrim();
   #encoder: VideoEncoder | null = null;
   #format: EncodedFormat | null = null;
   #wantedMs = 0;
@@ -79,7 +81,8 @@ export class VideoStream {
     if (this.#encoder === null) this.#open(next);
     else if (isWorthTelling(this.#format, next)) {
       this.#format = next;
-      this.#encoder.configure(next);
+      this.#trim.reset();
+      this.#configure(next);
     }
     if (wasPaused) this.requestKeyFrame();
   }
@@ -94,11 +97,18 @@ export class VideoStream {
     await encoder.close();
   }
 
+  /** Tells the encoder what to give, corrected by what it gave. */
+  #configure(format: EncodedFormat): void {
+    const bitsPerSecond = Math.round(format.bitsPerSecond * this.#trim.factor);
+    this.#encoder?.configure({ ...format, bitsPerSecond });
+  }
+
   #open(format: EncodedFormat): void {
     this.#format = format;
+    this.#trim.reset();
     const encoder = this.camera.open(format, {
       onPicture: (picture) => {
-        if (this.#encoder === encoder) this.#onPicture(picture, format.framesPerSecond);
+        if (this.#encoder === encoder) this.#onPicture(picture);
       },
       onFault: (fault) => {
         if (this.#encoder !== encoder || fault === this.fault) return;
@@ -109,9 +119,13 @@ export class VideoStream {
     this.#encoder = encoder;
   }
 
-  #onPicture(picture: EncodedPicture, framesPerSecond: number): void {
+  #onPicture(picture: EncodedPicture): void {
+    const format = this.#format;
     // Receivers take equal or falling timestamps for parts of one picture, or for a fault.
-    if (this.#paused || picture.capturedAtMs <= this.#lastCapturedMs) return;
+    if (format === null || this.#paused || picture.capturedAtMs <= this.#lastCapturedMs) return;
+    const { framesPerSecond, bitsPerSecond } = format;
+    if (this.#trim.onPicture(picture.bytes.length, bitsPerSecond / 8 / framesPerSecond))
+      this.#configure(format);
     const { video, counters } = this;
     const { codec } = this.camera;
     let frame: VideoFrame;

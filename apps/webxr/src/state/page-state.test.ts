@@ -34,6 +34,7 @@ class Client {
   heardAtMs = 0;
   readonly watched: (readonly number[])[] = [];
   readonly watchedVideos: (readonly number[])[] = [];
+  readonly shares: [cloud: number, videos: readonly number[]][] = [];
   readonly clouds: (readonly number[])[] = [];
   readonly #listeners: [keyof RobotEvents, (event: never) => void][] = [];
 
@@ -46,6 +47,10 @@ class Client {
   }
   watchVideos(videos: readonly number[]): void {
     this.watchedVideos.push(videos);
+  }
+
+  shareLink(cloud: number, videos: readonly number[]): void {
+    this.shares.push([cloud, videos]);
   }
   wantClouds(sensors: readonly number[]): void {
     this.clouds.push(sensors);
@@ -191,6 +196,26 @@ describe('what the page requests from the robot', () => {
     client.say('videos', videos);
     expect(state.views.value[1]?.fault.value).toBe(null);
     expect(client.watchedVideos).toEqual([[0, 1], [0], [], [0], [0]]);
+  });
+
+  test('tells the robot how to divide the link: by what comes first, and more for the enlarged video', () => {
+    const { client, state } = new Bench();
+    const videos: RobotEvents['videos'] = ['front', 'rear', 'left'].map((name, mid) => ({
+      ...{ name, mid: String(mid), codec: 'H264' as const },
+    }));
+    client.say('videos', videos);
+    state.priority.chosen.value = 'cameras';
+    state.enlarged.toggle(state.views.value[1]!);
+    state.priority.chosen.value = 'clouds';
+    client.say('session', 2);
+    client.say('videos', videos);
+    expect(client.shares).toEqual([
+      [2, [1, 1, 1]],
+      [1, [2, 2, 2]],
+      [1, [2, 6, 2]],
+      [6, [1, 3, 1]],
+      [6, [1, 1, 1]],
+    ]);
   });
 
   test('requests clouds of sensors that are on', () => {

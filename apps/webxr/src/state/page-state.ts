@@ -12,6 +12,7 @@ import type { PageStats } from '../status/page-stats.ts';
 import { VideoViews } from '../video/video-views.ts';
 import { type DrivingState, drivingState } from './driving-state.ts';
 import { Enlarged } from './enlarged.ts';
+import { LinkPriority } from './link-priority.ts';
 import { type LinkState, linkState } from './link-state.ts';
 import type { Notices } from './notices.ts';
 import { type RobotState, robotState } from './robot-state.ts';
@@ -51,6 +52,7 @@ export class PageState {
   /** What is shown of all cameras: videos, then pictures. */
   readonly views: ReadonlySignal<readonly CameraView[]>;
   readonly enlarged: Enlarged;
+  readonly priority: LinkPriority;
   /** When the values that change with time were read last: page's clock, ms. */
   readonly sampledAtMs: ReadonlySignal<number>;
   /** Size of the points, relative to the patch of surface that each stands for. */
@@ -72,6 +74,13 @@ export class PageState {
     this.videos = new VideoViews(this.sampledAtMs, newCanvas);
     this.views = computed(() => [...this.videos.views.value, ...this.pictures.views.value]);
     this.enlarged = new Enlarged(this.views);
+    this.priority = new LinkPriority(
+      computed(() => this.videos.switches.all.value.length),
+      computed(() => {
+        const view = this.enlarged.view.value;
+        return view?.kind === 'video' ? view.camera.index : null;
+      }),
+    );
     this.pointScale = signal(settings.pointScale);
     this.sample();
     this.#listen(client);
@@ -107,6 +116,10 @@ export class PageState {
       const { all, wanted } = this.videos.switches;
       const watched = this.looking.value ? wanted.value : [];
       if (all.value.length > 0) client.watchVideos(watched, barcode);
+    });
+    effect(() => {
+      const { cloud, videos } = this.priority.shares.value;
+      if (this.videos.switches.all.value.length > 0) client.shareLink(cloud, videos);
     });
     effect(() => {
       const wanted = this.sensors.wanted.value;

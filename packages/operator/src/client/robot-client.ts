@@ -218,6 +218,17 @@ export class RobotClient {
     this.link.sendSession({ type: 'videos', videos: [...videos], ...(barcode ? { barcode } : {}) });
   }
 
+  /**
+   * How the robot divides the link where clouds and videos want more than it carries: relative weights from 1 to 100. A
+   * robot counts clouds twice and each video once until it is told otherwise, in each session.
+   *
+   * @param cloud of all clouds together
+   * @param videos by index into the list of the `videos` event; 1 for those beyond the end
+   */
+  shareLink(cloud: number, videos: readonly number[]): void {
+    this.link.sendSession({ type: 'shares', cloud, videos: [...videos] });
+  }
+
   /** Asks for the clouds of these sensors only: indices into the list of the `sensors` event. Initially the first. */
   wantClouds(sensors: readonly number[]): void {
     this.link.sendSession({ type: 'sensors', sensors: [...sensors] });
