@@ -45,6 +45,8 @@ export interface RobotOptions extends RateControlOptions {
   packetLog?: string | undefined;
   /** File for a log of every frame, written when the robot closes. */
   frameLog?: string | undefined;
+  /** File for a log of every command, written when the robot closes. */
+  commandLog?: string | undefined;
   /** File for the statistics of each stream in each 100 ms, one JSON object per line. */
   statisticsFile?: string | undefined;
   /** Where everything is recorded; if undefined, nothing is recorded. */

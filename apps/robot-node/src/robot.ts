@@ -23,6 +23,7 @@ import { RobotSessionHost } from './session/robot-session-host.ts';
 import { silenceLimits } from './session/silence.ts';
 import { welcome } from './session/welcome.ts';
 import { SignalingClient } from './signaling/signaling-client.ts';
+import { CommandLog } from './telemetry/command-log.ts';
 import { FrameLog } from './telemetry/frame-log.ts';
 import { ReadingBoard } from './telemetry/reading-board.ts';
 import { RobotCounters } from './telemetry/robot-counters.ts';
@@ -55,6 +56,7 @@ export class Robot {
   readonly #log: Logger;
   readonly #packetLog: PacketLog | undefined;
   readonly #frameLog: FrameLog | undefined;
+  readonly #commandLog: CommandLog | undefined;
   readonly #estop: EstopJournal;
   readonly #host: RobotSessionHost;
   readonly #sink: VelocitySink;
@@ -77,6 +79,7 @@ export class Robot {
     this.#log = log;
     this.#packetLog = options.packetLog === undefined ? undefined : new PacketLog(options.packetLog);
     this.#frameLog = options.frameLog === undefined ? undefined : new FrameLog(options.frameLog);
+    this.#commandLog = options.commandLog === undefined ? undefined : new CommandLog(options.commandLog);
     this.#sink = sink;
     const capture = captures[0] as Capture;
     this.base = base;
@@ -92,6 +95,7 @@ export class Robot {
     );
     this.#host = new RobotSessionHost({
       ...{ drive: this.drive, estop: this.#estop, counters: this.counters, recording, log },
+      commandLog: this.#commandLog,
       operators: () => this.operators,
       sensors: () => this.sensors,
       videos: () => this.cameras.videos,
@@ -241,6 +245,7 @@ export class Robot {
     await this.recording?.close();
     this.#packetLog?.write();
     this.#frameLog?.write();
+    this.#commandLog?.write();
     await reported;
   }
 

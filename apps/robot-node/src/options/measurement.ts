@@ -14,6 +14,12 @@ export const measurementOptions = optionGroup('measurement', {
     argument: 'FILE',
     help: 'for measurements: write the times at which each frame was captured and ready, as CSV, when the robot stops',
   }),
+  commandLog: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'FILE',
+    help: 'for measurements: write the times at which each command was sent and received, as CSV, when the robot stops',
+  }),
   stats: defineOption({
     schema: schema.optional(schema.text()),
     default: null,

@@ -69,6 +69,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     portRange: values.udpPorts ?? undefined,
     packetLog: values.packetLog ?? undefined,
     frameLog: values.frameLog ?? undefined,
+    commandLog: values.commandLog ?? undefined,
     statisticsFile: values.stats ?? undefined,
     record:
       values.record === null

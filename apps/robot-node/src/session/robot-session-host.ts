@@ -4,6 +4,7 @@ import type { Logger } from '@farpoint/service';
 import type { DriveStation } from '../drive/drive-station.ts';
 import type { EstopJournal } from '../drive/estop-journal.ts';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
+import type { CommandLog } from '../telemetry/command-log.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { SessionRecording } from '../telemetry/session-recording.ts';
 import type { VideoHub } from '../video/video-hub.ts';
@@ -19,6 +20,7 @@ export interface RobotSessionHostParts {
   videos: () => VideoHub;
   counters: RobotCounters;
   recording: SessionRecording | null;
+  commandLog: CommandLog | undefined;
   log: Logger;
   now: () => number;
 }
@@ -81,6 +83,7 @@ export class RobotSessionHost implements SessionHost {
 
   commandJudged(session: OperatorMessages, command: Command, verdict: CommandVerdict): void {
     this.#parts.recording?.command(session.id, command, verdict);
+    this.#parts.commandLog?.add(command, verdict.accepted, session.heardMs);
   }
 
   latencyMeasured(session: OperatorMessages, measured: LatencyMeasured): void {
