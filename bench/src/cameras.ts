@@ -1,40 +1,38 @@
 /** `pnpm bench cameras`: glass to glass of the robot's cameras, and how well they are in step. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { basename, join } from 'node:path';
+import { writeFileSync } from 'node:fs';
+import { basename } from 'node:path';
 import { parseArgs } from 'node:util';
 import { availableEncoders } from '@farpoint/video';
+import { CAMERA_EXPERIMENTS } from './camera-experiments.ts';
 import { type BenchCamera, parseCameras } from './camera-list.ts';
-import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
-import { queueQuantiles } from './link-analysis.ts';
-import { readUplink, scrape } from './link-run.ts';
-import { startLiveStack } from './live-stack.ts';
-import { presentationFigures } from './presentation-figures.ts';
+import { plotCameras } from './camera-plot.ts';
+import { type CameraRun, type CameraSetup, LINK_RTT_MS, runCameras } from './camera-run.ts';
+import { parseShares } from './camera-shares.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { rounded } from './stats.ts';
 
 const USAGE = `pnpm bench cameras [options]
 
 Real robot, signaling and headless Chromium. Cameras with a common trigger send test pictures, encoded by GStreamer, with the
-capture time drawn into each; the page reads it from what it shows, on every presentation.
+capture time drawn into each; the page reads it from what it shows, on every presentation. The page drives all the while.
 
   --cameras LIST      SIZE@FPS:KBPS of each camera, by default 1024x768@30:512 three times
   --sync on           or off: pictures are shown as they come
-  --over loopback     or a capacity trace, CSV time_s,capacity_mbps, over a link with 42.4 ms of round trip
+  --over loopback     or a capacity trace, CSV time_s,capacity_mbps, over a link with ${LINK_RTT_MS} ms of round trip
   --seconds 30        duration
   --encoder vp8enc    or another one that \`pnpm robot doctor\` lists
-  --points 600        of the cloud beside them, 10 times a second
+  --content plain     or noise, which takes any bit rate, so that all streams compete for the link
+  --points 600        of the cloud beside them, 10 times a second; \`all\`: the simulated camera's, as the link allows
+  --shares 2:1,1,1    how the operator divides the link: weights of the clouds and of each camera
   --canvas 160x90     of the point view, which is drawn in software
+  --thesis            the experiments of the telemetry thesis, one after another, instead of --cameras and --sync
+  --plot FILE.svg     latency over time, averaged per 5 s
   --json
 
 glassToGlassMs: from capture to the end of the display frame that shows the picture. spreadMs: between the earliest and the
 latest capture in a presentation. addedBySyncMs: how long pictures that had arrived waited for others. dropped: pictures that
-encoders skipped, and pictures that arrived and were not shown. robotCpu: cores, encoders included.`;
-
-const ROBOT = 'sim-1';
-const WARM_UP_MS = 5000;
-const MOST_PRESENTATIONS = 60_000;
-const SETTLE_MS = 500;
+encoders skipped, and pictures that arrived and were not shown. commandDelayMs: from the page to the robot, beyond the link's
+own delay. robotCpu: cores, encoders included.`;
 
 export const bench: Bench = {
   name: 'cameras',
@@ -48,134 +46,103 @@ export const bench: Bench = {
         over: { type: 'string', default: 'loopback' },
         seconds: { type: 'string', default: '30' },
         encoder: { type: 'string', default: 'vp8enc' },
+        content: { type: 'string', default: 'plain' },
         points: { type: 'string', default: '600' },
+        shares: { type: 'string' },
         canvas: { type: 'string', default: '160x90' },
+        thesis: { type: 'boolean' },
+        plot: { type: 'string' },
         json: { type: 'boolean' },
         help: { type: 'boolean' },
       },
     });
     if (values.help) return console.log(USAGE);
     const cameras = parseCameras(values.cameras);
-    const seconds = numberOption('seconds', values.seconds, 1);
-    const points = numberOption('points', values.points, 150);
     if (values.sync !== 'on' && values.sync !== 'off') throw new Error('--sync is on or off');
+    if (values.content !== 'plain' && values.content !== 'noise')
+      throw new Error('--content is plain or noise');
+    const setup: CameraSetup = {
+      ...{ cameras, synchronised: values.sync === 'on', encoder: values.encoder, canvas: values.canvas },
+      content: values.content,
+      trace: values.over === 'loopback' ? null : values.over,
+      seconds: numberOption('seconds', values.seconds, 1),
+      points: values.points === 'all' ? null : numberOption('points', values.points, 150),
+      shares: values.shares === undefined ? null : parseShares(values.shares, cameras.length),
+    };
     await availableEncoders();
-    const folder = mkdtempSync(join(tmpdir(), 'farpoint-cameras-'));
-    const [config, linkFile] = [join(folder, 'farpoint.yaml'), join(folder, 'link.jsonl')];
-    writeFileSync(config, JSON.stringify({ robot: { videos: cameraOptions(cameras, values.encoder) } }));
-    const traced = values.over !== 'loopback';
-    const rate = traced ? [] : ['--rate-control', 'fixed', '--bitrate-mbps', '50'];
-    const live = await startLiveStack({
-      robot: {
-        id: ROBOT,
-        name: 'Robot with cameras',
-        args: [
-          ...['--config', config, '--sim-size', '64', '--fps', '10', '--mode', 'points64'],
-          ...['--max-points', String(points), ...rate],
-        ],
-      },
-      canvas: values.canvas,
-      query: `barcode=1&sync=${values.sync === 'on' ? 1 : 0}`,
-      ...(traced
-        ? {
-            connectAtMbps: 20,
-            link: {
-              args: ['--up-trace', values.over, '--down-rate-mbps', '50', '--rtt-ms', '42.4'],
-              statsFile: linkFile,
-              env: { FARPOINT_LOG_LEVEL: 'warn' },
-            },
-          }
-        : {}),
-      log: (line) => console.error(line),
-    });
-    try {
-      const { page, stack, link } = live;
-      const wait = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
-      link?.tell({ type: 'reset' });
-      await wait(WARM_UP_MS);
-      const pid = stack.robot(ROBOT).pid;
-      console.error(`${seconds} s`);
-      const skipped = () => readSkipped(stack.robotAdminUrl(ROBOT), cameras.length);
-      const [fromMs, cpuBefore, skippedBefore] = [performance.now(), cpuSecondsOfTree(pid), await skipped()];
-      await page.evaluate((capacity) => {
-        window.farpoint.resetStats();
-        window.farpoint.recordPresentations(capacity);
-      }, MOST_PRESENTATIONS);
-      await wait(seconds * 1000);
-      const robotCpu = coresBetween(cpuBefore, cpuSecondsOfTree(pid), performance.now() - fromMs);
-      const skippedAfter = await skipped();
-      const { rows, stats } = await page.evaluate(() => ({
-        rows: window.farpoint.recordedPresentations(),
-        stats: window.farpoint.stats().videos,
-      }));
-      await wait(SETTLE_MS);
-      const figures = presentationFigures(rows, cameras.length);
-      const unshown = stats.sources
-        .filter(({ source }) => source.startsWith('video:'))
-        .map(({ drops }) => Object.values(drops).reduce((sum, count) => sum + count, 0));
-      const dropped = cameras.map(
-        (_, i) => (skippedAfter[i] ?? 0) - (skippedBefore[i] ?? 0) + (unshown[i] ?? 0),
-      );
-      const glassToGlassMs = figures.glassToGlassMs.map((each) => rounded(each, 1));
-      printTable(
-        ['camera', 'frames/s', 'dropped', 'glass to glass p50', 'p95', 'p99', 'max'],
-        cameras.map(({ width, height, framesPerS, kbitPerS }, i) => [
-          `${width}×${height}, ${framesPerS}/s, ${kbitPerS} kbit/s`,
-          (figures.framesPerSecond[i] ?? 0).toFixed(1),
-          dropped[i],
-          ...distributionCells(glassToGlassMs[i] as (typeof glassToGlassMs)[0]),
-        ]),
-      );
-      const spreadMs = rounded(figures.spreadMs, 2);
-      const addedBySyncMs = stats.heldMs;
-      const queueMs = traced ? rounded(queueQuantiles(readUplink(linkFile)), 1) : null;
-      printTable(
-        ['synchronised', 'spread p50', 'p99', 'max', 'under 1 ms', 'waited p50', 'robot, cores', 'queue p95'],
-        [
-          [
-            values.sync,
-            spreadMs.p50,
-            spreadMs.p99,
-            spreadMs.max,
-            `${(figures.share1Ms * 100).toFixed(1)} %`,
-            addedBySyncMs?.p50,
-            robotCpu,
-            queueMs?.p95,
-          ],
-        ],
-      );
-      if (values.json) {
-        printJson({
-          ...{ bench: 'cameras', cameras, sync: values.sync, seconds, encoder: values.encoder },
-          over: traced ? basename(values.over) : 'loopback',
-          // Latency is measured in no other way.
-          ...{ glassToGlassMs, latencyMs: glassToGlassMs, spreadMs, share1Ms: figures.share1Ms },
-          ...{ addedBySyncMs, dropped, framesPerSecond: figures.framesPerSecond, queueMs, robotCpu },
-          ...{ unreadable: figures.unreadable, presentations: rows.length },
-        });
-      }
-    } finally {
-      await live.close();
-      rmSync(folder, { recursive: true, force: true });
+    const over = setup.trace === null ? 'loopback' : basename(setup.trace);
+    const common = { bench: 'cameras', over, encoder: setup.encoder, seconds: setup.seconds };
+    const runs = values.thesis
+      ? await runThesis({ ...setup, shares: null })
+      : [{ title: values.cameras, cameras, run: await runCameras(setup, console.error) }];
+    for (const { title, cameras, run } of runs) print(title, cameras, run);
+    if (values.plot !== undefined) {
+      const title = 'Latency of cameras, from capture to display';
+      writeFileSync(values.plot, plotCameras(title, `${setup.encoder}, over ${over}`, runs));
     }
+    if (!values.json) return;
+    const results = runs.map(({ title, cameras, run }) => ({ title, cameras, ...figuresOf(run) }));
+    printJson(values.thesis ? { ...common, runs: results } : { ...common, sync: values.sync, ...results[0] });
   },
 };
 
-function cameraOptions(cameras: readonly BenchCamera[], encoder: string) {
-  const patterns = ['pinwheel', 'ball', 'smpte'];
-  return cameras.map(({ width, height, framesPerS, kbitPerS }, i) => ({
-    name: cameraName(i),
-    source: { kind: 'test', pattern: patterns[i % patterns.length], width, height, framesPerS },
-    ...{ encoder, width, height, framesPerS, kbitPerS },
-  }));
+interface TitledRun {
+  title: string;
+  cameras: readonly BenchCamera[];
+  run: CameraRun;
 }
 
-/** Pictures that encoders have skipped so far, by camera. */
-async function readSkipped(adminUrl: string, cameras: number): Promise<number[]> {
-  const counts = await scrape(adminUrl, 'farpoint_robot_video_frames_skipped_total', 'camera');
-  return Array.from({ length: cameras }, (_, i) => counts[cameraName(i)] ?? 0);
+async function runThesis(setup: CameraSetup): Promise<TitledRun[]> {
+  const runs: TitledRun[] = [];
+  for (const { figure, name, cameras, synchronised } of CAMERA_EXPERIMENTS) {
+    const title = `figure ${figure}: ${name}${cameras.length === 1 || synchronised ? '' : ', not synchronised'}`;
+    console.error(`${runs.length + 1} of ${CAMERA_EXPERIMENTS.length}: ${title}`);
+    runs.push({ title, cameras, run: await runCameras({ ...setup, cameras, synchronised }, console.error) });
+  }
+  return runs;
 }
 
-function cameraName(index: number): string {
-  return `Camera ${index + 1}`;
+function print(title: string, cameras: readonly BenchCamera[], run: CameraRun): void {
+  console.log(`\n${title}`);
+  printTable(
+    ['camera', 'frames/s', 'dropped', 'glass to glass p50', 'p95', 'p99', 'max'],
+    cameras.map(({ width, height, framesPerS, kbitPerS }, i) => [
+      `${width}×${height}, ${framesPerS}/s, ${kbitPerS} kbit/s`,
+      (run.framesPerSecond[i] ?? 0).toFixed(1),
+      run.dropped[i],
+      ...distributionCells(rounded(run.glassToGlassMs[i] as CameraRun['spreadMs'], 1)),
+    ]),
+  );
+  const [spread, command] = [rounded(run.spreadMs, 2), rounded(run.commandDelayMs, 1)];
+  printTable(
+    [
+      ...['spread p50', 'p99', 'max', 'under 1 ms', 'waited p50', 'robot, cores', 'queue p95'],
+      ...['commands', 'later p50', 'p99', 'max'],
+    ],
+    [
+      [
+        ...[spread.p50, spread.p99, spread.max, `${(run.share1Ms * 100).toFixed(1)} %`],
+        ...[run.addedBySyncMs?.p50, run.robotCpu, run.queueMs === null ? '–' : rounded(run.queueMs, 1).p95],
+        ...[run.commands, command.p50, command.p99, command.max],
+      ],
+    ],
+  );
+  if (run.shares !== null)
+    printTable(
+      ['stream', 'asked', 'seen'],
+      run.shares.map(({ stream, asked, seen }) => [stream, asked, seen]),
+    );
+}
+
+/** What `--json` prints of a run; latency is measured in no other way than glass to glass. */
+function figuresOf(run: CameraRun) {
+  const { glassToGlassMs: latencies, spreadMs, commandDelayMs, queueMs, series, ...figures } = run;
+  const glassToGlassMs = latencies.map((each) => rounded(each, 1));
+  return {
+    ...{ glassToGlassMs, latencyMs: glassToGlassMs, spreadMs: rounded(spreadMs, 2) },
+    commandDelayMs: rounded(commandDelayMs, 1),
+    queueMs: queueMs === null ? null : rounded(queueMs, 1),
+    ...figures,
+    series: series.map(({ s, ms }) => ({ s, ms: ms.map((value) => Number(value.toFixed(1))) })),
+  };
 }

@@ -107,6 +107,8 @@ export interface FarpointTestApi {
   drive(wish: { forward: number; left: number }, ms: number): Promise<void>;
   /** Limits the stream, bit/s (the `bandwidth` channel). */
   limitBandwidth(bitsPerSecond: number): void;
+  /** Divides the link by these weights, until the page does so again. */
+  shareLink(shares: { cloud: number; videos: readonly number[] }): void;
   probe(): DrawnProbe;
   cameras(): CameraProbe[];
   videos(): VideoProbe[];

@@ -75,6 +75,7 @@ export function installTestApi(app: App): void {
       driver.tick(performance.now());
     },
     limitBandwidth: (bitsPerSecond) => link.limitBandwidth(bitsPerSecond),
+    shareLink: ({ cloud, videos }) => client.shareLink(cloud, videos),
     probe: () => probe(app),
     cameras: () =>
       app.state.pictures.views.value.map(({ camera, canvas, newest, ageMs, failures }) => ({

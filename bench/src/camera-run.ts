@@ -1,0 +1,186 @@
+/** One run of `pnpm bench cameras`: the real programs, from cameras to the page, with a driving operator. */
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Page } from '@playwright/test';
+import type { BenchCamera } from './camera-list.ts';
+import { type AskedShares, type SharePair, sharesSeen } from './camera-shares.ts';
+import { commandDelays } from './command-delay.ts';
+import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
+import { type LatencySeries, latencySeries } from './latency-series.ts';
+import { queueQuantiles } from './link-analysis.ts';
+import { clockOffsetOf, monotonicMs, readRobotSamples, readUplink, scrape } from './link-run.ts';
+import { startLiveStack } from './live-stack.ts';
+import { type PresentationFigures, presentationFigures } from './presentation-figures.ts';
+import { type Distribution, distribution } from './stats.ts';
+
+export interface CameraSetup {
+  cameras: readonly BenchCamera[];
+  synchronised: boolean;
+  /** A capacity trace of the uplink; `null`: no link between robot and page. */
+  trace: string | null;
+  seconds: number;
+  encoder: string;
+  /** What the cameras show. */
+  content: 'plain' | 'noise';
+  /** Points of the cloud beside the cameras, 10 times a second; `null`: the whole cloud, as much as the link carries. */
+  points: number | null;
+  /** Of the point view, `160x90`. */
+  canvas: string;
+  /** How the operator divides the link; `null`: as the robot does unasked. */
+  shares: AskedShares | null;
+}
+
+export interface CameraRun extends PresentationFigures {
+  presentations: number;
+  /** Pictures that encoders skipped, and pictures that arrived and were not shown, by camera. */
+  dropped: number[];
+  /** How long pictures that had arrived waited for others, ms. */
+  addedBySyncMs: Distribution | null;
+  /** From the page to the robot, beyond the link's own delay, ms. */
+  commandDelayMs: Distribution;
+  commands: number;
+  /** Of the emulated link; `null` without one. */
+  queueMs: Distribution | null;
+  /** Cores, encoders included. */
+  robotCpu: number | null;
+  shares: SharePair[] | null;
+  series: LatencySeries[];
+}
+
+/** Round trip of the emulated link, ms: that of the paper's field tests. */
+export const LINK_RTT_MS = 42.4;
+const ROBOT = 'sim-1';
+const WARM_UP_MS = 5000;
+/** With a whole cloud and shares, until rates have settled. */
+const LONG_WARM_UP_MS = 15_000;
+const MOST_PRESENTATIONS = 60_000;
+const SETTLE_MS = 500;
+/** Pictures that few bits show well, and noise, which takes any rate. */
+const PATTERNS = { plain: ['pinwheel', 'ball', 'smpte'], noise: ['snow'] } as const;
+
+/** @param log takes lines about the progress */
+export async function runCameras(setup: CameraSetup, log: (line: string) => void): Promise<CameraRun> {
+  const { cameras, trace, seconds } = setup;
+  const folder = mkdtempSync(join(tmpdir(), 'farpoint-cameras-'));
+  const file = (name: string) => join(folder, name);
+  const [config, link, stats, commands] = ['c.yaml', 'link.jsonl', 'stats.jsonl', 'commands.csv'].map(
+    file,
+  ) as [string, string, string, string];
+  writeFileSync(config, JSON.stringify({ robot: { videos: cameraOptions(setup) } }));
+  const live = await startLiveStack({
+    robot: {
+      id: ROBOT,
+      name: 'Robot with cameras',
+      args: ['--config', config, '--stats', stats, '--command-log', commands, ...cloudArgs(setup)],
+    },
+    canvas: setup.canvas,
+    query: `barcode=1&sync=${setup.synchronised ? 1 : 0}`,
+    ...(trace === null ? {} : { connectAtMbps: 20, link: linkSpec(trace, link) }),
+    log,
+  });
+  try {
+    const { page, stack } = live;
+    live.link?.tell({ type: 'reset' });
+    const asked = setup.shares;
+    if (asked !== null) await page.evaluate((shares) => window.farpoint.shareLink(shares), asked);
+    await wait(setup.points === null ? LONG_WARM_UP_MS : WARM_UP_MS);
+    const { pid } = stack.robot(ROBOT);
+    const counters = async () => ({
+      skipped: await byCamera(stack.robotAdminUrl(ROBOT), 'frames_skipped', cameras.length),
+      bytes: await byCamera(stack.robotAdminUrl(ROBOT), 'bytes', cameras.length),
+      bytesSent: readRobotSamples(stats).at(-1)?.bytesSent ?? 0,
+      cpu: cpuSecondsOfTree(pid),
+      atMs: monotonicMs(),
+    });
+    log(`${seconds} s`);
+    await page.evaluate((capacity) => {
+      window.farpoint.resetStats();
+      window.farpoint.recordPresentations(capacity);
+    }, MOST_PRESENTATIONS);
+    const before = await counters();
+    await drive(page, seconds);
+    const after = await counters();
+    const { rows, figures } = await page.evaluate(() => ({
+      rows: window.farpoint.recordedPresentations(),
+      figures: window.farpoint.stats().videos,
+    }));
+    const offsetMs = await clockOffsetOf(page);
+    await wait(SETTLE_MS);
+    await live.stack.robot(ROBOT).stop();
+    const unshown = figures.sources
+      .filter(({ source }) => source.startsWith('video:'))
+      .map(({ drops }) => Object.values(drops).reduce((sum, count) => sum + count, 0));
+    const delays = commandDelays(commands, offsetMs, trace === null ? 0 : LINK_RTT_MS / 2, [
+      before.atMs,
+      after.atMs,
+    ]);
+    const bytes = after.bytes.map((each, i) => each - (before.bytes[i] ?? 0));
+    return {
+      ...presentationFigures(rows, cameras.length),
+      presentations: rows.length,
+      dropped: after.skipped.map((each, i) => each - (before.skipped[i] ?? 0) + (unshown[i] ?? 0)),
+      addedBySyncMs: figures.heldMs,
+      commandDelayMs: distribution(delays),
+      commands: delays.length,
+      queueMs: trace === null ? null : queueQuantiles(readUplink(link)),
+      robotCpu: coresBetween(before.cpu, after.cpu, after.atMs - before.atMs),
+      shares: asked === null ? null : sharesSeen(asked, after.bytesSent - before.bytesSent, bytes),
+      series: latencySeries(rows, cameras.length),
+    };
+  } finally {
+    await live.close();
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+function cameraOptions({ cameras, encoder, content }: CameraSetup) {
+  const patterns = PATTERNS[content];
+  return cameras.map(({ width, height, framesPerS, kbitPerS }, i) => ({
+    name: cameraName(i),
+    source: { kind: 'test', pattern: patterns[i % patterns.length], width, height, framesPerS },
+    ...{ encoder, width, height, framesPerS, kbitPerS },
+  }));
+}
+
+function cloudArgs({ points, trace }: CameraSetup): string[] {
+  if (points === null) return ['--fps', '15'];
+  const rate = trace === null ? ['--rate-control', 'fixed', '--bitrate-mbps', '50'] : [];
+  return ['--sim-size', '64', '--fps', '10', '--mode', 'points64', '--max-points', String(points), ...rate];
+}
+
+function linkSpec(trace: string, statsFile: string) {
+  return {
+    args: ['--up-trace', trace, '--down-rate-mbps', '50', '--rtt-ms', String(LINK_RTT_MS)],
+    statsFile,
+    env: { FARPOINT_LOG_LEVEL: 'warn' },
+  };
+}
+
+/** Drives in circles, and lets go now and then, as an operator does. */
+async function drive(page: Page, seconds: number): Promise<void> {
+  await page.evaluate(async (ms) => {
+    const { farpoint } = window;
+    const end = performance.now() + ms;
+    while (performance.now() < end) {
+      const { session, holder } = farpoint.state();
+      if (session === 'live' && holder === 'nobody') farpoint.requestLease();
+      await farpoint.drive({ forward: 0.3, left: 0.5 }, 900);
+      await new Promise((resolve) => setTimeout(resolve, 100));
+    }
+  }, seconds * 1000);
+}
+
+/** A counter of the robot's videos, by camera. */
+async function byCamera(adminUrl: string, name: string, cameras: number): Promise<number[]> {
+  const counts = await scrape(adminUrl, `farpoint_robot_video_${name}_total`, 'camera');
+  return Array.from({ length: cameras }, (_, i) => counts[cameraName(i)] ?? 0);
+}
+
+function cameraName(index: number): string {
+  return `Camera ${index + 1}`;
+}
+
+function wait(ms: number): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve, ms));
+}
