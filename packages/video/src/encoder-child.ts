@@ -70,10 +70,15 @@ export class EncoderChild {
     if (!this.#closing && this.#child.stdin.writable) this.#child.stdin.write(message);
   }
 
+  /** Whether a raw picture would be taken now. */
+  get takes(): boolean {
+    return !this.#takingFrame && !this.#closing && this.#child.stdin.writable;
+  }
+
   /** Returns false, without taking it, while the process still takes the picture before. */
   pushFrame(frame: RawFrame): boolean {
+    if (!this.takes) return false;
     const { stdin } = this.#child;
-    if (this.#takingFrame || this.#closing || !stdin.writable) return false;
     this.#takingFrame = true;
     stdin.write(writeFrameHead(frame));
     stdin.write(frame.bytes, () => {

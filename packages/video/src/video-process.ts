@@ -118,6 +118,11 @@ export class VideoProcess {
     }, waitMs);
   }
 
+  /** Whether a raw picture that is pushed now would be taken. Once one is, the bytes of those before it are free. */
+  get takes(): boolean {
+    return this.#child?.takes ?? false;
+  }
+
   /**
    * For a source of the kind `frames`. The bytes must stay as they are until they are taken, so each picture should
    * have a buffer of its own.
