@@ -14,7 +14,7 @@ const rate = z.number('must be a number').min(1, 'must be at least 1').max(120, 
 const ros = z
   .strictObject({
     kind: z.literal('ros'),
-    topic: z.unknown(),
+    topic: z.unknown().optional(),
     type: z.unknown().optional(),
     qos: z.unknown().optional(),
     /** ROS 1 or 2; by default that of the source or the sink. */
