@@ -16,6 +16,7 @@ import {
 import { portHolder } from '@farpoint/service';
 import { Backoff } from '@farpoint/timing';
 import { DEV_HELP, type DevOptions, readDevOptions } from './lib/dev-options.ts';
+import { devVideo } from './lib/dev-video.ts';
 
 /** Leaves a robot's usual port, 9400, free for one that is started beside these. */
 const FIRST_ADMIN_PORT = 9410;
@@ -39,6 +40,7 @@ const onLine = (name: string, line: string): void => {
 
 let stack: LocalStack | null = null;
 let web: ManagedProcess | null = null;
+let removeVideo = () => {};
 const stopping = new AbortController();
 
 async function stop(code: number): Promise<void> {
@@ -46,6 +48,7 @@ async function stop(code: number): Promise<void> {
   stopping.abort();
   await web?.stop();
   await stack?.stop();
+  removeVideo();
   process.exit(code);
 }
 /** Ctrl-C may arrive twice: from the terminal, and from pnpm, which forwards it. */
@@ -77,12 +80,15 @@ const startWeb = async (): Promise<ManagedProcess> => {
 
 try {
   console.log('starting signaling and the simulated robot');
+  const { args, without, remove } = await devVideo();
+  removeVideo = remove;
+  if (without !== null) console.log(without);
   const running = await LocalStack.start({
     ports: { signaling, referenceRobot, referenceClient },
     robots: adminPorts.map((adminPort, index) => ({
       id: `sim-${index + 1}`,
       name: `Simulated robot ${index + 1}`,
-      args: ['--source', 'sim', '--sim-seed', String(index + 1), '--pictures-of-cloud'],
+      args: ['--source', 'sim', '--sim-seed', String(index + 1), '--pictures-of-cloud', ...args],
       adminPort,
     })),
     onLine,

@@ -3,12 +3,18 @@ import type { TakePolicy } from '@farpoint/safety';
 import type { BaseOptions } from './base/base-messages.ts';
 import type { SinkOptions } from './drive/open-sink.ts';
 import type { StreamMode } from './encode/stream-mode.ts';
-import type { VideoCameraOptions } from './options/videos.ts';
+import type { ConfiguredVideo } from './options/videos.ts';
 import type { PicturePolicy } from './pictures/picture-plan.ts';
 import type { CloudSensorOptions } from './sensors/cloud-sensor.ts';
 import type { SignalingOptions } from './signaling/signaling-client.ts';
 import type { RecordingOptions } from './telemetry/session-recording.ts';
 import type { RateControlOptions } from './transport/make-rate-controller.ts';
+import type { FeedSource } from './video/feed/feed-source.ts';
+
+/** A camera that is streamed as video. */
+export interface VideoCameraOptions extends Omit<ConfiguredVideo, 'source'> {
+  source: Exclude<ConfiguredVideo['source'], { kind: 'ros' | 'sim' }> | FeedSource;
+}
 
 /** Everything that a robot is made of. */
 export interface RobotOptions extends RateControlOptions {

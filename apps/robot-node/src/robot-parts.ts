@@ -5,7 +5,7 @@ import { openSink } from './drive/open-sink.ts';
 import type { VelocitySink } from './drive/velocity-sink.ts';
 import type { RobotOptions } from './robot-configuration.ts';
 import { CloudSensors } from './sensors/cloud-sensors.ts';
-import { inWorld } from './sensors/in-world.ts';
+import { inWorld, videosInWorld } from './sensors/in-world.ts';
 import { SessionRecording } from './telemetry/session-recording.ts';
 import { openVideoCameras } from './video/open-video-cameras.ts';
 import type { VideoCamera } from './video/video-encoder.ts';
@@ -36,7 +36,7 @@ export async function openParts(options: RobotOptions, log: Logger): Promise<Rob
     const [main] = captures;
     const [{ capture } = { capture: null }] = options.sensors;
     if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond);
-    const videos = await openVideoCameras(options.videos, log);
+    const videos = await openVideoCameras(videosInWorld(options.videos, base), log);
     return { captures, base, sink: openSink(options.sink, base, log), recording, videos };
   } catch (error) {
     for (const capture of captures) await capture.close();

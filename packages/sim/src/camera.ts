@@ -9,8 +9,9 @@ export interface CameraOptions {
   height?: number;
   /** Horizontal field of view, radians; default 90°. */
   fieldOfView?: number;
-  /** Position on the robot: metres ahead of and above base_link, radians downwards, radians to the left. */
+  /** Position on the robot: metres ahead of, left of and above base_link, radians downwards, radians to the left. */
   forward?: number;
+  left?: number;
   up?: number;
   pitch?: number;
   yaw?: number;
@@ -35,6 +36,7 @@ export const DEFAULT_CAMERA: Readonly<Required<CameraOptions>> = {
   height: 480,
   fieldOfView: Math.PI / 2,
   forward: 0.12,
+  left: 0,
   up: 0.9,
   pitch: 0.2,
   yaw: 0,

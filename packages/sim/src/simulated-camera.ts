@@ -48,11 +48,11 @@ export class SimulatedCamera {
     this.#camera = camera;
     this.#figures = figures;
     this.intrinsics = camera.intrinsics;
-    const { forward, up, pitch, yaw } = camera.options;
+    const { forward, left, up, pitch, yaw } = camera.options;
     const down = { x: 0, y: sin(pitch / 2), z: 0, w: cos(pitch / 2) };
     const level = multiply(down, BODY_TO_OPTICAL);
     const orientation = yaw === 0 ? level : multiply(fromYaw(yaw), level);
-    this.#mount = { position: { x: forward, y: 0, z: up }, orientation };
+    this.#mount = { position: { x: forward, y: left, z: up }, orientation };
   }
 
   /** @throws SimulationError for an invalid seed, world or camera */

@@ -12,6 +12,7 @@ import {
 } from '@farpoint/ros';
 import type { BaseState } from '../base/base.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
+import { capturedAtMs, type RosClock } from '../ros/capture-time.ts';
 import {
   type CaptureRoom,
   type CaptureWishes,
@@ -35,15 +36,6 @@ export interface RosSourceOptions {
   waitMs: number;
 }
 
-export interface RosClock {
-  /** Robot’s clock, ms. */
-  now(): number;
-  /** Time of day, ns since 1970, as in stamps. */
-  wallNs(): bigint;
-}
-
-/** An older stamp is from another clock, or from a picture that was delayed. The arrival time is then used, ms. */
-const MOST_AGE_MS = 500;
 /** Number of state messages that may wait in the graph. */
 const STATE_QUEUE = 100;
 const STATE_ROLES = ['pose', 'tf', 'battery'];
@@ -166,11 +158,8 @@ export class RosSource implements FrameSource {
     void this.#graph.close();
   }
 
-  /** The stamp's time if it is recent and on our clock, otherwise the arrival time. */
   #capturedAtMs(stampNs: bigint, receivedMs: number, nowMs: number): number {
-    const ageMs = Number(this.#clock.wallNs() - stampNs) / 1e6;
-    const stamped = ageMs >= 0 && ageMs <= MOST_AGE_MS;
-    return Math.min(stamped ? this.#clock.now() - ageMs : receivedMs, nowMs);
+    return Math.min(capturedAtMs(this.#clock, stampNs, receivedMs), nowMs);
   }
 }
 

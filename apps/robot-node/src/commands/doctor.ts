@@ -4,7 +4,7 @@ import { configurationCheck, machineChecks, robotChecks } from '../doctor/checks
 import { type Finding, runCheck } from '../doctor/finding.ts';
 import { thisHost } from '../doctor/host.ts';
 import { countVerdicts, findingLine, jsonReport, summaryLine } from '../doctor/report.ts';
-import { graphOf } from '../doctor/ros-probe.ts';
+import { graphsOf } from '../doctor/ros-probe.ts';
 import type { CommandRim } from './init.ts';
 
 const HELP = `farpoint-robot doctor [--json] [any option of farpoint-robot]
@@ -35,7 +35,10 @@ export async function doctor(
   const { robot, values } = configuration;
   const checks = [
     configurationCheck(configuration),
-    ...machineChecks(thisHost, robot !== null && graphOf(robot)?.kind === 'ros2'),
+    ...machineChecks(
+      thisHost,
+      robot !== null && graphsOf(robot, []).some(({ graph }) => graph.kind === 'ros2'),
+    ),
     ...(robot === null || values === null ? [] : robotChecks(robot, values)),
   ];
   const findings: Finding[] = [];

@@ -18,7 +18,7 @@ import { judgeVideo } from './check-video.ts';
 import { type Check, type Result, warn } from './finding.ts';
 import type { Host } from './host.ts';
 import { iceTargets, probeIce } from './ice-probe.ts';
-import { checkRos, graphOf } from './ros-probe.ts';
+import { checkRos, graphsOf } from './ros-probe.ts';
 import { findRunningRobot, judgeRunning, type RunningRobot } from './running-robot.ts';
 import { askTime, probeSignaling } from './signaling-probe.ts';
 import { trySource } from './source-trial.ts';
@@ -105,11 +105,13 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
     },
     {
       name: 'ROS',
-      withinMs: 2 * ANSWER_MS + SLACK_MS,
-      run: () => {
-        const graph = graphOf(robot);
+      withinMs: 4 * ANSWER_MS + SLACK_MS,
+      run: async () => {
         const own = running.state === 'runs' && robot.sink.kind === 'ros' ? 1 : 0;
-        return graph === null ? [] : checkRos(graph, values.topics, own, ANSWER_MS);
+        const graphs = graphsOf(robot, values.topics);
+        return (
+          await Promise.all(graphs.map(({ graph, table }) => checkRos(graph, table, own, ANSWER_MS)))
+        ).flat();
       },
     },
     ...robot.sensors.map(({ name, capture }, i) => ({

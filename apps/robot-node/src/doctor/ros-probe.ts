@@ -1,5 +1,5 @@
 /** Joins the robot's ROS graph and inspects it. */
-import { RosFault, type TopicTable } from '@farpoint/ros';
+import { RosFault, type TopicEntry, type TopicTable } from '@farpoint/ros';
 import type { RobotOptions } from '../robot-configuration.ts';
 import { type GraphOptions, openGraph, ros2GraphOf } from '../ros/open-graph.ts';
 import { graphName, judgeHostname, judgeTopics } from './check-ros.ts';
@@ -9,10 +9,30 @@ import { fail, ok, type Result } from './finding.ts';
 const DISCOVERY_MS = 3000;
 const LOOK_MS = 100;
 
-/** The graph that the source or sink joins; `null` if neither does. */
-export function graphOf({ sensors, sink }: RobotOptions): GraphOptions | null {
-  for (const { capture } of sensors) if (capture.source.kind === 'ros') return capture.source.graph;
-  return sink.kind === 'ros' ? sink.graph : null;
+export interface UsedGraph {
+  graph: GraphOptions;
+  table: TopicEntry[];
+}
+
+/**
+ * The graphs that the robot joins, each with the topics that it uses there: those of the table for source and sink, and
+ * those of its video cameras.
+ *
+ * @param topics the topic table
+ */
+export function graphsOf({ sensors, sink, videos }: RobotOptions, topics: TopicTable): UsedGraph[] {
+  const used = new Map<string, UsedGraph>();
+  const uses = (graph: GraphOptions, table: readonly TopicEntry[]) => {
+    const key = JSON.stringify(graph);
+    const known = used.get(key);
+    const names = new Set(known?.table.map(({ topic }) => topic));
+    const added = table.filter(({ topic }) => !names.has(topic));
+    used.set(key, { graph, table: [...(known?.table ?? []), ...added] });
+  };
+  for (const { capture } of sensors) if (capture.source.kind === 'ros') uses(capture.source.graph, topics);
+  if (sink.kind === 'ros') uses(sink.graph, topics);
+  for (const { source } of videos) if (source.kind === 'ros') uses(source.graph, [source.entry]);
+  return [...used.values()];
 }
 
 /** Options with a different node name, because a ROS master ends the first of two nodes with the same name. */

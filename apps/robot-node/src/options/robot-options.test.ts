@@ -127,4 +127,77 @@ describe('robot options', () => {
     expect(() => robot(...argv)).toThrow(OptionsError);
     expect(() => robot(...argv)).toThrow(where);
   });
+
+  describe('cameras with video', () => {
+    const video = (source: string, head = '') =>
+      file(`robot:\n${head}  videos:\n    - { name: Front, source: ${source} }\n`);
+    const mistakeOf = (source: string, head = '') => {
+      try {
+        video(source, head);
+      } catch (error) {
+        if (error instanceof OptionsError) return error.message;
+        throw error;
+      }
+      throw new Error('it was accepted');
+    };
+    const ROS1 = '  source: { kind: ros1 }\n  topics: [{ topic: /points, as: cloud }]\n';
+
+    it('from ROS join the graph of the source, or the one that they name', () => {
+      const [{ source } = { source: null }] = video('{ kind: ros, topic: /front/image }', ROS1).videos;
+      expect(source).toMatchObject({
+        kind: 'ros',
+        graph: { kind: 'ros1', name: expect.stringContaining('farpoint_') as string },
+        entry: { topic: '/front/image', type: 'sensor_msgs/msg/Image', as: 'picture', most: null },
+      });
+      const [two] = video(
+        '{ kind: ros, topic: /x/compressed, ros: 2, qos: { reliability: reliable } }',
+        ROS1,
+      ).videos;
+      expect(two?.source).toMatchObject({
+        graph: { kind: 'ros2' },
+        entry: { type: 'sensor_msgs/msg/CompressedImage', qos: { reliability: 'reliable' } },
+      });
+      const [typed] = video('{ kind: ros, topic: /x, ros: 1, type: sensor_msgs/CompressedImage }').videos;
+      expect(typed?.source).toMatchObject({ entry: { type: 'sensor_msgs/msg/CompressedImage' } });
+    });
+
+    it('of the simulator have their place on the robot, and each a seed of its own', () => {
+      const { videos } = file(
+        'robot:\n  videos:\n    - { name: A, source: { kind: sim } }\n    - { name: B, source: { kind: sim, left: 0.2, yaw: 1.5 } }\n',
+      );
+      expect(videos[0]?.source).toMatchObject({
+        framesPerS: 30,
+        camera: { width: 640, height: 480, left: 0, yaw: 0 },
+      });
+      expect(videos[1]?.source).toMatchObject({ camera: { left: 0.2, yaw: 1.5 } });
+      const seeds = videos.map(({ source }) => source.kind === 'sim' && source.seed);
+      expect(new Set(seeds).size).toBe(2);
+    });
+
+    it.each([
+      [
+        '{ kind: ros, topic: /x }',
+        '',
+        /needs `ros: 1` or `ros: 2` for camera 1: neither source nor sink is ROS/,
+      ],
+      ['{ kind: ros, topic: image, ros: 2 }', '', /topic.*must be a complete topic name such as/],
+      ['{ kind: ros, ros: 2 }', '', /topic.*must be a topic name/],
+      ['{ kind: ros, topic: /x, ros: 3 }', '', /ros.*must be 1 or 2/],
+      [
+        '{ kind: ros, topic: /x, ros: 2, type: std_msgs/String }',
+        '',
+        /type.*must be sensor_msgs\/msg\/Image or/,
+      ],
+      ['{ kind: ros, topic: /x/compressedDepth, ros: 2 }', '', /cannot be shown as compressedDepth/],
+      ['{ kind: sim, width: 642 }', '', /width.*must be a multiple of 4/],
+      ['{ kind: sim, framesPerS: 1000 }', '', /framesPerS.*must be at most 120/],
+      ['{ kind: sim, framesPerS: 0 }', '', /framesPerS.*must be at least 1/],
+      ['{ kind: sim }', ROS1, /can have a camera of the kind sim \(camera 1\) only with the source sim/],
+      ['{ kind: test, framesPerS: 100000 }', '', /framesPerS.*must be at most 240/],
+      ['{ kind: test, framesPerS: .nan }', '', /framesPerS.*must be a number/],
+      ['{ kind: frames }', '', /must be one of|Invalid input|kind/],
+    ] as const)('are refused with a clear sentence: %s', (source, head, words) => {
+      expect(mistakeOf(source, head)).toMatch(words);
+    });
+  });
 });

@@ -7,7 +7,7 @@ import { BitRate } from '@farpoint/timing';
 import type { CaptureOptions } from '../capture/capture-messages.ts';
 import type { SourceOptions } from '../capture/open-source.ts';
 import type { SinkOptions } from '../drive/open-sink.ts';
-import type { RobotOptions } from '../robot-configuration.ts';
+import type { RobotOptions, VideoCameraOptions } from '../robot-configuration.ts';
 import { describeTopics, readFrom, sourcedFolders } from '../ros/message-folders.ts';
 import type { GraphOptions } from '../ros/open-graph.ts';
 import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
@@ -60,7 +60,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       quality: values.picturesQuality,
       share: values.picturesShare,
     },
-    videos: values.videos,
+    videos: toVideos(values),
     maxOperators: values.maxOperators,
     silenceMs: values.silenceS * 1000,
     connectTimeoutMs: 20_000,
@@ -123,6 +123,12 @@ function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, de
   if ((sink === 'ros1' || sink === 'ros2') && topicAs(topics, 'velocity') === undefined) {
     refuse('topics', `needs an entry with \`as: velocity\` for the sink ${sink}`);
   }
+  for (const [i, { source: camera }] of values.videos.entries()) {
+    if (camera.kind === 'sim' && source !== 'sim')
+      refuse('videos', `can have a camera of the kind sim (camera ${i + 1}) only with the source sim`);
+    if (camera.kind === 'ros' && camera.version === undefined && rosKindOf(values) === null)
+      refuse('videos', `needs \`ros: 1\` or \`ros: 2\` for camera ${i + 1}: neither source nor sink is ROS`);
+  }
   if (source === 'sim' && values.simSize % 4 !== 0) refuse('simSize', 'must be a multiple of 4');
 }
 
@@ -154,6 +160,28 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
     case 'rgbd':
       return { kind: 'rgbd', path };
   }
+}
+
+/** The ROS that the source or the sink uses; `null` if neither does. */
+function rosKindOf({ source, sink }: RobotOptionValues): GraphOptions['kind'] | null {
+  for (const kind of [source, sink]) if (kind === 'ros1' || kind === 'ros2') return kind;
+  return null;
+}
+
+function toVideos(values: RobotOptionValues): VideoCameraOptions[] {
+  return values.videos.map((camera, index) => {
+    const { source, ...rest } = camera;
+    if (source.kind === 'sim') {
+      const { kind, framesPerS, ...placed } = source;
+      // A seed of its own, so that no two cameras have the same noise.
+      const seed = (values.simSeed + 1000 + index) % 2 ** 32;
+      return { ...rest, source: { kind, framesPerS, seed, camera: placed } };
+    }
+    if (source.kind !== 'ros') return { ...rest, source };
+    const { kind, version, entry } = source;
+    const graph = toGraph(values, version === undefined ? (rosKindOf(values) ?? 'ros2') : `ros${version}`);
+    return { ...rest, source: { kind, graph, entry } };
+  });
 }
 
 /** ROS 1's publishers describe their messages; ROS 2's do not. */

@@ -24,7 +24,10 @@ export interface Ros2Options extends DdsOptions {
  * @param part the part of the robot that joins; it is added to the node's name
  * @throws {RosFault} saying what is missing and what helps
  */
-export async function openGraph(options: GraphOptions, part: 'capture' | 'drive'): Promise<RosGraph> {
+export async function openGraph(
+  options: GraphOptions,
+  part: 'capture' | 'drive' | 'video',
+): Promise<RosGraph> {
   switch (options.kind) {
     case 'ros1': {
       // Loaded only when it is needed.

@@ -1,4 +1,5 @@
 import type { BaseThread } from '../base/base-thread.ts';
+import type { VideoCameraOptions } from '../robot-configuration.ts';
 import type { CloudSensorOptions } from './cloud-sensor.ts';
 
 /** Gives simulated sensors the world of the simulated base, so that they see the robot move. */
@@ -10,5 +11,17 @@ export function inWorld(
     const { source } = sensor.capture;
     if (base === null || (source.kind !== 'sim' && source.kind !== 'sim-lidar')) return sensor;
     return { ...sensor, capture: { ...sensor.capture, source: { ...source, snapshot: base.snapshot } } };
+  });
+}
+
+/** The same for simulated cameras that are streamed as video. */
+export function videosInWorld(
+  cameras: readonly VideoCameraOptions[],
+  base: BaseThread | null,
+): VideoCameraOptions[] {
+  return cameras.map((camera) => {
+    const { source } = camera;
+    if (base === null || source.kind !== 'sim') return camera;
+    return { ...camera, source: { ...source, snapshot: base.snapshot } };
   });
 }

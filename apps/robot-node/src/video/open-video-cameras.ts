@@ -1,8 +1,10 @@
 import type { Logger } from '@farpoint/service';
-import { availableEncoders, chooseEncoder, VideoError, VideoProcess } from '@farpoint/video';
-import type { VideoCameraOptions } from '../options/videos.ts';
-import type { VideoCamera, VideoEncoder, VideoEncoderEvents } from './video-encoder.ts';
-import type { EncodedFormat } from './video-plan.ts';
+import { availableEncoders, chooseEncoder, VideoError } from '@farpoint/video';
+import type { VideoCameraOptions } from '../robot-configuration.ts';
+import { isFeedSource } from './feed/feed-source.ts';
+import { FeedThread } from './feed/feed-thread.ts';
+import { ProcessEncoder } from './process-encoder.ts';
+import type { VideoCamera } from './video-encoder.ts';
 
 /**
  * The cameras that can be streamed as video. A robot drives without them, so one that cannot be encoded is left out, and
@@ -15,11 +17,12 @@ export async function openVideoCameras(
   if (cameras.length === 0) return [];
   try {
     const { encoders } = await availableEncoders();
+    const thread = new FeedThread(log);
     return cameras.flatMap((camera) => {
       const chosen = chooseEncoder(encoders, camera.encoder);
       if (chosen.ok) {
         log.info({ camera: camera.name, encoder: chosen.encoder.name }, 'camera with video');
-        return [videoCamera(camera, chosen.encoder, log)];
+        return [videoCamera(camera, chosen.encoder, thread, log)];
       }
       const { sentence, remedy } = chosen.failure;
       log.warn({ camera: camera.name, remedy }, `no video: ${sentence}`);
@@ -35,56 +38,22 @@ export async function openVideoCameras(
 
 type ChosenEncoder = Extract<ReturnType<typeof chooseEncoder>, { ok: true }>['encoder'];
 
-function videoCamera(camera: VideoCameraOptions, encoder: ChosenEncoder, log: Logger): VideoCamera {
-  const { name, source, width, height, framesPerS, kbitPerS } = camera;
-  return {
-    name,
-    codec: encoder.codec === 'h264' ? 'H264' : 'VP8',
-    most: { width, height, framesPerSecond: framesPerS, bitsPerSecond: kbitPerS * 1000 },
-    open: (format, events) => openEncoder({ source, encoder }, format, events, log.child({ camera: name })),
-  };
-}
-
-function openEncoder(
-  { source, encoder }: { source: VideoCameraOptions['source']; encoder: ChosenEncoder },
-  format: EncodedFormat,
-  events: VideoEncoderEvents,
+function videoCamera(
+  camera: VideoCameraOptions,
+  encoder: ChosenEncoder,
+  thread: FeedThread,
   log: Logger,
-): VideoEncoder {
-  let dropped = 0;
-  /** Of earlier processes: each counts from 0. */
-  let droppedBefore = 0;
-  const process = new VideoProcess({
-    ...{ source, encoder, settings: settingsOf(format) },
-    onFrame: ({ bytes, key, captureMs: capturedAtMs, width, height }) => {
-      events.onFault(null);
-      events.onPicture({ bytes, key, capturedAtMs, width, height });
-    },
-    onState: (state) => {
-      if (state.state === 'playing') log.info({ video: state }, 'video plays');
-      else dropped = state.dropped;
-    },
-    onFailure: ({ sentence, remedy, retried, reason }) => {
-      log.debug({ reason, retried, remedy }, sentence);
-      droppedBefore += dropped;
-      dropped = 0;
-      events.onFault(`${sentence}; ${remedy}`);
-    },
-    onLog: ({ level, msg }) => log[level]({ from: 'farpoint-video' }, msg),
-  });
+): VideoCamera {
+  const { name, source, width, height, framesPerS, kbitPerS } = camera;
+  const most = { width, height, framesPerSecond: framesPerS, bitsPerSecond: kbitPerS * 1000 };
+  const codec = encoder.codec === 'h264' ? 'H264' : 'VP8';
+  if (isFeedSource(source)) {
+    const fed = { name, source, encoder };
+    return { name, codec, most, open: (format, events) => thread.open(fed, format, events) };
+  }
+  const child = log.child({ camera: name });
   return {
-    configure: (next) => process.configure(settingsOf(next)),
-    requestKeyFrame: () => process.requestKeyFrame(),
-    get dropped() {
-      return droppedBefore + dropped;
-    },
-    close: () => process.close(),
-  };
-}
-
-function settingsOf({ width, height, framesPerSecond, bitsPerSecond, barcode }: EncodedFormat) {
-  return {
-    ...{ bitsPerS: bitsPerSecond, framesPerS: framesPerSecond, width, height },
-    barcode: barcode ? ('monotonic' as const) : undefined,
+    ...{ name, codec, most },
+    open: (format, events) => new ProcessEncoder({ source, encoder }, format, events, child),
   };
 }

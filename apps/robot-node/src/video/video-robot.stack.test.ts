@@ -34,6 +34,12 @@ writeFileSync(
           width: 320,
           height: 240,
         },
+        {
+          name: 'Left',
+          source: { kind: 'sim', left: 0.3, width: 320, height: 240 },
+          encoder: 'vp8enc',
+          framesPerS: 20,
+        },
         { name: 'Broken', source: { kind: 'gst', pipeline: 'nonsense ! more' }, encoder: 'vp8enc' },
       ],
     },
@@ -52,21 +58,22 @@ describe.skipIf(!isBuilt)(`cameras with video (needs: ${BUILD_REMEDY})`, { timeo
     expect(described.videos.map(({ name, codec }) => [name, codec])).toEqual([
       ['Front', 'VP8'],
       ['Rear', 'H264'],
+      ['Left', 'VP8'],
       ['Broken', 'VP8'],
     ]);
     expect(client.videos.size).toBe(0);
-    client.sendSession({ type: 'videos', videos: [0, 1, 2] });
-    const [front = '', rear = ''] = described.videos.map(({ mid }) => mid);
+    client.sendSession({ type: 'videos', videos: [0, 1, 2, 3] });
+    const [front = '', rear = '', left = ''] = described.videos.map(({ mid }) => mid);
     const frames = (mid: string) => client.videos.get(mid)?.frames ?? [];
-    await client.until(() => frames(front).length >= 20 && frames(rear).length >= 20);
-    for (const mid of [front, rear]) {
+    await client.until(() => [front, rear, left].every((mid) => frames(mid).length >= 20));
+    for (const mid of [front, rear, left]) {
       expect(frames(mid)[0]?.isKeyFrame).toBe(true);
       const stamps = frames(mid).map(({ timestamp }) => timestamp);
       const steps = stamps.slice(1).map((stamp, i) => (stamp - stamps[i]!) >>> 0);
       expect(steps.every((step) => step > 0 && step < 90_000)).toBe(true);
     }
-    const told = await client.message('videos', ({ videos }) => videos[2]?.fault !== undefined);
-    expect(told.videos[2]?.fault).toMatch(/element.*nonsense/);
-    expect(told.videos[0]?.fault).toBeUndefined();
+    const told = await client.message('videos', ({ videos }) => videos[3]?.fault !== undefined);
+    expect(told.videos[3]?.fault).toMatch(/element.*nonsense/);
+    for (const { fault } of told.videos.slice(0, 3)) expect(fault).toBeUndefined();
   });
 });

@@ -1,0 +1,48 @@
+/**
+ * The common trigger of simulated cameras: each captures at the multiples of its interval, counted from the clock's
+ * zero, so that cameras of equal rates capture at the same instants, and a slower one at some of a faster one's.
+ */
+import { DueTimes } from './due-times.ts';
+
+export interface TriggeredCamera {
+  readonly intervalNs: bigint;
+  capture(atNs: bigint): void;
+}
+
+export class SimTrigger {
+  /** Before a round of captures: all of them are to see the same world. */
+  onRound: (() => void) | null = null;
+  readonly #nowNs: () => bigint;
+  readonly #times = new DueTimes<TriggeredCamera>();
+  #timer: NodeJS.Timeout | null = null;
+
+  constructor(nowNs: () => bigint) {
+    this.#nowNs = nowNs;
+  }
+
+  /** @returns ends it */
+  add(camera: TriggeredCamera): () => void {
+    this.#times.add(camera, camera.intervalNs, this.#nowNs());
+    this.#wait();
+    return () => {
+      this.#times.delete(camera);
+      this.#wait();
+    };
+  }
+
+  #wait(): void {
+    if (this.#timer !== null) clearTimeout(this.#timer);
+    this.#timer = null;
+    const next = this.#times.next;
+    if (next === null) return;
+    const waitMs = Math.max(0, Math.ceil(Number(next - this.#nowNs()) / 1e6));
+    this.#timer = setTimeout(() => this.#fire(), waitMs);
+  }
+
+  #fire(): void {
+    const due = this.#times.take(this.#nowNs());
+    if (due.length > 0) this.onRound?.();
+    for (const { item, atNs } of due) item.capture(atNs);
+    this.#wait();
+  }
+}
