@@ -6,7 +6,13 @@
 #include <gst/video/video.h>
 #include <stdbool.h>
 
+#include "fault.h"
 #include "rate.h"
+
+/* A raw picture of 8192 x 8192 in four bytes a pixel has 256 MiB; nothing here is near that. */
+enum { MOST_MESSAGE_BYTES = 128 * 1024 * 1024 };
+
+enum { MESSAGE_KEY_FRAME = 3, MESSAGE_FRAME = 4, MESSAGE_ENCODED = 65 };
 
 /* Which clock's time is drawn into the picture. */
 typedef enum { BARCODE_NONE, BARCODE_MONOTONIC, BARCODE_UNIX } Barcode;
@@ -86,7 +92,5 @@ void encoders_list(void);
 /* faults.c: says why nothing can be encoded any more, once, and ends the program. */
 void fail(Video *video, const char *reason, const char *said, const char *detail);
 void fail_by_message(Video *video, GstMessage *message);
-bool has_failed(void);
-void end_soon(Video *video);
 
 #endif
