@@ -61,6 +61,8 @@ export class OperatorMessages {
   onPictures: ((cameras: readonly number[]) => void) | null = null;
   onSensors: ((sensors: readonly number[]) => void) | null = null;
   onVideos: ((videos: readonly number[], barcode: boolean) => void) | null = null;
+  onListen: ((on: boolean) => void) | null = null;
+  onSpeak: ((held: boolean) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #rejections = new RejectionReporter();
@@ -214,6 +216,12 @@ export class OperatorMessages {
         break;
       case 'videos':
         this.onVideos?.(message.videos, message.barcode ?? false);
+        break;
+      case 'listen':
+        this.onListen?.(message.on);
+        break;
+      case 'speak':
+        this.onSpeak?.(message.held);
         break;
       case 'latencyMeasured':
         this.#host.latencyMeasured?.(this, message);

@@ -12,6 +12,9 @@ const PICTURE_MARGIN = 1.1;
 
 /** What a video's packets take besides the encoder's bits, as a factor. */
 const VIDEO_OVERHEAD = 1.08;
+/** Sound takes at most this share of what messages leave. */
+const SOUND_SHARE = 1 / 3;
+
 /** Clouds count as much as this many videos where both want more than there is. */
 const CLOUD_WEIGHT = 2;
 
@@ -21,6 +24,7 @@ export class PathBudget {
   readonly #pictures = new RateMeter();
   readonly #pictureShare: number;
   #videos: ReadonlyMap<number, number> = new Map();
+  #sound = 0;
 
   /** @param pictureShare the largest share of the path that pictures may take, 0–1 */
   constructor(pictureShare = 0) {
@@ -35,7 +39,7 @@ export class PathBudget {
 
   /** How much of the path's target rate pictures may take, bit/s on the wire. */
   pictureBitsPerSecond(targetBitsPerSecond: number): number {
-    const left = targetBitsPerSecond - this.#messageBitsPerSecond;
+    const left = targetBitsPerSecond - this.#messageBitsPerSecond - this.#sound;
     return Math.max(0, Math.min(pictureAllowance(targetBitsPerSecond, this.#pictureShare), left));
   }
 
@@ -53,6 +57,16 @@ export class PathBudget {
     this.#videos = most;
   }
 
+  /** How much of the path's target rate sound may take, bit/s on the wire. */
+  soundBitsPerSecond(targetBitsPerSecond: number): number {
+    return Math.max(0, targetBitsPerSecond - this.#messageBitsPerSecond) * SOUND_SHARE;
+  }
+
+  /** @param bitsPerSecond what sound takes on the wire; 0 while none is sent */
+  takeSound(bitsPerSecond: number): void {
+    this.#sound = bitsPerSecond;
+  }
+
   /** How much of the path's target rate a video may take, bit/s without headers. */
   videoBitsPerSecond(video: number, targetBitsPerSecond: number): number {
     return (this.#shares(targetBitsPerSecond).get(videoClaim(video)) ?? 0) / VIDEO_OVERHEAD;
@@ -68,22 +82,29 @@ export class PathBudget {
     const claims: StreamClaim[] = [
       { name: 'messages', priority: 0, weight: 1, leastBitsPerSecond: messages, mostBitsPerSecond: messages },
       {
-        name: 'pictures',
+        name: 'sound',
         priority: 1,
+        weight: 1,
+        leastBitsPerSecond: this.#sound,
+        mostBitsPerSecond: this.#sound,
+      },
+      {
+        name: 'pictures',
+        priority: 2,
         weight: 1,
         leastBitsPerSecond: pictures,
         mostBitsPerSecond: pictures,
       },
       {
         name: 'cloud',
-        priority: 2,
+        priority: 3,
         weight: CLOUD_WEIGHT,
         leastBitsPerSecond: 0,
         mostBitsPerSecond: Number.POSITIVE_INFINITY,
       },
       ...[...this.#videos].map(([video, bitsPerSecond]) => ({
         name: videoClaim(video),
-        priority: 2,
+        priority: 3,
         weight: 1,
         leastBitsPerSecond: 0,
         mostBitsPerSecond: bitsPerSecond * VIDEO_OVERHEAD,
