@@ -1,9 +1,11 @@
 /**
- * `pnpm build:native [shared-memory] [systemd] [dds] [video]`: builds the native addons and the video program; without
- * a name, all of them. In that case DDS and video may be missing, because they need libraries that not every robot has.
+ * `pnpm build:native [shared-memory] [systemd] [dds] [video] [sound]`: builds the native addons and the programs for
+ * video and sound; without a name, all of them. In that case DDS, video and sound may be missing, because they need
+ * libraries that not every robot has.
  */
 import * as dds from '../packages/dds/src/build.ts';
 import * as sharedMemory from '../packages/shared-memory/src/build.ts';
+import * as sound from '../packages/sound/src/build.ts';
 import * as systemd from '../packages/systemd/src/build.ts';
 import * as video from '../packages/video/src/build.ts';
 
@@ -12,6 +14,7 @@ const addons = {
   systemd: { ...systemd, what: 'the systemd unit', optional: false },
   dds: { ...dds, what: 'ROS 2 (--source ros2, --sink ros2)', optional: true },
   video: { ...video, what: 'camera video', optional: true },
+  sound: { ...sound, what: 'sound', optional: true },
 };
 
 const asked = process.argv.slice(2);

@@ -7,6 +7,7 @@ import { CHROMIUM_REMEDY } from '@farpoint/local-stack';
 import * as dds from '../packages/dds/src/build.ts';
 import * as sharedMemory from '../packages/shared-memory/src/build.ts';
 import * as systemd from '../packages/systemd/src/build.ts';
+import * as sound from '../packages/sound/src/build.ts';
 import * as video from '../packages/video/src/build.ts';
 import { ensureChromium } from './lib/ensure-chromium.ts';
 import { ensureCycloneDds, ensureDdsPeers } from './lib/ensure-dds.ts';
@@ -73,6 +74,7 @@ const steps: Step[] = [
         ['the systemd unit', systemd],
         ['ROS 2', dds],
         ['camera video', video],
+        ['sound', sound],
       ] as const) {
         const { ok, output } = buildAddon();
         if (ok) continue;

@@ -1,7 +1,7 @@
 import { aptInstall } from './apt-install.ts';
 import { run } from './run.ts';
 
-/** What the video program is built on, and what it and its tests use when they run. */
+/** What the programs for video and sound are built on, and what they and their tests use when they run. */
 const PACKAGES = [
   'pkg-config',
   'libgstreamer1.0-dev',
@@ -14,7 +14,7 @@ const PACKAGES = [
 ];
 const LIBRARIES = ['gstreamer-1.0', 'gstreamer-app-1.0', 'gstreamer-video-1.0'];
 /** One element of each set of plugins. */
-const ELEMENTS = ['videotestsrc', 'vp8enc', 'x264enc', 'h264parse'];
+const ELEMENTS = ['videotestsrc', 'vp8enc', 'x264enc', 'h264parse', 'opusenc', 'opusdec'];
 
 /** Installs GStreamer, if possible. */
 export async function ensureGStreamer(say: (line: string) => void): Promise<void> {

@@ -3,6 +3,7 @@ import type { TakePolicy } from '@farpoint/safety';
 import type { BaseOptions } from './base/base-messages.ts';
 import type { SinkOptions } from './drive/open-sink.ts';
 import type { StreamMode } from './encode/stream-mode.ts';
+import type { SoundOptions } from './options/sound.ts';
 import type { ConfiguredVideo } from './options/videos.ts';
 import type { PicturePolicy } from './pictures/picture-plan.ts';
 import type { CloudSensorOptions } from './sensors/cloud-sensor.ts';
@@ -38,6 +39,8 @@ export interface RobotOptions extends RateControlOptions {
   pictures: PicturePolicy;
   /** Cameras that are streamed as video. */
   videos: readonly VideoCameraOptions[];
+  /** A microphone and a loudspeaker, as far as there are any. */
+  sound: SoundOptions;
   maxOperators: number;
   /** An operator that has not been heard from for this long is gone, ms. */
   silenceMs: number;
@@ -57,4 +60,8 @@ export interface RobotOptions extends RateControlOptions {
   statisticsFile?: string | undefined;
   /** Where everything is recorded; if undefined, nothing is recorded. */
   record?: RecordingOptions | undefined;
+}
+
+export function hasSound({ sound: { microphone, loudspeaker } }: Pick<RobotOptions, 'sound'>): boolean {
+  return microphone !== undefined || loudspeaker !== undefined;
 }

@@ -12,7 +12,7 @@ import type { VelocitySink } from './drive/velocity-sink.ts';
 import { openReferenceProfile } from './reference/open-reference-profile.ts';
 import type { ReferenceProfile } from './reference/reference-profile.ts';
 import { RobotCameras } from './robot-cameras.ts';
-import type { RobotOptions } from './robot-configuration.ts';
+import { hasSound, type RobotOptions } from './robot-configuration.ts';
 import { openParts, type RobotParts } from './robot-parts.ts';
 import { type CloudSensor, failureReading } from './sensors/cloud-sensor.ts';
 import { CloudSensors } from './sensors/cloud-sensors.ts';
@@ -23,6 +23,8 @@ import { RobotSessionHost } from './session/robot-session-host.ts';
 import { silenceLimits } from './session/silence.ts';
 import { welcome } from './session/welcome.ts';
 import { SignalingClient } from './signaling/signaling-client.ts';
+import { openSoundDevices } from './sound/open-sound-devices.ts';
+import { RobotSound } from './sound/robot-sound.ts';
 import { CommandLog } from './telemetry/command-log.ts';
 import { FrameLog } from './telemetry/frame-log.ts';
 import { ReadingBoard } from './telemetry/reading-board.ts';
@@ -48,6 +50,7 @@ export class Robot {
   /** The interface to the reference system's operators; `null` if it is not enabled. */
   reference: ReferenceProfile | null = null;
   readonly cameras: RobotCameras;
+  readonly sound: RobotSound;
   /** Called if the robot cannot continue. */
   onFailure: ((error: Error) => void) | null = null;
   /** `null` if nothing is recorded. */
@@ -110,6 +113,7 @@ export class Robot {
           ...this.#peerOptions,
           pictures: capture.cameras.length > 0,
           videos: videos.map(({ codec }) => codec),
+          sound: hasSound(options),
         },
         pictureShare: options.pictures.share,
         makeController: (transportFeedback) => makeRateController(options, transportFeedback),
@@ -127,6 +131,7 @@ export class Robot {
           const framesPerSecond = sensors[0]?.capture.framesPerSecond ?? 0;
           const facts = { id, name, limits, framesPerSecond };
           welcome(operator, facts, this.sensors, this.cameras.videos);
+          this.sound.welcome(operator);
           this.sensors.updateBudgets();
         },
         budgetChanged: () => this.sensors.updateBudgets(),
@@ -173,6 +178,13 @@ export class Robot {
       onMade: (picture) => recording?.picture(picture),
       onStateChanged: () => this.#host.tellVideos(),
       onFrame: () => this.#sendLoop.run(),
+    });
+    this.sound = new RobotSound({
+      devices: openSoundDevices(options.sound, log),
+      targets: () => this.operators.values(),
+      driver: () => guard.leaseHolder,
+      onFrame: () => this.#sendLoop.run(),
+      ...{ log, now: monotonicMs },
     });
     this.#paths = new PathKeeper({
       ...{ operators: this.operators, drive: this.drive, signaling: this.signaling },
@@ -241,6 +253,7 @@ export class Robot {
     this.#sendLoop.close();
     await this.signaling.close();
     await this.cameras.close();
+    await this.sound.close();
     await this.sensors.close();
     await this.recording?.close();
     this.#packetLog?.write();
@@ -276,6 +289,7 @@ export class Robot {
     this.#paths.tick();
     this.reference?.tick();
     this.cameras.tick(monotonicMs());
+    this.sound.tick();
     this.sensors.updateBudgets();
     this.#sendLoop.run();
   }

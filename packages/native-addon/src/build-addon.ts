@@ -19,6 +19,8 @@ export interface NativeAddon {
   folder: string;
   /** The target's name in `binding.gyp`. */
   name: string;
+  /** Further folders with C sources of which it is built. */
+  shared?: readonly string[];
   /** Further dependencies of the build: environment, versions of libraries. */
   depends?: string;
   /** What is built: an addon, or a program of its own. */
@@ -77,9 +79,9 @@ export function findNodeHeaders(): string | null {
   );
 }
 
-function sourcesHash({ folder, depends = '' }: NativeAddon): string {
+function sourcesHash({ folder, shared = [], depends = '' }: NativeAddon): string {
   const hash = createHash('sha256').update(`${process.platform} ${process.arch}\n${depends}\n`);
-  for (const from of [folder, INCLUDE_FOLDER]) {
+  for (const from of [folder, ...shared, INCLUDE_FOLDER]) {
     for (const name of readdirSync(from).sort())
       if (/\.(c|h|gyp)$/.test(name)) hash.update(name).update(readFileSync(join(from, name)));
   }

@@ -29,6 +29,7 @@ export * from './session-messages.ts';
 export * from './signaling/farpoint.ts';
 export * from './signaling/reference.ts';
 export * from './signaling/robot-list.ts';
+export * from './sound-media.ts';
 export * from './stream-switch.ts';
 export * from './telemetry.ts';
 export * from './unorganised-stream.ts';

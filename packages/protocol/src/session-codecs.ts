@@ -7,6 +7,7 @@ import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
 import type { OperatorSessionMessage, RobotSessionMessage } from './session-messages.ts';
+import { MICROPHONE_STATES, VOICE_STATES } from './sound-media.ts';
 import { MAX_VIDEOS, VIDEO_CODECS } from './video-media.ts';
 
 const positive = z.number().check(z.positive());
@@ -16,6 +17,7 @@ const videoSchema = z.int().check(z.minimum(0), z.maximum(MAX_VIDEOS - 1));
 const weightSchema = z.int().check(z.minimum(1), z.maximum(100));
 /** An SDP token (RFC 8866 §9) that fits a one-byte header extension. */
 const midSchema = z.string().check(z.regex(/^[!#-'*+.0-9A-Z^-~-]{1,16}$/));
+const soundDetailSchema = z.string().check(z.maxLength(256));
 /** A palette of 256 colours with its tables is 2,210 bytes. */
 const MAX_STREAM_HEADER_BASE64 = 3200;
 /** A test that takes longer has failed. */
@@ -96,6 +98,16 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
         )
         .check(z.maxLength(MAX_VIDEOS)),
     }),
+    z.strictObject({
+      type: z.literal('sound'),
+      mid: midSchema,
+      microphone: z.optional(
+        z.strictObject({ state: z.enum(MICROPHONE_STATES), detail: z.optional(soundDetailSchema) }),
+      ),
+      voice: z.optional(
+        z.strictObject({ state: z.enum(VOICE_STATES), detail: z.optional(soundDetailSchema) }),
+      ),
+    }),
     z.strictObject({ type: z.literal('fault'), message: z.string().check(z.maxLength(512)) }),
   ]),
   maxBytes: 4096,
@@ -125,6 +137,8 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
       videos: z.array(videoSchema).check(z.maxLength(MAX_VIDEOS)),
       barcode: z.optional(z.boolean()),
     }),
+    z.strictObject({ type: z.literal('listen'), on: z.boolean() }),
+    z.strictObject({ type: z.literal('speak'), held: z.boolean() }),
     z.strictObject({
       type: z.literal('shares'),
       cloud: weightSchema,

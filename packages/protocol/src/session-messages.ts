@@ -3,6 +3,7 @@
  */
 import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
+import type { MicrophoneState, VoiceState } from './sound-media.ts';
 import type { VideoCodec } from './video-media.ts';
 
 /** The robot's drive limits. No message can raise any of them. */
@@ -157,6 +158,35 @@ export interface Videos {
   videos: VideoDescription[];
 }
 
+/**
+ * The robot's microphone and loudspeaker, as far as this operator is concerned. Sent after the welcome by robots that
+ * have either, and again whenever something changes.
+ */
+export interface Sound {
+  /** Tells the message from others. */
+  type: 'sound';
+  /** `a=mid` of its m-line in the robot's offer. */
+  mid: string;
+  /** What the operator gets of the microphone; absent if the robot has none. */
+  microphone?:
+    | {
+        /** For programs. */
+        state: MicrophoneState;
+        /** For people: why there is no sound. */
+        detail?: string | undefined;
+      }
+    | undefined;
+  /** What the robot does with the operator's voice; absent if the robot has no loudspeaker. */
+  voice?:
+    | {
+        /** For programs. */
+        state: VoiceState;
+        /** For people: why it is not played. */
+        detail?: string | undefined;
+      }
+    | undefined;
+}
+
 /** A message of the operator, other than a command, that the robot could not use. */
 export interface SessionFault {
   type: 'fault';
@@ -173,6 +203,7 @@ export type RobotSessionMessage =
   | Cameras
   | Sensors
   | Videos
+  | Sound
   | SessionFault;
 
 /** Requests the lease. `take` asks to take over from another operator; the robot's policy decides. */
@@ -235,6 +266,21 @@ export interface LinkShares {
   videos: number[];
 }
 
+/** Whether the operator wants to hear the robot's microphone. Before this message it does not. */
+export interface Listen {
+  type: 'listen';
+  on: boolean;
+}
+
+/**
+ * Whether the operator holds the key with which it speaks. While it does, it repeats the message, and sends its voice on
+ * the m-line for sound.
+ */
+export interface Speak {
+  type: 'speak';
+  held: boolean;
+}
+
 /** The result of a latency test, for the robot's recording. */
 export interface LatencyMeasured {
   type: 'latencyMeasured';
@@ -259,6 +305,8 @@ export type OperatorSessionMessage =
   | WantedSensors
   | WantedVideos
   | LinkShares
+  | Listen
+  | Speak
   | LatencyMeasured;
 
 export const PROTOCOL_VERSION = 1;

@@ -499,6 +499,12 @@ sensors = robot_session.good({"type": "sensors", "sensors": [{"name": "Camera"},
 robot_session.good({"type": "cameras", "cameras": []}, "cameras: none")
 videos = robot_session.good({"type": "videos", "videos": [{"name": "Front", "mid": "1", "codec": "H264"}, {"name": "Rear", "mid": "2", "codec": "VP8", "fault": "the camera is unplugged"}]})
 robot_session.good({"type": "videos", "videos": []}, "videos: none")
+sound = robot_session.good({"type": "sound", "mid": "3", "microphone": {"state": "failed", "detail": "the microphone is unplugged"}, "voice": {"state": "closed"}})
+robot_session.good({"type": "sound", "mid": "3"}, "sound: neither")
+for microphone in ["off", "starting", "live", "muted", "slow-link"]:
+    robot_session.good({"type": "sound", "mid": "3", "microphone": {"state": microphone}}, "sound: microphone " + microphone)
+for voice in ["open", "not-driving", "silent", "failed"]:
+    robot_session.good({"type": "sound", "mid": "3", "voice": {"state": voice}}, "sound: voice " + voice)
 fault = robot_session.good({"type": "fault", "message": "operator session message: latch: expected boolean"})
 robot_session.common(fault, 4096)
 robot_session.spoil(welcome, ("protocol", 0), ("protocol", 1.5), ("robotId", "Sim"), ("robotId", "-sim"), ("robotId", "x" * 65), ("name", ""),
@@ -514,6 +520,8 @@ robot_session.spoil(cloud_stream, ("sensor", 8), ("sensor", -1), ("sensor", "0")
 robot_session.spoil(sensors, ("sensors", ABSENT), ("sensors", [{"name": "x"}] * 9), ("sensors.0.name", ""), ("sensors.1.extra", 1, "sensors.1"))
 robot_session.spoil(cameras, ("cameras", ABSENT), ("cameras", [{"name": "x"}] * 9), ("cameras.0.name", ""), ("cameras.1.name", 7),
                     ("cameras.0.name", "a\nb"), ("cameras.0.extra", 1, "cameras.0"))
+robot_session.spoil(sound, ("mid", ABSENT), ("mid", ""), ("microphone.state", "on"), ("microphone.state", ABSENT), ("microphone.detail", "x" * 257),
+                    ("microphone", "live"), ("voice.state", "live"), ("voice.extra", 1, "voice"))
 robot_session.spoil(videos, ("videos", ABSENT), ("videos", [{"name": "x", "mid": "1", "codec": "VP8"}] * 9), ("videos.0.name", ""), ("videos.0.mid", ""),
                     ("videos.0.mid", "a b"), ("videos.0.mid", "x" * 17), ("videos.0.mid", 1), ("videos.1.codec", "AV1"), ("videos.1.codec", ABSENT),
                     ("videos.1.fault", "x" * 257), ("videos.1.extra", 1, "videos.1"))
@@ -545,6 +553,11 @@ operator_session.spoil(measured, ("id", -1), ("id", 2 ** 32), ("frameNumber", 1.
 operator_session.spoil(wanted, ("sensors", ABSENT), ("sensors", [8], "sensors.0"), ("sensors", [-1], "sensors.0"), ("sensors", [0] * 9))
 operator_session.spoil(shares, ("cloud", ABSENT), ("cloud", 0), ("cloud", 101), ("cloud", 1.5), ("videos", ABSENT), ("videos", [1] * 9), ("videos", [0], "videos.0"),
                        ("videos", ["1"], "videos.0"), ("sound", 1, ""))
+for on in [True, False]:
+    listen = operator_session.good({"type": "listen", "on": on}, "listen: " + ("on" if on else "off"))
+    speak = operator_session.good({"type": "speak", "held": on}, "speak: " + ("held" if on else "let go"))
+operator_session.spoil(listen, ("on", ABSENT), ("on", 1), ("microphone", 0, ""))
+operator_session.spoil(speak, ("held", ABSENT), ("held", "yes"))
 operator_session.spoil(wanted_videos, ("videos", ABSENT), ("videos", [8], "videos.0"), ("videos", [-1], "videos.0"), ("videos", [0] * 9), ("barcode", 1))
 operator_session.spoil(pictures, ("cameras", ABSENT), ("cameras", 0), ("cameras", [8], "cameras.0"), ("cameras", [-1], "cameras.0"),
                        ("cameras", [0.5], "cameras.0"), ("cameras", [0] * 9))

@@ -4,9 +4,11 @@
       "target_name": "farpoint-video",
       "type": "executable",
       "sources": [
-        "main.c", "wire.c", "log.c", "pipeline.c", "rate.c", "size.c", "barcode.c", "encoded.c", "frames.c",
-        "coded.c", "decoder.c", "decode.c", "encoders.c", "faults.c"
+        "main.c", "pipeline.c", "rate.c", "size.c", "barcode.c", "encoded.c", "frames.c", "coded.c", "decoder.c",
+        "decode.c", "encoders.c", "faults.c",
+        "../../media-process/native/wire.c", "../../media-process/native/log.c", "../../media-process/native/fault.c"
       ],
+      "include_dirs": ["../../media-process/native"],
       "defines": ["_GNU_SOURCE"],
       "cflags": [
         "-std=gnu11", "-Wall", "-Wextra", "-Wno-unused-parameter", "-O2",

@@ -1,8 +1,8 @@
 /*
- * farpoint-video: pictures of one camera, encoded by GStreamer in a process of its own. The messages are in wire.h;
- * packages/video/src/video-process.ts is the other side. Ends when its input ends, after an error, or on SIGTERM.
+ * farpoint-video: pictures of one camera, encoded by GStreamer in a process of its own. The messages are in wire.h and
+ * video.h; packages/video/src/video-process.ts is the other side. Ends when its input ends, after an error, or on
+ * SIGTERM.
  */
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,25 +12,9 @@
 #include "video.h"
 #include "wire.h"
 
-enum { CONFIGURE_BYTES = 13, MOST_OPEN_BYTES = 64 * 1024 };
-/* What holds on to a device or a server is given this long when the program ends. */
-enum { STOP_S = 2 };
+enum { CONFIGURE_BYTES = 13 };
 /* A key frame comes at least this often, for those who cannot ask for one. */
 enum { KEY_FRAME_S = 10 };
-
-static void on_signal(int signal) {
-  if (signal == SIGALRM) _exit(1);
-  alarm(STOP_S);
-  wire_close();
-}
-
-static void handle_signals(void) {
-  struct sigaction action = {.sa_handler = on_signal};
-  sigaction(SIGTERM, &action, NULL);
-  sigaction(SIGINT, &action, NULL);
-  sigaction(SIGALRM, &action, NULL);
-  signal(SIGPIPE, SIG_IGN);
-}
 
 static void add_property(Video *video, const char *text) {
   /* NAME:RATE:INTERVAL:FRAME */
@@ -109,7 +93,7 @@ static gpointer read_messages(gpointer data) {
   while (take_message(video, 0)) continue;
   alarm(STOP_S);
   wire_close();
-  end_soon(video);
+  end_soon(video->loop);
   return NULL;
 }
 

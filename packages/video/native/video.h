@@ -7,10 +7,15 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "fault.h"
 #include "rate.h"
 
+/* A raw picture of 8192 x 8192 in four bytes a pixel has 256 MiB; nothing here is near that. */
+enum { MOST_MESSAGE_BYTES = 128 * 1024 * 1024, MOST_CODED_BYTES = 32 * 1024 * 1024 };
 /* Of a picture, pixels. */
 enum { MOST_SIDE = 8192 };
+
+enum { MESSAGE_KEY_FRAME = 3, MESSAGE_FRAME = 4, MESSAGE_CODED = 5, MESSAGE_ENCODED = 65 };
 
 /* How a coded picture is coded, by the code in its message; wire.ts has the same list. */
 typedef enum { CODING_NONE, CODING_JPEG, CODING_PNG, CODING_H264, CODING_VP8, CODINGS } Coding;
@@ -108,7 +113,5 @@ void encoders_list(void);
 /* faults.c: says why nothing can be encoded any more, once, and ends the program. */
 void fail(Video *video, const char *reason, const char *said, const char *detail);
 void fail_by_message(Video *video, GstMessage *message);
-bool has_failed(void);
-void end_soon(Video *video);
 
 #endif

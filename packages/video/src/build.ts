@@ -1,9 +1,11 @@
 /** Location of the program, and building it. GStreamer comes from the system. */
 import { join } from 'node:path';
+import { MEDIA_PROCESS_SOURCES } from '@farpoint/media-process/sources';
 import { addonFile, type BuildResult, buildNativeAddon } from '@farpoint/native-addon';
 
 const PROGRAM = {
   folder: join(import.meta.dirname, '..', 'native'),
+  shared: [MEDIA_PROCESS_SOURCES],
   name: 'farpoint-video',
   kind: 'program',
 } as const;

@@ -1,7 +1,9 @@
 /** What the process says in JSON, checked. */
+import { parseWireJson } from '@farpoint/media-process';
 import * as z from 'zod';
 import { VIDEO_FAILURE_REASONS } from './video-failure.ts';
-import { VideoWireError } from './wire.ts';
+
+export { type LogLine, parseLogLine } from '@farpoint/media-process';
 
 const count = z.int().min(0);
 
@@ -56,29 +58,8 @@ const encodersSchema = z.object({
 });
 export type EncoderList = z.infer<typeof encodersSchema>;
 
-const logSchema = z.object({ level: z.enum(['debug', 'warn', 'error']), msg: z.string() });
-export type LogLine = z.infer<typeof logSchema>;
-
-export const parseState = (payload: Uint8Array): VideoState => parse(stateSchema, payload, 'a state');
-export const parseError = (payload: Uint8Array): ProcessError => parse(errorSchema, payload, 'an error');
+export const parseState = (payload: Uint8Array): VideoState => parseWireJson(stateSchema, payload, 'a state');
+export const parseError = (payload: Uint8Array): ProcessError =>
+  parseWireJson(errorSchema, payload, 'an error');
 export const parseEncoders = (text: Uint8Array): EncoderList =>
-  parse(encodersSchema, text, 'a list of encoders');
-
-/** A line of the standard error. Plugins write there, too, as they like. */
-export function parseLogLine(line: string): LogLine {
-  try {
-    const result = logSchema.safeParse(JSON.parse(line));
-    if (result.success) return result.data;
-  } catch {
-    // Not JSON.
-  }
-  return { level: 'warn', msg: line };
-}
-
-function parse<T>(schema: z.ZodType<T>, payload: Uint8Array, what: string): T {
-  try {
-    return schema.parse(JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(payload)));
-  } catch (cause) {
-    throw new VideoWireError('bad-message', `${what} that is not valid`, { cause });
-  }
-}
+  parseWireJson(encodersSchema, text, 'a list of encoders');

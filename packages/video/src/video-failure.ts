@@ -1,5 +1,8 @@
 /** Why no video comes, what to do about it, and whether trying again can help. */
+import { withoutPasswords } from '@farpoint/media-process';
 import { BUILD_REMEDY } from './build.ts';
+
+export { withoutPasswords } from '@farpoint/media-process';
 
 export const VIDEO_FAILURE_REASONS = [
   'not-built', // the program farpoint-video is missing, or cannot be run
@@ -74,11 +77,6 @@ const ABOUT: Record<VideoFailureReason, { what: string; remedy: string; retried:
 export function videoFailure(reason: VideoFailureReason, said: string): VideoFailure {
   const { what, remedy, retried } = ABOUT[reason];
   return { reason, sentence: `${what}: ${withoutPasswords(said)}`, remedy, retried };
-}
-
-/** GStreamer's messages name addresses, and those may contain a password. */
-export function withoutPasswords(text: string): string {
-  return text.replaceAll(/(\w+:\/\/)[^/\s@"]*@/g, '$1…@');
 }
 
 /** Thrown where there is no video to begin with. */

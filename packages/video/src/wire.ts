@@ -1,9 +1,16 @@
 /**
  * Messages between this program and `farpoint-video`, on its standard input and output: u32 length of the payload, u8
- * type, payload; little-endian. `native/wire.h` and `native/main.c` are the other side.
+ * type, payload; little-endian. `native/main.c` is the other side.
  */
+import { HEADER_BYTES, WireError, WireMessageParser, writeMessage } from '@farpoint/media-process';
 
-export const HEADER_BYTES = 5;
+export {
+  WireError as VideoWireError,
+  type WireMessage,
+  writeMessage,
+  writeOpen,
+} from '@farpoint/media-process';
+
 /** No coded picture is near that; a longer message means that the output is not ours. */
 export const MOST_MESSAGE_BYTES = 32 * 1024 * 1024;
 
@@ -18,91 +25,10 @@ const CONFIGURE_BYTES = 13;
 const KEY_FLAG = 1;
 const NS_PER_MS = 1_000_000n;
 
-export type VideoWireErrorCode =
-  | 'too-large' // a message that announces more bytes than there is room for
-  | 'unknown-type' // a type that is not in the list
-  | 'bad-message'; // a payload that is too short or not valid
-
-/** What is wrong with the bytes that came from the process. */
-export class VideoWireError extends Error {
-  override readonly name = 'VideoWireError';
-  readonly code: VideoWireErrorCode;
-
-  constructor(code: VideoWireErrorCode, what: string, options?: ErrorOptions) {
-    super(what, options);
-    this.code = code;
-  }
-}
-
-export interface WireMessage {
-  readonly type: number;
-  /** Belongs to the receiver: nothing is written there any more. */
-  readonly payload: Uint8Array;
-}
-
-/** Puts messages together from chunks, however they are cut. A message within one chunk is not copied. */
-export class MessageParser {
-  readonly #mostBytes: number;
-  readonly #header = new Uint8Array(HEADER_BYTES);
-  #headerBytes = 0;
-  /** Payload under way, and how much of it there is. */
-  #payload: Uint8Array | null = null;
-  #payloadBytes = 0;
-
+/** Puts the messages of `farpoint-video` together. */
+export class MessageParser extends WireMessageParser {
   constructor(mostBytes = MOST_MESSAGE_BYTES) {
-    this.#mostBytes = mostBytes;
-  }
-
-  /** @throws {VideoWireError} `too-large` or `unknown-type`; what follows such a message cannot be read */
-  push(chunk: Uint8Array, onMessage: (message: WireMessage) => void): void {
-    for (let at = 0; at < chunk.length; ) {
-      if (this.#headerBytes < HEADER_BYTES) {
-        at += this.#takeHeader(chunk.subarray(at));
-        if (this.#headerBytes < HEADER_BYTES) return;
-        if (this.#length() > 0) continue;
-        this.#finish(new Uint8Array(0), onMessage);
-        continue;
-      }
-      const length = this.#length();
-      if (this.#payload === null && chunk.length - at >= length) {
-        this.#finish(chunk.subarray(at, at + length), onMessage);
-        at += length;
-        continue;
-      }
-      this.#payload ??= new Uint8Array(length);
-      const part = chunk.subarray(at, at + length - this.#payloadBytes);
-      this.#payload.set(part, this.#payloadBytes);
-      this.#payloadBytes += part.length;
-      at += part.length;
-      if (this.#payloadBytes === length) this.#finish(this.#payload, onMessage);
-    }
-  }
-
-  #length(): number {
-    return new DataView(this.#header.buffer).getUint32(0, true);
-  }
-
-  #takeHeader(from: Uint8Array): number {
-    const part = from.subarray(0, HEADER_BYTES - this.#headerBytes);
-    this.#header.set(part, this.#headerBytes);
-    this.#headerBytes += part.length;
-    if (this.#headerBytes === HEADER_BYTES) {
-      const type = this.#header[4]!;
-      if (!Object.values<number>(FROM_PROCESS).includes(type))
-        throw new VideoWireError('unknown-type', `a message of the unknown type ${type}`);
-      const length = this.#length();
-      if (length > this.#mostBytes)
-        throw new VideoWireError('too-large', `a message of ${length} bytes; ${this.#mostBytes} are allowed`);
-    }
-    return part.length;
-  }
-
-  #finish(payload: Uint8Array, onMessage: (message: WireMessage) => void): void {
-    const type = this.#header[4]!;
-    this.#headerBytes = 0;
-    this.#payload = null;
-    this.#payloadBytes = 0;
-    onMessage({ type, payload });
+    super(Object.values(FROM_PROCESS), mostBytes);
   }
 }
 
@@ -120,10 +46,10 @@ export interface EncodedFrame {
   readonly bytes: Uint8Array;
 }
 
-/** @throws {VideoWireError} `bad-message` */
+/** @throws {WireError} `bad-message` */
 export function parseEncoded(payload: Uint8Array): EncodedFrame {
   if (payload.length <= ENCODED_HEAD_BYTES)
-    throw new VideoWireError('bad-message', `an encoded picture of ${payload.length} bytes`);
+    throw new WireError('bad-message', `an encoded picture of ${payload.length} bytes`);
   const view = new DataView(payload.buffer, payload.byteOffset, payload.byteLength);
   const captureNs = view.getBigUint64(0, true);
   return {
@@ -135,24 +61,6 @@ export function parseEncoded(payload: Uint8Array): EncodedFrame {
     encodeMs: view.getUint32(13, true) / 1000,
     bytes: payload.subarray(ENCODED_HEAD_BYTES),
   };
-}
-
-/** A whole message. */
-export function writeMessage(type: number, payload: Uint8Array): Uint8Array {
-  const message = new Uint8Array(HEADER_BYTES + payload.length);
-  const view = new DataView(message.buffer);
-  view.setUint32(0, payload.length, true);
-  view.setUint8(4, type);
-  message.set(payload, HEADER_BYTES);
-  return message;
-}
-
-/** What the process is to encode: texts by name, some of them repeated. None may contain a zero byte. */
-export function writeOpen(fields: readonly (readonly [string, string])[]): Uint8Array {
-  for (const [name, text] of fields)
-    if (text.includes('\0')) throw new VideoWireError('bad-message', `${name} contains a zero byte`);
-  const text = fields.map(([name, value]) => `${name}=${value}\0`).join('');
-  return writeMessage(TO_PROCESS.open, new TextEncoder().encode(text));
 }
 
 /** Clocks whose time can be drawn into the picture. */

@@ -13,6 +13,7 @@ import { checkMemory, checkNode, checkSocketBuffers } from './check-machine.ts';
 import { checkAddresses, checkUdpPorts } from './check-network.ts';
 import { checkProcessor, judgeCodec, timeCodec } from './check-processor.ts';
 import { judgeSignaling } from './check-signaling.ts';
+import { judgeSound } from './check-sound.ts';
 import { judgeClosedSource, judgeSource, trialSource } from './check-source.ts';
 import { judgeVideo } from './check-video.ts';
 import { type Check, type Result, warn } from './finding.ts';
@@ -21,6 +22,7 @@ import { iceTargets, probeIce } from './ice-probe.ts';
 import { checkRos, graphsOf } from './ros-probe.ts';
 import { findRunningRobot, judgeRunning, type RunningRobot } from './running-robot.ts';
 import { askTime, probeSignaling } from './signaling-probe.ts';
+import { trySound } from './sound-trial.ts';
 import { trySource } from './source-trial.ts';
 import { timeEncoders } from './video-trial.ts';
 
@@ -123,6 +125,11 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
       name: 'video',
       withinMs: 30_000,
       run: async () => judgeVideo(await timeEncoders(), robot.videos),
+    },
+    {
+      name: 'sound',
+      withinMs: 20_000,
+      run: async () => judgeSound(await trySound(robot.sound), running.state === 'runs'),
     },
     {
       name: 'recording',

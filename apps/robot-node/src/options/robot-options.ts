@@ -61,6 +61,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       share: values.picturesShare,
     },
     videos: toVideos(values),
+    sound: values.sound,
     maxOperators: values.maxOperators,
     silenceMs: values.silenceS * 1000,
     connectTimeoutMs: 20_000,

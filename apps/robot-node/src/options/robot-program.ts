@@ -13,6 +13,7 @@ import { shmOptions } from './shm.ts';
 import { signalingOptions } from './signaling.ts';
 import { simOptions } from './sim.ts';
 import { sinkOptions } from './sink.ts';
+import { soundOptions } from './sound.ts';
 import { sourceOptions } from './source.ts';
 import { stateOptions } from './state.ts';
 import { streamOptions } from './stream.ts';
@@ -34,6 +35,7 @@ const options = {
   ...streamOptions,
   ...picturesOptions,
   ...videosOptions,
+  ...soundOptions,
   ...networkOptions,
   ...recordingOptions,
   ...adminOptions(9400),

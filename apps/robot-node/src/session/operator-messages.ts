@@ -63,6 +63,8 @@ export class OperatorMessages {
   onSensors: ((sensors: readonly number[]) => void) | null = null;
   onVideos: ((videos: readonly number[], barcode: boolean) => void) | null = null;
   onShares: ((shares: LinkShares) => void) | null = null;
+  onListen: ((on: boolean) => void) | null = null;
+  onSpeak: ((held: boolean) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #rejections = new RejectionReporter();
@@ -219,6 +221,12 @@ export class OperatorMessages {
         break;
       case 'shares':
         this.onShares?.(message);
+        break;
+      case 'listen':
+        this.onListen?.(message.on);
+        break;
+      case 'speak':
+        this.onSpeak?.(message.held);
         break;
       case 'latencyMeasured':
         this.#host.latencyMeasured?.(this, message);

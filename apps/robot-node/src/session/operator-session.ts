@@ -1,10 +1,12 @@
-import type { CloudFormat, StageTimings, StreamStatus } from '@farpoint/protocol';
+import type { CloudFormat, Sound, StageTimings, StreamStatus } from '@farpoint/protocol';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import { slotSequenceOffset } from '../encode/packetiser.ts';
 import type { CodedFormat } from '../encode/plan.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
 import { PictureSender } from '../pictures/picture-sender.ts';
 import { cloudShare, probingSensor } from '../sensors/cloud-shares.ts';
+import { OperatorSound } from '../sound/operator-sound.ts';
+import { SOUND_STREAM } from '../sound/sound-frame.ts';
 import type { AnswerVerdict } from '../transport/answer-gate.ts';
 import { OperatorPeer } from '../transport/operator-peer.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
@@ -12,6 +14,7 @@ import type { PeerEnd } from '../transport/peer-events.ts';
 import type { RtpTransport } from '../transport/rtp-transport.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
 import { SharedFrame } from '../transport/shared-frame.ts';
+import type { SoundLine } from '../transport/sound-line.ts';
 import { StreamSender } from '../transport/stream-sender.ts';
 import type { VideoLine } from '../transport/video-line.ts';
 import { OperatorVideos } from '../video/operator-videos.ts';
@@ -48,6 +51,7 @@ export class OperatorSession implements FrameTarget {
   readonly #budget: PathBudget;
   readonly pictures: PictureSender;
   readonly videos: OperatorVideos;
+  readonly sound: OperatorSound;
   readonly #tests = new LatencyTests();
   #pathHeardMs = 0;
 
@@ -67,7 +71,7 @@ export class OperatorSession implements FrameTarget {
     this.peer = new OperatorPeer(options.peer, {
       onCandidate: (candidate) => events.onCandidate(candidate),
       onCandidateRefused: (reason, detail) => events.onCandidateRefused(reason, detail),
-      onConnected: (transport, videos) => this.#onConnected(transport, videos),
+      onConnected: (transport, videos, sound) => this.#onConnected(transport, videos, sound),
       onMessage: (channel, data) => this.messages.onMessage(channel, data),
       onPicturesLow: () => this.#sendPictures(),
       onEnded: (end, detail) => this.#onEnded(end, detail),
@@ -76,6 +80,7 @@ export class OperatorSession implements FrameTarget {
     this.videos = new OperatorVideos(this.#budget, options.mostVideoBitsPerSecond, (video) =>
       events.onNeedsKeyFrame(video),
     );
+    this.sound = new OperatorSound(this.#budget, () => host.now());
     this.messages = new OperatorMessages(options.session, options.operatorName, host, this.peer);
     this.messages.onReceiverReport = (report) => this.sender?.onReceiverReport(report);
     this.messages.onReceiverLimit = (bitsPerSecond) => {
@@ -91,6 +96,8 @@ export class OperatorSession implements FrameTarget {
       events.onCloudFormats();
       events.onBudgetChanged();
     };
+    this.messages.onListen = (on) => this.sound.listen(on);
+    this.messages.onSpeak = (held) => this.sound.speak(held);
     this.messages.onPictures = (cameras) => this.pictures.watch(cameras);
     this.messages.onVideos = (videos, barcode) => {
       this.videos.want(videos, barcode);
@@ -127,6 +134,14 @@ export class OperatorSession implements FrameTarget {
   /** Whether the operator is connected, not paused and not silent. */
   get streaming(): boolean {
     return this.sender !== null && this.messages.streaming && !this.quiet;
+  }
+
+  get operatorName(): string {
+    return this.messages.operatorName;
+  }
+
+  tellSound(message: Sound): void {
+    this.messages.send(message);
   }
 
   /** When the operator was last heard from (a message, RTCP or a connectivity check), ms on the robot's clock. */
@@ -235,7 +250,7 @@ export class OperatorSession implements FrameTarget {
     this.videos.clear();
   }
 
-  #onConnected(transport: RtpTransport, lines: readonly VideoLine[]): void {
+  #onConnected(transport: RtpTransport, lines: readonly VideoLine[], sound: SoundLine | null): void {
     const sender = new StreamSender(transport, this.#makeController(transport.transportFeedback), () =>
       this.#host.now(),
     );
@@ -252,10 +267,13 @@ export class OperatorSession implements FrameTarget {
       this.#tests.onSent(frame);
     };
     sender.onFrameDropped = (frame) => {
+      // A packet of sound is needed by no other.
+      if (frame.stream === SOUND_STREAM) return;
       if (!(frame instanceof SharedFrame)) this.videos.onDropped(frame.stream);
       else if (this.#tests.onLost(frame)) this.#events.onLatencyFrameLost();
     };
     this.videos.connect(sender, lines);
+    this.sound.connect(sender, sound);
     sender.onRateChanged = () => {
       this.#events.onBudgetChanged();
       this.#sendLoop.run();
@@ -272,6 +290,7 @@ export class OperatorSession implements FrameTarget {
     this.#tests.clear();
     this.pictures.clear();
     this.videos.disconnect();
+    this.sound.disconnect();
     if (sender !== null) {
       this.#sendLoop.remove(sender);
       sender.clear();

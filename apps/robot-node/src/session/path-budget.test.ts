@@ -121,4 +121,24 @@ describe('PathBudget', () => {
   it('gives messages all of a path that carries almost nothing', () => {
     expect(new PathBudget().cloudBitsPerSecond(15_000)).toBe(0);
   });
+
+  it('gives sound its part before pictures, clouds and videos, and after messages', () => {
+    const budget = new PathBudget(0.15);
+    budget.wantVideos(() => new Map([[0, 1e6]]));
+    budget.takeSound(60_000);
+    expect(budget.cloudBitsPerSecond(100_000) + budget.videoBitsPerSecond(0, 100_000) * 1.08).toBeCloseTo(
+      20_000,
+    );
+    expect(budget.pictureBitsPerSecond(85_000)).toBeLessThanOrEqual(5000);
+    budget.takeSound(0);
+    expect(budget.cloudBitsPerSecond(100_000) + budget.videoBitsPerSecond(0, 100_000) * 1.08).toBeCloseTo(
+      80_000,
+    );
+  });
+
+  it('leaves sound a third of what messages leave', () => {
+    const budget = new PathBudget();
+    expect(budget.soundBitsPerSecond(320_000)).toBe(100_000);
+    expect(budget.soundBitsPerSecond(10_000)).toBe(0);
+  });
 });

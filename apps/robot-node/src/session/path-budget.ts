@@ -14,6 +14,8 @@ const PICTURE_MARGIN = 1.1;
 
 /** What a video's packets take besides the encoder's bits, as a factor. */
 const VIDEO_OVERHEAD = 1.08;
+/** Sound takes at most this share of what messages leave. */
+const SOUND_SHARE = 1 / 3;
 /** A paused video returns once its share is this much above the least, so that a changing rate does not switch it. */
 const RETURN_MARGIN = 1.3;
 /** Until the operator says otherwise, clouds count as much as two videos. */
@@ -29,6 +31,7 @@ export class PathBudget {
   readonly #pictures = new RateMeter();
   readonly #pictureShare: number;
   #videos: () => VideoRates = () => new Map();
+  #sound = 0;
   #weights = USUAL_SHARES;
   /** Videos whose share would be too small to show anything. */
   readonly #paused = new Set<number>();
@@ -61,13 +64,24 @@ export class PathBudget {
 
   /** How much of the path's target rate pictures may take, bit/s on the wire. */
   pictureBitsPerSecond(targetBitsPerSecond: number): number {
-    const left = targetBitsPerSecond - this.#messageBitsPerSecond;
+    const left = targetBitsPerSecond - this.#messageBitsPerSecond - this.#sound;
     return Math.max(0, Math.min(pictureAllowance(targetBitsPerSecond, this.#pictureShare), left));
   }
 
   /** How much of the path's target rate the cloud may take, bit/s on the wire. */
   cloudBitsPerSecond(targetBitsPerSecond: number): number {
     return this.#divide(targetBitsPerSecond).get('cloud') ?? 0;
+  }
+
+  /** How much of the path's target rate sound may take, bit/s on the wire. */
+  soundBitsPerSecond(targetBitsPerSecond: number): number {
+    return Math.max(0, targetBitsPerSecond - this.#messageBitsPerSecond) * SOUND_SHARE;
+  }
+
+  /** @param bitsPerSecond what sound takes on the wire; 0 while none is sent */
+  takeSound(bitsPerSecond: number): void {
+    this.#sound = bitsPerSecond;
+    this.#divided = null;
   }
 
   /** How much of the path's target rate a video may take, bit/s without headers; 0 if that would show nothing. */
@@ -107,10 +121,17 @@ export class PathBudget {
     );
     return [
       { name: 'messages', priority: 0, weight: 1, leastBitsPerSecond: messages, mostBitsPerSecond: messages },
-      { name: 'pictures', priority: 1, weight: 1, leastBitsPerSecond: pictures, mostBitsPerSecond: pictures },
+      {
+        name: 'sound',
+        priority: 1,
+        weight: 1,
+        leastBitsPerSecond: this.#sound,
+        mostBitsPerSecond: this.#sound,
+      },
+      { name: 'pictures', priority: 2, weight: 1, leastBitsPerSecond: pictures, mostBitsPerSecond: pictures },
       {
         name: 'cloud',
-        priority: 2,
+        priority: 3,
         weight: this.#weights.cloud,
         leastBitsPerSecond: 0,
         mostBitsPerSecond: Number.POSITIVE_INFINITY,
@@ -121,7 +142,7 @@ export class PathBudget {
   #videoClaim(video: number, mostBitsPerSecond: number): StreamClaim {
     return {
       name: videoClaim(video),
-      priority: 2,
+      priority: 3,
       weight: this.#weightOf(video),
       leastBitsPerSecond: 0,
       mostBitsPerSecond: mostBitsPerSecond * VIDEO_OVERHEAD,

@@ -34,6 +34,7 @@ import {
   useTWCC,
 } from 'werift';
 import { videoCodecParameters } from '../transport/media-codecs.ts';
+import { SoundReception } from './sound-reception.ts';
 import { type ReceivedVideo, VideoReception } from './video-reception.ts';
 
 /** What has been received of one frame so far. */
@@ -76,6 +77,7 @@ export class OperatorClient {
   readonly pictures = new Map<number, WholePicture>();
   readonly #assembler = new PictureAssembler();
   readonly #video: VideoReception;
+  readonly sound: SoundReception;
   telemetry: Telemetry | null = null;
   /** The newest reading of each topic. */
   readonly readings = new Map<string, Reading>();
@@ -112,9 +114,11 @@ export class OperatorClient {
     });
     const { connection } = this;
     this.#video = new VideoReception(connection, () => this.#changed());
+    this.sound = new SoundReception(connection, () => this.#changed());
     connection.onTrack.subscribe((track) => {
       if (track.kind === 'video') this.#video.add(track);
-      else track.onReceiveRtp.subscribe((packet) => this.#onPayload(packet.payload));
+      else if (!this.sound.add(track))
+        track.onReceiveRtp.subscribe((packet) => this.#onPayload(packet.payload));
     });
     connection.onIceCandidate.subscribe((candidate) => {
       if (candidate === undefined) return;
@@ -145,6 +149,7 @@ export class OperatorClient {
   /** @returns the SDP answer */
   async answer(offer: string): Promise<string> {
     await this.connection.setRemoteDescription({ type: 'offer', sdp: offer });
+    this.sound.acceptBoth();
     if (this.#helloAtOnce) helloAtOnce(this.connection);
     await this.connection.setLocalDescription(await this.connection.createAnswer());
     return this.connection.localDescription?.sdp ?? '';

@@ -42,3 +42,14 @@ it('returns a short fault or none for any text', () => {
     { seed: 3 },
   );
 });
+
+it('a line for sound follows those of videos, and may be refused', () => {
+  const answer = (port: number) =>
+    [
+      ...['v=0', 'a=ice-ufrag:a', 'a=ice-pwd:b', 'a=fingerprint:sha-256 c'],
+      ...['m=audio 9 X 96', 'm=video 9 X 97', `m=audio ${port} X 96`, 'm=application 9 X y'],
+    ].join('\r\n');
+  expect(answerFault(answer(9), 1, true)).toBe(null);
+  expect(answerFault(answer(0), 1, true)).toBe(null);
+  expect(answerFault(answer(9), 1)).toBe('4 m-lines, where the offer has 3');
+});

@@ -1,5 +1,5 @@
 /** The codecs that the robot offers, and the feedback that it understands on them. */
-import { CLOUD_MEDIA, VIDEO_CLOCK_RATE, type VideoCodec } from '@farpoint/protocol';
+import { CLOUD_MEDIA, SOUND_PARAMETERS, VIDEO_CLOCK_RATE, type VideoCodec } from '@farpoint/protocol';
 import { RTCRtpCodecParameters, useFIR, useNACK, usePLI, useREMB, useTWCC } from 'werift';
 
 /**
@@ -8,11 +8,13 @@ import { RTCRtpCodecParameters, useFIR, useNACK, usePLI, useREMB, useTWCC } from
  */
 const H264_PARAMETERS = 'profile-level-id=42e01f;packetization-mode=1;level-asymmetry-allowed=1';
 
-export function cloudCodecParameters(): RTCRtpCodecParameters {
+/** @param withSound whether a line for sound shares them: werift tells codecs apart by their names only */
+export function cloudCodecParameters(withSound = false): RTCRtpCodecParameters {
   const { mimeType, clockRate, channels } = CLOUD_MEDIA;
   // REMB for peers that support nothing better.
   const rtcpFeedback = [useTWCC(), useNACK(), useREMB()];
-  return new RTCRtpCodecParameters({ mimeType, clockRate, channels, rtcpFeedback });
+  const parameters = withSound ? { parameters: SOUND_PARAMETERS } : {};
+  return new RTCRtpCodecParameters({ mimeType, clockRate, channels, rtcpFeedback, ...parameters });
 }
 
 export function videoCodecParameters(codec: VideoCodec): RTCRtpCodecParameters {

@@ -1,6 +1,12 @@
-import { type IceServer, VIDEO_CODECS } from '@farpoint/protocol';
+import { type IceCandidate, type IceServer, VIDEO_CODECS } from '@farpoint/protocol';
 import { ABS_CAPTURE_TIME_URI } from '@farpoint/rtp';
-import { RTCPeerConnection, RTCRtpHeaderExtensionParameters, useSdesMid, useTransportWideCC } from 'werift';
+import {
+  type RTCIceCandidate,
+  RTCPeerConnection,
+  RTCRtpHeaderExtensionParameters,
+  useSdesMid,
+  useTransportWideCC,
+} from 'werift';
 import { cloudCodecParameters, videoCodecParameters } from './media-codecs.ts';
 import type { OperatorPeerOptions } from './peer-events.ts';
 
@@ -9,7 +15,8 @@ export function openPeerConnection({
   iceServers,
   icePolicy = 'all',
   portRange,
-}: Pick<OperatorPeerOptions, 'iceServers' | 'icePolicy' | 'portRange'>): RTCPeerConnection {
+  sound = false,
+}: Pick<OperatorPeerOptions, 'iceServers' | 'icePolicy' | 'portRange' | 'sound'>): RTCPeerConnection {
   // All m-lines share these objects, because ids must agree within a bundle.
   const extensions = [useSdesMid(), useTransportWideCC()];
   const captureTime = new RTCRtpHeaderExtensionParameters({ uri: ABS_CAPTURE_TIME_URI });
@@ -20,8 +27,11 @@ export function openPeerConnection({
     iceUseTcp: false,
     iceTransportPolicy: icePolicy,
     ...(portRange === undefined ? {} : { icePortRange: [...portRange] as [number, number] }),
-    codecs: { audio: [cloudCodecParameters()], video: VIDEO_CODECS.map(videoCodecParameters) },
-    headerExtensions: { audio: extensions, video: [...extensions, captureTime] },
+    codecs: { audio: [cloudCodecParameters(sound)], video: VIDEO_CODECS.map(videoCodecParameters) },
+    headerExtensions: {
+      audio: sound ? [...extensions, captureTime] : extensions,
+      video: [...extensions, captureTime],
+    },
   });
 }
 
@@ -33,6 +43,18 @@ export function toWeriftServers(servers: readonly IceServer[]) {
       ...(credential === undefined ? {} : { credential }),
     })),
   );
+}
+
+/** What the operator is told of one of our candidates. */
+export function candidateOf(candidate: RTCIceCandidate): IceCandidate {
+  const { candidate: text, sdpMid, sdpMLineIndex, usernameFragment } = candidate.toJSON();
+  return {
+    candidate: text,
+    sdpMid: sdpMid ?? null,
+    sdpMLineIndex: sdpMLineIndex ?? null,
+    // Tells the operator which generation the candidate belongs to, in case it arrives late.
+    usernameFragment: usernameFragment ?? null,
+  };
 }
 
 export function errorText(error: unknown): string {

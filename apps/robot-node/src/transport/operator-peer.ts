@@ -20,8 +20,9 @@ import { MediaStream, type RTCDataChannel, type RTCPeerConnection, type RTCRtpTr
 import { answerFault } from './answer-fault.ts';
 import { AnswerGate, type AnswerVerdict } from './answer-gate.ts';
 import { MAX_RELIABLE_BACKLOG, MAX_UNRELIABLE_BACKLOG, MESSAGE_OVERHEAD_BYTES } from './message-limits.ts';
+import { OfferedSound } from './offered-sound.ts';
 import { OfferedVideos } from './offered-videos.ts';
-import { errorText, openPeerConnection, toWeriftServers } from './open-peer-connection.ts';
+import { candidateOf, errorText, openPeerConnection, toWeriftServers } from './open-peer-connection.ts';
 import type { OperatorPeerEvents, OperatorPeerOptions, PeerEnd } from './peer-events.ts';
 import { SrtpTransport } from './srtp-transport.ts';
 
@@ -30,6 +31,7 @@ export class OperatorPeer {
   readonly #connection: RTCPeerConnection;
   readonly #cloud: RTCRtpTransceiver;
   readonly #videos: OfferedVideos;
+  readonly #sound: OfferedSound | null;
   readonly #session: RTCDataChannel;
   readonly #telemetry: RTCDataChannel;
   readonly #connectTimer: NodeJS.Timeout;
@@ -70,6 +72,7 @@ export class OperatorPeer {
       streams: [new MediaStream({ id: CLOUD_STREAM_ID })],
     });
     this.#videos = new OfferedVideos(connection, options.videos ?? []);
+    this.#sound = options.sound === true ? new OfferedSound(connection) : null;
     const { session, telemetry, pictures } = channels;
     this.#session = connection.createDataChannel(session.label, { ordered: session.ordered });
     this.#telemetry = connection.createDataChannel(telemetry.label, {
@@ -99,14 +102,7 @@ export class OperatorPeer {
       if (candidate === undefined || this.#ended) return;
       prepareSockets(connection);
       this.#checkPairs();
-      const { candidate: text, sdpMid, sdpMLineIndex, usernameFragment } = candidate.toJSON();
-      events.onCandidate({
-        candidate: text,
-        sdpMid: sdpMid ?? null,
-        sdpMLineIndex: sdpMLineIndex ?? null,
-        // Tells the operator which generation the candidate belongs to, in case it arrives late.
-        usernameFragment: usernameFragment ?? null,
-      });
+      events.onCandidate(candidateOf(candidate));
     });
     connection.connectionStateChange.subscribe((state) => {
       if (state === 'connected') this.#checkConnected();
@@ -169,7 +165,7 @@ export class OperatorPeer {
   async answer(sdp: string): Promise<AnswerVerdict> {
     const verdict = this.#ended ? 'unasked' : this.#answers.judge(sdp);
     if (verdict !== 'taken') return verdict;
-    const fault = answerFault(sdp, this.#videos.lines);
+    const fault = answerFault(sdp, this.#videos.lines, this.#sound !== null);
     if (fault !== null) {
       this.#end('bad-answer', fault);
       return verdict;
@@ -283,7 +279,7 @@ export class OperatorPeer {
     clearTimeout(this.#connectTimer);
     this.#connected = true;
     this.#transport = transport;
-    this.#events.onConnected(transport, this.#videos.connect());
+    this.#events.onConnected(transport, this.#videos.connect(), this.#sound?.connect() ?? null);
   }
 
   #end(end: PeerEnd, detail: string): void {

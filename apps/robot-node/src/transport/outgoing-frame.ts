@@ -13,6 +13,8 @@ export interface OutgoingFrame extends PacedFrame {
   readonly capturedAtMs: number;
   /** For how long a packet may be retransmitted on request, ms. */
   readonly usefulMs: number;
+  /** Whether its last packet has RTP's marker bit; it has if undefined. Of sound, each packet is a frame of its own. */
+  readonly marked?: boolean;
   /** The payload of a packet, without a copy. */
   payload(index: number): Uint8Array;
   /** Every holder releases the frame once; its memory is reused when the last one has. */

@@ -1,6 +1,7 @@
 import type { IceCandidate, IceServer, VideoCodec } from '@farpoint/protocol';
 import type { CandidateRefusal, Refusal } from '@farpoint/webrtc';
 import type { RtpTransport } from './rtp-transport.ts';
+import type { SoundLine } from './sound-line.ts';
 import type { VideoLine } from './video-line.ts';
 
 /** Why a connection ended. */
@@ -24,6 +25,8 @@ export interface OperatorPeerOptions {
   pictures?: boolean | undefined;
   /** The codec of each video to offer; none if undefined. */
   videos?: readonly VideoCodec[] | undefined;
+  /** Whether to offer an m-line for sound. */
+  sound?: boolean | undefined;
   /** Called when something from the network was dropped unread. */
   onRefused?: ((reason: Refusal) => void) | undefined;
 }
@@ -32,8 +35,12 @@ export interface OperatorPeerEvents {
   onCandidate(candidate: IceCandidate): void;
   /** A candidate of the operator is left out; others may work. */
   onCandidateRefused?(reason: CandidateRefusal, detail: string): void;
-  /** The path and our channels are up. */
-  onConnected(clouds: RtpTransport, videos: readonly VideoLine[]): void;
+  /**
+   * The path and our channels are up.
+   *
+   * @param sound `null` if none was offered
+   */
+  onConnected(clouds: RtpTransport, videos: readonly VideoLine[], sound: SoundLine | null): void;
   onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void;
   /** Almost all queued picture data has been sent. */
   onPicturesLow?(): void;

@@ -191,7 +191,7 @@ export class StreamSender {
       const transport = this.#streams.get(frame.stream) ?? this.#transport;
       for (let i = first; i < first + count; i++) {
         const payload = frame.payload(i);
-        const marker = i === frame.packets - 1;
+        const marker = i === frame.packets - 1 && frame.marked !== false;
         const sequence = transport.send(payload, rtpTimestamp, marker, now, usefulMs, capturedAtMs);
         if (sequence === null) {
           this.counters.packetsUnsent++;

@@ -8,6 +8,7 @@ import { addReferenceMetrics } from './reference-metrics.ts';
 import { addSensorMetrics } from './sensor-metrics.ts';
 import { addSessionMetrics } from './session-metrics.ts';
 import { addSignalingMetrics } from './signaling-metrics.ts';
+import { addSoundMetrics } from './sound-metrics.ts';
 import { addVideoMetrics } from './video-metrics.ts';
 
 /** Registers all of the robot's counts for `/metrics`. */
@@ -20,6 +21,7 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   addPathMetrics(metrics, robot);
   addPictureMetrics(metrics, robot);
   addVideoMetrics(metrics, robot);
+  addSoundMetrics(metrics, robot);
   addRecordingMetrics(metrics, robot);
   addReferenceMetrics(metrics, robot);
 }

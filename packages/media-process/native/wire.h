@@ -8,11 +8,11 @@
 #include <stdint.h>
 
 enum { HEADER_BYTES = 5 };
-/* A raw picture of 8192 x 8192 in four bytes a pixel has 256 MiB; nothing here is near that. */
-enum { MOST_MESSAGE_BYTES = 128 * 1024 * 1024, MOST_CODED_BYTES = 32 * 1024 * 1024 };
+/* Of the message that says what to do. */
+enum { MOST_OPEN_BYTES = 64 * 1024 };
 
-enum { MESSAGE_OPEN = 1, MESSAGE_CONFIGURE = 2, MESSAGE_KEY_FRAME = 3, MESSAGE_FRAME = 4, MESSAGE_CODED = 5 };
-enum { MESSAGE_ENCODED = 65, MESSAGE_STATE = 66, MESSAGE_ERROR = 67 };
+/* Messages that every program has. */
+enum { MESSAGE_OPEN = 1, MESSAGE_CONFIGURE = 2, MESSAGE_STATE = 66, MESSAGE_ERROR = 67 };
 
 /* Moves the messages away from the standard output, onto which plugins print: that becomes the standard error. */
 void wire_init(void);
@@ -25,7 +25,7 @@ bool wire_read(void *to, size_t size);
 
 /*
  * Writes a message whole. Waits for as long as the reader takes nothing: the thread of the encoder then waits, and
- * pictures are dropped before the encoder, where no other picture depends on them.
+ * what is too much is dropped before the encoder, where nothing depends on it.
  */
 void wire_write(uint8_t type, const void *head, size_t head_size, const void *body, size_t body_size);
 

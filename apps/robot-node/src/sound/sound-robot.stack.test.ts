@@ -1,0 +1,150 @@
+/** The real robot program with a microphone and a loudspeaker. */
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Sound } from '@farpoint/protocol';
+import { Microphone, opusDurationMs } from '@farpoint/sound';
+import { ADDON_FILE, BUILD_REMEDY } from '@farpoint/sound/build';
+import { samplesOf, toneShare } from '@farpoint/sound/testing';
+import { afterAll, afterEach, describe, expect, it } from 'vitest';
+import type { OperatorClient } from '../testing/operator-client.ts';
+import { useRobot } from '../testing/use-robot.ts';
+
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-sound-'));
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const config = join(folder, 'farpoint.yaml');
+const heard = join(folder, 'heard.raw');
+const sink = `audio/x-raw,format=S16LE,rate=48000,channels=1 ! filesink location=${heard} buffer-mode=unbuffered`;
+writeFileSync(
+  config,
+  JSON.stringify({
+    robot: {
+      sound: {
+        microphone: { source: { kind: 'test', frequency: 500 } },
+        loudspeaker: { sink: { kind: 'gst', pipeline: sink } },
+      },
+    },
+  }),
+);
+
+const VOICE_HZ = 700;
+const speakers: Microphone[] = [];
+afterEach(async () => {
+  for (const speaker of speakers.splice(0)) await speaker.close();
+});
+
+/** Speaks until the test ends. @param lost each so many packets, one is lost */
+function speak({ sound }: OperatorClient, lost = Number.POSITIVE_INFINITY): Microphone {
+  let count = 0;
+  let step = 1;
+  const speaker = new Microphone({
+    ...{ source: { kind: 'test', frequency: VOICE_HZ }, bitsPerS: 32_000, onFailure: () => undefined },
+    onPacket: ({ bytes }) => {
+      count++;
+      if (count % lost === 0) step++;
+      else {
+        sound.speak(bytes, step);
+        step = 1;
+      }
+    },
+  });
+  speakers.push(speaker);
+  return speaker;
+}
+
+const bytesHeard = () => (existsSync(heard) ? readFileSync(heard) : Buffer.alloc(0));
+/** Resolves once so many bytes more have been played. */
+async function hears(client: OperatorClient, more: number): Promise<Buffer> {
+  const from = bytesHeard().length;
+  // Telemetry comes 20 times a second.
+  await client.until(() => bytesHeard().length >= from + more);
+  return bytesHeard().subarray(from);
+}
+
+/** Resolves when the robot says this of its sound from now on. */
+function next(client: OperatorClient, is: (sound: Sound) => boolean): Promise<void> {
+  const from = client.session.length;
+  return client.until(() =>
+    client.session.slice(from).some((message) => message.type === 'sound' && is(message)),
+  );
+}
+
+describe.skipIf(!existsSync(ADDON_FILE))(`sound (needs: ${BUILD_REMEDY})`, { timeout: 60_000 }, () => {
+  const robot = useRobot('sim-1', [
+    ...['--config', config, '--sim-size', '64', '--max-points', '600'],
+    ...['--rate-control', 'fixed', '--bitrate-mbps', '10'],
+  ]);
+  const metric = async (name: string) => {
+    const text = await (await fetch(`${robot.stack.robotAdminUrl('sim-1')}/metrics`)).text();
+    return Number(new RegExp(`^farpoint_robot_${name} (\\d+)`, 'm').exec(text)?.[1]);
+  };
+
+  it('is captured only while somebody listens, and reaches everybody who does', async () => {
+    const { client } = await robot.connect();
+    const first = await client.message('sound');
+    expect(first).toMatchObject({ microphone: { state: 'off' }, voice: { state: 'closed' } });
+    expect(client.sound.packets).toEqual([]);
+    expect(await metric('sound_listeners')).toBe(0);
+    expect(await metric('sound_packets_total')).toBe(0);
+    client.sendSession({ type: 'listen', on: true });
+    await client.message('sound', ({ microphone }) => microphone?.state === 'live');
+    const { client: second } = await robot.connect();
+    second.sendSession({ type: 'listen', on: true });
+    await client.until(() => client.sound.packets.length >= 30);
+    await second.until(() => second.sound.packets.length >= 30);
+    const packets = client.sound.packets.slice(1, 30);
+    for (const { payload, marker } of packets) {
+      expect(opusDurationMs(payload)).toBe(20);
+      expect(marker).toBe(false);
+    }
+    const steps = packets.slice(1).map(({ timestamp }, i) => (timestamp - packets[i]!.timestamp) >>> 0);
+    for (const step of steps) expect(Math.abs(step - 960)).toBeLessThanOrEqual(1);
+    // Encoded once.
+    expect(second.sound.packets.at(-1)?.payload).toEqual(
+      client.sound.packets.find(({ timestamp }) => timestamp === second.sound.packets.at(-1)?.timestamp)
+        ?.payload,
+    );
+    for (const each of [client, second]) {
+      const told = next(each, ({ microphone }) => microphone?.state === 'off');
+      each.sendSession({ type: 'listen', on: false });
+      await told;
+    }
+    expect(await metric('sound_bits_per_second')).toBe(0);
+  });
+
+  it('of the driver is played while the key is held, and the driver does not hear itself', async () => {
+    const { client } = await robot.connect();
+    await client.takeLease();
+    client.sendSession({ type: 'listen', on: true });
+    await client.message('sound', ({ microphone }) => microphone?.state === 'live');
+    speak(client, 10);
+    const held = setInterval(() => client.sendSession({ type: 'speak', held: true }), 250);
+    client.sendSession({ type: 'speak', held: true });
+    await client.message('sound', ({ voice }) => voice?.state === 'open');
+    await client.message('sound', ({ microphone }) => microphone?.state === 'muted');
+    const before = client.sound.packets.length;
+    const played = samplesOf(await hears(client, 60 * 960 * 2));
+    expect(toneShare(played.slice(9600), VOICE_HZ, 48_000)).toBeGreaterThan(0.8);
+    expect(client.sound.packets.length - before).toBeLessThan(5);
+    clearInterval(held);
+    const told = next(client, ({ voice }) => voice?.state === 'closed');
+    client.sendSession({ type: 'speak', held: false });
+    await told;
+    // What is sent on without the key is not played.
+    const silentFrom = bytesHeard().length;
+    const sentBefore = client.sound.packets.length;
+    await client.until(() => client.sound.packets.length > sentBefore + 20);
+    expect(bytesHeard().length - silentFrom).toBeLessThan(960 * 2 * 10);
+  });
+
+  it('of an operator who does not drive is not played, and it is told so', async () => {
+    const { client } = await robot.connect();
+    speak(client);
+    client.sendSession({ type: 'speak', held: true });
+    const told = await client.message('sound', ({ voice }) => voice?.state === 'not-driving');
+    expect(told.voice?.detail).toContain('drives');
+    const from = bytesHeard().length;
+    await client.until(() => client.completeFrames.length > 10);
+    expect(bytesHeard().length).toBe(from);
+  });
+});

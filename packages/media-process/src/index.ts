@@ -1,0 +1,14 @@
+export { type Child, KeptChild, type Retry } from './kept-child.ts';
+export { type ChildEnd, MediaChild, type MediaChildEvents } from './media-child.ts';
+export { WireError, type WireErrorCode } from './wire-error.ts';
+export { type LogLine, parseLogLine, parseWireJson } from './wire-json.ts';
+export {
+  COMMON_FROM_PROCESS,
+  COMMON_TO_PROCESS,
+  HEADER_BYTES,
+  type WireMessage,
+  WireMessageParser,
+  writeMessage,
+  writeOpen,
+} from './wire-messages.ts';
+export { withoutPasswords } from './without-passwords.ts';

@@ -1,0 +1,20 @@
+{
+  "targets": [
+    {
+      "target_name": "farpoint-sound",
+      "type": "executable",
+      "sources": [
+        "main.c", "pipeline.c", "capture.c", "play.c",
+        "../../media-process/native/wire.c", "../../media-process/native/log.c", "../../media-process/native/fault.c"
+      ],
+      "include_dirs": ["../../media-process/native"],
+      "defines": ["_GNU_SOURCE"],
+      "cflags": [
+        "-std=gnu11", "-Wall", "-Wextra", "-Wno-unused-parameter", "-O2",
+        "<!@(pkg-config --cflags gstreamer-1.0 gstreamer-app-1.0)"
+      ],
+      "cflags_c": ["-std=gnu11"],
+      "libraries": ["<!@(pkg-config --libs gstreamer-1.0 gstreamer-app-1.0)"]
+    }
+  ]
+}
