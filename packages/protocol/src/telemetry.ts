@@ -73,6 +73,8 @@ export interface Telemetry {
   sequence: number;
   /** Robot's monotonic clock, ms. */
   timeMs: number;
+  /** How much earlier pose and twist were measured, ms; absent if then. It grows when the odometry has stopped. */
+  ageMs?: number | undefined;
   /** Pose of base_link in the world frame. */
   pose: Pose;
   /** Measured velocity of base_link. */
@@ -98,6 +100,7 @@ const telemetrySchema = z.strictObject({
   type: z.literal('telemetry'),
   sequence: uint32Schema,
   timeMs: nonNegative,
+  ageMs: z.optional(nonNegative),
   pose: poseSchema,
   twist: twistSchema,
   battery: z.optional(

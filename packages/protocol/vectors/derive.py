@@ -571,11 +571,12 @@ state = telemetry.good({
                "targetBitsPerSecond": 8e7, "droppedFrames": 0},
     "operators": 2})
 telemetry.good(changed(state, "battery", ABSENT), "telemetry without a battery")
+telemetry.good({**state, "ageMs": 12.5}, "telemetry: pose and twist were measured earlier")
 telemetry.good(changed(state, "stream.feedback", "reports"), "telemetry: the rate follows receiver reports")
 for drive in ["idle", "watchdog", "estop", "blocked"]:
     telemetry.good(changed(state, "drive", drive), "telemetry: " + drive)
 telemetry.common(state, 4096)
-telemetry.spoil(state, ("sequence", -1), ("timeMs", -1), ("pose.position.x", None), ("pose.orientation.w", 2, "pose.orientation"),
+telemetry.spoil(state, ("sequence", -1), ("ageMs", -1), ("timeMs", -1), ("pose.position.x", None), ("pose.orientation.w", 2, "pose.orientation"),
                 ("pose.orientation.z", ABSENT), ("twist.linear", ABSENT), ("battery.percentage", 1.01), ("battery.voltage", -1),
                 ("drive", "parked"), ("stages.sendMs", -1), ("stages.extra", 1, "stages"), ("stream.validPoints", 1.5),
                 ("stream.feedback", "none"),
