@@ -1,10 +1,11 @@
 import { topicTableSchema } from '@farpoint/ros';
 import { describe, expect, it } from 'vitest';
+import type * as z from 'zod';
 import { describeQuantities } from '../telemetry/sample-board.ts';
 import { type AlarmOptions, alarmsOptions, DEFAULT_ALARMS, toAlarmRules } from './alarms.ts';
 
-const { schema } = alarmsOptions.alarms;
-const parse = (...alarms: object[]) => schema.parse(alarms) as AlarmOptions[];
+const schema = alarmsOptions.alarms.schema as z.ZodType<AlarmOptions[]>;
+const parse = (...alarms: object[]) => schema.parse(alarms);
 const faultOf = (...alarms: object[]) => schema.safeParse(alarms).error?.issues[0]?.message;
 
 describe('the alarms of a configuration', () => {

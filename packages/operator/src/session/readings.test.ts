@@ -14,7 +14,7 @@ describe('Readings', () => {
     expect(readings.take(battery('79 %', 100), 2000)).toBe(true);
     // The channel is unordered: this reading was overtaken.
     expect(readings.take(battery('81 %', 1500), 2010)).toBe(false);
-    expect(readings.list(2010)).toEqual([{ reading: battery('79 %', 100), ageMs: 110 }]);
+    expect(readings.list(2010)).toEqual([{ reading: battery('79 %', 100), ageMs: 110, intervalMs: null }]);
   });
 
   it('with times, orders them exactly, and finds what was known at an instant', () => {
@@ -30,6 +30,7 @@ describe('Readings', () => {
     expect(shown(1099)).toBe('80 %');
     expect(shown(5)).toBe('80 %');
     for (let i = 0; i < 100; i++) readings.take(at(`${i} %`, 2000 + i), 1000 + i);
+    expect(readings.list(0)[0]?.intervalMs).toBe(1);
     expect(shown(2050)).toBe('84 %');
     expect(shown(2090)).toBe('90 %');
   });

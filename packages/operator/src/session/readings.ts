@@ -7,6 +7,8 @@ export interface AgedReading {
   reading: Reading;
   /** Time since the robot took the reading, ms. */
   ageMs: number;
+  /** Typical time between two readings of the topic, ms; `null` before two are known. */
+  intervalMs: number | null;
 }
 
 interface Kept {
@@ -55,9 +57,17 @@ export class Readings {
   list(nowMs: number, instantMs: number = Number.POSITIVE_INFINITY): AgedReading[] {
     return [...this.#kept.values()].flatMap((kept) => {
       const there = kept.findLast(({ reading }) => (reading.timeMs ?? 0) <= instantMs) ?? kept[0];
-      return there === undefined ? [] : [{ reading: there.reading, ageMs: nowMs - there.readAtMs }];
+      if (there === undefined) return [];
+      const { reading, readAtMs } = there;
+      return [{ reading, ageMs: nowMs - readAtMs, intervalMs: intervalOf(kept) }];
     });
   }
+}
+
+function intervalOf(kept: readonly Kept[]): number | null {
+  const times = kept.flatMap(({ reading: { timeMs } }) => (timeMs === undefined ? [] : [timeMs]));
+  const intervals = times.slice(1).map((timeMs, i) => timeMs - (times[i] as number));
+  return intervals.sort((a, b) => a - b)[intervals.length >> 1] ?? null;
 }
 
 function isOlder(reading: Reading, readAtMs: number, newest: Kept): boolean {
