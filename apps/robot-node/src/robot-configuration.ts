@@ -1,4 +1,4 @@
-import type { DriveLimits, IceServer } from '@farpoint/protocol';
+import type { DriveLimits, IceServer, Quantity } from '@farpoint/protocol';
 import type { TakePolicy } from '@farpoint/safety';
 import type { BaseOptions } from './base/base-messages.ts';
 import type { SinkOptions } from './drive/open-sink.ts';
@@ -8,6 +8,7 @@ import type { ConfiguredVideo } from './options/videos.ts';
 import type { PicturePolicy } from './pictures/picture-plan.ts';
 import type { CloudSensorOptions } from './sensors/cloud-sensor.ts';
 import type { SignalingOptions } from './signaling/signaling-client.ts';
+import type { AlarmRule } from './telemetry/alarms/alarm-board.ts';
 import type { RecordingOptions } from './telemetry/session-recording.ts';
 import type { RateControlOptions } from './transport/make-rate-controller.ts';
 import type { FeedSource } from './video/feed/feed-source.ts';
@@ -29,6 +30,10 @@ export interface RobotOptions extends RateControlOptions {
   /** What moves the wheels. */
   sink: SinkOptions;
   limits: DriveLimits;
+  /** The numbers of its topics that are shown over time. */
+  quantities: readonly Quantity[];
+  /** Limits beyond which a value is an alarm. */
+  alarms: readonly AlarmRule[];
   takePolicy: TakePolicy;
   /** Where the robot remembers its emergency stop across restarts. */
   stateFolder: string;

@@ -3,6 +3,7 @@ import type { Logger } from '@farpoint/service';
 import type { Refusal } from '@farpoint/webrtc';
 import type { TimedBaseState } from './base/base.ts';
 import type { BaseThread } from './base/base-thread.ts';
+import { MOTORS_TOPIC } from './base/sim-topics.ts';
 import type { Capture } from './capture/capture.ts';
 import { monotonicMs, threadCpuMs } from './clock.ts';
 import { DriveStation } from './drive/drive-station.ts';
@@ -27,11 +28,11 @@ import { openSoundDevices } from './sound/open-sound-devices.ts';
 import { RobotSound } from './sound/robot-sound.ts';
 import { CommandLog } from './telemetry/command-log.ts';
 import { FrameLog } from './telemetry/frame-log.ts';
-import { ReadingBoard } from './telemetry/reading-board.ts';
 import { RobotCounters } from './telemetry/robot-counters.ts';
 import { RobotReports } from './telemetry/robot-reports.ts';
 import type { SessionRecording } from './telemetry/session-recording.ts';
 import { StageTimer } from './telemetry/stage-timer.ts';
+import { TelemetryBoard } from './telemetry/telemetry-board.ts';
 import { TelemetrySender } from './telemetry/telemetry-sender.ts';
 import { makeRateController } from './transport/make-rate-controller.ts';
 import { PacketLog } from './transport/packet-log.ts';
@@ -66,7 +67,7 @@ export class Robot {
   readonly #sendLoop = new SendLoop(monotonicMs, threadCpuMs);
   readonly #sessions: OperatorSessions;
   readonly #paths: PathKeeper;
-  readonly #readings = new ReadingBoard();
+  readonly #board: TelemetryBoard;
   readonly #reports: RobotReports;
   readonly #ticking: NodeJS.Timeout;
   #state: TimedBaseState | null = null;
@@ -80,6 +81,7 @@ export class Robot {
     this.recording = recording;
     this.#options = options;
     this.#log = log;
+    this.#board = new TelemetryBoard(options.quantities, options.alarms);
     this.#packetLog = options.packetLog === undefined ? undefined : new PacketLog(options.packetLog);
     this.#frameLog = options.frameLog === undefined ? undefined : new FrameLog(options.frameLog);
     this.#commandLog = options.commandLog === undefined ? undefined : new CommandLog(options.commandLog);
@@ -129,7 +131,8 @@ export class Robot {
         connected: (operator) => {
           const { id, name, limits, sensors } = options;
           const framesPerSecond = sensors[0]?.capture.framesPerSecond ?? 0;
-          const facts = { id, name, limits, framesPerSecond };
+          const { quantities, alarms } = this.#board;
+          const facts = { id, name, limits, framesPerSecond, quantities, alarms: alarms.raised };
           welcome(operator, facts, this.sensors, this.cameras.videos);
           this.sound.welcome(operator);
           this.sensors.updateBudgets();
@@ -142,9 +145,9 @@ export class Robot {
       },
     );
     const stages = new StageTimer();
-    const readings = this.#readings;
-    const telemetry = new TelemetrySender(this.operators, guard, stages, readings);
-    const addReading = (reading: TopicReading) => readings.add(reading, monotonicMs());
+    const board = this.#board;
+    const telemetry = new TelemetrySender(this.operators, guard, stages, board);
+    const addReading = (reading: TopicReading) => board.take(reading, monotonicMs());
     for (const each of captures) each.onReading = addReading;
     sink.tellReadings?.(addReading);
     this.sensors = new CloudSensors(
@@ -198,11 +201,15 @@ export class Robot {
       base.onState = (state) => {
         this.#state = state;
       };
+      base.onComponents = (components, motors) => {
+        addReading(components);
+        board.sample(MOTORS_TOPIC, motors, monotonicMs());
+      };
       base.onFailure = (error) => this.#fail(error);
     }
     this.#ticking = setInterval(() => this.#tick(), TICK_MS);
     this.#reports = new RobotReports({
-      ...{ operators: this.operators, counters: this.counters, telemetry, guard, recording, log },
+      ...{ operators: this.operators, counters: this.counters, telemetry, board, guard, recording, log },
       ...{ state: () => this.#state, statisticsFile: options.statisticsFile, now: monotonicMs },
     });
   }
@@ -276,7 +283,7 @@ export class Robot {
       return;
     }
     this.#log.error({ err: error, sensor: sensor.name }, 'a sensor has failed: the robot goes on without it');
-    this.#readings.add(failureReading(sensor), monotonicMs());
+    this.#board.take(failureReading(sensor), monotonicMs());
     this.sensors.updateBudgets();
   }
 

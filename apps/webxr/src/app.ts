@@ -10,8 +10,11 @@ import { PageState } from './state/page-state.ts';
 import { PageStatistics, type PageStats } from './status/page-stats.ts';
 import { failureWords, leavingWords, rejectionWords, wordsOfLoss } from './status/words.ts';
 import { loadAppearance, storeAppearance } from './stored-appearance.ts';
+import { PresentedInstant } from './telemetry/presented-instant.ts';
+import { TelemetryRecorder } from './telemetry/recorder.ts';
 import { CloudPanel } from './ui/cloud-panel.ts';
 import { ControlsUi } from './ui/controls-ui.ts';
+import { DashboardOpener } from './ui/dashboard-opener.ts';
 import { elements } from './ui/elements.ts';
 import { EstopUi } from './ui/estop-ui.ts';
 import { OperatorInputs } from './ui/operator-inputs.ts';
@@ -45,6 +48,10 @@ export class App {
   readonly videos: VideoFeed;
   readonly appearance = new CloudAppearance(loadAppearance(), storeAppearance);
   readonly stats = new PageStatistics();
+  /** The capture instant of what is shown. */
+  readonly presented = new PresentedInstant();
+  /** The robot's telemetry over time. */
+  readonly recorder: TelemetryRecorder;
   readonly vr: VrSession;
   readonly frames: FrameLoop;
   readonly #inputs: OperatorInputs;
@@ -79,8 +86,10 @@ export class App {
     this.videos = new VideoFeed({
       ...{ client: this.client, views: this.state.videos, synchronised: settings.synchronised },
       open: videoReading(),
+      presented: this.presented,
       now: () => performance.now(),
     });
+    this.recorder = new TelemetryRecorder(this.client, () => performance.now());
     this.cloud = new CloudView(renderer, this.client);
     world.add(this.cloud);
     this.clouds = new SensorClouds({
@@ -90,7 +99,12 @@ export class App {
     this.#estop = new EstopUi(this.client, this.state.robot, this.#release);
     const { client, state, stage, cloud, clouds, videos, stats, vr, appearance } = this;
     const choose = (robotId: string) => this.choose(robotId);
-    this.#controls = new ControlsUi({ client, state, stage, vr, appearance, estop: this.#estop, choose });
+    const { recorder, presented } = this;
+    const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
+    const toggleDashboard = () => dashboard.toggle();
+    this.#controls = new ControlsUi({
+      ...{ client, state, stage, vr, appearance, estop: this.#estop, choose, toggleDashboard },
+    });
     this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all });
     const readHeadset = () => this.#inputs.readHeadset(vr.inputSources);
     this.frames = new FrameLoop({ settings, client, stage, cloud, clouds, videos, stats, vr, readHeadset });

@@ -3,6 +3,7 @@
 import { type BridgeAddress, parseBridge, parseSignalingUrl } from '@farpoint/operator';
 import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
 import { parseTokens, type SignalingTokens, tokenOrigin, withToken } from './signaling-tokens.ts';
+import { type MapTiles, mapTilesOf } from './telemetry/map-tiles.ts';
 
 /** What the browser keeps between visits. */
 export interface StoredSettings {
@@ -11,6 +12,9 @@ export interface StoredSettings {
   name?: string | undefined;
   pointScale?: number | undefined;
   synchronised?: boolean | undefined;
+  /** Address template of a map's tiles, and whose they are. */
+  mapTiles?: string | undefined;
+  mapAttribution?: string | undefined;
 }
 
 /** Where the page was loaded from. */
@@ -43,6 +47,8 @@ export interface Settings {
   pointScale: number;
   /** Whether videos are presented in step: frames wait for what was captured at the same time. */
   synchronised: boolean;
+  /** Where tiles of a map come from; `null`: no tile is fetched. */
+  mapTiles: MapTiles | null;
   /** Whether the robot draws the capture time into videos, to measure latency. */
   barcode: boolean;
 }
@@ -85,6 +91,7 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     drawEvery: parseEvery(query.get('every')),
     pointScale: clampScale(stored.pointScale),
     synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
+    mapTiles: mapTilesOf(stored.mapTiles, stored.mapAttribution, page),
     barcode: parseSwitch(query.get('barcode')) ?? false,
   };
 }
@@ -122,6 +129,8 @@ export function parseStored(text: string | null, ownUrl: string): StoredSettings
     name: textOf('name'),
     pointScale: typeof record.pointScale === 'number' ? clampScale(record.pointScale) : undefined,
     synchronised: typeof record.synchronised === 'boolean' ? record.synchronised : undefined,
+    mapTiles: textOf('mapTiles'),
+    mapAttribution: textOf('mapAttribution'),
   };
 }
 

@@ -7,21 +7,28 @@
 
 // What the robot's events are made of.
 export type {
+  Alarm,
   Battery,
   Cameras,
   CloudFormat,
   CommandRejected,
   CommandRejection,
+  DiagnosticLevel,
+  DiagnosticReport,
+  Diagnostics,
   DriveLimits,
   DriveState,
   EstopState,
   LatencyFrame,
   LeaseState,
   Pose,
+  Quantity,
   Quaternion,
   Reading,
   ReadingLevel,
   RobotListing,
+  Sample,
+  Samples,
   Sensors,
   StageTimings,
   StreamStatus,
@@ -62,6 +69,7 @@ export { type Distribution, SampleWindow } from './latency/sample-window.ts';
 export type { RobotLink } from './link/robot-link.ts';
 export { type TransformSupport, transformSupport } from './peer/encoded-transform.ts';
 export type { Picture } from './pictures/picture-feed.ts';
+export { ComponentReports, type ReportedComponents } from './session/component-reports.ts';
 export { type AgedReading, Readings } from './session/readings.ts';
 export type { RobotSession } from './session/robot-session.ts';
 export type { SessionPhase } from './session/session-keeper.ts';

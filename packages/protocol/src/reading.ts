@@ -29,6 +29,8 @@ export interface Reading {
   values: [string, string][];
   /** Time since the robot received it, ms. */
   ageMs: number;
+  /** When the robot received it, by its monotonic clock, ms. Robots before version 0.2 leave it out. */
+  timeMs?: number | undefined;
 }
 
 const { topic, label, values, name, text } = READING_LIMITS;
@@ -42,4 +44,5 @@ export const readingSchema = z.strictObject({
     .array(z.tuple([z.string().check(z.maxLength(name)), z.string().check(z.maxLength(text))]))
     .check(z.maxLength(values)),
   ageMs: z.number().check(z.minimum(0)),
+  timeMs: z.optional(z.number().check(z.minimum(0))),
 }) satisfies z.ZodMiniType<Reading>;

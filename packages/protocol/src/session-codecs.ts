@@ -1,11 +1,13 @@
 /** The messages of the `session` channel as JSON: what is read is checked. */
 import * as z from 'zod/mini';
+import { alarmSchema } from './alarm.ts';
 import { CLOUD_FORMATS } from './cloud-format.ts';
 import { commandRejections } from './control.ts';
 import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
+import { quantitySchema } from './quantity.ts';
 import type { OperatorSessionMessage, RobotSessionMessage } from './session-messages.ts';
 import { MICROPHONE_STATES, VOICE_STATES } from './sound-media.ts';
 import { MAX_VIDEOS, VIDEO_CODECS } from './video-media.ts';
@@ -108,6 +110,8 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
         z.strictObject({ state: z.enum(VOICE_STATES), detail: z.optional(soundDetailSchema) }),
       ),
     }),
+    quantitySchema,
+    alarmSchema,
     z.strictObject({ type: z.literal('fault'), message: z.string().check(z.maxLength(512)) }),
   ]),
   maxBytes: 4096,

@@ -1,8 +1,10 @@
 /**
  * The `session` channel, opened by the robot, ordered and reliable: who drives, what the stream is, what was refused.
  */
+import type { Alarm } from './alarm.ts';
 import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
+import type { Quantity } from './quantity.ts';
 import type { MicrophoneState, VoiceState } from './sound-media.ts';
 import type { VideoCodec } from './video-media.ts';
 
@@ -204,6 +206,8 @@ export type RobotSessionMessage =
   | Sensors
   | Videos
   | Sound
+  | Quantity
+  | Alarm
   | SessionFault;
 
 /** Requests the lease. `take` asks to take over from another operator; the robot's policy decides. */

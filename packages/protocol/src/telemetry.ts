@@ -1,11 +1,13 @@
 /**
  * The `telemetry` channel, opened by the robot, unordered, with a short lifetime: the robot's state, 20 times per
- * second, and readings.
+ * second, samples of quantities, readings and diagnostics.
  */
 import * as z from 'zod/mini';
+import { type Diagnostics, diagnosticsSchema } from './diagnostics.ts';
 import { type Pose, poseSchema, type Twist, twistSchema } from './geometry.ts';
 import { uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
+import { type Samples, samplesSchema } from './quantity.ts';
 import { type Reading, readingSchema } from './reading.ts';
 
 /** Whether the robot is driving, and if not, why. */
@@ -71,6 +73,8 @@ export interface Telemetry {
   sequence: number;
   /** Robot's monotonic clock, ms. */
   timeMs: number;
+  /** How much earlier pose and twist were measured, ms; absent if then. It grows when the odometry has stopped. */
+  ageMs?: number | undefined;
   /** Pose of base_link in the world frame. */
   pose: Pose;
   /** Measured velocity of base_link. */
@@ -90,12 +94,13 @@ export interface Telemetry {
 const nonNegative = z.number().check(z.minimum(0));
 const count = z.int().check(z.minimum(0));
 
-export type TelemetryMessage = Telemetry | Reading;
+export type TelemetryMessage = Telemetry | Reading | Samples | Diagnostics;
 
 const telemetrySchema = z.strictObject({
   type: z.literal('telemetry'),
   sequence: uint32Schema,
   timeMs: nonNegative,
+  ageMs: z.optional(nonNegative),
   pose: poseSchema,
   twist: twistSchema,
   battery: z.optional(
@@ -123,6 +128,6 @@ const telemetrySchema = z.strictObject({
 
 export const telemetryCodec: JsonCodec<TelemetryMessage> = {
   what: 'telemetry message',
-  schema: z.discriminatedUnion('type', [telemetrySchema, readingSchema]),
+  schema: z.discriminatedUnion('type', [telemetrySchema, readingSchema, samplesSchema, diagnosticsSchema]),
   maxBytes: 4096,
 };

@@ -506,7 +506,17 @@ for microphone in ["off", "starting", "live", "muted", "slow-link"]:
 for voice in ["open", "not-driving", "silent", "failed"]:
     robot_session.good({"type": "sound", "mid": "3", "voice": {"state": voice}}, "sound: voice " + voice)
 fault = robot_session.good({"type": "fault", "message": "operator session message: latch: expected boolean"})
+quantity = robot_session.good({"type": "quantity", "number": 0, "topic": "/gripper/temperature", "field": "data", "label": "Gripper", "unit": "\u00b0C"})
+robot_session.good(changed(quantity, "unit", ""), "quantity without a unit")
+alarm = robot_session.good({"type": "alarm", "number": 1, "level": "warn", "text": "The battery is low", "value": 19.5, "limit": 20, "unit": "%",
+                            "sinceMs": 88131.25})
+for level in ["error", "ok"]:
+    robot_session.good(changed(alarm, "level", level), "alarm: " + level)
 robot_session.common(fault, 4096)
+robot_session.spoil(quantity, ("number", 64), ("number", -1), ("topic", ""), ("field", "f" * 129), ("label", ""), ("unit", "u" * 13),
+                    ("unit", ABSENT))
+robot_session.spoil(alarm, ("number", 32), ("level", "stale"), ("text", ""), ("text", "x" * 121), ("value", None), ("limit", ABSENT),
+                    ("unit", 1), ("sinceMs", -1))
 robot_session.spoil(welcome, ("protocol", 0), ("protocol", 1.5), ("robotId", "Sim"), ("robotId", "-sim"), ("robotId", "x" * 65), ("name", ""),
                     ("name", "a\nb"), ("name", "x" * 65), ("limits.maxLinear", 0), ("limits.watchdogMs", -150),
                     ("limits.maxAngular", ABSENT), ("limits.extra", 1, "limits"), ("stream.format", "points32"), ("stream.width", 0),
@@ -578,11 +588,12 @@ state = telemetry.good({
                "targetBitsPerSecond": 8e7, "droppedFrames": 0},
     "operators": 2})
 telemetry.good(changed(state, "battery", ABSENT), "telemetry without a battery")
+telemetry.good({**state, "ageMs": 12.5}, "telemetry: pose and twist were measured earlier")
 telemetry.good(changed(state, "stream.feedback", "reports"), "telemetry: the rate follows receiver reports")
 for drive in ["idle", "watchdog", "estop", "blocked"]:
     telemetry.good(changed(state, "drive", drive), "telemetry: " + drive)
 telemetry.common(state, 4096)
-telemetry.spoil(state, ("sequence", -1), ("timeMs", -1), ("pose.position.x", None), ("pose.orientation.w", 2, "pose.orientation"),
+telemetry.spoil(state, ("sequence", -1), ("ageMs", -1), ("timeMs", -1), ("pose.position.x", None), ("pose.orientation.w", 2, "pose.orientation"),
                 ("pose.orientation.z", ABSENT), ("twist.linear", ABSENT), ("battery.percentage", 1.01), ("battery.voltage", -1),
                 ("drive", "parked"), ("stages.sendMs", -1), ("stages.extra", 1, "stages"), ("stream.validPoints", 1.5),
                 ("stream.feedback", "none"),
@@ -590,11 +601,25 @@ telemetry.spoil(state, ("sequence", -1), ("timeMs", -1), ("pose.position.x", Non
 reading = telemetry.good({"type": "reading", "topic": "/battery", "label": "Battery", "level": "ok",
                           "values": [["", "87 %"], ["", "25.1 V"], ["cells", "[4.1, 4.2]"]], "ageMs": 120})
 telemetry.good(changed(reading, "values", []), "reading without values")
+telemetry.good({**reading, "timeMs": 88131.25}, "reading with its time")
+samples = telemetry.good({"type": "samples", "timeMs": 88131.25, "samples": [[0, -20, 24.5], [0, 0, 24.75], [63, -0.5, -1e-300]]})
+diagnostics = telemetry.good({"type": "diagnostics", "topic": "/diagnostics", "timeMs": 88131.25,
+                              "counts": {"error": 1, "warn": 0, "stale": 1, "ok": 12},
+                              "reports": [{"name": "lidar", "level": "error", "message": "no data", "sinceMs": 88000},
+                                          {"name": "gripper", "level": "stale", "message": "", "sinceMs": 70000.5}]})
+telemetry.good(changed(diagnostics, "reports", []), "diagnostics: only the counts")
+for level in ["warn", "ok"]:
+    telemetry.good(changed(diagnostics, "reports.0.level", level), "diagnostics: " + level)
+telemetry.spoil(samples, ("timeMs", -1), ("samples", []), ("samples", [[0, 0, 1]] * 65), ("samples", [[64, 0, 1]], "samples.0.0"),
+                ("samples", [[0, 1, 1]], "samples.0.1"), ("samples", [[0, 0, None]], "samples.0.2"), ("samples", [[0, 0]], "samples.0"))
+telemetry.spoil(diagnostics, ("topic", ""), ("timeMs", ABSENT), ("counts.ok", -1), ("counts.fatal", 1, "counts"), ("counts.stale", ABSENT),
+                ("reports", diagnostics["reports"] * 5), ("reports.0.name", "n" * 49), ("reports.0.level", "fatal"),
+                ("reports.0.message", "m" * 73), ("reports.1.sinceMs", -1))
 for level in ["warn", "error"]:
     telemetry.good(changed(reading, "level", level), "reading: " + level)
 telemetry.spoil(reading, ("topic", ""), ("topic", "/" + "a" * 255), ("label", ""), ("label", "l" * 41), ("level", "fatal"),
                 ("values", [["", "x"]] * 11), ("values", [["x"]], "values.0"), ("values", [["n" * 37, "x"]], "values.0.0"),
-                ("values", [["", "x" * 61]], "values.0.1"), ("values", [["", 7]], "values.0.1"), ("ageMs", -1), ("unit", "V", ""))
+                ("values", [["", "x" * 61]], "values.0.1"), ("values", [["", 7]], "values.0.1"), ("ageMs", -1), ("timeMs", -1), ("unit", "V", ""))
 write("telemetry.json", telemetry.lists())
 
 reference_control = Messages()

@@ -1,4 +1,5 @@
 /** The last report of every node: messages on /diagnostics are partial and come from many nodes. */
+import type { DiagnosticLevel, DiagnosticReport } from '@farpoint/protocol';
 import type { z } from 'zod';
 import { diagnosticArraySchema } from './messages.ts';
 
@@ -6,11 +7,20 @@ import { diagnosticArraySchema } from './messages.ts';
 const STALE_MS = 10_000;
 const MOST_NAMES = 1024;
 const STALE = 3;
+const LEVELS: readonly DiagnosticLevel[] = ['ok', 'warn', 'error', 'stale'];
 
 type Status = z.infer<typeof diagnosticArraySchema>['status'][number];
 
+interface Entry {
+  status: Status;
+  atMs: number;
+  /** The level that it was last seen with, and since when. */
+  level: number;
+  sinceMs: number;
+}
+
 export class DiagnosticBoard {
-  readonly #said = new Map<string, { status: Status; atMs: number }>();
+  readonly #said = new Map<string, Entry>();
 
   /**
    * Takes in a message.
@@ -20,13 +30,37 @@ export class DiagnosticBoard {
   take(message: unknown, nowMs: number): z.infer<typeof diagnosticArraySchema> {
     const { header, status } = diagnosticArraySchema.parse(message);
     for (const each of status) {
-      if (this.#said.has(each.name) || this.#said.size < MOST_NAMES) {
-        this.#said.set(each.name, { status: each, atMs: nowMs });
-      }
+      const before = this.#said.get(each.name);
+      if (before === undefined && this.#said.size >= MOST_NAMES) continue;
+      if (before !== undefined) this.#age(before, nowMs);
+      const level = levelOf(each.level);
+      const sinceMs = before?.level === level ? before.sinceMs : nowMs;
+      this.#said.set(each.name, { status: each, atMs: nowMs, level, sinceMs });
     }
-    const all = [...this.#said.values()].map(({ status, atMs }) =>
-      nowMs - atMs > STALE_MS ? { ...status, level: STALE, message: '' } : status,
+    for (const entry of this.#said.values()) this.#age(entry, nowMs);
+    const all = [...this.#said.values()].map(({ status, level, atMs }) =>
+      level === STALE && nowMs - atMs > STALE_MS ? { ...status, level, message: '' } : status,
     );
     return { header, status: all };
   }
+
+  /** Every node's state after the last message, in the order in which they first reported. */
+  get components(): DiagnosticReport[] {
+    return [...this.#said.values()].map(({ status: { name, message }, level, sinceMs }) => ({
+      ...{ name, message, sinceMs },
+      level: LEVELS[level] ?? 'error',
+    }));
+  }
+
+  #age(entry: Entry, nowMs: number): void {
+    if (nowMs - entry.atMs <= STALE_MS || entry.level === STALE) return;
+    entry.level = STALE;
+    entry.sinceMs = entry.atMs + STALE_MS;
+  }
+}
+
+/** A byte in ROS 2, which some libraries represent as text. */
+export function levelOf(level: number | string): number {
+  const value = typeof level === 'number' ? level : (level.codePointAt(0) ?? 0);
+  return Math.min(Math.max(value, 0), STALE);
 }

@@ -45,8 +45,9 @@ export { type ImageRows, MOST_PICTURE_PIXELS, pictureRows } from './picture-rows
 export { axesOf, checkedCount, PointCloud2Decoder } from './point-cloud2.ts';
 export type { CloudAxes } from './point-words.ts';
 export { RateLimit } from './rate-limit.ts';
-export { readingOf, type TopicReading } from './reading.ts';
+export { readingOf, shortened, type TopicReading } from './reading.ts';
 export { ros1Hostname } from './ros1-hostname.ts';
+export { numbersOf, quantitiesOf, type TopicQuantity } from './topic-quantities.ts';
 export {
   qosOf,
   ros1TypeOf,

@@ -1,10 +1,16 @@
 /** Formats a topic's message as short text for people, with limited length whatever it contains. */
-import { READING_LIMITS, type Reading, type ReadingLevel } from '@farpoint/protocol';
+import { type DiagnosticReport, READING_LIMITS, type Reading, type ReadingLevel } from '@farpoint/protocol';
+import { levelOf } from './diagnostic-board.ts';
 import { batteryDetailsSchema, diagnosticArraySchema, navSatFixSchema } from './messages.ts';
 import type { TopicEntry, TopicRole } from './topic-table.ts';
 
-/** As it is sent, without its age. */
-export type TopicReading = Pick<Reading, 'topic' | 'label' | 'level' | 'values'>;
+/** As it is sent, without its age, and what else the message says. */
+export interface TopicReading extends Pick<Reading, 'topic' | 'label' | 'level' | 'values'> {
+  /** The values of the topic's quantities, in their order. */
+  numbers?: readonly (number | null)[];
+  /** What components have reported, if it is a topic of diagnostics. */
+  components?: readonly DiagnosticReport[];
+}
 
 const { values: MOST_VALUES, label: MOST_LABEL, name: MOST_NAME, text: MOST_TEXT } = READING_LIMITS;
 /** How deep an unknown message is examined, and how many elements of an array are shown. */
@@ -111,12 +117,6 @@ function diagnostics(message: unknown): Body {
   return { level: LEVELS[worst] ?? 'error', values };
 }
 
-/** A byte in ROS 2, which some libraries represent as text. */
-function levelOf(level: number | string): number {
-  const value = typeof level === 'number' ? level : (level.codePointAt(0) ?? 0);
-  return Math.min(Math.max(value, 0), 3);
-}
-
 function text(message: unknown): Body {
   const values: [string, string][] = [];
   flatten('', message, 0, values);
@@ -165,11 +165,12 @@ function plainText(value: unknown): string | null {
   }
 }
 
-/** At most this many characters, without control characters. */
-function shortened(text: string, most: number): string {
+/** At most this many characters, without control characters and halves of characters. */
+export function shortened(text: string, most: number): string {
   const clean = text
     .slice(0, most + 1)
     .replace(/\p{Cc}+/gu, ' ')
     .trim();
-  return clean.length > most ? `${clean.slice(0, most - 1)}…` : clean;
+  // JSON takes six bytes for half a character.
+  return (clean.length > most ? `${clean.slice(0, most - 1)}…` : clean).toWellFormed();
 }

@@ -2,10 +2,11 @@
  * Which topics the robot may use, and as what. Topics that are not in the table are neither subscribed nor published,
  * whatever discovery finds.
  */
-import { MAX_CAMERAS } from '@farpoint/protocol';
+import { MAX_CAMERAS, MAX_QUANTITIES } from '@farpoint/protocol';
 import type { MessageDefinition } from '@foxglove/message-definition';
 import * as z from 'zod';
 import { LATCHED_QOS, type Qos, RELIABLE_QOS, SENSOR_QOS, VELOCITY_QOS } from './graph.ts';
+import { tooManyQuantities, topicQuantitiesSchema } from './topic-quantities.ts';
 
 /** The roles of a topic, and the types allowed for each; the first is used if none is given. */
 export const TOPIC_ROLES = {
@@ -87,6 +88,8 @@ export interface TopicEntry {
   most: number | null;
   /** Label shown next to its values; the topic if absent. */
   label?: string | undefined;
+  /** The numbers of a `text` topic that are shown over time. */
+  quantities?: z.output<typeof topicQuantitiesSchema> | undefined;
   /** If absent, what the role usually needs. ROS 2 only. */
   qos?: Qos | undefined;
   /** For a type that is not part of ROS, from files: itself first. */
@@ -109,6 +112,7 @@ const entry = z
         .min(1, 'must not be empty')
         .max(40, 'must be at most 40 characters')
         .optional(),
+      quantities: topicQuantitiesSchema.optional(),
       qos: qos.optional(),
     },
     { error: unknownKeys('must be a mapping with topic and as') },
@@ -127,6 +131,14 @@ const entry = z
     }
     if (type === undefined) {
       context.addIssue({ code: 'custom', path: ['type'], message: `is needed for as: ${given.as}` });
+      return z.NEVER;
+    }
+    if (given.quantities !== undefined && given.as !== 'text') {
+      context.addIssue({
+        code: 'custom',
+        path: ['quantities'],
+        message: `can be given for as: text only`,
+      });
       return z.NEVER;
     }
     if (types.length > 0 && !types.includes(type)) {
@@ -166,6 +178,8 @@ export const topicTableSchema = z
       if (entries.findIndex((each) => each.topic === topic) !== index)
         fault(index, 'topic', `${topic} is listed twice`);
     });
+    if (tooManyQuantities(entries))
+      context.addIssue({ code: 'custom', message: `have more than ${MAX_QUANTITIES} quantities together` });
     const depth = first('depth');
     if (depth >= 0 && first('cloud') >= 0) fault(depth, 'as', 'depth and cloud cannot both be given');
     if (depth >= 0 && first('cameraInfo') < 0) fault(depth, 'as', 'depth needs an entry cameraInfo');

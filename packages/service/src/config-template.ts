@@ -52,7 +52,9 @@ function byGroup(places: readonly OptionPlace[], leftOut: readonly string[]): Ma
 function entry(name: string, value: unknown, indent: string, argument: string | undefined): string[] {
   // Nothing after the colon is YAML's null, which counts as absent.
   if (value === null) return [`${indent}${name}:${argument === undefined ? '' : ` # ${argument}`}`];
-  if (!Array.isArray(value) || value.length === 0) return [`${indent}${name}: ${flow(value)}`];
+  // A list behind a `#` stays on one line, so that removing the `#` is enough.
+  const oneLine = !Array.isArray(value) || value.length === 0 || indent.endsWith('#');
+  if (oneLine) return [`${indent}${name}: ${flow(value)}`];
   return [`${indent}${name}:`, ...value.map((item) => `${indent}  - ${flow(item)}`)];
 }
 

@@ -6,6 +6,7 @@ export {
   type Images,
   type WasmSource,
 } from './camera.ts';
+export { type ComponentState, componentStates } from './component-states.ts';
 export { DEFAULT_LIMITS, type RobotLimits } from './drive.ts';
 export { SimulationError, type SimulationErrorCode } from './errors.ts';
 export { type BaseState, SimulatedBase, TIME_STEP } from './simulated-base.ts';

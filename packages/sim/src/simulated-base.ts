@@ -3,6 +3,7 @@ import { Battery, type BatteryState } from './battery.ts';
 import { CollisionWorld, staticObstacles } from './collision.ts';
 import { DifferentialDrive, type RobotLimits } from './drive.ts';
 import { requireFinite, SimulationError } from './errors.ts';
+import { Motor } from './motor.ts';
 import { MovingBody } from './movers.ts';
 import { cos, sin, wrapAngle } from './trigonometry.ts';
 import type { WorldDescription } from './world.ts';
@@ -22,6 +23,8 @@ export interface BaseState {
   yaw: number;
   /** Actual velocity in base_link. */
   twist: Twist;
+  /** Of the windings, °C. */
+  motorCelsius: { left: number; right: number };
   /** Radians rotated since the start, and rad/s. */
   wheelAngles: { left: number; right: number };
   wheelSpeeds: { left: number; right: number };
@@ -39,7 +42,8 @@ export interface BaseState {
 export class SimulatedBase {
   readonly world: WorldDescription;
   readonly #drive: DifferentialDrive;
-  readonly #battery = new Battery();
+  readonly #battery: Battery;
+  readonly #motors = { left: new Motor(), right: new Motor() };
   readonly #collisions: CollisionWorld;
   readonly #movers: MovingBody[];
   #steps = 0;
@@ -50,9 +54,12 @@ export class SimulatedBase {
   #distance = 0;
   #collision = false;
 
-  /** @throws SimulationError for an invalid world or invalid limits */
-  constructor(world: WorldDescription, limits?: Partial<RobotLimits>) {
+  /** @param charge of the battery at the start, 0 to 1 @throws SimulationError for an invalid world, limit or charge */
+  constructor(world: WorldDescription, limits?: Partial<RobotLimits>, charge = 0.95) {
     this.world = world;
+    if (!(charge >= 0 && charge <= 1))
+      throw new SimulationError('out-of-range', 'charge', `${charge} is not between 0 and 1`);
+    this.#battery = new Battery(charge);
     this.#drive = new DifferentialDrive(limits);
     this.#movers = world.movers.map((mover) => new MovingBody(mover));
     this.#collisions = new CollisionWorld(
@@ -123,6 +130,8 @@ export class SimulatedBase {
     this.#wheelAngles.right += wheels.right * TIME_STEP;
     this.#distance += Math.abs(drive.linear) * TIME_STEP;
     const acceleration = (drive.linear - before) / TIME_STEP;
+    this.#motors.left.step(TIME_STEP, wheels.left * drive.limits.wheelRadius, acceleration);
+    this.#motors.right.step(TIME_STEP, wheels.right * drive.limits.wheelRadius, acceleration);
     this.#battery.step(TIME_STEP, drive.linear, drive.angular, acceleration, this.#docked);
     this.#steps++;
   }
@@ -145,6 +154,7 @@ export class SimulatedBase {
       pose: basePose({ ...this.#position, yaw: this.#yaw }),
       yaw: this.#yaw,
       twist: this.#drive.twist,
+      motorCelsius: { left: this.#motors.left.celsius, right: this.#motors.right.celsius },
       wheelAngles: { ...this.#wheelAngles },
       wheelSpeeds: this.#drive.wheelSpeeds,
       battery: this.#battery.state,

@@ -1,10 +1,13 @@
 /** Messages between the main thread and the base's thread. */
 import type { Twist } from '@farpoint/protocol';
+import type { TopicReading } from '@farpoint/ros';
 import type { TimedBaseState } from './base.ts';
 
 export interface BaseOptions {
   /** The base stops after this long without a velocity, ms. */
   watchdogMs: number;
+  /** Charge of the battery at the start, 0 to 1. */
+  charge: number;
 }
 
 export interface BaseWorkerData extends BaseOptions {
@@ -18,4 +21,8 @@ export interface BaseReport {
   state: TimedBaseState;
   /** How often the watchdog has stopped the base. */
   watchdogStops: number;
+  /** What the components say about themselves; once a second. */
+  components?: TopicReading;
+  /** The numbers of the motors' topic; with the components. */
+  motors?: readonly (number | null)[];
 }

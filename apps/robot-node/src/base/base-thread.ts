@@ -1,5 +1,6 @@
 import { Worker } from 'node:worker_threads';
 import type { Twist } from '@farpoint/protocol';
+import type { TopicReading } from '@farpoint/ros';
 import { officeWorld } from '@farpoint/sim';
 import type { VelocitySink } from '../drive/velocity-sink.ts';
 import type { TimedBaseState } from './base.ts';
@@ -15,6 +16,8 @@ export class BaseThread implements VelocitySink {
   /** Simulated sensors read the world from here. */
   readonly snapshot = makeSharedSnapshot(officeWorld().movers.length);
   onState: ((state: TimedBaseState) => void) | null = null;
+  /** Called once a second with what the components say, and the numbers of the motors' topic. */
+  onComponents: ((components: TopicReading, motors: readonly (number | null)[]) => void) | null = null;
   /** Called once if the thread ends unexpectedly. */
   onFailure: ((error: Error) => void) | null = null;
   watchdogStops = 0;
@@ -25,9 +28,10 @@ export class BaseThread implements VelocitySink {
   constructor(options: BaseOptions) {
     const workerData: BaseWorkerData = { ...options, snapshot: this.snapshot };
     this.#worker = new Worker(new URL('./base-worker.ts', import.meta.url), { workerData });
-    this.#worker.on('message', ({ state, watchdogStops }: BaseReport) => {
+    this.#worker.on('message', ({ state, watchdogStops, components, motors = [] }: BaseReport) => {
       this.watchdogStops = watchdogStops;
       this.onState?.(state);
+      if (components !== undefined) this.onComponents?.(components, motors);
     });
     this.#worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));
     this.#ended = new Promise((resolve) => this.#worker.once('exit', resolve));

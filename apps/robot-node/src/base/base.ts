@@ -9,6 +9,8 @@ export interface BaseState {
   battery: Battery | null;
   /** Whether the base touches an obstacle. */
   contact: boolean;
+  /** When pose and twist were measured, robot's clock, ms; if absent, now. */
+  measuredMs?: number;
 }
 
 /** The time of the state, on the robot's clock. */

@@ -1,6 +1,7 @@
 /** A topic whose messages are shown to people, live or recorded. */
 import {
   DiagnosticBoard,
+  numbersOf,
   RateLimit,
   readingOf,
   type TopicEntry,
@@ -43,8 +44,13 @@ export class ReadingTopic {
    * is invalid
    */
   take(message: unknown, nowMs: number): TopicReading | null {
-    if (this.#board === null) return readingOf(this.#entry, message);
+    const entry = this.#entry;
+    if (this.#board === null) {
+      const numbers = numbersOf(entry, message);
+      return { ...readingOf(entry, message), ...(numbers.length === 0 ? {} : { numbers }) };
+    }
     const told = this.#board.take(message, nowMs);
-    return this.#limit.admits(nowMs) ? readingOf(this.#entry, told) : null;
+    if (!this.#limit.admits(nowMs)) return null;
+    return { ...readingOf(entry, told), components: this.#board.components };
   }
 }

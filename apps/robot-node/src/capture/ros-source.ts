@@ -117,7 +117,8 @@ export class RosSource implements FrameSource {
 
   get state(): BaseState {
     const { basePose: pose, twist, battery } = this.#world;
-    return { pose, twist, battery, contact: false };
+    const { measuredMs } = this.#state;
+    return { pose, twist, battery, contact: false, ...(measuredMs === null ? {} : { measuredMs }) };
   }
 
   capture(nowMs: number, _wishes: CaptureWishes, room: CaptureRoom): SourceFrame | null {
@@ -166,27 +167,32 @@ export class RosSource implements FrameSource {
 /** The topics that report the robot's pose and state. */
 class StateTopics {
   readonly world = new WorldState();
+  /** When the robot's pose last came, ms on the robot's clock. */
+  measuredMs: number | null = null;
   onFault: ((fault: RosFault) => void) | null = null;
   onReading: ((reading: TopicReading) => void) | null = null;
   readonly #listeners: Listener[];
 
   constructor(graph: RosGraph, topics: TopicTable, clock: RosClock) {
+    const poseRole = topicAs(topics, 'pose') === undefined ? 'tf' : 'pose';
     this.#listeners = topics
       .filter((entry) => STATE_ROLES.includes(entry.as) || ReadingTopic.is(entry))
-      .map((entry) => this.#listen(graph, entry, clock));
+      .map((entry) => this.#listen(graph, entry, clock, poseRole));
   }
 
   close(): void {
     for (const listener of this.#listeners) listener.close();
   }
 
-  #listen(graph: RosGraph, entry: TopicEntry, clock: RosClock): Listener {
+  /** @param poseRole of the topics that say where the robot is */
+  #listen(graph: RosGraph, entry: TopicEntry, clock: RosClock, poseRole: 'pose' | 'tf'): Listener {
     const { topic: name, type, as } = entry;
     const onFault = (fault: RosFault) => this.onFault?.(fault);
     const reading = ReadingTopic.is(entry) ? new ReadingTopic(entry) : null;
     const limited = reading?.readsAll !== true;
     return listen(graph, entry, { queue: STATE_QUEUE, limited, onFault }, (message) => {
       if (STATE_ROLES.includes(as)) this.world.take({ name, type }, message);
+      if (as === poseRole) this.measuredMs = clock.now();
       const told = reading?.take(message, clock.now()) ?? null;
       if (told !== null) this.onReading?.(told);
     });

@@ -4,6 +4,7 @@ import { readFileSync } from 'node:fs';
 import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
 import { fileFault, type OptionMistake, OptionsError } from '@farpoint/service';
 import { BitRate } from '@farpoint/timing';
+import { SIM_MOTORS } from '../base/sim-topics.ts';
 import type { CaptureOptions } from '../capture/capture-messages.ts';
 import type { SourceOptions } from '../capture/open-source.ts';
 import type { SinkOptions } from '../drive/open-sink.ts';
@@ -11,6 +12,8 @@ import type { RobotOptions, VideoCameraOptions } from '../robot-configuration.ts
 import { describeTopics, readFrom, sourcedFolders } from '../ros/message-folders.ts';
 import type { GraphOptions } from '../ros/open-graph.ts';
 import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
+import { describeQuantities } from '../telemetry/sample-board.ts';
+import { toAlarmRules } from './alarms.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { stateFolder } from './state.ts';
 
@@ -27,6 +30,8 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   checkSource(values, refuse);
   const topics = describedTopics(values, (detail) => refuse('topics', detail));
   const ca = values.tlsCa === null ? null : readText(values.tlsCa, (detail) => refuse('tlsCa', detail));
+  const quantities = describeQuantities([...topics, ...(values.source === 'sim' ? [SIM_MOTORS] : [])]);
+  const alarms = toAlarmRules(values.alarms, quantities, (detail) => refuse('alarms', detail));
   if (mistakes.length > 0) throw new OptionsError(mistakes);
   const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
   return {
@@ -39,7 +44,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       ca,
     },
     sensors: toSensors(values, topics),
-    base: values.source === 'sim' ? { watchdogMs: values.watchdogMs } : null,
+    base: values.source === 'sim' ? { watchdogMs: values.watchdogMs, charge: values.simCharge / 100 } : null,
     sink: toSink(values),
     limits: {
       maxLinear: values.maxLinear,
@@ -47,6 +52,8 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       watchdogMs: values.watchdogMs,
       maxCommandsPerSecond: values.maxCommandsPerSecond,
     },
+    quantities,
+    alarms,
     takePolicy: values.takePolicy,
     stateFolder: stateFolder(values.stateDir, process.env),
     referenceSignaling: values.referenceSignaling ?? undefined,

@@ -1,6 +1,7 @@
 /** All options of the robot program. Each group has its own file. */
 import { adminOptions, defineProgram, type OptionTable, type OptionValues } from '@farpoint/service';
 import manifest from '../../package.json' with { type: 'json' };
+import { alarmsOptions } from './alarms.ts';
 import { identityOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';
 import { measurementOptions } from './measurement.ts';
@@ -29,6 +30,7 @@ const options = {
   ...simOptions,
   ...sinkOptions,
   ...topicsOptions,
+  ...alarmsOptions,
   ...rosOptions,
   ...limitsOptions,
   ...stateOptions,

@@ -9,6 +9,12 @@ export const simOptions = optionGroup('source', {
     argument: 'SEED',
     help: 'seed of the simulated robot’s sensor noise',
   }),
+  simCharge: defineOption({
+    schema: schema.number({ min: 0, max: 100 }),
+    default: 95,
+    argument: 'PERCENT',
+    help: 'charge of the simulated robot’s battery at the start',
+  }),
   simLidars: defineOption({
     schema: schema.integer({ min: 0, max: MAX_SENSORS - 1 }),
     default: 0,

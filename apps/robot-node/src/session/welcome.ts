@@ -1,4 +1,10 @@
-import { type DriveLimits, PROTOCOL_VERSION, type VideoCodec } from '@farpoint/protocol';
+import {
+  type Alarm,
+  type DriveLimits,
+  PROTOCOL_VERSION,
+  type Quantity,
+  type VideoCodec,
+} from '@farpoint/protocol';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
 import type { VideoHub } from '../video/video-hub.ts';
 import type { OperatorSession } from './operator-session.ts';
@@ -9,12 +15,15 @@ export interface WelcomeFacts {
   limits: DriveLimits;
   /** The first sensor's highest frame rate. */
   framesPerSecond: number;
+  quantities: readonly Quantity[];
+  /** Those that are raised. */
+  alarms: readonly Alarm[];
 }
 
 /** Sends a session's first messages: what the robot is, who drives, and which cameras and sensors there are. */
 export function welcome(
   operator: OperatorSession,
-  { id, name, limits, framesPerSecond }: WelcomeFacts,
+  { id, name, limits, framesPerSecond, quantities, alarms }: WelcomeFacts,
   sensors: CloudSensors,
   videos: VideoHub,
 ): void {
@@ -32,6 +41,7 @@ export function welcome(
   });
   messages.sendLease();
   messages.sendEstop();
+  for (const message of [...quantities, ...alarms]) messages.send(message);
   if (cameras.length > 0) messages.send({ type: 'cameras', cameras: cameras.map(({ name }) => ({ name })) });
   if (sensors.all.length > 1) {
     messages.send({ type: 'sensors', sensors: sensors.all.map(({ name }) => ({ name })) });

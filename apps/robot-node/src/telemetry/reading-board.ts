@@ -41,6 +41,8 @@ export class ReadingBoard {
     if (due === null) return null;
     due.toldMs = nowMs;
     due.told = ++this.#told;
-    return { type: 'reading', ...due.reading, ageMs: Math.max(0, nowMs - due.heardMs) };
+    const { topic, label, level, values } = due.reading;
+    const ageMs = Math.max(0, nowMs - due.heardMs);
+    return { type: 'reading', topic, label, level, values, ageMs, timeMs: due.heardMs };
   }
 }

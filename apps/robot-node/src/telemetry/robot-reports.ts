@@ -5,6 +5,7 @@ import type { OperatorSession } from '../session/operator-session.ts';
 import type { RobotCounters } from './robot-counters.ts';
 import type { SessionRecording } from './session-recording.ts';
 import { streamStatistics } from './stream-statistics.ts';
+import type { TelemetryBoard } from './telemetry-board.ts';
 import type { TelemetrySender } from './telemetry-sender.ts';
 
 const TELEMETRY_MS = 50;
@@ -14,6 +15,7 @@ export interface RobotReportsParts {
   operators: ReadonlyMap<string, OperatorSession>;
   counters: RobotCounters;
   telemetry: TelemetrySender;
+  board: TelemetryBoard;
   guard: DriveGuard;
   recording: SessionRecording | null;
   /** The state of the base; `null` before it is known. */
@@ -53,9 +55,10 @@ export class RobotReports {
   }
 
   #sendTelemetry(): void {
-    const { state, telemetry, recording, guard, operators, now } = this.#parts;
+    const { state, telemetry, board, recording, guard, operators, now } = this.#parts;
     const known = state();
     if (known === null) return;
+    board.state(known);
     telemetry.send(known, now());
     recording?.telemetry(known, guard, operators.size);
   }

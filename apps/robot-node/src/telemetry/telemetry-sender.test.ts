@@ -2,8 +2,8 @@ import { decodeJson, telemetryCodec, zeroTwist } from '@farpoint/protocol';
 import { DriveGuard, defaultDriveLimits } from '@farpoint/safety';
 import { describe, expect, it } from 'vitest';
 import type { OperatorSession } from '../session/operator-session.ts';
-import { ReadingBoard } from './reading-board.ts';
 import { StageTimer } from './stage-timer.ts';
+import { TelemetryBoard } from './telemetry-board.ts';
 import { TelemetrySender } from './telemetry-sender.ts';
 
 const TICK_MS = 50;
@@ -13,24 +13,49 @@ const STREAM = {
 };
 
 /** What one second of telemetry brings to an operator whose path has this rate. */
-function secondAt(targetBitsPerSecond: number): { states: number; topics: string[] } {
+function secondAt(targetBitsPerSecond: number): {
+  states: number;
+  topics: string[];
+  samples: number;
+  components: number;
+  alarms: unknown[];
+} {
   const heard: string[] = [];
+  const alarms: unknown[] = [];
   const operator = {
     peer: { connected: true, sendTelemetry: (text: string) => heard.push(text) },
     sender: { targetBitsPerSecond },
+    messages: { send: (message: unknown) => alarms.push(message) },
     status: (stages: unknown) => ({ stages, stream: STREAM }),
   } as unknown as OperatorSession;
   const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
-  const readings = new ReadingBoard();
-  for (const topic of ['/a', '/b', '/c']) readings.add({ topic, label: topic, level: 'ok', values: [] }, 0);
-  const sender = new TelemetrySender(new Map([['operator', operator]]), guard, new StageTimer(), readings);
+  const quantity = {
+    type: 'quantity',
+    number: 0,
+    topic: '/a',
+    field: 'data',
+    label: 'A',
+    unit: 'V',
+  } as const;
+  const rule = { watches: '/a data', label: 'A', unit: 'V', high: { warn: 2 }, hysteresis: 0 };
+  const board = new TelemetryBoard([quantity], [rule]);
+  for (const topic of ['/a', '/b', '/c']) board.take({ topic, label: topic, level: 'ok', values: [] }, 0);
+  const imu = { name: 'imu', level: 'ok', message: '', sinceMs: 0 } as const;
+  board.components.take('/diagnostics', [imu], 0);
+  const sender = new TelemetrySender(new Map([['operator', operator]]), guard, new StageTimer(), board);
   const orientation = { x: 0, y: 0, z: 0, w: 1 };
   const state = { timeMs: 0, pose: { position: zeroTwist().linear, orientation }, twist: zeroTwist() };
-  for (let i = 0; i < 20; i++) sender.send({ ...state, battery: null, contact: false }, i * TICK_MS);
+  for (let i = 0; i < 20; i++) {
+    board.sample('/a', [i / 5], i * TICK_MS);
+    sender.send({ ...state, battery: null, contact: false }, i * TICK_MS);
+  }
   const messages = heard.map((text) => decodeJson(telemetryCodec, text));
   return {
     states: messages.filter(({ type }) => type === 'telemetry').length,
     topics: messages.flatMap((message) => (message.type === 'reading' ? [message.topic] : [])),
+    samples: messages.flatMap((message) => (message.type === 'samples' ? message.samples : [])).length,
+    components: messages.filter(({ type }) => type === 'diagnostics').length,
+    alarms,
   };
 }
 
@@ -45,5 +70,14 @@ describe('TelemetrySender', () => {
     const { states, topics } = secondAt(0.3e6);
     expect(states).toBe(5);
     expect(topics.sort()).toEqual(['/a', '/b', '/c']);
+  });
+
+  it('sends every sample, but only the newest of each quantity on a narrow path', () => {
+    expect(secondAt(10e6)).toMatchObject({ samples: 20, components: 1 });
+    expect(secondAt(0.3e6)).toMatchObject({ samples: 5, components: 0 });
+  });
+
+  it('sends an alarm once, when it is raised', () => {
+    expect(secondAt(10e6).alarms).toMatchObject([{ type: 'alarm', level: 'warn', value: 2.2, limit: 2 }]);
   });
 });

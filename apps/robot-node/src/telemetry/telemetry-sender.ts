@@ -1,52 +1,70 @@
-import { encodeJson, nextSequence32, type Telemetry, telemetryCodec } from '@farpoint/protocol';
+import {
+  encodeJson,
+  nextSequence32,
+  type Telemetry,
+  type TelemetryMessage,
+  telemetryCodec,
+} from '@farpoint/protocol';
 import type { DriveGuard } from '@farpoint/safety';
 import { BitRate } from '@farpoint/timing';
 import type { TimedBaseState } from '../base/base.ts';
 import type { OperatorSession } from '../session/operator-session.ts';
-import type { ReadingBoard } from './reading-board.ts';
 import type { StageTimer } from './stage-timer.ts';
+import type { TelemetryBoard } from './telemetry-board.ts';
 
 /** On a path that carries less, telemetry is sent less often, because it would take a fifth of the path. */
 const NARROW_BITS_PER_SECOND = BitRate.fromMbps(1);
 const NARROW_EVERY = 4;
+/** Components report once a second, and every 4 s to a narrow path: a multiple of what that gets. */
+const COMPONENTS_EVERY = 20;
 
 /**
- * Sends each operator the robot's state, statistics of its stream, and up to five readings a second. Call `send` 20
- * times a second.
+ * Sends each operator the robot's state, statistics of its stream, samples of quantities, alarms, components' reports,
+ * and up to five readings a second. Call `send` 20 times a second.
  */
 export class TelemetrySender {
   readonly #operators: ReadonlyMap<string, OperatorSession>;
   readonly #guard: DriveGuard;
   readonly #stages: StageTimer;
-  readonly #readings: ReadingBoard;
+  readonly #board: TelemetryBoard;
   #sequence = 0;
 
   constructor(
     operators: ReadonlyMap<string, OperatorSession>,
     guard: DriveGuard,
     stages: StageTimer,
-    readings: ReadingBoard,
+    board: TelemetryBoard,
   ) {
-    this.#readings = readings;
+    this.#board = board;
     this.#operators = operators;
     this.#guard = guard;
     this.#stages = stages;
   }
 
   send(state: TimedBaseState, nowMs: number): void {
+    const alarms = this.#board.alarmChanges();
     if (this.#operators.size === 0) return;
+    for (const { peer, messages } of this.#operators.values())
+      if (peer.connected) for (const alarm of alarms) messages.send(alarm);
     const stages = this.#stages.take();
     this.#sequence = nextSequence32(this.#sequence);
     // Readings go with the telemetry that narrow paths get, too, so that every reading reaches all operators.
-    const reading = this.#sequence % NARROW_EVERY === 0 ? this.#readings.next(nowMs) : null;
+    const forNarrow = this.#sequence % NARROW_EVERY === 0;
+    const { readings, samples, components } = this.#board;
+    const reading = forNarrow ? readings.next(nowMs) : null;
+    const all = samples.all();
+    const newest = forNarrow ? samples.newest() : null;
+    const reports = this.#sequence % COMPONENTS_EVERY === 0 ? components.next(nowMs) : null;
     for (const operator of this.#operators.values()) {
       if (!operator.peer.connected) continue;
       const target = operator.sender?.targetBitsPerSecond ?? 0;
-      if (target < NARROW_BITS_PER_SECOND && this.#sequence % NARROW_EVERY !== 0) continue;
+      const isNarrow = target < NARROW_BITS_PER_SECOND;
+      if (isNarrow && !forNarrow) continue;
       const message: Telemetry = {
         type: 'telemetry',
         sequence: this.#sequence,
         timeMs: state.timeMs,
+        ...(state.measuredMs === undefined ? {} : { ageMs: Math.max(0, state.timeMs - state.measuredMs) }),
         pose: state.pose,
         twist: state.twist,
         ...(state.battery === null ? {} : { battery: state.battery }),
@@ -54,8 +72,13 @@ export class TelemetrySender {
         ...operator.status(stages, nowMs),
         operators: this.#operators.size,
       };
-      operator.peer.sendTelemetry(encodeJson(telemetryCodec, message));
-      if (reading !== null) operator.peer.sendTelemetry(encodeJson(telemetryCodec, reading));
+      const send = (each: TelemetryMessage | null) => {
+        if (each !== null) operator.peer.sendTelemetry(encodeJson(telemetryCodec, each));
+      };
+      send(message);
+      send(isNarrow ? newest : all);
+      send(reading);
+      if (!isNarrow || this.#sequence % (COMPONENTS_EVERY * NARROW_EVERY) === 0) send(reports);
     }
   }
 }

@@ -1,6 +1,7 @@
 /** An operator for tests: a werift peer that answers the robot's offer as a browser would. */
 import {
   channels,
+  type Diagnostics,
   decodeJson,
   emptyPlacement,
   emptyPointPacketHeader,
@@ -13,6 +14,7 @@ import {
   type RobotSessionMessage,
   readCloudPayload,
   robotSessionCodec,
+  type Sample,
   type Telemetry,
   type TelemetryMessage,
   type Twist,
@@ -79,6 +81,8 @@ export class OperatorClient {
   readonly #video: VideoReception;
   readonly sound: SoundReception;
   telemetry: Telemetry | null = null;
+  diagnostics: Diagnostics | null = null;
+  readonly samples: Sample[] = [];
   /** The newest reading of each topic. */
   readonly readings = new Map<string, Reading>();
   packets = 0;
@@ -259,7 +263,9 @@ export class OperatorClient {
 
   #onTelemetry(message: TelemetryMessage): void {
     if (message.type === 'reading') this.readings.set(message.topic, message);
-    else this.telemetry = message;
+    else if (message.type === 'telemetry') this.telemetry = message;
+    else if (message.type === 'samples') this.samples.push(...message.samples);
+    else this.diagnostics = message;
   }
 
   #onPayload(payload: Buffer): void {

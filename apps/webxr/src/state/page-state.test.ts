@@ -1,5 +1,5 @@
 import type { Picture, RobotClient, RobotEvents } from '@farpoint/operator';
-import { Readings } from '@farpoint/operator';
+import { ComponentReports, Readings } from '@farpoint/operator';
 import type { EstopState, LeaseState, RobotListing, Telemetry, Welcome } from '@farpoint/protocol';
 import { effect } from '@preact/signals-core';
 import { describe, expect, test } from 'vitest';
@@ -18,6 +18,8 @@ class Client {
     telemetry: null as Telemetry | null,
     estop: { type: 'estop', latched: false } as EstopState,
     readings: new Readings(),
+    alarms: new Map(),
+    components: new ComponentReports(),
   };
   readonly link = {
     phase: 'none' as Phase,

@@ -1,5 +1,6 @@
 /** What the robot has reported in this session. */
 import type { RobotClient } from '@farpoint/operator';
+import { alarmWords, raisedFirst } from '../status/alarm-words.ts';
 import { shownReading } from '../status/shown-readings.ts';
 import type { Sampler } from './sampler.ts';
 
@@ -11,6 +12,10 @@ export function robotState({ link }: RobotClient, samples: Sampler) {
     name: samples.of(() => link.session.welcome?.name ?? null),
     telemetry: samples.of(() => link.session.telemetry),
     readings: samples.of((atMs) => link.session.readings.list(atMs).map(shownReading)),
+    /** The alarms that are raised, the worst first. */
+    alarms: samples.of(() => [...link.session.alarms.values()].sort(raisedFirst).map(alarmWords)),
+    /** Topics whose reports the dashboard shows component by component. */
+    componentTopics: samples.of(() => link.session.components.list().map(({ topic }) => topic)),
     estop: samples.of(() => link.session.estop),
     /** There is a session, and the robot's emergency stop is on. */
     estopLatched: samples.of(() => link.phase === 'live' && link.session.estop.latched),

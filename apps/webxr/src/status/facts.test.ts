@@ -52,7 +52,7 @@ describe('the table of figures', () => {
 test('on the wrist: how to release while the stop is on, otherwise the battery and the next robot', () => {
   const words = { text: 'Live', tone: 'good' } as const;
   const facts = { link: words, driving: words, telemetry, estopLatched: false, figures };
-  const lines = wristLines({ ...facts, nextRobot: { id: 'b', name: 'B' } });
+  const lines = wristLines({ ...facts, alarm: null, nextRobot: { id: 'b', name: 'B' } });
   expect(lines.map(({ text }) => text)).toEqual([
     'Live',
     'Stationary',
@@ -61,5 +61,11 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
     'rtt 42 ms  frame –  loss 0.0 %',
     'Battery 20 %  press stick: B',
   ]);
-  expect(wristLines({ ...facts, nextRobot: null, estopLatched: true }).at(-1)?.tone).toBe('bad');
+  const stopped = wristLines({ ...facts, alarm: null, nextRobot: null, estopLatched: true });
+  expect(stopped.at(-1)?.tone).toBe('bad');
+  const alarm = { text: 'The battery is low', tone: 'bad' } as const;
+  const alarmed = wristLines({ ...facts, alarm, nextRobot: null, estopLatched: true });
+  expect(alarmed).toHaveLength(6);
+  expect(alarmed).toContainEqual(alarm);
+  expect(alarmed.at(-1)).toEqual(stopped.at(-1));
 });

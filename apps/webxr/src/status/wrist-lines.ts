@@ -10,6 +10,8 @@ export interface WristFacts {
   telemetry: Telemetry | null;
   estopLatched: boolean;
   nextRobot: RobotListing | null;
+  /** The worst alarm; `null` if none is raised. */
+  alarm: Words | null;
   figures: PageStats;
 }
 
@@ -19,6 +21,7 @@ export function wristLines({
   telemetry,
   estopLatched,
   nextRobot,
+  alarm,
   figures,
 }: WristFacts): Words[] {
   const { pointsPerFrame, framesPerSecond, minRttMs, frameLatencyMs, lossRate } = figures;
@@ -32,7 +35,8 @@ export function wristLines({
     link,
     ...(telemetry === null ? [] : [driveWords[telemetry.drive]]),
     driving,
-    {
+    // An alarm takes the place of the line that matters least.
+    alarm ?? {
       text: `${thousands}k points  ${framesPerSecond.toFixed(0)}/s  ${mbps(figures)} Mbit/s`,
       tone: 'neutral',
     },

@@ -26,6 +26,8 @@ export interface Controlled {
   readonly vr: VrSession;
   readonly estop: EstopUi;
   choose(robotId: string): void;
+  /** Opens or closes the dashboard. */
+  toggleDashboard(): void;
 }
 
 export class ControlsUi {
@@ -75,6 +77,9 @@ export class ControlsUi {
         return;
       case 'enlarge':
         this.#parts.state.enlarged.next();
+        return;
+      case 'dashboard':
+        this.#parts.toggleDashboard();
         return;
       case 'next-robot':
         this.#nextRobot();

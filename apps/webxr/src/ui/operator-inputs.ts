@@ -7,7 +7,15 @@ import type { ReleaseControl } from '../drive/release-hold.ts';
 import { TouchJoystick } from '../drive/touch-joystick.ts';
 import { elements } from './elements.ts';
 
-export type Action = 'estop' | 'latency-test' | 'recentre' | 'view' | 'from-above' | 'enlarge' | 'next-robot';
+export type Action =
+  | 'estop'
+  | 'latency-test'
+  | 'recentre'
+  | 'view'
+  | 'from-above'
+  | 'enlarge'
+  | 'dashboard'
+  | 'next-robot';
 
 /** Stops the robot wherever the focus is, except in a text field. */
 const STOP_KEY = 'KeyX';
@@ -17,6 +25,7 @@ const ACTION_KEYS: Readonly<Record<string, Action>> = {
   KeyV: 'view',
   KeyT: 'from-above',
   KeyE: 'enlarge',
+  KeyB: 'dashboard',
   KeyN: 'next-robot',
 };
 /** Hold to release the emergency stop. Enter on the release control does the same. */

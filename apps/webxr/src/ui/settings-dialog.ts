@@ -3,6 +3,7 @@ import type { Signal } from '@preact/signals-core';
 import { clampScale, ownSignalingUrl } from '../settings.ts';
 import { tokenOrigin, withToken } from '../signaling-tokens.ts';
 import { loadStored, pageOrigin, store } from '../stored-settings.ts';
+import { parseTileTemplate } from '../telemetry/map-tiles.ts';
 import { elements } from './elements.ts';
 
 /** Sets up the dialog. @param pointScale follows the slider while it moves */
@@ -27,6 +28,8 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
     field('name').value = stored.name ?? '';
     field('pointScale').value = String(stored.pointScale ?? 1);
     field('synchronised').checked = stored.synchronised ?? true;
+    field('mapTiles').value = stored.mapTiles ?? '';
+    field('mapAttribution').value = stored.mapAttribution ?? '';
     tokenTyped = false;
     showToken();
     dialog.showModal();
@@ -35,6 +38,11 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
     const at = service();
     field('signaling').setCustomValidity('fault' in at ? at.fault : '');
     if (!tokenTyped) showToken();
+  });
+  field('mapTiles').addEventListener('input', () => {
+    const text = field('mapTiles').value.trim();
+    const parsed = text === '' ? null : parseTileTemplate(text, pageOrigin());
+    field('mapTiles').setCustomValidity(parsed !== null && 'fault' in parsed ? parsed.fault : '');
   });
   field('token').addEventListener('input', () => {
     tokenTyped = true;
@@ -55,6 +63,8 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
       name: field('name').value,
       pointScale: clampScale(Number(field('pointScale').value)),
       synchronised: field('synchronised').checked,
+      mapTiles: field('mapTiles').value.trim(),
+      mapAttribution: field('mapAttribution').value.trim(),
     });
     // These parameters in the page's address would override what was just saved.
     const address = new URL(location.href);

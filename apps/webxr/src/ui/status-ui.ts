@@ -2,6 +2,7 @@
 import { effect } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
 import { sessionFacts } from '../status/facts.ts';
+import type { ShownReading } from '../status/shown-readings.ts';
 import type { Words } from '../status/words.ts';
 import { elements } from './elements.ts';
 import { showFacts } from './facts-table.ts';
@@ -15,6 +16,14 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
     elements.view.hidden = !connected;
   });
   effect(() => {
+    const [first, ...others] = robot.alarms.value;
+    elements.alarm.hidden = first === undefined;
+    if (first === undefined) return;
+    const more = others.length === 0 ? '' : ` (and ${others.length} more)`;
+    setText(elements.alarm, `⚠ ${first.text}${more}`);
+    elements.alarm.dataset.tone = first.tone;
+  });
+  effect(() => {
     const live = link.live.value;
     elements.drive.hidden = !live;
     elements.hud.hidden = !live;
@@ -26,17 +35,25 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
   });
   effect(() => {
     if (!link.live.value) return;
-    const { name, telemetry, estop, readings } = robot;
+    const { name, telemetry, estop, readings, componentTopics } = robot;
+    // That all components are well takes no room.
+    const isWell = ({ topic, tone }: ShownReading) =>
+      tone === 'neutral' && componentTopics.value.includes(topic);
     showFacts(
       sessionFacts({
         ...{ name: name.value, telemetry: telemetry.value, estop: estop.value },
-        ...{ readings: readings.value, figures: figures.value },
+        readings: readings.value.filter((reading) => !isWell(reading)),
+        ...{ figures: figures.value },
       }),
     );
   });
 }
 
 function setPill(element: HTMLElement, words: Words): void {
-  if (element.textContent !== words.text) element.textContent = words.text;
+  setText(element, words.text);
   element.dataset.tone = words.tone;
+}
+
+function setText(element: HTMLElement, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
 }

@@ -1,6 +1,7 @@
 import type { Batch, RobotClient, RobotEvents } from '@farpoint/operator';
 import { signal } from '@preact/signals-core';
 import { describe, expect, test } from 'vitest';
+import { PresentedInstant } from '../telemetry/presented-instant.ts';
 import { VideoFeed } from './video-feed.ts';
 import type { ReadFrame } from './video-reader.ts';
 import { VideoViews } from './video-views.ts';
@@ -15,6 +16,7 @@ class Bench {
   );
   readonly readers = new Map<string, (frame: ReadFrame) => void>();
   readonly feed: VideoFeed;
+  readonly presented = new PresentedInstant();
   open = 0;
   closed = 0;
   readonly #listeners: [string, (event: never) => void][] = [];
@@ -28,6 +30,7 @@ class Bench {
       client: client as unknown as RobotClient,
       views: this.views,
       synchronised: options.synchronised ?? true,
+      presented: this.presented,
       now: () => this.nowMs,
       open: options.canRead === false ? null : (track, onFrame) => this.#read(track.id, onFrame),
     });

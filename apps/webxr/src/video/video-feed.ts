@@ -5,6 +5,7 @@
 import { type Batch, Compositor, captureMsOfStamp, type RobotClient } from '@farpoint/operator';
 import { effect, signal, untracked } from '@preact/signals-core';
 import { videoWords } from '../status/words.ts';
+import type { PresentedInstant } from '../telemetry/presented-instant.ts';
 import { captureMsOf } from './frame-time.ts';
 import { VideoFigures, type VideoStats } from './video-figures.ts';
 import type { VideoImage } from './video-image.ts';
@@ -21,6 +22,8 @@ export interface VideoFeedParts {
   readonly synchronised: boolean;
   /** `null` if this browser cannot read videos. */
   readonly open: OpenReader | null;
+  /** Told of the instant that is shown. */
+  readonly presented: PresentedInstant;
   /** Page's clock, ms. */
   now(): number;
 }
@@ -60,7 +63,8 @@ export class VideoFeed {
   tick(nowMs: number): void {
     const presentation = this.#compositor.tick(nowMs);
     if (presentation === null) return;
-    const { client, views } = this.#parts;
+    const { client, views, presented } = this.#parts;
+    presented.show(presentation.instantMs, nowMs);
     for (const { source, captureMs, payload } of presentation.items) {
       if (payload === null) continue;
       const video = Number(source.slice(VIDEO.length));
@@ -89,6 +93,7 @@ export class VideoFeed {
     this.#readOnly([]);
     this.#tracks.value = new Map();
     this.#compositor.clear();
+    this.#parts.presented.clear();
     this.#figures.reset();
     this.#cloudFrame = null;
   }
@@ -139,14 +144,16 @@ export class VideoFeed {
   /** A video's frame waits for the first points of the cloud that was captured with it. */
   #onCloud(batch: Batch): void {
     const { offsetMs } = this.#parts.client.link.session.clock;
-    if (offsetMs === null || this.#readers.size === 0) return;
+    if (offsetMs === null) return;
     const nowMs = this.#parts.now();
     for (let packet = 0; packet < batch.packets; packet++) {
       const frame = batch.frameNumber(packet);
       if (frame === this.#cloudFrame) continue;
       this.#cloudFrame = frame;
       const captureMs = captureMsOfStamp(batch.captureTimeUs(packet), nowMs + offsetMs);
-      this.#compositor.offer(CLOUD, captureMs, null, nowMs);
+      // Without videos, points are all that is shown, and they are shown at once.
+      if (this.#readers.size === 0) this.#parts.presented.show(captureMs, nowMs);
+      else this.#compositor.offer(CLOUD, captureMs, null, nowMs);
     }
   }
 }

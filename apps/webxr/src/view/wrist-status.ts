@@ -27,6 +27,7 @@ export function showOnWrist({ state, panel, active, releaseProgress }: WristStat
       wristLines({
         ...{ link: link.line.value, driving: driving.line.value, telemetry: robot.telemetry.value },
         ...{ estopLatched: robot.estop.value.latched, nextRobot: link.nextRobot.value },
+        alarm: robot.alarms.value[0] ?? null,
         figures: figures.value,
       }),
     );

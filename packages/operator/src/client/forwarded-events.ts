@@ -14,6 +14,10 @@ export function forwardedEvents(emitter: Emitter<RobotEvents>) {
     onSensors: (sensors) => emitter.emit('sensors', sensors),
     onTelemetry: (telemetry) => emitter.emit('telemetry', telemetry),
     onReading: (reading) => emitter.emit('reading', reading),
+    onQuantity: (quantity) => emitter.emit('quantity', quantity),
+    onSamples: (samples) => emitter.emit('samples', samples),
+    onDiagnostics: (diagnostics) => emitter.emit('diagnostics', diagnostics),
+    onAlarm: (alarm) => emitter.emit('alarm', alarm),
     onRobotFault: (message) => emitter.emit('robotFault', message),
   } satisfies Partial<RobotLinkEvents>;
 }

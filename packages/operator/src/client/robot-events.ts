@@ -1,10 +1,14 @@
 import type {
+  Alarm,
   Cameras,
   CommandRejected,
+  Diagnostics,
   EstopState,
   LeaseState,
+  Quantity,
   Reading,
   RobotListing,
+  Samples,
   Sensors,
   Telemetry,
   Videos,
@@ -51,6 +55,14 @@ export interface RobotEvents {
   telemetry: Telemetry;
   /** A reading of one of the robot's sensors or topics. */
   reading: Reading;
+  /** Describes a number that the robot measures over time; after the welcome, one event for each. */
+  quantity: Quantity;
+  /** Samples of these numbers. The channel is unordered, so they may come late. */
+  samples: Samples;
+  /** What some of the robot's components report about themselves. `link.session.components` has all of them. */
+  diagnostics: Diagnostics;
+  /** An alarm was raised, changed its level or was cleared. `link.session.alarms` has those that are raised. */
+  alarm: Alarm;
   /** The cameras that {@link RobotClient.watch} can be called with. */
   cameras: Cameras['cameras'];
   /** The sensors that {@link RobotClient.wantClouds} can be called with; sent by robots that have more than one. */

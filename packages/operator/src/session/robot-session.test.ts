@@ -17,6 +17,10 @@ function bench(): { session: RobotSession; told: string[] } {
     onCloudStream: tell('cloudStream'),
     onTelemetry: tell('telemetry'),
     onReading: tell('reading'),
+    onQuantity: tell('quantity'),
+    onSamples: tell('samples'),
+    onDiagnostics: tell('diagnostics'),
+    onAlarm: tell('alarm'),
     onCameras: tell('cameras'),
     onSensors: tell('sensors'),
     onVideos: tell('videos'),
@@ -61,6 +65,30 @@ describe('RobotSession', () => {
       '[{"name":"Front","mid":"1","codec":"H264"},{"name":"Rear","mid":"2","codec":"VP8","fault":"gone"}]';
     session.onMessage('session', `{"type":"videos","videos":${videos}}`, 0);
     expect(told).toEqual(['lease', 'estop', 'fault', 'videos']);
+  });
+
+  test('keeps the quantities, the alarms that are raised, and the reports of components', () => {
+    const { session, told } = bench();
+    const alarm = (number: number, level: string) =>
+      `{"type":"alarm","number":${number},"level":"${level}","text":"low","value":1,"limit":2,"unit":"%","sinceMs":3}`;
+    session.onMessage(
+      'session',
+      '{"type":"quantity","number":3,"topic":"/t","field":"data","label":"T","unit":"°C"}',
+      0,
+    );
+    session.onMessage('session', alarm(0, 'warn'), 0);
+    session.onMessage('session', alarm(1, 'error'), 0);
+    session.onMessage('session', alarm(0, 'ok'), 0);
+    expect(session.quantities.get(3)?.unit).toBe('°C');
+    expect([...session.alarms.keys()]).toEqual([1]);
+    session.onMessage('telemetry', '{"type":"samples","timeMs":5,"samples":[[3,-1,20.5]]}', 0);
+    const report = '{"name":"imu","level":"ok","message":"","sinceMs":1}';
+    const counts = '{"error":0,"warn":0,"stale":0,"ok":1}';
+    const diagnostics = `{"type":"diagnostics","topic":"/d","timeMs":2,"counts":${counts},"reports":[${report}]}`;
+    session.onMessage('telemetry', diagnostics, 0);
+    expect(session.components.list()).toMatchObject([{ topic: '/d', reports: [{ name: 'imu' }] }]);
+    expect(told).toEqual(['quantity', 'alarm', 'alarm', 'alarm', 'samples', 'diagnostics']);
+    expect(session.malformed).toBe(0);
   });
 
   test('ignores telemetry that was overtaken, also across the wrap', () => {

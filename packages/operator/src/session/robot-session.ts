@@ -1,11 +1,13 @@
 /** What the robot has sent on its channels in this session. Takes bytes and the time; no channel and no clock here. */
 import {
+  type Alarm,
   ageOfStampMs,
   type Cameras,
   ClockOffset,
   type CloudStream,
   type CommandRejected,
   clockAnswerCodec,
+  type Diagnostics,
   decodeJson,
   type EstopState,
   type LatencyFrame,
@@ -14,8 +16,10 @@ import {
   nextSequence32,
   PictureAssembler,
   ProtocolError,
+  type Quantity,
   type Reading,
   robotSessionCodec,
+  type Samples,
   type Sensors,
   sequenceDelta32,
   type Telemetry,
@@ -24,6 +28,7 @@ import {
   type Welcome,
   type WholePicture,
 } from '@farpoint/protocol';
+import { ComponentReports } from './component-reports.ts';
 import { Readings } from './readings.ts';
 
 /** Channels on which the robot sends. */
@@ -38,6 +43,14 @@ export interface RobotSessionEvents {
   onTelemetry(telemetry: Telemetry): void;
   /** A reading that is the newest of its topic. */
   onReading(reading: Reading): void;
+  /** A number that the robot measures over time. */
+  onQuantity(quantity: Quantity): void;
+  /** Samples of such numbers. They may come late: the channel is unordered. */
+  onSamples(samples: Samples): void;
+  /** Reports of the robot's components. */
+  onDiagnostics(diagnostics: Diagnostics): void;
+  /** An alarm was raised, changed its level or was cleared. */
+  onAlarm(alarm: Alarm): void;
   /** The header with which a stream's coded packets are decoded. */
   onCloudStream(stream: CloudStream): void;
   /** The cameras whose pictures can be requested. */
@@ -63,6 +76,12 @@ export class RobotSession {
   telemetry: Telemetry | null = null;
   /** Readings of the robot's sensors and topics. */
   readonly readings = new Readings();
+  /** The numbers that the robot measures over time, by the number in their samples. */
+  readonly quantities = new Map<number, Quantity>();
+  /** What the robot's components report about themselves. */
+  readonly components = new ComponentReports();
+  /** The alarms that are raised now, by their number. */
+  readonly alarms = new Map<number, Alarm>();
   /** Assembles the cameras' pictures from their messages. */
   readonly pictures = new PictureAssembler();
   /** Estimate of the robot's clock. */
@@ -145,6 +164,15 @@ export class RobotSession {
       case 'videos':
         this.#events.onVideos(message.videos);
         return;
+      case 'quantity':
+        this.quantities.set(message.number, message);
+        this.#events.onQuantity(message);
+        return;
+      case 'alarm':
+        if (message.level === 'ok') this.alarms.delete(message.number);
+        else this.alarms.set(message.number, message);
+        this.#events.onAlarm(message);
+        return;
       case 'fault':
         this.#events.onRobotFault(message.message);
         return;
@@ -162,9 +190,17 @@ export class RobotSession {
 
   #onTelemetry(data: MessageData, nowMs: number): void {
     const telemetry = decodeJson(telemetryCodec, data);
-    if (telemetry.type === 'reading') {
-      if (this.readings.take(telemetry, nowMs)) this.#events.onReading(telemetry);
-      return;
+    switch (telemetry.type) {
+      case 'reading':
+        if (this.readings.take(telemetry, nowMs)) this.#events.onReading(telemetry);
+        return;
+      case 'samples':
+        this.#events.onSamples(telemetry);
+        return;
+      case 'diagnostics':
+        this.components.take(telemetry);
+        this.#events.onDiagnostics(telemetry);
+        return;
     }
     // The channel is unordered: ignore telemetry that was overtaken.
     if (this.telemetry !== null && sequenceDelta32(telemetry.sequence, this.telemetry.sequence) <= 0) return;

@@ -3,7 +3,6 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { zeroTwist } from '@farpoint/protocol';
 import { afterAll, expect, test } from 'vitest';
-import { PacketLog } from '../transport/packet-log.ts';
 import { CommandLog } from './command-log.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'farpoint-log-'));
@@ -13,19 +12,6 @@ function written(log: { write(): void }, path: string): string[] {
   log.write();
   return readFileSync(path, 'utf8').split('\n');
 }
-
-test('keeps the latest rows', () => {
-  const path = join(folder, 'packets.csv');
-  const log = new PacketLog(path, 3);
-  for (let i = 0; i < 5; i++) log.add(i, i * 10, i + 0.12345);
-  expect(written(log, path)).toEqual([
-    'frameNumber,sequenceOffset,sentMs',
-    '2,20,2.1235',
-    '3,30,3.1235',
-    '4,40,4.1235',
-    '',
-  ]);
-});
 
 test('records when a command was sent and received, and whether it was accepted', () => {
   const path = join(folder, 'commands.csv');

@@ -1,0 +1,23 @@
+import type { Alarm } from '@farpoint/operator';
+import { expect, test } from 'vitest';
+import { alarmWords, raisedFirst } from './alarm-words.ts';
+
+const alarm = (level: Alarm['level'], sinceMs: number, value = 19.4567): Alarm => ({
+  ...{ type: 'alarm', number: 0, level, text: 'The battery is low', value, limit: 20, unit: '%', sinceMs },
+});
+
+test('an alarm says what is wrong, the value and the limit', () => {
+  expect(alarmWords(alarm('warn', 0))).toEqual({
+    text: 'The battery is low (19.5 %, limit 20 %)',
+    tone: 'warning',
+  });
+  expect(alarmWords({ ...alarm('error', 0, -1234.5), unit: '' })).toEqual({
+    text: 'The battery is low (-1234, limit 20)',
+    tone: 'bad',
+  });
+});
+
+test('errors come first, then what was raised last', () => {
+  const sorted = [alarm('warn', 1), alarm('error', 2), alarm('warn', 3)].sort(raisedFirst);
+  expect(sorted.map(({ sinceMs }) => sinceMs)).toEqual([2, 3, 1]);
+});

@@ -1,0 +1,60 @@
+/** Where raster tiles of a map come from, as the operator has set it. Without a setting, none are fetched. */
+
+export interface MapTiles {
+  /** With `{z}`, `{x}` and `{y}`. */
+  readonly template: string;
+  /** Shown on the map. */
+  readonly attribution: string;
+}
+
+const MOST_TEXT = 512;
+const MOST_ATTRIBUTION = 120;
+
+/** @returns the checked template, or what is wrong with it, for people */
+export function parseTileTemplate(
+  text: string,
+  page: { readonly protocol: string; readonly host: string },
+): { template: string } | { fault: string } {
+  const template = text.trim();
+  if (template.length > MOST_TEXT) return { fault: `The address must have at most ${MOST_TEXT} characters.` };
+  for (const part of ['{z}', '{x}', '{y}'])
+    if (!template.includes(part)) return { fault: 'The address must contain {z}, {x} and {y}.' };
+  const urlOf = (number: string) =>
+    new URL(template.replaceAll(/\{[xyz]\}/g, number), `${page.protocol}//${page.host}/`);
+  let url: URL;
+  try {
+    url = urlOf('0');
+    // Otherwise a tile's number could choose the server.
+    if (urlOf('7').origin !== url.origin)
+      return { fault: 'The server’s name must not contain {z}, {x} or {y}.' };
+  } catch {
+    return { fault: 'This is not an address.' };
+  }
+  const isSameHost = url.host === page.host && url.protocol === page.protocol;
+  if (url.protocol !== 'https:' && !isSameHost)
+    return { fault: 'The address must begin with https://, or be on this page’s server.' };
+  if (url.username !== '' || url.password !== '')
+    return { fault: 'The address must not contain a password.' };
+  return { template };
+}
+
+/** @returns `null` if there is no template that can be used */
+export function mapTilesOf(
+  template: string | undefined,
+  attribution: string | undefined,
+  page: { readonly protocol: string; readonly host: string },
+): MapTiles | null {
+  if (template === undefined || template.trim() === '') return null;
+  const parsed = parseTileTemplate(template, page);
+  if ('fault' in parsed) return null;
+  const text = attribution?.trim() ?? '';
+  const host = new URL(parsed.template.replaceAll(/[{}]/g, ''), `${page.protocol}//${page.host}/`).host;
+  return {
+    template: parsed.template,
+    attribution: text === '' ? `Map: ${host}` : text.slice(0, MOST_ATTRIBUTION),
+  };
+}
+
+export function tileUrl({ template }: MapTiles, z: number, x: number, y: number): string {
+  return template.replaceAll('{z}', String(z)).replaceAll('{x}', String(x)).replaceAll('{y}', String(y));
+}

@@ -1,0 +1,127 @@
+/** A number over time: its samples, how often they come, and its curve for a chart. No clock here: times are arguments. */
+import type { Curve } from './curve.ts';
+import { EXTREMES_MS, ExtremesRing } from './extremes-ring.ts';
+import { type RingVerdict, SampleRing } from './sample-ring.ts';
+
+/** A value at an instant. */
+export interface SeriesValue {
+  readonly value: number;
+  /** When it was measured, ms. */
+  readonly timeMs: number;
+}
+
+/** The values within a window. */
+export interface SeriesRange {
+  readonly least: number;
+  readonly most: number;
+}
+
+const INTERVALS_CONSIDERED = 15;
+/** A value is stale after so many of its intervals without another; at least and at most, ms. */
+const STALE_INTERVALS = 3;
+const LEAST_STALE_MS = 500;
+const MOST_STALE_MS = 30_000;
+/** Before its rate is known, ms. */
+const UNKNOWN_STALE_MS = 10_000;
+
+export class Series {
+  readonly #ring: SampleRing;
+  readonly #extremes = new ExtremesRing();
+  readonly #intervals: number[] = [];
+  #intervalMs: number | null = null;
+  #newestMs = Number.NEGATIVE_INFINITY;
+
+  /** @param most samples that are kept */
+  constructor(most?: number) {
+    this.#ring = new SampleRing(most);
+  }
+
+  get newestMs(): number {
+    return this.#newestMs;
+  }
+
+  get length(): number {
+    return this.#ring.length;
+  }
+
+  add(timeMs: number, value: number): RingVerdict {
+    const verdict = this.#ring.add(timeMs, value);
+    if (verdict !== 'added') return verdict;
+    this.#extremes.add(timeMs, value);
+    if (timeMs > this.#newestMs) {
+      if (this.#newestMs !== Number.NEGATIVE_INFINITY) this.#observe(timeMs - this.#newestMs);
+      this.#newestMs = timeMs;
+    }
+    return verdict;
+  }
+
+  /** The newest value that is not newer than the instant; `null` if there is none. */
+  at(instantMs: number): SeriesValue | null {
+    const index = this.#ring.indexAt(instantMs);
+    return index < 0 ? null : { value: this.#ring.valueAt(index), timeMs: this.#ring.timeAt(index) };
+  }
+
+  /** After how long without another sample a value is stale, ms: its own rate decides. */
+  get staleMs(): number {
+    if (this.#intervalMs === null) return UNKNOWN_STALE_MS;
+    return Math.min(Math.max(STALE_INTERVALS * this.#intervalMs, LEAST_STALE_MS), MOST_STALE_MS);
+  }
+
+  /** The smallest and the largest value of the window; `null` without any. */
+  range(fromMs: number, toMs: number): SeriesRange | null {
+    let least = Number.POSITIVE_INFINITY;
+    let most = Number.NEGATIVE_INFINITY;
+    this.#forEach(fromMs, toMs, (_, low, high) => {
+      if (low < least) least = low;
+      if (high > most) most = high;
+    });
+    return least > most ? null : { least, most };
+  }
+
+  /**
+   * Draws the window into `into`: at most the smallest and the largest value of each of its columns, so that no spike is
+   * lost, and gaps where nothing came for longer than {@link staleMs}.
+   */
+  curve(fromMs: number, toMs: number, into: Curve): void {
+    into.begin(fromMs, toMs, this.#isCoarse(fromMs) ? this.staleMs + EXTREMES_MS : this.staleMs);
+    this.#forEach(fromMs, toMs, (timeMs, low, high) => {
+      into.add(timeMs, low);
+      if (high !== low) into.add(timeMs, high);
+    });
+    into.end();
+  }
+
+  clear(): void {
+    this.#ring.clear();
+    this.#extremes.clear();
+    this.#intervals.length = 0;
+    this.#intervalMs = null;
+    this.#newestMs = Number.NEGATIVE_INFINITY;
+  }
+
+  /** The samples; where they do not reach back far enough, the extremes of each second. */
+  #forEach(fromMs: number, toMs: number, each: (timeMs: number, low: number, high: number) => void): void {
+    const ring = this.#ring;
+    if (this.#isCoarse(fromMs)) {
+      this.#extremes.forEach(fromMs, toMs, each);
+      return;
+    }
+    const last = ring.indexAt(toMs);
+    for (let i = Math.max(0, ring.indexAt(fromMs)); i <= last; i++) {
+      const timeMs = ring.timeAt(i);
+      if (timeMs >= fromMs) each(timeMs, ring.valueAt(i), ring.valueAt(i));
+    }
+  }
+
+  /** Whether the window begins before the oldest sample that is kept. */
+  #isCoarse(fromMs: number): boolean {
+    return this.#ring.isFull && this.#ring.timeAt(0) > fromMs;
+  }
+
+  #observe(intervalMs: number): void {
+    this.#intervals.push(intervalMs);
+    if (this.#intervals.length > INTERVALS_CONSIDERED) this.#intervals.shift();
+    const sorted = this.#intervals.toSorted((a, b) => a - b);
+    this.#intervalMs = sorted[sorted.length >> 1] ?? null;
+  }
+}
