@@ -35,8 +35,8 @@ export async function openParts(options: RobotOptions, log: Logger): Promise<Rob
     });
     const [main] = captures;
     const [{ capture } = { capture: null }] = options.sensors;
-    if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond);
     const videos = await openVideoCameras(options.videos, log);
+    if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond, videos);
     return { captures, base, sink: openSink(options.sink, base, log), recording, videos };
   } catch (error) {
     for (const capture of captures) await capture.close();

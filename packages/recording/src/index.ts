@@ -4,6 +4,12 @@ export { RecordingError, type RecordingErrorCode } from './errors.ts';
 export { openRecording } from './open-recording.ts';
 export type { PlayOptions } from './play-options.ts';
 export type { PlayClock } from './play-timeline.ts';
-export type { CloudKind, DropKind, RecorderOptions } from './recorder-messages.ts';
+export type {
+  CloudKind,
+  DropKind,
+  RecordedVideo,
+  RecorderOptions,
+  VideoFormatName,
+} from './recorder-messages.ts';
 export type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 export { SessionRecorder } from './session-recorder.ts';

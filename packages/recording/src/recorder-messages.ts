@@ -79,8 +79,35 @@ export interface PictureRecord {
   file: Uint8Array<ArrayBuffer>;
 }
 
+/** How the pictures of a video are coded. `vp8` is none of Foxglove's formats; this robot's own playback reads it. */
+export const VIDEO_FORMATS = ['h264', 'vp8'] as const;
+export type VideoFormatName = (typeof VIDEO_FORMATS)[number];
+
+/** A camera whose video is recorded. */
+export interface RecordedVideo {
+  /** Name shown to people. */
+  name: string;
+  format: VideoFormatName;
+}
+
+/** A camera's picture as it was coded for operators. H.264: an access unit as in Annex B. VP8: a frame. */
+export interface VideoRecord {
+  type: 'video';
+  /** Position in the list of videos. */
+  video: number;
+  capturedAtMs: number;
+  /** Whether it can be decoded without any other. */
+  key: boolean;
+  /** Counts all frames of the video: a gap shows dropped ones. */
+  sequence: number;
+  /** How many frames of all videos were dropped so far. */
+  dropped: number;
+  /** Transferred. */
+  bytes: Uint8Array<ArrayBuffer>;
+}
+
 /** What is dropped if the writer does not keep up; each kind has its own queue. */
-export type DropKind = CloudKind | 'pictures' | 'events';
+export type DropKind = CloudKind | 'pictures' | 'videos' | 'events';
 
 /** Returns a cloud's memory for reuse. */
 export interface CloudDone {
@@ -111,14 +138,17 @@ export type EventRecord =
 export type RecorderRequest =
   | EventRecord
   | PictureRecord
+  | VideoRecord
   /** Sent before the first picture. */
   | { type: 'cameras'; cameras: readonly RecordedCamera[] }
+  /** Sent before the first frame of a video. */
+  | { type: 'videos'; videos: readonly RecordedVideo[] }
   | { type: 'close' };
 
 export type RecorderReport =
   | { type: 'ready' }
-  /** An event or a picture was processed. */
-  | { type: 'done'; kind: 'events' | 'pictures' }
+  /** An event, a picture or a frame of a video was processed. */
+  | { type: 'done'; kind: 'events' | 'pictures' | 'videos' }
   /** The file has reached its maximum size and is closed. */
   | { type: 'full' }
   /** Nothing more is written. */

@@ -13,7 +13,7 @@ function setUp(answer: (cloud: number) => Promise<void> = async () => undefined)
   let clouds = 0;
   const writer: RecorderTarget = {
     faults: 0,
-    dropped: { captured: 1, sent: 2, pictures: 3 },
+    dropped: { captured: 1, sent: 2, pictures: 3, videos: 4 },
     addCloud: async () => {
       const cloud = clouds++;
       await answer(cloud);
@@ -21,6 +21,8 @@ function setUp(answer: (cloud: number) => Promise<void> = async () => undefined)
     },
     addCameras: () => void done.push('cameras'),
     addPicture: note('picture'),
+    addVideos: () => void done.push('videos'),
+    addVideo: note('video'),
     addEvent: note('event'),
     addOwnState: note('state'),
     file: { messages: 7, bytes: 900, flush: note('flush'), sync: note('sync'), close: note('close') },

@@ -9,7 +9,15 @@ const SYNC_EVERY = 10;
 /** The parts of {@link RecordingWriter} that a recorder uses. */
 export type RecorderTarget = Pick<
   RecordingWriter,
-  'addCameras' | 'addCloud' | 'addEvent' | 'addOwnState' | 'addPicture' | 'dropped' | 'faults'
+  | 'addCameras'
+  | 'addCloud'
+  | 'addEvent'
+  | 'addOwnState'
+  | 'addPicture'
+  | 'addVideo'
+  | 'addVideos'
+  | 'dropped'
+  | 'faults'
 > & { readonly file: Pick<McapFileWriter, 'bytes' | 'close' | 'flush' | 'messages' | 'sync'> };
 
 /** A recording in progress: processes requests in order, until the file is full or cannot be written. */
@@ -41,6 +49,11 @@ export class Recorder {
   onRequest(request: Exclude<RecorderRequest, { type: 'close' }>): void {
     if (request.type === 'cameras') {
       void this.#inTurn(async () => this.#writer.addCameras(request.cameras));
+    } else if (request.type === 'videos') {
+      void this.#inTurn(async () => this.#writer.addVideos(request.videos));
+    } else if (request.type === 'video') {
+      const added = this.#inTurn(() => this.#writer.addVideo(request));
+      void added.then(() => this.#send({ type: 'done', kind: 'videos' }));
     } else if (request.type === 'picture') {
       const added = this.#inTurn(() => this.#writer.addPicture(request));
       void added.then(() => this.#send({ type: 'done', kind: 'pictures' }));

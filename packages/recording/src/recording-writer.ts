@@ -1,7 +1,7 @@
 import { type Pose, sequence32Of } from '@farpoint/protocol';
 import { PointRoom, recordedPoints } from './captured-cloud.ts';
 import { McapFileWriter } from './mcap-file-writer.ts';
-import { pictureTopics } from './picture-topics.ts';
+import { pictureTopics, videoTopics } from './picture-topics.ts';
 import {
   type CloudKind,
   type CloudRecord,
@@ -10,10 +10,14 @@ import {
   type JsonKind,
   type PictureRecord,
   type RecordedCamera,
+  type RecordedVideo,
   type RecorderOptions,
+  type VideoFormatName,
+  type VideoRecord,
 } from './recorder-messages.ts';
 import {
   FOXGLOVE_COMPRESSED_IMAGE_SCHEMA,
+  FOXGLOVE_COMPRESSED_VIDEO_SCHEMA,
   ODOMETRY_SCHEMA,
   POINT_CLOUD2_SCHEMA,
   TF_MESSAGE_SCHEMA,
@@ -23,6 +27,7 @@ import {
   BASE_FRAME,
   CAMERA_FRAME,
   compressedImage,
+  compressedVideo,
   odometryOf,
   pointCloud2,
   transformOf,
@@ -43,13 +48,16 @@ type RosKind = keyof typeof ROS_TOPICS;
 export class RecordingWriter {
   /** Records that could not be converted to messages. */
   faults = 0;
-  /** Clouds and pictures that never arrived here because the writer did not keep up. */
-  readonly dropped: Record<CloudKind | 'pictures', number> = { captured: 0, sent: 0, pictures: 0 };
+  /** Clouds, pictures and frames of videos that never arrived here because the writer did not keep up. */
+  readonly dropped: Record<CloudKind | 'pictures' | 'videos', number> = {
+    ...{ captured: 0, sent: 0, pictures: 0, videos: 0 },
+  };
   readonly file: McapFileWriter;
   readonly #epochNs: bigint;
   readonly #decoder: SentCloudDecoder;
   readonly #channels = new Map<RosKind | JsonKind, number>();
   #cameras: { channel: number; frame: string }[] = [];
+  #videos: { channel: number; frame: string; format: VideoFormatName }[] = [];
   /** Its content is written, or copied, before the next cloud. */
   readonly #room = new PointRoom();
   #transforms = 0;
@@ -139,6 +147,40 @@ export class RecordingWriter {
     const ns = this.#nsOf(capturedAtMs);
     await this.file.add(of.channel, sequence32Of(sequence), ns, [
       compressedImage(ns, of.frame, format, file),
+    ]);
+  }
+
+  /** Creates a topic for each video, even for those that nobody will watch. */
+  addVideos(videos: readonly RecordedVideo[]): void {
+    const name = 'foxglove_msgs/msg/CompressedVideo';
+    const schema = { name, encoding: 'ros2msg' as const, text: FOXGLOVE_COMPRESSED_VIDEO_SCHEMA };
+    const topics = videoTopics(videos.map((video) => video.name));
+    this.#videos = videos.map(({ name: camera, format }, i) => ({
+      channel: this.file.addChannel({
+        ...{ topic: topics[i] as string, messageEncoding: 'cdr', schema, metadata: { camera, format } },
+      }),
+      frame: camera,
+      format,
+    }));
+  }
+
+  /** @throws {Error} if writing fails */
+  async addVideo({
+    video,
+    capturedAtMs,
+    sequence,
+    dropped,
+    bytes,
+  }: Omit<VideoRecord, 'type'>): Promise<void> {
+    this.dropped.videos = dropped;
+    const of = this.#videos[video];
+    if (of === undefined) {
+      this.faults++;
+      return;
+    }
+    const ns = this.#nsOf(capturedAtMs);
+    await this.file.add(of.channel, sequence32Of(sequence), ns, [
+      compressedVideo(ns, of.frame, of.format, bytes),
     ]);
   }
 

@@ -8,15 +8,20 @@ import type {
   JsonKind,
   PictureRecord,
   RecordedCamera,
+  RecordedVideo,
   RecorderOptions,
   RecorderReport,
   RecorderRequest,
+  VideoRecord,
 } from './recorder-messages.ts';
+import { type QueuedVideoFrame, VideoQueue } from './video-queue.ts';
 
 /** How many events the writer may hold, and how many may wait for it. */
 const LIMITS = { underWay: 256, waiting: 4096 };
 /** The same for pictures: 16 MB of the largest that are sent. */
 const PICTURE_LIMITS = { underWay: 4, waiting: 24 };
+/** The same for frames of videos: some seconds of eight cameras. */
+const VIDEO_LIMITS = { underWay: 64, waiting: 512, waitingBytes: 16 * 1024 * 1024 };
 
 /** The main thread's end of a recording. The capture thread has its own, {@link clouds}. */
 export class SessionRecorder {
@@ -26,6 +31,8 @@ export class SessionRecorder {
   onFull: (() => void) | null = null;
   /** Called once if nothing more can be written. The robot continues. */
   onFailure: ((error: RecordingError) => void) | null = null;
+  /** Called when a video can go on with a key frame only, or should have one again. */
+  onKeyFrameNeeded: ((video: number) => void) | null = null;
   /** Messages so far. */
   messages = 0;
   bytes = 0;
@@ -36,6 +43,7 @@ export class SessionRecorder {
   readonly #path: string;
   readonly #events: CreditQueue<EventRecord>;
   readonly #pictures: CreditQueue<Omit<PictureRecord, 'dropped'>>;
+  readonly #videos: VideoQueue<QueuedVideoFrame & { sequence: number }>;
   readonly #sequences = new Map<string, number>();
   #closing = false;
   #failed = false;
@@ -47,8 +55,10 @@ export class SessionRecorder {
     this.clouds = clouds;
     this.#events = new CreditQueue(LIMITS, (event) => this.#post(event));
     this.#pictures = new CreditQueue(PICTURE_LIMITS, (picture) => this.#postPicture(picture));
+    this.#videos = new VideoQueue(VIDEO_LIMITS, (frame) => this.#postVideo(frame));
+    this.#videos.onKeyFrameNeeded = (video) => this.onKeyFrameNeeded?.(video);
     worker.on('message', (report: RecorderReport) => {
-      if (report.type === 'done') (report.kind === 'pictures' ? this.#pictures : this.#events).done();
+      if (report.type === 'done') this.#queues[report.kind].done();
       else if (report.type === 'written') {
         this.messages = report.messages;
         this.bytes = report.bytes;
@@ -89,6 +99,7 @@ export class SessionRecorder {
     return {
       ...this.#cloudsDropped,
       pictures: this.#pictures.dropped,
+      videos: this.#videos.dropped,
       events: this.#events.dropped,
     };
   }
@@ -100,9 +111,21 @@ export class SessionRecorder {
 
   /** A picture as it is sent to operators. @param file its memory belongs to the recorder from now on */
   picture(camera: number, capturedAtMs: number, format: PictureFormat, file: Uint8Array<ArrayBuffer>): void {
-    if (!this.#writing) return;
+    if (!this.writing) return;
     const sequence = this.#next(`picture ${camera}`);
     this.#pictures.push({ type: 'picture', camera, capturedAtMs, sequence, format, file });
+  }
+
+  /** The cameras whose videos are recorded: call once, before the first frame. */
+  videos(videos: readonly RecordedVideo[]): void {
+    this.#post({ type: 'videos', videos: videos.map(({ name, format }) => ({ name, format })) });
+  }
+
+  /** A frame of a video as it was coded for operators. @param bytes must not be changed any more */
+  video(video: number, capturedAtMs: number, key: boolean, bytes: Uint8Array): void {
+    if (!this.writing) return;
+    const sequence = this.#next(`video ${video}`);
+    this.#videos.push({ video, capturedAtMs, key, bytes, sequence });
   }
 
   json(kind: JsonKind, timeMs: number, value: object): void {
@@ -125,16 +148,18 @@ export class SessionRecorder {
     this.#closing = true;
     this.#events.drain();
     this.#pictures.drain();
+    this.#videos.drain();
     const ended = new Promise((resolve) => this.#worker.once('exit', resolve));
     this.#post({ type: 'close' });
     await ended;
   }
 
   #push(event: EventRecord): void {
-    if (this.#writing) this.#events.push(event);
+    if (this.writing) this.#events.push(event);
   }
 
-  get #writing(): boolean {
+  /** Whether what comes is still recorded: until the file is full, cannot be written, or is closed. */
+  get writing(): boolean {
     return !this.#closing && !this.#failed && !this.#full;
   }
 
@@ -145,6 +170,17 @@ export class SessionRecorder {
   #postPicture(picture: Omit<PictureRecord, 'dropped'>): void {
     const record: PictureRecord = { ...picture, dropped: this.#pictures.dropped };
     this.#worker.postMessage(record, [picture.file.buffer]);
+  }
+
+  #postVideo({ bytes, ...frame }: QueuedVideoFrame & { sequence: number }): void {
+    // The encoder's output is also on its way to operators.
+    const own = bytes.slice();
+    const record: VideoRecord = { ...frame, type: 'video', bytes: own, dropped: this.#videos.dropped };
+    this.#worker.postMessage(record, [own.buffer]);
+  }
+
+  get #queues() {
+    return { events: this.#events, pictures: this.#pictures, videos: this.#videos };
   }
 
   #next(kind: string): number {

@@ -80,6 +80,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
               captured: recorded('captured') ? values.recordCapturedFps : 0,
               sent: recorded('sent') ? values.recordSentFps : 0,
             },
+            videos: values.recordVideos,
             mostBytes: values.recordMax,
           },
   };

@@ -5,7 +5,7 @@ import {
   PICTURE_CHUNK_HEADER_BYTES,
   type Twist,
 } from '@farpoint/protocol';
-import { type CloudKind, type DropKind, SessionRecorder } from '@farpoint/recording';
+import { type CloudKind, type DropKind, SessionRecorder, type VideoFormatName } from '@farpoint/recording';
 import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { TimedBaseState } from '../base/base.ts';
@@ -13,7 +13,11 @@ import type { Capture, CaptureRecording } from '../capture/capture.ts';
 import type { ReadyFrame } from '../capture/capture-messages.ts';
 import type { CameraDescription } from '../capture/frame-source.ts';
 import { monotonicMs } from '../clock.ts';
+import type { RecordedVideos } from '../options/recording.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
+import type { VideoCamera } from '../video/video-encoder.ts';
+import type { EncodedPicture } from '../video/video-frame.ts';
+import type { VideoTaker } from '../video/video-taker.ts';
 import { durationWords, recordingBytesPerSecond, sizeWords } from './recording-rate.ts';
 import type { StreamStatistics } from './stream-statistics.ts';
 
@@ -23,6 +27,7 @@ export interface RecordingOptions {
   compression: 'none' | 'zstd';
   /** Highest number of clouds per second; 0 records none. */
   clouds: Readonly<Record<CloudKind, number>>;
+  videos: RecordedVideos;
   /** The recording ends, complete, before it exceeds this size. */
   mostBytes: number;
 }
@@ -30,8 +35,13 @@ export interface RecordingOptions {
 const MORE_ROOM =
   'for longer recordings: a larger --record-max, or fewer clouds (--record-clouds, --record-sent-fps)';
 
+const FORMATS: Readonly<Record<VideoCamera['codec'], VideoFormatName>> = { H264: 'h264', VP8: 'vp8' };
+const UNSEEN =
+  'these cameras are recorded in VP8, which this robot plays but Foxglove and Lichtblick do not show';
+const SEEN_REMEDY = 'an H.264 encoder (docs/video.md)';
+
 /** The main thread's part of a recording. The clouds come from the capture thread. */
-export class SessionRecording {
+export class SessionRecording implements VideoTaker {
   readonly capture: CaptureRecording;
   readonly #recorder: SessionRecorder;
   readonly #options: RecordingOptions;
@@ -63,6 +73,7 @@ export class SessionRecording {
   announce(
     { description, cameras }: Pick<Capture, 'description' | 'cameras'>,
     mostFramesPerSecond: number,
+    videos: readonly Pick<VideoCamera, 'most'>[],
   ): void {
     const { capacity, framesPerSecond = mostFramesPerSecond } = description;
     const { path, clouds, mostBytes } = this.#options;
@@ -71,6 +82,8 @@ export class SessionRecording {
       points: capacity,
       framesPerSecond: Math.min(framesPerSecond, mostFramesPerSecond),
       pictures: cameras.length > 0,
+      videoBitsPerSecond:
+        this.#options.videos === 'none' ? 0 : videos.reduce((sum, { most }) => sum + most.bitsPerSecond, 0),
     });
     const rate = `up to ${sizeWords(bytesPerSecond)} a second while an operator watches`;
     const end = Number.isFinite(mostBytes)
@@ -88,9 +101,31 @@ export class SessionRecording {
     return { messages, bytes, dropped };
   }
 
-  /** Sets the cameras that have pictures. */
-  cameras(cameras: readonly CameraDescription[]): void {
+  /**
+   * Sets the cameras that have pictures, and those that have video.
+   *
+   * @param requestKeyFrame asks for a frame of a video that can be decoded without any other
+   */
+  cameras(
+    cameras: readonly CameraDescription[],
+    videos: readonly Pick<VideoCamera, 'name' | 'codec'>[],
+    requestKeyFrame: (video: number) => void,
+  ): void {
     this.#recorder.cameras(cameras.map(({ name, ofCloud = false }) => ({ name, ofCloud })));
+    if (this.#options.videos === 'none') return;
+    this.#recorder.onKeyFrameNeeded = requestKeyFrame;
+    this.#recorder.videos(videos.map(({ name, codec }) => ({ name, format: FORMATS[codec] })));
+    const unseen = videos.filter(({ codec }) => codec === 'VP8').map(({ name }) => name);
+    if (unseen.length > 0) this.#log.warn({ cameras: unseen, remedy: SEEN_REMEDY }, UNSEEN);
+  }
+
+  wants(_video: number): boolean {
+    return this.#options.videos === 'always' && this.#recorder.writing;
+  }
+
+  /** Records a frame of a video as it was encoded for operators. */
+  take(video: number, { capturedAtMs, key, bytes }: EncodedPicture): void {
+    if (this.#options.videos !== 'none') this.#recorder.video(video, capturedAtMs, key, bytes);
   }
 
   /** Records a picture as it was made for operators. */

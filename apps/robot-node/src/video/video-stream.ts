@@ -4,6 +4,9 @@ import { type EncodedPicture, VideoFrame } from './video-frame.ts';
 import { type EncodedFormat, VideoPlanner } from './video-plan.ts';
 
 export interface VideoStreamEvents {
+  /** A picture is encoded: called before `onFrame`, also while the operators' path carries no video. */
+  onPicture(picture: EncodedPicture): void;
+  /** A frame for operators. */
   onFrame(frame: VideoFrame): void;
   onFault(fault: string | null): void;
   /** The encoder gave bytes that are no picture. */
@@ -12,8 +15,10 @@ export interface VideoStreamEvents {
 
 /** What those who watch a video want of it together. */
 export interface VideoWish {
-  /** What it may take, without headers. */
+  /** What it may take, without headers; too little for any picture if only others than operators want it. */
   bitsPerSecond: number;
+  /** It is encoded even if that is too little, then at its full rate, for others than operators. */
+  anyway: boolean;
   /** Whether its pictures are to carry their capture time. */
   barcode: boolean;
 }
@@ -40,8 +45,10 @@ export class VideoStream {
   #droppedBefore = 0;
   #lastCapturedMs = Number.NEGATIVE_INFINITY;
   #pictureId = 0;
-  /** The path carries no video at present. */
+  /** The operators' path carries no video at present. */
   #paused = false;
+  /** Nothing that the encoder gives is used at present. */
+  #idle = false;
 
   constructor(video: number, camera: VideoCamera, events: VideoStreamEvents) {
     this.video = video;
@@ -71,9 +78,11 @@ export class VideoStream {
       return;
     }
     this.#wantedMs = nowMs;
-    const planned = this.#planner.plan(wish.bitsPerSecond);
+    const forOperators = this.#planner.plan(wish.bitsPerSecond);
     const wasPaused = this.#paused;
-    this.#paused = planned === null;
+    this.#paused = forOperators === null;
+    const planned = forOperators ?? (wish.anyway ? this.#planner.plan(this.camera.most.bitsPerSecond) : null);
+    this.#idle = planned === null;
     if (planned === null) return;
     const next = { ...planned, barcode: wish.barcode };
     if (this.#encoder === null) this.#open(next);
@@ -81,7 +90,7 @@ export class VideoStream {
       this.#format = next;
       this.#encoder.configure(next);
     }
-    if (wasPaused) this.requestKeyFrame();
+    if (wasPaused && !this.#paused) this.requestKeyFrame();
   }
 
   async close(): Promise<void> {
@@ -111,7 +120,7 @@ export class VideoStream {
 
   #onPicture(picture: EncodedPicture, framesPerSecond: number): void {
     // Receivers take equal or falling timestamps for parts of one picture, or for a fault.
-    if (this.#paused || picture.capturedAtMs <= this.#lastCapturedMs) return;
+    if (this.#idle || picture.capturedAtMs <= this.#lastCapturedMs) return;
     const { video, counters } = this;
     const { codec } = this.camera;
     let frame: VideoFrame;
@@ -128,7 +137,8 @@ export class VideoStream {
     counters.frames++;
     counters.bytes += picture.bytes.length;
     if (picture.key) counters.keyFrames++;
-    this.#events.onFrame(frame);
+    this.#events.onPicture(picture);
+    if (!this.#paused) this.#events.onFrame(frame);
   }
 }
 
