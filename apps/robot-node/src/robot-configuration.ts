@@ -7,7 +7,7 @@ import type { VideoCameraOptions } from './options/videos.ts';
 import type { PicturePolicy } from './pictures/picture-plan.ts';
 import type { CloudSensorOptions } from './sensors/cloud-sensor.ts';
 import type { SignalingOptions } from './signaling/signaling-client.ts';
-import type { RecordingOptions } from './telemetry/session-recording.ts';
+import type { LiveOptions, RecordingOptions } from './telemetry/session-recording.ts';
 import type { RateControlOptions } from './transport/make-rate-controller.ts';
 
 /** Everything that a robot is made of. */
@@ -49,4 +49,6 @@ export interface RobotOptions extends RateControlOptions {
   statisticsFile?: string | undefined;
   /** Where everything is recorded; if undefined, nothing is recorded. */
   record?: RecordingOptions | undefined;
+  /** Where the same is served live; if undefined, nowhere. */
+  foxglove?: LiveOptions | undefined;
 }

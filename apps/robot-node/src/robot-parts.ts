@@ -24,8 +24,9 @@ export interface RobotParts {
 
 /** Opens everything, or nothing. @throws {CaptureError} if a source of clouds cannot be opened */
 export async function openParts(options: RobotOptions, log: Logger): Promise<RobotParts> {
+  const { record = null, foxglove = null, id } = options;
   const recording =
-    options.record === undefined ? null : await SessionRecording.open(options.record, options.id, log);
+    record === null && foxglove === null ? null : await SessionRecording.open({ record, foxglove }, id, log);
   const base = options.base === null ? null : new BaseThread(options.base);
   let captures: Capture[] = [];
   try {

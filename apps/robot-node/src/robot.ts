@@ -148,6 +148,7 @@ export class Robot {
         counters: this.counters,
         frameLog: this.#frameLog,
         onFrame: (frame) => recording?.frame(frame),
+        wantedAnyway: () => recording?.wantsClouds === true,
         stages,
         now: monotonicMs,
         mayCode: options.mode === 'auto',

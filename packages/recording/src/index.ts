@@ -7,6 +7,7 @@ export type { PlayClock } from './play-timeline.ts';
 export type {
   CloudKind,
   DropKind,
+  LiveReport,
   RecordedVideo,
   RecorderOptions,
   VideoFormatName,

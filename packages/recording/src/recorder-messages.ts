@@ -1,9 +1,11 @@
 /** Messages from the threads of a recording robot to the thread that writes. Times are of the robot's clock, ms. */
+import type { ConnectionRefusal, LiveCounts, LiveListenerOptions } from '@farpoint/foxglove';
 import type { CloudFormat, PictureFormat, Pose, Twist } from '@farpoint/protocol';
+import type { Destinations } from './message-outputs.ts';
 
 export interface RecorderOptions {
-  /** The MCAP file to write; it must not exist yet. */
-  path: string;
+  /** The MCAP file to write, which must not exist yet; `null` for none. */
+  path: string | null;
   /** Its chunks: uncompressed or compressed. */
   compression: 'none' | 'zstd';
   /** The file is closed, complete, before it exceeds this size; unlimited if absent. */
@@ -12,6 +14,8 @@ export interface RecorderOptions {
   epochNs: bigint;
   /** For people: what is recorded. */
   robotId: string;
+  /** Serves the same messages to live viewers. */
+  live?: LiveListenerOptions | undefined;
 }
 
 /** Intrinsics of a depth camera's lens, pixels. */
@@ -30,6 +34,8 @@ interface RecordedStamp {
   sequence: number;
   /** How many of its kind were dropped so far. */
   dropped: number;
+  /** The receivers that it is for. */
+  to: Destinations;
   /** Transferred; it comes back with the answer. */
   buffer: ArrayBuffer;
 }
@@ -102,6 +108,8 @@ export interface VideoRecord {
   sequence: number;
   /** How many frames of all videos were dropped so far. */
   dropped: number;
+  /** The receivers that it is for. */
+  to: Destinations;
   /** Transferred. */
   bytes: Uint8Array<ArrayBuffer>;
 }
@@ -109,13 +117,35 @@ export interface VideoRecord {
 /** What is dropped if the writer does not keep up; each kind has its own queue. */
 export type DropKind = CloudKind | 'pictures' | 'videos' | 'events';
 
-/** Returns a cloud's memory for reuse. */
-export interface CloudDone {
-  kind: CloudKind;
-  buffer: ArrayBuffer;
-  /** The file is full: no more clouds are written. */
-  ended: boolean;
+/** The clouds that have a receiver. */
+export interface CloudWishes {
+  /** The file takes clouds: not if it is full. */
+  file: boolean;
+  /** Kinds that live viewers subscribe to. */
+  live: Readonly<Record<CloudKind, boolean>>;
 }
+
+/** To the capture thread: the wishes, and perhaps a cloud's memory for reuse. */
+export interface CloudAnswer {
+  wishes: CloudWishes;
+  done: { kind: CloudKind; buffer: ArrayBuffer } | null;
+}
+
+/** What live viewers subscribe to, by how it is recorded. */
+export interface LiveWishes {
+  clouds: CloudWishes['live'];
+  /** Positions of cameras. */
+  pictures: readonly number[];
+  videos: readonly number[];
+  events: readonly EventKind[];
+}
+
+export const NO_LIVE_WISHES: LiveWishes = {
+  ...{ clouds: { captured: false, sent: false }, pictures: [], videos: [], events: [] },
+};
+
+/** For `/metrics`. */
+export type LiveReport = LiveCounts & { connectionsRefused: Readonly<Record<ConnectionRefusal, number>> };
 
 /** Topics of what is written as JSON. */
 export const JSON_TOPICS = {
@@ -127,6 +157,8 @@ export const JSON_TOPICS = {
   recorder: '/farpoint/recorder',
 } as const;
 export type JsonKind = keyof typeof JSON_TOPICS;
+
+export type EventKind = JsonKind | 'velocity' | 'state';
 
 export type EventRecord =
   | { type: 'json'; kind: JsonKind; timeMs: number; sequence: number; value: object }
@@ -146,7 +178,13 @@ export type RecorderRequest =
   | { type: 'close' };
 
 export type RecorderReport =
-  | { type: 'ready' }
+  /** @param port of the live server; `null` if there is none */
+  | { type: 'ready'; live: { port: number } | { failed: string } | null }
+  /** What live viewers want has changed. */
+  | { type: 'wishes'; wishes: LiveWishes }
+  /** A live viewer can go on with a key frame of this video only. */
+  | { type: 'keyFrame'; video: number }
+  | ({ type: 'live' } & LiveReport)
   /** An event, a picture or a frame of a video was processed. */
   | { type: 'done'; kind: 'events' | 'pictures' | 'videos' }
   /** The file has reached its maximum size and is closed. */

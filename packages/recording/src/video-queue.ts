@@ -77,6 +77,11 @@ export class VideoQueue<T extends QueuedVideoFrame> {
     return track.whole;
   }
 
+  /** A frame of this video was not offered: it goes on with a key frame. */
+  skip(video: number): void {
+    this.#trackOf(video).whole = false;
+  }
+
   /** Call when the receiver has finished a frame. */
   done(): void {
     const next = this.#waiting.shift();

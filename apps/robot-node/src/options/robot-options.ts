@@ -70,6 +70,15 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     packetLog: values.packetLog ?? undefined,
     frameLog: values.frameLog ?? undefined,
     statisticsFile: values.stats ?? undefined,
+    foxglove:
+      values.foxglovePort === null
+        ? undefined
+        : {
+            port: values.foxglovePort,
+            reach: values.foxgloveReach,
+            allowedOrigins: values.foxgloveOrigins,
+            cloudsPerSecond: values.foxgloveFps,
+          },
     record:
       values.record === null
         ? undefined

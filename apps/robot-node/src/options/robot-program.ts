@@ -1,6 +1,7 @@
 /** All options of the robot program. Each group has its own file. */
 import { adminOptions, defineProgram, type OptionTable, type OptionValues } from '@farpoint/service';
 import manifest from '../../package.json' with { type: 'json' };
+import { foxgloveOptions } from './foxglove.ts';
 import { identityOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';
 import { measurementOptions } from './measurement.ts';
@@ -36,6 +37,7 @@ const options = {
   ...videosOptions,
   ...networkOptions,
   ...recordingOptions,
+  ...foxgloveOptions,
   ...adminOptions(9400),
   ...measurementOptions,
 } satisfies OptionTable;
