@@ -5,7 +5,7 @@
       "type": "executable",
       "sources": [
         "main.c", "wire.c", "log.c", "pipeline.c", "rate.c", "size.c", "barcode.c", "encoded.c", "frames.c",
-        "encoders.c", "faults.c"
+        "coded.c", "decoder.c", "decode.c", "encoders.c", "faults.c"
       ],
       "defines": ["_GNU_SOURCE"],
       "cflags": [

@@ -5,9 +5,9 @@
 #include "video.h"
 #include "wire.h"
 
-enum { HEAD_BYTES = 17, MOST_SIDE = 8192 };
+enum { HEAD_BYTES = 17 };
 
-/* By the code in the message; video-process.ts has the same list. */
+/* By the code in the message; wire.ts has the same list. */
 static const GstVideoFormat formats[] = {
     GST_VIDEO_FORMAT_UNKNOWN, GST_VIDEO_FORMAT_I420, GST_VIDEO_FORMAT_NV12, GST_VIDEO_FORMAT_YUY2,
     GST_VIDEO_FORMAT_UYVY,    GST_VIDEO_FORMAT_RGB,  GST_VIDEO_FORMAT_BGR,  GST_VIDEO_FORMAT_RGBA,
@@ -19,8 +19,8 @@ typedef struct {
   guint width, height, stride;
 } Head;
 
-/* The last picture's; the caps are set when they change. Only the thread that reads the input uses it. */
-static Head last;
+/* The caps and the picture they belong to come from the input's thread, or from the decoder's. */
+static GMutex push_lock;
 
 static bool skip(guint32 size) {
   uint8_t scratch[4096];
@@ -32,7 +32,7 @@ static bool skip(guint32 size) {
   return true;
 }
 
-static bool refuse(Video *video, guint32 size, const char *why) {
+bool frames_refuse(Video *video, guint32 size, const char *why) {
   if (g_atomic_int_add(&video->refused, 1) == 0) log_line("error", why);
   return skip(size);
 }
@@ -60,9 +60,16 @@ static guint row_bytes(const Head *head, const GstVideoInfo *info) {
   return pixels * (guint)GST_VIDEO_INFO_COMP_PSTRIDE(info, 0);
 }
 
+void frames_push(Video *video, GstBuffer *buffer, GstCaps *caps) {
+  g_mutex_lock(&push_lock);
+  gst_app_src_set_caps(GST_APP_SRC(video->frames), caps);
+  gst_app_src_push_buffer(GST_APP_SRC(video->frames), buffer);
+  g_mutex_unlock(&push_lock);
+}
+
 bool frames_take(Video *video, guint32 size) {
   uint8_t bytes[HEAD_BYTES];
-  if (size < HEAD_BYTES) return refuse(video, size, "a raw picture's message is too short");
+  if (size < HEAD_BYTES) return frames_refuse(video, size, "a raw picture's message is too short");
   if (!wire_read(bytes, sizeof bytes)) return false;
   const guint32 rest = size - HEAD_BYTES;
   const Head head = {.capture = load_u64(bytes),
@@ -70,18 +77,18 @@ bool frames_take(Video *video, guint32 size) {
                      .width = load_u16(bytes + 9),
                      .height = load_u16(bytes + 11),
                      .stride = load_u32(bytes + 13)};
-  if (video->frames == NULL) return refuse(video, rest, "a raw picture came, but the source is another one");
-  if (head.format == GST_VIDEO_FORMAT_UNKNOWN) return refuse(video, rest, "a raw picture's format is unknown");
+  if (video->frames == NULL) return frames_refuse(video, rest, "a raw picture came, but the source is another one");
+  if (head.format == GST_VIDEO_FORMAT_UNKNOWN) return frames_refuse(video, rest, "a raw picture's format is unknown");
   if (head.width == 0 || head.height == 0 || head.width > MOST_SIDE || head.height > MOST_SIDE)
-    return refuse(video, rest, "a raw picture's size is out of range");
+    return frames_refuse(video, rest, "a raw picture's size is out of range");
   GstVideoInfo info;
   gst_video_info_set_format(&info, head.format, head.width, head.height);
   gsize offset[GST_VIDEO_MAX_PLANES] = {0};
   gint stride[GST_VIDEO_MAX_PLANES] = {0};
   if (head.stride < row_bytes(&head, &info) || head.stride > 16 * MOST_SIDE)
-    return refuse(video, rest, "a raw picture's rows are too short");
+    return frames_refuse(video, rest, "a raw picture's rows are too short");
   if (planes(&head, &info, offset, stride) != rest)
-    return refuse(video, rest, "a raw picture has another number of bytes than its size and stride say");
+    return frames_refuse(video, rest, "a raw picture has another number of bytes than its size and stride say");
 
   GstBuffer *buffer = gst_buffer_new_allocate(NULL, rest, NULL);
   GstMapInfo map;
@@ -96,12 +103,8 @@ bool frames_take(Video *video, guint32 size) {
                                  GST_VIDEO_INFO_N_PLANES(&info), offset, stride);
   /* The pipeline's base time is 0: its running time is CLOCK_MONOTONIC. */
   GST_BUFFER_PTS(buffer) = head.capture;
-  if (head.format != last.format || head.width != last.width || head.height != last.height) {
-    GstCaps *caps = gst_video_info_to_caps(&info);
-    gst_app_src_set_caps(GST_APP_SRC(video->frames), caps);
-    gst_caps_unref(caps);
-  }
-  last = head;
-  gst_app_src_push_buffer(GST_APP_SRC(video->frames), buffer);
+  GstCaps *caps = gst_video_info_to_caps(&info);
+  frames_push(video, buffer, caps);
+  gst_caps_unref(caps);
   return true;
 }

@@ -86,6 +86,7 @@ static bool take_message(Video *video, uint8_t expected) {
   const uint8_t type = header[4];
   if (size > MOST_MESSAGE_BYTES || (expected != 0 && type != expected)) return false;
   if (type == MESSAGE_FRAME) return frames_take(video, size);
+  if (type == MESSAGE_CODED) return decode_take(video, size);
   if (size > MOST_OPEN_BYTES) return false;
   char *payload = g_malloc0(size + 1);
   bool sound = wire_read(payload, size);
@@ -155,9 +156,10 @@ static gboolean tell_stats(gpointer data) {
                          "{\"state\":\"stats\",\"framesIn\":%u,\"skipped\":%" G_GUINT64_FORMAT
                          ",\"dropped\":%" G_GUINT64_FORMAT ",\"encoded\":%" G_GUINT64_FORMAT
                          ",\"keyFrames\":%" G_GUINT64_FORMAT ",\"bytes\":%" G_GUINT64_FORMAT
-                         ",\"refused\":%u,\"encodeMs\":%s,\"mostEncodeMs\":%s}",
+                         ",\"refused\":%u,\"damaged\":%u,\"undecoded\":%u,\"encodeMs\":%s,\"mostEncodeMs\":%s}",
                          came, skipped, dropped, counts.encoded, counts.key_frames, counts.bytes,
-                         (guint)g_atomic_int_get(&video->refused), number[0], number[1]);
+                         (guint)g_atomic_int_get(&video->refused), (guint)g_atomic_int_get(&video->damaged),
+                         (guint)g_atomic_int_get(&video->undecoded), number[0], number[1]);
   wire_write_json(MESSAGE_STATE, json);
   g_string_free(json, TRUE);
   if (last_key_us != 0 && g_get_monotonic_time() - last_key_us > (gint64)KEY_FRAME_S * G_USEC_PER_SEC)

@@ -5,8 +5,15 @@
 #include <gst/gst.h>
 #include <gst/video/video.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "rate.h"
+
+/* Of a picture, pixels. */
+enum { MOST_SIDE = 8192 };
+
+/* How a coded picture is coded, by the code in its message; wire.ts has the same list. */
+typedef enum { CODING_NONE, CODING_JPEG, CODING_PNG, CODING_H264, CODING_VP8, CODINGS } Coding;
 
 /* Which clock's time is drawn into the picture. */
 typedef enum { BARCODE_NONE, BARCODE_MONOTONIC, BARCODE_UNIX } Barcode;
@@ -57,7 +64,7 @@ typedef struct {
   gint64 last_key_us;
 
   /* Atomic. */
-  guint came, to_encoder, refused;
+  guint came, to_encoder, refused, damaged, undecoded;
 } Video;
 
 /* pipeline.c */
@@ -79,6 +86,21 @@ void fit_size(const GstVideoInfo *source, const Settings *settings, guint *width
 
 /* frames.c: reads a `frame` message's payload. Returns false at the end of the input. */
 bool frames_take(Video *video, guint32 size);
+/* Takes the buffer, whose time is its capture time. For any thread. */
+void frames_push(Video *video, GstBuffer *buffer, GstCaps *caps);
+/* Reads past the rest of a message that makes no sense, and counts it. Returns false at the end of the input. */
+bool frames_refuse(Video *video, guint32 size, const char *why);
+
+/* decode.c: reads a `coded` message's payload. Returns false at the end of the input. */
+bool decode_take(Video *video, guint32 size);
+
+/* coded.c */
+/* Whether no picture of this coding needs another. */
+bool coded_alone(Coding coding);
+/* Whether the bytes begin as such a picture does, with a size in range. */
+bool coded_sound(Coding coding, const uint8_t *bytes, gsize size);
+/* Whether a decoder can begin with this picture. */
+bool coded_key(Coding coding, const uint8_t *bytes, gsize size);
 
 /* encoders.c */
 void encoders_list(void);

@@ -9,9 +9,9 @@
 
 enum { HEADER_BYTES = 5 };
 /* A raw picture of 8192 x 8192 in four bytes a pixel has 256 MiB; nothing here is near that. */
-enum { MOST_MESSAGE_BYTES = 128 * 1024 * 1024 };
+enum { MOST_MESSAGE_BYTES = 128 * 1024 * 1024, MOST_CODED_BYTES = 32 * 1024 * 1024 };
 
-enum { MESSAGE_OPEN = 1, MESSAGE_CONFIGURE = 2, MESSAGE_KEY_FRAME = 3, MESSAGE_FRAME = 4 };
+enum { MESSAGE_OPEN = 1, MESSAGE_CONFIGURE = 2, MESSAGE_KEY_FRAME = 3, MESSAGE_FRAME = 4, MESSAGE_CODED = 5 };
 enum { MESSAGE_ENCODED = 65, MESSAGE_STATE = 66, MESSAGE_ERROR = 67 };
 
 /* Moves the messages away from the standard output, onto which plugins print: that becomes the standard error. */

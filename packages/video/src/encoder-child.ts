@@ -4,18 +4,23 @@ import { createInterface } from 'node:readline';
 import { type LogLine, parseError, parseLogLine, parseState, type VideoState } from './process-messages.ts';
 import { type VideoFailure, videoFailure } from './video-failure.ts';
 import {
+  type CodedPicture,
   type EncodedFrame,
   FROM_PROCESS,
+  INTER_CODINGS,
   MessageParser,
   parseEncoded,
   type RawFrame,
   VideoWireError,
   type WireMessage,
+  writeCodedHead,
   writeFrameHead,
 } from './wire.ts';
 
 /** From the friendly signal to the one that cannot be ignored. */
 const KILL_AFTER_MS = 3000;
+/** Coded pictures that wait for the process, bytes. It reads all that comes, so there are many only if it hangs. */
+const MOST_WAITING_BYTES = 4 * 1024 * 1024;
 
 export interface EncoderChildEvents {
   readonly onFrame: (frame: EncodedFrame) => void;
@@ -34,6 +39,7 @@ export class EncoderChild {
   #closing = false;
   #kill: NodeJS.Timeout | null = null;
   #takingFrame = false;
+  #lostCoded = false;
 
   constructor(program: string, env: NodeJS.ProcessEnv, events: EncoderChildEvents) {
     this.#events = events;
@@ -71,6 +77,25 @@ export class EncoderChild {
     this.#takingFrame = true;
     stdin.write(writeFrameHead(frame));
     stdin.write(frame.bytes, () => {
+      this.#takingFrame = false;
+    });
+    return true;
+  }
+
+  /** Returns false, without taking it, while the process still takes too much of what came before. */
+  pushCoded(picture: CodedPicture): boolean {
+    const { stdin } = this.#child;
+    const inter = INTER_CODINGS.has(picture.coding);
+    // Where others need it, a picture is only left out if it must be.
+    const room = inter ? stdin.writableLength < MOST_WAITING_BYTES : !this.#takingFrame;
+    if (!room || this.#closing || !stdin.writable) {
+      this.#lostCoded = true;
+      return false;
+    }
+    this.#takingFrame = true;
+    stdin.write(writeCodedHead(picture, this.#lostCoded));
+    this.#lostCoded = false;
+    stdin.write(picture.bytes, () => {
       this.#takingFrame = false;
     });
     return true;

@@ -18,4 +18,13 @@ export {
   type VideoSourceOptions,
   videoSourceSchema,
 } from './video-source.ts';
-export { type EncodedFrame, RAW_FORMATS, type RawFormat, type RawFrame, rawFrameBytes } from './wire.ts';
+export {
+  CODINGS,
+  type CodedPicture,
+  type Coding,
+  type EncodedFrame,
+  RAW_FORMATS,
+  type RawFormat,
+  type RawFrame,
+  rawFrameBytes,
+} from './wire.ts';

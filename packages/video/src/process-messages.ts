@@ -30,6 +30,10 @@ const stats = z.object({
   bytes: count,
   /** Raw pictures whose message was not valid. */
   refused: count,
+  /** Coded pictures that the decoder could not read. */
+  damaged: count,
+  /** Coded pictures left out because the decoder was too slow, or because one that they need was missing. */
+  undecoded: count,
   encodeMs: z.number().min(0),
   mostEncodeMs: z.number().min(0),
 });

@@ -323,7 +323,7 @@ describe(`the video process (${VIDEO_SUITE.note})`, { skip: VIDEO_SUITE.skip }, 
       const captureNs = process.hrtime.bigint();
       expect(video.process.pushFrame({ ...frame, captureNs, bytes })).toBe(true);
       expect(video.process.pushFrame({ ...frame, captureNs: captureNs + 1n, bytes })).toBe(false);
-      expect(video.process.rawDropped).toBe(1);
+      expect(video.process.notTaken).toBe(1);
       expect((await next)[0]?.captureNs).toBe(captureNs);
     });
 

@@ -9,7 +9,15 @@ import type { LogLine, VideoState } from './process-messages.ts';
 import type { VideoFailure } from './video-failure.ts';
 import { type VideoSettings, videoSettingsSchema } from './video-settings.ts';
 import { type VideoSource, type VideoSourceOptions, videoSourceSchema } from './video-source.ts';
-import { type EncodedFrame, type RawFrame, rawFrameBytes, writeConfigure, writeKeyFrame } from './wire.ts';
+import {
+  type CodedPicture,
+  type EncodedFrame,
+  MOST_CODED_BYTES,
+  type RawFrame,
+  rawFrameBytes,
+  writeConfigure,
+  writeKeyFrame,
+} from './wire.ts';
 
 /** At most one key frame in this time, whoever asks for it. */
 const KEY_FRAME_INTERVAL_MS = 300;
@@ -51,7 +59,7 @@ export class VideoProcess {
   #keyFrameTimer: NodeJS.Timeout | null = null;
   #retryTimer: NodeJS.Timeout | null = null;
   #firstFrameMs: number | null = null;
-  #rawDropped = 0;
+  #notTaken = 0;
   #starts = 0;
   #closed = false;
 
@@ -77,9 +85,9 @@ export class VideoProcess {
     return this.#starts;
   }
 
-  /** Raw pictures that were not taken, because the one before was still under way. */
-  get rawDropped(): number {
-    return this.#rawDropped;
+  /** Pictures that were pushed and not taken, because the one before was still under way. */
+  get notTaken(): number {
+    return this.#notTaken;
   }
 
   /** Of the process; `undefined` while there is none. */
@@ -114,14 +122,31 @@ export class VideoProcess {
    * For a source of the kind `frames`. The bytes must stay as they are until they are taken, so each picture should
    * have a buffer of its own.
    *
-   * @returns whether it is taken; if not, it is counted in `rawDropped`
+   * @returns whether it is taken; if not, it is counted in `notTaken`
    * @throws {RangeError} if the number of bytes is not that of the shape
    */
   pushFrame(frame: RawFrame): boolean {
     if (frame.bytes.length !== rawFrameBytes(frame))
       throw new RangeError(`the picture has ${frame.bytes.length} bytes instead of ${rawFrameBytes(frame)}`);
     const taken = this.#child?.pushFrame(frame) ?? false;
-    if (!taken) this.#rawDropped++;
+    if (!taken) this.#notTaken++;
+    return taken;
+  }
+
+  /**
+   * For a source of the kind `frames`: a picture that the process decodes. One that is damaged is left out and counted
+   * (`VideoStats`). H.264 and VP8 begin, and go on after a gap, with a key frame. For the bytes, the rule of
+   * `pushFrame` applies.
+   *
+   * @returns whether it is taken; if not, it is counted in `notTaken`
+   * @throws {RangeError} if there are no bytes, or more than 32 MiB
+   */
+  pushCoded(picture: CodedPicture): boolean {
+    const { length } = picture.bytes;
+    if (length === 0 || length > MOST_CODED_BYTES)
+      throw new RangeError(`the coded picture has ${length} bytes instead of 1 to ${MOST_CODED_BYTES}`);
+    const taken = this.#child?.pushCoded(picture) ?? false;
+    if (!taken) this.#notTaken++;
     return taken;
   }
 

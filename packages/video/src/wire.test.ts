@@ -9,6 +9,7 @@ import {
   rawFrameBytes,
   VideoWireError,
   type WireMessage,
+  writeCodedHead,
   writeConfigure,
   writeFrameHead,
   writeKeyFrame,
@@ -140,6 +141,14 @@ describe('what is sent', () => {
     const frame = { captureNs: 258n, format: 'gray', width: 3, height: 2, stride: 3, bytes } as const;
     expect(hex(writeFrameHead(frame))).toBe(
       '1700000004' + '0201000000000000' + '09' + '0300' + '0200' + '03000000',
+    );
+  });
+
+  it('has the bytes that native/decode.c reads', () => {
+    const picture = { captureNs: 258n, coding: 'vp8', bytes: new Uint8Array(6) } as const;
+    expect(hex(writeCodedHead(picture, false))).toBe('1000000005' + '0201000000000000' + '04' + '00');
+    expect(hex(writeCodedHead({ ...picture, coding: 'jpeg' }, true))).toBe(
+      '1000000005' + '0201000000000000' + '01' + '01',
     );
   });
 

@@ -7,11 +7,13 @@ export const HEADER_BYTES = 5;
 /** No coded picture is near that; a longer message means that the output is not ours. */
 export const MOST_MESSAGE_BYTES = 32 * 1024 * 1024;
 
-export const TO_PROCESS = { open: 1, configure: 2, keyFrame: 3, frame: 4 } as const;
+export const TO_PROCESS = { open: 1, configure: 2, keyFrame: 3, frame: 4, coded: 5 } as const;
 export const FROM_PROCESS = { encoded: 65, state: 66, error: 67 } as const;
 
 const ENCODED_HEAD_BYTES = 17;
 const FRAME_HEAD_BYTES = 17;
+const CODED_HEAD_BYTES = 10;
+const LOST_FLAG = 1;
 const CONFIGURE_BYTES = 13;
 const KEY_FLAG = 1;
 const NS_PER_MS = 1_000_000n;
@@ -230,5 +232,38 @@ export function writeFrameHead({ captureNs, format, width, height, stride, bytes
   view.setUint16(14, width, true);
   view.setUint16(16, height, true);
   view.setUint32(18, stride, true);
+  return head;
+}
+
+/** Codings of pictures that the process decodes, and their codes. */
+export const CODINGS = { jpeg: 1, png: 2, h264: 3, vp8: 4 } as const;
+export type Coding = keyof typeof CODINGS;
+/** A picture of these is of use only if those before it were decoded. */
+export const INTER_CODINGS: ReadonlySet<Coding> = new Set(['h264', 'vp8']);
+
+/** The program refuses more. */
+export const MOST_CODED_BYTES = 32 * 1024 * 1024;
+
+export interface CodedPicture {
+  /** When the picture was captured: CLOCK_MONOTONIC, the clock of `process.hrtime`. */
+  readonly captureNs: bigint;
+  readonly coding: Coding;
+  /** A file of JPEG or PNG; an access unit of H.264 as in Annex B, with its parameter sets if it is a key frame; a frame of VP8. */
+  readonly bytes: Uint8Array;
+}
+
+/**
+ * What precedes a coded picture's bytes.
+ *
+ * @param lost whether pictures before this one are missing, so that a decoder has to wait for a key frame
+ */
+export function writeCodedHead({ captureNs, coding, bytes }: CodedPicture, lost: boolean): Uint8Array {
+  const head = new Uint8Array(HEADER_BYTES + CODED_HEAD_BYTES);
+  const view = new DataView(head.buffer);
+  view.setUint32(0, CODED_HEAD_BYTES + bytes.length, true);
+  view.setUint8(4, TO_PROCESS.coded);
+  view.setBigUint64(5, captureNs, true);
+  view.setUint8(13, CODINGS[coding]);
+  view.setUint8(14, lost ? LOST_FLAG : 0);
   return head;
 }
