@@ -62,6 +62,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'pnpm robot init': { help: true, because: 'writes into the working tree' },
   'npx -y pnpm@12 robot --signaling wss://signal.example.org --id rover-1 --name "Rover" --token …': robot,
   'npx -y pnpm@12 robot --signaling ws://127.0.0.1:3100 --id bad --name "Behind 8 Mbit/s"': robot,
+  'npx -y pnpm@12 robot --foxglove-port 8765 …': robot,
   'npx -y pnpm@12 robot --record session.mcap …': robot,
   'npx -y pnpm@12 robot --source recording --path drive.mcap --topic /velodyne_points …': {
     refused: /^could not start: recording: drive\.mcap does not exist$/,

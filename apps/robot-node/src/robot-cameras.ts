@@ -4,7 +4,7 @@ import { VideoHub, type VideoHubOptions, type VideoTarget } from './video/video-
 
 export interface RobotCamerasOptions
   extends Omit<PictureHubOptions, 'targets'>,
-    Pick<VideoHubOptions, 'onStateChanged' | 'onFrame'> {
+    Pick<VideoHubOptions, 'onStateChanged' | 'onFrame' | 'taker'> {
   videos: readonly VideoCamera[];
   targets: () => Iterable<PictureTarget & VideoTarget>;
 }
@@ -23,12 +23,13 @@ export class RobotCameras {
     onMade,
     onStateChanged,
     onFrame,
+    taker,
     videos,
     log,
   }: RobotCamerasOptions) {
     this.pictures =
       capture.cameras.length === 0 ? null : new PictureHub({ policy, capture, targets, driver, onMade, log });
-    this.videos = new VideoHub({ cameras: videos, targets, driver, onStateChanged, onFrame, log });
+    this.videos = new VideoHub({ cameras: videos, targets, driver, onStateChanged, onFrame, taker, log });
   }
 
   /** Call often. */

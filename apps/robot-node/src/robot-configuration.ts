@@ -9,7 +9,7 @@ import type { PicturePolicy } from './pictures/picture-plan.ts';
 import type { CloudSensorOptions } from './sensors/cloud-sensor.ts';
 import type { SignalingOptions } from './signaling/signaling-client.ts';
 import type { AlarmRule } from './telemetry/alarms/alarm-board.ts';
-import type { RecordingOptions } from './telemetry/session-recording.ts';
+import type { LiveOptions, RecordingOptions } from './telemetry/session-recording.ts';
 import type { RateControlOptions } from './transport/make-rate-controller.ts';
 import type { FeedSource } from './video/feed/feed-source.ts';
 
@@ -65,6 +65,8 @@ export interface RobotOptions extends RateControlOptions {
   statisticsFile?: string | undefined;
   /** Where everything is recorded; if undefined, nothing is recorded. */
   record?: RecordingOptions | undefined;
+  /** Where the same is served live; if undefined, nowhere. */
+  foxglove?: LiveOptions | undefined;
 }
 
 export function hasSound({ sound: { microphone, loudspeaker } }: Pick<RobotOptions, 'sound'>): boolean {

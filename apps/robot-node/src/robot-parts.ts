@@ -24,8 +24,9 @@ export interface RobotParts {
 
 /** Opens everything, or nothing. @throws {CaptureError} if a source of clouds cannot be opened */
 export async function openParts(options: RobotOptions, log: Logger): Promise<RobotParts> {
+  const { record = null, foxglove = null, id } = options;
   const recording =
-    options.record === undefined ? null : await SessionRecording.open(options.record, options.id, log);
+    record === null && foxglove === null ? null : await SessionRecording.open({ record, foxglove }, id, log);
   const base = options.base === null ? null : new BaseThread(options.base);
   let captures: Capture[] = [];
   try {
@@ -35,8 +36,8 @@ export async function openParts(options: RobotOptions, log: Logger): Promise<Rob
     });
     const [main] = captures;
     const [{ capture } = { capture: null }] = options.sensors;
-    if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond);
     const videos = await openVideoCameras(videosInWorld(options.videos, base), log);
+    if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond, videos);
     return { captures, base, sink: openSink(options.sink, base, log), recording, videos };
   } catch (error) {
     for (const capture of captures) await capture.close();

@@ -160,6 +160,7 @@ export class Robot {
         counters: this.counters,
         frameLog: this.#frameLog,
         onFrame: (frame) => recording?.frame(frame),
+        wantedAnyway: () => recording?.wantsClouds === true,
         stages,
         now: monotonicMs,
         mayCode: options.mode === 'auto',
@@ -173,12 +174,13 @@ export class Robot {
         onFailure: (sensor, error) => this.#onSensorFailure(sensor, error),
       },
     );
-    recording?.cameras(capture.cameras);
+    recording?.cameras(capture.cameras, videos, (video) => this.cameras.videos.requestKeyFrame(video));
     this.cameras = new RobotCameras({
       ...{ policy: options.pictures, capture, videos, log },
       targets: () => this.operators.values(),
       driver: () => guard.leaseHolder,
       onMade: (picture) => recording?.picture(picture),
+      taker: recording,
       onStateChanged: () => this.#host.tellVideos(),
       onFrame: () => this.#sendLoop.run(),
     });

@@ -38,6 +38,13 @@ export async function run(): Promise<void> {
     // Connected operators go on without signaling, so its loss is not a failure of the robot.
     health.add('signaling', () => ({ ok: true, detail: { registered: robot.signaling.registered } }));
     health.add('operators', () => ({ ok: true, detail: { connected: robot.operators.size } }));
+    const { recording } = robot;
+    // A robot drives without viewers.
+    if (recording?.live != null)
+      health.add('foxglove', () => ({
+        ok: true,
+        detail: { listening: recording.live?.listening, viewers: recording.live?.report?.clients ?? 0 },
+      }));
     await serveAdmin({ host: options.adminHost, port: options.adminPort });
     // If this thread or the capture thread hangs, the watchdog is not fed, and systemd restarts the robot.
     systemd?.ready(

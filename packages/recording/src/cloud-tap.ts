@@ -2,7 +2,8 @@ import type { MessagePort } from 'node:worker_threads';
 import type { CloudFormat, Pose } from '@farpoint/protocol';
 import { CloudRate } from './cloud-rate.ts';
 import { CreditQueue } from './credit-queue.ts';
-import type { CloudDone, CloudKind, CloudRecord, Lens } from './recorder-messages.ts';
+import type { Destinations } from './message-outputs.ts';
+import type { CloudAnswer, CloudKind, CloudRecord, CloudWishes, Lens } from './recorder-messages.ts';
 
 /** How many clouds of each kind the writer may hold, and how many may wait for it. */
 const LIMITS = { underWay: 2, waiting: 4 };
@@ -36,18 +37,23 @@ export interface TappedPackets {
 export class CloudTap {
   readonly #port: MessagePort;
   readonly #lanes: Record<CloudKind, Lane>;
-  readonly #rates: Record<CloudKind, CloudRate>;
-  #ended = false;
+  readonly #rates: Record<'file' | 'live', Record<CloudKind, CloudRate>>;
+  #wishes: CloudWishes = { file: true, live: { captured: false, sent: false } };
 
-  /** @param perSecond the most clouds of each kind recorded per second: 0 records none, infinity all */
-  constructor(port: MessagePort, perSecond: Readonly<Record<CloudKind, number>>) {
+  /**
+   * @param perSecond the most clouds of each kind recorded per second: 0 records none, infinity all
+   * @param livePerSecond the same for live viewers, who get a kind only while one of them subscribes to it
+   */
+  constructor(port: MessagePort, perSecond: Readonly<Record<CloudKind, number>>, livePerSecond = 0) {
     this.#port = port;
     this.#lanes = { captured: new Lane(port), sent: new Lane(port) };
-    this.#rates = { captured: new CloudRate(perSecond.captured), sent: new CloudRate(perSecond.sent) };
-    port.on('message', ({ kind, buffer, ended }: CloudDone) => {
-      this.#lanes[kind].done(buffer);
-      // Nothing more is copied for a recording that has ended.
-      if (ended) this.#ended = true;
+    this.#rates = {
+      file: { captured: new CloudRate(perSecond.captured), sent: new CloudRate(perSecond.sent) },
+      live: { captured: new CloudRate(livePerSecond), sent: new CloudRate(livePerSecond) },
+    };
+    port.on('message', ({ wishes, done }: CloudAnswer) => {
+      this.#wishes = wishes;
+      if (done !== null) this.#lanes[done.kind].done(done.buffer);
     });
   }
 
@@ -63,7 +69,8 @@ export class CloudTap {
 
   captured(cloud: TappedCloud, { width, height, camera }: TapGrid): void {
     const { capturedAtMs, cameraPose: pose } = cloud;
-    if (this.#ended || !this.#rates.captured.takes(capturedAtMs)) return;
+    const to = this.#destinations('captured', capturedAtMs);
+    if (to === null) return;
     const lane = this.#lanes.captured;
     if (cloud.form === 'points') {
       const { points, count } = cloud;
@@ -74,7 +81,7 @@ export class CloudTap {
       lane.push(
         count * 16,
         (buffer) => new Float32Array(buffer).set(points.subarray(0, count * 4)),
-        (stamp) => ({ type: 'points', ...stamp, capturedAtMs, pose, count, width, height }),
+        (stamp) => ({ type: 'points', ...stamp, to, capturedAtMs, pose, count, width, height }),
       );
     } else if (camera !== null) {
       const { depth, colour } = cloud;
@@ -89,7 +96,7 @@ export class CloudTap {
           new Float32Array(buffer).set(depth);
           new Uint32Array(buffer).set(colour, width * height);
         },
-        (stamp) => ({ type: 'images', ...stamp, capturedAtMs, pose, lens, width, height }),
+        (stamp) => ({ type: 'images', ...stamp, to, capturedAtMs, pose, lens, width, height }),
       );
     }
   }
@@ -98,16 +105,24 @@ export class CloudTap {
     { capturedAtMs, cameraPose: pose }: Pick<TappedCloud, 'capturedAtMs' | 'cameraPose'>,
     frame: TappedPackets,
   ): void {
-    if (this.#ended || !this.#rates.sent.takes(capturedAtMs)) return;
+    const to = this.#destinations('sent', capturedAtMs);
+    if (to === null) return;
     const { format, points, packets, slotBytes, streamHeader, copyPackets } = frame;
     this.#lanes.sent.push(
       packets * slotBytes,
       (buffer) => copyPackets(new Uint8Array(buffer), packets),
       (stamp) => ({
-        ...{ type: 'sent', ...stamp, capturedAtMs, pose },
+        ...{ type: 'sent', ...stamp, to, capturedAtMs, pose },
         ...{ format, points, packets, slotBytes, streamHeader },
       }),
     );
+  }
+
+  /** @returns `null` if nobody gets the cloud, so that it is not copied */
+  #destinations(kind: CloudKind, capturedAtMs: number): Destinations | null {
+    const file = this.#wishes.file && this.#rates.file[kind].takes(capturedAtMs);
+    const live = this.#wishes.live[kind] && this.#rates.live[kind].takes(capturedAtMs);
+    return file || live ? { file, live } : null;
   }
 
   /** Waiting clouds are still written. */

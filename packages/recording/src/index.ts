@@ -4,6 +4,13 @@ export { RecordingError, type RecordingErrorCode } from './errors.ts';
 export { openRecording } from './open-recording.ts';
 export type { PlayOptions } from './play-options.ts';
 export type { PlayClock } from './play-timeline.ts';
-export type { CloudKind, DropKind, RecorderOptions } from './recorder-messages.ts';
+export type {
+  CloudKind,
+  DropKind,
+  LiveReport,
+  RecordedVideo,
+  RecorderOptions,
+  VideoFormatName,
+} from './recorder-messages.ts';
 export type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 export { SessionRecorder } from './session-recorder.ts';

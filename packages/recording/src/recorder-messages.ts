@@ -1,9 +1,11 @@
 /** Messages from the threads of a recording robot to the thread that writes. Times are of the robot's clock, ms. */
+import type { ConnectionRefusal, LiveCounts, LiveListenerOptions } from '@farpoint/foxglove';
 import type { CloudFormat, PictureFormat, Pose, Twist } from '@farpoint/protocol';
+import type { Destinations } from './message-outputs.ts';
 
 export interface RecorderOptions {
-  /** The MCAP file to write; it must not exist yet. */
-  path: string;
+  /** The MCAP file to write, which must not exist yet; `null` for none. */
+  path: string | null;
   /** Its chunks: uncompressed or compressed. */
   compression: 'none' | 'zstd';
   /** The file is closed, complete, before it exceeds this size; unlimited if absent. */
@@ -12,6 +14,8 @@ export interface RecorderOptions {
   epochNs: bigint;
   /** For people: what is recorded. */
   robotId: string;
+  /** Serves the same messages to live viewers. */
+  live?: LiveListenerOptions | undefined;
 }
 
 /** Intrinsics of a depth camera's lens, pixels. */
@@ -30,6 +34,8 @@ interface RecordedStamp {
   sequence: number;
   /** How many of its kind were dropped so far. */
   dropped: number;
+  /** The receivers that it is for. */
+  to: Destinations;
   /** Transferred; it comes back with the answer. */
   buffer: ArrayBuffer;
 }
@@ -79,16 +85,67 @@ export interface PictureRecord {
   file: Uint8Array<ArrayBuffer>;
 }
 
-/** What is dropped if the writer does not keep up; each kind has its own queue. */
-export type DropKind = CloudKind | 'pictures' | 'events';
+/** How the pictures of a video are coded. `vp8` is none of Foxglove's formats; this robot's own playback reads it. */
+export const VIDEO_FORMATS = ['h264', 'vp8'] as const;
+export type VideoFormatName = (typeof VIDEO_FORMATS)[number];
 
-/** Returns a cloud's memory for reuse. */
-export interface CloudDone {
-  kind: CloudKind;
-  buffer: ArrayBuffer;
-  /** The file is full: no more clouds are written. */
-  ended: boolean;
+/** A camera whose video is recorded. */
+export interface RecordedVideo {
+  /** Name shown to people. */
+  name: string;
+  format: VideoFormatName;
 }
+
+/** A camera's picture as it was coded for operators. H.264: an access unit as in Annex B. VP8: a frame. */
+export interface VideoRecord {
+  type: 'video';
+  /** Position in the list of videos. */
+  video: number;
+  capturedAtMs: number;
+  /** Whether it can be decoded without any other. */
+  key: boolean;
+  /** Counts all frames of the video: a gap shows dropped ones. */
+  sequence: number;
+  /** How many frames of all videos were dropped so far. */
+  dropped: number;
+  /** The receivers that it is for. */
+  to: Destinations;
+  /** Transferred. */
+  bytes: Uint8Array<ArrayBuffer>;
+}
+
+/** What is dropped if the writer does not keep up; each kind has its own queue. */
+export type DropKind = CloudKind | 'pictures' | 'videos' | 'events';
+
+/** The clouds that have a receiver. */
+export interface CloudWishes {
+  /** The file takes clouds: not if it is full. */
+  file: boolean;
+  /** Kinds that live viewers subscribe to. */
+  live: Readonly<Record<CloudKind, boolean>>;
+}
+
+/** To the capture thread: the wishes, and perhaps a cloud's memory for reuse. */
+export interface CloudAnswer {
+  wishes: CloudWishes;
+  done: { kind: CloudKind; buffer: ArrayBuffer } | null;
+}
+
+/** What live viewers subscribe to, by how it is recorded. */
+export interface LiveWishes {
+  clouds: CloudWishes['live'];
+  /** Positions of cameras. */
+  pictures: readonly number[];
+  videos: readonly number[];
+  events: readonly EventKind[];
+}
+
+export const NO_LIVE_WISHES: LiveWishes = {
+  ...{ clouds: { captured: false, sent: false }, pictures: [], videos: [], events: [] },
+};
+
+/** For `/metrics`. */
+export type LiveReport = LiveCounts & { connectionsRefused: Readonly<Record<ConnectionRefusal, number>> };
 
 /** Topics of what is written as JSON. */
 export const JSON_TOPICS = {
@@ -101,6 +158,8 @@ export const JSON_TOPICS = {
 } as const;
 export type JsonKind = keyof typeof JSON_TOPICS;
 
+export type EventKind = JsonKind | 'velocity' | 'state';
+
 export type EventRecord =
   | { type: 'json'; kind: JsonKind; timeMs: number; sequence: number; value: object }
   /** The velocity that the wheels were given. */
@@ -111,14 +170,23 @@ export type EventRecord =
 export type RecorderRequest =
   | EventRecord
   | PictureRecord
+  | VideoRecord
   /** Sent before the first picture. */
   | { type: 'cameras'; cameras: readonly RecordedCamera[] }
+  /** Sent before the first frame of a video. */
+  | { type: 'videos'; videos: readonly RecordedVideo[] }
   | { type: 'close' };
 
 export type RecorderReport =
-  | { type: 'ready' }
-  /** An event or a picture was processed. */
-  | { type: 'done'; kind: 'events' | 'pictures' }
+  /** @param port of the live server; `null` if there is none */
+  | { type: 'ready'; live: { port: number } | { failed: string } | null }
+  /** What live viewers want has changed. */
+  | { type: 'wishes'; wishes: LiveWishes }
+  /** A live viewer can go on with a key frame of this video only. */
+  | { type: 'keyFrame'; video: number }
+  | ({ type: 'live' } & LiveReport)
+  /** An event, a picture or a frame of a video was processed. */
+  | { type: 'done'; kind: 'events' | 'pictures' | 'videos' }
   /** The file has reached its maximum size and is closed. */
   | { type: 'full' }
   /** Nothing more is written. */

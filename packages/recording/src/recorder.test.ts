@@ -6,14 +6,14 @@ import type { CloudRecord, RecorderReport } from './recorder-messages.ts';
 const CLOUD = { type: 'sent' } as CloudRecord;
 
 /** A recorder whose file only records the calls to it; `answer` decides the outcome of each cloud. */
-function setUp(answer: (cloud: number) => Promise<void> = async () => undefined) {
+function setUp(answer: (cloud: number) => Promise<void> = async () => undefined, live = false) {
   const done: string[] = [];
   const reports: RecorderReport[] = [];
   const note = (what: string) => async () => void done.push(what);
   let clouds = 0;
   const writer: RecorderTarget = {
     faults: 0,
-    dropped: { captured: 1, sent: 2, pictures: 3 },
+    dropped: { captured: 1, sent: 2, pictures: 3, videos: 4 },
     addCloud: async () => {
       const cloud = clouds++;
       await answer(cloud);
@@ -21,10 +21,23 @@ function setUp(answer: (cloud: number) => Promise<void> = async () => undefined)
     },
     addCameras: () => void done.push('cameras'),
     addPicture: note('picture'),
+    addVideos: () => void done.push('videos'),
+    addVideo: note('video'),
     addEvent: note('event'),
     addOwnState: note('state'),
-    file: { messages: 7, bytes: 900, flush: note('flush'), sync: note('sync'), close: note('close') },
+    out: {
+      ...{ messages: 7, bytes: 900, fileOpen: true, flush: note('flush'), sync: note('sync') },
+      get open() {
+        return this.fileOpen || live;
+      },
+      closeFile: async () => {
+        if (writer.out.fileOpen) done.push('close');
+        open(false);
+      },
+      abandonFile: () => open(false),
+    },
   };
+  const open = (isOpen: boolean) => Object.assign(writer.out, { fileOpen: isOpen });
   return { recorder: new Recorder(writer, (report) => reports.push(report)), done, reports };
 }
 
@@ -57,7 +70,7 @@ describe('Recorder', () => {
     });
     for (let i = 0; i < 3; i++) await recorder.addCloud(CLOUD);
     await recorder.flush();
-    expect(recorder.full).toBe(true);
+    expect(recorder.fileOpen).toBe(false);
     expect(done).toEqual(['cloud 0', 'close']);
     expect(reports.map(({ type }) => type)).toEqual(['written', 'full']);
   });
@@ -70,5 +83,13 @@ describe('Recorder', () => {
     await recorder.addCloud(CLOUD);
     expect(done).toEqual([]);
     expect(reports).toEqual([{ type: 'failed', detail: 'no space left on device' }]);
+  });
+
+  it('goes on for live viewers when the file is full', async () => {
+    const { recorder, done } = setUp(async (cloud) => {
+      if (cloud === 1) throw new McapFileFull();
+    }, true);
+    for (let i = 0; i < 3; i++) await recorder.addCloud(CLOUD);
+    expect(done).toEqual(['cloud 0', 'close', 'cloud 2']);
   });
 });

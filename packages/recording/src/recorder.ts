@@ -1,5 +1,6 @@
 import { detailOf } from './errors.ts';
-import { McapFileFull, type McapFileWriter } from './mcap-file-writer.ts';
+import { McapFileFull } from './mcap-file-writer.ts';
+import type { MessageOutputs } from './message-outputs.ts';
 import type { CloudRecord, RecorderReport, RecorderRequest } from './recorder-messages.ts';
 import type { RecordingWriter } from './recording-writer.ts';
 
@@ -9,15 +10,29 @@ const SYNC_EVERY = 10;
 /** The parts of {@link RecordingWriter} that a recorder uses. */
 export type RecorderTarget = Pick<
   RecordingWriter,
-  'addCameras' | 'addCloud' | 'addEvent' | 'addOwnState' | 'addPicture' | 'dropped' | 'faults'
-> & { readonly file: Pick<McapFileWriter, 'bytes' | 'close' | 'flush' | 'messages' | 'sync'> };
+  | 'addCameras'
+  | 'addCloud'
+  | 'addEvent'
+  | 'addOwnState'
+  | 'addPicture'
+  | 'addVideo'
+  | 'addVideos'
+  | 'dropped'
+  | 'faults'
+> & {
+  readonly out: Pick<
+    MessageOutputs,
+    'abandonFile' | 'bytes' | 'closeFile' | 'fileOpen' | 'flush' | 'messages' | 'open' | 'sync'
+  >;
+};
 
-/** A recording in progress: processes requests in order, until the file is full or cannot be written. */
+/**
+ * A recording in progress: processes requests in order. When the file is full or cannot be written, it ends; live
+ * viewers go on.
+ */
 export class Recorder {
   readonly #writer: RecorderTarget;
   readonly #send: (report: RecorderReport) => void;
-  #failed = false;
-  #full = false;
   #flushes = 0;
   #syncing = false;
   #tail: Promise<void> = Promise.resolve();
@@ -27,9 +42,9 @@ export class Recorder {
     this.#send = send;
   }
 
-  /** Whether the file has reached its maximum size and is closed. */
-  get full(): boolean {
-    return this.#full;
+  /** Whether clouds are still written to the file. */
+  get fileOpen(): boolean {
+    return this.#writer.out.fileOpen;
   }
 
   /** Writes a cloud. Resolves once its memory can be reused, also after a failure. */
@@ -41,6 +56,11 @@ export class Recorder {
   onRequest(request: Exclude<RecorderRequest, { type: 'close' }>): void {
     if (request.type === 'cameras') {
       void this.#inTurn(async () => this.#writer.addCameras(request.cameras));
+    } else if (request.type === 'videos') {
+      void this.#inTurn(async () => this.#writer.addVideos(request.videos));
+    } else if (request.type === 'video') {
+      const added = this.#inTurn(() => this.#writer.addVideo(request));
+      void added.then(() => this.#send({ type: 'done', kind: 'videos' }));
     } else if (request.type === 'picture') {
       const added = this.#inTurn(() => this.#writer.addPicture(request));
       void added.then(() => this.#send({ type: 'done', kind: 'pictures' }));
@@ -54,7 +74,7 @@ export class Recorder {
   flush(): Promise<void> {
     return this.#inTurn(async () => {
       await this.#addOwnState();
-      await this.#writer.file.flush();
+      await this.#writer.out.flush();
       this.#tell();
       this.#flushes++;
       if (this.#flushes % SYNC_EVERY === 0) this.#sync();
@@ -65,7 +85,7 @@ export class Recorder {
   async close(): Promise<void> {
     await this.#inTurn(async () => {
       await this.#addOwnState();
-      await this.#writer.file.close();
+      await this.#writer.out.closeFile();
     });
     this.#tell();
   }
@@ -74,7 +94,7 @@ export class Recorder {
   #sync(): void {
     if (this.#syncing) return;
     this.#syncing = true;
-    void this.#writer.file
+    void this.#writer.out
       .sync()
       .catch(() => {})
       .finally(() => {
@@ -84,11 +104,11 @@ export class Recorder {
 
   #inTurn(work: () => Promise<void>): Promise<void> {
     this.#tail = this.#tail.then(async () => {
-      if (this.#failed || this.#full) return;
+      if (!this.#writer.out.open) return;
       try {
         await work().catch((error: unknown) => this.#endIfFull(error));
       } catch (error) {
-        this.#failed = true;
+        this.#writer.out.abandonFile();
         this.#send({ type: 'failed', detail: detailOf(error) });
       }
     });
@@ -97,19 +117,18 @@ export class Recorder {
 
   async #endIfFull(error: unknown): Promise<void> {
     if (!(error instanceof McapFileFull)) throw error;
-    this.#full = true;
-    await this.#writer.file.close();
+    await this.#writer.out.closeFile();
     this.#tell();
     this.#send({ type: 'full' });
   }
 
   async #addOwnState(): Promise<void> {
-    if (this.#writer.file.messages > 0) await this.#writer.addOwnState();
+    if (this.#writer.out.messages > 0) await this.#writer.addOwnState();
   }
 
   #tell(): void {
     const { faults, dropped } = this.#writer;
-    const { messages, bytes } = this.#writer.file;
+    const { messages, bytes } = this.#writer.out;
     const { captured, sent } = dropped;
     this.#send({ type: 'written', messages, bytes, faults, dropped: { captured, sent } });
   }

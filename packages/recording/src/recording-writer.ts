@@ -1,19 +1,27 @@
-import { type Pose, sequence32Of } from '@farpoint/protocol';
+import type { LiveServer } from '@farpoint/foxglove';
+import type { Pose } from '@farpoint/protocol';
 import { PointRoom, recordedPoints } from './captured-cloud.ts';
 import { McapFileWriter } from './mcap-file-writer.ts';
-import { pictureTopics } from './picture-topics.ts';
+import { MessageOutputs } from './message-outputs.ts';
+import { pictureTopics, videoTopics } from './picture-topics.ts';
 import {
   type CloudKind,
   type CloudRecord,
+  type EventKind,
   type EventRecord,
   JSON_TOPICS,
   type JsonKind,
+  type LiveWishes,
   type PictureRecord,
   type RecordedCamera,
+  type RecordedVideo,
   type RecorderOptions,
+  type VideoFormatName,
+  type VideoRecord,
 } from './recorder-messages.ts';
 import {
   FOXGLOVE_COMPRESSED_IMAGE_SCHEMA,
+  FOXGLOVE_COMPRESSED_VIDEO_SCHEMA,
   ODOMETRY_SCHEMA,
   POINT_CLOUD2_SCHEMA,
   TF_MESSAGE_SCHEMA,
@@ -23,6 +31,7 @@ import {
   BASE_FRAME,
   CAMERA_FRAME,
   compressedImage,
+  compressedVideo,
   odometryOf,
   pointCloud2,
   transformOf,
@@ -39,17 +48,23 @@ const ROS_TOPICS = {
 } as const;
 type RosKind = keyof typeof ROS_TOPICS;
 
-/** Converts the messages of a robot's threads to messages of an MCAP file. Wait for each call before the next. */
+/**
+ * Converts the messages of a robot's threads to messages of an MCAP file and of live viewers. Wait for each call before
+ * the next.
+ */
 export class RecordingWriter {
   /** Records that could not be converted to messages. */
   faults = 0;
-  /** Clouds and pictures that never arrived here because the writer did not keep up. */
-  readonly dropped: Record<CloudKind | 'pictures', number> = { captured: 0, sent: 0, pictures: 0 };
-  readonly file: McapFileWriter;
+  /** Clouds, pictures and frames of videos that never arrived here because the writer did not keep up. */
+  readonly dropped: Record<CloudKind | 'pictures' | 'videos', number> = {
+    ...{ captured: 0, sent: 0, pictures: 0, videos: 0 },
+  };
+  readonly out: MessageOutputs;
   readonly #epochNs: bigint;
   readonly #decoder: SentCloudDecoder;
   readonly #channels = new Map<RosKind | JsonKind, number>();
   #cameras: { channel: number; frame: string }[] = [];
+  #videos: { channel: number; frame: string; format: VideoFormatName }[] = [];
   /** Its content is written, or copied, before the next cloud. */
   readonly #room = new PointRoom();
   #transforms = 0;
@@ -57,30 +72,49 @@ export class RecordingWriter {
   #newestNs = 0n;
   #lastTransformNs = 0n;
 
-  private constructor(file: McapFileWriter, epochNs: bigint, decoder: SentCloudDecoder) {
-    this.file = file;
+  private constructor(out: MessageOutputs, epochNs: bigint, decoder: SentCloudDecoder) {
+    this.out = out;
     this.#epochNs = epochNs;
     this.#decoder = decoder;
     for (const [kind, [topic, name, text]] of Object.entries(ROS_TOPICS)) {
       const schema = { name, encoding: 'ros2msg' as const, text };
-      this.#channels.set(kind as RosKind, file.addChannel({ topic, messageEncoding: 'cdr', schema }));
+      this.#channels.set(kind as RosKind, out.addChannel({ topic, messageEncoding: 'cdr', schema }));
     }
     for (const [kind, topic] of Object.entries(JSON_TOPICS)) {
-      this.#channels.set(kind as JsonKind, file.addChannel({ topic, messageEncoding: 'json', schema: null }));
+      this.#channels.set(kind as JsonKind, out.addChannel({ topic, messageEncoding: 'json', schema: null }));
     }
   }
 
   /** @throws {Error} if the file already exists or cannot be created */
-  static async create(options: RecorderOptions, decoder: SentCloudDecoder): Promise<RecordingWriter> {
-    const file = await McapFileWriter.create(
-      options.path,
-      options.compression,
-      'farpoint',
-      options.mostBytes,
-    );
-    const writer = new RecordingWriter(file, options.epochNs, decoder);
-    await file.addMetadata('farpoint', { robot: options.robotId, epochNs: String(options.epochNs) });
+  static async create(
+    { path, compression, mostBytes, epochNs, robotId }: RecorderOptions,
+    live: LiveServer | null,
+    decoder: SentCloudDecoder,
+  ): Promise<RecordingWriter> {
+    const file = path === null ? null : await McapFileWriter.create(path, compression, 'farpoint', mostBytes);
+    const writer = new RecordingWriter(new MessageOutputs(file, live), epochNs, decoder);
+    await file?.addMetadata('farpoint', { robot: robotId, epochNs: String(epochNs) });
     return writer;
+  }
+
+  /** What live viewers subscribe to. */
+  get liveWishes(): LiveWishes {
+    const wants = (kind: RosKind | JsonKind) => this.out.wantsLive(this.#channels.get(kind) as number);
+    const wanted = (of: readonly { channel: number }[]) =>
+      of.flatMap(({ channel }, i) => (this.out.wantsLive(channel) ? [i] : []));
+    const events: EventKind[] = (Object.keys(JSON_TOPICS) as JsonKind[]).filter(wants);
+    if (wants('velocity')) events.push('velocity');
+    if (wants('tf') || wants('odometry')) events.push('state');
+    return {
+      clouds: { captured: wants('captured'), sent: wants('sent') },
+      ...{ pictures: wanted(this.#cameras), videos: wanted(this.#videos), events },
+    };
+  }
+
+  /** @returns the video that live viewers know as this channel; -1 if it is another */
+  videoOfLive(id: number): number {
+    const channel = this.out.channelOfLive(id);
+    return this.#videos.findIndex((video) => video.channel === channel);
   }
 
   /**
@@ -91,6 +125,8 @@ export class RecordingWriter {
     const kind: CloudKind = record.type === 'sent' ? 'sent' : 'captured';
     this.dropped[kind] = record.dropped;
     this.#newestNs = ns;
+    const { to } = record;
+    if (!this.out.wants(this.#channels.get(kind) as number, to)) return;
     let cloud: Uint8Array[];
     try {
       cloud = this.#cloudOf(record, ns);
@@ -104,7 +140,7 @@ export class RecordingWriter {
       this.#lastTransformNs = ns;
       await this.#addTransform(ns, CAMERA_FRAME, record.pose);
     }
-    await this.#add(kind, record.sequence, ns, cloud);
+    await this.out.add(this.#channels.get(kind) as number, record.sequence, ns, cloud, { to });
   }
 
   /** Creates a topic for each camera, even for those whose pictures nobody will look at. */
@@ -113,7 +149,7 @@ export class RecordingWriter {
     const schema = { name, encoding: 'ros2msg' as const, text: FOXGLOVE_COMPRESSED_IMAGE_SCHEMA };
     const topics = pictureTopics(cameras.map((camera) => camera.name));
     this.#cameras = cameras.map(({ name: camera, ofCloud }, i) => ({
-      channel: this.file.addChannel({
+      channel: this.out.addChannel({
         ...{ topic: topics[i] as string, messageEncoding: 'cdr', schema, metadata: { camera } },
       }),
       // The positions of the other cameras are unknown.
@@ -136,10 +172,39 @@ export class RecordingWriter {
       this.faults++;
       return;
     }
+    if (!this.out.wants(of.channel)) return;
     const ns = this.#nsOf(capturedAtMs);
-    await this.file.add(of.channel, sequence32Of(sequence), ns, [
-      compressedImage(ns, of.frame, format, file),
-    ]);
+    await this.out.add(of.channel, sequence, ns, [compressedImage(ns, of.frame, format, file)]);
+  }
+
+  /** Creates a topic for each video, even for those that nobody will watch. */
+  addVideos(videos: readonly RecordedVideo[]): void {
+    const name = 'foxglove_msgs/msg/CompressedVideo';
+    const schema = { name, encoding: 'ros2msg' as const, text: FOXGLOVE_COMPRESSED_VIDEO_SCHEMA };
+    const topics = videoTopics(videos.map((video) => video.name));
+    this.#videos = videos.map(({ name: camera, format }, i) => ({
+      channel: this.out.addChannel({
+        ...{ topic: topics[i] as string, messageEncoding: 'cdr', schema, metadata: { camera, format } },
+      }),
+      frame: camera,
+      format,
+    }));
+  }
+
+  /** @throws {Error} if writing fails */
+  async addVideo(record: Omit<VideoRecord, 'type'>): Promise<void> {
+    const { video, capturedAtMs, key, sequence, dropped, to, bytes } = record;
+    this.dropped.videos = dropped;
+    const of = this.#videos[video];
+    if (of === undefined) {
+      this.faults++;
+      return;
+    }
+    if (!this.out.wants(of.channel, to)) return;
+    const ns = this.#nsOf(capturedAtMs);
+    const link = key ? 'key' : 'follows';
+    const message = compressedVideo(ns, of.frame, of.format, bytes);
+    await this.out.add(of.channel, sequence, ns, [message], { to, link });
   }
 
   /** @throws {Error} if writing fails */
@@ -152,34 +217,37 @@ export class RecordingWriter {
         await this.addJson(record.kind, sequence, ns, record.value);
         break;
       case 'velocity':
-        await this.#add('velocity', sequence, ns, [twistStamped(ns, record.twist)]);
+        await this.#add('velocity', sequence, ns, () => twistStamped(ns, record.twist));
         break;
       case 'state':
         // Viewers place frames only by tf: without this transform, data in base_link would have no position.
         await this.#addTransform(ns, BASE_FRAME, record.pose);
-        await this.#add('odometry', sequence, ns, [odometryOf(ns, record.pose, record.twist)]);
+        await this.#add('odometry', sequence, ns, () => odometryOf(ns, record.pose, record.twist));
         break;
     }
   }
 
   /** Writes the state of the recording so far into the recording. */
   async addOwnState(): Promise<void> {
-    const { messages, bytes } = this.file;
+    if (!this.out.fileOpen) return;
+    const { messages, bytes } = this.out;
     const value = { messages, bytes, faults: this.faults, dropped: this.dropped };
     await this.addJson('recorder', this.#ownStates++, this.#newestNs, value);
   }
 
   addJson(kind: JsonKind, sequence: number, ns: bigint, value: object): Promise<void> {
-    return this.#add(kind, sequence, ns, [new TextEncoder().encode(JSON.stringify(value))]);
+    return this.#add(kind, sequence, ns, () => new TextEncoder().encode(JSON.stringify(value)));
   }
 
   /** Adds the pose of a frame in the world. */
   #addTransform(ns: bigint, frame: string, pose: Pose): Promise<void> {
-    return this.#add('tf', this.#transforms++, ns, [transformOf(ns, frame, pose)]);
+    return this.#add('tf', this.#transforms++, ns, () => transformOf(ns, frame, pose));
   }
 
-  #add(kind: RosKind | JsonKind, sequence: number, ns: bigint, data: readonly Uint8Array[]): Promise<void> {
-    return this.file.add(this.#channels.get(kind) as number, sequence32Of(sequence), ns, data);
+  /** @param make is called only if anybody wants the message */
+  async #add(kind: RosKind | JsonKind, sequence: number, ns: bigint, make: () => Uint8Array): Promise<void> {
+    const channel = this.#channels.get(kind) as number;
+    if (this.out.wants(channel)) await this.out.add(channel, sequence, ns, [make()]);
   }
 
   #cloudOf(record: CloudRecord, ns: bigint): Uint8Array[] {

@@ -34,6 +34,11 @@ export const FOXGLOVE_COMPRESSED_IMAGE_SCHEMA = schema(
   TIME,
 );
 
+export const FOXGLOVE_COMPRESSED_VIDEO_SCHEMA = schema(
+  'builtin_interfaces/Time timestamp\nstring frame_id\nuint8[] data\nstring format',
+  TIME,
+);
+
 export const TF_MESSAGE_SCHEMA = schema(
   'geometry_msgs/TransformStamped[] transforms',
   'MSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\nTransform transform',

@@ -4,8 +4,10 @@ import { velocityWriter } from '@farpoint/ros';
 import { parse } from '@foxglove/rosmsg';
 import { MessageWriter } from '@foxglove/rosmsg2-serialization';
 import { RECORDED_POINT_BYTES } from './captured-cloud.ts';
+import type { VideoFormatName } from './recorder-messages.ts';
 import {
   FOXGLOVE_COMPRESSED_IMAGE_SCHEMA,
+  FOXGLOVE_COMPRESSED_VIDEO_SCHEMA,
   ODOMETRY_SCHEMA,
   POINT_CLOUD2_SCHEMA,
   TF_MESSAGE_SCHEMA,
@@ -21,6 +23,7 @@ const transforms = writerOf(TF_MESSAGE_SCHEMA);
 const velocities = velocityWriter(2, 'geometry_msgs/msg/TwistStamped');
 const odometry = writerOf(ODOMETRY_SCHEMA);
 const pictures = writerOf(FOXGLOVE_COMPRESSED_IMAGE_SCHEMA);
+const videos = writerOf(FOXGLOVE_COMPRESSED_VIDEO_SCHEMA);
 
 const FLOAT32 = 7;
 const FIELDS = ['x', 'y', 'z', 'rgb'].map((name, i) => ({
@@ -69,6 +72,16 @@ export function compressedImage(
   data: Uint8Array,
 ): Uint8Array {
   return pictures.writeMessage({ timestamp: timeOf(stampNs), frame_id, data, format });
+}
+
+/** @param data H.264: an access unit as in Annex B, with its parameter sets if it is a key frame; VP8: a frame */
+export function compressedVideo(
+  stampNs: bigint,
+  frame_id: string,
+  format: VideoFormatName,
+  data: Uint8Array,
+): Uint8Array {
+  return videos.writeMessage({ timestamp: timeOf(stampNs), frame_id, data, format });
 }
 
 export function transformOf(stampNs: bigint, child: string, { position, orientation }: Pose): Uint8Array {

@@ -24,11 +24,12 @@ const tfSchema = z.object({
 const stampedSchema = z.object({ header: headerSchema, child_frame_id: z.string().optional() });
 
 const FRAMES = 30;
-const NOTHING_DROPPED = { captured: 0, sent: 0, pictures: 0, events: 0 };
+const NOTHING_DROPPED = { captured: 0, sent: 0, pictures: 0, videos: 0, events: 0 };
 const LENS = { fx: 8, fy: 8, cx: 7.5, cy: 5.5 };
 const GRID = { width: 16, height: 12, camera: LENS };
 const FRONT = '/farpoint/pictures/Camera';
 const REAR = '/farpoint/pictures/rear_image_raw';
+const VIDEOS = ['/farpoint/videos/Front', '/farpoint/videos/Mast_left'];
 const poseAt = (k: number): Pose => ({
   position: { x: k / 10, y: 0, z: 1 },
   orientation: { x: -0.5, y: 0.5, z: -0.5, w: 0.5 },
@@ -42,6 +43,10 @@ const CAMERAS = [
   { name: '/rear/image_raw', ofCloud: false },
 ];
 
+/** Stand-ins for coded frames: nothing decodes them. */
+const frameOf = (video: number, k: number): Uint8Array<ArrayBuffer> =>
+  Uint8Array.from({ length: 900 + k }, (_, i) => (i * 5 + k * 17 + video) & 0xff);
+
 /** Lets the writer run, as between two frames of a camera. */
 async function written(tap: CloudTap): Promise<void> {
   while (tap.pending > 0) await new Promise((resolve) => setTimeout(resolve, 1));
@@ -52,6 +57,10 @@ async function record(path: string, compression: 'none' | 'zstd' = 'none'): Prom
     ...{ path, compression, robotId: 'test', epochNs: 1_700_000_000_000_000_000n },
   });
   recorder.cameras(CAMERAS);
+  recorder.videos([
+    { name: 'Front', format: 'h264' },
+    { name: 'Mast left', format: 'vp8' },
+  ]);
   const tap = new CloudTap(recorder.clouds, { captured: 1000, sent: 1000 });
   const depth = new Float32Array(16 * 12);
   const colour = new Uint32Array(16 * 12).fill(0xff03_0201);
@@ -62,6 +71,7 @@ async function record(path: string, compression: 'none' | 'zstd' = 'none'): Prom
     tap.captured({ form: 'images', depth, colour, ...stamp }, GRID);
     recorder.picture(0, k * 100, 'jpeg', pictureOf(0, k));
     if (k % 3 === 0) recorder.picture(1, k * 100 + 40, 'png', pictureOf(1, k));
+    for (const video of [0, 1]) recorder.video(video, k * 100 + video * 3, k % 10 === 0, frameOf(video, k));
     recorder.json('telemetry', k * 100, { k, speed: 0.5 });
     recorder.velocity(k * 100, { linear: { x: k, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 1 } });
     recorder.state(
@@ -94,7 +104,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     expect(counts).toMatchObject({ '/farpoint/cmd_vel': FRAMES, '/farpoint/telemetry': FRAMES });
     await recording.close();
     expect(counts).toMatchObject({ [FRONT]: FRAMES, [REAR]: FRAMES / 3 });
-    expect(recorder.messages).toBe(FRAMES * 7 + FRAMES / 3 + (counts['/farpoint/recorder'] ?? 0));
+    expect(recorder.messages).toBe(FRAMES * 9 + FRAMES / 3 + (counts['/farpoint/recorder'] ?? 0));
 
     const clock = new FakeClock();
     const player = await CloudPlayer.open(
@@ -157,7 +167,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       if (child_frame_id !== undefined) named.set(child_frame_id, topic.name);
     }
     await recording.close();
-    expect(pictureFrames).toEqual(new Set(['camera_optical_frame', '/rear/image_raw']));
+    expect(pictureFrames).toEqual(new Set(['camera_optical_frame', '/rear/image_raw', 'Front', 'Mast left']));
     expect([...named.keys()].sort()).toEqual(['base_link', 'camera_optical_frame', 'world']);
     for (const [frame, topic] of named) {
       let root = frame;
@@ -297,6 +307,33 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     await recording.close();
   });
 
+  it('drops whole runs of video frames if the writer does not keep up, and asks for a key frame', async () => {
+    const path = join(folder, 'many-frames.mcap');
+    const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
+    recorder.videos([{ name: 'Front', format: 'h264' }]);
+    const asked: number[] = [];
+    recorder.onKeyFrameNeeded = (video) => asked.push(video);
+    // All in one turn, so that no answer can arrive in between.
+    for (let k = 0; k < 700; k++) {
+      // As the encoder's output comes: a view of memory that has other uses, too.
+      const chunk = Buffer.from(frameOf(0, k));
+      recorder.video(0, k, k === 0, chunk.subarray(0, chunk.length));
+      expect(chunk.length).toBe(900 + k);
+    }
+    const keptFirst = 64;
+    expect(recorder.dropped.videos).toBe(700 - keptFirst);
+    expect(asked).toEqual([0]);
+    recorder.video(0, 700, true, frameOf(0, 700));
+    recorder.clouds.close();
+    await recorder.close();
+    const recording = await openRecording(path);
+    const times: number[] = [];
+    for await (const { logNs } of recording.messages([VIDEOS[0]!], 0n))
+      times.push(Number(logNs / 1_000_000n));
+    expect(times).toEqual([...Array.from({ length: keptFirst }, (_, k) => k), 700]);
+    await recording.close();
+  });
+
   it('a camera that nobody watched has a topic without messages', async () => {
     const path = join(folder, 'no-pictures.mcap');
     const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
@@ -385,6 +422,22 @@ describe.skipIf(typeof peers === 'string')(
               ...{ stampNs: String(ns), logNs: String(ns), bytes: data.length },
               frame: camera === 0 ? 'camera_optical_frame' : '/rear/image_raw',
               format: camera === 0 ? 'jpeg' : 'png',
+              sha256: createHash('sha256').update(data).digest('hex'),
+            });
+          });
+        }
+        for (const [video, topic] of VIDEOS.entries()) {
+          const format = video === 0 ? 'h264' : 'vp8';
+          const camera = video === 0 ? 'Front' : 'Mast left';
+          expect(topics[topic]).toMatchObject({
+            ...{ type: 'foxglove_msgs/msg/CompressedVideo', metadata: { camera, format } },
+            ...{ count: FRAMES, sequence: FRAMES - 1 },
+          });
+          topics[topic]?.pictures.forEach((frame, k) => {
+            const ns = String(1_700_000_000_000_000_000n + BigInt(k * 100 + video * 3) * 1_000_000n);
+            const data = frameOf(video, k);
+            expect(frame).toEqual({
+              ...{ stampNs: ns, logNs: ns, bytes: data.length, frame: camera, format },
               sha256: createHash('sha256').update(data).digest('hex'),
             });
           });

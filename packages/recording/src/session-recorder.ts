@@ -2,23 +2,36 @@ import { MessageChannel, type MessagePort, Worker } from 'node:worker_threads';
 import type { PictureFormat, Pose, Twist } from '@farpoint/protocol';
 import { CreditQueue } from './credit-queue.ts';
 import { RecordingError } from './errors.ts';
-import type {
-  DropKind,
-  EventRecord,
-  JsonKind,
-  PictureRecord,
-  RecordedCamera,
-  RecorderOptions,
-  RecorderReport,
-  RecorderRequest,
+import {
+  type DropKind,
+  type EventKind,
+  type EventRecord,
+  type JsonKind,
+  type LiveReport,
+  NO_LIVE_WISHES,
+  type PictureRecord,
+  type RecordedCamera,
+  type RecordedVideo,
+  type RecorderOptions,
+  type RecorderReport,
+  type RecorderRequest,
+  type VideoRecord,
 } from './recorder-messages.ts';
+import { type QueuedVideoFrame, VideoQueue } from './video-queue.ts';
 
 /** How many events the writer may hold, and how many may wait for it. */
 const LIMITS = { underWay: 256, waiting: 4096 };
 /** The same for pictures: 16 MB of the largest that are sent. */
 const PICTURE_LIMITS = { underWay: 4, waiting: 24 };
+/** The same for frames of videos: some seconds of eight cameras. */
+const VIDEO_LIMITS = { underWay: 64, waiting: 512, waitingBytes: 16 * 1024 * 1024 };
 
-/** The main thread's end of a recording. The capture thread has its own, {@link clouds}. */
+type VideoItem = QueuedVideoFrame & Pick<VideoRecord, 'sequence' | 'to'>;
+
+/**
+ * The main thread's end of a recording, and of a server that shows the same to live viewers. The capture thread has its
+ * own, {@link clouds}.
+ */
 export class SessionRecorder {
   /** For the capture thread, which makes a `CloudTap` of it. */
   readonly clouds: MessagePort;
@@ -26,39 +39,47 @@ export class SessionRecorder {
   onFull: (() => void) | null = null;
   /** Called once if nothing more can be written. The robot continues. */
   onFailure: ((error: RecordingError) => void) | null = null;
+  /** Called when a video can go on with a key frame only, or should have one again. */
+  onKeyFrameNeeded: ((video: number) => void) | null = null;
+  /** Called when live viewers want something else. */
+  onLiveWishes: (() => void) | null = null;
   /** Messages so far. */
   messages = 0;
   bytes = 0;
   /** Clouds and pictures that could not be converted to messages. */
   faults = 0;
   #cloudsDropped = { captured: 0, sent: 0 };
+  /** What live viewers subscribe to. */
+  liveWishes = NO_LIVE_WISHES;
+  /** What the live server did so far; `null` before its first report, or if there is none. */
+  liveReport: LiveReport | null = null;
+  /** The port on which live viewers connect, or why they cannot; `null` if they are not served. */
+  readonly live: { port: number } | { failed: string } | null;
   readonly #worker: Worker;
-  readonly #path: string;
+  readonly #path: string | null;
   readonly #events: CreditQueue<EventRecord>;
   readonly #pictures: CreditQueue<Omit<PictureRecord, 'dropped'>>;
+  readonly #videos: VideoQueue<VideoItem>;
   readonly #sequences = new Map<string, number>();
   #closing = false;
   #failed = false;
   #full = false;
 
-  private constructor(worker: Worker, clouds: MessagePort, path: string) {
+  private constructor(
+    worker: Worker,
+    clouds: MessagePort,
+    path: string | null,
+    live: SessionRecorder['live'],
+  ) {
     this.#worker = worker;
     this.#path = path;
+    this.live = live;
     this.clouds = clouds;
     this.#events = new CreditQueue(LIMITS, (event) => this.#post(event));
     this.#pictures = new CreditQueue(PICTURE_LIMITS, (picture) => this.#postPicture(picture));
-    worker.on('message', (report: RecorderReport) => {
-      if (report.type === 'done') (report.kind === 'pictures' ? this.#pictures : this.#events).done();
-      else if (report.type === 'written') {
-        this.messages = report.messages;
-        this.bytes = report.bytes;
-        this.faults = report.faults;
-        this.#cloudsDropped = report.dropped;
-      } else if (report.type === 'full') {
-        this.#full = true;
-        this.onFull?.();
-      } else if (report.type === 'failed') this.#fail(report.detail);
-    });
+    this.#videos = new VideoQueue(VIDEO_LIMITS, (frame) => this.#postVideo(frame));
+    this.#videos.onKeyFrameNeeded = (video) => this.onKeyFrameNeeded?.(video);
+    worker.on('message', (report: RecorderReport) => this.#onReport(report));
     worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));
   }
 
@@ -69,19 +90,22 @@ export class SessionRecorder {
       workerData: { ...options, clouds: port2 },
       transferList: [port2],
     });
-    await new Promise<void>((resolve, reject) => {
+    const { path } = options;
+    const live = await new Promise<SessionRecorder['live']>((resolve, reject) => {
       worker.once('error', (error) =>
         reject(
           new RecordingError('unreadable', error instanceof Error ? error.message : String(error), {
-            file: options.path,
+            ...(path === null ? {} : { file: path }),
             cause: error,
           }),
         ),
       );
-      worker.once('message', () => resolve());
+      worker.once('message', (report: RecorderReport) =>
+        resolve(report.type === 'ready' ? report.live : null),
+      );
     });
     worker.removeAllListeners('error');
-    return new SessionRecorder(worker, port1, options.path);
+    return new SessionRecorder(worker, port1, path, live);
   }
 
   /** What was not recorded because the writer did not keep up. */
@@ -89,6 +113,7 @@ export class SessionRecorder {
     return {
       ...this.#cloudsDropped,
       pictures: this.#pictures.dropped,
+      videos: this.#videos.dropped,
       events: this.#events.dropped,
     };
   }
@@ -100,42 +125,88 @@ export class SessionRecorder {
 
   /** A picture as it is sent to operators. @param file its memory belongs to the recorder from now on */
   picture(camera: number, capturedAtMs: number, format: PictureFormat, file: Uint8Array<ArrayBuffer>): void {
-    if (!this.#writing) return;
+    if (!this.writing && !this.liveWishes.pictures.includes(camera)) return;
     const sequence = this.#next(`picture ${camera}`);
     this.#pictures.push({ type: 'picture', camera, capturedAtMs, sequence, format, file });
   }
 
+  /** The cameras whose videos are recorded: call once, before the first frame. */
+  videos(videos: readonly RecordedVideo[]): void {
+    this.#post({ type: 'videos', videos: videos.map(({ name, format }) => ({ name, format })) });
+  }
+
+  /**
+   * A frame of a video as it was coded for operators.
+   *
+   * @param bytes must not be changed any more
+   * @param record whether it belongs into the file, too
+   */
+  video(video: number, capturedAtMs: number, key: boolean, bytes: Uint8Array, record = true): void {
+    const to = { file: record && this.writing, live: this.liveWishes.videos.includes(video) };
+    if (!to.file && !to.live) {
+      this.#videos.skip(video);
+      return;
+    }
+    const sequence = this.#next(`video ${video}`);
+    this.#videos.push({ video, capturedAtMs, key, bytes, sequence, to });
+  }
+
+  /** Whether anybody gets events of this kind. If not, they need not be made. */
+  takes(kind: EventKind): boolean {
+    return this.writing || this.liveWishes.events.includes(kind);
+  }
+
   json(kind: JsonKind, timeMs: number, value: object): void {
-    this.#push({ type: 'json', kind, timeMs, value, sequence: this.#next(kind) });
+    if (this.takes(kind))
+      this.#events.push({ type: 'json', kind, timeMs, value, sequence: this.#next(kind) });
   }
 
   /** Records the velocity that the wheels were given. */
   velocity(timeMs: number, twist: Twist): void {
-    this.#push({ type: 'velocity', timeMs, twist, sequence: this.#next('velocity') });
+    if (!this.takes('velocity')) return;
+    this.#events.push({ type: 'velocity', timeMs, twist, sequence: this.#next('velocity') });
   }
 
   /** Records the robot's pose and velocity. */
   state(timeMs: number, pose: Pose, twist: Twist): void {
-    this.#push({ type: 'state', timeMs, pose, twist, sequence: this.#next('state') });
+    if (!this.takes('state')) return;
+    this.#events.push({ type: 'state', timeMs, pose, twist, sequence: this.#next('state') });
   }
 
   /** Writes what waits, and the index. Close the capture thread first. */
   async close(): Promise<void> {
     if (this.#closing) return;
     this.#closing = true;
+    this.liveWishes = NO_LIVE_WISHES;
     this.#events.drain();
     this.#pictures.drain();
+    this.#videos.drain();
     const ended = new Promise((resolve) => this.#worker.once('exit', resolve));
     this.#post({ type: 'close' });
     await ended;
   }
 
-  #push(event: EventRecord): void {
-    if (this.#writing) this.#events.push(event);
+  /** Whether what comes is still written to a file: until it is full, cannot be written, or is closed. */
+  get writing(): boolean {
+    return this.#path !== null && !this.#closing && !this.#failed && !this.#full;
   }
 
-  get #writing(): boolean {
-    return !this.#closing && !this.#failed && !this.#full;
+  #onReport(report: RecorderReport): void {
+    if (report.type === 'done') this.#queues[report.kind].done();
+    else if (report.type === 'written') {
+      this.messages = report.messages;
+      this.bytes = report.bytes;
+      this.faults = report.faults;
+      this.#cloudsDropped = report.dropped;
+    } else if (report.type === 'full') {
+      this.#full = true;
+      this.onFull?.();
+    } else if (report.type === 'failed') this.#fail(report.detail);
+    else if (report.type === 'wishes') {
+      this.liveWishes = this.#closing ? NO_LIVE_WISHES : report.wishes;
+      this.onLiveWishes?.();
+    } else if (report.type === 'keyFrame') this.onKeyFrameNeeded?.(report.video);
+    else if (report.type === 'live') this.liveReport = report;
   }
 
   #post(request: RecorderRequest): void {
@@ -147,6 +218,17 @@ export class SessionRecorder {
     this.#worker.postMessage(record, [picture.file.buffer]);
   }
 
+  #postVideo({ bytes, ...frame }: VideoItem): void {
+    // The encoder's output is also on its way to operators. (A Buffer's own `slice` would not copy.)
+    const own = new Uint8Array(bytes);
+    const record: VideoRecord = { ...frame, type: 'video', bytes: own, dropped: this.#videos.dropped };
+    this.#worker.postMessage(record, [own.buffer]);
+  }
+
+  get #queues() {
+    return { events: this.#events, pictures: this.#pictures, videos: this.#videos };
+  }
+
   #next(kind: string): number {
     const sequence = this.#sequences.get(kind) ?? 0;
     this.#sequences.set(kind, sequence + 1);
@@ -156,6 +238,7 @@ export class SessionRecorder {
   #fail(detail: string): void {
     if (this.#failed) return;
     this.#failed = true;
-    this.onFailure?.(new RecordingError('unreadable', `recording stopped: ${detail}`, { file: this.#path }));
+    const where = this.#path === null ? {} : { file: this.#path };
+    this.onFailure?.(new RecordingError('unreadable', `recording stopped: ${detail}`, where));
   }
 }

@@ -94,6 +94,9 @@ const foxgloveImage = z.object({ timestamp: stamp, frame_id: frameId, data: byte
 /** foxglove.CompressedImage, in any encoding. */
 export const foxgloveCompressedImageSchema = foxgloveImage.extend({ format: z.string().max(512) });
 
+/** foxglove.CompressedVideo, in any encoding: one coded picture of a video. */
+export const foxgloveCompressedVideoSchema = foxgloveImage.extend({ format: z.string().max(512) });
+
 /** foxglove.RawImage: little-endian. */
 export const foxgloveRawImageSchema = foxgloveImage.extend({
   ...{ height: z.int().min(0), width: z.int().min(0), step: z.int().min(0) },
@@ -149,6 +152,10 @@ export const BATTERY_TYPES: readonly string[] = ['sensor_msgs/msg/BatteryState']
 export const FOXGLOVE_COMPRESSED_IMAGE_TYPES = [
   'foxglove_msgs/msg/CompressedImage',
   'foxglove.CompressedImage',
+];
+export const FOXGLOVE_COMPRESSED_VIDEO_TYPES = [
+  'foxglove_msgs/msg/CompressedVideo',
+  'foxglove.CompressedVideo',
 ];
 export const FOXGLOVE_RAW_IMAGE_TYPES = ['foxglove_msgs/msg/RawImage', 'foxglove.RawImage'];
 

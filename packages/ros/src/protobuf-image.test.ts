@@ -1,13 +1,19 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { RosFault } from './fault.ts';
-import { foxgloveCompressedImageSchema, foxgloveRawImageSchema, stampNs } from './messages.ts';
+import {
+  foxgloveCompressedImageSchema,
+  foxgloveCompressedVideoSchema,
+  foxgloveRawImageSchema,
+  stampNs,
+} from './messages.ts';
 import { imageFromProtobuf } from './protobuf-image.ts';
 
-/** Both as written by PyPI's protobuf 7.36 and foxglove-schemas-protobuf 0.4. */
+/** As written by PyPI's protobuf 7.36 and foxglove-schemas-protobuf 0.4. */
 const COMPRESSED = '0a0c0880e2cfaa061080cab5ee0112030102031a046a706567220566726f6e74';
 const RAW =
   '0a1108ffffffffffffffffff0110ff93ebdc0315020000001d010000002204726762382d2c01000032060001020304053a0566726f6e74';
+const VIDEO = '0a080880e2cfaa06107b120546726f6e741a06000001650102220468323634';
 
 const readCompressed = (bytes: Uint8Array) =>
   foxgloveCompressedImageSchema.parse(imageFromProtobuf('foxglove.CompressedImage')?.(bytes));
@@ -34,6 +40,18 @@ describe('imageFromProtobuf', () => {
     expect(raw).toMatchObject({ width: 2, height: 1, step: 300, encoding: 'rgb8', frame_id: 'front' });
     expect(raw.data).toEqual(Uint8Array.of(0, 1, 2, 3, 4, 5));
     expect(stampNs(raw.timestamp)).toBe(-1n);
+  });
+
+  it('reads a frame of a video', () => {
+    const frame = foxgloveCompressedVideoSchema.parse(
+      imageFromProtobuf('foxglove.CompressedVideo')?.(hex(VIDEO)),
+    );
+    expect(frame).toMatchObject({
+      frame_id: 'Front',
+      format: 'h264',
+      data: Uint8Array.of(0, 0, 1, 0x65, 1, 2),
+    });
+    expect(stampNs(frame.timestamp)).toBe(1_700_000_000_000_000_123n);
   });
 
   it('uses defaults for missing fields, skips unknown ones, and takes the last of duplicates', () => {

@@ -1,9 +1,9 @@
 /**
- * Reads foxglove.CompressedImage and foxglove.RawImage in Protobuf: the fields that are used, by their numbers, which
+ * Reads foxglove.CompressedImage, foxglove.CompressedVideo and foxglove.RawImage in Protobuf: the fields that are used, by their numbers, which
  * the schema fixes; others are skipped.
  *
  * Sources: Protocol Buffers' encoding, protobuf.dev/programming-guides/encoding; the schemas of
- * foxglove.CompressedImage, foxglove.RawImage and google.protobuf.Timestamp.
+ * foxglove.CompressedImage, foxglove.CompressedVideo, foxglove.RawImage and google.protobuf.Timestamp.
  */
 import { RosFault } from './fault.ts';
 
@@ -31,6 +31,12 @@ const COMPRESSED_IMAGE: Fields = new Map([
   [3, ['format', 'text']],
   [4, ['frame_id', 'text']],
 ]);
+const COMPRESSED_VIDEO: Fields = new Map([
+  [1, ['timestamp', 'time']],
+  [2, ['frame_id', 'text']],
+  [3, ['data', 'bytes']],
+  [4, ['format', 'text']],
+]);
 const RAW_IMAGE: Fields = new Map([
   [1, ['timestamp', 'time']],
   [2, ['width', 'fixed32']],
@@ -47,6 +53,7 @@ const TIMESTAMP: Fields = new Map([
 
 const IMAGES: ReadonlyMap<string, Fields> = new Map([
   ['foxglove.CompressedImage', COMPRESSED_IMAGE],
+  ['foxglove.CompressedVideo', COMPRESSED_VIDEO],
   ['foxglove.RawImage', RAW_IMAGE],
 ]);
 

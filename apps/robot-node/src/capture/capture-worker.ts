@@ -21,7 +21,8 @@ const send: ReportSink = (report, transfer = []) => port.postMessage(report, tra
 const source = await openSource(options.source);
 const codec = await loadCodecFromDisk();
 const pictures = new CapturePictures(source, options.picturesOfCloud === true);
-const tap = recording === null ? null : new CloudTap(recording.clouds, recording.perSecond);
+const tap =
+  recording === null ? null : new CloudTap(recording.clouds, recording.perSecond, recording.livePerSecond);
 const clocks = { now: monotonicMs, threadCpu: threadCpuMs };
 const frames = new FrameCapture(source, codec, options, clocks, send, { pictures, recording: tap });
 const { framesPerSecond } = options;

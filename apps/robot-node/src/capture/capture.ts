@@ -27,6 +27,8 @@ export interface CaptureRecording {
   clouds: MessagePort;
   /** Highest number of clouds recorded per second, by kind; 0 records none. */
   perSecond: Readonly<Record<CloudKind, number>>;
+  /** Highest number of clouds of each kind per second for live viewers. */
+  livePerSecond: number;
 }
 
 /** The main thread's end of the capture worker. */

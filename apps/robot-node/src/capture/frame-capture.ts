@@ -126,9 +126,9 @@ export class FrameCapture {
       capturedAtMs: frame.capturedAtMs,
       ...taken,
     };
-    for (const formatted of encoded.frames) this.#sendFrame(formatted, facts);
+    if (!budget.unsent) for (const formatted of encoded.frames) this.#sendFrame(formatted, facts);
     if (frame.form === 'images') this.#pictures.offer(frame);
-    this.#record(frame, encoded.frames);
+    this.#record(frame, budget.unsent ? [] : encoded.frames);
     if (latencyTest) this.#latencyTest = false;
     this.#workMs += (now() - beganMs - workMs) * (workMs === 0 ? 1 : SMOOTHING);
     return intervalMs;

@@ -7,6 +7,8 @@ export interface CaptureBudget {
   overheadBytes: number;
   /** If nobody is watching, nothing is captured. */
   streaming: boolean;
+  /** No operator watches: what is captured is for live viewers only, and is not sent. */
+  unsent?: true;
   /**
    * The rate controller wants to probe the link: one frame, the next, should have at least this many bytes on the
    * wire. Each `clusterId` is one such request.
@@ -24,6 +26,16 @@ export interface CodedBudget {
   /** Bit rate in addition, for `points64` to those who do not read this format, bit/s; `null` if there are none. */
   plainBitsPerSecond: number | null;
 }
+
+/** The budget when only live viewers watch: clouds are captured at a low rate, and coded as little as possible. */
+export const UNSENT_BUDGET: CaptureBudget = {
+  targetBitsPerSecond: 1_000_000,
+  overheadBytes: 0,
+  streaming: true,
+  unsent: true,
+  probe: null,
+  coded: [],
+};
 
 /** The budget when nobody is watching. */
 export const NO_BUDGET: CaptureBudget = {

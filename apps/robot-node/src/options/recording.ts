@@ -2,6 +2,13 @@
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 
 export const RECORDED_CLOUDS = ['sent', 'captured', 'both', 'none'] as const;
+/**
+ * Which videos are recorded: `always`, for which cameras are encoded while nobody watches, too; only while an operator
+ * watches them; or none.
+ */
+export const RECORDED_VIDEOS = ['always', 'watched', 'none'] as const;
+export type RecordedVideos = (typeof RECORDED_VIDEOS)[number];
+
 /** A file that contains only its topics takes some 20 kB. */
 const LEAST_BYTES = 1_000_000;
 
@@ -33,6 +40,13 @@ export const recordingOptions = optionGroup('recording', {
     argument: 'RATE',
     file: 'capturedFps',
     help: 'record: maximum captured clouds a second, with --record-clouds captured or both',
+  }),
+  recordVideos: defineOption({
+    schema: schema.choice(RECORDED_VIDEOS),
+    default: 'always',
+    argument: 'WHEN',
+    file: 'videos',
+    help: 'record: the cameras that are streamed as video: always (also while nobody watches, which costs what encoding costs), watched (only while an operator watches them), none',
   }),
   recordMax: defineOption({
     schema: schema.size({ min: LEAST_BYTES, none: true }),

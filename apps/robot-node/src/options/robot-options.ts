@@ -79,6 +79,15 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     frameLog: values.frameLog ?? undefined,
     commandLog: values.commandLog ?? undefined,
     statisticsFile: values.stats ?? undefined,
+    foxglove:
+      values.foxglovePort === null
+        ? undefined
+        : {
+            port: values.foxglovePort,
+            reach: values.foxgloveReach,
+            allowedOrigins: values.foxgloveOrigins,
+            cloudsPerSecond: values.foxgloveFps,
+          },
     record:
       values.record === null
         ? undefined
@@ -89,6 +98,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
               captured: recorded('captured') ? values.recordCapturedFps : 0,
               sent: recorded('sent') ? values.recordSentFps : 0,
             },
+            videos: values.recordVideos,
             mostBytes: values.recordMax,
           },
   };

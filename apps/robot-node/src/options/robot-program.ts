@@ -2,6 +2,7 @@
 import { adminOptions, defineProgram, type OptionTable, type OptionValues } from '@farpoint/service';
 import manifest from '../../package.json' with { type: 'json' };
 import { alarmsOptions } from './alarms.ts';
+import { foxgloveOptions } from './foxglove.ts';
 import { identityOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';
 import { measurementOptions } from './measurement.ts';
@@ -40,6 +41,7 @@ const options = {
   ...soundOptions,
   ...networkOptions,
   ...recordingOptions,
+  ...foxgloveOptions,
   ...adminOptions(9400),
   ...measurementOptions,
 } satisfies OptionTable;

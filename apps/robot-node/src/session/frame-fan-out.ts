@@ -1,7 +1,7 @@
 import { isDeepStrictEqual } from 'node:util';
 import type { Capture } from '../capture/capture.ts';
 import type { ReadyFrame } from '../capture/capture-messages.ts';
-import { type CaptureBudget, type CodedBudget, NO_BUDGET } from '../encode/capture-budget.ts';
+import { type CaptureBudget, type CodedBudget, NO_BUDGET, UNSENT_BUDGET } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
 import { CODED_FORMATS, type CodedFormat } from '../encode/plan.ts';
@@ -47,6 +47,8 @@ export interface FanOutOptions {
   stages: StageTimer;
   frameLog?: Pick<FrameLog, 'add'> | undefined;
   onFrame?: ((frame: ReadyFrame) => void) | undefined;
+  /** Whether live viewers want the clouds even if no operator does. */
+  wantedAnyway?: (() => boolean) | undefined;
   now: () => number;
   /** Whether coded formats may be used. */
   mayCode: boolean;
@@ -81,8 +83,12 @@ export class FrameFanOut {
    * `points64` in parallel.
    */
   updateBudget(): void {
-    const { capture, targets, driver, mayCode, sensor } = this.#options;
+    const { targets, driver, mayCode, sensor } = this.#options;
     const streaming = [...targets()].filter((operator) => operator.streaming && operator.wants(sensor));
+    if (streaming.length === 0) {
+      this.#tell(this.#options.wantedAnyway?.() === true ? UNSENT_BUDGET : NO_BUDGET);
+      return;
+    }
     const driving = streaming.find((operator) => operator.id === driver());
     const driven = driving === undefined ? streaming : [driving];
     const coded = mayCode
@@ -96,23 +102,28 @@ export class FrameFanOut {
     const probe = probing ? (only.sender?.probeWish ?? null) : null;
     const next: CaptureBudget = {
       coded,
-      targetBitsPerSecond: deciding.length === 0 ? 0 : narrowest(deciding, sensor),
+      targetBitsPerSecond: narrowest(deciding, sensor),
       probe: probe === null ? null : { clusterId: probe.clusterId, bytes: probe.bytes },
       overheadBytes: Math.max(0, ...streaming.map((operator) => operator.sender?.overheadBytes ?? 0)),
-      streaming: streaming.length > 0,
+      streaming: true,
     };
+    this.#tell(next);
+  }
+
+  #tell(next: CaptureBudget): void {
     const last = this.#budget;
     if (
       next.probe?.clusterId === last.probe?.clusterId &&
       next.targetBitsPerSecond === last.targetBitsPerSecond &&
       next.overheadBytes === last.overheadBytes &&
       isDeepStrictEqual(next.coded, last.coded) &&
-      next.streaming === last.streaming
+      next.streaming === last.streaming &&
+      next.unsent === last.unsent
     ) {
       return;
     }
     this.#budget = next;
-    capture.setBudget(next);
+    this.#options.capture.setBudget(next);
   }
 
   #onFrame(frame: ReadyFrame): void {

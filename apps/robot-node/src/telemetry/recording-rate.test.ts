@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { durationWords, recordingBytesPerSecond, sizeWords } from './recording-rate.ts';
 
-const camera = { points: 230_400, framesPerSecond: 30, pictures: false };
+const camera = { points: 230_400, framesPerSecond: 30, pictures: false, videoBitsPerSecond: 0 };
 
 test('counts 16 bytes per point, at the lower of the recording’s and the camera’s rate', () => {
   const rate = (captured: number, sent: number) =>
@@ -12,6 +12,7 @@ test('counts 16 bytes per point, at the lower of the recording’s and the camer
   expect(rate(0, 0)).toBe(0);
   const pictures = { ...camera, perSecond: { captured: 0, sent: 0 }, pictures: true };
   expect(recordingBytesPerSecond(pictures)).toBe(425_000);
+  expect(recordingBytesPerSecond({ ...pictures, pictures: false, videoBitsPerSecond: 8e6 })).toBe(1_050_000);
 });
 
 test('formats sizes for people', () => {

@@ -16,6 +16,8 @@ export interface RecordedKinds {
   /** The source's highest frame rate, frames/s. */
   framesPerSecond: number;
   pictures: boolean;
+  /** Of all recorded videos, at most. */
+  videoBitsPerSecond: number;
 }
 
 /** Upper limit of bytes per second while an operator watches, without compression. */
@@ -24,9 +26,15 @@ export function recordingBytesPerSecond({
   points,
   framesPerSecond,
   pictures,
+  videoBitsPerSecond,
 }: RecordedKinds): number {
   const clouds = Math.min(perSecond.captured, framesPerSecond) + Math.min(perSecond.sent, framesPerSecond);
-  return clouds * points * POINT_BYTES + EVENT_BYTES_PER_SECOND + (pictures ? PICTURE_BYTES_PER_SECOND : 0);
+  return (
+    clouds * points * POINT_BYTES +
+    EVENT_BYTES_PER_SECOND +
+    (pictures ? PICTURE_BYTES_PER_SECOND : 0) +
+    BitRate.toBytesPerSecond(videoBitsPerSecond)
+  );
 }
 
 /** E.g. `446 MB`, `1.2 GB`. */

@@ -68,12 +68,16 @@ describe('VideoHub', () => {
   let driver: string | null;
   let changes: number;
   let hub: VideoHub;
+  let recording: boolean;
+  let taken: [video: number, capturedAtMs: number][];
 
   beforeEach(() => {
     encoders = [];
     operators = [];
     driver = null;
     changes = 0;
+    recording = false;
+    taken = [];
     const open = (format: EncodedFormat, events: VideoEncoderEvents) => {
       const encoder = new FakeEncoder(format, events);
       encoders.push(encoder);
@@ -85,6 +89,10 @@ describe('VideoHub', () => {
         { name: 'Rear', codec: 'VP8', most, open },
       ],
       targets: () => operators,
+      taker: {
+        wants: () => recording,
+        take: (video, { capturedAtMs }) => void taken.push([video, capturedAtMs]),
+      },
       driver: () => driver,
       onStateChanged: () => changes++,
       onFrame: () => undefined,
@@ -246,5 +254,57 @@ describe('VideoHub', () => {
     const sizes = [0, 1].map((i) => frame.payload(i).length);
     expect(Math.max(...sizes)).toBeLessThanOrEqual(1180);
     expect(frame.bytes).toBe(sizes[0]! + sizes[1]! + 2 * 76);
+  });
+
+  describe('with a recording', () => {
+    beforeEach(() => {
+      recording = true;
+    });
+
+    it('encodes cameras that nobody watches, at their full rate', () => {
+      hub.tick(0);
+      expect(encoders.map(({ formats }) => formats)).toEqual([
+        [{ ...most, barcode: false }],
+        [{ ...most, barcode: false }],
+      ]);
+      encoders[1]!.picture(10);
+      expect(taken).toEqual([[1, 10]]);
+      recording = false;
+      hub.tick(5000);
+      expect(encoders.every(({ closed }) => closed)).toBe(true);
+    });
+
+    it('gets what operators get, encoded once', () => {
+      operators = [new FakeOperator('a', 500_000)];
+      hub.tick(0);
+      encoders[0]!.picture(10);
+      expect(encoders[0]!.formats.at(-1)?.bitsPerSecond).toBe(500_000);
+      expect(operators[0]!.frames.map(({ capturedAtMs }) => capturedAtMs)).toEqual([10]);
+      expect(taken).toEqual([[0, 10]]);
+    });
+
+    it('goes on at the full rate while the operator’s path carries no video', () => {
+      const operator = new FakeOperator('a', 10_000);
+      operators = [operator];
+      hub.tick(0);
+      encoders[0]!.picture(10);
+      expect(encoders[0]!.formats).toEqual([{ ...most, barcode: false }]);
+      expect(operator.frames).toHaveLength(0);
+      expect(taken).toEqual([[0, 10]]);
+      operator.bitsPerSecond = 900_000;
+      hub.tick(1000);
+      expect(encoders[0]!.keyFrames).toBe(1);
+      encoders[0]!.picture(20);
+      expect(operator.frames).toHaveLength(1);
+    });
+
+    it('of watched cameras only opens no other, and takes what is encoded', () => {
+      recording = false;
+      operators = [new FakeOperator('a', 500_000)];
+      hub.tick(0);
+      expect(encoders).toHaveLength(1);
+      encoders[0]!.picture(10);
+      expect(taken).toEqual([[0, 10]]);
+    });
   });
 });

@@ -3,6 +3,7 @@ import type { Logger } from '@farpoint/service';
 import type { VideoCamera } from './video-encoder.ts';
 import type { VideoFrame } from './video-frame.ts';
 import { VideoStream, type VideoWish } from './video-stream.ts';
+import type { VideoTaker } from './video-taker.ts';
 
 /** An operator who may watch videos. */
 export interface VideoTarget {
@@ -22,6 +23,8 @@ export interface VideoHubOptions {
   targets: () => Iterable<VideoTarget>;
   /** The operator whose path decides the rates; `null` if nobody drives. */
   driver: () => string | null;
+  /** Takes the videos, too; `null` for nobody. */
+  taker: VideoTaker | null;
   /** A video has stopped or returned. */
   onStateChanged: () => void;
   /** Sends what is due. */
@@ -42,6 +45,7 @@ export class VideoHub {
     this.streams = options.cameras.map(
       (camera, video) =>
         new VideoStream(video, camera, {
+          onPicture: (picture) => options.taker?.take(video, picture),
           onFrame: (frame) => {
             for (const target of options.targets()) if (target.streaming) target.offerVideo(frame);
             options.onFrame();
@@ -95,10 +99,12 @@ export class VideoHub {
     const watching = [...this.#options.targets()].filter(
       ({ streaming, wantedVideos }) => streaming && wantedVideos.has(video),
     );
-    if (watching.length === 0) return null;
+    const anyway = this.#options.taker?.wants(video) ?? false;
+    if (watching.length === 0) return anyway ? { bitsPerSecond: 0, anyway, barcode: false } : null;
     const driver = watching.find(({ id }) => id === this.#options.driver());
     const deciding = driver === undefined ? watching : [driver];
     return {
+      anyway,
       bitsPerSecond: Math.min(...deciding.map((target) => target.videoBitsPerSecond(video))),
       barcode: watching.some(({ wantsBarcode }) => wantsBarcode),
     };

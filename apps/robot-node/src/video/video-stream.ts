@@ -5,6 +5,9 @@ import { type EncodedPicture, VideoFrame } from './video-frame.ts';
 import { type EncodedFormat, VideoPlanner } from './video-plan.ts';
 
 export interface VideoStreamEvents {
+  /** A picture is encoded: called before `onFrame`, also while the operators' path carries no video. */
+  onPicture(picture: EncodedPicture): void;
+  /** A frame for operators. */
   onFrame(frame: VideoFrame): void;
   onFault(fault: string | null): void;
   /** The encoder gave bytes that are no picture. */
@@ -13,8 +16,10 @@ export interface VideoStreamEvents {
 
 /** What those who watch a video want of it together. */
 export interface VideoWish {
-  /** What it may take, without headers. */
+  /** What it may take, without headers; too little for any picture if only others than operators want it. */
   bitsPerSecond: number;
+  /** It is encoded even if that is too little, then at its full rate, for others than operators. */
+  anyway: boolean;
   /** Whether its pictures are to carry their capture time. */
   barcode: boolean;
 }
@@ -42,8 +47,10 @@ export class VideoStream {
   #droppedBefore = 0;
   #lastCapturedMs = Number.NEGATIVE_INFINITY;
   #pictureId = 0;
-  /** The path carries no video at present. */
+  /** The operators' path carries no video at present. */
   #paused = false;
+  /** Nothing that the encoder gives is used at present. */
+  #idle = false;
 
   constructor(video: number, camera: VideoCamera, events: VideoStreamEvents) {
     this.video = video;
@@ -73,9 +80,11 @@ export class VideoStream {
       return;
     }
     this.#wantedMs = nowMs;
-    const planned = this.#planner.plan(wish.bitsPerSecond);
+    const forOperators = this.#planner.plan(wish.bitsPerSecond);
     const wasPaused = this.#paused;
-    this.#paused = planned === null;
+    this.#paused = forOperators === null;
+    const planned = forOperators ?? (wish.anyway ? this.#planner.plan(this.camera.most.bitsPerSecond) : null);
+    this.#idle = planned === null;
     if (planned === null) return;
     const next = { ...planned, barcode: wish.barcode };
     if (this.#encoder === null) this.#open(next);
@@ -84,7 +93,7 @@ export class VideoStream {
       this.#trim.reset();
       this.#configure(next);
     }
-    if (wasPaused) this.requestKeyFrame();
+    if (wasPaused && !this.#paused) this.requestKeyFrame();
   }
 
   async close(): Promise<void> {
@@ -122,7 +131,7 @@ export class VideoStream {
   #onPicture(picture: EncodedPicture): void {
     const format = this.#format;
     // Receivers take equal or falling timestamps for parts of one picture, or for a fault.
-    if (format === null || this.#paused || picture.capturedAtMs <= this.#lastCapturedMs) return;
+    if (format === null || this.#idle || picture.capturedAtMs <= this.#lastCapturedMs) return;
     const { framesPerSecond, bitsPerSecond } = format;
     if (this.#trim.onPicture(picture.bytes.length, bitsPerSecond / 8 / framesPerSecond))
       this.#configure(format);
@@ -142,7 +151,8 @@ export class VideoStream {
     counters.frames++;
     counters.bytes += picture.bytes.length;
     if (picture.key) counters.keyFrames++;
-    this.#events.onFrame(frame);
+    this.#events.onPicture(picture);
+    if (!this.#paused) this.#events.onFrame(frame);
   }
 }
 

@@ -276,7 +276,7 @@ def read(path: Path) -> None:
                 decoded = DecoderFactory().decoder_for("cdr", schema)(message.data)
                 if schema.name == "sensor_msgs/msg/PointCloud2":
                     entry["sums"].append(sum_of(decoded))
-                if schema.name == "foxglove_msgs/msg/CompressedImage":
+                if schema.name in ("foxglove_msgs/msg/CompressedImage", "foxglove_msgs/msg/CompressedVideo"):
                     data = bytes(decoded.data)
                     entry["pictures"].append({
                         "stampNs": str(decoded.timestamp.sec * 10**9 + decoded.timestamp.nanosec),

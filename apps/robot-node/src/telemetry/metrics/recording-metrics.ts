@@ -3,7 +3,7 @@ import type { Robot } from '../../robot.ts';
 
 /** Metrics of the recording's size and of what was left out. None if nothing is recorded. */
 export function addRecordingMetrics(metrics: PulledMetrics, { recording }: Pick<Robot, 'recording'>): void {
-  if (recording === null) return;
+  if (recording === null || !recording.hasFile) return;
   metrics.sum('recording_messages', 'Messages recorded', () => recording.counts.messages);
   metrics.sum('recording_bytes', 'Bytes of the recording', () => recording.counts.bytes);
   metrics.sums(

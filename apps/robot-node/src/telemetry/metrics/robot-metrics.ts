@@ -1,6 +1,7 @@
 import { PulledMetrics, type Registry } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
 import { addDriveMetrics } from './drive-metrics.ts';
+import { addLiveMetrics } from './live-metrics.ts';
 import { addPathMetrics } from './path-metrics.ts';
 import { addPictureMetrics } from './picture-metrics.ts';
 import { addRecordingMetrics } from './recording-metrics.ts';
@@ -23,5 +24,6 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   addVideoMetrics(metrics, robot);
   addSoundMetrics(metrics, robot);
   addRecordingMetrics(metrics, robot);
+  addLiveMetrics(metrics, robot);
   addReferenceMetrics(metrics, robot);
 }

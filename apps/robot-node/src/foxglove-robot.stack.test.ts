@@ -1,0 +1,216 @@
+/** The robot program as a live source for Foxglove, with the official client. */
+import { once } from 'node:events';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { freePorts } from '@farpoint/local-stack';
+import { foxgloveCompressedVideoSchema, lazyDecoder, pointCloud2Schema, stampNs } from '@farpoint/ros';
+import { availableEncoders } from '@farpoint/video';
+import { BUILD_REMEDY } from '@farpoint/video/build';
+import { type Channel, FoxgloveClient } from '@foxglove/ws-protocol';
+import { afterAll, afterEach, describe, expect, it, vi } from 'vitest';
+import { WebSocket } from 'ws';
+import * as z from 'zod';
+import { metricOf } from './testing/metric-of.ts';
+import { useRobot } from './testing/use-robot.ts';
+
+const isBuilt = await availableEncoders().then(
+  () => true,
+  () => false,
+);
+const ROBOT = 'foxglove-1';
+/** How a sequence parameter set begins. */
+const SPS = Buffer.from([0, 0, 1, 0x67]);
+const [port = 0] = await freePorts(1);
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-foxglove-'));
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const config = join(folder, 'farpoint.yaml');
+const front = { name: 'Front', source: { kind: 'test' }, encoder: 'x264enc', width: 320, height: 240 };
+writeFileSync(config, JSON.stringify({ robot: { videos: isBuilt ? [front] : [] } }));
+
+interface Received {
+  ns: bigint;
+  message: unknown;
+}
+
+/** A viewer: what it subscribed to, decoded by the advertised schemas. */
+class Viewer {
+  readonly received = new Map<string, Received[]>();
+  readonly channels = new Map<string, Channel>();
+  readonly errors: unknown[] = [];
+  readonly #client: FoxgloveClient;
+  readonly #ids = new Map<number, string>();
+
+  private constructor(protocols: string[]) {
+    const ws = new WebSocket(`ws://127.0.0.1:${port}`, protocols);
+    this.#client = new FoxgloveClient({ ws: ws as never });
+    this.#client.on('error', (error) => this.errors.push(error));
+    this.#client.on('advertise', (channels) => {
+      for (const channel of channels) this.channels.set(channel.topic, channel);
+    });
+    this.#client.on('message', ({ subscriptionId, timestamp, data }) => {
+      const topic = this.#ids.get(subscriptionId) ?? '';
+      const { schemaName, encoding, schemaEncoding = '', schema } = this.channels.get(topic) as Channel;
+      const decode = lazyDecoder({
+        ...{ name: schemaName, messageEncoding: encoding, schemaEncoding },
+        schema: new TextEncoder().encode(schema),
+      });
+      const bytes = new Uint8Array(data.buffer, data.byteOffset, data.byteLength);
+      const all = this.received.get(topic) ?? [];
+      this.received.set(topic, all);
+      all.push({ ns: timestamp, message: decode(bytes) });
+    });
+  }
+
+  static async connect(protocols = ['foxglove.websocket.v1', 'foxglove.sdk.v1']): Promise<Viewer> {
+    const viewer = new Viewer(protocols);
+    await vi.waitFor(() => expect(viewer.channels.size).toBeGreaterThan(5), { timeout: 20_000 });
+    return viewer;
+  }
+
+  subscribe(topic: string): number {
+    const id = this.#client.subscribe(this.channels.get(topic)?.id ?? 0);
+    this.#ids.set(id, topic);
+    return id;
+  }
+
+  unsubscribe(id: number): void {
+    this.#client.unsubscribe(id);
+  }
+
+  async until(topic: string, count: number): Promise<Received[]> {
+    const all = () => this.received.get(topic) ?? [];
+    await vi.waitFor(() => expect(all().length, topic).toBeGreaterThanOrEqual(count), { timeout: 20_000 });
+    return all();
+  }
+
+  close(): void {
+    this.#client.close();
+  }
+}
+
+describe('a robot in Foxglove', { timeout: 60_000 }, () => {
+  const robot = useRobot(ROBOT, [
+    ...['--config', config, '--sim-size', '256', '--max-points', '600'],
+    ...['--foxglove-port', String(port), '--foxglove-fps', '60'],
+  ]);
+  const metric = (name: string) => metricOf(robot.stack.robotAdminUrl(ROBOT), `farpoint_robot_${name}`);
+  const viewers: Viewer[] = [];
+  afterEach(() => {
+    for (const viewer of viewers.splice(0)) viewer.close();
+  });
+  const connect = async (protocols?: string[]) => {
+    const viewer = await Viewer.connect(protocols);
+    viewers.push(viewer);
+    return viewer;
+  };
+
+  it.each([['foxglove.sdk.v1'], ['foxglove.websocket.v1']])(
+    'shows clouds, poses and telemetry although no operator watches (%s)',
+    async (protocol) => {
+      const viewer = await connect([protocol]);
+      expect([...viewer.channels.keys()]).toEqual(
+        expect.arrayContaining([
+          ...['/farpoint/captured', '/farpoint/sent', '/tf', '/odom', '/farpoint/cmd_vel'],
+          ...['/farpoint/commands', '/farpoint/telemetry', '/farpoint/estimates'],
+        ]),
+      );
+      for (const topic of ['/farpoint/captured', '/odom', '/tf', '/farpoint/telemetry'])
+        viewer.subscribe(topic);
+      const clouds = await viewer.until('/farpoint/captured', 5);
+      for (const { message, ns } of clouds) {
+        const { width, height, header, data } = pointCloud2Schema.parse(message);
+        expect([width, height, data.length]).toEqual([256, 256, 256 * 256 * 16]);
+        expect(stampNs(header.stamp)).toBe(ns);
+        expect(Math.abs(Number(ns / 1_000_000n) - Date.now())).toBeLessThan(60_000);
+      }
+      for (const topic of ['/odom', '/farpoint/telemetry', '/tf']) await viewer.until(topic, 5);
+      const tf = z.object({ transforms: z.array(z.object({ child_frame_id: z.string() })) });
+      const frames = viewer.received
+        .get('/tf')
+        ?.map(({ message }) => tf.parse(message).transforms[0]?.child_frame_id);
+      expect(new Set(frames)).toEqual(new Set(['base_link', 'camera_optical_frame']));
+      // Nothing was sent to an operator.
+      viewer.subscribe('/farpoint/sent');
+      await viewer.until('/farpoint/captured', clouds.length + 5);
+      expect(viewer.received.has('/farpoint/sent')).toBe(false);
+      expect(viewer.errors).toEqual([]);
+    },
+  );
+
+  it.skipIf(!isBuilt)(
+    `shows video, encoded only while somebody subscribes (needs: ${BUILD_REMEDY})`,
+    async () => {
+      const viewer = await connect();
+      const rate = () => metric('video_bits_per_second{camera="Front"}');
+      await viewer.until('/odom', 0);
+      expect(await rate()).toBe(0);
+      const id = viewer.subscribe('/farpoint/videos/Front');
+      const frames = await viewer.until('/farpoint/videos/Front', 20);
+      const parsed = frames.map(({ message }) => foxgloveCompressedVideoSchema.parse(message));
+      expect(parsed.every(({ format }) => format === 'h264')).toBe(true);
+      // It begins with parameter sets.
+      expect(Buffer.from(parsed[0]!.data).includes(SPS)).toBe(true);
+      // One who comes later begins with a key frame, too.
+      const second = await connect();
+      second.subscribe('/farpoint/videos/Front');
+      const [first] = await second.until('/farpoint/videos/Front', 1);
+      const { data } = foxgloveCompressedVideoSchema.parse(first?.message);
+      expect(Buffer.from(data).includes(SPS)).toBe(true);
+      second.close();
+      viewer.unsubscribe(id);
+      await vi.waitFor(async () => expect(await rate()).toBe(0), { timeout: 20_000, interval: 100 });
+    },
+  );
+
+  it('an operator’s clouds and commands appear as well', async () => {
+    const viewer = await connect();
+    for (const topic of ['/farpoint/sent', '/farpoint/commands']) viewer.subscribe(topic);
+    const { client } = await robot.connect();
+    const lease = await client.takeLease();
+    const timer = setInterval(() => client.drive(lease, 0.1), 20);
+    const clouds = await viewer.until('/farpoint/sent', 5);
+    expect(clouds.some(({ message }) => pointCloud2Schema.parse(message).width === 600)).toBe(true);
+    const [command] = await viewer.until('/farpoint/commands', 5);
+    clearInterval(timer);
+    expect(command?.message).toMatchObject({ accepted: true });
+  });
+
+  it('a viewer that reads slowly loses clouds, counted, and disturbs no other', async () => {
+    const slow = new WebSocket(`ws://127.0.0.1:${port}`, ['foxglove.sdk.v1']);
+    slow.on('error', () => undefined);
+    await once(slow, 'message');
+    const viewer = await connect();
+    const { id = 0 } = viewer.channels.get('/farpoint/captured') ?? {};
+    slow.send(JSON.stringify({ op: 'subscribe', subscriptions: [{ id: 1, channelId: id }] }));
+    slow.pause();
+    viewer.subscribe('/farpoint/captured');
+    viewer.subscribe('/odom');
+    const dropped = async () => expect(await metric('foxglove_dropped_total')).toBeGreaterThan(0);
+    await vi.waitFor(dropped, { timeout: 40_000, interval: 100 });
+    const before = viewer.received.get('/farpoint/captured')?.length ?? 0;
+    await viewer.until('/farpoint/captured', before + 5);
+    await viewer.until('/odom', (viewer.received.get('/odom')?.length ?? 0) + 5);
+    expect(await metric('foxglove_clients')).toBeGreaterThanOrEqual(2);
+    slow.terminate();
+  });
+
+  it('lets nobody change anything, and counts who tries', async () => {
+    const rude = new WebSocket(`ws://127.0.0.1:${port}`, ['foxglove.sdk.v1']);
+    rude.on('error', () => undefined);
+    await once(rude, 'message');
+    const cmdVel = { id: 1, topic: '/cmd_vel', encoding: 'cdr', schemaName: 'geometry_msgs/msg/Twist' };
+    rude.send(JSON.stringify({ op: 'advertise', channels: [cmdVel] }));
+    rude.send(Uint8Array.of(1, 1, 0, 0, 0, 9, 9, 9));
+    const refused = async (reason: string) => metric(`foxglove_refused_total{reason="${reason}"}`);
+    const counted = async () =>
+      expect([await refused('not-offered'), await refused('binary')]).toEqual([1, 1]);
+    await vi.waitFor(counted, { timeout: 20_000, interval: 100 });
+    rude.terminate();
+    const page = new WebSocket(`ws://127.0.0.1:${port}`, ['foxglove.sdk.v1'], {
+      origin: 'https://evil.example',
+    });
+    const [error] = (await once(page, 'error')) as [Error];
+    expect(error.message).toContain('403');
+  });
+});

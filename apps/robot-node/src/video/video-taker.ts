@@ -1,0 +1,8 @@
+import type { EncodedPicture } from './video-frame.ts';
+
+/** Takes videos as they are encoded for operators, for example to record them. */
+export interface VideoTaker {
+  /** Whether a video is to be encoded although no operator can watch it. */
+  wants(video: number): boolean;
+  take(video: number, picture: EncodedPicture): void;
+}
