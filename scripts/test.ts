@@ -13,6 +13,7 @@ import { ensureCycloneDds, ensureDdsPeers } from './lib/ensure-dds.ts';
 import { ensureFirefox } from './lib/ensure-firefox.ts';
 import { ensureGStreamer } from './lib/ensure-gstreamer.ts';
 import { ensureNumpy } from './lib/ensure-numpy.ts';
+import { ensureRos1 } from './lib/ensure-ros1.ts';
 import { ensureTurnServer } from './lib/ensure-turn-server.ts';
 import { failuresOf } from './lib/failures.ts';
 import { run } from './lib/run.ts';
@@ -100,7 +101,10 @@ const steps: Step[] = [
   {
     name: 'stack',
     what: 'unit tests with processes, threads and sockets (vitest)',
-    run: () => runVitest('stack*'),
+    run: async () => {
+      await ensureRos1(say);
+      return runVitest('stack*');
+    },
   },
   { name: 'build', what: 'build what is deployed', run: () => runQuietly('node', ['scripts/build.ts']) },
   {
