@@ -12,6 +12,7 @@ import { ensureChromium } from './lib/ensure-chromium.ts';
 import { ensureCycloneDds, ensureDdsPeers } from './lib/ensure-dds.ts';
 import { ensureFirefox } from './lib/ensure-firefox.ts';
 import { ensureGStreamer } from './lib/ensure-gstreamer.ts';
+import { ensureJanus } from './lib/ensure-janus.ts';
 import { ensureNumpy } from './lib/ensure-numpy.ts';
 import { ensureRos1 } from './lib/ensure-ros1.ts';
 import { ensureTurnServer } from './lib/ensure-turn-server.ts';
@@ -103,6 +104,7 @@ const steps: Step[] = [
     what: 'unit tests with processes, threads and sockets (vitest)',
     run: async () => {
       await ensureRos1(say);
+      await ensureJanus(say);
       return runVitest('stack*');
     },
   },
@@ -115,6 +117,7 @@ const steps: Step[] = [
         return { ok: false, output: `no Chromium, and it could not be installed; run: ${CHROMIUM_REMEDY}` };
       }
       await ensureTurnServer(say);
+      await ensureJanus(say);
       return runPlaywright('chromium');
     },
   },

@@ -1,6 +1,7 @@
 import type { DriveLimits, IceServer } from '@farpoint/protocol';
 import type { TakePolicy } from '@farpoint/safety';
 import type { BaseOptions } from './base/base-messages.ts';
+import type { BroadcastOptions } from './broadcast/broadcast-options.ts';
 import type { SinkOptions } from './drive/open-sink.ts';
 import type { StreamMode } from './encode/stream-mode.ts';
 import type { VideoCameraOptions } from './options/videos.ts';
@@ -32,6 +33,8 @@ export interface RobotOptions extends RateControlOptions {
   pictures: PicturePolicy;
   /** Cameras that are streamed as video. */
   videos: readonly VideoCameraOptions[];
+  /** Where everything is sent once for any number of viewers; if undefined, nowhere. */
+  broadcast?: BroadcastOptions | undefined;
   maxOperators: number;
   /** An operator that has not been heard from for this long is gone, ms. */
   silenceMs: number;

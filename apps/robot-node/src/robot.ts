@@ -3,6 +3,8 @@ import type { Logger } from '@farpoint/service';
 import type { Refusal } from '@farpoint/webrtc';
 import type { TimedBaseState } from './base/base.ts';
 import type { BaseThread } from './base/base-thread.ts';
+import type { Broadcast } from './broadcast/broadcast.ts';
+import { openBroadcast } from './broadcast/open-broadcast.ts';
 import type { Capture } from './capture/capture.ts';
 import { monotonicMs, threadCpuMs } from './clock.ts';
 import { DriveStation } from './drive/drive-station.ts';
@@ -47,6 +49,8 @@ export class Robot {
   /** The interface to the reference system's operators; `null` if it is not enabled. */
   reference: ReferenceProfile | null = null;
   readonly cameras: RobotCameras;
+  /** What feeds viewers through a relay; `null` if it is not enabled. */
+  readonly broadcast: Broadcast | null;
   /** Called if the robot cannot continue. */
   onFailure: ((error: Error) => void) | null = null;
   /** `null` if nothing is recorded. */
@@ -142,7 +146,7 @@ export class Robot {
       options.sensors,
       captures,
       {
-        targets: () => [...this.operators.values(), ...(this.reference?.targets ?? [])],
+        targets: () => [...this.operators.values(), ...(this.reference?.targets ?? []), ...this.#broadcasts],
         sendLoop: this.#sendLoop,
         driver: () => guard.leaseHolder,
         counters: this.counters,
@@ -165,11 +169,16 @@ export class Robot {
     this.cameras = new RobotCameras({
       ...{ policy: options.pictures, capture, videos, log },
       targets: () => this.operators.values(),
+      videoTargets: () => [...this.operators.values(), ...this.#broadcasts],
       driver: () => guard.leaseHolder,
       onMade: (picture) => recording?.picture(picture),
-      onStateChanged: () => this.#host.tellVideos(),
+      onStateChanged: () => {
+        this.#host.tellVideos();
+        this.broadcast?.videosChanged();
+      },
       onFrame: () => this.#sendLoop.run(),
     });
+    this.broadcast = openBroadcast(options, this, { videos, sendLoop: this.#sendLoop, log });
     this.#paths = new PathKeeper({
       ...{ operators: this.operators, drive: this.drive, signaling: this.signaling },
       ...{ counters: this.counters, log, now: monotonicMs },
@@ -200,6 +209,7 @@ export class Robot {
 
   #begin(): void {
     this.signaling.start();
+    this.broadcast?.start();
     this.reference = openReferenceProfile(
       this.#options,
       {
@@ -231,17 +241,23 @@ export class Robot {
     const reported = this.#reports.close();
     this.#sessions.close();
     this.reference?.close();
+    const broadcastClosed = this.broadcast?.close();
     this.drive.close();
     await this.#sink.close();
     await this.base?.close();
     this.#sendLoop.close();
     await this.signaling.close();
+    await broadcastClosed;
     await this.cameras.close();
     await this.sensors.close();
     await this.recording?.close();
     this.#packetLog?.write();
     this.#frameLog?.write();
     await reported;
+  }
+
+  get #broadcasts(): Broadcast[] {
+    return this.broadcast === null ? [] : [this.broadcast];
   }
 
   /** Options for the connection with any operator. */
@@ -270,6 +286,7 @@ export class Robot {
   #tick(): void {
     this.#paths.tick();
     this.reference?.tick();
+    this.broadcast?.tick();
     this.cameras.tick(monotonicMs());
     this.sensors.updateBudgets();
     this.#sendLoop.run();

@@ -11,6 +11,7 @@ import type { RobotOptions } from '../robot-configuration.ts';
 import { describeTopics, readFrom, sourcedFolders } from '../ros/message-folders.ts';
 import type { GraphOptions } from '../ros/open-graph.ts';
 import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
+import { toBroadcast } from './broadcast.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { stateFolder } from './state.ts';
 
@@ -27,6 +28,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   checkSource(values, refuse);
   const topics = describedTopics(values, (detail) => refuse('topics', detail));
   const ca = values.tlsCa === null ? null : readText(values.tlsCa, (detail) => refuse('tlsCa', detail));
+  const broadcast = toBroadcast(values, ca, refuse);
   if (mistakes.length > 0) throw new OptionsError(mistakes);
   const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
   return {
@@ -61,6 +63,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       share: values.picturesShare,
     },
     videos: values.videos,
+    broadcast,
     maxOperators: values.maxOperators,
     silenceMs: values.silenceS * 1000,
     connectTimeoutMs: 20_000,

@@ -1,6 +1,7 @@
 /** All options of the robot program. Each group has its own file. */
 import { adminOptions, defineProgram, type OptionTable, type OptionValues } from '@farpoint/service';
 import manifest from '../../package.json' with { type: 'json' };
+import { broadcastOptions } from './broadcast.ts';
 import { identityOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';
 import { measurementOptions } from './measurement.ts';
@@ -34,6 +35,7 @@ const options = {
   ...streamOptions,
   ...picturesOptions,
   ...videosOptions,
+  ...broadcastOptions,
   ...networkOptions,
   ...recordingOptions,
   ...adminOptions(9400),

@@ -1,5 +1,6 @@
 import { PulledMetrics, type Registry } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
+import { addBroadcastMetrics } from './broadcast-metrics.ts';
 import { addDriveMetrics } from './drive-metrics.ts';
 import { addPathMetrics } from './path-metrics.ts';
 import { addPictureMetrics } from './picture-metrics.ts';
@@ -20,6 +21,7 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   addPathMetrics(metrics, robot);
   addPictureMetrics(metrics, robot);
   addVideoMetrics(metrics, robot);
+  addBroadcastMetrics(metrics, robot);
   addRecordingMetrics(metrics, robot);
   addReferenceMetrics(metrics, robot);
 }
