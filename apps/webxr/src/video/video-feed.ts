@@ -14,13 +14,24 @@ import type { VideoViews } from './video-views.ts';
 const VIDEO = 'video:';
 const CLOUD = 'cloud';
 
+/** Where the videos come from: a {@link RobotClient}, or an object with the same interface. */
+export interface VideoSource {
+  readonly on: RobotClient['on'];
+  readonly link: { readonly session: { readonly clock: { readonly offsetMs: number | null } } };
+}
+
 export interface VideoFeedParts {
-  readonly client: RobotClient;
+  readonly client: VideoSource;
   readonly views: VideoViews;
   /** Whether frames wait for what was captured at the same time. */
   readonly synchronised: boolean;
   /** `null` if this browser cannot read videos. */
   readonly open: OpenReader | null;
+  /**
+   * When a video's frame was captured, ms on the robot's clock, or `null`; default: as its timestamp says, which a relay
+   * would have rewritten.
+   */
+  captureMs?(video: number, frame: ReadFrame): number | null;
   /** Page's clock, ms. */
   now(): number;
 }
@@ -129,7 +140,13 @@ export class VideoFeed {
   #onFrame(video: number, frame: ReadFrame): void {
     const nowMs = this.#parts.now();
     const { offsetMs } = this.#parts.client.link.session.clock;
-    const captureMs = offsetMs === null ? null : captureMsOf(frame, offsetMs, nowMs);
+    const { captureMs: captureMsOfFrame } = this.#parts;
+    const captureMs =
+      captureMsOfFrame !== undefined
+        ? captureMsOfFrame(video, frame)
+        : offsetMs === null
+          ? null
+          : captureMsOf(frame, offsetMs, nowMs);
     if (captureMs === null) {
       this.#figures.undated++;
       frame.image.close();
