@@ -1,4 +1,6 @@
 /** The real robot program feeding a real Janus, with viewers. */
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -100,6 +102,27 @@ describe.skipIf(!hasJanus || !hasVideo)(
       // In 3 s, with one in 2 s.
       expect(more).toBeGreaterThan(0);
       expect(more).toBeLessThanOrEqual(3);
+    });
+
+    it('goes on for all others when a viewer stalls', async () => {
+      const script = join(import.meta.dirname, '..', 'testing', 'janus-viewer-process.ts');
+      const stalled = spawn(process.execPath, [script, janus.url, '7', 'look'], {
+        stdio: ['ignore', 'pipe', 'inherit'],
+      });
+      try {
+        await once(stalled.stdout, 'data');
+        const viewer = await watch();
+        await viewer.until(() => frames(viewer, 'v0') > 5);
+        stalled.kill('SIGSTOP');
+        const [video, keyFrames] = [frames(viewer, 'v0'), viewer.videos.get('v0')?.keyFrames ?? 0];
+        await viewer.until(() => frames(viewer, 'v0') >= video + 90);
+        // It asks for nothing, and nobody waits for it.
+        expect((viewer.videos.get('v0')?.keyFrames ?? 0) - keyFrames).toBeLessThanOrEqual(2);
+        const newcomer = await watch();
+        await newcomer.until(() => frames(newcomer, 'v0') > 30 && newcomer.clouds.size > 10);
+      } finally {
+        stalled.kill('SIGKILL');
+      }
     });
 
     it('comes back when Janus was killed and started again', async () => {

@@ -1,4 +1,5 @@
 import '../ui/style.css';
+import './watch.css';
 import { transformSupport } from '@farpoint/operator';
 import type { Failure } from '../state/notices.ts';
 import { failureWords } from '../status/words.ts';
