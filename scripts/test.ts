@@ -13,7 +13,9 @@ import { ensureChromium } from './lib/ensure-chromium.ts';
 import { ensureCycloneDds, ensureDdsPeers } from './lib/ensure-dds.ts';
 import { ensureFirefox } from './lib/ensure-firefox.ts';
 import { ensureGStreamer } from './lib/ensure-gstreamer.ts';
+import { ensureJanus } from './lib/ensure-janus.ts';
 import { ensureNumpy } from './lib/ensure-numpy.ts';
+import { ensureRos1 } from './lib/ensure-ros1.ts';
 import { ensureTurnServer } from './lib/ensure-turn-server.ts';
 import { failuresOf } from './lib/failures.ts';
 import { run } from './lib/run.ts';
@@ -102,7 +104,11 @@ const steps: Step[] = [
   {
     name: 'stack',
     what: 'unit tests with processes, threads and sockets (vitest)',
-    run: () => runVitest('stack*'),
+    run: async () => {
+      await ensureRos1(say);
+      await ensureJanus(say);
+      return runVitest('stack*');
+    },
   },
   { name: 'build', what: 'build what is deployed', run: () => runQuietly('node', ['scripts/build.ts']) },
   {
@@ -113,6 +119,7 @@ const steps: Step[] = [
         return { ok: false, output: `no Chromium, and it could not be installed; run: ${CHROMIUM_REMEDY}` };
       }
       await ensureTurnServer(say);
+      await ensureJanus(say);
       return runPlaywright('chromium');
     },
   },

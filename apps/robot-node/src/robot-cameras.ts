@@ -6,7 +6,8 @@ export interface RobotCamerasOptions
   extends Omit<PictureHubOptions, 'targets'>,
     Pick<VideoHubOptions, 'onStateChanged' | 'onFrame' | 'taker'> {
   videos: readonly VideoCamera[];
-  targets: () => Iterable<PictureTarget & VideoTarget>;
+  targets: () => Iterable<PictureTarget>;
+  videoTargets: () => Iterable<VideoTarget>;
 }
 
 /** Everything that the robot's cameras show beside the clouds: a few pictures a second of some, video of others. */
@@ -19,6 +20,7 @@ export class RobotCameras {
     policy,
     capture,
     targets,
+    videoTargets,
     driver,
     onMade,
     onStateChanged,
@@ -29,7 +31,9 @@ export class RobotCameras {
   }: RobotCamerasOptions) {
     this.pictures =
       capture.cameras.length === 0 ? null : new PictureHub({ policy, capture, targets, driver, onMade, log });
-    this.videos = new VideoHub({ cameras: videos, targets, driver, onStateChanged, onFrame, taker, log });
+    this.videos = new VideoHub({
+      ...{ cameras: videos, targets: videoTargets, driver, onStateChanged, onFrame, taker, log },
+    });
   }
 
   /** Call often. */

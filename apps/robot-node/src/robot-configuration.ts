@@ -1,6 +1,7 @@
 import type { DriveLimits, IceServer, Quantity } from '@farpoint/protocol';
 import type { TakePolicy } from '@farpoint/safety';
 import type { BaseOptions } from './base/base-messages.ts';
+import type { BroadcastOptions } from './broadcast/broadcast-options.ts';
 import type { SinkOptions } from './drive/open-sink.ts';
 import type { StreamMode } from './encode/stream-mode.ts';
 import type { SoundOptions } from './options/sound.ts';
@@ -46,6 +47,8 @@ export interface RobotOptions extends RateControlOptions {
   videos: readonly VideoCameraOptions[];
   /** A microphone and a loudspeaker, as far as there are any. */
   sound: SoundOptions;
+  /** Where everything is sent once for any number of viewers; if undefined, nowhere. */
+  broadcast?: BroadcastOptions | undefined;
   maxOperators: number;
   /** An operator that has not been heard from for this long is gone, ms. */
   silenceMs: number;

@@ -4,6 +4,8 @@ import type { Refusal } from '@farpoint/webrtc';
 import type { TimedBaseState } from './base/base.ts';
 import type { BaseThread } from './base/base-thread.ts';
 import { MOTORS_TOPIC } from './base/sim-topics.ts';
+import type { Broadcast } from './broadcast/broadcast.ts';
+import { openBroadcast } from './broadcast/open-broadcast.ts';
 import type { Capture } from './capture/capture.ts';
 import { monotonicMs, threadCpuMs } from './clock.ts';
 import { DriveStation } from './drive/drive-station.ts';
@@ -52,6 +54,8 @@ export class Robot {
   reference: ReferenceProfile | null = null;
   readonly cameras: RobotCameras;
   readonly sound: RobotSound;
+  /** What feeds viewers through a relay; `null` if it is not enabled. */
+  readonly broadcast: Broadcast | null;
   /** Called if the robot cannot continue. */
   onFailure: ((error: Error) => void) | null = null;
   /** `null` if nothing is recorded. */
@@ -154,7 +158,7 @@ export class Robot {
       options.sensors,
       captures,
       {
-        targets: () => [...this.operators.values(), ...(this.reference?.targets ?? [])],
+        targets: () => [...this.operators.values(), ...(this.reference?.targets ?? []), ...this.#broadcasts],
         sendLoop: this.#sendLoop,
         driver: () => guard.leaseHolder,
         counters: this.counters,
@@ -178,10 +182,14 @@ export class Robot {
     this.cameras = new RobotCameras({
       ...{ policy: options.pictures, capture, videos, log },
       targets: () => this.operators.values(),
+      videoTargets: () => [...this.operators.values(), ...this.#broadcasts],
       driver: () => guard.leaseHolder,
       onMade: (picture) => recording?.picture(picture),
       taker: recording,
-      onStateChanged: () => this.#host.tellVideos(),
+      onStateChanged: () => {
+        this.#host.tellVideos();
+        this.broadcast?.videosChanged();
+      },
       onFrame: () => this.#sendLoop.run(),
     });
     this.sound = new RobotSound({
@@ -191,6 +199,7 @@ export class Robot {
       onFrame: () => this.#sendLoop.run(),
       ...{ log, now: monotonicMs },
     });
+    this.broadcast = openBroadcast(options, this, { videos, sendLoop: this.#sendLoop, log });
     this.#paths = new PathKeeper({
       ...{ operators: this.operators, drive: this.drive, signaling: this.signaling },
       ...{ counters: this.counters, log, now: monotonicMs },
@@ -225,6 +234,7 @@ export class Robot {
 
   #begin(): void {
     this.signaling.start();
+    this.broadcast?.start();
     this.reference = openReferenceProfile(
       this.#options,
       {
@@ -256,11 +266,13 @@ export class Robot {
     const reported = this.#reports.close();
     this.#sessions.close();
     this.reference?.close();
+    const broadcastClosed = this.broadcast?.close();
     this.drive.close();
     await this.#sink.close();
     await this.base?.close();
     this.#sendLoop.close();
     await this.signaling.close();
+    await broadcastClosed;
     await this.cameras.close();
     await this.sound.close();
     await this.sensors.close();
@@ -269,6 +281,10 @@ export class Robot {
     this.#frameLog?.write();
     this.#commandLog?.write();
     await reported;
+  }
+
+  get #broadcasts(): Broadcast[] {
+    return this.broadcast === null ? [] : [this.broadcast];
   }
 
   /** Options for the connection with any operator. */
@@ -297,6 +313,7 @@ export class Robot {
   #tick(): void {
     this.#paths.tick();
     this.reference?.tick();
+    this.broadcast?.tick();
     this.cameras.tick(monotonicMs());
     this.sound.tick();
     this.sensors.updateBudgets();

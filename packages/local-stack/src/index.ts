@@ -6,6 +6,7 @@ export * from './find-program.ts';
 export * from './firefox.ts';
 export * from './firefox-browser.ts';
 export * from './free-port.ts';
+export * from './janus-server.ts';
 export * from './keep-running.ts';
 export * from './managed-process.ts';
 export * from './stack.ts';

@@ -9,6 +9,7 @@
 export type {
   Alarm,
   Battery,
+  Broadcast,
   Cameras,
   CloudFormat,
   CommandRejected,
@@ -79,3 +80,5 @@ export { parseSignalingUrl, type SignalingAddress } from './signaling/signaling-
 export type { SensorStats } from './statistics/sensor-statistics.ts';
 export type { StreamStatistics, StreamStats } from './statistics/stream-statistics.ts';
 export type { VideoTrack } from './video/video-track.ts';
+export { RobotWatcher, type RobotWatcherOptions, type WatchEvents } from './watch/robot-watcher.ts';
+export type { WatchObstacle, WatchState } from './watch/watch-state.ts';

@@ -1,6 +1,8 @@
 export * from './alarm.ts';
 export * from './bandwidth.ts';
 export * from './barcode-time.ts';
+export * from './broadcast.ts';
+export * from './capture-stamp.ts';
 export * from './channels.ts';
 export * from './clock-offset.ts';
 export * from './cloud-format.ts';
@@ -27,7 +29,7 @@ export * from './reading.ts';
 export * from './reference-bridge.ts';
 export * from './reference-control.ts';
 export * from './sequence.ts';
-export * from './session-codecs.ts';
+export { operatorSessionCodec, robotSessionCodec } from './session-codecs.ts';
 export * from './session-messages.ts';
 export * from './signaling/farpoint.ts';
 export * from './signaling/reference.ts';

@@ -2,6 +2,7 @@
 import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { broadcastCodec } from './broadcast.ts';
 import { clockAnswerCodec, commandRejections, operatorControlCodec } from './control.ts';
 import { ProtocolError } from './errors.ts';
 import { decodeJson, encodeJson, encodeJsonBytes, type JsonCodec, type MessageData } from './json.ts';
@@ -32,6 +33,7 @@ const codecs: [file: string, codec: JsonCodec<unknown>][] = [
   ['robot-session', robotSessionCodec],
   ['operator-session', operatorSessionCodec],
   ['telemetry', telemetryCodec],
+  ['broadcast', broadcastCodec],
   ['reference-control', referenceControlCodec],
   ['signaling-robot-to-service', robotToServiceCodec],
   ['signaling-service-to-robot', serviceToRobotCodec],

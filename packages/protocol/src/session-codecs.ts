@@ -14,14 +14,21 @@ import { MAX_VIDEOS, VIDEO_CODECS } from './video-media.ts';
 
 const positive = z.number().check(z.positive());
 const cameraSchema = z.int().check(z.minimum(0), z.maximum(MAX_CAMERAS - 1));
-const sensorSchema = z.int().check(z.minimum(0), z.maximum(MAX_SENSORS - 1));
+export const sensorSchema = z.int().check(z.minimum(0), z.maximum(MAX_SENSORS - 1));
 const videoSchema = z.int().check(z.minimum(0), z.maximum(MAX_VIDEOS - 1));
 const weightSchema = z.int().check(z.minimum(1), z.maximum(100));
 /** An SDP token (RFC 8866 §9) that fits a one-byte header extension. */
-const midSchema = z.string().check(z.regex(/^[!#-'*+.0-9A-Z^-~-]{1,16}$/));
+export const midSchema = z.string().check(z.regex(/^[!#-'*+.0-9A-Z^-~-]{1,16}$/));
 const soundDetailSchema = z.string().check(z.maxLength(256));
 /** A palette of 256 colours with its tables is 2,210 bytes. */
 const MAX_STREAM_HEADER_BASE64 = 3200;
+export const streamHeaderSchema = z.base64().check(z.minLength(1), z.maxLength(MAX_STREAM_HEADER_BASE64));
+export const videoDescriptionSchema = z.strictObject({
+  name: displayNameSchema,
+  mid: midSchema,
+  codec: z.enum(VIDEO_CODECS),
+  fault: z.optional(z.string().check(z.maxLength(256))),
+});
 /** A test that takes longer has failed. */
 const MAX_LATENCY_MS = 60_000;
 const latencyMsSchema = z.number().check(z.minimum(0), z.maximum(MAX_LATENCY_MS));
@@ -76,7 +83,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
     z.strictObject({
       type: z.literal('cloudStream'),
       format: z.enum(['organised', 'unorganised']),
-      header: z.base64().check(z.minLength(1), z.maxLength(MAX_STREAM_HEADER_BASE64)),
+      header: streamHeaderSchema,
       sensor: z.optional(sensorSchema),
     }),
     z.strictObject({
@@ -89,16 +96,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
     }),
     z.strictObject({
       type: z.literal('videos'),
-      videos: z
-        .array(
-          z.strictObject({
-            name: displayNameSchema,
-            mid: midSchema,
-            codec: z.enum(VIDEO_CODECS),
-            fault: z.optional(z.string().check(z.maxLength(256))),
-          }),
-        )
-        .check(z.maxLength(MAX_VIDEOS)),
+      videos: z.array(videoDescriptionSchema).check(z.maxLength(MAX_VIDEOS)),
     }),
     z.strictObject({
       type: z.literal('sound'),

@@ -321,6 +321,53 @@ write("picture-chunk.json", {
     ],
 })
 
+# capture stamp -------------------------------------------------------------------------------------------------------
+
+UUID = bytes.fromhex("9c5ed147b8324f6aa17de35826cb94f5")
+SPS = bytes.fromhex("0000000167 42c01f8c8d40".replace(" ", ""))
+SLICE = bytes.fromhex("0000000165 888400".replace(" ", ""))
+
+
+def stamp(nanoseconds):
+    groups = [(nanoseconds >> (7 * i)) & 0x7F for i in reversed(range(10))]
+    return UUID + bytes(0x80 | group for group in groups)
+
+
+def sei(content):
+    return bytes([0, 0, 0, 1, 6, 5, len(content)]) + content + b"\x80"
+
+
+def stamped(name, nanoseconds):
+    return {"name": name, "nanoseconds": str(nanoseconds), "hex": stamp(nanoseconds).hex()}
+
+
+def picture(name, codec, data, nanoseconds=None):
+    vector = {"name": name, "codec": codec, "hex": data.hex()}
+    return vector if nanoseconds is None else {**vector, "nanoseconds": str(nanoseconds)}
+
+
+write("capture-stamp.json", {
+    "write": [stamped("zero", 0), stamped("one", 1), stamped("all ones", 2 ** 64 - 1), stamped("a day", 86400 * 10 ** 9),
+              stamped("many zero bits", 2 ** 56 + 2 ** 24), stamped("ascending", 0x0123456789ABCDEF)],
+    "read": [
+        picture("H264: first", "H264", sei(stamp(86400123456789)) + SLICE, 86400123456789),
+        picture("H264: after the parameter sets", "H264", SPS + sei(stamp(7)) + SLICE, 7),
+        picture("H264: after another SEI message", "H264", sei(b"other" * 5) + sei(stamp(8)) + SLICE, 8),
+        picture("H264: none", "H264", SPS + SLICE),
+        picture("H264: another UUID", "H264", sei(bytes(15) + stamp(7)[15:]) + SLICE),
+        picture("H264: at the end, where VP8 has it", "H264", SLICE + stamp(7)),
+        picture("H264: cut short", "H264", (SPS + sei(stamp(7)))[:-2]),
+        picture("H264: too far behind", "H264", SPS + bytes([0, 0, 0, 1, 8]) + b"\x55" * 512 + sei(stamp(7)) + SLICE),
+        picture("VP8: last", "VP8", bytes.fromhex("9d012a") + stamp(2 ** 63), 2 ** 63),
+        picture("VP8: alone", "VP8", stamp(2 ** 40), 2 ** 40),
+        picture("VP8: none", "VP8", bytes(range(64))),
+        picture("VP8: not last", "VP8", stamp(7) + b"\x80"),
+        picture("VP8: too short", "VP8", stamp(7)[1:]),
+        picture("VP8: a byte of the time without its highest bit", "VP8", stamp(7)[:-1] + b"\x07"),
+        picture("VP8: more than 64 bits", "VP8", UUID + b"\x82" + b"\x80" * 9),
+    ],
+})
+
 # latency barcode -----------------------------------------------------------------------------------------------------
 
 
@@ -621,6 +668,21 @@ telemetry.spoil(reading, ("topic", ""), ("topic", "/" + "a" * 255), ("label", ""
                 ("values", [["", "x"]] * 11), ("values", [["x"]], "values.0"), ("values", [["n" * 37, "x"]], "values.0.0"),
                 ("values", [["", "x" * 61]], "values.0.1"), ("values", [["", 7]], "values.0.1"), ("ageMs", -1), ("timeMs", -1), ("unit", "V", ""))
 write("telemetry.json", telemetry.lists())
+
+broadcast = Messages()
+m_broadcast = broadcast.good({
+    "type": "farpointBroadcast", "version": 1, "name": "Rover",
+    "videos": [{"name": "Front", "mid": "v0", "codec": "H264"}, {"name": "Rear", "mid": "v1", "codec": "VP8", "fault": "the camera is unplugged"}],
+    "clouds": {"mid": "cloud", "sensors": [{"name": "Camera"}, {"name": "LiDAR"}], "streams": [
+        {"format": "organised", "header": "RlBPQwEBAAA=", "sensor": 0}, {"format": "unorganised", "header": "RlBVQwEBAAA=", "sensor": 1}]}},
+    "videos and clouds")
+broadcast.good({"type": "farpointBroadcast", "version": 1, "name": "Rover", "videos": []}, "nothing")
+broadcast.common(m_broadcast, 65536)
+broadcast.spoil(m_broadcast, ("type", "welcome"), ("version", 2), ("name", ""), ("videos", ABSENT), ("videos.0.mid", "a b"), ("videos.1.codec", "AV1"),
+                ("videos.0.extra", 1, "videos.0"), ("clouds.mid", ABSENT), ("clouds.sensors", []), ("clouds.sensors.0.name", 7),
+                ("clouds.streams.0.format", "points64"), ("clouds.streams.0.header", ""), ("clouds.streams.1.sensor", 8),
+                ("clouds.streams.1.sensor", ABSENT), ("clouds.streams.1.type", "cloudStream", "clouds.streams.1"))
+write("broadcast.json", broadcast.lists())
 
 reference_control = Messages()
 twist = reference_control.good({"linear": vector3(0.5), "angular": vector3(0, 0, -0.25)}, "twist")

@@ -14,6 +14,7 @@ import type { GraphOptions } from '../ros/open-graph.ts';
 import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
 import { describeQuantities } from '../telemetry/sample-board.ts';
 import { toAlarmRules } from './alarms.ts';
+import { toBroadcast } from './broadcast.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { stateFolder } from './state.ts';
 
@@ -32,6 +33,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const ca = values.tlsCa === null ? null : readText(values.tlsCa, (detail) => refuse('tlsCa', detail));
   const quantities = describeQuantities([...topics, ...(values.source === 'sim' ? [SIM_MOTORS] : [])]);
   const alarms = toAlarmRules(values.alarms, quantities, (detail) => refuse('alarms', detail));
+  const broadcast = toBroadcast(values, ca, refuse);
   if (mistakes.length > 0) throw new OptionsError(mistakes);
   const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
   return {
@@ -69,6 +71,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     },
     videos: toVideos(values),
     sound: values.sound,
+    broadcast,
     maxOperators: values.maxOperators,
     silenceMs: values.silenceS * 1000,
     connectTimeoutMs: 20_000,

@@ -2,6 +2,7 @@
 import { adminOptions, defineProgram, type OptionTable, type OptionValues } from '@farpoint/service';
 import manifest from '../../package.json' with { type: 'json' };
 import { alarmsOptions } from './alarms.ts';
+import { broadcastOptions } from './broadcast.ts';
 import { foxgloveOptions } from './foxglove.ts';
 import { identityOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';
@@ -39,6 +40,7 @@ const options = {
   ...picturesOptions,
   ...videosOptions,
   ...soundOptions,
+  ...broadcastOptions,
   ...networkOptions,
   ...recordingOptions,
   ...foxgloveOptions,

@@ -15,15 +15,26 @@ import type { VideoViews } from './video-views.ts';
 const VIDEO = 'video:';
 const CLOUD = 'cloud';
 
+/** Where the videos come from: a {@link RobotClient}, or an object with the same interface. */
+export interface VideoSource {
+  readonly on: RobotClient['on'];
+  readonly link: { readonly session: { readonly clock: { readonly offsetMs: number | null } } };
+}
+
 export interface VideoFeedParts {
-  readonly client: RobotClient;
+  readonly client: VideoSource;
   readonly views: VideoViews;
   /** Whether frames wait for what was captured at the same time. */
   readonly synchronised: boolean;
   /** `null` if this browser cannot read videos. */
   readonly open: OpenReader | null;
-  /** Told of the instant that is shown. */
-  readonly presented: PresentedInstant;
+  /** Told of the instant that is shown; `null` if nobody asks. */
+  readonly presented: PresentedInstant | null;
+  /**
+   * When a video's frame was captured, ms on the robot's clock, or `null`; default: as its timestamp says, which a relay
+   * would have rewritten.
+   */
+  captureMs?(video: number, frame: ReadFrame): number | null;
   /** Page's clock, ms. */
   now(): number;
 }
@@ -64,7 +75,7 @@ export class VideoFeed {
     const presentation = this.#compositor.tick(nowMs);
     if (presentation === null) return;
     const { client, views, presented } = this.#parts;
-    presented.show(presentation.instantMs, nowMs);
+    presented?.show(presentation.instantMs, nowMs);
     for (const { source, captureMs, payload } of presentation.items) {
       if (payload === null) continue;
       const video = Number(source.slice(VIDEO.length));
@@ -93,7 +104,7 @@ export class VideoFeed {
     this.#readOnly([]);
     this.#tracks.value = new Map();
     this.#compositor.clear();
-    this.#parts.presented.clear();
+    this.#parts.presented?.clear();
     this.#figures.reset();
     this.#cloudFrame = null;
   }
@@ -134,7 +145,13 @@ export class VideoFeed {
   #onFrame(video: number, frame: ReadFrame): void {
     const nowMs = this.#parts.now();
     const { offsetMs } = this.#parts.client.link.session.clock;
-    const captureMs = offsetMs === null ? null : captureMsOf(frame, offsetMs, nowMs);
+    const { captureMs: captureMsOfFrame } = this.#parts;
+    const captureMs =
+      captureMsOfFrame !== undefined
+        ? captureMsOfFrame(video, frame)
+        : offsetMs === null
+          ? null
+          : captureMsOf(frame, offsetMs, nowMs);
     if (captureMs === null) {
       this.#figures.undated++;
       frame.image.close();
@@ -152,7 +169,7 @@ export class VideoFeed {
       this.#cloudFrame = frame;
       const captureMs = captureMsOfStamp(batch.captureTimeUs(packet), nowMs + offsetMs);
       // Without videos, points are all that is shown, and they are shown at once.
-      if (this.#readers.size === 0) this.#parts.presented.show(captureMs, nowMs);
+      if (this.#readers.size === 0) this.#parts.presented?.show(captureMs, nowMs);
       else this.#compositor.offer(CLOUD, captureMs, null, nowMs);
     }
   }

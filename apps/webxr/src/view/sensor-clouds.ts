@@ -1,6 +1,5 @@
 /** Draws the clouds of a robot with several sensors, except the first sensor's, which has an object of its own. */
-import { CloudView } from '@farpoint/cloud-view';
-import type { RobotClient } from '@farpoint/operator';
+import { type CloudSource, CloudView } from '@farpoint/cloud-view';
 import { effect, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { Object3D, WebGLRenderer } from 'three';
 import type { Switches } from '../state/switches.ts';
@@ -15,7 +14,7 @@ export interface SensorCloudsParts {
   readonly renderer: WebGLRenderer;
   /** The object that the clouds are added to. */
   readonly world: Object3D;
-  readonly client: RobotClient;
+  readonly client: CloudSource;
   /** Draws the first sensor's cloud. */
   readonly first: CloudView;
   /** Empty for a robot with one sensor. */

@@ -9,8 +9,14 @@ import { join } from 'node:path';
 const SCRIPT = join(import.meta.dirname, 'ros1_node.py');
 /** Debian's rospy belongs to the system's Python, which may not be the first in the path. */
 const PYTHONS = ['python3', '/usr/bin/python3'];
-const REMEDY =
-  'on Debian: apt-get install python3-rospy python3-rosmaster python3-sensor-msgs python3-nav-msgs python3-diagnostic-msgs';
+const PACKAGES = [
+  'python3-rospy',
+  'python3-rosmaster',
+  'python3-sensor-msgs',
+  'python3-nav-msgs',
+  'python3-diagnostic-msgs',
+];
+const REMEDY = `on Debian: apt-get install ${PACKAGES.join(' ')}`;
 
 /** What a rospy node received on a velocity topic. */
 export interface Heard {
@@ -24,6 +30,8 @@ export interface Heard {
 }
 
 export class Ros1Peers {
+  /** Debian's packages that have everything. */
+  static readonly PACKAGES: readonly string[] = PACKAGES;
   readonly port: number;
   readonly masterUrl: string;
   readonly #python: string;

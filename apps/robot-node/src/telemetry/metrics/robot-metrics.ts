@@ -1,5 +1,6 @@
 import { PulledMetrics, type Registry } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
+import { addBroadcastMetrics } from './broadcast-metrics.ts';
 import { addDriveMetrics } from './drive-metrics.ts';
 import { addLiveMetrics } from './live-metrics.ts';
 import { addPathMetrics } from './path-metrics.ts';
@@ -23,6 +24,7 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   addPictureMetrics(metrics, robot);
   addVideoMetrics(metrics, robot);
   addSoundMetrics(metrics, robot);
+  addBroadcastMetrics(metrics, robot);
   addRecordingMetrics(metrics, robot);
   addLiveMetrics(metrics, robot);
   addReferenceMetrics(metrics, robot);

@@ -1,0 +1,30 @@
+import type { Logger } from '@farpoint/service';
+import { monotonicMs } from '../clock.ts';
+import type { RobotCameras } from '../robot-cameras.ts';
+import type { RobotOptions } from '../robot-configuration.ts';
+import type { CloudSensors } from '../sensors/cloud-sensors.ts';
+import type { SendLoop } from '../transport/send-loop.ts';
+import type { VideoCamera } from '../video/video-encoder.ts';
+import { Broadcast } from './broadcast.ts';
+
+/** @returns `null` if the robot is not to broadcast */
+export function openBroadcast(
+  { broadcast: options, name, sensors }: Pick<RobotOptions, 'broadcast' | 'name' | 'sensors'>,
+  /** Read when they are needed: they may be made later. */
+  robot: { readonly sensors: CloudSensors; readonly cameras: RobotCameras },
+  { videos, sendLoop, log }: { videos: readonly VideoCamera[]; sendLoop: SendLoop; log: Logger },
+): Broadcast | null {
+  if (options === undefined) return null;
+  const broadcast: Broadcast = new Broadcast({
+    ...{ options, name, sensors, sendLoop, now: monotonicMs },
+    log: log.child({ part: 'broadcast' }),
+    codecs: videos.map(({ codec }) => codec),
+    claims: () => robot.sensors.claims,
+    videos: () => robot.cameras.videos.descriptions,
+    mostVideoBitsPerSecond: (video) => robot.cameras.videos.mostBitsPerSecond(video),
+    requestKeyFrame: (video) => robot.cameras.videos.requestKeyFrame(video),
+    onBudgetChanged: () => robot.sensors.updateBudgets(),
+    onStart: () => robot.sensors.announceTo(broadcast),
+  });
+  return broadcast;
+}

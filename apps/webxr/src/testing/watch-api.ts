@@ -1,0 +1,40 @@
+/** `window.farpointWatch`: what end-to-end tests and benchmarks can read from the watchers' page. */
+import type { WatchState } from '@farpoint/operator';
+import type { VideoStats } from '../video/video-figures.ts';
+import type { WatchApp } from '../watch/watch-app.ts';
+
+export interface WatchStats {
+  state: WatchState;
+  /** How often it began to watch. */
+  attempts: number;
+  videos: VideoStats;
+  /** Of the first sensor. */
+  cloud: { frames: number; packets: number; points: number };
+  /** Display frames drawn. */
+  drawnFrames: number;
+}
+
+export interface WatchApi {
+  stats(): WatchStats;
+  resetDistributions(): void;
+}
+
+declare global {
+  interface Window {
+    farpointWatch?: WatchApi;
+  }
+}
+
+export function installWatchApi(app: WatchApp): void {
+  window.farpointWatch = {
+    stats: () => {
+      const { frames, packets, points } = app.cloud;
+      return {
+        ...{ state: app.state, attempts: app.watcher.attempts, drawnFrames: app.drawnFrames },
+        videos: app.videos.stats(performance.now()),
+        cloud: { frames, packets, points },
+      };
+    },
+    resetDistributions: () => app.videos.resetDistributions(),
+  };
+}

@@ -1,0 +1,168 @@
+/** `pnpm bench janus`: what viewers at Janus cost the robot. */
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { parseArgs } from 'node:util';
+import {
+  chromiumLaunchOptions,
+  findJanus,
+  JANUS_REMEDY,
+  JanusServer,
+  LocalStack,
+  repositoryRoot,
+} from '@farpoint/local-stack';
+import { JanusViewer } from '@farpoint/robot-node/testing/janus';
+import { availableEncoders } from '@farpoint/video';
+import type { WatchStats } from '@farpoint/webxr/watch-api';
+import { type Browser, chromium } from '@playwright/test';
+import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
+import { buildPage } from './live-stack.ts';
+import { type Bench, numberOption, printJson, printTable } from './report.ts';
+
+const USAGE = `pnpm bench janus [options]
+
+Real robot, Janus and headless Chromium. The robot feeds Janus with two cameras and its clouds. One viewer is a page in the
+browser, the others are light: they decrypt and count packets.
+
+  --viewers 1,10      how many watch, one run for each
+  --seconds 20        duration of a run
+  --mbps 3            of the broadcast
+  --encoder x264enc   or another one that \`pnpm robot doctor\` lists
+  --json
+
+uplinkBytesPerS: all headers counted. robotCpu: cores, encoders included. framesPerS: of the first camera, the page's first.
+spreadMs: between the earliest and the latest capture in what the page shows at once.`;
+
+const ROBOT = 'sim-1';
+const WARM_UP_MS = 5000;
+const CAMERA = { width: 640, height: 480, framesPerS: 15 };
+
+interface RunOptions {
+  viewers: number;
+  seconds: number;
+  mbps: number;
+  encoder: string;
+}
+
+export const bench: Bench = {
+  name: 'janus',
+  summary: 'what viewers at Janus cost the robot: uplink, processor, frame rates',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        viewers: { type: 'string', default: '1,10' },
+        seconds: { type: 'string', default: '20' },
+        mbps: { type: 'string', default: '3' },
+        encoder: { type: 'string', default: 'x264enc' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    if (findJanus() === null) throw new Error(`Janus is not installed: ${JANUS_REMEDY}`);
+    await availableEncoders();
+    const counts = values.viewers.split(',').map((text) => numberOption('viewers', text, 1));
+    const seconds = numberOption('seconds', values.seconds, 1);
+    const mbps = numberOption('mbps', values.mbps, 0.1);
+    console.error('building the page');
+    buildPage();
+    const runs: Awaited<ReturnType<typeof measure>>[] = [];
+    for (const viewers of counts) {
+      console.error(`${viewers} viewers`);
+      runs.push(await measure({ viewers, seconds, mbps, encoder: values.encoder }));
+    }
+    printTable(
+      [
+        'viewers',
+        'uplink, bytes/s',
+        'robot, cores',
+        'frames/s: page',
+        'others, least',
+        'spread p50, ms',
+        'p99',
+      ],
+      runs.map(({ viewers, uplinkBytesPerS, robotCpu, framesPerS, spreadMs }) => [
+        ...[viewers, Math.round(uplinkBytesPerS), robotCpu, framesPerS[0]],
+        ...[framesPerS.length > 1 ? Math.min(...framesPerS.slice(1)) : null, spreadMs?.p50, spreadMs?.p99],
+      ]),
+    );
+    if (values.json)
+      printJson({ bench: 'janus', seconds, mbps, encoder: values.encoder, camera: CAMERA, runs });
+  },
+};
+
+async function measure({ viewers: count, seconds, mbps, encoder }: RunOptions) {
+  const folder = mkdtempSync(join(tmpdir(), 'farpoint-bench-janus-'));
+  const janus = await JanusServer.start();
+  const viewers: JanusViewer[] = [];
+  let stack: LocalStack | null = null;
+  let browser: Browser | null = null;
+  try {
+    const config = join(folder, 'farpoint.yaml');
+    const cameras = ['pinwheel', 'ball'].map((pattern) => ({
+      ...{ name: pattern, encoder, ...CAMERA, kbitPerS: 600, source: { kind: 'test', pattern, ...CAMERA } },
+    }));
+    const broadcast = { janus: janus.url, adminKey: janus.adminKey, mbps };
+    writeFileSync(config, JSON.stringify({ robot: { videos: cameras, broadcast } }));
+    stack = await LocalStack.start({
+      webRoot: join(repositoryRoot, 'apps', 'webxr', 'dist-testing'),
+      robots: [{ id: ROBOT, name: 'Rover', args: ['--config', config, '--sim-size', '96', '--fps', '15'] }],
+      env: { FARPOINT_LOG_LEVEL: 'warn' },
+    });
+    browser = await chromium.launch(chromiumLaunchOptions());
+    const page = await browser.newPage({ viewport: { width: 320, height: 180 } });
+    await page.goto(`${stack.webUrl}watch.html?janus=${janus.url}`);
+    const shown = (): Promise<WatchStats | undefined> => page.evaluate(() => window.farpointWatch?.stats());
+    await page.waitForFunction(() => (window.farpointWatch?.stats().videos.videos[0]?.frames ?? 0) > 10);
+    for (let i = 1; i < count; i++)
+      viewers.push(await JanusViewer.watch({ url: janus.url, mountpoint: 1, light: true }));
+    for (const viewer of viewers) await viewer.until(() => framesOf(viewer) > 5);
+    await wait(WARM_UP_MS);
+    const { pid } = stack.robot(ROBOT);
+    const admin = stack.robotAdminUrl(ROBOT);
+    await page.evaluate(() => window.farpointWatch?.resetDistributions());
+    const before = { cpu: cpuSecondsOfTree(pid), bytes: await bytesSent(admin), shown: await shown() };
+    const framesBefore = viewers.map(framesOf);
+    const fromMs = performance.now();
+    await wait(seconds * 1000);
+    const elapsedS = (performance.now() - fromMs) / 1000;
+    const after = { cpu: cpuSecondsOfTree(pid), bytes: await bytesSent(admin), shown: await shown() };
+    const pageFrames = (stats: WatchStats | undefined): number => stats?.videos.videos[0]?.frames ?? 0;
+    const frames = [
+      pageFrames(after.shown) - pageFrames(before.shown),
+      ...viewers.map((viewer, i) => framesOf(viewer) - (framesBefore[i] as number)),
+    ];
+    return {
+      viewers: count,
+      uplinkBytesPerS: (after.bytes - before.bytes) / elapsedS,
+      robotCpu: coresBetween(before.cpu, after.cpu, elapsedS * 1000),
+      framesPerS: frames.map((each) => Math.round((each / elapsedS) * 10) / 10),
+      spreadMs: after.shown?.videos.spreadMs ?? null,
+      sources: after.shown?.videos.sources.map(({ source, state, behindMs }) => ({
+        source,
+        state,
+        behindMs,
+      })),
+    };
+  } finally {
+    await Promise.all(viewers.map((viewer) => viewer.close()));
+    await browser?.close();
+    await stack?.stop();
+    await janus.stop();
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+function framesOf(viewer: JanusViewer): number {
+  return viewer.videos.get('v0')?.frames ?? 0;
+}
+
+async function bytesSent(adminUrl: string): Promise<number> {
+  const text = await (await fetch(`${adminUrl}/metrics`)).text();
+  return Number(/^farpoint_robot_broadcast_bytes_total (\S+)$/m.exec(text)?.[1] ?? 0);
+}
+
+function wait(ms: number): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve, ms));
+}
