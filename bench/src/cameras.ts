@@ -20,6 +20,7 @@ capture time drawn into each; the page reads it from what it shows, on every pre
 
   --cameras LIST      SIZE@FPS:KBPS of each camera, by default 1024x768@30:512 three times
   --sync on           or off: pictures are shown as they come
+  --receiver native   or track or webcodecs: how the page receives; by default what suits the browser best
   --over loopback     or a capacity trace, CSV time_s,capacity_mbps, over a link with 42.4 ms of round trip
   --seconds 30        duration
   --encoder vp8enc    or another one that \`pnpm robot doctor\` lists
@@ -29,7 +30,8 @@ capture time drawn into each; the page reads it from what it shows, on every pre
 
 glassToGlassMs: from capture to the end of the display frame that shows the picture. spreadMs: between the earliest and the
 latest capture in a presentation. addedBySyncMs: how long pictures that had arrived waited for others. dropped: pictures that
-encoders skipped, and pictures that arrived and were not shown. robotCpu: cores, encoders included.`;
+encoders skipped, and pictures that arrived and were not shown. robotCpu, browserCpu: cores, encoders included.
+keyFrames: encoded during the measurement, all cameras together.`;
 
 const ROBOT = 'sim-1';
 const WARM_UP_MS = 5000;
@@ -45,6 +47,7 @@ export const bench: Bench = {
       options: {
         cameras: { type: 'string', default: '1024x768@30:512,1024x768@30:512,1024x768@30:512' },
         sync: { type: 'string', default: 'on' },
+        receiver: { type: 'string' },
         over: { type: 'string', default: 'loopback' },
         seconds: { type: 'string', default: '30' },
         encoder: { type: 'string', default: 'vp8enc' },
@@ -75,7 +78,7 @@ export const bench: Bench = {
         ],
       },
       canvas: values.canvas,
-      query: `barcode=1&sync=${values.sync === 'on' ? 1 : 0}`,
+      query: `barcode=1&sync=${values.sync === 'on' ? 1 : 0}&video=${values.receiver ?? ''}`,
       ...(traced
         ? {
             connectAtMbps: 20,
@@ -89,21 +92,29 @@ export const bench: Bench = {
       log: (line) => console.error(line),
     });
     try {
-      const { page, stack, link } = live;
+      const { page, stack, link, browserPid } = live;
       const wait = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
       link?.tell({ type: 'reset' });
       await wait(WARM_UP_MS);
       const pid = stack.robot(ROBOT).pid;
       console.error(`${seconds} s`);
       const skipped = () => readSkipped(stack.robotAdminUrl(ROBOT), cameras.length);
-      const [fromMs, cpuBefore, skippedBefore] = [performance.now(), cpuSecondsOfTree(pid), await skipped()];
+      const [skippedBefore, keysBefore] = [await skipped(), await readKeyFrames(stack.robotAdminUrl(ROBOT))];
+      const [fromMs, cpuBefore] = [performance.now(), cpuSecondsOfTree(pid)];
+      const browserBefore = cpuSecondsOfTree(browserPid);
       await page.evaluate((capacity) => {
         window.farpoint.resetStats();
         window.farpoint.recordPresentations(capacity);
       }, MOST_PRESENTATIONS);
       await wait(seconds * 1000);
       const robotCpu = coresBetween(cpuBefore, cpuSecondsOfTree(pid), performance.now() - fromMs);
+      const browserCpu = coresBetween(
+        browserBefore,
+        cpuSecondsOfTree(browserPid),
+        performance.now() - fromMs,
+      );
       const skippedAfter = await skipped();
+      const keyFrames = (await readKeyFrames(stack.robotAdminUrl(ROBOT))) - keysBefore;
       const { rows, stats } = await page.evaluate(() => ({
         rows: window.farpoint.recordedPresentations(),
         stats: window.farpoint.stats().videos,
@@ -130,9 +141,13 @@ export const bench: Bench = {
       const addedBySyncMs = stats.heldMs;
       const queueMs = traced ? rounded(queueQuantiles(readUplink(linkFile)), 1) : null;
       printTable(
-        ['synchronised', 'spread p50', 'p99', 'max', 'under 1 ms', 'waited p50', 'robot, cores', 'queue p95'],
+        [
+          ...['receiver', 'synchronised', 'spread p50', 'p99', 'max', 'under 1 ms', 'waited p50'],
+          ...['robot, cores', 'browser, cores', 'key frames', 'queue p95'],
+        ],
         [
           [
+            stats.receiver,
             values.sync,
             spreadMs.p50,
             spreadMs.p99,
@@ -140,6 +155,8 @@ export const bench: Bench = {
             `${(figures.share1Ms * 100).toFixed(1)} %`,
             addedBySyncMs?.p50,
             robotCpu,
+            browserCpu,
+            keyFrames,
             queueMs?.p95,
           ],
         ],
@@ -147,10 +164,12 @@ export const bench: Bench = {
       if (values.json) {
         printJson({
           ...{ bench: 'cameras', cameras, sync: values.sync, seconds, encoder: values.encoder },
+          receiver: stats.receiver,
           over: traced ? basename(values.over) : 'loopback',
           // Latency is measured in no other way.
           ...{ glassToGlassMs, latencyMs: glassToGlassMs, spreadMs, share1Ms: figures.share1Ms },
-          ...{ addedBySyncMs, dropped, framesPerSecond: figures.framesPerSecond, queueMs, robotCpu },
+          ...{ addedBySyncMs, dropped, framesPerSecond: figures.framesPerSecond, queueMs },
+          ...{ robotCpu, browserCpu, keyFrames },
           ...{ unreadable: figures.unreadable, presentations: rows.length },
         });
       }
@@ -174,6 +193,12 @@ function cameraOptions(cameras: readonly BenchCamera[], encoder: string) {
 async function readSkipped(adminUrl: string, cameras: number): Promise<number[]> {
   const counts = await scrape(adminUrl, 'farpoint_robot_video_frames_skipped_total', 'camera');
   return Array.from({ length: cameras }, (_, i) => counts[cameraName(i)] ?? 0);
+}
+
+/** Key frames encoded so far, all cameras together. */
+async function readKeyFrames(adminUrl: string): Promise<number> {
+  const counts = await scrape(adminUrl, 'farpoint_robot_video_key_frames_total', 'camera');
+  return Object.values(counts).reduce((sum, count) => sum + count, 0);
 }
 
 function cameraName(index: number): string {

@@ -21,7 +21,7 @@ import { showRobotSwitcher } from './ui/robot-switcher.ts';
 import { showSensorSwitches } from './ui/sensor-switches.ts';
 import { showStatus } from './ui/status-ui.ts';
 import { VideoFeed } from './video/video-feed.ts';
-import { videoReading } from './video/video-reader.ts';
+import { videoReceiver } from './video/video-receiver.ts';
 import { applyAppearance } from './view/apply-appearance.ts';
 import { FrameLoop } from './view/frame-loop.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
@@ -65,10 +65,12 @@ export class App {
       mayDrive: () => this.state.link.live.value,
     });
     const { signalingUrl, name, token, icePolicy, bridge, mode } = settings;
+    const receiver = videoReceiver(settings.videoReceiver);
     this.client = new RobotClient({
       ...{ signalingUrl, name, token, icePolicy, transform, bridge },
       cloudFormats: mode === 'points64' ? ['points64'] : undefined,
       inputs: this.#inputs.all,
+      ...(receiver?.adopt === undefined ? {} : { onVideoReceiver: receiver.adopt }),
     });
     this.state = new PageState({
       ...{ client: this.client, settings, notices, figures: () => this.figures() },
@@ -78,7 +80,7 @@ export class App {
     const { sensors, pointScale } = this.state;
     this.videos = new VideoFeed({
       ...{ client: this.client, views: this.state.videos, synchronised: settings.synchronised },
-      open: videoReading(),
+      receiver,
       now: () => performance.now(),
     });
     this.cloud = new CloudView(renderer, this.client);

@@ -3,6 +3,7 @@
 import { type BridgeAddress, parseBridge, parseSignalingUrl } from '@farpoint/operator';
 import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
 import { parseTokens, type SignalingTokens, tokenOrigin, withToken } from './signaling-tokens.ts';
+import { VIDEO_RECEIVERS, type VideoReceiverName } from './video/video-receiver-name.ts';
 
 /** What the browser keeps between visits. */
 export interface StoredSettings {
@@ -43,6 +44,8 @@ export interface Settings {
   pointScale: number;
   /** Whether videos are presented in step: frames wait for what was captured at the same time. */
   synchronised: boolean;
+  /** How videos are received; `null`: as suits this browser best. */
+  videoReceiver: VideoReceiverName | null;
   /** Whether the robot draws the capture time into videos, to measure latency. */
   barcode: boolean;
 }
@@ -85,6 +88,7 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     drawEvery: parseEvery(query.get('every')),
     pointScale: clampScale(stored.pointScale),
     synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
+    videoReceiver: VIDEO_RECEIVERS.find((name) => name === query.get('video')) ?? null,
     barcode: parseSwitch(query.get('barcode')) ?? false,
   };
 }
