@@ -3,6 +3,8 @@ import { CloudView } from '@farpoint/cloud-view';
 import { RobotClient, type TransformSupport } from '@farpoint/operator';
 import { effect, untracked } from '@preact/signals-core';
 import { ReleaseHold } from './drive/release-hold.ts';
+import { PanelPlacements } from './panels/panel-placements.ts';
+import { loadPlacements, storePlacements } from './panels/stored-panels.ts';
 import type { Settings } from './settings.ts';
 import { CloudAppearance } from './state/cloud-appearance.ts';
 import type { Notices } from './state/notices.ts';
@@ -24,8 +26,10 @@ import { VideoFeed } from './video/video-feed.ts';
 import { videoReceiver } from './video/video-receiver.ts';
 import { applyAppearance } from './view/apply-appearance.ts';
 import { FrameLoop } from './view/frame-loop.ts';
+import type { PicturePointer } from './view/picture-pointer.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
 import { Stage } from './view/stage.ts';
+import { showPicturesInVr } from './view/vr-pictures.ts';
 import { VrSession } from './view/vr-session.ts';
 import { WristPanel } from './view/wrist-panel.ts';
 import { showOnWrist } from './view/wrist-status.ts';
@@ -50,6 +54,7 @@ export class App {
   readonly #inputs: OperatorInputs;
   readonly #controls: ControlsUi;
   readonly #cloudPanel: CloudPanel;
+  #pictures: PicturePointer | null = null;
   readonly #release = new ReleaseHold();
   readonly #estop: EstopUi;
 
@@ -74,6 +79,7 @@ export class App {
     });
     this.state = new PageState({
       ...{ client: this.client, settings, notices, figures: () => this.figures() },
+      placements: new PanelPlacements(loadPlacements(), storePlacements),
       now: () => performance.now(),
       newCanvas: () => document.createElement('canvas'),
     });
@@ -94,7 +100,10 @@ export class App {
     const choose = (robotId: string) => this.choose(robotId);
     this.#controls = new ControlsUi({ client, state, stage, vr, appearance, estop: this.#estop, choose });
     this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all });
-    const readHeadset = () => this.#inputs.readHeadset(vr.inputSources);
+    const readHeadset = () => {
+      this.#inputs.readHeadset(vr.inputSources);
+      this.#pictures?.update();
+    };
     this.frames = new FrameLoop({ settings, client, stage, cloud, clouds, videos, stats, vr, readHeadset });
   }
 
@@ -146,11 +155,12 @@ export class App {
     showRobotList(state.link, choose);
     showRobotSwitcher(state.link, choose);
     showSensorSwitches(state.sensors);
-    showPicturePanels(state);
+    showPicturePanels(state, { inVr: vr.active, isGripped: () => this.client.driver.stream.held });
     const { appearance, clouds } = this;
     applyAppearance({ appearance, sensors: state.sensors, clouds, stage, inVr: vr.active });
     const panel = new WristPanel(stage.renderer, stage.rig);
     showOnWrist({ state, panel, active: vr.active, releaseProgress: this.#release.progress });
+    this.#pictures = showPicturesInVr({ state, panel, stage, active: vr.active });
     effect(() => {
       this.cloud.sizeScale = pointScale.value;
     });

@@ -76,6 +76,9 @@ export class ControlsUi {
       case 'enlarge':
         this.#parts.state.enlarged.next();
         return;
+      case 'swap':
+        this.#parts.state.staged.swap(this.#parts.state.enlarged.view.peek());
+        return;
       case 'next-robot':
         this.#nextRobot();
     }

@@ -7,7 +7,15 @@ import type { ReleaseControl } from '../drive/release-hold.ts';
 import { TouchJoystick } from '../drive/touch-joystick.ts';
 import { elements } from './elements.ts';
 
-export type Action = 'estop' | 'latency-test' | 'recentre' | 'view' | 'from-above' | 'enlarge' | 'next-robot';
+export type Action =
+  | 'estop'
+  | 'latency-test'
+  | 'recentre'
+  | 'view'
+  | 'from-above'
+  | 'enlarge'
+  | 'swap'
+  | 'next-robot';
 
 /** Stops the robot wherever the focus is, except in a text field. */
 const STOP_KEY = 'KeyX';
@@ -17,6 +25,7 @@ const ACTION_KEYS: Readonly<Record<string, Action>> = {
   KeyV: 'view',
   KeyT: 'from-above',
   KeyE: 'enlarge',
+  KeyF: 'swap',
   KeyN: 'next-robot',
 };
 /** Hold to release the emergency stop. Enter on the release control does the same. */
@@ -99,6 +108,8 @@ export class OperatorInputs {
     if (elsewhere) return;
     const choosing = target instanceof HTMLSelectElement;
     if (choosing && event.code.startsWith('Arrow')) return;
+    // They move a panel that has the focus, unless somebody drives.
+    if (isPanelKey(event) && !this.#keyboard.held) return;
     // Space would press a focused button. Driving takes precedence while there is a robot.
     if (driving && this.#keyboard.key(event.code, true)) {
       event.preventDefault();
@@ -131,4 +142,8 @@ export class OperatorInputs {
     event.preventDefault();
     return true;
   }
+}
+
+function isPanelKey({ target, code }: KeyboardEvent): boolean {
+  return target instanceof HTMLElement && target.dataset.panel !== undefined && code.startsWith('Arrow');
 }
