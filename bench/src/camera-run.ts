@@ -17,6 +17,8 @@ import { type Distribution, distribution } from './stats.ts';
 export interface CameraSetup {
   cameras: readonly BenchCamera[];
   synchronised: boolean;
+  /** How the page receives videos; `null`: as suits the browser best. */
+  receiver: string | null;
   /** A capacity trace of the uplink; `null`: no link between robot and page. */
   trace: string | null;
   seconds: number;
@@ -44,6 +46,11 @@ export interface CameraRun extends PresentationFigures {
   queueMs: Distribution | null;
   /** Cores, encoders included. */
   robotCpu: number | null;
+  browserCpu: number | null;
+  /** As the page has it; `null` if the browser cannot read videos. */
+  receiver: string | null;
+  /** Encoded during the measurement, all cameras together. */
+  keyFrames: number;
   shares: SharePair[] | null;
   series: LatencySeries[];
 }
@@ -75,7 +82,7 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
       args: ['--config', config, '--stats', stats, '--command-log', commands, ...cloudArgs(setup)],
     },
     canvas: setup.canvas,
-    query: `barcode=1&sync=${setup.synchronised ? 1 : 0}`,
+    query: `barcode=1&sync=${setup.synchronised ? 1 : 0}&video=${setup.receiver ?? ''}`,
     ...(trace === null ? {} : { connectAtMbps: 20, link: linkSpec(trace, link) }),
     log,
   });
@@ -90,7 +97,9 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
       skipped: await byCamera(stack.robotAdminUrl(ROBOT), 'frames_skipped', cameras.length),
       bytes: await byCamera(stack.robotAdminUrl(ROBOT), 'bytes', cameras.length),
       bytesSent: readRobotSamples(stats).at(-1)?.bytesSent ?? 0,
+      keyFrames: await byCamera(stack.robotAdminUrl(ROBOT), 'key_frames', cameras.length),
       cpu: cpuSecondsOfTree(pid),
+      browserCpu: cpuSecondsOfTree(live.browserPid),
       atMs: monotonicMs(),
     });
     log(`${seconds} s`);
@@ -125,6 +134,9 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
       commands: delays.length,
       queueMs: trace === null ? null : queueQuantiles(readUplink(link)),
       robotCpu: coresBetween(before.cpu, after.cpu, after.atMs - before.atMs),
+      browserCpu: coresBetween(before.browserCpu, after.browserCpu, after.atMs - before.atMs),
+      receiver: figures.receiver,
+      keyFrames: after.keyFrames.reduce((sum, each, i) => sum + each - (before.keyFrames[i] ?? 0), 0),
       shares: asked === null ? null : sharesSeen(asked, after.bytesSent - before.bytesSent, bytes),
       series: latencySeries(rows, cameras.length),
     };

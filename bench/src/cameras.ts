@@ -18,6 +18,7 @@ capture time drawn into each; the page reads it from what it shows, on every pre
 
   --cameras LIST      SIZE@FPS:KBPS of each camera, by default 1024x768@30:512 three times
   --sync on           or off: pictures are shown as they come
+  --receiver native   or track or webcodecs: how the page receives; by default what suits the browser best
   --over loopback     or a capacity trace, CSV time_s,capacity_mbps, over a link with ${LINK_RTT_MS} ms of round trip
   --seconds 30        duration
   --encoder vp8enc    or another one that \`pnpm robot doctor\` lists
@@ -32,7 +33,7 @@ capture time drawn into each; the page reads it from what it shows, on every pre
 glassToGlassMs: from capture to the end of the display frame that shows the picture. spreadMs: between the earliest and the
 latest capture in a presentation. addedBySyncMs: how long pictures that had arrived waited for others. dropped: pictures that
 encoders skipped, and pictures that arrived and were not shown. commandDelayMs: from the page to the robot, beyond the link's
-own delay. robotCpu: cores, encoders included.`;
+own delay. robotCpu, browserCpu: cores, encoders included. keyFrames: encoded during the measurement, all cameras together.`;
 
 export const bench: Bench = {
   name: 'cameras',
@@ -43,6 +44,7 @@ export const bench: Bench = {
       options: {
         cameras: { type: 'string', default: '1024x768@30:512,1024x768@30:512,1024x768@30:512' },
         sync: { type: 'string', default: 'on' },
+        receiver: { type: 'string' },
         over: { type: 'string', default: 'loopback' },
         seconds: { type: 'string', default: '30' },
         encoder: { type: 'string', default: 'vp8enc' },
@@ -64,6 +66,7 @@ export const bench: Bench = {
     const setup: CameraSetup = {
       ...{ cameras, synchronised: values.sync === 'on', encoder: values.encoder, canvas: values.canvas },
       content: values.content,
+      receiver: values.receiver ?? null,
       trace: values.over === 'loopback' ? null : values.over,
       seconds: numberOption('seconds', values.seconds, 1),
       points: values.points === 'all' ? null : numberOption('points', values.points, 150),
@@ -116,14 +119,19 @@ function print(title: string, cameras: readonly BenchCamera[], run: CameraRun): 
   const [spread, command] = [rounded(run.spreadMs, 2), rounded(run.commandDelayMs, 1)];
   printTable(
     [
-      ...['spread p50', 'p99', 'max', 'under 1 ms', 'waited p50', 'robot, cores', 'queue p95'],
-      ...['commands', 'later p50', 'p99', 'max'],
+      ...['spread p50', 'p99', 'max', 'under 1 ms', 'waited p50', 'robot, cores', 'browser', 'queue p95'],
+      ...['commands', 'later p50', 'p99', 'max', 'key frames', 'receiver'],
     ],
     [
       [
         ...[spread.p50, spread.p99, spread.max, `${(run.share1Ms * 100).toFixed(1)} %`],
-        ...[run.addedBySyncMs?.p50, run.robotCpu, run.queueMs === null ? '–' : rounded(run.queueMs, 1).p95],
-        ...[run.commands, command.p50, command.p99, command.max],
+        ...[
+          run.addedBySyncMs?.p50,
+          run.robotCpu,
+          run.browserCpu,
+          run.queueMs === null ? '–' : rounded(run.queueMs, 1).p95,
+        ],
+        ...[run.commands, command.p50, command.p99, command.max, run.keyFrames, run.receiver],
       ],
     ],
   );

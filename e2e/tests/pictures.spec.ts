@@ -268,7 +268,7 @@ test('pictures from a ROS 1 graph: raw ones are shrunk, a silent camera is marke
   await operator.screenshot(testInfo, 'ros-pictures');
 
   await nodes[1]?.kill();
-  await expect(panel(page, 'Front')).toHaveAttribute('data-stale', 'true');
-  await expect(panel(page, 'Front').locator('.age')).toHaveText(/^stale, \d+\.\d s$/);
+  await expect(panel(page, 'Front')).toHaveAttribute('data-state', 'frozen');
+  await expect(panel(page, 'Front').locator('.age')).toHaveText(/^frozen, \d+\.\d s$/);
   await operator.screenshot(testInfo, 'ros-pictures-stale');
 });

@@ -3,6 +3,8 @@ import { CloudView } from '@farpoint/cloud-view';
 import { RobotClient, type TransformSupport } from '@farpoint/operator';
 import { effect, untracked } from '@preact/signals-core';
 import { ReleaseHold } from './drive/release-hold.ts';
+import { PanelPlacements } from './panels/panel-placements.ts';
+import { loadPlacements, storePlacements } from './panels/stored-panels.ts';
 import type { Settings } from './settings.ts';
 import { CloudAppearance } from './state/cloud-appearance.ts';
 import type { Notices } from './state/notices.ts';
@@ -24,11 +26,13 @@ import { showRobotSwitcher } from './ui/robot-switcher.ts';
 import { showSensorSwitches } from './ui/sensor-switches.ts';
 import { showStatus } from './ui/status-ui.ts';
 import { VideoFeed } from './video/video-feed.ts';
-import { videoReading } from './video/video-reader.ts';
+import { videoReceiver } from './video/video-receiver.ts';
 import { applyAppearance } from './view/apply-appearance.ts';
 import { FrameLoop } from './view/frame-loop.ts';
+import type { PicturePointer } from './view/picture-pointer.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
 import { Stage } from './view/stage.ts';
+import { showPicturesInVr } from './view/vr-pictures.ts';
 import { VrSession } from './view/vr-session.ts';
 import { WristPanel } from './view/wrist-panel.ts';
 import { showOnWrist } from './view/wrist-status.ts';
@@ -57,6 +61,7 @@ export class App {
   readonly #inputs: OperatorInputs;
   readonly #controls: ControlsUi;
   readonly #cloudPanel: CloudPanel;
+  #pictures: PicturePointer | null = null;
   readonly #release = new ReleaseHold();
   readonly #estop: EstopUi;
 
@@ -72,20 +77,23 @@ export class App {
       mayDrive: () => this.state.link.live.value,
     });
     const { signalingUrl, name, token, icePolicy, bridge, mode } = settings;
+    const receiver = videoReceiver(settings.videoReceiver);
     this.client = new RobotClient({
       ...{ signalingUrl, name, token, icePolicy, transform, bridge },
       cloudFormats: mode === 'points64' ? ['points64'] : undefined,
       inputs: this.#inputs.all,
+      ...(receiver?.adopt === undefined ? {} : { onVideoReceiver: receiver.adopt }),
     });
     this.state = new PageState({
       ...{ client: this.client, settings, notices, figures: () => this.figures() },
+      placements: new PanelPlacements(loadPlacements(), storePlacements),
       now: () => performance.now(),
       newCanvas: () => document.createElement('canvas'),
     });
     const { sensors, pointScale } = this.state;
     this.videos = new VideoFeed({
       ...{ client: this.client, views: this.state.videos, synchronised: settings.synchronised },
-      open: videoReading(),
+      receiver,
       presented: this.presented,
       now: () => performance.now(),
     });
@@ -106,7 +114,10 @@ export class App {
       ...{ client, state, stage, vr, appearance, estop: this.#estop, choose, toggleDashboard },
     });
     this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all });
-    const readHeadset = () => this.#inputs.readHeadset(vr.inputSources);
+    const readHeadset = () => {
+      this.#inputs.readHeadset(vr.inputSources);
+      this.#pictures?.update();
+    };
     this.frames = new FrameLoop({ settings, client, stage, cloud, clouds, videos, stats, vr, readHeadset });
   }
 
@@ -158,11 +169,12 @@ export class App {
     showRobotList(state.link, choose);
     showRobotSwitcher(state.link, choose);
     showSensorSwitches(state.sensors);
-    showPicturePanels(state);
+    showPicturePanels(state, { inVr: vr.active, isGripped: () => this.client.driver.stream.held });
     const { appearance, clouds } = this;
     applyAppearance({ appearance, sensors: state.sensors, clouds, stage, inVr: vr.active });
     const panel = new WristPanel(stage.renderer, stage.rig);
     showOnWrist({ state, panel, active: vr.active, releaseProgress: this.#release.progress });
+    this.#pictures = showPicturesInVr({ state, panel, stage, active: vr.active });
     effect(() => {
       this.cloud.sizeScale = pointScale.value;
     });

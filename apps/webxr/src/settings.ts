@@ -4,6 +4,7 @@ import { type BridgeAddress, parseBridge, parseSignalingUrl } from '@farpoint/op
 import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
 import { parseTokens, type SignalingTokens, tokenOrigin, withToken } from './signaling-tokens.ts';
 import { type MapTiles, mapTilesOf } from './telemetry/map-tiles.ts';
+import { VIDEO_RECEIVERS, type VideoReceiverName } from './video/video-receiver-name.ts';
 
 /** What the browser keeps between visits. */
 export interface StoredSettings {
@@ -49,6 +50,8 @@ export interface Settings {
   synchronised: boolean;
   /** Where tiles of a map come from; `null`: no tile is fetched. */
   mapTiles: MapTiles | null;
+  /** How videos are received; `null`: as suits this browser best. */
+  videoReceiver: VideoReceiverName | null;
   /** Whether the robot draws the capture time into videos, to measure latency. */
   barcode: boolean;
 }
@@ -92,6 +95,7 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     pointScale: clampScale(stored.pointScale),
     synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
     mapTiles: mapTilesOf(stored.mapTiles, stored.mapAttribution, page),
+    videoReceiver: VIDEO_RECEIVERS.find((name) => name === query.get('video')) ?? null,
     barcode: parseSwitch(query.get('barcode')) ?? false,
   };
 }

@@ -3,7 +3,7 @@ import { computed, type ReadonlySignal, type Signal, signal } from '@preact/sign
 import type { Switch } from '../state/switches.ts';
 
 /** Pictures older than this are marked as stale, ms. */
-const STALE_MS = 1000;
+export const STALE_MS = 1000;
 
 export interface ShownPicture {
   /** On the page's clock, ms: when the picture was taken, and when it was drawn. */

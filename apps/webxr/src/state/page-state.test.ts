@@ -3,6 +3,7 @@ import { ComponentReports, Readings } from '@farpoint/operator';
 import type { EstopState, LeaseState, RobotListing, Telemetry, Welcome } from '@farpoint/protocol';
 import { effect } from '@preact/signals-core';
 import { describe, expect, test } from 'vitest';
+import { PanelPlacements } from '../panels/panel-placements.ts';
 import type { PageStats } from '../status/page-stats.ts';
 import { Notices } from './notices.ts';
 import { PageState } from './page-state.ts';
@@ -73,6 +74,7 @@ class Bench {
 
   constructor(signalingFault: string | null = null) {
     this.state = new PageState({
+      placements: new PanelPlacements(new Map(), () => undefined),
       client: this.client as unknown as RobotClient,
       settings: { signalingFault, pointScale: 1, barcode: false },
       notices: new Notices(),
@@ -267,4 +269,23 @@ describe('pictures', () => {
     client.say('cameras', [{ name: 'front' }]);
     expect(state.pictures.views.value[0]?.newest.value).toBe(null);
   });
+});
+
+test('a camera that is chosen again and again is enlarged, fills the screen, and is as before', () => {
+  const { client, state } = new Bench();
+  client.say('cameras', [{ name: 'front' }, { name: 'rear' }]);
+  client.enter('live');
+  const [front, rear] = state.views.value;
+  if (front === undefined || rear === undefined) throw new Error('no views');
+  const shown = () => [state.enlarged.view.value, state.staged.view.value];
+  state.nextSize(front);
+  expect(shown()).toEqual([front, null]);
+  state.nextSize(front);
+  expect(shown()).toEqual([null, front]);
+  // Another one takes its place.
+  state.nextSize(rear);
+  expect(shown()).toEqual([rear, null]);
+  state.nextSize(rear);
+  state.nextSize(rear);
+  expect(shown()).toEqual([null, null]);
 });

@@ -5,6 +5,7 @@
  */
 import type { RobotClient } from '@farpoint/operator';
 import { computed, effect, type ReadonlySignal, type Signal, signal } from '@preact/signals-core';
+import type { PanelPlacements } from '../panels/panel-placements.ts';
 import { CameraPictures } from '../pictures/camera-pictures.ts';
 import type { CameraView } from '../pictures/camera-view.ts';
 import type { Settings } from '../settings.ts';
@@ -17,6 +18,7 @@ import { type LinkState, linkState } from './link-state.ts';
 import type { Notices } from './notices.ts';
 import { type RobotState, robotState } from './robot-state.ts';
 import { Sampler } from './sampler.ts';
+import { Staged } from './staged.ts';
 import { Switches } from './switches.ts';
 
 /**
@@ -29,6 +31,7 @@ export interface PageStateParts {
   readonly client: RobotClient;
   readonly settings: Pick<Settings, 'signalingFault' | 'pointScale' | 'barcode'>;
   readonly notices: Notices;
+  readonly placements: PanelPlacements;
   /** Current figures of the stream and of the drawing. */
   figures(): PageStats;
   /** Page's clock, ms. */
@@ -53,6 +56,10 @@ export class PageState {
   readonly views: ReadonlySignal<readonly CameraView[]>;
   readonly enlarged: Enlarged;
   readonly priority: LinkPriority;
+  /** Which of the cameras fills the screen in place of the cloud. */
+  readonly staged: Staged;
+  /** Where the operator has put the cameras' panels. */
+  readonly placements: PanelPlacements;
   /** When the values that change with time were read last: page's clock, ms. */
   readonly sampledAtMs: ReadonlySignal<number>;
   /** Size of the points, relative to the patch of surface that each stands for. */
@@ -62,7 +69,7 @@ export class PageState {
   readonly #samples = new Sampler();
   readonly #now: () => number;
 
-  constructor({ client, settings, notices, figures, now, newCanvas }: PageStateParts) {
+  constructor({ client, settings, notices, placements, figures, now, newCanvas }: PageStateParts) {
     this.#now = now;
     this.notices = notices;
     this.link = linkState(client, this.#samples, settings.signalingFault);
@@ -81,6 +88,8 @@ export class PageState {
         return view?.kind === 'video' ? view.camera.index : null;
       }),
     );
+    this.staged = new Staged(this.views, this.link.live);
+    this.placements = placements;
     this.pointScale = signal(settings.pointScale);
     this.sample();
     this.#listen(client);
@@ -90,6 +99,20 @@ export class PageState {
   /** Updates the signals now. Also called a few times a second, for values that change with time. */
   sample(): void {
     this.#samples.take(this.#now());
+  }
+
+  /** Shows the camera larger: enlarged, then in place of the cloud, then at its usual size. */
+  nextSize(view: CameraView): void {
+    if (this.staged.view.peek() === view) this.staged.toggle(view);
+    else if (this.enlarged.view.peek() === view) {
+      this.enlarged.toggle(view);
+      this.staged.toggle(view);
+    } else {
+      // One in front at a time.
+      const before = this.staged.view.peek();
+      if (before !== null) this.staged.toggle(before);
+      this.enlarged.toggle(view);
+    }
   }
 
   #listen(client: RobotClient): void {

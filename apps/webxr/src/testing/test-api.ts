@@ -83,6 +83,8 @@ export interface VideoProbe {
   /** The words in place of the video; `null` if nothing is wrong. */
   fault: string | null;
   enlarged: boolean;
+  /** Whether it has changed places with the cloud. */
+  fills: boolean;
 }
 
 export interface FarpointTestApi {

@@ -88,6 +88,7 @@ export function installTestApi(app: App): void {
         ...{ ageMs: ageMs.value, frames: newest.value?.number ?? 0, fault: fault.value },
         takenAtMs: newest.value?.takenAtMs ?? null,
         enlarged: app.state.enlarged.view.value?.canvas === canvas,
+        fills: app.state.staged.view.value?.canvas === canvas,
       })),
     robotNowMs,
     recordPresentations(capacity) {

@@ -82,6 +82,9 @@ export class ControlsUi {
       case 'dashboard':
         this.#parts.toggleDashboard();
         return;
+      case 'swap':
+        this.#parts.state.staged.swap(this.#parts.state.enlarged.view.peek());
+        return;
       case 'next-robot':
         this.#nextRobot();
     }

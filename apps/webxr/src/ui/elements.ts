@@ -7,6 +7,8 @@ function byId<T extends HTMLElement>(id: string, kind: new () => T): T {
 
 export const elements = {
   stage: byId('stage', HTMLCanvasElement),
+  cameraStage: byId('camera-stage', HTMLElement),
+  bar: byId('bar', HTMLElement),
   link: byId('link', HTMLElement),
   view: byId('view', HTMLButtonElement),
   vr: byId('vr', HTMLButtonElement),

@@ -15,6 +15,7 @@ export type Action =
   | 'from-above'
   | 'enlarge'
   | 'dashboard'
+  | 'swap'
   | 'next-robot';
 
 /** Stops the robot wherever the focus is, except in a text field. */
@@ -26,6 +27,7 @@ const ACTION_KEYS: Readonly<Record<string, Action>> = {
   KeyT: 'from-above',
   KeyE: 'enlarge',
   KeyB: 'dashboard',
+  KeyF: 'swap',
   KeyN: 'next-robot',
 };
 /** Hold to release the emergency stop. Enter on the release control does the same. */
@@ -108,6 +110,8 @@ export class OperatorInputs {
     if (elsewhere) return;
     const choosing = target instanceof HTMLSelectElement;
     if (choosing && event.code.startsWith('Arrow')) return;
+    // They move a panel that has the focus, unless somebody drives.
+    if (isPanelKey(event) && !this.#keyboard.held) return;
     // Space would press a focused button. Driving takes precedence while there is a robot.
     if (driving && this.#keyboard.key(event.code, true)) {
       event.preventDefault();
@@ -140,4 +144,8 @@ export class OperatorInputs {
     event.preventDefault();
     return true;
   }
+}
+
+function isPanelKey({ target, code }: KeyboardEvent): boolean {
+  return target instanceof HTMLElement && target.dataset.panel !== undefined && code.startsWith('Arrow');
 }

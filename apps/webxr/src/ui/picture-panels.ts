@@ -1,81 +1,118 @@
-/** The panels with the cameras' pictures and videos: name, age, and a button that shows or hides the camera. */
-import { computed, effect } from '@preact/signals-core';
+/** The panels with the cameras' pictures and videos: name, age, and buttons that hide the camera or let it fill the screen. */
+import { computed, effect, type ReadonlySignal } from '@preact/signals-core';
 import type { CameraView } from '../pictures/camera-view.ts';
 import type { PageState } from '../state/page-state.ts';
+import { cameraWords } from '../status/camera-words.ts';
 import { elements } from './elements.ts';
+import { panelArea } from './panel-area.ts';
+import { type MovablePanel, PanelMover, type PanelMoverParts, showResetButton } from './panel-mover.ts';
+import { quietButton } from './panel-parts.ts';
+import { showStagedCamera } from './staged-camera.ts';
+import { videoReportPanel } from './video-report-panel.ts';
 
-interface Panel {
+interface Panel extends MovablePanel {
   view: CameraView;
-  figure: HTMLElement;
+  caption: HTMLElement;
   age: HTMLElement;
   fault: HTMLElement;
-  button: HTMLButtonElement;
+  hide: HTMLButtonElement;
+  swap: HTMLButtonElement;
 }
 
-export function showPicturePanels({ views, enlarged, sampledAtMs }: PageState): void {
-  const panels = computed(() => views.value.map((view) => panelOf(view, () => enlarged.toggle(view))));
+export interface PicturePanelsParts {
+  readonly inVr: ReadonlySignal<boolean>;
+  /** Whether a grip is held, so that the arrow keys drive. */
+  isGripped(): boolean;
+}
+
+export function showPicturePanels(state: PageState, { inVr, isGripped }: PicturePanelsParts): void {
+  const { views, enlarged, placements, sampledAtMs } = state;
+  // In VR the headset needs the cloud's canvas as it is.
+  const filling = computed(() => (inVr.value ? null : state.staged.view.value));
+  const parts: PanelMoverParts = { placements, area: panelArea(), isGripped };
+  const mover = new PanelMover(parts);
+  const panels = computed(() =>
+    views.value.map((view) => {
+      const panel = panelOf(view, state, filling);
+      mover.attach(panel);
+      return panel;
+    }),
+  );
+  const reset = quietButton('Reset panels', 'Put all panels into their usual places', () => undefined);
+  showResetButton(reset, parts);
+  const tools = document.createElement('div');
+  tools.className = 'tools';
+  tools.append(videoReportPanel(state), reset);
   effect(() => {
-    elements.pictures.replaceChildren(...panels.value.map(({ figure }) => figure));
+    elements.pictures.replaceChildren(...panels.value.map(({ figure }) => figure), tools);
     elements.pictures.hidden = panels.value.length === 0;
   });
+  showStagedCamera(filling, sampledAtMs);
   effect(() => {
-    for (const { view, button } of panels.value) {
+    for (const { view, hide, swap } of panels.value) {
+      const { name } = view.camera;
       const shown = view.camera.on.value;
-      button.textContent = shown ? '–' : '+';
-      button.ariaLabel = `${shown ? 'Hide' : 'Show'} ${view.camera.name}`;
+      hide.textContent = shown ? '–' : '+';
+      hide.ariaLabel = `${shown ? 'Hide' : 'Show'} ${name}`;
+      const fills = filling.value === view;
+      swap.ariaLabel = fills ? 'Fill the screen with the cloud' : `Fill the screen with ${name}`;
+      swap.title = `${swap.ariaLabel} (F)`;
+      swap.hidden = !shown;
     }
   });
   effect(() => {
-    for (const { view, figure } of panels.value)
+    for (const { view, figure, caption } of panels.value) {
       figure.dataset.enlarged = String(enlarged.view.value === view);
+      const fills = filling.value === view;
+      figure.dataset.staged = String(fills);
+      caption.textContent = fills ? 'Cloud' : view.camera.name;
+    }
   });
   effect(() => {
     // The age of a video changes with each of its frames: faster than anybody reads.
     void sampledAtMs.value;
-    for (const panel of panels.value) showAge(panel);
+    for (const panel of panels.value) showState(panel, filling.value === panel.view);
+    mover.apply(panels.value, ({ figure }) => figure.dataset.enlarged === 'true');
   });
 }
 
-function showAge({ view, figure, age, fault }: Panel): void {
-  const shown = view.camera.on.value;
-  const ageMs = view.ageMs.peek();
-  const stale = view.stale.value;
-  const wrong = view.fault.value;
-  const words = !shown ? 'hidden' : ageMs === null ? 'waiting' : ageWords(ageMs, stale);
+function showState({ view, figure, age, fault }: Panel, fills: boolean): void {
+  const { state, text, reason } = cameraWords(view);
+  // The picture's state is told where the picture is.
+  const words = fills ? '' : text;
   if (age.textContent !== words) age.textContent = words;
-  if (fault.textContent !== wrong) fault.textContent = wrong;
-  fault.hidden = !shown || wrong === null;
-  figure.dataset.stale = String(shown && (stale || wrong !== null));
-  view.canvas.hidden = !shown || ageMs === null;
+  if (fault.textContent !== reason) fault.textContent = reason;
+  fault.hidden = reason === null || fills;
+  figure.dataset.state = fills ? 'live' : state;
+  view.canvas.hidden = state === 'off' || view.ageMs.peek() === null;
 }
 
-function panelOf(view: CameraView, onEnlarge: () => void): Panel {
+function panelOf(
+  view: CameraView,
+  { enlarged, staged }: PageState,
+  filling: ReadonlySignal<CameraView | null>,
+): Panel {
   const figure = document.createElement('figure');
   figure.dataset[view.kind === 'video' ? 'video' : 'camera'] = String(view.camera.index);
-  const caption = document.createElement('figcaption');
-  const name = document.createElement('span');
-  name.className = 'name';
-  name.textContent = view.camera.name;
-  name.title = view.camera.name;
+  const { name } = view.camera;
+  figure.ariaLabel = name;
+  const title = document.createElement('figcaption');
+  const caption = document.createElement('span');
+  caption.className = 'name';
+  caption.title = `${name}: drag to move, or use the arrow keys, + and -`;
   const age = document.createElement('span');
   age.className = 'age';
-  const button = document.createElement('button');
-  button.type = 'button';
-  button.className = 'quiet';
-  button.addEventListener('click', () => {
-    // A button that kept the focus would take the space bar, which is the drive grip.
-    button.blur();
-    view.toggle();
-  });
+  const hide = quietButton('', '', () => view.toggle());
+  const swap = quietButton('⇄', '', () => staged.toggle(view));
+  swap.classList.add('swap');
   const fault = document.createElement('p');
   fault.className = 'fault';
   view.canvas.title = 'Enlarge or reduce (E)';
-  view.canvas.onclick = onEnlarge;
-  caption.append(name, age, button);
-  figure.append(caption, fault, view.canvas);
-  return { view, figure, age, fault, button };
-}
-
-function ageWords(ageMs: number, stale: boolean): string {
-  return stale ? `stale, ${(ageMs / 1000).toFixed(1)} s` : `${Math.round(ageMs / 10) * 10} ms`;
+  view.canvas.onclick = () => {
+    if (filling.peek() !== view) enlarged.toggle(view);
+  };
+  title.append(caption, age, swap, hide);
+  figure.append(title, fault, view.canvas);
+  const picture = () => (filling.peek() === view ? elements.stage : view.canvas);
+  return { view, name: `${view.kind}:${name}`, figure, title, caption, age, fault, hide, swap, picture };
 }

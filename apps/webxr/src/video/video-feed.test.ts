@@ -1,9 +1,9 @@
-import type { Batch, RobotClient, RobotEvents } from '@farpoint/operator';
+import type { Batch, RobotClient, RobotEvents, VideoDescription } from '@farpoint/operator';
 import { signal } from '@preact/signals-core';
 import { describe, expect, test } from 'vitest';
 import { PresentedInstant } from '../telemetry/presented-instant.ts';
 import { VideoFeed } from './video-feed.ts';
-import type { ReadFrame } from './video-reader.ts';
+import type { ReadFrame } from './video-receiver.ts';
 import { VideoViews } from './video-views.ts';
 
 const OFFSET_MS = 500_000;
@@ -32,7 +32,10 @@ class Bench {
       synchronised: options.synchronised ?? true,
       presented: this.presented,
       now: () => this.nowMs,
-      open: options.canRead === false ? null : (track, onFrame) => this.#read(track.id, onFrame),
+      receiver:
+        options.canRead === false
+          ? null
+          : { name: 'native', open: ({ track }, { onFrame }) => this.#read(track.id, onFrame) },
     });
   }
 
@@ -44,16 +47,19 @@ class Bench {
   begin(): this {
     this.views.clear();
     this.say('session', 1);
-    this.views.list([
+    const videos: VideoDescription[] = [
       { name: 'left', mid: '1', codec: 'H264' },
       { name: 'right', mid: '2', codec: 'H264' },
-    ]);
+    ];
+    this.views.list(videos);
+    this.say('videos', videos);
     for (const video of [0, 1]) this.track(video, `t${video}`);
     return this;
   }
 
   track(video: number, id: string, readyState = 'live'): void {
-    this.say('videoTrack', { video, track: { id, readyState } as MediaStreamTrack });
+    const track = { id, readyState } as MediaStreamTrack;
+    this.say('videoTrack', { video, track, receiver: {} as RTCRtpReceiver });
   }
 
   /** A frame of the track arrives that was captured now, at a whole multiple of 10 ms. */

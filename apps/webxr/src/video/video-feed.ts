@@ -2,14 +2,21 @@
  * Brings the robot's videos to their canvases: reads the tracks of those that are on, and draws together the frames that
  * were captured together.
  */
-import { type Batch, Compositor, captureMsOfStamp, type RobotClient } from '@farpoint/operator';
+import {
+  type Batch,
+  Compositor,
+  captureMsOfStamp,
+  type RobotClient,
+  type VideoDescription,
+  type VideoTrack,
+} from '@farpoint/operator';
 import { effect, signal, untracked } from '@preact/signals-core';
 import { videoWords } from '../status/words.ts';
 import type { PresentedInstant } from '../telemetry/presented-instant.ts';
 import { captureMsOf } from './frame-time.ts';
 import { VideoFigures, type VideoStats } from './video-figures.ts';
 import type { VideoImage } from './video-image.ts';
-import type { OpenReader, ReadFrame } from './video-reader.ts';
+import type { Reader, ReadFrame, VideoReceiver } from './video-receiver.ts';
 import type { VideoViews } from './video-views.ts';
 
 const VIDEO = 'video:';
@@ -27,7 +34,7 @@ export interface VideoFeedParts {
   /** Whether frames wait for what was captured at the same time. */
   readonly synchronised: boolean;
   /** `null` if this browser cannot read videos. */
-  readonly open: OpenReader | null;
+  readonly receiver: VideoReceiver | null;
   /** Told of the instant that is shown; `null` if nobody asks. */
   readonly presented: PresentedInstant | null;
   /**
@@ -44,8 +51,9 @@ export class VideoFeed {
   /** A cloud has no payload: its points are drawn as they come, and only the videos wait. */
   readonly #compositor: Compositor<VideoImage | null>;
   readonly #figures = new VideoFigures();
-  readonly #tracks = signal<ReadonlyMap<number, MediaStreamTrack>>(new Map());
-  readonly #readers = new Map<number, ReturnType<OpenReader>>();
+  readonly #tracks = signal<ReadonlyMap<number, VideoTrack>>(new Map());
+  #listed: readonly VideoDescription[] = [];
+  readonly #readers = new Map<number, Reader>();
   /** Called after each presentation has been drawn. */
   onPresented: (() => void) | null = null;
   /** The cloud's frame that was offered last. */
@@ -61,7 +69,10 @@ export class VideoFeed {
       holds: (source) => source.startsWith(VIDEO),
     });
     client.on('session', () => this.#reset());
-    client.on('videoTrack', ({ video, track }) => this.#onTrack(video, track));
+    client.on('videos', (videos) => {
+      this.#listed = videos;
+    });
+    client.on('videoTrack', (track) => this.#onTrack(track));
     client.on('cloud', (batch) => this.#onCloud(batch));
     effect(() => {
       const wanted = views.switches.wanted.value;
@@ -92,7 +103,12 @@ export class VideoFeed {
   }
 
   stats(nowMs: number): VideoStats {
-    return this.#figures.snapshot(this.#compositor.stats(nowMs));
+    const receiver = this.#parts.receiver?.name ?? null;
+    const undecoded: Record<string, number> = {};
+    for (const reader of this.#readers.values())
+      for (const [reason, count] of Object.entries(reader.undecoded ?? {}))
+        undecoded[reason] = (undecoded[reason] ?? 0) + count;
+    return { receiver, undecoded, ...this.#figures.snapshot(this.#compositor.stats(nowMs)) };
   }
 
   resetDistributions(): void {
@@ -109,18 +125,19 @@ export class VideoFeed {
     this.#cloudFrame = null;
   }
 
-  #onTrack(video: number, track: MediaStreamTrack): void {
-    const { views, open } = this.#parts;
+  #onTrack(videoTrack: VideoTrack): void {
+    const { views, receiver } = this.#parts;
+    const { video, track } = videoTrack;
     // It has ended if the browser has refused the video's line in the robot's offer.
     const ended = track.readyState === 'ended';
-    if (open === null || ended) {
+    if (receiver === null || ended) {
       views.cannotShow(video, ended ? videoWords.noCodec : videoWords.tooOld);
       return;
     }
     // Without the video for a moment, so that the reader of its earlier track ends.
     const others = [...this.#tracks.peek()].filter(([number]) => number !== video);
     this.#tracks.value = new Map(others);
-    this.#tracks.value = new Map(others).set(video, track);
+    this.#tracks.value = new Map(others).set(video, videoTrack);
   }
 
   /** Reads these videos and no others. */
@@ -133,12 +150,21 @@ export class VideoFeed {
     }
     for (const video of videos) {
       const track = this.#tracks.peek().get(video);
-      const { open } = this.#parts;
-      if (open === null || track === undefined || this.#readers.has(video)) continue;
-      this.#readers.set(
-        video,
-        open(track, (frame) => this.#onFrame(video, frame)),
+      const { receiver } = this.#parts;
+      const codec = this.#listed[video]?.codec;
+      if (receiver === null || track === undefined || codec === undefined) continue;
+      if (this.#readers.has(video)) continue;
+      const reader = receiver.open(
+        { ...track, codec },
+        {
+          onFrame: (frame) => this.#onFrame(video, frame),
+          onUnsupported: (detail) => {
+            console.warn(`video ${video} cannot be decoded:`, detail);
+            this.#parts.views.cannotShow(video, videoWords.noCodec);
+          },
+        },
       );
+      this.#readers.set(video, reader);
     }
   }
 

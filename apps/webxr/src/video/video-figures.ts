@@ -1,6 +1,7 @@
 /** Figures of the videos' presentation. Time is an argument. */
 import { type CompositorStats, type Distribution, SampleWindow } from '@farpoint/operator';
 import { RateMeter } from '@farpoint/timing';
+import type { VideoReceiverName } from './video-receiver-name.ts';
 
 /** What was shown of one video. */
 export interface ShownVideoStats {
@@ -16,6 +17,10 @@ export interface ShownVideoStats {
 
 /** How the videos were presented: together (`CompositorStats`), and each of them. */
 export interface VideoStats extends CompositorStats {
+  /** How this browser receives them; `null` if it cannot. */
+  receiver: VideoReceiverName | null;
+  /** Frames of the videos that are on that arrived and were not decoded, by reason, where the browser lets that be known. */
+  undecoded: Record<string, number>;
   /** The videos that were shown, by number. */
   videos: ShownVideoStats[];
   /** Frames whose time cannot be, or that came before the robot's clock was known. */
@@ -59,7 +64,7 @@ export class VideoFigures {
     for (const { frames, rate } of this.#videos.values()) rate.update(frames, nowMs);
   }
 
-  snapshot(compositor: CompositorStats): VideoStats {
+  snapshot(compositor: CompositorStats): Omit<VideoStats, 'receiver' | 'undecoded'> {
     const videos = [...this.#videos].map(([video, { frames, rate, age }]) => ({
       ...{ video, frames, framesPerSecond: rate.perSecond, ageMs: age.distribution() },
     }));

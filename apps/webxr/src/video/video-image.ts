@@ -40,7 +40,8 @@ function frameOf(video: HTMLVideoElement): VideoImage | null {
   }
 }
 
-function rtpTimestampOf(frame: VideoFrame): number | null {
+/** @returns `null` where the browser does not tell */
+export function rtpTimestampOf(frame: VideoFrame): number | null {
   // Missing in some browsers, and in TypeScript's types.
   const { metadata } = frame as { metadata?: () => { rtpTimestamp?: unknown } };
   const rtpTimestamp = metadata?.call(frame).rtpTimestamp;

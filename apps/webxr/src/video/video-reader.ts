@@ -1,26 +1,13 @@
-/** Reads the frames of a video's track, each with its time. */
-import { takeImage, type VideoImage } from './video-image.ts';
+/** Reads the frames of a video's track as the browser decodes them, each with its time. */
+import { takeImage } from './video-image.ts';
+import type { OpenReader, ReadFrame } from './video-receiver.ts';
 
-/** A frame, and what the browser knows about when it was captured. */
-export interface ReadFrame {
-  readonly image: VideoImage;
-  /** `null` where the browser does not tell. */
-  readonly rtpTimestamp: number | null;
-  /** When it was captured, on the page's clock as the browser estimates it; `null` where the browser does not tell. */
-  readonly capturedAtMs: number | null;
+/** Whether this browser tells when a video shows another frame. */
+export function hasFrameCallbacks(): boolean {
+  return 'requestVideoFrameCallback' in HTMLVideoElement.prototype;
 }
 
-/** Begins to read a track. */
-export type OpenReader = (
-  track: MediaStreamTrack,
-  onFrame: (frame: ReadFrame) => void,
-) => Pick<VideoReader, 'close'>;
-
-/** @returns `null` if this browser does not tell when a video shows another frame */
-export function videoReading(): OpenReader | null {
-  if (!('requestVideoFrameCallback' in HTMLVideoElement.prototype)) return null;
-  return (track, onFrame) => new VideoReader(track, onFrame);
-}
+export const openNative: OpenReader = ({ track }, { onFrame }) => new VideoReader(track, onFrame);
 
 export class VideoReader {
   /** Is not part of the page: its frames are drawn elsewhere, when their time has come. */

@@ -1,9 +1,8 @@
-/** Shows the page's state in VR: the status on the wrist, and the cameras' pictures beside it. */
+/** Shows the page's state in VR: the status on the wrist. */
 import { effect, type ReadonlySignal } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
 import { wristLines } from '../status/wrist-lines.ts';
 import type { WristPanel } from './wrist-panel.ts';
-import { WristPictures } from './wrist-pictures.ts';
 
 export interface WristStatusParts {
   readonly state: PageState;
@@ -15,9 +14,7 @@ export interface WristStatusParts {
 }
 
 export function showOnWrist({ state, panel, active, releaseProgress }: WristStatusParts): void {
-  const { link, driving, robot, figures, views } = state;
-  const sheets = new WristPictures();
-  panel.addBeside(sheets.object);
+  const { link, driving, robot, figures } = state;
   effect(() => {
     panel.visible = active.value;
   });
@@ -34,9 +31,5 @@ export function showOnWrist({ state, panel, active, releaseProgress }: WristStat
   });
   effect(() => {
     if (active.value) panel.showProgress(releaseProgress.value);
-  });
-  effect(() => sheets.setViews(views.value.filter(({ camera }) => camera.on.value)));
-  effect(() => {
-    if (active.value) sheets.update();
   });
 }

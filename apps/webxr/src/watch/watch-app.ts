@@ -6,7 +6,7 @@ import { Enlarged } from '../state/enlarged.ts';
 import { Switches } from '../state/switches.ts';
 import { startLook } from '../ui/look-controls.ts';
 import { VideoFeed } from '../video/video-feed.ts';
-import { videoReading } from '../video/video-reader.ts';
+import { videoReceiver } from '../video/video-receiver.ts';
 import { VideoViews } from '../video/video-views.ts';
 import { SensorClouds } from '../view/sensor-clouds.ts';
 import { Stage } from '../view/stage.ts';
@@ -53,7 +53,9 @@ export class WatchApp {
     this.#views = new VideoViews(this.#nowMs, () => document.createElement('canvas'));
     this.#enlarged = new Enlarged(this.#views.views);
     this.videos = new VideoFeed({
-      ...{ client: watcher, views: this.#views, synchronised, open: videoReading(), presented: null },
+      ...{ client: watcher, views: this.#views, synchronised, presented: null },
+      // Its frames tell the timestamps with which the relay's were paired.
+      receiver: videoReceiver('native'),
       captureMs: (video, { rtpTimestamp }) =>
         rtpTimestamp === null ? null : watcher.captureMsOf(video, rtpTimestamp),
       now: () => performance.now(),

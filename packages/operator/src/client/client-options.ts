@@ -19,6 +19,11 @@ export interface RobotClientOptions {
   bridge?: BridgeAddress | null;
   /** The cloud formats that the robot may choose from; default: all. */
   cloudFormats?: readonly CloudFormat[] | undefined;
+  /**
+   * Called when the browser has made the receiver of a robot's video, long before the `videoTrack` event: the only moment
+   * at which it can be given a `transform`.
+   */
+  onVideoReceiver?: (receiver: RTCRtpReceiver) => void;
   /** Devices that drive, besides {@link RobotClient.drive}. The first whose grip is held drives. */
   inputs?: readonly DriveInput[];
 }

@@ -31,6 +31,7 @@ export interface WebRtcLinkOptions {
   transform: TransformSupport;
   /** `relay`: through TURN servers only. */
   icePolicy: RTCIceTransportPolicy;
+  onVideoReceiver?: (receiver: RTCRtpReceiver) => void;
 }
 
 const TICK_MS = 250;
@@ -249,7 +250,7 @@ export class WebRtcLink implements RobotLink {
     this.#reportSequence = 0;
     this.#session = new RobotSession(this.#events);
     this.#events.onGeneration(this.#generation);
-    const { worker, transform, icePolicy } = this.#options;
+    const { worker, transform, icePolicy, onVideoReceiver } = this.#options;
     const peer: RobotPeer = new RobotPeer(
       { iceServers: this.#signaling.iceServers, icePolicy, worker, transform, generation: this.#generation },
       {
@@ -267,6 +268,7 @@ export class WebRtcLink implements RobotLink {
           if (channel === 'control') this.#keeper.onAnswered(nowMs);
           this.#session.onMessage(channel, data, nowMs);
         },
+        onVideoReceiver,
         onVideoTrack: (track) => this.#events.onVideoTrack(track),
         onFailed: (detail) => {
           if (peer !== this.#peer) return;

@@ -16,6 +16,8 @@ export interface RobotPeerEvents {
   /** The path is established and the robot's session channel is open. */
   onConnected(): void;
   onMessage(channel: RobotChannel, data: MessageData): void;
+  /** Called before {@link onVideoTrack}, within the browser's event: a transform must be attached there. */
+  onVideoReceiver?: ((receiver: RTCRtpReceiver) => void) | undefined;
   /** The robot offers a camera's video. */
   onVideoTrack(track: VideoTrack): void;
   /** The connection ended; no event follows. Not sent after {@link RobotPeer.close}. */
@@ -67,8 +69,9 @@ export class RobotPeer {
         attachWorker(receiver, options.worker, options.transform, options.generation);
       const video = track.kind === 'video' ? videoOfStreams(ids) : null;
       if (video === null || this.#ended) return;
+      events.onVideoReceiver?.(receiver);
       playWithoutDelay(receiver);
-      events.onVideoTrack({ video, track });
+      events.onVideoTrack({ video, track, receiver });
     };
     connection.ondatachannel = ({ channel }) => this.#adopt(channel);
     connection.onicecandidate = ({ candidate }) => {

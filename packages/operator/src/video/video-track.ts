@@ -7,6 +7,8 @@ export interface VideoTrack {
   video: number;
   /** Give it to a `<video>` element in a `MediaStream` of its own. */
   track: MediaStreamTrack;
+  /** What receives it. With a `transform`, a page takes the encoded frames itself. */
+  receiver: RTCRtpReceiver;
 }
 
 /** @returns the number of the video to which a stream with one of these ids belongs; `null` if it is no video */

@@ -2,6 +2,7 @@ import { expect, test } from 'vitest';
 import { playWithoutDelay, type VideoTrack, videoOfStreams } from './video-track.ts';
 import { VideoTracks } from './video-tracks.ts';
 
+const receiver = {} as RTCRtpReceiver;
 const track = (id: string) => ({ id }) as MediaStreamTrack;
 
 function bench(): { tracks: VideoTracks; told: string[] } {
@@ -32,8 +33,8 @@ test('asks for no delay by both names', () => {
 
 test('tracks that come before the list wait for it', () => {
   const { tracks, told } = bench();
-  tracks.add({ video: 1, track: track('b') });
-  tracks.add({ video: 0, track: track('a') });
+  tracks.add({ video: 1, track: track('b'), receiver });
+  tracks.add({ video: 0, track: track('a'), receiver });
   expect(told).toEqual([]);
   tracks.list(1);
   expect(told).toEqual(['0:a']);
@@ -46,11 +47,11 @@ test('a track is announced once, another one for the same video too, and none of
   const { tracks, told } = bench();
   tracks.list(1);
   const first = track('a');
-  tracks.add({ video: 0, track: first });
-  tracks.add({ video: 0, track: first });
-  tracks.add({ video: 0, track: track('b') });
+  tracks.add({ video: 0, track: first, receiver });
+  tracks.add({ video: 0, track: first, receiver });
+  tracks.add({ video: 0, track: track('b'), receiver });
   expect(told).toEqual(['0:a', '0:b']);
-  tracks.add({ video: 1, track: track('old') });
+  tracks.add({ video: 1, track: track('old'), receiver });
   tracks.reset();
   tracks.list(2);
   expect(told).toHaveLength(2);

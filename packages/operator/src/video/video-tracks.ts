@@ -6,7 +6,7 @@ import type { VideoTrack } from './video-track.ts';
  */
 export class VideoTracks {
   readonly #announce: (track: VideoTrack) => void;
-  readonly #tracks = new Map<number, { track: MediaStreamTrack; announced: boolean }>();
+  readonly #tracks = new Map<number, { track: VideoTrack; announced: boolean }>();
   #listed = 0;
 
   constructor(announce: (track: VideoTrack) => void) {
@@ -20,9 +20,9 @@ export class VideoTracks {
   }
 
   /** A video's track has come. One that comes again, e.g. after another offer, is not announced twice. */
-  add({ video, track }: VideoTrack): void {
-    if (this.#tracks.get(video)?.track === track) return;
-    this.#tracks.set(video, { track, announced: false });
+  add(track: VideoTrack): void {
+    if (this.#tracks.get(track.video)?.track.track === track.track) return;
+    this.#tracks.set(track.video, { track, announced: false });
     this.#tell();
   }
 
@@ -36,7 +36,7 @@ export class VideoTracks {
     for (const [video, entry] of this.#tracks) {
       if (entry.announced || video >= this.#listed) continue;
       entry.announced = true;
-      this.#announce({ video, track: entry.track });
+      this.#announce(entry.track);
     }
   }
 }

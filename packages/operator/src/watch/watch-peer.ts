@@ -97,7 +97,7 @@ export class WatchPeer {
     if (codec === undefined) return;
     this.#readStamps(receiver, { generation, video, codec });
     playWithoutDelay(receiver);
-    this.#events.onVideoTrack({ video, track });
+    this.#events.onVideoTrack({ video, track, receiver });
   }
 
   #readStamps(receiver: RTCRtpReceiver, options: StampOptions): void {

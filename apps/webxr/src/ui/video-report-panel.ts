@@ -1,0 +1,42 @@
+/** Below the cameras' panels: whether the videos are in step, and on a click what the compositor did with each. */
+import { effect, signal } from '@preact/signals-core';
+import type { PageState } from '../state/page-state.ts';
+import { videoReport } from '../status/video-report.ts';
+import { quietButton } from './panel-parts.ts';
+
+export function videoReportPanel({ figures, videos }: PageState): HTMLElement {
+  const open = signal(false);
+  const panel = document.createElement('section');
+  panel.className = 'video-report';
+  const button = quietButton('', 'What became of the videos’ frames', () => {
+    open.value = !open.peek();
+  });
+  const list = document.createElement('dl');
+  panel.append(button, list);
+  effect(() => {
+    // Where the strip has no room for it, it is scrolled to.
+    if (open.value) requestAnimationFrame(() => list.scrollIntoView({ block: 'nearest' }));
+  });
+  effect(() => {
+    const names = videos.views.value.map(({ camera }) => camera.name);
+    panel.hidden = names.length === 0;
+    if (names.length === 0) return;
+    const { summary, tone, lines } = videoReport(figures.value.videos, names);
+    if (button.textContent !== summary) button.textContent = summary;
+    button.dataset.tone = tone;
+    button.ariaExpanded = String(open.value);
+    list.hidden = !open.value;
+    if (open.value)
+      list.replaceChildren(
+        ...lines.flatMap(({ name, text, tone }) => [textOf('dt', name), textOf('dd', text, tone)]),
+      );
+  });
+  return panel;
+}
+
+function textOf(tag: 'dt' | 'dd', text: string, tone = ''): HTMLElement {
+  const element = document.createElement(tag);
+  element.textContent = text;
+  element.dataset.tone = tone;
+  return element;
+}

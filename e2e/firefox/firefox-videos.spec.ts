@@ -1,0 +1,51 @@
+/** Cameras' videos in an unmodified Firefox, which receives and decodes them itself. */
+import { expect, test } from '../src/firefox-test.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { simulatedRobot } from '../src/stack-test.ts';
+import { hasVideo, testCamera, videoRobot } from '../src/video-robot.ts';
+
+test.skip(!hasVideo, 'needs GStreamer and `pnpm build:native video`');
+
+const light = {
+  ...simulatedRobot,
+  args: [...simulatedRobot.args.slice(0, -1), '600', '--sim-size', '64', '--fps', '10'],
+};
+const small = { width: 320, height: 240, framesPerS: 15, kbitPerS: 400 };
+const source = (pattern: string) => ({ kind: 'test', pattern, width: 320, height: 240, framesPerS: 15 });
+
+test('shows VP8 live and in step; one that it cannot decode says why', async ({
+  firefoxPage,
+  startStack,
+}, testInfo) => {
+  const cameras = [
+    testCamera('Front', 'vp8enc', { ...small, source: source('pinwheel') }),
+    testCamera('Rear', 'vp8enc', { ...small, source: source('ball') }),
+    testCamera('Arm', 'x264enc', { ...small, source: source('smpte') }),
+  ];
+  const stack = await startStack({ robots: [videoRobot(light, cameras)] });
+  const operator = await OperatorPage.open(firefoxPage, stack, { robot: light.id, canvas: '160x90' });
+  await operator.expectPoints(300);
+  const videos = () => firefoxPage.evaluate(() => window.farpoint.videos());
+  await expect
+    .poll(async () => Math.min(...(await videos()).slice(0, 2).map(({ frames }) => frames)), {
+      timeout: 30_000,
+    })
+    .toBeGreaterThan(30);
+  const [front, rear, arm] = await videos();
+  expect([front?.fault, rear?.fault, front?.width, rear?.height]).toEqual([null, null, 320, 240]);
+  // Firefox decodes H.264 only once it has fetched a plugin.
+  expect(arm?.fault !== null || (arm?.frames ?? 0) > 0).toBe(true);
+  const { receiver, spreadMs, videos: shown, undated } = (await operator.stats()).videos;
+  expect([receiver, undated]).toEqual(['native', 0]);
+  expect(spreadMs).not.toBeNull();
+  for (const { ageMs } of shown) expect(ageMs?.p50).toBeLessThan(1000);
+  console.log(
+    `age ms ${shown.map(({ ageMs }) => ageMs?.p50.toFixed(0))}, spread ${spreadMs?.p50.toFixed(1)}`,
+  );
+  console.log(`H.264: ${arm?.fault ?? `${arm?.frames} frames`}`);
+
+  await firefoxPage.keyboard.press('f');
+  await firefoxPage.waitForFunction(() => document.querySelector('#camera-stage canvas') !== null);
+  await operator.expectFrames(5);
+  await operator.screenshot(testInfo, 'firefox-videos');
+});

@@ -1,0 +1,292 @@
+/** The cameras' panels on a flat screen: where they are, what fills the screen, and what they say. */
+import type { Page } from '@playwright/test';
+import { OperatorPage } from '../src/operator-page.ts';
+import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { hasVideo, type TestCamera, testCamera, videoRobot } from '../src/video-robot.ts';
+
+test.skip(!hasVideo, 'needs GStreamer and `pnpm build:native video`');
+
+const panel = (page: Page, name: string) => page.locator(`#pictures figure[aria-label="${name}"]`);
+const boxOf = async (page: Page, name: string) => (await panel(page, name).boundingBox())!;
+const stateOf = (page: Page, name: string) => panel(page, name).getAttribute('data-state');
+const videos = (page: Page) => page.evaluate(() => window.farpoint.videos());
+/** Leaves the processor to the videos. */
+const light = {
+  ...simulatedRobot,
+  args: [...simulatedRobot.args.slice(0, -1), '600', '--sim-size', '64', '--fps', '10'],
+};
+const small = { width: 320, height: 240, framesPerS: 15, kbitPerS: 400 };
+const camera = (name: string, pattern: string, more: Partial<TestCamera> = {}) =>
+  testCamera(name, 'vp8enc', {
+    ...{ source: { kind: 'test', pattern, width: 320, height: 240, framesPerS: 15 }, ...small },
+    ...more,
+  });
+const twoCameras = [camera('Front', 'pinwheel'), camera('Rear', 'ball')];
+
+/** Expects that no panel covers the bar, the emergency stop or anything else that the hands use. */
+async function expectNothingCovered(page: Page): Promise<void> {
+  const covered = await page.evaluate(() => {
+    const boxes = (selector: string) =>
+      [...document.querySelectorAll(selector)]
+        .map((element) => ({ name: element.id, ...element.getBoundingClientRect().toJSON() }))
+        .filter(({ width }) => width > 0);
+    const strip = document.querySelector('#pictures')!.getBoundingClientRect();
+    const panels = [...document.querySelectorAll<HTMLElement>('#pictures figure')].map((figure) => {
+      const { left, top, right, bottom } = figure.getBoundingClientRect();
+      // What is in the strip is cut off at its end.
+      const inStrip = figure.dataset.floating !== 'true' && figure.dataset.enlarged !== 'true';
+      return {
+        name: figure.ariaLabel,
+        left,
+        top,
+        right,
+        bottom: inStrip ? Math.min(bottom, strip.bottom) : bottom,
+      };
+    });
+    return boxes('#bar, #drive button, #joystick').flatMap((kept) =>
+      panels
+        .filter(
+          ({ left, top, right, bottom }) =>
+            left < kept.right && right > kept.left && top < kept.bottom && bottom > kept.top,
+        )
+        .map(({ name }) => `${name} covers ${kept.name}`),
+    );
+  });
+  expect(covered).toEqual([]);
+  // Whatever fills the screen, the button is what a hand hits.
+  const hit = await page.evaluate(() => {
+    const { left, top, width, height } = document.querySelector('#estop')!.getBoundingClientRect();
+    return document.elementFromPoint(left + width / 2, top + height / 2)?.closest('button')?.id;
+  });
+  expect(hit).toBe('estop');
+}
+
+async function drag(page: Page, from: { x: number; y: number }, dx: number, dy: number): Promise<void> {
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + dx / 2, from.y + dy / 2);
+  await page.mouse.move(from.x + dx, from.y + dy);
+  await page.mouse.up();
+}
+
+async function dragTitle(page: Page, name: string, dx: number, dy: number): Promise<void> {
+  const { x, y } = await boxOf(page, name);
+  await drag(page, { x: x + 40, y: y + 10 }, dx, dy);
+}
+
+async function open(
+  page: Page,
+  startStack: Parameters<Parameters<typeof test>[2]>[0]['startStack'],
+  cameras = twoCameras,
+) {
+  const stack = await startStack({ robots: [videoRobot(light, cameras)] });
+  const operator = await OperatorPage.open(page, stack, { robot: light.id });
+  await operator.expectPoints(300);
+  return { stack, operator };
+}
+
+test('panels are moved by hand and by keys, keep their shape and their place, and cover no control', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const { operator } = await open(page, startStack);
+  for (const { name } of twoCameras) await expect(panel(page, name).locator('canvas')).toBeVisible();
+  await expectNothingCovered(page);
+  const docked = await boxOf(page, 'Front');
+
+  await dragTitle(page, 'Front', -400, 20);
+  const dragged = await boxOf(page, 'Front');
+  expect(dragged.x).toBeCloseTo(docked.x - 400, 0);
+  expect(dragged.y).toBeCloseTo(docked.y + 20, 0);
+  expect(dragged.width).toBeCloseTo(docked.width, 0);
+
+  // Beyond the screen's corner, where the emergency stop is.
+  await dragTitle(page, 'Rear', 2000, 2000);
+  await expectNothingCovered(page);
+  await operator.screenshot(testInfo, 'moved');
+
+  await panel(page, 'Front').focus();
+  await page.keyboard.press('ArrowLeft');
+  await page.keyboard.press('ArrowLeft');
+  const stepped = await boxOf(page, 'Front');
+  expect([dragged.x - stepped.x, dragged.y - stepped.y].map(Math.round)).toEqual([48, 0]);
+  const aspectOf = async () => {
+    const { width, height } = (await panel(page, 'Front').locator('canvas').boundingBox())!;
+    return width / height;
+  };
+  await drag(page, { x: stepped.x + stepped.width - 4, y: stepped.y + stepped.height - 4 }, -60, 0);
+  const smaller = await boxOf(page, 'Front');
+  expect(smaller.width).toBeCloseTo(stepped.width - 60, 0);
+  expect(await aspectOf()).toBeCloseTo(4 / 3, 1);
+  await panel(page, 'Front').focus();
+  await page.keyboard.press('+');
+  expect((await boxOf(page, 'Front')).width).toBeCloseTo(smaller.width + 24, 0);
+
+  // With the grip held, the same keys drive.
+  const before = await boxOf(page, 'Front');
+  const start = await operator.body();
+  await page.keyboard.down('Space');
+  await page.keyboard.down('ArrowUp');
+  await operator.expectMovedFrom(start, 0.2);
+  await page.keyboard.up('ArrowUp');
+  await page.keyboard.up('Space');
+  expect(await boxOf(page, 'Front')).toEqual(before);
+
+  // The one that was touched last is on top.
+  await dragTitle(
+    page,
+    'Rear',
+    before.x - (await boxOf(page, 'Rear')).x + 30,
+    before.y - (await boxOf(page, 'Rear')).y + 30,
+  );
+  const order = (name: string) =>
+    panel(page, name).evaluate((figure) => Number(getComputedStyle(figure).zIndex));
+  expect(await order('Rear')).toBeGreaterThan(await order('Front'));
+  await panel(page, 'Front').click({ position: { x: 10, y: 10 } });
+  expect(await order('Front')).toBeGreaterThan(await order('Rear'));
+
+  await page.setViewportSize({ width: 700, height: 480 });
+  await expect.poll(async () => (await boxOf(page, 'Rear')).x).toBeLessThan(700);
+  for (const { name } of twoCameras) {
+    const { x, y, width, height } = await boxOf(page, name);
+    expect(Math.min(x, y)).toBeGreaterThanOrEqual(0);
+    expect([x + width <= 700, y + height <= 480]).toEqual([true, true]);
+  }
+  await expectNothingCovered(page);
+  await page.setViewportSize({ width: 960, height: 540 });
+
+  // The browser keeps it.
+  const kept = await boxOf(page, 'Front');
+  await page.reload();
+  await operator.expectPoints(300);
+  await expect.poll(async () => Math.round((await boxOf(page, 'Front'))?.x ?? -1)).toBe(Math.round(kept.x));
+  await page.getByRole('button', { name: 'Reset panels' }).click();
+  await expect.poll(async () => (await boxOf(page, 'Front')).x).toBeCloseTo(docked.x, 0);
+
+  // What it cannot read counts as nothing.
+  await page.evaluate(() =>
+    localStorage.setItem('farpoint.panels', '{"panels":[{"name":"video:Front","x":7}]}'),
+  );
+  await page.reload();
+  await operator.expectPoints(300);
+  await expect(panel(page, 'Front')).toHaveAttribute('data-floating', 'false');
+});
+
+test('one key lets a camera fill the screen and puts the cloud into its panel; driving and stopping go on', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const { operator } = await open(page, startStack);
+  await expect.poll(async () => (await videos(page))[0]?.frames, { timeout: 20_000 }).toBeGreaterThan(5);
+  await page.keyboard.press('KeyF');
+  const filling = page.locator('#camera-stage canvas');
+  await expect(filling).toBeVisible();
+  expect(await filling.boundingBox()).toMatchObject({ x: 0, y: 0, width: 960, height: 540 });
+  await expect(page.locator('#camera-stage p')).toHaveText(/^Front · \d+ ms$/);
+  await expect(panel(page, 'Front').locator('#stage')).toBeVisible();
+  const cloud = (await page.locator('#stage').boundingBox())!;
+  expect(cloud.width).toBeLessThan(320);
+  expect(cloud.width / cloud.height).toBeCloseTo(4 / 3, 1);
+  await operator.expectFrames(5);
+  const { canvas } = await operator.stats();
+  expect(canvas.width).toBeLessThan(340);
+  const { frames = 0 } = (await videos(page))[0] ?? {};
+  await expect.poll(async () => (await videos(page))[0]?.frames).toBeGreaterThan(frames + 5);
+  await expectNothingCovered(page);
+  await operator.screenshot(testInfo, 'camera-fills-screen');
+
+  const start = await operator.body();
+  await operator.holdForward();
+  await operator.expectMovedFrom(start, 0.2);
+  await operator.releaseKeys();
+  await page.getByRole('button', { name: 'STOP' }).click();
+  await operator.expectState('estop', true);
+  await expectNothingCovered(page);
+  await operator.releaseEstop();
+
+  // The other camera, by its button; then the cloud again.
+  await page.getByRole('button', { name: 'Fill the screen with Rear' }).click();
+  await expect(page.locator('#camera-stage p')).toHaveText(/^Rear/);
+  await expect(panel(page, 'Rear').locator('#stage')).toBeVisible();
+  await expect(panel(page, 'Front').locator('canvas:not(#stage)')).toBeVisible();
+  await page.keyboard.press('KeyF');
+  await expect(page.locator('#camera-stage')).toBeHidden();
+  expect(await page.locator('#stage').boundingBox()).toMatchObject({ x: 0, y: 0, width: 960, height: 540 });
+  await operator.expectFrames(5);
+
+  // A camera that is switched off does not leave a black screen.
+  await page.keyboard.press('KeyF');
+  await page.getByRole('button', { name: 'Hide Front' }).click();
+  await expect(page.locator('#camera-stage')).toBeHidden();
+  await expect(page.locator('body > #stage')).toBeVisible();
+});
+
+test('each panel says whether it is live, waiting, faulty, frozen or off, and what the compositor did is listed', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const ending = 'videotestsrc is-live=true num-buffers=90 ! video/x-raw,width=320,height=240,framerate=15/1';
+  const { operator, stack } = await open(page, startStack, [
+    ...twoCameras,
+    camera('Arm', 'ball', { source: { kind: 'v4l2', device: '/dev/no-such-camera' } }),
+    camera('Ending', 'ball', { source: { kind: 'gst', pipeline: ending } }),
+  ]);
+  await expect.poll(() => stateOf(page, 'Front')).toBe('live');
+  await expect(panel(page, 'Front').locator('.age')).toHaveText(/^\d+ ms$/);
+  // A camera that never sent a picture: the reason stands in its place.
+  await expect(panel(page, 'Arm')).toHaveAttribute('data-state', 'fault');
+  await expect(panel(page, 'Arm').locator('.age')).toHaveText('no picture');
+  await expect(panel(page, 'Arm').locator('.fault')).toContainText('/dev/no-such-camera');
+  await expect(panel(page, 'Arm').locator('canvas')).toBeHidden();
+  // One that has ended: its last picture, without colours, and its age.
+  await expect(panel(page, 'Ending')).toHaveAttribute('data-state', 'fault', { timeout: 40_000 });
+  await expect(panel(page, 'Ending').locator('.age')).toHaveText(/^fault, \d+\.\d s$/);
+  await expect(panel(page, 'Ending').locator('canvas')).toHaveCSS('filter', /grayscale/);
+
+  await page.getByRole('button', { name: 'Hide Rear' }).click();
+  await expect(panel(page, 'Rear')).toHaveAttribute('data-state', 'off');
+  await expect(panel(page, 'Rear').locator('.age')).toHaveText('hidden');
+  await page.getByRole('button', { name: 'Show Rear' }).click();
+  await expect(panel(page, 'Rear')).toHaveAttribute('data-state', 'live');
+
+  await page.locator('.video-report button').click();
+  const report = page.locator('.video-report dl');
+  await expect(report).toContainText('Front');
+  await expect(report).toContainText('in step');
+  await operator.screenshot(testInfo, 'states');
+
+  // The robot's process is killed: nothing comes, and nobody says so.
+  await stack.robot(light.id).kill();
+  await expect(panel(page, 'Front')).toHaveAttribute('data-state', 'frozen');
+  await expect(panel(page, 'Front').locator('.age')).toHaveText(/^frozen, \d+\.\d s$/);
+  await expect(panel(page, 'Front').locator('canvas')).toHaveCSS('filter', /grayscale/);
+  await operator.screenshot(testInfo, 'frozen');
+  // Also where the camera fills the screen.
+  await page.keyboard.press('KeyF');
+  await expect(page.locator('#camera-stage p')).toHaveText(/^Front · frozen, \d+\.\d s$/);
+  await expect(page.locator('#camera-stage canvas')).toHaveCSS('filter', /grayscale/);
+});
+
+test.describe('on a phone', () => {
+  test.use({ viewport: { width: 360, height: 740 }, hasTouch: true });
+
+  test('the panels stay in their strip and cover nothing; a camera can fill the screen', async ({
+    page,
+    startStack,
+  }, testInfo) => {
+    await page.addInitScript(() =>
+      localStorage.setItem('farpoint.panels', '{"panels":[{"name":"video:Front","x":1,"y":1,"width":300}]}'),
+    );
+    const { operator } = await open(page, startStack);
+    await expect(panel(page, 'Front').locator('canvas')).toBeVisible();
+    await expect(panel(page, 'Front')).toHaveAttribute('data-floating', 'false');
+    await expectNothingCovered(page);
+    await operator.screenshot(testInfo, 'phone-panels');
+    await page.getByRole('button', { name: 'Fill the screen with Rear' }).tap();
+    await expect(page.locator('#camera-stage p')).toHaveText(/^Rear/);
+    await expectNothingCovered(page);
+    await operator.screenshot(testInfo, 'phone-camera-fills-screen');
+    await page.getByRole('button', { name: 'Fill the screen with the cloud' }).tap();
+    await expect(page.locator('#camera-stage')).toBeHidden();
+  });
+});
