@@ -4,6 +4,7 @@ import { ADDON_FILE } from './build.ts';
 import { EncoderChild } from './encoder-child.ts';
 import { ENCODER_PROPERTIES, type VideoEncoder } from './encoders.ts';
 import { KeyFrameLimit } from './key-frame-limit.ts';
+import { LineLimit } from './line-limit.ts';
 import { openMessage } from './open-message.ts';
 import type { LogLine, VideoState } from './process-messages.ts';
 import type { VideoFailure } from './video-failure.ts';
@@ -21,6 +22,9 @@ import {
 
 /** At most one key frame in this time, whoever asks for it. */
 const KEY_FRAME_INTERVAL_MS = 300;
+/** Of the process's log, at most so many lines in this time, ms. */
+const MOST_LINES = 40;
+const LINES_MS = 10_000;
 const RETRY = { firstMs: 500, mostMs: 10_000 };
 /** A process that has given pictures for so long has succeeded: the next wait is short again. */
 const SUCCESS_MS = 10_000;
@@ -54,6 +58,7 @@ export class VideoProcess {
   readonly #open: Uint8Array;
   readonly #backoff: Backoff;
   readonly #keyFrames = new KeyFrameLimit(KEY_FRAME_INTERVAL_MS);
+  readonly #lines = new LineLimit(MOST_LINES, LINES_MS);
   #settings: VideoSettings;
   #child: EncoderChild | null = null;
   #keyFrameTimer: NodeJS.Timeout | null = null;
@@ -174,7 +179,12 @@ export class VideoProcess {
         onFrame(frame);
       },
       onState: (state) => onState?.(state),
-      onLog: (line) => onLog?.(line),
+      onLog: (line) => {
+        const leftOut = this.#lines.admit(performance.now());
+        if (leftOut === null) return;
+        if (leftOut > 0) onLog?.({ level: 'warn', msg: `${leftOut} lines were left out` });
+        onLog?.(line);
+      },
       onEnd: (failure) => this.#onEnd(failure),
     });
     this.#child.send(this.#open);

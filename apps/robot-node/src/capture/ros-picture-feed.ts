@@ -1,10 +1,8 @@
 import { decoderOf, type RosFault, type RosGraph, type TopicEntry } from '@farpoint/ros';
 import { readPicture } from '../pictures/picture-message.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
+import type { CaptureTime } from '../ros/capture-time.ts';
 import { type Listener, listenBytes } from './ros-listener.ts';
-
-/** When a message's picture was taken, on the robot's clock, ms. */
-export type CaptureTime = (stampNs: bigint, receivedMs: number) => number;
 
 /** Pictures for people to look at. A topic that nobody watches has no subscription. */
 export class RosPictureFeed {

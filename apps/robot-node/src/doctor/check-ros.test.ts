@@ -1,6 +1,8 @@
 import { topicTableSchema } from '@farpoint/ros';
 import { describe, expect, it } from 'vitest';
+import type { RobotOptions } from '../robot-configuration.ts';
 import { judgeHostname, judgeTopics } from './check-ros.ts';
+import { graphsOf } from './ros-probe.ts';
 
 const table = topicTableSchema.parse([
   { topic: '/camera/points', as: 'cloud' },
@@ -86,4 +88,31 @@ describe('topics', () => {
     expect(judgeHostname({ ...ros1, hostname: '10.0.0.3' })).toEqual([]);
     expect(judgeHostname({ kind: 'ros2' })).toEqual([]);
   });
+});
+
+it('of a robot’s video cameras, each graph has the topics that are used there', () => {
+  const [ros1, ros2] = [
+    { kind: 'ros1', name: 'r', masterUrl: 'http://localhost:11311', hostname: 'localhost' },
+    { kind: 'ros2', name: 'r' },
+  ] as const;
+  const image = (topic: string) =>
+    ({ topic, type: 'sensor_msgs/msg/Image', as: 'picture', most: null }) as const;
+  const camera = (graph: typeof ros1 | typeof ros2, topic: string) => ({
+    source: { kind: 'ros', graph, entry: image(topic) },
+  });
+  const robot = {
+    sensors: [{ capture: { source: { kind: 'ros', graph: ros1 } } }],
+    sink: { kind: 'base' },
+    videos: [
+      camera(ros1, '/front'),
+      camera(ros2, '/rear'),
+      camera(ros1, '/front'),
+      { source: { kind: 'sim' } },
+    ],
+  } as unknown as RobotOptions;
+  const used = graphsOf(robot, [image('/table')]);
+  expect(used.map(({ graph, table: topics }) => [graph.kind, topics.map(({ topic }) => topic)])).toEqual([
+    ['ros1', ['/table', '/front']],
+    ['ros2', ['/rear']],
+  ]);
 });

@@ -95,6 +95,6 @@ export const videosOptions = {
     default: [],
     flag: false,
     env: false,
-    help: 'cameras that are streamed as video, each with a name, a source, an encoder (auto, or one that `pnpm robot doctor` lists), width, height, framesPerS and kbitPerS; a slow link gets less (docs/video.md)',
+    help: 'cameras that are streamed as video, each with a name, a source (test, v4l2, rtsp, ros, sim or gst), an encoder (auto, or one that `pnpm robot doctor` lists), width, height, framesPerS and kbitPerS; a slow link gets less (docs/video.md)',
   }),
 };

@@ -10,10 +10,31 @@ export interface RosClock {
 /** An older stamp is from another clock, or from a picture that was delayed. The arrival time is then used, ms. */
 const MOST_AGE_MS = 500;
 
-/** The stamp's time if it is recent and on our clock, otherwise the arrival time; ms. */
+/** Both clocks are read at once if no more time passes between two readings, ms; and how often that is tried. */
+const AT_ONCE_MS = 0.02;
+const MOST_TRIES = 5;
+
+/** When what a ROS message holds was captured: on the robot's clock, ms. */
+export type CaptureTime = (stampNs: bigint, receivedMs: number) => number;
+
+/**
+ * The stamp's time if it is recent and on our clock, otherwise the arrival time; ms. Messages of one stamp, a cloud and
+ * a picture for example, are of one instant, whenever they arrive.
+ */
 export function capturedAtMs(clock: RosClock, stampNs: bigint, receivedMs: number): number {
-  const nowMs = clock.now();
-  const ageMs = Number(clock.wallNs() - stampNs) / 1e6;
+  const { nowMs, wallNs } = readBoth(clock);
+  const ageMs = Number(wallNs - stampNs) / 1e6;
   const stamped = ageMs >= 0 && ageMs <= MOST_AGE_MS;
   return stamped ? nowMs - ageMs : receivedMs;
+}
+
+/** A thread that loses the processor between the two readings would shift the instant. */
+function readBoth(clock: RosClock): { nowMs: number; wallNs: bigint } {
+  let before = clock.now();
+  for (let tries = 1; ; tries++) {
+    const wallNs = clock.wallNs();
+    const after = clock.now();
+    if (after - before <= AT_ONCE_MS || tries === MOST_TRIES) return { nowMs: (before + after) / 2, wallNs };
+    before = after;
+  }
 }

@@ -14,7 +14,7 @@ export interface VideoEncoder {
   configure(format: EncodedFormat): void;
   /** The next picture that can be a key frame is one. */
   requestKeyFrame(): void;
-  /** Pictures that were captured but not encoded, because the encoder was too slow. */
+  /** Pictures that came but were not encoded, because the encoder was too slow or they were damaged. */
   readonly dropped: number;
   close(): Promise<void>;
 }

@@ -29,7 +29,7 @@ export function addVideoMetrics(metrics: PulledMetrics, { cameras: { videos }, o
   );
   metrics.sums(
     'video_frames_skipped',
-    'Pictures left out because the encoder was too slow, by camera',
+    'Pictures that came but were not encoded, because all was too slow or they were damaged, by camera',
     'camera',
     each(({ dropped }) => dropped),
   );
