@@ -60,7 +60,9 @@ test('values, curves, diagnostics and alarms of a robot, live', async ({ page, s
   await operator.releaseKeys();
   await expect(dashboard(page).locator('.alarms li')).toHaveCount(1);
   // The window still has the drive.
-  await expect(tile(page, 'Speed, m/s').locator('.figures > :nth-child(3)')).toHaveText(/^max (0\.[3-9]|1\.00)/);
+  await expect(tile(page, 'Speed, m/s').locator('.figures > :nth-child(3)')).toHaveText(
+    /^max (0\.[3-9]|1\.00)/,
+  );
   await tile(page, 'Speed').scrollIntoViewIfNeeded();
   await expect(tile(page, 'Speed').locator('.number')).toHaveText('0.00 m/s');
   await expect(tile(page, 'Position').locator('.number')).not.toHaveText(position ?? '');
@@ -153,6 +155,47 @@ test('the layout is kept over a reload, and what cannot be read is the default',
   await page.getByRole('button', { name: 'Reset' }).click();
   await expect(tile(page, 'Map')).toBeVisible();
   expect(await titles(page)).toEqual(defaults);
+});
+
+test('a map with tiles, where they are configured and the robot knows its place on the earth', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  await page.setViewportSize({ width: 1280, height: 720 });
+  const asked: string[] = [];
+  await page.route('**/tiles/**', (route) => {
+    asked.push(new URL(route.request().url()).pathname);
+    const svg =
+      '<svg xmlns="http://www.w3.org/2000/svg" width="256" height="256"><rect width="256" height="256" fill="#24506e" stroke="#fff"/></svg>';
+    return route.fulfill({ contentType: 'image/svg+xml', body: svg });
+  });
+  const robot = { ...ROBOT, args: [...ROBOT.args, '--sim-origin', '48.1374,11.5755'] };
+  const stack = await startStack({ robots: [robot] });
+  const operator = await OperatorPage.open(page, stack, { robot: robot.id });
+  await openDashboard(page);
+  const satellite = tile(page, 'Map').getByRole('button', { name: 'Where the position comes from' });
+  await satellite.click();
+  await expect(satellite).toHaveText('Satellite');
+  await expect(tile(page, 'Position').locator('.number')).toHaveText(/^48\.1374\d\d°, 11\.5756\d\d°$/);
+  await expect(tile(page, 'Map').locator('.attribution')).toBeHidden();
+  expect(asked).toEqual([]);
+
+  await page.keyboard.press('KeyB');
+  await page.getByRole('button', { name: 'Settings' }).click();
+  await page.getByLabel(/Map tiles/).fill('/tiles/{z}/{x}/{y}.svg');
+  await page.getByLabel('Attribution of the map').fill('© Mapmakers');
+  await page.getByRole('button', { name: 'Save and reconnect' }).click();
+  await page.waitForFunction(() => window.farpoint !== undefined);
+  await operator.expectState('session', 'live');
+  await openDashboard(page);
+  await satellite.click();
+  await expect(tile(page, 'Map').locator('.attribution')).toHaveText('© Mapmakers');
+  await expect.poll(() => asked.length).toBeGreaterThan(0);
+  expect(
+    asked.every((path) => /^\/tiles\/19\/2790\d\d\/1819\d\d\.svg$/.test(path)),
+    asked[0],
+  ).toBe(true);
+  await operator.screenshot(testInfo, 'tiles');
 });
 
 for (const width of [360, 1280, 3840]) {
