@@ -212,8 +212,8 @@ export class Robot {
       base.onState = (state) => {
         this.#state = state;
       };
-      base.onComponents = (components, motors) => {
-        addReading(components);
+      base.onReadings = (told, motors) => {
+        told.forEach(addReading);
         board.sample(MOTORS_TOPIC, motors, monotonicMs());
       };
       base.onFailure = (error) => this.#fail(error);

@@ -6,8 +6,9 @@ import { webRoot } from './web-root.ts';
 export function httpHandler(
   admin: ReturnType<typeof createAdminHandler>,
   folder: string | null,
+  imageOrigins: readonly string[] = [],
 ): RequestListener {
-  const files = folder === null ? null : webRoot(folder);
+  const files = folder === null ? null : webRoot(folder, imageOrigins);
   return (request, response) => {
     if (admin(request, response)) return;
     if (files === null) notFound(request, response);

@@ -13,6 +13,11 @@ const iceServers = z.preprocess((value, context) => {
   }
 }, z.array(iceServerSchema)) as z.ZodType<IceServer[]>;
 
+/** Nothing else may get into the page's Content-Security-Policy. */
+function isHttpsOrigin(text: string): boolean {
+  return /^https:\/\/[a-z0-9.-]+(:\d{1,5})?$/i.test(text) && URL.canParse(text);
+}
+
 const count = schema.integer({ min: 1 });
 
 export const program = defineProgram({
@@ -60,6 +65,14 @@ export const program = defineProgram({
       default: null,
       argument: 'DIR',
       help: 'serve the built web app from this folder',
+    }),
+    mapOrigins: defineOption({
+      schema: schema.list(schema.text()).refine((origins) => origins.every(isHttpsOrigin), {
+        message: 'must be a list of https origins such as https://tiles.example',
+      }),
+      default: [],
+      argument: 'ORIGIN,…',
+      help: 'servers that the web app may fetch a map’s tiles from, e.g. https://tiles.example (default: only this one)',
     }),
     tlsCert: defineOption({
       schema: schema.optional(schema.text()),

@@ -119,7 +119,7 @@ class SignalingService implements RunningSignaling {
       const ok = this.#admission.total < options.maxConnections;
       return { ok, detail: { ...connections, robots, referenceRobots, sessions } };
     });
-    this.#http = httpHandler(createAdminHandler(health, metrics), options.webRoot);
+    this.#http = httpHandler(createAdminHandler(health, metrics), options.webRoot, options.mapOrigins);
   }
 
   get ports(): SignalingPorts {

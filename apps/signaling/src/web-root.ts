@@ -4,26 +4,30 @@ import { join } from 'node:path';
 import { OptionsError } from '@farpoint/service';
 import sirv from 'sirv';
 
-const CONTENT_SECURITY_POLICY = [
-  "default-src 'self'",
-  "script-src 'self' 'wasm-unsafe-eval'",
-  "worker-src 'self' blob:",
-  // The signaling service may be on another host than the page.
-  "connect-src 'self' ws: wss: blob: data:",
-  "img-src 'self' data: blob:",
-  "media-src 'self' blob:",
-  "style-src 'self' 'unsafe-inline'",
-  "object-src 'none'",
-  "base-uri 'none'",
-  "frame-ancestors 'self'",
-].join('; ');
+const contentSecurityPolicy = (imageOrigins: readonly string[]) =>
+  [
+    "default-src 'self'",
+    "script-src 'self' 'wasm-unsafe-eval'",
+    "worker-src 'self' blob:",
+    // The signaling service may be on another host than the page.
+    "connect-src 'self' ws: wss: blob: data:",
+    ["img-src 'self' data: blob:", ...imageOrigins].join(' '),
+    "media-src 'self' blob:",
+    "style-src 'self' 'unsafe-inline'",
+    "object-src 'none'",
+    "base-uri 'none'",
+    "frame-ancestors 'self'",
+  ].join('; ');
 
 /**
  * Serves a built web app; calls `next` for paths that are not in it. The folder is read once: restart after a new
  * build.
+ *
+ * @param imageOrigins other servers that the page may fetch images from: a map's tiles
  */
 export function webRoot(
   folder: string,
+  imageOrigins: readonly string[] = [],
 ): (request: IncomingMessage, response: ServerResponse, next: () => void) => void {
   if (!existsSync(join(folder, 'index.html'))) {
     throw new OptionsError(
@@ -31,6 +35,7 @@ export function webRoot(
       `names a folder without index.html: ${folder} (build the web app first)`,
     );
   }
+  const policy = contentSecurityPolicy(imageOrigins);
   return sirv(folder, {
     etag: true,
     setHeaders(response, path) {
@@ -39,7 +44,7 @@ export function webRoot(
       response.setHeader('Cache-Control', fixed ? 'public, max-age=31536000, immutable' : 'no-cache');
       response.setHeader('X-Content-Type-Options', 'nosniff');
       response.setHeader('Referrer-Policy', 'no-referrer');
-      response.setHeader('Content-Security-Policy', CONTENT_SECURITY_POLICY);
+      response.setHeader('Content-Security-Policy', policy);
       response.setHeader('Permissions-Policy', 'xr-spatial-tracking=(self), gamepad=(self)');
       // Cross-origin isolation allows precise clocks and shared memory.
       response.setHeader('Cross-Origin-Opener-Policy', 'same-origin');

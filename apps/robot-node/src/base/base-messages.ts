@@ -1,6 +1,7 @@
 /** Messages between the main thread and the base's thread. */
 import type { Twist } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
+import type { EarthOrigin } from '@farpoint/sim';
 import type { TimedBaseState } from './base.ts';
 
 export interface BaseOptions {
@@ -8,6 +9,8 @@ export interface BaseOptions {
   watchdogMs: number;
   /** Charge of the battery at the start, 0 to 1. */
   charge: number;
+  /** Where the world is on the earth; without it, the robot has no satellite receiver. */
+  origin: EarthOrigin | null;
 }
 
 export interface BaseWorkerData extends BaseOptions {
@@ -21,8 +24,8 @@ export interface BaseReport {
   state: TimedBaseState;
   /** How often the watchdog has stopped the base. */
   watchdogStops: number;
-  /** What the components say about themselves; once a second. */
-  components?: TopicReading;
-  /** The numbers of the motors' topic; with the components. */
+  /** What the components say about themselves, and the position by satellite; once a second. */
+  readings?: TopicReading[];
+  /** The numbers of the motors' topic; with the readings. */
   motors?: readonly (number | null)[];
 }

@@ -15,7 +15,7 @@ const stateWhere = (is: (state: TimedBaseState) => boolean) =>
   });
 
 it('drives on a velocity, and stops by itself when it is not refreshed', async () => {
-  base = new BaseThread({ watchdogMs: 150, charge: 0.95 });
+  base = new BaseThread({ watchdogMs: 150, charge: 0.95, origin: null });
   base.apply({ ...zeroTwist(), linear: { x: 0.3, y: 0, z: 0 } });
   await stateWhere(({ twist }) => twist.linear.x > 0);
   // The velocity is not repeated, so the thread's own watchdog brakes.
@@ -24,7 +24,7 @@ it('drives on a velocity, and stops by itself when it is not refreshed', async (
 });
 
 it('shows its world to sensors', async () => {
-  base = new BaseThread({ watchdogMs: 150, charge: 0.95 });
+  base = new BaseThread({ watchdogMs: 150, charge: 0.95, origin: null });
   const world = new SnapshotReader(base.snapshot);
   const { pose } = await stateWhere(() => true);
   const first = world.read();
@@ -35,7 +35,7 @@ it('shows its world to sensors', async () => {
 });
 
 it('reports once that its thread has ended', async () => {
-  base = new BaseThread({ watchdogMs: 150, charge: 0.95 });
+  base = new BaseThread({ watchdogMs: 150, charge: 0.95, origin: null });
   const failures: Error[] = [];
   const failed = new Promise<void>((resolve) => {
     base.onFailure = (error) => {

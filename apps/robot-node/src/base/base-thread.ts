@@ -16,8 +16,8 @@ export class BaseThread implements VelocitySink {
   /** Simulated sensors read the world from here. */
   readonly snapshot = makeSharedSnapshot(officeWorld().movers.length);
   onState: ((state: TimedBaseState) => void) | null = null;
-  /** Called once a second with what the components say, and the numbers of the motors' topic. */
-  onComponents: ((components: TopicReading, motors: readonly (number | null)[]) => void) | null = null;
+  /** Called once a second with what the topics say, and the numbers of the motors' topic. */
+  onReadings: ((readings: readonly TopicReading[], motors: readonly (number | null)[]) => void) | null = null;
   /** Called once if the thread ends unexpectedly. */
   onFailure: ((error: Error) => void) | null = null;
   watchdogStops = 0;
@@ -28,10 +28,10 @@ export class BaseThread implements VelocitySink {
   constructor(options: BaseOptions) {
     const workerData: BaseWorkerData = { ...options, snapshot: this.snapshot };
     this.#worker = new Worker(new URL('./base-worker.ts', import.meta.url), { workerData });
-    this.#worker.on('message', ({ state, watchdogStops, components, motors = [] }: BaseReport) => {
+    this.#worker.on('message', ({ state, watchdogStops, readings, motors = [] }: BaseReport) => {
       this.watchdogStops = watchdogStops;
       this.onState?.(state);
-      if (components !== undefined) this.onComponents?.(components, motors);
+      if (readings !== undefined) this.onReadings?.(readings, motors);
     });
     this.#worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));
     this.#ended = new Promise((resolve) => this.#worker.once('exit', resolve));

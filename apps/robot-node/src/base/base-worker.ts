@@ -1,27 +1,35 @@
 /** The simulated base's thread. It stops the wheels by itself when the main thread hangs. */
 import { parentPort, workerData } from 'node:worker_threads';
 import { numbersOf } from '@farpoint/ros';
-import { componentStates, officeWorld, SimulatedBase } from '@farpoint/sim';
+import { componentStates, earthPlace, officeWorld, SimulatedBase } from '@farpoint/sim';
 import { ReadingTopic } from '../capture/reading-topic.ts';
 import { monotonicMs } from '../clock.ts';
 import type { BaseReport, BaseRequest, BaseWorkerData } from './base-messages.ts';
 import { RealTimeBase } from './real-time-base.ts';
 import { SnapshotWriter } from './shared-snapshot.ts';
-import { SIM_DIAGNOSTICS, SIM_MOTORS } from './sim-topics.ts';
+import { SIM_DIAGNOSTICS, SIM_FIX, SIM_MOTORS } from './sim-topics.ts';
 import { Wheels } from './wheels.ts';
 
 /** Maximum age of the world that the sensors see. */
 const TICK_MS = 4;
 const REPORT_MS = 20;
 const COMPONENTS_MS = 1000;
+/** A receiver with corrections from the ground: centimetres. */
+const GNSS = {
+  status: { status: 2, service: 1 },
+  altitude: 520,
+  position_covariance: [0.0004, 0, 0, 0, 0.0004, 0, 0, 0, 0.0016],
+  position_covariance_type: 2,
+};
 
 const port = parentPort;
 if (port === null) throw new Error('base-worker.ts runs as a worker only');
-const { watchdogMs, charge, snapshot } = workerData as BaseWorkerData;
+const { watchdogMs, charge, origin, snapshot } = workerData as BaseWorkerData;
 const base = new RealTimeBase(new SimulatedBase(officeWorld(), {}, charge));
 const wheels = new Wheels(base, watchdogMs);
 const writer = new SnapshotWriter(snapshot);
 const diagnostics = new ReadingTopic(SIM_DIAGNOSTICS);
+const fix = origin === null ? null : new ReadingTopic(SIM_FIX);
 let reportedMs = Number.NEGATIVE_INFINITY;
 let toldComponentsMs = Number.NEGATIVE_INFINITY;
 
@@ -36,8 +44,11 @@ function tick(): void {
     toldComponentsMs = now;
     const { state } = base.simulated;
     const header = { stamp: { sec: 0, nanosec: 0 }, frame_id: '' };
-    const components = diagnostics.take({ header, status: componentStates(state) }, now);
-    if (components !== null) Object.assign(report, { components });
+    const { x, y } = state.pose.position;
+    report.readings = [
+      diagnostics.take({ header, status: componentStates(state) }, now),
+      origin === null ? null : (fix?.take({ ...GNSS, header, ...earthPlace(origin, x, y) }, now) ?? null),
+    ].filter((reading) => reading !== null);
     report.motors = numbersOf(SIM_MOTORS, state.motorCelsius);
   }
   port?.postMessage(report);

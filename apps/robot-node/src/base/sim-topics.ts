@@ -3,6 +3,7 @@ import { topicTableSchema } from '@farpoint/ros';
 
 export const MOTORS_TOPIC = '/motors';
 export const DIAGNOSTICS_TOPIC = '/diagnostics';
+const FIX_TOPIC = '/fix';
 
 const entries = topicTableSchema.parse([
   { topic: DIAGNOSTICS_TOPIC, as: 'diagnostics' },
@@ -13,5 +14,8 @@ const entries = topicTableSchema.parse([
       { field: 'right', label: 'Right motor', unit: '°C' },
     ],
   },
+  { topic: FIX_TOPIC, as: 'fix' },
 ]);
-export const [SIM_DIAGNOSTICS, SIM_MOTORS] = entries as [(typeof entries)[number], (typeof entries)[number]];
+type Entry = (typeof entries)[number];
+/** The last only where the world has a place on the earth. */
+export const [SIM_DIAGNOSTICS, SIM_MOTORS, SIM_FIX] = entries as [Entry, Entry, Entry];

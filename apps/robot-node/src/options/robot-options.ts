@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
 import { fileFault, type OptionMistake, OptionsError } from '@farpoint/service';
 import { BitRate } from '@farpoint/timing';
-import { SIM_MOTORS } from '../base/sim-topics.ts';
+import { SIM_FIX, SIM_MOTORS } from '../base/sim-topics.ts';
 import type { CaptureOptions } from '../capture/capture-messages.ts';
 import type { SourceOptions } from '../capture/open-source.ts';
 import type { SinkOptions } from '../drive/open-sink.ts';
@@ -31,7 +31,8 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   checkSource(values, refuse);
   const topics = describedTopics(values, (detail) => refuse('topics', detail));
   const ca = values.tlsCa === null ? null : readText(values.tlsCa, (detail) => refuse('tlsCa', detail));
-  const quantities = describeQuantities([...topics, ...(values.source === 'sim' ? [SIM_MOTORS] : [])]);
+  const ofSim = values.source !== 'sim' ? [] : [SIM_MOTORS, ...(values.simOrigin === null ? [] : [SIM_FIX])];
+  const quantities = describeQuantities([...topics, ...ofSim]);
   const alarms = toAlarmRules(values.alarms, quantities, (detail) => refuse('alarms', detail));
   const broadcast = toBroadcast(values, ca, refuse);
   if (mistakes.length > 0) throw new OptionsError(mistakes);
@@ -46,7 +47,10 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       ca,
     },
     sensors: toSensors(values, topics),
-    base: values.source === 'sim' ? { watchdogMs: values.watchdogMs, charge: values.simCharge / 100 } : null,
+    base:
+      values.source === 'sim'
+        ? { watchdogMs: values.watchdogMs, charge: values.simCharge / 100, origin: values.simOrigin }
+        : null,
     sink: toSink(values),
     limits: {
       maxLinear: values.maxLinear,

@@ -1,6 +1,21 @@
 /** The simulated robot. */
 import { MAX_SENSORS } from '@farpoint/protocol';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
+import type { EarthOrigin } from '@farpoint/sim';
+import * as z from 'zod';
+
+const earthOrigin = z
+  .string('must be a latitude and a longitude such as 48.1374,11.5755')
+  .transform((text, context): EarthOrigin => {
+    const [, north, east] = /^(-?\d{1,2}(?:\.\d+)?), ?(-?\d{1,3}(?:\.\d+)?)$/.exec(text.trim()) ?? [];
+    const [latitude, longitude] = [Number(north), Number(east)];
+    if (Math.abs(latitude) <= 85 && Math.abs(longitude) <= 180) return { latitude, longitude };
+    context.addIssue({
+      code: 'custom',
+      message: 'must be a latitude (-85 to 85) and a longitude (-180 to 180) such as 48.1374,11.5755',
+    });
+    return z.NEVER;
+  });
 
 export const simOptions = optionGroup('source', {
   simSeed: defineOption({
@@ -14,6 +29,12 @@ export const simOptions = optionGroup('source', {
     default: 95,
     argument: 'PERCENT',
     help: 'charge of the simulated robot’s battery at the start',
+  }),
+  simOrigin: defineOption({
+    schema: schema.optional(earthOrigin),
+    default: null,
+    argument: 'LAT,LON',
+    help: 'where on the earth the simulated building is, degrees, e.g. 48.1374,11.5755: the robot then has a satellite receiver',
   }),
   simLidars: defineOption({
     schema: schema.integer({ min: 0, max: MAX_SENSORS - 1 }),

@@ -41,7 +41,7 @@ export function chartTile(recorded: () => RecordedSeries | undefined): Tile {
   let windowS = 30;
   const plot = new uPlot(
     {
-      ...{ width: LEAST_WIDTH, height: HEIGHT, padding: [6, 8, 0, 0] },
+      ...{ width: LEAST_WIDTH, height: HEIGHT, padding: [6, 16, 0, 0] },
       ...{ legend: { show: false }, cursor: { show: false }, select: { show: false } as uPlot.Select },
       scales: {
         x: { time: false, range: () => [-windowS, 0] },

@@ -3,7 +3,7 @@ import { describe, expect, test } from 'vitest';
 import { changed, DEFAULT_LAYOUT, type Layout, layoutText, moved, parseLayout, placed } from './layout.ts';
 
 const available = ['speed', 'map', 'battery', 'extra'].map((id) => ({
-  ...{ id, size: 'small' as const },
+  ...{ id, size: 'small' as const, title: `Of ${id}` },
   shown: id !== 'extra',
 }));
 const ids = (layout: Layout) => placed(layout, available).map(({ id }) => id);

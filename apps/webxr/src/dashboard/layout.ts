@@ -91,5 +91,7 @@ export function changed(
 function withTiles(layout: Layout, tiles: readonly PlacedTile[]): Layout {
   const here = new Set(tiles.map(({ id }) => id));
   const others = layout.tiles.filter(({ id }) => !here.has(id));
-  return { ...layout, tiles: [...tiles, ...others].slice(0, MOST_TILES) };
+  // Only what the schema has: kinds of tiles have more.
+  const kept = [...tiles, ...others].map(({ id, size, shown }) => ({ id, size, shown }));
+  return { ...layout, tiles: kept.slice(0, MOST_TILES) };
 }
