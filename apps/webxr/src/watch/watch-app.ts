@@ -37,7 +37,7 @@ export class WatchApp {
   readonly #views: VideoViews;
   readonly #enlarged: Enlarged;
   readonly #governor = new DrawingGovernor();
-  readonly #state = signal<WatchState>({ phase: 'connecting' });
+  readonly #state = signal<WatchState>({ phase: 'connecting', obstacle: null, detail: '' });
   readonly #name = signal<string | null>(null);
   readonly #nowMs = signal(performance.now());
   #framesBefore = 0;
