@@ -45,6 +45,8 @@ export class VideoFeed {
   readonly #readers = new Map<number, ReturnType<OpenReader>>();
   /** Called after each presentation has been drawn. */
   onPresented: (() => void) | null = null;
+  /** The newest capture instant of what is shown of the videos, ms on the robot's clock; `null` before the first. */
+  shownMs: number | null = null;
   /** The cloud's frame that was offered last. */
   #cloudFrame: number | null = null;
 
@@ -74,6 +76,7 @@ export class VideoFeed {
     const { client, views } = this.#parts;
     for (const { source, captureMs, payload } of presentation.items) {
       if (payload === null) continue;
+      this.shownMs = Math.max(this.shownMs ?? captureMs, captureMs);
       const video = Number(source.slice(VIDEO.length));
       const takenAtMs = captureMs - (client.link.session.clock.offsetMs ?? 0);
       views.show(video, payload, takenAtMs, nowMs);
@@ -102,6 +105,7 @@ export class VideoFeed {
     this.#compositor.clear();
     this.#figures.reset();
     this.#cloudFrame = null;
+    this.shownMs = null;
   }
 
   #onTrack(video: number, track: MediaStreamTrack): void {
