@@ -80,5 +80,6 @@ export { parseSignalingUrl, type SignalingAddress } from './signaling/signaling-
 export type { SensorStats } from './statistics/sensor-statistics.ts';
 export type { StreamStatistics, StreamStats } from './statistics/stream-statistics.ts';
 export type { VideoTrack } from './video/video-track.ts';
-export { RobotWatcher, type RobotWatcherOptions, type WatchEvents } from './watch/robot-watcher.ts';
-export type { WatchObstacle, WatchState } from './watch/watch-state.ts';
+export { RobotWatcher, type RobotWatcherOptions } from './watch/robot-watcher.ts';
+export type { WatchEvents } from './watch/watch-events.ts';
+export type { WatchObstacle, WatchPhase, WatchState } from './watch/watch-state.ts';

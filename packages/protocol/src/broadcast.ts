@@ -21,11 +21,22 @@ export interface Broadcast {
   /** The clouds of all sensors, on one m-line; absent if there are none. */
   clouds?:
     | {
+        /** `a=mid` of their m-line. */
         mid: string;
         /** A sensor's position in the list is its number in the placement. */
-        sensors: { name: string }[];
+        sensors: {
+          /** For people. */
+          name: string;
+        }[];
         /** With what the packets of coded formats are decoded now. */
-        streams: Required<Omit<CloudStream, 'type'>>[];
+        streams: {
+          /** Of the packets that it decodes. */
+          format: CloudStream['format'];
+          /** The format's own stream header, base64. */
+          header: string;
+          /** Number of the sensor. */
+          sensor: number;
+        }[];
       }
     | undefined;
 }

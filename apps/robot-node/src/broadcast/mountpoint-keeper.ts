@@ -167,7 +167,8 @@ export class MountpointKeeper {
     const target = host ?? new URL(options.url).hostname.replaceAll(/^\[|\]$/g, '');
     const here = isLoopback(target);
     const srtp = here ? null : randomBytes(SRTP_CM_MASTER_BYTES);
-    const { address } = await lookup(target, here ? { family: 4 } : {});
+    // Janus listens at 127.0.0.1 rather than at ::1.
+    const { address } = await lookup(target, target === 'localhost' ? { family: 4 } : {});
     const { ports } = await client.create({
       ...{ id, adminKey, pin, media, srtp, secret: this.#secret, metadata: metadata() },
       ...{ name: `farpoint-${id}`, description: name, address: here ? address : null },

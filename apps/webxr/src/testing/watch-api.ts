@@ -1,5 +1,5 @@
 /** `window.farpointWatch`: what end-to-end tests and benchmarks can read from the watchers' page. */
-import type { WatchState } from '@farpoint/operator';
+import type { Distribution, WatchState } from '@farpoint/operator';
 import type { VideoStats } from '../video/video-figures.ts';
 import type { WatchApp } from '../watch/watch-app.ts';
 
@@ -9,7 +9,15 @@ export interface WatchStats {
   attempts: number;
   videos: VideoStats;
   /** Of the first sensor. */
-  cloud: { frames: number; packets: number; points: number };
+  cloud: {
+    frames: number;
+    packets: number;
+    points: number;
+    /** How far the capture of the clouds that are drawn lies after that of the videos that are shown, ms. */
+    aheadMs: Distribution | null;
+    /** How long clouds waited, ms. */
+    heldMs: Distribution | null;
+  };
   /** Display frames drawn. */
   drawnFrames: number;
 }
@@ -32,9 +40,12 @@ export function installWatchApi(app: WatchApp): void {
       return {
         ...{ state: app.state, attempts: app.watcher.attempts, drawnFrames: app.drawnFrames },
         videos: app.videos.stats(performance.now()),
-        cloud: { frames, packets, points },
+        cloud: { frames, packets, points, ...app.hold.stats },
       };
     },
-    resetDistributions: () => app.videos.resetDistributions(),
+    resetDistributions: () => {
+      app.videos.resetDistributions();
+      app.hold.resetDistributions();
+    },
   };
 }

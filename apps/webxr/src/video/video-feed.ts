@@ -56,6 +56,8 @@ export class VideoFeed {
   readonly #readers = new Map<number, Reader>();
   /** Called after each presentation has been drawn. */
   onPresented: (() => void) | null = null;
+  /** The newest capture instant of what is shown of the videos, ms on the robot's clock; `null` before the first. */
+  shownMs: number | null = null;
   /** The cloud's frame that was offered last. */
   #cloudFrame: number | null = null;
 
@@ -89,6 +91,7 @@ export class VideoFeed {
     presented?.show(presentation.instantMs, nowMs);
     for (const { source, captureMs, payload } of presentation.items) {
       if (payload === null) continue;
+      this.shownMs = Math.max(this.shownMs ?? captureMs, captureMs);
       const video = Number(source.slice(VIDEO.length));
       const takenAtMs = captureMs - (client.link.session.clock.offsetMs ?? 0);
       views.show(video, payload, takenAtMs, nowMs);
@@ -123,6 +126,7 @@ export class VideoFeed {
     this.#parts.presented?.clear();
     this.#figures.reset();
     this.#cloudFrame = null;
+    this.shownMs = null;
   }
 
   #onTrack(videoTrack: VideoTrack): void {

@@ -10,6 +10,8 @@ import { videoReceiver } from '../video/video-receiver.ts';
 import { VideoViews } from '../video/video-views.ts';
 import { SensorClouds } from '../view/sensor-clouds.ts';
 import { Stage } from '../view/stage.ts';
+import { CloudHold } from './cloud-hold.ts';
+import { HeldClouds } from './held-clouds.ts';
 import { showWatchPanels } from './watch-panels.ts';
 import type { WatchSettings } from './watch-settings.ts';
 import { watchWords } from './watch-words.ts';
@@ -29,15 +31,18 @@ export class WatchApp {
   readonly watcher: RobotWatcher;
   readonly videos: VideoFeed;
   readonly cloud: CloudView;
+  /** Clouds wait here for the videos that were captured with them. */
+  readonly hold = new CloudHold();
   /** Display frames drawn. */
   drawnFrames = 0;
   readonly #elements: WatchElements;
   readonly #stage: Stage;
   readonly #clouds: SensorClouds;
+  readonly #held: HeldClouds;
   readonly #views: VideoViews;
   readonly #enlarged: Enlarged;
   readonly #governor = new DrawingGovernor();
-  readonly #state = signal<WatchState>({ phase: 'connecting' });
+  readonly #state = signal<WatchState>({ phase: 'connecting', obstacle: null, detail: '' });
   readonly #name = signal<string | null>(null);
   readonly #nowMs = signal(performance.now());
   #framesBefore = 0;
@@ -60,12 +65,14 @@ export class WatchApp {
         rtpTimestamp === null ? null : watcher.captureMsOf(video, rtpTimestamp),
       now: () => performance.now(),
     });
-    this.cloud = new CloudView(renderer, watcher);
+    this.#held = new HeldClouds(watcher, synchronised ? this.hold : null, () => performance.now());
+    const held = this.#held;
+    this.cloud = new CloudView(renderer, held);
     world.add(this.cloud);
     const sensors = new Switches();
     watcher.on('sensors', (each) => sensors.set(each));
     const [first, pointScale] = [this.cloud, signal(1)];
-    this.#clouds = new SensorClouds({ renderer, world, client: watcher, first, sensors, pointScale });
+    this.#clouds = new SensorClouds({ renderer, world, client: held, first, sensors, pointScale });
   }
 
   get state(): WatchState {
@@ -146,6 +153,7 @@ export class WatchApp {
   #frame(nowMs: number): void {
     const beganMs = performance.now();
     this.videos.tick(beganMs);
+    this.#held.tick(this.videos.shownMs, beganMs);
     this.cloud.update(beganMs);
     this.#clouds.update(beganMs);
     const { renderer, scene, viewCamera } = this.#stage;

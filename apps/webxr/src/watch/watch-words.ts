@@ -11,13 +11,13 @@ const obstacleWords: Record<WatchObstacle, Words> = {
 };
 
 /** @param name the robot's; `null` while it is not known */
-export function watchWords(state: WatchState, name: string | null): Words {
+export function watchWords({ phase, obstacle }: WatchState, name: string | null): Words {
   const of = name === null ? '' : ` · ${name}`;
-  switch (state.phase) {
+  switch (phase) {
     case 'connecting':
       return { text: 'Connecting…', tone: 'neutral' };
     case 'waiting':
-      return obstacleWords[state.obstacle];
+      return obstacleWords[obstacle ?? 'lost'];
     case 'opening':
       return { text: `Waiting for the first pictures…${of}`, tone: 'neutral' };
     case 'live':

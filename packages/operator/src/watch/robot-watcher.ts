@@ -1,23 +1,19 @@
 /** Watches a robot through Janus: receives what it broadcasts, and sends it nothing. */
-import { JanusFailure, StreamingClient, type StreamingEvent } from '@farpoint/janus';
-import {
-  type Broadcast,
-  broadcastCodec,
-  decodeJson,
-  type IceServer,
-  ProtocolError,
-} from '@farpoint/protocol';
+import { StreamingClient, type StreamingEvent } from '@farpoint/janus';
+import { type Broadcast, broadcastCodec, decodeJson, ProtocolError } from '@farpoint/protocol';
 import { Backoff, WindowedMinimum } from '@farpoint/timing';
 import { Emitter } from '../client/emitter.ts';
-import type { RobotEvents } from '../client/robot-events.ts';
 import type { Batch } from '../cloud/batch.ts';
 import { CloudReceiver } from '../cloud/cloud-receiver.ts';
 import type { TransformSupport } from '../peer/encoded-transform.ts';
 import { CaptureTimes } from './capture-times.ts';
 import type { FromStampWorker } from './stamp-messages.ts';
+import type { WatchEvents } from './watch-events.ts';
+import { obstacleOf } from './watch-obstacle.ts';
 import { WatchPeer } from './watch-peer.ts';
-import type { WatchObstacle, WatchState } from './watch-state.ts';
+import type { WatchObstacle, WatchPhase, WatchState } from './watch-state.ts';
 
+/** What a {@link RobotWatcher} is made with. */
 export interface RobotWatcherOptions {
   /** Janus' WebSocket. */
   url: string;
@@ -26,17 +22,9 @@ export interface RobotWatcherOptions {
   /** The mountpoint's PIN, if it has one. */
   pin?: string | undefined;
   /** STUN or TURN servers; Janus is usually reachable without. */
-  iceServers?: readonly IceServer[] | undefined;
+  iceServers?: readonly RTCIceServer[] | undefined;
   /** As {@link transformSupport} says. */
   transform: TransformSupport;
-}
-
-/** The events of {@link RobotWatcher.on}: of a {@link RobotClient}, those about what is seen. */
-export interface WatchEvents extends RobotEvents {
-  /** Whether anything can be seen, and why not. */
-  watching: WatchState;
-  /** What the robot broadcasts; again whenever it changes. */
-  broadcast: Broadcast;
 }
 
 const TICK_MS = 250;
@@ -46,16 +34,32 @@ const MOST_RETRY_MS = 4000;
 /** The fastest of the last frames tells the difference of the clocks, ms. */
 const CLOCK_WINDOW_MS = 10_000;
 
+/**
+ * Watches a robot through Janus: receives what it broadcasts, and sends it nothing. `CloudView` of
+ * `@farpoint/cloud-view` draws its clouds.
+ */
 export class RobotWatcher {
   /** When points last arrived, `performance.now()`. */
   pointsAtMs = 0;
   /** There are no latency tests: nothing goes to the robot. */
-  readonly latency = { wantsTime: false };
+  readonly latency: {
+    /** Always `false`. */
+    readonly wantsTime: boolean;
+  } = { wantsTime: false };
   /**
    * The difference of the clocks as far as it can be known: as if the fastest of the last frames had taken no time.
    * Instants are comparable with each other, but no delay can be told from them.
    */
-  readonly link = { session: { clock: { offsetMs: null as number | null } } };
+  readonly link: {
+    /** What is known of the present attempt. */
+    readonly session: {
+      /** The robot's clock. */
+      readonly clock: {
+        /** Robot's clock minus page's clock, ms; `null` before the first frame. */
+        offsetMs: number | null;
+      };
+    };
+  } = { session: { clock: { offsetMs: null } } };
   /** How often it began to watch. */
   attempts = 0;
   readonly #options: RobotWatcherOptions;
@@ -63,7 +67,7 @@ export class RobotWatcher {
   readonly #receiver: CloudReceiver;
   readonly #stampWorker: Worker;
   readonly #backoff = new Backoff({ firstMs: FIRST_RETRY_MS, mostMs: MOST_RETRY_MS, random: Math.random });
-  #state: WatchState = { phase: 'connecting' };
+  #state: WatchState = { phase: 'connecting', obstacle: null, detail: '' };
   #broadcast: Broadcast | null = null;
   #generation = 0;
   #times: CaptureTimes[] = [];
@@ -88,11 +92,16 @@ export class RobotWatcher {
     this.#stampWorker.onmessage = ({ data }: MessageEvent<FromStampWorker>) => this.#onStamp(data);
   }
 
-  /** @returns a function that removes the listener */
+  /**
+   * Calls `listener` for each event of the type; see {@link WatchEvents}.
+   *
+   * @returns a function that removes the listener
+   */
   on<Type extends keyof WatchEvents>(type: Type, listener: (event: WatchEvents[Type]) => void): () => void {
     return this.#emitter.on(type, listener);
   }
 
+  /** Whether anything can be seen now, and why not. */
   get state(): WatchState {
     return this.#state;
   }
@@ -104,6 +113,7 @@ export class RobotWatcher {
     void this.#attempt();
   }
 
+  /** Ends it and frees everything. The watcher cannot be started again. */
   close(): void {
     this.#closed = true;
     clearInterval(this.#ticking);
@@ -128,12 +138,14 @@ export class RobotWatcher {
     this.#receiver.drawEvery(every, everySample);
   }
 
-  /** Nobody measures. */
+  /** For `CloudView`; does nothing, because there is nothing to measure. */
   noteUploaded(): void {}
+
+  /** For `CloudView`; does nothing, because there is nothing to measure. */
   noteDrawn(): void {}
 
   async #attempt(): Promise<void> {
-    this.#enter({ phase: 'connecting' });
+    this.#enter('connecting');
     const generation = ++this.#generation;
     this.attempts = generation;
     const { url, mountpoint, pin = null } = this.#options;
@@ -177,7 +189,7 @@ export class RobotWatcher {
         onCandidate: (candidate) => this.#client?.trickle(candidate),
         onVideoTrack: (track) => this.#emitter.emit('videoTrack', track),
         onConnected: () => {
-          if (this.#state.phase === 'connecting') this.#enter({ phase: 'opening' });
+          if (this.#state.phase === 'connecting') this.#enter('opening');
         },
         onFailed: (detail) => this.#lose(generation, 'lost', detail),
       },
@@ -244,17 +256,17 @@ export class RobotWatcher {
     const { phase } = this.#state;
     if (phase === 'live' || phase === 'waiting') return;
     this.#backoff.reset();
-    this.#enter({ phase: 'live' });
+    this.#enter('live');
   }
 
   #tick(nowMs: number): void {
-    if (this.#state.phase === 'live' && nowMs - this.#mediaAtMs > SILENT_MS) this.#enter({ phase: 'silent' });
+    if (this.#state.phase === 'live' && nowMs - this.#mediaAtMs > SILENT_MS) this.#enter('silent');
   }
 
   #lose(generation: number, obstacle: WatchObstacle, detail: string): void {
     if (this.#closed || generation !== this.#generation || this.#state.phase === 'waiting') return;
     this.#drop();
-    this.#enter({ phase: 'waiting', obstacle, detail });
+    this.#enter('waiting', obstacle, detail);
     this.#retry = setTimeout(() => void this.#attempt(), this.#backoff.nextMs());
   }
 
@@ -265,21 +277,15 @@ export class RobotWatcher {
     this.#client = null;
   }
 
-  #enter(state: WatchState): void {
+  #enter(phase: WatchPhase, obstacle: WatchObstacle | null = null, detail = ''): void {
     const wasSeen = isSeen(this.#state);
-    this.#state = state;
-    this.#emitter.emit('watching', state);
-    if (isSeen(state) !== wasSeen) this.#emitter.emit('phase', isSeen(state) ? 'live' : 'waiting');
+    this.#state = { phase, obstacle, detail };
+    this.#emitter.emit('watching', this.#state);
+    const seen = isSeen(this.#state);
+    if (seen !== wasSeen) this.#emitter.emit('phase', seen ? 'live' : 'waiting');
   }
 }
 
 function isSeen({ phase }: WatchState): boolean {
   return phase === 'live' || phase === 'silent';
-}
-
-function obstacleOf(error: unknown): WatchObstacle {
-  if (error instanceof ProtocolError) return 'not-a-broadcast';
-  if (!(error instanceof JanusFailure)) return 'lost';
-  if (error.reason === 'no-mountpoint') return 'no-broadcast';
-  return error.reason === 'unauthorised' ? 'refused' : 'relay-unreachable';
 }

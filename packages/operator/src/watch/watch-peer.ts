@@ -1,6 +1,6 @@
 /** The WebRTC connection with Janus: it offers what the robot feeds it with, the page answers. */
 import type { JanusCandidate } from '@farpoint/janus';
-import type { Broadcast, IceServer } from '@farpoint/protocol';
+import type { Broadcast } from '@farpoint/protocol';
 import { attachWorker, type TransformSupport, transformConfiguration } from '../peer/encoded-transform.ts';
 import { playWithoutDelay, type VideoTrack } from '../video/video-track.ts';
 import { separateStreams } from './separate-streams.ts';
@@ -8,7 +8,7 @@ import type { StampOptions, ToStampWorker } from './stamp-messages.ts';
 
 export interface WatchPeerOptions {
   broadcast: Broadcast;
-  iceServers: readonly IceServer[];
+  iceServers: readonly RTCIceServer[];
   transform: TransformSupport;
   cloudWorker: Worker;
   stampWorker: Worker;
@@ -38,7 +38,7 @@ export class WatchPeer {
     this.#options = options;
     this.#events = events;
     const connection = new RTCPeerConnection({
-      iceServers: options.iceServers as RTCIceServer[],
+      iceServers: [...options.iceServers],
       bundlePolicy: 'max-bundle',
       ...transformConfiguration(options.transform),
     });

@@ -11,15 +11,19 @@ export type WatchObstacle =
   /** It was there a moment ago. */
   | 'lost';
 
-/** What a {@link RobotWatcher} does at present. */
-export type WatchState =
-  /** It asks Janus. */
-  | { readonly phase: 'connecting' }
-  /** It will try again. */
-  | { readonly phase: 'waiting'; readonly obstacle: WatchObstacle; readonly detail: string }
-  /** Janus has agreed; nothing has arrived yet. */
-  | { readonly phase: 'opening' }
-  /** Pictures or points arrive. */
-  | { readonly phase: 'live' }
-  /** Connected, but nothing has arrived for more than a second. */
-  | { readonly phase: 'silent' };
+/**
+ * What a {@link RobotWatcher} does: `connecting`, it asks Janus; `waiting`, it will try again; `opening`, Janus has
+ * agreed and nothing has arrived yet; `live`, pictures or points arrive; `silent`, connected, but nothing has arrived
+ * for more than a second.
+ */
+export type WatchPhase = 'connecting' | 'waiting' | 'opening' | 'live' | 'silent';
+
+/** Whether anything can be seen, and why not. */
+export interface WatchState {
+  /** What the watcher does at present. */
+  readonly phase: WatchPhase;
+  /** While it waits: why nothing can be watched; otherwise `null`. */
+  readonly obstacle: WatchObstacle | null;
+  /** While it waits, for people: what Janus or the browser said. */
+  readonly detail: string;
+}
