@@ -4,6 +4,7 @@ import { RobotClient, type TransformSupport } from '@farpoint/operator';
 import { effect, untracked } from '@preact/signals-core';
 import { ReleaseHold } from './drive/release-hold.ts';
 import type { Settings } from './settings.ts';
+import { SoundPlayer } from './sound/sound-player.ts';
 import { CloudAppearance } from './state/cloud-appearance.ts';
 import type { Notices } from './state/notices.ts';
 import { PageState } from './state/page-state.ts';
@@ -19,6 +20,7 @@ import { showPicturePanels } from './ui/picture-panels.ts';
 import { showRobotList } from './ui/robot-list.ts';
 import { showRobotSwitcher } from './ui/robot-switcher.ts';
 import { showSensorSwitches } from './ui/sensor-switches.ts';
+import { SoundUi } from './ui/sound-ui.ts';
 import { showStatus } from './ui/status-ui.ts';
 import { VideoFeed } from './video/video-feed.ts';
 import { videoReading } from './video/video-reader.ts';
@@ -47,6 +49,9 @@ export class App {
   readonly stats = new PageStatistics();
   readonly vr: VrSession;
   readonly frames: FrameLoop;
+  /** Plays the robot's microphone. */
+  readonly player = new SoundPlayer();
+  readonly #sound: SoundUi;
   readonly #inputs: OperatorInputs;
   readonly #controls: ControlsUi;
   readonly #cloudPanel: CloudPanel;
@@ -62,6 +67,7 @@ export class App {
       onChange: () => this.client.driver.tick(performance.now()),
       onAction: (action, timeMs) => this.#controls.act(action, timeMs),
       onRelease: (control, held) => this.#estop.hold(control, held),
+      onTalk: (control, held) => this.#sound.hold(control, held),
       mayDrive: () => this.state.link.live.value,
     });
     const { signalingUrl, name, token, icePolicy, bridge, mode } = settings;
@@ -92,6 +98,10 @@ export class App {
     const choose = (robotId: string) => this.choose(robotId);
     this.#controls = new ControlsUi({ client, state, stage, vr, appearance, estop: this.#estop, choose });
     this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all });
+    this.#sound = new SoundUi({
+      ...{ client, player: this.player, state: state.sound },
+      tell: ({ text, tone }) => notices.tell(text, tone),
+    });
     const readHeadset = () => this.#inputs.readHeadset(vr.inputSources);
     this.frames = new FrameLoop({ settings, client, stage, cloud, clouds, videos, stats, vr, readHeadset });
   }
@@ -100,6 +110,7 @@ export class App {
     this.#listen();
     this.#listenToCanvas();
     this.#controls.start();
+    this.#sound.start();
     this.client.start();
     if (this.settings.robot !== null) this.client.choose(this.settings.robot);
     this.#show();

@@ -1,5 +1,6 @@
 import './ui/style.css';
 import './ui/cloud-panel.css';
+import './ui/sound.css';
 import { transformSupport } from '@farpoint/operator';
 import { App } from './app.ts';
 import { readSettings } from './settings.ts';

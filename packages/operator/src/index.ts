@@ -17,12 +17,14 @@ export type {
   EstopState,
   LatencyFrame,
   LeaseState,
+  MicrophoneState,
   Pose,
   Quaternion,
   Reading,
   ReadingLevel,
   RobotListing,
   Sensors,
+  Sound,
   StageTimings,
   StreamStatus,
   Telemetry,
@@ -31,6 +33,7 @@ export type {
   VideoCodec,
   VideoDescription,
   Videos,
+  VoiceState,
   Welcome,
 } from '@farpoint/protocol';
 export { type BridgeAddress, parseBridge } from './bridge/bridge-settings.ts';
@@ -68,6 +71,8 @@ export type { SessionPhase } from './session/session-keeper.ts';
 export { lossOf, type SessionLoss } from './session/session-loss.ts';
 export type { SignalingState } from './signaling/signaling-state.ts';
 export { parseSignalingUrl, type SignalingAddress } from './signaling/signaling-url.ts';
+export type { PlayedSound, RobotSound, VoiceStatus } from './sound/robot-sound.ts';
+export type { VoiceFailure, VoiceFailureReason } from './sound/voice-failure.ts';
 export type { SensorStats } from './statistics/sensor-statistics.ts';
 export type { StreamStatistics, StreamStats } from './statistics/stream-statistics.ts';
 export type { VideoTrack } from './video/video-track.ts';

@@ -8,6 +8,7 @@ import { computed, effect, type ReadonlySignal, type Signal, signal } from '@pre
 import { CameraPictures } from '../pictures/camera-pictures.ts';
 import type { CameraView } from '../pictures/camera-view.ts';
 import type { Settings } from '../settings.ts';
+import { SoundState } from '../sound/sound-state.ts';
 import type { PageStats } from '../status/page-stats.ts';
 import { VideoViews } from '../video/video-views.ts';
 import { type DrivingState, drivingState } from './driving-state.ts';
@@ -51,6 +52,8 @@ export class PageState {
   /** What is shown of all cameras: videos, then pictures. */
   readonly views: ReadonlySignal<readonly CameraView[]>;
   readonly enlarged: Enlarged;
+  /** The robot's microphone, and the operator's voice. */
+  readonly sound: SoundState;
   /** When the values that change with time were read last: page's clock, ms. */
   readonly sampledAtMs: ReadonlySignal<number>;
   /** Size of the points, relative to the patch of surface that each stands for. */
@@ -72,6 +75,7 @@ export class PageState {
     this.videos = new VideoViews(this.sampledAtMs, newCanvas);
     this.views = computed(() => [...this.videos.views.value, ...this.pictures.views.value]);
     this.enlarged = new Enlarged(this.views);
+    this.sound = new SoundState(client);
     this.pointScale = signal(settings.pointScale);
     this.sample();
     this.#listen(client);

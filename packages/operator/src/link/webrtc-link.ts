@@ -268,6 +268,7 @@ export class WebRtcLink implements RobotLink {
           this.#session.onMessage(channel, data, nowMs);
         },
         onVideoTrack: (track) => this.#events.onVideoTrack(track),
+        onSoundLine: (line) => this.#events.onSoundLine(line),
         onFailed: (detail) => {
           if (peer !== this.#peer) return;
           console.warn('peer:', detail);

@@ -18,6 +18,7 @@ function bench(): { session: RobotSession; told: string[] } {
     onTelemetry: tell('telemetry'),
     onReading: tell('reading'),
     onCameras: tell('cameras'),
+    onSound: tell('sound'),
     onSensors: tell('sensors'),
     onVideos: tell('videos'),
     onPicture: tell('picture'),

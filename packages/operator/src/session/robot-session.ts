@@ -17,6 +17,7 @@ import {
   type Reading,
   robotSessionCodec,
   type Sensors,
+  type Sound,
   sequenceDelta32,
   type Telemetry,
   telemetryCodec,
@@ -46,6 +47,8 @@ export interface RobotSessionEvents {
   onSensors(sensors: Sensors['sensors']): void;
   /** The cameras whose videos can be requested, and which of them have no pictures at present. */
   onVideos(videos: Videos['videos']): void;
+  /** The robot's microphone, and what becomes of this operator's voice. */
+  onSound(sound: Sound): void;
   onPicture(picture: WholePicture, nowMs: number): void;
   /** The robot could not use a message from this client. */
   onRobotFault(message: string): void;
@@ -144,6 +147,9 @@ export class RobotSession {
         return;
       case 'videos':
         this.#events.onVideos(message.videos);
+        return;
+      case 'sound':
+        this.#events.onSound(message);
         return;
       case 'fault':
         this.#events.onRobotFault(message.message);
