@@ -66,7 +66,7 @@ test('the robot is heard while Sound is on, and its microphone is off otherwise'
   expect(await metric(stack, 'sound_packets_total')).toBe(0);
   await switchOf(page).click();
   await expectTone(page, 600);
-  expect((await sound(page)).level).toBeGreaterThan(0.5);
+  await expect.poll(async () => (await sound(page)).level).toBeGreaterThan(0.5);
   await expect(page.locator('#sound')).toContainText('Live');
   expect(await metric(stack, 'sound_listeners')).toBe(1);
   await operator.screenshot(testInfo, 'sound');

@@ -6,6 +6,7 @@ export type VoiceFailureReason =
   | 'insecure' // the page was not loaded by HTTPS
   | 'failed';
 
+/** Why this operator's microphone cannot be used, for programs and for the console. */
 export interface VoiceFailure {
   /** For programs. */
   reason: VoiceFailureReason;
