@@ -6,6 +6,7 @@ import { ReleaseHold } from './drive/release-hold.ts';
 import { PanelPlacements } from './panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from './panels/stored-panels.ts';
 import type { Settings } from './settings.ts';
+import { SoundPlayer } from './sound/sound-player.ts';
 import { CloudAppearance } from './state/cloud-appearance.ts';
 import type { Notices } from './state/notices.ts';
 import { PageState } from './state/page-state.ts';
@@ -24,6 +25,7 @@ import { showPicturePanels } from './ui/picture-panels.ts';
 import { showRobotList } from './ui/robot-list.ts';
 import { showRobotSwitcher } from './ui/robot-switcher.ts';
 import { showSensorSwitches } from './ui/sensor-switches.ts';
+import { SoundUi } from './ui/sound-ui.ts';
 import { showStatus } from './ui/status-ui.ts';
 import { VideoFeed } from './video/video-feed.ts';
 import { videoReceiver } from './video/video-receiver.ts';
@@ -58,6 +60,9 @@ export class App {
   readonly recorder: TelemetryRecorder;
   readonly vr: VrSession;
   readonly frames: FrameLoop;
+  /** Plays the robot's microphone. */
+  readonly player = new SoundPlayer();
+  readonly #sound: SoundUi;
   readonly #inputs: OperatorInputs;
   readonly #controls: ControlsUi;
   readonly #cloudPanel: CloudPanel;
@@ -74,6 +79,7 @@ export class App {
       onChange: () => this.client.driver.tick(performance.now()),
       onAction: (action, timeMs) => this.#controls.act(action, timeMs),
       onRelease: (control, held) => this.#estop.hold(control, held),
+      onTalk: (control, held) => this.#sound.hold(control, held),
       mayDrive: () => this.state.link.live.value,
     });
     const { signalingUrl, name, token, icePolicy, bridge, mode } = settings;
@@ -114,6 +120,10 @@ export class App {
       ...{ client, state, stage, vr, appearance, estop: this.#estop, choose, toggleDashboard },
     });
     this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all });
+    this.#sound = new SoundUi({
+      ...{ client, player: this.player, state: state.sound },
+      tell: ({ text, tone }) => notices.tell(text, tone),
+    });
     const readHeadset = () => {
       this.#inputs.readHeadset(vr.inputSources);
       this.#pictures?.update();
@@ -125,6 +135,7 @@ export class App {
     this.#listen();
     this.#listenToCanvas();
     this.#controls.start();
+    this.#sound.start();
     this.client.start();
     if (this.settings.robot !== null) this.client.choose(this.settings.robot);
     this.#show();

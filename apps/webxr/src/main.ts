@@ -1,6 +1,7 @@
 import './ui/style.css';
 import './ui/cloud-panel.css';
 import './ui/picture-panels.css';
+import './ui/sound.css';
 import { transformSupport } from '@farpoint/operator';
 import { App } from './app.ts';
 import { readSettings } from './settings.ts';

@@ -22,6 +22,7 @@ export type {
   EstopState,
   LatencyFrame,
   LeaseState,
+  MicrophoneState,
   Pose,
   Quantity,
   Quaternion,
@@ -31,6 +32,7 @@ export type {
   Sample,
   Samples,
   Sensors,
+  Sound,
   StageTimings,
   StreamStatus,
   Telemetry,
@@ -39,6 +41,7 @@ export type {
   VideoCodec,
   VideoDescription,
   Videos,
+  VoiceState,
   Welcome,
 } from '@farpoint/protocol';
 export { type BridgeAddress, parseBridge } from './bridge/bridge-settings.ts';
@@ -77,6 +80,8 @@ export type { SessionPhase } from './session/session-keeper.ts';
 export { lossOf, type SessionLoss } from './session/session-loss.ts';
 export type { SignalingState } from './signaling/signaling-state.ts';
 export { parseSignalingUrl, type SignalingAddress } from './signaling/signaling-url.ts';
+export type { PlayedSound, RobotSound, VoiceStatus } from './sound/robot-sound.ts';
+export type { VoiceFailure, VoiceFailureReason } from './sound/voice-failure.ts';
 export type { SensorStats } from './statistics/sensor-statistics.ts';
 export type { StreamStatistics, StreamStats } from './statistics/stream-statistics.ts';
 export type { VideoTrack } from './video/video-track.ts';

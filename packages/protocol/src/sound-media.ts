@@ -18,6 +18,7 @@ export const MICROPHONE_STATES = [
   'slow-link', // the path has no room for sound
   'failed', // nothing can be captured
 ] as const;
+/** What an operator gets of the robot's microphone. */
 export type MicrophoneState = (typeof MICROPHONE_STATES)[number];
 
 /** What the robot does with an operator's voice. */
@@ -28,6 +29,7 @@ export const VOICE_STATES = [
   'silent', // the operator speaks, but no packets arrive
   'failed', // the loudspeaker cannot be used
 ] as const;
+/** What the robot does with an operator's voice. */
 export type VoiceState = (typeof VOICE_STATES)[number];
 
 /** While it speaks, an operator repeats that so often at least, ms. */

@@ -179,6 +179,21 @@ describe('HeadsetInput', () => {
     expect(held(controller('right', 0, 0, 0, 0))).toBe(true);
   });
 
+  test('speaks by the trigger of the other hand while one drives', () => {
+    const input = new HeadsetInput();
+    const talks = (...sources: ReturnType<typeof controller>[]) => {
+      input.read(sources);
+      return input.talks;
+    };
+    expect(talks(controller('left', 0, 0, 0, 0), controller('right', 1, 0, 0))).toBe(true);
+    expect(talks(controller('left', 0, 0, 0, 0), controller('right', 0, 0, 0))).toBe(false);
+    // A fist clenched in fright.
+    expect(talks(controller('left', 0, 0, 0), controller('right', 1, 0, 0, 0))).toBe(false);
+    talks(controller('left', 0, 0, 0, 0), controller('right', 1, 0, 0));
+    input.release();
+    expect(input.talks).toBe(false);
+  });
+
   test('A or X starts a latency test, B or Y the emergency stop, once per press', () => {
     const input = new HeadsetInput();
     expect(input.read([controller('right', 0, 0, 0, 4)])).toMatchObject({

@@ -23,6 +23,8 @@ export class HeadsetInput implements DriveInput {
   readonly name = 'headset';
   readonly wish: DriveWish = { forward: 0, left: 0 };
   held = false;
+  /** Whether the operator speaks: one hand drives, and the other pulls its trigger. */
+  talks = false;
   #hand: string | null = null;
   #estop = false;
   #latency = false;
@@ -45,6 +47,7 @@ export class HeadsetInput implements DriveInput {
       if ((buttons[SQUEEZE]?.value ?? 0) <= 0.5) continue;
       if (driving === null || source.handedness === this.#hand) driving = source;
     }
+    this.talks = driving !== null && pullsOther(sources, driving);
     this.held = driving !== null;
     this.#hand = driving?.handedness ?? null;
     const axes = driving?.gamepad?.axes;
@@ -67,8 +70,17 @@ export class HeadsetInput implements DriveInput {
 
   release(): void {
     this.held = false;
+    this.talks = false;
     this.wish.forward = 0;
     this.wish.left = 0;
     this.#hand = null;
   }
+}
+
+/** Whether the trigger of a hand other than the driving one is pulled. */
+function pullsOther(sources: Iterable<XrController>, driving: XrController): boolean {
+  for (const source of sources) {
+    if (source !== driving && (source.gamepad?.buttons[TRIGGER]?.value ?? 0) > 0.5) return true;
+  }
+  return false;
 }

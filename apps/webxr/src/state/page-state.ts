@@ -9,6 +9,7 @@ import type { PanelPlacements } from '../panels/panel-placements.ts';
 import { CameraPictures } from '../pictures/camera-pictures.ts';
 import type { CameraView } from '../pictures/camera-view.ts';
 import type { Settings } from '../settings.ts';
+import { SoundState } from '../sound/sound-state.ts';
 import type { PageStats } from '../status/page-stats.ts';
 import { VideoViews } from '../video/video-views.ts';
 import { type DrivingState, drivingState } from './driving-state.ts';
@@ -60,6 +61,8 @@ export class PageState {
   readonly staged: Staged;
   /** Where the operator has put the cameras' panels. */
   readonly placements: PanelPlacements;
+  /** The robot's microphone, and the operator's voice. */
+  readonly sound: SoundState;
   /** When the values that change with time were read last: page's clock, ms. */
   readonly sampledAtMs: ReadonlySignal<number>;
   /** Size of the points, relative to the patch of surface that each stands for. */
@@ -90,6 +93,7 @@ export class PageState {
     );
     this.staged = new Staged(this.views, this.link.live);
     this.placements = placements;
+    this.sound = new SoundState(client);
     this.pointScale = signal(settings.pointScale);
     this.sample();
     this.#listen(client);

@@ -87,6 +87,21 @@ export interface VideoProbe {
   fills: boolean;
 }
 
+/** What is heard of the robot, and whether it hears the operator. */
+export interface SoundProbe {
+  /** The words that the page shows about the robot's sound. */
+  heard: { state: string; text: string };
+  /** The words that the page shows about the operator's voice. */
+  said: { state: string; text: string };
+  /** Loudness of what has just been played, 0–1, and its strongest frequency, Hz. */
+  level: number;
+  peakHz: number | null;
+  /** From the capture of what is being played to its handing over to the output, ms; `null` if it is not known. */
+  delayMs: number | null;
+  /** Whether this page's microphone is open. */
+  sending: boolean;
+}
+
 export interface FarpointTestApi {
   readonly version: 1;
   state(): PageState;
@@ -113,6 +128,7 @@ export interface FarpointTestApi {
   shareLink(shares: { cloud: number; videos: readonly number[] }): void;
   probe(): DrawnProbe;
   cameras(): CameraProbe[];
+  sound(): SoundProbe;
   videos(): VideoProbe[];
   /** Starts recording what videos show, for up to `capacity` presentations; `null` stops it. Needs `barcode=1`. */
   recordPresentations(capacity: number | null): void;

@@ -1,7 +1,7 @@
 /** Puts {@link FarpointTestApi} on the window. */
 
 import { bodyYaw, opticalYaw } from '@farpoint/cloud-view';
-import { LATENCY_TEST_COLOUR, type Pose } from '@farpoint/protocol';
+import { LATENCY_TEST_COLOUR, type Pose, SOUND_MEDIA, sequenceDelta32 } from '@farpoint/protocol';
 import { Quaternion, Vector3 } from 'three';
 import type { App } from '../app.ts';
 import { PacketRecord } from './packet-record.ts';
@@ -19,6 +19,14 @@ export function installTestApi(app: App): void {
   const robotNowMs = () => {
     const { offsetMs } = app.client.link.session.clock;
     return offsetMs === null ? null : performance.now() + offsetMs;
+  };
+  const soundDelayMs = () => {
+    const played = client.sound.played();
+    const { offsetMs } = link.session.clock;
+    if (played === null || offsetMs === null) return null;
+    const ticksPerMs = SOUND_MEDIA.clockRate / 1000;
+    const now = Math.floor((played.atMs + offsetMs) * ticksPerMs);
+    return sequenceDelta32(now >>> 0, played.rtpTimestamp) / ticksPerMs;
   };
   client.on('cloud', (batch) => packets?.add(batch, performance.timeOrigin));
   const api: FarpointTestApi = {
@@ -82,6 +90,17 @@ export function installTestApi(app: App): void {
         ...{ name: camera.name, shown: camera.on.value, width: canvas.width, height: canvas.height },
         ...{ ageMs: ageMs.value, pictures: newest.value?.number ?? 0, failures },
       })),
+    sound() {
+      const { heard, said, voice } = app.state.sound;
+      return {
+        heard: { state: heard.value.state, text: heard.value.text },
+        said: { state: said.value.state, text: said.value.text },
+        level: app.player.level(),
+        peakHz: app.player.peakFrequency(),
+        delayMs: soundDelayMs(),
+        sending: voice.value.sending,
+      };
+    },
     videos: () =>
       app.state.videos.views.value.map(({ camera, canvas, newest, ageMs, fault }) => ({
         ...{ name: camera.name, shown: camera.on.value, width: canvas.width, height: canvas.height },

@@ -5,6 +5,7 @@ import { HeadsetInput, type XrController } from '../drive/headset-input.ts';
 import { KeyboardInput } from '../drive/keyboard-input.ts';
 import type { ReleaseControl } from '../drive/release-hold.ts';
 import { TouchJoystick } from '../drive/touch-joystick.ts';
+import type { TalkControl } from '../sound/talk-hold.ts';
 import { elements } from './elements.ts';
 
 export type Action =
@@ -32,6 +33,8 @@ const ACTION_KEYS: Readonly<Record<string, Action>> = {
 };
 /** Hold to release the emergency stop. Enter on the release control does the same. */
 const RELEASE_KEY = 'KeyR';
+/** Hold to speak. */
+const TALK_KEY = 'KeyM';
 
 export interface InputPort {
   /** A grip or a stick changed. */
@@ -39,6 +42,8 @@ export interface InputPort {
   onAction(action: Action, timeMs: number): void;
   /** The release control of the emergency stop was pressed or let go. */
   onRelease(control: ReleaseControl, held: boolean): void;
+  /** A control with which the operator speaks was pressed or let go. */
+  onTalk(control: TalkControl, held: boolean): void;
   /** Whether there is a robot to drive. */
   mayDrive(): boolean;
 }
@@ -67,7 +72,10 @@ export class OperatorInputs {
     this.#keyboard.releaseAll();
     this.#touch.release();
     this.#headset.release();
-    for (const control of ['key', 'pointer', 'headset'] as const) this.#port.onRelease(control, false);
+    for (const control of ['key', 'pointer', 'headset'] as const) {
+      this.#port.onRelease(control, false);
+      this.#port.onTalk(control, false);
+    }
     this.#port.onChange();
   }
 
@@ -82,6 +90,7 @@ export class OperatorInputs {
   readHeadset(sources: Iterable<XrController>): void {
     const wasHeld = this.#headset.held;
     this.#buttons(this.#headset.read(sources), 'headset');
+    this.#port.onTalk('headset', this.#headset.talks);
     if (wasHeld !== this.#headset.held) this.#port.onChange();
   }
 
@@ -100,6 +109,7 @@ export class OperatorInputs {
     // A released key counts as released wherever the focus is by now.
     if (!down) {
       if (event.code === RELEASE_KEY || event.code === 'Enter') this.#port.onRelease('key', false);
+      if (event.code === TALK_KEY) this.#port.onTalk('key', false);
       if (!this.#keyboard.key(event.code, false)) return;
       if (driving) event.preventDefault();
       this.#port.onChange();
@@ -116,6 +126,11 @@ export class OperatorInputs {
     if (driving && this.#keyboard.key(event.code, true)) {
       event.preventDefault();
       if (!event.repeat) this.#port.onChange();
+      return;
+    }
+    if (event.code === TALK_KEY && driving) {
+      if (choosing) event.preventDefault();
+      if (!event.repeat) this.#port.onTalk('key', true);
       return;
     }
     const action = ACTION_KEYS[event.code];

@@ -4,6 +4,7 @@ import type { Driver } from '../drive/driver.ts';
 import type { LatencyProbe } from '../latency/latency-probe.ts';
 import type { RobotLinkEvents } from '../link/robot-link.ts';
 import type { PictureFeed } from '../pictures/picture-feed.ts';
+import type { RobotSound } from '../sound/robot-sound.ts';
 import type { StreamStatistics } from '../statistics/stream-statistics.ts';
 import { VideoTracks } from '../video/video-tracks.ts';
 import type { Emitter } from './emitter.ts';
@@ -23,12 +24,13 @@ export interface ClientParts {
   readonly emitter: Emitter<RobotEvents>;
   readonly receiver: CloudReceiver;
   readonly pictures: PictureFeed;
+  readonly sound: RobotSound;
   /** Tells the robot which cloud formats this browser reads. */
   tellFormats(): void;
 }
 
 export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkEvents {
-  const { emitter, receiver, pictures } = parts;
+  const { emitter, receiver, pictures, sound } = parts;
   const tracks = new VideoTracks((track) => emitter.emit('videoTrack', track));
   return {
     ...forwardedEvents(emitter),
@@ -36,11 +38,14 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
       if (phase !== 'live') {
         client.driver.reset();
         client.latency.fail('no-session');
+        if (phase === 'none') sound.reset();
+        else sound.release();
       }
       client.pointsAtMs = performance.now();
       emitter.emit('phase', phase);
     },
     onPath: (up) => {
+      if (!up) sound.release();
       client.driver.onPath(performance.now());
       emitter.emit('path', up);
     },
@@ -48,6 +53,7 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
       receiver.begin(generation);
       pictures.reset();
       tracks.reset();
+      sound.reset();
       client.statistics.reset();
       emitter.emit('session', generation);
     },
@@ -71,6 +77,11 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
       emitter.emit('videos', videos);
       tracks.list(videos.length);
     },
+    onSound: (message) => {
+      sound.latest = message;
+      emitter.emit('sound', message);
+    },
+    onSoundLine: (line) => sound.connect(line),
     onVideoTrack: (track) => tracks.add(track),
     onPicture: (picture, nowMs) => pictures.add(picture, nowMs),
   };

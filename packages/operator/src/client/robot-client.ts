@@ -13,8 +13,10 @@ import { openLink } from '../link/open-link.ts';
 import type { RobotLink } from '../link/robot-link.ts';
 import { PictureFeed } from '../pictures/picture-feed.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
+import type { RobotSound } from '../sound/robot-sound.ts';
 import { StreamStatistics, type StreamStats } from '../statistics/stream-statistics.ts';
 import type { RobotClientOptions } from './client-options.ts';
+import { clientSound } from './client-sound.ts';
 import { Emitter } from './emitter.ts';
 import { linkEvents } from './link-events.ts';
 import type { RobotEvents } from './robot-events.ts';
@@ -33,6 +35,8 @@ export class RobotClient {
   readonly driver: Driver;
   /** Runs latency tests. */
   readonly latency: LatencyProbe;
+  /** Listening to the robot, and speaking to it. */
+  readonly sound: RobotSound;
   /** Statistics of the stream. */
   readonly statistics: StreamStatistics;
   /** When points last arrived or the session's phase last changed, `performance.now()`. */
@@ -69,13 +73,12 @@ export class RobotClient {
       onFault: (camera, detail) => this.#emitter.emit('pictureFault', { camera, detail }),
     });
     this.statistics = new StreamStatistics(ageOf);
+    this.sound = clientSound(this.#emitter, (message) => this.link.sendSession(message));
     this.link = openLink(
       options,
       this.#receiver.worker,
       linkEvents(this, {
-        emitter: this.#emitter,
-        receiver: this.#receiver,
-        pictures: this.#pictures,
+        ...{ emitter: this.#emitter, receiver: this.#receiver, pictures: this.#pictures, sound: this.sound },
         tellFormats: () => this.#tellFormats(),
       }),
     );
@@ -96,11 +99,7 @@ export class RobotClient {
     });
   }
 
-  /**
-   * Calls `listener` for each event of the type; see {@link RobotEvents}.
-   *
-   * @returns a function that removes the listener
-   */
+  /** Calls `listener` for each event of the type ({@link RobotEvents}). @returns a function that removes it */
   on<Type extends keyof RobotEvents>(type: Type, listener: (event: RobotEvents[Type]) => void): () => void {
     return this.#emitter.on(type, listener);
   }

@@ -10,6 +10,7 @@ import type {
   RobotListing,
   Samples,
   Sensors,
+  Sound,
   Telemetry,
   Videos,
   Welcome,
@@ -20,6 +21,7 @@ import type { Picture } from '../pictures/picture-feed.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
 import type { SignalingState } from '../signaling/signaling-state.ts';
+import type { VoiceStatus } from '../sound/robot-sound.ts';
 import type { VideoTrack } from '../video/video-track.ts';
 
 /** Why the client cannot work at all. */
@@ -74,6 +76,15 @@ export interface RobotEvents {
   videos: Videos['videos'];
   /** The track of a listed video, after the `videos` event. It is silent until the video is watched. */
   videoTrack: VideoTrack;
+  /**
+   * The robot's microphone, and whether the robot hears this operator; from robots that have sound, after the welcome and
+   * at every change.
+   */
+  sound: Sound;
+  /** The track of the robot's microphone. It is silent unless {@link RobotSound.listen} was called. */
+  soundTrack: MediaStreamTrack;
+  /** The operator's own voice has changed: see {@link RobotSound.press}. */
+  voice: VoiceStatus;
   /** A picture of a watched camera. */
   picture: Picture;
   /** A picture of this camera could not be decoded. */

@@ -5,6 +5,7 @@ import type { RobotSession, RobotSessionEvents } from '../session/robot-session.
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
 import type { SignalingState } from '../signaling/signaling-state.ts';
+import type { SoundLine } from '../sound/sound-line.ts';
 import type { VideoTrack } from '../video/video-track.ts';
 
 export interface RobotLinkEvents extends RobotSessionEvents {
@@ -18,6 +19,8 @@ export interface RobotLinkEvents extends RobotSessionEvents {
   onGeneration(generation: number): void;
   /** The robot offers a camera's video, in the session that is being set up or that there is. */
   onVideoTrack(track: VideoTrack): void;
+  /** The robot offers its sound, likewise. */
+  onSoundLine(line: SoundLine): void;
   /** The service refused a request; the text is the service's. */
   onRefusal(message: string): void;
 }

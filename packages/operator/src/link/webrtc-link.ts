@@ -270,6 +270,7 @@ export class WebRtcLink implements RobotLink {
         },
         onVideoReceiver,
         onVideoTrack: (track) => this.#events.onVideoTrack(track),
+        onSoundLine: (line) => this.#events.onSoundLine(line),
         onFailed: (detail) => {
           if (peer !== this.#peer) return;
           console.warn('peer:', detail);

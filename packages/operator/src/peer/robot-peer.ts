@@ -7,6 +7,7 @@ import {
   type MessageData,
 } from '@farpoint/protocol';
 import type { RobotChannel } from '../session/robot-session.ts';
+import { type SoundLine, soundLineOf } from '../sound/sound-line.ts';
 import { playWithoutDelay, type VideoTrack, videoOfStreams } from '../video/video-track.ts';
 import { attachWorker, type TransformSupport, transformConfiguration } from './encoded-transform.ts';
 
@@ -20,6 +21,8 @@ export interface RobotPeerEvents {
   onVideoReceiver?: ((receiver: RTCRtpReceiver) => void) | undefined;
   /** The robot offers a camera's video. */
   onVideoTrack(track: VideoTrack): void;
+  /** The robot offers its sound. */
+  onSoundLine(line: SoundLine): void;
   /** The connection ended; no event follows. Not sent after {@link RobotPeer.close}. */
   onFailed(detail: string): void;
 }
@@ -63,7 +66,13 @@ export class RobotPeer {
     });
     this.#bandwidth = connection.createDataChannel(bandwidth.label, { ordered: bandwidth.ordered });
     this.#listen(this.#control, 'control');
-    connection.ontrack = ({ streams, receiver, track }) => {
+    connection.ontrack = (event) => {
+      const { streams, receiver, track } = event;
+      const sound = soundLineOf(event);
+      if (sound !== null && !this.#ended) {
+        playWithoutDelay(receiver);
+        events.onSoundLine(sound);
+      }
       const ids = streams.map(({ id }) => id);
       if (track.kind === 'audio' && ids.includes(CLOUD_STREAM_ID))
         attachWorker(receiver, options.worker, options.transform, options.generation);

@@ -22,6 +22,7 @@ function bench(): { session: RobotSession; told: string[] } {
     onDiagnostics: tell('diagnostics'),
     onAlarm: tell('alarm'),
     onCameras: tell('cameras'),
+    onSound: tell('sound'),
     onSensors: tell('sensors'),
     onVideos: tell('videos'),
     onPicture: tell('picture'),

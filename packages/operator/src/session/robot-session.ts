@@ -21,6 +21,7 @@ import {
   robotSessionCodec,
   type Samples,
   type Sensors,
+  type Sound,
   sequenceDelta32,
   type Telemetry,
   telemetryCodec,
@@ -59,6 +60,8 @@ export interface RobotSessionEvents {
   onSensors(sensors: Sensors['sensors']): void;
   /** The cameras whose videos can be requested, and which of them have no pictures at present. */
   onVideos(videos: Videos['videos']): void;
+  /** The robot's microphone, and what becomes of this operator's voice. */
+  onSound(sound: Sound): void;
   onPicture(picture: WholePicture, nowMs: number): void;
   /** The robot could not use a message from this client. */
   onRobotFault(message: string): void;
@@ -172,6 +175,9 @@ export class RobotSession {
         if (message.level === 'ok') this.alarms.delete(message.number);
         else this.alarms.set(message.number, message);
         this.#events.onAlarm(message);
+        return;
+      case 'sound':
+        this.#events.onSound(message);
         return;
       case 'fault':
         this.#events.onRobotFault(message.message);
