@@ -32,6 +32,8 @@ export interface RobotOptions extends RateControlOptions {
   pictures: PicturePolicy;
   /** Cameras that are streamed as video. */
   videos: readonly VideoCameraOptions[];
+  /** Maximum rate of each video that a recording plays. */
+  playedVideosBitsPerSecond: number;
   maxOperators: number;
   /** An operator that has not been heard from for this long is gone, ms. */
   silenceMs: number;

@@ -61,6 +61,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       share: values.picturesShare,
     },
     videos: values.videos,
+    playedVideosBitsPerSecond: values.playVideosKbitPerS * 1000,
     maxOperators: values.maxOperators,
     silenceMs: values.silenceS * 1000,
     connectTimeoutMs: 20_000,
@@ -150,7 +151,7 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
     case 'recording':
       return {
         ...{ kind: 'recording', path, topic: values.topic, rate: values.playRate, fromS: values.playFromS },
-        ...{ atEnd: values.playEnd, axes: values.playAxes, topics },
+        ...{ atEnd: values.playEnd, axes: values.playAxes, topics, videos: values.playVideos === 'all' },
       };
     case 'ros1':
     case 'ros2':

@@ -1,5 +1,11 @@
 import type { Logger } from '@farpoint/service';
-import { availableEncoders, chooseEncoder, VideoError, VideoProcess } from '@farpoint/video';
+import {
+  availableEncoders,
+  chooseEncoder,
+  VideoError,
+  VideoProcess,
+  type VideoSource,
+} from '@farpoint/video';
 import type { VideoCameraOptions } from '../options/videos.ts';
 import type { VideoCamera, VideoEncoder, VideoEncoderEvents } from './video-encoder.ts';
 import type { EncodedFormat } from './video-plan.ts';
@@ -33,7 +39,7 @@ export async function openVideoCameras(
   }
 }
 
-type ChosenEncoder = Extract<ReturnType<typeof chooseEncoder>, { ok: true }>['encoder'];
+export type ChosenEncoder = Extract<ReturnType<typeof chooseEncoder>, { ok: true }>['encoder'];
 
 function videoCamera(camera: VideoCameraOptions, encoder: ChosenEncoder, log: Logger): VideoCamera {
   const { name, source, width, height, framesPerS, kbitPerS } = camera;
@@ -45,12 +51,13 @@ function videoCamera(camera: VideoCameraOptions, encoder: ChosenEncoder, log: Lo
   };
 }
 
-function openEncoder(
-  { source, encoder }: { source: VideoCameraOptions['source']; encoder: ChosenEncoder },
+/** A camera's encoder, with the process that runs it. */
+export function openEncoder(
+  { source, encoder }: { source: VideoSource; encoder: ChosenEncoder },
   format: EncodedFormat,
   events: VideoEncoderEvents,
   log: Logger,
-): VideoEncoder {
+): VideoEncoder & { readonly process: VideoProcess } {
   let dropped = 0;
   /** Of earlier processes: each counts from 0. */
   let droppedBefore = 0;
@@ -73,6 +80,7 @@ function openEncoder(
     onLog: ({ level, msg }) => log[level]({ from: 'farpoint-video' }, msg),
   });
   return {
+    process,
     configure: (next) => process.configure(settingsOf(next)),
     requestKeyFrame: () => process.requestKeyFrame(),
     get dropped() {
