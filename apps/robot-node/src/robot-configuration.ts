@@ -45,6 +45,8 @@ export interface RobotOptions extends RateControlOptions {
   pictures: PicturePolicy;
   /** Cameras that are streamed as video. */
   videos: readonly VideoCameraOptions[];
+  /** Maximum rate of each video that a recording plays. */
+  playedVideosBitsPerSecond: number;
   /** A microphone and a loudspeaker, as far as there are any. */
   sound: SoundOptions;
   /** Where everything is sent once for any number of viewers; if undefined, nowhere. */

@@ -8,6 +8,7 @@ import { CloudSensors } from './sensors/cloud-sensors.ts';
 import { inWorld, videosInWorld } from './sensors/in-world.ts';
 import { SessionRecording } from './telemetry/session-recording.ts';
 import { openVideoCameras } from './video/open-video-cameras.ts';
+import { openPlayedVideos } from './video/played-videos.ts';
 import type { VideoCamera } from './video/video-encoder.ts';
 
 /** What a robot is made of, opened and ready. */
@@ -36,7 +37,10 @@ export async function openParts(options: RobotOptions, log: Logger): Promise<Rob
     });
     const [main] = captures;
     const [{ capture } = { capture: null }] = options.sensors;
-    const videos = await openVideoCameras(videosInWorld(options.videos, base), log);
+    const cameras = await openVideoCameras(videosInWorld(options.videos, base), log);
+    const played = { bitsPerSecond: options.playedVideosBitsPerSecond, besides: cameras };
+    const videos =
+      main === undefined ? cameras : [...cameras, ...(await openPlayedVideos(main, played, log))];
     if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond, videos);
     return { captures, base, sink: openSink(options.sink, base, log), recording, videos };
   } catch (error) {

@@ -2,6 +2,7 @@ import type { Battery, Pose, Twist } from '@farpoint/protocol';
 import { PointCloud2Decoder, pointCloud2Schema, stampNs, WorldState } from '@farpoint/ros';
 import { type CloudStream, describeClouds } from './cloud-stream.ts';
 import { codeOf, detailOf, RecordingError } from './errors.ts';
+import { Lead } from './lead.ts';
 import { openRecording } from './open-recording.ts';
 import type { PlayOptions } from './play-options.ts';
 import { type PlayClock, PlayTimeline } from './play-timeline.ts';
@@ -12,6 +13,8 @@ export interface PlayedCloud {
   count: number;
   /** Pose of the optical frame in the world. */
   cameraPose: Pose;
+  /** When it was due, by the player's clock, ms. */
+  dueMs: number;
 }
 
 /** If nobody has taken a cloud for this long, the recording pauses until somebody does, ms. */
@@ -33,10 +36,12 @@ export class CloudPlayer {
    * Called for each of these messages. Its memory belongs to the receiver; an exception is reported as a fault of the
    * message.
    *
-   * @param ageMs how much earlier it was due: for a message before the first cloud, which is shown together with that
-   * cloud
+   * @param dueMs when it was due, by the player's clock: before now for a message before the first cloud, which is shown
+   * together with that cloud
    */
-  onAlong: ((message: RecordedMessage, ageMs: number) => void) | null = null;
+  onAlong: ((message: RecordedMessage, dueMs: number) => void) | null = null;
+  /** Called whenever playing begins anew, at the start, after a jump and at each repetition. */
+  onPass: (() => void) | null = null;
   /** Called when something is wrong with the recording. Playing continues after it, or has ended for good. */
   onFault: ((error: RecordingError) => void) | null = null;
   /** Clouds that were due, and how many of them nobody took in time. */
@@ -52,6 +57,8 @@ export class CloudPlayer {
   #passEnd = new AbortController();
   #fromNs: bigint;
   #ready: RecordedMessage | null = null;
+  #runs: readonly string[] = [];
+  #beginsRun: (message: RecordedMessage) => boolean = () => true;
   #readySinceMs = 0;
   #claims = 0;
   #onClaim: (() => void) | null = null;
@@ -72,13 +79,8 @@ export class CloudPlayer {
       const { startNs, endNs } = recording;
       const seconds = Number(endNs - startNs) / 1e9;
       if (options.fromS > seconds) {
-        throw new RecordingError(
-          'no-topic',
-          `it has ${seconds.toFixed(1)} s, none to play from ${options.fromS} s`,
-          {
-            file: options.path,
-          },
-        );
+        const what = `it has ${seconds.toFixed(1)} s, none to play from ${options.fromS} s`;
+        throw new RecordingError('no-topic', what, { file: options.path });
       }
       const stream = await describeClouds(recording, options);
       const player = new CloudPlayer(recording, stream, options, clock);
@@ -115,6 +117,17 @@ export class CloudPlayer {
 
   get battery(): Battery | null {
     return this.#state.battery;
+  }
+
+  /**
+   * Delivers these topics along with the clouds, too. Their messages build on each other, as a video's frames do: before
+   * the first cloud, all are delivered that are needed for the newest one. Call it before {@link run}.
+   *
+   * @param begins whether a message can be used without those before it
+   */
+  playRuns(topics: readonly string[], begins: (message: RecordedMessage) => boolean): void {
+    this.#runs = topics;
+    this.#beginsRun = begins;
   }
 
   /** Starts playing; returns when there is nothing more to play. */
@@ -158,12 +171,13 @@ export class CloudPlayer {
     const message = this.#ready;
     if (message === null) return null;
     this.skip();
+    const dueMs = this.#timeline.dueMs(message.logNs);
     try {
       const cloud = pointCloud2Schema.parse(message.topic.decode(message.data));
       const { axes } = this.stream;
       const count = this.#decoder.decode(cloud, axes, into);
       const { frame_id, stamp } = cloud.header;
-      return { count, cameraPose: this.#state.opticalPose(frame_id, stampNs(stamp), axes) };
+      return { count, cameraPose: this.#state.opticalPose(frame_id, stampNs(stamp), axes), dueMs };
     } catch (error) {
       this.#fault(error, message);
       return null;
@@ -188,14 +202,16 @@ export class CloudPlayer {
     const { topic } = this.stream;
     this.#state.forgetMoving();
     this.#timeline.clear();
-    const along = new Set(this.#options.along);
+    this.onPass?.();
+    const along = new Set([...(this.#options.along ?? []), ...this.#runs]);
     along.delete(topic.name);
-    /** The newest message of each accompanying topic before the first cloud. */
-    const lead = new Map<string, RecordedMessage>();
+    const runs = new Set(this.#runs);
+    const lead = new Lead(runs);
     const shown = readAhead(this.#recording, {
       cloud: topic.name,
       states: new Set(WorldState.topicsOf(this.#recording.topics).map(({ name }) => name)),
       along,
+      hasRuns: runs.size > 0,
       fromNs: this.#fromNs,
       wants: (name) => this.wantsAlong(name),
       onState: (message) => this.#takeState(message),
@@ -204,21 +220,17 @@ export class CloudPlayer {
     for await (const { message, isCloud } of shown) {
       if (signal.aborted) return;
       if (isCloud) await this.#show(message, lead, signal);
-      else if (!this.#timeline.running) lead.set(message.topic.name, message);
+      else if (!this.#timeline.running) lead.add(message, this.#beginsRun);
       else {
         await this.#timeline.until(message.logNs, signal);
-        if (!signal.aborted) this.#tellAlong(message, 0);
+        if (!signal.aborted) this.#tellAlong(message);
       }
       if (signal.aborted) return;
     }
   }
 
   /** Shows a message at its time, and only while somebody watches. */
-  async #show(
-    message: RecordedMessage,
-    lead: Map<string, RecordedMessage>,
-    signal: AbortSignal,
-  ): Promise<void> {
+  async #show(message: RecordedMessage, lead: Lead, signal: AbortSignal): Promise<void> {
     await this.#timeline.until(message.logNs, signal);
     if (this.#ready !== null) {
       const idleMs = this.#clock.now() - this.#readySinceMs;
@@ -236,17 +248,13 @@ export class CloudPlayer {
     else this.superseded++;
     this.#ready = message;
     this.played++;
-    for (const each of lead.values()) {
-      if (message.logNs - each.logNs > PREROLL_NS) continue;
-      this.#tellAlong(each, Math.max(0, this.#timeline.played(each.logNs, message.logNs)));
-    }
-    lead.clear();
+    for (const each of lead.take(message.logNs - PREROLL_NS)) this.#tellAlong(each);
     this.onCloud?.();
   }
 
-  #tellAlong(message: RecordedMessage, ageMs: number): void {
+  #tellAlong(message: RecordedMessage): void {
     try {
-      this.onAlong?.(message, ageMs);
+      this.onAlong?.(message, this.#timeline.dueMs(message.logNs));
     } catch (error) {
       this.#fault(error, message);
     }

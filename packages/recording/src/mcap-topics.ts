@@ -13,10 +13,11 @@ export function topicsOf(
   count: ((channel: number) => number) | null,
 ): { topics: RecordedTopic[]; byChannel: Map<number, RecordedTopic> } {
   const byChannel = new Map<number, RecordedTopic>();
-  for (const { id, topic, schemaId, messageEncoding } of channels) {
+  for (const { id, topic, schemaId, messageEncoding, metadata } of channels) {
     const schema = schemas.get(schemaId);
     byChannel.set(id, {
       name: topic,
+      metadata,
       type: ros2TypeOf(schema?.name ?? ''),
       messages: count?.(id) ?? null,
       decode: lazyDecoder({

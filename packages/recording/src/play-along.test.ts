@@ -71,6 +71,7 @@ const PLAY: PlayOptions = {
 async function play(
   options: Partial<PlayOptions> = {},
   onEvent: (player: CloudPlayer, events: Event[]) => void = () => {},
+  prepare: (player: CloudPlayer) => void = () => {},
 ) {
   const clock = new FakeClock();
   const player = await CloudPlayer.open({ ...PLAY, ...options }, clock);
@@ -86,10 +87,11 @@ async function play(
     const cloud = player.take(into);
     if (cloud !== null) add({ what: 'cloud', atMs: clock.ms, ofMs: cloudOf(into), ageMs: 0 });
   };
-  player.onAlong = ({ topic, data }, ageMs) => {
+  player.onAlong = ({ topic, data }, dueMs) => {
     const { ms } = topic.decode(data) as { ms: number };
-    add({ what: topic.name, atMs: clock.ms, ofMs: ms, ageMs });
+    add({ what: topic.name, atMs: clock.ms, ofMs: ms, ageMs: clock.ms - dueMs });
   };
+  prepare(player);
   await player.run();
   await player.close();
   return { events, faults, clock };
@@ -111,7 +113,7 @@ describe('messages played along', () => {
     for (const { what, atMs, ofMs, ageMs } of events) {
       // What precedes the first cloud comes together with it, and states its age.
       expect(atMs - ageMs, what).toBeCloseTo(ofMs, 6);
-      expect(ageMs).toBe(ofMs < 0 ? 15 : 0);
+      expect(ageMs).toBeCloseTo(ofMs < 0 ? 15 : 0, 6);
     }
   });
 
@@ -119,6 +121,31 @@ describe('messages played along', () => {
     const { events } = await play({ rate: 4 });
     expect(events).toHaveLength(CLOUDS + 70);
     for (const { atMs, ofMs, ageMs } of events) expect(atMs - ageMs).toBeCloseTo(ofMs / 4, 6);
+  });
+
+  it('that build on each other begin with the newest that does not, however old', async () => {
+    // Every twentieth of /left begins a run: at -15, 585, 1185 and 1785 ms.
+    const begins = ({ topic, data }: RecordedMessage) =>
+      ((topic.decode(data) as { ms: number }).ms + 15) % 600 === 0;
+    let passes = 0;
+    const { events } = await play({ fromS: 1.716, along: ['/right'] }, undefined, (player) => {
+      player.playRuns(['/left'], begins);
+      player.onPass = () => passes++;
+    });
+    const first = events.findIndex(({ what }) => what === 'cloud');
+    expect(events[first]?.ofMs).toBe(1800);
+    expect(passes).toBe(1);
+    const before = events.slice(0, first).map(({ ofMs, ageMs }) => [ofMs, ageMs]);
+    // The message of 1785 ms begins a run, so that nothing before it is needed.
+    expect(before).toEqual([[1785, 15]]);
+    const early = await play({ fromS: 1.516, along: [] }, undefined, (player) =>
+      player.playRuns(['/left'], begins),
+    );
+    const cloud = early.events.findIndex(({ what }) => what === 'cloud');
+    expect(early.events.slice(0, cloud).map(({ ofMs }) => ofMs)).toEqual(
+      Array.from({ length: 14 }, (_, n) => 1185 + n * 30),
+    );
+    for (const { atMs, ofMs, ageMs } of early.events) expect(atMs - ageMs).toBeCloseTo(ofMs - 1600, 6);
   });
 
   it('begin with the clouds: of earlier messages, only the newest per topic, no older than a second', async () => {

@@ -44,6 +44,13 @@ export class PlayTimeline {
     else if (waitMs < -LATE_MS) this.begin(ns);
   }
 
+  /** When this time was due, by the clock, ms; a time to come is now, because waiting may end slightly too early. */
+  dueMs(ns: bigint): number {
+    const now = this.#clock.now();
+    const anchor = this.#anchor;
+    return anchor === null ? now : Math.min(now, anchor.ms + this.played(anchor.ns, ns));
+  }
+
   /** How long it takes to play from one time to another, ms. */
   played(fromNs: bigint, toNs: bigint): number {
     return Number(toNs - fromNs) / 1e6 / this.#rate;

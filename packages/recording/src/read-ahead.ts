@@ -6,6 +6,8 @@ import type { RecordedMessage, Recording } from './recording.ts';
 const LOOK_AHEAD_NS = 100_000_000n;
 /** How far before the beginning poses and accompanying messages are read, ns. */
 export const PREROLL_NS = 1_000_000_000n;
+/** The same if there are videos: most have a key frame within it. */
+const RUN_PREROLL_NS = 6_000_000_000n;
 
 export interface ReadAheadOptions {
   /** Topic of the clouds. */
@@ -14,6 +16,8 @@ export interface ReadAheadOptions {
   states: ReadonlySet<string>;
   /** Topics that are shown along with the clouds. */
   along: ReadonlySet<string>;
+  /** Whether some of these topics are runs of messages that build on each other. */
+  hasRuns: boolean;
   fromNs: bigint;
   /** Whether somebody wants that topic now; otherwise its messages are skipped. */
   wants: (topic: string) => boolean;
@@ -25,12 +29,13 @@ export interface ReadAheadOptions {
 /** What is to be shown, in order of time. Before `fromNs`, no clouds. */
 export async function* readAhead(
   recording: Recording,
-  { cloud, states, along, fromNs, wants, onState, onFault }: ReadAheadOptions,
+  { cloud, states, along, hasRuns, fromNs, wants, onState, onFault }: ReadAheadOptions,
 ): AsyncGenerator<{ message: RecordedMessage; isCloud: boolean }, void, void> {
   const names = [...new Set([cloud, ...states, ...along])];
   const queue = new PlayQueue();
+  const prerollNs = hasRuns ? RUN_PREROLL_NS : PREROLL_NS;
   const onDamage = (fault: RecordingError) => onFault(fault, {});
-  for await (const message of recording.messages(names, fromNs - PREROLL_NS, onDamage)) {
+  for await (const message of recording.messages(names, fromNs - prerollNs, onDamage)) {
     const { topic, logNs } = message;
     const isCloud = topic.name === cloud;
     const { cloudNs } = queue;

@@ -5,6 +5,8 @@ export interface RecordedTopic {
   name: string;
   /** Type of its messages in ROS 2 notation, for example `sensor_msgs/msg/PointCloud2`; ROS 1 names are converted. */
   type: string;
+  /** What its recorder noted about it. */
+  metadata?: ReadonlyMap<string, string>;
   /** Number of messages; `null` if the file does not state it. */
   messages: number | null;
   /**

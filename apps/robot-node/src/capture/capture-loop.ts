@@ -66,6 +66,8 @@ export class CaptureLoop {
       };
     }
     if (source.onFault !== undefined) source.onFault = ({ message }) => this.#onFault(message);
+    if (source.onVideo !== undefined)
+      source.onVideo = (video, picture) => send({ type: 'video', video, picture }, [picture.bytes.buffer]);
     if (source.onReading !== undefined) source.onReading = (reading) => send({ type: 'reading', reading });
   }
 
@@ -85,6 +87,11 @@ export class CaptureLoop {
         break;
       case 'recycle':
         this.#frames.recycle(request.buffer);
+        break;
+      case 'watchVideo':
+        this.#source.watchVideo?.(request.video, request.watched);
+        // Its clouds may have been waiting for an operator.
+        this.#takeReady();
         break;
       case 'close':
         this.#closed = true;
@@ -123,8 +130,14 @@ export class CaptureLoop {
 
   /** Takes or skips the cloud that is ready. While nobody watches, the source keeps it. */
   #takeReady(): void {
-    if (this.#readySinceMs === null || this.#closed || !this.#budget.streaming) return;
+    if (this.#readySinceMs === null || this.#closed) return;
     const now = this.#now();
+    if (!this.#budget.streaming) {
+      if (this.#source.goesOn !== true) return;
+      this.#readySinceMs = null;
+      this.#source.skip?.(now, this.#frames.wishes(this.#budget));
+      return;
+    }
     const aged = now - this.#readySinceMs > MAX_READY_AGE_MS;
     this.#readySinceMs = null;
     if (aged || !this.#frames.hasRoom || !this.#gate.takes(now)) {

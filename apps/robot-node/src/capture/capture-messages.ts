@@ -9,6 +9,7 @@ import type { FrameAudience } from '../encode/frame-formats.ts';
 import type { PlanPolicy } from '../encode/plan.ts';
 import type { CameraDescription, SourceDescription } from './frame-source.ts';
 import type { SourceOptions } from './open-source.ts';
+import type { PlayedPicture } from './played-picture.ts';
 
 export interface CaptureOptions {
   /** The sensor's index on this robot. */
@@ -30,6 +31,8 @@ export type CaptureRequest =
   | { type: 'latencyTest' }
   /** Returns a frame's buffer that is no longer needed. */
   | { type: 'recycle'; buffer: ArrayBuffer }
+  /** Whether somebody watches a video that the source plays. */
+  | { type: 'watchVideo'; video: number; watched: boolean }
   /** Sends pictures to this port from now on. */
   | { type: 'pictures'; port: MessagePort }
   | { type: 'close' };
@@ -67,6 +70,8 @@ export type CaptureReport =
   | { type: 'fault'; detail: string }
   /** A topic's message as text for people. */
   | { type: 'reading'; reading: TopicReading }
+  /** A coded picture of a played video; its bytes are transferred. */
+  | { type: 'video'; video: number; picture: PlayedPicture }
   | { type: 'closed' };
 
 /** Where the capture thread sends its reports. Buffers in `transfer` change owner. */

@@ -6,6 +6,7 @@ import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { CaptureOptions, CaptureReport, CaptureRequest, ReadyFrame } from './capture-messages.ts';
 import type { CameraDescription, SourceDescription } from './frame-source.ts';
+import type { PlayedPicture } from './played-picture.ts';
 
 /** The capture thread ended unexpectedly. */
 export class CaptureError extends Error {
@@ -49,6 +50,8 @@ export class Capture {
   faults = 0;
   /** Called with readings of the robot's topics, for people. */
   onReading: ((reading: TopicReading) => void) | null = null;
+  /** Called with the coded pictures of the played videos that are watched. */
+  onVideo: ((video: number, picture: PlayedPicture) => void) | null = null;
   /** Frames not captured because no buffer was free. */
   framesWithoutBuffer = 0;
   readonly #sensor: number;
@@ -74,6 +77,8 @@ export class Capture {
         this.onFault?.(report.detail);
       } else if (report.type === 'reading') {
         this.onReading?.(report.reading);
+      } else if (report.type === 'video') {
+        this.onVideo?.(report.video, report.picture);
       }
     });
     worker.on('error', (error) => this.#fail(errorText(error)));
@@ -110,6 +115,10 @@ export class Capture {
   /** Sends the pictures of `cameras` to this port from now on. */
   usePictures(port: MessagePort): void {
     this.#post({ type: 'pictures', port }, [port]);
+  }
+
+  watchVideo(video: number, watched: boolean): void {
+    this.#post({ type: 'watchVideo', video, watched });
   }
 
   requestLatencyTest(): void {

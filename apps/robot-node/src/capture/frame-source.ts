@@ -4,6 +4,7 @@ import type { TopicEntry, TopicReading } from '@farpoint/ros';
 import type { Pinhole } from '@farpoint/wasm-codec';
 import type { BaseState } from '../base/base.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
+import type { PlayedPicture } from './played-picture.ts';
 
 /** A camera whose pictures can be shown to the operator. */
 export interface CameraDescription {
@@ -39,6 +40,8 @@ export interface SourceDescription {
   framesPerSecond?: number;
   /** Cameras whose pictures it offers besides its clouds. */
   cameras?: readonly CameraDescription[];
+  /** Videos that it plays, by name. */
+  videos?: readonly string[];
 }
 
 /** Requests to a source that can adapt its clouds. */
@@ -112,6 +115,12 @@ export interface FrameSource {
   usePictures?(taker: PictureTaker): void;
   /** How many pictures per second each camera should give; 0: nobody watches it. */
   watchPictures?(perSecond: readonly number[]): void;
+  /** Somebody watches something else of it than its clouds: clouds that nobody takes are skipped, not kept. */
+  readonly goesOn?: boolean;
+  /** Called with the coded pictures of watched videos. Their memory belongs to the receiver. */
+  onVideo?: ((video: number, picture: PlayedPicture) => void) | null;
+  /** Whether somebody watches a video. It begins with its last key frame. */
+  watchVideo?(video: number, watched: boolean): void;
   /** The source's view of the base that carries it. */
   readonly state: BaseState;
   close(): void;

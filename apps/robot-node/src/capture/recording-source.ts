@@ -1,5 +1,11 @@
 import { setTimeout as delay } from 'node:timers/promises';
-import { CloudPlayer, type PlayClock, type PlayOptions, type RecordingError } from '@farpoint/recording';
+import {
+  CloudPlayer,
+  type PlayClock,
+  type PlayOptions,
+  type RecordedMessage,
+  type RecordingError,
+} from '@farpoint/recording';
 import type { TopicReading, TopicTable } from '@farpoint/ros';
 import type { BaseState } from '../base/base.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
@@ -10,11 +16,15 @@ import type {
   SourceDescription,
   SourceFrame,
 } from './frame-source.ts';
+import type { PlayedPicture } from './played-picture.ts';
+import { RecordedVideos } from './recorded-videos.ts';
 import { RecordingTopics } from './recording-topics.ts';
 
 export interface RecordingSourceOptions extends Omit<PlayOptions, 'along'> {
   /** The topics to read pictures and readings from. */
   topics: TopicTable;
+  /** Whether its videos are played; by default they are not. */
+  videos?: boolean;
 }
 
 /** Assumed frame rate of a recording with a single cloud. */
@@ -29,45 +39,60 @@ export class RecordingSource implements FrameSource {
   onReady: (() => void) | null = null;
   onFault: ((error: Error) => void) | null = null;
   onReading: ((reading: TopicReading) => void) | null = null;
+  onVideo: ((video: number, picture: PlayedPicture) => void) | null = null;
   /** Called at the end of the recording. */
   onEnd: (() => void) | null = null;
   readonly #player: CloudPlayer;
   readonly #topics: RecordingTopics;
+  readonly #videos: RecordedVideos;
   /** Faults found before playback starts; `null` once it has started. */
   #found: readonly Error[];
   /** For each topic other than the clouds, its last reported fault. */
   readonly #told = new Map<string, string>();
 
-  private constructor(player: CloudPlayer, topics: RecordingTopics, missing: readonly Error[]) {
+  private constructor(
+    player: CloudPlayer,
+    topics: RecordingTopics,
+    videos: RecordedVideos,
+    missing: readonly Error[],
+  ) {
     const { warning } = player;
     this.#found = warning === null ? missing : [new Error(warning), ...missing];
     const { topic, axes, width, height, capacity, framesPerSecond } = player.stream;
     this.#player = player;
     this.#topics = topics;
+    this.#videos = videos;
     this.description = {
       kind: `recording (${topic.name}, ${axes} frame, ${player.seconds.toFixed(1)} s)`,
       ...{ width, height, capacity },
       camera: null,
       depthMeasure: axes === 'body' ? 'range' : 'z',
       cameras: topics.cameras,
+      videos: videos.videos.map(({ name }) => name),
       framesPerSecond: framesPerSecond ?? UNKNOWN_FPS,
     };
     player.onCloud = () => this.onReady?.();
     player.onFault = (error) => this.#tell(error);
-    player.wantsAlong = (name) => topics.wants(name);
-    player.onAlong = (message, ageMs) => {
-      topics.take(message, ageMs);
+    const isVideo = new Set(videos.topics);
+    // Frames that nobody watches are read, too: whoever begins to watch needs those since the last key frame.
+    player.wantsAlong = (name) => isVideo.has(name) || topics.wants(name);
+    player.onPass = () => videos.restart();
+    player.playRuns(videos.topics, (message) => this.#begins(message));
+    player.onAlong = (message, dueMs) => {
+      if (!videos.take(message, dueMs)) topics.take(message, dueMs);
       this.#told.delete(message.topic.name);
     };
+    videos.onPicture = (video, picture) => this.onVideo?.(video, picture);
     topics.onReading = (reading) => this.onReading?.(reading);
   }
 
   /** @throws {RecordingError} saying what cannot be read, and where */
   static async open(options: RecordingSourceOptions, now: () => number): Promise<RecordingSource> {
-    const { topics: table, ...play } = options;
+    const { topics: table, videos: playsVideos, ...play } = options;
     const topics = new RecordingTopics(table, now);
     const player = await CloudPlayer.open({ ...play, along: topics.names }, playClock(now));
-    return new RecordingSource(player, topics, topics.missing(play.path, player.topics));
+    const videos = new RecordedVideos(playsVideos === true ? player.topics : [], topics.names);
+    return new RecordingSource(player, topics, videos, topics.missing(play.path, player.topics));
   }
 
   get state(): BaseState {
@@ -82,10 +107,11 @@ export class RecordingSource implements FrameSource {
     void this.#player.run().then(() => this.onEnd?.());
   }
 
-  capture(nowMs: number, _wishes: CaptureWishes, { points }: CaptureRoom): SourceFrame | null {
+  capture(_nowMs: number, _wishes: CaptureWishes, { points }: CaptureRoom): SourceFrame | null {
     const cloud = this.#player.take(points);
     if (cloud === null) return null;
-    return { form: 'points', points, ...cloud, capturedAtMs: nowMs };
+    const { dueMs, ...rest } = cloud;
+    return { form: 'points', points, ...rest, capturedAtMs: dueMs };
   }
 
   skip(): void {
@@ -100,14 +126,33 @@ export class RecordingSource implements FrameSource {
     this.#topics.watch(perSecond);
   }
 
+  /** Whether somebody watches a video: it is played even if nobody takes the clouds. */
+  get goesOn(): boolean {
+    return this.#videos.watched;
+  }
+
+  watchVideo(video: number, watched: boolean): void {
+    this.#videos.watch(video, watched);
+  }
+
   close(): void {
     void this.#player.close();
+  }
+
+  /** What cannot be read begins nothing; its fault is reported when it is due. */
+  #begins(message: RecordedMessage): boolean {
+    try {
+      return this.#videos.begins(message);
+    } catch {
+      return false;
+    }
   }
 
   /** Reports a topic once if all its pictures have the same fault. */
   #tell(error: RecordingError): void {
     const { topic, code, detail } = error;
-    if (topic !== undefined && this.#topics.names.includes(topic)) {
+    const others = [...this.#topics.names, ...this.#videos.topics];
+    if (topic !== undefined && others.includes(topic)) {
       const what = `${code}: ${detail}`;
       if (this.#told.get(topic) === what) return;
       this.#told.set(topic, what);

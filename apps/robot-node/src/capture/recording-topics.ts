@@ -53,8 +53,8 @@ export class RecordingTopics {
     return this.#readings.has(topic) || (this.#perSecond[this.#camera(topic)] ?? 0) > 0;
   }
 
-  /** @param ageMs how much earlier it was due @throws {Error} if it cannot be read */
-  take({ topic, data, offset }: RecordedMessage, ageMs: number): void {
+  /** @param dueMs when it was due, on the robot's clock @throws {Error} if it cannot be read */
+  take({ topic, data, offset }: RecordedMessage, dueMs: number): void {
     const now = this.#now();
     const reading = this.#readings.get(topic.name);
     if (reading !== undefined) {
@@ -67,7 +67,7 @@ export class RecordingTopics {
     if (taker === null || !taker.wants(camera, now)) return;
     const { facts, data: picture } = readPicture(topic.type, topic.decode(data));
     const origin = `${topic.name}: byte ${offset}`;
-    taker.offer({ camera, capturedAtMs: now - ageMs, facts, data: picture, origin });
+    taker.offer({ camera, capturedAtMs: dueMs, facts, data: picture, origin });
   }
 
   #camera(topic: string): number {

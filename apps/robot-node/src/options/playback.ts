@@ -38,6 +38,18 @@ export const playbackOptions = optionGroup('source', {
     argument: 'WHAT',
     help: 'recording: at the end, repeat, or stop at the last cloud',
   }),
+  playVideos: defineOption({
+    schema: schema.choice(['all', 'none']),
+    default: 'all',
+    argument: 'WHICH',
+    help: 'recording: its videos become cameras of this robot, or none of them does',
+  }),
+  playVideosKbitPerS: defineOption({
+    schema: schema.number({ min: 64, max: 50_000 }),
+    default: 1500,
+    argument: 'RATE',
+    help: 'recording: maximum rate of each of these videos; a slow link gets less',
+  }),
   playAxes: defineOption({
     schema: schema.choice(['auto', 'optical', 'body']),
     default: 'auto',

@@ -74,6 +74,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       share: values.picturesShare,
     },
     videos: toVideos(values),
+    playedVideosBitsPerSecond: values.playVideosKbitPerS * 1000,
     sound: values.sound,
     broadcast,
     maxOperators: values.maxOperators,
@@ -172,7 +173,7 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
     case 'recording':
       return {
         ...{ kind: 'recording', path, topic: values.topic, rate: values.playRate, fromS: values.playFromS },
-        ...{ atEnd: values.playEnd, axes: values.playAxes, topics },
+        ...{ atEnd: values.playEnd, axes: values.playAxes, topics, videos: values.playVideos === 'all' },
       };
     case 'ros1':
     case 'ros2':

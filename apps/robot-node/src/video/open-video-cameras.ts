@@ -36,7 +36,7 @@ export async function openVideoCameras(
   }
 }
 
-type ChosenEncoder = Extract<ReturnType<typeof chooseEncoder>, { ok: true }>['encoder'];
+export type ChosenEncoder = Extract<ReturnType<typeof chooseEncoder>, { ok: true }>['encoder'];
 
 function videoCamera(
   camera: VideoCameraOptions,
