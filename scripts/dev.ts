@@ -88,7 +88,7 @@ try {
     robots: adminPorts.map((adminPort, index) => ({
       id: `sim-${index + 1}`,
       name: `Simulated robot ${index + 1}`,
-      args: ['--source', 'sim', '--sim-seed', String(index + 1), '--pictures-of-cloud', ...args],
+      args: ['--source', 'sim', '--sim-seed', String(index + 1), ...args],
       adminPort,
     })),
     onLine,

@@ -1,4 +1,4 @@
-/** The video of the simulated robot's camera in `pnpm dev`. */
+/** The simulated robot's camera in `pnpm dev`: as video where that is possible, else as JPEG pictures. */
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -13,7 +13,7 @@ const CAMERA = {
 };
 
 export interface DevVideo {
-  /** More arguments of the simulated robot. */
+  /** The simulated robot's arguments for its camera: video, or else JPEG pictures. */
   readonly args: readonly string[];
   /** Why there is no video, and what to do about it; `null` if there is. */
   readonly without: string | null;
@@ -27,7 +27,7 @@ export async function devVideo(program?: string): Promise<DevVideo> {
   if (failure !== null) {
     const { sentence, remedy } = failure;
     const without = `no camera video, JPEG pictures instead: ${sentence}; ${remedy}`;
-    return { args: [], without, remove: () => undefined };
+    return { args: ['--pictures-of-cloud'], without, remove: () => undefined };
   }
   const folder = mkdtempSync(join(tmpdir(), 'farpoint-dev-'));
   const file = join(folder, 'robot.json');
