@@ -297,6 +297,15 @@ describe('HTTP', () => {
     expect((await fetch(service.http('/healthz'))).status).toBe(200);
   });
 
+  test('lets the page fetch images from the named servers only', async () => {
+    const root = join(folder, 'web');
+    mkdirSync(root, { recursive: true });
+    writeFileSync(join(root, 'index.html'), '<title>Farpoint</title>');
+    await start({ webRoot: root, mapOrigins: ['https://tiles.example'] });
+    const policy = (await fetch(service.http('/'))).headers.get('content-security-policy');
+    expect(policy).toContain("; img-src 'self' data: blob: https://tiles.example; ");
+  });
+
   test('gives a clear error for a web root without a page', async () => {
     await expect(TestService.start({ webRoot: folder })).rejects.toThrow(
       /^--web-root names a folder without index.html/,
