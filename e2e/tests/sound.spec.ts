@@ -98,15 +98,15 @@ test('the driver’s voice comes out of the robot while M is held, and stops whe
   await drive(operator);
   await page.keyboard.down('m');
   await expect(page.locator('#talk-state')).toHaveText('The robot hears you');
-  await expect.poll(() => robot.heard().length, { timeout: 15_000 }).toBeGreaterThan(3 * 48_000);
+  await expect.poll(() => robot.heard().length).toBeGreaterThan(1.5 * 48_000);
   await operator.screenshot(testInfo, 'voice');
   expect((await sound(page)).heard.text).toBe('Muted while you speak');
   const played = robot.heard();
-  // A quarter of a second of each half, whichever is loud: browsers shape what they take for speech.
-  const shares = Array.from({ length: 12 }, (_, i) =>
-    toneShare(played.subarray(played.length - (i + 1) * 6000, played.length - i * 6000), VOICE_HZ, 48_000),
+  // The tone comes and goes, browsers shape what they take for speech, and a busy machine leaves gaps.
+  const shares = Array.from({ length: Math.floor(played.length / 3000) }, (_, i) =>
+    toneShare(played.subarray(i * 3000, (i + 1) * 3000), VOICE_HZ, 48_000),
   );
-  expect(shares.filter((share) => share > 0.7).length).toBeGreaterThan(4);
+  expect(shares.filter((share) => share > 0.7).length).toBeGreaterThan(5);
 
   await page.keyboard.up('m');
   await expect.poll(() => said(page)).toBe('off');
@@ -158,7 +158,7 @@ test('over a link that loses packets, both are heard', async ({ page, startStack
     await drive(operator);
     await page.keyboard.down('m');
     await expect.poll(() => said(page)).toBe('live');
-    await expect.poll(() => robot.heard().length, { timeout: 15_000 }).toBeGreaterThan(3 * 48_000);
+    await expect.poll(() => robot.heard().length).toBeGreaterThan(1.5 * 48_000);
     await expect
       .poll(async () => {
         const text = await (await fetch(`${stack.robotAdminUrl(light.id)}/metrics`)).text();

@@ -151,6 +151,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'npx -y pnpm@12 build:native': { because: 'builds for minutes' },
   'npx -y pnpm@12 build:native dds': { because: 'builds for minutes' },
   'npx -y pnpm@12 build:native video': { because: 'builds for minutes' },
+  'npx -y pnpm@12 build:native sound': { because: 'builds for minutes' },
   'npx -y pnpm@12 --filter @farpoint/operator --filter @farpoint/cloud-view pack --out %s.tgz': {
     because: 'writes into the working tree',
   },
@@ -177,6 +178,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'sudo apt-get install janus': { because: 'needs root' },
   'sudo apt-get install build-essential python3': { because: 'needs root' },
   'sudo apt-get install cyclonedds-dev build-essential python3': { because: 'needs root' },
+  'sudo apt-get install libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-alsa build-essential pkg-config python3':
+    { because: 'needs root' },
   'sudo apt-get install libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-ugly gstreamer1.0-plugins-bad build-essential pkg-config python3':
     { because: 'needs root' },
   'sudo sysctl -w net.core.rmem_max=8388608': { because: 'needs root' },

@@ -47,6 +47,17 @@ static bool build(Sound *sound) {
   return true;
 }
 
+/* Whether what comes before the element is captured now. */
+static bool is_live(GstElement *element) {
+  GstPad *pad = gst_element_get_static_pad(element, "sink");
+  GstQuery *query = gst_query_new_latency();
+  gboolean live = FALSE;
+  if (gst_pad_peer_query(pad, query)) gst_query_parse_latency(query, &live, NULL, NULL);
+  gst_query_unref(query);
+  gst_object_unref(pad);
+  return live;
+}
+
 bool pipeline_start(Sound *sound) {
   if (!build(sound)) return false;
   capture_configure(sound);
@@ -57,10 +68,10 @@ bool pipeline_start(Sound *sound) {
   GstClock *clock = gst_system_clock_obtain();
   gst_pipeline_use_clock(GST_PIPELINE(sound->pipeline), clock);
   gst_object_unref(clock);
-  const GstStateChangeReturn paused = gst_element_set_state(sound->pipeline, GST_STATE_PAUSED);
+  gst_element_set_state(sound->pipeline, GST_STATE_PAUSED);
+  /* A file would be read as fast as it can be. A device keeps its own pace, and is not to be delayed. */
   GstElement *pace = gst_bin_get_by_name(GST_BIN(sound->pipeline), "farpoint-pace");
-  /* A file would be read as fast as it can be. */
-  if (pace != NULL && paused != GST_STATE_CHANGE_NO_PREROLL) g_object_set(pace, "sync", TRUE, NULL);
+  if (pace != NULL && is_live(pace)) g_object_set(pace, "sync", FALSE, NULL);
   /* What goes wrong is on the bus. */
   gst_element_set_state(sound->pipeline, GST_STATE_PLAYING);
   return true;

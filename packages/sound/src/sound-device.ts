@@ -88,7 +88,7 @@ const QUEUE_NS = 100_000_000;
 export function captureText(source: SoundSource, { packetMs, dtx }: Encoding): string {
   return [
     sourceText(source),
-    'clocksync name=farpoint-pace sync=false',
+    'clocksync name=farpoint-pace sync=true',
     `queue leaky=downstream max-size-buffers=0 max-size-bytes=0 max-size-time=${QUEUE_NS}`,
     'audioconvert',
     'audioresample',

@@ -100,10 +100,10 @@ describe.skipIf(!existsSync(ADDON_FILE))(`sound (needs: ${BUILD_REMEDY})`, { tim
     const steps = packets.slice(1).map(({ timestamp }, i) => (timestamp - packets[i]!.timestamp) >>> 0);
     for (const step of steps) expect(Math.abs(step - 960)).toBeLessThanOrEqual(1);
     // Encoded once.
-    expect(second.sound.packets.at(-1)?.payload).toEqual(
-      client.sound.packets.find(({ timestamp }) => timestamp === second.sound.packets.at(-1)?.timestamp)
-        ?.payload,
-    );
+    const own = new Map(client.sound.packets.map(({ timestamp, payload }) => [timestamp, payload]));
+    const common = second.sound.packets.filter(({ timestamp }) => own.has(timestamp));
+    expect(common.length).toBeGreaterThan(0);
+    for (const { timestamp, payload } of common) expect(payload).toEqual(own.get(timestamp));
     for (const each of [client, second]) {
       const told = next(each, ({ microphone }) => microphone?.state === 'off');
       each.sendSession({ type: 'listen', on: false });
@@ -122,10 +122,8 @@ describe.skipIf(!existsSync(ADDON_FILE))(`sound (needs: ${BUILD_REMEDY})`, { tim
     client.sendSession({ type: 'speak', held: true });
     await client.message('sound', ({ voice }) => voice?.state === 'open');
     await client.message('sound', ({ microphone }) => microphone?.state === 'muted');
-    const before = client.sound.packets.length;
     const played = samplesOf(await hears(client, 60 * 960 * 2));
     expect(toneShare(played.slice(9600), VOICE_HZ, 48_000)).toBeGreaterThan(0.8);
-    expect(client.sound.packets.length - before).toBeLessThan(5);
     clearInterval(held);
     const told = next(client, ({ voice }) => voice?.state === 'closed');
     client.sendSession({ type: 'speak', held: false });
