@@ -28,8 +28,7 @@ import { welcome } from './session/welcome.ts';
 import { SignalingClient } from './signaling/signaling-client.ts';
 import { openSoundDevices } from './sound/open-sound-devices.ts';
 import { RobotSound } from './sound/robot-sound.ts';
-import { CommandLog } from './telemetry/command-log.ts';
-import { FrameLog } from './telemetry/frame-log.ts';
+import { MeasurementLogs } from './telemetry/measurement-logs.ts';
 import { RobotCounters } from './telemetry/robot-counters.ts';
 import { RobotReports } from './telemetry/robot-reports.ts';
 import type { SessionRecording } from './telemetry/session-recording.ts';
@@ -37,7 +36,6 @@ import { StageTimer } from './telemetry/stage-timer.ts';
 import { TelemetryBoard } from './telemetry/telemetry-board.ts';
 import { TelemetrySender } from './telemetry/telemetry-sender.ts';
 import { makeRateController } from './transport/make-rate-controller.ts';
-import { PacketLog } from './transport/packet-log.ts';
 import { SendLoop } from './transport/send-loop.ts';
 
 const TICK_MS = 25;
@@ -62,9 +60,7 @@ export class Robot {
   readonly recording: SessionRecording | null;
   readonly #options: RobotOptions;
   readonly #log: Logger;
-  readonly #packetLog: PacketLog | undefined;
-  readonly #frameLog: FrameLog | undefined;
-  readonly #commandLog: CommandLog | undefined;
+  readonly #logs: MeasurementLogs;
   readonly #estop: EstopJournal;
   readonly #host: RobotSessionHost;
   readonly #sink: VelocitySink;
@@ -86,9 +82,7 @@ export class Robot {
     this.#options = options;
     this.#log = log;
     this.#board = new TelemetryBoard(options.quantities, options.alarms);
-    this.#packetLog = options.packetLog === undefined ? undefined : new PacketLog(options.packetLog);
-    this.#frameLog = options.frameLog === undefined ? undefined : new FrameLog(options.frameLog);
-    this.#commandLog = options.commandLog === undefined ? undefined : new CommandLog(options.commandLog);
+    this.#logs = new MeasurementLogs(options);
     this.#sink = sink;
     const capture = captures[0] as Capture;
     this.base = base;
@@ -104,7 +98,7 @@ export class Robot {
     );
     this.#host = new RobotSessionHost({
       ...{ drive: this.drive, estop: this.#estop, counters: this.counters, recording, log },
-      commandLog: this.#commandLog,
+      commandLog: this.#logs.commands,
       operators: () => this.operators,
       sensors: () => this.sensors,
       videos: () => this.cameras.videos,
@@ -113,8 +107,7 @@ export class Robot {
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
     this.#sessions = new OperatorSessions(
       {
-        most: options.maxOperators,
-        iceServers: options.iceServers,
+        ...{ most: options.maxOperators, iceServers: options.iceServers },
         peer: {
           ...this.#peerOptions,
           pictures: capture.cameras.length > 0,
@@ -125,19 +118,15 @@ export class Robot {
         makeController: (transportFeedback) => makeRateController(options, transportFeedback),
         claims: () => this.sensors.claims,
         mostVideoBitsPerSecond: (video) => this.cameras.videos.mostBitsPerSecond(video),
-        sendLoop: this.#sendLoop,
-        packetLog: this.#packetLog,
-        host: this.#host,
+        ...{ sendLoop: this.#sendLoop, packetLog: this.#logs.packets, host: this.#host },
         ...{ signaling: this.signaling, counters: this.counters, log },
       },
       {
         resume: (request, iceServers) => void this.#paths.resume(request, iceServers),
         connected: (operator) => {
-          const { id, name, limits, sensors } = options;
-          const framesPerSecond = sensors[0]?.capture.framesPerSecond ?? 0;
           const { quantities, alarms } = this.#board;
-          const facts = { id, name, limits, framesPerSecond, quantities, alarms: alarms.raised };
-          welcome(operator, facts, this.sensors, this.cameras.videos);
+          const told = { ...options, quantities, alarms: alarms.raised };
+          welcome(operator, told, this.sensors, this.cameras.videos);
           this.sound.welcome(operator);
           this.sensors.updateBudgets();
         },
@@ -158,11 +147,13 @@ export class Robot {
       options.sensors,
       captures,
       {
-        targets: () => [...this.operators.values(), ...(this.reference?.targets ?? []), ...this.#broadcasts],
-        sendLoop: this.#sendLoop,
+        targets: () => [
+          ...this.operators.values(),
+          ...(this.reference?.targets ?? []),
+          ...(this.broadcast === null ? [] : [this.broadcast]),
+        ],
+        ...{ sendLoop: this.#sendLoop, counters: this.counters, frameLog: this.#logs.frames },
         driver: () => guard.leaseHolder,
-        counters: this.counters,
-        frameLog: this.#frameLog,
         onFrame: (frame) => recording?.frame(frame),
         wantedAnyway: () => recording?.wantsClouds === true,
         stages,
@@ -179,26 +170,23 @@ export class Robot {
       },
     );
     recording?.cameras(capture.cameras, videos, (video) => this.cameras.videos.requestKeyFrame(video));
-    this.cameras = new RobotCameras({
-      ...{ policy: options.pictures, capture, videos, log },
+    const shared = {
       targets: () => this.operators.values(),
-      videoTargets: () => [...this.operators.values(), ...this.#broadcasts],
       driver: () => guard.leaseHolder,
+      onFrame: () => this.#sendLoop.run(),
+      log,
+    };
+    this.cameras = new RobotCameras({
+      ...{ ...shared, policy: options.pictures, capture, videos, taker: recording },
+      videoTargets: () => [...this.operators.values(), ...(this.broadcast === null ? [] : [this.broadcast])],
       onMade: (picture) => recording?.picture(picture),
-      taker: recording,
       onStateChanged: () => {
         this.#host.tellVideos();
         this.broadcast?.videosChanged();
       },
-      onFrame: () => this.#sendLoop.run(),
     });
-    this.sound = new RobotSound({
-      devices: openSoundDevices(options.sound, log),
-      targets: () => this.operators.values(),
-      driver: () => guard.leaseHolder,
-      onFrame: () => this.#sendLoop.run(),
-      ...{ log, now: monotonicMs },
-    });
+    const devices = openSoundDevices(options.sound, log);
+    this.sound = new RobotSound({ ...shared, devices, now: monotonicMs });
     this.broadcast = openBroadcast(options, this, { videos, sendLoop: this.#sendLoop, log });
     this.#paths = new PathKeeper({
       ...{ operators: this.operators, drive: this.drive, signaling: this.signaling },
@@ -238,9 +226,7 @@ export class Robot {
     this.reference = openReferenceProfile(
       this.#options,
       {
-        peer: this.#peerOptions,
-        packetLog: this.#packetLog,
-        sendLoop: this.#sendLoop,
+        ...{ peer: this.#peerOptions, packetLog: this.#logs.packets, sendLoop: this.#sendLoop },
         onBudgetChanged: () => this.sensors.updateBudgets(),
       },
       this.#host,
@@ -273,18 +259,9 @@ export class Robot {
     this.#sendLoop.close();
     await this.signaling.close();
     await broadcastClosed;
-    await this.cameras.close();
-    await this.sound.close();
-    await this.sensors.close();
-    await this.recording?.close();
-    this.#packetLog?.write();
-    this.#frameLog?.write();
-    this.#commandLog?.write();
+    for (const part of [this.cameras, this.sound, this.sensors, this.recording]) await part?.close();
+    this.#logs.write();
     await reported;
-  }
-
-  get #broadcasts(): Broadcast[] {
-    return this.broadcast === null ? [] : [this.broadcast];
   }
 
   /** Options for the connection with any operator. */

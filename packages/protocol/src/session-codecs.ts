@@ -8,7 +8,8 @@ import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
 import { quantitySchema } from './quantity.ts';
-import type { OperatorSessionMessage, RobotSessionMessage } from './session-messages.ts';
+import type { RobotSessionMessage } from './session-messages.ts';
+import type { OperatorSessionMessage } from './session-requests.ts';
 import { MICROPHONE_STATES, VOICE_STATES } from './sound-media.ts';
 import { MAX_VIDEOS, VIDEO_CODECS } from './video-media.ts';
 

@@ -1,20 +1,10 @@
-import {
-  type Alarm,
-  type DriveLimits,
-  PROTOCOL_VERSION,
-  type Quantity,
-  type VideoCodec,
-} from '@farpoint/protocol';
+import { type Alarm, PROTOCOL_VERSION, type Quantity, type VideoCodec } from '@farpoint/protocol';
+import type { RobotOptions } from '../robot-configuration.ts';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
 import type { VideoHub } from '../video/video-hub.ts';
 import type { OperatorSession } from './operator-session.ts';
 
-export interface WelcomeFacts {
-  id: string;
-  name: string;
-  limits: DriveLimits;
-  /** The first sensor's highest frame rate. */
-  framesPerSecond: number;
+export interface WelcomeFacts extends Pick<RobotOptions, 'id' | 'name' | 'limits' | 'sensors'> {
   quantities: readonly Quantity[];
   /** Those that are raised. */
   alarms: readonly Alarm[];
@@ -23,13 +13,14 @@ export interface WelcomeFacts {
 /** Sends a session's first messages: what the robot is, who drives, and which cameras and sensors there are. */
 export function welcome(
   operator: OperatorSession,
-  { id, name, limits, framesPerSecond, quantities, alarms }: WelcomeFacts,
+  { id, name, limits, sensors: configured, quantities, alarms }: WelcomeFacts,
   sensors: CloudSensors,
   videos: VideoHub,
 ): void {
   const { messages, resumeKey } = operator;
   const { description, cameras } = sensors.first.capture;
   const { width, height } = description;
+  const framesPerSecond = configured[0]?.capture.framesPerSecond ?? 0;
   messages.send({
     type: 'welcome',
     protocol: PROTOCOL_VERSION,

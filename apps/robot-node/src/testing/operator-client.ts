@@ -188,10 +188,7 @@ export class OperatorClient {
     return found as Extract<RobotSessionMessage, { type: T }>;
   }
 
-  /**
-   * Resolves when connected, welcomed, and able to send commands. Probes the robot's clock from then on, as a page
-   * does.
-   */
+  /** Resolves when connected, welcomed, and able to send commands. Probes the robot's clock from then on. */
   async ready(): Promise<void> {
     await this.message('welcome');
     await this.until(() => this.control.readyState === 'open');

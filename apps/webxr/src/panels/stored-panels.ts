@@ -1,22 +1,23 @@
 /** The panels' places that this browser keeps. */
-import { z } from 'zod';
+import * as z from 'zod/mini';
 import { MOST_PLACEMENTS, type Placements } from './panel-placements.ts';
 
 const KEY = 'farpoint.panels';
 const MOST_PIXELS = 16_384;
 const MOST_NAME = 256;
 
+const share = z.number().check(z.minimum(0), z.maximum(1));
 const schema = z.object({
   panels: z
     .array(
       z.object({
-        name: z.string().min(1).max(MOST_NAME),
-        x: z.number().min(0).max(1),
-        y: z.number().min(0).max(1),
-        width: z.number().positive().max(MOST_PIXELS),
+        name: z.string().check(z.minLength(1), z.maxLength(MOST_NAME)),
+        x: share,
+        y: share,
+        width: z.number().check(z.positive(), z.maximum(MOST_PIXELS)),
       }),
     )
-    .max(MOST_PLACEMENTS),
+    .check(z.maxLength(MOST_PLACEMENTS)),
 });
 
 /** Every panel is in its usual place if the text is not what {@link placementsText} writes. */

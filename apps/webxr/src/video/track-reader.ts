@@ -1,6 +1,7 @@
 /** Reads a video's track picture by picture as the browser decodes it, without an element that plays it. */
+
+import type { OpenReader } from './open-reader.ts';
 import { rtpTimestampOf } from './video-image.ts';
-import type { OpenReader } from './video-receiver.ts';
 
 /** Chromium offers it to pages, other browsers to workers only. TypeScript's types lack it. */
 declare const MediaStreamTrackProcessor:

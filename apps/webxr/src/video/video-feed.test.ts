@@ -2,8 +2,8 @@ import type { Batch, RobotClient, RobotEvents, VideoDescription } from '@farpoin
 import { signal } from '@preact/signals-core';
 import { describe, expect, test } from 'vitest';
 import { PresentedInstant } from '../telemetry/presented-instant.ts';
+import type { ReadFrame } from './open-reader.ts';
 import { VideoFeed } from './video-feed.ts';
-import type { ReadFrame } from './video-receiver.ts';
 import { VideoViews } from './video-views.ts';
 
 const OFFSET_MS = 500_000;

@@ -14,9 +14,10 @@ import { effect, signal, untracked } from '@preact/signals-core';
 import { videoWords } from '../status/words.ts';
 import type { PresentedInstant } from '../telemetry/presented-instant.ts';
 import { captureMsOf } from './frame-time.ts';
+import type { Reader, ReadFrame } from './open-reader.ts';
 import { VideoFigures, type VideoStats } from './video-figures.ts';
 import type { VideoImage } from './video-image.ts';
-import type { Reader, ReadFrame, VideoReceiver } from './video-receiver.ts';
+import type { VideoReceiver } from './video-receiver.ts';
 import type { VideoViews } from './video-views.ts';
 
 const VIDEO = 'video:';

@@ -1,6 +1,7 @@
 /** Reads the frames of a video's track as the browser decodes them, each with its time. */
+
+import type { OpenReader, ReadFrame } from './open-reader.ts';
 import { takeImage } from './video-image.ts';
-import type { OpenReader, ReadFrame } from './video-receiver.ts';
 
 /** Whether this browser tells when a video shows another frame. */
 export function hasFrameCallbacks(): boolean {

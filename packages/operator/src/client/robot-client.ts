@@ -218,11 +218,8 @@ export class RobotClient {
   }
 
   /**
-   * How the robot divides the link where clouds and videos want more than it carries: relative weights from 1 to 100. A
-   * robot counts clouds twice and each video once until it is told otherwise, in each session.
-   *
-   * @param cloud of all clouds together
-   * @param videos by index into the list of the `videos` event; 1 for those beyond the end
+   * Divides the link where clouds and videos want more than it carries: weights from 1 to 100, of all clouds together (2
+   * at the start of each session) and of each video of the `videos` event (1).
    */
   shareLink(cloud: number, videos: readonly number[]): void {
     this.link.sendSession({ type: 'shares', cloud, videos: [...videos] });
@@ -272,21 +269,13 @@ export class RobotClient {
     this.latency.onPacket(batch, packet);
   }
 
-  /**
-   * The display frame with the points reported by {@link noteUploaded} is finished.
-   *
-   * @param nowMs `performance.now()`
-   */
+  /** The display frame with the points of {@link noteUploaded} is finished. @param nowMs `performance.now()` */
   noteDrawn(nowMs: number): void {
     this.latency.onDrawn(nowMs);
     this.statistics.onDrawn(nowMs);
   }
 
-  /**
-   * Called by the client's own timer. An app also calls it right after reading its devices.
-   *
-   * @param nowMs `performance.now()`
-   */
+  /** Called by the client's own timer, and by an app that has just read its devices. @param nowMs `performance.now()` */
   tick(nowMs: number): void {
     this.#wish.lapse(nowMs);
     this.driver.tick(nowMs);

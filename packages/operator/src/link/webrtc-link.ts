@@ -34,8 +34,7 @@ export interface WebRtcLinkOptions {
   onVideoReceiver?: (receiver: RTCRtpReceiver) => void;
 }
 
-const TICK_MS = 250;
-const PROBE_MS = 500;
+const [TICK_MS, PROBE_MS] = [250, 500];
 
 export class WebRtcLink implements RobotLink {
   readonly #options: WebRtcLinkOptions;

@@ -1,5 +1,5 @@
 /** Receives videos by WebCodecs: a worker takes each frame as it was sent, and decodes it. */
-import type { OpenReader, ReaderEvents } from '../video-receiver.ts';
+import type { OpenReader, ReaderEvents } from '../open-reader.ts';
 import type { FromVideoWorker, ToVideoWorker, VideoTransformOptions } from './worker-messages.ts';
 
 /** Whether this browser has everything that it takes. */
