@@ -17,9 +17,11 @@ const AXIS_WIDTH = 44;
 const LEAST_WIDTH = 80;
 /** The largest value must not touch the edge. */
 const PADDING = 0.08;
-/** Bounds of the time between two drawings, ms: values are read, curves move by a column. */
+/** Time between two updates of the present value, ms. */
+const VALUE_MS = 100;
+/** A curve is drawn when it has moved by a column, but not more and not less often than this, ms. */
 const LEAST_MS = 50;
-const MOST_MS = 250;
+const MOST_MS = 2000;
 
 /** @param recorded read anew each time, because a robot may describe it again */
 export function chartTile(recorded: () => RecordedSeries | undefined): Tile {
@@ -39,6 +41,9 @@ export function chartTile(recorded: () => RecordedSeries | undefined): Tile {
   let unit = '';
   let stale = false;
   let windowS = 30;
+  let curveDueMs = 0;
+  let columnMs = LEAST_MS;
+  let drawnStale: boolean | null = null;
   const plot = new uPlot(
     {
       ...{ width: LEAST_WIDTH, height: HEIGHT, padding: [6, 16, 0, 0] },
@@ -85,9 +90,15 @@ export function chartTile(recorded: () => RecordedSeries | undefined): Tile {
 
   return {
     element,
-    everyMs: ({ windowMs }) => Math.min(Math.max(windowMs / Math.max(1, plot.width), LEAST_MS), MOST_MS),
+    everyMs: () => Math.min(columnMs, VALUE_MS),
     update(frame) {
       write(frame);
+      columnMs = Math.min(Math.max(frame.windowMs / plot.width, LEAST_MS), MOST_MS);
+      // A window that was chosen just now, or a robot that returned, is shown at once.
+      const isSame = windowS === frame.windowMs / 1000 && drawnStale === stale;
+      if (isSame && frame.nowMs < curveDueMs) return;
+      curveDueMs = frame.nowMs + columnMs;
+      drawnStale = stale;
       const { instantMs, robotNowMs } = frame.moment;
       const endMs = instantMs ?? robotNowMs;
       const described = recorded();
