@@ -77,7 +77,7 @@ export class ControlsUi {
         this.#parts.state.enlarged.next();
         return;
       case 'swap':
-        this.#parts.state.staged.swap(this.#parts.state.enlarged.view.peek());
+        this.#parts.state.swap();
         return;
       case 'next-robot':
         this.#nextRobot();
