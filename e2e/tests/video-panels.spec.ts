@@ -114,6 +114,8 @@ test('panels are moved by hand and by keys, keep their shape and their place, an
     const { width, height } = (await panel(page, 'Front').locator('canvas').boundingBox())!;
     return width / height;
   };
+  // The corner may be below what the page has just said.
+  await expect(page.locator('#notice')).toBeHidden();
   await drag(page, { x: stepped.x + stepped.width - 4, y: stepped.y + stepped.height - 4 }, -60, 0);
   const smaller = await boxOf(page, 'Front');
   expect(smaller.width).toBeCloseTo(stepped.width - 60, 0);

@@ -3,7 +3,7 @@ import { expect, test } from 'vitest';
 import { type Box, boxOf, moved, placementOf, resized } from './panel-layout.ts';
 
 const area: Box = { left: 0, top: 60, width: 1000, height: 500 };
-const shape = { aspect: 4 / 3, besides: 30 };
+const shape = { aspect: 4 / 3, besides: 30, border: 0 };
 
 test('a panel that is moved stays where it is put, and within the area', () => {
   const box = boxOf({ x: 0, y: 0, width: 400 }, shape, area);
@@ -32,6 +32,11 @@ test('a panel grows from its corner and keeps its sides’ ratio', () => {
   expect(boxOf(resized(box, shape, -9999, area), shape, area).width).toBe(140);
 });
 
+test('the border is no part of the picture', () => {
+  const box = boxOf({ x: 0, y: 0, width: 402 }, { ...shape, border: 2 }, area);
+  expect(box.height).toBeCloseTo(330);
+});
+
 test('is within the area whatever was stored and whatever the screen', () => {
   const share = fc.double({ min: 0, max: 1, noNaN: true });
   const size = fc.integer({ min: 0, max: 4000 });
@@ -46,12 +51,12 @@ test('is within the area whatever was stored and whatever the screen', () => {
       (x, y, width, w, h, aspect) => {
         const screen: Box = { left: 10, top: 60, width: w, height: h };
         const besides = Math.min(30, h);
-        const box = boxOf({ x, y, width }, { aspect, besides }, screen);
+        const box = boxOf({ x, y, width }, { aspect, besides, border: 2 }, screen);
         expect(box.left).toBeGreaterThanOrEqual(10 - 1e-9);
         expect(box.top).toBeGreaterThanOrEqual(60 - 1e-9);
         expect(box.left + box.width).toBeLessThanOrEqual(10 + w + 1e-6);
         expect(box.top + box.height).toBeLessThanOrEqual(60 + h + 1e-6);
-        const again = boxOf(placementOf(box, screen), { aspect, besides }, screen);
+        const again = boxOf(placementOf(box, screen), { aspect, besides, border: 2 }, screen);
         if (box.width >= 140) expect(again.left).toBeCloseTo(box.left, 6);
       },
     ),

@@ -21,18 +21,22 @@ export interface Placement {
 export interface PanelShape {
   /** Width over height of the picture; `null` while there is none. */
   readonly aspect: number | null;
-  /** Height of everything else in the panel, CSS pixels. */
+  /** Height of everything else in the panel, and width of what is left and right of the picture, CSS pixels. */
   readonly besides: number;
+  readonly border: number;
 }
 
 /** A panel is no narrower, if the screen is not, CSS pixels. */
 export const LEAST_WIDTH = 140;
 
 /** Where the panel is drawn: entirely within the area. */
-export function boxOf({ x, y, width }: Placement, { aspect, besides }: PanelShape, area: Box): Box {
-  const widest = Math.min(area.width, aspect === null ? area.width : (area.height - besides) * aspect);
+export function boxOf({ x, y, width }: Placement, { aspect, besides, border }: PanelShape, area: Box): Box {
+  const widest = Math.min(
+    area.width,
+    aspect === null ? area.width : (area.height - besides) * aspect + border,
+  );
   const shown = Math.max(0, Math.min(Math.max(width, LEAST_WIDTH), widest));
-  const height = besides + (aspect === null ? 0 : shown / aspect);
+  const height = besides + (aspect === null ? 0 : Math.max(0, shown - border) / aspect);
   return {
     left: area.left + x * (area.width - shown),
     top: area.top + y * Math.max(0, area.height - height),

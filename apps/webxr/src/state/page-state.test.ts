@@ -285,6 +285,11 @@ test('a camera that is chosen again and again is enlarged, fills the screen, and
   // Another one takes its place.
   state.nextSize(rear);
   expect(shown()).toEqual([rear, null]);
+  // The key takes the one that is enlarged.
+  state.swap();
+  expect(shown()).toEqual([null, rear]);
+  state.swap();
+  state.enlarged.toggle(rear);
   state.nextSize(rear);
   state.nextSize(rear);
   expect(shown()).toEqual([null, null]);

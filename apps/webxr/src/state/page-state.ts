@@ -105,13 +105,21 @@ export class PageState {
     this.#samples.take(this.#now());
   }
 
+  /** Lets the camera fill the screen, or the cloud again; without one, the enlarged camera or the first. */
+  swap(view?: CameraView): void {
+    const { staged, enlarged } = this;
+    if (view === undefined) staged.swap(enlarged.view.peek());
+    else staged.toggle(view);
+    // Its panel has the cloud now, at its usual size.
+    const filling = staged.view.peek();
+    if (filling !== null && filling === enlarged.view.peek()) enlarged.toggle(filling);
+  }
+
   /** Shows the camera larger: enlarged, then in place of the cloud, then at its usual size. */
   nextSize(view: CameraView): void {
-    if (this.staged.view.peek() === view) this.staged.toggle(view);
-    else if (this.enlarged.view.peek() === view) {
-      this.enlarged.toggle(view);
-      this.staged.toggle(view);
-    } else {
+    const isLarge = this.staged.view.peek() === view || this.enlarged.view.peek() === view;
+    if (isLarge) this.swap(view);
+    else {
       // One in front at a time.
       const before = this.staged.view.peek();
       if (before !== null) this.staged.toggle(before);

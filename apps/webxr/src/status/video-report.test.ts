@@ -36,11 +36,13 @@ test('says whether what is shown was captured together, whom it waited for and w
 });
 
 test('warns of a silent video and of videos that are not in step', () => {
-  const sources = [source('video:0', { state: 'silent' })];
+  const sources = [source('video:0', { state: 'silent' }), source('video:1'), source('video:2')];
   const spreadMs = { p50: 30, p95: 60.2, p99: 70, max: 80 } as VideoStats['spreadMs'];
   const report = videoReport(stats({ sources, spreadMs }), ['Front']);
   expect(report).toMatchObject({ summary: 'In step within 60 ms', tone: 'warning' });
   expect(report.lines[0]).toEqual({ name: 'Front', text: 'silent', tone: 'warning' });
+  expect(videoReport(stats({ sources: sources.slice(0, 1) }), []).summary).toBe('No video comes');
+  expect(videoReport(stats({ sources: sources.slice(0, 2) }), []).summary).toBe('One video');
 });
 
 test('synchronisation that is off, one video only, and frames that could not be used', () => {

@@ -54,7 +54,9 @@ export function videoReport(videos: VideoStats, names: readonly string[]): Video
   if (videos.undated > 0)
     lines.push({ name: 'Without a time', text: String(videos.undated), tone: 'warning' });
   if (!synchronised) return { summary: 'Not in step', tone: 'neutral', lines };
-  if (spreadMs === null) return { summary: 'One video', tone: 'neutral', lines };
+  const coming = sources.filter(({ source, state }) => source !== CLOUD && state !== 'silent').length;
+  if (coming === 0) return { summary: 'No video comes', tone: 'warning', lines };
+  if (coming === 1 || spreadMs === null) return { summary: 'One video', tone: 'neutral', lines };
   const apart = Math.round(spreadMs.p95);
   return {
     summary: `In step within ${apart} ms`,

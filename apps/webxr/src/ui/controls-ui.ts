@@ -83,7 +83,7 @@ export class ControlsUi {
         this.#parts.toggleDashboard();
         return;
       case 'swap':
-        this.#parts.state.staged.swap(this.#parts.state.enlarged.view.peek());
+        this.#parts.state.swap();
         return;
       case 'next-robot':
         this.#nextRobot();

@@ -121,10 +121,14 @@ export class PanelMover {
 }
 
 function shapeOf({ figure, picture }: MovablePanel): PanelShape {
-  const canvas = picture();
-  const { width, height } = canvas.getBoundingClientRect();
-  const besides = figure.offsetHeight - height;
-  return { aspect: width > 0 && height > 0 ? width / height : null, besides };
+  const { width, height } = picture().getBoundingClientRect();
+  const whole = figure.getBoundingClientRect();
+  const isShown = width > 0 && height > 0;
+  return {
+    aspect: isShown ? width / height : null,
+    besides: whole.height - height,
+    border: isShown ? whole.width - width : 0,
+  };
 }
 
 /** Keeps a button in step with whether any panel was moved. */

@@ -78,20 +78,15 @@ export function showPicturePanels(state: PageState, { inVr, isGripped }: Picture
 
 function showState({ view, figure, age, fault }: Panel, fills: boolean): void {
   const { state, text, reason } = cameraWords(view);
-  // The picture's state is told where the picture is.
-  const words = fills ? '' : text;
+  const words = fills ? `${view.camera.name} ${text}` : text;
   if (age.textContent !== words) age.textContent = words;
   if (fault.textContent !== reason) fault.textContent = reason;
-  fault.hidden = reason === null || fills;
-  figure.dataset.state = fills ? 'live' : state;
+  fault.hidden = reason === null;
+  figure.dataset.state = state;
   view.canvas.hidden = state === 'off' || view.ageMs.peek() === null;
 }
 
-function panelOf(
-  view: CameraView,
-  { enlarged, staged }: PageState,
-  filling: ReadonlySignal<CameraView | null>,
-): Panel {
+function panelOf(view: CameraView, state: PageState, filling: ReadonlySignal<CameraView | null>): Panel {
   const figure = document.createElement('figure');
   figure.dataset[view.kind === 'video' ? 'video' : 'camera'] = String(view.camera.index);
   const { name } = view.camera;
@@ -103,13 +98,13 @@ function panelOf(
   const age = document.createElement('span');
   age.className = 'age';
   const hide = quietButton('', '', () => view.toggle());
-  const swap = quietButton('⇄', '', () => staged.toggle(view));
+  const swap = quietButton('⇄', '', () => state.swap(view));
   swap.classList.add('swap');
   const fault = document.createElement('p');
   fault.className = 'fault';
   view.canvas.title = 'Enlarge or reduce (E)';
   view.canvas.onclick = () => {
-    if (filling.peek() !== view) enlarged.toggle(view);
+    if (filling.peek() !== view) state.enlarged.toggle(view);
   };
   title.append(caption, age, swap, hide);
   figure.append(title, fault, view.canvas);

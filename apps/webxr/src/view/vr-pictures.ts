@@ -31,6 +31,11 @@ export function showPicturesInVr({ state, panel, stage, active }: VrPicturesPart
     front.set(inFront, inFront !== null && inFront === staged.view.value);
   });
   effect(() => {
+    if (!active.value) return;
+    wrist.caption(state.sampledAtMs);
+    front.caption(state.sampledAtMs);
+  });
+  effect(() => {
     if (active.value) wrist.update();
   });
   effect(() => {
