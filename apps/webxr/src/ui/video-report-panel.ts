@@ -1,10 +1,14 @@
-/** Below the cameras' panels: whether the videos are in step, and on a click what the compositor did with each. */
+/**
+ * Below the cameras' panels: whether the videos are in step, and on a click what the compositor did with each, and how the
+ * link is divided.
+ */
 import { effect, signal } from '@preact/signals-core';
+import { PRIORITIES, PRIORITY_WORDS } from '../state/link-priority.ts';
 import type { PageState } from '../state/page-state.ts';
 import { videoReport } from '../status/video-report.ts';
-import { quietButton } from './panel-parts.ts';
+import { quietButton, rowOf, selectOf } from './panel-parts.ts';
 
-export function videoReportPanel({ figures, videos }: PageState): HTMLElement {
+export function videoReportPanel({ figures, videos, priority }: PageState): HTMLElement {
   const open = signal(false);
   const panel = document.createElement('section');
   panel.className = 'video-report';
@@ -12,7 +16,8 @@ export function videoReportPanel({ figures, videos }: PageState): HTMLElement {
     open.value = !open.peek();
   });
   const list = document.createElement('dl');
-  panel.append(button, list);
+  const share = shareControl(priority);
+  panel.append(button, list, share);
   effect(() => {
     // Where the strip has no room for it, it is scrolled to.
     if (open.value) requestAnimationFrame(() => list.scrollIntoView({ block: 'nearest' }));
@@ -26,12 +31,25 @@ export function videoReportPanel({ figures, videos }: PageState): HTMLElement {
     button.dataset.tone = tone;
     button.ariaExpanded = String(open.value);
     list.hidden = !open.value;
+    share.hidden = !open.value;
     if (open.value)
       list.replaceChildren(
         ...lines.flatMap(({ name, text, tone }) => [textOf('dt', name), textOf('dd', text, tone)]),
       );
   });
   return panel;
+}
+
+/** What comes first where the link does not carry everything. */
+function shareControl({ chosen }: PageState['priority']): HTMLElement {
+  const words = PRIORITIES.map((priority) => PRIORITY_WORDS[priority]);
+  const select = selectOf('What comes first on a slow link', words, (word) => {
+    chosen.value = PRIORITIES[words.indexOf(word)] ?? 'balanced';
+  });
+  select.selectedIndex = PRIORITIES.indexOf(chosen.peek());
+  const row = rowOf('Slow link', select);
+  row.classList.add('link-share');
+  return row;
 }
 
 function textOf(tag: 'dt' | 'dd', text: string, tone = ''): HTMLElement {
