@@ -1,4 +1,4 @@
-/** How this browser receives videos: `?video=native` or `?video=webcodecs`, or else what suits it best. */
+/** How this browser receives videos: as `?video=` says, or else in the fastest way that it has. */
 
 import type { OpenReader } from './open-reader.ts';
 import { hasTrackProcessor, openTrack } from './track-reader.ts';
