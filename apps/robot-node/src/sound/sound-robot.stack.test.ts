@@ -93,12 +93,16 @@ describe.skipIf(!existsSync(ADDON_FILE))(`sound (needs: ${BUILD_REMEDY})`, { tim
     await client.until(() => client.sound.packets.length >= 30);
     await second.until(() => second.sound.packets.length >= 30);
     const packets = client.sound.packets.slice(1, 30);
-    for (const { payload, marker } of packets) {
-      expect(opusDurationMs(payload)).toBe(20);
-      expect(marker).toBe(false);
-    }
+    for (const { payload } of packets) expect(opusDurationMs(payload)).toBe(20);
+    // On a busy machine some are dropped rather than late; those around them keep their place in time.
     const steps = packets.slice(1).map(({ timestamp }, i) => (timestamp - packets[i]!.timestamp) >>> 0);
-    for (const step of steps) expect(Math.abs(step - 960)).toBeLessThanOrEqual(1);
+    for (const step of steps) {
+      expect(step).toBeGreaterThanOrEqual(959);
+      expect(Math.abs(step - 960 * Math.round(step / 960))).toBeLessThanOrEqual(1);
+    }
+    const unbroken = packets.slice(1).filter((_, i) => (steps[i] ?? 0) <= 961);
+    expect(unbroken.length).toBeGreaterThan(0);
+    for (const { marker } of unbroken) expect(marker).toBe(false);
     // Encoded once.
     const own = new Map(client.sound.packets.map(({ timestamp, payload }) => [timestamp, payload]));
     const common = second.sound.packets.filter(({ timestamp }) => own.has(timestamp));
