@@ -17,7 +17,6 @@ export async function readShownVideos(page: Page, videos: readonly number[]): Pr
   const read = await page.evaluate(
     ({ numbers, width, height }) => {
       const nowMs = window.farpoint.robotNowMs() ?? Number.NaN;
-      const offsetMs = nowMs - performance.now();
       const probes = window.farpoint.videos();
       const text = (bytes: Uint8ClampedArray) => {
         let all = '';
@@ -29,7 +28,7 @@ export async function readShownVideos(page: Page, videos: readonly number[]): Pr
         videos: numbers.map((video) => {
           const context = window.farpoint.videoCanvas(video)?.getContext('2d');
           const pixels = context?.getImageData(0, 0, width, height).data ?? new Uint8ClampedArray();
-          return { knownMs: (probes[video]?.takenAtMs ?? Number.NaN) + offsetMs, pixels: text(pixels) };
+          return { knownMs: probes[video]?.captureMs ?? Number.NaN, pixels: text(pixels) };
         }),
       };
     },

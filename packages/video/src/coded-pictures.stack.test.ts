@@ -90,14 +90,18 @@ describe(`coded pictures (${VIDEO_SUITE.note})`, { skip: VIDEO_SUITE.skip }, () 
     const units = accessUnits(new Uint8Array(stdout));
     expect(units.length).toBe(30);
     // I P B B P B B P: the capture times are in another order than the units. So many may wait.
+    const order = [0, 3, 1, 2, 6, 4, 5, 9];
     const to = watch();
-    for (const [i, position] of [0, 3, 1, 2, 6, 4, 5, 9].entries())
-      await push(to, 'h264', units[i]!, BigInt(position + 1) * 33_000_000n);
-    await to.until(() => to.frames.length > 1);
+    // An encoder on a busy machine may leave out all pictures of a round but one.
+    for (let round = 0; to.frames.length < 2; round++) {
+      for (const [i, position] of order.entries())
+        await push(to, 'h264', units[i]!, BigInt(round * 10 + position + 1) * 33_000_000n);
+      const { stats, frames } = to;
+      await to.until(() => to.stats !== stats && frames.length > 0);
+      if (round === 0) expect(to.stats).toMatchObject({ damaged: 0, undecoded: 0 });
+    }
     const times = to.frames.map(({ captureNs }) => captureNs);
     expect(times).toEqual([...times].sort((a, b) => (a < b ? -1 : 1)));
-    await to.until(() => to.stats !== undefined);
-    expect(to.stats).toMatchObject({ damaged: 0, undecoded: 0 });
   });
 
   it.each(['h264', 'vp8'] as const)('of %s begin with a key frame', async (coding) => {

@@ -76,8 +76,8 @@ export interface VideoProbe {
   height: number;
   /** `null` before the first frame. */
   ageMs: number | null;
-  /** When the shown frame was captured, on the page's clock (`performance.now()`); `null` before the first. */
-  takenAtMs: number | null;
+  /** When the shown frame was captured, ms on the robot's clock; `null` before the first. */
+  captureMs: number | null;
   /** Frames shown since the session began. */
   frames: number;
   /** The words in place of the video; `null` if nothing is wrong. */
@@ -140,7 +140,7 @@ export interface FarpointTestApi {
   /** The robot's clock now, as the page estimates it, ms; `null` until it is known. */
   robotNowMs(): number | null;
   /**
-   * The canvas to which a video is drawn, by the video's number. It has the frame of {@link VideoProbe.takenAtMs} for as
+   * The canvas to which a video is drawn, by the video's number. It has the frame of {@link VideoProbe.captureMs} for as
    * long as the script runs without a pause, e.g. to read the frame's own time from its pixels.
    */
   videoCanvas(video: number): HTMLCanvasElement | null;

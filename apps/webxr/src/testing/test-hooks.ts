@@ -102,10 +102,10 @@ export function installTestApi(app: App): void {
       };
     },
     videos: () =>
-      app.state.videos.views.value.map(({ camera, canvas, newest, ageMs, fault }) => ({
+      app.state.videos.views.value.map(({ camera, canvas, newest, ageMs, fault }, video) => ({
         ...{ name: camera.name, shown: camera.on.value, width: canvas.width, height: canvas.height },
         ...{ ageMs: ageMs.value, frames: newest.value?.number ?? 0, fault: fault.value },
-        takenAtMs: newest.value?.takenAtMs ?? null,
+        captureMs: app.videos.captureMs.get(video) ?? null,
         enlarged: app.state.enlarged.view.value?.canvas === canvas,
         fills: app.state.staged.view.value?.canvas === canvas,
       })),

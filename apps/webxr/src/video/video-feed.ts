@@ -59,6 +59,8 @@ export class VideoFeed {
   onPresented: (() => void) | null = null;
   /** The newest capture instant of what is shown of the videos, ms on the robot's clock; `null` before the first. */
   shownMs: number | null = null;
+  /** When the shown frame of each video was captured, ms on the robot's clock. */
+  readonly captureMs = new Map<number, number>();
   /** The cloud's frame that was offered last. */
   #cloudFrame: number | null = null;
 
@@ -94,6 +96,7 @@ export class VideoFeed {
       if (payload === null) continue;
       this.shownMs = Math.max(this.shownMs ?? captureMs, captureMs);
       const video = Number(source.slice(VIDEO.length));
+      this.captureMs.set(video, captureMs);
       const takenAtMs = captureMs - (client.link.session.clock.offsetMs ?? 0);
       views.show(video, payload, takenAtMs, nowMs);
       this.#figures.onShown(video, nowMs - takenAtMs);
@@ -128,6 +131,7 @@ export class VideoFeed {
     this.#figures.reset();
     this.#cloudFrame = null;
     this.shownMs = null;
+    this.captureMs.clear();
   }
 
   #onTrack(videoTrack: VideoTrack): void {
