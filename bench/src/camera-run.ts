@@ -31,6 +31,8 @@ export interface CameraSetup {
   canvas: string;
   /** How the operator divides the link; `null`: as the robot does unasked. */
   shares: AskedShares | null;
+  /** Whether the page hears the robot's microphone, a test tone. */
+  sound: boolean;
 }
 
 export interface CameraRun extends PresentationFigures {
@@ -42,6 +44,7 @@ export interface CameraRun extends PresentationFigures {
   /** From the page to the robot, beyond the link's own delay, ms. */
   commandDelayMs: Distribution;
   commands: number;
+  commandsRefused: number;
   /** Of the emulated link; `null` without one. */
   queueMs: Distribution | null;
   /** Cores, encoders included. */
@@ -52,6 +55,8 @@ export interface CameraRun extends PresentationFigures {
   /** Encoded during the measurement, all cameras together. */
   keyFrames: number;
   shares: SharePair[] | null;
+  /** Packets of sound a second; `null` without sound. */
+  soundPacketsPerS: number | null;
   series: LatencySeries[];
 }
 
@@ -74,7 +79,7 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
   const [config, link, stats, commands] = ['c.yaml', 'link.jsonl', 'stats.jsonl', 'commands.csv'].map(
     file,
   ) as [string, string, string, string];
-  writeFileSync(config, JSON.stringify({ robot: { videos: cameraOptions(setup) } }));
+  writeFileSync(config, JSON.stringify({ robot: { videos: cameraOptions(setup), ...soundOptions(setup) } }));
   const live = await startLiveStack({
     robot: {
       id: ROBOT,
@@ -91,6 +96,7 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
     live.link?.tell({ type: 'reset' });
     const asked = setup.shares;
     if (asked !== null) await page.evaluate((shares) => window.farpoint.shareLink(shares), asked);
+    if (setup.sound) await page.getByRole('button', { name: 'Sound', exact: true }).click();
     await wait(setup.points === null ? LONG_WARM_UP_MS : WARM_UP_MS);
     const { pid } = stack.robot(ROBOT);
     const counters = async () => ({
@@ -98,6 +104,7 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
       bytes: await byCamera(stack.robotAdminUrl(ROBOT), 'bytes', cameras.length),
       bytesSent: readRobotSamples(stats).at(-1)?.bytesSent ?? 0,
       keyFrames: await byCamera(stack.robotAdminUrl(ROBOT), 'key_frames', cameras.length),
+      soundPackets: setup.sound ? await soundPackets(stack.robotAdminUrl(ROBOT)) : 0,
       cpu: cpuSecondsOfTree(pid),
       browserCpu: cpuSecondsOfTree(live.browserPid),
       atMs: monotonicMs(),
@@ -126,18 +133,23 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
     ]);
     const bytes = after.bytes.map((each, i) => each - (before.bytes[i] ?? 0));
     return {
-      ...presentationFigures(rows, cameras.length),
+      ...presentationFigures(
+        rows,
+        cameras.map(({ framesPerS }) => framesPerS),
+      ),
       presentations: rows.length,
       dropped: after.skipped.map((each, i) => each - (before.skipped[i] ?? 0) + (unshown[i] ?? 0)),
       addedBySyncMs: figures.heldMs,
-      commandDelayMs: distribution(delays),
-      commands: delays.length,
+      commandDelayMs: distribution(delays.accepted),
+      commands: delays.accepted.length,
+      commandsRefused: delays.refused,
       queueMs: trace === null ? null : queueQuantiles(readUplink(link)),
       robotCpu: coresBetween(before.cpu, after.cpu, after.atMs - before.atMs),
       browserCpu: coresBetween(before.browserCpu, after.browserCpu, after.atMs - before.atMs),
       receiver: figures.receiver,
       keyFrames: after.keyFrames.reduce((sum, each, i) => sum + each - (before.keyFrames[i] ?? 0), 0),
       shares: asked === null ? null : sharesSeen(asked, after.bytesSent - before.bytesSent, bytes),
+      soundPacketsPerS: setup.sound ? (after.soundPackets - before.soundPackets) / seconds : null,
       series: latencySeries(rows, cameras.length),
     };
   } finally {
@@ -153,6 +165,10 @@ function cameraOptions({ cameras, encoder, content }: CameraSetup) {
     source: { kind: 'test', pattern: patterns[i % patterns.length], width, height, framesPerS },
     ...{ encoder, width, height, framesPerS, kbitPerS },
   }));
+}
+
+function soundOptions({ sound }: CameraSetup) {
+  return sound ? { sound: { microphone: { source: { kind: 'test' } } } } : {};
 }
 
 function cloudArgs({ points, trace }: CameraSetup): string[] {
@@ -181,6 +197,11 @@ async function drive(page: Page, seconds: number): Promise<void> {
       await new Promise((resolve) => setTimeout(resolve, 100));
     }
   }, seconds * 1000);
+}
+
+async function soundPackets(adminUrl: string): Promise<number> {
+  const text = await (await fetch(`${adminUrl}/metrics`)).text();
+  return Number(/^farpoint_robot_sound_packets_total (\d+)$/m.exec(text)?.[1]);
 }
 
 /** A counter of the robot's videos, by camera. */

@@ -2,7 +2,7 @@
 import { writeFileSync } from 'node:fs';
 import { basename } from 'node:path';
 import { parseArgs } from 'node:util';
-import { availableEncoders } from '@farpoint/video';
+import { availableEncoders, chooseEncoder } from '@farpoint/video';
 import { CAMERA_EXPERIMENTS } from './camera-experiments.ts';
 import { type BenchCamera, parseCameras } from './camera-list.ts';
 import { plotCameras } from './camera-plot.ts';
@@ -21,7 +21,8 @@ capture time drawn into each; the page reads it from what it shows, on every pre
   --receiver native   or track or webcodecs: how the page receives; by default what suits the browser best
   --over loopback     or a capacity trace, CSV time_s,capacity_mbps, over a link with ${LINK_RTT_MS} ms of round trip
   --seconds 30        duration
-  --encoder vp8enc    or another one that \`pnpm robot doctor\` lists
+  --encoder auto      as the robot chooses; or one that \`pnpm robot doctor\` lists
+  --sound             the page hears a microphone, too
   --content plain     or noise, which takes any bit rate, so that all streams compete for the link
   --points 600        of the cloud beside them, 10 times a second; \`all\`: the simulated camera's, as the link allows
   --shares 2:1,1,1    how the operator divides the link: weights of the clouds and of each camera
@@ -31,7 +32,7 @@ capture time drawn into each; the page reads it from what it shows, on every pre
   --json
 
 glassToGlassMs: from capture to the end of the display frame that shows the picture. spreadMs: between the earliest and the
-latest capture in a presentation. addedBySyncMs: how long pictures that had arrived waited for others. dropped: pictures that
+latest capture in a presentation; shareHalfInterval: no more than half an interval of the slowest camera. addedBySyncMs: how long pictures that had arrived waited for others. dropped: pictures that
 encoders skipped, and pictures that arrived and were not shown. commandDelayMs: from the page to the robot, beyond the link's
 own delay. robotCpu, browserCpu: cores, encoders included. keyFrames: encoded during the measurement, all cameras together.`;
 
@@ -47,10 +48,11 @@ export const bench: Bench = {
         receiver: { type: 'string' },
         over: { type: 'string', default: 'loopback' },
         seconds: { type: 'string', default: '30' },
-        encoder: { type: 'string', default: 'vp8enc' },
+        encoder: { type: 'string', default: 'auto' },
         content: { type: 'string', default: 'plain' },
         points: { type: 'string', default: '600' },
         shares: { type: 'string' },
+        sound: { type: 'boolean', default: false },
         canvas: { type: 'string', default: '160x90' },
         thesis: { type: 'boolean' },
         plot: { type: 'string' },
@@ -64,15 +66,15 @@ export const bench: Bench = {
     if (values.content !== 'plain' && values.content !== 'noise')
       throw new Error('--content is plain or noise');
     const setup: CameraSetup = {
-      ...{ cameras, synchronised: values.sync === 'on', encoder: values.encoder, canvas: values.canvas },
-      content: values.content,
+      ...{ cameras, synchronised: values.sync === 'on', canvas: values.canvas },
+      encoder: await encoderOf(values.encoder),
+      ...{ content: values.content, sound: values.sound },
       receiver: values.receiver ?? null,
       trace: values.over === 'loopback' ? null : values.over,
       seconds: numberOption('seconds', values.seconds, 1),
       points: values.points === 'all' ? null : numberOption('points', values.points, 150),
       shares: values.shares === undefined ? null : parseShares(values.shares, cameras.length),
     };
-    await availableEncoders();
     const over = setup.trace === null ? 'loopback' : basename(setup.trace);
     const common = { bench: 'cameras', over, encoder: setup.encoder, seconds: setup.seconds };
     const runs = values.thesis
@@ -88,6 +90,13 @@ export const bench: Bench = {
     printJson(values.thesis ? { ...common, runs: results } : { ...common, sync: values.sync, ...results[0] });
   },
 };
+
+/** @throws {Error} if there is none */
+async function encoderOf(wanted: string): Promise<string> {
+  const chosen = chooseEncoder((await availableEncoders()).encoders, wanted);
+  if (!chosen.ok) throw new Error(`--encoder: ${chosen.failure.sentence}`);
+  return chosen.encoder.name;
+}
 
 interface TitledRun {
   title: string;
@@ -119,19 +128,28 @@ function print(title: string, cameras: readonly BenchCamera[], run: CameraRun): 
   const [spread, command] = [rounded(run.spreadMs, 2), rounded(run.commandDelayMs, 1)];
   printTable(
     [
-      ...['spread p50', 'p99', 'max', 'under 1 ms', 'waited p50', 'robot, cores', 'browser', 'queue p95'],
-      ...['commands', 'later p50', 'p99', 'max', 'key frames', 'receiver'],
+      ...['spread p50', 'p99', 'max', 'under 1 ms', 'half interval', 'waited p50'],
+      ...['robot, cores', 'browser', 'queue p95'],
+      ...['commands', 'later p50', 'p99', 'max', 'refused', 'key frames', 'receiver'],
     ],
     [
       [
-        ...[spread.p50, spread.p99, spread.max, `${(run.share1Ms * 100).toFixed(1)} %`],
+        ...[spread.p50, spread.p99, spread.max, percent(run.share1Ms), percent(run.shareHalfInterval)],
         ...[
           run.addedBySyncMs?.p50,
           run.robotCpu,
           run.browserCpu,
           run.queueMs === null ? '–' : rounded(run.queueMs, 1).p95,
         ],
-        ...[run.commands, command.p50, command.p99, command.max, run.keyFrames, run.receiver],
+        ...[
+          run.commands,
+          command.p50,
+          command.p99,
+          command.max,
+          run.commandsRefused,
+          run.keyFrames,
+          run.receiver,
+        ],
       ],
     ],
   );
@@ -140,6 +158,10 @@ function print(title: string, cameras: readonly BenchCamera[], run: CameraRun): 
       ['stream', 'asked', 'seen'],
       run.shares.map(({ stream, asked, seen }) => [stream, asked, seen]),
     );
+}
+
+function percent(share: number): string {
+  return `${(share * 100).toFixed(1)} %`;
 }
 
 /** What `--json` prints of a run; latency is measured in no other way than glass to glass. */

@@ -10,15 +10,17 @@ it('counts each picture once, and the spread of each presentation', () => {
       { finishedMs: 2050, drawnMs: [2000, 2000.5] },
       { finishedMs: null, drawnMs: [3000, 3000] },
     ],
-    2,
+    [30, 15],
   );
   expect(figures.glassToGlassMs.map(({ max }) => max)).toEqual([50, 50]);
   expect(figures.framesPerSecond).toEqual([3, 2]);
   expect(figures.spreadMs.max).toBe(33);
   expect(figures.share1Ms).toBeCloseTo(2 / 3);
+  // 33 ms are half an interval of the slower one.
+  expect(figures.shareHalfInterval).toBe(1);
   expect(figures.unreadable).toBe(1);
 });
 
 it('has no spread for a single camera', () => {
-  expect(presentationFigures([{ finishedMs: 10, drawnMs: [5] }], 1).share1Ms).toBe(1);
+  expect(presentationFigures([{ finishedMs: 10, drawnMs: [5] }], [30]).share1Ms).toBe(1);
 });

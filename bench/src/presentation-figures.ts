@@ -1,6 +1,8 @@
 /** What recorded presentations say about latency and spread: pure functions. */
 import { type Distribution, distribution } from './stats.ts';
 
+const ROUNDING_MS = 0.01;
+
 /** One presentation: when its display frame ended, and the capture time in each camera's picture, ms, same clock. */
 export interface Presented {
   finishedMs: number | null;
@@ -14,24 +16,36 @@ export interface PresentationFigures {
   spreadMs: Distribution;
   /** Share of presentations with a spread of less than 1 ms, 0–1. */
   share1Ms: number;
+  /** The same of no more than half an interval of the slowest camera. */
+  shareHalfInterval: number;
   framesPerSecond: number[];
   /** Pictures whose barcode could not be read. */
   unreadable: number;
 }
 
-export function presentationFigures(rows: readonly Presented[], cameras: number): PresentationFigures {
+/** @param framesPerS of each camera, as asked */
+export function presentationFigures(
+  rows: readonly Presented[],
+  framesPerS: readonly number[],
+): PresentationFigures {
+  const cameras = framesPerS.length;
   const whole = rows.filter(({ finishedMs }) => finishedMs !== null);
   const spreads = whole.flatMap(({ drawnMs }) => {
     const times = drawnMs.filter((time) => time !== null);
     return times.length < cameras || cameras < 2 ? [] : [Math.max(...times) - Math.min(...times)];
   });
+  const share = (is: (spread: number) => boolean) =>
+    spreads.length === 0 ? 1 : spreads.filter(is).length / spreads.length;
+  const halfIntervalMs = 500 / Math.min(...framesPerS);
   const first = whole[0]?.finishedMs ?? 0;
   const seconds = ((whole.at(-1)?.finishedMs ?? 0) - first) / 1000;
   const ages = Array.from({ length: cameras }, (_, camera) => agesOf(whole, camera));
   return {
     glassToGlassMs: ages.map((each) => distribution(each)),
     spreadMs: distribution(spreads),
-    share1Ms: spreads.length === 0 ? 1 : spreads.filter((spread) => spread < 1).length / spreads.length,
+    share1Ms: share((spread) => spread < 1),
+    // Times in a barcode are rounded.
+    shareHalfInterval: share((spread) => spread < halfIntervalMs + ROUNDING_MS),
     framesPerSecond: ages.map((each) => (seconds > 0 ? each.length / seconds : 0)),
     unreadable: whole.reduce((sum, { drawnMs }) => sum + drawnMs.filter((time) => time === null).length, 0),
   };
