@@ -1,3 +1,4 @@
+export { gstPipelineSchema } from './gst-pipeline.ts';
 export { type Child, KeptChild, type Retry } from './kept-child.ts';
 export { type ChildEnd, MediaChild, type MediaChildEvents } from './media-child.ts';
 export { WireError, type WireErrorCode } from './wire-error.ts';

@@ -1,20 +1,11 @@
 /** Where sound comes from and goes to: configuration in, the text of a GStreamer pipeline out. */
+import { gstPipelineSchema } from '@farpoint/media-process';
 import * as z from 'zod';
 
 /** A device's name in ALSA or PulseAudio. */
 const device = z
   .string('must be text')
   .regex(/^[A-Za-z0-9_.:,=@+/-]{1,200}$/, 'must be the name of a device, such as hw:1 or default');
-
-const gst = z.strictObject({
-  kind: z.literal('gst'),
-  /** Trusted: it can do what GStreamer can. */
-  pipeline: z
-    .string('must be text')
-    .min(1, 'must not be empty')
-    .max(8000, 'must have at most 8000 characters')
-    .refine((text) => !text.includes('\0'), 'must not contain a zero byte'),
-});
 
 const alsa = z.strictObject({ kind: z.literal('alsa'), device: device.default('default') });
 const pulse = z.strictObject({ kind: z.literal('pulse'), device: device.optional() });
@@ -30,11 +21,17 @@ const test = z.strictObject({
 });
 const auto = z.strictObject({ kind: z.literal('auto') });
 
-export const soundSourceSchema = z.discriminatedUnion('kind', [test, alsa, pulse, pipewire, gst]);
+export const soundSourceSchema = z.discriminatedUnion('kind', [
+  test,
+  alsa,
+  pulse,
+  pipewire,
+  gstPipelineSchema,
+]);
 export type SoundSourceOptions = z.input<typeof soundSourceSchema>;
 export type SoundSource = z.output<typeof soundSourceSchema>;
 
-export const soundSinkSchema = z.discriminatedUnion('kind', [auto, alsa, pulse, pipewire, gst]);
+export const soundSinkSchema = z.discriminatedUnion('kind', [auto, alsa, pulse, pipewire, gstPipelineSchema]);
 export type SoundSinkOptions = z.input<typeof soundSinkSchema>;
 export type SoundSink = z.output<typeof soundSinkSchema>;
 

@@ -1,4 +1,5 @@
 /** Where the pictures come from: configuration in, the text of a GStreamer pipeline out. */
+import { gstPipelineSchema } from '@farpoint/media-process';
 import * as z from 'zod';
 import { sideSchema } from './video-settings.ts';
 
@@ -41,19 +42,9 @@ const rtsp = z.strictObject({
   transport: z.enum(['tcp', 'udp'], 'must be tcp or udp').default('tcp'),
 });
 
-const gst = z.strictObject({
-  kind: z.literal('gst'),
-  /** Any elements whose last one gives raw pictures in main memory. It is trusted: it can do what GStreamer can. */
-  pipeline: z
-    .string('must be text')
-    .min(1, 'must not be empty')
-    .max(8000, 'must have at most 8000 characters')
-    .refine((text) => !text.includes('\0'), 'must not contain a zero byte'),
-});
-
 const frames = z.strictObject({ kind: z.literal('frames') });
 
-export const videoSourceSchema = z.discriminatedUnion('kind', [test, v4l2, rtsp, gst, frames]);
+export const videoSourceSchema = z.discriminatedUnion('kind', [test, v4l2, rtsp, gstPipelineSchema, frames]);
 export type VideoSourceOptions = z.input<typeof videoSourceSchema>;
 export type VideoSource = z.output<typeof videoSourceSchema>;
 
