@@ -99,7 +99,6 @@ export class Broadcast implements FrameTarget, VideoTarget {
           for (const video of this.#videos) this.#needsKeyFrame(video);
         },
         onViewers: (viewers) => this.#onViewers(viewers),
-        onSilent: () => undefined,
       },
     );
   }

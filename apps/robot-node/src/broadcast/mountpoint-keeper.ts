@@ -36,8 +36,6 @@ export interface MountpointKeeperEvents {
   onFoundAgain(): void;
   /** How many watch, several times a minute at least. */
   onViewers(viewers: number): void;
-  /** Janus says nothing any more. It may still relay, for as long as only this connection is lost. */
-  onSilent(): void;
 }
 
 const POLL_MS = 1000;
@@ -108,7 +106,6 @@ export class MountpointKeeper {
           {
             onClosed: () => {
               this.#lost = true;
-              this.#events.onSilent();
               this.#wake.abort();
             },
           },
@@ -122,7 +119,6 @@ export class MountpointKeeper {
         else log.warn(facts, 'no broadcast; will keep trying silently');
         this.#reported = true;
         this.#lost = true;
-        this.#events.onSilent();
         this.#client?.close();
         this.#client = null;
         await delay(waitMs, undefined, { signal: this.#closing.signal }).catch(() => undefined);
