@@ -2,13 +2,13 @@
 import type { BenchCamera } from './camera-list.ts';
 
 export interface CameraExperiment {
-  /** The thesis' figure. */
-  figure: number;
+  /** The thesis' figure; `null`: a bit rate that it lists without a figure. */
+  figure: number | null;
   name: string;
   cameras: readonly BenchCamera[];
   synchronised: boolean;
-  /** What the thesis found. */
-  found: string;
+  /** What the thesis found; `null` without a figure. */
+  found: string | null;
 }
 
 const small = { width: 960, height: 480 };
@@ -64,4 +64,14 @@ export const CAMERA_EXPERIMENTS: readonly CameraExperiment[] = [
       found: 'less than 1 ms apart; later by the buffer of 200 ms',
     },
   ]),
+  ...[512, 1024, 2048, 4096].map((kbitPerS) => ({
+    ...{ figure: null, name: `1024×768, 30/s, ${kbitPerS} kbit/s`, cameras: one(medium, 30, kbitPerS) },
+    ...{ synchronised: true, found: null },
+  })),
 ];
+
+/** A heading for people. */
+export function experimentTitle({ figure, name, cameras, synchronised }: CameraExperiment): string {
+  const what = figure === null ? 'bit rate' : `figure ${figure}`;
+  return `${what}: ${name}${cameras.length === 1 || synchronised ? '' : ', not synchronised'}`;
+}

@@ -3,7 +3,7 @@ import { writeFileSync } from 'node:fs';
 import { basename } from 'node:path';
 import { parseArgs } from 'node:util';
 import { availableEncoders, chooseEncoder } from '@farpoint/video';
-import { CAMERA_EXPERIMENTS } from './camera-experiments.ts';
+import { CAMERA_EXPERIMENTS, experimentTitle } from './camera-experiments.ts';
 import { type BenchCamera, parseCameras } from './camera-list.ts';
 import { plotCameras } from './camera-plot.ts';
 import { type CameraRun, type CameraSetup, LINK_RTT_MS, runCameras } from './camera-run.ts';
@@ -79,8 +79,8 @@ export const bench: Bench = {
     const common = { bench: 'cameras', over, encoder: setup.encoder, seconds: setup.seconds };
     const runs = values.thesis
       ? await runThesis({ ...setup, shares: null })
-      : [{ title: values.cameras, cameras, run: await runCameras(setup, console.error) }];
-    for (const { title, cameras, run } of runs) print(title, cameras, run);
+      : [{ title: values.cameras, found: null, cameras, run: await runCameras(setup, console.error) }];
+    if (!values.thesis) runs.forEach(print);
     if (values.plot !== undefined) {
       const title = 'Latency of cameras, from capture to display';
       writeFileSync(values.plot, plotCameras(title, `${setup.encoder}, over ${over}`, runs));
@@ -100,22 +100,30 @@ async function encoderOf(wanted: string): Promise<string> {
 
 interface TitledRun {
   title: string;
+  /** What the thesis found. */
+  found: string | null;
   cameras: readonly BenchCamera[];
   run: CameraRun;
 }
 
+/** Prints each result as soon as it is there. */
 async function runThesis(setup: CameraSetup): Promise<TitledRun[]> {
   const runs: TitledRun[] = [];
-  for (const { figure, name, cameras, synchronised } of CAMERA_EXPERIMENTS) {
-    const title = `figure ${figure}: ${name}${cameras.length === 1 || synchronised ? '' : ', not synchronised'}`;
+  for (const experiment of CAMERA_EXPERIMENTS) {
+    const { cameras, synchronised, found } = experiment;
+    const title = experimentTitle(experiment);
     console.error(`${runs.length + 1} of ${CAMERA_EXPERIMENTS.length}: ${title}`);
-    runs.push({ title, cameras, run: await runCameras({ ...setup, cameras, synchronised }, console.error) });
+    const run = await runCameras({ ...setup, cameras, synchronised }, console.error);
+    const titled = { title, found, cameras, run };
+    print(titled);
+    runs.push(titled);
   }
   return runs;
 }
 
-function print(title: string, cameras: readonly BenchCamera[], run: CameraRun): void {
+function print({ title, found, cameras, run }: TitledRun): void {
   console.log(`\n${title}`);
+  if (found !== null) console.log(`The thesis: ${found}.`);
   printTable(
     ['camera', 'frames/s', 'dropped', 'glass to glass p50', 'p95', 'p99', 'max'],
     cameras.map(({ width, height, framesPerS, kbitPerS }, i) => [
