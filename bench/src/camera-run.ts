@@ -124,9 +124,10 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
     const offsetMs = await clockOffsetOf(page);
     await wait(SETTLE_MS);
     await live.stack.robot(ROBOT).stop();
-    const unshown = figures.sources
-      .filter(({ source }) => source.startsWith('video:'))
-      .map(({ drops }) => Object.values(drops).reduce((sum, count) => sum + count, 0));
+    const unshown = cameras.map((_, i) => {
+      const drops = figures.sources.find(({ source }) => source === `video:${i}`)?.drops;
+      return drops === undefined ? 0 : Object.values(drops).reduce((sum, count) => sum + count, 0);
+    });
     const delays = commandDelays(commands, offsetMs, trace === null ? 0 : LINK_RTT_MS / 2, [
       before.atMs,
       after.atMs,
@@ -138,7 +139,7 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
         cameras.map(({ framesPerS }) => framesPerS),
       ),
       presentations: rows.length,
-      dropped: after.skipped.map((each, i) => each - (before.skipped[i] ?? 0) + (unshown[i] ?? 0)),
+      dropped: after.skipped.map((each, i) => each - (before.skipped[i] ?? 0) + (unshown[i] as number)),
       addedBySyncMs: figures.heldMs,
       commandDelayMs: distribution(delays.accepted),
       commands: delays.accepted.length,
