@@ -25,8 +25,9 @@ export interface CameraSetup {
   encoder: string;
   /** What the cameras show. */
   content: 'plain' | 'noise';
-  /** Points of the cloud beside the cameras, 10 times a second; `null`: the whole cloud, as much as the link carries. */
+  /** Points of each cloud beside the cameras; `null`: the whole cloud, as much as the link carries. */
   points: number | null;
+  cloudsPerS: number;
   /** Of the point view, `160x90`. */
   canvas: string;
   /** How the operator divides the link; `null`: as the robot does unasked. */
@@ -137,6 +138,7 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
       ...presentationFigures(
         rows,
         cameras.map(({ framesPerS }) => framesPerS),
+        setup.cloudsPerS,
       ),
       presentations: rows.length,
       dropped: after.skipped.map((each, i) => each - (before.skipped[i] ?? 0) + (unshown[i] as number)),
@@ -172,10 +174,11 @@ function soundOptions({ sound }: CameraSetup) {
   return sound ? { sound: { microphone: { source: { kind: 'test' } } } } : {};
 }
 
-function cloudArgs({ points, trace }: CameraSetup): string[] {
-  if (points === null) return ['--fps', '15'];
+function cloudArgs({ points, cloudsPerS, trace }: CameraSetup): string[] {
+  const fps = ['--fps', String(cloudsPerS)];
+  if (points === null) return fps;
   const rate = trace === null ? ['--rate-control', 'fixed', '--bitrate-mbps', '50'] : [];
-  return ['--sim-size', '64', '--fps', '10', '--mode', 'points64', '--max-points', String(points), ...rate];
+  return ['--sim-size', '64', ...fps, '--mode', 'points64', '--max-points', String(points), ...rate];
 }
 
 function linkSpec(trace: string, statsFile: string) {

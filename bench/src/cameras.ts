@@ -24,7 +24,8 @@ capture time drawn into each; the page reads it from what it shows, on every pre
   --encoder auto      as the robot chooses; or one that \`pnpm robot doctor\` lists
   --sound             the page hears a microphone, too
   --content plain     or noise, which takes any bit rate, so that all streams compete for the link
-  --points 600        of the cloud beside them, 10 times a second; \`all\`: the simulated camera's, as the link allows
+  --points 600        of each cloud beside them; \`all\`: the simulated camera's, as the link allows
+  --cloud-fps 10      clouds a second
   --shares 2:1,1,1    how the operator divides the link: weights of the clouds and of each camera
   --canvas 160x90     of the point view, which is drawn in software
   --thesis            the experiments of the telemetry thesis, one after another, instead of --cameras and --sync
@@ -32,7 +33,8 @@ capture time drawn into each; the page reads it from what it shows, on every pre
   --json
 
 glassToGlassMs: from capture to the end of the display frame that shows the picture. spreadMs: between the earliest and the
-latest capture in a presentation; shareHalfInterval: no more than half an interval of the slowest camera. addedBySyncMs: how long pictures that had arrived waited for others. dropped: pictures that
+latest capture in a presentation; shareHalfInterval: no more than half an interval of the slowest camera.
+cloudApartMs: between the newest capture of the cameras and of the cloud that are shown. addedBySyncMs: how long pictures that had arrived waited for others. dropped: pictures that
 encoders skipped, and pictures that arrived and were not shown. commandDelayMs: from the page to the robot, beyond the link's
 own delay. robotCpu, browserCpu: cores, encoders included. keyFrames: encoded during the measurement, all cameras together.`;
 
@@ -51,6 +53,7 @@ export const bench: Bench = {
         encoder: { type: 'string', default: 'auto' },
         content: { type: 'string', default: 'plain' },
         points: { type: 'string', default: '600' },
+        'cloud-fps': { type: 'string', default: '10' },
         shares: { type: 'string' },
         sound: { type: 'boolean', default: false },
         canvas: { type: 'string', default: '160x90' },
@@ -73,6 +76,7 @@ export const bench: Bench = {
       trace: values.over === 'loopback' ? null : values.over,
       seconds: numberOption('seconds', values.seconds, 1),
       points: values.points === 'all' ? null : numberOption('points', values.points, 150),
+      cloudsPerS: numberOption('cloud-fps', values['cloud-fps'], 1),
       shares: values.shares === undefined ? null : parseShares(values.shares, cameras.length),
     };
     const over = setup.trace === null ? 'loopback' : basename(setup.trace);
@@ -134,21 +138,19 @@ function print({ title, found, cameras, run }: TitledRun): void {
     ]),
   );
   const [spread, command] = [rounded(run.spreadMs, 2), rounded(run.commandDelayMs, 1)];
+  const cloud = rounded(run.cloudApartMs, 1);
   printTable(
     [
       ...['spread p50', 'p99', 'max', 'under 1 ms', 'half interval', 'waited p50'],
+      ...['cloud apart p50', 'p95', 'half interval'],
       ...['robot, cores', 'browser', 'queue p95'],
       ...['commands', 'later p50', 'p99', 'max', 'refused', 'key frames', 'receiver'],
     ],
     [
       [
         ...[spread.p50, spread.p99, spread.max, percent(run.share1Ms), percent(run.shareHalfInterval)],
-        ...[
-          run.addedBySyncMs?.p50,
-          run.robotCpu,
-          run.browserCpu,
-          run.queueMs === null ? '–' : rounded(run.queueMs, 1).p95,
-        ],
+        ...[run.addedBySyncMs?.p50, cloud.p50, cloud.p95, percent(run.cloudHalfInterval)],
+        ...[run.robotCpu, run.browserCpu, run.queueMs === null ? '–' : rounded(run.queueMs, 1).p95],
         ...[
           run.commands,
           command.p50,
@@ -174,11 +176,19 @@ function percent(share: number): string {
 
 /** What `--json` prints of a run; latency is measured in no other way than glass to glass. */
 function figuresOf(run: CameraRun) {
-  const { glassToGlassMs: latencies, spreadMs, commandDelayMs, queueMs, series, ...figures } = run;
+  const {
+    glassToGlassMs: latencies,
+    spreadMs,
+    cloudApartMs,
+    commandDelayMs,
+    queueMs,
+    series,
+    ...figures
+  } = run;
   const glassToGlassMs = latencies.map((each) => rounded(each, 1));
   return {
     ...{ glassToGlassMs, latencyMs: glassToGlassMs, spreadMs: rounded(spreadMs, 2) },
-    commandDelayMs: rounded(commandDelayMs, 1),
+    ...{ cloudApartMs: rounded(cloudApartMs, 1), commandDelayMs: rounded(commandDelayMs, 1) },
     queueMs: queueMs === null ? null : rounded(queueMs, 1),
     ...figures,
     series: series.map(({ s, ms }) => ({ s, ms: ms.map((value) => Number(value.toFixed(1))) })),

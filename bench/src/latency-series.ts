@@ -13,7 +13,7 @@ export interface LatencySeries {
 }
 
 /** @returns one series by camera; pictures count once, when they were first shown */
-export function latencySeries(rows: readonly Presented[], cameras: number): LatencySeries[] {
+export function latencySeries(rows: readonly Omit<Presented, 'cloudMs'>[], cameras: number): LatencySeries[] {
   const whole = rows.filter((row): row is Presented & { finishedMs: number } => row.finishedMs !== null);
   const first = whole[0]?.finishedMs ?? 0;
   const bins = Math.floor(((whole.at(-1)?.finishedMs ?? first) - first) / 1000 / AVERAGED_S);

@@ -27,6 +27,8 @@ import { showRobotSwitcher } from './ui/robot-switcher.ts';
 import { showSensorSwitches } from './ui/sensor-switches.ts';
 import { SoundUi } from './ui/sound-ui.ts';
 import { showStatus } from './ui/status-ui.ts';
+import { CloudHold, driverHold, noHold } from './video/cloud-hold.ts';
+import { HeldClouds } from './video/held-clouds.ts';
 import { VideoFeed } from './video/video-feed.ts';
 import { videoReceiver } from './video/video-receiver.ts';
 import { applyAppearance } from './view/apply-appearance.ts';
@@ -57,6 +59,8 @@ export class App {
   /** The capture instant of what is shown. */
   readonly presented = new PresentedInstant();
   /** The robot's telemetry over time. */
+  /** Clouds wait here for the videos that were captured with them. */
+  readonly hold: CloudHold;
   readonly recorder: TelemetryRecorder;
   readonly vr: VrSession;
   readonly frames: FrameLoop;
@@ -104,10 +108,12 @@ export class App {
       now: () => performance.now(),
     });
     this.recorder = new TelemetryRecorder(this.client, () => performance.now());
-    this.cloud = new CloudView(renderer, this.client);
+    this.hold = new CloudHold(settings.synchronised ? driverHold : noHold);
+    const held = new HeldClouds(this.client, this.hold, () => performance.now());
+    this.cloud = new CloudView(renderer, held);
     world.add(this.cloud);
     this.clouds = new SensorClouds({
-      ...{ renderer, world, client: this.client, first: this.cloud, sensors, pointScale },
+      ...{ renderer, world, client: held, first: this.cloud, sensors, pointScale },
     });
     this.vr = new VrSession(renderer);
     this.#estop = new EstopUi(this.client, this.state.robot, this.#release);
@@ -128,7 +134,18 @@ export class App {
       this.#inputs.readHeadset(vr.inputSources);
       this.#pictures?.update();
     };
-    this.frames = new FrameLoop({ settings, client, stage, cloud, clouds, videos, stats, vr, readHeadset });
+    this.frames = new FrameLoop({
+      settings,
+      client,
+      stage,
+      held,
+      cloud,
+      clouds,
+      videos,
+      stats,
+      vr,
+      readHeadset,
+    });
   }
 
   start(): void {

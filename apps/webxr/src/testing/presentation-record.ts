@@ -6,6 +6,8 @@ export interface PresentationRow {
   finishedMs: number | null;
   /** By video; `null` where no barcode can be read. */
   drawnMs: (number | null)[];
+  /** When the newest cloud beside them was captured; `null` without one. */
+  cloudMs: number | null;
 }
 
 export class PresentationRecord {
@@ -19,10 +21,14 @@ export class PresentationRecord {
   }
 
   /** Reads the canvases now; the display frame that shows them ends before the next one begins. */
-  add(canvases: readonly HTMLCanvasElement[]): void {
+  add(canvases: readonly HTMLCanvasElement[], cloudMs: () => number | null): void {
     if (this.rows.length >= this.#capacity) return;
-    const row: PresentationRow = { finishedMs: null, drawnMs: canvases.map(readTime) };
+    const row: PresentationRow = { finishedMs: null, drawnMs: canvases.map(readTime), cloudMs: null };
     this.rows.push(row);
+    // Clouds follow the videos in the same display frame.
+    queueMicrotask(() => {
+      row.cloudMs = cloudMs();
+    });
     requestAnimationFrame(() => {
       row.finishedMs = this.#robotNowMs();
     });

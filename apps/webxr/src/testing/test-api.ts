@@ -133,10 +133,14 @@ export interface FarpointTestApi {
   /** Starts recording what videos show, for up to `capacity` presentations; `null` stops it. Needs `barcode=1`. */
   recordPresentations(capacity: number | null): void;
   /**
-   * Of each recorded presentation: when its display frame was finished, and the time that is drawn in each video's
-   * picture (`null` if it cannot be read); ms on the robot's clock.
+   * Of each recorded presentation: when its display frame was finished, the time that is drawn in each video's picture
+   * (`null` if it cannot be read), and when the newest cloud beside them was captured; ms on the robot's clock.
    */
-  recordedPresentations(): { finishedMs: number | null; drawnMs: (number | null)[] }[];
+  recordedPresentations(): {
+    finishedMs: number | null;
+    drawnMs: (number | null)[];
+    cloudMs: number | null;
+  }[];
   /** The robot's clock now, as the page estimates it, ms; `null` until it is known. */
   robotNowMs(): number | null;
   /**

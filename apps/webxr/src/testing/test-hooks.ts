@@ -114,7 +114,13 @@ export function installTestApi(app: App): void {
       const record = capacity === null ? null : new PresentationRecord(capacity, robotNowMs);
       presentations = record;
       app.videos.onPresented =
-        record === null ? null : () => record.add(app.state.videos.views.value.map(({ canvas }) => canvas));
+        record === null
+          ? null
+          : () =>
+              record.add(
+                app.state.videos.views.value.map(({ canvas }) => canvas),
+                () => app.hold.passedMs,
+              );
     },
     recordedPresentations: () => [...(presentations?.rows ?? [])],
     videoCanvas: (video) => app.state.videos.views.value[video]?.canvas ?? null,

@@ -3,6 +3,7 @@ import { type CloudView, DrawGate, DrawingGovernor, GpuCompletion } from '@farpo
 import type { RobotClient } from '@farpoint/operator';
 import type { Settings } from '../settings.ts';
 import type { PageStatistics } from '../status/page-stats.ts';
+import type { HeldClouds } from '../video/held-clouds.ts';
 import type { VideoFeed } from '../video/video-feed.ts';
 import type { SensorClouds } from './sensor-clouds.ts';
 import type { Stage } from './stage.ts';
@@ -12,6 +13,7 @@ export interface FrameLoopParts {
   readonly settings: Settings;
   readonly client: RobotClient;
   readonly stage: Stage;
+  readonly held: HeldClouds;
   readonly cloud: CloudView;
   readonly clouds: SensorClouds;
   readonly videos: VideoFeed;
@@ -58,9 +60,11 @@ export class FrameLoop {
   }
 
   #frame(nowMs: number): void {
-    const { client, cloud, clouds, videos, settings, stage, stats, vr } = this.#parts;
+    const { client, held, cloud, clouds, videos, settings, stage, stats, vr } = this.#parts;
     // Videos are shown beside the scene: they need not wait until it can be drawn again.
-    videos.tick(performance.now());
+    const nowOnClockMs = performance.now();
+    videos.tick(nowOnClockMs);
+    held.tick(videos.shownMs, nowOnClockMs);
     const inVr = vr.active.peek();
     // In VR the headset's compositor sets the pace.
     if (!inVr && this.#completion.busy) return;

@@ -5,13 +5,13 @@ import { computed, effect, signal } from '@preact/signals-core';
 import { Enlarged } from '../state/enlarged.ts';
 import { Switches } from '../state/switches.ts';
 import { startLook } from '../ui/look-controls.ts';
+import { CloudHold, noHold, watcherHold } from '../video/cloud-hold.ts';
+import { HeldClouds } from '../video/held-clouds.ts';
 import { VideoFeed } from '../video/video-feed.ts';
 import { videoReceiver } from '../video/video-receiver.ts';
 import { VideoViews } from '../video/video-views.ts';
 import { SensorClouds } from '../view/sensor-clouds.ts';
 import { Stage } from '../view/stage.ts';
-import { CloudHold } from './cloud-hold.ts';
-import { HeldClouds } from './held-clouds.ts';
 import { showWatchPanels } from './watch-panels.ts';
 import type { WatchSettings } from './watch-settings.ts';
 import { watchWords } from './watch-words.ts';
@@ -32,7 +32,7 @@ export class WatchApp {
   readonly videos: VideoFeed;
   readonly cloud: CloudView;
   /** Clouds wait here for the videos that were captured with them. */
-  readonly hold = new CloudHold();
+  readonly hold: CloudHold;
   /** Display frames drawn. */
   drawnFrames = 0;
   readonly #elements: WatchElements;
@@ -65,7 +65,8 @@ export class WatchApp {
         rtpTimestamp === null ? null : watcher.captureMsOf(video, rtpTimestamp),
       now: () => performance.now(),
     });
-    this.#held = new HeldClouds(watcher, synchronised ? this.hold : null, () => performance.now());
+    this.hold = new CloudHold(synchronised ? watcherHold : noHold);
+    this.#held = new HeldClouds(watcher, this.hold, () => performance.now());
     const held = this.#held;
     this.cloud = new CloudView(renderer, held);
     world.add(this.cloud);

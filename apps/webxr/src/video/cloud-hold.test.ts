@@ -1,8 +1,8 @@
 import { describe, expect, test } from 'vitest';
-import { CloudHold } from './cloud-hold.ts';
+import { CloudHold, driverHold, noHold, watcherHold } from './cloud-hold.ts';
 
-function bench() {
-  const hold = new CloudHold();
+function bench(limit = watcherHold) {
+  const hold = new CloudHold(limit);
   const passed: number[] = [];
   return {
     hold,
@@ -62,5 +62,45 @@ describe('clouds', () => {
     expect(passed).toEqual([1100]);
     add(5, 2);
     expect(passed).toEqual([1100, 5]);
+  });
+
+  test('pass at once if nothing is to be in step', () => {
+    const { hold, passed, add } = bench(noHold);
+    hold.tick(1000, 0);
+    add(1500, 1);
+    expect(passed).toEqual([1500]);
+    expect(hold.passedMs).toBe(1500);
+  });
+
+  test('wait for a driver no longer than from one picture to the next and 10 ms', () => {
+    const { hold, passed, add } = bench(driverHold);
+    hold.tick(1000, 0);
+    hold.tick(1030, 30);
+    add(1060, 31);
+    hold.tick(1030, 70);
+    expect(passed).toEqual([]);
+    hold.tick(1030, 71);
+    expect(passed).toEqual([1060]);
+  });
+
+  test('do not wait for videos that always come too late, and wait again once they come earlier', () => {
+    const { hold, passed, add } = bench(driverHold);
+    let nowMs = 0;
+    /** A cloud and a picture each 30 ms; how old the cloud is when it passes. */
+    const run = (videoDelayMs: number, rounds: number) => {
+      let waitedMs = 0;
+      for (let round = 0; round < rounds; round++) {
+        nowMs += 30;
+        const { length } = passed;
+        add(nowMs, nowMs);
+        const addedAtMs = nowMs;
+        hold.tick(nowMs - videoDelayMs, nowMs);
+        waitedMs = passed.length > length && passed.at(-1) === addedAtMs ? 0 : 1;
+      }
+      return waitedMs;
+    };
+    expect(run(40, 10)).toBe(1);
+    expect(run(300, 100)).toBe(0);
+    expect(run(40, 100)).toBe(1);
   });
 });

@@ -1,0 +1,141 @@
+/**
+ * Holds clouds until the videos that were captured with them are shown. Videos take longer: they are encoded, put
+ * together and decoded. Time is an argument.
+ */
+import { type Distribution, SampleWindow } from '@farpoint/operator';
+
+/** For one who only watches, ms: nothing is lost by it. */
+const WATCHER_HOLD_MS = 200;
+/** For one who drives, ms beyond the time from one picture to the next … */
+const DRIVER_MARGIN_MS = 10;
+/** … and at most: the points are what obstacles are seen by. */
+const MOST_DRIVER_HOLD_MS = 60;
+/** Videos that have not gone on for so long have stopped, ms. */
+const VIDEO_SILENT_MS = 200;
+/** What was captured at most half an interval of the videos after them belongs to them; here at first, ms … */
+const FIRST_TOGETHER_MS = 17;
+/** … and at most. */
+const MOST_TOGETHER_MS = 50;
+/** Share of the newest value in the mean of what clouds had to wait. */
+const MEAN_SHARE = 1 / 32;
+/** Holding ends only when it is so much too short, as a factor: a change shifts the delay of what is seen. */
+const END_FACTOR = 1.3;
+const MOST_AWAITED = 64;
+const SAMPLES_KEPT = 512;
+
+interface Cloud {
+  readonly captureMs: number;
+  readonly arrivedMs: number;
+}
+
+interface Waiting extends Cloud {
+  pass(): void;
+}
+
+/** How long a cloud may wait, ms, where videos come at this interval, ms. */
+export type HoldLimit = (intervalMs: number) => number;
+
+/** Clouds pass at once. */
+export const noHold: HoldLimit = () => 0;
+export const watcherHold: HoldLimit = () => WATCHER_HOLD_MS;
+export const driverHold: HoldLimit = (intervalMs) =>
+  Math.min(intervalMs + DRIVER_MARGIN_MS, MOST_DRIVER_HOLD_MS);
+
+export class CloudHold {
+  readonly #limit: HoldLimit;
+  readonly #waiting: Waiting[] = [];
+  /** Clouds whose videos are still to come, whether they wait for them or not. */
+  readonly #awaited: Cloud[] = [];
+  readonly #ahead = new SampleWindow(SAMPLES_KEPT);
+  readonly #held = new SampleWindow(SAMPLES_KEPT);
+  #videoMs: number | null = null;
+  #togetherMs = FIRST_TOGETHER_MS;
+  /** When the videos last went on, ms. */
+  #wentOnMs = Number.NEGATIVE_INFINITY;
+  /** The mean of how long clouds would have to wait, ms. */
+  #neededMs = 0;
+  #isWorthIt = true;
+  /** When the newest cloud that was passed was captured, ms on the robot's clock; `null` before the first. */
+  passedMs: number | null = null;
+
+  constructor(limit: HoldLimit) {
+    this.#limit = limit;
+  }
+
+  /**
+   * @param captureMs on the robot's clock
+   * @param pass called once, now or at one of the next ticks, in the order of arrival
+   */
+  add(captureMs: number, nowMs: number, pass: () => void): void {
+    this.#waiting.push({ captureMs, arrivedMs: nowMs, pass });
+    if (this.#awaited.at(-1)?.captureMs !== captureMs) this.#awaited.push({ captureMs, arrivedMs: nowMs });
+    if (this.#awaited.length > MOST_AWAITED) this.#awaited.shift();
+    this.#passDue(nowMs);
+  }
+
+  /** @param videoMs the newest capture instant of what is shown of the videos, robot's clock; `null` for none */
+  tick(videoMs: number | null, nowMs: number): void {
+    if (videoMs !== this.#videoMs) {
+      this.#wentOnMs = nowMs;
+      const stepMs = (videoMs ?? 0) - (this.#videoMs ?? Number.POSITIVE_INFINITY);
+      if (stepMs > 0) this.#togetherMs = Math.min(stepMs / 2, MOST_TOGETHER_MS);
+      this.#videoMs = videoMs;
+      if (videoMs !== null) this.#judge(videoMs, nowMs);
+    }
+    this.#passDue(nowMs);
+  }
+
+  /** Passes all at once. */
+  clear(): void {
+    for (const { pass } of this.#waiting.splice(0)) pass();
+    this.#awaited.length = 0;
+    this.#videoMs = null;
+    this.#togetherMs = FIRST_TOGETHER_MS;
+    this.#wentOnMs = Number.NEGATIVE_INFINITY;
+    this.#neededMs = 0;
+    this.#isWorthIt = true;
+    this.passedMs = null;
+  }
+
+  /** Of what was passed while videos were shown. */
+  get stats(): { aheadMs: Distribution | null; heldMs: Distribution | null } {
+    return { aheadMs: this.#ahead.distribution(), heldMs: this.#held.distribution() };
+  }
+
+  resetDistributions(): void {
+    this.#ahead.clear();
+    this.#held.clear();
+  }
+
+  get #mostHeldMs(): number {
+    return this.#limit(this.#togetherMs * 2);
+  }
+
+  /** Videos that come later than a cloud may wait are not waited for in vain. */
+  #judge(videoMs: number, nowMs: number): void {
+    for (let next = this.#awaited[0]; next !== undefined; next = this.#awaited[0]) {
+      if (next.captureMs - videoMs > this.#togetherMs) break;
+      this.#awaited.shift();
+      this.#neededMs += (nowMs - next.arrivedMs - this.#neededMs) * MEAN_SHARE;
+    }
+    this.#isWorthIt = this.#neededMs <= this.#mostHeldMs * (this.#isWorthIt ? END_FACTOR : 1);
+  }
+
+  #passDue(nowMs: number): void {
+    // Nothing to be in step with, or not any more.
+    const videoMs = nowMs - this.#wentOnMs > VIDEO_SILENT_MS ? null : this.#videoMs;
+    const mostHeldMs = this.#isWorthIt ? this.#mostHeldMs : 0;
+    for (let next = this.#waiting[0]; next !== undefined; next = this.#waiting[0]) {
+      const aheadMs = videoMs === null ? 0 : next.captureMs - videoMs;
+      const heldMs = nowMs - next.arrivedMs;
+      if (aheadMs > this.#togetherMs && heldMs < mostHeldMs) return;
+      this.#waiting.shift();
+      if (videoMs !== null) {
+        this.#ahead.add(aheadMs);
+        this.#held.add(heldMs);
+      }
+      this.passedMs = next.captureMs;
+      next.pass();
+    }
+  }
+}
