@@ -211,6 +211,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
         'janus',
         'sim',
         'recording',
+        'recording --videos 3 --seconds 40 --captured-fps 10',
+        'recording --videos N',
         'congestion',
         'sampling --plot FILE.svg',
       ],
