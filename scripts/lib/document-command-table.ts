@@ -164,6 +164,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'pnpm release': { help: true, because: 'writes into the working tree' },
   'pnpm release --dry-run': { help: true, because: 'builds for minutes' },
   'pnpm release --help': { help: true },
+  'pnpm docs:images': { because: 'writes into the working tree' },
+  'pnpm docs:images -g dashboard': { because: 'writes into the working tree' },
   'pnpm docs:api': { because: 'writes into the working tree' },
   'pnpm format': { because: 'writes into the working tree' },
   'pnpm exec vitest packages/protocol': { because: 'runs until it is ended, and every test of it' },
