@@ -18,6 +18,19 @@ export function cpuSecondsOfTree(pid: number): number | null {
   return sum;
 }
 
+/**
+ * Of a process's main thread, the one that runs JavaScript's event loop.
+ *
+ * @returns seconds of processor time so far, or `null` without /proc
+ */
+export function cpuSecondsOfMainThread(pid: number): number | null {
+  try {
+    return parseStat(readFileSync(`/proc/${pid}/task/${pid}/stat`, 'utf8')).seconds;
+  } catch {
+    return null;
+  }
+}
+
 function isWithin(pid: number, ancestor: number, processes: ReadonlyMap<number, ProcessTimes>): boolean {
   for (let at = pid; at > 1; at = processes.get(at)?.parent ?? 0) if (at === ancestor) return true;
   return false;

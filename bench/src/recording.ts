@@ -6,16 +6,27 @@ import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
+import { MAX_VIDEOS } from '@farpoint/protocol';
 import { openRecording } from '@farpoint/recording';
 import { buildAddon } from '@farpoint/shared-memory/build';
+import {
+  CAMERA,
+  encodedVideos,
+  NOTHING_ENCODED,
+  type RecordedFrame,
+  recordedVideo,
+  videoArgs,
+} from './recorded-videos.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { type LayoutResult, measure } from './shm.ts';
 
-const USAGE = `pnpm bench recording [--size 480] [--fps 30] [--captured-fps 30] [--seconds 60] [--mbps 20] [--pictures 0] [--compression none] [--folder FOLDER] [--json]
+const USAGE = `pnpm bench recording [--size 480] [--fps 30] [--captured-fps 30] [--seconds 60] [--mbps 20] [--pictures 0] [--videos 0] [--encoder x264enc] [--compression none] [--folder FOLDER] [--json]
 
 A camera process writes size × size points --fps times a second to shared memory. The robot sends them to an operator, first
 without a recording, then while recording everything: --captured-fps captured clouds a second (16 bytes a point), all sent
-clouds, and all other topics; with --pictures N also the camera's picture N times a second, as sent to the operator.
+clouds, and all other topics; with --pictures N also the camera's picture N times a second, as sent to the operator; with
+--videos N also N cameras with test pictures, 640×480 at 30/s and 1500 kbit/s, encoded by --encoder and watched by the operator.
+Lost frames of a video: gaps in the capture times in the file. Main: the robot's main thread, which drives and sends.
 Latency: from when the camera starts to write a frame until the robot has its packets ready. Memory: of the robot process, in
 the first and the last fifth of the run. Afterwards the file is read back and every message is counted.`;
 
@@ -32,6 +43,8 @@ export const bench: Bench = {
         seconds: { type: 'string', default: '60' },
         mbps: { type: 'string', default: '20' },
         pictures: { type: 'string', default: '0' },
+        videos: { type: 'string', default: '0' },
+        encoder: { type: 'string', default: 'x264enc' },
         compression: { type: 'string', default: 'none' },
         folder: { type: 'string' },
         json: { type: 'boolean' },
@@ -50,27 +63,35 @@ export const bench: Bench = {
     const pictureArgs = pictures
       ? ['--pictures-of-cloud', '--pictures-per-second', String(picturesPerSecond)]
       : [];
+    const videos = numberOption('videos', values.videos);
+    if (!Number.isInteger(videos) || videos > MAX_VIDEOS)
+      throw new Error(`--videos is \`${values.videos}\`, not 0 to ${MAX_VIDEOS}`);
     const { ok, output } = buildAddon();
     if (!ok) throw new Error(`the addon does not build:\n${output}`);
     const folder = mkdtempSync(join(values.folder ?? tmpdir(), 'farpoint-bench-recording-'));
     const path = join(folder, 'session.mcap');
+    const sourceArgs = [...pictureArgs, ...(videos > 0 ? videoArgs(folder, videos, values.encoder) : [])];
     try {
       console.error('without a recording');
       const plain = await measure('farpoint', {
-        ...{ size, fps, mbps, seconds: Math.min(seconds, 20), pictures },
-        robotArgs: pictureArgs,
+        ...{ size, fps, mbps, seconds: Math.min(seconds, 20), pictures, videos },
+        robotArgs: sourceArgs,
       });
       console.error(`with one, ${seconds} s`);
       const memoryMb: number[] = [];
+      let encoded = NOTHING_ENCODED;
       const recorded = await measure('farpoint', {
-        ...{ size, fps, mbps, seconds, pictures },
+        ...{ size, fps, mbps, seconds, pictures, videos },
         robotArgs: [
-          ...pictureArgs,
+          ...sourceArgs,
           ...['--record', path, '--record-clouds', 'both', '--record-max', 'none'],
           ...['--record-captured-fps', values['captured-fps'], '--record-sent-fps', '120'],
           ...['--record-compression', compression],
         ],
         onSecond: (pid) => memoryMb.push(residentMb(pid)),
+        onEnd: async (adminUrl) => {
+          if (videos > 0) encoded = await encodedVideos(adminUrl);
+        },
       });
       const file = await readBack(path);
       const fifth = Math.max(1, Math.floor(memoryMb.length / 5));
@@ -83,6 +104,7 @@ export const bench: Bench = {
           mbps,
           compression,
           picturesPerSecond,
+          videoCameras: videos,
           capturedFps: Number(values['captured-fps']),
         },
         latencyMs: recorded.latencyMs,
@@ -95,11 +117,14 @@ export const bench: Bench = {
         framesPerSecond: recorded.framesPerSecond,
         framesPerSecondWithout: plain.framesPerSecond,
         ...(pictures ? {} : { torn: recorded.torn }),
+        videoSkipped: encoded.skipped,
         rssMbMax: recorded.rssMbMax,
         rssMbBegin: mean(memoryMb.slice(0, fifth)),
         rssMbEnd: mean(memoryMb.slice(-fifth)),
         robotCpu: recorded.robotCpu,
         robotCpuWithout: plain.robotCpu,
+        robotMainCpu: recorded.robotMainCpu,
+        robotMainCpuWithout: plain.robotMainCpu,
         fileMbPerSecond: Math.round(statSync(path).size / 1e6 / (file.recordedSeconds || 1)),
         ...file,
       };
@@ -111,11 +136,22 @@ export const bench: Bench = {
         ],
       );
       printTable(
-        ['frames/s', 'robot, cores', 'without', 'MB at begin', 'MB at end', 'MB most', 'file, MB/s'],
+        [
+          'frames/s',
+          'robot, cores',
+          'without',
+          'of it main',
+          'without',
+          'MB at begin',
+          'MB at end',
+          'MB most',
+          'file, MB/s',
+        ],
         [
           [
-            ...[result.framesPerSecond, result.robotCpu, result.robotCpuWithout, result.rssMbBegin],
-            ...[result.rssMbEnd, result.rssMbMax, result.fileMbPerSecond],
+            ...[result.framesPerSecond, result.robotCpu, result.robotCpuWithout],
+            ...[result.robotMainCpu, result.robotMainCpuWithout],
+            ...[result.rssMbBegin, result.rssMbEnd, result.rssMbMax, result.fileMbPerSecond],
           ],
         ],
       );
@@ -123,6 +159,15 @@ export const bench: Bench = {
         ['topic', 'recorded', 'dropped', 'MB'],
         Object.entries(file.topics).map(([name, { messages, dropped, mb }]) => [name, messages, dropped, mb]),
       );
+      if (file.videos.length > 0) {
+        printTable(
+          ['video', 'recorded', 'lost', 'kept, %', 'skipped by the encoder', 'frames/s', 'kB/s'],
+          file.videos.map(({ name, frames, lost, keptShare, framesPerSecond, bytesPerSecond }, i) => [
+            ...[name, frames, lost, keptShare * 100, encoded.skipped[i]],
+            ...[framesPerSecond, bytesPerSecond / 1000],
+          ]),
+        );
+      }
       if (values.json) printJson(result);
     } finally {
       rmSync(folder, { recursive: true, force: true });
@@ -135,14 +180,20 @@ async function readBack(path: string) {
   const recording = await openRecording(path);
   const counts = new Map<string, number>();
   const bytes = new Map<string, number>();
+  const videos = new Map<string, RecordedFrame[]>();
   let dropped: Record<string, number> = {};
   const begin = performance.now();
-  for await (const { topic, data } of recording.messages(
+  for await (const { topic, logNs, data } of recording.messages(
     recording.topics.map(({ name }) => name),
     recording.startNs,
   )) {
     counts.set(topic.name, (counts.get(topic.name) ?? 0) + 1);
     bytes.set(topic.name, (bytes.get(topic.name) ?? 0) + data.length);
+    if (topic.name.startsWith('/farpoint/videos/')) {
+      const frames = videos.get(topic.name) ?? [];
+      videos.set(topic.name, frames);
+      frames.push({ ms: Number(logNs - recording.startNs) / 1e6, bytes: data.length });
+    }
     if (topic.name !== '/farpoint/recorder') continue;
     const state = topic.decode(data) as { dropped: Record<string, number> };
     dropped = state.dropped;
@@ -160,7 +211,15 @@ async function readBack(path: string) {
   );
   const seconds = Number(recording.endNs - recording.startNs) / 1e9;
   await recording.close();
-  return { recordedSeconds: Number(seconds.toFixed(1)), topics, readSeconds: Number(readSeconds.toFixed(1)) };
+  return {
+    recordedSeconds: Number(seconds.toFixed(1)),
+    topics,
+    videos: [...videos].map(([name, frames]) => ({
+      name: name.slice('/farpoint/videos/'.length),
+      ...recordedVideo(frames, CAMERA.framesPerS),
+    })),
+    readSeconds: Number(readSeconds.toFixed(1)),
+  };
 }
 
 function difference(a: LayoutResult, b: LayoutResult, key: 'p50' | 'p95' | 'p99'): number {

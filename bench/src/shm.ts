@@ -7,7 +7,7 @@ import { LocalStack } from '@farpoint/local-stack';
 import { SignaledOperator } from '@farpoint/robot-node/testing';
 import { buildAddon } from '@farpoint/shared-memory/build';
 import { type KillTestResult, runKillTest } from '@farpoint/shared-memory/kill-test';
-import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
+import { coresBetween, cpuSecondsOfMainThread, cpuSecondsOfTree } from './cpu-time.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { FrameColours, readFrameLog, residentPeakMb } from './robot-frames.ts';
 import { type Distribution, distribution, rounded } from './stats.ts';
@@ -34,6 +34,8 @@ export interface LayoutResult {
   packetsChecked: number;
   rssMbMax: number;
   robotCpu: number | null;
+  /** Of that, the main thread, which drives and sends. */
+  robotMainCpu: number | null;
   producerCpu: number | null;
   pointsPerFrame: number;
 }
@@ -118,6 +120,10 @@ export interface ShmRun {
    * not detected. The robot's options must enable pictures.
    */
   pictures?: boolean;
+  /** Number of videos that the operator watches, too. The robot's options must have as many cameras. */
+  videos?: number;
+  /** Called at the end, while the robot still runs. @param adminUrl of the robot */
+  onEnd?: (adminUrl: string) => Promise<void>;
   /** Additional options for the robot. */
   robotArgs?: string[];
   /** Called each second. */
@@ -126,7 +132,7 @@ export interface ShmRun {
 
 export async function measure(
   layout: Layout,
-  { size, fps, seconds, mbps, pictures = false, robotArgs = [], onSecond }: ShmRun,
+  { size, fps, seconds, mbps, pictures = false, videos = 0, robotArgs = [], onSecond, onEnd }: ShmRun,
 ): Promise<LayoutResult> {
   const folder = mkdtempSync('/dev/shm/farpoint-bench-');
   const [frameLog, producerLog] = [join(folder, 'frames.csv'), join(folder, 'producer.txt')];
@@ -163,15 +169,25 @@ export async function measure(
       await operator.client.message('cameras');
       operator.client.sendSession({ type: 'pictures', cameras: [0] });
     }
+    if (videos > 0) {
+      await operator.client.message('videos');
+      operator.client.sendSession({ type: 'videos', videos: Array.from({ length: videos }, (_, i) => i) });
+    }
     await sleep(WARM_UP_MS);
     if (!pictures) operator.client.onCloudPacket = (payload) => colours.add(payload);
-    const cpu = () => [cpuSecondsOfTree(robotPid), cpuSecondsOfTree(producer.pid as number)] as const;
+    const cpu = () =>
+      [
+        cpuSecondsOfTree(robotPid),
+        cpuSecondsOfTree(producer.pid as number),
+        cpuSecondsOfMainThread(robotPid),
+      ] as const;
     const [beginMs, cpuBefore] = [nowMs(), cpu()];
     const ticking = setInterval(() => onSecond?.(robotPid), 1000);
     await sleep(seconds * 1000);
     clearInterval(ticking);
     const [endMs, cpuAfter] = [nowMs(), cpu()];
     const rssMbMax = residentPeakMb(robotPid);
+    await onEnd?.(stack.robotAdminUrl(ROBOT));
     operator.client.onCloudPacket = null;
     await operator.close();
     await stack.stop();
@@ -194,6 +210,7 @@ export async function measure(
       packetsChecked: colours.packets,
       rssMbMax,
       robotCpu: coresBetween(cpuBefore[0], cpuAfter[0], elapsedMs),
+      robotMainCpu: coresBetween(cpuBefore[2], cpuAfter[2], elapsedMs),
       producerCpu: coresBetween(cpuBefore[1], cpuAfter[1], elapsedMs),
       pointsPerFrame: Math.round(frames.reduce((sum, { points }) => sum + points, 0) / frames.length),
     };

@@ -38,6 +38,12 @@ export const simulatedRobot = {
   args: ['--source', 'sim', '--sim-seed', '1', '--mode', 'points64', '--max-points', '15000'],
 };
 
+/** Its clouds are few and small: they leave the processor to videos or sound. */
+export const lightRobot = {
+  ...simulatedRobot,
+  args: [...simulatedRobot.args.slice(0, -1), '600', '--sim-size', '64', '--fps', '10'],
+};
+
 /** Two robots, light enough to stream one after the other. */
 export const twoRobots = [1, 2].map((n) => ({
   id: `sim-${n}`,

@@ -1,17 +1,12 @@
 import type { Page } from '@playwright/test';
 import { OperatorPage } from '../src/operator-page.ts';
 import { readShownVideos, type ShownVideos } from '../src/shown-videos.ts';
-import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { expect, lightRobot, test } from '../src/stack-test.ts';
 import { hasVideo, testCamera, videoRobot } from '../src/video-robot.ts';
 
 test.skip(!hasVideo, 'needs GStreamer and `pnpm build:native video`');
 
 const panel = (page: Page, name: string) => page.locator('#pictures figure', { hasText: name });
-/** Leaves the processor to the videos. */
-const light = {
-  ...simulatedRobot,
-  args: [...simulatedRobot.args.slice(0, -1), '600', '--sim-size', '64', '--fps', '10'],
-};
 const small = { width: 320, height: 240, framesPerS: 15, kbitPerS: 400 };
 const placed = (left: number, yaw: number) => ({
   ...small,
@@ -28,9 +23,9 @@ test('two simulated cameras show what the robot sees, captured at the same insta
     testCamera('Left', 'vp8enc', placed(0.3, 0.4)),
     testCamera('Right', 'x264enc', placed(-0.3, -0.4)),
   ];
-  const stack = await startStack({ robots: [videoRobot(light, cameras)] });
+  const stack = await startStack({ robots: [videoRobot(lightRobot, cameras)] });
   const operator = await OperatorPage.open(page, stack, {
-    ...{ robot: light.id, barcode: '1', canvas: '160x90' },
+    ...{ robot: lightRobot.id, barcode: '1', canvas: '160x90' },
   });
   await operator.expectPoints(300);
   for (const { name } of cameras) await expect(panel(page, name).locator('canvas')).toBeVisible();

@@ -3,7 +3,7 @@ import { toneShare } from '@farpoint/sound/testing';
 import type { Page } from '@playwright/test';
 import { OperatorPage } from '../src/operator-page.ts';
 import { hasSound, soundRobot, toneFile } from '../src/sound-robot.ts';
-import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 test.skip(!hasSound, 'needs GStreamer and `pnpm build:native sound`');
 
@@ -22,24 +22,18 @@ test.use({
   },
 });
 
-/** Leaves the processor to the sound. */
-const light = {
-  ...simulatedRobot,
-  args: [...simulatedRobot.args.slice(0, -1), '600', '--sim-size', '64', '--fps', '10'],
-};
-
 const sound = (page: Page) => page.evaluate(() => window.farpoint.sound());
 const heard = async (page: Page) => (await sound(page)).heard.state;
 const said = async (page: Page) => (await sound(page)).said.state;
 const switchOf = (page: Page) => page.getByRole('button', { name: 'Sound', exact: true });
 
 async function metric(stack: LocalStack, name: string): Promise<number> {
-  const text = await (await fetch(`${stack.robotAdminUrl(light.id)}/metrics`)).text();
+  const text = await (await fetch(`${stack.robotAdminUrl(lightRobot.id)}/metrics`)).text();
   return Number(new RegExp(`^farpoint_robot_${name} ([\\d.e+]+)`, 'm').exec(text)?.[1]);
 }
 
 async function open(page: Page, stack: LocalStack): Promise<OperatorPage> {
-  const operator = await OperatorPage.open(page, stack, { robot: light.id, canvas: '160x90' });
+  const operator = await OperatorPage.open(page, stack, { robot: lightRobot.id, canvas: '160x90' });
   await operator.expectPoints(300);
   return operator;
 }
@@ -59,7 +53,7 @@ test('the robot is heard while Sound is on, and its microphone is off otherwise'
   page,
   startStack,
 }, testInfo) => {
-  const robot = soundRobot(light);
+  const robot = soundRobot(lightRobot);
   const stack = await startStack({ robots: [robot.spec] });
   const operator = await open(page, stack);
   await expect(page.locator('#sound')).toContainText('Off');
@@ -83,7 +77,7 @@ test('the driver’s voice comes out of the robot while M is held, and stops whe
   page,
   startStack,
 }, testInfo) => {
-  const robot = soundRobot(light);
+  const robot = soundRobot(lightRobot);
   const stack = await startStack({ robots: [robot.spec] });
   const operator = await open(page, stack);
   await switchOf(page).click();
@@ -122,7 +116,7 @@ test('the voice stops when the page loses the focus, although the key is still h
   page,
   startStack,
 }) => {
-  const robot = soundRobot(light);
+  const robot = soundRobot(lightRobot);
   const stack = await startStack({ robots: [robot.spec] });
   const operator = await open(page, stack);
   await drive(operator);
@@ -142,7 +136,7 @@ test('the voice stops when the page loses the focus, although the key is still h
 });
 
 test('over a link that loses packets, both are heard', async ({ page, startStack }) => {
-  const robot = soundRobot(light);
+  const robot = soundRobot(lightRobot);
   const stack = await startStack({ robots: [] });
   const link = await EmulatedLink.start(stack, {
     args: ['--rate-mbps', '5', '--rtt-ms', '40', '--loss', '0.05'],
@@ -161,7 +155,7 @@ test('over a link that loses packets, both are heard', async ({ page, startStack
     await expect.poll(() => robot.heard().length).toBeGreaterThan(1.5 * 48_000);
     await expect
       .poll(async () => {
-        const text = await (await fetch(`${stack.robotAdminUrl(light.id)}/metrics`)).text();
+        const text = await (await fetch(`${stack.robotAdminUrl(lightRobot.id)}/metrics`)).text();
         return Number(/voice_packets_total\{outcome="concealed"\} (\d+)/.exec(text)?.[1]);
       })
       .toBeGreaterThan(0);
@@ -176,7 +170,7 @@ test('a robot that is killed is no longer heard and hears nobody; when it is bac
   page,
   startStack,
 }) => {
-  const robot = soundRobot(light);
+  const robot = soundRobot(lightRobot);
   const stack = await startStack({ robots: [robot.spec] });
   const operator = await open(page, stack);
   await switchOf(page).click();
@@ -184,17 +178,17 @@ test('a robot that is killed is no longer heard and hears nobody; when it is bac
   await drive(operator);
   await page.keyboard.down('m');
   await expect.poll(() => said(page)).toBe('live');
-  await stack.robot(light.id).kill();
+  await stack.robot(lightRobot.id).kill();
   await expect.poll(async () => (await sound(page)).sending).toBe(false);
   await expect.poll(() => heard(page)).toBe('waiting');
   await page.keyboard.up('m');
-  await stack.restartRobot(light.id);
+  await stack.restartRobot(lightRobot.id);
   await operator.expectPoints(300);
   await expectTone(page, 600);
 });
 
 test('a microphone that fails says why on the page', async ({ page, startStack }) => {
-  const robot = soundRobot(light, 'alsasrc device=hw:99');
+  const robot = soundRobot(lightRobot, 'alsasrc device=hw:99');
   const stack = await startStack({ robots: [robot.spec] });
   await open(page, stack);
   await switchOf(page).click();
@@ -202,7 +196,7 @@ test('a microphone that fails says why on the page', async ({ page, startStack }
 });
 
 test('what is heard was captured shortly before', async ({ page, startStack }, testInfo) => {
-  const robot = soundRobot(light);
+  const robot = soundRobot(lightRobot);
   const stack = await startStack({ robots: [robot.spec] });
   const operator = await open(page, stack);
   await switchOf(page).click();

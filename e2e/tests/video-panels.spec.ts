@@ -1,7 +1,7 @@
 /** The cameras' panels on a flat screen: where they are, what fills the screen, and what they say. */
 import type { Page } from '@playwright/test';
 import { OperatorPage } from '../src/operator-page.ts';
-import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { expect, lightRobot, test } from '../src/stack-test.ts';
 import { hasVideo, type TestCamera, testCamera, videoRobot } from '../src/video-robot.ts';
 
 test.skip(!hasVideo, 'needs GStreamer and `pnpm build:native video`');
@@ -10,11 +10,6 @@ const panel = (page: Page, name: string) => page.locator(`#pictures figure[aria-
 const boxOf = async (page: Page, name: string) => (await panel(page, name).boundingBox())!;
 const stateOf = (page: Page, name: string) => panel(page, name).getAttribute('data-state');
 const videos = (page: Page) => page.evaluate(() => window.farpoint.videos());
-/** Leaves the processor to the videos. */
-const light = {
-  ...simulatedRobot,
-  args: [...simulatedRobot.args.slice(0, -1), '600', '--sim-size', '64', '--fps', '10'],
-};
 const small = { width: 320, height: 240, framesPerS: 15, kbitPerS: 400 };
 const camera = (name: string, pattern: string, more: Partial<TestCamera> = {}) =>
   testCamera(name, 'vp8enc', {
@@ -79,8 +74,8 @@ async function open(
   startStack: Parameters<Parameters<typeof test>[2]>[0]['startStack'],
   cameras = twoCameras,
 ) {
-  const stack = await startStack({ robots: [videoRobot(light, cameras)] });
-  const operator = await OperatorPage.open(page, stack, { robot: light.id });
+  const stack = await startStack({ robots: [videoRobot(lightRobot, cameras)] });
+  const operator = await OperatorPage.open(page, stack, { robot: lightRobot.id });
   await operator.expectPoints(300);
   return { stack, operator };
 }
@@ -258,7 +253,7 @@ test('each panel says whether it is live, waiting, faulty, frozen or off, and wh
   await operator.screenshot(testInfo, 'states');
 
   // The robot's process is killed: nothing comes, and nobody says so.
-  await stack.robot(light.id).kill();
+  await stack.robot(lightRobot.id).kill();
   await expect(panel(page, 'Front')).toHaveAttribute('data-state', 'frozen');
   await expect(panel(page, 'Front').locator('.age')).toHaveText(/^frozen, \d+\.\d s$/);
   await expect(panel(page, 'Front').locator('canvas')).toHaveCSS('filter', /grayscale/);

@@ -1,17 +1,12 @@
 import type { Page } from '@playwright/test';
 import { OperatorPage } from '../src/operator-page.ts';
 import { readShownVideos, type ShownVideos } from '../src/shown-videos.ts';
-import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { expect, lightRobot, test } from '../src/stack-test.ts';
 import { hasVideo, testCamera, videoRobot } from '../src/video-robot.ts';
 
 test.skip(!hasVideo, 'needs GStreamer and `pnpm build:native video`');
 
 const panel = (page: Page, name: string) => page.locator('#pictures figure', { hasText: name });
-/** Leaves the processor to the videos. */
-const light = {
-  ...simulatedRobot,
-  args: [...simulatedRobot.args.slice(0, -1), '600', '--sim-size', '64', '--fps', '10'],
-};
 const small = { width: 320, height: 240, framesPerS: 15, kbitPerS: 400 };
 const pictured = (pattern: string) => ({ source: { kind: 'test', pattern, ...sizeOf(small) }, ...small });
 
@@ -31,9 +26,9 @@ test('three cameras are shown live and in step, each picture with its own time',
     testCamera('Left', 'x264enc', pictured('ball')),
     testCamera('Right', 'vp8enc', pictured('smpte')),
   ];
-  const stack = await startStack({ robots: [videoRobot(light, cameras)] });
+  const stack = await startStack({ robots: [videoRobot(lightRobot, cameras)] });
   const operator = await OperatorPage.open(page, stack, {
-    ...{ robot: light.id, barcode: '1', canvas: '160x90' },
+    ...{ robot: lightRobot.id, barcode: '1', canvas: '160x90' },
   });
   await operator.expectPoints(300);
   for (const { name } of cameras) await expect(panel(page, name).locator('canvas')).toBeVisible();
@@ -68,8 +63,8 @@ test('a camera without pictures says why, one that is hidden is not sent, and th
     testCamera('Front', 'vp8enc', pictured('pinwheel')),
     testCamera('Rear', 'vp8enc', { ...small, source: { kind: 'v4l2', device: '/dev/no-such-camera' } }),
   ];
-  const stack = await startStack({ robots: [videoRobot(light, cameras)] });
-  const operator = await OperatorPage.open(page, stack, { robot: light.id, canvas: '160x90' });
+  const stack = await startStack({ robots: [videoRobot(lightRobot, cameras)] });
+  const operator = await OperatorPage.open(page, stack, { robot: lightRobot.id, canvas: '160x90' });
   await operator.expectPoints(300);
   await expect.poll(async () => (await videos(page))[0]?.frames, { timeout: 20_000 }).toBeGreaterThan(5);
   await expect(panel(page, 'Rear')).toContainText('/dev/no-such-camera');
@@ -77,7 +72,7 @@ test('a camera without pictures says why, one that is hidden is not sent, and th
   await page.getByRole('button', { name: 'Hide Front' }).click();
   await expect(panel(page, 'Front').locator('canvas')).toBeHidden();
   const encoded = async () => {
-    const text = await (await fetch(`${stack.robotAdminUrl(light.id)}/metrics`)).text();
+    const text = await (await fetch(`${stack.robotAdminUrl(lightRobot.id)}/metrics`)).text();
     return Number(/^farpoint_robot_video_frames_total\{camera="Front"\} (\d+)/m.exec(text)?.[1]);
   };
   await expect

@@ -4,7 +4,14 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { freePorts } from '@farpoint/local-stack';
-import { foxgloveCompressedVideoSchema, lazyDecoder, pointCloud2Schema, stampNs } from '@farpoint/ros';
+import { alarmRecordSchema, sampleRecordSchema } from '@farpoint/recording';
+import {
+  DiagnosticBoard,
+  foxgloveCompressedVideoSchema,
+  lazyDecoder,
+  pointCloud2Schema,
+  stampNs,
+} from '@farpoint/ros';
 import { availableEncoders } from '@farpoint/video';
 import { BUILD_REMEDY } from '@farpoint/video/build';
 import { type Channel, FoxgloveClient } from '@foxglove/ws-protocol';
@@ -91,7 +98,7 @@ class Viewer {
 
 describe('a robot in Foxglove', { timeout: 60_000 }, () => {
   const robot = useRobot(ROBOT, [
-    ...['--config', config, '--sim-size', '256', '--max-points', '600'],
+    ...['--config', config, '--sim-size', '256', '--max-points', '600', '--sim-charge', '15'],
     ...['--foxglove-port', String(port), '--foxglove-fps', '60'],
   ]);
   const metric = (name: string) => metricOf(robot.stack.robotAdminUrl(ROBOT), `farpoint_robot_${name}`);
@@ -162,6 +169,21 @@ describe('a robot in Foxglove', { timeout: 60_000 }, () => {
       await vi.waitFor(async () => expect(await rate()).toBe(0), { timeout: 20_000, interval: 100 });
     },
   );
+
+  it('shows quantities, alarms and diagnostics', async () => {
+    const viewer = await connect();
+    const [left, charge] = ['/farpoint/quantities/motors_left', '/farpoint/alarms/charge'];
+    await vi.waitFor(() => expect(viewer.channels.has('/diagnostics')).toBe(true), { timeout: 20_000 });
+    for (const topic of [left, charge, '/diagnostics']) viewer.subscribe(topic);
+    const [sample] = await viewer.until(left, 5);
+    expect(sampleRecordSchema.parse(sample?.message).value).toBeCloseTo(22, 0);
+    // Raised alarms are repeated for those who come later.
+    const [alarm] = await viewer.until(charge, 1);
+    expect(alarmRecordSchema.parse(alarm?.message)).toMatchObject({ level: 'warn', limit: 20, unit: '%' });
+    const [array] = await viewer.until('/diagnostics', 1);
+    expect(new DiagnosticBoard().take(array?.message, 0).status).toHaveLength(4);
+    expect(viewer.errors).toEqual([]);
+  });
 
   it('an operator’s clouds and commands appear as well', async () => {
     const viewer = await connect();

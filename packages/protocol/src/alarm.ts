@@ -28,6 +28,8 @@ export interface Alarm {
   unit: string;
   /** When it took this level, robot's monotonic clock, ms. */
   sinceMs: number;
+  /** It is an alarm of the recording that the robot plays. */
+  recorded?: true | undefined;
 }
 
 export const alarmSchema = z.strictObject({
@@ -39,4 +41,5 @@ export const alarmSchema = z.strictObject({
   limit: z.number(),
   unit: z.string().check(z.maxLength(QUANTITY_LIMITS.unit)),
   sinceMs: z.number().check(z.minimum(0)),
+  recorded: z.optional(z.literal(true)),
 }) satisfies z.ZodMiniType<Alarm>;

@@ -41,6 +41,8 @@ export interface Diagnostics {
   counts: Record<DiagnosticLevel, number>;
   /** Some of them. */
   reports: DiagnosticReport[];
+  /** They are reports of the recording that the robot plays. */
+  recorded?: true | undefined;
 }
 
 const count = z.int().check(z.minimum(0));
@@ -62,4 +64,5 @@ export const diagnosticsSchema = z.strictObject({
       }),
     )
     .check(z.maxLength(reports)),
+  recorded: z.optional(z.literal(true)),
 }) satisfies z.ZodMiniType<Diagnostics>;

@@ -29,6 +29,8 @@ export interface Quantity {
   label: string;
   /** As it is shown after a number; empty for a number without unit. */
   unit: string;
+  /** Its samples are those of the recording that the robot plays. */
+  recorded?: true | undefined;
 }
 
 /** A quantity's number, when the sample was taken relative to the message's time (ms, 0 or less), and its value. */
@@ -53,6 +55,7 @@ export const quantitySchema = z.strictObject({
   field: z.string().check(z.maxLength(QUANTITY_LIMITS.field)),
   label: z.string().check(z.minLength(1), z.maxLength(READING_LIMITS.label)),
   unit: z.string().check(z.maxLength(QUANTITY_LIMITS.unit)),
+  recorded: z.optional(z.literal(true)),
 }) satisfies z.ZodMiniType<Quantity>;
 
 export const samplesSchema = z.strictObject({

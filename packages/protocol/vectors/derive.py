@@ -559,6 +559,10 @@ alarm = robot_session.good({"type": "alarm", "number": 1, "level": "warn", "text
                             "sinceMs": 88131.25})
 for level in ["error", "ok"]:
     robot_session.good(changed(alarm, "level", level), "alarm: " + level)
+robot_session.good(changed(quantity, "recorded", True), "quantity of a recording")
+robot_session.good(changed(alarm, "recorded", True), "alarm of a recording")
+robot_session.spoil(quantity, ("recorded", False))
+robot_session.spoil(alarm, ("recorded", "yes"))
 robot_session.common(fault, 4096)
 robot_session.spoil(quantity, ("number", 64), ("number", -1), ("topic", ""), ("field", "f" * 129), ("label", ""), ("unit", "u" * 13),
                     ("unit", ABSENT))
@@ -659,7 +663,8 @@ for level in ["warn", "ok"]:
     telemetry.good(changed(diagnostics, "reports.0.level", level), "diagnostics: " + level)
 telemetry.spoil(samples, ("timeMs", -1), ("samples", []), ("samples", [[0, 0, 1]] * 65), ("samples", [[64, 0, 1]], "samples.0.0"),
                 ("samples", [[0, 1, 1]], "samples.0.1"), ("samples", [[0, 0, None]], "samples.0.2"), ("samples", [[0, 0]], "samples.0"))
-telemetry.spoil(diagnostics, ("topic", ""), ("timeMs", ABSENT), ("counts.ok", -1), ("counts.fatal", 1, "counts"), ("counts.stale", ABSENT),
+telemetry.good(changed(diagnostics, "recorded", True), "diagnostics of a recording")
+telemetry.spoil(diagnostics, ("recorded", 1), ("topic", ""), ("timeMs", ABSENT), ("counts.ok", -1), ("counts.fatal", 1, "counts"), ("counts.stale", ABSENT),
                 ("reports", diagnostics["reports"] * 5), ("reports.0.name", "n" * 49), ("reports.0.level", "fatal"),
                 ("reports.0.message", "m" * 73), ("reports.1.sinceMs", -1))
 for level in ["warn", "error"]:

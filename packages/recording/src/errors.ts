@@ -9,6 +9,7 @@ export type RecordingErrorCode =
   | 'not-indexed' // a bag whose writer was killed
   | 'unsupported' // an unsupported compression, encoding or schema
   | 'no-topic' // no such topic, or no topic with clouds
+  | 'too-many' // more topics of a kind than can be shown
   | 'bad-message' // a message that does not match its schema
   | 'bad-cloud' // a PointCloud2 whose fields and sizes are inconsistent
   | 'bad-image'; // an image that does not match its description

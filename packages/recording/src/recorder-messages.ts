@@ -1,6 +1,14 @@
 /** Messages from the threads of a recording robot to the thread that writes. Times are of the robot's clock, ms. */
 import type { ConnectionRefusal, LiveCounts, LiveListenerOptions } from '@farpoint/foxglove';
-import type { CloudFormat, PictureFormat, Pose, Twist } from '@farpoint/protocol';
+import type {
+  Alarm,
+  CloudFormat,
+  DiagnosticReport,
+  PictureFormat,
+  Pose,
+  Quantity,
+  Twist,
+} from '@farpoint/protocol';
 import type { Destinations } from './message-outputs.ts';
 
 export interface RecorderOptions {
@@ -158,9 +166,45 @@ export const JSON_TOPICS = {
 } as const;
 export type JsonKind = keyof typeof JSON_TOPICS;
 
-export type EventKind = JsonKind | 'velocity' | 'state';
+/** A quantity whose samples are recorded. */
+export type RecordedQuantity = Pick<Quantity, 'topic' | 'field' | 'label' | 'unit'>;
+
+/** An alarm whose changes are recorded. */
+export interface RecordedAlarm {
+  /** The quantity that it watches: of the robot's state, or a topic with a field. */
+  watches: string;
+  /** The quantity's name, for people. */
+  label: string;
+}
+
+export type EventKind = JsonKind | 'velocity' | 'state' | TelemetryRecord['type'];
+
+/** What the robot tells about itself besides its state. */
+export type TelemetryRecord =
+  /** @param quantity position in the list of quantities @param timeMs when it was measured */
+  | { type: 'sample'; timeMs: number; sequence: number; quantity: number; value: number }
+  /**
+   * @param alarm position in the list of alarms
+   * @param timeMs when it changed, or when it is repeated
+   */
+  | {
+      type: 'alarm';
+      timeMs: number;
+      sequence: number;
+      alarm: number;
+      state: Pick<Alarm, 'level' | 'text' | 'value' | 'limit' | 'unit' | 'sinceMs'>;
+    }
+  /** The reports of all components of a topic. */
+  | {
+      type: 'diagnostics';
+      timeMs: number;
+      sequence: number;
+      topic: string;
+      reports: readonly DiagnosticReport[];
+    };
 
 export type EventRecord =
+  | TelemetryRecord
   | { type: 'json'; kind: JsonKind; timeMs: number; sequence: number; value: object }
   /** The velocity that the wheels were given. */
   | { type: 'velocity'; timeMs: number; sequence: number; twist: Twist }
@@ -175,6 +219,10 @@ export type RecorderRequest =
   | { type: 'cameras'; cameras: readonly RecordedCamera[] }
   /** Sent before the first frame of a video. */
   | { type: 'videos'; videos: readonly RecordedVideo[] }
+  /** Sent before the first sample or alarm. */
+  | { type: 'telemetry'; quantities: readonly RecordedQuantity[]; alarms: readonly RecordedAlarm[] }
+  /** Sent before the first reports of the topic's components. */
+  | { type: 'components'; topic: string }
   | { type: 'close' };
 
 export type RecorderReport =

@@ -23,6 +23,8 @@ function setUp(answer: (cloud: number) => Promise<void> = async () => undefined,
     addPicture: note('picture'),
     addVideos: () => void done.push('videos'),
     addVideo: note('video'),
+    addTelemetry: () => void done.push('telemetry'),
+    addComponents: () => void done.push('components'),
     addEvent: note('event'),
     addOwnState: note('state'),
     out: {

@@ -12,9 +12,11 @@ export type RecorderTarget = Pick<
   RecordingWriter,
   | 'addCameras'
   | 'addCloud'
+  | 'addComponents'
   | 'addEvent'
   | 'addOwnState'
   | 'addPicture'
+  | 'addTelemetry'
   | 'addVideo'
   | 'addVideos'
   | 'dropped'
@@ -58,6 +60,10 @@ export class Recorder {
       void this.#inTurn(async () => this.#writer.addCameras(request.cameras));
     } else if (request.type === 'videos') {
       void this.#inTurn(async () => this.#writer.addVideos(request.videos));
+    } else if (request.type === 'telemetry') {
+      void this.#inTurn(async () => this.#writer.addTelemetry(request.quantities, request.alarms));
+    } else if (request.type === 'components') {
+      void this.#inTurn(async () => this.#writer.addComponents(request.topic));
     } else if (request.type === 'video') {
       const added = this.#inTurn(() => this.#writer.addVideo(request));
       void added.then(() => this.#send({ type: 'done', kind: 'videos' }));

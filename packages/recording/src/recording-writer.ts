@@ -3,7 +3,6 @@ import type { Pose } from '@farpoint/protocol';
 import { PointRoom, recordedPoints } from './captured-cloud.ts';
 import { McapFileWriter } from './mcap-file-writer.ts';
 import { MessageOutputs } from './message-outputs.ts';
-import { pictureTopics, videoTopics } from './picture-topics.ts';
 import {
   type CloudKind,
   type CloudRecord,
@@ -13,7 +12,9 @@ import {
   type JsonKind,
   type LiveWishes,
   type PictureRecord,
+  type RecordedAlarm,
   type RecordedCamera,
+  type RecordedQuantity,
   type RecordedVideo,
   type RecorderOptions,
   type VideoFormatName,
@@ -38,6 +39,8 @@ import {
   twistStamped,
 } from './ros-writer.ts';
 import type { SentCloudDecoder } from './sent-cloud.ts';
+import { TelemetryChannels } from './telemetry-channels.ts';
+import { pictureTopics, videoTopics } from './topic-names.ts';
 
 const ROS_TOPICS = {
   captured: ['/farpoint/captured', 'sensor_msgs/msg/PointCloud2', POINT_CLOUD2_SCHEMA],
@@ -67,6 +70,7 @@ export class RecordingWriter {
   #videos: { channel: number; frame: string; format: VideoFormatName }[] = [];
   /** Its content is written, or copied, before the next cloud. */
   readonly #room = new PointRoom();
+  readonly #telemetry: TelemetryChannels;
   #transforms = 0;
   #ownStates = 0;
   #newestNs = 0n;
@@ -76,6 +80,7 @@ export class RecordingWriter {
     this.out = out;
     this.#epochNs = epochNs;
     this.#decoder = decoder;
+    this.#telemetry = new TelemetryChannels(out, (ms) => this.#nsOf(ms));
     for (const [kind, [topic, name, text]] of Object.entries(ROS_TOPICS)) {
       const schema = { name, encoding: 'ros2msg' as const, text };
       this.#channels.set(kind as RosKind, out.addChannel({ topic, messageEncoding: 'cdr', schema }));
@@ -105,6 +110,7 @@ export class RecordingWriter {
     const events: EventKind[] = (Object.keys(JSON_TOPICS) as JsonKind[]).filter(wants);
     if (wants('velocity')) events.push('velocity');
     if (wants('tf') || wants('odometry')) events.push('state');
+    events.push(...this.#telemetry.liveWishes);
     return {
       clouds: { captured: wants('captured'), sent: wants('sent') },
       ...{ pictures: wanted(this.#cameras), videos: wanted(this.#videos), events },
@@ -207,6 +213,16 @@ export class RecordingWriter {
     await this.out.add(of.channel, sequence, ns, [message], { to, link });
   }
 
+  /** Creates a topic for each quantity and each alarm. */
+  addTelemetry(quantities: readonly RecordedQuantity[], alarms: readonly RecordedAlarm[]): void {
+    this.#telemetry.describe(quantities, alarms);
+  }
+
+  /** Creates a topic for the reports of the robot's components. @param topic where the robot has them from */
+  addComponents(topic: string): void {
+    this.#telemetry.addComponents(topic);
+  }
+
   /** @throws {Error} if writing fails */
   async addEvent(record: EventRecord): Promise<void> {
     const ns = this.#nsOf(record.timeMs);
@@ -224,6 +240,8 @@ export class RecordingWriter {
         await this.#addTransform(ns, BASE_FRAME, record.pose);
         await this.#add('odometry', sequence, ns, () => odometryOf(ns, record.pose, record.twist));
         break;
+      default:
+        if (!(await this.#telemetry.add(record, ns))) this.faults++;
     }
   }
 

@@ -39,6 +39,36 @@ export const FOXGLOVE_COMPRESSED_VIDEO_SCHEMA = schema(
   TIME,
 );
 
+/** As in ROS 2's diagnostic_msgs, without its comments. */
+export const DIAGNOSTIC_ARRAY_SCHEMA = schema(
+  'std_msgs/Header header\nDiagnosticStatus[] status',
+  [
+    'MSG: diagnostic_msgs/DiagnosticStatus',
+    ...['byte OK=0', 'byte WARN=1', 'byte ERROR=2', 'byte STALE=3'],
+    ...['byte level', 'string name', 'string message', 'string hardware_id', 'KeyValue[] values'],
+  ].join('\n'),
+  'MSG: diagnostic_msgs/KeyValue\nstring key\nstring value',
+  HEADER,
+  TIME,
+);
+
+/** A quantity's value at the header's time. The channel's metadata says which quantity it is. */
+export const SAMPLE_SCHEMA = schema('std_msgs/Header header\nfloat64 value', HEADER, TIME);
+
+/** An alarm that has had this level since the header's time: `ok`, `warn` or `error`. */
+export const ALARM_SCHEMA = schema(
+  [
+    'std_msgs/Header header',
+    'string level',
+    'string text',
+    'float64 value',
+    'float64 limit',
+    'string unit',
+  ].join('\n'),
+  HEADER,
+  TIME,
+);
+
 export const TF_MESSAGE_SCHEMA = schema(
   'geometry_msgs/TransformStamped[] transforms',
   'MSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\nTransform transform',

@@ -17,7 +17,7 @@ export const WORLD_FRAME = 'world';
 export const BASE_FRAME = 'base_link';
 export const CAMERA_FRAME = 'camera_optical_frame';
 
-const writerOf = (schema: string) => new MessageWriter(parse(schema, { ros2: true }));
+export const writerOf = (schema: string) => new MessageWriter(parse(schema, { ros2: true }));
 const clouds = writerOf(POINT_CLOUD2_SCHEMA);
 const transforms = writerOf(TF_MESSAGE_SCHEMA);
 const velocities = velocityWriter(2, 'geometry_msgs/msg/TwistStamped');
@@ -40,8 +40,16 @@ function timeOf(ns: bigint) {
   return { sec: Number(ns / 1_000_000_000n), nanosec: Number(ns % 1_000_000_000n) };
 }
 
-function headerOf(stampNs: bigint, frame_id: string) {
+export function headerOf(stampNs: bigint, frame_id: string) {
   return { stamp: timeOf(stampNs), frame_id };
+}
+
+/**
+ * The library takes a string's length for the number of its bytes, and writes no more of it. With one more character for
+ * each further byte, which it then leaves out, it writes the whole string.
+ */
+export function cdrText(text: string): string {
+  return text + '\0'.repeat(Buffer.byteLength(text) - text.length);
 }
 
 /** In parts, so that the points are not copied. @param points 16 bytes each, x, y, z, rgb */
@@ -71,7 +79,7 @@ export function compressedImage(
   format: string,
   data: Uint8Array,
 ): Uint8Array {
-  return pictures.writeMessage({ timestamp: timeOf(stampNs), frame_id, data, format });
+  return pictures.writeMessage({ timestamp: timeOf(stampNs), frame_id: cdrText(frame_id), data, format });
 }
 
 /** @param data H.264: an access unit as in Annex B, with its parameter sets if it is a key frame; VP8: a frame */
@@ -81,7 +89,7 @@ export function compressedVideo(
   format: VideoFormatName,
   data: Uint8Array,
 ): Uint8Array {
-  return videos.writeMessage({ timestamp: timeOf(stampNs), frame_id, data, format });
+  return videos.writeMessage({ timestamp: timeOf(stampNs), frame_id: cdrText(frame_id), data, format });
 }
 
 export function transformOf(stampNs: bigint, child: string, { position, orientation }: Pose): Uint8Array {

@@ -1,5 +1,5 @@
 import { MessageChannel, type MessagePort, Worker } from 'node:worker_threads';
-import type { PictureFormat, Pose, Twist } from '@farpoint/protocol';
+import type { DiagnosticReport, PictureFormat, Pose, Twist } from '@farpoint/protocol';
 import { CreditQueue } from './credit-queue.ts';
 import { RecordingError } from './errors.ts';
 import {
@@ -10,7 +10,9 @@ import {
   type LiveReport,
   NO_LIVE_WISHES,
   type PictureRecord,
+  type RecordedAlarm,
   type RecordedCamera,
+  type RecordedQuantity,
   type RecordedVideo,
   type RecorderOptions,
   type RecorderReport,
@@ -26,6 +28,7 @@ const PICTURE_LIMITS = { underWay: 4, waiting: 24 };
 /** The same for frames of videos: some seconds of eight cameras. */
 const VIDEO_LIMITS = { underWay: 64, waiting: 512, waitingBytes: 16 * 1024 * 1024 };
 
+type AlarmState = Extract<EventRecord, { type: 'alarm' }>['state'];
 type VideoItem = QueuedVideoFrame & Pick<VideoRecord, 'sequence' | 'to'>;
 
 /**
@@ -61,6 +64,8 @@ export class SessionRecorder {
   readonly #pictures: CreditQueue<Omit<PictureRecord, 'dropped'>>;
   readonly #videos: VideoQueue<VideoItem>;
   readonly #sequences = new Map<string, number>();
+  /** Topics with reports of components. */
+  readonly #components = new Set<string>();
   #closing = false;
   #failed = false;
   #full = false;
@@ -171,6 +176,40 @@ export class SessionRecorder {
   state(timeMs: number, pose: Pose, twist: Twist): void {
     if (!this.takes('state')) return;
     this.#events.push({ type: 'state', timeMs, pose, twist, sequence: this.#next('state') });
+  }
+
+  /** The quantities and alarms that are recorded: call once, before the first sample or alarm. */
+  telemetry(quantities: readonly RecordedQuantity[], alarms: readonly RecordedAlarm[]): void {
+    this.#post({
+      type: 'telemetry',
+      quantities: quantities.map(({ topic, field, label, unit }) => ({ topic, field, label, unit })),
+      alarms: alarms.map(({ watches, label }) => ({ watches, label })),
+    });
+  }
+
+  /** Records a quantity's value. @param quantity position in the list @param timeMs when it was measured */
+  sample(quantity: number, timeMs: number, value: number): void {
+    if (!this.takes('sample')) return;
+    const sequence = this.#next(`sample ${quantity}`);
+    this.#events.push({ type: 'sample', timeMs, quantity, value, sequence });
+  }
+
+  /** Records an alarm. @param alarm position in the list @param timeMs when it changed, or when it is repeated */
+  alarm(alarm: number, timeMs: number, { level, text, value, limit, unit, sinceMs }: AlarmState): void {
+    if (!this.takes('alarm')) return;
+    const state = { level, text, value, limit, unit, sinceMs };
+    this.#events.push({ type: 'alarm', timeMs, alarm, state, sequence: this.#next(`alarm ${alarm}`) });
+  }
+
+  /** Records the reports of all components of a topic. @param timeMs when the newest came */
+  diagnostics(topic: string, timeMs: number, reports: readonly DiagnosticReport[]): void {
+    if (!this.#components.has(topic)) {
+      this.#components.add(topic);
+      this.#post({ type: 'components', topic });
+    }
+    if (!this.takes('diagnostics')) return;
+    const sequence = this.#next(`diagnostics ${topic}`);
+    this.#events.push({ type: 'diagnostics', timeMs, topic, reports, sequence });
   }
 
   /** Writes what waits, and the index. Close the capture thread first. */

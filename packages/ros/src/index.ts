@@ -27,6 +27,7 @@ export {
   type CompressedImage,
   cameraInfoSchema,
   compressedImageSchema,
+  DIAGNOSTIC_TYPES,
   FOXGLOVE_COMPRESSED_IMAGE_TYPES,
   FOXGLOVE_COMPRESSED_VIDEO_TYPES,
   FOXGLOVE_RAW_IMAGE_TYPES,

@@ -148,6 +148,7 @@ export const diagnosticArraySchema = z.object({
 export const POINT_CLOUD_TYPES: readonly string[] = ['sensor_msgs/msg/PointCloud2'];
 export const TF_TYPES: readonly string[] = ['tf2_msgs/msg/TFMessage', 'tf/msg/tfMessage'];
 export const ODOMETRY_TYPES: readonly string[] = ['nav_msgs/msg/Odometry'];
+export const DIAGNOSTIC_TYPES: readonly string[] = ['diagnostic_msgs/msg/DiagnosticArray'];
 export const BATTERY_TYPES: readonly string[] = ['sensor_msgs/msg/BatteryState'];
 export const FOXGLOVE_COMPRESSED_IMAGE_TYPES = [
   'foxglove_msgs/msg/CompressedImage',

@@ -68,6 +68,8 @@ export class CaptureLoop {
     if (source.onFault !== undefined) source.onFault = ({ message }) => this.#onFault(message);
     if (source.onVideo !== undefined)
       source.onVideo = (video, picture) => send({ type: 'video', video, picture }, [picture.bytes.buffer]);
+    if (source.onTelemetry !== undefined)
+      source.onTelemetry = (message) => send({ type: 'telemetry', message });
     if (source.onReading !== undefined) source.onReading = (reading) => send({ type: 'reading', reading });
   }
 

@@ -7,6 +7,7 @@ import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { EncodedFrame, SamplingOptions } from '../encode/encoded-frame.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
 import type { PlanPolicy } from '../encode/plan.ts';
+import type { PlayedMessage } from '../telemetry/played-telemetry.ts';
 import type { CameraDescription, SourceDescription } from './frame-source.ts';
 import type { SourceOptions } from './open-source.ts';
 import type { PlayedPicture } from './played-picture.ts';
@@ -70,6 +71,8 @@ export type CaptureReport =
   | { type: 'fault'; detail: string }
   /** A topic's message as text for people. */
   | { type: 'reading'; reading: TopicReading }
+  /** What a played recording tells about the robot. */
+  | { type: 'telemetry'; message: PlayedMessage }
   /** A coded picture of a played video; its bytes are transferred. */
   | { type: 'video'; video: number; picture: PlayedPicture }
   | { type: 'closed' };

@@ -4,6 +4,7 @@ import type { TopicReading } from '@farpoint/ros';
 import type { TimedBaseState } from '../base/base.ts';
 import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
+import type { PlayedMessage } from '../telemetry/played-telemetry.ts';
 import type { CaptureOptions, CaptureReport, CaptureRequest, ReadyFrame } from './capture-messages.ts';
 import type { CameraDescription, SourceDescription } from './frame-source.ts';
 import type { PlayedPicture } from './played-picture.ts';
@@ -50,6 +51,8 @@ export class Capture {
   faults = 0;
   /** Called with readings of the robot's topics, for people. */
   onReading: ((reading: TopicReading) => void) | null = null;
+  /** Called with what a played recording tells about the robot. */
+  onTelemetry: ((message: PlayedMessage) => void) | null = null;
   /** Called with the coded pictures of the played videos that are watched. */
   onVideo: ((video: number, picture: PlayedPicture) => void) | null = null;
   /** Frames not captured because no buffer was free. */
@@ -77,6 +80,8 @@ export class Capture {
         this.onFault?.(report.detail);
       } else if (report.type === 'reading') {
         this.onReading?.(report.reading);
+      } else if (report.type === 'telemetry') {
+        this.onTelemetry?.(report.message);
       } else if (report.type === 'video') {
         this.onVideo?.(report.video, report.picture);
       }

@@ -4,6 +4,7 @@ import type { TopicEntry, TopicReading } from '@farpoint/ros';
 import type { Pinhole } from '@farpoint/wasm-codec';
 import type { BaseState } from '../base/base.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
+import type { PlayedMessage, PlayedTelemetry } from '../telemetry/played-telemetry.ts';
 import type { PlayedPicture } from './played-picture.ts';
 
 /** A camera whose pictures can be shown to the operator. */
@@ -42,6 +43,8 @@ export interface SourceDescription {
   cameras?: readonly CameraDescription[];
   /** Videos that it plays, by name. */
   videos?: readonly string[];
+  /** What it plays about the robot. */
+  telemetry?: PlayedTelemetry;
 }
 
 /** Requests to a source that can adapt its clouds. */
@@ -117,6 +120,8 @@ export interface FrameSource {
   watchPictures?(perSecond: readonly number[]): void;
   /** Somebody watches something else of it than its clouds: clouds that nobody takes are skipped, not kept. */
   readonly goesOn?: boolean;
+  /** Called with what a recording tells about the robot, when it is due. */
+  onTelemetry?: ((message: PlayedMessage) => void) | null;
   /** Called with the coded pictures of watched videos. Their memory belongs to the receiver. */
   onVideo?: ((video: number, picture: PlayedPicture) => void) | null;
   /** Whether somebody watches a video. It begins with its last key frame. */

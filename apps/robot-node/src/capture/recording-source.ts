@@ -9,6 +9,7 @@ import {
 import type { TopicReading, TopicTable } from '@farpoint/ros';
 import type { BaseState } from '../base/base.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
+import type { PlayedMessage } from '../telemetry/played-telemetry.ts';
 import type {
   CaptureRoom,
   CaptureWishes,
@@ -17,6 +18,7 @@ import type {
   SourceFrame,
 } from './frame-source.ts';
 import type { PlayedPicture } from './played-picture.ts';
+import { RecordedTelemetry } from './recorded-telemetry.ts';
 import { RecordedVideos } from './recorded-videos.ts';
 import { RecordingTopics } from './recording-topics.ts';
 
@@ -25,6 +27,8 @@ export interface RecordingSourceOptions extends Omit<PlayOptions, 'along'> {
   topics: TopicTable;
   /** Whether its videos are played; by default they are not. */
   videos?: boolean;
+  /** Whether its quantities, alarms and components' reports are played; by default they are not. */
+  telemetry?: boolean;
 }
 
 /** Assumed frame rate of a recording with a single cloud. */
@@ -39,12 +43,14 @@ export class RecordingSource implements FrameSource {
   onReady: (() => void) | null = null;
   onFault: ((error: Error) => void) | null = null;
   onReading: ((reading: TopicReading) => void) | null = null;
+  onTelemetry: ((message: PlayedMessage) => void) | null = null;
   onVideo: ((video: number, picture: PlayedPicture) => void) | null = null;
   /** Called at the end of the recording. */
   onEnd: (() => void) | null = null;
   readonly #player: CloudPlayer;
   readonly #topics: RecordingTopics;
   readonly #videos: RecordedVideos;
+  readonly #telemetry: RecordedTelemetry;
   /** Faults found before playback starts; `null` once it has started. */
   #found: readonly Error[];
   /** For each topic other than the clouds, its last reported fault. */
@@ -54,7 +60,9 @@ export class RecordingSource implements FrameSource {
     player: CloudPlayer,
     topics: RecordingTopics,
     videos: RecordedVideos,
+    telemetry: RecordedTelemetry,
     missing: readonly Error[],
+    now: () => number,
   ) {
     const { warning } = player;
     this.#found = warning === null ? missing : [new Error(warning), ...missing];
@@ -62,6 +70,7 @@ export class RecordingSource implements FrameSource {
     this.#player = player;
     this.#topics = topics;
     this.#videos = videos;
+    this.#telemetry = telemetry;
     this.description = {
       kind: `recording (${topic.name}, ${axes} frame, ${player.seconds.toFixed(1)} s)`,
       ...{ width, height, capacity },
@@ -69,30 +78,38 @@ export class RecordingSource implements FrameSource {
       depthMeasure: axes === 'body' ? 'range' : 'z',
       cameras: topics.cameras,
       videos: videos.videos.map(({ name }) => name),
+      telemetry: telemetry.description,
       framesPerSecond: framesPerSecond ?? UNKNOWN_FPS,
     };
     player.onCloud = () => this.onReady?.();
     player.onFault = (error) => this.#tell(error);
-    const isVideo = new Set(videos.topics);
+    const runs = [...videos.topics, ...telemetry.topics];
+    const always = new Set(runs);
     // Frames that nobody watches are read, too: whoever begins to watch needs those since the last key frame.
-    player.wantsAlong = (name) => isVideo.has(name) || topics.wants(name);
-    player.onPass = () => videos.restart();
-    player.playRuns(videos.topics, (message) => this.#begins(message));
+    player.wantsAlong = (name) => always.has(name) || topics.wants(name);
+    player.onPass = () => {
+      videos.restart();
+      telemetry.restart(now());
+    };
+    player.playRuns(runs, (message) => this.#begins(message));
     player.onAlong = (message, dueMs) => {
-      if (!videos.take(message, dueMs)) topics.take(message, dueMs);
+      if (!videos.take(message, dueMs) && !telemetry.take(message, dueMs)) topics.take(message, dueMs);
       this.#told.delete(message.topic.name);
     };
     videos.onPicture = (video, picture) => this.onVideo?.(video, picture);
     topics.onReading = (reading) => this.onReading?.(reading);
+    telemetry.onMessage = (message) => this.onTelemetry?.(message);
   }
 
   /** @throws {RecordingError} saying what cannot be read, and where */
   static async open(options: RecordingSourceOptions, now: () => number): Promise<RecordingSource> {
-    const { topics: table, videos: playsVideos, ...play } = options;
+    const { topics: table, videos: playsVideos, telemetry: playsTelemetry, ...play } = options;
     const topics = new RecordingTopics(table, now);
     const player = await CloudPlayer.open({ ...play, along: topics.names }, playClock(now));
     const videos = new RecordedVideos(playsVideos === true ? player.topics : [], topics.names);
-    return new RecordingSource(player, topics, videos, topics.missing(play.path, player.topics));
+    const telemetry = new RecordedTelemetry(playsTelemetry === true ? player.topics : [], topics.names);
+    const missing = topics.missing(play.path, player.topics);
+    return new RecordingSource(player, topics, videos, telemetry, missing, now);
   }
 
   get state(): BaseState {
@@ -139,8 +156,12 @@ export class RecordingSource implements FrameSource {
     void this.#player.close();
   }
 
-  /** What cannot be read begins nothing; its fault is reported when it is due. */
+  /**
+   * Of the robot's telemetry, the newest message is enough. What cannot be read begins nothing; its fault is reported
+   * when it is due.
+   */
   #begins(message: RecordedMessage): boolean {
+    if (this.#telemetry.topics.includes(message.topic.name)) return true;
     try {
       return this.#videos.begins(message);
     } catch {
@@ -151,7 +172,7 @@ export class RecordingSource implements FrameSource {
   /** Reports a topic once if all its pictures have the same fault. */
   #tell(error: RecordingError): void {
     const { topic, code, detail } = error;
-    const others = [...this.#topics.names, ...this.#videos.topics];
+    const others = [...this.#topics.names, ...this.#videos.topics, ...this.#telemetry.topics];
     if (topic !== undefined && others.includes(topic)) {
       const what = `${code}: ${detail}`;
       if (this.#told.get(topic) === what) return;

@@ -50,6 +50,12 @@ export const playbackOptions = optionGroup('source', {
     argument: 'RATE',
     help: 'recording: maximum rate of each of these videos; a slow link gets less',
   }),
+  playTelemetry: defineOption({
+    schema: schema.choice(['all', 'none']),
+    default: 'all',
+    argument: 'WHICH',
+    help: 'recording: its quantities, alarms and diagnostics appear on the dashboard, marked as recorded, or none of them does',
+  }),
   playAxes: defineOption({
     schema: schema.choice(['auto', 'optical', 'body']),
     default: 'auto',

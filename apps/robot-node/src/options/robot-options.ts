@@ -174,6 +174,7 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
       return {
         ...{ kind: 'recording', path, topic: values.topic, rate: values.playRate, fromS: values.playFromS },
         ...{ atEnd: values.playEnd, axes: values.playAxes, topics, videos: values.playVideos === 'all' },
+        telemetry: values.playTelemetry === 'all',
       };
     case 'ros1':
     case 'ros2':

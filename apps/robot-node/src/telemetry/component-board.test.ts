@@ -48,6 +48,7 @@ describe('ComponentBoard', () => {
           `/${'d'.repeat(254)}`,
           texts.map(([name, message]) => report(name, 'stale', message)),
           1e9 + 0.1,
+          true,
         );
         const message = board.next(1e9);
         expect(decodeJson(telemetryCodec, encodeJson(telemetryCodec, message!))).toEqual(message);

@@ -19,6 +19,7 @@ interface Entry {
 interface Topic {
   timeMs: number;
   toldMs: number;
+  readonly recorded: boolean;
   readonly entries: Map<string, Entry>;
 }
 
@@ -26,9 +27,14 @@ export class ComponentBoard {
   readonly #topics = new Map<string, Topic>();
   #told = 0;
 
-  /** @param reports of all components of the topic @param timeMs when the newest came, robot's clock */
-  take(topic: string, reports: readonly DiagnosticReport[], timeMs: number): void {
-    const known = this.#topics.get(topic) ?? { timeMs, toldMs: Number.NEGATIVE_INFINITY, entries: new Map() };
+  /**
+   * @param reports of all components of the topic
+   * @param timeMs when the newest came, robot's clock
+   * @param recorded whether they come from a recording that is played
+   */
+  take(topic: string, reports: readonly DiagnosticReport[], timeMs: number, recorded = false): void {
+    const toldMs = Number.NEGATIVE_INFINITY;
+    const known = this.#topics.get(topic) ?? { timeMs, toldMs, recorded, entries: new Map() };
     this.#topics.set(topic, known);
     known.timeMs = timeMs;
     for (const report of reports) {
@@ -47,7 +53,7 @@ export class ComponentBoard {
       if (isNew && (due === null || topic.toldMs < due[1].toldMs)) due = [name, topic];
     }
     if (due === null) return null;
-    const [topic, { timeMs, entries }] = due;
+    const [topic, { timeMs, entries, recorded }] = due;
     due[1].toldMs = nowMs;
     const counts = { error: 0, warn: 0, stale: 0, ok: 0 };
     for (const { report } of entries.values()) counts[report.level]++;
@@ -57,7 +63,8 @@ export class ComponentBoard {
       entry.told = ++this.#told;
       return told(entry.report);
     });
-    return { type: 'diagnostics', topic, timeMs, counts, reports };
+    const mark = recorded ? { recorded: true as const } : {};
+    return { type: 'diagnostics', topic, timeMs, counts, reports, ...mark };
   }
 }
 

@@ -2,6 +2,7 @@
 import { MAX_SAMPLES, type Quantity, type Sample, type Samples } from '@farpoint/protocol';
 import type { TopicEntry } from '@farpoint/ros';
 import { quantitiesOf } from '@farpoint/ros';
+import type { TelemetryTaker } from './telemetry-taker.ts';
 
 interface Taken {
   number: number;
@@ -29,19 +30,34 @@ export class SampleBoard {
       if (!this.#firstOf.has(topic)) this.#firstOf.set(topic, number);
   }
 
-  /** @param numbers the topic's quantities, in their order @param timeMs robot's clock */
-  add(topic: string, numbers: readonly (number | null)[], timeMs: number): void {
+  /**
+   * @param numbers the topic's quantities, in their order
+   * @param timeMs robot's clock
+   * @param taker gets each sample, too
+   */
+  add(
+    topic: string,
+    numbers: readonly (number | null)[],
+    timeMs: number,
+    taker: Pick<TelemetryTaker, 'sample'> | null = null,
+  ): void {
     const first = this.#firstOf.get(topic);
     if (first === undefined) return;
     numbers.forEach((value, i) => {
       if (value === null) return;
-      const taken = { number: first + i, timeMs, value };
-      this.#newest.set(taken.number, taken);
-      this.#waiting.push(taken);
-      if (this.#waiting.length <= MAX_SAMPLES) return;
-      this.#waiting.shift();
-      this.dropped++;
+      this.addOne(first + i, value, timeMs);
+      taker?.sample(first + i, timeMs, value);
     });
+  }
+
+  /** @param number of the quantity @param timeMs robot's clock */
+  addOne(number: number, value: number, timeMs: number): void {
+    const taken = { number, timeMs, value };
+    this.#newest.set(number, taken);
+    this.#waiting.push(taken);
+    if (this.#waiting.length <= MAX_SAMPLES) return;
+    this.#waiting.shift();
+    this.dropped++;
   }
 
   /** Everything since the last call; `null` if there was nothing. */

@@ -9,6 +9,8 @@ import {
   type CloudKind,
   type DropKind,
   type LiveReport,
+  type RecordedAlarm,
+  type RecordedQuantity,
   SessionRecorder,
   type VideoFormatName,
 } from '@farpoint/recording';
@@ -27,6 +29,7 @@ import type { EncodedPicture } from '../video/video-frame.ts';
 import type { VideoTaker } from '../video/video-taker.ts';
 import { durationWords, recordingBytesPerSecond, sizeWords } from './recording-rate.ts';
 import type { StreamStatistics } from './stream-statistics.ts';
+import type { TelemetryTaker } from './telemetry-taker.ts';
 
 export interface RecordingOptions {
   /** Path of the MCAP file, which must not exist yet. */
@@ -201,6 +204,12 @@ export class SessionRecording implements VideoTaker {
       file.set(chunk.subarray(PICTURE_CHUNK_HEADER_BYTES), i * PICTURE_CHUNK_DATA_BYTES);
     });
     this.#recorder.picture(header.camera, capturedAtMs, header.format, file);
+  }
+
+  /** Sets the quantities and alarms that are recorded. @returns what takes them, and the reports of components */
+  telemetryTaker(quantities: readonly RecordedQuantity[], alarms: readonly RecordedAlarm[]): TelemetryTaker {
+    this.#recorder.telemetry(quantities, alarms);
+    return this.#recorder;
   }
 
   /** Records the velocity that the wheels are given. */

@@ -42,7 +42,7 @@ export class TelemetrySender {
   }
 
   send(state: TimedBaseState, nowMs: number): void {
-    const alarms = this.#board.alarmChanges();
+    const alarms = this.#board.alarmChanges(nowMs);
     if (this.#operators.size === 0) return;
     for (const { peer, messages } of this.#operators.values())
       if (peer.connected) for (const alarm of alarms) messages.send(alarm);

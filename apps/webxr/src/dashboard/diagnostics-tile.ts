@@ -48,7 +48,8 @@ function countWords(topics: readonly ReportedComponents[], silentMs: number | nu
     return count === 0 ? [] : [`${count} ${WORDS[level]}`];
   });
   const ago = silentMs === null ? '' : ` (nothing for ${ageText(silentMs)})`;
-  return `${words.join(', ')}${ago}`;
+  const recorded = topics.some((topic) => topic.recorded) ? ' (recorded)' : '';
+  return `${words.join(', ')}${recorded}${ago}`;
 }
 
 function row(): HTMLElement {

@@ -17,6 +17,12 @@ test('an alarm says what is wrong, the value and the limit', () => {
   });
 });
 
+test('an alarm of a recording says so', () => {
+  expect(alarmWords({ ...alarm('warn', 0), recorded: true }).text).toBe(
+    'Recorded: The battery is low (19.5 %, limit 20 %)',
+  );
+});
+
 test('errors come first, then what was raised last', () => {
   const sorted = [alarm('warn', 1), alarm('error', 2), alarm('warn', 3)].sort(raisedFirst);
   expect(sorted.map(({ sinceMs }) => sinceMs)).toEqual([2, 3, 1]);

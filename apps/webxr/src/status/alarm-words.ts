@@ -2,10 +2,10 @@
 import type { Alarm } from '@farpoint/operator';
 import type { Words } from './words.ts';
 
-export function alarmWords({ level, text, value, limit, unit }: Alarm): Words {
+export function alarmWords({ level, text, value, limit, unit, recorded }: Alarm): Words {
   const withUnit = (number: number) => `${shortNumber(number)}${unit === '' ? '' : ` ${unit}`}`;
   return {
-    text: `${text} (${withUnit(value)}, limit ${withUnit(limit)})`,
+    text: `${recorded === true ? 'Recorded: ' : ''}${text} (${withUnit(value)}, limit ${withUnit(limit)})`,
     tone: level === 'error' ? 'bad' : 'warning',
   };
 }

@@ -85,6 +85,34 @@ test('records the quantities of topics, and the position on the earth', () => {
   expect(bench.recorder.fixTrack.yAt(1)).toBeCloseTo(48.002);
 });
 
+test('marks the quantities of a recording, and keeps them apart from the robot’s own', () => {
+  const bench = new Bench();
+  bench.begin('a');
+  bench.describe(0, 'left', '°C');
+  const recorded = {
+    number: 1,
+    topic: '/t',
+    field: 'left',
+    label: 'left',
+    unit: '°C',
+    recorded: true,
+  } as const;
+  bench.say('quantity', { type: 'quantity', ...recorded });
+  const samples: [number, number, number][] = [
+    [0, 0, 20],
+    [1, 0, 70],
+  ];
+  bench.say('samples', { type: 'samples', timeMs: 1000, samples });
+  const shown = [...bench.recorder.series.values()].map(({ label, series }) => [
+    label,
+    series.at(1e12)?.value,
+  ]);
+  expect(shown).toEqual([
+    ['left', 20],
+    ['left (recorded)', 70],
+  ]);
+});
+
 test('keeps what it has over sessions with a robot, but not for another robot or another clock', () => {
   const bench = new Bench();
   bench.begin('a');

@@ -99,9 +99,12 @@ export class TelemetryRecorder {
     this.revision++;
   }
 
-  #describe({ number, topic, field, label, unit }: Quantity): void {
-    const recorded = this.#open({ key: `${topic} ${field}`, label, unit }, field);
-    if (recorded !== null) this.#byNumber.set(number, recorded);
+  #describe({ number, topic, field, label, unit, recorded }: Quantity): void {
+    // A robot that plays a recording may measure the same quantity itself.
+    const played = { key: `${topic} ${field} recorded`, label: `${label} (recorded)`, unit };
+    const described = recorded === true ? played : { key: `${topic} ${field}`, label, unit };
+    const series = this.#open(described, field);
+    if (series !== null) this.#byNumber.set(number, series);
   }
 
   #take({ timeMs, ageMs = 0, pose, twist, battery }: Telemetry): void {

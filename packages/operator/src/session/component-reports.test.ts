@@ -14,7 +14,9 @@ test('puts the messages together: by level, the newest first', () => {
   components.take(message(100, ['imu', 'ok', 10], ['lidar', 'warn', 20]));
   components.take(message(200, ['motor', 'warn', 150], ['gripper', 'stale', 30], ['imu', 'error', 190]));
   expect(components.list()[0]?.reports.map(({ name }) => name)).toEqual(['imu', 'motor', 'lidar', 'gripper']);
-  expect(components.list()[0]).toMatchObject({ timeMs: 200, counts: { ok: 200 } });
+  expect(components.list()[0]).toMatchObject({ timeMs: 200, counts: { ok: 200 }, recorded: false });
+  components.take({ ...message(300), topic: '/played', recorded: true });
+  expect(components.list()[1]).toMatchObject({ topic: '/played', recorded: true });
 });
 
 test('ignores what was overtaken', () => {

@@ -9,12 +9,15 @@ export interface ReportedComponents {
   timeMs: number;
   /** Number of components by level, as the robot counts. */
   counts: Diagnostics['counts'];
+  /** Whether they come from a recording that the robot plays. */
+  recorded: boolean;
   /** Those that are known here: the most urgent level first, and of each level, those that have it the shortest first. */
   reports: readonly DiagnosticReport[];
 }
 
 interface Topic {
   timeMs: number;
+  readonly recorded: boolean;
   counts: Diagnostics['counts'];
   readonly reports: Map<string, { report: DiagnosticReport; timeMs: number }>;
 }
@@ -29,11 +32,11 @@ export class ComponentReports {
   readonly #topics = new Map<string, Topic>();
 
   /** Takes some of the reports. The channel is unordered: a report older than the known one is ignored. */
-  take({ topic, timeMs, counts, reports }: Diagnostics): void {
+  take({ topic, timeMs, counts, reports, recorded }: Diagnostics): void {
     let known = this.#topics.get(topic);
     if (known === undefined) {
       if (this.#topics.size >= MOST_TOPICS) return;
-      known = { timeMs, counts, reports: new Map() };
+      known = { timeMs, counts, recorded: recorded === true, reports: new Map() };
       this.#topics.set(topic, known);
     }
     if (timeMs >= known.timeMs) Object.assign(known, { timeMs, counts });
@@ -46,8 +49,8 @@ export class ComponentReports {
 
   /** All components, by topic. */
   list(): ReportedComponents[] {
-    return [...this.#topics].map(([topic, { timeMs, counts, reports }]) => ({
-      ...{ topic, timeMs, counts },
+    return [...this.#topics].map(([topic, { timeMs, counts, recorded, reports }]) => ({
+      ...{ topic, timeMs, counts, recorded },
       reports: [...reports.values()].map(({ report }) => report).sort(byUrgency),
     }));
   }

@@ -15,24 +15,52 @@ export interface AlarmRule extends Limits {
 
 interface Entry {
   readonly number: number;
-  readonly rule: AlarmRule;
-  readonly judge: LimitJudge;
   /** As it was last told; `null` if it has never been raised. */
   told: Alarm | null;
   state: Alarm | null;
 }
 
-export class AlarmBoard {
-  readonly #entries: readonly Entry[];
-  readonly #byQuantity = new Map<string, Entry[]>();
+/** One that is judged here. */
+interface Judged extends Entry {
+  readonly rule: AlarmRule;
+  readonly judge: LimitJudge;
+}
 
-  constructor(rules: readonly AlarmRule[]) {
-    this.#entries = rules.map((rule, number) => {
-      const entry: Entry = { number, rule, judge: new LimitJudge(rule), told: null, state: null };
+export class AlarmBoard {
+  /** Those that are judged here, then those of a recording. */
+  readonly #entries: readonly Entry[];
+  readonly #byQuantity = new Map<string, Judged[]>();
+  readonly #played: readonly Entry[];
+
+  /** @param played number of alarms of the recording that is played */
+  constructor(rules: readonly AlarmRule[], played = 0) {
+    const judged = rules.map((rule, number) => {
+      const entry: Judged = { number, rule, judge: new LimitJudge(rule), told: null, state: null };
       const others = this.#byQuantity.get(rule.watches) ?? [];
       this.#byQuantity.set(rule.watches, [...others, entry]);
       return entry;
     });
+    this.#played = Array.from({ length: played }, (_, i) => ({
+      ...{ number: rules.length + i, told: null, state: null },
+    }));
+    this.#entries = [...judged, ...this.#played];
+  }
+
+  /** Takes an alarm as it was recorded: it is told, not judged. A number without such an alarm is ignored. */
+  play(number: number, recorded: Omit<Alarm, 'type' | 'number' | 'recorded'>): void {
+    const entry = this.#played.find((each) => each.number === number);
+    if (entry === undefined) return;
+    const { level, value } = recorded;
+    // The recorder repeats alarms that are raised.
+    if (entry.state?.level === level && entry.state.value === value) return;
+    entry.state = { type: 'alarm', number, ...recorded, recorded: true };
+  }
+
+  /** Nothing is known any more about the recorded alarms. @param timeMs robot's clock */
+  clearPlayed(timeMs: number): void {
+    for (const entry of this.#played)
+      if (levelOf(entry.state) !== 'ok' && entry.state !== null)
+        entry.state = { ...entry.state, level: 'ok', sinceMs: timeMs };
   }
 
   /** Takes a quantity's value. @param timeMs when it was measured, robot's clock */

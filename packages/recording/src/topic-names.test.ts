@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, it } from 'vitest';
-import { pictureTopics } from './picture-topics.ts';
+import { alarmTopics, pictureTopics, quantityTopics } from './topic-names.ts';
 
 it('names topics after cameras', () => {
   expect(pictureTopics(['Front', '/rear/image_raw', 'Front', '3D left', 'Камера', '/'])).toEqual([
@@ -10,6 +10,24 @@ it('names topics after cameras', () => {
     '/farpoint/pictures/_3D_left',
     '/farpoint/pictures/______',
     '/farpoint/pictures/camera',
+  ]);
+});
+
+it('names topics after quantities, and after what alarms watch', () => {
+  const quantities = [
+    { topic: '/gripper/temperature', field: 'data' },
+    { topic: '/arm', field: 'motor.current' },
+    { topic: '/arm', field: 'temperatures[0]' },
+  ];
+  expect(quantityTopics(quantities)).toEqual([
+    '/farpoint/quantities/gripper_temperature',
+    '/farpoint/quantities/arm_motor_current',
+    '/farpoint/quantities/arm_temperatures_0_',
+  ]);
+  expect(alarmTopics(['charge', '/arm motor.current', 'charge'])).toEqual([
+    '/farpoint/alarms/charge',
+    '/farpoint/alarms/arm_motor_current',
+    '/farpoint/alarms/charge_2',
   ]);
 });
 

@@ -1,0 +1,79 @@
+/** The documents' pictures of the page. Not tests: they write to docs/images. */
+import { join } from 'node:path';
+import { repositoryRoot } from '@farpoint/local-stack';
+import type { Page } from '@playwright/test';
+import { Headset } from '../src/headset.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+
+const WHOLE_CLOUD = { ...simulatedRobot, args: ['--source', 'sim', '--sim-seed', '1', '--fps', '10'] };
+
+/** Two eyes, or a dashboard, are more than the software renderer of a small machine draws beside the whole cloud. */
+const SAMPLE = {
+  ...simulatedRobot,
+  args: ['--mode', 'points64', '--max-points', '40000', '--lambda', '0', '--fps', '10'],
+};
+
+const save = (page: Page, name: string) =>
+  page.screenshot({ path: join(repositoryRoot, 'docs', 'images', `${name}.png`) });
+
+/** Messages that come and go, such as that of the connection, have gone. */
+async function expectQuiet(page: Page): Promise<void> {
+  await expect(page.locator('#notice')).toBeHidden();
+}
+
+test('operator-view', async ({ page, startStack }) => {
+  await page.setViewportSize({ width: 1280, height: 720 });
+  const stack = await startStack({ robots: [WHOLE_CLOUD] });
+  const operator = await OperatorPage.open(page, stack, { robot: WHOLE_CLOUD.id, every: '1' });
+  await operator.expectPoints(100_000);
+  await expectQuiet(page);
+  await save(page, 'operator-view');
+});
+
+test('pictures', async ({ page, startStack }) => {
+  await page.setViewportSize({ width: 960, height: 540 });
+  const robot = { ...simulatedRobot, args: [...simulatedRobot.args, '--pictures-of-cloud'] };
+  const stack = await startStack({ robots: [robot] });
+  const operator = await OperatorPage.open(page, stack, { robot: robot.id });
+  await operator.expectPoints(10_000);
+  await expect(page.locator('#pictures figure', { hasText: 'Camera' }).locator('canvas')).toBeVisible();
+  await operator.expectFrames(30);
+  await expectQuiet(page);
+  await save(page, 'pictures');
+});
+
+test('headset-view', async ({ page, startStack }) => {
+  await page.setViewportSize({ width: 960, height: 540 });
+  const stack = await startStack({ robots: [SAMPLE] });
+  await Headset.wear(page);
+  const operator = await OperatorPage.open(page, stack, { robot: SAMPLE.id });
+  await operator.expectPoints(20_000);
+  await page.getByRole('button', { name: /VR/ }).click();
+  await operator.expectState('vr', true);
+  await operator.expectPoints(20_000);
+  await save(page, 'headset-view');
+});
+
+test('dashboard', async ({ page, startStack }) => {
+  await page.setViewportSize({ width: 1280, height: 800 });
+  const robot = { ...SAMPLE, args: [...SAMPLE.args, '--sim-charge', '19'] };
+  const stack = await startStack({ robots: [robot] });
+  const operator = await OperatorPage.open(page, stack, { robot: robot.id });
+  await operator.expectPoints(20_000);
+  await page.keyboard.press('KeyB');
+  const dashboard = page.locator('#dashboard');
+  await expect(dashboard.locator('.state')).toHaveText(/^In step with the picture/);
+  // A turn to the right, so that the map has a track and the curve of the speed a shape.
+  const start = await operator.body();
+  await operator.holdForward();
+  await operator.expectMovedFrom(start, 0.5);
+  await page.keyboard.down('d');
+  await expect.poll(async () => Math.abs((await operator.body()).yaw - start.yaw)).toBeGreaterThan(0.1);
+  await page.keyboard.up('d');
+  await operator.releaseKeys();
+  await operator.expectStanding();
+  await operator.expectFrames(10);
+  await expectQuiet(page);
+  await save(page, 'dashboard');
+});
