@@ -166,6 +166,7 @@ export class Robot {
           if (base === null) this.#state = state;
         },
         onFault: ({ name }, detail) => log.warn({ sensor: name, detail }, 'the source has a fault'),
+        onRings: (sensor) => this.#host.tellRings(sensor),
         onFailure: (sensor, error) => this.#onSensorFailure(sensor, error),
       },
     );

@@ -182,7 +182,14 @@ export class App {
     showSensorSwitches(state.sensors);
     showPicturePanels(state, { inVr: vr.active, isGripped: () => this.client.driver.stream.held });
     const { appearance, clouds } = this;
-    applyAppearance({ appearance, sensors: state.sensors, clouds, stage, inVr: vr.active });
+    applyAppearance({
+      appearance,
+      sensors: state.sensors,
+      rings: state.rings,
+      clouds,
+      stage,
+      inVr: vr.active,
+    });
     const panel = new WristPanel(stage.renderer, stage.rig);
     showOnWrist({ state, panel, active: vr.active, releaseProgress: this.#release.progress });
     this.#pictures = showPicturesInVr({ state, panel, stage, active: vr.active });
