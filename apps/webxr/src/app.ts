@@ -66,6 +66,8 @@ export class App {
   readonly #inputs: OperatorInputs;
   readonly #controls: ControlsUi;
   readonly #cloudPanel: CloudPanel;
+  /** The panel on the wrist in VR. */
+  wrist: WristPanel | null = null;
   #pictures: PicturePointer | null = null;
   readonly #release = new ReleaseHold();
   readonly #estop: EstopUi;
@@ -191,6 +193,7 @@ export class App {
       inVr: vr.active,
     });
     const panel = new WristPanel(stage.renderer, stage.rig);
+    this.wrist = panel;
     showOnWrist({ state, panel, active: vr.active, releaseProgress: this.#release.progress });
     this.#pictures = showPicturesInVr({ state, panel, stage, active: vr.active });
     effect(() => {
