@@ -46,7 +46,7 @@ function ringLegend(title: string, view: CloudView): Legend {
 }
 
 function legendParts() {
-  const figure = element('figure', 'legend');
+  const figure = element('figure', 'legend overlay');
   const caption = element('figcaption', '');
   const bar = element('div', 'colour-bar');
   const numbers = element('div', 'numbers');

@@ -6,11 +6,13 @@ export interface FittedText {
   readonly size: number;
 }
 
-/** Of a text that takes two rows, pixels. */
-const SMALL = 20;
+/** Of a text that takes two rows, and the least of one that takes one, pixels. */
+const SMALL = 19;
+const LEAST = 23;
 
 /**
- * One row if the text fits, else two rows of small letters, else as much of them as there is room for.
+ * One row if the text fits with letters that are not much smaller, else two rows of small letters, else as much of them
+ * as there is room for.
  *
  * @param size of the letters in one row, pixels
  * @param measure width of a text with letters of a size, pixels
@@ -21,7 +23,8 @@ export function fitText(
   width: number,
   measure: (text: string, size: number) => number,
 ): FittedText {
-  if (measure(text, size) <= width) return { rows: [text], size };
+  const one = Math.min(size, Math.floor((size * width) / measure(text, size)));
+  if (one >= LEAST && measure(text, one) <= width) return { rows: [text], size: one };
   const fits = (row: string) => measure(row, SMALL) <= width;
   const words = text.split(' ');
   let first = words.length;

@@ -127,7 +127,7 @@ export class WristPanel {
       const { rows, size } = fitText(line.text, index === 0 ? 36 : 30, WIDTH - 2 * EDGE, measure);
       measure('', size);
       context.fillStyle = COLOURS[line.tone];
-      const top = 20 + index * LINE;
+      const top = 20 + index * LINE - (rows.length > 1 ? 2 : 0);
       for (const [row, text] of rows.entries()) context.fillText(text, EDGE, top + row * (size + 1));
     }
     if (this.#progress > 0) {
