@@ -15,6 +15,13 @@ const BACKGROUND: Rgb = [11, 15, 20];
 /** Both ends of the colour map. */
 const FIRST: Rgb = [87, 40, 143];
 const LAST: Rgb = [254, 244, 114];
+/** Four rings, one above the other, in their colours. */
+const RINGS: readonly Rgb[] = [
+  [28, 130, 187],
+  [252, 191, 194],
+  [30, 146, 71],
+  [204, 204, 252],
+];
 /** The outline of the robot over the background. */
 const MARKER: Rgb = [45, 164, 149];
 
@@ -76,6 +83,16 @@ test('a LiDAR in the colours of a quantity, without what is above a height, and 
     await expect(page.locator('.numbers span').first()).toBeVisible();
     await operator.screenshot(testInfo, chosen);
   }
+  await mode.selectOption('ring');
+  // As many as the simulated LiDAR has, as the robot says.
+  await expect(page.locator('.legend figcaption')).toHaveText('LiDAR: 16 rings');
+  await expect(page.getByLabel('LiDAR: range from')).toBeHidden();
+  // Both the light and the dark rings are to be seen, and their colours only.
+  const rings = async () => sharesNear(page, await page.screenshot(), floor, [BACKGROUND, ...RINGS]);
+  await expect
+    .poll(async () => (await rings()).slice(1).filter((share) => share > 0.0005).length)
+    .toBeGreaterThan(2);
+  await operator.screenshot(testInfo, 'ring');
   await mode.selectOption('captured');
   await expect(page.locator('.legend')).toHaveCount(0);
   await operator.screenshot(testInfo, 'captured');

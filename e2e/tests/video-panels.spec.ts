@@ -1,5 +1,6 @@
 /** The cameras' panels on a flat screen: where they are, what fills the screen, and what they say. */
 import type { Page } from '@playwright/test';
+import { expectNothingCovered } from '../src/nothing-covered.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 import { hasVideo, type TestCamera, testCamera, videoRobot } from '../src/video-robot.ts';
@@ -17,44 +18,6 @@ const camera = (name: string, pattern: string, more: Partial<TestCamera> = {}) =
     ...more,
   });
 const twoCameras = [camera('Front', 'pinwheel'), camera('Rear', 'ball')];
-
-/** Expects that no panel covers the bar, the emergency stop or anything else that the hands use. */
-async function expectNothingCovered(page: Page): Promise<void> {
-  const covered = await page.evaluate(() => {
-    const boxes = (selector: string) =>
-      [...document.querySelectorAll(selector)]
-        .map((element) => ({ name: element.id, ...element.getBoundingClientRect().toJSON() }))
-        .filter(({ width }) => width > 0);
-    const strip = document.querySelector('#pictures')!.getBoundingClientRect();
-    const panels = [...document.querySelectorAll<HTMLElement>('#pictures figure')].map((figure) => {
-      const { left, top, right, bottom } = figure.getBoundingClientRect();
-      // What is in the strip is cut off at its end.
-      const inStrip = figure.dataset.floating !== 'true' && figure.dataset.enlarged !== 'true';
-      return {
-        name: figure.ariaLabel,
-        left,
-        top,
-        right,
-        bottom: inStrip ? Math.min(bottom, strip.bottom) : bottom,
-      };
-    });
-    return boxes('#bar, #drive button, #joystick').flatMap((kept) =>
-      panels
-        .filter(
-          ({ left, top, right, bottom }) =>
-            left < kept.right && right > kept.left && top < kept.bottom && bottom > kept.top,
-        )
-        .map(({ name }) => `${name} covers ${kept.name}`),
-    );
-  });
-  expect(covered).toEqual([]);
-  // Whatever fills the screen, the button is what a hand hits.
-  const hit = await page.evaluate(() => {
-    const { left, top, width, height } = document.querySelector('#estop')!.getBoundingClientRect();
-    return document.elementFromPoint(left + width / 2, top + height / 2)?.closest('button')?.id;
-  });
-  expect(hit).toBe('estop');
-}
 
 async function drag(page: Page, from: { x: number; y: number }, dx: number, dy: number): Promise<void> {
   await page.mouse.move(from.x, from.y);
@@ -287,3 +250,24 @@ test.describe('on a phone', () => {
     await expect(page.locator('#camera-stage')).toBeHidden();
   });
 });
+
+for (const width of [360, 1280, 3840]) {
+  test(`what became of the frames, and what comes first on a slow link, on a screen ${width} pixels wide`, async ({
+    page,
+    startStack,
+  }, testInfo) => {
+    await page.setViewportSize({ width, height: width === 360 ? 740 : Math.round((width * 9) / 16) });
+    await open(page, startStack);
+    await expect.poll(() => stateOf(page, 'Front')).toBe('live');
+    await page.locator('.video-report button').click();
+    const choice = page.getByLabel('What comes first on a slow link');
+    await choice.selectOption('cameras first');
+    await expect(choice).toBeInViewport({ ratio: 1 });
+    await page.screenshot({ path: testInfo.outputPath(`slow-link-${width}.png`) });
+    await expectNothingCovered(page);
+    // Nothing that is chosen is cut off.
+    expect(await choice.evaluate((select) => select.scrollWidth <= select.clientWidth)).toBe(true);
+    const [words, box] = [page.locator('.link-share > span'), await choice.boundingBox()];
+    expect((await words.boundingBox())!.x + (await words.boundingBox())!.width).toBeLessThanOrEqual(box!.x);
+  });
+}

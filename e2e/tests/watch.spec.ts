@@ -5,6 +5,7 @@ import { join } from 'node:path';
 import { findJanus, JANUS_REMEDY, JanusServer } from '@farpoint/local-stack';
 import type { WatchStats } from '@farpoint/webxr/watch-api';
 import type { Page } from '@playwright/test';
+import { expectOnScreenAndApart } from '../src/layout.ts';
 import { expect, test } from '../src/stack-test.ts';
 import { hasVideo, testCamera } from '../src/video-robot.ts';
 
@@ -69,6 +70,8 @@ test('shows cameras and clouds in step, and says whether they are live', async (
     [3840, 2160],
   ] as const) {
     await page.setViewportSize({ width, height });
+    const panels = page.locator('#bar button, #link, #pictures figure');
+    expect(await expectOnScreenAndApart(panels, { width, height })).toHaveLength(5);
     await page.screenshot({ path: testInfo.outputPath(`watch-${width}.png`) });
   }
 });
@@ -83,6 +86,10 @@ test('comes back when Janus was killed and started again, and is honest until th
   await janus.kill();
   await expect(link(page)).toHaveAttribute('data-tone', 'warning');
   await expect(link(page)).not.toContainText('Live');
+  for (const panel of await page.locator('#pictures figure').all()) {
+    await expect(panel).toHaveAttribute('data-state', 'frozen');
+    await expect(panel.locator('canvas')).toHaveCSS('filter', /grayscale/);
+  }
   await janus.restart();
   await expect(link(page)).toHaveText('Live · Rover', { timeout: 30_000 });
   await expect.poll(() => fewestFrames(page), { timeout: 30_000 }).toBeGreaterThan(5);

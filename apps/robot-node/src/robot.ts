@@ -144,15 +144,12 @@ export class Robot {
     const addReading = (reading: TopicReading) => board.take(reading, monotonicMs());
     for (const each of captures) each.onReading = addReading;
     sink.tellReadings?.(addReading);
+    const watching = () => [...this.operators.values(), ...(this.broadcast === null ? [] : [this.broadcast])];
     this.sensors = new CloudSensors(
       options.sensors,
       captures,
       {
-        targets: () => [
-          ...this.operators.values(),
-          ...(this.reference?.targets ?? []),
-          ...(this.broadcast === null ? [] : [this.broadcast]),
-        ],
+        targets: () => [...watching(), ...(this.reference?.targets ?? [])],
         ...{ sendLoop: this.#sendLoop, counters: this.counters, frameLog: this.#logs.frames },
         driver: () => guard.leaseHolder,
         onFrame: (frame) => recording?.frame(frame),
@@ -167,6 +164,7 @@ export class Robot {
           if (base === null) this.#state = state;
         },
         onFault: ({ name }, detail) => log.warn({ sensor: name, detail }, 'the source has a fault'),
+        onRings: (sensor) => this.#host.tellRings(sensor),
         onFailure: (sensor, error) => this.#onSensorFailure(sensor, error),
       },
     );
@@ -179,7 +177,7 @@ export class Robot {
     };
     this.cameras = new RobotCameras({
       ...{ ...shared, policy: options.pictures, capture, videos, taker: recording },
-      videoTargets: () => [...this.operators.values(), ...(this.broadcast === null ? [] : [this.broadcast])],
+      videoTargets: watching,
       onMade: (picture) => recording?.picture(picture),
       onStateChanged: () => {
         this.#host.tellVideos();

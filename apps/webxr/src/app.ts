@@ -70,6 +70,8 @@ export class App {
   readonly #inputs: OperatorInputs;
   readonly #controls: ControlsUi;
   readonly #cloudPanel: CloudPanel;
+  /** The panel on the wrist in VR. */
+  wrist: WristPanel | null = null;
   #pictures: PicturePointer | null = null;
   readonly #release = new ReleaseHold();
   readonly #estop: EstopUi;
@@ -199,8 +201,16 @@ export class App {
     showSensorSwitches(state.sensors);
     showPicturePanels(state, { inVr: vr.active, isGripped: () => this.client.driver.stream.held });
     const { appearance, clouds } = this;
-    applyAppearance({ appearance, sensors: state.sensors, clouds, stage, inVr: vr.active });
+    applyAppearance({
+      appearance,
+      sensors: state.sensors,
+      rings: state.rings,
+      clouds,
+      stage,
+      inVr: vr.active,
+    });
     const panel = new WristPanel(stage.renderer, stage.rig);
+    this.wrist = panel;
     showOnWrist({ state, panel, active: vr.active, releaseProgress: this.#release.progress });
     this.#pictures = showPicturesInVr({ state, panel, stage, active: vr.active });
     effect(() => {

@@ -1,11 +1,10 @@
 /**
  * The ways to colour a cloud. `captured`: the points' own colours. `height`: metres above the robot's ground.
  * `distance`: metres from the sensor. `intensity`: of the LiDAR's echo, 0–1, or the brightness of a point with a colour
- * of its own. `age`: points of older frames are dim, seconds. The order is that of the shader's numbers.
- *
- * There is none by ring: no cloud format carries the beam that measured a point.
+ * of its own. `age`: points of older frames are dim, seconds. `ring`: which of a spinning LiDAR's lasers measured the
+ * point, by its elevation ({@link Rings}). The order is that of the shader's numbers.
  */
-export const COLOUR_MODES = ['captured', 'height', 'distance', 'intensity', 'age'] as const;
+export const COLOUR_MODES = ['captured', 'height', 'distance', 'intensity', 'age', 'ring'] as const;
 
 /** One of {@link COLOUR_MODES}. */
 export type ColourMode = (typeof COLOUR_MODES)[number];
@@ -26,14 +25,32 @@ export interface HeightCut {
   above: number | null;
 }
 
+/**
+ * The rings of a spinning LiDAR: the cones that its lasers sweep. No cloud format carries a point's ring, so the view
+ * takes the one whose elevation, seen from the sensor, is nearest to the point's.
+ */
+export interface Rings {
+  /** Elevation of each ring, radians above the horizontal plane of the sensor, ascending. Ring 0 is the lowest. */
+  readonly elevations: readonly number[];
+  /** `robot`: the robot knows them. `points`: estimated from the points, which may be wrong. */
+  readonly from: 'robot' | 'points';
+}
+
 /** How a cloud is coloured, and which heights of it are drawn. Changes apply to the next display frame. */
 export interface CloudColouring {
   /** What the colours mean. Default: `captured`. */
   mode: ColourMode;
   /** The range of values; `null`, the default, follows the points in view slowly. */
   fixedRange: ValueRange | null;
-  /** The range in use, for a legend. Of no meaning for `captured`. */
+  /** The range in use, for a legend. Of no meaning for `captured` and `ring`. */
   readonly range: Readonly<ValueRange>;
+  /**
+   * What the robot says about the rings: their elevations, radians, ascending, 2 to 256 of them. `null`, the default:
+   * nothing; they are then estimated from the points.
+   */
+  knownRings: readonly number[] | null;
+  /** The rings in use, for a legend; `null` until there are any: points then have their own colours. For `ring` only. */
+  readonly rings: Rings | null;
   /** Height of the robot's ground in its world, metres: that of its `base_link`. */
   ground: number;
   /** Heights between which points are drawn. Default: all. */

@@ -21,6 +21,12 @@ const STEPS = 512;
 
 type Lab = readonly [lightness: number, a: number, b: number];
 
+/** A colour's lightness (0–1) and hue (degrees) in Oklab. */
+export interface Tint {
+  readonly lightness: number;
+  readonly hue: number;
+}
+
 /** Oklab to linear sRGB, which lies outside 0–1 if a screen cannot show the colour. */
 function linearOf([lightness, a, b]: Lab): Rgb {
   const long = (lightness + 0.3963377774 * a + 0.2158037573 * b) ** 3;
@@ -39,8 +45,15 @@ function encode(linear: number): number {
 }
 
 function labAt(part: number): Lab {
-  const lightness = FROM.lightness + (TO.lightness - FROM.lightness) * part;
-  const hue = ((FROM.hue + (TO.hue - FROM.hue) * part) * Math.PI) / 180;
+  return labOf({
+    lightness: FROM.lightness + (TO.lightness - FROM.lightness) * part,
+    hue: FROM.hue + (TO.hue - FROM.hue) * part,
+  });
+}
+
+/** As strong a colour as a screen can show, up to {@link MOST_CHROMA}. */
+function labOf({ lightness, hue: degrees }: Tint): Lab {
+  const hue = (degrees * Math.PI) / 180;
   const at = (chroma: number): Lab => [lightness, chroma * Math.cos(hue), chroma * Math.sin(hue)];
   let [least, most] = [0, 0.4];
   for (let i = 0; i < 20; i++) {
@@ -49,6 +62,16 @@ function labAt(part: number): Lab {
     else most = middle;
   }
   return at(Math.min(MOST_CHROMA, least * CHROMA_SHARE));
+}
+
+function rgbOf(lab: Lab): Rgb {
+  const [red, green, blue] = linearOf(lab);
+  return [encode(red), encode(green), encode(blue)];
+}
+
+/** A strong colour of this lightness and hue that a screen can show. */
+export function rgbOfTint(tint: Tint): Rgb {
+  return rgbOf(labOf(tint));
 }
 
 let stops: readonly Rgb[] | null = null;
@@ -72,8 +95,7 @@ function computeStops(): Rgb[] {
   return Array.from({ length: COLOUR_STOPS }, (_, stop) => {
     const wanted = (whole * stop) / (COLOUR_STOPS - 1);
     const at = lengths.findIndex((length) => length >= wanted - 1e-9);
-    const [red, green, blue] = linearOf(curve[at] as Lab);
-    return [encode(red), encode(green), encode(blue)];
+    return rgbOf(curve[at] as Lab);
   });
 }
 

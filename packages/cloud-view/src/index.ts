@@ -9,6 +9,7 @@ export {
   COLOUR_MODES,
   type ColourMode,
   type HeightCut,
+  type Rings,
   type ValueRange,
 } from './cloud-colouring.ts';
 export type { CloudSource, CloudViewOptions } from './cloud-source.ts';
@@ -18,4 +19,5 @@ export { DrawGate } from './draw-gate.ts';
 export { DrawingGovernor, type DrawingStep } from './drawing-governor.ts';
 export type { DrawnPoints, FramePose } from './drawn-points.ts';
 export { GpuCompletion } from './gpu-completion.ts';
+export { RING_COLOURS, ringColours } from './ring-colours.ts';
 export { RobotWorld } from './robot-world.ts';

@@ -83,6 +83,82 @@ describe('PointColouring', () => {
   });
 });
 
+describe('rings', () => {
+  /** A turn of a LiDAR: a wall all around, at a distance that changes with the direction. */
+  function turn(elevations: readonly number[], columns: number): Int16Array {
+    return points(
+      elevations.flatMap((elevation) =>
+        Array.from({ length: columns }, (_, column) => {
+          const azimuth = (2 * Math.PI * column) / columns;
+          const range = 6 + 3 * Math.sin(3 * azimuth);
+          const across = range * Math.cos(elevation);
+          return [
+            across * Math.sin(azimuth),
+            -range * Math.sin(elevation),
+            across * Math.cos(azimuth),
+          ] as const;
+        }),
+      ),
+    );
+  }
+  const SIXTEEN = Array.from({ length: 16 }, (_, i) => ((i * 2 - 15) * Math.PI) / 180);
+
+  test('are those that the robot knows', () => {
+    const { colouring, uniforms } = colouringAt(1);
+    colouring.mode = 'ring';
+    colouring.update(0);
+    expect(colouring.rings).toBeNull();
+    expect(uniforms.ringScale.value.y).toBe(0);
+    colouring.knownRings = SIXTEEN;
+    colouring.update(1);
+    expect(colouring.rings).toEqual({ elevations: SIXTEEN, from: 'robot' });
+    expect(uniforms.colourMode.value).toBe(5);
+    expect(uniforms.ringScale.value.x).toBeCloseTo((-16 * Math.PI) / 180, 9);
+    expect(uniforms.ringMap.value.version).toBe(1);
+    colouring.update(2);
+    expect(uniforms.ringMap.value.version).toBe(1);
+    colouring.knownRings = null;
+    expect(colouring.rings).toBeNull();
+  });
+
+  test('of which the robot says nothing are found in the points, and keep their colours', () => {
+    const { colouring, uniforms } = colouringAt(1);
+    colouring.mode = 'ring';
+    const cloud = turn(SIXTEEN, 900);
+    const show = (turns: number) => {
+      for (let i = 0; i < turns; i++) {
+        colouring.beginFrame(0, cloud.length / 4, i * 100);
+        colouring.sample(cloud, 0, cloud.length / 4, 0);
+        colouring.update(i * 100);
+      }
+    };
+    show(20);
+    expect(colouring.rings?.from).toBe('points');
+    expect(colouring.rings?.elevations).toHaveLength(16);
+    for (const [i, elevation] of colouring.rings!.elevations.entries())
+      expect(Math.abs(elevation - SIXTEEN[i]!)).toBeLessThan(0.001);
+    const { version } = uniforms.ringMap.value;
+    show(40);
+    expect(uniforms.ringMap.value.version).toBe(version);
+    colouring.forget();
+    colouring.update(1);
+    expect(colouring.rings).toBeNull();
+  });
+
+  test('are not sought in points too near for their coordinates', () => {
+    const { colouring } = colouringAt(1);
+    colouring.mode = 'ring';
+    // 0.1 m away, in steps of a millimetre.
+    const near = turn(SIXTEEN, 900).map((value, i) => (i % 4 === 3 ? 0 : Math.round(value / 60)));
+    for (let i = 0; i < 40; i++) {
+      colouring.beginFrame(0, near.length / 4, i);
+      colouring.sample(near, 0, near.length / 4, 0);
+    }
+    colouring.update(1);
+    expect(colouring.rings).toBeNull();
+  });
+});
+
 describe('values of points', () => {
   test('the colour that stands for an intensity gives it back, within what 16 bits keep', () => {
     for (let level = 0; level <= 1; level += 1 / 64) {

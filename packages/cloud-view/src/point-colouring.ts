@@ -6,10 +6,13 @@ import {
   COLOUR_MODES,
   type ColourMode,
   type HeightCut,
+  type Rings,
   type ValueRange,
 } from './cloud-colouring.ts';
 import type { PointUniforms } from './point-material.ts';
-import { intensityOf, turnedZ } from './point-values.ts';
+import { elevationOf, intensityOf, turnedZ } from './point-values.ts';
+import { MOST_RINGS, RingEstimator } from './ring-estimate.ts';
+import { fillRingTable, ringScale } from './ring-table.ts';
 
 /** Number of points of a frame whose values are looked at. */
 const SAMPLES_PER_FRAME = 200;
@@ -20,6 +23,7 @@ const LEAST_SPAN: Readonly<Record<ColourMode, number>> = {
   distance: 1,
   intensity: 0.1,
   age: 0.01,
+  ring: 1,
 };
 /** The upper end of the automatic range, which begins at 0, until points have come. */
 const FIRST_MAX: Readonly<Record<ColourMode, number>> = {
@@ -28,7 +32,10 @@ const FIRST_MAX: Readonly<Record<ColourMode, number>> = {
   distance: 10,
   intensity: 1,
   age: 1,
+  ring: 1,
 };
+/** A coordinate's step moves a point's elevation by less than this, or the point says nothing about rings, radians. */
+const MOST_STEP_RAD = 0.004;
 /** Heights without a limit. */
 const UNLIMITED_M = 1e30;
 /** Frame interval until it is known, and the longest that counts as one, s. */
@@ -46,6 +53,9 @@ export class PointColouring implements CloudColouring {
   readonly range: ValueRange = { min: 0, max: 1 };
   readonly #uniforms: PointUniforms;
   readonly #auto = new AutoRange();
+  readonly #estimator = new RingEstimator();
+  #knownRings: readonly number[] | null = null;
+  #rings: Rings | null = null;
   readonly #beganMs = [0, 0];
   #newestSlot = 0;
   #intervalS = FIRST_INTERVAL_S;
@@ -67,6 +77,19 @@ export class PointColouring implements CloudColouring {
     this.forget();
   }
 
+  get knownRings(): readonly number[] | null {
+    return this.#knownRings;
+  }
+  set knownRings(elevations: readonly number[] | null) {
+    const usable = elevations !== null && elevations.length >= 2 && elevations.length <= MOST_RINGS;
+    this.#knownRings = usable ? elevations : null;
+    this.#useRings();
+  }
+
+  get rings(): Rings | null {
+    return this.#rings;
+  }
+
   /** A frame with `total` points begins to arrive. */
   beginFrame(slot: number, total: number, nowMs: number): void {
     const intervalS = (nowMs - (this.#beganMs[this.#newestSlot] as number)) / 1000;
@@ -78,13 +101,14 @@ export class PointColouring implements CloudColouring {
 
   /** Looks at a few of `count` points from point `first` on, which belong to the frame of this slot. */
   sample(points: Int16Array, first: number, count: number, slot: number): void {
-    if (this.#mode === 'captured' || this.#mode === 'age' || this.fixedRange !== null) return;
+    if (!this.#looks) return;
     const unit = this.#uniforms.frameUnit.value[slot] as number;
     const { z: sensorZ } = this.#uniforms.framePosition.value[slot]!;
     const orientation = this.#uniforms.frameOrientation.value[slot]!;
     for (; this.#skip < count; this.#skip += this.#stride) {
       const at = (first + this.#skip) * 4;
-      this.#auto.add(this.#valueOf(points, at, unit, sensorZ, orientation));
+      if (this.#mode === 'ring') this.#sampleRing(points, at);
+      else this.#auto.add(this.#valueOf(points, at, unit, sensorZ, orientation));
     }
     this.#skip -= count;
   }
@@ -96,6 +120,8 @@ export class PointColouring implements CloudColouring {
     if (this.#mode === 'age') {
       range.min = this.#intervalS;
       range.max = this.#intervalS * OLD_INTERVALS;
+    } else if (this.#mode === 'ring') {
+      this.#useRings();
     } else {
       auto.update(nowMs, LEAST_SPAN[this.#mode]);
       range.min = auto.min;
@@ -119,6 +145,38 @@ export class PointColouring implements CloudColouring {
   /** The points are discarded: the next ones may come from elsewhere. */
   forget(): void {
     this.#auto.reset(0, FIRST_MAX[this.#mode]);
+    this.#estimator.reset();
+  }
+
+  /** Whether samples of points are of any use at present. */
+  get #looks(): boolean {
+    if (this.#mode === 'ring') return this.#knownRings === null;
+    return this.#mode !== 'captured' && this.#mode !== 'age' && this.fixedRange === null;
+  }
+
+  #sampleRing(points: Int16Array, at: number): void {
+    const [x, y, z] = [points[at] as number, points[at + 1] as number, points[at + 2] as number];
+    // In steps of a coordinate, a distance is the reciprocal of the angle of one step.
+    if (Math.hypot(x, y, z) * MOST_STEP_RAD > 1) this.#estimator.add(elevationOf(x, y, z));
+  }
+
+  /** Brings the shader's table up to date. Estimates with as many rings as before change nothing: colours stay. */
+  #useRings(): void {
+    const from = this.#knownRings === null ? 'points' : 'robot';
+    const elevations = this.#knownRings ?? this.#estimator.elevations;
+    const before = this.#rings;
+    if (elevations === (before?.elevations ?? null)) return;
+    if (from === 'points' && before?.from === from && elevations?.length === before.elevations.length) return;
+    this.#rings = elevations === null ? null : { elevations, from };
+    const { ringMap, ringScale: scale } = this.#uniforms;
+    if (elevations === null) {
+      scale.value.set(0, 0);
+      return;
+    }
+    const { from: lowest, texelsPerRadian } = ringScale(elevations);
+    scale.value.set(lowest, texelsPerRadian);
+    fillRingTable(elevations, ringMap.value.image.data as Uint8Array);
+    ringMap.value.needsUpdate = true;
   }
 
   #valueOf(points: Int16Array, at: number, unit: number, sensorZ: number, orientation: Quaternion): number {

@@ -7,10 +7,12 @@
  * metres: the distance between neighbouring samples at depth z. k is the angle between neighbours, so that points just
  * close their gaps at any resolution, eye and density of the frame. m keeps the nearest points from vanishing.
  */
-import { GLSL3, RawShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
+import { type DataTexture, GLSL3, RawShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
 import { COLOUR_STOPS, colourStops } from './colour-map.ts';
 import { MAX_RUNS, RUN_FIELDS } from './frame-window.ts';
 import { INTENSITY_LUMAS, LUMA_WEIGHTS } from './point-values.ts';
+import { RING_TEXELS } from './ring-table.ts';
+import { ringTexture } from './ring-texture.ts';
 
 /** m: metres added to every point's size. */
 export const SIZE_OFFSET_M = 0.002;
@@ -39,10 +41,13 @@ uniform float frameUnit[2];
 uniform float viewportHeight;
 uniform float sizeScale;
 uniform float freshness;
-// What colours mean: captured, height, distance, intensity, age (cloud-colouring.ts).
+// What colours mean: captured, height, distance, intensity, age, ring (cloud-colouring.ts).
 uniform int colourMode;
 // The value with the first colour, and 1 / the values' span.
 uniform vec2 colourRange;
+// The colour of the ring at each elevation (ring-table.ts), and the lowest elevation and texels per radian; 0: no rings.
+uniform sampler2D ringMap;
+uniform vec2 ringScale;
 uniform vec3 colourMap[${COLOUR_STOPS}];
 // Height of the robot's ground in the world, metres.
 uniform float groundHeight;
@@ -64,7 +69,15 @@ float intensityOf(vec3 rgb) {
   return (${intensityTerms.join(' + ')}) / ${(INTENSITY_LUMAS.length - 1).toFixed(1)};
 }
 
+vec3 ringColour(vec3 rgb, vec3 fromSensor) {
+  if (ringScale.y == 0.0) return rgb;
+  float elevation = atan(-fromSensor.y, length(fromSensor.xz));
+  int texel = clamp(int((elevation - ringScale.x) * ringScale.y), 0, ${RING_TEXELS - 1});
+  return texelFetch(ringMap, ivec2(texel, 0), 0).rgb;
+}
+
 vec3 coloured(vec3 rgb, vec3 fromSensor, float height, float age) {
+  if (colourMode == 5) return ringColour(rgb, fromSensor);
   float value = colourMode == 1 ? height
     : colourMode == 2 ? length(fromSensor)
     : colourMode == 3 ? intensityOf(rgb)
@@ -146,6 +159,10 @@ export interface PointUniforms {
   /** The value with the first colour, and 1 / the values' span. */
   colourRange: { value: Vector2 };
   colourMap: { value: Vector3[] };
+  /** The colour of the ring at each elevation. */
+  ringMap: { value: DataTexture };
+  /** The lowest elevation, radians, and texels per radian; 0: no rings are known. */
+  ringScale: { value: Vector2 };
   /** Height of the robot's ground in the world, metres. */
   groundHeight: { value: number };
   /** The lowest and the highest height in the world that is drawn, metres. */
@@ -167,6 +184,8 @@ export function createPointMaterial(): { material: RawShaderMaterial; uniforms: 
     colourMode: { value: 0 },
     colourRange: { value: new Vector2(0, 1) },
     colourMap: { value: colourStops().map(([red, green, blue]) => new Vector3(red, green, blue)) },
+    ringMap: { value: ringTexture() },
+    ringScale: { value: new Vector2(0, 0) },
     groundHeight: { value: 0 },
     heightCut: { value: new Vector2(-1e30, 1e30) },
     frameAge: { value: [0, 0] },

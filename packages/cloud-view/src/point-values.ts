@@ -35,3 +35,8 @@ export function intensityOf(colour: number): number {
 export function turnedZ({ x: qx, y: qy, z: qz, w: qw }: Quaternion, x: number, y: number, z: number): number {
   return 2 * (qx * qz - qw * qy) * x + 2 * (qy * qz + qw * qx) * y + (1 - 2 * (qx * qx + qy * qy)) * z;
 }
+
+/** Elevation of a point in the sensor's optical frame (y down), radians above the sensor's horizontal plane. */
+export function elevationOf(x: number, y: number, z: number): number {
+  return Math.atan2(-y, Math.hypot(x, z));
+}

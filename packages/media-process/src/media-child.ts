@@ -1,17 +1,24 @@
 /** One run of a media program, from its start to its end. */
 import { type ChildProcessWithoutNullStreams, spawn } from 'node:child_process';
 import { createInterface } from 'node:readline';
+import { Heartbeat } from '@farpoint/timing';
 import { WireError } from './wire-error.ts';
 import { type LogLine, parseLogLine } from './wire-json.ts';
 import type { WireMessage, WireMessageParser } from './wire-messages.ts';
 
 /** From the friendly signal to the one that cannot be ignored. */
 const KILL_AFTER_MS = 3000;
+/**
+ * Each program tells its counts once a second. Its first sign of life may take long: GStreamer looks at every plugin at
+ * the first start, and devices take their time.
+ */
+const SIGNS_OF_LIFE = { firstMs: 30_000, silenceMs: 5000, checkMs: 500 };
 
 /** How a program ended that told no reason. */
 export type ChildEnd =
   | 'not-started' // it is missing, or cannot be run
   | 'bad-output' // it sent what makes no sense
+  | 'hung' // it said nothing any more, or did nothing, and was killed
   | 'ended'; // it ended, crashed or was killed
 
 export interface MediaChildEvents {
@@ -27,6 +34,8 @@ export class MediaChild {
   readonly #events: MediaChildEvents;
   readonly #parser: WireMessageParser;
   readonly #gone: Promise<void>;
+  readonly #heartbeat = new Heartbeat(SIGNS_OF_LIFE, performance.now());
+  readonly #checking: NodeJS.Timeout;
   #failed: { end: ChildEnd; detail: string } | null = null;
   #closing = false;
   #kill: NodeJS.Timeout | null = null;
@@ -36,6 +45,7 @@ export class MediaChild {
     this.#parser = parser;
     const child = spawn(program, [], { env, stdio: ['pipe', 'pipe', 'pipe'] });
     this.#child = child;
+    this.#checking = setInterval(() => this.#checkLife(), SIGNS_OF_LIFE.checkMs).unref();
     this.#gone = new Promise((resolve) => {
       // `close` comes after the last bytes of its output, and after `error` if it could not be started.
       child.once('close', (code, signal) => {
@@ -78,6 +88,21 @@ export class MediaChild {
     return this.#gone;
   }
 
+  /** It hangs: kills it at once, and reports its end as `hung`. @param detail how that shows */
+  giveUp(detail: string): void {
+    if (this.#closing) return;
+    this.#closing = true;
+    this.#failed ??= { end: 'hung', detail };
+    this.#child.stdin.destroy();
+    // One that hangs does not react to a friendly signal.
+    this.#child.kill('SIGKILL');
+  }
+
+  #checkLife(): void {
+    if (!this.#heartbeat.isLost(performance.now())) return;
+    this.giveUp(`it has said nothing for ${Math.round(this.#heartbeat.silentMs / 1000)} s`);
+  }
+
   #end(): void {
     if (this.#closing) return;
     this.#closing = true;
@@ -88,6 +113,7 @@ export class MediaChild {
 
   #onData(chunk: Uint8Array): void {
     if (this.#closing) return;
+    this.#heartbeat.beat();
     try {
       this.#parser.push(chunk, (message) => {
         if (!this.#closing) this.#events.onMessage(message);
@@ -102,6 +128,7 @@ export class MediaChild {
 
   #onGone(code: number | null, signal: NodeJS.Signals | null): void {
     if (this.#kill !== null) clearTimeout(this.#kill);
+    clearInterval(this.#checking);
     if (this.#closing && this.#failed === null) return;
     const how = signal === null ? `it ended with the code ${code}` : `it was ended by ${signal}`;
     this.#closing = true;

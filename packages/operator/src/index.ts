@@ -31,6 +31,7 @@ export type {
   RobotListing,
   Sample,
   Samples,
+  SensorRings,
   Sensors,
   Sound,
   StageTimings,

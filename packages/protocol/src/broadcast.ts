@@ -4,7 +4,8 @@ import { CLOUD_FORMATS } from './cloud-format.ts';
 import { displayNameSchema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
 import { MAX_SENSORS } from './placement.ts';
-import { midSchema, sensorSchema, streamHeaderSchema, videoDescriptionSchema } from './session-codecs.ts';
+import { sensorSchema } from './sensor-rings.ts';
+import { midSchema, streamHeaderSchema, videoDescriptionSchema } from './session-codecs.ts';
 import type { CloudStream, VideoDescription } from './session-messages.ts';
 import { MAX_VIDEOS } from './video-media.ts';
 

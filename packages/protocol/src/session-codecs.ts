@@ -8,6 +8,7 @@ import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
 import { quantitySchema } from './quantity.ts';
+import { sensorRingsSchema, sensorSchema } from './sensor-rings.ts';
 import type { RobotSessionMessage } from './session-messages.ts';
 import type { OperatorSessionMessage } from './session-requests.ts';
 import { MICROPHONE_STATES, VOICE_STATES } from './sound-media.ts';
@@ -15,7 +16,6 @@ import { MAX_VIDEOS, VIDEO_CODECS } from './video-media.ts';
 
 const positive = z.number().check(z.positive());
 const cameraSchema = z.int().check(z.minimum(0), z.maximum(MAX_CAMERAS - 1));
-export const sensorSchema = z.int().check(z.minimum(0), z.maximum(MAX_SENSORS - 1));
 const videoSchema = z.int().check(z.minimum(0), z.maximum(MAX_VIDEOS - 1));
 const weightSchema = z.int().check(z.minimum(1), z.maximum(100));
 /** An SDP token (RFC 8866 §9) that fits a one-byte header extension. */
@@ -109,6 +109,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
         z.strictObject({ state: z.enum(VOICE_STATES), detail: z.optional(soundDetailSchema) }),
       ),
     }),
+    sensorRingsSchema,
     quantitySchema,
     alarmSchema,
     z.strictObject({ type: z.literal('fault'), message: z.string().check(z.maxLength(512)) }),

@@ -5,6 +5,7 @@ import type { Alarm } from './alarm.ts';
 import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
 import type { Quantity } from './quantity.ts';
+import type { SensorRings } from './sensor-rings.ts';
 import type { MicrophoneState, VoiceState } from './sound-media.ts';
 import type { VideoCodec } from './video-media.ts';
 
@@ -204,6 +205,7 @@ export type RobotSessionMessage =
   | CloudStream
   | Cameras
   | Sensors
+  | SensorRings
   | Videos
   | Sound
   | Quantity

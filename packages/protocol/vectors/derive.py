@@ -543,6 +543,8 @@ cloud_stream = robot_session.good({"type": "cloudStream", "format": "organised",
 cameras = robot_session.good({"type": "cameras", "cameras": [{"name": "Front"}, {"name": "/gripper/image_raw"}]})
 robot_session.good({"type": "cloudStream", "format": "unorganised", "header": "RlBVQwEBAAA=", "sensor": 1}, "cloudStream: of the second sensor")
 sensors = robot_session.good({"type": "sensors", "sensors": [{"name": "Camera"}, {"name": "LiDAR"}]})
+rings = robot_session.good({"type": "rings", "sensor": 1, "elevations": [-0.2618, -0.08727, 0.08727, 0.2618]})
+robot_session.good({"type": "rings", "sensor": 0, "elevations": [round(-0.4 + i * 0.003, 5) for i in range(256)]}, "rings: 256")
 robot_session.good({"type": "cameras", "cameras": []}, "cameras: none")
 videos = robot_session.good({"type": "videos", "videos": [{"name": "Front", "mid": "1", "codec": "H264"}, {"name": "Rear", "mid": "2", "codec": "VP8", "fault": "the camera is unplugged"}]})
 robot_session.good({"type": "videos", "videos": []}, "videos: none")
@@ -579,6 +581,9 @@ robot_session.spoil(latency, ("id", -1), ("frameNumber", 2 ** 32), ("points", -1
 robot_session.spoil(cloud_stream, ("format", "points64"), ("format", "draco"), ("header", ""), ("header", "a b"), ("header", "A" * 3204))
 robot_session.spoil(cloud_stream, ("sensor", 8), ("sensor", -1), ("sensor", "0"))
 robot_session.spoil(sensors, ("sensors", ABSENT), ("sensors", [{"name": "x"}] * 9), ("sensors.0.name", ""), ("sensors.1.extra", 1, "sensors.1"))
+robot_session.spoil(rings, ("sensor", 8), ("sensor", -1), ("sensor", ABSENT), ("elevations", ABSENT), ("elevations", []), ("elevations", [0.1]),
+                    ("elevations", [0.1, 0.1]), ("elevations", [0.2, 0.1]), ("elevations.0", -1.6), ("elevations.3", 1.6),
+                    ("elevations.0", "0"), ("elevations.0", None), ("elevations", [round(-0.4 + i * 0.003, 5) for i in range(257)]))
 robot_session.spoil(cameras, ("cameras", ABSENT), ("cameras", [{"name": "x"}] * 9), ("cameras.0.name", ""), ("cameras.1.name", 7),
                     ("cameras.0.name", "a\nb"), ("cameras.0.extra", 1, "cameras.0"))
 robot_session.spoil(sound, ("mid", ABSENT), ("mid", ""), ("microphone.state", "on"), ("microphone.state", ABSENT), ("microphone.detail", "x" * 257),

@@ -28,6 +28,8 @@ const MOST_STATIC = 10_000;
  */
 export class CloudPlayer {
   readonly stream: CloudStream;
+  /** Knows the rings of the LiDAR, too, once it has decoded clouds that tell. */
+  readonly decoder = new PointCloud2Decoder();
   /** Called for each cloud: {@link take} it or {@link skip} it before the next one, which otherwise replaces it. */
   onCloud: (() => void) | null = null;
   /** Whether somebody wants the messages of an accompanying topic; otherwise they are skipped while reading. */
@@ -52,7 +54,6 @@ export class CloudPlayer {
   readonly #clock: PlayClock;
   readonly #timeline: PlayTimeline;
   readonly #state = new WorldState();
-  readonly #decoder = new PointCloud2Decoder();
   readonly #ended = new AbortController();
   #passEnd = new AbortController();
   #fromNs: bigint;
@@ -175,7 +176,7 @@ export class CloudPlayer {
     try {
       const cloud = pointCloud2Schema.parse(message.topic.decode(message.data));
       const { axes } = this.stream;
-      const count = this.#decoder.decode(cloud, axes, into);
+      const count = this.decoder.decode(cloud, axes, into);
       const { frame_id, stamp } = cloud.header;
       return { count, cameraPose: this.#state.opticalPose(frame_id, stampNs(stamp), axes), dueMs };
     } catch (error) {

@@ -2,6 +2,7 @@ import { intensityColour, intensityScale } from '@farpoint/cloud-formats';
 import { RosFault } from './fault.ts';
 import { GREY } from './image.ts';
 import type { PointCloud2, PointField } from './messages.ts';
+import { FLOAT32, fieldReader, requireFit, TYPES, typeOf, UINT8 } from './point-field.ts';
 import {
   alignedWords,
   type CloudAxes,
@@ -11,29 +12,21 @@ import {
   forEachPoint,
   type Rows,
 } from './point-words.ts';
+import { RingFinder } from './ring-finder.ts';
 
 const LEVELS = 256;
-
-type Reader = (view: DataView, at: number, little: boolean) => number;
-/** By `datatype`, from 1: INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64. */
-const TYPES: readonly { bytes: number; read: Reader }[] = [
-  { bytes: 1, read: (view, at) => view.getInt8(at) },
-  { bytes: 1, read: (view, at) => view.getUint8(at) },
-  { bytes: 2, read: (view, at, little) => view.getInt16(at, little) },
-  { bytes: 2, read: (view, at, little) => view.getUint16(at, little) },
-  { bytes: 4, read: (view, at, little) => view.getInt32(at, little) },
-  { bytes: 4, read: (view, at, little) => view.getUint32(at, little) },
-  { bytes: 4, read: (view, at, little) => view.getFloat32(at, little) },
-  { bytes: 8, read: (view, at, little) => view.getFloat64(at, little) },
-];
-const UINT8 = 2;
-const FLOAT32 = 7;
 
 /** Decodes the clouds of one topic. */
 export class PointCloud2Decoder {
   readonly #palette = Uint32Array.from({ length: LEVELS }, (_, i) => intensityColour(i / (LEVELS - 1)));
   /** Taken from the first cloud with intensities: a changing scale would make everything flicker. */
   #intensityScale: number | null = null;
+  readonly #rings = new RingFinder();
+
+  /** Elevations of the LiDAR's rings, radians, ascending; `null` until clouds have told them. */
+  get rings(): readonly number[] | null {
+    return this.#rings.elevations;
+  }
 
   /**
    * Accepts fields of any layout, type and endianness: x, y and z; colour from `rgb`, `rgba`, or `r`, `g`, `b`; else
@@ -61,6 +54,7 @@ export class PointCloud2Decoder {
       copyPoints(alignedWords(cloud.data), rows, [x, y, z], axes, into);
     else readCoordinates(cloud, rows, [x, y, z], axes, into);
     this.#colour(cloud, rows, new Uint32Array(into.buffer, into.byteOffset, into.length), 4, 3);
+    this.#rings.take(cloud, into);
     return count;
   }
 
@@ -144,10 +138,8 @@ export class PointCloud2Decoder {
     }
     requireFit(cloud, intensity, typeOf(intensity).bytes);
     const { read } = typeOf(intensity);
-    const { width, rowBytes, step } = rows;
-    const intensityAt = (i: number) =>
-      read(view, Math.floor(i / width) * rowBytes + (i % width) * step + intensity.offset, little);
-    this.#intensityScale ??= intensityScale(intensityAt, width * rows.height);
+    const intensityAt = fieldReader(cloud, intensity);
+    this.#intensityScale ??= intensityScale(intensityAt, rows.width * rows.height);
     const scale = this.#intensityScale * (LEVELS - 1);
     const palette = this.#palette;
     forEachPoint(rows, (at, i) => {
@@ -179,21 +171,12 @@ export function checkedCount({ width, height, point_step, row_step, data, fields
   return count;
 }
 
-function typeOf(field: PointField): { bytes: number; read: Reader } {
-  return TYPES[field.datatype - 1] as { bytes: number; read: Reader };
-}
-
 function fieldOf({ fields }: PointCloud2, name: string): PointField {
   const field = fields.find((each) => each.name === name);
   if (field === undefined) {
     throw new RosFault('bad-cloud', `no field ${name}, but ${fields.map((each) => each.name).join(', ')}`);
   }
   return field;
-}
-
-function requireFit({ point_step }: PointCloud2, { name, offset }: PointField, bytes: number): void {
-  if (offset + bytes <= point_step) return;
-  throw new RosFault('bad-cloud', `field ${name} at ${offset} is outside its point of ${point_step} bytes`);
 }
 
 /** Little-endian floats at multiples of four, as nearly every driver writes them. */

@@ -102,6 +102,12 @@ export class SimulatedLidar {
     return new SimulatedLidar(views, options, seed);
   }
 
+  /** Of the rings from the lowest to the highest, radians. */
+  get elevations(): number[] {
+    const { rings } = this.options;
+    return Array.from({ length: rings }, (_, ring) => elevationOf(ring, this.options));
+  }
+
   get capacity(): number {
     return this.#beams.length;
   }
@@ -157,13 +163,18 @@ function viewHeight(verticalFieldOfView: number): number {
   );
 }
 
+function elevationOf(ring: number, options: Pick<LidarOptions, 'rings' | 'verticalFieldOfView'>): number {
+  const { rings, verticalFieldOfView } = options;
+  return rings === 1 ? 0 : verticalFieldOfView * (ring / (rings - 1) - 0.5);
+}
+
 function beamsOf(
   { rings, columns, verticalFieldOfView }: LidarOptions,
   views: readonly SimulatedCamera[],
 ): Beam[] {
   const beams: Beam[] = [];
   for (let ring = 0; ring < rings; ring++) {
-    const elevation = rings === 1 ? 0 : verticalFieldOfView * (ring / (rings - 1) - 0.5);
+    const elevation = elevationOf(ring, { rings, verticalFieldOfView });
     for (let column = 0; column < columns; column++) {
       // To the left, as in REP-103, from straight ahead.
       const azimuth = (2 * Math.PI * column) / columns;

@@ -10,6 +10,7 @@ export const SOUND_FAILURE_REASONS = [
   'not-negotiated', // the device has no format that can be used
   'codec-failed', // the encoder reports an error
   'process-lost', // the process ended without a word: it crashed or was killed
+  'process-hung', // the process said nothing for too long, and was killed
   'bad-output', // the process sent what makes no sense
 ] as const;
 export type SoundFailureReason = (typeof SOUND_FAILURE_REASONS)[number];
@@ -66,6 +67,11 @@ const ABOUT: Record<
   'process-lost': {
     what: () => 'the sound process ended unexpectedly',
     remedy: 'if this repeats, choose another kind of device: a plugin crashes',
+    retried: true,
+  },
+  'process-hung': {
+    what: () => 'the sound process hung',
+    remedy: 'if this repeats, choose another kind of device: a plugin or a driver hangs',
     retried: true,
   },
   'bad-output': {

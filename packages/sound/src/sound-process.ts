@@ -39,6 +39,7 @@ export interface SoundProcessOptions extends SoundProcessEvents {
 const REASON_OF_END: Record<ChildEnd, SoundFailureReason> = {
   'not-started': 'not-built',
   'bad-output': 'bad-output',
+  hung: 'process-hung',
   ended: 'process-lost',
 };
 

@@ -120,6 +120,16 @@ describe(`farpoint-sound (${SOUND_SUITE.note})`, { skip: SOUND_SUITE.skip }, () 
     expect(device.starts).toBe(2);
   });
 
+  it('comes back after it hung', async () => {
+    const { device, packets, failures } = microphone({ kind: 'test' });
+    await packets.atLeast(5);
+    process.kill(device.pid!, 'SIGSTOP');
+    const [failure] = await failures.atLeast(1);
+    expect(failure).toMatchObject({ reason: 'process-hung', retried: true });
+    await packets.atLeast(packets.all.length + 5);
+    expect(device.starts).toBe(2);
+  });
+
   it('is not started again where that cannot help', async () => {
     const { device, failures } = microphone({ kind: 'test' }, { program: '/no/such/program' });
     const [failure] = await failures.atLeast(1);

@@ -1,5 +1,6 @@
 /** One run of the program `farpoint-video`, from its start to its end. */
 import { type ChildEnd, MediaChild, type WireMessage } from '@farpoint/media-process';
+import { EncoderProgress } from './encoder-progress.ts';
 import { type LogLine, parseError, parseState, type VideoState } from './process-messages.ts';
 import { type VideoFailure, type VideoFailureReason, videoFailure } from './video-failure.ts';
 import {
@@ -28,12 +29,14 @@ export interface EncoderChildEvents {
 const REASON_OF_END: Record<ChildEnd, VideoFailureReason> = {
   'not-started': 'not-built',
   'bad-output': 'bad-output',
+  hung: 'process-hung',
   ended: 'process-lost',
 };
 
 export class EncoderChild {
   readonly #child: MediaChild;
   readonly #events: EncoderChildEvents;
+  readonly #progress = new EncoderProgress();
   #failure: VideoFailure | null = null;
   #takingFrame = false;
   #lostCoded = false;
@@ -97,11 +100,20 @@ export class EncoderChild {
 
   #onMessage({ type, payload }: WireMessage): void {
     if (type === FROM_PROCESS.encoded) this.#events.onFrame(parseEncoded(payload));
-    else if (type === FROM_PROCESS.state) this.#events.onState(parseState(payload));
+    else if (type === FROM_PROCESS.state) this.#onState(parseState(payload));
     else {
       const { reason, said, detail } = parseError(payload);
       if (detail !== '') this.#events.onLog({ level: 'debug', msg: detail });
       this.#failure ??= videoFailure(reason, said);
     }
+  }
+
+  #onState(state: VideoState): void {
+    this.#events.onState(state);
+    if (state.state !== 'stats') return;
+    const stuck = this.#progress.onStats(state);
+    if (stuck === null) return;
+    this.#failure ??= videoFailure('encoder-failed', stuck);
+    this.#child.giveUp(stuck);
   }
 }

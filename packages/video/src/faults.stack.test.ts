@@ -75,6 +75,20 @@ describe(`faults of cameras (${VIDEO_SUITE.note})`, { skip: VIDEO_SUITE.skip }, 
     }
   });
 
+  it('an encoder that hangs is ended, although its process lives', async () => {
+    const video = new Watched({
+      source: { kind: 'test', width: 320, height: 240, framesPerS: 30 },
+      // Sleeps for a quarter of an hour with its first picture.
+      encoder: { ...encoderNamed('x264enc'), before: 'identity sleep-time=900000000' },
+      settings: { bitsPerS: 1_000_000 },
+    });
+    watched = video;
+    await video.until(() => video.failures.length === 1);
+    expect(video.failures[0]).toMatchObject({ reason: 'encoder-failed', retried: true });
+    expect(video.failures[0]?.sentence).toMatch(/it has given no picture for 10 s, while \d{2,} came/);
+    await video.until(() => video.process.starts === 2 && video.states.length > 0);
+  });
+
   it('an encoder at a quarter of the needed speed drops pictures, and those that it encodes are young', async () => {
     const intervalMs = 1000 / 30;
     const slowMs = 4 * intervalMs;

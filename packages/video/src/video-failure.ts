@@ -13,6 +13,7 @@ export const VIDEO_FAILURE_REASONS = [
   'not-negotiated', // the source's pictures have a format that the encoder cannot be given
   'encoder-failed', // the encoder reports an error
   'process-lost', // the process ended without a word: it crashed or was killed
+  'process-hung', // the process said nothing for too long, and was killed
   'bad-output', // the process sent what makes no sense
 ] as const;
 export type VideoFailureReason = (typeof VIDEO_FAILURE_REASONS)[number];
@@ -64,6 +65,11 @@ const ABOUT: Record<VideoFailureReason, { what: string; remedy: string; retried:
   'process-lost': {
     what: 'the video process ended unexpectedly',
     remedy: 'if this repeats, choose another encoder: a plugin crashes',
+    retried: true,
+  },
+  'process-hung': {
+    what: 'the video process hung',
+    remedy: 'if this repeats, choose another encoder: a plugin or a driver hangs',
     retried: true,
   },
   'bad-output': {

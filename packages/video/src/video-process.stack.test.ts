@@ -313,6 +313,22 @@ describe(`the video process (${VIDEO_SUITE.note})`, { skip: VIDEO_SUITE.skip }, 
     expect(video.process.starts).toBe(2);
   });
 
+  it('comes back after it hung, with a key frame first', async () => {
+    const video = watch({ source: SMALL });
+    await video.next(3);
+    const hung = video.process.pid!;
+    process.kill(hung, 'SIGSTOP');
+    await video.until(() => video.failures.length === 1);
+    const [failure] = video.failures;
+    expect(failure).toMatchObject({ reason: 'process-hung', retried: true });
+    expect(failure?.sentence).toMatch(/^the video process hung: it has said nothing for \d+ s$/);
+    // It is gone, although it took no friendly signal.
+    expect(() => process.kill(hung, 0)).toThrow(/ESRCH/);
+    const [first] = await video.next(1);
+    expect(first?.key).toBe(true);
+    expect(video.process.starts).toBe(2);
+  });
+
   it('leaves no process', async () => {
     const video = watch({ source: SMALL });
     await video.next(1);

@@ -47,6 +47,7 @@ export class CaptureLoop {
   /** Since when a source with its own timing has had a cloud ready, ms; `null` if it has none. */
   #readySinceMs: number | null = null;
   #lastFault = '';
+  #toldRings: readonly number[] | null = null;
   #closed = false;
 
   constructor(source: FrameSource, frames: LoopFrames, { framesPerSecond, now, send }: CaptureLoopOptions) {
@@ -111,6 +112,7 @@ export class CaptureLoop {
     if (now >= this.#nextStateMs) {
       this.#nextStateMs = now + STATE_INTERVAL_MS;
       this.#tellState(now);
+      this.#tellRings();
     }
     const after = this.#now();
     if (this.#ownRhythm) return Math.max(this.#nextStateMs - after, 0);
@@ -165,6 +167,13 @@ export class CaptureLoop {
     const { framesWithoutBuffer } = this.#frames;
     const report: CaptureReport = { type: 'state', state: { ...state, timeMs: now }, framesWithoutBuffer };
     this.#send(report);
+  }
+
+  #tellRings(): void {
+    const { rings = null } = this.#source;
+    if (rings === this.#toldRings || rings === null) return;
+    this.#toldRings = rings;
+    this.#send({ type: 'rings', elevations: rings });
   }
 
   /** Reports a repeated fault only once, until the source delivers a cloud again. */

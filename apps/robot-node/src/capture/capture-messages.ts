@@ -69,6 +69,8 @@ export type CaptureReport =
   | { type: 'state'; state: TimedBaseState; framesWithoutBuffer: number }
   /** A fault of the source that may be temporary. */
   | { type: 'fault'; detail: string }
+  /** The rings of the source's LiDAR are known, or changed: elevations, radians, ascending. */
+  | { type: 'rings'; elevations: readonly number[] }
   /** A topic's message as text for people. */
   | { type: 'reading'; reading: TopicReading }
   /** What a played recording tells about the robot. */

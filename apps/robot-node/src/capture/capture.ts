@@ -55,6 +55,10 @@ export class Capture {
   onTelemetry: ((message: PlayedMessage) => void) | null = null;
   /** Called with the coded pictures of the played videos that are watched. */
   onVideo: ((video: number, picture: PlayedPicture) => void) | null = null;
+  /** Elevations of the rings of its LiDAR, radians, ascending; `null` while they are not known. */
+  rings: readonly number[] | null = null;
+  /** Called when they are known, and when they change. */
+  onRings: (() => void) | null = null;
   /** Frames not captured because no buffer was free. */
   framesWithoutBuffer = 0;
   readonly #sensor: number;
@@ -78,6 +82,9 @@ export class Capture {
       } else if (report.type === 'fault') {
         this.faults++;
         this.onFault?.(report.detail);
+      } else if (report.type === 'rings') {
+        this.rings = report.elevations;
+        this.onRings?.();
       } else if (report.type === 'reading') {
         this.onReading?.(report.reading);
       } else if (report.type === 'telemetry') {

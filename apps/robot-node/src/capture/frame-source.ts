@@ -118,6 +118,8 @@ export interface FrameSource {
   usePictures?(taker: PictureTaker): void;
   /** How many pictures per second each camera should give; 0: nobody watches it. */
   watchPictures?(perSecond: readonly number[]): void;
+  /** Elevations of the rings of its LiDAR, radians, ascending; `null` while they are not known. A new array at a change. */
+  readonly rings?: readonly number[] | null;
   /** Somebody watches something else of it than its clouds: clouds that nobody takes are skipped, not kept. */
   readonly goesOn?: boolean;
   /** Called with what a recording tells about the robot, when it is due. */

@@ -117,6 +117,10 @@ export class RecordingSource implements FrameSource {
     return { pose, twist, battery, contact: false };
   }
 
+  get rings(): readonly number[] | null {
+    return this.#player.decoder.rings;
+  }
+
   start(): void {
     const found = this.#found;
     this.#found = [];

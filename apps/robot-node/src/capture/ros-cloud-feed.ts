@@ -72,6 +72,10 @@ export class RosCloudFeed implements RosFeed {
     );
   }
 
+  get rings(): readonly number[] | null {
+    return this.#decoder.rings;
+  }
+
   take(room: CaptureRoom): FedFrame | null {
     const waiting = this.#waiting;
     const shape = this.shape;

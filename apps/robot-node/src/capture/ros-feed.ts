@@ -28,6 +28,8 @@ export interface RosFeed {
   readonly listeners: readonly Listener[];
   /** `null` until the first frame arrives. */
   readonly shape: FeedShape | null;
+  /** Elevations of its LiDAR's rings, radians, ascending, once they are known. */
+  readonly rings?: readonly number[] | null;
   /** Called at each new frame, which replaces one that has not been taken. */
   onFrame: (() => void) | null;
   onFault: ((fault: RosFault) => void) | null;

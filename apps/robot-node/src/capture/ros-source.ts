@@ -121,6 +121,10 @@ export class RosSource implements FrameSource {
     return { pose, twist, battery, contact: false, ...(measuredMs === null ? {} : { measuredMs }) };
   }
 
+  get rings(): readonly number[] | null {
+    return this.#feed.rings ?? null;
+  }
+
   capture(nowMs: number, _wishes: CaptureWishes, room: CaptureRoom): SourceFrame | null {
     let fed: ReturnType<RosFeed['take']>;
     try {

@@ -27,11 +27,13 @@ const HEIGHTS = [1.1, 0.35, 0.7, 0.9, 0.5, 0.25, 1];
 export class SimLidarSource implements FrameSource {
   readonly description: SourceDescription;
   readonly state = STANDING;
+  readonly rings: readonly number[];
   readonly #lidar: SimulatedLidar;
   readonly #world: SharedWorld;
 
   private constructor(lidar: SimulatedLidar, world: SharedWorld) {
     this.#lidar = lidar;
+    this.rings = lidar.elevations;
     this.#world = world;
     this.description = {
       kind: 'simulated LiDAR',

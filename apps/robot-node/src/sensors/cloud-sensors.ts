@@ -8,6 +8,8 @@ export interface CloudSensorsEvents {
   /** The state of the base, as the first sensor reports it. */
   onState(state: TimedBaseState): void;
   onFault(sensor: CloudSensor, detail: string): void;
+  /** The rings of a sensor are known, or have changed. */
+  onRings(sensor: CloudSensor): void;
   /** A sensor's thread has ended; the others continue. */
   onFailure(sensor: CloudSensor, error: CaptureError): void;
 }
@@ -49,6 +51,7 @@ export class CloudSensors {
       const sensor = new CloudSensor(each, captures[i] as Capture, first ? fanOut : others);
       const { capture } = sensor;
       capture.onFault = (detail) => events.onFault(sensor, detail);
+      capture.onRings = () => events.onRings(sensor);
       capture.onFailure = (error) => {
         sensor.fail();
         events.onFailure(sensor, error);

@@ -13,6 +13,8 @@ describe('a robot with two sensors', { timeout: 30_000 }, () => {
   it('names its sensors, and sends only the second one’s clouds to an operator who asks for only those', async () => {
     const [client, other] = [await connect(), await connect()];
     expect((await client.message('sensors')).sensors).toEqual([{ name: 'Camera' }, { name: 'LiDAR' }]);
+    const { sensor, elevations } = await client.message('rings');
+    expect([sensor, elevations.length, elevations[0]]).toEqual([LIDAR, 16, -0.2618]);
     client.sendSession({ type: 'sensors', sensors: [CAMERA, LIDAR] });
     await client.until(() => client.completeFramesOf(LIDAR).length >= 5);
     // Every beam that hits something: 16 rings of 900.

@@ -3,6 +3,7 @@ import type { CommandVerdict, RejectedCommand } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { DriveStation } from '../drive/drive-station.ts';
 import type { EstopJournal } from '../drive/estop-journal.ts';
+import type { CloudSensor } from '../sensors/cloud-sensor.ts';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
 import type { CommandLog } from '../telemetry/command-log.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
@@ -10,7 +11,7 @@ import type { SessionRecording } from '../telemetry/session-recording.ts';
 import type { VideoHub } from '../video/video-hub.ts';
 import type { OperatorMessages, SessionHost } from './operator-messages.ts';
 import type { OperatorSession } from './operator-session.ts';
-import { tellVideos } from './welcome.ts';
+import { tellRings, tellVideos } from './welcome.ts';
 
 export interface RobotSessionHostParts {
   drive: DriveStation;
@@ -67,6 +68,10 @@ export class RobotSessionHost implements SessionHost {
 
   tellVideos(): void {
     for (const operator of this.#parts.operators().values()) tellVideos(operator, this.#parts.videos());
+  }
+
+  tellRings(sensor: CloudSensor): void {
+    for (const operator of this.#parts.operators().values()) tellRings(operator, sensor);
   }
 
   requestLatencyFrame(): void {

@@ -1,8 +1,12 @@
 import { type Alarm, PROTOCOL_VERSION, type Quantity, type VideoCodec } from '@farpoint/protocol';
 import type { RobotOptions } from '../robot-configuration.ts';
+import type { CloudSensor } from '../sensors/cloud-sensor.ts';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
 import type { VideoHub } from '../video/video-hub.ts';
 import type { OperatorSession } from './operator-session.ts';
+
+/** Of an elevation in radians: far finer than the angle between two rings of any LiDAR. */
+const ELEVATION_DIGITS = 5;
 
 export interface WelcomeFacts extends Pick<RobotOptions, 'id' | 'name' | 'limits' | 'sensors'> {
   quantities: readonly Quantity[];
@@ -37,7 +41,18 @@ export function welcome(
   if (sensors.all.length > 1) {
     messages.send({ type: 'sensors', sensors: sensors.all.map(({ name }) => ({ name })) });
   }
+  for (const sensor of sensors.all) tellRings(operator, sensor);
   tellVideos(operator, videos);
+}
+
+/** Tells an operator the rings of a sensor, if they are known. */
+export function tellRings(
+  { messages }: Pick<OperatorSession, 'messages'>,
+  { number, capture: { rings } }: CloudSensor,
+): void {
+  if (rings === null) return;
+  const elevations = rings.map((elevation) => Number(elevation.toFixed(ELEVATION_DIGITS)));
+  messages.send({ type: 'rings', sensor: number, elevations });
 }
 
 /** Tells an operator which videos there are, and which of them have no pictures. */

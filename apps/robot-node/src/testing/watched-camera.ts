@@ -2,7 +2,7 @@
 import { availableEncoders, VIDEO_ENCODERS } from '@farpoint/video';
 import type { FeedSource } from '../video/feed/feed-source.ts';
 import type { FeedThread } from '../video/feed/feed-thread.ts';
-import type { VideoEncoder } from '../video/video-encoder.ts';
+import type { VideoEncoder, VideoFaultReason } from '../video/video-encoder.ts';
 import type { EncodedPicture } from '../video/video-frame.ts';
 
 export const hasVideo = await availableEncoders().then(
@@ -17,13 +17,19 @@ const vp8 = VIDEO_ENCODERS.find(({ name }) => name === 'vp8enc')!;
 export class WatchedCamera {
   readonly pictures: EncodedPicture[] = [];
   readonly faults: (string | null)[] = [];
+  /** Of what has ended. */
+  readonly reasons: VideoFaultReason[] = [];
   readonly encoder: VideoEncoder;
   #waiting: (() => void)[] = [];
 
   constructor(thread: FeedThread, name: string, source: FeedSource) {
     this.encoder = thread.open({ name, source, encoder: vp8 }, FORMAT, {
       onPicture: (picture) => this.#tell(() => this.pictures.push(picture)),
-      onFault: (fault) => this.#tell(() => this.faults.push(fault)),
+      onFault: (fault, reason) =>
+        this.#tell(() => {
+          this.faults.push(fault);
+          if (reason !== undefined) this.reasons.push(reason);
+        }),
     });
   }
 

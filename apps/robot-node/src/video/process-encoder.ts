@@ -47,7 +47,7 @@ export class ProcessEncoder implements VideoEncoder {
         log.debug({ reason, retried, remedy }, sentence);
         this.#droppedBefore += this.#dropped;
         this.#dropped = this.#encoded = this.#unreadable = 0;
-        events.onFault(`${sentence}; ${remedy}`);
+        events.onFault(`${sentence}; ${remedy}`, reason);
       },
       onLog: ({ level, msg }) => log[level]({ from: 'farpoint-video' }, msg),
     });

@@ -1,12 +1,19 @@
 /** The interface between a camera's encoder, in a process of its own, and what the robot does with its pictures. */
 import type { VideoCodec } from '@farpoint/protocol';
+import type { VideoFailureReason } from '@farpoint/video';
 import type { EncodedPicture } from './video-frame.ts';
 import type { EncodedFormat, VideoFormat } from './video-plan.ts';
 
+/** Why a camera's encoder, or the thread that feeds it, has ended. */
+export type VideoFaultReason = VideoFailureReason | 'feed-ended' | 'feed-hung';
+
 export interface VideoEncoderEvents {
   onPicture(picture: EncodedPicture): void;
-  /** @param fault why there are no pictures, for people; `null` when they come again */
-  onFault(fault: string | null): void;
+  /**
+   * @param fault why there are no pictures, for people; `null` when they come again
+   * @param reason for programs, each time that something has ended
+   */
+  onFault(fault: string | null, reason?: VideoFaultReason): void;
 }
 
 export interface VideoEncoder {

@@ -210,7 +210,8 @@ describe('VideoHub', () => {
     const { events } = encoders[0]!;
     events.onFault(null);
     expect(changes).toBe(0);
-    for (let i = 0; i < 2; i++) events.onFault('the camera is unplugged');
+    for (let i = 0; i < 2; i++) events.onFault('the camera is unplugged', 'source-lost');
+    expect([...hub.streams[0]!.failures.entries()]).toEqual([['source-lost', 2]]);
     expect(changes).toBe(1);
     expect(hub.descriptions).toEqual([
       { name: 'Front', codec: 'VP8', fault: 'the camera is unplugged' },

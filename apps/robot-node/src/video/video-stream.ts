@@ -1,4 +1,5 @@
 import { VideoPayloadError } from '@farpoint/rtp';
+import { ReasonCounts } from '../telemetry/robot-counters.ts';
 import { RateTrim } from './rate-trim.ts';
 import type { VideoCamera, VideoEncoder } from './video-encoder.ts';
 import { type EncodedPicture, VideoFrame } from './video-frame.ts';
@@ -38,6 +39,8 @@ export class VideoStream {
   /** Why there are no pictures; `null` while there are, or nobody watches. */
   fault: string | null = null;
   readonly counters = { frames: 0, keyFrames: 0, bytes: 0, badPictures: 0 };
+  /** How often the encoder, or what feeds it, has ended, by reason. */
+  readonly failures = new ReasonCounts();
   readonly #events: VideoStreamEvents;
   readonly #planner: VideoPlanner;
   readonly #trim = new RateTrim();
@@ -119,8 +122,10 @@ export class VideoStream {
       onPicture: (picture) => {
         if (this.#encoder === encoder) this.#onPicture(picture);
       },
-      onFault: (fault) => {
-        if (this.#encoder !== encoder || fault === this.fault) return;
+      onFault: (fault, reason) => {
+        if (this.#encoder !== encoder) return;
+        if (reason !== undefined) this.failures.add(reason);
+        if (fault === this.fault) return;
         this.fault = fault;
         this.#events.onFault(fault);
       },

@@ -50,7 +50,7 @@ describe('the appearance of clouds', () => {
     '7',
     'null',
     '{"looks":[1],"cut":3,"cutFromAbove":null,"headingUp":"no"}',
-    '{"looks":{"a":{"mode":"ring"},"b":null}}',
+    '{"looks":{"a":{"mode":"rings"},"b":null}}',
   ])('ignores %s', (text) => expect(parseAppearance(text)).toEqual(nothing));
 
   test('ignores a range that is none', () => {

@@ -48,6 +48,8 @@ export class PageState {
   readonly figures: ReadonlySignal<PageStats>;
   /** The sensors of a robot that has several, and which of them should send clouds. */
   readonly sensors = new Switches();
+  /** Elevations of the rings of each LiDAR whose rings the robot knows, radians, by the sensor's number. */
+  readonly rings = signal<ReadonlyMap<number, readonly number[]>>(new Map());
   /** The robot's cameras that send single pictures, and which of them are shown. */
   readonly cameras = new Switches();
   readonly pictures: CameraPictures;
@@ -132,11 +134,15 @@ export class PageState {
     client.on('session', () => {
       this.cameras.set([]);
       this.sensors.set([]);
+      this.rings.value = new Map();
       this.videos.clear();
     });
     client.on('cameras', (cameras) => this.cameras.set(cameras));
     client.on('videos', (videos) => this.videos.list(videos));
     client.on('sensors', (sensors) => this.sensors.set(sensors));
+    client.on('rings', ({ sensor, elevations }) => {
+      this.rings.value = new Map(this.rings.peek()).set(sensor, elevations);
+    });
     client.on('picture', (picture) => this.pictures.show(picture, this.#now()));
     client.on('pictureFault', ({ camera, detail }) => this.pictures.onFault(camera, detail));
   }

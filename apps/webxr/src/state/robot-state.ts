@@ -13,7 +13,11 @@ export function robotState({ link }: RobotClient, samples: Sampler) {
     telemetry: samples.of(() => link.session.telemetry),
     readings: samples.of((atMs) => link.session.readings.list(atMs).map(shownReading)),
     /** The alarms that are raised, the worst first. */
-    alarms: samples.of(() => [...link.session.alarms.values()].sort(raisedFirst).map(alarmWords)),
+    alarms: samples.of((atMs) =>
+      [...link.session.alarms.values()]
+        .sort(raisedFirst)
+        .map((alarm) => alarmWords(alarm, link.silentMs(atMs))),
+    ),
     /** Topics whose reports the dashboard shows component by component. */
     componentTopics: samples.of(() => link.session.components.list().map(({ topic }) => topic)),
     estop: samples.of(() => link.session.estop),

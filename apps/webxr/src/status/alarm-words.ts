@@ -2,12 +2,24 @@
 import type { Alarm } from '@farpoint/operator';
 import type { Words } from './words.ts';
 
-export function alarmWords({ level, text, value, limit, unit, recorded }: Alarm): Words {
+/** Without a word from the robot for so long, an alarm may have ended or become worse, ms. */
+const STALE_MS = 1000;
+
+/** @param silentMs how long nothing has been heard of the robot, ms */
+export function alarmWords({ level, text, value, limit, unit, recorded }: Alarm, silentMs: number): Words {
   const withUnit = (number: number) => `${shortNumber(number)}${unit === '' ? '' : ` ${unit}`}`;
+  const stale = silentMs >= STALE_MS ? `, ${Math.round(silentMs / 1000)} s ago` : '';
   return {
-    text: `${recorded === true ? 'Recorded: ' : ''}${text} (${withUnit(value)}, limit ${withUnit(limit)})`,
+    text: `${recorded === true ? 'Recorded: ' : ''}${text} (${withUnit(value)}, limit ${withUnit(limit)})${stale}`,
     tone: level === 'error' ? 'bad' : 'warning',
   };
+}
+
+/** The worst alarm and the number of the others in one line. @param alarms the worst first */
+export function alarmLine([first, ...others]: readonly Words[]): Words | null {
+  if (first === undefined) return null;
+  const more = others.length === 0 ? '' : ` (and ${others.length} more)`;
+  return { text: `⚠ ${first.text}${more}`, tone: first.tone };
 }
 
 /** Errors before warnings; of each, those raised last first. */

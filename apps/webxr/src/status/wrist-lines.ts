@@ -10,7 +10,7 @@ export interface WristFacts {
   telemetry: Telemetry | null;
   estopLatched: boolean;
   nextRobot: RobotListing | null;
-  /** The worst alarm; `null` if none is raised. */
+  /** The worst alarm and how many others there are; `null` if none is raised. */
   alarm: Words | null;
   figures: PageStats;
 }

@@ -127,6 +127,8 @@ export interface FarpointTestApi {
   /** Divides the link by these weights, until the page does so again. */
   shareLink(shares: { cloud: number; videos: readonly number[] }): void;
   probe(): DrawnProbe;
+  /** The lines on the panel at the wrist; `null` outside VR. */
+  wrist(): { text: string; tone: string }[] | null;
   cameras(): CameraProbe[];
   sound(): SoundProbe;
   videos(): VideoProbe[];

@@ -85,6 +85,7 @@ export function installTestApi(app: App): void {
     limitBandwidth: (bitsPerSecond) => link.limitBandwidth(bitsPerSecond),
     shareLink: ({ cloud, videos }) => client.shareLink(cloud, videos),
     probe: () => probe(app),
+    wrist: () => app.wrist?.shown?.map(({ text, tone }) => ({ text, tone })) ?? null,
     cameras: () =>
       app.state.pictures.views.value.map(({ camera, canvas, newest, ageMs, failures }) => ({
         ...{ name: camera.name, shown: camera.on.value, width: canvas.width, height: canvas.height },

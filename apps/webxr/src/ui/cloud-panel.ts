@@ -2,14 +2,14 @@
  * The panel for clouds: what their colours mean, as colour bars to read values off, and the controls for it. It has
  * no field to type in and no control keeps the focus after a click, because both would take keys from driving.
  */
-import { type CloudView, colourStops } from '@farpoint/cloud-view';
+import type { CloudView } from '@farpoint/cloud-view';
 import { effect, type ReadonlySignal, signal, untracked } from '@preact/signals-core';
 import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
 import type { Switches } from '../state/switches.ts';
 import { colourControls } from './colour-controls.ts';
-import { QUANTITIES, ticksOf } from './colour-ticks.ts';
 import { cutControls } from './cut-controls.ts';
 import { elements } from './elements.ts';
+import { type Legend, legendOf } from './legend.ts';
 import { quietButton } from './panel-parts.ts';
 
 export interface CloudPanelParts {
@@ -17,12 +17,6 @@ export interface CloudPanelParts {
   /** Empty for a robot with one sensor. */
   readonly sensors: Switches;
   readonly views: ReadonlySignal<readonly CloudView[]>;
-}
-
-/** A colour bar, and how its numbers are brought up to date. */
-interface Legend {
-  readonly element: HTMLElement;
-  update(): void;
 }
 
 export class CloudPanel {
@@ -41,9 +35,9 @@ export class CloudPanel {
       open.value = !open.peek();
     });
     colours.id = 'colours-open';
-    const legends = element('div', 'legends');
-    const controls = element('div', 'controls');
-    const heads = element('div', 'heads');
+    const legends = element('legends');
+    const controls = element('controls');
+    const heads = element('heads');
     heads.append(fromAbove, colours);
     elements.clouds.append(heads, legends, controls);
     effect(() => {
@@ -57,7 +51,7 @@ export class CloudPanel {
       this.#legends = this.#sensors().flatMap(({ name, on, view }) => (on ? this.#legendOf(name, view) : []));
       legends.replaceChildren(...this.#legends.map((legend) => legend.element));
     });
-    const ofSensors = element('div', '');
+    const ofSensors = element('');
     controls.append(ofSensors, cutControls(appearance));
     effect(() => {
       const parts = this.#names().map((name, i) =>
@@ -93,43 +87,12 @@ export class CloudPanel {
   #legendOf(name: string, view: CloudView | undefined): Legend[] {
     const { mode } = this.#parts.appearance.lookOf(name);
     if (mode === 'captured' || view === undefined) return [];
-    const { name: quantity, unit, scale } = QUANTITIES[mode];
-    const figure = element('figure', 'legend');
-    const caption = element('figcaption', '');
-    caption.textContent = `${name === UNNAMED ? '' : `${name}: `}${quantity}, ${unit}`;
-    const bar = element('div', 'colour-bar');
-    bar.style.background = mode === 'age' ? FADE : GRADIENT;
-    const numbers = element('div', 'numbers');
-    figure.append(caption, bar, numbers);
-    let shown = '';
-    const update = () => {
-      const { min, max } = view.colouring.range;
-      const ticks = ticksOf(min * scale, max * scale);
-      const now = ticks.map(({ place, text }) => `${(place * 100).toFixed(0)} ${text}`).join();
-      if (now === shown) return;
-      shown = now;
-      numbers.replaceChildren(
-        ...ticks.map(({ place, text }) => {
-          const number = element('span', '');
-          number.textContent = text;
-          number.style.left = `${(place * 100).toFixed(1)}%`;
-          return number;
-        }),
-      );
-    };
-    update();
-    return [{ element: figure, update }];
+    return [legendOf(name === UNNAMED ? '' : `${name}: `, mode, view)];
   }
 }
 
-const GRADIENT = `linear-gradient(90deg, ${colourStops()
-  .map((rgb) => `rgb(${rgb.map((part) => Math.round(part * 255)).join()})`)
-  .join()})`;
-/** Old points are dim. */
-const FADE = 'linear-gradient(90deg, #fff, #404040)';
-
-function element(kind: 'div' | 'figure' | 'figcaption' | 'span', className: string): HTMLElement {
-  const made = document.createElement(kind);
+function element(className: string): HTMLElement {
+  const made = document.createElement('div');
   made.className = className;
   return made;
 }

@@ -2,10 +2,11 @@
 import { COLOUR_MODES, type ColourMode, type ValueRange } from '@farpoint/cloud-view';
 import { effect } from '@preact/signals-core';
 import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
+import type { ValuedMode } from './colour-ticks.ts';
 import { quietButton, rowOf, type SliderScale, selectOf, sliderOf } from './panel-parts.ts';
 
 /** Limits of a fixed range, in the mode's unit. */
-const SCALES: Readonly<Record<Exclude<ColourMode, 'captured'>, SliderScale>> = {
+const SCALES: Readonly<Record<ValuedMode, SliderScale>> = {
   height: { min: -2, max: 8, step: 0.1 },
   distance: { min: 0, max: 60, step: 0.5 },
   intensity: { min: 0, max: 1, step: 0.02 },
@@ -33,8 +34,9 @@ export function colourControls(
   const dispose = effect(() => {
     const look = appearance.lookOf(name);
     mode.value = look.mode;
-    range.hidden = look.mode === 'captured';
-    if (look.mode !== 'captured' && look.mode !== shown) {
+    const hasRange = look.mode !== 'captured' && look.mode !== 'ring';
+    range.hidden = !hasRange;
+    if (hasRange && look.mode !== shown) {
       const parts = rangeControls(look.mode, shownName, current, (fixed) =>
         appearance.setLook(name, { mode: appearance.lookOf(name).mode, fixed }),
       );
@@ -48,7 +50,7 @@ export function colourControls(
 }
 
 function rangeControls(
-  mode: Exclude<ColourMode, 'captured'>,
+  mode: ValuedMode,
   name: string,
   current: () => Readonly<ValueRange> | null,
   change: (fixed: ValueRange | null) => void,

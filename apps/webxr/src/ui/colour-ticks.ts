@@ -15,8 +15,10 @@ export interface Quantity {
   readonly scale: number;
 }
 
-/** `captured` colours stand for no quantity. */
-export const QUANTITIES: Readonly<Record<Exclude<ColourMode, 'captured'>, Quantity>> = {
+/** Ways to colour points by a value. `captured` colours stand for none, and rings are counted. */
+export type ValuedMode = Exclude<ColourMode, 'captured' | 'ring'>;
+
+export const QUANTITIES: Readonly<Record<ValuedMode, Quantity>> = {
   height: { name: 'height', unit: 'm', scale: 1 },
   distance: { name: 'distance', unit: 'm', scale: 1 },
   intensity: { name: 'intensity', unit: '%', scale: 100 },

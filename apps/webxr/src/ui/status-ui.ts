@@ -1,6 +1,7 @@
 /** Shows the link, who drives, and the session's figures. */
 import { effect } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
+import { alarmLine } from '../status/alarm-words.ts';
 import { sessionFacts } from '../status/facts.ts';
 import type { ShownReading } from '../status/shown-readings.ts';
 import type { Words } from '../status/words.ts';
@@ -16,12 +17,11 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
     elements.view.hidden = !connected;
   });
   effect(() => {
-    const [first, ...others] = robot.alarms.value;
-    elements.alarm.hidden = first === undefined;
-    if (first === undefined) return;
-    const more = others.length === 0 ? '' : ` (and ${others.length} more)`;
-    setText(elements.alarm, `⚠ ${first.text}${more}`);
-    elements.alarm.dataset.tone = first.tone;
+    const line = alarmLine(robot.alarms.value);
+    elements.alarm.hidden = line === null;
+    if (line === null) return;
+    setText(elements.alarm, line.text);
+    elements.alarm.dataset.tone = line.tone;
   });
   effect(() => {
     const live = link.live.value;

@@ -17,10 +17,10 @@ export function videoReportPanel({ figures, videos, priority }: PageState): HTML
   });
   const list = document.createElement('dl');
   const share = shareControl(priority);
-  panel.append(button, list, share);
+  panel.append(button, share, list);
   effect(() => {
     // Where the strip has no room for it, it is scrolled to.
-    if (open.value) requestAnimationFrame(() => list.scrollIntoView({ block: 'nearest' }));
+    if (open.value) requestAnimationFrame(() => panel.scrollIntoView({ block: 'nearest' }));
   });
   effect(() => {
     const names = videos.views.value.map(({ camera }) => camera.name);
@@ -48,7 +48,7 @@ function shareControl({ chosen }: PageState['priority']): HTMLElement {
   });
   select.selectedIndex = PRIORITIES.indexOf(chosen.peek());
   const row = rowOf('Slow link', select);
-  row.classList.add('link-share');
+  row.classList.add('link-share', 'overlay');
   return row;
 }
 

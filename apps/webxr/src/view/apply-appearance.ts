@@ -8,18 +8,21 @@ import type { Stage } from './stage.ts';
 export interface AppearanceParts {
   readonly appearance: CloudAppearance;
   readonly sensors: Switches;
+  /** What the robot says about each sensor's rings, by the sensor's number. */
+  readonly rings: ReadonlySignal<ReadonlyMap<number, readonly number[]>>;
   readonly clouds: SensorClouds;
   readonly stage: Pick<Stage, 'look' | 'headingUp'>;
   readonly inVr: ReadonlySignal<boolean>;
 }
 
-export function applyAppearance({ appearance, sensors, clouds, stage, inVr }: AppearanceParts): void {
+export function applyAppearance({ appearance, sensors, rings, clouds, stage, inVr }: AppearanceParts): void {
   const { fromAbove, headingUp, cut, cutFromAbove } = appearance;
   effect(() => {
     for (const [i, { colouring }] of clouds.all.value.entries()) {
       const { mode, fixed } = appearance.lookOf(sensors.all.value[i]?.name ?? UNNAMED);
       colouring.mode = mode;
       colouring.fixedRange = fixed;
+      colouring.knownRings = rings.value.get(i) ?? null;
     }
   });
   effect(() => {

@@ -12,11 +12,15 @@ import {
   type WebGLRenderer,
 } from 'three';
 import type { Tone } from '../status/words.ts';
+import { fitText } from './fitted-text.ts';
 
 const WIDTH = 512;
 const HEIGHT = 288;
 const PANEL_M = 0.18;
 const GAP_M = 0.02;
+/** From one line to the next, and from the edge to the text, pixels. */
+const LINE = 44;
+const EDGE = 24;
 const COLOURS: Record<Tone, string> = {
   good: '#35c9b5',
   neutral: '#9fb2c1',
@@ -80,6 +84,11 @@ export class WristPanel {
     this.#group.add(object);
   }
 
+  /** What it shows; `null` while it is hidden. */
+  get shown(): readonly PanelLine[] | null {
+    return this.#group.visible ? this.#lines : null;
+  }
+
   set visible(visible: boolean) {
     this.#group.visible = visible;
   }
@@ -110,9 +119,16 @@ export class WristPanel {
     context.fill();
     context.textBaseline = 'top';
     for (const [index, line] of this.#lines.slice(0, 6).entries()) {
-      context.font = index === 0 ? '600 36px system-ui, sans-serif' : '30px system-ui, sans-serif';
+      const weight = index === 0 ? 600 : 400;
+      const measure = (text: string, size: number) => {
+        context.font = `${weight} ${size}px system-ui, sans-serif`;
+        return context.measureText(text).width;
+      };
+      const { rows, size } = fitText(line.text, index === 0 ? 36 : 30, WIDTH - 2 * EDGE, measure);
+      measure('', size);
       context.fillStyle = COLOURS[line.tone];
-      context.fillText(line.text, 24, 20 + index * 44, WIDTH - 48);
+      const top = 20 + index * LINE - (rows.length > 1 ? 2 : 0);
+      for (const [row, text] of rows.entries()) context.fillText(text, EDGE, top + row * (size + 1));
     }
     if (this.#progress > 0) {
       context.fillStyle = COLOURS.bad;

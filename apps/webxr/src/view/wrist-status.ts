@@ -1,6 +1,7 @@
 /** Shows the page's state in VR: the status on the wrist. */
 import { effect, type ReadonlySignal } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
+import { alarmLine } from '../status/alarm-words.ts';
 import { wristLines } from '../status/wrist-lines.ts';
 import type { WristPanel } from './wrist-panel.ts';
 
@@ -24,7 +25,7 @@ export function showOnWrist({ state, panel, active, releaseProgress }: WristStat
       wristLines({
         ...{ link: link.line.value, driving: driving.line.value, telemetry: robot.telemetry.value },
         ...{ estopLatched: robot.estop.value.latched, nextRobot: link.nextRobot.value },
-        alarm: robot.alarms.value[0] ?? null,
+        alarm: alarmLine(robot.alarms.value),
         figures: figures.value,
       }),
     );

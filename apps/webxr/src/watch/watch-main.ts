@@ -1,4 +1,5 @@
 import '../ui/style.css';
+import '../ui/picture-panels.css';
 import './watch.css';
 import { transformSupport } from '@farpoint/operator';
 import type { Failure } from '../state/notices.ts';

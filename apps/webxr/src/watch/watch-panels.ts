@@ -33,13 +33,20 @@ export function showWatchPanels({ container, views, enlarged, live, sampledAtMs 
       status.textContent = !shown ? 'hidden' : statusWords(isLive, silentMs);
       fault.textContent = wrong;
       fault.hidden = !shown || wrong === null;
-      figure.dataset.stale = String(shown && !isLive);
+      figure.dataset.state = shown ? stateOf(isLive, newest !== null, wrong !== null) : 'off';
       figure.dataset.enlarged = String(enlarged.view.value === view);
       view.canvas.hidden = !shown || newest === null;
       button.textContent = shown ? '–' : '+';
       button.ariaLabel = `${shown ? 'Hide' : 'Show'} ${view.camera.name}`;
     }
   });
+}
+
+/** As on the operator's page: what is not live has no colours. */
+function stateOf(isLive: boolean, hasPicture: boolean, isFaulty: boolean): string {
+  if (isFaulty) return 'fault';
+  if (isLive) return 'live';
+  return hasPicture ? 'frozen' : 'waiting';
 }
 
 function statusWords(isLive: boolean, silentMs: number | null): string {

@@ -12,6 +12,7 @@ export function forwardedEvents(emitter: Emitter<RobotEvents>) {
     onRejected: (rejected) => emitter.emit('commandRejected', rejected),
     onEstop: (estop) => emitter.emit('estop', estop),
     onSensors: (sensors) => emitter.emit('sensors', sensors),
+    onRings: (rings) => emitter.emit('rings', rings),
     onTelemetry: (telemetry) => emitter.emit('telemetry', telemetry),
     onReading: (reading) => emitter.emit('reading', reading),
     onQuantity: (quantity) => emitter.emit('quantity', quantity),

@@ -9,6 +9,7 @@ import type {
   Reading,
   RobotListing,
   Samples,
+  SensorRings,
   Sensors,
   Sound,
   Telemetry,
@@ -69,6 +70,8 @@ export interface RobotEvents {
   cameras: Cameras['cameras'];
   /** The sensors that {@link RobotClient.wantClouds} can be called with; sent by robots that have more than one. */
   sensors: Sensors['sensors'];
+  /** The rings of a spinning LiDAR among the sensors, from robots that know them; again when they change. */
+  rings: SensorRings;
   /**
    * The cameras that {@link RobotClient.watchVideos} can be called with. Comes again, with the same cameras in the same
    * order, when a camera's video stops or returns: then its `fault` appears or disappears.

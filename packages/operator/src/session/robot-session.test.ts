@@ -24,6 +24,7 @@ function bench(): { session: RobotSession; told: string[] } {
     onCameras: tell('cameras'),
     onSound: tell('sound'),
     onSensors: tell('sensors'),
+    onRings: tell('rings'),
     onVideos: tell('videos'),
     onPicture: tell('picture'),
     onRobotFault: tell('fault'),

@@ -20,6 +20,7 @@ import {
   type Reading,
   robotSessionCodec,
   type Samples,
+  type SensorRings,
   type Sensors,
   type Sound,
   sequenceDelta32,
@@ -58,6 +59,8 @@ export interface RobotSessionEvents {
   onCameras(cameras: Cameras['cameras']): void;
   /** The sensors whose clouds can be requested; sent by robots that have more than one. */
   onSensors(sensors: Sensors['sensors']): void;
+  /** The rings of a LiDAR among the sensors. */
+  onRings(rings: SensorRings): void;
   /** The cameras whose videos can be requested, and which of them have no pictures at present. */
   onVideos(videos: Videos['videos']): void;
   /** The robot's microphone, and what becomes of this operator's voice. */
@@ -163,6 +166,9 @@ export class RobotSession {
         return;
       case 'sensors':
         this.#events.onSensors(message.sensors);
+        return;
+      case 'rings':
+        this.#events.onRings(message);
         return;
       case 'videos':
         this.#events.onVideos(message.videos);

@@ -39,6 +39,12 @@ export function addVideoMetrics(metrics: PulledMetrics, { cameras: { videos }, o
     'camera',
     each(({ format }) => format?.bitsPerSecond ?? 0),
   );
+  metrics.sums(
+    'video_failures',
+    'Times that a camera’s encoder, or the thread that feeds it, ended or hung, by reason',
+    'reason',
+    () => streams.flatMap(({ failures }) => [...failures.entries()]),
+  );
   metrics.gauges(
     'video_fault',
     'Whether a camera gives no pictures although somebody watches, by camera',

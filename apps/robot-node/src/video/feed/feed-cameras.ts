@@ -9,7 +9,7 @@ import { Graphs } from './graphs.ts';
 import { RosVideoFeed } from './ros-video-feed.ts';
 import { SimVideoCameras } from './sim-video-feed.ts';
 
-/** How often silence is looked for and drops are told, ms. */
+/** How often silence is looked for, drops are told, and the thread says that it lives, ms. */
 const CHECK_MS = 500;
 
 /** The cameras of the thread that feeds them: does what the main thread asks for, and reports what comes of it. */
@@ -80,10 +80,10 @@ export class FeedCameras {
         const bytes = new Uint8Array(picture.bytes);
         this.#report({ type: 'picture', run, picture: { ...picture, bytes } }, [bytes.buffer]);
       },
-      onFault: (fault) => {
-        if (fault === told) return;
+      onFault: (fault, reason) => {
+        if (fault === told && reason === undefined) return;
         told = fault;
-        this.#report({ type: 'fault', run, fault });
+        this.#report({ type: 'fault', run, fault, reason });
       },
     };
   }
@@ -95,6 +95,7 @@ export class FeedCameras {
   }
 
   #check(): void {
+    this.#report({ type: 'alive' });
     const now = monotonicMs();
     for (const topic of this.#topics) topic.check(now);
     for (const [run, state] of this.#runs) {

@@ -1,5 +1,6 @@
 /** Messages between the main thread and the thread that feeds cameras. Raw pictures are in none of them. */
 import type { VideoEncoder } from '@farpoint/video';
+import type { VideoFaultReason } from '../video-encoder.ts';
 import type { EncodedPicture } from '../video-frame.ts';
 import type { VideoLog } from '../video-log.ts';
 import type { EncodedFormat } from '../video-plan.ts';
@@ -27,7 +28,10 @@ export type FeedRequest =
 export type FeedReport =
   /** The bytes are transferred. */
   | { type: 'picture'; run: RunId; picture: EncodedPicture & { bytes: Uint8Array<ArrayBuffer> } }
-  | { type: 'fault'; run: RunId; fault: string | null }
+  /** `reason` if its process has ended. */
+  | { type: 'fault'; run: RunId; fault: string | null; reason?: VideoFaultReason | undefined }
+  /** The thread lives. */
+  | { type: 'alive' }
   /** Pictures that were captured but not encoded, since the run began in this thread. */
   | { type: 'dropped'; run: RunId; dropped: number }
   | { type: 'closed'; run: RunId }

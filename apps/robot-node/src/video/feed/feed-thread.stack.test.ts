@@ -86,6 +86,34 @@ describe.skipIf(!hasVideo)(
       expect(again).toBeDefined();
     });
 
+    it('say so when the thread hangs, and come back with a key frame', async () => {
+      const script = new URL('../../testing/hanging-feed-worker.ts', import.meta.url);
+      const thread = new FeedThread(silentLogger(), { script, retry: { firstMs: 1, mostMs: 10 } });
+      const front = watch(thread, 'Front', simulated(0));
+      const rear = watch(thread, 'Rear', simulated(1));
+      for (const each of [front, rear]) await each.until(() => each.pictures.length >= 2);
+      front.encoder.requestKeyFrame();
+      for (const each of [front, rear]) {
+        await each.until(() => each.reasons.length > 0);
+        expect(each.reasons).toEqual(['feed-hung']);
+        expect(each.faults.at(-1)).toMatch(/cameras has said nothing for \d+ s; it starts again/);
+      }
+      const { length } = front.pictures;
+      await front.until(() => front.pictures.length > length + 2 && front.faults.at(-1) === null);
+      expect(front.pictures[length]?.key).toBe(true);
+      expect(thread.restarts).toBe(1);
+    });
+
+    it('close although the thread hangs', async () => {
+      const script = new URL('../../testing/hanging-feed-worker.ts', import.meta.url);
+      const thread = new FeedThread(silentLogger(), { script });
+      const front = watch(thread, 'Front', simulated(0));
+      await front.until(() => front.pictures.length >= 1);
+      front.encoder.requestKeyFrame();
+      await front.encoder.close();
+      expect(thread.restarts).toBe(0);
+    });
+
     it('close although the thread is dead', async () => {
       const script = new URL('../../testing/failing-feed-worker.ts', import.meta.url);
       const thread = new FeedThread(silentLogger(), { script, retry: { firstMs: 60_000, mostMs: 60_000 } });

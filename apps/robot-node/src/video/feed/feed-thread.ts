@@ -1,8 +1,8 @@
 import { Worker } from 'node:worker_threads';
 import type { Logger } from '@farpoint/service';
-import { Backoff } from '@farpoint/timing';
+import { Backoff, Heartbeat } from '@farpoint/timing';
 import type { VideoEncoder as EncoderElement } from '@farpoint/video';
-import type { VideoEncoder, VideoEncoderEvents } from '../video-encoder.ts';
+import type { VideoEncoder, VideoEncoderEvents, VideoFaultReason } from '../video-encoder.ts';
 import type { EncodedFormat } from '../video-plan.ts';
 import type { FeedReport, FeedRequest, RunId } from './feed-messages.ts';
 import type { FeedSource } from './feed-source.ts';
@@ -12,6 +12,9 @@ const RETRY = { firstMs: 500, mostMs: 10_000 };
 const SUCCESS_MS = 10_000;
 /** By then, a thread that was told to end has closed everything, ms. */
 const END_MS = 5000;
+
+/** The thread says twice a second that it lives. It may take long to start: it loads the code of ROS and the simulator. */
+const SIGNS_OF_LIFE = { firstMs: 30_000, silenceMs: 5000, checkMs: 500 };
 
 export interface FedCamera {
   name: string;
@@ -39,6 +42,8 @@ export class FeedThread {
   readonly #backoff: Backoff;
   readonly #runs = new Map<RunId, Run>();
   #worker: Worker | null = null;
+  #heartbeat: Heartbeat | null = null;
+  #checking: NodeJS.Timeout | null = null;
   #restart: NodeJS.Timeout | null = null;
   #nextRun: RunId = 0;
   #restarts = 0;
@@ -101,7 +106,7 @@ export class FeedThread {
     if (this.#restart !== null) clearTimeout(this.#restart);
     this.#restart = null;
     const worker = this.#worker;
-    this.#worker = null;
+    this.#forgetWorker();
     if (worker === null) return;
     worker.postMessage({ type: 'end' } satisfies FeedRequest);
     setTimeout(() => void worker.terminate(), END_MS).unref();
@@ -113,6 +118,8 @@ export class FeedThread {
     let reason = 'it ended';
     this.#restart = null;
     this.#worker = worker;
+    this.#heartbeat = new Heartbeat(SIGNS_OF_LIFE, performance.now());
+    this.#checking = setInterval(() => this.#checkLife(startedMs), SIGNS_OF_LIFE.checkMs).unref();
     worker.on('message', (report: FeedReport) => {
       if (this.#worker === worker) this.#onReport(report);
     });
@@ -122,14 +129,31 @@ export class FeedThread {
     });
     worker.on('exit', () => {
       if (this.#worker !== worker) return;
-      if (performance.now() - startedMs > SUCCESS_MS) this.#backoff.reset();
-      this.#onDeath(reason);
+      this.#onDeath('feed-ended', `has ended: ${reason}`, startedMs);
     });
     for (const [id, run] of this.#runs) this.#begin(id, run);
   }
 
-  #onDeath(reason: string): void {
+  /** A thread that hangs is not waited for: it may hang in an addon, where nothing can end it. */
+  #checkLife(startedMs: number): void {
+    const [worker, heartbeat] = [this.#worker, this.#heartbeat];
+    if (worker === null || heartbeat?.isLost(performance.now()) !== true) return;
+    const seconds = Math.round(heartbeat.silentMs / 1000);
+    this.#log.error({ seconds }, 'the thread that feeds cameras hangs');
+    this.#onDeath('feed-hung', `has said nothing for ${seconds} s`, startedMs);
+    void worker.terminate();
+  }
+
+  #forgetWorker(): void {
     this.#worker = null;
+    this.#heartbeat = null;
+    if (this.#checking !== null) clearInterval(this.#checking);
+    this.#checking = null;
+  }
+
+  #onDeath(reason: VideoFaultReason, what: string, startedMs: number): void {
+    this.#forgetWorker();
+    if (performance.now() - startedMs > SUCCESS_MS) this.#backoff.reset();
     for (const [id, run] of this.#runs) if (run.closing) this.#closed(id);
     if (this.#runs.size === 0) return;
     this.#restarts++;
@@ -137,20 +161,20 @@ export class FeedThread {
     for (const run of this.#runs.values()) {
       run.droppedBefore += run.dropped;
       run.dropped = 0;
-      run.events.onFault(
-        `the thread that feeds ROS and simulated cameras has ended: ${reason}; it starts again`,
-      );
+      run.events.onFault(`the thread that feeds ROS and simulated cameras ${what}; it starts again`, reason);
     }
   }
 
   #onReport(report: FeedReport): void {
+    this.#heartbeat?.beat();
+    if (report.type === 'alive') return;
     const run = this.#runs.get(report.run);
     if (run === undefined) return;
     if (report.type === 'picture') {
       // The new thread knows nothing of the end of the one before.
       run.events.onFault(null);
       run.events.onPicture(report.picture);
-    } else if (report.type === 'fault') run.events.onFault(report.fault);
+    } else if (report.type === 'fault') run.events.onFault(report.fault, report.reason);
     else if (report.type === 'dropped') run.dropped = report.dropped;
     else if (report.type === 'log') run.log[report.level](report.fields, report.message);
     else this.#closed(report.run);

@@ -1,0 +1,81 @@
+/** What the colours of a cloud stand for: a bar of the colours, with numbers below it. */
+import { type CloudView, type ColourMode, colourStops, type Rgb } from '@farpoint/cloud-view';
+import { QUANTITIES, type Tick, ticksOf, type ValuedMode } from './colour-ticks.ts';
+import { ringBar, ringCaption, ringTicks } from './ring-legend.ts';
+
+export interface Legend {
+  readonly element: HTMLElement;
+  /** Brings the numbers up to date. Call it a few times a second. */
+  update(): void;
+}
+
+/** @param title names the sensor, or is empty */
+export function legendOf(title: string, mode: Exclude<ColourMode, 'captured'>, view: CloudView): Legend {
+  return mode === 'ring' ? ringLegend(title, view) : valueLegend(title, mode, view);
+}
+
+function valueLegend(title: string, mode: ValuedMode, view: CloudView): Legend {
+  const { name: quantity, unit, scale } = QUANTITIES[mode];
+  const parts = legendParts();
+  parts.caption.textContent = `${title}${quantity}, ${unit}`;
+  parts.bar.style.background = mode === 'age' ? FADE : GRADIENT;
+  const update = () => {
+    const { min, max } = view.colouring.range;
+    parts.show(ticksOf(min * scale, max * scale));
+  };
+  update();
+  return { element: parts.element, update };
+}
+
+function ringLegend(title: string, view: CloudView): Legend {
+  const parts = legendParts();
+  let shown: unknown;
+  const update = () => {
+    const { rings } = view.colouring;
+    if (rings === shown) return;
+    shown = rings;
+    parts.caption.textContent = `${title}${ringCaption(rings)}`;
+    parts.caption.title = rings?.from === 'points' ? ESTIMATED : '';
+    const count = rings?.elevations.length ?? 0;
+    parts.bar.hidden = parts.numbers.hidden = rings === null;
+    parts.bar.style.background = ringBar(count, cssOf);
+    parts.show(ringTicks(count));
+  };
+  update();
+  return { element: parts.element, update };
+}
+
+function legendParts() {
+  const figure = element('figure', 'legend overlay');
+  const caption = element('figcaption', '');
+  const bar = element('div', 'colour-bar');
+  const numbers = element('div', 'numbers');
+  figure.append(caption, bar, numbers);
+  let shown = '';
+  const show = (ticks: readonly Tick[]) => {
+    const now = ticks.map(({ place, text }) => `${(place * 100).toFixed(0)} ${text}`).join();
+    if (now === shown) return;
+    shown = now;
+    numbers.replaceChildren(
+      ...ticks.map(({ place, text }) => {
+        const number = element('span', '');
+        number.textContent = text;
+        number.style.left = `${(place * 100).toFixed(1)}%`;
+        return number;
+      }),
+    );
+  };
+  return { element: figure, caption, bar, numbers, show };
+}
+
+const cssOf = (rgb: Rgb) => `rgb(${rgb.map((part) => Math.round(part * 255)).join()})`;
+const GRADIENT = `linear-gradient(90deg, ${colourStops().map(cssOf).join()})`;
+/** Old points are dim. */
+const FADE = 'linear-gradient(90deg, #fff, #404040)';
+const ESTIMATED = 'The robot does not know its rings: these were found in the points, and may be wrong';
+
+function element(kind: 'div' | 'figure' | 'figcaption' | 'span', className: string): HTMLElement {
+  const made = document.createElement(kind);
+  made.className = className;
+  return made;
+}

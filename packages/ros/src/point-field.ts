@@ -1,0 +1,40 @@
+/** The fields of a point: how their values are read. */
+import { RosFault } from './fault.ts';
+import type { PointCloud2, PointField } from './messages.ts';
+
+type Reader = (view: DataView, at: number, little: boolean) => number;
+/** By `datatype`, from 1: INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64. */
+export const TYPES: readonly { bytes: number; read: Reader }[] = [
+  { bytes: 1, read: (view, at) => view.getInt8(at) },
+  { bytes: 1, read: (view, at) => view.getUint8(at) },
+  { bytes: 2, read: (view, at, little) => view.getInt16(at, little) },
+  { bytes: 2, read: (view, at, little) => view.getUint16(at, little) },
+  { bytes: 4, read: (view, at, little) => view.getInt32(at, little) },
+  { bytes: 4, read: (view, at, little) => view.getUint32(at, little) },
+  { bytes: 4, read: (view, at, little) => view.getFloat32(at, little) },
+  { bytes: 8, read: (view, at, little) => view.getFloat64(at, little) },
+];
+export const UINT8 = 2;
+export const FLOAT32 = 7;
+
+/** Reads a field of single points, by their index. @throws {RosFault} `bad-cloud` if points lack room for it */
+export function fieldReader(cloud: PointCloud2, field: PointField): (point: number) => number {
+  const { bytes, read } = typeOf(field);
+  requireFit(cloud, field, bytes);
+  const { width, height, row_step, point_step, data } = cloud;
+  const rowBytes = height > 1 ? row_step : width * point_step;
+  const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
+  return (point) => {
+    const at = Math.floor(point / width) * rowBytes + (point % width) * point_step;
+    return read(view, at + field.offset, !cloud.is_bigendian);
+  };
+}
+
+export function typeOf(field: PointField): { bytes: number; read: Reader } {
+  return TYPES[field.datatype - 1] as { bytes: number; read: Reader };
+}
+
+export function requireFit({ point_step }: PointCloud2, { name, offset }: PointField, bytes: number): void {
+  if (offset + bytes <= point_step) return;
+  throw new RosFault('bad-cloud', `field ${name} at ${offset} is outside its point of ${point_step} bytes`);
+}
