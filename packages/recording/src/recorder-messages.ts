@@ -93,6 +93,7 @@ export type VideoFormatName = (typeof VIDEO_FORMATS)[number];
 export interface RecordedVideo {
   /** Name shown to people. */
   name: string;
+  /** What it is coded with as a rule: with each frame it may change. */
   format: VideoFormatName;
 }
 
@@ -104,6 +105,7 @@ export interface VideoRecord {
   capturedAtMs: number;
   /** Whether it can be decoded without any other. */
   key: boolean;
+  format: VideoFormatName;
   /** Counts all frames of the video: a gap shows dropped ones. */
   sequence: number;
   /** How many frames of all videos were dropped so far. */

@@ -16,7 +16,6 @@ import {
   type RecordedCamera,
   type RecordedVideo,
   type RecorderOptions,
-  type VideoFormatName,
   type VideoRecord,
 } from './recorder-messages.ts';
 import {
@@ -64,7 +63,7 @@ export class RecordingWriter {
   readonly #decoder: SentCloudDecoder;
   readonly #channels = new Map<RosKind | JsonKind, number>();
   #cameras: { channel: number; frame: string }[] = [];
-  #videos: { channel: number; frame: string; format: VideoFormatName }[] = [];
+  #videos: { channel: number; frame: string }[] = [];
   /** Its content is written, or copied, before the next cloud. */
   readonly #room = new PointRoom();
   #transforms = 0;
@@ -187,13 +186,12 @@ export class RecordingWriter {
         ...{ topic: topics[i] as string, messageEncoding: 'cdr', schema, metadata: { camera, format } },
       }),
       frame: camera,
-      format,
     }));
   }
 
   /** @throws {Error} if writing fails */
   async addVideo(record: Omit<VideoRecord, 'type'>): Promise<void> {
-    const { video, capturedAtMs, key, sequence, dropped, to, bytes } = record;
+    const { video, capturedAtMs, key, format, sequence, dropped, to, bytes } = record;
     this.dropped.videos = dropped;
     const of = this.#videos[video];
     if (of === undefined) {
@@ -203,7 +201,7 @@ export class RecordingWriter {
     if (!this.out.wants(of.channel, to)) return;
     const ns = this.#nsOf(capturedAtMs);
     const link = key ? 'key' : 'follows';
-    const message = compressedVideo(ns, of.frame, of.format, bytes);
+    const message = compressedVideo(ns, of.frame, format, bytes);
     await this.out.add(of.channel, sequence, ns, [message], { to, link });
   }
 
