@@ -74,9 +74,7 @@ export class VideoFeed {
       holds: (source) => source.startsWith(VIDEO),
     });
     client.on('session', () => this.#reset());
-    client.on('videos', (videos) => {
-      this.#listed = videos;
-    });
+    client.on('videos', (videos) => this.#onList(videos));
     client.on('videoTrack', (track) => this.#onTrack(track));
     client.on('cloud', (batch) => this.#onCloud(batch));
     effect(() => {
@@ -132,6 +130,18 @@ export class VideoFeed {
     this.#cloudFrame = null;
     this.shownMs = null;
     this.captureMs.clear();
+  }
+
+  /** The robot encodes a video with the codec that suits those who watch: it may change. */
+  #onList(videos: readonly VideoDescription[]): void {
+    const before = this.#listed;
+    this.#listed = videos;
+    for (const [video, reader] of this.#readers) {
+      const codec = videos[video]?.codec;
+      if (codec === undefined || codec === before[video]?.codec) continue;
+      this.#parts.views.mayShow(video);
+      reader.useCodec?.(codec);
+    }
   }
 
   #onTrack(videoTrack: VideoTrack): void {
