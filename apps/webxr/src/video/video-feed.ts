@@ -7,6 +7,7 @@ import {
   Compositor,
   captureMsOfStamp,
   type RobotClient,
+  type VideoCodec,
   type VideoDescription,
   type VideoTrack,
 } from '@farpoint/operator';
@@ -100,6 +101,11 @@ export class VideoFeed {
       this.#figures.onShown(video, nowMs - takenAtMs);
     }
     this.onPresented?.();
+  }
+
+  /** What the robot encodes a video with now; `null` if it has said nothing of it. */
+  codecOf(video: number): VideoCodec | null {
+    return this.#listed[video]?.codec ?? null;
   }
 
   /** Call this a few times a second. */
