@@ -140,9 +140,7 @@ export class Broadcast implements FrameTarget, VideoTarget {
     return this.#feed?.videos.wanted ?? new Set();
   }
 
-  videoCodecs(video: number): ReadonlySet<VideoCodec> {
-    return this.#codecs.get(video) ?? new Set();
-  }
+  readonly videoCodecs = (video: number) => this.#codecs.get(video) ?? new Set<VideoCodec>();
 
   wants(sensor: number): boolean {
     return this.#sensors.has(sensor);
