@@ -21,6 +21,8 @@ export interface OpenOptions {
   barcode?: '1';
   /** `0`: videos are shown as they come, not in step. */
   sync?: '0';
+  /** How videos are received; by default what suits the browser best. */
+  video?: 'track' | 'native' | 'webcodecs';
 }
 
 /** What both Playwright's pages and Puppeteer's in Firefox support. */
@@ -65,6 +67,7 @@ export class OperatorPage {
       'every',
       'barcode',
       'sync',
+      'video',
     ] as const) {
       const value = options[name];
       if (value !== undefined) url.searchParams.set(name, value);

@@ -144,7 +144,7 @@ export interface VideoDescription {
   name: string;
   /** `a=mid` of its m-line in the robot's offer. */
   mid: string;
-  /** What it is encoded with, for every operator. */
+  /** What it is encoded with now, for every operator; it may change while the video runs. */
   codec: VideoCodec;
   /** Why there are no pictures at present, for people; absent while there are. */
   fault?: string | undefined;
@@ -152,7 +152,7 @@ export interface VideoDescription {
 
 /**
  * The videos of the robot's cameras; a video's position in the list is its number. Sent after the welcome by robots
- * with such cameras, and again whenever a video's state changes.
+ * with such cameras, and again whenever a video's state or codec changes.
  */
 export interface Videos {
   /** Tells the message from others. */

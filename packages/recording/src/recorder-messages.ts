@@ -101,6 +101,7 @@ export type VideoFormatName = (typeof VIDEO_FORMATS)[number];
 export interface RecordedVideo {
   /** Name shown to people. */
   name: string;
+  /** What it is coded with as a rule: with each frame it may change. */
   format: VideoFormatName;
 }
 
@@ -112,6 +113,7 @@ export interface VideoRecord {
   capturedAtMs: number;
   /** Whether it can be decoded without any other. */
   key: boolean;
+  format: VideoFormatName;
   /** Counts all frames of the video: a gap shows dropped ones. */
   sequence: number;
   /** How many frames of all videos were dropped so far. */

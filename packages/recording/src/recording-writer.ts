@@ -17,7 +17,6 @@ import {
   type RecordedQuantity,
   type RecordedVideo,
   type RecorderOptions,
-  type VideoFormatName,
   type VideoRecord,
 } from './recorder-messages.ts';
 import {
@@ -67,7 +66,7 @@ export class RecordingWriter {
   readonly #decoder: SentCloudDecoder;
   readonly #channels = new Map<RosKind | JsonKind, number>();
   #cameras: { channel: number; frame: string }[] = [];
-  #videos: { channel: number; frame: string; format: VideoFormatName }[] = [];
+  #videos: { channel: number; frame: string }[] = [];
   /** Its content is written, or copied, before the next cloud. */
   readonly #room = new PointRoom();
   readonly #telemetry: TelemetryChannels;
@@ -193,13 +192,12 @@ export class RecordingWriter {
         ...{ topic: topics[i] as string, messageEncoding: 'cdr', schema, metadata: { camera, format } },
       }),
       frame: camera,
-      format,
     }));
   }
 
   /** @throws {Error} if writing fails */
   async addVideo(record: Omit<VideoRecord, 'type'>): Promise<void> {
-    const { video, capturedAtMs, key, sequence, dropped, to, bytes } = record;
+    const { video, capturedAtMs, key, format, sequence, dropped, to, bytes } = record;
     this.dropped.videos = dropped;
     const of = this.#videos[video];
     if (of === undefined) {
@@ -209,7 +207,7 @@ export class RecordingWriter {
     if (!this.out.wants(of.channel, to)) return;
     const ns = this.#nsOf(capturedAtMs);
     const link = key ? 'key' : 'follows';
-    const message = compressedVideo(ns, of.frame, of.format, bytes);
+    const message = compressedVideo(ns, of.frame, format, bytes);
     await this.out.add(of.channel, sequence, ns, [message], { to, link });
   }
 

@@ -71,7 +71,11 @@ async function record(path: string, compression: 'none' | 'zstd' = 'none'): Prom
     tap.captured({ form: 'images', depth, colour, ...stamp }, GRID);
     recorder.picture(0, k * 100, 'jpeg', pictureOf(0, k));
     if (k % 3 === 0) recorder.picture(1, k * 100 + 40, 'png', pictureOf(1, k));
-    for (const video of [0, 1]) recorder.video(video, k * 100 + video * 3, k % 10 === 0, frameOf(video, k));
+    const key = k % 10 === 0;
+    recorder.video({ video: 0, capturedAtMs: k * 100, key, format: 'h264', bytes: frameOf(0, k) });
+    // Another encoder from the twentieth frame on.
+    const format = k < 20 ? 'vp8' : 'h264';
+    recorder.video({ video: 1, capturedAtMs: k * 100 + 3, key, format, bytes: frameOf(1, k) });
     recorder.json('telemetry', k * 100, { k, speed: 0.5 });
     recorder.velocity(k * 100, { linear: { x: k, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 1 } });
     recorder.state(
@@ -317,13 +321,14 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     for (let k = 0; k < 700; k++) {
       // As the encoder's output comes: a view of memory that has other uses, too.
       const chunk = Buffer.from(frameOf(0, k));
-      recorder.video(0, k, k === 0, chunk.subarray(0, chunk.length));
+      const bytes = chunk.subarray(0, chunk.length);
+      recorder.video({ video: 0, capturedAtMs: k, key: k === 0, format: 'h264', bytes });
       expect(chunk.length).toBe(900 + k);
     }
     const keptFirst = 64;
     expect(recorder.dropped.videos).toBe(700 - keptFirst);
     expect(asked).toEqual([0]);
-    recorder.video(0, 700, true, frameOf(0, 700));
+    recorder.video({ video: 0, capturedAtMs: 700, key: true, format: 'h264', bytes: frameOf(0, 700) });
     recorder.clouds.close();
     await recorder.close();
     const recording = await openRecording(path);
@@ -427,15 +432,16 @@ describe.skipIf(typeof peers === 'string')(
           });
         }
         for (const [video, topic] of VIDEOS.entries()) {
-          const format = video === 0 ? 'h264' : 'vp8';
+          const first = video === 0 ? 'h264' : 'vp8';
           const camera = video === 0 ? 'Front' : 'Mast left';
           expect(topics[topic]).toMatchObject({
-            ...{ type: 'foxglove_msgs/msg/CompressedVideo', metadata: { camera, format } },
+            ...{ type: 'foxglove_msgs/msg/CompressedVideo', metadata: { camera, format: first } },
             ...{ count: FRAMES, sequence: FRAMES - 1 },
           });
           topics[topic]?.pictures.forEach((frame, k) => {
             const ns = String(1_700_000_000_000_000_000n + BigInt(k * 100 + video * 3) * 1_000_000n);
             const data = frameOf(video, k);
+            const format = k < 20 ? first : 'h264';
             expect(frame).toEqual({
               ...{ stampNs: ns, logNs: ns, bytes: data.length, frame: camera, format },
               sha256: createHash('sha256').update(data).digest('hex'),

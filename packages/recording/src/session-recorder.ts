@@ -29,7 +29,9 @@ const PICTURE_LIMITS = { underWay: 4, waiting: 24 };
 const VIDEO_LIMITS = { underWay: 64, waiting: 512, waitingBytes: 16 * 1024 * 1024 };
 
 type AlarmState = Extract<EventRecord, { type: 'alarm' }>['state'];
-type VideoItem = QueuedVideoFrame & Pick<VideoRecord, 'sequence' | 'to'>;
+/** A picture of a camera as it was coded for operators. Its bytes must not be changed any more. */
+export type CodedVideoFrame = QueuedVideoFrame & Pick<VideoRecord, 'format'>;
+type VideoItem = CodedVideoFrame & Pick<VideoRecord, 'sequence' | 'to'>;
 
 /**
  * The main thread's end of a recording, and of a server that shows the same to live viewers. The capture thread has its
@@ -141,19 +143,20 @@ export class SessionRecorder {
   }
 
   /**
-   * A frame of a video as it was coded for operators.
+   * A frame of a video as it was coded for operators. Its format may differ from that of the frames before from a key
+   * frame on.
    *
-   * @param bytes must not be changed any more
    * @param record whether it belongs into the file, too
    */
-  video(video: number, capturedAtMs: number, key: boolean, bytes: Uint8Array, record = true): void {
+  video(frame: CodedVideoFrame, record = true): void {
+    const { video } = frame;
     const to = { file: record && this.writing, live: this.liveWishes.videos.includes(video) };
     if (!to.file && !to.live) {
       this.#videos.skip(video);
       return;
     }
     const sequence = this.#next(`video ${video}`);
-    this.#videos.push({ video, capturedAtMs, key, bytes, sequence, to });
+    this.#videos.push({ ...frame, sequence, to });
   }
 
   /** Whether anybody gets events of this kind. If not, they need not be made. */

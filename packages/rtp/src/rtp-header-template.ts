@@ -1,6 +1,6 @@
 /**
  * The RTP header of every packet of a stream (RFC 3550) with up to three one-byte header extensions (RFC 8285): the
- * m-line's id (RFC 9143), the transport-wide sequence number and the absolute capture time. Only these and four fields
+ * m-line's id (RFC 9143), the transport-wide sequence number and the absolute capture time. Only these and five fields
  * change from packet to packet, so the header is written once and then patched.
  */
 import { type NtpTime, writeNtp } from './ntp-time.ts';
@@ -24,7 +24,7 @@ export class RtpHeaderTemplate {
   /** The header as it is sent; owned by the template, valid until the next `patch`. */
   readonly bytes: Uint8Array;
   readonly #view: DataView;
-  readonly #payloadType: number;
+  #payloadType: number;
   readonly #transportSequenceOffset: number | null;
   readonly #captureTimeOffset: number | null;
 
@@ -72,6 +72,11 @@ export class RtpHeaderTemplate {
   /** Whether packets carry the time at which their content was captured. */
   get hasCaptureTime(): boolean {
     return this.#captureTimeOffset !== null;
+  }
+
+  /** The payload type of the next packets, 0–127. */
+  patchPayloadType(payloadType: number): void {
+    this.#payloadType = payloadType;
   }
 
   /** The capture time of the next packets; without the extension it is ignored. */

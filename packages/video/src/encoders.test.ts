@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 import {
   type AvailableEncoder,
   chooseEncoder,
+  chooseEncoders,
   ENCODER_PROPERTIES,
   encoderText,
   encoderThreads,
@@ -26,6 +27,18 @@ describe('the choice', () => {
   ] as const)('of %s', (wanted, available, expected) => {
     const chosen = chooseEncoder(available, wanted);
     expect(chosen.ok && chosen.encoder.name).toBe(expected);
+  });
+
+  it.each([
+    ['auto', software, ['x264enc', 'vp8enc']],
+    ['auto', [...software, h264('vah264enc')], ['vah264enc', 'vp8enc']],
+    ['auto', [h264('openh264enc')], ['openh264enc']],
+    ['auto', [{ name: 'vp8enc', codec: 'vp8' }], ['vp8enc']],
+    ['h264', software, ['x264enc']],
+    ['openh264enc', software, ['openh264enc']],
+  ] as const)('of one for each codec: %s', (wanted, available, expected) => {
+    const chosen = chooseEncoders(available, wanted);
+    expect(chosen.ok && chosen.encoders.map(({ name }) => name)).toEqual(expected);
   });
 
   it.each([

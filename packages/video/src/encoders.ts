@@ -1,7 +1,8 @@
 /** The encoders that can be used: what each runs on, and its properties for low delay. */
 import { type VideoFailure, videoFailure } from './video-failure.ts';
 
-export type VideoCodec = 'h264' | 'vp8';
+const VIDEO_CODECS = ['h264', 'vp8'] as const;
+export type VideoCodec = (typeof VIDEO_CODECS)[number];
 
 /** A property of an encoder that follows bit rate and frame rate: the sum of three products. */
 export interface FollowingProperty {
@@ -145,6 +146,10 @@ export type ChosenEncoder =
   | { readonly ok: true; readonly encoder: VideoEncoder }
   | { readonly ok: false; readonly failure: VideoFailure };
 
+export type ChosenEncoders =
+  | { readonly ok: true; readonly encoders: readonly [VideoEncoder, ...VideoEncoder[]] }
+  | { readonly ok: false; readonly failure: VideoFailure };
+
 /** Names that may be wanted. */
 export const WANTED_ENCODERS: readonly string[] = [
   'auto',
@@ -159,17 +164,38 @@ export const WANTED_ENCODERS: readonly string[] = [
  * @param wanted a codec, an encoder, or `auto`
  */
 export function chooseEncoder(available: readonly AvailableEncoder[], wanted: string): ChosenEncoder {
+  const chosen = chooseEncoders(available, wanted);
+  return chosen.ok ? { ok: true, encoder: chosen.encoders[0] } : chosen;
+}
+
+/**
+ * The first choice, and with `auto` also the best encoder of each other codec.
+ *
+ * @param wanted a codec, an encoder, or `auto`
+ */
+export function chooseEncoders(available: readonly AvailableEncoder[], wanted: string): ChosenEncoders {
   const fitting = VIDEO_ENCODERS.filter(
     ({ name, codec }) => wanted === 'auto' || wanted === codec || wanted === name,
   );
-  const encoder = fitting.find(({ name }) => available.some((each) => each.name === name));
-  if (encoder !== undefined) return { ok: true, encoder };
+  const there = fitting.filter(({ name }) => available.some((each) => each.name === name));
+  const [first] = there;
+  if (first === undefined) return { ok: false, failure: noEncoder(available, fitting, wanted) };
+  const others = VIDEO_CODECS.filter((codec) => codec !== first.codec && wanted === 'auto');
+  const encoders = others.flatMap((codec) => there.find((each) => each.codec === codec) ?? []);
+  return { ok: true, encoders: [first, ...encoders] };
+}
+
+function noEncoder(
+  available: readonly AvailableEncoder[],
+  fitting: readonly VideoEncoder[],
+  wanted: string,
+): VideoFailure {
   const there = available.map(({ name }) => name).filter((name) => WANTED_ENCODERS.includes(name));
   const said =
     fitting.length === 0
       ? `${wanted} is not one of ${WANTED_ENCODERS.join(', ')}`
       : `none of ${fitting.map(({ name }) => name).join(', ')} is there (there is ${there.join(', ') || 'none'})`;
-  return { ok: false, failure: videoFailure('no-encoder', said) };
+  return videoFailure('no-encoder', said);
 }
 
 /**

@@ -2,7 +2,9 @@ export { availableEncoders } from './available-encoders.ts';
 export {
   type AvailableEncoder,
   type ChosenEncoder,
+  type ChosenEncoders,
   chooseEncoder,
+  chooseEncoders,
   VIDEO_ENCODERS,
   type VideoCodec,
   type VideoEncoder,

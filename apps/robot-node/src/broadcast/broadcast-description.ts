@@ -1,8 +1,29 @@
-import { type Broadcast, broadcastCodec, encodeJson, type VideoDescription } from '@farpoint/protocol';
+import {
+  type Broadcast,
+  broadcastCodec,
+  encodeJson,
+  type VideoCodec,
+  type VideoDescription,
+} from '@farpoint/protocol';
 import { CLOUD_MID, midOfVideo } from './broadcast-media.ts';
 
 /** With what the packets of a coded format are decoded. */
 export type CloudHeader = NonNullable<Broadcast['clouds']>['streams'][number];
+
+/**
+ * The videos as a broadcast has them: with the codecs of its m-lines, and without pictures while the robot encodes a
+ * video with another.
+ */
+export function asBroadcast(
+  videos: readonly Omit<VideoDescription, 'mid'>[],
+  codecs: readonly VideoCodec[],
+): Omit<VideoDescription, 'mid'>[] {
+  return videos.map(({ codec: now, ...video }, number) => {
+    const codec = codecs[number] ?? now;
+    const other = `the robot encodes it as ${now} at present, for an operator who does not decode ${codec}`;
+    return { ...(codec === now ? {} : { fault: other }), ...video, codec };
+  });
+}
 
 /**
  * What viewers are told, as the mountpoint's metadata.

@@ -13,7 +13,7 @@ import { StreamSender } from '../transport/stream-sender.ts';
 import { streamOfVideo, type VideoFrame, videoOfStream } from '../video/video-frame.ts';
 import type { VideoTarget } from '../video/video-hub.ts';
 import { VideoSender } from '../video/video-sender.ts';
-import { type CloudHeader, describeBroadcast } from './broadcast-description.ts';
+import { asBroadcast, type CloudHeader, describeBroadcast } from './broadcast-description.ts';
 import { broadcastMedia, midOfVideo } from './broadcast-media.ts';
 import type { BroadcastOptions } from './broadcast-options.ts';
 import { BroadcastSockets } from './broadcast-sockets.ts';
@@ -32,7 +32,7 @@ export interface BroadcastParts {
   claims: () => readonly CloudClaim[];
   /** What viewers are told of each video, besides its m-line. */
   videos: () => readonly Omit<VideoDescription, 'mid'>[];
-  mostVideoBitsPerSecond: (video: number) => number;
+  mostVideoBitsPerSecond: (video: number, codecs: ReadonlySet<VideoCodec>) => number;
   sendLoop: SendLoop;
   requestKeyFrame: (video: number) => void;
   /** What may be captured has changed. */
@@ -69,6 +69,8 @@ export class Broadcast implements FrameTarget, VideoTarget {
   readonly #parts: BroadcastParts;
   readonly #media: readonly MountpointMedia[];
   readonly #sensors: ReadonlySet<number>;
+  /** Of each video the codec that its m-line has. */
+  readonly #codecs: ReadonlyMap<number, ReadonlySet<VideoCodec>>;
   readonly #videos: readonly number[];
   readonly #budget = new PathBudget();
   /** By sensor and format. */
@@ -85,10 +87,14 @@ export class Broadcast implements FrameTarget, VideoTarget {
     const { options, codecs, sensors, log, name } = parts;
     this.#media = broadcastMedia(codecs, options.clouds);
     this.#sensors = new Set(options.clouds ? sensors.keys() : []);
+    this.#codecs = new Map(codecs.map((codec, video) => [video, new Set([codec])]));
     this.#videos = [...codecs.keys()];
     this.keyFrames = new KeyFrameGate(options.keyFrameMs);
     this.#budget.wantVideos(
-      () => new Map(this.#videos.map((video) => [video, parts.mostVideoBitsPerSecond(video)])),
+      () =>
+        new Map(
+          this.#videos.map((video) => [video, parts.mostVideoBitsPerSecond(video, this.videoCodecs(video))]),
+        ),
     );
     this.keeper = new MountpointKeeper(
       { options, name, media: this.#media, metadata: () => this.#description(), log },
@@ -132,6 +138,8 @@ export class Broadcast implements FrameTarget, VideoTarget {
   get wantedVideos(): ReadonlySet<number> {
     return this.#feed?.videos.wanted ?? new Set();
   }
+
+  readonly videoCodecs = (video: number) => this.#codecs.get(video) ?? new Set<VideoCodec>();
 
   wants(sensor: number): boolean {
     return this.#sensors.has(sensor);
@@ -214,7 +222,7 @@ export class Broadcast implements FrameTarget, VideoTarget {
 
   #onMountpoint({ address, ports, srtp }: Mountpoint): void {
     this.#drop();
-    const { now, codecs, sendLoop, options } = this.#parts;
+    const { now, sendLoop, options } = this.#parts;
     const transports = this.#media.map(({ pt }) => new BroadcastTransport(pt, srtp));
     const sockets = new BroadcastSockets(address, ports, (stream, compound) =>
       this.#onRtcp(stream, compound),
@@ -227,8 +235,8 @@ export class Broadcast implements FrameTarget, VideoTarget {
     for (const video of this.#videos)
       sender.addStream(streamOfVideo(video), transports[this.#lineOf(video)] as BroadcastTransport);
     const videos = new VideoSender(
-      this.#videos,
-      (frame) => sender.enqueue(new StampedVideoFrame(frame, codecs[frame.video] as VideoCodec)),
+      this.#codecs,
+      (frame) => sender.enqueue(new StampedVideoFrame(frame)),
       (video) => this.#needsKeyFrame(video),
     );
     sender.onFrameDropped = ({ stream }) => {
@@ -282,7 +290,9 @@ export class Broadcast implements FrameTarget, VideoTarget {
   }
 
   #description(): string {
-    const { name, videos, sensors, options } = this.#parts;
-    return describeBroadcast(name, videos(), options.clouds ? sensors : [], [...this.#streams.values()]);
+    const { name, videos, codecs, sensors, options } = this.#parts;
+    return describeBroadcast(name, asBroadcast(videos(), codecs), options.clouds ? sensors : [], [
+      ...this.#streams.values(),
+    ]);
   }
 }

@@ -1,3 +1,4 @@
+import type { VideoCodec } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import { monotonicMs } from '../clock.ts';
 import type { RobotCameras } from '../robot-cameras.ts';
@@ -18,10 +19,11 @@ export function openBroadcast(
   const broadcast: Broadcast = new Broadcast({
     ...{ options, name, sensors, sendLoop, now: monotonicMs },
     log: log.child({ part: 'broadcast' }),
-    codecs: videos.map(({ codec }) => codec),
+    // A mountpoint's codecs are fixed: it takes those that the cameras prefer.
+    codecs: videos.map(({ codecs }) => codecs[0] as VideoCodec),
     claims: () => robot.sensors.claims,
     videos: () => robot.cameras.videos.descriptions,
-    mostVideoBitsPerSecond: (video) => robot.cameras.videos.mostBitsPerSecond(video),
+    mostVideoBitsPerSecond: (video, codecs) => robot.cameras.videos.mostBitsPerSecond(video, codecs),
     requestKeyFrame: (video) => robot.cameras.videos.requestKeyFrame(video),
     onBudgetChanged: () => robot.sensors.updateBudgets(),
     onStart: () => robot.sensors.announceTo(broadcast),

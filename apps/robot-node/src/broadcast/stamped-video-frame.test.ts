@@ -14,7 +14,7 @@ const vp8 = (length: number) => Uint8Array.of(0x10, 0, 0, 0x9d, 0x01, 0x2a, 64, 
 function framed(codec: VideoCodec, bytes: Uint8Array): { plain: VideoFrame; stamped: StampedVideoFrame } {
   const picture = { bytes, key: true, capturedAtMs: CAPTURED_MS, width: 64, height: 48 };
   const plain = new VideoFrame(picture, { video: 1, codec, pictureId: 7, framesPerSecond: 30 });
-  return { plain, stamped: new StampedVideoFrame(plain, codec) };
+  return { plain, stamped: new StampedVideoFrame(plain) };
 }
 
 describe.each([

@@ -1,4 +1,4 @@
-import { CAPTURE_STAMP_BYTES, captureStampNal, type VideoCodec, writeCaptureStamp } from '@farpoint/protocol';
+import { CAPTURE_STAMP_BYTES, captureStampNal, writeCaptureStamp } from '@farpoint/protocol';
 import type { OutgoingFrame } from '../transport/outgoing-frame.ts';
 import { VIDEO_OVERHEAD_BYTES, type VideoFrame } from '../video/video-frame.ts';
 
@@ -28,7 +28,7 @@ export class StampedVideoFrame implements OutgoingFrame {
   /** VP8: the last payload. */
   readonly #last: Uint8Array | null;
 
-  constructor(frame: VideoFrame, codec: VideoCodec) {
+  constructor(frame: VideoFrame) {
     this.video = frame.video;
     this.stream = frame.stream;
     this.lane = frame.lane;
@@ -40,7 +40,7 @@ export class StampedVideoFrame implements OutgoingFrame {
     this.needsPrevious = frame.needsPrevious;
     this.#frame = frame;
     const captureNs = BigInt(Math.round(frame.capturedAtMs * NS_PER_MS));
-    if (codec === 'H264') {
+    if (frame.codec === 'H264') {
       this.#first = captureStampNal(captureNs);
       this.#last = null;
       this.packets = frame.packets + 1;

@@ -1,6 +1,6 @@
 /** What a session with an operator needs to know, and what it reports. */
 import type { RateController } from '@farpoint/congestion';
-import type { IceCandidate } from '@farpoint/protocol';
+import type { IceCandidate, VideoCodec } from '@farpoint/protocol';
 import type { CandidateRefusal } from '@farpoint/webrtc';
 import type { CloudClaim } from '../sensors/cloud-shares.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
@@ -19,7 +19,7 @@ export interface OperatorSessionOptions {
   /** What the robot's cloud sensors claim of a path, indexed by sensor number. */
   claims: () => readonly CloudClaim[];
   /** What a video may use at most, bit/s without headers; 0 while it has no pictures. */
-  mostVideoBitsPerSecond: (video: number) => number;
+  mostVideoBitsPerSecond: (video: number, codecs: ReadonlySet<VideoCodec>) => number;
 }
 
 export interface OperatorSessionEvents {

@@ -185,9 +185,10 @@ export class OperatorSession implements FrameTarget {
 
   /** How much of the path a video may take, bit/s without headers; 0 while there is no path. */
   videoBitsPerSecond(video: number): number {
-    const { sender } = this;
-    return sender === null ? 0 : this.#budget.videoBitsPerSecond(video, sender.targetBitsPerSecond);
+    return this.sender === null ? 0 : this.#budget.videoBitsPerSecond(video, this.sender.targetBitsPerSecond);
   }
+
+  readonly videoCodecs = (video: number) => this.videos.codecs(video);
 
   offerVideo(frame: VideoFrame): void {
     if (this.streaming) this.videos.offer(frame);
@@ -251,9 +252,8 @@ export class OperatorSession implements FrameTarget {
   }
 
   #onConnected(transport: RtpTransport, lines: readonly VideoLine[], sound: SoundLine | null): void {
-    const sender = new StreamSender(transport, this.#makeController(transport.transportFeedback), () =>
-      this.#host.now(),
-    );
+    const now = () => this.#host.now();
+    const sender = new StreamSender(transport, this.#makeController(transport.transportFeedback), now);
     const log = this.#packetLog;
     if (log !== undefined) {
       sender.onPacketSent = (frame, index, sentMs) => {

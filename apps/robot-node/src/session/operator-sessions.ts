@@ -1,5 +1,5 @@
 import type { RateController } from '@farpoint/congestion';
-import type { IceServer, RobotToService, ServiceToRobot } from '@farpoint/protocol';
+import type { IceServer, RobotToService, ServiceToRobot, VideoCodec } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import type { CloudClaim } from '../sensors/cloud-shares.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
@@ -21,7 +21,7 @@ export interface OperatorSessionsOptions {
   makeController: (transportFeedback: boolean) => RateController;
   /** What the robot's cloud sensors claim of a path, indexed by sensor number. */
   claims: () => readonly CloudClaim[];
-  mostVideoBitsPerSecond: (video: number) => number;
+  mostVideoBitsPerSecond: (video: number, codecs: ReadonlySet<VideoCodec>) => number;
   sendLoop: SendLoop;
   packetLog: PacketLog | undefined;
   host: SessionHost;

@@ -1,7 +1,8 @@
-import { type Alarm, PROTOCOL_VERSION, type Quantity, type VideoCodec } from '@farpoint/protocol';
+import { type Alarm, PROTOCOL_VERSION, type Quantity } from '@farpoint/protocol';
 import type { RobotOptions } from '../robot-configuration.ts';
 import type { CloudSensor } from '../sensors/cloud-sensor.ts';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
+import { codecFault } from '../video/codec-fault.ts';
 import type { VideoHub } from '../video/video-hub.ts';
 import type { OperatorSession } from './operator-session.ts';
 
@@ -63,12 +64,8 @@ export function tellVideos({ messages, videos }: OperatorSession, { descriptions
     type: 'videos',
     videos: descriptions.map((description, video) => {
       const line = lines[video];
-      const refused = line?.transport === null ? { fault: refusal(description.codec) } : {};
-      return { ...description, ...refused, mid: line?.mid ?? '' };
+      const fault = line === undefined ? null : codecFault(line, description.codec);
+      return { ...description, ...(fault === null ? {} : { fault }), mid: line?.mid ?? '' };
     }),
   });
-}
-
-function refusal(codec: VideoCodec): string {
-  return `this client does not decode ${codec}: give the camera another encoder (vp8enc works everywhere)`;
 }

@@ -4,6 +4,7 @@ import {
   PICTURE_CHUNK_DATA_BYTES,
   PICTURE_CHUNK_HEADER_BYTES,
   type Twist,
+  type VideoCodec,
 } from '@farpoint/protocol';
 import {
   type CloudKind,
@@ -66,7 +67,7 @@ const NO_CLOUDS: Readonly<Record<CloudKind, number>> = { captured: 0, sent: 0 };
 const MORE_ROOM =
   'for longer recordings: a larger --record-max, or fewer clouds (--record-clouds, --record-sent-fps)';
 
-const FORMATS: Readonly<Record<VideoCamera['codec'], VideoFormatName>> = { H264: 'h264', VP8: 'vp8' };
+const FORMATS: Readonly<Record<VideoCodec, VideoFormatName>> = { H264: 'h264', VP8: 'vp8' };
 const UNSEEN = 'these cameras are in VP8, which this robot plays but Foxglove and Lichtblick do not show';
 const SEEN_REMEDY = 'an H.264 encoder (docs/video.md)';
 
@@ -171,7 +172,7 @@ export class SessionRecording implements VideoTaker {
    */
   cameras(
     cameras: readonly CameraDescription[],
-    videos: readonly Pick<VideoCamera, 'name' | 'codec'>[],
+    videos: readonly Pick<VideoCamera, 'name' | 'codecs'>[],
     requestKeyFrame: (video: number) => void,
   ): void {
     this.#recorder.cameras(cameras.map(({ name, ofCloud = false }) => ({ name, ofCloud })));
@@ -181,9 +182,11 @@ export class SessionRecording implements VideoTaker {
       this.#keyFramesMs.set(video, now);
       requestKeyFrame(video);
     };
-    this.#recorder.videos(videos.map(({ name, codec }) => ({ name, format: FORMATS[codec] })));
+    this.#recorder.videos(
+      videos.map(({ name, codecs }) => ({ name, format: FORMATS[codecs[0] as VideoCodec] })),
+    );
     if (this.#recordedVideos === 'none' && this.#options.foxglove === null) return;
-    const unseen = videos.filter(({ codec }) => codec === 'VP8').map(({ name }) => name);
+    const unseen = videos.filter(({ codecs }) => codecs[0] === 'VP8').map(({ name }) => name);
     if (unseen.length > 0) this.#log.warn({ cameras: unseen, remedy: SEEN_REMEDY }, UNSEEN);
   }
 
@@ -193,8 +196,9 @@ export class SessionRecording implements VideoTaker {
   }
 
   /** Records a frame of a video as it was encoded for operators. */
-  take(video: number, { capturedAtMs, key, bytes }: EncodedPicture): void {
-    this.#recorder.video(video, capturedAtMs, key, bytes, this.#recordedVideos !== 'none');
+  take(video: number, { capturedAtMs, key, bytes }: EncodedPicture, codec: VideoCodec): void {
+    const format = FORMATS[codec];
+    this.#recorder.video({ video, capturedAtMs, key, format, bytes }, this.#recordedVideos !== 'none');
   }
 
   /** Records a picture as it was made for operators. */

@@ -1,12 +1,13 @@
 import { LocalStack } from '@farpoint/local-stack';
 import { afterAll, afterEach, beforeAll } from 'vitest';
+import type { OperatorClientOptions } from './operator-client.ts';
 import { SignaledOperator } from './signaled-operator.ts';
 
 /** A robot under test, with the real signaling service. */
 export interface RobotUnderTest {
   readonly stack: LocalStack;
   /** An operator of it, closed after the test. */
-  connect(): Promise<SignaledOperator>;
+  connect(options?: OperatorClientOptions): Promise<SignaledOperator>;
   /** Closes this operator after the test. */
   keep(operator: SignaledOperator): SignaledOperator;
 }
@@ -36,8 +37,8 @@ export function useRobot(id: string, args: readonly string[]): RobotUnderTest {
     get stack() {
       return running();
     },
-    async connect() {
-      return keep(await SignaledOperator.connect(running().signalingUrl, id));
+    async connect(options) {
+      return keep(await SignaledOperator.connect(running().signalingUrl, id, options));
     },
     keep,
   };

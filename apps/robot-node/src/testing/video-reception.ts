@@ -12,7 +12,9 @@ export interface ReceivedVideo {
   captureTime: AbsCaptureTime | null;
   /** Whole frames, in order. */
   readonly frames: WholeVideoFrame[];
-  readonly depacketiser: VideoDepacketiser;
+  /** Of the newest packet: with the codec it may change, from a key frame on. */
+  payloadType: number;
+  depacketiser: VideoDepacketiser;
 }
 
 /** The videos of a connection, by the `mid` of their m-lines. */
@@ -31,12 +33,15 @@ export class VideoReception {
     track.onReceiveRtp.subscribe(({ header, payload }) => {
       const transceiver = this.#connection.getTransceivers().find(({ receiver }) => receiver.track === track);
       const mid = transceiver?.mid ?? '';
-      const video = this.videos.get(mid) ?? {
-        frames: [],
-        depacketiser: new VideoDepacketiser(track.codec?.name.toLowerCase() === 'h264' ? 'h264' : 'vp8'),
-        captureTime: null,
+      const video: ReceivedVideo = this.videos.get(mid) ?? {
+        ...{ frames: [], depacketiser: new VideoDepacketiser('vp8'), captureTime: null, payloadType: -1 },
       };
       this.videos.set(mid, video);
+      if (header.payloadType !== video.payloadType) {
+        video.payloadType = header.payloadType;
+        const codec = transceiver?.codecs.find(({ payloadType }) => payloadType === header.payloadType);
+        video.depacketiser = new VideoDepacketiser(codec?.name.toLowerCase() === 'h264' ? 'h264' : 'vp8');
+      }
       // The only element of this length.
       const captureTime = header.extensions.find((element) => element.payload.length === 8);
       if (captureTime !== undefined) video.captureTime = readAbsCaptureTime(captureTime.payload);

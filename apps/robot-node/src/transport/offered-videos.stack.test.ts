@@ -22,7 +22,13 @@ afterEach(async () => {
   for (const cleanup of cleanups.splice(0)) await cleanup();
 });
 
-async function session(videos: readonly VideoCodec[], videoCodecs?: readonly VideoCodec[]) {
+/** @param change what an operator makes of its answer */
+async function session(
+  codecs: readonly (VideoCodec | readonly VideoCodec[])[],
+  videoCodecs?: readonly VideoCodec[],
+  change = (sdp: string) => sdp,
+) {
+  const videos = codecs.map((each) => [each].flat());
   const client = new OperatorClient({ videoCodecs });
   const connected = Promise.withResolvers<{ clouds: RtpTransport; lines: readonly VideoLine[] }>();
   const peer = new OperatorPeer(
@@ -41,7 +47,7 @@ async function session(videos: readonly VideoCodec[], videoCodecs?: readonly Vid
   );
   client.onCandidate = (candidate) => peer.addCandidate(candidate);
   const offer = await peer.offer();
-  await peer.answer(await client.answer(offer));
+  await peer.answer(change(await client.answer(offer)));
   const { clouds, lines } = await connected.promise;
   const sender = new StreamSender(clouds, new FixedRateController({ bitsPerSecond: 50e6 }), monotonicMs);
   for (const [video, { transport }] of lines.entries()) {
@@ -71,6 +77,9 @@ function frameOf(video: number, codec: VideoCodec, capturedAtMs: number, bytes =
   );
 }
 
+const payloadTypesOf = (section: string, codec: VideoCodec) =>
+  [...section.matchAll(new RegExp(`a=rtpmap:(\\d+) ${codec}/`, 'g'))].map(([, type]) => Number(type));
+
 describe('videos of a session', { timeout: 30_000 }, () => {
   it('have an m-line each, in their own streams and with one codec', async () => {
     const { offer } = await session(['H264', 'VP8']);
@@ -86,6 +95,51 @@ describe('videos of a session', { timeout: 30_000 }, () => {
       expect(section).toMatch(/rtcp-fb:\d+ nack pli/);
       expect(section).toMatch(/a=sendonly/);
     }
+  });
+
+  it('with several codecs offer all of them, the preferred first, and send each with its payload type', async () => {
+    const { client, offer, sender, lines } = await session([['H264', 'VP8'], 'VP8']);
+    const [, first = ''] = offer.split('m=video');
+    expect(first.match(/a=rtpmap:\d+ (\w+)/g)?.map((line) => line.split(' ')[1])).toEqual(['H264', 'VP8']);
+    const [line] = lines;
+    const types = (['H264', 'VP8'] as const).map((codec) => payloadTypesOf(first, codec)[0]);
+    expect([...line!.payloadTypes]).toEqual([
+      ['H264', types[0]],
+      ['VP8', types[1]],
+    ]);
+    const nowMs = monotonicMs();
+    sender.enqueue(frameOf(0, 'H264', nowMs - 60));
+    const received = () => client.videos.get('1');
+    await client.until(() => received()?.frames.length === 1);
+    expect(received()?.payloadType).toBe(types[0]);
+    sender.enqueue(frameOf(0, 'VP8', nowMs - 30));
+    await client.until(() => received()?.frames.length === 2);
+    expect(received()?.payloadType).toBe(types[1]);
+    expect(received()?.frames.map(({ bytes }) => bytes.length)).toEqual([5000, 5000]);
+  });
+
+  it('are refused one by one, with the reason, whatever a hostile answer says of them', async () => {
+    const { client, sender, lines } = await session(
+      [['H264', 'VP8'], ['H264', 'VP8'], ['H264', 'VP8'], 'VP8'],
+      undefined,
+      (sdp) => {
+        const [before = '', first = '', second = '', third = '', ...rest] = sdp.split('m=video');
+        const [h264 = 0] = payloadTypesOf(first, 'H264');
+        return [
+          before,
+          first.replaceAll(/(rtpmap|fmtp|rtcp-fb):\d+/g, '$1:4096').replace(/SAVPF .*/, 'SAVPF 4096'),
+          second.replaceAll(/ (H264|VP8)\//g, ' AV1/'),
+          `${third.replaceAll(/a=rtpmap:\d+ VP8.*\r\n/g, '')}a=fmtp:77 x=1\r\na=rtpmap:${h264} VP8/90000\r\n`,
+          ...rest,
+        ].join('m=video');
+      },
+    );
+    expect(lines.map(({ refusal }) => refusal)).toEqual([
+      ...['bad-payload-type', 'no-common-codec', 'ambiguous-payload-type', null],
+    ]);
+    expect(lines.map(({ transport }) => transport === null)).toEqual([true, true, true, false]);
+    sender.enqueue(frameOf(3, 'VP8', monotonicMs()));
+    await client.until(() => client.videos.get('4')?.frames.length === 1);
   });
 
   it('arrive whole, with the capture time as timestamp and as NTP time', async () => {
@@ -151,6 +205,7 @@ describe('videos of a session', { timeout: 30_000 }, () => {
   it('are left out if the operator cannot decode them; everything else goes on', async () => {
     const { client, sender, lines } = await session(['H264', 'VP8'], ['VP8']);
     expect(lines.map(({ transport }) => transport === null)).toEqual([true, false]);
+    expect(lines.map(({ refusal }) => refusal)).toEqual(['refused', null]);
     sender.enqueue(frameOf(1, 'VP8', monotonicMs()));
     await client.until(() => client.videos.get('2')?.frames.length === 1);
   });

@@ -173,7 +173,7 @@ export class OperatorPeer {
     const dtls = this.#cloud.dtlsTransport;
     const isRestart = dtls.state === 'connected';
     try {
-      await this.#candidates.describe('answer', sdp);
+      await this.#candidates.describe('answer', this.#videos.read(sdp));
       this.#startDue = isRestart;
       this.#checkPairs();
     } catch (error) {

@@ -1,10 +1,13 @@
 import type { PacedFrame } from '@farpoint/congestion';
+import type { VideoCodec } from '@farpoint/protocol';
 
 /** One frame on its way to several operators, cut into the payloads of RTP packets. */
 export interface OutgoingFrame extends PacedFrame {
   readonly lane: number;
   /** The RTP stream that carries it, by the number under which the sender knows its transport; 0 for clouds. */
   readonly stream: number;
+  /** What a video's frame is coded with: its payload type follows from it. */
+  readonly codec?: VideoCodec;
   /** Points in it; 0 for a video's frame. */
   readonly points: number;
   /** RTP timestamp, u32 in units of the stream's clock. */

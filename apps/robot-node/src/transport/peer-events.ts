@@ -23,8 +23,8 @@ export interface OperatorPeerOptions {
   connectTimeoutMs: number;
   /** Whether to open a channel for pictures. */
   pictures?: boolean | undefined;
-  /** The codec of each video to offer; none if undefined. */
-  videos?: readonly VideoCodec[] | undefined;
+  /** The codecs of each video to offer, in the order of preference; none if undefined. */
+  videos?: readonly (readonly VideoCodec[])[] | undefined;
   /** Whether to offer an m-line for sound. */
   sound?: boolean | undefined;
   /** Called when something from the network was dropped unread. */

@@ -4,6 +4,7 @@
  */
 
 import type { ReceiverSums } from '@farpoint/congestion';
+import type { VideoCodec } from '@farpoint/protocol';
 import type { ReportBlock, ResendRefusal } from '@farpoint/rtp';
 
 /** Bytes of UDP and IPv4 headers per packet on the wire. */
@@ -25,7 +26,9 @@ export interface RtpTransport {
    * @param nowMs robot's clock
    * @param usefulMs how long the packet may be retransmitted on request
    * @param capturedAtMs when the frame was captured, robot's clock; streams that do not carry it ignore it
-   * @returns the packet's transport-wide sequence number (u16), or `null` if the path is closed
+   * @param codec what a video's payload is coded with; others have one payload type only
+   * @returns the packet's transport-wide sequence number (u16), or `null` if the path is closed or the peer does not
+   *   take the codec
    */
   send(
     payload: Uint8Array,
@@ -34,6 +37,7 @@ export interface RtpTransport {
     nowMs: number,
     usefulMs: number,
     capturedAtMs?: number,
+    codec?: VideoCodec,
   ): number | null;
 
   /**

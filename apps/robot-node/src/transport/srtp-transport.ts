@@ -1,6 +1,7 @@
 import { Buffer } from 'node:buffer';
 import { randomInt } from 'node:crypto';
 import type { ReceiverSums } from '@farpoint/congestion';
+import type { VideoCodec } from '@farpoint/protocol';
 import {
   ABS_CAPTURE_TIME_URI,
   ntpOfUnixMs,
@@ -29,6 +30,8 @@ export interface SrtpTransportOptions {
   rtcp?: boolean | undefined;
   /** What to add to the robot's clock for the time since 1970, ms. With it, packets carry their capture time. */
   unixOffsetMs?: number | undefined;
+  /** The payload type of each codec that the peer takes; by default, all packets have the first negotiated one. */
+  payloadTypes?: ReadonlyMap<VideoCodec, number> | undefined;
 }
 
 /**
@@ -52,6 +55,9 @@ export class SrtpTransport implements RtpTransport {
    */
   readonly #sent = new ResendHistory<readonly Buffer[]>();
   readonly #unixOffsetMs: number;
+  readonly #payloadTypes: ReadonlyMap<VideoCodec, number> | undefined;
+  /** Of the newest packet. */
+  #codec: VideoCodec | undefined;
   /** The capture time in the header: that of a frame's packets is the same. */
   #capturedAtMs = Number.NaN;
   #packetsSent = 0;
@@ -91,6 +97,7 @@ export class SrtpTransport implements RtpTransport {
     });
     this.ssrc = sender.ssrc;
     this.#unixOffsetMs = options.unixOffsetMs ?? 0;
+    this.#payloadTypes = options.payloadTypes;
     this.#sealer = new SrtpSealer(key, salt, sender.ssrc, randomInt(0x8000));
     this.#dtls = dtls;
     this.#path = new IcePath(dtls);
@@ -114,9 +121,10 @@ export class SrtpTransport implements RtpTransport {
     nowMs: number,
     usefulMs: number,
     capturedAtMs = nowMs,
+    codec?: VideoCodec,
   ): number | null {
     this.#refreshPath();
-    if (!this.#pathIsOpen) return null;
+    if (!this.#pathIsOpen || !this.#takes(codec)) return null;
     const transportSequence = SequenceNumber.next(this.#dtls.transportSequenceNumber);
     this.#dtls.transportSequenceNumber = transportSequence;
     const { nextSequence } = this.#sealer;
@@ -176,6 +184,16 @@ export class SrtpTransport implements RtpTransport {
     this.#closed = true;
     this.#pathIsOpen = false;
     this.onRtcp = null;
+  }
+
+  /** Sets the payload type of the next packets; false if the peer has none for them. */
+  #takes(codec: VideoCodec | undefined): boolean {
+    if (codec === this.#codec || codec === undefined || this.#payloadTypes === undefined) return true;
+    const payloadType = this.#payloadTypes.get(codec);
+    if (payloadType === undefined) return false;
+    this.#codec = codec;
+    this.#header.patchPayloadType(payloadType);
+    return true;
   }
 
   #refreshPath(): void {

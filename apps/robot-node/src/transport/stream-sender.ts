@@ -187,12 +187,12 @@ export class StreamSender {
       if (run === null) return;
       const { frame, first, count, last } = run;
       if (first === 0) this.#beganMs.set(frame, now);
-      const { rtpTimestamp, usefulMs, capturedAtMs } = frame;
+      const { rtpTimestamp, usefulMs, capturedAtMs, codec } = frame;
       const transport = this.#streams.get(frame.stream) ?? this.#transport;
       for (let i = first; i < first + count; i++) {
         const payload = frame.payload(i);
         const marker = i === frame.packets - 1 && frame.marked !== false;
-        const sequence = transport.send(payload, rtpTimestamp, marker, now, usefulMs, capturedAtMs);
+        const sequence = transport.send(payload, rtpTimestamp, marker, now, usefulMs, capturedAtMs, codec);
         if (sequence === null) {
           this.counters.packetsUnsent++;
           continue;

@@ -1,6 +1,7 @@
 import type { Logger } from '@farpoint/service';
-import { availableEncoders, chooseEncoder, VideoError } from '@farpoint/video';
+import { availableEncoders, chooseEncoders, VideoError } from '@farpoint/video';
 import type { VideoCameraOptions } from '../robot-configuration.ts';
+import { CodecEncoders } from './codec-encoders.ts';
 import { isFeedSource } from './feed/feed-source.ts';
 import { FeedThread } from './feed/feed-thread.ts';
 import { ProcessEncoder } from './process-encoder.ts';
@@ -19,10 +20,11 @@ export async function openVideoCameras(
     const { encoders } = await availableEncoders();
     const thread = new FeedThread(log);
     return cameras.flatMap((camera) => {
-      const chosen = chooseEncoder(encoders, camera.encoder);
+      const chosen = chooseEncoders(encoders, camera.encoder);
       if (chosen.ok) {
-        log.info({ camera: camera.name, encoder: chosen.encoder.name }, 'camera with video');
-        return [videoCamera(camera, chosen.encoder, thread, log)];
+        const own = new CodecEncoders(chosen.encoders);
+        log.info({ camera: camera.name, encoder: own.names }, 'camera with video');
+        return [videoCamera(camera, own, thread, log)];
       }
       const { sentence, remedy } = chosen.failure;
       log.warn({ camera: camera.name, remedy }, `no video: ${sentence}`);
@@ -36,24 +38,26 @@ export async function openVideoCameras(
   }
 }
 
-export type ChosenEncoder = Extract<ReturnType<typeof chooseEncoder>, { ok: true }>['encoder'];
-
 function videoCamera(
   camera: VideoCameraOptions,
-  encoder: ChosenEncoder,
+  encoders: CodecEncoders,
   thread: FeedThread,
   log: Logger,
 ): VideoCamera {
   const { name, source, width, height, framesPerS, kbitPerS } = camera;
   const most = { width, height, framesPerSecond: framesPerS, bitsPerSecond: kbitPerS * 1000 };
-  const codec = encoder.codec === 'h264' ? 'H264' : 'VP8';
+  const { codecs } = encoders;
   if (isFeedSource(source)) {
-    const fed = { name, source, encoder };
-    return { name, codec, most, open: (format, events) => thread.open(fed, format, events) };
+    return {
+      ...{ name, codecs, most },
+      open: (codec, format, events) =>
+        thread.open({ name, source, encoder: encoders.of(codec) }, format, events),
+    };
   }
   const child = log.child({ camera: name });
   return {
-    ...{ name, codec, most },
-    open: (format, events) => new ProcessEncoder({ source, encoder }, format, events, child),
+    ...{ name, codecs, most },
+    open: (codec, format, events) =>
+      new ProcessEncoder({ source, encoder: encoders.of(codec) }, format, events, child),
   };
 }

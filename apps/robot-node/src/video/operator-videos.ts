@@ -1,4 +1,4 @@
-import { VIDEO_CLOCK_RATE } from '@farpoint/protocol';
+import { VIDEO_CLOCK_RATE, type VideoCodec } from '@farpoint/protocol';
 import type { PathBudget } from '../session/path-budget.ts';
 import type { StreamSender } from '../transport/stream-sender.ts';
 import type { VideoLine } from '../transport/video-line.ts';
@@ -7,6 +7,7 @@ import { VideoSender } from './video-sender.ts';
 
 /** A receiver uses the reports to relate a video's timestamps to time of day, ms. */
 const REPORT_MS = 1000;
+const NONE: ReadonlySet<VideoCodec> = new Set();
 
 /** One operator's videos, from its wishes to its m-lines. Before it has connected, nothing is sent. */
 export class OperatorVideos {
@@ -14,14 +15,15 @@ export class OperatorVideos {
   /** Whether the operator wants the capture time in the pictures. */
   barcode = false;
   readonly #budget: PathBudget;
-  readonly #mostBitsPerSecond: (video: number) => number;
+  readonly #mostBitsPerSecond: (video: number, codecs: ReadonlySet<VideoCodec>) => number;
   readonly #needsKeyFrame: (video: number) => void;
+  #codecs: ReadonlyMap<number, ReadonlySet<VideoCodec>> = new Map();
   #connected: { sender: StreamSender; videos: VideoSender } | null = null;
   #reportedMs = Number.NEGATIVE_INFINITY;
 
   constructor(
     budget: PathBudget,
-    mostBitsPerSecond: (video: number) => number,
+    mostBitsPerSecond: (video: number, codecs: ReadonlySet<VideoCodec>) => number,
     needsKeyFrame: (video: number) => void,
   ) {
     this.#budget = budget;
@@ -37,14 +39,20 @@ export class OperatorVideos {
     return this.#connected?.videos ?? null;
   }
 
+  /** What the operator decodes of a video; nothing if it refused the line. */
+  codecs(video: number): ReadonlySet<VideoCodec> {
+    return this.#codecs.get(video) ?? NONE;
+  }
+
   connect(sender: StreamSender, lines: readonly VideoLine[]): void {
     this.lines = lines;
-    const accepted: number[] = [];
-    for (const [video, { transport }] of lines.entries()) {
+    const accepted = new Map<number, ReadonlySet<VideoCodec>>();
+    for (const [video, { transport, payloadTypes }] of lines.entries()) {
       if (transport === null) continue;
       sender.addStream(streamOfVideo(video), transport);
-      accepted.push(video);
+      accepted.set(video, new Set(payloadTypes.keys()));
     }
+    this.#codecs = accepted;
     const videos = new VideoSender(accepted, (frame) => sender.enqueue(frame), this.#needsKeyFrame);
     sender.onPictureLoss = (stream) => videos.onPictureLoss(videoOfStream(stream));
     this.#connected = { sender, videos };
@@ -52,6 +60,7 @@ export class OperatorVideos {
 
   disconnect(): void {
     this.lines = [];
+    this.#codecs = new Map();
     this.barcode = false;
     this.#connected = null;
   }
@@ -66,7 +75,7 @@ export class OperatorVideos {
       () =>
         new Map(
           [...sender.wanted]
-            .map((video) => [video, this.#mostBitsPerSecond(video)] as const)
+            .map((video) => [video, this.#mostBitsPerSecond(video, this.codecs(video))] as const)
             .filter(([, bitsPerSecond]) => bitsPerSecond > 0),
         ),
     );

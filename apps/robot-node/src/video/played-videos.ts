@@ -1,10 +1,10 @@
 import { MAX_VIDEOS } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
-import { availableEncoders, chooseEncoder, VideoError } from '@farpoint/video';
+import { availableEncoders, chooseEncoders, VideoError } from '@farpoint/video';
 import type { Capture } from '../capture/capture.ts';
 import type { PlayedPicture } from '../capture/played-picture.ts';
 import { monotonicMs } from '../clock.ts';
-import type { ChosenEncoder } from './open-video-cameras.ts';
+import { CodecEncoders } from './codec-encoders.ts';
 import { ProcessEncoder } from './process-encoder.ts';
 import type { VideoCamera } from './video-encoder.ts';
 
@@ -31,20 +31,20 @@ export async function openPlayedVideos(
   const taken = new Set(besides.map(({ name }) => name));
   const names = (capture.description.videos ?? []).slice(0, MAX_VIDEOS - taken.size);
   if (names.length === 0) return [];
-  const encoder = await encoderFor(names, log);
-  if (encoder === null) return [];
+  const encoders = await encodersFor(names, log);
+  if (encoders === null) return [];
   const takers = new Map<number, (picture: PlayedPicture) => void>();
   capture.onVideo = (video, picture) => takers.get(video)?.(picture);
   return names.map((recorded, video) => {
     const name = taken.has(recorded) ? `${recorded.slice(0, 50)} (recorded)` : recorded;
-    log.info({ camera: name, encoder: encoder.name }, 'video from the recording');
+    log.info({ camera: name, encoder: encoders.names }, 'video from the recording');
     const camera: VideoCamera = {
       name,
-      codec: encoder.codec === 'h264' ? 'H264' : 'VP8',
+      codecs: encoders.codecs,
       most: { ...MOST, bitsPerSecond },
-      open: (format, events) => {
-        const source = { kind: 'frames' as const };
-        const opened = new ProcessEncoder({ source, encoder }, format, events, log.child({ camera: name }));
+      open: (codec, format, events) => {
+        const run = { source: { kind: 'frames' as const }, encoder: encoders.of(codec) };
+        const opened = new ProcessEncoder(run, format, events, log.child({ camera: name }));
         const openedMs = monotonicMs();
         let isLive = false;
         const take = ({ coding, bytes, capturedAtMs }: PlayedPicture) => {
@@ -80,15 +80,17 @@ export async function openPlayedVideos(
 }
 
 /** A robot drives without videos: the log says why it has none. */
-async function encoderFor(cameras: readonly string[], log: Logger): Promise<ChosenEncoder | null> {
+async function encodersFor(cameras: readonly string[], log: Logger): Promise<CodecEncoders | null> {
   const none = (sentence: string, remedy: string) => {
     log.warn({ cameras, remedy }, `no video from the recording: ${sentence}`);
     return null;
   };
   try {
     const { encoders } = await availableEncoders();
-    const chosen = chooseEncoder(encoders, 'auto');
-    return chosen.ok ? chosen.encoder : none(chosen.failure.sentence, chosen.failure.remedy);
+    const chosen = chooseEncoders(encoders, 'auto');
+    return chosen.ok
+      ? new CodecEncoders(chosen.encoders)
+      : none(chosen.failure.sentence, chosen.failure.remedy);
   } catch (error) {
     if (!(error instanceof VideoError)) throw error;
     return none(error.failure.sentence, error.failure.remedy);

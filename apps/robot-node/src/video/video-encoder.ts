@@ -30,9 +30,14 @@ export interface VideoEncoder {
 export interface VideoCamera {
   /** For people. */
   name: string;
-  codec: VideoCodec;
+  /** What it can be encoded with, in the order of preference; at least one. */
+  codecs: readonly VideoCodec[];
   /** What it is configured for; a slow link gets less. */
   most: VideoFormat;
-  /** Starts the camera and its encoder. Never throws: faults are events. */
-  open(format: EncodedFormat, events: VideoEncoderEvents): VideoEncoder;
+  /**
+   * Starts the camera and its encoder. Never throws: faults are events.
+   *
+   * @param codec one of its codecs
+   */
+  open(codec: VideoCodec, format: EncodedFormat, events: VideoEncoderEvents): VideoEncoder;
 }

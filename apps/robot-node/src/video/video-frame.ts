@@ -38,6 +38,7 @@ export class VideoFrame implements OutgoingFrame {
   readonly video: number;
   readonly stream: number;
   readonly lane: number;
+  readonly codec: VideoCodec;
   readonly key: boolean;
   readonly packets: number;
   readonly bytes: number;
@@ -58,6 +59,7 @@ export class VideoFrame implements OutgoingFrame {
         ? packetiseH264(bytes, MAX_PAYLOAD_BYTES)
         : packetiseVp8(bytes, pictureId, MAX_PAYLOAD_BYTES);
     this.video = video;
+    this.codec = codec;
     this.stream = streamOfVideo(video);
     this.lane = FIRST_LANE + video;
     this.key = key;

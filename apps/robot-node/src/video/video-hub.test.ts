@@ -1,66 +1,13 @@
+import { VIDEO_CODECS, type VideoCodec } from '@farpoint/protocol';
 import { beforeEach, describe, expect, it } from 'vitest';
-import type { VideoEncoder, VideoEncoderEvents } from './video-encoder.ts';
+import { FakeEncoder, FakeOperator } from './testing/fake-encoder.ts';
+import type { VideoEncoderEvents } from './video-encoder.ts';
 import type { VideoFrame } from './video-frame.ts';
-import { VideoHub, type VideoTarget } from './video-hub.ts';
+import { VideoHub } from './video-hub.ts';
 import type { EncodedFormat, VideoFormat } from './video-plan.ts';
 
+const all = new Set(VIDEO_CODECS);
 const most: VideoFormat = { width: 640, height: 480, framesPerSecond: 30, bitsPerSecond: 1e6 };
-
-/** Records what it is told; the test plays the camera. */
-class FakeEncoder implements VideoEncoder {
-  readonly events: VideoEncoderEvents;
-  readonly formats: EncodedFormat[];
-  keyFrames = 0;
-  dropped = 0;
-  closed = false;
-
-  constructor(format: EncodedFormat, events: VideoEncoderEvents) {
-    this.formats = [format];
-    this.events = events;
-  }
-
-  configure(format: EncodedFormat): void {
-    this.formats.push(format);
-  }
-
-  requestKeyFrame(): void {
-    this.keyFrames++;
-  }
-
-  close(): Promise<void> {
-    this.closed = true;
-    return Promise.resolve();
-  }
-
-  /** A VP8 key frame, or one that builds on others. */
-  picture(capturedAtMs: number, key = true): void {
-    const bytes = new Uint8Array(2000);
-    bytes.set(key ? [0x10, 0, 0, 0x9d, 0x01, 0x2a, 0x80, 0x02, 0xe0, 0x01] : [0x11]);
-    this.events.onPicture({ bytes, key, capturedAtMs, width: 640, height: 480 });
-  }
-}
-
-class FakeOperator implements VideoTarget {
-  readonly id: string;
-  streaming = true;
-  wantsBarcode = false;
-  wantedVideos: ReadonlySet<number> = new Set([0]);
-  bitsPerSecond: number;
-  readonly frames: VideoFrame[] = [];
-
-  constructor(id: string, bitsPerSecond: number) {
-    this.id = id;
-    this.bitsPerSecond = bitsPerSecond;
-  }
-
-  videoBitsPerSecond(): number {
-    return this.bitsPerSecond;
-  }
-
-  offerVideo(frame: VideoFrame): void {
-    this.frames.push(frame);
-  }
-}
 
 describe('VideoHub', () => {
   let encoders: FakeEncoder[];
@@ -78,15 +25,15 @@ describe('VideoHub', () => {
     changes = 0;
     recording = false;
     taken = [];
-    const open = (format: EncodedFormat, events: VideoEncoderEvents) => {
-      const encoder = new FakeEncoder(format, events);
+    const open = (codec: VideoCodec, format: EncodedFormat, events: VideoEncoderEvents) => {
+      const encoder = new FakeEncoder(codec, format, events);
       encoders.push(encoder);
       return encoder;
     };
     hub = new VideoHub({
       cameras: [
-        { name: 'Front', codec: 'VP8', most, open },
-        { name: 'Rear', codec: 'VP8', most, open },
+        { name: 'Front', codecs: ['VP8'], most, open },
+        { name: 'Rear', codecs: ['VP8'], most, open },
       ],
       targets: () => operators,
       taker: {
@@ -100,7 +47,7 @@ describe('VideoHub', () => {
     });
   });
 
-  it('opens a camera while somebody watches, and no other', () => {
+  it('opens a camera while somebody watches, and no other', async () => {
     hub.tick(0);
     expect(encoders).toHaveLength(0);
     operators = [new FakeOperator('a', 5e6)];
@@ -112,6 +59,7 @@ describe('VideoHub', () => {
     expect(encoders[0]!.closed).toBe(false);
     hub.tick(5000);
     expect(encoders[0]!.closed).toBe(true);
+    await new Promise((resolve) => setImmediate(resolve));
     operators = [new FakeOperator('b', 5e6)];
     hub.tick(6000);
     expect(encoders).toHaveLength(2);
@@ -136,12 +84,12 @@ describe('VideoHub', () => {
   it('claims nothing of the link for a camera without pictures', () => {
     operators = [new FakeOperator('a', 800_000)];
     hub.tick(0);
-    expect(hub.mostBitsPerSecond(0)).toBe(1e6);
+    expect(hub.mostBitsPerSecond(0, all)).toBe(1e6);
     encoders[0]!.events.onFault('unplugged');
-    expect(hub.mostBitsPerSecond(0)).toBe(0);
+    expect(hub.mostBitsPerSecond(0, all)).toBe(0);
     encoders[0]!.events.onFault(null);
-    expect(hub.mostBitsPerSecond(0)).toBe(1e6);
-    expect(hub.mostBitsPerSecond(7)).toBe(0);
+    expect(hub.mostBitsPerSecond(0, all)).toBe(1e6);
+    expect(hub.mostBitsPerSecond(7, all)).toBe(0);
   });
 
   it('encodes once for everyone, at the rate of the narrowest path', () => {

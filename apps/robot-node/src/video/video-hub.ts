@@ -1,5 +1,6 @@
-import type { VideoDescription } from '@farpoint/protocol';
+import type { VideoCodec, VideoDescription } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
+import { CodecChoice } from './codec-choice.ts';
 import type { VideoCamera } from './video-encoder.ts';
 import type { VideoFrame } from './video-frame.ts';
 import { VideoStream, type VideoWish } from './video-stream.ts';
@@ -11,6 +12,8 @@ export interface VideoTarget {
   readonly id: string;
   readonly streaming: boolean;
   readonly wantedVideos: ReadonlySet<number>;
+  /** What it decodes of a video. */
+  videoCodecs(video: number): ReadonlySet<VideoCodec>;
   /** Whether they are to carry their capture time. */
   readonly wantsBarcode: boolean;
   /** How much of the operator's path a video may take, bit/s without headers. */
@@ -25,7 +28,7 @@ export interface VideoHubOptions {
   driver: () => string | null;
   /** Takes the videos, too; `null` for nobody. */
   taker: VideoTaker | null;
-  /** A video has stopped or returned. */
+  /** A video has stopped or returned, or has another codec. */
   onStateChanged: () => void;
   /** Sends what is due. */
   onFrame: () => void;
@@ -38,6 +41,7 @@ const PLAN_MS = 200;
 export class VideoHub {
   readonly streams: readonly VideoStream[];
   readonly #options: VideoHubOptions;
+  readonly #choices: readonly CodecChoice[];
   #plannedMs = Number.NEGATIVE_INFINITY;
 
   constructor(options: VideoHubOptions) {
@@ -45,7 +49,7 @@ export class VideoHub {
     this.streams = options.cameras.map(
       (camera, video) =>
         new VideoStream(video, camera, {
-          onPicture: (picture) => options.taker?.take(video, picture),
+          onPicture: (picture, codec) => options.taker?.take(video, picture, codec),
           onFrame: (frame) => {
             for (const target of options.targets()) if (target.streaming) target.offerVideo(frame);
             options.onFrame();
@@ -59,20 +63,26 @@ export class VideoHub {
             options.log.warn({ camera: camera.name, detail }, 'a picture was dropped'),
         }),
     );
+    this.#choices = options.cameras.map(({ codecs }) => new CodecChoice(codecs));
   }
 
   /** Of each video what an operator is told, besides its m-line. */
   get descriptions(): Omit<VideoDescription, 'mid'>[] {
-    return this.streams.map(({ camera: { name, codec }, fault }) => ({
+    return this.streams.map(({ camera: { name }, codec, fault }) => ({
       ...{ name, codec },
       ...(fault === null ? {} : { fault: fault.slice(0, 256) }),
     }));
   }
 
-  /** A video's highest rate, bit/s without headers; 0 while it has no pictures, so that others get its share. */
-  mostBitsPerSecond(video: number): number {
+  /**
+   * A video's highest rate, bit/s without headers; 0 while it has no pictures, so that others get its share.
+   *
+   * @param codecs of whoever shall get it
+   */
+  mostBitsPerSecond(video: number, codecs: ReadonlySet<VideoCodec>): number {
     const stream = this.streams[video];
-    return stream === undefined || stream.fault !== null ? 0 : stream.camera.most.bitsPerSecond;
+    const has = stream !== undefined && stream.fault === null && codecs.has(stream.codec);
+    return has ? stream.camera.most.bitsPerSecond : 0;
   }
 
   requestKeyFrame(video: number): void {
@@ -83,11 +93,37 @@ export class VideoHub {
   tick(nowMs: number): void {
     if (nowMs - this.#plannedMs < PLAN_MS) return;
     this.#plannedMs = nowMs;
-    for (const stream of this.streams) stream.plan(this.#wish(stream.video), nowMs);
+    for (const stream of this.streams) {
+      const watching = this.#watching(stream.video);
+      // Those who can watch it only now have no share for it yet: their budgets follow.
+      if (this.#chooseCodec(stream, watching, nowMs)) this.#plannedMs = Number.NEGATIVE_INFINITY;
+      else stream.plan(this.#wish(stream, watching), nowMs);
+    }
   }
 
   async close(): Promise<void> {
     await Promise.all(this.streams.map((stream) => stream.close()));
+  }
+
+  #watching(video: number): VideoTarget[] {
+    return [...this.#options.targets()].filter(
+      ({ streaming, wantedVideos }) => streaming && wantedVideos.has(video),
+    );
+  }
+
+  /** @returns whether it has another from now on */
+  #chooseCodec(stream: VideoStream, watching: readonly VideoTarget[], nowMs: number): boolean {
+    const { driver, log, onStateChanged } = this.#options;
+    const holder = driver();
+    const watchers = watching.map((target) => ({
+      codecs: target.videoCodecs(stream.video),
+      drives: target.id === holder,
+    }));
+    const codec = this.#choices[stream.video]?.update(watchers, stream.format === null, nowMs);
+    if (codec === undefined || !stream.useCodec(codec)) return false;
+    log.info({ camera: stream.camera.name, codec }, 'a camera has another codec');
+    onStateChanged();
+    return true;
   }
 
   /**
@@ -95,18 +131,16 @@ export class VideoHub {
    *
    * @returns `null` if nobody wants the video
    */
-  #wish(video: number): VideoWish | null {
-    const watching = [...this.#options.targets()].filter(
-      ({ streaming, wantedVideos }) => streaming && wantedVideos.has(video),
-    );
+  #wish({ video, codec }: VideoStream, watching: readonly VideoTarget[]): VideoWish | null {
     const anyway = this.#options.taker?.wants(video) ?? false;
-    if (watching.length === 0) return anyway ? { bitsPerSecond: 0, anyway, barcode: false } : null;
-    const driver = watching.find(({ id }) => id === this.#options.driver());
-    const deciding = driver === undefined ? watching : [driver];
+    const seeing = watching.filter((target) => target.videoCodecs(video).has(codec));
+    const driver = seeing.find(({ id }) => id === this.#options.driver());
+    const deciding = driver === undefined ? seeing : [driver];
+    if (deciding.length === 0) return anyway ? { bitsPerSecond: 0, anyway, barcode: false } : null;
     return {
       anyway,
       bitsPerSecond: Math.min(...deciding.map((target) => target.videoBitsPerSecond(video))),
-      barcode: watching.some(({ wantsBarcode }) => wantsBarcode),
+      barcode: seeing.some(({ wantsBarcode }) => wantsBarcode),
     };
   }
 }

@@ -1,8 +1,10 @@
+import type { VideoCodec } from '@farpoint/protocol';
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { VideoFrame } from './video-frame.ts';
 import { VideoSender } from './video-sender.ts';
 
-const frame = (video: number, key = false) => ({ video, key }) as VideoFrame;
+const frame = (video: number, key = false, codec: VideoCodec = 'H264') =>
+  ({ video, key, codec }) as VideoFrame;
 
 describe('VideoSender', () => {
   let queued: VideoFrame[];
@@ -13,7 +15,10 @@ describe('VideoSender', () => {
     queued = [];
     asked = [];
     sender = new VideoSender(
-      [0, 1],
+      new Map<number, Set<VideoCodec>>([
+        [0, new Set(['H264', 'VP8'])],
+        [1, new Set(['H264'])],
+      ]),
       (each) => queued.push(each),
       (video) => asked.push(video),
     );
@@ -31,7 +36,22 @@ describe('VideoSender', () => {
     const [key, next] = [frame(0, true), frame(0)];
     for (const each of [frame(0), key, next, frame(1, true)]) sender.offer(each);
     expect(queued).toEqual([key, next]);
-    expect(sender.drops).toEqual({ 'no-key-frame': 1, overdue: 0 });
+    expect(sender.drops).toEqual({ 'other-codec': 0, 'no-key-frame': 1, overdue: 0 });
+  });
+
+  it('leaves out what the operator does not decode, and goes on with a key frame that it does', () => {
+    sender.want([0, 1]);
+    const first = [frame(0, true), frame(1, true)];
+    const other = [
+      frame(0, true, 'VP8'),
+      frame(1, true, 'VP8'),
+      frame(0, false, 'VP8'),
+      frame(1, false, 'VP8'),
+    ];
+    const back = [frame(1), frame(1, true), frame(0)];
+    for (const each of [...first, ...other, ...back]) sender.offer(each);
+    expect(queued).toEqual([...first, other[0], other[2], back[1]]);
+    expect(sender.drops).toEqual({ 'other-codec': 2, 'no-key-frame': 2, overdue: 0 });
   });
 
   it('ignores a video that the operator refused or that does not exist', () => {

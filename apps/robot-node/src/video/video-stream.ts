@@ -1,3 +1,4 @@
+import type { VideoCodec } from '@farpoint/protocol';
 import { VideoPayloadError } from '@farpoint/rtp';
 import { ReasonCounts } from '../telemetry/robot-counters.ts';
 import { RateTrim } from './rate-trim.ts';
@@ -7,7 +8,7 @@ import { type EncodedFormat, VideoPlanner } from './video-plan.ts';
 
 export interface VideoStreamEvents {
   /** A picture is encoded: called before `onFrame`, also while the operators' path carries no video. */
-  onPicture(picture: EncodedPicture): void;
+  onPicture(picture: EncodedPicture, codec: VideoCodec): void;
   /** A frame for operators. */
   onFrame(frame: VideoFrame): void;
   onFault(fault: string | null): void;
@@ -43,13 +44,19 @@ export class VideoStream {
   readonly failures = new ReasonCounts();
   readonly #events: VideoStreamEvents;
   readonly #planner: VideoPlanner;
-  readonly #trim = new RateTrim();
+  #codec: VideoCodec;
+  /** Of the present encoder. */
+  #trim = new RateTrim();
   #encoder: VideoEncoder | null = null;
+  /** The encoder before, while it closes: two cannot have one camera. */
+  #closing: Promise<void> | null = null;
   #format: EncodedFormat | null = null;
   #wantedMs = 0;
   #droppedBefore = 0;
   #lastCapturedMs = Number.NEGATIVE_INFINITY;
   #pictureId = 0;
+  /** Nothing of the present codec can be decoded yet. */
+  #needsKey = false;
   /** The operators' path carries no video at present. */
   #paused = false;
   /** Nothing that the encoder gives is used at present. */
@@ -58,8 +65,14 @@ export class VideoStream {
   constructor(video: number, camera: VideoCamera, events: VideoStreamEvents) {
     this.video = video;
     this.camera = camera;
+    this.#codec = camera.codecs[0] as VideoCodec;
     this.#events = events;
     this.#planner = new VideoPlanner(camera.most);
+  }
+
+  /** What it is encoded with, or would be if anybody watched. */
+  get codec(): VideoCodec {
+    return this.#codec;
   }
 
   /** What is encoded at present; `null` if the camera is closed. */
@@ -76,10 +89,25 @@ export class VideoStream {
     this.#encoder?.requestKeyFrame();
   }
 
+  /**
+   * Encodes with another of the camera's codecs: its encoder is closed, and the next begins with a key frame.
+   *
+   * @returns whether that is a change
+   */
+  useCodec(codec: VideoCodec): boolean {
+    if (codec === this.#codec) return false;
+    this.#codec = codec;
+    this.#trim = new RateTrim();
+    this.fault = null;
+    this.#needsKey = true;
+    void this.#closeEncoder();
+    return true;
+  }
+
   /** @param wish `null` if nobody wants the video */
   plan(wish: VideoWish | null, nowMs: number): void {
     if (wish === null) {
-      if (this.#encoder !== null && nowMs - this.#wantedMs >= LINGER_MS) void this.close();
+      if (this.#format !== null && nowMs - this.#wantedMs >= LINGER_MS) void this.close();
       return;
     }
     this.#wantedMs = nowMs;
@@ -100,13 +128,23 @@ export class VideoStream {
   }
 
   async close(): Promise<void> {
-    const encoder = this.#encoder;
-    if (encoder === null) return;
-    this.#droppedBefore += encoder.dropped;
-    this.#encoder = null;
     this.#format = null;
     this.fault = null;
-    await encoder.close();
+    await this.#closeEncoder();
+  }
+
+  /** Resolves when the camera is free. What is wanted then is opened. */
+  async #closeEncoder(): Promise<void> {
+    const encoder = this.#encoder;
+    if (encoder !== null) {
+      this.#encoder = null;
+      this.#droppedBefore += encoder.dropped;
+      this.#closing = encoder.close().then(() => {
+        this.#closing = null;
+        if (this.#format !== null) this.#open(this.#format);
+      });
+    }
+    await this.#closing;
   }
 
   /** Tells the encoder what to give, corrected by what it gave. */
@@ -117,8 +155,9 @@ export class VideoStream {
 
   #open(format: EncodedFormat): void {
     this.#format = format;
+    if (this.#closing !== null) return;
     this.#trim.reset();
-    const encoder = this.camera.open(format, {
+    const encoder = this.camera.open(this.#codec, format, {
       onPicture: (picture) => {
         if (this.#encoder === encoder) this.#onPicture(picture);
       },
@@ -137,11 +176,16 @@ export class VideoStream {
     const format = this.#format;
     // Receivers take equal or falling timestamps for parts of one picture, or for a fault.
     if (format === null || this.#idle || picture.capturedAtMs <= this.#lastCapturedMs) return;
+    if (this.#needsKey && !picture.key) {
+      // Its first was older than what was shown before: a played recording begins so.
+      this.requestKeyFrame();
+      return;
+    }
+    this.#needsKey = false;
     const { framesPerSecond, bitsPerSecond } = format;
     if (this.#trim.onPicture(picture.bytes.length, bitsPerSecond / 8 / framesPerSecond))
       this.#configure(format);
-    const { video, counters } = this;
-    const { codec } = this.camera;
+    const { video, counters, codec } = this;
     let frame: VideoFrame;
     try {
       frame = new VideoFrame(picture, { video, codec, pictureId: this.#pictureId, framesPerSecond });
@@ -156,7 +200,7 @@ export class VideoStream {
     counters.frames++;
     counters.bytes += picture.bytes.length;
     if (picture.key) counters.keyFrames++;
-    this.#events.onPicture(picture);
+    this.#events.onPicture(picture, codec);
     if (!this.#paused) this.#events.onFrame(frame);
   }
 }

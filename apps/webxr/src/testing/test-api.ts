@@ -9,6 +9,7 @@ import type {
   SessionLoss,
   SessionPhase,
   SignalingState,
+  VideoCodec,
 } from '@farpoint/operator';
 import type { DriveState, LatencyFrame } from '@farpoint/protocol';
 import type { PageStats } from '../status/page-stats.ts';
@@ -70,6 +71,8 @@ export interface CameraProbe {
 /** A video's panel. */
 export interface VideoProbe {
   name: string;
+  /** What the robot encodes it with now; `null` before it has said so. */
+  codec: VideoCodec | null;
   shown: boolean;
   /** Pixels of the newest frame. */
   width: number;

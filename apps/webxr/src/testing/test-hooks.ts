@@ -104,6 +104,7 @@ export function installTestApi(app: App): void {
     },
     videos: () =>
       app.state.videos.views.value.map(({ camera, canvas, newest, ageMs, fault }, video) => ({
+        codec: app.videos.codecOf(video),
         ...{ name: camera.name, shown: camera.on.value, width: canvas.width, height: canvas.height },
         ...{ ageMs: ageMs.value, frames: newest.value?.number ?? 0, fault: fault.value },
         captureMs: app.videos.captureMs.get(video) ?? null,

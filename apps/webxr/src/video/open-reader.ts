@@ -6,6 +6,7 @@ import type { VideoImage } from './video-image.ts';
 export interface VideoSource {
   readonly track: MediaStreamTrack;
   readonly receiver: RTCRtpReceiver;
+  /** What it has at first. */
   readonly codec: VideoCodec;
 }
 
@@ -27,6 +28,8 @@ export interface ReaderEvents {
 
 export interface Reader {
   close(): void;
+  /** The video has another codec from some frame on; absent where the browser sees to that by itself. */
+  useCodec?(codec: VideoCodec): void;
   /** Frames that arrived and were not decoded so far, where that can be known. */
   readonly undecoded?: Readonly<Record<string, number>>;
 }

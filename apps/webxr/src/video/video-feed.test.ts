@@ -1,4 +1,4 @@
-import type { Batch, RobotClient, RobotEvents, VideoDescription } from '@farpoint/operator';
+import type { Batch, RobotClient, RobotEvents, VideoCodec, VideoDescription } from '@farpoint/operator';
 import { signal } from '@preact/signals-core';
 import { describe, expect, test } from 'vitest';
 import { PresentedInstant } from '../telemetry/presented-instant.ts';
@@ -15,6 +15,8 @@ class Bench {
     () => ({ width: 0, height: 0, getContext: () => null }) as unknown as HTMLCanvasElement,
   );
   readonly readers = new Map<string, (frame: ReadFrame) => void>();
+  /** What readers were told. */
+  readonly codecs: string[] = [];
   readonly feed: VideoFeed;
   readonly presented = new PresentedInstant();
   open = 0;
@@ -85,7 +87,10 @@ class Bench {
 
   #read(id: string, onFrame: (frame: ReadFrame) => void) {
     this.readers.set(id, onFrame);
-    return { close: () => this.readers.delete(id) };
+    return {
+      close: () => this.readers.delete(id),
+      useCodec: (codec: VideoCodec) => this.codecs.push(`${id} ${codec}`),
+    };
   }
 }
 
@@ -144,6 +149,22 @@ describe('the videos’ feed', () => {
     expect(bench.frames[0]).toBe(2);
     // Only what waits in the compositor is measured.
     expect(bench.feed.stats(nowMs).spreadMs).toBe(null);
+  });
+
+  test('tells the reader of another codec, and no other reader', () => {
+    const bench = new Bench().begin();
+    bench.views.cannotShow(0, 'This browser cannot decode this video.');
+    const videos: VideoDescription[] = [
+      { name: 'left', mid: '1', codec: 'VP8' },
+      { name: 'right', mid: '2', codec: 'H264' },
+    ];
+    for (let i = 0; i < 2; i++) bench.say('videos', videos);
+    expect(bench.codecs).toEqual(['t0 VP8']);
+    expect(bench.views.views.value.map(({ fault }) => fault.value)).toEqual([null, null]);
+    bench.frame('t0');
+    bench.frame('t1');
+    bench.feed.tick(bench.nowMs);
+    expect(bench.frames).toEqual([1, 1]);
   });
 
   test('reads the videos that are on, and closes what waits of one that is switched off', () => {

@@ -7,6 +7,7 @@ import {
   Compositor,
   captureMsOfStamp,
   type RobotClient,
+  type VideoCodec,
   type VideoDescription,
   type VideoTrack,
 } from '@farpoint/operator';
@@ -74,9 +75,7 @@ export class VideoFeed {
       holds: (source) => source.startsWith(VIDEO),
     });
     client.on('session', () => this.#reset());
-    client.on('videos', (videos) => {
-      this.#listed = videos;
-    });
+    client.on('videos', (videos) => this.#onList(videos));
     client.on('videoTrack', (track) => this.#onTrack(track));
     client.on('cloud', (batch) => this.#onCloud(batch));
     effect(() => {
@@ -102,6 +101,11 @@ export class VideoFeed {
       this.#figures.onShown(video, nowMs - takenAtMs);
     }
     this.onPresented?.();
+  }
+
+  /** What the robot encodes a video with now; `null` if it has said nothing of it. */
+  codecOf(video: number): VideoCodec | null {
+    return this.#listed[video]?.codec ?? null;
   }
 
   /** Call this a few times a second. */
@@ -132,6 +136,18 @@ export class VideoFeed {
     this.#cloudFrame = null;
     this.shownMs = null;
     this.captureMs.clear();
+  }
+
+  /** The robot encodes a video with the codec that suits those who watch: it may change. */
+  #onList(videos: readonly VideoDescription[]): void {
+    const before = this.#listed;
+    this.#listed = videos;
+    for (const [video, reader] of this.#readers) {
+      const codec = videos[video]?.codec;
+      if (codec === undefined || codec === before[video]?.codec) continue;
+      this.#parts.views.mayShow(video);
+      reader.useCodec?.(codec);
+    }
   }
 
   #onTrack(videoTrack: VideoTrack): void {

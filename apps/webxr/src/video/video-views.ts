@@ -46,6 +46,12 @@ export class VideoViews {
     this.#obstacles.value = new Map(this.#obstacles.peek()).set(video, words);
   }
 
+  /** What this browser could not do may be otherwise from now on. */
+  mayShow(video: number): void {
+    const obstacles = new Map(this.#obstacles.peek());
+    if (obstacles.delete(video)) this.#obstacles.value = obstacles;
+  }
+
   /** Draws the picture and closes it. Times are on the page's clock. */
   show(video: number, image: VideoImage, takenAtMs: number, nowMs: number): void {
     this.views.peek()[video]?.draw(image.image, image.width, image.height, takenAtMs, nowMs);

@@ -1,6 +1,7 @@
 /// <reference lib="webworker" />
 /** The worker that takes videos' encoded frames from the browser's receivers and decodes them. */
 import type { VideoCodec } from '@farpoint/operator';
+import { codecOfFrame } from './codec-of-frame.ts';
 import { standInPicture } from './stand-in-picture.ts';
 import { VideoDecoding, type VideoDecodingPort } from './video-decoding.ts';
 import type { FromVideoWorker, ToVideoWorker, VideoTransformOptions } from './worker-messages.ts';
@@ -15,15 +16,16 @@ const TELL_DROPS_EVERY_MS = 250;
 const receptions = new Map<number, Reception>();
 
 interface Reception {
+  /** As the page says; `null` if nobody wants the frames. */
   codec: VideoCodec | null;
-  decoding: VideoDecoding | null;
+  decoding: { readonly codec: VideoCodec; readonly video: VideoDecoding } | null;
 }
 
 self.onmessage = ({ data: { receiver, codec } }: MessageEvent<ToVideoWorker>) => {
   const reception = receptionOf(receiver);
   if (reception.codec === codec) return;
-  reception.decoding?.close();
-  Object.assign(reception, { codec, decoding: null });
+  reception.codec = codec;
+  if (codec === null) end(reception);
 };
 
 self.onrtctransform = ({ transformer }: RTCTransformEvent) => void receive(transformer);
@@ -34,6 +36,12 @@ function receptionOf(receiver: number): Reception {
   return reception;
 }
 
+/** Decodes no more with the present decoder. */
+function end(reception: Reception): void {
+  reception.decoding?.video.close();
+  reception.decoding = null;
+}
+
 async function receive(transformer: RTCRtpScriptTransformer): Promise<void> {
   const { receiver } = transformer.options as VideoTransformOptions;
   const reception = receptionOf(receiver);
@@ -42,10 +50,11 @@ async function receive(transformer: RTCRtpScriptTransformer): Promise<void> {
   const back = (transformer.writable as WritableStream<RTCEncodedVideoFrame>).getWriter();
   try {
     for await (const frame of frames) {
-      const { codec } = reception;
-      if (codec !== null) {
-        reception.decoding ??= new VideoDecoding(codec, port);
-        reception.decoding.take(frame, rtpTimestampOf(frame));
+      if (reception.codec !== null) {
+        const codec = codecOfFrame(frame.getMetadata()) ?? reception.codec;
+        if (reception.decoding?.codec !== codec) end(reception);
+        reception.decoding ??= { codec, video: new VideoDecoding(codec, port) };
+        reception.decoding.video.take(frame, rtpTimestampOf(frame));
         frame.data = standInPicture(codec);
       }
       await back.write(frame);
@@ -53,7 +62,7 @@ async function receive(transformer: RTCRtpScriptTransformer): Promise<void> {
   } catch {
     // The connection has ended.
   } finally {
-    reception.decoding?.close();
+    end(reception);
     receptions.delete(receiver);
   }
 }

@@ -38,6 +38,9 @@ export class WebCodecsReceiver {
     this.#videos.set(receiver, video);
     this.#tell({ receiver, codec: source.codec });
     return {
+      useCodec: (codec) => {
+        if (this.#videos.get(receiver) === video) this.#tell({ receiver, codec });
+      },
       close: () => {
         if (this.#videos.get(receiver) !== video) return;
         this.#videos.delete(receiver);

@@ -8,7 +8,10 @@ export interface VideoTransformOptions {
   readonly receiver: number;
 }
 
-/** How frames of this receiver are to be decoded: not at all (`null`) at first. */
+/**
+ * How frames of this receiver are to be decoded: not at all (`null`) at first. Where the browser tells a frame's codec
+ * itself, that counts: frames may come sooner than the message.
+ */
 export interface ToVideoWorker {
   readonly receiver: number;
   readonly codec: VideoCodec | null;
