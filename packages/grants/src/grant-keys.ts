@@ -20,7 +20,9 @@ export class GrantKeysError extends Error {
 export const MAX_KEYS = 16;
 
 const coordinate = z.string().check(z.regex(/^[A-Za-z0-9_-]{43}$/));
-export const keyIdSchema = z.string().check(z.minLength(1), z.maxLength(128));
+export const keyIdSchema = z
+  .string()
+  .check(z.minLength(1), z.maxLength(128), z.regex(/^[^\p{Cc}]*$/u, 'must have no control characters'));
 const common = { kid: keyIdSchema, use: z.optional(z.literal('sig')) };
 
 /** A public key for grants; other members are ignored. */

@@ -55,12 +55,13 @@ export async function issueGrant(claims: GrantClaims, { keyId, alg, key }: Signi
 /**
  * Verifies a grant for a robot, without its holder's proof.
  *
+ * @param robot its id; `null` to ask about no robot in particular
  * @param nowS seconds since 1970
  * @throws {GrantRefusedError}
  */
 export async function verifyGrant(
   text: string,
-  { keys, robot, nowS }: { keys: GrantKeys; robot: string; nowS: number },
+  { keys, robot, nowS }: { keys: GrantKeys; robot: string | null; nowS: number },
 ): Promise<Grant> {
   const { alg, kid } = readHeader(GRANT, headerSchema, text);
   const known = keys.get(kid);
@@ -76,7 +77,7 @@ export async function verifyGrant(
   if (Math.max(iat, nbf) > nowS + ISSUER_LEEWAY_S)
     throw new GrantRefusedError('grant-not-yet', `begins ${inWords(Math.max(iat, nbf) - nowS)} from now`);
   if (exp <= nowS) throw new GrantRefusedError('grant-expired', `ended ${inWords(nowS - exp)} ago`);
-  if (!coversRobot(robots, robot))
+  if (robot !== null && !coversRobot(robots, robot))
     throw new GrantRefusedError('grant-other-robot', `it is for ${robots.join(', ')}`);
   return toGrant(claims, kid);
 }

@@ -27,5 +27,6 @@ export {
 export * from './operator-key.ts';
 export { MAX_PROOF_LENGTH, makeProof, PROOF_LEEWAY_S, type SessionFacts, verifyProof } from './proof.ts';
 export * from './refusal.ts';
+export { makeSigningKey, type NewSigningKey, parseSigningKey } from './signing-key.ts';
 export { fingerprintSchema, soleFingerprint } from './sole-fingerprint.ts';
 export * from './ticket.ts';
