@@ -69,6 +69,9 @@ export class GrantGate {
     const { keys, robot, log, nowS } = this.#options;
     try {
       const grant = await admit(request, { keys: keys(), robot, offer: entry.offer, nowS: nowS() });
+      // The keys may have been read again in the meantime.
+      if (!keys().has(grant.keyId))
+        throw new GrantRefusedError('grant-untrusted', 'its key has just been removed');
       entry.state = 'admitted';
       const { subject, name, role, expiresAtS, keyId } = grant;
       return { verdict: 'admitted', access: { subject, name, role, expiresAtS, keyId } };

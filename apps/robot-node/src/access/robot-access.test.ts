@@ -1,5 +1,5 @@
-import { parseGrantKeys } from '@farpoint/grants';
-import { makeIssuer } from '@farpoint/grants/testing';
+import { makeProof, parseGrantKeys } from '@farpoint/grants';
+import { grantTo, makeIssuer } from '@farpoint/grants/testing';
 import { silentLogger } from '@farpoint/service';
 import { expect, it, vi } from 'vitest';
 import { ReasonCounts } from '../telemetry/robot-counters.ts';
@@ -31,7 +31,7 @@ async function setUp() {
     nowS += s;
     nowMs += s * 1000;
   };
-  return { access, operator, pass, log, refusals, file };
+  return { access, operator, pass, log, refusals, file, issuer: first };
 }
 
 const granted: Access = { role: 'drive', subject: 'a', name: 'Ada', expiresAtS: 1100, keyId: 'k1' };
@@ -110,4 +110,28 @@ it('after a reload, ends the sessions of keys that are gone, and no others', asy
   await access.reload(() => all);
   expect(old.close).toHaveBeenCalledExactlyOnceWith('not-granted', expect.any(String));
   expect([other.close.mock.calls, fresh.close.mock.calls]).toEqual([[], []]);
+});
+
+it('admits an operator with what its grant says, unless its key is removed meanwhile', async () => {
+  const { access, operator, file, issuer, refusals } = await setUp();
+  const fingerprint = Array.from({ length: 32 }, () => 'AB').join(':');
+  const sdp = `v=0\r\na=fingerprint:sha-256 ${fingerprint}\r\n`;
+  const { grant, key } = await grantTo(issuer, 1000, { role: 'supervise' });
+  const ask = async (session: string) => {
+    const { made } = operator(session);
+    access.offered(made, sdp);
+    const fingerprints = { operatorFingerprint: fingerprint, robotFingerprint: fingerprint };
+    const proof = await makeProof(grant, { robot: 'r1', session, ...fingerprints }, key, 1000);
+    return { made, answer: { session, sdp, grant, proof } };
+  };
+  const first = await ask('s1');
+  expect(await access.admits(first.made, first.answer)).toBe(true);
+  expect(first.made.messages.access).toMatchObject({ role: 'supervise', subject: 'ada', keyId: 'k1' });
+  // An answer to a later offer, of an ICE restart.
+  expect(await access.admits(first.made, { session: 's1', sdp: 'v=0' })).toBe(true);
+  const second = await ask('s2');
+  const pending = access.admits(second.made, second.answer);
+  file.keys = new Map();
+  expect(await pending).toBe(false);
+  expect([second.made.messages.access.role, refusals.get('grant-untrusted')]).toEqual(['watch', 1]);
 });
