@@ -60,7 +60,7 @@ test('every file that CONTRIBUTING.md names exists', () => {
 });
 
 /** Sources that run in a browser. Parts for Node only have an export of their own. */
-const BROWSER = /^(?:packages\/(?:janus|protocol|timing|rtp|operator|cloud-view)|apps\/webxr)\/src\//;
+const BROWSER = /^(?:packages\/(?:grants|janus|protocol|timing|rtp|operator|cloud-view)|apps\/webxr)\/src\//;
 const FOR_NODE = /^packages\/rtp\/src\/srtp\//;
 
 test('browser code uses nothing of Node', () => {

@@ -90,6 +90,13 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
     refused: /--tls-cert names a file that cannot be read: fullchain\.pem does not exist/,
     also: ['--host', '127.0.0.1', '--port', '0', '--no-reference'],
   },
+  'pnpm signaling grant …': { help: true },
+  'node signaling.mjs grant keygen': { help: true },
+  "node signaling.mjs grant issue --name 'Ada Lovelace' --role drive --robots 'kitchen-*' --days 30 --for THUMBPRINT":
+    { help: true },
+  "node signaling.mjs grant issue --name Grace --role supervise --robots '*' --days 7 --with-key > grace.ticket":
+    { help: true },
+  'node signaling.mjs grant show grace.ticket --keys grant-keys.json --robot kitchen-1': { help: true },
   'npx -y pnpm@12 conformance signaling --robot ws://HOST:3001 --client ws://HOST:3002': { help: true },
   'npx -y pnpm@12 conformance robot --name ROBOT --client ws://HOST:3002': { help: true },
   'npx -y pnpm@12 conformance bridge --robot ws://HOST:3001 --client ws://HOST:3002 --control ws://HOST:8085 --telemetry ws://HOST:8090 --streaming ws://HOST:8095':
@@ -105,6 +112,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'farpoint-robot doctor --config /etc/farpoint/robot.yaml': { help: true },
   'farpoint-robot init --source KIND': { help: true },
   'farpoint-robot init --source ros2': { help: true },
+  'systemctl kill -s HUP farpoint-robot': { because: 'needs systemd' },
   'sudo systemctl start farpoint-robot': { because: 'needs systemd' },
   'systemctl status farpoint-robot': { because: 'needs systemd' },
   'sudo systemctl kill -s KILL farpoint-robot': { because: 'needs systemd' },

@@ -24,6 +24,8 @@ export interface RobotOptions extends RateControlOptions {
   id: string;
   name: string;
   signaling: Pick<SignalingOptions, 'url' | 'key' | 'token' | 'ca'>;
+  /** File with the keys whose grants admit operators; if undefined, everybody is admitted. */
+  grantKeys?: string | undefined;
   /** Sources of clouds, the main one first. */
   sensors: readonly CloudSensorOptions[];
   /** Simulated wheels; `null` for real ones. */

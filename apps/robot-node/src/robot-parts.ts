@@ -1,4 +1,5 @@
 import type { Logger } from '@farpoint/service';
+import { GrantKeysFile } from './access/grant-keys-file.ts';
 import { BaseThread } from './base/base-thread.ts';
 import type { Capture } from './capture/capture.ts';
 import { openSink } from './drive/open-sink.ts';
@@ -19,12 +20,20 @@ export interface RobotParts {
   base: BaseThread | null;
   sink: VelocitySink;
   recording: SessionRecording | null;
+  /** `null` if everybody is admitted. */
+  grantKeys: GrantKeysFile | null;
   /** The cameras that are streamed as video. */
   videos: readonly VideoCamera[];
 }
 
-/** Opens everything, or nothing. @throws {CaptureError} if a source of clouds cannot be opened */
+/**
+ * Opens everything, or nothing.
+ *
+ * @throws {CaptureError} if a source of clouds cannot be opened
+ * @throws {GrantKeysError} if the keys for grants cannot be used
+ */
 export async function openParts(options: RobotOptions, log: Logger): Promise<RobotParts> {
+  const grantKeys = options.grantKeys === undefined ? null : await GrantKeysFile.open(options.grantKeys);
   const { record = null, foxglove = null, id } = options;
   const recording =
     record === null && foxglove === null ? null : await SessionRecording.open({ record, foxglove }, id, log);
@@ -42,7 +51,7 @@ export async function openParts(options: RobotOptions, log: Logger): Promise<Rob
     const videos =
       main === undefined ? cameras : [...cameras, ...(await openPlayedVideos(main, played, log))];
     if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond, videos);
-    return { captures, base, sink: openSink(options.sink, base, log), recording, videos };
+    return { captures, base, sink: openSink(options.sink, base, log), recording, videos, grantKeys };
   } catch (error) {
     for (const capture of captures) await capture.close();
     await base?.close();

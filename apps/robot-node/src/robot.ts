@@ -53,6 +53,7 @@ export class Robot {
   reference: ReferenceProfile | null = null;
   readonly cameras: RobotCameras;
   readonly sound: RobotSound;
+  readonly sessions: OperatorSessions;
   /** What feeds viewers through a relay; `null` if it is not enabled. */
   readonly broadcast: Broadcast | null;
   /** Called if the robot cannot continue. */
@@ -66,7 +67,6 @@ export class Robot {
   readonly #host: RobotSessionHost;
   readonly #sink: VelocitySink;
   readonly #sendLoop = new SendLoop(monotonicMs, threadCpuMs);
-  readonly #sessions: OperatorSessions;
   readonly #paths: PathKeeper;
   readonly #board: TelemetryBoard;
   readonly #reports: RobotReports;
@@ -78,7 +78,7 @@ export class Robot {
   #failed = false;
 
   private constructor(parts: RobotParts, options: RobotOptions, log: Logger) {
-    const { captures, base, sink, recording, videos } = parts;
+    const { captures, base, sink, recording, videos, grantKeys } = parts;
     this.recording = recording;
     this.#options = options;
     this.#log = log;
@@ -106,9 +106,9 @@ export class Robot {
       now: monotonicMs,
     });
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
-    this.#sessions = new OperatorSessions(
+    this.sessions = new OperatorSessions(
       {
-        ...{ most: options.maxOperators, iceServers: options.iceServers },
+        ...{ id: options.id, most: options.maxOperators, iceServers: options.iceServers, grantKeys },
         peer: {
           ...this.#peerOptions,
           pictures: capture.cameras.length > 0,
@@ -126,7 +126,7 @@ export class Robot {
         resume: (request, iceServers) => void this.#paths.resume(request, iceServers),
         connected: (operator) => {
           const { quantities, alarms } = this.#board;
-          const told = { ...options, quantities, alarms: alarms.raised };
+          const told = { ...options, quantities, alarms: alarms.raised, nowS: Date.now() / 1000 };
           welcome(operator, told, this.sensors, this.cameras.videos);
           this.sound.welcome(operator);
           this.sensors.updateBudgets();
@@ -193,7 +193,7 @@ export class Robot {
       limits: silenceLimits(options.silenceMs),
       leaseChanged: () => this.#host.leaseChanged(),
     });
-    this.signaling.onMessage = (message) => this.#sessions.onSignaling(message);
+    this.signaling.onMessage = (message) => this.sessions.onSignaling(message);
     this.#sendLoop.onWork = (ms) => this.counters.stageSeconds.add('send', ms / 1000);
     if (base !== null) {
       base.onState = (state) => {
@@ -234,7 +234,7 @@ export class Robot {
   }
 
   get operators(): ReadonlyMap<string, OperatorSession> {
-    return this.#sessions.operators;
+    return this.sessions.operators;
   }
 
   /** Time since the capture thread last gave a sign of life, ms; 0 before the first. */
@@ -249,7 +249,7 @@ export class Robot {
     this.drive.apply();
     clearInterval(this.#ticking);
     const reported = this.#reports.close();
-    this.#sessions.close();
+    this.sessions.close();
     this.reference?.close();
     const broadcastClosed = this.broadcast?.close();
     this.drive.close();
@@ -288,6 +288,7 @@ export class Robot {
 
   #tick(): void {
     this.#paths.tick();
+    this.sessions.tick();
     this.reference?.tick();
     this.broadcast?.tick();
     this.cameras.tick(monotonicMs());

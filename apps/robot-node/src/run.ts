@@ -34,6 +34,13 @@ export async function run(): Promise<void> {
       log.fatal({ err: error }, 'the source failed');
       void shutdown.end('the source failed', 1);
     };
+    if (robotOptions.grantKeys !== undefined) {
+      process.on('SIGHUP', () => {
+        robot.sessions.reloadGrantKeys().catch((error: unknown) => {
+          log.error({ err: error }, 'could not read the keys for grants again: the old ones stay in force');
+        });
+      });
+    }
     registerRobotMetrics(metrics, robot);
     // Connected operators go on without signaling, so its loss is not a failure of the robot.
     health.add('signaling', () => ({ ok: true, detail: { registered: robot.signaling.registered } }));

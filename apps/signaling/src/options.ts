@@ -25,6 +25,7 @@ export const program = defineProgram({
   summary: 'Introduces robots and operators: Farpoint sessions, and the signaling of the reference system.',
   version: manifest.version,
   section: 'signaling',
+  commands: { grant: 'makes keys, issues grants, and shows what is in them' },
   options: {
     host: defineOption({
       schema: schema.text(),

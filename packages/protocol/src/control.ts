@@ -102,6 +102,7 @@ export const commandRejections = [
   'out-of-range', // beyond the robot's limits, or on an axis it does not have
   'stale', // sent too long ago
   'repeated', // a sequence number not after that of the last fresh command
+  'not-permitted', // the operator's grant does not let it drive
   'not-lease-holder', // another operator drives, or nobody has requested the lease
   'dead-man-released', // motion requested without the grip
   'let-go-first', // motion with a grip that was held while no command got through for a long time

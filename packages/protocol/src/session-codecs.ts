@@ -8,6 +8,7 @@ import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
 import { quantitySchema } from './quantity.ts';
+import { roles } from './role.ts';
 import { sensorRingsSchema, sensorSchema } from './sensor-rings.ts';
 import type { RobotSessionMessage } from './session-messages.ts';
 import type { OperatorSessionMessage } from './session-requests.ts';
@@ -17,6 +18,7 @@ import { MAX_VIDEOS, VIDEO_CODECS } from './video-media.ts';
 const positive = z.number().check(z.positive());
 const cameraSchema = z.int().check(z.minimum(0), z.maximum(MAX_CAMERAS - 1));
 const videoSchema = z.int().check(z.minimum(0), z.maximum(MAX_VIDEOS - 1));
+const secondsSchema = z.int().check(z.minimum(0), z.maximum(Number.MAX_SAFE_INTEGER));
 const weightSchema = z.int().check(z.minimum(1), z.maximum(100));
 /** An SDP token (RFC 8866 §9) that fits a one-byte header extension. */
 export const midSchema = z.string().check(z.regex(/^[!#-'*+.0-9A-Z^-~-]{1,16}$/));
@@ -55,11 +57,15 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
         framesPerSecond: positive,
       }),
       resumeKey: z.optional(handleSchema),
+      access: z.optional(
+        z.strictObject({ role: z.enum(roles), name: displayNameSchema, expiresInS: secondsSchema }),
+      ),
     }),
     z.strictObject({
       type: z.literal('lease'),
       holder: z.enum(['you', 'other', 'nobody']),
       lease: z.optional(handleSchema),
+      driver: z.optional(displayNameSchema),
     }),
     z.strictObject({
       type: z.literal('rejected'),
@@ -112,7 +118,12 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
     sensorRingsSchema,
     quantitySchema,
     alarmSchema,
-    z.strictObject({ type: z.literal('fault'), message: z.string().check(z.maxLength(512)) }),
+    z.strictObject({ type: z.literal('expires'), inS: secondsSchema }),
+    z.strictObject({
+      type: z.literal('fault'),
+      message: z.string().check(z.maxLength(512)),
+      reason: z.optional(z.literal('not-permitted')),
+    }),
   ]),
   maxBytes: 4096,
 };

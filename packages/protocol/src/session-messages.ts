@@ -5,6 +5,7 @@ import type { Alarm } from './alarm.ts';
 import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
 import type { Quantity } from './quantity.ts';
+import type { Role } from './role.ts';
 import type { SensorRings } from './sensor-rings.ts';
 import type { MicrophoneState, VoiceState } from './sound-media.ts';
 import type { VideoCodec } from './video-media.ts';
@@ -46,6 +47,25 @@ export interface Welcome {
   };
   /** Proves to the robot that a `session.resume` comes from this session's operator. Left out: it cannot be resumed. */
   resumeKey?: string | undefined;
+  /** What the operator's grant says. Left out by robots that ask for none: then everybody may drive. */
+  access?:
+    | {
+        /** What the operator may do. */
+        role: Role;
+        /** The operator's name, by the grant. */
+        name: string;
+        /** When the grant ends, seconds from now. */
+        expiresInS: number;
+      }
+    | undefined;
+}
+
+/** The operator's grant ends soon, and the session with it. */
+export interface GrantExpires {
+  /** Tells the message from others. */
+  type: 'expires';
+  /** Seconds from now. */
+  inS: number;
 }
 
 /** Who may drive. */
@@ -56,6 +76,8 @@ export interface LeaseState {
   holder: 'you' | 'other' | 'nobody';
   /** Names the lease in commands; there only for the operator who holds it. */
   lease?: string | undefined;
+  /** The holder's name, by its grant. Left out if nobody drives, and by robots that ask for no grant. */
+  driver?: string | undefined;
 }
 
 /** The robot refused a command. */
@@ -194,6 +216,8 @@ export interface Sound {
 export interface SessionFault {
   type: 'fault';
   message: string;
+  /** For programs, where a request was refused rather than misunderstood: the grant's role does not permit it. */
+  reason?: 'not-permitted' | undefined;
 }
 
 export type RobotSessionMessage =
@@ -210,6 +234,7 @@ export type RobotSessionMessage =
   | Sound
   | Quantity
   | Alarm
+  | GrantExpires
   | SessionFault;
 
 export const PROTOCOL_VERSION = 1;

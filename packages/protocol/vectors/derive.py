@@ -528,12 +528,18 @@ limits = {"maxLinear": 1, "maxAngular": 1.5, "watchdogMs": 150, "maxCommandsPerS
 welcome = robot_session.good({"type": "welcome", "protocol": 1, "robotId": "sim-1", "name": "Simulated robot", "limits": limits,
                               "stream": {"format": "points64", "width": 480, "height": 480, "framesPerSecond": 30}})
 robot_session.good({**welcome, "resumeKey": "p5bGbAm3i8CqEIfnp0tqkg"}, "welcome with the key that resumes the session")
+admitted = robot_session.good({**welcome, "access": {"role": "drive", "name": "Ada", "expiresInS": 3600}}, "welcome to the holder of a grant")
+for role in ["watch", "supervise"]:
+    robot_session.good(changed(admitted, "access.role", role), "welcome, role: " + role)
+expires = robot_session.good({"type": "expires", "inS": 60})
+robot_session.good({"type": "lease", "holder": "other", "driver": "Ada"}, "lease held by another, who is named")
+robot_session.good({"type": "fault", "message": "your grant lets you watch", "reason": "not-permitted"}, "fault: not permitted")
 lease = robot_session.good({"type": "lease", "holder": "you", "lease": "0f3a9c"}, "lease held by this operator")
 robot_session.good({"type": "lease", "holder": "other"}, "lease held by another")
 robot_session.good({"type": "lease", "holder": "nobody"}, "lease free")
 rejected = robot_session.good({"type": "rejected", "sequence": 17, "reason": "out-of-range",
                                "detail": "twist.linear.x 3.2 m/s is beyond \u00b11 m/s", "count": 1})
-for reason in ["malformed", "stale", "repeated", "not-lease-holder", "dead-man-released", "let-go-first", "estop-latched", "rate-limited"]:
+for reason in ["malformed", "stale", "repeated", "not-permitted", "not-lease-holder", "dead-man-released", "let-go-first", "estop-latched", "rate-limited"]:
     robot_session.good({"type": "rejected", "reason": reason, "detail": "", "count": 40}, "rejected: " + reason)
 estop = robot_session.good({"type": "estop", "latched": True, "by": "operator"})
 robot_session.good({"type": "estop", "latched": True, "by": "robot"}, "estop by the robot")
@@ -574,7 +580,10 @@ robot_session.spoil(welcome, ("protocol", 0), ("protocol", 1.5), ("robotId", "Si
                     ("name", "a\nb"), ("name", "x" * 65), ("limits.maxLinear", 0), ("limits.watchdogMs", -150),
                     ("limits.maxAngular", ABSENT), ("limits.extra", 1, "limits"), ("stream.format", "points32"), ("stream.width", 0),
                     ("stream.height", 1.5), ("stream.framesPerSecond", 0), ("resumeKey", ""), ("resumeKey", "a b"))
-robot_session.spoil(lease, ("holder", "me"), ("lease", "a b"), ("lease", 7))
+robot_session.spoil(admitted, ("access.role", "admin"), ("access.role", ABSENT), ("access.name", ""), ("access.expiresInS", -1),
+                    ("access.expiresInS", 0.5), ("access.extra", 1, "access"))
+robot_session.spoil(expires, ("inS", ABSENT), ("inS", -1), ("inS", 1.5))
+robot_session.spoil(lease, ("holder", "me"), ("lease", "a b"), ("lease", 7), ("driver", ""), ("driver", "a\nb"))
 robot_session.spoil(rejected, ("reason", "because"), ("detail", "x" * 513), ("count", 0), ("sequence", -1))
 robot_session.spoil(estop, ("latched", "yes"), ("by", "me"))
 robot_session.spoil(latency, ("id", -1), ("frameNumber", 2 ** 32), ("points", -1), ("commandMs", ABSENT))
@@ -591,7 +600,7 @@ robot_session.spoil(sound, ("mid", ABSENT), ("mid", ""), ("microphone.state", "o
 robot_session.spoil(videos, ("videos", ABSENT), ("videos", [{"name": "x", "mid": "1", "codec": "VP8"}] * 9), ("videos.0.name", ""), ("videos.0.mid", ""),
                     ("videos.0.mid", "a b"), ("videos.0.mid", "x" * 17), ("videos.0.mid", 1), ("videos.1.codec", "AV1"), ("videos.1.codec", ABSENT),
                     ("videos.1.fault", "x" * 257), ("videos.1.extra", 1, "videos.1"))
-robot_session.spoil(fault, ("message", "x" * 513), ("message", 1))
+robot_session.spoil(fault, ("message", "x" * 513), ("message", 1), ("reason", "because"))
 write("robot-session.json", robot_session.lists())
 
 operator_session = Messages()
@@ -708,12 +717,16 @@ CANDIDATE = "candidate:1 1 udp 2113937151 192.0.2.7 50000 typ host"
 ice = {"candidate": CANDIDATE, "sdpMid": "0", "sdpMLineIndex": 0}
 offer = {"type": "session.offer", "session": "s1", "sdp": SDP}
 session_answer = {"type": "session.answer", "session": "s1", "sdp": SDP}
+granted_answer = {**session_answer, "grant": "a.b-_.", "proof": "A.B.9"}
+GRANTED = "session.answer with a grant and a proof"
+BAD_GRANTS = [("grant", ""), ("grant", "a b"), ("grant", "x" * 4097), ("grant", 7), ("proof", ""), ("proof", "a\nb"), ("proof", "x" * 2049),
+              ("token", "x", "")]
 trickle = {"type": "session.candidate", "session": "s1", "candidate": ice}
 close = {"type": "session.close", "session": "s1"}
 closed = {"type": "session.closed", "session": "s1", "reason": "operator-left"}
 ended = {"type": "session.closed", "session": "s1", "reason": "robot-left"}
 refuse = {"type": "session.refuse", "session": "s1", "claim": "c1", "code": "wrong-resume-key"}
-ROBOT_REASONS = ["robot-full", "bad-answer", "unproven-peer", "not-connected", "connection-lost", "silent", "not-reading",
+ROBOT_REASONS = ["robot-full", "bad-answer", "not-granted", "grant-expired", "unproven-peer", "not-connected", "connection-lost", "silent", "not-reading",
                  "shutting-down"]
 error = {"type": "error", "code": "unknown-robot", "message": "no robot 'sim-9' is here", "session": "s1"}
 servers = [{"urls": "stun:stun.example.org"},
@@ -748,6 +761,9 @@ m_request = m.good({"type": "session.request", "session": "s1", "operator": "Ada
 m_resume = m.good({"type": "session.resume", "session": "s1", "operator": "Ada", "claim": "c1", "resumeKey": "k_0-Z"})
 for message in [session_answer, trickle, closed, error]:
     m.good(message)
+m.good(granted_answer, GRANTED)
+m.good({**granted_answer, "grant": "x" * 4096, "proof": "x" * 2048}, GRANTED + ", the longest")
+m.spoil(granted_answer, *BAD_GRANTS)
 m.good({**closed, "reason": "closed-by-operator"}, "session.closed: closed-by-operator")
 for code in ["malformed", "too-large", "rate-limited", "hello-first", "unauthorized", "robot-id-taken", "unknown-session",
              "too-many-sessions", "wrong-resume-key", "resume-too-soon", "unsupported-protocol", "full", "shutting-down"]:
@@ -766,6 +782,8 @@ m_open = m.good({"type": "session.open", "robotId": "sim-1"})
 m_resume = m.good({"type": "session.resume", "session": "s1", "robotId": "sim-1", "resumeKey": "k_0-Z"})
 for message in [session_answer, trickle, close]:
     m.good(message)
+m.good(granted_answer, GRANTED)
+m.spoil(granted_answer, *BAD_GRANTS)
 m.common(m_open, 65536)
 m.spoil(hello, ("protocol", "1"), ("name", ABSENT), ("token", 5))
 m.spoil(m_resume, ("robotId", ABSENT), ("session", ABSENT), ("session", "a b"), ("resumeKey", ABSENT), ("resumeKey", "a.b"))

@@ -232,3 +232,33 @@ test('stands still at a time that is NaN', () => {
   send(0, 0.5);
   expect(isZeroTwist(guard.velocityAt(Number.NaN))).toBe(true);
 });
+
+describe('a supervisor', () => {
+  test('takes the lease from an operator who is moving, but only when it asks to take it', () => {
+    for (const takePolicy of ['never', 'idle', 'always'] as const) {
+      const guard = guardWith({ takePolicy });
+      guard.requestLease('a', false, 0);
+      expect(guard.requestLease('s', false, 1, true)).toMatchObject({ granted: false, reason: 'held' });
+      expect(guard.requestLease('s', true, 1, true)).toMatchObject({ granted: true, takenFrom: 'a' });
+      expect(guard.leaseHolder).toBe('s');
+    }
+  });
+
+  test('stops the robot by taking the lease', () => {
+    const { guard, send } = driven();
+    send(0, 0.5);
+    guard.requestLease('s', true, 1, true);
+    expect(isZeroTwist(guard.velocityAt(1))).toBe(true);
+    expect(send(10, 0.5)).toMatchObject({ reason: 'not-lease-holder' });
+  });
+
+  test('releases the emergency stop of another, whose held stick still starts nothing', () => {
+    const { guard, send } = driven();
+    guard.latchEstop('operator');
+    expect(guard.releaseEstop('s', 0, true)).toEqual({ released: true });
+    expect(guard.leaseHolder).toBe('a');
+    expect(send(10, 0.5)).toMatchObject({ reason: 'estop-latched' });
+    expect(send(20, 0)).toMatchObject({ accepted: true });
+    expect(send(30, 0.5)).toMatchObject({ accepted: true });
+  });
+});

@@ -115,10 +115,14 @@ export class DriveGuard {
     return this.#leases.holder;
   }
 
-  /** After a grant, send every operator its `leaseState`. */
-  requestLease(operatorId: string, take: boolean, nowMs: number): LeaseOutcome {
+  /**
+   * After a grant, send every operator its `leaseState`.
+   *
+   * @param supervises whether the operator may take the lease from whoever has it
+   */
+  requestLease(operatorId: string, take: boolean, nowMs: number, supervises = false): LeaseOutcome {
     const before = this.#leases.holder;
-    const outcome = this.#leases.request(operatorId, take, nowMs);
+    const outcome = this.#leases.request(operatorId, take, nowMs, supervises);
     if (this.#leases.holder !== before) this.#halt();
     return outcome;
   }
@@ -149,9 +153,13 @@ export class DriveGuard {
     return this.#estop.latch(by);
   }
 
-  /** Only the lease holder can release it. Motion then needs a new command, from a hand that has let go (estop.ts). */
-  releaseEstop(operatorId: string, nowMs: number): EstopReleaseOutcome {
-    if (this.#leases.holder !== operatorId) return { released: false, reason: 'not-lease-holder' };
+  /**
+   * Only the lease holder or a supervisor can release it. Motion then needs a new command, from a hand that has let go
+   * (estop.ts).
+   */
+  releaseEstop(operatorId: string, nowMs: number, supervises = false): EstopReleaseOutcome {
+    if (!supervises && this.#leases.holder !== operatorId)
+      return { released: false, reason: 'not-lease-holder' };
     return this.#estop.release(nowMs) ? { released: true } : { released: false, reason: 'not-latched' };
   }
 

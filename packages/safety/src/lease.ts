@@ -54,12 +54,17 @@ export class LeaseTable {
     return this.#held?.operatorId === operatorId && this.#held.lease === lease;
   }
 
-  /** For the holder, asking again changes nothing: it gets the same lease. */
-  request(operatorId: string, take: boolean, nowMs: number): LeaseOutcome {
+  /**
+   * For the holder, asking again changes nothing: it gets the same lease.
+   *
+   * @param supervises whether the policy on take-overs does not bind this operator
+   */
+  request(operatorId: string, take: boolean, nowMs: number, supervises = false): LeaseOutcome {
     const held = this.#held;
     if (held === null) return this.#grant(operatorId, null, nowMs);
     if (held.operatorId === operatorId) return { granted: true, lease: held.lease, takenFrom: null };
     if (!take) return { granted: false, reason: 'held', detail: 'another operator drives' };
+    if (supervises) return this.#grant(operatorId, held.operatorId, nowMs);
     const idleMs = nowMs - held.lastMotionMs;
     if (this.#takePolicy === 'always' || (this.#takePolicy === 'idle' && idleMs >= this.#takeAfterIdleMs)) {
       return this.#grant(operatorId, held.operatorId, nowMs);

@@ -1,4 +1,5 @@
 /** Explains why the robot could not start, in the doctor's words. */
+import { GrantKeysError } from '@farpoint/grants';
 import { RecordingError } from '@farpoint/recording';
 import { RosFault } from '@farpoint/ros';
 import { StartFailure } from '@farpoint/service';
@@ -26,6 +27,14 @@ export function startFailure({ sensors, sink, record }: RobotOptions, error: unk
       error,
       sources.flatMap((source) => checkSharedMemory(source, sink)),
       'docs/shared-memory.md describes the layouts',
+    );
+  if (error instanceof GrantKeysError)
+    return new StartFailure(
+      `the file of access.grantKeys ${error.message}`,
+      'write it with `farpoint-signaling grant keygen`',
+      {
+        cause: error,
+      },
     );
   if (error instanceof RosFault)
     return new StartFailure(error.what, error.remedy ?? 'docs/ros.md lists what is needed', { cause: error });

@@ -1,6 +1,7 @@
 /** Turns option values that are valid one by one into the parts of the robot. */
 import { randomBytes } from 'node:crypto';
 import { readFileSync } from 'node:fs';
+import { GrantKeysError, readJwkSet } from '@farpoint/grants';
 import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
 import { fileFault, type OptionMistake, OptionsError } from '@farpoint/service';
 import { BitRate } from '@farpoint/timing';
@@ -31,6 +32,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   checkSource(values, refuse);
   const topics = describedTopics(values, (detail) => refuse('topics', detail));
   const ca = values.tlsCa === null ? null : readText(values.tlsCa, (detail) => refuse('tlsCa', detail));
+  checkGrantKeys(values, refuse);
   const ofSim = values.source !== 'sim' ? [] : [SIM_MOTORS, ...(values.simOrigin === null ? [] : [SIM_FIX])];
   const quantities = describeQuantities([...topics, ...ofSim]);
   const alarms = toAlarmRules(values.alarms, quantities, (detail) => refuse('alarms', detail));
@@ -46,6 +48,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       token: values.token,
       ca,
     },
+    grantKeys: values.grantKeys ?? undefined,
     sensors: toSensors(values, topics),
     base:
       values.source === 'sim'
@@ -260,6 +263,23 @@ function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): GraphOp
     masterUrl: values.rosMaster ?? (env.ROS_MASTER_URI || 'http://localhost:11311'),
     hostname: values.rosHostname ?? ros1Hostname(env),
   };
+}
+
+function checkGrantKeys(
+  { grantKeys, referenceSignaling }: RobotOptionValues,
+  refuse: (key: RobotOptionKey, detail: string) => void,
+): void {
+  if (grantKeys === null) return;
+  if (referenceSignaling !== null)
+    refuse('referenceSignaling', 'cannot be combined with --grant-keys: its operators have no grants');
+  const text = readText(grantKeys, (detail) => refuse('grantKeys', detail));
+  if (text === '') return;
+  try {
+    readJwkSet(text);
+  } catch (error) {
+    if (!(error instanceof GrantKeysError)) throw error;
+    refuse('grantKeys', error.message);
+  }
 }
 
 function readText(path: string, refuse: (detail: string) => void): string {

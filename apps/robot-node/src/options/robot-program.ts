@@ -1,6 +1,7 @@
 /** All options of the robot program. Each group has its own file. */
 import { adminOptions, defineProgram, type OptionTable, type OptionValues } from '@farpoint/service';
 import manifest from '../../package.json' with { type: 'json' };
+import { accessOptions } from './access.ts';
 import { alarmsOptions } from './alarms.ts';
 import { broadcastOptions } from './broadcast.ts';
 import { foxgloveOptions } from './foxglove.ts';
@@ -26,6 +27,7 @@ import { videosOptions } from './videos.ts';
 const options = {
   ...identityOptions,
   ...signalingOptions,
+  ...accessOptions,
   ...sourceOptions,
   ...shmOptions,
   ...playbackOptions,

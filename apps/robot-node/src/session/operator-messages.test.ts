@@ -231,3 +231,59 @@ describe('OperatorMessages', () => {
     );
   });
 });
+
+describe('roles', () => {
+  const granted = (role: 'watch' | 'drive' | 'supervise') => ({
+    ...{ role, subject: 'x', name: 'X', expiresAtS: 1e12, keyId: 'k' },
+  });
+  const leaseRequest = (take: boolean) => JSON.stringify({ type: 'leaseRequest', take });
+  const estop = (latch: boolean) => JSON.stringify({ type: 'estop', latch });
+
+  it('who may only watch takes no lease, sends no command that is looked at, but stops the robot', () => {
+    const { alice: a, guard, rejected } = robot();
+    a.session.access = granted('watch');
+    a.session.onMessage('session', leaseRequest(true));
+    expect(guard.leaseHolder).toBeNull();
+    expect(a.inbox.splice(0)).toMatchObject([
+      { type: 'fault', reason: 'not-permitted' },
+      { type: 'lease', holder: 'nobody' },
+    ]);
+    const twist = { ...zeroTwist(), linear: { x: 0.5, y: 0, z: 0 } };
+    const command = { type: 'command', sequence: 1, timeMs: 0, lease: 'x', deadMan: true, twist };
+    a.session.onMessage('control', JSON.stringify(command));
+    expect(rejected).toMatchObject([{ reason: 'not-permitted' }]);
+    expect(a.inbox.splice(0)).toMatchObject([{ type: 'rejected', reason: 'not-permitted', sequence: 1 }]);
+    a.session.onMessage('session', estop(true));
+    expect(guard.estopState().latched).toBe(true);
+    a.inbox.splice(0);
+    a.session.onMessage('session', estop(false));
+    expect(guard.estopState().latched).toBe(true);
+    expect(a.inbox).toMatchObject([{ type: 'fault', reason: 'not-permitted' }, { type: 'estop' }]);
+  });
+
+  it('who watches draws no barcode into what others see', () => {
+    const { alice: a } = robot();
+    const wanted: boolean[] = [];
+    a.session.onVideos = (_, barcode) => wanted.push(barcode);
+    const videos = JSON.stringify({ type: 'videos', videos: [0], barcode: true });
+    a.session.onMessage('session', videos);
+    a.session.access = granted('watch');
+    a.session.onMessage('session', videos);
+    expect(wanted).toEqual([true, false]);
+  });
+
+  it('a supervisor takes the lease from whoever drives, and releases what others latched', () => {
+    const { alice: a, bob: b, guard } = robot();
+    a.session.access = granted('drive');
+    b.session.access = granted('drive');
+    a.session.onMessage('session', leaseRequest(false));
+    b.session.onMessage('session', leaseRequest(true));
+    expect(guard.leaseHolder).toBe('alice');
+    b.session.access = granted('supervise');
+    a.session.onMessage('session', estop(true));
+    b.session.onMessage('session', estop(false));
+    expect(guard.estopState().latched).toBe(false);
+    b.session.onMessage('session', leaseRequest(true));
+    expect(guard.leaseHolder).toBe('bob');
+  });
+});

@@ -19,6 +19,7 @@ import {
   sequenceDelta32,
 } from '@farpoint/protocol';
 import { type CommandVerdict, type RejectedCommand, RejectionReporter } from '@farpoint/safety';
+import { type Access, mayDrive, openAccess, supervises } from '../access/access.ts';
 import type { DriveStation } from '../drive/drive-station.ts';
 
 /** Sends a session's messages to its operator. */
@@ -43,14 +44,22 @@ export interface SessionHost {
   /** For a recording: what an operator measured. */
   latencyMeasured?(session: OperatorMessages, measured: LatencyMeasured): void;
   messageRefused(channel: string, error: ProtocolError): void;
+  /** The driver's name by its grant; undefined if nobody drives or there are no grants. */
+  driverName?(): string | undefined;
 }
 
 /** How much of a malformed command's text goes into the report. */
 const MAX_DETAIL = 200;
+const NOT_PERMITTED: RejectedCommand = {
+  accepted: false,
+  reason: 'not-permitted',
+  detail: 'your grant lets you watch this robot, not drive it',
+};
 
 export class OperatorMessages {
   readonly id: string;
-  readonly operatorName: string;
+  /** What the operator may do. */
+  access: Access;
   /** Whether the operator has the stream switched on. */
   streaming = true;
   /** When a message last came from the operator on any channel, ms on the robot's clock. */
@@ -72,7 +81,7 @@ export class OperatorMessages {
 
   constructor(id: string, operatorName: string, host: SessionHost, link: SessionLink) {
     this.id = id;
-    this.operatorName = operatorName;
+    this.access = openAccess(operatorName);
     this.#host = host;
     this.#link = link;
     this.heardMs = host.now();
@@ -80,7 +89,13 @@ export class OperatorMessages {
 
   /** Tells the operator the state of the drive lease; sent after the welcome and at each change. */
   sendLease(): void {
-    this.send(this.#host.drive.guard.leaseState(this.id));
+    const driver = this.#host.driverName?.();
+    const named = driver === undefined ? {} : { driver };
+    this.send({ ...this.#host.drive.guard.leaseState(this.id), ...named });
+  }
+
+  get operatorName(): string {
+    return this.access.name;
   }
 
   sendEstop(): void {
@@ -143,7 +158,7 @@ export class OperatorMessages {
 
   #onCommand(command: Command, now: number): void {
     const { drive } = this.#host;
-    const verdict = drive.guard.onCommand(this.id, command, now);
+    const verdict = mayDrive(this.access) ? drive.guard.onCommand(this.id, command, now) : NOT_PERMITTED;
     this.#host.commandJudged?.(this, command, verdict);
     // Also after a rejection: releasing the grip stops the robot.
     drive.apply();
@@ -184,7 +199,12 @@ export class OperatorMessages {
     const { guard } = drive;
     switch (message.type) {
       case 'leaseRequest': {
-        const outcome = guard.requestLease(this.id, message.take, this.heardMs);
+        if (!mayDrive(this.access)) {
+          this.#notPermitted(NOT_PERMITTED.detail);
+          this.sendLease();
+          break;
+        }
+        const outcome = guard.requestLease(this.id, message.take, this.heardMs, supervises(this.access));
         drive.apply();
         if (outcome.granted) {
           this.#host.leaseChanged();
@@ -217,7 +237,8 @@ export class OperatorMessages {
         this.onSensors?.(message.sensors);
         break;
       case 'videos':
-        this.onVideos?.(message.videos, message.barcode ?? false);
+        // The barcode is drawn into what everybody sees, the driver too.
+        this.onVideos?.(message.videos, message.barcode === true && mayDrive(this.access));
         break;
       case 'shares':
         this.onShares?.(message);
@@ -243,16 +264,22 @@ export class OperatorMessages {
       else this.sendEstop();
       return;
     }
-    const outcome = drive.guard.releaseEstop(this.id, this.heardMs);
+    const outcome = drive.guard.releaseEstop(this.id, this.heardMs, supervises(this.access));
     drive.apply();
     if (outcome.released) {
       this.#host.estopChanged();
     } else {
       if (outcome.reason === 'not-lease-holder') {
-        this.send({ type: 'fault', message: 'only the operator who drives releases the emergency stop' });
+        const message = 'only the operator who drives releases the emergency stop';
+        if (mayDrive(this.access)) this.send({ type: 'fault', message });
+        else this.#notPermitted(message);
       }
       this.sendEstop();
     }
+  }
+
+  #notPermitted(message: string): void {
+    this.send({ type: 'fault', message, reason: 'not-permitted' });
   }
 
   #switchStream(running: boolean): void {

@@ -1,6 +1,10 @@
 import type { RateController } from '@farpoint/congestion';
+import type { AdmissionRequest } from '@farpoint/grants';
 import type { IceServer, RobotToService, ServiceToRobot, VideoCodec } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
+import type { GrantKeysFile } from '../access/grant-keys-file.ts';
+import { RobotAccess } from '../access/robot-access.ts';
+import { monotonicMs } from '../clock.ts';
 import type { CloudClaim } from '../sensors/cloud-shares.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
@@ -11,6 +15,10 @@ import { OperatorSession } from './operator-session.ts';
 import type { ResumeRequest } from './path-keeper.ts';
 
 export interface OperatorSessionsOptions {
+  /** The robot's. */
+  id: string;
+  /** `null` if everybody is admitted. */
+  grantKeys: GrantKeysFile | null;
   /** The maximum number of operators; further ones are refused. */
   most: number;
   /** In addition to the signaling service's ICE servers. */
@@ -47,11 +55,28 @@ export class OperatorSessions {
   readonly operators = new Map<string, OperatorSession>();
   readonly #options: OperatorSessionsOptions;
   readonly #events: OperatorSessionsEvents;
+  readonly #access: RobotAccess | null;
   #iceServers: readonly IceServer[] = [];
 
   constructor(options: OperatorSessionsOptions, events: OperatorSessionsEvents) {
     this.#options = options;
     this.#events = events;
+    const { grantKeys: file, id: robot, counters, log } = options;
+    const clocks = { nowS: () => Date.now() / 1000, now: monotonicMs };
+    this.#access =
+      file === null
+        ? null
+        : new RobotAccess({ file, robot, refusals: counters.grantsRefused, log, ...clocks });
+  }
+
+  /** Call every 25 ms. */
+  tick(): void {
+    this.#access?.tick(this.operators.values());
+  }
+
+  /** Reads the keys for grants again; the old ones stay in force if that fails. @throws {GrantKeysError} */
+  async reloadGrantKeys(): Promise<void> {
+    await this.#access?.reload(() => this.operators.values());
   }
 
   onSignaling(message: ServiceToRobot): void {
@@ -66,7 +91,7 @@ export class OperatorSessions {
         this.#events.resume(message, this.#iceServers);
         break;
       case 'session.answer':
-        void this.#answer(message.session, message.sdp);
+        void this.#answer(message);
         break;
       case 'session.candidate':
         this.operators.get(message.session)?.peer.addCandidate(message.candidate);
@@ -102,9 +127,15 @@ export class OperatorSessions {
     if (operator !== undefined && !operator.peer.connected) operator.peer.close('closed', message);
   }
 
-  async #answer(session: string, sdp: string): Promise<void> {
-    const verdict = await this.operators.get(session)?.answer(sdp);
-    if (verdict === undefined || verdict === 'taken') return;
+  async #answer(message: AdmissionRequest): Promise<void> {
+    const { session, sdp } = message;
+    const operator = this.operators.get(session);
+    if (operator === undefined) return;
+    const admitted = this.#access === null || (await this.#access.admits(operator, message));
+    // Refused, or ended while its grant was verified.
+    if (this.operators.get(session) !== operator) return;
+    const verdict = admitted ? await operator.answer(sdp) : 'unasked';
+    if (verdict === 'taken') return;
     this.#options.counters.answersIgnored.add(verdict);
     this.#options.log.debug({ session, verdict }, 'answer ignored');
   }
@@ -154,7 +185,9 @@ export class OperatorSessions {
     log.info('session requested');
     try {
       const sdp = await operator.peer.offer();
-      if (this.operators.get(session) === operator) signaling.send({ type: 'session.offer', session, sdp });
+      if (this.operators.get(session) !== operator) return;
+      this.#access?.offered(operator, sdp);
+      signaling.send({ type: 'session.offer', session, sdp });
     } catch (error) {
       log.error({ err: error }, 'no offer');
       operator.peer.close('not-connected', 'no offer could be made');
@@ -165,6 +198,7 @@ export class OperatorSessions {
     const { counters, signaling } = this.#options;
     const { id } = operator.messages;
     this.operators.delete(id);
+    this.#access?.forget(id);
     this.#events.ended(operator);
     counters.sessionsEnded.add(end);
     log.info({ end, detail, operators: this.operators.size }, 'session ended');

@@ -95,6 +95,13 @@ export class RobotSessionHost implements SessionHost {
     this.#parts.recording?.latencyMeasured(session.id, measured);
   }
 
+  driverName(): string | undefined {
+    const { leaseHolder } = this.drive.guard;
+    const driver =
+      leaseHolder === null ? undefined : this.#parts.operators().get(leaseHolder)?.messages.access;
+    return driver?.role == null ? undefined : driver.name;
+  }
+
   messageRefused(channel: string, error: ProtocolError): void {
     this.#parts.counters.messagesRefused.add(`${channel}:${error.code}`);
     this.#parts.log.debug({ err: error, channel }, 'message refused');

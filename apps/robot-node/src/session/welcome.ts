@@ -13,18 +13,22 @@ export interface WelcomeFacts extends Pick<RobotOptions, 'id' | 'name' | 'limits
   quantities: readonly Quantity[];
   /** Those that are raised. */
   alarms: readonly Alarm[];
+  /** Seconds since 1970. */
+  nowS: number;
 }
 
 /** Sends a session's first messages: what the robot is, who drives, and which cameras and sensors there are. */
 export function welcome(
   operator: OperatorSession,
-  { id, name, limits, sensors: configured, quantities, alarms }: WelcomeFacts,
+  { id, name, limits, sensors: configured, quantities, alarms, nowS }: WelcomeFacts,
   sensors: CloudSensors,
   videos: VideoHub,
 ): void {
   const { messages, resumeKey } = operator;
   const { description, cameras } = sensors.first.capture;
   const { width, height } = description;
+  const { role, name: operatorName, expiresAtS } = messages.access;
+  const expiresInS = Math.max(0, Math.floor(expiresAtS - nowS));
   const framesPerSecond = configured[0]?.capture.framesPerSecond ?? 0;
   messages.send({
     type: 'welcome',
@@ -34,6 +38,7 @@ export function welcome(
     limits,
     stream: { format: 'points64', width, height, framesPerSecond },
     resumeKey: resumeKey.text,
+    ...(role === null ? {} : { access: { role, name: operatorName, expiresInS } }),
   });
   messages.sendLease();
   messages.sendEstop();

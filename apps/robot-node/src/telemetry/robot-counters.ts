@@ -26,6 +26,8 @@ export class RobotCounters {
   iceRestarts = 0;
   /** Refused requests to resume a session, by reason. */
   readonly resumesRefused = new ReasonCounts();
+  /** Operators that were not admitted, by the fault of their grant or proof. */
+  readonly grantsRefused = new ReasonCounts();
   /** Answers that changed nothing, because they were repeated or no offer waited for them. */
   readonly answersIgnored = new ReasonCounts();
   readonly candidatesRefused = new ReasonCounts();

@@ -11,6 +11,16 @@ import {
 import { WebSocket } from 'ws';
 import { OperatorClient, type OperatorClientOptions } from './operator-client.ts';
 
+/** What an operator shows with its first answer. */
+export type Credentials = (facts: { session: string; offer: string; answer: string }) => Promise<{
+  grant?: string | undefined;
+  proof?: string | undefined;
+}>;
+
+export interface SignaledOperatorOptions extends OperatorClientOptions {
+  credentials?: Credentials | undefined;
+}
+
 export class SignaledOperator {
   readonly client: OperatorClient;
   readonly #url: string;
@@ -21,9 +31,12 @@ export class SignaledOperator {
   readonly #log: ServiceToOperator[] = [];
   readonly #waiters = new Set<() => void>();
   #session = '';
+  /** `null` once it was shown. */
+  #credentials: Credentials | null;
 
-  private constructor(url: string, robotId: string, options?: OperatorClientOptions) {
+  private constructor(url: string, robotId: string, options: SignaledOperatorOptions = {}) {
     this.client = new OperatorClient(options);
+    this.#credentials = options.credentials ?? null;
     this.#url = url;
     this.#robotId = robotId;
     this.#socket = this.#openSocket();
@@ -36,7 +49,7 @@ export class SignaledOperator {
   static async connect(
     url: string,
     robotId: string,
-    options?: OperatorClientOptions,
+    options?: SignaledOperatorOptions,
   ): Promise<SignaledOperator> {
     const operator = await SignaledOperator.open(url, robotId, options);
     await operator.client.ready();
@@ -47,7 +60,7 @@ export class SignaledOperator {
   static async open(
     url: string,
     robotId: string,
-    options?: OperatorClientOptions,
+    options?: SignaledOperatorOptions,
   ): Promise<SignaledOperator> {
     const operator = new SignaledOperator(url, robotId, options);
     await operator.until(
@@ -152,7 +165,10 @@ export class SignaledOperator {
     } else if (message.type === 'session.offer') {
       this.#session = message.session;
       const sdp = await this.client.answer(message.sdp);
-      this.#send({ type: 'session.answer', session: message.session, sdp });
+      const { session } = message;
+      const shown = await this.#credentials?.({ session, offer: message.sdp, answer: sdp });
+      this.#credentials = null;
+      this.#send({ type: 'session.answer', session, sdp, ...shown });
     } else if (message.type === 'session.candidate') {
       const { candidate, sdpMid, sdpMLineIndex } = message.candidate;
       await this.client.connection

@@ -23,6 +23,7 @@ export const rejectionWords: Record<CommandRejection, string> = {
   'out-of-range': 'The robot refused a speed above its limits.',
   stale: 'Commands reach the robot too late. It stays stopped until the connection improves.',
   repeated: 'The robot refused a command that arrived out of order.',
+  'not-permitted': 'Your grant lets you watch this robot, but not drive it.',
   'not-lease-holder': 'Someone else is driving this robot. Press Take over to drive it yourself.',
   'dead-man-released': 'The robot moves only while you hold the grip.',
   'let-go-first': 'The connection was lost while you held the grip. Let go of it, then drive.',
@@ -47,6 +48,8 @@ const lossWords: Record<Exclude<SessionLoss, 'robot-full'>, string> = {
   'robot-left': 'The robot went offline while connecting. Trying again…',
   'bad-answer':
     'The robot cannot use the connection that this browser offers. Update the browser or use another. Trying again…',
+  'not-granted': 'The robot admits only operators with a grant that is valid for it.',
+  'grant-expired': 'Your grant for this robot has ended. Ask for another.',
   'unproven-peer':
     'The robot refused the connection: it is not encrypted end to end with this page. Trying again…',
   'not-reading': 'This page could not keep up with the robot’s messages. Reconnecting…',

@@ -149,6 +149,8 @@ describe('SessionKeeper', () => {
   test.each([
     ['robot-full', 'robot-full'],
     ['bad-answer', 'bad-answer'],
+    ['not-granted', 'not-granted'],
+    ['grant-expired', 'grant-expired'],
     ['unproven-peer', 'unproven-peer'],
     ['shutting-down', 'robot-stopped'],
     ['silent', 'unheard'],

@@ -16,6 +16,10 @@ export type SessionLoss =
   | 'robot-left'
   /** The robot cannot use this browser's answer. */
   | 'bad-answer'
+  /** The robot admits only operators with a grant that is valid for it. */
+  | 'not-granted'
+  /** The operator's grant has ended. */
+  | 'grant-expired'
   /** Somebody is between the peers, or the certificate is not the one that this browser named. */
   | 'unproven-peer'
   /** The page did not read the robot's messages fast enough. */
@@ -34,6 +38,8 @@ export type SessionLoss =
 export const lossOf: Readonly<Record<RobotEndReason, SessionLoss>> = {
   'robot-full': 'robot-full',
   'bad-answer': 'bad-answer',
+  'not-granted': 'not-granted',
+  'grant-expired': 'grant-expired',
   'unproven-peer': 'unproven-peer',
   'not-connected': 'not-connected',
   'connection-lost': 'connection-failed',

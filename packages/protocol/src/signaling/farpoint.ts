@@ -37,6 +37,8 @@ export type OperatorEndReason = (typeof operatorEndReasons)[number];
 export const robotCloseReasons = [
   'robot-full', // it already serves its maximum of operators
   'bad-answer', // the SDP answer is unusable, or what it agrees to is
+  'not-granted', // the robot admits only operators with a valid grant, and this one has none
+  'grant-expired',
   'unproven-peer', // the peer's certificate is not the answer's, or the peer did not prove that it holds the key
   'not-connected', // no connection was established in time
   'connection-lost', // DTLS or a channel ended
@@ -94,10 +96,17 @@ const sessionOffer = z.strictObject({
   session: handleSchema,
   sdp: sdpSchema,
 });
+/** The service passes grants and proofs on as they are; only the robot reads them (docs/security.md). */
+const jwsSchema = (maxLength: number) =>
+  z.optional(z.string().check(z.maxLength(maxLength), z.regex(/^[A-Za-z0-9_.-]+$/, 'must be a compact JWS')));
 const sessionAnswer = z.strictObject({
   type: z.literal('session.answer'),
   session: handleSchema,
   sdp: sdpSchema,
+  /** Who the operator is and what it may do. */
+  grant: jwsSchema(4096),
+  /** That this session is the grant's holder's. */
+  proof: jwsSchema(2048),
 });
 const sessionCandidate = z.strictObject({
   type: z.literal('session.candidate'),

@@ -15,6 +15,9 @@ export function addSessionMetrics(metrics: PulledMetrics, { counters, operators 
   metrics.sums('resumes_refused', 'Requests to resume a session that were refused', 'reason', () =>
     resumesRefused.entries(),
   );
+  metrics.sums('grants_refused', 'Operators that were not admitted, by reason', 'reason', () =>
+    counters.grantsRefused.entries(),
+  );
   metrics.sums('answers_ignored', 'Answers that were ignored, by reason', 'reason', () =>
     answersIgnored.entries(),
   );

@@ -1,0 +1,269 @@
+/** Only who has a grant gets in: an independent WebRTC client against the running robot and signaling service. */
+import { createHmac } from 'node:crypto';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { issueGrant, makeOperatorKey, makeProof, soleFingerprint } from '@farpoint/grants';
+import { type GrantedOperator, grantTo, makeIssuer } from '@farpoint/grants/testing';
+import type { Role } from '@farpoint/protocol';
+import { afterAll, beforeEach, describe, expect, it } from 'vitest';
+import { metricOf } from './testing/metric-of.ts';
+import { type Credentials, SignaledOperator } from './testing/signaled-operator.ts';
+import { useRobot } from './testing/use-robot.ts';
+
+const ROBOT = 'sim-1';
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-grants-'));
+const keyFile = join(folder, 'grant-keys.json');
+const issuer = await makeIssuer('k1');
+const other = await makeIssuer('k2', 'ES256');
+const trust = (...issuers: { publicJwk: object }[]) =>
+  writeFileSync(keyFile, JSON.stringify({ keys: issuers.map(({ publicJwk }) => publicJwk) }));
+trust(issuer);
+afterAll(() => rmSync(folder, { recursive: true }));
+
+const robot = useRobot(ROBOT, [
+  ...['--rate-control', 'fixed', '--sim-size', '64', '--max-points', '600', '--max-operators', '16'],
+  ...['--grant-keys', keyFile],
+]);
+
+const nowS = () => Date.now() / 1000;
+type Facts = Parameters<Credentials>[0];
+
+/** What the holder of a grant shows. */
+function shownBy(
+  { grant, key }: Pick<GrantedOperator, 'grant' | 'key'>,
+  change: (facts: Facts) => Partial<Facts & { robot: string; madeAtS: number }> = () => ({}),
+): Credentials {
+  return async (facts) => {
+    const { session, offer, answer, robot: id = ROBOT, madeAtS = nowS() } = { ...facts, ...change(facts) };
+    const fingerprints = {
+      operatorFingerprint: soleFingerprint(answer) ?? '',
+      robotFingerprint: soleFingerprint(offer) ?? '',
+    };
+    return { grant, proof: await makeProof(grant, { robot: id, session, ...fingerprints }, key, madeAtS) };
+  };
+}
+
+async function connect(credentials: Credentials): Promise<SignaledOperator> {
+  return robot.keep(await SignaledOperator.connect(robot.stack.signalingUrl, ROBOT, { credentials }));
+}
+
+async function connectAs(role: Role, name: string): Promise<SignaledOperator> {
+  return connect(shownBy(await grantTo(issuer, nowS(), { role, name, sub: name })));
+}
+
+type Client = SignaledOperator['client'];
+
+/** The lease, as soon as the driver of an earlier test has gone. */
+async function takeLease(client: Client): Promise<string> {
+  await client.until(() => holder(client) === 'nobody');
+  return client.takeLease();
+}
+
+function holder({ session }: Client): string | undefined {
+  const lease = session.findLast(({ type }) => type === 'lease');
+  return lease?.type === 'lease' ? lease.holder : undefined;
+}
+
+const refusals = (reason: string) =>
+  metricOf(robot.stack.robotAdminUrl(ROBOT), `farpoint_robot_grants_refused_total{reason="${reason}"}`);
+
+describe('who is admitted', { timeout: 30_000 }, () => {
+  it('a driver is welcomed by its name, sees, drives and goes on over an ICE restart', async () => {
+    const operator = await connectAs('drive', 'Ada');
+    const { client } = operator;
+    const { access } = await client.message('welcome');
+    expect(access).toMatchObject({ role: 'drive', name: 'Ada' });
+    expect(access?.expiresInS).toBeGreaterThan(3500);
+    const lease = await takeLease(client);
+    expect(client.session.findLast(({ type }) => type === 'lease')).toMatchObject({ driver: 'Ada' });
+    const timer = setInterval(() => client.drive(lease, 0.1), 20);
+    try {
+      await client.until(() => client.telemetry?.drive === 'driving' && client.completeFrames.length > 0);
+      await operator.resume();
+      await operator.until(({ type }) => type === 'session.resuming');
+      const { length } = client.completeFrames;
+      await client.until(() => client.completeFrames.length > length + 5);
+    } finally {
+      clearInterval(timer);
+    }
+  });
+
+  it('a watcher sees and stops the robot, and can do nothing else to it', async () => {
+    const [watcher, driver] = [await connectAs('watch', 'Wim'), await connectAs('drive', 'Ada')];
+    const { client } = watcher;
+    await client.until(() => client.completeFrames.length > 0);
+    client.sendSession({ type: 'leaseRequest', take: true });
+    await client.message('fault', ({ reason }) => reason === 'not-permitted');
+    const lease = await takeLease(driver.client);
+    expect(await client.message('lease', ({ holder }) => holder === 'other')).toMatchObject({
+      driver: 'Ada',
+    });
+    // Not even with the driver's lease.
+    client.drive(lease, 0.1);
+    await client.message('rejected', ({ reason }) => reason === 'not-permitted');
+    client.sendSession({ type: 'estop', latch: true });
+    await driver.client.message('estop', ({ latched }) => latched);
+    client.sendSession({ type: 'estop', latch: false });
+    await client.until(() => client.session.filter(({ type }) => type === 'fault').length === 2);
+    driver.client.sendSession({ type: 'estop', latch: false });
+    await client.message('estop', ({ latched }) => !latched);
+  });
+
+  it('a supervisor takes the lease from a moving driver and releases its stop', async () => {
+    const [driver, supervisor] = [await connectAs('drive', 'Ada'), await connectAs('supervise', 'Sue')];
+    const lease = await takeLease(driver.client);
+    const twist = { linear: { x: 0.1, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0.5 } };
+    const timer = setInterval(() => driver.client.drive(lease, 0.1, { twist }), 20);
+    try {
+      await driver.client.until(() => driver.client.telemetry?.drive === 'driving');
+      driver.client.sendSession({ type: 'estop', latch: true });
+      await supervisor.client.message('estop', ({ latched }) => latched);
+      supervisor.client.sendSession({ type: 'estop', latch: false });
+      await driver.client.until(() => {
+        const estops = driver.client.session.filter(({ type }) => type === 'estop');
+        return (
+          estops.at(-1)?.type === 'estop' &&
+          !(estops.at(-1) as { latched: boolean }).latched &&
+          estops.length > 2
+        );
+      });
+      supervisor.client.sendSession({ type: 'leaseRequest', take: true });
+      await supervisor.client.message('lease', ({ holder }) => holder === 'you');
+      expect(await driver.client.message('lease', ({ holder }) => holder === 'other')).toMatchObject({
+        driver: 'Sue',
+      });
+      await driver.client.message('rejected', ({ reason }) => reason === 'not-lease-holder');
+    } finally {
+      clearInterval(timer);
+    }
+  });
+
+  it('a grant that ends soon: a warning, then the session ends and the lease is free', async () => {
+    const watcher = await connectAs('watch', 'Wim');
+    const grant = await grantTo(issuer, nowS(), { exp: Math.ceil(nowS()) + 10, name: 'Eve' });
+    const operator = await connect(shownBy(grant));
+    await takeLease(operator.client);
+    const { inS } = await operator.client.message('expires');
+    expect(inS).toBeLessThanOrEqual(11);
+    await watcher.client.message('lease', ({ holder }) => holder === 'other');
+    await operator.until(
+      (message) => message.type === 'session.closed' && message.reason === 'grant-expired',
+    );
+    await watcher.client.until(() => holder(watcher.client) === 'nobody');
+  });
+
+  it('SIGHUP changes the keys: sessions of a key that has gone end, and those of a new one are admitted', async () => {
+    const { pid = 0 } = robot.stack.robot(ROBOT);
+    const kept = await connectAs('watch', 'Ada');
+    const fresh = await grantTo(other, nowS(), { name: 'Grace' });
+    try {
+      writeFileSync(keyFile, '{"keys":');
+      process.kill(pid, 'SIGHUP');
+      while (!robot.stack.robot(ROBOT).output.includes('could not read the keys'))
+        await new Promise((resolve) => setTimeout(resolve, 20));
+      const { length } = kept.client.completeFrames;
+      await kept.client.until(() => kept.client.completeFrames.length > length);
+      trust(other);
+      process.kill(pid, 'SIGHUP');
+      await kept.until((message) => message.type === 'session.closed' && message.reason === 'not-granted');
+      const { client } = await connect(shownBy(fresh));
+      expect((await client.message('welcome')).access?.name).toBe('Grace');
+    } finally {
+      trust(issuer, other);
+      process.kill(pid, 'SIGHUP');
+      while (!robot.stack.robot(ROBOT).output.includes('["k1","k2"]'))
+        await new Promise((resolve) => setTimeout(resolve, 20));
+    }
+    expect(robot.stack.robot(ROBOT).pid).toBe(pid);
+  });
+});
+
+describe('who is not', { timeout: 30_000 }, () => {
+  let ada: GrantedOperator;
+  beforeEach(async () => {
+    ada = await grantTo(issuer, nowS());
+  });
+  const part = (value: unknown) => Buffer.from(JSON.stringify(value)).toString('base64url');
+  const withHeader = (alg: string, mac?: string | Buffer) => {
+    const signed = `${part({ typ: 'farpoint-grant+jwt', alg, kid: 'k1' })}.${ada.grant.split('.')[1]}`;
+    const signature = mac === undefined ? '' : createHmac('sha256', mac).update(signed).digest('base64url');
+    return shownBy({ ...ada, grant: `${signed}.${signature}` });
+  };
+  const changed = async (change: Parameters<typeof grantTo>[2], by = issuer) =>
+    shownBy({ ...ada, grant: await issueGrant({ ...ada.claims, ...change }, by.signingKey) });
+  const stranger = `${'11:'.repeat(31)}11`;
+
+  const cases: [name: string, reason: string, credentials: () => Credentials | Promise<Credentials>][] = [
+    ['nothing', 'grant-missing', () => () => Promise.resolve({})],
+    ['no proof', 'proof-missing', () => () => Promise.resolve({ grant: ada.grant })],
+    ['words', 'grant-malformed', () => () => Promise.resolve({ grant: 'let-me-in', proof: 'please' })],
+    ['an expired grant', 'grant-expired', () => changed({ exp: Math.floor(nowS()) - 1 })],
+    ['a grant of tomorrow', 'grant-not-yet', () => changed({ nbf: Math.floor(nowS()) + 86_400 })],
+    ['a grant for another robot', 'grant-other-robot', () => changed({ robots: ['sim-2', 'hall-*'] })],
+    ['a grant for something else', 'grant-other-audience', () => changed({ aud: 'bank' })],
+    ['an unknown issuer', 'grant-untrusted', async () => changed({}, await makeIssuer('k9'))],
+    ['another issuer under the same kid', 'grant-untrusted', async () => changed({}, await makeIssuer('k1'))],
+    ['alg none', 'grant-untrusted', () => withHeader('none')],
+    [
+      'HS256 by the public key',
+      'grant-untrusted',
+      () => withHeader('HS256', Buffer.from((issuer.publicJwk as { x: string }).x, 'base64url')),
+    ],
+    [
+      'another’s grant, with a key of its own',
+      'proof-wrong-key',
+      async () => shownBy({ ...ada, key: await makeOperatorKey() }),
+    ],
+    [
+      'the grant’s key, signed with another',
+      'proof-forged',
+      async () => shownBy({ ...ada, key: { ...ada.key, privateKey: (await makeOperatorKey()).privateKey } }),
+    ],
+    ['a proof for another session', 'proof-other-session', () => shownBy(ada, () => ({ session: 's0' }))],
+    ['a proof for another robot', 'proof-other-robot', () => shownBy(ada, () => ({ robot: 'sim-2' }))],
+    [
+      'a proof for another certificate of the operator',
+      'proof-other-fingerprint',
+      () => shownBy(ada, () => ({ answer: `a=fingerprint:sha-256 ${stranger}` })),
+    ],
+    [
+      'a proof for another certificate of the robot',
+      'proof-other-fingerprint',
+      () => shownBy(ada, () => ({ offer: `a=fingerprint:sha-256 ${stranger}` })),
+    ],
+    ['a proof of an hour ago', 'proof-stale', () => shownBy(ada, () => ({ madeAtS: nowS() - 3600 }))],
+  ];
+
+  it.each(cases)('%s: one refusal and no packet', async (_, reason, credentials) => {
+    await expectRefusal(reason, await credentials());
+  });
+
+  it('a grant and proof that somebody overheard in another session', async () => {
+    let overheard: Awaited<ReturnType<Credentials>> = {};
+    const own = shownBy(ada);
+    const honest = await connect(async (facts) => {
+      overheard = await own(facts);
+      return overheard;
+    });
+    await expectRefusal('proof-other-session', () => Promise.resolve(overheard));
+    const { length } = honest.client.completeFrames;
+    await honest.client.until(() => honest.client.completeFrames.length > length);
+  });
+
+  async function expectRefusal(reason: string, credentials: Credentials): Promise<void> {
+    const before = await refusals(reason);
+    const operator = robot.keep(
+      await SignaledOperator.open(robot.stack.signalingUrl, ROBOT, { credentials }),
+    );
+    await operator.until(({ type }) => type === 'session.closed');
+    const closed = operator.heard.filter(({ type }) => type === 'session.closed');
+    expect(closed).toMatchObject([{ reason: 'not-granted' }]);
+    const { detail = '' } = closed[0] as { detail?: string };
+    expect(detail).not.toMatch(/kid|alg|signature|session handle|fingerprint/);
+    expect(await refusals(reason)).toBe(before + 1);
+    expect(operator.client.packets).toBe(0);
+    expect(operator.client.session).toEqual([]);
+    expect(operator.client.connection.connectionState).not.toBe('connected');
+  }
+});

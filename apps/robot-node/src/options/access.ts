@@ -1,0 +1,11 @@
+/** Who is admitted. */
+import { defineOption, optionGroup, schema } from '@farpoint/service';
+
+export const accessOptions = optionGroup('access', {
+  grantKeys: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'FILE',
+    help: 'admit only operators with a grant that one of these public keys signed (a JWK set, from `farpoint-signaling grant keygen`); read again at SIGHUP',
+  }),
+});

@@ -1,0 +1,32 @@
+export * from './admission.ts';
+export * from './grant.ts';
+export {
+  AUDIENCE,
+  coversRobot,
+  type GrantClaims,
+  grantClaimsSchema,
+  MAX_GRANT_LENGTH,
+  MAX_ROBOTS,
+  robotPatternSchema,
+  sha256Schema,
+  subjectSchema,
+} from './grant-claims.ts';
+export {
+  algorithmOf,
+  type GrantAlgorithm,
+  type GrantKey,
+  type GrantKeys,
+  GrantKeysError,
+  type GrantPublicJwk,
+  grantAlgorithms,
+  grantKeySchema,
+  MAX_KEYS,
+  parseGrantKeys,
+  readJwkSet,
+} from './grant-keys.ts';
+export * from './operator-key.ts';
+export { MAX_PROOF_LENGTH, makeProof, PROOF_LEEWAY_S, type SessionFacts, verifyProof } from './proof.ts';
+export * from './refusal.ts';
+export { makeSigningKey, type NewSigningKey, parseSigningKey } from './signing-key.ts';
+export { fingerprintSchema, soleFingerprint } from './sole-fingerprint.ts';
+export * from './ticket.ts';
