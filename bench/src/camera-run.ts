@@ -97,7 +97,8 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
     live.link?.tell({ type: 'reset' });
     const asked = setup.shares;
     if (asked !== null) await page.evaluate((shares) => window.farpoint.shareLink(shares), asked);
-    if (setup.sound) await page.getByRole('button', { name: 'Sound', exact: true }).click();
+    // By key: the page is too small for its buttons.
+    if (setup.sound) await page.getByRole('button', { name: 'Sound', exact: true }).press('Enter');
     await wait(setup.points === null ? LONG_WARM_UP_MS : WARM_UP_MS);
     const { pid } = stack.robot(ROBOT);
     const counters = async () => ({

@@ -22,15 +22,28 @@ describe('clouds', () => {
     const { hold, passed, add } = bench();
     hold.tick(1000, 0);
     add(1010, 1);
-    add(1066, 2);
-    add(1020, 3);
+    add(1030, 2);
+    add(1066, 3);
+    add(1020, 4);
     expect(passed).toEqual([1010]);
-    hold.tick(1040, 60);
-    expect(passed).toEqual([1010]);
+    hold.tick(1033, 40);
+    expect(passed).toEqual([1010, 1030]);
     hold.tick(1066, 70);
-    expect(passed).toEqual([1010, 1066, 1020]);
+    expect(passed).toEqual([1010, 1030, 1066, 1020]);
     expect(hold.stats.aheadMs?.max).toBe(10);
-    expect(hold.stats.heldMs?.max).toBe(68);
+    expect(hold.stats.heldMs?.max).toBe(67);
+  });
+
+  test('that come seldom belong to the nearest picture, too', () => {
+    const { hold, passed, add } = bench();
+    hold.tick(1000, 0);
+    hold.tick(1033, 33);
+    add(1000, 34);
+    add(1090, 35);
+    expect(passed).toEqual([1000]);
+    // Half of the 90 ms between clouds before the cloud.
+    hold.tick(1066, 66);
+    expect(passed).toEqual([1000, 1090]);
   });
 
   test('belong to the nearest picture of slow cameras', () => {

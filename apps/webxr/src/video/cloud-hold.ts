@@ -12,10 +12,10 @@ const DRIVER_MARGIN_MS = 10;
 const MOST_DRIVER_HOLD_MS = 60;
 /** Videos that have not gone on for so long have stopped, ms. */
 const VIDEO_SILENT_MS = 200;
-/** What was captured at most half an interval of the videos after them belongs to them; here at first, ms … */
-const FIRST_TOGETHER_MS = 17;
+/** From one picture to the next, and from one cloud to the next, at first, ms … */
+const FIRST_INTERVAL_MS = 33;
 /** … and at most. */
-const MOST_TOGETHER_MS = 50;
+const MOST_INTERVAL_MS = 100;
 /** Share of the newest value in the mean of what clouds had to wait. */
 const MEAN_SHARE = 1 / 32;
 /** Holding ends only when it is so much too short, as a factor: a change shifts the delay of what is seen. */
@@ -49,7 +49,10 @@ export class CloudHold {
   readonly #ahead = new SampleWindow(SAMPLES_KEPT);
   readonly #held = new SampleWindow(SAMPLES_KEPT);
   #videoMs: number | null = null;
-  #togetherMs = FIRST_TOGETHER_MS;
+  #videoIntervalMs = FIRST_INTERVAL_MS;
+  #cloudIntervalMs = FIRST_INTERVAL_MS;
+  /** Captured last of the clouds that have arrived. */
+  #newestMs = Number.NEGATIVE_INFINITY;
   /** When the videos last went on, ms. */
   #wentOnMs = Number.NEGATIVE_INFINITY;
   /** The mean of how long clouds would have to wait, ms. */
@@ -68,7 +71,12 @@ export class CloudHold {
    */
   add(captureMs: number, nowMs: number, pass: () => void): void {
     this.#waiting.push({ captureMs, arrivedMs: nowMs, pass });
-    if (this.#awaited.at(-1)?.captureMs !== captureMs) this.#awaited.push({ captureMs, arrivedMs: nowMs });
+    if (captureMs > this.#newestMs) {
+      const stepMs = captureMs - this.#newestMs;
+      if (Number.isFinite(stepMs)) this.#cloudIntervalMs = Math.min(stepMs, MOST_INTERVAL_MS);
+      this.#newestMs = captureMs;
+      this.#awaited.push({ captureMs, arrivedMs: nowMs });
+    }
     if (this.#awaited.length > MOST_AWAITED) this.#awaited.shift();
     this.#passDue(nowMs);
   }
@@ -78,7 +86,7 @@ export class CloudHold {
     if (videoMs !== this.#videoMs) {
       this.#wentOnMs = nowMs;
       const stepMs = (videoMs ?? 0) - (this.#videoMs ?? Number.POSITIVE_INFINITY);
-      if (stepMs > 0) this.#togetherMs = Math.min(stepMs / 2, MOST_TOGETHER_MS);
+      if (stepMs > 0) this.#videoIntervalMs = Math.min(stepMs, MOST_INTERVAL_MS);
       this.#videoMs = videoMs;
       if (videoMs !== null) this.#judge(videoMs, nowMs);
     }
@@ -90,7 +98,9 @@ export class CloudHold {
     for (const { pass } of this.#waiting.splice(0)) pass();
     this.#awaited.length = 0;
     this.#videoMs = null;
-    this.#togetherMs = FIRST_TOGETHER_MS;
+    this.#videoIntervalMs = FIRST_INTERVAL_MS;
+    this.#cloudIntervalMs = FIRST_INTERVAL_MS;
+    this.#newestMs = Number.NEGATIVE_INFINITY;
     this.#wentOnMs = Number.NEGATIVE_INFINITY;
     this.#neededMs = 0;
     this.#isWorthIt = true;
@@ -108,7 +118,12 @@ export class CloudHold {
   }
 
   get #mostHeldMs(): number {
-    return this.#limit(this.#togetherMs * 2);
+    return this.#limit(this.#videoIntervalMs);
+  }
+
+  /** What was captured so long after a picture at most belongs to it: half an interval of the slower source. */
+  get #togetherMs(): number {
+    return Math.max(this.#videoIntervalMs, this.#cloudIntervalMs) / 2;
   }
 
   /** Videos that come later than a cloud may wait are not waited for in vain. */
