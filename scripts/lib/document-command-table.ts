@@ -157,6 +157,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
 
   // Building, and its prerequisites.
   'npx -y pnpm@12 build': { because: 'builds for minutes' },
+  'pnpm build': { because: 'builds for minutes' },
   'npx -y pnpm@12 build:native': { because: 'builds for minutes' },
   'npx -y pnpm@12 build:native dds': { because: 'builds for minutes' },
   'npx -y pnpm@12 build:native video': { because: 'builds for minutes' },
