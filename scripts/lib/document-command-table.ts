@@ -223,7 +223,6 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
         'sim',
         'recording',
         'recording --videos 3 --seconds 40 --captured-fps 10',
-        'recording --videos N',
         'congestion',
         'sampling --plot FILE.svg',
       ],
