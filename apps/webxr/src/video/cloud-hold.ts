@@ -16,6 +16,8 @@ const VIDEO_SILENT_MS = 200;
 const FIRST_INTERVAL_MS = 33;
 /** … and at most. */
 const MOST_INTERVAL_MS = 100;
+/** What was left out makes a step longer, but not the interval: it grows by this share of the difference. */
+const GROWTH = 1 / 8;
 /** Share of the newest value in the mean of what clouds had to wait. */
 const MEAN_SHARE = 1 / 32;
 /** Holding ends only when it is so much too short, as a factor: a change shifts the delay of what is seen. */
@@ -73,7 +75,7 @@ export class CloudHold {
     this.#waiting.push({ captureMs, arrivedMs: nowMs, pass });
     if (captureMs > this.#newestMs) {
       const stepMs = captureMs - this.#newestMs;
-      if (Number.isFinite(stepMs)) this.#cloudIntervalMs = Math.min(stepMs, MOST_INTERVAL_MS);
+      if (Number.isFinite(stepMs)) this.#cloudIntervalMs = intervalAfter(this.#cloudIntervalMs, stepMs);
       this.#newestMs = captureMs;
       this.#awaited.push({ captureMs, arrivedMs: nowMs });
     }
@@ -86,7 +88,7 @@ export class CloudHold {
     if (videoMs !== this.#videoMs) {
       this.#wentOnMs = nowMs;
       const stepMs = (videoMs ?? 0) - (this.#videoMs ?? Number.POSITIVE_INFINITY);
-      if (stepMs > 0) this.#videoIntervalMs = Math.min(stepMs, MOST_INTERVAL_MS);
+      if (stepMs > 0) this.#videoIntervalMs = intervalAfter(this.#videoIntervalMs, stepMs);
       this.#videoMs = videoMs;
       if (videoMs !== null) this.#judge(videoMs, nowMs);
     }
@@ -153,4 +155,9 @@ export class CloudHold {
       next.pass();
     }
   }
+}
+
+function intervalAfter(intervalMs: number, stepMs: number): number {
+  const longer = intervalMs + (Math.min(stepMs, MOST_INTERVAL_MS) - intervalMs) * GROWTH;
+  return Math.min(stepMs, longer);
 }
