@@ -195,9 +195,11 @@ describe('the image', () => {
       const app = join(folder, 'app');
       mkdirSync(app, { recursive: true });
       copyTree(src);
+      const env: Record<string, string> = { CI: '1', npm_config_verify_deps_before_run: 'false' };
       for (const { name, text } of dockerfile) {
-        if (name === 'RUN' && !text.startsWith('apt-get')) {
-          const env = { CI: '1', npm_config_verify_deps_before_run: 'false' };
+        const [, argument, value] = (name === 'ARG' && /^(\w+)=(.+)$/.exec(text)) || [];
+        if (argument !== undefined && value !== undefined) env[argument] = value;
+        if (name === 'RUN' && !text.includes('apt-get')) {
           const step = run('sh', ['-c', text], { cwd: src, env });
           expect(step.status, `${text}\n${step.output}`).toBe(0);
         }
