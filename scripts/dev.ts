@@ -88,7 +88,11 @@ try {
     robots: adminPorts.map((adminPort, index) => ({
       id: `sim-${index + 1}`,
       name: `Simulated robot ${index + 1}`,
-      args: ['--source', 'sim', '--sim-seed', String(index + 1), ...args],
+      args: [
+        ...['--source', 'sim', '--sim-seed', String(index + 1), ...args],
+        // Browsers must recognise the robot the next time, too.
+        ...['--robot-key', `${repositoryRoot}/.farpoint/robot-keys/sim-${index + 1}.json`],
+      ],
       adminPort,
     })),
     onLine,

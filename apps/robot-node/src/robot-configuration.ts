@@ -26,6 +26,8 @@ export interface RobotOptions extends RateControlOptions {
   signaling: Pick<SignalingOptions, 'url' | 'key' | 'token' | 'ca'>;
   /** File with the keys whose grants admit operators; if undefined, everybody is admitted. */
   grantKeys?: string | undefined;
+  /** File with the key by which operators recognise the robot. */
+  robotKey: string;
   /** Sources of clouds, the main one first. */
   sensors: readonly CloudSensorOptions[];
   /** Simulated wheels; `null` for real ones. */

@@ -1,5 +1,6 @@
 import type { Logger } from '@farpoint/service';
 import { GrantKeysFile } from './access/grant-keys-file.ts';
+import { openRobotKey, type RobotKey } from './access/robot-key-file.ts';
 import { BaseThread } from './base/base-thread.ts';
 import type { Capture } from './capture/capture.ts';
 import { openSink } from './drive/open-sink.ts';
@@ -22,6 +23,8 @@ export interface RobotParts {
   recording: SessionRecording | null;
   /** `null` if everybody is admitted. */
   grantKeys: GrantKeysFile | null;
+  /** `null` if it can be neither read nor made. */
+  robotKey: RobotKey | null;
   /** The cameras that are streamed as video. */
   videos: readonly VideoCamera[];
 }
@@ -34,6 +37,7 @@ export interface RobotParts {
  */
 export async function openParts(options: RobotOptions, log: Logger): Promise<RobotParts> {
   const grantKeys = options.grantKeys === undefined ? null : await GrantKeysFile.open(options.grantKeys);
+  const robotKey = await openRobotKey(options.robotKey, log);
   const { record = null, foxglove = null, id } = options;
   const recording =
     record === null && foxglove === null ? null : await SessionRecording.open({ record, foxglove }, id, log);
@@ -51,7 +55,15 @@ export async function openParts(options: RobotOptions, log: Logger): Promise<Rob
     const videos =
       main === undefined ? cameras : [...cameras, ...(await openPlayedVideos(main, played, log))];
     if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond, videos);
-    return { captures, base, sink: openSink(options.sink, base, log), recording, videos, grantKeys };
+    return {
+      captures,
+      base,
+      sink: openSink(options.sink, base, log),
+      recording,
+      videos,
+      grantKeys,
+      robotKey,
+    };
   } catch (error) {
     for (const capture of captures) await capture.close();
     await base?.close();

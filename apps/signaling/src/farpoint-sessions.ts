@@ -109,14 +109,15 @@ export class FarpointSessions {
 
   #offer(
     robot: RobotEntry,
-    { type, session: handle, sdp, claim: claimed }: Extract<RobotToService, { type: 'session.offer' }>,
+    message: Extract<RobotToService, { type: 'session.offer' }>,
     refuse: Refuse,
   ): string | null {
+    const { claim: claimed, session: handle, ...offer } = message;
     const claim = claimed === undefined ? null : this.#claims.take(claimed, handle, robot);
     const session = claim === null ? this.#find(robot, handle, refuse) : this.#bind(claim, refuse);
     if (session === null) return null;
-    toOperator(session.operator.peer, { type, session: handle, sdp });
-    return type;
+    toOperator(session.operator.peer, { ...offer, session: handle });
+    return message.type;
   }
 
   #open(operator: OperatorEntry, robotId: string, refuse: Refuse): void {

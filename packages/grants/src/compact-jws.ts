@@ -1,7 +1,6 @@
 /** Reads the compact form of a JWS (RFC 7515 §7.1): header and payload as JSON, both checked. */
 import { base64url, type CryptoKey, compactVerify, errors } from 'jose';
 import * as z from 'zod/mini';
-import { type GrantRefusal, GrantRefusedError } from './refusal.ts';
 
 const FORM = /^[A-Za-z0-9_-]+\.[A-Za-z0-9_-]+\.[A-Za-z0-9_-]*$/;
 const utf8 = new TextDecoder('utf-8', { fatal: true });
@@ -11,15 +10,15 @@ export interface JwsKind {
   /** What it is, for error texts. */
   what: string;
   maxLength: number;
-  malformed: GrantRefusal;
+  malformed: (detail: string) => Error;
   /** The signature does not match. */
-  forged: GrantRefusal;
+  forged: (detail: string) => Error;
 }
 
 /**
  * The protected header, before anything is verified.
  *
- * @throws {GrantRefusedError}
+ * @throws {Error} the kind's
  */
 export function readHeader<T>(kind: JwsKind, schema: z.core.$ZodType<T>, text: string): T {
   if (text.length > kind.maxLength) throw refused(kind, `longer than ${kind.maxLength} characters`);
@@ -30,7 +29,7 @@ export function readHeader<T>(kind: JwsKind, schema: z.core.$ZodType<T>, text: s
 /**
  * The payload, without a look at the signature: to show what is in it, never to act upon it.
  *
- * @throws {GrantRefusedError}
+ * @throws {Error} the kind's
  */
 export function readPayload<T>(kind: JwsKind, schema: z.core.$ZodType<T>, text: string): T {
   return parsePart(kind, 'payload', schema, text.slice(text.indexOf('.') + 1, text.lastIndexOf('.')));
@@ -40,7 +39,7 @@ export function readPayload<T>(kind: JwsKind, schema: z.core.$ZodType<T>, text: 
  * Verifies the signature.
  *
  * @param alg the only algorithm that counts; the header's word is not taken for it
- * @throws {GrantRefusedError}
+ * @throws {Error} the kind's
  */
 export async function checkSignature(
   kind: JwsKind,
@@ -52,7 +51,7 @@ export async function checkSignature(
     await compactVerify(text, key, { algorithms: [alg] });
   } catch (error) {
     if (error instanceof errors.JWSSignatureVerificationFailed || error instanceof errors.JOSEAlgNotAllowed)
-      throw new GrantRefusedError(kind.forged, 'the signature does not match');
+      throw kind.forged('the signature does not match');
     if (error instanceof errors.JOSEError) throw refused(kind, error.message);
     throw error;
   }
@@ -71,6 +70,6 @@ function parsePart<T>(kind: JwsKind, part: string, schema: z.core.$ZodType<T>, t
   throw refused(kind, `its ${part} has an invalid value${path === '' ? '' : ` at ${path}`}`);
 }
 
-function refused({ what, malformed }: JwsKind, detail: string): GrantRefusedError {
-  return new GrantRefusedError(malformed, `${what}: ${detail}`);
+function refused({ what, malformed }: JwsKind, detail: string): Error {
+  return malformed(`${what}: ${detail}`);
 }

@@ -1,7 +1,8 @@
 /** What a grant says: the claims of a JWT (RFC 7519). */
-import { displayNameSchema, handleSchema, roles } from '@farpoint/protocol';
+import { displayNameSchema, handleSchema, robotIdSchema, roles } from '@farpoint/protocol';
 import * as z from 'zod/mini';
 import type { JwsKind } from './compact-jws.ts';
+import { GrantRefusedError } from './refusal.ts';
 
 export const GRANT_TYPE = 'farpoint-grant+jwt';
 export const AUDIENCE = 'farpoint';
@@ -13,8 +14,8 @@ export const MAX_GRANT_LENGTH = 4096;
 export const GRANT: JwsKind = {
   what: 'grant',
   maxLength: MAX_GRANT_LENGTH,
-  malformed: 'grant-malformed',
-  forged: 'grant-untrusted',
+  malformed: (detail) => new GrantRefusedError('grant-malformed', detail),
+  forged: (detail) => new GrantRefusedError('grant-untrusted', detail),
 };
 
 /** A robot's id, in which each `*` stands for any characters or none. */
@@ -31,6 +32,11 @@ export const sha256Schema = z.string().check(z.regex(/^[A-Za-z0-9_-]{43}$/));
 export const subjectSchema = z
   .string()
   .check(z.minLength(1), z.maxLength(128), z.regex(/^[^\p{Cc}]*$/u, 'must have no control characters'));
+
+/** Thumbprints of robots' keys, by robot id. */
+export const robotKeysSchema = z
+  .record(robotIdSchema, sha256Schema)
+  .check(z.refine((keys) => Object.keys(keys).length <= MAX_ROBOTS, `at most ${MAX_ROBOTS} robots`));
 
 /** Unknown claims are ignored (RFC 7519 §4). */
 export const grantClaimsSchema = z.object({
@@ -49,6 +55,8 @@ export const grantClaimsSchema = z.object({
   role: z.enum(roles),
   /** The operator's own key (RFC 7800), as its thumbprint (RFC 7638). */
   cnf: z.object({ jkt: sha256Schema }),
+  /** For the operator: the thumbprints of robots' keys, by robot id. */
+  robotKeys: z.optional(robotKeysSchema),
 });
 export type GrantClaims = z.infer<typeof grantClaimsSchema>;
 

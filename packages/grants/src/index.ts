@@ -7,6 +7,7 @@ export {
   grantClaimsSchema,
   MAX_GRANT_LENGTH,
   MAX_ROBOTS,
+  robotKeysSchema,
   robotPatternSchema,
   sha256Schema,
   subjectSchema,
@@ -27,6 +28,7 @@ export {
 export * from './operator-key.ts';
 export { MAX_PROOF_LENGTH, makeProof, PROOF_LEEWAY_S, type SessionFacts, verifyProof } from './proof.ts';
 export * from './refusal.ts';
+export * from './robot-identity.ts';
 export { makeSigningKey, type NewSigningKey, parseSigningKey } from './signing-key.ts';
 export { fingerprintSchema, soleFingerprint } from './sole-fingerprint.ts';
 export * from './ticket.ts';

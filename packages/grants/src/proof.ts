@@ -21,8 +21,8 @@ export const PROOF_LEEWAY_S = 300;
 const PROOF: JwsKind = {
   what: 'proof',
   maxLength: MAX_PROOF_LENGTH,
-  malformed: 'proof-malformed',
-  forged: 'proof-forged',
+  malformed: (detail) => new GrantRefusedError('proof-malformed', detail),
+  forged: (detail) => new GrantRefusedError('proof-forged', detail),
 };
 
 const headerSchema = z.object({

@@ -45,6 +45,14 @@ export type {
   VoiceState,
   Welcome,
 } from '@farpoint/protocol';
+export { type KnownRobots, knownInMemory } from './access/known-robots.ts';
+export {
+  claimsOfGrant,
+  grantFor,
+  type OperatorCredentials,
+  readTicket,
+} from './access/operator-credentials.ts';
+export type { ChangedRobotKey } from './access/session-admission.ts';
 export { type BridgeAddress, parseBridge } from './bridge/bridge-settings.ts';
 export type { RobotClientOptions } from './client/client-options.ts';
 export { ConnectError, type ConnectFailure, type ConnectOptions, connect } from './client/connect.ts';

@@ -719,6 +719,8 @@ offer = {"type": "session.offer", "session": "s1", "sdp": SDP}
 session_answer = {"type": "session.answer", "session": "s1", "sdp": SDP}
 granted_answer = {**session_answer, "grant": "a.b-_.", "proof": "A.B.9"}
 GRANTED = "session.answer with a grant and a proof"
+IDENTIFIED = "session.offer with an identity"
+BAD_IDENTITIES = [("identity", ""), ("identity", "a b"), ("identity", "x" * 2049), ("identity", 7)]
 BAD_GRANTS = [("grant", ""), ("grant", "a b"), ("grant", "x" * 4097), ("grant", 7), ("proof", ""), ("proof", "a\nb"), ("proof", "x" * 2049),
               ("token", "x", "")]
 trickle = {"type": "session.candidate", "session": "s1", "candidate": ice}
@@ -749,6 +751,8 @@ m.good({**trickle, "candidate": {**ice, "sdpMid": None, "sdpMLineIndex": None, "
 m.common(close, 65536)
 m.spoil(hello, ("protocol", 0), ("id", "Robot 1"), ("id", ""), ("name", ""), ("name", "\u0000"), ("key", ""), ("key", "a.b"), ("key", ABSENT), ("token", ""),
         ("token", "x" * 4097), ("admin", True, ""))
+identified = m.good({**offer, "identity": "a.b-_.C9"}, IDENTIFIED)
+m.spoil(identified, *BAD_IDENTITIES)
 m.spoil(offer, ("session", ""), ("session", "s 1"), ("sdp", ""), ("sdp", ABSENT), ("type", "session.answer"))
 m.spoil(trickle, ("candidate", CANDIDATE), ("candidate.candidate", "x" * 1025), ("candidate.sdpMLineIndex", -1), ("candidate.extra", 1, "candidate"))
 m.spoil(full, ("reason", "operator-left"), ("maxOperators", -1), ("maxOperators", "4"), ("detail", "x" * 301))
@@ -800,6 +804,7 @@ opened = m.good({"type": "session.opened", "session": "s1", "robotId": "sim-1"})
 resuming = m.good({"type": "session.resuming", "session": "s1"})
 for message in [offer, trickle, ended, error]:
     m.good(message)
+m.spoil(m.good({**offer, "identity": "a.b-_.C9"}, IDENTIFIED), *BAD_IDENTITIES)
 for reason in [*ROBOT_REASONS, "closed-by-robot", "unknown-session"]:
     m.good({**ended, "reason": reason}, "session.closed: " + reason)
 m.good({**ended, "reason": "robot-full", "maxOperators": 4}, "session.closed: robot-full, with how many")

@@ -8,4 +8,10 @@ export const accessOptions = optionGroup('access', {
     argument: 'FILE',
     help: 'admit only operators with a grant that one of these public keys signed (a JWK set, from `farpoint-signaling grant keygen`); read again at SIGHUP',
   }),
+  robotKey: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'FILE',
+    help: 'the private key by which operators recognise this robot; made if it does not exist; default: in --state-dir',
+  }),
 });

@@ -1,6 +1,7 @@
 /** Turns option values that are valid one by one into the parts of the robot. */
 import { randomBytes } from 'node:crypto';
 import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { GrantKeysError, readJwkSet } from '@farpoint/grants';
 import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
 import { fileFault, type OptionMistake, OptionsError } from '@farpoint/service';
@@ -38,6 +39,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const alarms = toAlarmRules(values.alarms, quantities, (detail) => refuse('alarms', detail));
   const broadcast = toBroadcast(values, ca, refuse);
   if (mistakes.length > 0) throw new OptionsError(mistakes);
+  const folder = stateFolder(values.stateDir, process.env);
   const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
   return {
     id: values.id,
@@ -49,6 +51,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       ca,
     },
     grantKeys: values.grantKeys ?? undefined,
+    robotKey: values.robotKey ?? join(folder, `${values.id}.key.json`),
     sensors: toSensors(values, topics),
     base:
       values.source === 'sim'
@@ -64,7 +67,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     quantities,
     alarms,
     takePolicy: values.takePolicy,
-    stateFolder: stateFolder(values.stateDir, process.env),
+    stateFolder: folder,
     referenceSignaling: values.referenceSignaling ?? undefined,
     bitsPerSecond: BitRate.fromMbps(values.bitrateMbps),
     mode: values.mode,

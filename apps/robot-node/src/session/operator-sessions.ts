@@ -4,6 +4,7 @@ import type { IceServer, RobotToService, ServiceToRobot, VideoCodec } from '@far
 import type { Logger } from '@farpoint/service';
 import type { GrantKeysFile } from '../access/grant-keys-file.ts';
 import { RobotAccess } from '../access/robot-access.ts';
+import type { RobotKey } from '../access/robot-key-file.ts';
 import { monotonicMs } from '../clock.ts';
 import type { CloudClaim } from '../sensors/cloud-shares.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
@@ -19,6 +20,8 @@ export interface OperatorSessionsOptions {
   id: string;
   /** `null` if everybody is admitted. */
   grantKeys: GrantKeysFile | null;
+  /** `null`: operators cannot recognise the robot. */
+  robotKey: RobotKey | null;
   /** The maximum number of operators; further ones are refused. */
   most: number;
   /** In addition to the signaling service's ICE servers. */
@@ -185,9 +188,12 @@ export class OperatorSessions {
     log.info('session requested');
     try {
       const sdp = await operator.peer.offer();
+      const { robotKey, id: robot } = this.#options;
+      const identity = await robotKey?.identify({ robot, session, offer: sdp }, Date.now() / 1000);
       if (this.operators.get(session) !== operator) return;
       this.#access?.offered(operator, sdp);
-      signaling.send({ type: 'session.offer', session, sdp });
+      const signed = identity === undefined ? {} : { identity };
+      signaling.send({ type: 'session.offer', session, sdp, ...signed });
     } catch (error) {
       log.error({ err: error }, 'no offer');
       operator.peer.close('not-connected', 'no offer could be made');

@@ -1,7 +1,14 @@
 import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { decodeTicket, keyThumbprint, makeOperatorKey, parseGrantKeys, verifyGrant } from '@farpoint/grants';
+import {
+  decodeTicket,
+  keyThumbprint,
+  makeOperatorKey,
+  parseGrantKeys,
+  readGrant,
+  verifyGrant,
+} from '@farpoint/grants';
 import { afterEach, beforeEach, expect, it } from 'vitest';
 import { grantCommand } from './grant-command.ts';
 
@@ -64,6 +71,26 @@ it('issues a grant for a thumbprint and for a public key in a file', async () =>
     const grant = await verifyGrant(out.trim(), { keys: trusted, robot: 'hall-1', nowS: NOW / 1000 });
     expect(grant).toMatchObject({ operatorKey: jkt, subject: 'Ada', expiresAtS: NOW / 1000 + 129_600 });
   }
+});
+
+it('names robots’ keys for the operator', async () => {
+  const { key, keys } = files();
+  await run(['keygen', ...flagsOf({ key, keys })]);
+  const thumbprint = 'A'.repeat(43);
+  const issue = (...robotKeys: string[]) =>
+    run([
+      ...['issue', ...ada, '--with-key', '--key', key],
+      ...robotKeys.flatMap((each) => ['--robot-key', each]),
+    ]);
+  const { out } = await issue(`hall-1=${thumbprint}`, `kitchen-1=${'b'.repeat(43)}`);
+  expect(readGrant(decodeTicket(out.trim())?.grant ?? '').claims.robotKeys).toEqual({
+    ...{ 'hall-1': thumbprint, 'kitchen-1': 'b'.repeat(43) },
+  });
+  expect(await run(['show', out.trim()])).toMatchObject({
+    out: expect.stringContaining(`robot key  hall-1 ${thumbprint}\n`),
+  });
+  for (const wrong of ['hall-1', 'hall-1=short', `=${thumbprint}`, `Hall 1=${thumbprint}`])
+    expect(await issue(wrong)).toMatchObject({ status: 2, err: expect.stringContaining('--robot-key') });
 });
 
 it('a ticket holds the key that its grant names', async () => {

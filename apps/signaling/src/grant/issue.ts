@@ -9,6 +9,7 @@ import {
   grantClaimsSchema,
   issueGrant,
   keyThumbprint,
+  MAX_ROBOTS,
   makeOperatorKey,
   parseSigningKey,
   sha256Schema,
@@ -28,6 +29,8 @@ Issues a grant, and writes it to standard output as one line.
   --with-key      make the key, too, and write a ticket of both: a secret, for this operator only
   --days DAYS     how long it is valid, 0.01–366; fractions are allowed (default: 30)
   --key FILE      the private key that signs (default: grant-key.json)
+  --robot-key ID=KEY  the thumbprint of a robot's own key, which it logs when it starts: the operator's browser
+                  then connects to no other robot under this id; may be repeated
   --subject TEXT  identifies the person over all its grants (default: the name)
   --issuer TEXT   who issues it (default: farpoint-signaling)
 `;
@@ -40,6 +43,7 @@ const OPTIONS = {
   'with-key': { type: 'boolean', default: false },
   days: { type: 'string', default: '30' },
   key: { type: 'string', default: 'grant-key.json' },
+  'robot-key': { type: 'string', multiple: true },
   subject: { type: 'string' },
   issuer: { type: 'string', default: 'farpoint-signaling' },
 } as const;
@@ -50,6 +54,7 @@ const FLAGS: Partial<Record<string, string>> = {
   sub: '--subject must be 1–128 characters',
   name: '--name must be 1–64 characters, without control characters',
   robots: '--robots must be 1–32 robot ids (a–z 0–9 . _ -), in which * stands for anything',
+  robotKeys: `--robot-key must be ID=KEY with a robot's id and a thumbprint, ${MAX_ROBOTS} at most`,
   role: '--role must be watch, drive or supervise',
 };
 
@@ -69,6 +74,7 @@ export async function issue(argv: string[], { stdout, stderr, now }: CommandRim)
   const claims = checked({
     ...{ iss: issuer, sub: values.subject ?? name, name, aud: AUDIENCE, role, cnf: { jkt } },
     ...{ iat: nowS, nbf: nowS, exp: nowS + Math.round(lasts * 86_400) },
+    ...robotKeys(values['robot-key'] ?? []),
     ...{ jti: randomBytes(12).toString('base64url'), robots: robots?.split(',').map((id) => id.trim()) },
   });
   const signingKey = await parseSigningKey(readText('--key', values.key)).catch((error: unknown) => {
@@ -87,6 +93,11 @@ export async function issue(argv: string[], { stdout, stderr, now }: CommandRim)
   );
   stdout.write(`${encodeTicket({ grant, key: await exportOperatorKey(made) })}\n`);
   return 0;
+}
+
+function robotKeys(given: readonly string[]): { robotKeys?: Record<string, string> } {
+  if (given.length === 0) return {};
+  return { robotKeys: Object.fromEntries(given.map((each) => [each.split('=')[0], each.split('=')[1]])) };
 }
 
 function checked(claims: object): GrantClaims {

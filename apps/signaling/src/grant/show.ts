@@ -51,6 +51,10 @@ export async function show(argv: string[], { stdout, now }: CommandRim): Promise
     ['robots', claims.robots.join(', ')],
     ['valid', `from ${date(claims.nbf)} to ${date(claims.exp)}`],
     ['issued', `${date(claims.iat)} by ${claims.iss}`],
+    ...Object.entries(claims.robotKeys ?? {}).map(([id, key]): [string, string] => [
+      'robot key',
+      `${id} ${key}`,
+    ]),
     ['grant', claims.jti],
     ['signed by', keyId],
     ['for key', claims.cnf.jkt],

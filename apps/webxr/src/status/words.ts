@@ -49,6 +49,8 @@ const lossWords: Record<Exclude<SessionLoss, 'robot-full'>, string> = {
   'bad-answer':
     'The robot cannot use the connection that this browser offers. Update the browser or use another. Trying again…',
   'not-granted': 'The robot admits only operators with a grant that is valid for it.',
+  'robot-key-changed': 'The robot’s key has changed: it may be another robot.',
+  'robot-unproven': 'This robot could not prove that it is the one that this browser knows.',
   'grant-expired': 'Your grant for this robot has ended. Ask for another.',
   'unproven-peer':
     'The robot refused the connection: it is not encrypted end to end with this page. Trying again…',

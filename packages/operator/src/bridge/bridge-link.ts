@@ -15,6 +15,8 @@ const TICK_MS = 100;
 export class BridgeLink implements RobotLink {
   sessionsOpened = 0;
   readonly lastLoss: SessionLoss | null = null;
+  readonly lossDetail = null;
+  readonly changedRobotKey = null;
   readonly maxOperators = null;
   readonly #address: BridgeAddress;
   readonly #worker: Worker;
@@ -71,6 +73,9 @@ export class BridgeLink implements RobotLink {
   connect(robotId: string): void {
     this.#bridge.want(robotId);
   }
+
+  /** A bridge tries by itself. */
+  retry(): void {}
 
   disconnect(): void {
     this.#bridge.want(null);

@@ -1,4 +1,6 @@
 import type { CloudFormat } from '@farpoint/protocol';
+import type { KnownRobots } from '../access/known-robots.ts';
+import type { OperatorCredentials } from '../access/operator-credentials.ts';
 import type { BridgeAddress } from '../bridge/bridge-settings.ts';
 import type { DriveInput } from '../drive/drive-input.ts';
 import type { TransformSupport } from '../peer/encoded-transform.ts';
@@ -11,6 +13,10 @@ export interface RobotClientOptions {
   name: string;
   /** The operator's token, if the service requires one. */
   token: string | undefined;
+  /** The operator's grants, for robots that ask for them; called before each session is answered. */
+  credentials?: (() => Promise<readonly OperatorCredentials[]>) | undefined;
+  /** The keys by which robots are recognised. Default: those that are seen first, until the client is closed. */
+  knownRobots?: KnownRobots | undefined;
   /** `relay`: through TURN servers only. */
   icePolicy: RTCIceTransportPolicy;
   /** How this browser hands encoded frames to a worker. */

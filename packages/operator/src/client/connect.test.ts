@@ -22,6 +22,8 @@ describe('connect', () => {
       name: 'Operator',
       icePolicy: 'all',
       cloudFormats: undefined,
+      credentials: undefined,
+      knownRobots: undefined,
     });
   });
 
@@ -33,6 +35,7 @@ describe('connect', () => {
     expect(failure({ ...good, signaling: 'ws://x.org' }, check).reason).toBe('bad-signaling-address');
     expect(failure({ ...good, robot: 'a robot!' }, check).reason).toBe('bad-robot-id');
     expect(failure({ ...good, token: '' }, check).reason).toBe('bad-token');
+    expect(failure({ ...good, ticket: 'farpoint-ticket.e30' }, check).reason).toBe('bad-ticket');
     expect(failure({ ...good, name: '' }, check).reason).toBe('bad-name');
   });
 

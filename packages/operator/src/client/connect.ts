@@ -1,4 +1,7 @@
+import { decodeTicket } from '@farpoint/grants';
 import { type CloudFormat, displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
+import { knownInMemory } from '../access/known-robots.ts';
+import { type OperatorCredentials, readTicket } from '../access/operator-credentials.ts';
 import { transformSupport } from '../peer/encoded-transform.ts';
 import { parseSignalingUrl } from '../signaling/signaling-url.ts';
 import { RobotClient } from './robot-client.ts';
@@ -11,6 +14,12 @@ export interface ConnectOptions {
   robot?: string | undefined;
   /** The operator's token, if the service requires one. */
   token?: string | undefined;
+  /** A ticket from whoever issues grants: a secret. For robots that admit only operators with a grant. */
+  ticket?: string | undefined;
+  /** Instead of a ticket: grants with keys of the operator's own, see {@link OperatorCredentials}. */
+  credentials?: (() => Promise<readonly OperatorCredentials[]>) | undefined;
+  /** Thumbprints of robots' keys, by robot id: a robot that proves no such key is refused. */
+  robotKeys?: Readonly<Record<string, string>> | undefined;
   /** The name by which other operators and the robot's log know this one; default: `Operator`. */
   name?: string | undefined;
   /** `relay`: through TURN servers only. */
@@ -24,6 +33,7 @@ export type ConnectFailure =
   | 'bad-signaling-address'
   | 'bad-robot-id'
   | 'bad-token'
+  | 'bad-ticket'
   | 'bad-name'
   /** This browser has none. */
   | 'no-webrtc'
@@ -45,16 +55,34 @@ export class ConnectError extends Error {
 
 /** Checks the options of {@link connect}. @throws {ConnectError} */
 export function checkConnectOptions(options: ConnectOptions, securePage: boolean) {
-  const { signaling, robot, token, name = 'Operator', icePolicy = 'all', cloudFormats } = options;
+  const { signaling, robot, token, ticket, robotKeys, name = 'Operator' } = options;
+  const { credentials, icePolicy = 'all', cloudFormats } = options;
   const address = parseSignalingUrl(signaling, securePage);
   if ('fault' in address) throw new ConnectError('bad-signaling-address', `signaling: ${address.fault}`);
   if (robot !== undefined && !robotIdSchema.safeParse(robot).success)
     throw new ConnectError('bad-robot-id', `robot: “${robot}” is not a robot's id`);
   if (token !== undefined && !tokenSchema.safeParse(token).success)
     throw new ConnectError('bad-token', 'token: not an operator’s token; use printable characters only');
+  if (ticket !== undefined && decodeTicket(ticket.trim()) === null)
+    throw new ConnectError(
+      'bad-ticket',
+      'ticket: not a ticket; paste the whole line that begins with farpoint-ticket',
+    );
   if (!displayNameSchema.safeParse(name).success)
     throw new ConnectError('bad-name', `name: “${name}” cannot be shown; use fewer, printable characters`);
-  return { signalingUrl: address.url, robot, token, name, icePolicy, cloudFormats };
+  return {
+    ...{ signalingUrl: address.url, robot, token, name, icePolicy, cloudFormats },
+    credentials: ticket === undefined ? credentials : ofTicket(ticket),
+    knownRobots: robotKeys === undefined ? undefined : knownInMemory(robotKeys),
+  };
+}
+
+function ofTicket(ticket: string): () => Promise<readonly OperatorCredentials[]> {
+  const read = readTicket(ticket);
+  return async () => {
+    const credentials = await read;
+    return credentials === null ? [] : [credentials];
+  };
 }
 
 /**

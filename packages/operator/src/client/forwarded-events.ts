@@ -9,6 +9,7 @@ export function forwardedEvents(emitter: Emitter<RobotEvents>) {
     onRobots: (robots) => emitter.emit('robots', robots),
     onLoss: (loss) => emitter.emit('loss', loss),
     onRefusal: (message) => emitter.emit('refused', message),
+    onGrantExpires: (inS) => emitter.emit('grantExpires', inS),
     onRejected: (rejected) => emitter.emit('commandRejected', rejected),
     onEstop: (estop) => emitter.emit('estop', estop),
     onSensors: (sensors) => emitter.emit('sensors', sensors),

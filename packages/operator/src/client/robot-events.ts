@@ -46,6 +46,8 @@ export interface RobotEvents {
   refused: string;
   /** The robot's first message: its name, its drive limits. */
   welcome: Welcome;
+  /** The operator's grant ends in so many seconds, and the session with it. Comes a minute before. */
+  grantExpires: number;
   /** Who drives. */
   lease: LeaseState;
   /** The robot refused a command. */

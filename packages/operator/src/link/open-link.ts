@@ -1,3 +1,4 @@
+import { knownInMemory } from '../access/known-robots.ts';
 import { BridgeLink } from '../bridge/bridge-link.ts';
 import type { RobotClientOptions } from '../client/client-options.ts';
 import type { RobotLink, RobotLinkEvents } from './robot-link.ts';
@@ -5,8 +6,8 @@ import { WebRtcLink } from './webrtc-link.ts';
 
 /** @param worker decodes the clouds */
 export function openLink(options: RobotClientOptions, worker: Worker, events: RobotLinkEvents): RobotLink {
-  const { bridge = null } = options;
+  const { bridge = null, knownRobots = knownInMemory() } = options;
   return bridge === null
-    ? new WebRtcLink({ ...options, worker }, events)
+    ? new WebRtcLink({ ...options, worker, knownRobots }, events)
     : new BridgeLink(bridge, worker, events);
 }

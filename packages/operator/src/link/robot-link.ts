@@ -1,5 +1,6 @@
 /** The link to the robots, either direct (webrtc-link.ts) or through a bridge (bridge/bridge-link.ts). */
 import type { Command, OperatorSessionMessage, RobotListing } from '@farpoint/protocol';
+import type { ChangedRobotKey } from '../access/session-admission.ts';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
 import type { RobotSession, RobotSessionEvents } from '../session/robot-session.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
@@ -45,6 +46,10 @@ export interface RobotLink {
   readonly sessionsOpened: number;
   /** Why the last session was given up; `null` if none was. */
   readonly lastLoss: SessionLoss | null;
+  /** What was said about it, for people; `null` if nothing was. */
+  readonly lossDetail: string | null;
+  /** After the loss `robot-key-changed`: the keys; otherwise `null`. */
+  readonly changedRobotKey: ChangedRobotKey | null;
   /** How many operators the robot accepts, if it has said that it is full. */
   readonly maxOperators: number | null;
   /** Connects to the signaling service or bridge, and stays connected. */
@@ -53,6 +58,8 @@ export interface RobotLink {
   close(): void;
   /** Opens a session with this robot as soon as it is listed, and again whenever it is lost. */
   connect(robotId: string): void;
+  /** Tries again now, also after a loss that is final: `not-granted`, `robot-key-changed` and `robot-unproven`. */
+  retry(): void;
   /** Ends the session and wants no robot. */
   disconnect(): void;
   /** Time since anything was last received, ms. */

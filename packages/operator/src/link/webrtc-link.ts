@@ -10,29 +10,19 @@ import {
   operatorSessionCodec,
   type RobotListing,
 } from '@farpoint/protocol';
+import type { ChangedRobotKey, StrangeRobotError } from '../access/session-admission.ts';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
-import type { TransformSupport } from '../peer/encoded-transform.ts';
-import { RobotPeer } from '../peer/robot-peer.ts';
 import { RobotSession } from '../session/robot-session.ts';
 import { SessionKeeper, type SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
 import { OperatorSignaling, type SessionSignal } from '../signaling/operator-signaling.ts';
 import type { SignalingState } from '../signaling/signaling-state.ts';
 import { WebSocketPort } from '../signaling/web-socket-port.ts';
+import { IntroducedPeer } from './introduced-peer.ts';
 import { watchNetwork } from './network-changes.ts';
 import { watchPageLifecycle } from './page-lifecycle.ts';
 import type { RobotLink, RobotLinkEvents } from './robot-link.ts';
-
-export interface WebRtcLinkOptions {
-  signalingUrl: string;
-  name: string;
-  token: string | undefined;
-  worker: Worker;
-  transform: TransformSupport;
-  /** `relay`: through TURN servers only. */
-  icePolicy: RTCIceTransportPolicy;
-  onVideoReceiver?: (receiver: RTCRtpReceiver) => void;
-}
+import type { WebRtcLinkOptions } from './webrtc-link-options.ts';
 
 const [TICK_MS, PROBE_MS] = [250, 500];
 
@@ -41,7 +31,7 @@ export class WebRtcLink implements RobotLink {
   readonly #events: RobotLinkEvents;
   readonly #signaling: OperatorSignaling;
   readonly #keeper: SessionKeeper;
-  #peer: RobotPeer | null = null;
+  #peer: IntroducedPeer | null = null;
   #generation = 0;
   readonly #closed = new AbortController();
   #session: RobotSession;
@@ -53,6 +43,8 @@ export class WebRtcLink implements RobotLink {
   /** Number of requests for an ICE restart. */
   resumesAsked = 0;
   lastLoss: SessionLoss | null = null;
+  lossDetail: string | null = null;
+  changedRobotKey: ChangedRobotKey | null = null;
   maxOperators: number | null = null;
   /** The robot to reconnect to when the page is restored from the browser's cache. */
   #left: string | null = null;
@@ -61,10 +53,9 @@ export class WebRtcLink implements RobotLink {
     this.#options = options;
     this.#events = events;
     this.#session = new RobotSession(events);
-    const port = new WebSocketPort(options.signalingUrl, () => this.#signaling);
     this.#signaling = new OperatorSignaling(
-      { name: options.name, token: options.token },
-      port,
+      options,
+      new WebSocketPort(options.signalingUrl, () => this.#signaling),
       {
         onState: (state) => {
           this.#keeper.onSignaling(state === 'ready', performance.now());
@@ -94,6 +85,7 @@ export class WebRtcLink implements RobotLink {
         dropPeer: () => this.#dropPeer(),
         onPhase: (phase) => {
           if (phase === 'live') this.sessionsOpened++;
+          if (phase === 'opening') [this.lossDetail, this.changedRobotKey] = [null, null];
           events.onPhase(phase);
         },
         onLoss: (loss) => {
@@ -142,6 +134,10 @@ export class WebRtcLink implements RobotLink {
     this.#keeper.want(robotId, this.#robots, performance.now());
   }
 
+  retry(): void {
+    this.#keeper.retry(performance.now());
+  }
+
   disconnect(): void {
     this.#keeper.want(null, this.#robots, performance.now());
   }
@@ -184,22 +180,17 @@ export class WebRtcLink implements RobotLink {
     this.#peer?.sendBandwidth(encodeBandwidth(bitsPerSecond) as Uint8Array<ArrayBuffer>);
   }
 
-  /** Points were received. */
   onPoints(nowMs: number): void {
     this.#heard(nowMs);
   }
 
   sendReport(report: IntakeReport): void {
     if (report.generation !== this.#generation || this.interrupted) return;
-    this.#reportSequence = nextSequence32(this.#reportSequence);
+    const sequence = nextSequence32(this.#reportSequence);
+    this.#reportSequence = sequence;
     const { packetsReceived, packetsLost, bytesReceived } = report;
-    this.#sendControl({
-      type: 'receiverReport',
-      sequence: this.#reportSequence,
-      packetsReceived,
-      packetsLost,
-      bytesReceived,
-    });
+    const counts = { packetsReceived, packetsLost, bytesReceived };
+    this.#sendControl({ type: 'receiverReport', sequence, ...counts });
   }
 
   #sendControl(message: OperatorControlMessage): void {
@@ -213,14 +204,14 @@ export class WebRtcLink implements RobotLink {
         // The robot has accepted the request for a new path; its offer follows.
         if (message.session === this.#keeper.session) return;
         const ours = this.#keeper.onOpened(message.session, message.robotId);
-        if (!ours) this.#signaling.send({ type: 'session.close', session: message.session });
-        else this.#openPeer(message.session);
+        if (ours) this.#openPeer(message.session);
+        else this.#signaling.send({ type: 'session.close', session: message.session });
         return;
       }
       case 'session.offer':
         if (message.session !== this.#keeper.session) return;
         this.#peer?.useIceServers(this.#signaling.iceServers, this.#options.icePolicy);
-        void this.#peer?.offer(message.sdp);
+        this.#peer?.offer(message);
         return;
       case 'session.candidate':
         if (message.session === this.#keeper.session) void this.#peer?.candidate(message.candidate);
@@ -228,12 +219,11 @@ export class WebRtcLink implements RobotLink {
       case 'session.closed': {
         const { session, reason, maxOperators = null, detail } = message;
         if (detail !== undefined) console.warn('session ended by the robot:', reason, detail);
+        if (session === this.#keeper.session) this.lossDetail = detail ?? null;
         if (reason === 'robot-full') this.maxOperators = maxOperators;
         this.#keeper.onClosed(session, reason, nowMs);
         return;
       }
-      case 'session.resuming':
-        return;
       case 'error':
         // An established session does not need the service, so it may be unknown there, or the robot away.
         if (message.code !== 'unknown-session' && !(this.phase === 'live' && message.session !== undefined)) {
@@ -249,12 +239,14 @@ export class WebRtcLink implements RobotLink {
     this.#reportSequence = 0;
     this.#session = new RobotSession(this.#events);
     this.#events.onGeneration(this.#generation);
-    const { worker, transform, icePolicy, onVideoReceiver } = this.#options;
-    const peer: RobotPeer = new RobotPeer(
-      { iceServers: this.#signaling.iceServers, icePolicy, worker, transform, generation: this.#generation },
+    const peer: IntroducedPeer = new IntroducedPeer(
       {
-        onAnswer: (sdp) => this.#signaling.send({ type: 'session.answer', session, sdp }),
-        onCandidate: (candidate) => this.#signaling.send({ type: 'session.candidate', session, candidate }),
+        ...{ session, robotId: this.#keeper.robotId ?? '', generation: this.#generation },
+        ...{ link: this.#options, iceServers: this.#signaling.iceServers },
+      },
+      {
+        send: (message) => this.#signaling.send(message),
+        onStranger: (error) => this.#onStranger(error),
         onConnected: () => {
           this.#heard(performance.now());
           this.#keeper.onPeerConnected(performance.now());
@@ -267,7 +259,6 @@ export class WebRtcLink implements RobotLink {
           if (channel === 'control') this.#keeper.onAnswered(nowMs);
           this.#session.onMessage(channel, data, nowMs);
         },
-        onVideoReceiver,
         onVideoTrack: (track) => this.#events.onVideoTrack(track),
         onSoundLine: (line) => this.#events.onSoundLine(line),
         onFailed: (detail) => {
@@ -283,6 +274,14 @@ export class WebRtcLink implements RobotLink {
   #dropPeer(): void {
     this.#peer?.close();
     this.#peer = null;
+  }
+
+  /** Somebody other than the robot has sent an offer. It ends an attempt to connect, but never a running session. */
+  #onStranger({ reason, message, changed }: StrangeRobotError): void {
+    console.warn('an offer that is not the robot’s:', message);
+    if (this.phase === 'live') return;
+    [this.lossDetail, this.changedRobotKey] = [message, changed];
+    this.#keeper.onPeerFailed(performance.now(), reason);
   }
 
   #heard(nowMs: number): void {

@@ -107,14 +107,14 @@ export class RobotPeer {
   }
 
   /** Answers an offer, the first or one that restarts ICE. Never throws: an unusable offer ends the connection. */
-  async offer(sdp: string): Promise<void> {
+  async answer(sdp: string): Promise<void> {
     const connection = this.#connection;
     try {
       await connection.setRemoteDescription({ type: 'offer', sdp });
       await connection.setLocalDescription(await connection.createAnswer());
-      const answer = connection.localDescription;
-      if (this.#ended || answer === null) return;
-      this.#events.onAnswer(answer.sdp);
+      const { localDescription } = connection;
+      if (this.#ended || localDescription === null) return;
+      this.#events.onAnswer(localDescription.sdp);
       const queued = this.#queuedCandidates ?? [];
       this.#queuedCandidates = null;
       for (const candidate of queued) await this.candidate(candidate);

@@ -10,6 +10,7 @@ function bench(): { session: RobotSession; told: string[] } {
   };
   const session = new RobotSession({
     onWelcome: tell('welcome'),
+    onGrantExpires: () => undefined,
     onLease: tell('lease'),
     onRejected: tell('rejected'),
     onEstop: tell('estop'),

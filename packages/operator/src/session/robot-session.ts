@@ -38,6 +38,8 @@ export type RobotChannel = 'session' | 'telemetry' | 'control' | 'pictures';
 
 export interface RobotSessionEvents {
   onWelcome(welcome: Welcome): void;
+  /** The operator's grant ends soon. */
+  onGrantExpires(inS: number): void;
   onLease(lease: LeaseState): void;
   onRejected(rejected: CommandRejected): void;
   onEstop(estop: EstopState): void;
@@ -74,6 +76,8 @@ export interface RobotSessionEvents {
 export class RobotSession {
   /** The robot's first message; `null` until it arrives. */
   welcome: Welcome | null = null;
+  /** When the operator's grant ends, `performance.now()`; `null` if the robot asks for none. */
+  grantEndsAtMs: number | null = null;
   /** Who drives. */
   lease: LeaseState = { type: 'lease', holder: 'nobody' };
   /** Whether the emergency stop is latched. */
@@ -109,7 +113,7 @@ export class RobotSession {
    */
   onMessage(channel: RobotChannel, data: MessageData, nowMs: number): void {
     try {
-      if (channel === 'session') this.#onSession(data);
+      if (channel === 'session') this.#onSession(data, nowMs);
       else if (channel === 'telemetry') this.#onTelemetry(data, nowMs);
       else if (channel === 'pictures') this.#onPicture(data, nowMs);
       else this.clock.add(decodeJson(clockAnswerCodec, data), nowMs);
@@ -136,12 +140,17 @@ export class RobotSession {
     return offsetMs === null ? null : ageOfStampMs(stampUs, nowMs + offsetMs);
   }
 
-  #onSession(data: MessageData): void {
+  #onSession(data: MessageData, nowMs: number): void {
     const message = decodeJson(robotSessionCodec, data);
     switch (message.type) {
       case 'welcome':
         this.welcome = message;
+        this.#grantEnds(message.access?.expiresInS, nowMs);
         this.#events.onWelcome(message);
+        return;
+      case 'expires':
+        this.#grantEnds(message.inS, nowMs);
+        this.#events.onGrantExpires(message.inS);
         return;
       case 'lease':
         this.lease = message;
@@ -189,6 +198,10 @@ export class RobotSession {
         this.#events.onRobotFault(message.message);
         return;
     }
+  }
+
+  #grantEnds(inS: number | undefined, nowMs: number): void {
+    this.grantEndsAtMs = inS === undefined ? null : nowMs + inS * 1000;
   }
 
   #onPicture(data: MessageData, nowMs: number): void {

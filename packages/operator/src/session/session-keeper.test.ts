@@ -149,7 +149,6 @@ describe('SessionKeeper', () => {
   test.each([
     ['robot-full', 'robot-full'],
     ['bad-answer', 'bad-answer'],
-    ['not-granted', 'not-granted'],
     ['grant-expired', 'grant-expired'],
     ['unproven-peer', 'unproven-peer'],
     ['shutting-down', 'robot-stopped'],
@@ -162,6 +161,33 @@ describe('SessionKeeper', () => {
     expect([bench.losses, bench.requests.length]).toEqual([[loss], 1]);
     bench.pass(500);
     expect(bench.requests).toHaveLength(2);
+  });
+
+  test('a loss that would come again is final, until somebody has done something', () => {
+    const bench = new Bench().wanted();
+    const refuse = () => {
+      bench.keeper.onOpened('s1', 'rover');
+      bench.keeper.onClosed('s1', 'not-granted', bench.now);
+    };
+    refuse();
+    expect([bench.losses, bench.keeper.phase]).toEqual([['not-granted'], 'waiting']);
+    bench.pass(60_000);
+    expect(bench.requests).toHaveLength(1);
+    bench.keeper.retry(bench.now);
+    expect(bench.requests).toHaveLength(2);
+    refuse();
+    // The robot comes back, perhaps with other keys.
+    bench.keeper.onRobots([], bench.now);
+    bench.keeper.onRobots(HERE, bench.now);
+    expect(bench.requests).toHaveLength(3);
+    bench.keeper.onPeerFailed(bench.now, 'robot-key-changed');
+    bench.pass(60_000);
+    expect([bench.losses.at(-1), bench.requests.length]).toEqual(['robot-key-changed', 3]);
+    bench.keeper.retry(bench.now);
+    bench.keeper.onOpened('s4', 'rover');
+    bench.keeper.onPeerConnected(bench.now);
+    bench.keeper.retry(bench.now);
+    expect([bench.keeper.phase, bench.requests.length]).toEqual(['live', 4]);
   });
 
   test('leaving the page ends the session, and returning opens another', () => {

@@ -7,7 +7,7 @@
 import type { RobotEndReason, RobotListing } from '@farpoint/protocol';
 import { Backoff } from '@farpoint/timing';
 import { ResumePolicy } from './resume-policy.ts';
-import { lossOf, type SessionLoss } from './session-loss.ts';
+import { finalLosses, lossOf, type SessionLoss } from './session-loss.ts';
 
 /** The phase of the session with the wanted robot. */
 export type SessionPhase =
@@ -162,8 +162,15 @@ export class SessionKeeper {
     this.tick(nowMs);
   }
 
-  onPeerFailed(nowMs: number): void {
-    if (this.#phase === 'opening' || this.#phase === 'live') this.#lose('connection-failed', nowMs);
+  onPeerFailed(nowMs: number, loss: SessionLoss = 'connection-failed'): void {
+    if (this.#phase === 'opening' || this.#phase === 'live') this.#lose(loss, nowMs);
+  }
+
+  /** Tries again now, also after a loss that would otherwise be final. */
+  retry(nowMs: number): void {
+    if (this.#phase !== 'waiting') return;
+    this.#retryAtMs = 0;
+    this.tick(nowMs);
   }
 
   /** Call at least twice a second. */
@@ -200,7 +207,7 @@ export class SessionKeeper {
 
   #lose(loss: SessionLoss, nowMs: number): void {
     this.#endSession();
-    this.#retryAtMs = nowMs + this.#backoff.nextMs();
+    this.#retryAtMs = finalLosses.has(loss) ? Number.POSITIVE_INFINITY : nowMs + this.#backoff.nextMs();
     this.#actions.onLoss(loss);
     this.#enter('waiting');
   }

@@ -18,6 +18,10 @@ export type SessionLoss =
   | 'bad-answer'
   /** The robot admits only operators with a grant that is valid for it. */
   | 'not-granted'
+  /** The robot proves another key than the one by which it is known. */
+  | 'robot-key-changed'
+  /** The robot is known by a key, and does not prove it. */
+  | 'robot-unproven'
   /** The operator's grant has ended. */
   | 'grant-expired'
   /** Somebody is between the peers, or the certificate is not the one that this browser named. */
@@ -50,3 +54,10 @@ export const lossOf: Readonly<Record<RobotEndReason, SessionLoss>> = {
   'closed-by-robot': 'closed-by-robot',
   'unknown-session': 'robot-restarted',
 };
+
+/** Losses after which the same attempt would end the same way. The operator must do something first. */
+export const finalLosses: ReadonlySet<SessionLoss> = new Set([
+  'not-granted',
+  'robot-key-changed',
+  'robot-unproven',
+]);

@@ -91,14 +91,16 @@ const error = z.strictObject({
   session: z.optional(handleSchema),
 });
 
+/** The service passes identities, grants and proofs on as they are; only the peers read them (docs/security.md). */
+const jwsSchema = (maxLength: number) =>
+  z.optional(z.string().check(z.maxLength(maxLength), z.regex(/^[A-Za-z0-9_.-]+$/, 'must be a compact JWS')));
 const sessionOffer = z.strictObject({
   type: z.literal('session.offer'),
   session: handleSchema,
   sdp: sdpSchema,
+  /** With a session's first offer: that its certificate is this robot's. */
+  identity: jwsSchema(2048),
 });
-/** The service passes grants and proofs on as they are; only the robot reads them (docs/security.md). */
-const jwsSchema = (maxLength: number) =>
-  z.optional(z.string().check(z.maxLength(maxLength), z.regex(/^[A-Za-z0-9_.-]+$/, 'must be a compact JWS')));
 const sessionAnswer = z.strictObject({
   type: z.literal('session.answer'),
   session: handleSchema,
