@@ -108,13 +108,8 @@ export class Robot {
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
     this.sessions = new OperatorSessions(
       {
-        ...{
-          id: options.id,
-          most: options.maxOperators,
-          iceServers: options.iceServers,
-          grantKeys,
-          robotKey,
-        },
+        ...{ id: options.id, most: options.maxOperators, iceServers: options.iceServers },
+        ...{ grantKeys, robotKey },
         peer: {
           ...this.#peerOptions,
           pictures: capture.cameras.length > 0,

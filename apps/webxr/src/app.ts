@@ -1,11 +1,15 @@
 /** The page: shows on the screen what the robot sends, and sends the robot what the operator's hands do. */
 import { CloudView } from '@farpoint/cloud-view';
-import { RobotClient, type TransformSupport } from '@farpoint/operator';
+import { finalLosses, RobotClient, type TransformSupport } from '@farpoint/operator';
 import { effect, untracked } from '@preact/signals-core';
+import { StoredRobots } from './access/known-robots.ts';
+import { OperatorAccess } from './access/operator-access.ts';
+import { browserAccess } from './access/stored-access.ts';
 import { ReleaseHold } from './drive/release-hold.ts';
 import { PanelPlacements } from './panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from './panels/stored-panels.ts';
 import type { Settings } from './settings.ts';
+import { tokenOrigin } from './signaling-tokens.ts';
 import { SoundPlayer } from './sound/sound-player.ts';
 import { CloudAppearance } from './state/cloud-appearance.ts';
 import type { Notices } from './state/notices.ts';
@@ -15,6 +19,7 @@ import { failureWords, leavingWords, rejectionWords, wordsOfLoss } from './statu
 import { loadAppearance, storeAppearance } from './stored-appearance.ts';
 import { PresentedInstant } from './telemetry/presented-instant.ts';
 import { TelemetryRecorder } from './telemetry/recorder.ts';
+import { AccessUi } from './ui/access-ui.ts';
 import { CloudPanel } from './ui/cloud-panel.ts';
 import { ControlsUi } from './ui/controls-ui.ts';
 import { DashboardOpener } from './ui/dashboard-opener.ts';
@@ -75,6 +80,7 @@ export class App {
   #pictures: PicturePointer | null = null;
   readonly #release = new ReleaseHold();
   readonly #estop: EstopUi;
+  readonly #access: AccessUi;
 
   /** @throws {Error} without WebGL 2 */
   constructor(settings: Settings, transform: TransformSupport, notices: Notices) {
@@ -90,8 +96,12 @@ export class App {
     });
     const { signalingUrl, name, token, icePolicy, bridge, mode } = settings;
     const receiver = videoReceiver(settings.videoReceiver);
+    const origin = tokenOrigin(signalingUrl);
+    const access = new OperatorAccess(browserAccess(origin), () => Date.now() / 1000);
+    const knownRobots = new StoredRobots(origin);
     this.client = new RobotClient({
-      ...{ signalingUrl, name, token, icePolicy, transform, bridge },
+      ...{ signalingUrl, name, token, icePolicy, transform, bridge, knownRobots },
+      credentials: () => access.credentials(),
       cloudFormats: mode === 'points64' ? ['points64'] : undefined,
       inputs: this.#inputs.all,
       ...(receiver?.adopt === undefined ? {} : { onVideoReceiver: receiver.adopt }),
@@ -118,6 +128,7 @@ export class App {
       ...{ renderer, world, client: held, first: this.cloud, sensors, pointScale },
     });
     this.vr = new VrSession(renderer);
+    this.#access = new AccessUi({ access, knownRobots, client: this.client, link: this.state.link });
     this.#estop = new EstopUi(this.client, this.state.robot, this.#release);
     const { client, state, stage, cloud, clouds, videos, stats, vr, appearance } = this;
     const choose = (robotId: string) => this.choose(robotId);
@@ -155,6 +166,7 @@ export class App {
     this.#listenToCanvas();
     this.#controls.start();
     this.#sound.start();
+    this.#access.start();
     this.client.start();
     if (this.settings.robot !== null) this.client.choose(this.settings.robot);
     this.#show();
@@ -162,7 +174,7 @@ export class App {
       this.#inputs.poll();
       const away = this.#handsAway();
       this.#estop.tick(performance.now(), away);
-      this.client.driver.suspended = away;
+      this.client.driver.suspended = away || this.state.driving.role.value === 'watch';
       this.client.tick(performance.now());
     }, DRIVE_TICK_MS);
     setInterval(() => {
@@ -243,7 +255,11 @@ export class App {
       stage.setBody(pose);
       this.clouds.ground = pose.position.z;
     });
-    client.on('loss', (loss) => notices.tell(wordsOfLoss(loss, client.link.maxOperators), 'warning'));
+    client.on('loss', (loss) => {
+      // Of those that are final, a panel tells.
+      if (!finalLosses.has(loss)) notices.tell(wordsOfLoss(loss, client.link.maxOperators), 'warning');
+    });
+    client.on('grantExpires', (inS) => notices.tell(`Your grant ends in ${inS} s.`, 'warning'));
     client.on('refused', (message) => notices.tell(message, 'warning'));
     client.on('welcome', ({ name }) => notices.tell(`Connected to ${name}`, 'good'));
     client.on('commandRejected', ({ reason, detail }) => {

@@ -5,6 +5,13 @@
  * @module operator
  */
 
+export {
+  type GrantClaims,
+  keyThumbprint,
+  makeOperatorKey,
+  type OperatorJwk,
+  type OperatorKey,
+} from '@farpoint/grants';
 // What the robot's events are made of.
 export type {
   Alarm,
@@ -86,7 +93,7 @@ export { ComponentReports, type ReportedComponents } from './session/component-r
 export { type AgedReading, Readings } from './session/readings.ts';
 export type { RobotSession } from './session/robot-session.ts';
 export type { SessionPhase } from './session/session-keeper.ts';
-export { lossOf, type SessionLoss } from './session/session-loss.ts';
+export { finalLosses, lossOf, type SessionLoss } from './session/session-loss.ts';
 export type { SignalingState } from './signaling/signaling-state.ts';
 export { parseSignalingUrl, type SignalingAddress } from './signaling/signaling-url.ts';
 export type { PlayedSound, RobotSound, VoiceStatus } from './sound/robot-sound.ts';

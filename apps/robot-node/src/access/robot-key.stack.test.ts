@@ -63,6 +63,7 @@ describe('the running robot', { timeout: 30_000 }, () => {
     const { thumbprint } = await RobotKey.open(path);
     expect(await shown()).toBe(thumbprint);
     expect(await shown()).toBe(thumbprint);
+    await robot.stack.robot(ROBOT).stop();
     await robot.stack.restartRobot(ROBOT);
     expect(await shown()).toBe(thumbprint);
   });

@@ -1,6 +1,7 @@
 /** The link: the state of the signaling service, the robots it lists, the chosen robot, and the session with it. */
 import { type RobotClient, robotAfter } from '@farpoint/operator';
 import { computed } from '@preact/signals-core';
+import { obstacleOf } from '../status/access-words.ts';
 import { linkWords, type Words } from '../status/words.ts';
 import type { Sampler } from './sampler.ts';
 
@@ -21,6 +22,12 @@ export function linkState(client: RobotClient, samples: Sampler, signalingFault:
     live: computed(() => phase.value === 'live'),
     /** The robot after the chosen one in the list; `null` if there is no other. */
     nextRobot: computed(() => robotAfter(robots.value, chosenRobotId.value)),
+    /** What keeps the page from connecting until the operator does something; `null` if nothing does. */
+    obstacle: samples.of(() =>
+      link.phase === 'waiting' && link.robotListed
+        ? obstacleOf(link.lastLoss, link.lossDetail, link.changedRobotKey)
+        : null,
+    ),
     /** The state of the link in one line. */
     line: samples.of((atMs): Words => {
       if (signalingFault !== null && link.phase === 'none')
@@ -28,6 +35,7 @@ export function linkState(client: RobotClient, samples: Sampler, signalingFault:
       return linkWords({
         ...{ phase: link.phase, signaling: link.signaling, robotListed: link.robotListed },
         ...{ lastLoss: link.lastLoss, maxOperators: link.maxOperators },
+        grantLeftMs: link.session.grantEndsAtMs === null ? null : link.session.grantEndsAtMs - atMs,
         silentMs: link.silentMs(atMs),
         pointsSilentMs: atMs - client.pointsAtMs,
         rateByReports: link.session.telemetry?.stream.feedback === 'reports',

@@ -16,6 +16,8 @@ class Client {
   pointsAtMs = 0;
   readonly session = {
     welcome: null as Welcome | null,
+    lease: { type: 'lease', holder: 'nobody' } as LeaseState,
+    grantEndsAtMs: null,
     telemetry: null as Telemetry | null,
     estop: { type: 'estop', latched: false } as EstopState,
     readings: new Readings(),
@@ -26,7 +28,8 @@ class Client {
     phase: 'none' as Phase,
     signaling: 'ready' as const,
     robots: [] as readonly RobotListing[],
-    ...{ robotListed: true, lastLoss: null, maxOperators: null, session: this.session },
+    ...{ robotListed: true, lastLoss: null, maxOperators: null, lossDetail: null, changedRobotKey: null },
+    ...{ session: this.session },
     silentMs: (nowMs: number) => nowMs - this.heardAtMs,
   };
   readonly driver = {

@@ -1,7 +1,7 @@
-import { lossOf } from '@farpoint/operator';
+import { finalLosses, lossOf } from '@farpoint/operator';
 import { commandRejections, driveStates, robotEndReasons } from '@farpoint/protocol';
 import { describe, expect, test } from 'vitest';
-import { driveWords, linkWords, rejectionWords, vrUnavailable, wordsOfLoss } from './words.ts';
+import { driveWords, holderWords, linkWords, rejectionWords, vrUnavailable, wordsOfLoss } from './words.ts';
 
 const live = {
   phase: 'live',
@@ -9,6 +9,7 @@ const live = {
   robotListed: true,
   lastLoss: null,
   maxOperators: null,
+  grantLeftMs: null,
   silentMs: 20,
   pointsSilentMs: 20,
   rateByReports: false,
@@ -41,6 +42,26 @@ describe('words', () => {
     });
     expect(linkWords({ ...live, phase: 'waiting', robotListed: false }).text).toContain('offline');
     expect(linkWords({ ...live, phase: 'none', signaling: 'refused' }).tone).toBe('bad');
+  });
+
+  test('speaks of a grant in its last minute, and of a loss that is final', () => {
+    expect(linkWords({ ...live, grantLeftMs: 61_000 }).text).toBe('Live');
+    expect(linkWords({ ...live, grantLeftMs: 59_400 })).toMatchObject({
+      text: expect.stringContaining('ends in 60 s'),
+      tone: 'warning',
+    });
+    // That the robot is out of reach is worse.
+    expect(linkWords({ ...live, grantLeftMs: 9000, silentMs: 4000 }).tone).toBe('bad');
+    const waiting = { ...live, phase: 'waiting' } as const;
+    for (const lastLoss of finalLosses) expect(linkWords({ ...waiting, lastLoss }).tone).toBe('bad');
+  });
+
+  test('says by name who drives, and what a grant allows', () => {
+    const facts = { holder: 'other', driver: 'Grace', role: 'drive', device: null } as const;
+    expect(holderWords(facts).text).toBe('Grace is driving');
+    expect(holderWords({ ...facts, driver: null }).text).toBe('Someone else is driving');
+    expect(holderWords({ ...facts, holder: 'nobody', role: 'watch' }).text).toContain('lets you watch');
+    expect(holderWords({ ...facts, holder: 'you', device: 'gamepad' }).text).toContain('gamepad');
   });
 
   test('says why VR is unavailable', () => {

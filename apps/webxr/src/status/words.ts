@@ -1,14 +1,11 @@
 /** All the texts with which the page describes a state, a refusal or a failure to people. */
 
-import type { SessionLoss, SessionPhase, SignalingState } from '@farpoint/operator';
-import type { CommandRejection, DriveState, LeaseState } from '@farpoint/protocol';
+import { finalLosses, type SessionLoss, type SessionPhase, type SignalingState } from '@farpoint/operator';
+import type { CommandRejection, DriveState, LeaseState, Role } from '@farpoint/protocol';
+import { grantEndsWords } from './access-words.ts';
+import type { Words } from './tone.ts';
 
-export type Tone = 'good' | 'neutral' | 'warning' | 'bad';
-
-export interface Words {
-  text: string;
-  tone: Tone;
-}
+export type { Tone, Words } from './tone.ts';
 
 export const driveWords: Record<DriveState, Words> = {
   driving: { text: 'Driving', tone: 'good' },
@@ -50,7 +47,7 @@ const lossWords: Record<Exclude<SessionLoss, 'robot-full'>, string> = {
     'The robot cannot use the connection that this browser offers. Update the browser or use another. Trying again…',
   'not-granted': 'The robot admits only operators with a grant that is valid for it.',
   'robot-key-changed': 'The robot’s key has changed: it may be another robot.',
-  'robot-unproven': 'This robot could not prove that it is the one that this browser knows.',
+  'robot-unproven': 'The robot did not prove that it is the one that this browser knows.',
   'grant-expired': 'Your grant for this robot has ended. Ask for another.',
   'unproven-peer':
     'The robot refused the connection: it is not encrypted end to end with this page. Trying again…',
@@ -61,9 +58,20 @@ const lossWords: Record<Exclude<SessionLoss, 'robot-full'>, string> = {
   refused: 'The signaling service did not open a session. Trying again…',
 };
 
-/** Who drives. @param device the device that this operator drives with; `null` while no grip is held */
-export function holderWords(holder: LeaseState['holder'], device: string | null): Words {
-  if (holder === 'other') return { text: 'Someone else is driving', tone: 'warning' };
+export interface DrivingFacts {
+  holder: LeaseState['holder'];
+  /** The driver's name, by its grant. */
+  driver: string | null;
+  /** What this operator's grant allows; `null` if the robot asks for none. */
+  role: Role | null;
+  /** The device that this operator drives with; `null` while no grip is held. */
+  device: string | null;
+}
+
+/** Who drives. */
+export function holderWords({ holder, driver, role, device }: DrivingFacts): Words {
+  if (holder === 'other') return { text: `${driver ?? 'Someone else'} is driving`, tone: 'warning' };
+  if (role === 'watch') return { text: 'Nobody is driving. Your grant lets you watch', tone: 'neutral' };
   if (holder === 'nobody') return { text: 'Nobody is driving', tone: 'neutral' };
   return { text: device === null ? 'You have control' : `You are driving (${device})`, tone: 'good' };
 }
@@ -90,6 +98,8 @@ export interface LinkFacts {
   lastLoss: SessionLoss | null;
   /** How many operators the robot takes; `null` if it has not said so. */
   maxOperators: number | null;
+  /** Until the operator's grant ends, ms; `null` if the robot asks for none. */
+  grantLeftMs: number | null;
   /** Time since the last message or point from the robot, ms. */
   silentMs: number;
   /** Time since the last point, ms. */
@@ -111,18 +121,22 @@ export function linkWords(facts: LinkFacts): Words {
       if (!facts.robotListed) {
         return { text: 'The robot is offline. Waiting for it to come back…', tone: 'warning' };
       }
+      if (facts.lastLoss !== null && finalLosses.has(facts.lastLoss))
+        return { text: wordsOfLoss(facts.lastLoss, null), tone: 'bad' };
       return facts.lastLoss === 'robot-full'
         ? { text: fullWords(facts.maxOperators), tone: 'warning' }
         : { text: 'Connecting…', tone: 'neutral' };
     case 'opening':
       return { text: 'Connecting to the robot…', tone: 'neutral' };
-    case 'live':
+    case 'live': {
+      const grantEnds = grantEndsWords(facts.grantLeftMs);
       if (facts.silentMs >= SILENT_MS) {
         return {
           text: `Connection lost for ${Math.round(facts.silentMs / 1000)} s. The robot stops automatically. Trying to reach it…`,
           tone: 'bad',
         };
       }
+      if (grantEnds !== null) return grantEnds;
       if (facts.pointsSilentMs >= NO_POINTS_MS) {
         return { text: 'Connected, but no points are arriving.', tone: 'warning' };
       }
@@ -134,6 +148,7 @@ export function linkWords(facts: LinkFacts): Words {
         };
       }
       return { text: 'Live', tone: 'good' };
+    }
   }
 }
 

@@ -30,8 +30,11 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
   });
   effect(() => {
     setPill(elements.holder, driving.line.value);
-    elements.take.hidden = driving.holder.value !== 'other';
+    elements.take.hidden = !driving.mayTake.value;
     elements.release.hidden = driving.holder.value !== 'you';
+    const watches = driving.role.value === 'watch';
+    elements.joystick.hidden = watches;
+    elements.driveHint.hidden = watches;
   });
   effect(() => {
     if (!link.live.value) return;
