@@ -12,6 +12,7 @@ export type StrangerReason =
 
 /** A robot that shows another key than the one by which it is known. */
 export interface ChangedRobotKey {
+  /** The id under which the robot is known. */
   readonly robotId: string;
   /** Thumbprint of the key that is known. */
   readonly known: string;
