@@ -5,13 +5,6 @@
  * @module operator
  */
 
-export {
-  type GrantClaims,
-  keyThumbprint,
-  makeOperatorKey,
-  type OperatorJwk,
-  type OperatorKey,
-} from '@farpoint/grants';
 // What the robot's events are made of.
 export type {
   Alarm,
@@ -55,10 +48,12 @@ export type {
 export { type KnownRobots, knownInMemory } from './access/known-robots.ts';
 export {
   claimsOfGrant,
+  type GrantClaims,
   grantFor,
   type OperatorCredentials,
   readTicket,
 } from './access/operator-credentials.ts';
+export { keyThumbprint, makeOperatorKey, type OperatorJwk, type OperatorKey } from './access/operator-key.ts';
 export type { ChangedRobotKey } from './access/session-admission.ts';
 export { type BridgeAddress, parseBridge } from './bridge/bridge-settings.ts';
 export type { RobotClientOptions } from './client/client-options.ts';

@@ -1,14 +1,38 @@
 /** What an operator shows to robots that ask for grants. */
-import {
-  coversRobot,
-  decodeTicket,
-  type GrantClaims,
-  GrantRefusedError,
-  importOperatorKey,
-  keyThumbprint,
-  type OperatorKey,
-  readGrant,
-} from '@farpoint/grants';
+import { coversRobot, decodeTicket, GrantRefusedError, importOperatorKey, readGrant } from '@farpoint/grants';
+import type { Role } from '@farpoint/protocol';
+import { keyThumbprint, type OperatorKey } from './operator-key.ts';
+
+/** What a grant says (docs/protocol.md). */
+export interface GrantClaims {
+  /** Who issued it. */
+  iss: string;
+  /** To whom. Stays the same when a person gets another grant or another key. */
+  sub: string;
+  /** The person's name, for people. */
+  name: string;
+  /** `farpoint`, or a list that contains it. */
+  aud: string | string[];
+  /** When it was issued, seconds since 1970. */
+  iat: number;
+  /** From when it is valid, seconds since 1970. */
+  nbf: number;
+  /** When it ends, seconds since 1970. */
+  exp: number;
+  /** Names this grant. */
+  jti: string;
+  /** Robot ids, in which each `*` stands for any characters or none. */
+  robots: string[];
+  /** What it allows. */
+  role: Role;
+  /** The operator's own key. */
+  cnf: {
+    /** Its thumbprint. */
+    jkt: string;
+  };
+  /** Thumbprints of robots' keys, by robot id. */
+  robotKeys?: Record<string, string> | undefined;
+}
 
 /** A grant of the operator, and the key that it names. */
 export interface OperatorCredentials {
