@@ -7,19 +7,26 @@ const FORM = /^[A-Za-z0-9_-]+\.[A-Za-z0-9_-]+\.[A-Za-z0-9_-]*$/;
 const utf8 = new TextDecoder('utf-8', { fatal: true });
 
 /** How the faults of one kind of JWS are named. */
-export interface JwsKind {
+export type JwsKind = {
   /** What it is, for error texts. */
   what: string;
   maxLength: number;
-  malformed: GrantRefusal;
-  /** The signature does not match. */
-  forged: GrantRefusal;
-}
+} & (
+  | {
+      malformed: GrantRefusal;
+      /** The signature does not match. */
+      forged: GrantRefusal;
+    }
+  | {
+      /** Makes the error, if it is not a {@link GrantRefusedError}. */
+      refused: (fault: 'malformed' | 'forged', detail: string) => Error;
+    }
+);
 
 /**
  * The protected header, before anything is verified.
  *
- * @throws {GrantRefusedError}
+ * @throws {GrantRefusedError} or what the kind makes instead
  */
 export function readHeader<T>(kind: JwsKind, schema: z.core.$ZodType<T>, text: string): T {
   if (text.length > kind.maxLength) throw refused(kind, `longer than ${kind.maxLength} characters`);
@@ -30,7 +37,7 @@ export function readHeader<T>(kind: JwsKind, schema: z.core.$ZodType<T>, text: s
 /**
  * The payload, without a look at the signature: to show what is in it, never to act upon it.
  *
- * @throws {GrantRefusedError}
+ * @throws {GrantRefusedError} or what the kind makes instead
  */
 export function readPayload<T>(kind: JwsKind, schema: z.core.$ZodType<T>, text: string): T {
   return parsePart(kind, 'payload', schema, text.slice(text.indexOf('.') + 1, text.lastIndexOf('.')));
@@ -40,7 +47,7 @@ export function readPayload<T>(kind: JwsKind, schema: z.core.$ZodType<T>, text: 
  * Verifies the signature.
  *
  * @param alg the only algorithm that counts; the header's word is not taken for it
- * @throws {GrantRefusedError}
+ * @throws {GrantRefusedError} or what the kind makes instead
  */
 export async function checkSignature(
   kind: JwsKind,
@@ -52,7 +59,7 @@ export async function checkSignature(
     await compactVerify(text, key, { algorithms: [alg] });
   } catch (error) {
     if (error instanceof errors.JWSSignatureVerificationFailed || error instanceof errors.JOSEAlgNotAllowed)
-      throw new GrantRefusedError(kind.forged, 'the signature does not match');
+      throw refusedAs(kind, 'forged', 'the signature does not match');
     if (error instanceof errors.JOSEError) throw refused(kind, error.message);
     throw error;
   }
@@ -71,6 +78,10 @@ function parsePart<T>(kind: JwsKind, part: string, schema: z.core.$ZodType<T>, t
   throw refused(kind, `its ${part} has an invalid value${path === '' ? '' : ` at ${path}`}`);
 }
 
-function refused({ what, malformed }: JwsKind, detail: string): GrantRefusedError {
-  return new GrantRefusedError(malformed, `${what}: ${detail}`);
+function refused(kind: JwsKind, detail: string): Error {
+  return refusedAs(kind, 'malformed', `${kind.what}: ${detail}`);
+}
+
+function refusedAs(kind: JwsKind, fault: 'malformed' | 'forged', detail: string): Error {
+  return 'refused' in kind ? kind.refused(fault, detail) : new GrantRefusedError(kind[fault], detail);
 }

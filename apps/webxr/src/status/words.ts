@@ -50,6 +50,8 @@ const lossWords: Record<Exclude<SessionLoss, 'robot-full'>, string> = {
     'The robot cannot use the connection that this browser offers. Update the browser or use another. Trying again…',
   'not-granted': 'The robot admits only operators with a grant that is valid for it.',
   'grant-expired': 'Your grant for this robot has ended. Ask for another.',
+  'grant-revoked': 'Your grant for this robot has been revoked.',
+  'ended-by-supervisor': 'A supervisor has ended your session. Choose the robot to connect again.',
   'unproven-peer':
     'The robot refused the connection: it is not encrypted end to end with this page. Trying again…',
   'not-reading': 'This page could not keep up with the robot’s messages. Reconnecting…',

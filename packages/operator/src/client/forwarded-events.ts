@@ -10,6 +10,7 @@ export function forwardedEvents(emitter: Emitter<RobotEvents>) {
     onLoss: (loss) => emitter.emit('loss', loss),
     onRefusal: (message) => emitter.emit('refused', message),
     onRejected: (rejected) => emitter.emit('commandRejected', rejected),
+    onOperators: (operators) => emitter.emit('operators', operators),
     onEstop: (estop) => emitter.emit('estop', estop),
     onSensors: (sensors) => emitter.emit('sensors', sensors),
     onRings: (rings) => emitter.emit('rings', rings),

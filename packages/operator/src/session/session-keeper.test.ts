@@ -151,6 +151,7 @@ describe('SessionKeeper', () => {
     ['bad-answer', 'bad-answer'],
     ['not-granted', 'not-granted'],
     ['grant-expired', 'grant-expired'],
+    ['grant-revoked', 'grant-revoked'],
     ['unproven-peer', 'unproven-peer'],
     ['shutting-down', 'robot-stopped'],
     ['silent', 'unheard'],
@@ -161,6 +162,22 @@ describe('SessionKeeper', () => {
     bench.keeper.onClosed('s1', reason, bench.now);
     expect([bench.losses, bench.requests.length]).toEqual([[loss], 1]);
     bench.pass(500);
+    expect(bench.requests).toHaveLength(2);
+  });
+
+  test('ended by a supervisor: connects again only when the operator asks for it', () => {
+    const bench = new Bench().live();
+    bench.keeper.onClosed('s1', 'ended-by-supervisor', bench.now);
+    expect([bench.losses, bench.keeper.phase, bench.keeper.robotId]).toEqual([
+      ['ended-by-supervisor'],
+      'none',
+      null,
+    ]);
+    bench.pass(60_000);
+    bench.keeper.onRobots([], bench.now);
+    bench.keeper.onRobots(HERE, bench.now);
+    expect(bench.requests).toHaveLength(1);
+    bench.keeper.want('rover', HERE, bench.now);
     expect(bench.requests).toHaveLength(2);
   });
 

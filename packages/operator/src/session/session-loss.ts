@@ -20,6 +20,10 @@ export type SessionLoss =
   | 'not-granted'
   /** The operator's grant has ended. */
   | 'grant-expired'
+  /** The operator's grant has been revoked. */
+  | 'grant-revoked'
+  /** A supervisor ended the session. The client does not connect again by itself. */
+  | 'ended-by-supervisor'
   /** Somebody is between the peers, or the certificate is not the one that this browser named. */
   | 'unproven-peer'
   /** The page did not read the robot's messages fast enough. */
@@ -40,6 +44,8 @@ export const lossOf: Readonly<Record<RobotEndReason, SessionLoss>> = {
   'bad-answer': 'bad-answer',
   'not-granted': 'not-granted',
   'grant-expired': 'grant-expired',
+  'grant-revoked': 'grant-revoked',
+  'ended-by-supervisor': 'ended-by-supervisor',
   'unproven-peer': 'unproven-peer',
   'not-connected': 'not-connected',
   'connection-lost': 'connection-failed',
