@@ -41,6 +41,6 @@ export {
   signRevocations,
   verifyRevocations,
 } from './revocations.ts';
-export { makeSigningKey, type NewSigningKey, parseSigningKey } from './signing-key.ts';
+export { makeSigningKey, type NewSigningKey, parseSigningKey, publicPartOf } from './signing-key.ts';
 export { fingerprintSchema, soleFingerprint } from './sole-fingerprint.ts';
 export * from './ticket.ts';

@@ -25,13 +25,8 @@ export function writeSecret(flag: string, path: string, text: string): void {
 
 /** The public keys in a file; none if it does not exist yet. @throws {CommandError} */
 export function readPublicKeys(flag: string, path: string): GrantPublicJwk[] {
-  let text: string;
-  try {
-    text = readFileSync(path, 'utf8');
-  } catch (error) {
-    if ((error as NodeJS.ErrnoException).code === 'ENOENT') return [];
-    throw new CommandError(`${flag} cannot be read: ${fileFault(error) ?? String(error)}`, 1);
-  }
+  const text = readIfThere(flag, path);
+  if (text === null) return [];
   try {
     const keys = readJwkSet(text);
     if (keys.length === MAX_KEYS)
@@ -43,11 +38,26 @@ export function readPublicKeys(flag: string, path: string): GrantPublicJwk[] {
   }
 }
 
-/** Replaces the file at once, so that a robot never reads half of it. @throws {CommandError} */
+/** @throws {CommandError} */
 export function writePublicKeys(flag: string, path: string, keys: readonly GrantPublicJwk[]): void {
+  writeWhole(flag, path, `${JSON.stringify({ keys }, null, 2)}\n`);
+}
+
+/** `null` if the file does not exist. @throws {CommandError} */
+export function readIfThere(flag: string, path: string): string | null {
+  try {
+    return readFileSync(path, 'utf8');
+  } catch (error) {
+    if ((error as NodeJS.ErrnoException).code === 'ENOENT') return null;
+    throw new CommandError(`${flag} cannot be read: ${fileFault(error) ?? String(error)}`, 1);
+  }
+}
+
+/** Replaces a public file at once, so that nobody ever reads half of it. @throws {CommandError} */
+export function writeWhole(flag: string, path: string, text: string): void {
   const beside = `${path}.new`;
   try {
-    writeFileSync(beside, `${JSON.stringify({ keys }, null, 2)}\n`, { mode: 0o644 });
+    writeFileSync(beside, text, { mode: 0o644, flush: true });
     renameSync(beside, path);
   } catch (error) {
     throw new CommandError(`${flag} cannot be written: ${fileFault(error) ?? String(error)}`, 1);
