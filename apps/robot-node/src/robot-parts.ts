@@ -1,5 +1,5 @@
 import type { Logger } from '@farpoint/service';
-import { GrantKeysFile } from './access/grant-keys-file.ts';
+import { type GrantFiles, openGrantFiles } from './access/grant-files.ts';
 import { BaseThread } from './base/base-thread.ts';
 import type { Capture } from './capture/capture.ts';
 import { openSink } from './drive/open-sink.ts';
@@ -21,7 +21,7 @@ export interface RobotParts {
   sink: VelocitySink;
   recording: SessionRecording | null;
   /** `null` if everybody is admitted. */
-  grantKeys: GrantKeysFile | null;
+  grants: GrantFiles | null;
   /** The cameras that are streamed as video. */
   videos: readonly VideoCamera[];
 }
@@ -31,9 +31,10 @@ export interface RobotParts {
  *
  * @throws {CaptureError} if a source of clouds cannot be opened
  * @throws {GrantKeysError} if the keys for grants cannot be used
+ * @throws {RevocationJournalError} if nobody can tell any more which grants were revoked
  */
 export async function openParts(options: RobotOptions, log: Logger): Promise<RobotParts> {
-  const grantKeys = options.grantKeys === undefined ? null : await GrantKeysFile.open(options.grantKeys);
+  const grants = await openGrantFiles(options);
   const { record = null, foxglove = null, id } = options;
   const recording =
     record === null && foxglove === null ? null : await SessionRecording.open({ record, foxglove }, id, log);
@@ -51,7 +52,7 @@ export async function openParts(options: RobotOptions, log: Logger): Promise<Rob
     const videos =
       main === undefined ? cameras : [...cameras, ...(await openPlayedVideos(main, played, log))];
     if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond, videos);
-    return { captures, base, sink: openSink(options.sink, base, log), recording, videos, grantKeys };
+    return { captures, base, sink: openSink(options.sink, base, log), recording, videos, grants };
   } catch (error) {
     for (const capture of captures) await capture.close();
     await base?.close();

@@ -78,7 +78,7 @@ export class Robot {
   #failed = false;
 
   private constructor(parts: RobotParts, options: RobotOptions, log: Logger) {
-    const { captures, base, sink, recording, videos, grantKeys } = parts;
+    const { captures, base, sink, recording, videos, grants } = parts;
     this.recording = recording;
     this.#options = options;
     this.#log = log;
@@ -108,7 +108,7 @@ export class Robot {
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
     this.sessions = new OperatorSessions(
       {
-        ...{ id: options.id, most: options.maxOperators, iceServers: options.iceServers, grantKeys },
+        ...{ id: options.id, most: options.maxOperators, iceServers: options.iceServers, grants },
         peer: {
           ...this.#peerOptions,
           pictures: capture.cameras.length > 0,

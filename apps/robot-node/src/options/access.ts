@@ -8,4 +8,10 @@ export const accessOptions = optionGroup('access', {
     argument: 'FILE',
     help: 'admit only operators with a grant that one of these public keys signed (a JWK set, from `farpoint-signaling grant keygen`); read again at SIGHUP',
   }),
+  revocations: defineOption({
+    schema: schema.list(schema.text()),
+    default: [],
+    argument: 'FILE,…',
+    help: 'lists of revoked grants (from `farpoint-signaling grant revoke`), besides those that the signaling service sends; read again whenever one changes',
+  }),
 });

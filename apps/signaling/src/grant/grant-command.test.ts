@@ -200,10 +200,8 @@ it.each([
   [['--help']],
   [['keygen', '--help']],
   [['issue', '-h']],
-  [
-    ['show', '--help'],
-    ['revoke', '-h'],
-  ],
+  [['show', '--help']],
+  [['revoke', '-h']],
 ])('%j: help', async (args) => {
   const { status, out } = await run(args);
   expect([status, out.startsWith('farpoint-signaling grant')]).toEqual([0, true]);
