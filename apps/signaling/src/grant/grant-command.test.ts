@@ -182,7 +182,13 @@ it('a list belongs to one key, and to nothing else', async () => {
   const many = Array.from({ length: 1025 }, (_, i) => ['--id', `g${i}`]).flat();
   const full = await run(['revoke', '--list', list, '--key', key, ...many]);
   expect(full).toMatchObject({ status: 1, err: expect.stringContaining('is full') });
+  // A command that runs at the same time must not be undone.
+  writeFileSync(`${list}.new`, '');
+  const busy = await run(['revoke', '--list', list, '--id', 'g2', '--key', key]);
+  expect(busy).toMatchObject({ status: 1, err: expect.stringContaining('another command is writing it') });
+  rmSync(`${list}.new`);
   expect(readFileSync(list, 'utf8')).toBe(before);
+  expect(await run(['revoke', '--list', list, '--id', 'g2', '--key', key])).toMatchObject({ status: 0 });
 });
 
 it('refuses a private key where the public one is asked for', async () => {

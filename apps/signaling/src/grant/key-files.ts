@@ -1,4 +1,4 @@
-import { readFileSync, renameSync, writeFileSync } from 'node:fs';
+import { closeSync, openSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { GrantKeysError, type GrantPublicJwk, MAX_KEYS, readJwkSet } from '@farpoint/grants';
 import { fileFault } from '@farpoint/service';
 import { CommandError } from './command-rim.ts';
@@ -38,9 +38,15 @@ export function readPublicKeys(flag: string, path: string): GrantPublicJwk[] {
   }
 }
 
-/** @throws {CommandError} */
+/** Replaces the file at once, so that a robot never reads half of it. @throws {CommandError} */
 export function writePublicKeys(flag: string, path: string, keys: readonly GrantPublicJwk[]): void {
-  writeWhole(flag, path, `${JSON.stringify({ keys }, null, 2)}\n`);
+  const beside = `${path}.new`;
+  try {
+    writeFileSync(beside, `${JSON.stringify({ keys }, null, 2)}\n`, { mode: 0o644 });
+    renameSync(beside, path);
+  } catch (error) {
+    throw new CommandError(`${flag} cannot be written: ${fileFault(error) ?? String(error)}`, 1);
+  }
 }
 
 /** `null` if the file does not exist. @throws {CommandError} */
@@ -53,13 +59,45 @@ export function readIfThere(flag: string, path: string): string | null {
   }
 }
 
-/** Replaces a public file at once, so that nobody ever reads half of it. @throws {CommandError} */
-export function writeWhole(flag: string, path: string, text: string): void {
+/** A public file that is being written anew. */
+export interface Draft {
+  /** Replaces the file at once, so that nobody ever reads half of it. @throws {CommandError} */
+  publish(text: string): void;
+  /** Leaves the file as it is, unless it was published. */
+  drop(): void;
+}
+
+/**
+ * Begins to write a file anew. Until then nobody else can, so that of two commands neither undoes what the other did.
+ *
+ * @throws {CommandError}
+ */
+export function openDraft(flag: string, path: string): Draft {
   const beside = `${path}.new`;
+  const fault = (error: unknown) =>
+    new CommandError(`${flag} cannot be written: ${fileFault(error) ?? String(error)}`, 1);
+  let file: number;
   try {
-    writeFileSync(beside, text, { mode: 0o644, flush: true });
-    renameSync(beside, path);
+    file = openSync(beside, 'wx', 0o644);
   } catch (error) {
-    throw new CommandError(`${flag} cannot be written: ${fileFault(error) ?? String(error)}`, 1);
+    if ((error as NodeJS.ErrnoException).code !== 'EEXIST') throw fault(error);
+    const detail = 'another command is writing it. If none runs any more, remove that file';
+    throw new CommandError(`${flag}: ${beside} exists: ${detail}`, 1);
   }
+  let open = true;
+  return {
+    publish(text) {
+      try {
+        writeFileSync(file, text, { flush: true });
+        closeSync(file);
+        renameSync(beside, path);
+        open = false;
+      } catch (error) {
+        throw fault(error);
+      }
+    },
+    drop() {
+      if (open) rmSync(beside, { force: true });
+    },
+  };
 }

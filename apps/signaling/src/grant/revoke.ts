@@ -14,7 +14,7 @@ import {
 } from '@farpoint/grants';
 import { handleSchema } from '@farpoint/protocol';
 import { CommandError, type CommandRim } from './command-rim.ts';
-import { readIfThere, readText, writeWhole } from './key-files.ts';
+import { type Draft, openDraft, readIfThere, readText } from './key-files.ts';
 
 export const REVOKE_HELP = `farpoint-signaling grant revoke --list FILE (--id ID | --subject TEXT)… [options]
 
@@ -38,7 +38,7 @@ const OPTIONS = {
 } as const;
 
 /** @throws {CommandError} */
-export async function revoke(argv: string[], { stdout, now }: CommandRim): Promise<number> {
+export async function revoke(argv: string[], rim: CommandRim): Promise<number> {
   const { values } = parseArgs({ args: argv, options: OPTIONS });
   const { list, id: ids, subject: subjects, issuer } = values;
   if (list === undefined) throw new CommandError('needs --list');
@@ -50,8 +50,35 @@ export async function revoke(argv: string[], { stdout, now }: CommandRim): Promi
       throw new CommandError('--subject and --issuer must be 1–128 characters');
   const days = Number(values.days);
   if (!(days >= 0.01 && days <= 3660)) throw new CommandError('--days must be a number from 0.01 to 3660');
+  const secret = readText('--key', values.key);
+  const draft = openDraft('--list', list);
+  try {
+    return await extend(draft, { list, ids, subjects, issuer, days, key: values.key, secret }, rim);
+  } finally {
+    draft.drop();
+  }
+}
+
+interface Extension {
+  /** Path of the list. */
+  list: string;
+  ids: readonly string[];
+  subjects: readonly string[];
+  issuer: string;
+  days: number;
+  /** Path of the key. */
+  key: string;
+  /** What is in it. */
+  secret: string;
+}
+
+async function extend(
+  draft: Draft,
+  { list, ids, subjects, issuer, days, key, secret }: Extension,
+  { stdout, now }: CommandRim,
+): Promise<number> {
   const nowS = now() / 1000;
-  const { earlier, signingKey } = await open(values.key, list);
+  const { earlier, signingKey } = await open(key, secret, list);
   const added = { ids, subjects, expiresAtS: Math.ceil(nowS + days * 86_400) };
   const payload = extendRevocations(earlier, added, issuer, nowS);
   let text: string;
@@ -64,7 +91,7 @@ export async function revoke(argv: string[], { stdout, now }: CommandRim): Promi
       1,
     );
   }
-  writeWhole('--list', list, `${text}\n`);
+  draft.publish(`${text}\n`);
   const from = new Date((Math.floor(nowS) + 1) * 1000).toISOString();
   for (const id of ids) stdout.write(`revoked: grant ${id}\n`);
   for (const subject of subjects) stdout.write(`revoked: grants to ${subject} issued before ${from}\n`);
@@ -78,9 +105,9 @@ export async function revoke(argv: string[], { stdout, now }: CommandRim): Promi
 /** The key, and what the list says so far; `null` if there is none. */
 async function open(
   key: string,
+  secret: string,
   list: string,
 ): Promise<{ signingKey: SigningKey; earlier: RevocationsPayload | null }> {
-  const secret = readText('--key', key);
   try {
     const signingKey = await parseSigningKey(secret);
     const text = readIfThere('--list', list);
