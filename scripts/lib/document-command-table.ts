@@ -97,6 +97,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   "node signaling.mjs grant issue --name Grace --role supervise --robots '*' --days 7 --with-key > grace.ticket":
     { help: true },
   'node signaling.mjs grant show grace.ticket --keys grant-keys.json --robot kitchen-1': { help: true },
+  'node signaling.mjs grant revoke --list revoked.jws --id p5bGbAm3i8CqEIfn': { help: true },
+  "node signaling.mjs grant revoke --list revoked.jws --subject 'Ada Lovelace'": { help: true },
   'npx -y pnpm@12 conformance signaling --robot ws://HOST:3001 --client ws://HOST:3002': { help: true },
   'npx -y pnpm@12 conformance robot --name ROBOT --client ws://HOST:3002': { help: true },
   'npx -y pnpm@12 conformance bridge --robot ws://HOST:3001 --client ws://HOST:3002 --control ws://HOST:8085 --telemetry ws://HOST:8090 --streaming ws://HOST:8095':

@@ -28,6 +28,8 @@ export interface RobotOptions extends RateControlOptions {
   grantKeys?: string | undefined;
   /** File with the key by which operators recognise the robot. */
   robotKey: string;
+  /** Files with lists of revoked grants, besides those from the signaling service. */
+  revocations: readonly string[];
   /** Sources of clouds, the main one first. */
   sensors: readonly CloudSensorOptions[];
   /** Simulated wheels; `null` for real ones. */
@@ -40,7 +42,7 @@ export interface RobotOptions extends RateControlOptions {
   /** Limits beyond which a value is an alarm. */
   alarms: readonly AlarmRule[];
   takePolicy: TakePolicy;
-  /** Where the robot remembers its emergency stop across restarts. */
+  /** Where the robot remembers its emergency stop and revoked grants across restarts. */
   stateFolder: string;
   /** The reference signaling service's port for robots. Its operators are not authenticated. */
   referenceSignaling?: string | undefined;

@@ -1,5 +1,5 @@
 import type { Logger } from '@farpoint/service';
-import { GrantKeysFile } from './access/grant-keys-file.ts';
+import { type GrantFiles, openGrantFiles } from './access/grant-files.ts';
 import { openRobotKey, type RobotKey } from './access/robot-key-file.ts';
 import { BaseThread } from './base/base-thread.ts';
 import type { Capture } from './capture/capture.ts';
@@ -22,7 +22,7 @@ export interface RobotParts {
   sink: VelocitySink;
   recording: SessionRecording | null;
   /** `null` if everybody is admitted. */
-  grantKeys: GrantKeysFile | null;
+  grants: GrantFiles | null;
   /** `null` if it can be neither read nor made. */
   robotKey: RobotKey | null;
   /** The cameras that are streamed as video. */
@@ -34,9 +34,10 @@ export interface RobotParts {
  *
  * @throws {CaptureError} if a source of clouds cannot be opened
  * @throws {GrantKeysError} if the keys for grants cannot be used
+ * @throws {RevocationJournalError} if nobody can tell any more which grants were revoked
  */
 export async function openParts(options: RobotOptions, log: Logger): Promise<RobotParts> {
-  const grantKeys = options.grantKeys === undefined ? null : await GrantKeysFile.open(options.grantKeys);
+  const grants = await openGrantFiles(options);
   const robotKey = await openRobotKey(options.robotKey, log);
   const { record = null, foxglove = null, id } = options;
   const recording =
@@ -61,7 +62,7 @@ export async function openParts(options: RobotOptions, log: Logger): Promise<Rob
       sink: openSink(options.sink, base, log),
       recording,
       videos,
-      grantKeys,
+      grants,
       robotKey,
     };
   } catch (error) {

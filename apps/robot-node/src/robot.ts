@@ -78,7 +78,7 @@ export class Robot {
   #failed = false;
 
   private constructor(parts: RobotParts, options: RobotOptions, log: Logger) {
-    const { captures, base, sink, recording, videos, grantKeys, robotKey } = parts;
+    const { captures, base, sink, recording, videos, grants, robotKey } = parts;
     this.recording = recording;
     this.#options = options;
     this.#log = log;
@@ -109,7 +109,7 @@ export class Robot {
     this.sessions = new OperatorSessions(
       {
         ...{ id: options.id, most: options.maxOperators, iceServers: options.iceServers },
-        ...{ grantKeys, robotKey },
+        ...{ grants, robotKey },
         peer: {
           ...this.#peerOptions,
           pictures: capture.cameras.length > 0,

@@ -36,7 +36,7 @@ export async function run(): Promise<void> {
     };
     if (robotOptions.grantKeys !== undefined) {
       process.on('SIGHUP', () => {
-        robot.sessions.reloadGrantKeys().catch((error: unknown) => {
+        robot.sessions.reloadGrants().catch((error: unknown) => {
           log.error({ err: error }, 'could not read the keys for grants again: the old ones stay in force');
         });
       });

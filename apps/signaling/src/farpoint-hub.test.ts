@@ -14,7 +14,7 @@ const limits = {
   helloTimeoutMs: 1000,
 };
 
-function setup(options: { robots?: AccessList; operators?: AccessList } = {}) {
+function setup(options: { robots?: AccessList; operators?: AccessList; revocations?: string[] } = {}) {
   const clock = new FakeClock();
   const observer = new RecordingObserver();
   let handles = 0;
@@ -29,6 +29,7 @@ function setup(options: { robots?: AccessList; operators?: AccessList } = {}) {
       operators: options.operators ?? new AccessList(null),
     }),
     iceServers: (name) => [{ urls: 'turn:turn.example', username: name, credential: 'c' }],
+    revocations: () => options.revocations ?? [],
     makeHandle: () => `s${++handles}`,
   });
   const robot = (id: string, key = `key-${id}`, more: Json = {}): FakeClient => {
@@ -69,6 +70,16 @@ describe('hello', () => {
       { type: 'operator.welcome', iceServers: [expect.objectContaining({ urls: 'turn:turn.example' })] },
       { type: 'robots', robots: [{ id: 'r1', name: 'Robot r1' }] },
     ]);
+  });
+
+  test('is followed by the lists of revoked grants, and by each that changes', () => {
+    const revocations = ['a.b.c', 'd.e.f'];
+    const { hub, robot, operator } = setup({ revocations });
+    const [r, o] = [robot('r1'), operator()];
+    expect(r.take().slice(1)).toEqual(revocations.map((list) => ({ type: 'revocations', list })));
+    o.take();
+    hub.tellRevocations('g.h.i');
+    expect([r.take(), o.take()]).toEqual([[{ type: 'revocations', list: 'g.h.i' }], []]);
   });
 
   test('must come first', () => {

@@ -1,10 +1,12 @@
 import {
+  encodeJson,
   type IceServer,
   type OperatorToService,
   operatorToServiceCodec,
   PROTOCOL_VERSION,
   type RobotToService,
   robotToServiceCodec,
+  serviceToRobotCodec,
 } from '@farpoint/protocol';
 import type { AccessList } from './access.ts';
 import { HubConnection, type HubConnectionOptions, type Refuse } from './farpoint-connection.ts';
@@ -21,6 +23,8 @@ export interface FarpointHubOptions extends HubConnectionOptions {
   readonly access: () => { readonly robots: AccessList; readonly operators: AccessList };
   /** The ICE servers that a peer with this name should use. */
   readonly iceServers: (name: string) => IceServer[];
+  /** The lists of revoked grants that every robot gets; default none. */
+  readonly revocations?: () => Iterable<string>;
   readonly makeHandle: () => string;
 }
 
@@ -50,6 +54,12 @@ export class FarpointHub {
 
   stop(): void {
     this.#feed.stop();
+  }
+
+  /** Sends all robots a list of revoked grants. */
+  tellRevocations(list: string): void {
+    const message = new TextEncoder().encode(encodeJson(serviceToRobotCodec, { type: 'revocations', list }));
+    for (const { peer } of this.#registry.values()) peer.send(message);
   }
 
   /** Handles a socket on `/robot`. */
@@ -109,6 +119,7 @@ export class FarpointHub {
     }
     this.#options.observer.robotJoined('robot', entry.id, peer.address, previous !== null);
     toRobot(peer, { type: 'robot.welcome', id: entry.id, iceServers: this.#options.iceServers(entry.id) });
+    for (const list of this.#options.revocations?.() ?? []) toRobot(peer, { type: 'revocations', list });
     if (joined.listed) this.#feed.changed();
     return entry;
   }

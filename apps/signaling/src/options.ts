@@ -25,7 +25,7 @@ export const program = defineProgram({
   summary: 'Introduces robots and operators: Farpoint sessions, and the signaling of the reference system.',
   version: manifest.version,
   section: 'signaling',
-  commands: { grant: 'makes keys, issues grants, and shows what is in them' },
+  commands: { grant: 'makes keys, issues, shows and revokes grants' },
   options: {
     host: defineOption({
       schema: schema.text(),
@@ -98,6 +98,12 @@ export const program = defineProgram({
       default: null,
       argument: 'FILE',
       help: 'accept only operators with one of these tokens (YAML or JSON: a list, or name to token); read again at SIGHUP',
+    }),
+    revocations: defineOption({
+      schema: schema.list(schema.text()),
+      default: [],
+      argument: 'FILE,…',
+      help: 'send robots these lists of revoked grants (from `farpoint-signaling grant revoke`), again whenever a file changes; the robots verify them',
     }),
     allowedOrigins: defineOption({
       schema: schema.list(schema.text()),

@@ -37,6 +37,10 @@ export class RobotRegistry {
     return this.#robots.get(id);
   }
 
+  values(): Iterable<RobotEntry> {
+    return this.#robots.values();
+  }
+
   join(entry: RobotEntry): JoinResult {
     const previous = this.#robots.get(entry.id) ?? null;
     if (previous !== null && previous.key !== entry.key) return { ok: false, reason: 'robot-id-taken' };

@@ -20,6 +20,7 @@ import type { Role } from './observer.ts';
 import { defaultOptions, type SignalingOptions } from './options.ts';
 import type { Connection, Peer } from './peer.ts';
 import { ReferenceHub } from './reference-hub.ts';
+import { RevocationFiles } from './revocation-files.ts';
 import { readFiles, type ServiceFiles } from './service-files.ts';
 
 /** What the program provides to the service; tests may omit it. */
@@ -69,6 +70,7 @@ class SignalingService implements RunningSignaling {
   readonly #reference: ReferenceHub;
   readonly #admission: Admission;
   readonly #sockets: LiveSockets;
+  readonly #revocations: RevocationFiles;
   readonly #observer: ReturnType<typeof createObserver>;
   #files: ServiceFiles;
   #listeners: Listener[] = [];
@@ -100,7 +102,13 @@ class SignalingService implements RunningSignaling {
               ),
             ]),
       ],
+      revocations: () => this.#revocations.lists,
       makeHandle: () => randomBytes(16).toString('base64url'),
+    });
+    this.#revocations = new RevocationFiles({
+      paths: options.revocations,
+      log: this.#log,
+      onChange: (list) => this.#farpoint.tellRevocations(list),
     });
     this.#reference = new ReferenceHub({
       ...core,
@@ -133,6 +141,8 @@ class SignalingService implements RunningSignaling {
 
   async open(): Promise<void> {
     const { port, reference, referenceRobotPort, referenceClientPort } = this.#options;
+    // First: a robot that registers gets them with its welcome.
+    await this.#revocations.start();
     try {
       await this.#listen(port, this.#http, (request, url) => this.#upgrade(request, url));
       if (reference) {
@@ -165,6 +175,7 @@ class SignalingService implements RunningSignaling {
   async #close(): Promise<void> {
     const listening = Promise.all(this.#listeners.map((listener) => listener.close()));
     this.#farpoint.stop();
+    this.#revocations.close();
     await this.#sockets.shutDown(this.#options.shutdownMs);
     await listening;
   }

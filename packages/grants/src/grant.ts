@@ -34,6 +34,8 @@ export interface Grant {
   id: string;
   issuer: string;
   /** Seconds since 1970. */
+  issuedAtS: number;
+  /** Seconds since 1970. */
   expiresAtS: number;
   /** The key that signed it. */
   keyId: string;
@@ -99,10 +101,10 @@ export async function grantHash(text: string): Promise<string> {
 }
 
 function toGrant(claims: GrantClaims, keyId: string): Grant {
-  const { sub, name, role, robots, cnf, jti, iss, exp } = claims;
+  const { sub, name, role, robots, cnf, jti, iss, iat, exp } = claims;
   return {
     ...{ subject: sub, name, role, robots, operatorKey: cnf.jkt, id: jti, issuer: iss },
-    ...{ expiresAtS: exp, keyId },
+    ...{ issuedAtS: iat, expiresAtS: exp, keyId },
   };
 }
 

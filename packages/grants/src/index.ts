@@ -1,4 +1,5 @@
 export * from './admission.ts';
+export { extendRevocations, type NewRevocations } from './extend-revocations.ts';
 export * from './grant.ts';
 export {
   AUDIENCE,
@@ -28,7 +29,20 @@ export {
 export * from './operator-key.ts';
 export { MAX_PROOF_LENGTH, makeProof, PROOF_LEEWAY_S, type SessionFacts, verifyProof } from './proof.ts';
 export * from './refusal.ts';
+export {
+  MAX_REVOCATIONS,
+  type RevocableGrant,
+  RevocationList,
+  type Revocations,
+  type RevocationsPayload,
+  type RevocationsRefusal,
+  RevocationsRefusedError,
+  readRevocations,
+  revocationsRefusals,
+  signRevocations,
+  verifyRevocations,
+} from './revocations.ts';
 export * from './robot-identity.ts';
-export { makeSigningKey, type NewSigningKey, parseSigningKey } from './signing-key.ts';
+export { makeSigningKey, type NewSigningKey, parseSigningKey, publicPartOf } from './signing-key.ts';
 export { fingerprintSchema, soleFingerprint } from './sole-fingerprint.ts';
 export * from './ticket.ts';

@@ -4,6 +4,8 @@ export const grantRefusals = [
   'grant-malformed', // not a grant
   'grant-untrusted', // not signed by a key that counts here
   'grant-expired',
+  'grant-revoked', // by its issuer
+  'grant-blocked', // at this robot, by a supervisor
   'grant-not-yet', // valid only later, or issued in the future
   'grant-other-robot',
   'grant-other-audience', // made for something other than Farpoint
@@ -41,6 +43,10 @@ export function refusalText(reason: GrantRefusal): string {
       return 'this robot admits only operators with a grant';
     case 'grant-expired':
       return 'the grant has expired';
+    case 'grant-revoked':
+      return 'the grant has been revoked';
+    case 'grant-blocked':
+      return 'a supervisor of this robot has blocked the grant';
     case 'grant-not-yet':
       return 'the grant is not valid yet, by the robot’s clock';
     case 'grant-other-robot':

@@ -35,11 +35,32 @@ export async function makeSigningKey(alg: GrantAlgorithm = 'EdDSA'): Promise<New
 }
 
 /**
+ * The public part of a private JWK.
+ *
+ * @throws {GrantKeysError} naming nothing of the key
+ */
+export function publicPartOf(text: string): GrantPublicJwk {
+  return parsed(text).jwk;
+}
+
+/**
  * Reads a private JWK.
  *
  * @throws {GrantKeysError} naming nothing of the key
  */
 export async function parseSigningKey(text: string): Promise<SigningKey> {
+  const { jwk, d } = parsed(text);
+  const { use: _, ...members } = jwk;
+  const alg = algorithmOf(jwk);
+  try {
+    const key = (await importJWK({ ...members, alg, d })) as CryptoKey;
+    return { keyId: jwk.kid, alg, key };
+  } catch {
+    throw new GrantKeysError('is not a key of its curve');
+  }
+}
+
+function parsed(text: string): { jwk: GrantPublicJwk; d: string } {
   let value: unknown;
   try {
     value = JSON.parse(text);
@@ -50,12 +71,5 @@ export async function parseSigningKey(text: string): Promise<SigningKey> {
   if (!jwk.success) throw new GrantKeysError('is not an Ed25519 or P-256 key with a kid');
   const secret = z.safeParse(secretSchema, value);
   if (!secret.success) throw new GrantKeysError('is not a private key');
-  const { use: _, ...members } = jwk.data;
-  const alg = algorithmOf(jwk.data);
-  try {
-    const key = (await importJWK({ ...members, alg, d: secret.data.d })) as CryptoKey;
-    return { keyId: jwk.data.kid, alg, key };
-  } catch {
-    throw new GrantKeysError('is not a key of its curve');
-  }
+  return { jwk: jwk.data, d: secret.data.d };
 }

@@ -24,6 +24,7 @@ export * from './placement.ts';
 export * from './point-packet.ts';
 export * from './points64.ts';
 export * from './pose-algebra.ts';
+export { MAX_LISTED_OPERATORS, type Operators, type PresentOperator } from './present-operators.ts';
 export * from './quantity.ts';
 export * from './reading.ts';
 export * from './reference-bridge.ts';

@@ -8,6 +8,7 @@ import { ProtocolError } from './errors.ts';
 import { decodeJson, encodeJson, encodeJsonBytes, type JsonCodec, type MessageData } from './json.ts';
 import { referenceControlCodec } from './reference-control.ts';
 import { operatorSessionCodec, robotSessionCodec } from './session-codecs.ts';
+import { faultReasons } from './session-messages.ts';
 import {
   operatorEndReasons,
   operatorToServiceCodec,
@@ -135,7 +136,7 @@ describe.each(codecs)('%s', (file, codec) => {
 });
 
 test.each([
-  ['robot-session', 'reason', commandRejections],
+  ['robot-session', 'reason', [...commandRejections, ...faultReasons]],
   ['telemetry', 'drive', driveStates],
   ['signaling-service-to-robot', 'code', signalingErrorCodes],
   ['signaling-service-to-robot', 'reason', operatorEndReasons],

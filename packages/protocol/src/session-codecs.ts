@@ -7,10 +7,11 @@ import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './
 import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
+import { operatorsSchema } from './present-operators.ts';
 import { quantitySchema } from './quantity.ts';
 import { roles } from './role.ts';
 import { sensorRingsSchema, sensorSchema } from './sensor-rings.ts';
-import type { RobotSessionMessage } from './session-messages.ts';
+import { faultReasons, type RobotSessionMessage } from './session-messages.ts';
 import type { OperatorSessionMessage } from './session-requests.ts';
 import { MICROPHONE_STATES, VOICE_STATES } from './sound-media.ts';
 import { MAX_VIDEOS, VIDEO_CODECS } from './video-media.ts';
@@ -119,10 +120,11 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
     quantitySchema,
     alarmSchema,
     z.strictObject({ type: z.literal('expires'), inS: secondsSchema }),
+    operatorsSchema,
     z.strictObject({
       type: z.literal('fault'),
       message: z.string().check(z.maxLength(512)),
-      reason: z.optional(z.literal('not-permitted')),
+      reason: z.optional(z.enum(faultReasons)),
     }),
   ]),
   maxBytes: 4096,
@@ -154,6 +156,7 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
     }),
     z.strictObject({ type: z.literal('listen'), on: z.boolean() }),
     z.strictObject({ type: z.literal('speak'), held: z.boolean() }),
+    z.strictObject({ type: z.literal('endSession'), operator: uint32Schema, block: z.boolean() }),
     z.strictObject({
       type: z.literal('shares'),
       cloud: weightSchema,

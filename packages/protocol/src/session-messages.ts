@@ -4,6 +4,7 @@
 import type { Alarm } from './alarm.ts';
 import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
+import type { Operators } from './present-operators.ts';
 import type { Quantity } from './quantity.ts';
 import type { Role } from './role.ts';
 import type { SensorRings } from './sensor-rings.ts';
@@ -212,12 +213,27 @@ export interface Sound {
     | undefined;
 }
 
+/** Why the robot did not do what an operator asked. */
+export const faultReasons = [
+  'not-permitted', // the grant's role does not permit it
+  'unknown-operator', // no operator has this number now
+  'own-session', // it is the asker's own, which it can leave
+  'rate-limited', // too many such requests
+  'no-room', // no more grants can be blocked
+] as const;
+/**
+ * Why the robot did not do what an operator asked.
+ *
+ * @useDeclaredType
+ */
+export type FaultReason = (typeof faultReasons)[number];
+
 /** A message of the operator, other than a command, that the robot could not use. */
 export interface SessionFault {
   type: 'fault';
   message: string;
-  /** For programs, where a request was refused rather than misunderstood: the grant's role does not permit it. */
-  reason?: 'not-permitted' | undefined;
+  /** For programs, where a request was refused rather than misunderstood. */
+  reason?: FaultReason | undefined;
 }
 
 export type RobotSessionMessage =
@@ -235,6 +251,7 @@ export type RobotSessionMessage =
   | Quantity
   | Alarm
   | GrantExpires
+  | Operators
   | SessionFault;
 
 export const PROTOCOL_VERSION = 1;

@@ -76,6 +76,15 @@ export interface Speak {
   held: boolean;
 }
 
+/** Ends another operator's session. Only for supervisors. */
+export interface EndSession {
+  type: 'endSession';
+  /** The operator's number in the robot's list. */
+  operator: number;
+  /** Also refuses the operator's grant at this robot from now on. */
+  block: boolean;
+}
+
 /** The result of a latency test, for the robot's recording. */
 export interface LatencyMeasured {
   type: 'latencyMeasured';
@@ -102,4 +111,5 @@ export type OperatorSessionMessage =
   | LinkShares
   | Listen
   | Speak
+  | EndSession
   | LatencyMeasured;

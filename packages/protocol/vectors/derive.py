@@ -532,6 +532,15 @@ admitted = robot_session.good({**welcome, "access": {"role": "drive", "name": "A
 for role in ["watch", "supervise"]:
     robot_session.good(changed(admitted, "access.role", role), "welcome, role: " + role)
 expires = robot_session.good({"type": "expires", "inS": 60})
+present = {"number": 4, "name": "Ada", "role": "drive", "drives": True, "you": True}
+operators = robot_session.good({"type": "operators", "operators": [present, {"number": 7, "name": "Sue", "role": "supervise", "drives": False, "you": False}]})
+robot_session.good({"type": "operators", "operators": [{**present, "number": 2 ** 32 - 1 - i, "name": '"' * 64} for i in range(16)], "more": 16},
+                   "operators: as many and as long as there may be")
+robot_session.spoil(operators, ("operators", ABSENT), ("operators", [present] * 17), ("operators.0.number", -1), ("operators.0.number", 2 ** 32),
+                    ("operators.1.name", ""), ("operators.1.role", "root"), ("operators.1.drives", 1), ("operators.0.you", ABSENT),
+                    ("operators.1.session", "s1", "operators.1"), ("more", 0), ("more", 0.5))
+for reason in ["unknown-operator", "own-session", "rate-limited", "no-room"]:
+    robot_session.good({"type": "fault", "message": "", "reason": reason}, "fault: " + reason)
 robot_session.good({"type": "lease", "holder": "other", "driver": "Ada"}, "lease held by another, who is named")
 robot_session.good({"type": "fault", "message": "your grant lets you watch", "reason": "not-permitted"}, "fault: not permitted")
 lease = robot_session.good({"type": "lease", "holder": "you", "lease": "0f3a9c"}, "lease held by this operator")
@@ -628,6 +637,10 @@ operator_session.spoil(measured, ("id", -1), ("id", 2 ** 32), ("frameNumber", 1.
 operator_session.spoil(wanted, ("sensors", ABSENT), ("sensors", [8], "sensors.0"), ("sensors", [-1], "sensors.0"), ("sensors", [0] * 9))
 operator_session.spoil(shares, ("cloud", ABSENT), ("cloud", 0), ("cloud", 101), ("cloud", 1.5), ("videos", ABSENT), ("videos", [1] * 9), ("videos", [0], "videos.0"),
                        ("videos", ["1"], "videos.0"), ("sound", 1, ""))
+end_session = operator_session.good({"type": "endSession", "operator": 7, "block": False})
+operator_session.good({"type": "endSession", "operator": 4294967295, "block": True}, "endSession: and block the grant")
+operator_session.spoil(end_session, ("operator", ABSENT), ("operator", -1), ("operator", 2 ** 32), ("operator", "Ada"), ("block", ABSENT),
+                       ("block", 1), ("session", "s1", ""))
 for on in [True, False]:
     listen = operator_session.good({"type": "listen", "on": on}, "listen: " + ("on" if on else "off"))
     speak = operator_session.good({"type": "speak", "held": on}, "speak: " + ("held" if on else "let go"))
@@ -728,8 +741,8 @@ close = {"type": "session.close", "session": "s1"}
 closed = {"type": "session.closed", "session": "s1", "reason": "operator-left"}
 ended = {"type": "session.closed", "session": "s1", "reason": "robot-left"}
 refuse = {"type": "session.refuse", "session": "s1", "claim": "c1", "code": "wrong-resume-key"}
-ROBOT_REASONS = ["robot-full", "bad-answer", "not-granted", "grant-expired", "unproven-peer", "not-connected", "connection-lost", "silent", "not-reading",
-                 "shutting-down"]
+ROBOT_REASONS = ["robot-full", "bad-answer", "not-granted", "grant-expired", "grant-revoked", "ended-by-supervisor", "unproven-peer", "not-connected",
+                 "connection-lost", "silent", "not-reading", "shutting-down"]
 error = {"type": "error", "code": "unknown-robot", "message": "no robot 'sim-9' is here", "session": "s1"}
 servers = [{"urls": "stun:stun.example.org"},
            {"urls": ["turn:turn.example.org", "turns:turn.example.org"], "username": "u", "credential": "c"}]
@@ -768,6 +781,9 @@ for message in [session_answer, trickle, closed, error]:
 m.good(granted_answer, GRANTED)
 m.good({**granted_answer, "grant": "x" * 4096, "proof": "x" * 2048}, GRANTED + ", the longest")
 m.spoil(granted_answer, *BAD_GRANTS)
+revocations = m.good({"type": "revocations", "list": "a.b-_.C9"})
+m.good({**revocations, "list": "x" * 60000}, "revocations, the longest")
+m.spoil(revocations, ("list", ABSENT), ("list", ""), ("list", "a b"), ("list", "x" * 60001), ("list", ["a.b.c"]), ("lists", ["a.b.c"], ""))
 m.good({**closed, "reason": "closed-by-operator"}, "session.closed: closed-by-operator")
 for code in ["malformed", "too-large", "rate-limited", "hello-first", "unauthorized", "robot-id-taken", "unknown-session",
              "too-many-sessions", "wrong-resume-key", "resume-too-soon", "unsupported-protocol", "full", "shutting-down"]:

@@ -15,3 +15,4 @@ export * from './pulled-metrics.ts';
 export * from './shutdown.ts';
 export { StartFailure } from './start-failure.ts';
 export { fileFault } from './system-error.ts';
+export { WatchedText, type WatchedTextOptions } from './watched-text.ts';

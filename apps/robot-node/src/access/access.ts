@@ -1,3 +1,4 @@
+import type { RevocableGrant } from '@farpoint/grants';
 import type { Role } from '@farpoint/protocol';
 
 /** What one operator may do, and until when. */
@@ -12,16 +13,18 @@ export interface Access {
   readonly expiresAtS: number;
   /** The key that signed the grant; `null` without grants. */
   readonly keyId: string | null;
+  /** What a revocation of the grant goes by; `null` without grants. */
+  readonly grant: RevocableGrant | null;
 }
 
 /** The access of everybody at a robot that asks for no grants. */
 export function openAccess(name: string): Access {
-  return { role: null, subject: null, name, expiresAtS: Number.POSITIVE_INFINITY, keyId: null };
+  return { role: null, subject: null, name, expiresAtS: Number.POSITIVE_INFINITY, keyId: null, grant: null };
 }
 
 /** Of somebody who has not shown a grant yet. Nothing is sent to it, and nothing that it sends is looked at. */
 export function noAccess(name: string): Access {
-  return { role: 'watch', subject: null, name, expiresAtS: 0, keyId: null };
+  return { role: 'watch', subject: null, name, expiresAtS: 0, keyId: null, grant: null };
 }
 
 export function mayDrive({ role }: Access): boolean {

@@ -2,7 +2,9 @@ import {
   type AdmissionRequest,
   admit,
   type GrantKeys,
+  type GrantRefusal,
   GrantRefusedError,
+  type RevocableGrant,
   refusalText,
 } from '@farpoint/grants';
 import type { Logger } from '@farpoint/service';
@@ -13,6 +15,8 @@ import type { Access } from './access.ts';
 export interface GrantGateOptions {
   /** The keys whose grants count now. */
   keys: () => GrantKeys;
+  /** Why a grant that is valid by itself is not taken; `null` if it is. */
+  refusal: (grant: RevocableGrant) => GrantRefusal | null;
   /** This robot's id. */
   robot: string;
   refusals: ReasonCounts;
@@ -66,15 +70,17 @@ export class GrantGate {
     if (entry === undefined || entry.state === 'verifying') return { verdict: 'busy' };
     if (entry.state === 'admitted') return { verdict: 'ready' };
     entry.state = 'verifying';
-    const { keys, robot, log, nowS } = this.#options;
+    const { keys, refusal, robot, log, nowS } = this.#options;
     try {
       const grant = await admit(request, { keys: keys(), robot, offer: entry.offer, nowS: nowS() });
       // The keys may have been read again in the meantime.
       if (!keys().has(grant.keyId))
         throw new GrantRefusedError('grant-untrusted', 'its key has just been removed');
+      const refused = refusal(grant);
+      if (refused !== null) throw new GrantRefusedError(refused, `grant ${grant.id} of ${grant.subject}`);
       entry.state = 'admitted';
       const { subject, name, role, expiresAtS, keyId } = grant;
-      return { verdict: 'admitted', access: { subject, name, role, expiresAtS, keyId } };
+      return { verdict: 'admitted', access: { subject, name, role, expiresAtS, keyId, grant } };
     } catch (error) {
       // The entry stays as it is: a session whose answer was refused gets no second try.
       if (error instanceof GrantRefusedError) return this.#refuse(request.session, error);

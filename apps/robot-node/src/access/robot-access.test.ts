@@ -1,7 +1,14 @@
-import { makeProof, parseGrantKeys } from '@farpoint/grants';
+import {
+  extendRevocations,
+  makeProof,
+  parseGrantKeys,
+  type RevocableGrant,
+  signRevocations,
+} from '@farpoint/grants';
 import { grantTo, makeIssuer } from '@farpoint/grants/testing';
+import type { Operators } from '@farpoint/protocol';
 import { silentLogger } from '@farpoint/service';
-import { expect, it, vi } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
 import { ReasonCounts } from '../telemetry/robot-counters.ts';
 import type { Access } from './access.ts';
 import { openAccess } from './access.ts';
@@ -18,7 +25,8 @@ async function setUp() {
   const log = { ...silentLogger(), warn: vi.fn(), info: vi.fn() };
   const refusals = new ReasonCounts();
   const access = new RobotAccess({
-    ...{ file, robot: 'r1', refusals, nowS: () => nowS, now: () => nowMs },
+    files: { keys: file, journal: { start: { lists: [], blocked: [] }, write: vi.fn() }, revocations: [] },
+    ...{ robot: 'r1', refusals, revocationLists: new ReasonCounts(), nowS: () => nowS, now: () => nowMs },
     log: log as unknown as ReturnType<typeof silentLogger>,
   });
   const operator = (id: string, given: Access = openAccess('Ada')) => {
@@ -31,36 +39,42 @@ async function setUp() {
     nowS += s;
     nowMs += s * 1000;
   };
-  return { access, operator, pass, log, refusals, file, issuer: first };
+  const tick = (made: GuardedOperator[], driver: string | null = null) =>
+    access.tick(new Map(made.map((each) => [each.messages.id, each])), driver);
+  return { access, operator, pass, tick, log, refusals, file, issuer: first };
 }
 
-const granted: Access = { role: 'drive', subject: 'a', name: 'Ada', expiresAtS: 1100, keyId: 'k1' };
+const grant: RevocableGrant = { id: 'g1', subject: 'a', keyId: 'k1', issuedAtS: 900 };
+const granted: Access = { role: 'drive', subject: 'a', name: 'Ada', expiresAtS: 1100, keyId: 'k1', grant };
+/** What an operator was told, but for who is here. */
+const told = (send: ReturnType<typeof vi.fn>) =>
+  send.mock.calls.map(([message]) => message as { type: string }).filter(({ type }) => type !== 'operators');
 
 it('warns once, a minute before the end, and ends the session at the end', async () => {
-  const { access, operator, pass } = await setUp();
+  const { operator, pass, tick } = await setUp();
   const { made, send, close } = operator('s', granted);
   pass(39);
-  access.tick([made]);
-  expect(send).not.toHaveBeenCalled();
+  tick([made]);
+  expect(told(send)).toEqual([]);
   pass(1.5);
-  access.tick([made]);
-  access.tick([made]);
-  expect(send.mock.calls).toEqual([[{ type: 'expires', inS: 59 }]]);
+  tick([made]);
+  tick([made]);
+  expect(told(send)).toEqual([{ type: 'expires', inS: 59 }]);
   pass(59);
-  access.tick([made]);
+  tick([made]);
   expect(close).not.toHaveBeenCalled();
   pass(0.5);
-  access.tick([made]);
+  tick([made]);
   expect(close).toHaveBeenCalledExactlyOnceWith('grant-expired', 'the grant has expired');
 });
 
 it('an operator that has not been admitted may do nothing, and neither is warned nor ended', async () => {
-  const { access, operator, pass } = await setUp();
+  const { access, operator, pass, tick } = await setUp();
   const { made, send, close } = operator('s');
   access.offered(made, 'v=0');
   expect(made.messages.access).toMatchObject({ role: 'watch', name: 'Ada', keyId: null });
   pass(1e6);
-  access.tick([made]);
+  tick([made]);
   expect([send.mock.calls, close.mock.calls]).toEqual([[], []]);
 });
 
@@ -134,4 +148,111 @@ it('admits an operator with what its grant says, unless its key is removed meanw
   file.keys = new Map();
   expect(await pending).toBe(false);
   expect([second.made.messages.access.role, refusals.get('grant-untrusted')]).toEqual(['watch', 1]);
+});
+
+describe('revocation', () => {
+  const listOf = async (
+    issuer: Awaited<ReturnType<typeof setUp>>['issuer'],
+    ids: string[],
+    subjects: string[] = [],
+  ) =>
+    signRevocations(
+      extendRevocations(null, { ids, subjects, expiresAtS: 2000 }, 'test', 1000),
+      issuer.signingKey,
+    );
+
+  it('ends the sessions of revoked grants, and no others', async () => {
+    const { access, operator, issuer, tick } = await setUp();
+    const [first, second, other] = [
+      operator('a', granted),
+      operator('b', { ...granted, grant: { ...grant, id: 'g2', subject: 'b' } }),
+      operator('c', { ...granted, keyId: 'k2', grant: { ...grant, keyId: 'k2' } }),
+    ];
+    const all = [first, second, other].map(({ made }) => made);
+    await access.revocations.take(await listOf(issuer, ['g1']), 'test');
+    tick(all);
+    expect(first.close).toHaveBeenCalledExactlyOnceWith('grant-revoked', 'the grant has been revoked');
+    expect([second.close.mock.calls, other.close.mock.calls]).toEqual([[], []]);
+  });
+
+  it('refuses a revoked grant, also if the list comes while its proof is being verified', async () => {
+    const { access, operator, issuer, refusals } = await setUp();
+    const fingerprint = Array.from({ length: 32 }, () => 'AB').join(':');
+    const sdp = `v=0\r\na=fingerprint:sha-256 ${fingerprint}\r\n`;
+    const shown = await grantTo(issuer, 1000);
+    const list = await listOf(issuer, [], ['ada']);
+    const ask = async (session: string) => {
+      const { made, close } = operator(session);
+      access.offered(made, sdp);
+      const facts = { robot: 'r1', session, operatorFingerprint: fingerprint, robotFingerprint: fingerprint };
+      const proof = await makeProof(shown.grant, facts, shown.key, 1000);
+      return { close, admitted: () => access.admits(made, { session, sdp, grant: shown.grant, proof }) };
+    };
+    const [first, second] = [await ask('s1'), await ask('s2')];
+    expect(await first.admitted()).toBe(true);
+    await access.revocations.take(list, 'test');
+    expect(await second.admitted()).toBe(false);
+    expect(second.close).toHaveBeenCalledExactlyOnceWith('not-granted', 'the grant has been revoked');
+    expect([...refusals.entries()]).toEqual([['grant-revoked', 1]]);
+  });
+});
+
+describe('a supervisor', () => {
+  const supervisor: Access = { ...granted, role: 'supervise', name: 'Sue', grant: { ...grant, id: 'sue' } };
+
+  async function meeting() {
+    const all = await setUp();
+    const [sue, ada, tab] = [
+      all.operator('s', supervisor),
+      all.operator('a', granted),
+      all.operator('t', granted),
+    ];
+    const made = [sue.made, ada.made, tab.made];
+    all.tick(made);
+    const list = sue.send.mock.calls[0]?.[0] as Operators;
+    const [own, ...others] = list.operators.map(({ number }) => number);
+    const end = (operator: number, block = false) =>
+      all.access.endSession(sue.made, { type: 'endSession', operator, block }, made);
+    return { ...all, sue, ada, tab, made, own: own ?? 0, others, end };
+  }
+
+  it('ends the session that it names', async () => {
+    const { end, others, ada, tab, sue, tick, made } = await meeting();
+    end(others[0] ?? 0);
+    expect(ada.close).toHaveBeenCalledExactlyOnceWith('ended-by-supervisor', 'Sue ended the session');
+    tick(made);
+    expect([tab.close.mock.calls, sue.close.mock.calls, told(sue.send)]).toEqual([[], [], []]);
+  });
+
+  it('blocks the grant, which ends all its sessions until it expires', async () => {
+    const { access, end, others, ada, tab, tick, made, pass } = await meeting();
+    end(others[0] ?? 0, true);
+    expect(ada.close.mock.calls).toEqual([
+      ['ended-by-supervisor', 'Sue ended the session and blocked the grant'],
+    ]);
+    tick(made);
+    expect(tab.close).toHaveBeenCalledExactlyOnceWith(
+      'ended-by-supervisor',
+      expect.stringContaining('blocked'),
+    );
+    expect(access.revocations.refusal(grant)).toBe('grant-blocked');
+    expect(access.revocations.refusal({ ...grant, keyId: 'k2' })).toBeNull();
+    pass(100);
+    expect(access.revocations.refusal(grant)).toBeNull();
+  });
+
+  it('is told what is not done: its own session, nobody, too fast', async () => {
+    const { end, own, ada, sue, pass } = await meeting();
+    end(own);
+    for (let i = 0; i < 5; i++) end(1000 + i);
+    expect(told(sue.send)).toMatchObject([
+      { type: 'fault', reason: 'own-session' },
+      ...Array.from({ length: 4 }, () => ({ type: 'fault', reason: 'unknown-operator' })),
+      { type: 'fault', reason: 'rate-limited' },
+    ]);
+    pass(1);
+    end(1000);
+    expect(told(sue.send).at(-1)).toMatchObject({ reason: 'unknown-operator' });
+    expect([ada.close.mock.calls, sue.close.mock.calls]).toEqual([[], []]);
+  });
 });

@@ -1,9 +1,16 @@
 import type { AdmissionRequest } from '@farpoint/grants';
+import { type EndSession, type FaultReason, MAX_REVOCATIONS_LENGTH } from '@farpoint/protocol';
+import { WatchedText } from '@farpoint/service';
+import { TokenBucket } from '@farpoint/timing';
 import type { OperatorMessages } from '../session/operator-messages.ts';
+import type { ReasonCounts } from '../telemetry/robot-counters.ts';
 import type { OperatorPeer } from '../transport/operator-peer.ts';
 import { noAccess } from './access.ts';
+import type { GrantFiles } from './grant-files.ts';
 import { GrantGate, type GrantGateOptions } from './grant-gate.ts';
 import type { GrantKeysFile } from './grant-keys-file.ts';
+import { OperatorRoster } from './operator-roster.ts';
+import { RobotRevocations, type RobotRevocationsOptions } from './robot-revocations.ts';
 
 /** How long before the end of its grant an operator is warned, s. */
 export const WARNING_S = 60;
@@ -14,19 +21,49 @@ export interface GuardedOperator {
   readonly peer: Pick<OperatorPeer, 'connected' | 'close'>;
 }
 
-export interface RobotAccessOptions extends Omit<GrantGateOptions, 'keys'> {
-  file: Pick<GrantKeysFile, 'keys' | 'reload'>;
+export interface RobotAccessOptions extends Omit<GrantGateOptions, 'keys' | 'refusal'> {
+  files: Omit<GrantFiles, 'keys' | 'journal'> & {
+    keys: Pick<GrantKeysFile, 'keys' | 'reload'>;
+    journal: RobotRevocationsOptions['journal'];
+  };
+  /** What became of each list of revoked grants. */
+  revocationLists: ReasonCounts;
 }
 
-/** Admits operators by their grants, and ends their sessions with them. */
+/** Admits operators by their grants, ends their sessions with them, and tells operators of each other. */
 export class RobotAccess {
+  readonly revocations: RobotRevocations;
   readonly #options: RobotAccessOptions;
   readonly #gate: GrantGate;
+  readonly #roster = new OperatorRoster();
+  readonly #lists: readonly WatchedText[];
+  /** What was last read of each. */
+  readonly #listed = new Map<string, string>();
   readonly #warned = new WeakSet<GuardedOperator>();
+  /** For each supervisor. */
+  readonly #endings = new WeakMap<GuardedOperator, TokenBucket>();
 
   constructor(options: RobotAccessOptions) {
     this.#options = options;
-    this.#gate = new GrantGate({ ...options, keys: () => options.file.keys });
+    const { files, revocationLists: outcomes, log, nowS, now } = options;
+    const keys = () => files.keys.keys;
+    this.revocations = new RobotRevocations({ keys, journal: files.journal, outcomes, log, nowS, now });
+    this.#gate = new GrantGate({ ...options, keys, refusal: (grant) => this.revocations.refusal(grant) });
+    this.#lists = files.revocations.map(
+      (path) =>
+        new WatchedText({
+          path,
+          // And a line's end.
+          maxBytes: MAX_REVOCATIONS_LENGTH + 2,
+          onText: (text) => {
+            this.#listed.set(path, text.trim());
+            void this.revocations.take(text.trim(), path);
+          },
+          onFault: (detail) =>
+            log.warn({ detail }, 'revoked grants cannot be read: what was read before counts'),
+        }),
+    );
+    for (const list of this.#lists) void list.start();
   }
 
   /** A session's first offer is about to be sent. */
@@ -48,39 +85,96 @@ export class RobotAccess {
     const { access } = judged;
     operator.messages.access = access;
     const { subject, name, role, keyId } = access;
-    this.#options.log.info({ session: request.session, subject, name, role, keyId }, 'operator admitted');
+    const grant = access.grant?.id;
+    this.#options.log.info(
+      { session: request.session, subject, name, role, keyId, grant },
+      'operator admitted',
+    );
     return true;
   }
 
-  /** Warns operators whose grants end soon, and ends the sessions of those whose grants have. */
-  tick(operators: Iterable<GuardedOperator>): void {
+  /**
+   * Warns operators whose grants end soon, ends the sessions of those whose grants have ended or were revoked, and tells
+   * everybody who is here.
+   *
+   * @param driver the session that holds the lease
+   */
+  tick(operators: ReadonlyMap<string, GuardedOperator>, driver: string | null): void {
     const nowS = this.#options.nowS();
-    for (const operator of operators) {
+    for (const operator of operators.values()) {
       const { messages, peer } = operator;
-      const { keyId, expiresAtS } = messages.access;
-      if (keyId === null) continue;
+      const { grant, expiresAtS } = messages.access;
+      if (grant === null) continue;
       const leftS = expiresAtS - nowS;
+      const refusal = this.revocations.refusal(grant);
       if (leftS <= 0) peer.close('grant-expired', 'the grant has expired');
+      else if (refusal === 'grant-revoked') peer.close('grant-revoked', 'the grant has been revoked');
+      else if (refusal !== null) peer.close('ended-by-supervisor', 'a supervisor has blocked the grant');
       else if (leftS <= WARNING_S && peer.connected && !this.#warned.has(operator)) {
         this.#warned.add(operator);
         messages.send({ type: 'expires', inS: Math.floor(leftS) });
       }
     }
+    this.#roster.tick(operators.values(), driver, this.#options.now());
+  }
+
+  /** A supervisor ends another operator's session. What is not done, it is told. */
+  endSession(by: GuardedOperator, request: EndSession, operators: Iterable<GuardedOperator>): void {
+    const fault = this.#end(by, request, operators);
+    if (fault === null) return;
+    const [reason, message] = fault;
+    by.messages.send({ type: 'fault', message, reason });
   }
 
   /**
-   * Reads the keys again, and ends the sessions whose grants were signed by a key that is no longer there. If the file
-   * is at fault, the old keys stay in force. @throws {GrantKeysError}
+   * Reads the files again, and ends the sessions whose grants were signed by a key that is no longer there. If the keys'
+   * file is at fault, the old keys stay in force. @throws {GrantKeysError}
    */
   async reload(operators: () => Iterable<GuardedOperator>): Promise<void> {
-    const { file, log } = this.#options;
-    await file.reload();
-    log.info({ keys: [...file.keys.keys()] }, 'read the keys for grants again');
+    const { files, log } = this.#options;
+    for (const list of this.#lists) void list.check();
+    await files.keys.reload();
+    log.info({ keys: [...files.keys.keys.keys()] }, 'read the keys for grants again');
     for (const { messages, peer } of [...operators()]) {
       const { keyId } = messages.access;
-      if (keyId !== null && !file.keys.has(keyId)) {
+      if (keyId !== null && !files.keys.keys.has(keyId)) {
         peer.close('not-granted', 'the key that signed the grant is no longer accepted');
       }
     }
+    await this.revocations.keysChanged();
+    for (const [path, text] of this.#listed) await this.revocations.take(text, path);
+  }
+
+  close(): void {
+    for (const list of this.#lists) list.close();
+  }
+
+  #end(
+    by: GuardedOperator,
+    { operator: number, block }: EndSession,
+    operators: Iterable<GuardedOperator>,
+  ): [FaultReason, string] | null {
+    const bucket = this.#endings.get(by) ?? new TokenBucket({ perSecond: 1, burst: 5 });
+    this.#endings.set(by, bucket);
+    if (!bucket.take(this.#options.now()))
+      return ['rate-limited', 'sessions are ended one a second: wait a moment'];
+    if (number === this.#roster.numberOf(by))
+      return ['own-session', 'this is your own session: leave it instead'];
+    const other = [...operators].find((each) => this.#roster.has(each, number));
+    const grant = other?.messages.access.grant ?? null;
+    if (other === undefined || grant === null)
+      return ['unknown-operator', `no operator has the number ${number} any more`];
+    const { name, expiresAtS } = other.messages.access;
+    const facts = { session: other.messages.id, subject: grant.subject, name, grant: grant.id };
+    const supervisor = by.messages.access;
+    if (block && !this.revocations.block(grant, expiresAtS))
+      return ['no-room', 'the robot keeps no more blocked grants: have this one revoked'];
+    this.#options.log.warn(
+      { ...facts, by: supervisor.subject, supervisor: supervisor.name, block },
+      'a supervisor ended a session',
+    );
+    const and = block ? ' and blocked the grant' : '';
+    other.peer.close('ended-by-supervisor', `${supervisor.name} ended the session${and}`);
+    return null;
   }
 }

@@ -4,6 +4,7 @@ import { RecordingError } from '@farpoint/recording';
 import { RosFault } from '@farpoint/ros';
 import { StartFailure } from '@farpoint/service';
 import { SharedMemoryError } from '@farpoint/shared-memory';
+import { RevocationJournalError } from '../access/revocation-journal.ts';
 import { CaptureError } from '../capture/capture.ts';
 import type { RobotOptions } from '../robot-configuration.ts';
 import { checkRecording, checkSharedMemory } from './check-files.ts';
@@ -35,6 +36,12 @@ export function startFailure({ sensors, sink, record }: RobotOptions, error: unk
       {
         cause: error,
       },
+    );
+  if (error instanceof RevocationJournalError)
+    return new StartFailure(
+      `the robot cannot tell which grants were revoked: ${error.message}`,
+      'restore the file, or delete it if the lists that are sent again say enough',
+      { cause: error },
     );
   if (error instanceof RosFault)
     return new StartFailure(error.what, error.remedy ?? 'docs/ros.md lists what is needed', { cause: error });

@@ -14,4 +14,10 @@ export const accessOptions = optionGroup('access', {
     argument: 'FILE',
     help: 'the private key by which operators recognise this robot; made if it does not exist; default: in --state-dir',
   }),
+  revocations: defineOption({
+    schema: schema.list(schema.text()),
+    default: [],
+    argument: 'FILE,…',
+    help: 'lists of revoked grants (from `farpoint-signaling grant revoke`), besides those that the signaling service sends; read again whenever one changes',
+  }),
 });

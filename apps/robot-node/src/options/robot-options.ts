@@ -52,6 +52,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     },
     grantKeys: values.grantKeys ?? undefined,
     robotKey: values.robotKey ?? join(folder, `${values.id}.key.json`),
+    revocations: values.revocations,
     sensors: toSensors(values, topics),
     base:
       values.source === 'sim'
@@ -269,9 +270,11 @@ function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): GraphOp
 }
 
 function checkGrantKeys(
-  { grantKeys, referenceSignaling }: RobotOptionValues,
+  { grantKeys, revocations, referenceSignaling }: RobotOptionValues,
   refuse: (key: RobotOptionKey, detail: string) => void,
 ): void {
+  if (grantKeys === null && revocations.length > 0)
+    refuse('revocations', 'needs --grant-keys: without grants there is nothing to revoke');
   if (grantKeys === null) return;
   if (referenceSignaling !== null)
     refuse('referenceSignaling', 'cannot be combined with --grant-keys: its operators have no grants');

@@ -8,7 +8,7 @@ export const stateOptions = {
     schema: schema.optional(schema.text()),
     default: null,
     argument: 'DIR',
-    help: 'folder in which the robot stores its emergency stop across restarts; default: the service manager’s STATE_DIRECTORY, else ~/.local/state/farpoint',
+    help: 'folder in which the robot stores its emergency stop and revoked grants across restarts; default: the service manager’s STATE_DIRECTORY, else ~/.local/state/farpoint',
   }),
 } satisfies OptionTable;
 

@@ -235,6 +235,7 @@ describe('OperatorMessages', () => {
 describe('roles', () => {
   const granted = (role: 'watch' | 'drive' | 'supervise') => ({
     ...{ role, subject: 'x', name: 'X', expiresAtS: 1e12, keyId: 'k' },
+    grant: { id: 'g', subject: 'x', keyId: 'k', issuedAtS: 0 },
   });
   const leaseRequest = (take: boolean) => JSON.stringify({ type: 'leaseRequest', take });
   const estop = (latch: boolean) => JSON.stringify({ type: 'estop', latch });
@@ -259,6 +260,26 @@ describe('roles', () => {
     a.session.onMessage('session', estop(false));
     expect(guard.estopState().latched).toBe(true);
     expect(a.inbox).toMatchObject([{ type: 'fault', reason: 'not-permitted' }, { type: 'estop' }]);
+  });
+
+  it('only a supervisor ends the sessions of others', () => {
+    const { alice: a } = robot();
+    const ended: number[] = [];
+    a.session.onEndSession = ({ operator }) => ended.push(operator);
+    const end = JSON.stringify({ type: 'endSession', operator: 3, block: true });
+    // Without grants, nobody supervises.
+    a.session.onMessage('session', end);
+    for (const role of ['watch', 'drive'] as const) {
+      a.session.access = granted(role);
+      a.session.onMessage('session', end);
+    }
+    expect(ended).toEqual([]);
+    expect(a.inbox).toMatchObject(
+      Array.from({ length: 3 }, () => ({ type: 'fault', reason: 'not-permitted' })),
+    );
+    a.session.access = granted('supervise');
+    a.session.onMessage('session', end);
+    expect(ended).toEqual([3]);
   });
 
   it('who watches draws no barcode into what others see', () => {

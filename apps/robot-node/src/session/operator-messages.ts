@@ -6,6 +6,7 @@ import {
   decodeBandwidth,
   decodeJson,
   decodeStreamSwitch,
+  type EndSession,
   encodeJson,
   type LatencyMeasured,
   type LinkShares,
@@ -74,6 +75,8 @@ export class OperatorMessages {
   onShares: ((shares: LinkShares) => void) | null = null;
   onListen: ((on: boolean) => void) | null = null;
   onSpeak: ((held: boolean) => void) | null = null;
+  /** Of supervisors only. */
+  onEndSession: ((request: EndSession) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #rejections = new RejectionReporter();
@@ -248,6 +251,10 @@ export class OperatorMessages {
         break;
       case 'speak':
         this.onSpeak?.(message.held);
+        break;
+      case 'endSession':
+        if (supervises(this.access)) this.onEndSession?.(message);
+        else this.#notPermitted('only a supervisor ends the sessions of others');
         break;
       case 'latencyMeasured':
         this.#host.latencyMeasured?.(this, message);

@@ -2,9 +2,10 @@ import type { RateController } from '@farpoint/congestion';
 import type { AdmissionRequest } from '@farpoint/grants';
 import type { IceServer, RobotToService, ServiceToRobot, VideoCodec } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
-import type { GrantKeysFile } from '../access/grant-keys-file.ts';
+import type { GrantFiles } from '../access/grant-files.ts';
 import { RobotAccess } from '../access/robot-access.ts';
 import type { RobotKey } from '../access/robot-key-file.ts';
+import { SIGNALING } from '../access/robot-revocations.ts';
 import { monotonicMs } from '../clock.ts';
 import type { CloudClaim } from '../sensors/cloud-shares.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
@@ -19,7 +20,7 @@ export interface OperatorSessionsOptions {
   /** The robot's. */
   id: string;
   /** `null` if everybody is admitted. */
-  grantKeys: GrantKeysFile | null;
+  grants: GrantFiles | null;
   /** `null`: operators cannot recognise the robot. */
   robotKey: RobotKey | null;
   /** The maximum number of operators; further ones are refused. */
@@ -64,21 +65,20 @@ export class OperatorSessions {
   constructor(options: OperatorSessionsOptions, events: OperatorSessionsEvents) {
     this.#options = options;
     this.#events = events;
-    const { grantKeys: file, id: robot, counters, log } = options;
+    const { grants: files, id: robot, counters, log } = options;
+    const { grantsRefused: refusals, revocationLists } = counters;
     const clocks = { nowS: () => Date.now() / 1000, now: monotonicMs };
     this.#access =
-      file === null
-        ? null
-        : new RobotAccess({ file, robot, refusals: counters.grantsRefused, log, ...clocks });
+      files === null ? null : new RobotAccess({ files, robot, refusals, revocationLists, log, ...clocks });
   }
 
   /** Call every 25 ms. */
   tick(): void {
-    this.#access?.tick(this.operators.values());
+    this.#access?.tick(this.operators, this.#options.host.drive.guard.leaseHolder);
   }
 
-  /** Reads the keys for grants again; the old ones stay in force if that fails. @throws {GrantKeysError} */
-  async reloadGrantKeys(): Promise<void> {
+  /** Reads keys and revocations again; the old keys stay in force if that fails. @throws {GrantKeysError} */
+  async reloadGrants(): Promise<void> {
     await this.#access?.reload(() => this.operators.values());
   }
 
@@ -106,6 +106,9 @@ export class OperatorSessions {
         operator?.peer.close('closed', message.reason);
         break;
       }
+      case 'revocations':
+        void this.#access?.revocations.take(message.list, SIGNALING);
+        break;
       case 'error':
         this.#onError(message);
         break;
@@ -114,6 +117,7 @@ export class OperatorSessions {
 
   /** Ends all sessions and tells the signaling service. */
   close(): void {
+    this.#access?.close();
     for (const operator of [...this.operators.values()]) {
       const { id: session } = operator.messages;
       this.#options.signaling.send({ type: 'session.close', session, reason: 'shutting-down' });
@@ -183,6 +187,8 @@ export class OperatorSessions {
         onEnded: (end, detail) => this.#ended(operator, end, detail, log),
       },
     );
+    operator.messages.onEndSession = (request) =>
+      this.#access?.endSession(operator, request, this.operators.values());
     this.operators.set(session, operator);
     counters.sessionsOpened++;
     log.info('session requested');

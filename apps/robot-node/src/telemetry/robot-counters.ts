@@ -28,6 +28,8 @@ export class RobotCounters {
   readonly resumesRefused = new ReasonCounts();
   /** Operators that were not admitted, by the fault of their grant or proof. */
   readonly grantsRefused = new ReasonCounts();
+  /** Lists of revoked grants that arrived, by what became of them. */
+  readonly revocationLists = new ReasonCounts();
   /** Answers that changed nothing, because they were repeated or no offer waited for them. */
   readonly answersIgnored = new ReasonCounts();
   readonly candidatesRefused = new ReasonCounts();

@@ -13,7 +13,11 @@ export interface RobotUnderTest {
 }
 
 /** Starts a robot process before a file's tests and stops it after them. Call it at the top of the file. */
-export function useRobot(id: string, args: readonly string[]): RobotUnderTest {
+export function useRobot(
+  id: string,
+  args: readonly string[],
+  signalingArgs: readonly string[] = [],
+): RobotUnderTest {
   let stack: LocalStack | null = null;
   const operators: SignaledOperator[] = [];
   const keep = (operator: SignaledOperator) => {
@@ -25,7 +29,10 @@ export function useRobot(id: string, args: readonly string[]): RobotUnderTest {
     return stack;
   };
   beforeAll(async () => {
-    stack = await LocalStack.start({ robots: [{ id, name: 'Simulated robot', args: [...args] }] });
+    stack = await LocalStack.start({
+      signalingArgs: [...signalingArgs],
+      robots: [{ id, name: 'Simulated robot', args: [...args] }],
+    });
   }, 60_000);
   afterAll(async () => {
     await stack?.stop();

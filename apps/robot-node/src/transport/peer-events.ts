@@ -10,6 +10,8 @@ export type PeerEnd =
   | 'bad-answer' // the operator's SDP or its codecs cannot be used
   | 'not-granted' // the operator has no grant that is valid for this robot
   | 'grant-expired'
+  | 'grant-revoked'
+  | 'ended-by-supervisor'
   | 'unproven-peer' // DTLS: another certificate than the answer names, or a key that it does not have
   | 'not-connected' // no connection came about
   | 'connection-lost' // ICE, DTLS or a channel ended

@@ -1,4 +1,4 @@
-import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import {
@@ -6,8 +6,11 @@ import {
   keyThumbprint,
   makeOperatorKey,
   parseGrantKeys,
+  RevocationList,
   readGrant,
+  readRevocations,
   verifyGrant,
+  verifyRevocations,
 } from '@farpoint/grants';
 import { afterEach, beforeEach, expect, it } from 'vitest';
 import { grantCommand } from './grant-command.ts';
@@ -139,8 +142,74 @@ it.each([
   [['show'], 2, 'needs one grant'],
   [['show', 'a.b.c'], 1, 'neither a grant nor a ticket'],
   [['constructor'], 2, 'no command constructor'],
+  [['revoke', '--id', 'x'], 2, 'needs --list'],
+  [['revoke', '--list', 'l'], 2, 'needs --id or --subject'],
+  [['revoke', '--list', 'l', '--id', 'a b'], 2, '--id a b is not a grant’s id'],
+  [['revoke', '--list', 'l', '--subject', ''], 2, '--subject and --issuer must be'],
+  [['revoke', '--list', 'l', '--id', 'x', '--days', '-1'], 2, '--days'],
+  [['revoke', '--list', 'l', '--id', 'x', '--key', '/nowhere/key'], 1, '--key cannot be read'],
 ] as const)('%j: exit status %i', async (args, status, message) => {
   expect(await run([...args])).toMatchObject({ status, err: expect.stringContaining(message), out: '' });
+});
+
+it('revokes grants and persons, in a list that grows and that every robot can verify', async () => {
+  const { key, keys } = files();
+  const list = join(folder, 'revoked.jws');
+  await run(['keygen', ...flagsOf({ key, keys })]);
+  const trusted = await parseGrantKeys(readFileSync(keys, 'utf8'));
+  const issued = async (name: string, nowMs = NOW) => {
+    const { out } = await run(['issue', ...ada.slice(2), '--name', name, '--with-key', '--key', key], nowMs);
+    const { grant = '' } = decodeTicket(out.trim()) ?? {};
+    return verifyGrant(grant, { keys: trusted, robot: 'hall-1', nowS: nowMs / 1000 });
+  };
+  const [one, two, eve] = [await issued('Ada'), await issued('Ada'), await issued('Eve')];
+  const revoke = (...args: string[]) => run(['revoke', '--list', list, '--key', key, ...args], NOW + 60_000);
+  expect(await revoke(`--id=${one.id}`)).toMatchObject({ status: 0, out: expect.stringContaining('Made') });
+  const now = async () =>
+    new RevocationList(await verifyRevocations(readFileSync(list, 'utf8').trim(), trusted));
+  const first = await now();
+  expect([one, two, eve].map((each) => first.revokes(each, NOW / 1000))).toEqual([true, false, false]);
+  expect(await revoke('--subject', 'Eve', '--subject', 'Bob')).toMatchObject({
+    status: 0,
+    out: expect.stringMatching(
+      /grants to Eve issued before .*\nrevoked: grants to Bob .*\nExtended .* 3 in all/,
+    ),
+  });
+  const second = await now();
+  expect(second.sequence).toBeGreaterThan(first.sequence);
+  const again = await issued('Eve', NOW + 61_000);
+  expect([one, two, eve, again].map((each) => second.revokes(each, NOW / 1000))).toEqual([
+    true,
+    false,
+    true,
+    false,
+  ]);
+  expect(readdirSync(folder).sort()).toEqual(['key.json', 'keys.json', 'revoked.jws']);
+});
+
+it('a list belongs to one key, and to nothing else', async () => {
+  const { key, keys } = files();
+  const [second, list] = [join(folder, 'second.json'), join(folder, 'revoked.jws')];
+  await run(['keygen', ...flagsOf({ key, keys })]);
+  await run(['keygen', ...flagsOf({ key: second, keys })]);
+  await run(['revoke', '--list', list, '--id', 'g1', '--key', key]);
+  const before = readFileSync(list, 'utf8');
+  const { keyId } = readRevocations(before.trim());
+  const other = await run(['revoke', '--list', list, '--id', 'g2', '--key', second]);
+  expect(other).toMatchObject({ status: 1, err: expect.stringContaining('signed by another key than') });
+  expect(readRevocations(readFileSync(list, 'utf8').trim()).keyId).toBe(keyId);
+  const wrong = await run(['revoke', '--list', keys, '--id', 'g2', '--key', key]);
+  expect(wrong).toMatchObject({ status: 1, err: expect.stringContaining('is not a list of revocations') });
+  const many = Array.from({ length: 1025 }, (_, i) => ['--id', `g${i}`]).flat();
+  const full = await run(['revoke', '--list', list, '--key', key, ...many]);
+  expect(full).toMatchObject({ status: 1, err: expect.stringContaining('is full') });
+  // A command that runs at the same time must not be undone.
+  writeFileSync(`${list}.new`, '');
+  const busy = await run(['revoke', '--list', list, '--id', 'g2', '--key', key]);
+  expect(busy).toMatchObject({ status: 1, err: expect.stringContaining('another command is writing it') });
+  rmSync(`${list}.new`);
+  expect(readFileSync(list, 'utf8')).toBe(before);
+  expect(await run(['revoke', '--list', list, '--id', 'g2', '--key', key])).toMatchObject({ status: 0 });
 });
 
 it('refuses a private key where the public one is asked for', async () => {
@@ -153,10 +222,14 @@ it('refuses a private key where the public one is asked for', async () => {
   expect(await run(['issue', ...ada, '--with-key', '--key', keys])).toMatchObject({ status: 1 });
 });
 
-it.each([[[]], [['--help']], [['keygen', '--help']], [['issue', '-h']], [['show', '--help']]])(
-  '%j: help',
-  async (args) => {
-    const { status, out } = await run(args);
-    expect([status, out.startsWith('farpoint-signaling grant')]).toEqual([0, true]);
-  },
-);
+it.each([
+  [[]],
+  [['--help']],
+  [['keygen', '--help']],
+  [['issue', '-h']],
+  [['show', '--help']],
+  [['revoke', '-h']],
+])('%j: help', async (args) => {
+  const { status, out } = await run(args);
+  expect([status, out.startsWith('farpoint-signaling grant')]).toEqual([0, true]);
+});

@@ -1,7 +1,8 @@
-/** `farpoint-signaling grant …`: makes keys, issues grants, and shows what is in them. */
+/** `farpoint-signaling grant …`: makes keys, issues, shows and revokes grants. */
 import { CommandError, type CommandRim } from './command-rim.ts';
 import { ISSUE_HELP, issue } from './issue.ts';
 import { KEYGEN_HELP, keygen } from './keygen.ts';
+import { REVOKE_HELP, revoke } from './revoke.ts';
 import { SHOW_HELP, show } from './show.ts';
 
 const COMMANDS: Readonly<
@@ -10,13 +11,14 @@ const COMMANDS: Readonly<
   keygen: { help: KEYGEN_HELP, run: keygen },
   issue: { help: ISSUE_HELP, run: issue },
   show: { help: SHOW_HELP, run: show },
+  revoke: { help: REVOKE_HELP, run: revoke },
 };
 
-const HELP = `farpoint-signaling grant keygen|issue|show …
+const HELP = `farpoint-signaling grant keygen|issue|show|revoke …
 
 Grants say who may use which robots, in what role and until when. Robots with --grant-keys admit nobody else.
 
-${[KEYGEN_HELP, ISSUE_HELP, SHOW_HELP].join('\n')}`;
+${[KEYGEN_HELP, ISSUE_HELP, SHOW_HELP, REVOKE_HELP].join('\n')}`;
 
 /** @returns the exit status: 0, 1 if it did not succeed, 2 for a mistake in the arguments */
 export async function grantCommand(argv: readonly string[], rim: CommandRim): Promise<number> {

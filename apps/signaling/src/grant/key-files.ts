@@ -1,4 +1,4 @@
-import { readFileSync, renameSync, writeFileSync } from 'node:fs';
+import { closeSync, openSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { GrantKeysError, type GrantPublicJwk, MAX_KEYS, readJwkSet } from '@farpoint/grants';
 import { fileFault } from '@farpoint/service';
 import { CommandError } from './command-rim.ts';
@@ -25,13 +25,8 @@ export function writeSecret(flag: string, path: string, text: string): void {
 
 /** The public keys in a file; none if it does not exist yet. @throws {CommandError} */
 export function readPublicKeys(flag: string, path: string): GrantPublicJwk[] {
-  let text: string;
-  try {
-    text = readFileSync(path, 'utf8');
-  } catch (error) {
-    if ((error as NodeJS.ErrnoException).code === 'ENOENT') return [];
-    throw new CommandError(`${flag} cannot be read: ${fileFault(error) ?? String(error)}`, 1);
-  }
+  const text = readIfThere(flag, path);
+  if (text === null) return [];
   try {
     const keys = readJwkSet(text);
     if (keys.length === MAX_KEYS)
@@ -52,4 +47,57 @@ export function writePublicKeys(flag: string, path: string, keys: readonly Grant
   } catch (error) {
     throw new CommandError(`${flag} cannot be written: ${fileFault(error) ?? String(error)}`, 1);
   }
+}
+
+/** `null` if the file does not exist. @throws {CommandError} */
+export function readIfThere(flag: string, path: string): string | null {
+  try {
+    return readFileSync(path, 'utf8');
+  } catch (error) {
+    if ((error as NodeJS.ErrnoException).code === 'ENOENT') return null;
+    throw new CommandError(`${flag} cannot be read: ${fileFault(error) ?? String(error)}`, 1);
+  }
+}
+
+/** A public file that is being written anew. */
+export interface Draft {
+  /** Replaces the file at once, so that nobody ever reads half of it. @throws {CommandError} */
+  publish(text: string): void;
+  /** Leaves the file as it is, unless it was published. */
+  drop(): void;
+}
+
+/**
+ * Begins to write a file anew. Until then nobody else can, so that of two commands neither undoes what the other did.
+ *
+ * @throws {CommandError}
+ */
+export function openDraft(flag: string, path: string): Draft {
+  const beside = `${path}.new`;
+  const fault = (error: unknown) =>
+    new CommandError(`${flag} cannot be written: ${fileFault(error) ?? String(error)}`, 1);
+  let file: number;
+  try {
+    file = openSync(beside, 'wx', 0o644);
+  } catch (error) {
+    if ((error as NodeJS.ErrnoException).code !== 'EEXIST') throw fault(error);
+    const detail = 'another command is writing it. If none runs any more, remove that file';
+    throw new CommandError(`${flag}: ${beside} exists: ${detail}`, 1);
+  }
+  let open = true;
+  return {
+    publish(text) {
+      try {
+        writeFileSync(file, text, { flush: true });
+        closeSync(file);
+        renameSync(beside, path);
+        open = false;
+      } catch (error) {
+        throw fault(error);
+      }
+    },
+    drop() {
+      if (open) rmSync(beside, { force: true });
+    },
+  };
 }

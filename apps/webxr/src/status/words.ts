@@ -49,6 +49,8 @@ const lossWords: Record<Exclude<SessionLoss, 'robot-full'>, string> = {
   'robot-key-changed': 'The robot’s key has changed: it may be another robot.',
   'robot-unproven': 'The robot did not prove that it is the one that this browser knows.',
   'grant-expired': 'Your grant for this robot has ended. Ask for another.',
+  'grant-revoked': 'Your grant for this robot has been revoked.',
+  'ended-by-supervisor': 'A supervisor has ended your session. Choose the robot to connect again.',
   'unproven-peer':
     'The robot refused the connection: it is not encrypted end to end with this page. Trying again…',
   'not-reading': 'This page could not keep up with the robot’s messages. Reconnecting…',

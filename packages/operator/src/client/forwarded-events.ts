@@ -11,6 +11,7 @@ export function forwardedEvents(emitter: Emitter<RobotEvents>) {
     onRefusal: (message) => emitter.emit('refused', message),
     onGrantExpires: (inS) => emitter.emit('grantExpires', inS),
     onRejected: (rejected) => emitter.emit('commandRejected', rejected),
+    onOperators: (operators) => emitter.emit('operators', operators),
     onEstop: (estop) => emitter.emit('estop', estop),
     onSensors: (sensors) => emitter.emit('sensors', sensors),
     onRings: (rings) => emitter.emit('rings', rings),

@@ -98,8 +98,9 @@ describe('RobotClient', () => {
     expect(client.driver.input).toBe(null);
   });
 
-  test('without a session an emergency stop or its release is not sent, and the caller is told', () => {
+  test('without a session an emergency stop, its release or the end of a session is not sent, and the caller is told', () => {
     const { client } = bench();
+    expect(client.endSession(3)).toBe(false);
     expect(client.estop()).toBe(false);
     expect(client.releaseEstop()).toBe(false);
   });

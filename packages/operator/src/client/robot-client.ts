@@ -1,7 +1,6 @@
 /** An operator's connection to robots. */
-import type { RobotListing, Telemetry } from '@farpoint/protocol';
+import type { OperatorSessionMessage, RobotListing, Telemetry } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
-import { CloudReceiver } from '../cloud/cloud-receiver.ts';
 import { ReadableFormats } from '../cloud/readable-formats.ts';
 import { Driver } from '../drive/driver.ts';
 import { presentRobot, RobotSwitch } from '../drive/robot-switch.ts';
@@ -11,14 +10,12 @@ import type { AgeOfStamp } from '../latency/frame-latency.ts';
 import { LatencyProbe, type LatencyReport } from '../latency/latency-probe.ts';
 import { openLink } from '../link/open-link.ts';
 import type { RobotLink } from '../link/robot-link.ts';
-import { PictureFeed } from '../pictures/picture-feed.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { RobotSound } from '../sound/robot-sound.ts';
 import { StreamStatistics, type StreamStats } from '../statistics/stream-statistics.ts';
 import type { RobotClientOptions } from './client-options.ts';
-import { clientSound } from './client-sound.ts';
-import { Emitter } from './emitter.ts';
-import { linkEvents } from './link-events.ts';
+import { clientParts } from './client-parts.ts';
+import { type ClientParts, linkEvents } from './link-events.ts';
 import type { RobotEvents } from './robot-events.ts';
 
 const TICK_MS = 25;
@@ -41,47 +38,31 @@ export class RobotClient {
   readonly statistics: StreamStatistics;
   /** When points last arrived or the session's phase last changed, `performance.now()`. */
   pointsAtMs = 0;
-  readonly #emitter = new Emitter<RobotEvents>();
-  readonly #receiver: CloudReceiver;
-  readonly #pictures: PictureFeed;
+  readonly #parts: ClientParts;
+  readonly #emitter: ClientParts['emitter'];
   readonly #wish = new WishInput();
   readonly #switch: RobotSwitch;
-  readonly #formats: ReadableFormats;
   #timer: ReturnType<typeof setInterval> | undefined;
   #statisticsDueMs = 0;
   #closed = false;
 
   /** Makes a client that does nothing until {@link start} is called. */
   constructor(options: RobotClientOptions) {
-    this.#formats = new ReadableFormats(options.cloudFormats);
-    this.#receiver = new CloudReceiver({
+    const ageOf: AgeOfStamp = (stampUs, nowMs) => this.link.session.ageMs(stampUs, nowMs);
+    this.#parts = clientParts({
+      formats: new ReadableFormats(options.cloudFormats),
+      ageOf,
+      send: (message) => this.link.sendSession(message),
       onBatch: (batch) => this.#onBatch(batch),
       onReport: (report) => {
         this.statistics.onReport(report);
         this.link.sendReport(report);
       },
-      onStreamRefused: (format, detail) => {
-        console.warn('cloud stream:', format, detail);
-        this.#formats.refuse(format);
-        this.#tellFormats();
-      },
-      onFailed: (detail) => this.#emitter.emit('failed', { reason: 'cloud-worker', detail }),
     });
-    const ageOf: AgeOfStamp = (stampUs, nowMs) => this.link.session.ageMs(stampUs, nowMs);
-    this.#pictures = new PictureFeed(ageOf, {
-      onPicture: (picture) => this.#emitter.emit('picture', picture),
-      onFault: (camera, detail) => this.#emitter.emit('pictureFault', { camera, detail }),
-    });
+    this.#emitter = this.#parts.emitter;
     this.statistics = new StreamStatistics(ageOf);
-    this.sound = clientSound(this.#emitter, (message) => this.link.sendSession(message));
-    this.link = openLink(
-      options,
-      this.#receiver.worker,
-      linkEvents(this, {
-        ...{ emitter: this.#emitter, receiver: this.#receiver, pictures: this.#pictures, sound: this.sound },
-        tellFormats: () => this.#tellFormats(),
-      }),
-    );
+    this.sound = this.#parts.sound;
+    this.link = openLink(options, this.#parts.receiver.worker, linkEvents(this, this.#parts));
     this.driver = new Driver([...(options.inputs ?? []), this.#wish], {
       sendCommand: (command) => this.link.sendCommand(command),
       sendSession: (message) => this.link.sendSession(message),
@@ -119,8 +100,8 @@ export class RobotClient {
     this.driver.letGo(performance.now());
     this.latency.fail('no-session');
     this.link.close();
-    this.#receiver.close();
-    this.#pictures.close();
+    this.#parts.receiver.close();
+    this.#parts.pictures.close();
   }
 
   /** The phase of the session with the chosen robot. */
@@ -185,9 +166,7 @@ export class RobotClient {
    * @returns whether it was sent, which needs a session. The `estop` event confirms it.
    */
   estop(): boolean {
-    if (this.link.phase !== 'live') return false;
-    this.link.sendSession({ type: 'estop', latch: true });
-    return true;
+    return this.#request({ type: 'estop', latch: true });
   }
 
   /**
@@ -197,15 +176,24 @@ export class RobotClient {
    * @returns whether it was sent, which needs a session. The `estop` event confirms it.
    */
   releaseEstop(): boolean {
-    if (this.link.phase !== 'live') return false;
-    if (this.driver.holder === 'nobody') this.driver.requestLease(false);
-    this.link.sendSession({ type: 'estop', latch: false });
-    return true;
+    if (this.link.phase === 'live' && this.driver.holder === 'nobody') this.driver.requestLease(false);
+    return this.#request({ type: 'estop', latch: false });
+  }
+
+  /**
+   * Ends another operator's session. Only a supervisor may; others get the robot's `robotFault`.
+   *
+   * @param operator its `number` in the `operators` event
+   * @param options.block also makes the robot refuse that operator's grant until it ends
+   * @returns whether it was sent, which needs a session. The `operators` event confirms it.
+   */
+  endSession(operator: number, options: { block?: boolean } = {}): boolean {
+    return this.#request({ type: 'endSession', operator, block: options.block === true });
   }
 
   /** Asks for pictures of these cameras only: indices into the list of the `cameras` event. */
   watch(cameras: readonly number[]): void {
-    this.#pictures.watch(cameras);
+    this.#parts.pictures.watch(cameras);
     this.link.sendSession({ type: 'pictures', cameras: [...cameras] });
   }
 
@@ -248,7 +236,7 @@ export class RobotClient {
 
   /** Draws only one of every N points: one N for coded clouds, and one for `points64`, which is already a sample. */
   drawEvery(every: number, everySample = 1): void {
-    this.#receiver.drawEvery(every, everySample);
+    this.#parts.receiver.drawEvery(every, everySample);
   }
 
   /** The stream's present rates, losses, round trips and latencies. */
@@ -258,7 +246,7 @@ export class RobotClient {
 
   /** Returns a batch of a `cloud` event to the worker. Its buffer is detached afterwards. */
   release(batch: Batch): void {
-    this.#receiver.release(batch);
+    this.#parts.receiver.release(batch);
   }
 
   /** A packet's points were uploaded for the display frame being prepared. */
@@ -293,7 +281,10 @@ export class RobotClient {
     this.link.onPoints(this.pointsAtMs);
   }
 
-  #tellFormats(): void {
-    this.link.sendSession({ type: 'cloudFormats', formats: this.#formats.list });
+  /** Sends what only a session can take. */
+  #request(message: OperatorSessionMessage): boolean {
+    if (this.link.phase !== 'live') return false;
+    this.link.sendSession(message);
+    return true;
   }
 }

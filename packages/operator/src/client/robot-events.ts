@@ -5,6 +5,7 @@ import type {
   Diagnostics,
   EstopState,
   LeaseState,
+  Operators,
   Quantity,
   Reading,
   RobotListing,
@@ -40,7 +41,7 @@ export interface RobotEvents {
   session: number;
   /** Within a session: the network path is lost (`false`) or restored (`true`). */
   path: boolean;
-  /** A session was given up. The client opens another automatically. */
+  /** A session was given up. The client opens another automatically, unless a supervisor ended this one. */
   loss: SessionLoss;
   /** The signaling service refused a request; the text is the service's. */
   refused: string;
@@ -50,6 +51,8 @@ export interface RobotEvents {
   grantExpires: number;
   /** Who drives. */
   lease: LeaseState;
+  /** Who has a session with the robot, and who of them drives; from robots that ask for grants. */
+  operators: Operators;
   /** The robot refused a command. */
   commandRejected: CommandRejected;
   /** The emergency stop, latched or released. */

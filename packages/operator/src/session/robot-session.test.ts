@@ -12,6 +12,7 @@ function bench(): { session: RobotSession; told: string[] } {
     onWelcome: tell('welcome'),
     onGrantExpires: () => undefined,
     onLease: tell('lease'),
+    onOperators: tell('operators'),
     onRejected: tell('rejected'),
     onEstop: tell('estop'),
     onLatencyFrame: tell('latencyFrame'),
@@ -68,6 +69,15 @@ describe('RobotSession', () => {
       '[{"name":"Front","mid":"1","codec":"H264"},{"name":"Rear","mid":"2","codec":"VP8","fault":"gone"}]';
     session.onMessage('session', `{"type":"videos","videos":${videos}}`, 0);
     expect(told).toEqual(['lease', 'estop', 'fault', 'videos']);
+  });
+
+  test('keeps who has a session', () => {
+    const { session, told } = bench();
+    expect(session.operators).toBeNull();
+    const ada = { number: 3, name: 'Ada', role: 'drive', drives: true, you: true };
+    session.onMessage('session', JSON.stringify({ type: 'operators', operators: [ada], more: 2 }), 0);
+    expect(session.operators).toEqual({ type: 'operators', operators: [ada], more: 2 });
+    expect(told).toEqual(['operators']);
   });
 
   test('keeps the quantities, the alarms that are raised, and the reports of components', () => {

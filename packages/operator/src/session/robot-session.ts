@@ -14,6 +14,7 @@ import {
   type LeaseState,
   type MessageData,
   nextSequence32,
+  type Operators,
   PictureAssembler,
   ProtocolError,
   type Quantity,
@@ -41,6 +42,8 @@ export interface RobotSessionEvents {
   /** The operator's grant ends soon. */
   onGrantExpires(inS: number): void;
   onLease(lease: LeaseState): void;
+  /** Who has a session with the robot; from robots that ask for grants. */
+  onOperators(operators: Operators): void;
   onRejected(rejected: CommandRejected): void;
   onEstop(estop: EstopState): void;
   onLatencyFrame(frame: LatencyFrame): void;
@@ -80,6 +83,8 @@ export class RobotSession {
   grantEndsAtMs: number | null = null;
   /** Who drives. */
   lease: LeaseState = { type: 'lease', holder: 'nobody' };
+  /** Who has a session with the robot; `null` until the robot says so, and from robots that ask for no grants. */
+  operators: Operators | null = null;
   /** Whether the emergency stop is latched. */
   estop: EstopState = { type: 'estop', latched: false };
   /** The robot's latest telemetry; `null` before the first. */
@@ -155,6 +160,10 @@ export class RobotSession {
       case 'lease':
         this.lease = message;
         this.#events.onLease(message);
+        return;
+      case 'operators':
+        this.operators = message;
+        this.#events.onOperators(message);
         return;
       case 'rejected':
         this.#events.onRejected(message);

@@ -150,6 +150,7 @@ describe('SessionKeeper', () => {
     ['robot-full', 'robot-full'],
     ['bad-answer', 'bad-answer'],
     ['grant-expired', 'grant-expired'],
+    ['grant-revoked', 'grant-revoked'],
     ['unproven-peer', 'unproven-peer'],
     ['shutting-down', 'robot-stopped'],
     ['silent', 'unheard'],
@@ -188,6 +189,22 @@ describe('SessionKeeper', () => {
     bench.keeper.onPeerConnected(bench.now);
     bench.keeper.retry(bench.now);
     expect([bench.keeper.phase, bench.requests.length]).toEqual(['live', 4]);
+  });
+
+  test('ended by a supervisor: connects again only when the operator asks for it', () => {
+    const bench = new Bench().live();
+    bench.keeper.onClosed('s1', 'ended-by-supervisor', bench.now);
+    expect([bench.losses, bench.keeper.phase, bench.keeper.robotId]).toEqual([
+      ['ended-by-supervisor'],
+      'none',
+      null,
+    ]);
+    bench.pass(60_000);
+    bench.keeper.onRobots([], bench.now);
+    bench.keeper.onRobots(HERE, bench.now);
+    expect(bench.requests).toHaveLength(1);
+    bench.keeper.want('rover', HERE, bench.now);
+    expect(bench.requests).toHaveLength(2);
   });
 
   test('leaving the page ends the session, and returning opens another', () => {

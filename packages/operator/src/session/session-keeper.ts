@@ -209,7 +209,9 @@ export class SessionKeeper {
     this.#endSession();
     this.#retryAtMs = finalLosses.has(loss) ? Number.POSITIVE_INFINITY : nowMs + this.#backoff.nextMs();
     this.#actions.onLoss(loss);
-    this.#enter('waiting');
+    // Somebody meant it: only the operator's own choice opens another session.
+    if (loss === 'ended-by-supervisor') this.#robotId = null;
+    this.#enter(this.#robotId === null ? 'none' : 'waiting');
   }
 
   #endSession(): void {

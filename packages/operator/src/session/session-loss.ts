@@ -24,6 +24,10 @@ export type SessionLoss =
   | 'robot-unproven'
   /** The operator's grant has ended. */
   | 'grant-expired'
+  /** The operator's grant has been revoked. */
+  | 'grant-revoked'
+  /** A supervisor ended the session. The client does not connect again by itself. */
+  | 'ended-by-supervisor'
   /** Somebody is between the peers, or the certificate is not the one that this browser named. */
   | 'unproven-peer'
   /** The page did not read the robot's messages fast enough. */
@@ -44,6 +48,8 @@ export const lossOf: Readonly<Record<RobotEndReason, SessionLoss>> = {
   'bad-answer': 'bad-answer',
   'not-granted': 'not-granted',
   'grant-expired': 'grant-expired',
+  'grant-revoked': 'grant-revoked',
+  'ended-by-supervisor': 'ended-by-supervisor',
   'unproven-peer': 'unproven-peer',
   'not-connected': 'not-connected',
   'connection-lost': 'connection-failed',

@@ -9,6 +9,8 @@ import { displayNameSchema, handleSchema, robotIdSchema, tokenSchema } from '../
 import type { JsonCodec } from '../json.ts';
 
 export const MAX_SIGNALING_BYTES = 65_536;
+/** Characters of a list of revoked grants: it fits a message with room to spare. */
+export const MAX_REVOCATIONS_LENGTH = 60_000;
 
 const sdpSchema = z.string().check(z.minLength(1), z.maxLength(60_000));
 
@@ -39,6 +41,8 @@ export const robotCloseReasons = [
   'bad-answer', // the SDP answer is unusable, or what it agrees to is
   'not-granted', // the robot admits only operators with a valid grant, and this one has none
   'grant-expired',
+  'grant-revoked', // by its issuer, during the session
+  'ended-by-supervisor',
   'unproven-peer', // the peer's certificate is not the answer's, or the peer did not prove that it holds the key
   'not-connected', // no connection was established in time
   'connection-lost', // DTLS or a channel ended
@@ -91,24 +95,24 @@ const error = z.strictObject({
   session: z.optional(handleSchema),
 });
 
-/** The service passes identities, grants and proofs on as they are; only the peers read them (docs/security.md). */
+/** The service passes them all on as they are; only the peers read them (docs/security.md). */
 const jwsSchema = (maxLength: number) =>
-  z.optional(z.string().check(z.maxLength(maxLength), z.regex(/^[A-Za-z0-9_.-]+$/, 'must be a compact JWS')));
+  z.string().check(z.maxLength(maxLength), z.regex(/^[A-Za-z0-9_.-]+$/, 'must be a compact JWS'));
 const sessionOffer = z.strictObject({
   type: z.literal('session.offer'),
   session: handleSchema,
   sdp: sdpSchema,
   /** With a session's first offer: that its certificate is this robot's. */
-  identity: jwsSchema(2048),
+  identity: z.optional(jwsSchema(2048)),
 });
 const sessionAnswer = z.strictObject({
   type: z.literal('session.answer'),
   session: handleSchema,
   sdp: sdpSchema,
   /** Who the operator is and what it may do. */
-  grant: jwsSchema(4096),
+  grant: z.optional(jwsSchema(4096)),
   /** That this session is the grant's holder's. */
-  proof: jwsSchema(2048),
+  proof: z.optional(jwsSchema(2048)),
 });
 const sessionCandidate = z.strictObject({
   type: z.literal('session.candidate'),
@@ -197,6 +201,8 @@ const serviceToRobot = z.discriminatedUnion('type', [
     session: handleSchema,
     reason: z.enum(operatorEndReasons),
   }),
+  /** A list of revoked grants, signed by their issuer: after the welcome, and whenever it changes. */
+  z.strictObject({ type: z.literal('revocations'), list: jwsSchema(MAX_REVOCATIONS_LENGTH) }),
   error,
 ]);
 export type ServiceToRobot = z.infer<typeof serviceToRobot>;

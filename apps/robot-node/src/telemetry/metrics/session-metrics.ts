@@ -18,6 +18,9 @@ export function addSessionMetrics(metrics: PulledMetrics, { counters, operators 
   metrics.sums('grants_refused', 'Operators that were not admitted, by reason', 'reason', () =>
     counters.grantsRefused.entries(),
   );
+  metrics.sums('revocation_lists', 'Lists of revoked grants that arrived, by outcome', 'outcome', () =>
+    counters.revocationLists.entries(),
+  );
   metrics.sums('answers_ignored', 'Answers that were ignored, by reason', 'reason', () =>
     answersIgnored.entries(),
   );

@@ -1,0 +1,89 @@
+import { decodeJson, encodeJson, type Operators, type Role, robotSessionCodec } from '@farpoint/protocol';
+import { expect, it } from 'vitest';
+import { OperatorRoster } from './operator-roster.ts';
+
+function operator(id: string, role: Role = 'drive', name = id) {
+  const inbox: Operators[] = [];
+  const made = {
+    messages: {
+      id,
+      access: {
+        ...{ role, subject: id, name, expiresAtS: 1, keyId: 'k' },
+        grant: { id, subject: id, keyId: 'k', issuedAtS: 0 },
+      },
+      // The operator's own decoder must be able to read what the robot sends.
+      send: (message: Operators) =>
+        inbox.push(decodeJson(robotSessionCodec, encodeJson(robotSessionCodec, message)) as Operators),
+    },
+    peer: { connected: true },
+  };
+  const taken = () =>
+    inbox.splice(0).map(({ operators, more }) => ({ more, names: operators.map(({ name }) => name) }));
+  return { made: made as typeof made & Parameters<OperatorRoster['numberOf']>[0], inbox, taken };
+}
+
+it('tells everyone at each change, at most four times a second, the own entry first', () => {
+  const roster = new OperatorRoster();
+  const [ada, wim, sue] = [operator('ada'), operator('wim', 'watch'), operator('sue', 'supervise')];
+  const all = [ada.made, wim.made, sue.made];
+  roster.tick(all, 'wim', 0);
+  expect(ada.inbox).toEqual([
+    {
+      type: 'operators',
+      operators: [
+        { number: 1, name: 'ada', role: 'drive', drives: false, you: true },
+        { number: 2, name: 'wim', role: 'watch', drives: true, you: false },
+        { number: 3, name: 'sue', role: 'supervise', drives: false, you: false },
+      ],
+    },
+  ]);
+  expect(sue.taken()).toEqual([{ names: ['sue', 'wim', 'ada'] }]);
+  ada.taken();
+  roster.tick(all, null, 249);
+  roster.tick([ada.made, sue.made], null, 249);
+  expect(ada.taken()).toEqual([]);
+  roster.tick([ada.made, sue.made], null, 250);
+  expect(ada.taken()).toEqual([{ names: ['ada', 'sue'] }]);
+  roster.tick([ada.made, sue.made], null, 1000);
+  expect(ada.taken()).toEqual([]);
+});
+
+it('lists nobody who is not admitted or not connected, and gives no number twice', () => {
+  const roster = new OperatorRoster();
+  const [ada, other] = [operator('ada'), operator('other')];
+  const stranger = {
+    ...operator('x').made,
+    messages: {
+      ...operator('x').made.messages,
+      access: { ...operator('x').made.messages.access, grant: null },
+    },
+  };
+  other.made.peer.connected = false;
+  roster.tick([ada.made, other.made, stranger], null, 0);
+  expect(ada.taken()).toEqual([{ names: ['ada'] }]);
+  other.made.peer.connected = true;
+  roster.tick([ada.made, other.made], null, 250);
+  roster.tick([ada.made], null, 500);
+  const again = operator('other');
+  roster.tick([ada.made, again.made], null, 750);
+  const numbers = ada.inbox.map(({ operators }) => operators[1]?.number);
+  expect(numbers).toEqual([2, undefined, 3]);
+  expect([roster.has(again.made, 3), roster.has(again.made, 2)]).toEqual([true, false]);
+});
+
+it('fits a message with the most operators and the longest names, and counts the rest', () => {
+  const roster = new OperatorRoster();
+  const all = Array.from({ length: 32 }, (_, i) =>
+    operator(`o${i}`, 'supervise', (i % 2 ? '"' : '\ud800').repeat(64)),
+  );
+  roster.tick(
+    all.map(({ made }) => made),
+    'o31',
+    0,
+  );
+  for (const { inbox } of all) {
+    expect(inbox).toHaveLength(1);
+    expect([inbox[0]?.operators.length, inbox[0]?.more, inbox[0]?.operators[0]?.you]).toEqual([16, 16, true]);
+    expect(inbox[0]?.operators.some(({ drives }) => drives)).toBe(true);
+  }
+});

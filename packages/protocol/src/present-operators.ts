@@ -1,0 +1,50 @@
+/** Who has a session with the robot. */
+import * as z from 'zod/mini';
+import { displayNameSchema, uint32Schema } from './identifiers.ts';
+import { type Role, roles } from './role.ts';
+
+/** So many fit into a message, however long their names are. */
+export const MAX_LISTED_OPERATORS = 16;
+
+/** An operator with a session. */
+export interface PresentOperator {
+  /** Names the operator's session; never used again while the robot runs. */
+  number: number;
+  /** The operator's name, by its grant. */
+  name: string;
+  /** What the operator may do. */
+  role: Role;
+  /** Whether it holds the lease. */
+  drives: boolean;
+  /** Whether it is the one who gets this message. */
+  you: boolean;
+}
+
+/**
+ * Who has a session with the robot. Sent after the welcome and at every change, at most four times a second, by robots
+ * that ask for grants.
+ */
+export interface Operators {
+  /** Tells the message from others. */
+  type: 'operators';
+  /** The one who gets the message, then the driver, supervisors and others, each in the order in which they came. */
+  operators: PresentOperator[];
+  /** How many more there are than are listed; absent if none. */
+  more?: number | undefined;
+}
+
+export const operatorsSchema = z.strictObject({
+  type: z.literal('operators'),
+  operators: z
+    .array(
+      z.strictObject({
+        number: uint32Schema,
+        name: displayNameSchema,
+        role: z.enum(roles),
+        drives: z.boolean(),
+        you: z.boolean(),
+      }),
+    )
+    .check(z.maxLength(MAX_LISTED_OPERATORS)),
+  more: z.optional(z.int().check(z.minimum(1), z.maximum(1_000_000))),
+}) satisfies z.ZodMiniType<Operators>;
