@@ -178,3 +178,45 @@ test('a robot with another key is not taken for the one that this browser knows'
   await dialog(page).getByRole('button', { name: 'Forget' }).click();
   await expect(dialog(page).getByText('None yet')).toBeVisible();
 });
+
+test('a supervisor sees who is here, and ends the session of a driver who drives', async ({
+  page,
+  browser,
+  startStack,
+}, testInfo) => {
+  const { office, stack } = await guarded(startStack, testInfo);
+  const enter = async (on: Page, name: string, role: 'drive' | 'supervise') => {
+    const operator = await OperatorPage.open(on, stack, { robot: lightRobot.id });
+    await obstacle(on).getByRole('button', { name: 'Grants…' }).click();
+    await addGrant(on, await office.issue({ name, role }));
+    await close(on);
+    await operator.expectState('session', 'live');
+    return operator;
+  };
+  const driverPage = await (await browser.newContext()).newPage();
+  const driver = await enter(driverPage, 'Grace Hopper', 'drive');
+  const supervisor = await enter(page, 'Sue', 'supervise');
+  await driverPage.bringToFront();
+  await driver.holdForward();
+  await driver.expectState('holder', 'you');
+  await page.bringToFront();
+  await expect(page.getByText('2 are here: Grace Hopper drives')).toBeVisible();
+  await page.getByText('2 are here').click();
+  await expect(page.getByText('Sue (you, supervisor)')).toBeVisible();
+  await supervisor.screenshot(testInfo, 'people');
+  await page.getByRole('button', { name: 'End the session of Grace Hopper…' }).click();
+  const confirm = page.getByRole('dialog', { name: 'End the session of Grace Hopper?' });
+  await confirm.getByLabel('Also refuse this operator’s grant').check();
+  await supervisor.screenshot(testInfo, 'end-session');
+  await confirm.getByRole('button', { name: 'End session' }).click();
+  await expect(page.getByText('Only you are here')).toBeVisible();
+  await supervisor.expectState('holder', 'nobody');
+
+  // The driver is told by whom, and does not come back by itself; its grant no longer helps.
+  await expect.poll(async () => (await driver.state()).notice).toContain('Sue ended the session');
+  expect((await driver.state()).session).toBe('none');
+  await driverPage.getByRole('button', { name: /Simulated robot 1/ }).click();
+  await expect(obstacle(driverPage)).toContainText('does not admit you');
+  await driver.releaseKeys();
+  await driverPage.context().close();
+});

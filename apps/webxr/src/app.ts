@@ -26,6 +26,7 @@ import { DashboardOpener } from './ui/dashboard-opener.ts';
 import { elements } from './ui/elements.ts';
 import { EstopUi } from './ui/estop-ui.ts';
 import { OperatorInputs } from './ui/operator-inputs.ts';
+import { showPeople } from './ui/people-panel.ts';
 import { showPicturePanels } from './ui/picture-panels.ts';
 import { showRobotList } from './ui/robot-list.ts';
 import { showRobotSwitcher } from './ui/robot-switcher.ts';
@@ -210,6 +211,7 @@ export class App {
     showStatus(state);
     showRobotList(state.link, choose);
     showRobotSwitcher(state.link, choose);
+    showPeople(state, this.client);
     showSensorSwitches(state.sensors);
     showPicturePanels(state, { inVr: vr.active, isGripped: () => this.client.driver.stream.held });
     const { appearance, clouds } = this;
@@ -257,7 +259,7 @@ export class App {
     });
     client.on('loss', (loss) => {
       // Of those that are final, a panel tells.
-      if (!finalLosses.has(loss)) notices.tell(wordsOfLoss(loss, client.link.maxOperators), 'warning');
+      if (!finalLosses.has(loss)) notices.tell(wordsOfLoss(loss, client.link), 'warning');
     });
     client.on('grantExpires', (inS) => notices.tell(`Your grant ends in ${inS} s.`, 'warning'));
     client.on('refused', (message) => notices.tell(message, 'warning'));

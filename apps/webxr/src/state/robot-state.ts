@@ -20,6 +20,8 @@ export function robotState({ link }: RobotClient, samples: Sampler) {
     ),
     /** Topics whose reports the dashboard shows component by component. */
     componentTopics: samples.of(() => link.session.components.list().map(({ topic }) => topic)),
+    /** Who has a session; `null` if the robot does not say. */
+    operators: samples.of(() => link.session.operators),
     estop: samples.of(() => link.session.estop),
     /** There is a session, and the robot's emergency stop is on. */
     estopLatched: samples.of(() => link.phase === 'live' && link.session.estop.latched),

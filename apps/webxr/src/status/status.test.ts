@@ -15,16 +15,24 @@ const live = {
   rateByReports: false,
 } as const;
 
+const unsaid = { maxOperators: null, lossDetail: null };
+
 describe('words', () => {
   test('there is a text for every state and refusal of the protocol', () => {
     for (const state of driveStates) expect(driveWords[state].text).not.toBe('');
     for (const reason of commandRejections) expect(rejectionWords[reason]).not.toBe('');
-    for (const reason of robotEndReasons) expect(wordsOfLoss(lossOf[reason], null)).not.toBe('');
+    for (const reason of robotEndReasons) expect(wordsOfLoss(lossOf[reason], unsaid)).not.toBe('');
+  });
+
+  test('says which supervisor ended a session', () => {
+    const said = { ...unsaid, lossDetail: 'Sue ended the session' };
+    expect(wordsOfLoss('ended-by-supervisor', said)).toContain('Sue ended the session.');
+    expect(wordsOfLoss('ended-by-supervisor', unsaid)).toContain('A supervisor');
   });
 
   test('says that a robot is full, and how many operators it takes', () => {
-    expect(wordsOfLoss('robot-full', 4)).toContain('4 operators at most');
-    expect(wordsOfLoss('robot-full', null)).toContain('full');
+    expect(wordsOfLoss('robot-full', { ...unsaid, maxOperators: 4 })).toContain('4 operators at most');
+    expect(wordsOfLoss('robot-full', unsaid)).toContain('full');
     const waiting = { ...live, phase: 'waiting', lastLoss: 'robot-full', maxOperators: 4 } as const;
     expect(linkWords(waiting).text).toContain('4 operators at most');
     expect(linkWords({ ...waiting, robotListed: false }).text).toContain('offline');

@@ -78,9 +78,21 @@ export function holderWords({ holder, driver, role, device }: DrivingFacts): Wor
   return { text: device === null ? 'You have control' : `You are driving (${device})`, tone: 'good' };
 }
 
-/** Why a session ended. @param maxOperators how many operators the robot takes, if it has said so; `null` otherwise */
-export function wordsOfLoss(loss: SessionLoss, maxOperators: number | null): string {
-  return loss === 'robot-full' ? fullWords(maxOperators) : lossWords[loss];
+/** What is known of a loss besides its kind. */
+export interface LossFacts {
+  /** How many operators the robot takes; `null` if it has not said so. */
+  maxOperators: number | null;
+  /** What the robot said about it; `null` if nothing. */
+  lossDetail: string | null;
+}
+
+/** Why a session ended. */
+export function wordsOfLoss(loss: SessionLoss, { maxOperators, lossDetail }: LossFacts): string {
+  if (loss === 'robot-full') return fullWords(maxOperators);
+  // Who did it is what matters.
+  if (loss === 'ended-by-supervisor' && lossDetail !== null)
+    return `${lossDetail}. Choose the robot to connect again.`;
+  return lossWords[loss];
 }
 
 function fullWords(maxOperators: number | null): string {
@@ -124,7 +136,7 @@ export function linkWords(facts: LinkFacts): Words {
         return { text: 'The robot is offline. Waiting for it to come back…', tone: 'warning' };
       }
       if (facts.lastLoss !== null && finalLosses.has(facts.lastLoss))
-        return { text: wordsOfLoss(facts.lastLoss, null), tone: 'bad' };
+        return { text: wordsOfLoss(facts.lastLoss, { maxOperators: null, lossDetail: null }), tone: 'bad' };
       return facts.lastLoss === 'robot-full'
         ? { text: fullWords(facts.maxOperators), tone: 'warning' }
         : { text: 'Connecting…', tone: 'neutral' };
