@@ -7,10 +7,11 @@ import { App } from './app.ts';
 import { readSettings } from './settings.ts';
 import { Notices } from './state/notices.ts';
 import { failureWords } from './status/words.ts';
-import { loadStored, pageOrigin } from './stored-settings.ts';
+import { hideToken, loadStored, pageOrigin } from './stored-settings.ts';
 import { showNotices } from './ui/notice.ts';
 
 const settings = readSettings(new URLSearchParams(window.location.search), loadStored(), pageOrigin());
+hideToken(settings);
 const notices = new Notices();
 
 function start(): void {

@@ -31,6 +31,24 @@ describe('readSettings', () => {
     });
   });
 
+  test('sends a token over wss: only, or within this machine', () => {
+    const plain = { protocol: 'http:', hostname: '10.0.0.5', host: '10.0.0.5:3000', isDevServer: false };
+    expect(read('token=a', {}, plain)).toMatchObject({
+      token: undefined,
+      signalingFault: expect.stringContaining('wss:'),
+    });
+    expect(read('', {}, plain).signalingFault).toBeNull();
+    expect(read('token=a', {}, dev).token).toBe('a');
+  });
+
+  test('prefers a token that came in an earlier address of this tab to a stored one', () => {
+    const origin = 'wss://x.org:8443';
+    const stored = { tokens: new Map([[origin, 's']]), visitTokens: new Map([[origin, 'v']]) };
+    expect(read('', stored).token).toBe('v');
+    expect(read('token=a', stored).token).toBe('a');
+    expect(read('signaling=wss://other.org', stored).token).toBeUndefined();
+  });
+
   test('reports a bad signaling address and uses the default', () => {
     const settings = read('signaling=ftp://x');
     expect(settings.signalingFault).toContain('is not a WebSocket address');

@@ -1,6 +1,6 @@
 /** The page's settings, from its address and from local storage. They are checked here and trusted everywhere else. */
 
-import { type BridgeAddress, parseBridge, parseSignalingUrl } from '@farpoint/operator';
+import { type BridgeAddress, isPrivateAddress, parseBridge, parseSignalingUrl } from '@farpoint/operator';
 import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
 import { parseTokens, type SignalingTokens, tokenOrigin, withToken } from './signaling-tokens.ts';
 import { type MapTiles, mapTilesOf } from './telemetry/map-tiles.ts';
@@ -10,6 +10,8 @@ import { VIDEO_RECEIVERS, type VideoReceiverName } from './video/video-receiver-
 export interface StoredSettings {
   signaling?: string | undefined;
   tokens?: SignalingTokens | undefined;
+  /** Tokens that came in the address; kept until the tab is closed. */
+  visitTokens?: SignalingTokens | undefined;
   name?: string | undefined;
   pointScale?: number | undefined;
   synchronised?: boolean | undefined;
@@ -78,13 +80,23 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
   // A token in the query belongs to the service in the query, or else to the page's own service.
   const cameFor = inQuery === undefined ? own : given !== null && 'url' in given ? given.url : null;
   const isForHere = cameFor !== null && tokenOrigin(cameFor) === tokenOrigin(signalingUrl);
+  const origin = tokenOrigin(signalingUrl);
   const token =
-    (isForHere ? nonEmpty(query.get('token')) : undefined) ?? stored.tokens?.get(tokenOrigin(signalingUrl));
+    (isForHere ? nonEmpty(query.get('token')) : undefined) ??
+    stored.visitTokens?.get(origin) ??
+    stored.tokens?.get(origin);
+  const hasToken = token !== undefined && tokenSchema.safeParse(token).success;
+  const mayTell = isPrivateAddress(signalingUrl);
   const robot = nonEmpty(query.get('robot'));
   return {
     signalingUrl,
-    signalingFault: given !== null && 'fault' in given ? given.fault : null,
-    token: token !== undefined && tokenSchema.safeParse(token).success ? token : undefined,
+    signalingFault:
+      given !== null && 'fault' in given
+        ? given.fault
+        : hasToken && !mayTell
+          ? 'your token is sent to a wss: address only: open the page at its https address'
+          : null,
+    token: hasToken && mayTell ? token : undefined,
     name: displayNameSchema.safeParse(name).success ? name : 'Operator',
     bridge: parseBridge(query.get('bridge') ?? '', query.get('bridge-signaling')),
     robot: robot !== undefined && robotIdSchema.safeParse(robot).success ? robot : null,

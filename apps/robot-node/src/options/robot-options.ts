@@ -1,10 +1,8 @@
 /** Turns option values that are valid one by one into the parts of the robot. */
 import { randomBytes } from 'node:crypto';
-import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { GrantKeysError, readJwkSet } from '@farpoint/grants';
 import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
-import { fileFault, type OptionMistake, OptionsError } from '@farpoint/service';
+import { type OptionMistake, OptionsError } from '@farpoint/service';
 import { BitRate } from '@farpoint/timing';
 import { SIM_FIX, SIM_MOTORS } from '../base/sim-topics.ts';
 import type { CaptureOptions } from '../capture/capture-messages.ts';
@@ -17,6 +15,8 @@ import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
 import { describeQuantities } from '../telemetry/sample-board.ts';
 import { toAlarmRules } from './alarms.ts';
 import { toBroadcast } from './broadcast.ts';
+import { checkAccess } from './check-access.ts';
+import { readText } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { stateFolder } from './state.ts';
 
@@ -33,7 +33,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   checkSource(values, refuse);
   const topics = describedTopics(values, (detail) => refuse('topics', detail));
   const ca = values.tlsCa === null ? null : readText(values.tlsCa, (detail) => refuse('tlsCa', detail));
-  checkGrantKeys(values, refuse);
+  checkAccess(values, refuse);
   const ofSim = values.source !== 'sim' ? [] : [SIM_MOTORS, ...(values.simOrigin === null ? [] : [SIM_FIX])];
   const quantities = describeQuantities([...topics, ...ofSim]);
   const alarms = toAlarmRules(values.alarms, quantities, (detail) => refuse('alarms', detail));
@@ -267,32 +267,4 @@ function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): GraphOp
     masterUrl: values.rosMaster ?? (env.ROS_MASTER_URI || 'http://localhost:11311'),
     hostname: values.rosHostname ?? ros1Hostname(env),
   };
-}
-
-function checkGrantKeys(
-  { grantKeys, revocations, referenceSignaling }: RobotOptionValues,
-  refuse: (key: RobotOptionKey, detail: string) => void,
-): void {
-  if (grantKeys === null && revocations.length > 0)
-    refuse('revocations', 'needs --grant-keys: without grants there is nothing to revoke');
-  if (grantKeys === null) return;
-  if (referenceSignaling !== null)
-    refuse('referenceSignaling', 'cannot be combined with --grant-keys: its operators have no grants');
-  const text = readText(grantKeys, (detail) => refuse('grantKeys', detail));
-  if (text === '') return;
-  try {
-    readJwkSet(text);
-  } catch (error) {
-    if (!(error instanceof GrantKeysError)) throw error;
-    refuse('grantKeys', error.message);
-  }
-}
-
-function readText(path: string, refuse: (detail: string) => void): string {
-  try {
-    return readFileSync(path, 'utf8');
-  } catch (error) {
-    refuse(`cannot be read: ${fileFault(error) ?? String(error)}`);
-    return '';
-  }
 }

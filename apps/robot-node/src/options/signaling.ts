@@ -28,6 +28,11 @@ export const signalingOptions = optionGroup('signaling', {
     secret: true,
     help: 'token that the signaling service requires',
   }),
+  plaintextToken: defineOption({
+    schema: schema.boolean(),
+    default: false,
+    help: 'send the token even over ws:// to another machine, where others on the way can read it',
+  }),
   key: defineOption({
     schema: schema.optional(handleSchema),
     default: null,

@@ -2,7 +2,7 @@ import { parseSignalingUrl } from '@farpoint/operator';
 import type { Signal } from '@preact/signals-core';
 import { clampScale, ownSignalingUrl } from '../settings.ts';
 import { tokenOrigin, withToken } from '../signaling-tokens.ts';
-import { loadStored, pageOrigin, store } from '../stored-settings.ts';
+import { forgetVisitTokens, loadStored, pageOrigin, store } from '../stored-settings.ts';
 import { parseTileTemplate } from '../telemetry/map-tiles.ts';
 import { elements } from './elements.ts';
 
@@ -66,6 +66,7 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
       mapTiles: field('mapTiles').value.trim(),
       mapAttribution: field('mapAttribution').value.trim(),
     });
+    forgetVisitTokens();
     // These parameters in the page's address would override what was just saved.
     const address = new URL(location.href);
     for (const name of ['signaling', 'token', 'name', 'sync']) address.searchParams.delete(name);

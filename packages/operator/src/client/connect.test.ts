@@ -35,6 +35,9 @@ describe('connect', () => {
     expect(failure({ ...good, signaling: 'ws://x.org' }, check).reason).toBe('bad-signaling-address');
     expect(failure({ ...good, robot: 'a robot!' }, check).reason).toBe('bad-robot-id');
     expect(failure({ ...good, token: '' }, check).reason).toBe('bad-token');
+    const plain = { signaling: 'ws://x.org', token: 'a-token' };
+    expect(failure(plain, (options) => checkConnectOptions(options, false)).reason).toBe('token-unprotected');
+    expect(checkConnectOptions({ ...plain, signaling: 'ws://127.0.0.1:3000' }, false).token).toBe('a-token');
     expect(failure({ ...good, ticket: 'farpoint-ticket.e30' }, check).reason).toBe('bad-ticket');
     expect(failure({ ...good, name: '' }, check).reason).toBe('bad-name');
   });

@@ -3,7 +3,7 @@ import { type CloudFormat, displayNameSchema, robotIdSchema, tokenSchema } from 
 import { knownInMemory } from '../access/known-robots.ts';
 import { type OperatorCredentials, readTicket } from '../access/operator-credentials.ts';
 import { transformSupport } from '../peer/encoded-transform.ts';
-import { parseSignalingUrl } from '../signaling/signaling-url.ts';
+import { isPrivateAddress, parseSignalingUrl } from '../signaling/signaling-url.ts';
 import { RobotClient } from './robot-client.ts';
 
 /** What {@link connect} needs to know. */
@@ -34,6 +34,8 @@ export type ConnectFailure =
   | 'bad-robot-id'
   | 'bad-token'
   | 'bad-ticket'
+  /** The address is not encrypted. */
+  | 'token-unprotected'
   | 'bad-name'
   /** This browser has none. */
   | 'no-webrtc'
@@ -63,6 +65,11 @@ export function checkConnectOptions(options: ConnectOptions, securePage: boolean
     throw new ConnectError('bad-robot-id', `robot: “${robot}” is not a robot's id`);
   if (token !== undefined && !tokenSchema.safeParse(token).success)
     throw new ConnectError('bad-token', 'token: not an operator’s token; use printable characters only');
+  if (token !== undefined && !isPrivateAddress(address.url))
+    throw new ConnectError(
+      'token-unprotected',
+      'token: it is sent to a wss: address only, or within this machine',
+    );
   if (ticket !== undefined && decodeTicket(ticket.trim()) === null)
     throw new ConnectError(
       'bad-ticket',

@@ -34,6 +34,16 @@ export function parseSignalingUrl(text: string, securePage: boolean): SignalingA
   return { url: url.href };
 }
 
+/**
+ * Whether a secret may be sent there: only encrypted, or within this machine.
+ *
+ * @param url as {@link parseSignalingUrl} returns it
+ */
+export function isPrivateAddress(url: string): boolean {
+  const { protocol, hostname } = new URL(url);
+  return protocol === 'wss:' || isLoopback(hostname);
+}
+
 function isLoopback(hostname: string): boolean {
   return hostname === 'localhost' || hostname === '127.0.0.1' || hostname === '[::1]';
 }

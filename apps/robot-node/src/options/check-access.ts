@@ -1,0 +1,33 @@
+/** Who is admitted, and what is sent to whom: faults that only show when options are combined. */
+import { GrantKeysError, readJwkSet } from '@farpoint/grants';
+import { readText } from './read-text.ts';
+import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
+
+export function checkAccess(
+  { grantKeys, revocations, referenceSignaling, signaling, token, plaintextToken }: RobotOptionValues,
+  refuse: (key: RobotOptionKey, detail: string) => void,
+): void {
+  if (token !== null && !plaintextToken && !isPrivate(signaling))
+    refuse(
+      'token',
+      `would be sent to ${new URL(signaling).host} in the clear: use a wss:// address, or --plaintext-token`,
+    );
+  if (grantKeys === null && revocations.length > 0)
+    refuse('revocations', 'needs --grant-keys: without grants there is nothing to revoke');
+  if (grantKeys === null) return;
+  if (referenceSignaling !== null)
+    refuse('referenceSignaling', 'cannot be combined with --grant-keys: its operators have no grants');
+  const text = readText(grantKeys, (detail) => refuse('grantKeys', detail));
+  if (text === '') return;
+  try {
+    readJwkSet(text);
+  } catch (error) {
+    if (!(error instanceof GrantKeysError)) throw error;
+    refuse('grantKeys', error.message);
+  }
+}
+
+function isPrivate(address: string): boolean {
+  const { protocol, hostname } = new URL(address);
+  return protocol === 'wss:' || /^(localhost|127\.[\d.]+|\[::1\])$/.test(hostname);
+}
