@@ -1,5 +1,6 @@
 import type { Logger } from '@farpoint/service';
 import { GrantKeysFile } from './access/grant-keys-file.ts';
+import type { RobotAudit } from './audit/robot-audit.ts';
 import { BaseThread } from './base/base-thread.ts';
 import type { Capture } from './capture/capture.ts';
 import { openSink } from './drive/open-sink.ts';
@@ -22,6 +23,7 @@ export interface RobotParts {
   recording: SessionRecording | null;
   /** `null` if everybody is admitted. */
   grantKeys: GrantKeysFile | null;
+  audit: RobotAudit;
   /** The cameras that are streamed as video. */
   videos: readonly VideoCamera[];
 }
@@ -32,7 +34,7 @@ export interface RobotParts {
  * @throws {CaptureError} if a source of clouds cannot be opened
  * @throws {GrantKeysError} if the keys for grants cannot be used
  */
-export async function openParts(options: RobotOptions, log: Logger): Promise<RobotParts> {
+export async function openParts(options: RobotOptions, log: Logger, audit: RobotAudit): Promise<RobotParts> {
   const grantKeys = options.grantKeys === undefined ? null : await GrantKeysFile.open(options.grantKeys);
   const { record = null, foxglove = null, id } = options;
   const recording =
@@ -51,7 +53,8 @@ export async function openParts(options: RobotOptions, log: Logger): Promise<Rob
     const videos =
       main === undefined ? cameras : [...cameras, ...(await openPlayedVideos(main, played, log))];
     if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond, videos);
-    return { captures, base, sink: openSink(options.sink, base, log), recording, videos, grantKeys };
+    const sink = openSink(options.sink, base, log);
+    return { captures, base, sink, recording, videos, grantKeys, audit };
   } catch (error) {
     for (const capture of captures) await capture.close();
     await base?.close();

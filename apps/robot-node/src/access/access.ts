@@ -6,6 +6,8 @@ export interface Access {
   readonly role: Role | null;
   /** Stays the same when a person gets another grant; `null` without grants. */
   readonly subject: string | null;
+  /** Names the grant; `null` without grants. */
+  readonly grantId: string | null;
   /** By the grant, or else what the operator calls itself. */
   readonly name: string;
   /** When the grant ends, seconds since 1970; infinite without grants. */
@@ -16,12 +18,19 @@ export interface Access {
 
 /** The access of everybody at a robot that asks for no grants. */
 export function openAccess(name: string): Access {
-  return { role: null, subject: null, name, expiresAtS: Number.POSITIVE_INFINITY, keyId: null };
+  return {
+    role: null,
+    subject: null,
+    grantId: null,
+    name,
+    expiresAtS: Number.POSITIVE_INFINITY,
+    keyId: null,
+  };
 }
 
 /** Of somebody who has not shown a grant yet. Nothing is sent to it, and nothing that it sends is looked at. */
 export function noAccess(name: string): Access {
-  return { role: 'watch', subject: null, name, expiresAtS: 0, keyId: null };
+  return { role: 'watch', subject: null, grantId: null, name, expiresAtS: 0, keyId: null };
 }
 
 export function mayDrive({ role }: Access): boolean {

@@ -1,3 +1,4 @@
+import { shortHash } from '@farpoint/audit';
 import {
   type AdmissionRequest,
   admit,
@@ -31,7 +32,7 @@ export type GateVerdict =
   | { verdict: 'ready' | 'busy' }
   | { verdict: 'admitted'; access: Access }
   /** `detail` is for the operator. */
-  | { verdict: 'refused'; detail: string };
+  | { verdict: 'refused'; reason: GrantRefusedError['reason']; detail: string };
 
 interface Entry {
   offer: string;
@@ -73,8 +74,8 @@ export class GrantGate {
       if (!keys().has(grant.keyId))
         throw new GrantRefusedError('grant-untrusted', 'its key has just been removed');
       entry.state = 'admitted';
-      const { subject, name, role, expiresAtS, keyId } = grant;
-      return { verdict: 'admitted', access: { subject, name, role, expiresAtS, keyId } };
+      const { subject, id: grantId, name, role, expiresAtS, keyId } = grant;
+      return { verdict: 'admitted', access: { subject, grantId, name, role, expiresAtS, keyId } };
     } catch (error) {
       // The entry stays as it is: a session whose answer was refused gets no second try.
       if (error instanceof GrantRefusedError) return this.#refuse(request.session, error);
@@ -87,11 +88,14 @@ export class GrantGate {
     const { refusals, log, now } = this.#options;
     refusals.add(reason);
     if (this.#reports.take(now())) {
-      log.warn({ session, reason, detail: message, unreported: this.#unreported }, 'operator not admitted');
+      log.warn(
+        { session: shortHash('session', session), reason, detail: message, unreported: this.#unreported },
+        'operator not admitted',
+      );
       this.#unreported = 0;
     } else {
       this.#unreported++;
     }
-    return { verdict: 'refused', detail: refusalText(reason) };
+    return { verdict: 'refused', reason, detail: refusalText(reason) };
   }
 }

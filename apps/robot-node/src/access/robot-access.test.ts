@@ -34,7 +34,14 @@ async function setUp() {
   return { access, operator, pass, log, refusals, file, issuer: first };
 }
 
-const granted: Access = { role: 'drive', subject: 'a', name: 'Ada', expiresAtS: 1100, keyId: 'k1' };
+const granted: Access = {
+  role: 'drive',
+  subject: 'a',
+  grantId: 'g',
+  name: 'Ada',
+  expiresAtS: 1100,
+  keyId: 'k1',
+};
 
 it('warns once, a minute before the end, and ends the session at the end', async () => {
   const { access, operator, pass } = await setUp();

@@ -1,3 +1,4 @@
+import { shortHash } from '@farpoint/audit';
 import type { AdmissionRequest } from '@farpoint/grants';
 import type { OperatorMessages } from '../session/operator-messages.ts';
 import type { OperatorPeer } from '../transport/operator-peer.ts';
@@ -16,6 +17,8 @@ export interface GuardedOperator {
 
 export interface RobotAccessOptions extends Omit<GrantGateOptions, 'keys'> {
   file: Pick<GrantKeysFile, 'keys' | 'reload'>;
+  /** For the audit log. */
+  onRefused?: (operator: GuardedOperator['messages'], reason: string) => void;
 }
 
 /** Admits operators by their grants, and ends their sessions with them. */
@@ -43,12 +46,16 @@ export class RobotAccess {
   /** Ends the session of an operator that is refused. @returns whether its answer may be used */
   async admits(operator: GuardedOperator, request: AdmissionRequest): Promise<boolean> {
     const judged = await this.#gate.judge(request);
-    if (judged.verdict === 'refused') operator.peer.close('not-granted', judged.detail);
+    if (judged.verdict === 'refused') {
+      this.#options.onRefused?.(operator.messages, judged.reason);
+      operator.peer.close('not-granted', judged.detail);
+    }
     if (judged.verdict !== 'admitted') return judged.verdict === 'ready';
     const { access } = judged;
     operator.messages.access = access;
     const { subject, name, role, keyId } = access;
-    this.#options.log.info({ session: request.session, subject, name, role, keyId }, 'operator admitted');
+    const session = shortHash('session', request.session);
+    this.#options.log.info({ session, subject, name, role, keyId }, 'operator admitted');
     return true;
   }
 

@@ -15,6 +15,7 @@ import type { GraphOptions } from '../ros/open-graph.ts';
 import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
 import { describeQuantities } from '../telemetry/sample-board.ts';
 import { toAlarmRules } from './alarms.ts';
+import { toAudit } from './audit-configuration.ts';
 import { toBroadcast } from './broadcast.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { stateFolder } from './state.ts';
@@ -49,6 +50,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       ca,
     },
     grantKeys: values.grantKeys ?? undefined,
+    audit: toAudit(values),
     sensors: toSensors(values, topics),
     base:
       values.source === 'sim'

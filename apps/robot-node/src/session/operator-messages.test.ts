@@ -234,7 +234,7 @@ describe('OperatorMessages', () => {
 
 describe('roles', () => {
   const granted = (role: 'watch' | 'drive' | 'supervise') => ({
-    ...{ role, subject: 'x', name: 'X', expiresAtS: 1e12, keyId: 'k' },
+    ...{ role, subject: 'x', grantId: 'g', name: 'X', expiresAtS: 1e12, keyId: 'k' },
   });
   const leaseRequest = (take: boolean) => JSON.stringify({ type: 'leaseRequest', take });
   const estop = (latch: boolean) => JSON.stringify({ type: 'estop', latch });
