@@ -74,6 +74,7 @@ export class FarpointHub {
         message: (operator, message, end) => this.#operatorMessage(operator, message, end),
         left: (operator) => {
           this.#operators--;
+          this.#options.observer.operatorLeft(operator.name);
           this.#feed.remove(operator.peer);
           this.#sessions.endAll(operator, 'operator-left');
         },
@@ -107,7 +108,7 @@ export class FarpointHub {
       this.#sessions.endAll(previous, 'robot-left');
       previous.peer.close(closeCodes.policyViolation, 'a newer connection of this robot took over');
     }
-    this.#options.observer.robotJoined('robot', entry.id, peer.address, previous !== null);
+    this.#options.observer.robotJoined('robot', entry.id, peer.address, previous !== null, hello.token);
     toRobot(peer, { type: 'robot.welcome', id: entry.id, iceServers: this.#options.iceServers(entry.id) });
     if (joined.listed) this.#feed.changed();
     return entry;
@@ -138,6 +139,7 @@ export class FarpointHub {
       return 'refused';
     }
     this.#operators++;
+    this.#options.observer.operatorJoined(hello.name, peer.address, hello.token);
     toOperator(peer, {
       type: 'operator.welcome',
       iceServers: this.#options.iceServers(`operator-${peer.id}`),
