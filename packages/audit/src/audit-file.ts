@@ -91,8 +91,19 @@ export class AuditFile {
     const bytes = Buffer.from(this.#inLine ? `\n${text}` : text);
     const before = this.#bytes;
     this.#bytes = Number.NaN;
-    for (let at = 0; at < bytes.byteLength; ) at += (await this.#handle.write(bytes, at)).bytesWritten;
-    await this.#handle.datasync();
+    try {
+      for (let at = 0; at < bytes.byteLength; ) at += (await this.#handle.write(bytes, at)).bytesWritten;
+      await this.#handle.datasync();
+    } catch (error) {
+      // Leaves nothing half-written, so that a full disk does not fill with attempts. Fails for append-only files.
+      await this.#handle.truncate(before).then(
+        () => {
+          this.#bytes = before;
+        },
+        () => undefined,
+      );
+      throw error;
+    }
     this.#bytes = before + bytes.byteLength;
     this.#inLine = false;
   }
@@ -118,7 +129,10 @@ async function openLog(path: string): Promise<FileHandle> {
   try {
     const status = await handle.stat();
     if (!status.isFile()) throw new AuditFileError(`${path} is not a regular file`);
-    if ((status.mode & 0o077) !== 0) await handle.chmod(0o600);
+    if ((status.mode & 0o077) !== 0)
+      await handle.chmod(0o600).catch(() => {
+        throw new AuditFileError(`${path} is open to others, which only its owner can change (chmod 600)`);
+      });
     await syncFolder(dirname(path));
     return handle;
   } catch (error) {

@@ -11,6 +11,7 @@ import {
   symlinkSync,
   writeFileSync,
 } from 'node:fs';
+import { type FileHandle, open as openFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
@@ -180,6 +181,23 @@ it('a full disk stops nothing: it is said once, and the log goes on when there i
   const all = ['started', 'torn-entry', 'session-began', 'lease-given', 'estop-latched'];
   expect(kinds().slice(0, 5)).toEqual(all);
   expect(verifyFiles([path])).toMatchObject({ torn: 1, entries: 5 + 1 + 49 + 1 });
+});
+
+it('takes back what a failed write has written', async () => {
+  const { file, found } = await AuditFile.open(path, 1e6);
+  await file.append('one\n');
+  const handle = await openFile(path);
+  const prototype = Object.getPrototypeOf(handle) as FileHandle;
+  const sync = vi.spyOn(prototype, 'datasync').mockRejectedValueOnce(new Error('no space left on device'));
+  await expect(file.append('two\n')).rejects.toThrow('no space');
+  sync.mockRestore();
+  expect(readFileSync(path, 'utf8')).toBe('one\n');
+  expect(await file.isCurrent()).toBe(true);
+  await file.append('three\n');
+  expect(readFileSync(path, 'utf8')).toBe('one\nthree\n');
+  expect(found.end.sequence).toBe(0);
+  await handle.close();
+  await file.close();
 });
 
 it('starts on a full disk, and writes when there is room', async () => {
