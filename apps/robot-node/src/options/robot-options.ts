@@ -173,6 +173,7 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
         kind: 'shm',
         layout: values.shmLayout,
         folder: values.shmFolder,
+        owner: values.shmOwner ?? undefined,
         waitMs: values.shmWaitS * 1000,
       };
     case 'recording':
@@ -241,6 +242,7 @@ function toSink(values: RobotOptionValues): SinkOptions {
   return {
     kind: 'shm',
     folder: values.shmFolder,
+    owner: values.shmOwner ?? undefined,
     mode: values.shmAccess === 'group' ? 0o660 : 0o600,
     silenceMs: values.watchdogMs,
   };
