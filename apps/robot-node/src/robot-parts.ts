@@ -39,6 +39,7 @@ export async function openParts(options: RobotOptions, log: Logger, audit: Robot
   const { record = null, foxglove = null, id } = options;
   const recording =
     record === null && foxglove === null ? null : await SessionRecording.open({ record, foxglove }, id, log);
+  if (recording !== null) audit.alsoTell(recording);
   const base = options.base === null ? null : new BaseThread(options.base);
   let captures: Capture[] = [];
   try {

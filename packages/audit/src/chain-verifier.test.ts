@@ -63,6 +63,8 @@ describe('a chain', () => {
     const late = lines.slice(2).join('');
     expect(verify([late])).toMatchObject({ kind: 'missing', entry: 0 });
     expect(verify([late], { partial: true })).toMatchObject({ first: { sequence: 2 }, entries: 3 });
+    const damaged = verify([late.replace('lease', 'peace')], { partial: true });
+    expect(damaged).toMatchObject({ kind: 'changed', entry: 2, place: { line: 1 } });
   });
 
   it('says which entry was moved', () => {

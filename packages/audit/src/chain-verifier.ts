@@ -168,6 +168,11 @@ export class ChainVerifier {
     if (this.#fragment !== null) {
       if (follows && torn?.success && this.#fragment.bytes.is(torn.data)) return null;
       const where = { entry: expected, place: this.#fragment.place };
+      // Nothing says what was there: an entry, or something that was added.
+      if (this.#last === null && expected > 0) {
+        const detail = `what is before entry ${expected} is not what was written`;
+        return { kind: 'changed', ...where, entry: expected - 1, detail };
+      }
       return follows
         ? { kind: 'inserted', ...where, detail: `what is before entry ${expected} is no entry of this log` }
         : { kind: 'changed', ...where, detail: `entry ${expected} is not what was written` };

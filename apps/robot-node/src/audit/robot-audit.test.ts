@@ -77,6 +77,18 @@ it('records the end of sessions that began, and of no others', () => {
   ]);
 });
 
+it('tells every log', () => {
+  const { audit, kinds } = setUp();
+  const more: AuditEvent[] = [];
+  audit.refused('lease', 'held', ada);
+  audit.alsoTell({ record: (event) => more.push(event) });
+  audit.refused('command', 'not-permitted', ada);
+  expect(kinds()).toEqual(['refused', 'refused']);
+  expect(more).toMatchObject([
+    { subject: { id: 'ada' }, details: { what: 'command', reason: 'not-permitted' } },
+  ]);
+});
+
 it('says who latched and released the emergency stop', () => {
   const { audit, events } = setUp();
   audit.startsLatched('unclean-exit');

@@ -1,4 +1,4 @@
-import { type Audit, type AuditSubject, shortHash } from '@farpoint/audit';
+import { type Audit, type AuditEvent, type AuditSubject, noAudit, shortHash } from '@farpoint/audit';
 import type { EstopState } from '@farpoint/protocol';
 import type { Access } from '../access/access.ts';
 
@@ -25,25 +25,30 @@ const REFERENCE: AuditSubject = { name: 'an operator of the reference system', p
 
 /** Writes what happens on the robot to its audit log. */
 export class RobotAudit {
-  readonly #log: Audit;
+  readonly #logs: Audit[] = [];
   readonly #began = new Set<string>();
   #driver: ({ readonly id: string } & Who) | null = null;
 
   constructor(log: Audit) {
-    this.#log = log;
+    this.alsoTell(log);
+  }
+
+  /** Another place where everything is recorded from now on. */
+  alsoTell(log: Audit): void {
+    if (log !== noAudit) this.#logs.push(log);
   }
 
   sessionBegan(operator: AuditedOperator): void {
     this.#began.add(operator.id);
     const { keyId, expiresAtS } = operator.access;
     const grant = keyId === null ? {} : { keyId, expiresAtS };
-    this.#log.record({ kind: 'session-began', ...whoIs(operator), details: grant });
+    this.#record({ kind: 'session-began', ...whoIs(operator), details: grant });
   }
 
   /** Sessions that never began are not recorded. */
   sessionEnded(operator: AuditedOperator, reason: string, detail: string): void {
     if (!this.#began.delete(operator.id)) return;
-    this.#log.record({ kind: 'session-ended', ...whoIs(operator), details: { reason, detail } });
+    this.#record({ kind: 'session-ended', ...whoIs(operator), details: { reason, detail } });
   }
 
   /**
@@ -60,34 +65,40 @@ export class RobotAudit {
       if (before === null) return;
       const { subject, session } = before;
       const kind = cause === 'expired' ? 'lease-expired' : 'lease-released';
-      this.#log.record({ kind, subject, session, details: { because: cause ?? 'asked' } });
+      this.#record({ kind, subject, session, details: { because: cause ?? 'asked' } });
       return;
     }
     const who =
       operator === undefined ? { subject: REFERENCE, session: shortHash('session', id) } : whoIs(operator);
     this.#driver = { id, ...who };
-    if (before === null) this.#log.record({ kind: 'lease-given', ...who });
+    if (before === null) this.#record({ kind: 'lease-given', ...who });
     else {
       const from = { ...before.subject, session: before.session };
-      this.#log.record({ kind: 'lease-taken', ...who, details: { from } });
+      this.#record({ kind: 'lease-taken', ...who, details: { from } });
     }
   }
 
   /** @param operator who latched or released it; undefined: the robot itself */
   estop({ latched, by }: EstopState, operator: AuditedOperator | undefined): void {
     const who = operator === undefined ? {} : whoIs(operator);
-    this.#log.record({ kind: latched ? 'estop-latched' : 'estop-released', ...who, details: { by } });
+    this.#record({ kind: latched ? 'estop-latched' : 'estop-released', ...who, details: { by } });
   }
 
   /** The emergency stop outlives the last run. */
   startsLatched(reason: string): void {
-    this.#log.record({ kind: 'estop-latched', details: { by: 'robot', atStart: reason } });
+    this.#record({ kind: 'estop-latched', details: { by: 'robot', atStart: reason } });
   }
 
   /** @param operator if it is not admitted, its name is only a claim */
   refused(what: RefusedThing, reason: string, operator?: AuditedOperator): void {
+    // Somebody who may only watch can send commands as often as a driver.
+    if (this.#logs.length === 0) return;
     const who = operator === undefined ? {} : whoIs(operator);
-    this.#log.record({ kind: 'refused', ...who, details: { what, reason } });
+    this.#record({ kind: 'refused', ...who, details: { what, reason } });
+  }
+
+  #record(event: AuditEvent): void {
+    for (const log of this.#logs) log.record(event);
   }
 }
 
