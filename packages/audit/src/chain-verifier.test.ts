@@ -122,6 +122,28 @@ describe('a chain', () => {
   });
 });
 
+it('arbitrary files are refused without an exception', () => {
+  const piece = fc.oneof(
+    fc.uint8Array({ maxLength: 50 }),
+    fc.constantFrom(...lines.map((line) => Buffer.from(line))),
+  );
+  fc.assert(
+    fc.property(
+      fc.array(fc.array(piece, { maxLength: 8 }), { maxLength: 3 }),
+      fc.boolean(),
+      (files, partial) => {
+        const result = verify(
+          files.map((pieces) => Buffer.concat(pieces)),
+          { partial },
+        );
+        if (!('kind' in result))
+          expect(result.last.sequence - result.first.sequence).toBe(result.entries - 1);
+      },
+    ),
+    { numRuns: 1000 },
+  );
+});
+
 describe('a torn entry', () => {
   /** What a log looks like after a crash and the next start. */
   const recovered = (left: Uint8Array) => {

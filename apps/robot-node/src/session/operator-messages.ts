@@ -32,8 +32,8 @@ export interface SessionLink {
 export interface SessionHost {
   readonly drive: DriveStation;
   now(): number;
-  /** The driver has changed, and all operators must be told. */
-  leaseChanged(): void;
+  /** The driver has changed, and all operators must be told. @param cause if it was not a request */
+  leaseChanged(cause?: 'expired' | 'session-ended'): void;
   /** @param by who changed it; undefined: the robot itself */
   estopChanged(by?: OperatorMessages): void;
   latencyTestRequested(session: OperatorMessages, id: number, commandMs: number): void;
