@@ -109,10 +109,10 @@ interface Program {
 
 type Running = Extract<Treatment, { up: unknown }> | Extract<Treatment, { refused: unknown }>;
 
-/** The script of `pnpm <script>`, however pnpm is called. */
+/** The script of `pnpm <script>` or `pnpm run <script>`, however pnpm is called. */
 function scriptOf(words: readonly string[]): { name: string; args: string[] } | null {
   const at = words.findIndex((word) => /^pnpm(@\d+)?$/.test(word));
-  const [name, ...args] = at < 0 ? [] : words.slice(at + 1);
+  const [name, ...args] = at < 0 ? [] : words.slice(words[at + 1] === 'run' ? at + 2 : at + 1);
   return name === undefined || /^(-|exec$|@)/.test(name) ? null : { name, args };
 }
 

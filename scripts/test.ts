@@ -9,6 +9,7 @@ import * as sharedMemory from '../packages/shared-memory/src/build.ts';
 import * as sound from '../packages/sound/src/build.ts';
 import * as systemd from '../packages/systemd/src/build.ts';
 import * as video from '../packages/video/src/build.ts';
+import { auditDependencies } from './lib/audit-dependencies.ts';
 import { ensureChromium } from './lib/ensure-chromium.ts';
 import { ensureCycloneDds, ensureDdsPeers } from './lib/ensure-dds.ts';
 import { ensureFirefox } from './lib/ensure-firefox.ts';
@@ -26,6 +27,8 @@ interface StepResult {
   ok: boolean;
   /** Why the step did not run, with the remedy. If `CI` is set, the whole run then fails. */
   skipped?: string;
+  /** Why it could not run although nothing is missing here: a service elsewhere does not answer. Fails no run. */
+  unreachable?: string;
   tally?: Tally;
   output?: string;
   /** Whether `output` was on the screen while the step ran. */
@@ -63,6 +66,15 @@ const steps: Step[] = [
     name: 'types',
     what: 'type check (tsc)',
     run: () => runQuietly('pnpm', ['run', 'typecheck']),
+  },
+  {
+    name: 'supply',
+    what: 'advisories on production dependencies (pnpm audit)',
+    run: async () => {
+      const outcome = await auditDependencies();
+      if (outcome.made) return { ok: outcome.faults.length === 0, output: outcome.faults.join('\n') };
+      return { ok: true, unreachable: `dependency audit: ${outcome.reason}` };
+    },
   },
   {
     name: 'native',
@@ -167,6 +179,8 @@ for (const [index, step] of chosen.entries()) {
     const failures = result.output === undefined ? '' : `\n${failuresOf(result.output)}`;
     faults.push(`${step.name}: failed${failures}`);
     console.log(`  ✗ failed after ${seconds} s`);
+  } else if (result.unreachable !== undefined) {
+    console.log(`  – skipped: ${result.unreachable}`);
   } else if (result.skipped !== undefined) {
     console.log(`  – partly skipped: ${result.skipped}`);
     if (process.env.CI) faults.push(`${step.name}: ${result.skipped}`);

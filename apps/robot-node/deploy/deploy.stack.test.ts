@@ -86,6 +86,7 @@ describe.skipIf(!compiler)('install.sh (needs a C compiler, make and Python 3)',
       const config = join(dest, 'etc/farpoint/robot.yaml');
       const secrets = join(dest, 'etc/farpoint/robot.env');
       expect(readFileSync(config, 'utf8')).toContain('kind: shm');
+      expect(readFileSync(config, 'utf8')).toContain('log: /var/lib/farpoint/audit.jsonl');
       expect(statSync(secrets).mode & 0o777).toBe(0o600);
       const doctor = run(
         robot,

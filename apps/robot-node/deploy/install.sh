@@ -83,7 +83,7 @@ fi
 
 config=$dest/etc/farpoint/robot.yaml
 if [ "$files_only" = no ] && [ ! -e "$config" ]; then
-  "$opt/bin/farpoint-robot" init --source "$source_kind" --output "$config"
+  "$opt/bin/farpoint-robot" init --source "$source_kind" --audit /var/lib/farpoint/audit.jsonl --output "$config"
 fi
 
 if [ -z "$dest" ] && [ "$files_only" = no ]; then

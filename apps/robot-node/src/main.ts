@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-/** `farpoint-robot`: runs the robot; `init` writes a configuration, `doctor` checks everything. */
+/** `farpoint-robot`: runs the robot; `init` writes a configuration, `doctor` checks everything, `audit` verifies a log. */
 const [, , command] = process.argv;
 const rest = process.argv.slice(3);
 
@@ -8,4 +8,6 @@ const rest = process.argv.slice(3);
 if (command === 'init') process.exitCode = (await import('./commands/init.ts')).init(rest, process);
 else if (command === 'doctor')
   process.exit(await (await import('./commands/doctor.ts')).doctor(rest, process));
+else if (command === 'audit')
+  process.exitCode = (await import('@farpoint/audit')).auditCommand('farpoint-robot', rest, process);
 else await (await import('./run.ts')).run();

@@ -71,6 +71,7 @@ describe('robot process that records', { timeout: 60_000 }, () => {
     const verdicts = { accepted: 0, refused: 0 };
     const measured: unknown[] = [];
     const pictures: Buffer[] = [];
+    const audited: unknown[] = [];
     for await (const { topic, data } of recording.messages([...topics.keys()], recording.startNs)) {
       const message = topic.decode(data);
       if (topic.name === '/farpoint/captured') {
@@ -83,6 +84,8 @@ describe('robot process that records', { timeout: 60_000 }, () => {
         pictures.push(Buffer.from(file));
       } else if (topic.name === '/farpoint/latencies') {
         toldPoints.push(z.object({ points: z.int() }).parse(message).points);
+      } else if (topic.name === '/farpoint/audit') {
+        audited.push(message);
       } else if (topic.name === '/farpoint/motion_to_photon') {
         measured.push(message);
       } else if (topic.name === '/farpoint/commands') {
@@ -96,6 +99,11 @@ describe('robot process that records', { timeout: 60_000 }, () => {
     expect(sentPoints).toContain(600);
     expect(verdicts.accepted).toBeGreaterThan(10);
     expect(verdicts.refused).toBeGreaterThan(0);
+    const subject = { name: 'test operator', proven: false };
+    expect(audited.slice(0, 2)).toMatchObject([
+      { kind: 'session-began', subject },
+      { kind: 'lease-given', subject },
+    ]);
     expect(measured).toMatchObject([{ id: 1, frameNumber: 7, mtpMs: 98.5, firstMs: 91 }]);
     await recording.close();
   });

@@ -1,5 +1,6 @@
 import type { DriveLimits, IceServer, Quantity } from '@farpoint/protocol';
 import type { TakePolicy } from '@farpoint/safety';
+import type { RobotAuditOptions } from './audit/open-robot-audit.ts';
 import type { BaseOptions } from './base/base-messages.ts';
 import type { BroadcastOptions } from './broadcast/broadcast-options.ts';
 import type { SinkOptions } from './drive/open-sink.ts';
@@ -30,6 +31,8 @@ export interface RobotOptions extends RateControlOptions {
   robotKey: string;
   /** Files with lists of revoked grants, besides those from the signaling service. */
   revocations: readonly string[];
+  /** Where it is recorded who did what; if undefined, nowhere. */
+  audit?: RobotAuditOptions | undefined;
   /** Sources of clouds, the main one first. */
   sensors: readonly CloudSensorOptions[];
   /** Simulated wheels; `null` for real ones. */

@@ -1,6 +1,7 @@
 import type { Logger } from '@farpoint/service';
 import { type GrantFiles, openGrantFiles } from './access/grant-files.ts';
 import { openRobotKey, type RobotKey } from './access/robot-key-file.ts';
+import type { RobotAudit } from './audit/robot-audit.ts';
 import { BaseThread } from './base/base-thread.ts';
 import type { Capture } from './capture/capture.ts';
 import { openSink } from './drive/open-sink.ts';
@@ -25,6 +26,7 @@ export interface RobotParts {
   grants: GrantFiles | null;
   /** `null` if it can be neither read nor made. */
   robotKey: RobotKey | null;
+  audit: RobotAudit;
   /** The cameras that are streamed as video. */
   videos: readonly VideoCamera[];
 }
@@ -36,12 +38,13 @@ export interface RobotParts {
  * @throws {GrantKeysError} if the keys for grants cannot be used
  * @throws {RevocationJournalError} if nobody can tell any more which grants were revoked
  */
-export async function openParts(options: RobotOptions, log: Logger): Promise<RobotParts> {
+export async function openParts(options: RobotOptions, log: Logger, audit: RobotAudit): Promise<RobotParts> {
   const grants = await openGrantFiles(options);
   const robotKey = await openRobotKey(options.robotKey, log);
   const { record = null, foxglove = null, id } = options;
   const recording =
     record === null && foxglove === null ? null : await SessionRecording.open({ record, foxglove }, id, log);
+  if (recording !== null) audit.alsoTell(recording);
   const base = options.base === null ? null : new BaseThread(options.base);
   let captures: Capture[] = [];
   try {
@@ -56,15 +59,8 @@ export async function openParts(options: RobotOptions, log: Logger): Promise<Rob
     const videos =
       main === undefined ? cameras : [...cameras, ...(await openPlayedVideos(main, played, log))];
     if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond, videos);
-    return {
-      captures,
-      base,
-      sink: openSink(options.sink, base, log),
-      recording,
-      videos,
-      grants,
-      robotKey,
-    };
+    const sink = openSink(options.sink, base, log);
+    return { captures, base, sink, recording, videos, grants, robotKey, audit };
   } catch (error) {
     for (const capture of captures) await capture.close();
     await base?.close();

@@ -78,7 +78,7 @@ export class Robot {
   #failed = false;
 
   private constructor(parts: RobotParts, options: RobotOptions, log: Logger) {
-    const { captures, base, sink, recording, videos, grants, robotKey } = parts;
+    const { captures, base, sink, recording, videos, grants, robotKey, audit } = parts;
     this.recording = recording;
     this.#options = options;
     this.#log = log;
@@ -87,7 +87,7 @@ export class Robot {
     this.#logs = new MeasurementLogs(options);
     this.#sink = sink;
     this.base = base;
-    const { guard, estop } = openGuard(options, log);
+    const { guard, estop } = openGuard(options, log, audit);
     this.#estop = estop;
     this.drive = new DriveStation(
       guard,
@@ -98,7 +98,7 @@ export class Robot {
       monotonicMs,
     );
     this.#host = new RobotSessionHost({
-      ...{ drive: this.drive, estop: this.#estop, counters: this.counters, recording, log },
+      ...{ drive: this.drive, estop: this.#estop, counters: this.counters, recording, audit, log },
       commandLog: this.#logs.commands,
       operators: () => this.operators,
       sensors: () => this.sensors,
@@ -121,7 +121,7 @@ export class Robot {
         claims: () => this.sensors.claims,
         mostVideoBitsPerSecond: (video, codecs) => this.cameras.videos.mostBitsPerSecond(video, codecs),
         ...{ sendLoop: this.#sendLoop, packetLog: this.#logs.packets, host: this.#host },
-        ...{ signaling: this.signaling, counters: this.counters, log },
+        ...{ signaling: this.signaling, counters: this.counters, audit, log },
       },
       {
         resume: (request, iceServers) => void this.#paths.resume(request, iceServers),
@@ -192,7 +192,7 @@ export class Robot {
       ...{ operators: this.operators, drive: this.drive, signaling: this.signaling },
       ...{ counters: this.counters, log, now: monotonicMs },
       limits: silenceLimits(options.silenceMs),
-      leaseChanged: () => this.#host.leaseChanged(),
+      leaseChanged: () => this.#host.leaseChanged('expired'),
     });
     this.signaling.onMessage = (message) => this.sessions.onSignaling(message);
     this.#sendLoop.onWork = (ms) => this.counters.stageSeconds.add('send', ms / 1000);
@@ -214,8 +214,8 @@ export class Robot {
   }
 
   /** Opens the sources and connects to the signaling service. @throws {CaptureError} if a source cannot be opened */
-  static async start(options: RobotOptions, log: Logger): Promise<Robot> {
-    const robot = new Robot(await openParts(options, log), options, log);
+  static async start(options: RobotOptions, log: Logger, audit: RobotParts['audit']): Promise<Robot> {
+    const robot = new Robot(await openParts(options, log, audit), options, log);
     robot.#begin();
     return robot;
   }

@@ -1,5 +1,6 @@
 import { runProgram, setNiceness } from '@farpoint/service';
 import { Notifier, notifyOrder } from '@farpoint/systemd';
+import { openRobotAudit } from './audit/open-robot-audit.ts';
 import { toRobotOptions } from './options/robot-options.ts';
 import { robotProgram } from './options/robot-program.ts';
 import { Robot } from './robot.ts';
@@ -25,7 +26,13 @@ export async function run(): Promise<void> {
     const systemd = order === null ? null : new Notifier(order);
     systemd?.starting(Math.max(options.shmWaitS, options.rosWaitS) * 1000 + START_MS);
     const robotOptions = toRobotOptions(options, where);
-    const robot = await Robot.start(robotOptions, log).catch(async (error: unknown) => {
+    const audit = await openRobotAudit(robotOptions.audit, robotOptions.id, {
+      where: where('auditLog'),
+      log,
+    });
+    // Last, so that what ends with the robot is recorded.
+    shutdown.onClose('audit log', () => audit.close());
+    const robot = await Robot.start(robotOptions, log, audit.audit).catch(async (error: unknown) => {
       throw (await import('./doctor/start-failure.ts')).startFailure(robotOptions, error);
     });
     shutdown.onClose('robot', () => robot.close());
@@ -36,9 +43,11 @@ export async function run(): Promise<void> {
     };
     if (robotOptions.grantKeys !== undefined) {
       process.on('SIGHUP', () => {
-        robot.sessions.reloadGrants().catch((error: unknown) => {
+        const failed = (error: unknown) => {
           log.error({ err: error }, 'could not read the keys for grants again: the old ones stay in force');
-        });
+          audit.reloaded(String(error));
+        };
+        robot.sessions.reloadGrants().then(() => audit.reloaded(null), failed);
       });
     }
     registerRobotMetrics(metrics, robot);

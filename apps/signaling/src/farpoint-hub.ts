@@ -84,6 +84,7 @@ export class FarpointHub {
         message: (operator, message, end) => this.#operatorMessage(operator, message, end),
         left: (operator) => {
           this.#operators--;
+          this.#options.observer.operatorLeft(operator.name);
           this.#feed.remove(operator.peer);
           this.#sessions.endAll(operator, 'operator-left');
         },
@@ -117,7 +118,7 @@ export class FarpointHub {
       this.#sessions.endAll(previous, 'robot-left');
       previous.peer.close(closeCodes.policyViolation, 'a newer connection of this robot took over');
     }
-    this.#options.observer.robotJoined('robot', entry.id, peer.address, previous !== null);
+    this.#options.observer.robotJoined('robot', entry.id, peer.address, previous !== null, hello.token);
     toRobot(peer, { type: 'robot.welcome', id: entry.id, iceServers: this.#options.iceServers(entry.id) });
     for (const list of this.#options.revocations?.() ?? []) toRobot(peer, { type: 'revocations', list });
     if (joined.listed) this.#feed.changed();
@@ -149,6 +150,7 @@ export class FarpointHub {
       return 'refused';
     }
     this.#operators++;
+    this.#options.observer.operatorJoined(hello.name, peer.address, hello.token);
     toOperator(peer, {
       type: 'operator.welcome',
       iceServers: this.#options.iceServers(`operator-${peer.id}`),

@@ -1,3 +1,4 @@
+import { shortHash } from '@farpoint/audit';
 import { Counter, Gauge, Histogram, type Logger, type Registry } from '@farpoint/service';
 import { TokenBucket } from '@farpoint/timing';
 import type { Observer, RejectReason, Role } from './observer.ts';
@@ -88,13 +89,15 @@ export function createObserver(log: Logger, registry: Registry, counts: () => Co
     robotLeft(role, robot) {
       log.info({ role, robot }, 'robot left');
     },
+    operatorJoined() {},
+    operatorLeft() {},
     sessionOpened(session, robot, operator) {
       opened.inc();
-      log.info({ session, robot, operator }, 'session opened');
+      log.info({ session: shortHash('session', session), robot, operator }, 'session opened');
     },
     sessionClosed(session, reason) {
       ended.inc({ reason });
-      log.info({ session, reason }, 'session closed');
+      log.info({ session: shortHash('session', session), reason }, 'session closed');
     },
     relayed(type, ms) {
       relays.inc({ type });

@@ -19,8 +19,17 @@ export type RejectReason =
 /** Receives the core's events, to turn them into metrics and log lines. */
 export interface Observer {
   /** A robot has connected. */
-  robotJoined(role: Role, id: string | number, address: string, tookOver: boolean): void;
+  robotJoined(
+    role: Role,
+    id: string | number,
+    address: string,
+    tookOver: boolean,
+    token?: string | undefined,
+  ): void;
   robotLeft(role: Role, id: string | number): void;
+  /** An operator has connected. */
+  operatorJoined(name: string, address: string, token: string | undefined): void;
+  operatorLeft(name: string): void;
   sessionOpened(session: string, robotId: string, operator: string): void;
   sessionClosed(session: string, reason: string): void;
   /** A message was relayed `ms` after it arrived. */

@@ -25,7 +25,10 @@ export const program = defineProgram({
   summary: 'Introduces robots and operators: Farpoint sessions, and the signaling of the reference system.',
   version: manifest.version,
   section: 'signaling',
-  commands: { grant: 'makes keys, issues, shows and revokes grants' },
+  commands: {
+    grant: 'makes keys, issues, shows and revokes grants',
+    audit: 'verifies an audit log',
+  },
   options: {
     host: defineOption({
       schema: schema.text(),
@@ -226,6 +229,18 @@ export const program = defineProgram({
       default: 20_000_000,
       argument: 'BYTES',
       help: 'maximum network rate of the robot lists and their updates, for all operators together',
+    }),
+    auditLog: defineOption({
+      schema: schema.optional(schema.text()),
+      default: null,
+      argument: 'FILE',
+      help: 'record connections, sessions and refusals in this file, in a chain that shows every change (`farpoint-signaling audit verify`); default: not recorded',
+    }),
+    auditMax: defineOption({
+      schema: schema.size({ min: 100_000 }),
+      default: 64e6,
+      argument: 'SIZE',
+      help: 'audit: begin a new file when the old one has this size; the old one is renamed and kept',
     }),
     shutdownMs: defineOption({
       schema: count,

@@ -1,5 +1,6 @@
 import { randomBytes } from 'node:crypto';
 import type { IncomingMessage, RequestListener } from 'node:http';
+import { type Audit, noAudit } from '@farpoint/audit';
 import {
   createAdminHandler,
   createMetrics,
@@ -9,6 +10,7 @@ import {
   silentLogger,
 } from '@farpoint/service';
 import { Admission, peerAddress } from './admission.ts';
+import { auditObserver } from './audit-observer.ts';
 import { systemClock } from './clock.ts';
 import { FarpointHub } from './farpoint-hub.ts';
 import { httpHandler, notFound } from './http-handler.ts';
@@ -16,18 +18,20 @@ import { turnCredentials } from './ice-servers.ts';
 import { Listener, type UpgradeDecision } from './listener.ts';
 import { LiveSockets } from './live-sockets.ts';
 import { createObserver } from './metrics.ts';
-import type { Role } from './observer.ts';
+import type { Observer, Role } from './observer.ts';
 import { defaultOptions, type SignalingOptions } from './options.ts';
 import type { Connection, Peer } from './peer.ts';
 import { ReferenceHub } from './reference-hub.ts';
 import { RevocationFiles } from './revocation-files.ts';
 import { readFiles, type ServiceFiles } from './service-files.ts';
+import { strictTransport } from './strict-transport.ts';
 
 /** What the program provides to the service; tests may omit it. */
 export interface SignalingRim {
   readonly log?: Logger;
   readonly health?: Health;
   readonly metrics?: Registry;
+  readonly audit?: Audit;
 }
 
 export interface SignalingPorts {
@@ -71,7 +75,8 @@ class SignalingService implements RunningSignaling {
   readonly #admission: Admission;
   readonly #sockets: LiveSockets;
   readonly #revocations: RevocationFiles;
-  readonly #observer: ReturnType<typeof createObserver>;
+  readonly #observer: Observer;
+  readonly #audit: Audit;
   #files: ServiceFiles;
   #listeners: Listener[] = [];
   #closing: Promise<void> | null = null;
@@ -82,7 +87,9 @@ class SignalingService implements RunningSignaling {
     const metrics = rim.metrics ?? createMetrics();
     const health = rim.health ?? new Health();
     this.#files = readFiles(options);
-    this.#observer = createObserver(this.#log, metrics, () => this.#counts());
+    this.#audit = rim.audit ?? noAudit;
+    const observer = createObserver(this.#log, metrics, () => this.#counts());
+    this.#observer = this.#audit === noAudit ? observer : auditObserver(this.#audit, observer);
     const core = { clock: systemClock, observer: this.#observer };
     this.#farpoint = new FarpointHub({
       ...core,
@@ -164,6 +171,7 @@ class SignalingService implements RunningSignaling {
   reload(): void {
     this.#files = readFiles(this.#options);
     for (const listener of this.#listeners) if (this.#files.tls !== null) listener.setTls(this.#files.tls);
+    this.#audit.record({ kind: 'reloaded', details: { what: 'certificate and tokens' } });
     this.#log.info('reloaded certificate and tokens');
   }
 
@@ -195,7 +203,7 @@ class SignalingService implements RunningSignaling {
         maxPayload: 2 * maxMessageBytes,
         maxSockets: maxConnections + 256,
         closeTimeoutMs: shutdownMs,
-        http,
+        http: this.#files.tls === null ? http : strictTransport(http),
         upgrade: (request) => {
           const url = URL.parse(request.url ?? '', 'http://service');
           return url === null ? { status: 400, reason: 'not a URL' } : decide(request, url);

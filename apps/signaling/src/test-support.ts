@@ -107,6 +107,8 @@ export class RecordingObserver implements Observer {
   robotLeft(_role: Role, id: string | number): void {
     this.left.push(id);
   }
+  operatorJoined(): void {}
+  operatorLeft(): void {}
   sessionOpened(): void {}
   sessionClosed(_session: string, reason: string): void {
     this.sessionEnds.push(reason);

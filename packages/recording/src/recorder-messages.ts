@@ -164,6 +164,7 @@ export const JSON_TOPICS = {
   estimate: '/farpoint/estimates',
   latency: '/farpoint/latencies',
   motionToPhoton: '/farpoint/motion_to_photon',
+  audit: '/farpoint/audit',
   recorder: '/farpoint/recorder',
 } as const;
 export type JsonKind = keyof typeof JSON_TOPICS;

@@ -11,6 +11,7 @@ export * from './option-table.ts';
 export * from './options.ts';
 export * from './port-holder.ts';
 export * from './program.ts';
+export { publicValues } from './public-values.ts';
 export * from './pulled-metrics.ts';
 export * from './shutdown.ts';
 export { StartFailure } from './start-failure.ts';

@@ -43,10 +43,10 @@ bool check_writable(napi_env env, struct mapping *mapping) {
   return false;
 }
 
-/* open(path, writable, create, exclusive, resize, bytes, mode) */
+/* open(path, writable, create, exclusive, resize, bytes, mode, owner, anyOwner) */
 static napi_value js_open(napi_env env, napi_callback_info info) {
   napi_value values[MOST_ARGUMENTS];
-  if (!take_arguments(env, info, 7, values)) return NULL;
+  if (!take_arguments(env, info, 9, values)) return NULL;
   char path[MOST_PATH];
   if (!read_text(env, values[0], path, sizeof path)) {
     refuse(env, "not a path");
@@ -56,7 +56,8 @@ static napi_value js_open(napi_env env, napi_callback_info info) {
   uint32_t mode = 0;
   if (!take_bool(env, values[1], &request.writable) || !take_bool(env, values[2], &request.create) ||
       !take_bool(env, values[3], &request.exclusive) || !take_bool(env, values[4], &request.resize) ||
-      !take_size(env, values[5], &request.bytes) || !take_word(env, values[6], &mode)) {
+      !take_size(env, values[5], &request.bytes) || !take_word(env, values[6], &mode) ||
+      !take_word(env, values[7], &request.owner) || !take_bool(env, values[8], &request.any_owner)) {
     return NULL;
   }
   request.mode = mode & 0660;
@@ -67,6 +68,7 @@ static napi_value js_open(napi_env env, napi_callback_info info) {
     case OPEN_ERRNO: return fail_errno(env, (int)detail);
     case OPEN_NOT_A_FILE: return fail(env, "FILE", 0);
     case OPEN_WORLD_WRITABLE: return fail(env, "UNSAFE", detail);
+    case OPEN_FOREIGN: return fail(env, "OWNER", detail);
     case OPEN_WRONG_SIZE: return fail(env, "SIZE", detail);
   }
   struct mapping_handle *handle = calloc(1, sizeof *handle);

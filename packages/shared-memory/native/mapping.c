@@ -45,6 +45,11 @@ enum open_fault mapping_open(const struct open_request *request, struct mapping 
   if (fstat(fd, &status) != 0) return fault(fd, OPEN_ERRNO, errno, detail);
   if (!S_ISREG(status.st_mode)) return fault(fd, OPEN_NOT_A_FILE, 0, detail);
   if ((status.st_mode & S_IWOTH) != 0) return fault(fd, OPEN_WORLD_WRITABLE, status.st_mode & 07777, detail);
+  /* In a folder that everybody may write, somebody else may have been the first to make it. Whoever owns a file can
+     change it, or its permissions, at any time. */
+  if (!request->any_owner && status.st_uid != geteuid() && status.st_uid != 0 && status.st_uid != request->owner) {
+    return fault(fd, OPEN_FOREIGN, status.st_uid, detail);
+  }
   size_t bytes = (size_t)status.st_size;
   if (request->create && request->resize && bytes != request->bytes) {
     if (ftruncate(fd, (off_t)request->bytes) != 0) return fault(fd, OPEN_ERRNO, errno, detail);

@@ -25,6 +25,8 @@ enum open_fault {
   OPEN_NOT_A_FILE,
   /* Everybody may write to it. */
   OPEN_WORLD_WRITABLE,
+  /* Its owner is neither this user, nor root, nor the one that is allowed; `detail` is the owner's id. */
+  OPEN_FOREIGN,
   /* `detail` is the actual size. */
   OPEN_WRONG_SIZE,
 };
@@ -40,6 +42,9 @@ struct open_request {
   /* The required size; 0 accepts any size but 0. */
   size_t bytes;
   unsigned mode;
+  /* A user whose files are as good as our own; any user's with `any_owner`. */
+  uint32_t owner;
+  bool any_owner;
 };
 
 enum open_fault mapping_open(const struct open_request *request, struct mapping **out, int64_t *detail);

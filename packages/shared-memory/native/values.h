@@ -11,7 +11,7 @@ struct bytes {
 };
 
 /*
- * Throws an error with a code (an errno name, or one of CLOSED, RANGE, FAULT, UNSAFE, SIZE, FILE) and, as its message,
+ * Throws an error with a code (an errno name, or one of CLOSED, RANGE, FAULT, UNSAFE, OWNER, SIZE, FILE) and, as its message,
  * the number that belongs to it: see src/addon.ts. Returns NULL.
  */
 napi_value fail(napi_env env, const char *code, int64_t number);

@@ -17,7 +17,7 @@ export type ByteView = Uint8Array | Uint32Array | Float32Array | Float64Array;
 
 /**
  * Errors carry `code` and a number in their message. Codes: an errno name; `CLOSED`; `RANGE`: a mistake of the caller;
- * `FAULT`: the file ended at this offset; `UNSAFE`: its mode; `SIZE`: the actual size; `FILE`: not a regular file.
+ * `FAULT`: the file ended at this offset; `UNSAFE`: its mode; `OWNER`: its owner’s id; `SIZE`: the actual size; `FILE`: not a regular file.
  */
 export interface Addon {
   open(
@@ -28,6 +28,8 @@ export interface Addon {
     resize: boolean,
     bytes: number,
     mode: number,
+    owner: number,
+    anyOwner: boolean,
   ): MappingHandle;
   close(mapping: MappingHandle): void;
   size(mapping: MappingHandle): number;

@@ -4,6 +4,7 @@ export type SharedMemoryErrorCode =
   | 'absent' // no such file
   | 'not-permitted' // the system refuses access
   | 'unsafe-permissions' // everybody may write to it
+  | 'foreign-owner' // another user made it
   | 'not-a-file' // a symbolic link, a folder, a device
   | 'wrong-size' // not the size that the layout requires
   | 'truncated' // it became shorter while it was in use

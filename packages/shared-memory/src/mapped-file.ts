@@ -1,6 +1,9 @@
 import { type Addon, type ByteView, loadAddon, type MappingHandle } from './addon.ts';
 import { SharedMemoryError, type SharedMemoryErrorCode } from './errors.ts';
 
+/** Whose files are used besides this user's own and root's: those of the user with this id, or everybody's. */
+export type TrustedOwner = number | 'any';
+
 export interface MapOptions {
   /** Required size of the file; any size if absent. */
   bytes?: number;
@@ -11,6 +14,8 @@ export interface MapOptions {
   exclusive?: boolean;
   /** Permissions of a created file; never any for others than owner and group. Default 0600. */
   mode?: number;
+  /** Default: nobody's. */
+  owner?: TrustedOwner | undefined;
 }
 
 const IMAGE_KINDS = ['points', 'depth16', 'depth32'] as const;
@@ -32,12 +37,17 @@ export class MappedFile implements Disposable {
   /** @throws {SharedMemoryError} */
   static open(path: string, options: MapOptions = {}): MappedFile {
     const { bytes = 0, writable = false, create = false, exclusive = false, mode = 0o600 } = options;
+    // Root's files are used in any case.
+    const { owner = 0 } = options;
     const addon = loadAddon();
     try {
       return new MappedFile(
         addon,
         path,
-        addon.open(path, writable || create, create, exclusive, create, bytes, mode),
+        addon.open(
+          ...([path, writable || create, create, exclusive, create, bytes, mode] as const),
+          ...([owner === 'any' ? 0 : owner, owner === 'any'] as const),
+        ),
       );
     } catch (error) {
       throw translated(error, path, bytes);
@@ -166,6 +176,13 @@ export function translated(error: unknown, path: string, wantedBytes: number): u
         path,
         null,
         `everybody may write it (mode ${number.toString(8)}): \`chmod o-w\` it`,
+      );
+    case 'OWNER':
+      return new SharedMemoryError(
+        'foreign-owner',
+        path,
+        null,
+        `another user (${number}) made it: remove it, or allow that user’s files (--shm-owner ${number})`,
       );
     case 'SIZE':
       return new SharedMemoryError(

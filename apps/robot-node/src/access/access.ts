@@ -13,7 +13,7 @@ export interface Access {
   readonly expiresAtS: number;
   /** The key that signed the grant; `null` without grants. */
   readonly keyId: string | null;
-  /** What a revocation of the grant goes by; `null` without grants. */
+  /** Names the grant, and is what revocations go by; `null` without grants. */
   readonly grant: RevocableGrant | null;
 }
 

@@ -1,3 +1,4 @@
+import { shortHash } from '@farpoint/audit';
 import {
   type AdmissionRequest,
   admit,
@@ -35,7 +36,7 @@ export type GateVerdict =
   | { verdict: 'ready' | 'busy' }
   | { verdict: 'admitted'; access: Access }
   /** `detail` is for the operator. */
-  | { verdict: 'refused'; detail: string };
+  | { verdict: 'refused'; reason: GrantRefusedError['reason']; detail: string };
 
 interface Entry {
   offer: string;
@@ -93,11 +94,14 @@ export class GrantGate {
     const { refusals, log, now } = this.#options;
     refusals.add(reason);
     if (this.#reports.take(now())) {
-      log.warn({ session, reason, detail: message, unreported: this.#unreported }, 'operator not admitted');
+      log.warn(
+        { session: shortHash('session', session), reason, detail: message, unreported: this.#unreported },
+        'operator not admitted',
+      );
       this.#unreported = 0;
     } else {
       this.#unreported++;
     }
-    return { verdict: 'refused', detail: refusalText(reason) };
+    return { verdict: 'refused', reason, detail: refusalText(reason) };
   }
 }

@@ -1,3 +1,4 @@
+import { shortHash } from '@farpoint/audit';
 import type { AdmissionRequest } from '@farpoint/grants';
 import { type EndSession, type FaultReason, MAX_REVOCATIONS_LENGTH } from '@farpoint/protocol';
 import { WatchedText } from '@farpoint/service';
@@ -28,6 +29,8 @@ export interface RobotAccessOptions extends Omit<GrantGateOptions, 'keys' | 'ref
   };
   /** What became of each list of revoked grants. */
   revocationLists: ReasonCounts;
+  /** For the audit log. */
+  onRefused?: (operator: GuardedOperator['messages'], reason: string) => void;
 }
 
 /** Admits operators by their grants, ends their sessions with them, and tells operators of each other. */
@@ -80,16 +83,17 @@ export class RobotAccess {
   /** Ends the session of an operator that is refused. @returns whether its answer may be used */
   async admits(operator: GuardedOperator, request: AdmissionRequest): Promise<boolean> {
     const judged = await this.#gate.judge(request);
-    if (judged.verdict === 'refused') operator.peer.close('not-granted', judged.detail);
+    if (judged.verdict === 'refused') {
+      this.#options.onRefused?.(operator.messages, judged.reason);
+      operator.peer.close('not-granted', judged.detail);
+    }
     if (judged.verdict !== 'admitted') return judged.verdict === 'ready';
     const { access } = judged;
     operator.messages.access = access;
     const { subject, name, role, keyId } = access;
+    const session = shortHash('session', request.session);
     const grant = access.grant?.id;
-    this.#options.log.info(
-      { session: request.session, subject, name, role, keyId, grant },
-      'operator admitted',
-    );
+    this.#options.log.info({ session, subject, name, role, keyId, grant }, 'operator admitted');
     return true;
   }
 

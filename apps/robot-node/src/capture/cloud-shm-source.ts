@@ -5,6 +5,7 @@ import {
   type FrameRoom,
   PUBLISHED_OFFSET,
   SharedMemoryError,
+  type TrustedOwner,
 } from '@farpoint/shared-memory';
 import type { BaseState } from '../base/base.ts';
 import type {
@@ -19,6 +20,8 @@ import { openWhenThere, ProducerLink } from './producer-link.ts';
 
 export interface CloudShmOptions {
   folder: string;
+  /** Whose files are used besides this user's own. */
+  owner?: TrustedOwner | undefined;
   /** How long to wait for the producer and its first frame, ms. */
   waitMs: number;
 }
@@ -34,7 +37,12 @@ export class CloudShmSource implements FrameSource {
   #state: BaseState = STANDING;
   #readyMs: number;
 
-  private constructor(reader: CloudReader, first: CloudFrame | null, folder: string, now: () => number) {
+  private constructor(
+    reader: CloudReader,
+    first: CloudFrame | null,
+    { folder, owner }: CloudShmOptions,
+    now: () => number,
+  ) {
     const { maxPoints, format, framesPerSecond } = reader.header;
     this.description = {
       kind: `shm (${format})`,
@@ -47,7 +55,7 @@ export class CloudShmSource implements FrameSource {
     };
     this.#readyMs = now();
     this.#link = new ProducerLink(reader, {
-      open: () => CloudReader.open(folder),
+      open: () => CloudReader.open(folder, owner),
       place: ({ file }) => ({ file, offset: PUBLISHED_OFFSET, futex: true }),
       order: ({ last }) => ({ value: last, timeoutMs: WATCH_TIMEOUT_MS }),
       onReady: () => {
@@ -59,9 +67,10 @@ export class CloudShmSource implements FrameSource {
   }
 
   /** @throws {SharedMemoryError} if no producer appears in time */
-  static async open({ folder, waitMs }: CloudShmOptions, now: () => number): Promise<CloudShmSource> {
+  static async open(options: CloudShmOptions, now: () => number): Promise<CloudShmSource> {
+    const { folder, owner, waitMs } = options;
     const begin = now();
-    const reader = await openWhenThere(() => CloudReader.open(folder), waitMs);
+    const reader = await openWhenThere(() => CloudReader.open(folder, owner), waitMs);
     // The first frame shows whether there are a grid and a lens. A slow camera's first frame is not awaited beyond
     // the given time.
     const room = roomFor(reader.header.maxPoints);
@@ -70,7 +79,7 @@ export class CloudShmSource implements FrameSource {
       await new Promise((resolve) => setTimeout(resolve, 10));
       first = reader.read(room);
     }
-    return new CloudShmSource(reader, first, folder, now);
+    return new CloudShmSource(reader, first, options, now);
   }
 
   get state(): BaseState {

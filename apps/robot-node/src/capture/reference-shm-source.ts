@@ -2,6 +2,7 @@ import {
   READY_OFFSET,
   REFERENCE_MAX_POINTS,
   ReferenceFrameConsumer,
+  type TrustedOwner,
   type WatchOrder,
 } from '@farpoint/shared-memory';
 import type {
@@ -16,6 +17,8 @@ import { openWhenThere, ProducerLink } from './producer-link.ts';
 
 export interface ReferenceShmOptions {
   folder: string;
+  /** Whose files are used besides this user's own. */
+  owner?: TrustedOwner | undefined;
   /** How long to wait for the producer's files, ms. */
   waitMs: number;
 }
@@ -54,11 +57,15 @@ export class ReferenceShmSource implements FrameSource {
   #intervalMs = 0;
   #askedMs: number | null = null;
 
-  private constructor(consumer: ReferenceFrameConsumer, folder: string, now: () => number) {
+  private constructor(
+    consumer: ReferenceFrameConsumer,
+    { folder, owner }: ReferenceShmOptions,
+    now: () => number,
+  ) {
     this.#now = now;
     this.#readyMs = now();
     this.#link = new ProducerLink(consumer, {
-      open: () => ReferenceFrameConsumer.open(folder),
+      open: () => ReferenceFrameConsumer.open(folder, owner),
       place: ({ flags }) => ({ file: flags, offset: READY_OFFSET, futex: false }),
       order: () => this.#order(),
       onReady: () => {
@@ -73,9 +80,10 @@ export class ReferenceShmSource implements FrameSource {
   }
 
   /** @throws {SharedMemoryError} if no producer appears in time */
-  static async open({ folder, waitMs }: ReferenceShmOptions, now: () => number): Promise<ReferenceShmSource> {
-    const consumer = await openWhenThere(() => ReferenceFrameConsumer.open(folder), waitMs);
-    return new ReferenceShmSource(consumer, folder, now);
+  static async open(options: ReferenceShmOptions, now: () => number): Promise<ReferenceShmSource> {
+    const { folder, owner, waitMs } = options;
+    const consumer = await openWhenThere(() => ReferenceFrameConsumer.open(folder, owner), waitMs);
+    return new ReferenceShmSource(consumer, options, now);
   }
 
   capture(nowMs: number, wishes: CaptureWishes, { points }: CaptureRoom): SourceFrame | null {

@@ -44,6 +44,13 @@ describe('the file that init writes', () => {
     expect(values(uncommented(text))).toEqual(defaults);
   });
 
+  it('turns the audit log on if it is given a file', () => {
+    expect(values(run('--audit', '/var/lib/farpoint/audit.jsonl', '--output', '-').out)).toEqual({
+      ...defaults,
+      auditLog: '/var/lib/farpoint/audit.jsonl',
+    });
+  });
+
   it.each(SOURCE_KINDS)('is accepted for the source %s', (source) => {
     const text = robotTemplate(source);
     expect(values(text)).toMatchObject({ source });

@@ -11,12 +11,13 @@ export interface CommandRim {
   stderr: { write(text: string): unknown };
 }
 
-const HELP = `farpoint-robot init [--source KIND] [--output FILE] [--force]
+const HELP = `farpoint-robot init [--source KIND] [--output FILE] [--audit FILE] [--force]
 
 Writes a configuration file for a robot, with a comment for each option.
 
   --source KIND  source of the clouds: ${SOURCE_KINDS.join(', ')} (default: sim)
   --output FILE  file to write (default: ${DEFAULT_CONFIG_PATH}); - for standard output
+  --audit FILE   record who did what in this file (audit.log)
   --force        replace an existing file
 `;
 
@@ -42,7 +43,7 @@ export function init(argv: readonly string[], { stdout, stderr }: CommandRim): n
       `--source must be one of ${SOURCE_KINDS.join(', ')}, not ${JSON.stringify(values.source)}`,
       2,
     );
-  const text = robotTemplate(source);
+  const text = robotTemplate(source, values.audit);
   if (values.output === '-') {
     stdout.write(text);
     return 0;
@@ -75,6 +76,7 @@ function parse(argv: readonly string[]) {
     options: {
       source: { type: 'string', default: 'sim' },
       output: { type: 'string', default: DEFAULT_CONFIG_PATH },
+      audit: { type: 'string' },
       force: { type: 'boolean', default: false },
       help: { type: 'boolean', short: 'h', default: false },
     },

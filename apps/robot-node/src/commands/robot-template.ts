@@ -62,7 +62,8 @@ const ONLY: readonly { kinds: readonly SourceKind[]; options: object }[] = [
   { kinds: [], options: measurementOptions },
 ];
 
-export function robotTemplate(source: SourceKind): string {
+/** @param audit file of the audit log */
+export function robotTemplate(source: SourceKind, audit?: string): string {
   const { options } = robotProgram;
   return configTemplate(robotProgram, {
     head: HEAD,
@@ -70,6 +71,7 @@ export function robotTemplate(source: SourceKind): string {
       ...Object.fromEntries(ALWAYS.map((key) => [key, options[key].default])),
       source,
       ...SET[source],
+      ...(audit === undefined ? {} : { auditLog: audit }),
     },
     leftOut: ONLY.filter(({ kinds }) => !kinds.includes(source)).flatMap(({ options: table }) =>
       Object.keys(table),

@@ -1,7 +1,7 @@
 /** Checks the files that the robot shares with a camera, wheels or a recording: permissions and free space. */
 import { accessSync, constants, type Stats, statfsSync, statSync } from 'node:fs';
 import { dirname } from 'node:path';
-import { cloudFile, isAvailable, referenceFiles } from '@farpoint/shared-memory';
+import { cloudFile, isAvailable, referenceFiles, type TrustedOwner } from '@farpoint/shared-memory';
 import type { SourceOptions } from '../capture/open-source.ts';
 import type { SinkOptions } from '../drive/open-sink.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
@@ -39,10 +39,10 @@ export function checkSharedMemory(source: SourceOptions, sink: SinkOptions): Res
   const files = referenceFiles(folder);
   if (source.kind === 'shm') {
     const wanted = source.layout === 'reference' ? [files.cloud, files.flags] : [cloudFile(folder)];
-    results.push(...wanted.flatMap((file) => checkFile(file, source.layout === 'reference')));
+    results.push(...wanted.flatMap((file) => checkFile(file, source.layout === 'reference', source.owner)));
   }
   if (sink.kind === 'shm') {
-    results.push(...[files.control, files.busy].flatMap((file) => checkFile(file, true)));
+    results.push(...[files.control, files.busy].flatMap((file) => checkFile(file, true, sink.owner)));
     if (stats(files.control) === null && !may(folder, constants.W_OK))
       results.push(fail(`${folder} is not writable`, 'run the robot as a user who may create files there'));
   }
@@ -50,11 +50,18 @@ export function checkSharedMemory(source: SourceOptions, sink: SinkOptions): Res
 }
 
 /** Checks a file that the robot creates at its start: a missing file is no fault. */
-function checkFile(path: string, write: boolean): Result[] {
+function checkFile(path: string, write: boolean, trusted: TrustedOwner | undefined): Result[] {
   const found = stats(path);
   if (found === null) return [];
   const owner = `of user ${found.uid}, mode ${(found.mode & 0o777).toString(8).padStart(4, '0')}`;
   if (!found.isFile()) return [fail(`${path} is not a regular file`, 'remove it')];
+  if (trusted !== 'any' && ![process.geteuid?.(), 0, trusted].includes(found.uid))
+    return [
+      fail(
+        `${path} (${owner}) is of another user and is refused`,
+        `run both programs as the same user, or set source.shmOwner: ${found.uid}`,
+      ),
+    ];
   if ((found.mode & 0o002) !== 0)
     return [
       fail(

@@ -5,6 +5,7 @@ import type { IceServer } from '@farpoint/protocol';
 import type { CaptureOptions } from '../capture/capture-messages.ts';
 import type { RobotOptionValues } from '../options/robot-program.ts';
 import type { RobotOptions } from '../robot-configuration.ts';
+import { checkAudit } from './check-audit.ts';
 import { checkMonotonicClock, checkTimeOfDay, type ServerTime } from './check-clock.ts';
 import type { Configuration } from './check-configuration.ts';
 import { checkRecording, checkSharedMemory } from './check-files.ts';
@@ -136,6 +137,7 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
       withinMs: SLACK_MS,
       run: () => (running.state === 'runs' ? [] : checkRecording(robot.record?.path)),
     },
+    { name: 'audit log', withinMs: 20_000, run: () => checkAudit(robot.audit?.path) },
   ];
 }
 

@@ -1,5 +1,5 @@
 /** The doctor's judgements of machines other than this one. */
-import { chmodSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { chmodSync, chownSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { isAvailable } from '@farpoint/shared-memory';
@@ -225,6 +225,16 @@ describe('files', () => {
         detail: expect.stringContaining('mode 0666) is writable by everybody') as string,
       });
       chmodSync(cloud, 0o640);
+      // Only root can give files away.
+      if (process.geteuid?.() === 0) {
+        chownSync(cloud, 54_321, 0);
+        expect(checkSharedMemory(source, { kind: 'base' })[1]).toMatchObject({
+          verdict: 'fail',
+          remedy: expect.stringContaining('source.shmOwner: 54321') as string,
+        });
+        expect(verdicts(checkSharedMemory({ ...source, owner: 54_321 }, { kind: 'base' }))[1]).toBe('ok');
+        chownSync(cloud, 0, 0);
+      }
       expect(verdicts(checkSharedMemory(source, { kind: 'base' }))[1]).toBe('ok');
       rmSync(cloud);
       symlinkSync('/', cloud);

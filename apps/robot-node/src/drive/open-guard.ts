@@ -2,6 +2,7 @@ import { randomBytes } from 'node:crypto';
 import type { DriveLimits } from '@farpoint/protocol';
 import { DriveGuard, type TakePolicy } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
+import type { RobotAudit } from '../audit/robot-audit.ts';
 import { EstopJournal } from './estop-journal.ts';
 
 export interface GuardOptions {
@@ -19,6 +20,7 @@ export interface GuardOptions {
 export function openGuard(
   { id, limits, takePolicy, stateFolder }: GuardOptions,
   log: Logger,
+  audit: RobotAudit,
 ): { guard: DriveGuard; estop: EstopJournal } {
   const guard = new DriveGuard({ limits, takePolicy, randomBytes: (count) => randomBytes(count) });
   const estop = new EstopJournal(stateFolder, id, (error) =>
@@ -27,6 +29,7 @@ export function openGuard(
   const { latched } = estop.start;
   if (latched !== null) {
     guard.latchEstop(latched.by);
+    audit.startsLatched(latched.reason);
     log.warn(
       { reason: latched.reason, detail: latched.detail },
       'starts with the emergency stop latched: whoever drives must release it',

@@ -1,5 +1,5 @@
 import type { Logger } from '@farpoint/service';
-import { ReferenceControlWriter } from '@farpoint/shared-memory';
+import { ReferenceControlWriter, type TrustedOwner } from '@farpoint/shared-memory';
 import type { RosDriveOptions } from './ros-drive-messages.ts';
 import { RosSink } from './ros-sink.ts';
 import { SharedMemorySink } from './shm-sink.ts';
@@ -9,7 +9,7 @@ export type SinkOptions =
   /** The simulated base if there is one; otherwise nothing moves. */
   | { kind: 'base' }
   /** The reference system's command block in shared memory. */
-  | { kind: 'shm'; folder: string; mode: number; silenceMs: number }
+  | { kind: 'shm'; folder: string; owner?: TrustedOwner | undefined; mode: number; silenceMs: number }
   /** A topic of a ROS graph. */
   | ({ kind: 'ros' } & RosDriveOptions);
 

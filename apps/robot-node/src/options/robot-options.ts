@@ -14,6 +14,7 @@ import type { GraphOptions } from '../ros/open-graph.ts';
 import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
 import { describeQuantities } from '../telemetry/sample-board.ts';
 import { toAlarmRules } from './alarms.ts';
+import { toAudit } from './audit-configuration.ts';
 import { toBroadcast } from './broadcast.ts';
 import { checkAccess } from './check-access.ts';
 import { readText } from './read-text.ts';
@@ -53,6 +54,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     grantKeys: values.grantKeys ?? undefined,
     robotKey: values.robotKey ?? join(folder, `${values.id}.key.json`),
     revocations: values.revocations,
+    audit: toAudit(values),
     sensors: toSensors(values, topics),
     base:
       values.source === 'sim'
@@ -175,6 +177,7 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
         kind: 'shm',
         layout: values.shmLayout,
         folder: values.shmFolder,
+        owner: values.shmOwner ?? undefined,
         waitMs: values.shmWaitS * 1000,
       };
     case 'recording':
@@ -243,6 +246,7 @@ function toSink(values: RobotOptionValues): SinkOptions {
   return {
     kind: 'shm',
     folder: values.shmFolder,
+    owner: values.shmOwner ?? undefined,
     mode: values.shmAccess === 'group' ? 0o660 : 0o600,
     silenceMs: values.watchdogMs,
   };

@@ -3,6 +3,7 @@ import { adminOptions, defineProgram, type OptionTable, type OptionValues } from
 import manifest from '../../package.json' with { type: 'json' };
 import { accessOptions } from './access.ts';
 import { alarmsOptions } from './alarms.ts';
+import { auditOptions } from './audit.ts';
 import { broadcastOptions } from './broadcast.ts';
 import { foxgloveOptions } from './foxglove.ts';
 import { identityOptions } from './identity.ts';
@@ -28,6 +29,7 @@ const options = {
   ...identityOptions,
   ...signalingOptions,
   ...accessOptions,
+  ...auditOptions,
   ...sourceOptions,
   ...shmOptions,
   ...playbackOptions,
@@ -59,6 +61,7 @@ export const robotProgram = defineProgram({
   commands: {
     init: 'writes a commented configuration file',
     doctor: 'checks everything and says what to fix',
+    audit: 'verifies an audit log',
   },
   options,
 });

@@ -135,7 +135,7 @@ export class ReferenceOperator implements FrameTarget {
     this.#quiet = silentMs > QUIET_MS;
     if (this.driver.tick(now, silentMs < LEASE_MS)) {
       this.#host.drive.apply();
-      this.#host.leaseChanged();
+      this.#host.leaseChanged('expired');
     }
     if (silentMs > GONE_MS) this.peer.close('silent', `nothing heard for ${GONE_MS / 1000} s`);
   }
@@ -226,7 +226,7 @@ export class ReferenceOperator implements FrameTarget {
     }
     const leaseFreed = drive.guard.operatorGone(this.id);
     drive.apply();
-    if (leaseFreed) this.#host.leaseChanged();
+    if (leaseFreed) this.#host.leaseChanged('session-ended');
     this.#events.onEnded(end, detail);
   }
 }

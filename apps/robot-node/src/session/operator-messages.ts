@@ -33,9 +33,10 @@ export interface SessionLink {
 export interface SessionHost {
   readonly drive: DriveStation;
   now(): number;
-  /** The driver has changed, and all operators must be told. */
-  leaseChanged(): void;
-  estopChanged(): void;
+  /** The driver has changed, and all operators must be told. @param cause if it was not a request */
+  leaseChanged(cause?: 'expired' | 'session-ended'): void;
+  /** @param by who changed it; undefined: the robot itself */
+  estopChanged(by?: OperatorMessages): void;
   latencyTestRequested(session: OperatorMessages, id: number, commandMs: number): void;
   /** For the counters. */
   commandAccepted(): void;
@@ -44,6 +45,8 @@ export interface SessionHost {
   commandJudged?(session: OperatorMessages, command: Command, verdict: CommandVerdict): void;
   /** For a recording: what an operator measured. */
   latencyMeasured?(session: OperatorMessages, measured: LatencyMeasured): void;
+  /** For the audit log: a request that was refused. */
+  refused?(session: OperatorMessages, what: 'lease' | 'estop-release', reason: string): void;
   messageRefused(channel: string, error: ProtocolError): void;
   /** The driver's name by its grant; undefined if nobody drives or there are no grants. */
   driverName?(): string | undefined;
@@ -203,6 +206,7 @@ export class OperatorMessages {
     switch (message.type) {
       case 'leaseRequest': {
         if (!mayDrive(this.access)) {
+          this.#host.refused?.(this, 'lease', 'not-permitted');
           this.#notPermitted(NOT_PERMITTED.detail);
           this.sendLease();
           break;
@@ -212,6 +216,7 @@ export class OperatorMessages {
         if (outcome.granted) {
           this.#host.leaseChanged();
         } else {
+          this.#host.refused?.(this, 'lease', outcome.reason);
           this.send({ type: 'fault', message: outcome.detail });
           this.sendLease();
         }
@@ -267,16 +272,17 @@ export class OperatorMessages {
     if (latch) {
       const changed = drive.guard.latchEstop('operator');
       drive.apply();
-      if (changed) this.#host.estopChanged();
+      if (changed) this.#host.estopChanged(this);
       else this.sendEstop();
       return;
     }
     const outcome = drive.guard.releaseEstop(this.id, this.heardMs, supervises(this.access));
     drive.apply();
     if (outcome.released) {
-      this.#host.estopChanged();
+      this.#host.estopChanged(this);
     } else {
       if (outcome.reason === 'not-lease-holder') {
+        this.#host.refused?.(this, 'estop-release', outcome.reason);
         const message = 'only the operator who drives releases the emergency stop';
         if (mayDrive(this.access)) this.send({ type: 'fault', message });
         else this.#notPermitted(message);

@@ -1,11 +1,14 @@
+import { shortHash } from '@farpoint/audit';
 import type { RateController } from '@farpoint/congestion';
 import type { AdmissionRequest } from '@farpoint/grants';
 import type { IceServer, RobotToService, ServiceToRobot, VideoCodec } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
+import { openAccess } from '../access/access.ts';
 import type { GrantFiles } from '../access/grant-files.ts';
 import { RobotAccess } from '../access/robot-access.ts';
 import type { RobotKey } from '../access/robot-key-file.ts';
 import { SIGNALING } from '../access/robot-revocations.ts';
+import type { AuditedOperator, RobotAudit } from '../audit/robot-audit.ts';
 import { monotonicMs } from '../clock.ts';
 import type { CloudClaim } from '../sensors/cloud-shares.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
@@ -39,6 +42,7 @@ export interface OperatorSessionsOptions {
   host: SessionHost;
   signaling: { send(message: RobotToService): boolean };
   counters: RobotCounters;
+  audit: RobotAudit;
   log: Logger;
 }
 
@@ -65,11 +69,15 @@ export class OperatorSessions {
   constructor(options: OperatorSessionsOptions, events: OperatorSessionsEvents) {
     this.#options = options;
     this.#events = events;
-    const { grants: files, id: robot, counters, log } = options;
+    const { grants: files, id: robot, counters, audit, log } = options;
     const { grantsRefused: refusals, revocationLists } = counters;
+    const onRefused = (operator: AuditedOperator, reason: string) =>
+      audit.refused('admission', reason, operator);
     const clocks = { nowS: () => Date.now() / 1000, now: monotonicMs };
     this.#access =
-      files === null ? null : new RobotAccess({ files, robot, refusals, revocationLists, log, ...clocks });
+      files === null
+        ? null
+        : new RobotAccess({ files, robot, refusals, revocationLists, onRefused, log, ...clocks });
   }
 
   /** Call every 25 ms. */
@@ -128,7 +136,7 @@ export class OperatorSessions {
   #onError({ code, session, message }: Extract<ServiceToRobot, { type: 'error' }>): void {
     const { counters, log } = this.#options;
     counters.signalingErrors.add(code);
-    log.warn({ code, session, detail: message }, 'signaling refused');
+    log.warn({ code, session: shown(session), detail: message }, 'signaling refused');
     if (session === undefined || code !== 'unknown-session') return;
     const operator = this.operators.get(session);
     if (operator !== undefined && !operator.peer.connected) operator.peer.close('closed', message);
@@ -144,7 +152,7 @@ export class OperatorSessions {
     const verdict = admitted ? await operator.answer(sdp) : 'unasked';
     if (verdict === 'taken') return;
     this.#options.counters.answersIgnored.add(verdict);
-    this.#options.log.debug({ session, verdict }, 'answer ignored');
+    this.#options.log.debug({ session: shown(session), verdict }, 'answer ignored');
   }
 
   async #open(session: string, operatorName: string): Promise<void> {
@@ -152,16 +160,20 @@ export class OperatorSessions {
     const { host, signaling, counters } = this.#options;
     if (this.operators.has(session)) {
       // To reconnect to an open session, an operator must use session.resume.
-      this.#options.log.warn({ session }, 'an open session was requested again');
+      this.#options.log.warn({ session: shown(session) }, 'an open session was requested again');
       return;
     }
     if (this.operators.size >= most) {
       counters.sessionsRefused++;
-      this.#options.log.warn({ session, operators: most }, 'session refused: the robot is full');
+      this.#options.audit.refused('session', 'robot-full', { id: session, access: openAccess(operatorName) });
+      this.#options.log.warn(
+        { session: shown(session), operators: most },
+        'session refused: the robot is full',
+      );
       signaling.send({ type: 'session.close', session, reason: 'robot-full', maxOperators: most });
       return;
     }
-    const log = this.#options.log.child({ session, operator: operatorName });
+    const log = this.#options.log.child({ session: shown(session), operator: operatorName });
     const operator = new OperatorSession(
       {
         ...{ session, operatorName, packetLog, pictureShare },
@@ -177,6 +189,7 @@ export class OperatorSessions {
           log.debug({ reason, detail }, 'candidate refused');
         },
         onConnected: () => {
+          this.#options.audit.sessionBegan(operator.messages);
           log.info({ operators: this.operators.size }, 'operator connected');
           this.#events.connected(operator);
         },
@@ -207,15 +220,21 @@ export class OperatorSessions {
   }
 
   #ended(operator: OperatorSession, end: PeerEnd, detail: string, log: Logger): void {
-    const { counters, signaling } = this.#options;
+    const { counters, signaling, audit } = this.#options;
     const { id } = operator.messages;
     this.operators.delete(id);
     this.#access?.forget(id);
     this.#events.ended(operator);
+    audit.sessionEnded(operator.messages, end, detail);
     counters.sessionsEnded.add(end);
     log.info({ end, detail, operators: this.operators.size }, 'session ended');
     // The other side knows already: we told it, or it told us.
     if (end === 'closed') return;
     signaling.send({ type: 'session.close', session: id, reason: end, detail: detail.slice(0, 300) });
   }
+}
+
+/** Handles are secrets: who knows one can ask for a session to be resumed. */
+function shown(session: string | undefined): string | undefined {
+  return session === undefined ? undefined : shortHash('session', session);
 }

@@ -1,3 +1,4 @@
+import { shortHash } from '@farpoint/audit';
 import type { IceServer, ResumeRefusal, RobotToService, ServiceToRobot } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import { TokenBucket } from '@farpoint/timing';
@@ -76,10 +77,11 @@ export class PathKeeper {
     try {
       const sdp = await operator.peer.restart();
       counters.iceRestarts++;
-      log.info({ session, silentMs: Math.round(now() - operator.heardMs) }, 'ICE restart offered');
+      const silentMs = Math.round(now() - operator.heardMs);
+      log.info({ session: shortHash('session', session), silentMs }, 'ICE restart offered');
       if (operators.get(session) === operator) signaling.send({ type: 'session.offer', session, sdp, claim });
     } catch (error) {
-      log.error({ err: error, session }, 'no offer');
+      log.error({ err: error, session: shortHash('session', session) }, 'no offer');
       operator.peer.close('connection-lost', 'no offer could be made');
     }
   }
@@ -87,7 +89,7 @@ export class PathKeeper {
   #refuse({ session, claim, operator }: ResumeRequest, code: ResumeRefusal): void {
     const { signaling, counters, log, now } = this.#options;
     counters.resumesRefused.add(code);
-    log.debug({ session, operator, code }, 'session not resumed');
+    log.debug({ session: shortHash('session', session), operator, code }, 'session not resumed');
     // Endless requests must not use up the rate at which the service lets the robot send.
     if (this.#refusals.take(now())) signaling.send({ type: 'session.refuse', session, claim, code });
   }

@@ -1,6 +1,8 @@
-import type { Command, LatencyMeasured, ProtocolError } from '@farpoint/protocol';
+import type { Command, EstopState, LatencyMeasured, ProtocolError } from '@farpoint/protocol';
 import type { CommandVerdict, RejectedCommand } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
+import { TokenBucket } from '@farpoint/timing';
+import type { LeaseCause, RobotAudit } from '../audit/robot-audit.ts';
 import type { DriveStation } from '../drive/drive-station.ts';
 import type { EstopJournal } from '../drive/estop-journal.ts';
 import type { CloudSensor } from '../sensors/cloud-sensor.ts';
@@ -21,6 +23,7 @@ export interface RobotSessionHostParts {
   videos: () => VideoHub;
   counters: RobotCounters;
   recording: SessionRecording | null;
+  audit: RobotAudit;
   commandLog: CommandLog | undefined;
   log: Logger;
   now: () => number;
@@ -30,6 +33,9 @@ export interface RobotSessionHostParts {
 export class RobotSessionHost implements SessionHost {
   readonly drive: DriveStation;
   readonly #parts: RobotSessionHostParts;
+  /** Whoever drives can latch and release the emergency stop without end, but not fill the log. */
+  readonly #estopLines = new TokenBucket({ perSecond: 1, burst: 10 });
+  #estopUnreported = 0;
 
   constructor(parts: RobotSessionHostParts) {
     this.drive = parts.drive;
@@ -40,8 +46,16 @@ export class RobotSessionHost implements SessionHost {
     return this.#parts.now();
   }
 
-  leaseChanged(): void {
-    for (const { messages } of this.#parts.operators().values()) messages.sendLease();
+  /** @param cause if it was not a request */
+  leaseChanged(cause?: LeaseCause): void {
+    const { audit, operators } = this.#parts;
+    const { leaseHolder } = this.drive.guard;
+    audit.driver(
+      leaseHolder,
+      leaseHolder === null ? undefined : operators().get(leaseHolder)?.messages,
+      cause,
+    );
+    for (const { messages } of operators().values()) messages.sendLease();
     this.#parts.sensors().updateBudgets();
   }
 
@@ -49,15 +63,16 @@ export class RobotSessionHost implements SessionHost {
     // Stop the wheels before telling anyone.
     const leaseFreed = this.drive.guard.operatorGone(id);
     this.drive.apply();
-    if (leaseFreed) this.leaseChanged();
+    if (leaseFreed) this.leaseChanged('session-ended');
     this.#parts.sensors().updateBudgets();
   }
 
-  estopChanged(): void {
-    const { estop, log, operators } = this.#parts;
+  estopChanged(by?: OperatorMessages): void {
+    const { estop, audit, operators } = this.#parts;
     const state = this.drive.guard.estopState();
     estop.changed(state.by ?? null);
-    log.warn({ estop: state }, 'emergency stop changed');
+    audit.estop(state, by);
+    this.#logEstop(state);
     for (const { messages } of operators().values()) messages.sendEstop();
   }
 
@@ -87,6 +102,8 @@ export class RobotSessionHost implements SessionHost {
   }
 
   commandJudged(session: OperatorMessages, command: Command, verdict: CommandVerdict): void {
+    if (!verdict.accepted && verdict.reason === 'not-permitted')
+      this.#parts.audit.refused('command', verdict.reason, session);
     this.#parts.recording?.command(session.id, command, verdict);
     this.#parts.commandLog?.add(command, verdict.accepted, session.heardMs);
   }
@@ -102,8 +119,22 @@ export class RobotSessionHost implements SessionHost {
     return driver?.role == null ? undefined : driver.name;
   }
 
+  refused(session: OperatorMessages, what: 'lease' | 'estop-release', reason: string): void {
+    this.#parts.audit.refused(what, reason, session);
+  }
+
   messageRefused(channel: string, error: ProtocolError): void {
     this.#parts.counters.messagesRefused.add(`${channel}:${error.code}`);
     this.#parts.log.debug({ err: error, channel }, 'message refused');
+  }
+
+  #logEstop(state: EstopState): void {
+    if (!this.#estopLines.take(this.now())) {
+      this.#estopUnreported++;
+      return;
+    }
+    const unreported = this.#estopUnreported === 0 ? {} : { unreported: this.#estopUnreported };
+    this.#parts.log.warn({ estop: state, ...unreported }, 'emergency stop changed');
+    this.#estopUnreported = 0;
   }
 }

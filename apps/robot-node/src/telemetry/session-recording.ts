@@ -1,3 +1,4 @@
+import type { AuditEvent } from '@farpoint/audit';
 import {
   type Command,
   type LatencyMeasured,
@@ -258,6 +259,11 @@ export class SessionRecording implements VideoTaker {
   /** Records motion-to-photon latency as measured at the operator's display. */
   latencyMeasured(session: string, { id, frameNumber, mtpMs, firstMs }: LatencyMeasured): void {
     this.#recorder.json('motionToPhoton', monotonicMs(), { session, id, frameNumber, mtpMs, firstMs });
+  }
+
+  /** Records what the audit log records. */
+  record(event: AuditEvent): void {
+    if (this.#recorder.takes('audit')) this.#recorder.json('audit', monotonicMs(), event);
   }
 
   close(): Promise<void> {

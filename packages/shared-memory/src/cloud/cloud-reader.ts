@@ -1,6 +1,6 @@
 import { sequence32Of } from '@farpoint/protocol';
 import { SharedMemoryError } from '../errors.ts';
-import { MappedFile } from '../mapped-file.ts';
+import { MappedFile, type TrustedOwner } from '../mapped-file.ts';
 import {
   type CloudHeader,
   cloudFile,
@@ -54,8 +54,8 @@ export class CloudReader implements Disposable {
   }
 
   /** @throws {SharedMemoryError} */
-  static open(folder?: string): CloudReader {
-    const file = MappedFile.open(cloudFile(folder));
+  static open(folder?: string, owner?: TrustedOwner): CloudReader {
+    const file = MappedFile.open(cloudFile(folder), { owner });
     try {
       const bytes = new Uint8Array(Math.min(HEADER_BYTES, file.bytes));
       file.copyOut(0, bytes);

@@ -1,12 +1,14 @@
 import type { Twist } from '@farpoint/protocol';
 import { type Addon, type ControlHandle, loadAddon } from '../addon.ts';
-import { MappedFile, translated } from '../mapped-file.ts';
+import { MappedFile, type TrustedOwner, translated } from '../mapped-file.ts';
 import { BUSY_BYTES, CONTROL_BYTES, referenceFiles } from './layout.ts';
 
 export interface ControlWriterOptions {
   folder?: string | undefined;
   /** Permissions of created files. Default 0600. */
   mode?: number | undefined;
+  /** Whose files are used besides this user's own. */
+  owner?: TrustedOwner | undefined;
   /** After this long without a write, a native thread writes zero velocity, ms. */
   silenceMs: number;
 }
@@ -62,9 +64,9 @@ export class ReferenceControlWriter implements Disposable {
   }
 
   #open(): { block: MappedFile; busy: MappedFile; control: ControlHandle } {
-    const { folder, mode, silenceMs } = this.#options;
+    const { folder, mode, owner, silenceMs } = this.#options;
     const paths = referenceFiles(folder);
-    const create = { create: true, ...(mode === undefined ? {} : { mode }) };
+    const create = { create: true, owner, ...(mode === undefined ? {} : { mode }) };
     const block = MappedFile.open(paths.control, { bytes: CONTROL_BYTES, ...create });
     let busy: MappedFile | null = null;
     try {

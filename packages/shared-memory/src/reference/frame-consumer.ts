@@ -1,7 +1,7 @@
 import { BYTES_PER_POINT, pointsOfBytes } from '@farpoint/protocol';
 import type { ByteView } from '../addon.ts';
 import { SharedMemoryError } from '../errors.ts';
-import { MappedFile } from '../mapped-file.ts';
+import { MappedFile, type TrustedOwner } from '../mapped-file.ts';
 import {
   BITRATE_OFFSET,
   CLOUD_BYTES,
@@ -40,13 +40,13 @@ export class ReferenceFrameConsumer implements Disposable {
   }
 
   /** @throws {SharedMemoryError} naming the invalid file */
-  static open(folder?: string): ReferenceFrameConsumer {
+  static open(folder?: string, owner?: TrustedOwner): ReferenceFrameConsumer {
     const paths = referenceFiles(folder);
-    const cloud = MappedFile.open(paths.cloud, { bytes: CLOUD_BYTES });
+    const cloud = MappedFile.open(paths.cloud, { bytes: CLOUD_BYTES, owner });
     try {
       return new ReferenceFrameConsumer(
         cloud,
-        MappedFile.open(paths.flags, { bytes: FLAG_BYTES, writable: true }),
+        MappedFile.open(paths.flags, { bytes: FLAG_BYTES, writable: true, owner }),
       );
     } catch (error) {
       cloud.close();

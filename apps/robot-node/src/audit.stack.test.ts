@@ -1,0 +1,115 @@
+/** What the running robot writes to its audit log, and what it does not write to any log. */
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { auditCommand } from '@farpoint/audit';
+import { makeProof, soleFingerprint } from '@farpoint/grants';
+import { grantTo, makeIssuer } from '@farpoint/grants/testing';
+import type { Role } from '@farpoint/protocol';
+import { afterAll, expect, it, vi } from 'vitest';
+import { SignaledOperator } from './testing/signaled-operator.ts';
+import { useRobot } from './testing/use-robot.ts';
+
+const ROBOT = 'sim-1';
+const TOKEN = 'a-token-of-the-robot';
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-audit-'));
+const file = join(folder, 'audit.jsonl');
+const keyFile = join(folder, 'grant-keys.json');
+const issuer = await makeIssuer('k1');
+writeFileSync(keyFile, JSON.stringify({ keys: [issuer.publicJwk] }));
+afterAll(() => rmSync(folder, { recursive: true }));
+
+const robot = useRobot(ROBOT, [
+  ...['--rate-control', 'fixed', '--sim-size', '64', '--max-points', '600', '--token', TOKEN],
+  ...['--grant-keys', keyFile, '--audit-log', file],
+]);
+
+interface Entry {
+  kind: string;
+  robot: string;
+  session?: string;
+  subject?: { name: string };
+  details?: Record<string, unknown>;
+}
+const entries = () =>
+  readFileSync(file, 'utf8')
+    .trimEnd()
+    .split('\n')
+    .map((line) => JSON.parse(line) as Entry);
+
+async function connectAs(role: Role, name: string): Promise<SignaledOperator> {
+  const { grant, key } = await grantTo(issuer, Date.now() / 1000, { role, name, sub: name.toLowerCase() });
+  return robot.keep(
+    await SignaledOperator.connect(robot.stack.signalingUrl, ROBOT, {
+      credentials: async ({ session, offer, answer }) => {
+        const operatorFingerprint = soleFingerprint(answer) ?? '';
+        const robotFingerprint = soleFingerprint(offer) ?? '';
+        const facts = { robot: ROBOT, session, operatorFingerprint, robotFingerprint };
+        return { grant, proof: await makeProof(grant, facts, key, Date.now() / 1000) };
+      },
+    }),
+  );
+}
+
+it('a drive from start to end, in a chain that verifies', { timeout: 60_000 }, async () => {
+  const ada = await connectAs('drive', 'Ada');
+  await ada.client.takeLease();
+  const sue = await connectAs('supervise', 'Sue');
+  sue.client.sendSession({ type: 'estop', latch: true });
+  await ada.client.message('estop', ({ latched }) => latched);
+  const wim = await connectAs('watch', 'Wim');
+  wim.client.sendSession({ type: 'estop', latch: false });
+  wim.client.sendSession({ type: 'leaseRequest', take: true });
+  await wim.client.until(() => wim.client.session.filter(({ type }) => type === 'fault').length === 2);
+  sue.client.sendSession({ type: 'leaseRequest', take: true });
+  await ada.client.message('lease', ({ holder }) => holder === 'other');
+  // As often as it likes: neither log grows without bound.
+  for (let i = 0; i < 200; i++) sue.client.sendSession({ type: 'estop', latch: i % 2 === 1 });
+  const stranger = robot.keep(await SignaledOperator.open(robot.stack.signalingUrl, ROBOT, {}));
+  await stranger.until(({ type }) => type === 'session.closed');
+  await sue.close();
+  await vi.waitFor(() => expect(entries().at(-1)).toMatchObject({ kind: 'session-ended' }), {
+    timeout: 20_000,
+  });
+
+  const told = entries();
+  expect(told[0]).toMatchObject({
+    ...{ kind: 'started', robot: ROBOT },
+    details: { configuration: { token: 'set', simSize: 64, auditLog: file } },
+  });
+  const story = told.map(({ kind, subject }) => `${kind} ${subject?.name ?? ''}`);
+  const once = story.filter((line, i) => story.indexOf(line) === i && !/^estop|^entries/.test(line));
+  expect(once).toEqual([
+    ...['started ', 'session-began Ada', 'lease-given Ada', 'session-began Sue', 'session-began Wim'],
+    ...[
+      'refused Wim',
+      'lease-taken Sue',
+      expect.stringMatching(/^refused /),
+      'lease-released Sue',
+      'session-ended Sue',
+    ],
+  ]);
+  expect(told.filter(({ kind }) => kind === 'refused').map(({ details }) => details)).toEqual([
+    { what: 'estop-release', reason: 'not-lease-holder' },
+    { what: 'lease', reason: 'not-permitted' },
+    { what: 'admission', reason: 'grant-missing' },
+  ]);
+  expect(story.filter((line) => line === 'estop-latched Sue').length).toBeLessThanOrEqual(60);
+  const { output } = robot.stack.robot(ROBOT);
+  expect(output.match(/emergency stop changed/g)?.length).toBeLessThan(30);
+
+  // No secret, in either log.
+  expect(ada.session).not.toBe('');
+  for (const secret of [TOKEN, ada.session, sue.session]) {
+    expect(output).not.toContain(secret);
+    expect(readFileSync(file, 'utf8')).not.toContain(secret);
+  }
+
+  const said: string[] = [];
+  const rim = { stdout: { write: (text: string) => said.push(text) }, stderr: process.stderr };
+  expect(auditCommand('farpoint-robot', ['verify', file], rim)).toBe(0);
+  const text = readFileSync(file, 'utf8');
+  writeFileSync(file, text.replace('"name":"Ada"', '"name":"Eve"'));
+  expect(auditCommand('farpoint-robot', ['verify', file], rim)).toBe(1);
+  expect(said.at(-1)).toContain('entry 1 is not what was written');
+});
