@@ -200,7 +200,7 @@ describe('OperatorMessages', () => {
   it('switches the stream by message and by the reference system’s words', () => {
     const { alice } = robot();
     const switches: boolean[] = [];
-    alice.session.onStreamSwitch = (running) => switches.push(running);
+    alice.session.wishes.onStreamSwitch = (running) => switches.push(running);
     alice.session.onMessage('session', 'stop');
     alice.send({ type: 'stream', running: false });
     alice.send({ type: 'stream', running: true });
@@ -285,7 +285,7 @@ describe('roles', () => {
   it('who watches draws no barcode into what others see', () => {
     const { alice: a } = robot();
     const wanted: boolean[] = [];
-    a.session.onVideos = (_, barcode) => wanted.push(barcode);
+    a.session.wishes.onVideos = (_, barcode) => wanted.push(barcode);
     const videos = JSON.stringify({ type: 'videos', videos: [0], barcode: true });
     a.session.onMessage('session', videos);
     a.session.access = granted('watch');

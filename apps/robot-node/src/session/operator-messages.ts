@@ -1,6 +1,5 @@
 /** Interprets one operator's messages and sends the answers. */
 import {
-  type CloudFormat,
   type Command,
   clockAnswerCodec,
   decodeBandwidth,
@@ -9,7 +8,6 @@ import {
   type EndSession,
   encodeJson,
   type LatencyMeasured,
-  type LinkShares,
   type OperatorSessionMessage,
   operatorControlCodec,
   operatorSessionCodec,
@@ -22,6 +20,7 @@ import {
 import { type CommandVerdict, type RejectedCommand, RejectionReporter } from '@farpoint/safety';
 import { type Access, mayDrive, openAccess, supervises } from '../access/access.ts';
 import type { DriveStation } from '../drive/drive-station.ts';
+import { OperatorWishes } from './operator-wishes.ts';
 
 /** Sends a session's messages to its operator. */
 export interface SessionLink {
@@ -64,20 +63,12 @@ export class OperatorMessages {
   readonly id: string;
   /** What the operator may do. */
   access: Access;
-  /** Whether the operator has the stream switched on. */
-  streaming = true;
+  /** What it wants of the robot's streams. */
+  readonly wishes = new OperatorWishes();
   /** When a message last came from the operator on any channel, ms on the robot's clock. */
   heardMs: number;
   onReceiverReport: ((report: ReceiverReport) => void) | null = null;
   onReceiverLimit: ((bitsPerSecond: number) => void) | null = null;
-  onStreamSwitch: ((running: boolean) => void) | null = null;
-  onCloudFormats: ((formats: readonly CloudFormat[]) => void) | null = null;
-  onPictures: ((cameras: readonly number[]) => void) | null = null;
-  onSensors: ((sensors: readonly number[]) => void) | null = null;
-  onVideos: ((videos: readonly number[], barcode: boolean) => void) | null = null;
-  onShares: ((shares: LinkShares) => void) | null = null;
-  onListen: ((on: boolean) => void) | null = null;
-  onSpeak: ((held: boolean) => void) | null = null;
   /** Of supervisors only. */
   onEndSession: ((request: EndSession) => void) | null = null;
   readonly #host: SessionHost;
@@ -194,7 +185,7 @@ export class OperatorMessages {
   #onSession(data: string | Uint8Array): void {
     // The reference system's operators switch the stream with plain words, not JSON.
     if (typeof data === 'string' && !data.startsWith('{')) {
-      this.#switchStream(decodeStreamSwitch(data) === 'start');
+      this.wishes.switchStream(decodeStreamSwitch(data) === 'start');
       return;
     }
     this.#onRequest(decodeJson(operatorSessionCodec, data));
@@ -232,31 +223,6 @@ export class OperatorMessages {
       case 'estop':
         this.#onEstop(message.latch);
         break;
-      case 'stream':
-        this.#switchStream(message.running);
-        break;
-      case 'cloudFormats':
-        this.onCloudFormats?.(message.formats);
-        break;
-      case 'pictures':
-        this.onPictures?.(message.cameras);
-        break;
-      case 'sensors':
-        this.onSensors?.(message.sensors);
-        break;
-      case 'videos':
-        // The barcode is drawn into what everybody sees, the driver too.
-        this.onVideos?.(message.videos, message.barcode === true && mayDrive(this.access));
-        break;
-      case 'shares':
-        this.onShares?.(message);
-        break;
-      case 'listen':
-        this.onListen?.(message.on);
-        break;
-      case 'speak':
-        this.onSpeak?.(message.held);
-        break;
       case 'endSession':
         if (supervises(this.access)) this.onEndSession?.(message);
         else this.#notPermitted('only a supervisor ends the sessions of others');
@@ -264,6 +230,8 @@ export class OperatorMessages {
       case 'latencyMeasured':
         this.#host.latencyMeasured?.(this, message);
         break;
+      default:
+        this.wishes.take(message, mayDrive(this.access));
     }
   }
 
@@ -293,11 +261,5 @@ export class OperatorMessages {
 
   #notPermitted(message: string): void {
     this.send({ type: 'fault', message, reason: 'not-permitted' });
-  }
-
-  #switchStream(running: boolean): void {
-    if (this.streaming === running) return;
-    this.streaming = running;
-    this.onStreamSwitch?.(running);
   }
 }

@@ -87,27 +87,27 @@ export class OperatorSession implements FrameTarget {
       this.sender?.onReceiverLimit(bitsPerSecond);
       events.onBudgetChanged();
     };
-    this.messages.onStreamSwitch = (running) => {
+    this.messages.wishes.onStreamSwitch = (running) => {
       if (!running) this.#clear();
       events.onBudgetChanged();
     };
-    this.messages.onSensors = (sensors) => {
+    this.messages.wishes.onSensors = (sensors) => {
       this.#sensors = new Set(sensors);
       events.onCloudFormats();
       events.onBudgetChanged();
     };
-    this.messages.onListen = (on) => this.sound.listen(on);
-    this.messages.onSpeak = (held) => this.sound.speak(held);
-    this.messages.onPictures = (cameras) => this.pictures.watch(cameras);
-    this.messages.onVideos = (videos, barcode) => {
+    this.messages.wishes.onListen = (on) => this.sound.listen(on);
+    this.messages.wishes.onSpeak = (held) => this.sound.speak(held);
+    this.messages.wishes.onPictures = (cameras) => this.pictures.watch(cameras);
+    this.messages.wishes.onVideos = (videos, barcode) => {
       this.videos.want(videos, barcode);
       events.onBudgetChanged();
     };
-    this.messages.onShares = (shares) => {
+    this.messages.wishes.onShares = (shares) => {
       this.#budget.weigh(shares);
       events.onBudgetChanged();
     };
-    this.messages.onCloudFormats = (formats) => {
+    this.messages.wishes.onCloudFormats = (formats) => {
       this.#formats = new Set(formats);
       events.onCloudFormats();
       events.onBudgetChanged();
@@ -133,7 +133,7 @@ export class OperatorSession implements FrameTarget {
 
   /** Whether the operator is connected, not paused and not silent. */
   get streaming(): boolean {
-    return this.sender !== null && this.messages.streaming && !this.quiet;
+    return this.sender !== null && this.messages.wishes.streaming && !this.quiet;
   }
 
   get operatorName(): string {
