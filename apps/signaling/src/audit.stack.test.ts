@@ -24,7 +24,7 @@ interface Entry {
 
 test('connections with the names of their tokens, sessions and refusals; no secret', async () => {
   const main = join(import.meta.dirname, 'main.ts');
-  const args = ['--port', '0', '--no-reference', '--audit-log', file, '--max-faults', '2'];
+  const args = ['--port', '0', '--audit-log', file, '--max-faults', '2'];
   const tokens = ['--robot-tokens', robotTokens, '--operator-tokens', operatorTokens];
   const service = new LoggingProcess(main, [...args, ...tokens], {
     env: { ...process.env, FARPOINT_SIGNALING_TURN_SECRET: 'turn-secret' },
@@ -68,7 +68,7 @@ test('connections with the names of their tokens, sessions and refusals; no secr
   expect(
     entries.map(({ kind, robot: id, subject, details }) => ({ kind, id, subject, ...details })),
   ).toMatchObject([
-    { kind: 'started', configuration: { turnSecret: 'set', auditLog: file, reference: false } },
+    { kind: 'started', configuration: { turnSecret: 'set', auditLog: file } },
     { kind: 'connected', as: 'robot', id: 'r1', token: expect.stringMatching(/^[0-9a-f]{12}$/) },
     { kind: 'connected', as: 'operator', subject: { name: 'Ada', proven: false }, address: '127.0.0.1' },
     { kind: 'session-began', id: 'r1', subject: { name: 'Ada', proven: false } },
@@ -91,7 +91,7 @@ test('connections with the names of their tokens, sessions and refusals; no secr
 
 test('a file that cannot be opened is a mistake in the options', async () => {
   const service = new LoggingProcess(join(import.meta.dirname, 'main.ts'), [
-    ...['--port', '0', '--no-reference', '--audit-log', join(folder, 'no', 'audit')],
+    ...['--port', '0', '--audit-log', join(folder, 'no', 'audit')],
   ]);
   expect(await service.exited).toBe(2);
   expect(service.errors).toMatch(/^farpoint-signaling: --audit-log cannot be opened: .* does not exist\n$/);

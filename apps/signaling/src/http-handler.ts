@@ -1,19 +1,30 @@
-import type { RequestListener } from 'node:http';
+import type { IncomingMessage, RequestListener } from 'node:http';
 import type { createAdminHandler } from '@farpoint/service';
+import type { SignalingOptions } from './options.ts';
 import { webRoot } from './web-root.ts';
 
-/** Serves health and metrics, then the files of `folder` if given, otherwise 404. */
+type HttpOptions = Pick<SignalingOptions, 'webRoot' | 'mapOrigins' | 'connectOrigins' | 'publicMetrics'>;
+
+/** Serves health and metrics, then the files of the web root if there is one, otherwise 404. */
 export function httpHandler(
   admin: ReturnType<typeof createAdminHandler>,
-  folder: string | null,
-  imageOrigins: readonly string[] = [],
+  options: HttpOptions,
 ): RequestListener {
-  const files = folder === null ? null : webRoot(folder, imageOrigins);
+  const { webRoot: folder, publicMetrics } = options;
+  const files = folder === null ? null : webRoot(folder, options);
   return (request, response) => {
+    const isHidden = request.url?.split('?', 1)[0] === '/metrics' && !publicMetrics && !isOwnMachine(request);
+    if (isHidden) return notFound(request, response);
     if (admin(request, response)) return;
     if (files === null) notFound(request, response);
     else files(request, response, () => notFound(request, response));
   };
+}
+
+/** A proxy on this machine passes on what others ask. */
+function isOwnMachine({ socket, headers }: IncomingMessage): boolean {
+  const isLoopback = /^(::ffff:)?127\.|^::1$/.test(socket.remoteAddress ?? '');
+  return isLoopback && headers['x-forwarded-for'] === undefined && headers.forwarded === undefined;
 }
 
 export const notFound: RequestListener = (_request, response) => {

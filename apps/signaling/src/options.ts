@@ -18,6 +18,10 @@ function isHttpsOrigin(text: string): boolean {
   return /^https:\/\/[a-z0-9.-]+(:\d{1,5})?$/i.test(text) && URL.canParse(text);
 }
 
+function isSocketOrigin(text: string): boolean {
+  return /^wss?:\/\/[a-z0-9.-]+(:\d{1,5})?$/i.test(text) && URL.canParse(text);
+}
+
 const count = schema.integer({ min: 1 });
 
 export const program = defineProgram({
@@ -44,8 +48,8 @@ export const program = defineProgram({
     }),
     reference: defineOption({
       schema: schema.boolean(),
-      default: true,
-      help: "do not serve the reference system's protocol",
+      default: false,
+      help: "also serve the reference system's protocol, on ports of its own",
     }),
     referenceRobotPort: defineOption({
       schema: schema.port(),
@@ -64,6 +68,21 @@ export const program = defineProgram({
       default: false,
       help: 'require no tokens on the ports of the reference system, even if tokens are set',
     }),
+    open: defineOption({
+      schema: schema.boolean(),
+      default: false,
+      help: 'let everybody in who reaches the service, without tokens; needed on anything but loopback, if there are none',
+    }),
+    plaintextTokens: defineOption({
+      schema: schema.boolean(),
+      default: false,
+      help: 'take tokens without TLS from other machines, although others on the way can read them',
+    }),
+    publicMetrics: defineOption({
+      schema: schema.boolean(),
+      default: false,
+      help: 'answer /metrics to everybody; otherwise only to this machine, and not through a proxy',
+    }),
     webRoot: defineOption({
       schema: schema.optional(schema.text()),
       default: null,
@@ -77,6 +96,14 @@ export const program = defineProgram({
       default: [],
       argument: 'ORIGIN,…',
       help: 'servers that the web app may fetch a map’s tiles from, e.g. https://tiles.example (default: only this one)',
+    }),
+    connectOrigins: defineOption({
+      schema: schema.list(schema.text()).refine((origins) => origins.every(isSocketOrigin), {
+        message: 'must be a list of origins such as wss://signaling.example',
+      }),
+      default: [],
+      argument: 'ORIGIN,…',
+      help: 'other servers that the web app may open WebSockets to, e.g. wss://janus.example (default: only this one, and bridges on the operator’s own machine)',
     }),
     tlsCert: defineOption({
       schema: schema.optional(schema.text()),
@@ -112,7 +139,7 @@ export const program = defineProgram({
       schema: schema.list(schema.text()),
       default: [],
       argument: 'ORIGIN,…',
-      help: 'accept only pages of these origins, e.g. https://teleop.example; programs without an origin are always accepted (default: any)',
+      help: 'also accept pages of these origins, e.g. https://teleop.example, or * for any; pages that this service serves and programs without an origin are always accepted',
     }),
     trustProxy: defineOption({
       schema: schema.boolean(),

@@ -217,6 +217,35 @@ describe('admission', () => {
     await service.operator();
   });
 
+  test('by default, lets in no page of another site, and none of a name that only points here', async () => {
+    await start();
+    const from = (origin: string, host?: string) =>
+      service.open(service.url('/operator'), { origin, headers: host === undefined ? {} : { host } });
+    await expect(from('https://evil.example')).rejects.toThrow('403');
+    await expect(from('http://evil.example', 'evil.example')).rejects.toThrow('403');
+    await expect(
+      service.open(service.url('/x', 'referenceClient'), { origin: 'https://evil.example' }),
+    ).rejects.toThrow('403');
+    await from(`http://localhost:5173`);
+    await from(service.http('').replace(/\/$/, ''));
+    await service.operator();
+  });
+
+  test('does not start open to the network, and stays as it was if a reload would open it', async () => {
+    await expect(TestService.start({ host: '0.0.0.0' })).rejects.toThrow(
+      /^--host lets everybody in .*--robot-tokens and --operator-tokens, or --open/,
+    );
+    const [robotTokens, operatorTokens] = [
+      file('r.json', '["robot-token-1"]'),
+      file('o.json', '["operator-token-1"]'),
+    ];
+    await expect(TestService.start({ host: '0.0.0.0', robotTokens, operatorTokens })).rejects.toThrow(
+      '--tls-cert',
+    );
+    await start({ host: '0.0.0.0', open: true });
+    await service.operator();
+  });
+
   test('refuses too many connections in total', async () => {
     await start({ maxConnections: 1 });
     await service.robot('r1');
@@ -225,7 +254,7 @@ describe('admission', () => {
   });
 
   test('uses the addresses that the proxy saw', async () => {
-    await start({ maxConnectionsPerAddress: 1, trustProxy: true });
+    await start({ maxConnectionsPerAddress: 1, trustProxy: true, open: true });
     const via = (forwarded: string) =>
       service.open(service.url('/operator'), { headers: { 'x-forwarded-for': forwarded } });
     await via('203.0.113.9, 192.0.2.1');
@@ -270,6 +299,29 @@ describe('HTTP', () => {
     ]) {
       expect(text).toContain(`${line}\n`);
     }
+  });
+
+  test('hides metrics from everybody else, and from whoever asks through a proxy', async () => {
+    await start();
+    const status = async (headers = {}) => (await fetch(service.http('/metrics'), { headers })).status;
+    expect(await status()).toBe(200);
+    expect(await status({ 'x-forwarded-for': '203.0.113.9' })).toBe(404);
+    expect(await status({ forwarded: 'for=203.0.113.9' })).toBe(404);
+    await service.stop();
+    await start({ publicMetrics: true });
+    expect(await status({ 'x-forwarded-for': '203.0.113.9' })).toBe(200);
+  });
+
+  test('lets the page connect to this service, to bridges beside the browser, and to named servers', async () => {
+    const root = join(folder, 'web-connect');
+    mkdirSync(root, { recursive: true });
+    writeFileSync(join(root, 'index.html'), '');
+    await start({ webRoot: root, connectOrigins: ['wss://janus.example:8989'] });
+    const policy = (await fetch(service.http('/'))).headers.get('content-security-policy');
+    const connect = policy?.split('; ').find((each) => each.startsWith('connect-src'));
+    expect(connect).toBe(
+      "connect-src 'self' blob: data: ws://localhost:* ws://127.0.0.1:* wss://janus.example:8989",
+    );
   });
 
   test('serves the web app with its headers, and nothing outside it', async () => {

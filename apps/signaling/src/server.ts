@@ -12,6 +12,7 @@ import {
 import { Admission, peerAddress } from './admission.ts';
 import { auditObserver } from './audit-observer.ts';
 import { systemClock } from './clock.ts';
+import { checkExposure, isLoopback } from './exposure.ts';
 import { FarpointHub } from './farpoint-hub.ts';
 import { httpHandler, notFound } from './http-handler.ts';
 import { turnCredentials } from './ice-servers.ts';
@@ -20,6 +21,7 @@ import { LiveSockets } from './live-sockets.ts';
 import { createObserver } from './metrics.ts';
 import type { Observer, Role } from './observer.ts';
 import { defaultOptions, type SignalingOptions } from './options.ts';
+import { isOriginAllowed } from './origin-policy.ts';
 import type { Connection, Peer } from './peer.ts';
 import { ReferenceHub } from './reference-hub.ts';
 import { RevocationFiles } from './revocation-files.ts';
@@ -49,7 +51,6 @@ export interface RunningSignaling {
 }
 
 const CANDIDATES_PER_REFERENCE_ROBOT = 128;
-const LOOPBACK = /^(127\.|::1$|localhost$)/;
 
 /**
  * Starts the service.
@@ -87,6 +88,7 @@ class SignalingService implements RunningSignaling {
     const metrics = rim.metrics ?? createMetrics();
     const health = rim.health ?? new Health();
     this.#files = readFiles(options);
+    checkExposure(options, this.#files);
     this.#audit = rim.audit ?? noAudit;
     const observer = createObserver(this.#log, metrics, () => this.#counts());
     this.#observer = this.#audit === noAudit ? observer : auditObserver(this.#audit, observer);
@@ -134,7 +136,7 @@ class SignalingService implements RunningSignaling {
       const ok = this.#admission.total < options.maxConnections;
       return { ok, detail: { ...connections, robots, referenceRobots, sessions } };
     });
-    this.#http = httpHandler(createAdminHandler(health, metrics), options.webRoot, options.mapOrigins);
+    this.#http = httpHandler(createAdminHandler(health, metrics), options);
   }
 
   get ports(): SignalingPorts {
@@ -165,11 +167,12 @@ class SignalingService implements RunningSignaling {
       throw error;
     }
     this.#log.info({ host: this.#options.host, ...this.ports, tls: this.#files.tls !== null }, 'listening');
-    this.#warnIfOpen();
   }
 
   reload(): void {
-    this.#files = readFiles(this.#options);
+    const files = readFiles(this.#options);
+    checkExposure(this.#options, files);
+    this.#files = files;
     for (const listener of this.#listeners) if (this.#files.tls !== null) listener.setTls(this.#files.tls);
     this.#audit.record({ kind: 'reloaded', details: { what: 'certificate and tokens' } });
     this.#log.info('reloaded certificate and tokens');
@@ -241,12 +244,13 @@ class SignalingService implements RunningSignaling {
   }
 
   #admit(request: IncomingMessage, role: Role, connect: (peer: Peer) => Connection): UpgradeDecision {
-    const { allowedOrigins, trustProxy } = this.#options;
+    const { allowedOrigins: allowed, trustProxy, host } = this.#options;
     if (this.#closing !== null) return { status: 503, reason: 'shutting down' };
-    const { origin } = request.headers;
-    if (allowedOrigins.length > 0 && origin !== undefined && !allowedOrigins.includes(origin)) {
+    const { origin = '', host: name } = request.headers;
+    const policy = { allowed, isLocal: isLoopback(host) && !trustProxy };
+    if (!isOriginAllowed(request.headers.origin, name, policy)) {
       this.#observer.rejected(role, 'origin', origin.slice(0, 100));
-      return { status: 403, reason: 'not from this origin' };
+      return { status: 403, reason: 'not from this origin: see --allowed-origins' };
     }
     const address = peerAddress(request, trustProxy);
     const refusal = this.#admission.refusal(address);
@@ -267,19 +271,5 @@ class SignalingService implements RunningSignaling {
       sessions: farpoint.sessions,
       referenceRobots: this.#reference.counts.robots,
     };
-  }
-
-  #warnIfOpen(): void {
-    const { host, reference, referenceOpen } = this.#options;
-    if (LOOPBACK.test(host)) return;
-    const { robots, operators } = this.#files;
-    if (robots.open || operators.open) {
-      this.#log.warn(
-        { host, robots: robots.open ? 'open' : 'tokens', operators: operators.open ? 'open' : 'tokens' },
-        'anybody who can reach this address may connect: set --robot-tokens and --operator-tokens',
-      );
-    } else if (reference && referenceOpen) {
-      this.#log.warn({ host }, 'anybody who can reach the ports of the reference system may connect');
-    }
   }
 }

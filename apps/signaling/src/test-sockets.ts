@@ -84,7 +84,7 @@ export class TestService {
 
   static async start(options: Partial<SignalingOptions> = {}, rim: SignalingRim = {}): Promise<TestService> {
     const ports = { port: 0, referenceRobotPort: 0, referenceClientPort: 0 };
-    const service = await startSignaling({ shutdownMs: 200, ...ports, ...options }, rim);
+    const service = await startSignaling({ shutdownMs: 200, reference: true, ...ports, ...options }, rim);
     return new TestService(service, options.tlsCert === undefined ? 'ws' : 'wss');
   }
 

@@ -4,14 +4,24 @@ import { join } from 'node:path';
 import { OptionsError } from '@farpoint/service';
 import sirv from 'sirv';
 
-const contentSecurityPolicy = (imageOrigins: readonly string[]) =>
+/** Other servers that the page may use, besides the one that serves it. */
+export interface PageServers {
+  /** A map's tiles. */
+  readonly mapOrigins: readonly string[];
+  /** WebSockets: other signaling services, a Janus. */
+  readonly connectOrigins: readonly string[];
+}
+
+/** Bridges run on the operator's own machine. */
+const OWN_MACHINE = ['ws://localhost:*', 'ws://127.0.0.1:*'];
+
+const contentSecurityPolicy = ({ mapOrigins, connectOrigins }: PageServers) =>
   [
     "default-src 'self'",
     "script-src 'self' 'wasm-unsafe-eval'",
     "worker-src 'self' blob:",
-    // The signaling service may be on another host than the page.
-    "connect-src 'self' ws: wss: blob: data:",
-    ["img-src 'self' data: blob:", ...imageOrigins].join(' '),
+    ["connect-src 'self' blob: data:", ...OWN_MACHINE, ...connectOrigins].join(' '),
+    ["img-src 'self' data: blob:", ...mapOrigins].join(' '),
     "media-src 'self' blob:",
     "style-src 'self' 'unsafe-inline'",
     "object-src 'none'",
@@ -23,11 +33,11 @@ const contentSecurityPolicy = (imageOrigins: readonly string[]) =>
  * Serves a built web app; calls `next` for paths that are not in it. The folder is read once: restart after a new
  * build.
  *
- * @param imageOrigins other servers that the page may fetch images from: a map's tiles
+ * @param servers other servers that the page may use
  */
 export function webRoot(
   folder: string,
-  imageOrigins: readonly string[] = [],
+  servers: PageServers = { mapOrigins: [], connectOrigins: [] },
 ): (request: IncomingMessage, response: ServerResponse, next: () => void) => void {
   if (!existsSync(join(folder, 'index.html'))) {
     throw new OptionsError(
@@ -35,7 +45,7 @@ export function webRoot(
       `names a folder without index.html: ${folder} (build the web app first)`,
     );
   }
-  const policy = contentSecurityPolicy(imageOrigins);
+  const policy = contentSecurityPolicy(servers);
   return sirv(folder, {
     etag: true,
     setHeaders(response, path) {

@@ -6,7 +6,7 @@ import { transformSupport } from '@farpoint/operator';
 import { App } from './app.ts';
 import { readSettings } from './settings.ts';
 import { Notices } from './state/notices.ts';
-import { failureWords } from './status/words.ts';
+import { failureWords, forbiddenAddressWords } from './status/words.ts';
 import { hideToken, loadStored, pageOrigin } from './stored-settings.ts';
 import { showNotices } from './ui/notice.ts';
 
@@ -37,5 +37,9 @@ function start(): void {
   }
 }
 
+// The server says where its page may connect to. Without this, a forbidden address only looks unreachable.
+document.addEventListener('securitypolicyviolation', ({ effectiveDirective, blockedURI }) => {
+  if (effectiveDirective === 'connect-src') notices.tell(forbiddenAddressWords(blockedURI), 'bad');
+});
 showNotices(notices);
 start();

@@ -99,7 +99,7 @@ export class LocalStack {
         'node',
         'apps/signaling/src/main.ts',
         ...['--host', '127.0.0.1'],
-        ...['--port', String(signaling)],
+        ...['--port', String(signaling), '--reference'],
         ...['--reference-robot-port', String(referenceRobot)],
         ...['--reference-client-port', String(referenceClient)],
         ...(this.#spec.webRoot === undefined ? [] : ['--web-root', this.#spec.webRoot]),

@@ -195,6 +195,11 @@ export const failureWords = {
   },
 } as const;
 
+/** The page's server does not let it connect there. */
+export function forbiddenAddressWords(address: string): string {
+  return `This page may not connect to ${address}. Whoever runs its server can allow it (--connect-origins).`;
+}
+
 /** Why VR is unavailable; `null` if it is available. */
 export function vrUnavailable(facts: {
   secure: boolean;
