@@ -165,6 +165,26 @@ test('an incomplete or wrong handshake harms nobody', async () => {
   await expectBystandersWell();
 });
 
+test('silent connections of one address leave room for the others', async () => {
+  const small = await TestService.start({ maxConnections: 16, maxConnectionsPerAddress: 8 });
+  const { signaling: port } = small.service.ports;
+  // More than the port takes in all: 16 and 256 in reserve.
+  const silent = Array.from({ length: 400 }, () =>
+    connect({ port, host: '127.0.0.1', localAddress: '127.0.0.9' }),
+  );
+  const closed = silent.map(
+    (socket) => new Promise((resolve) => socket.on('error', () => {}).on('close', resolve)),
+  );
+  // All but 8 and 64 in reserve are closed at once.
+  await Promise.all(closed.map((one, n) => (n < 72 ? null : one)));
+  const other = await small.robot('other');
+  await small.expectSession(other, 'other', await small.operator());
+  const metrics = await (await fetch(small.http('/metrics'))).text();
+  expect(metrics).toMatch(/rejects_total\{role="operator",reason="too-many-sockets"\} 328/);
+  for (const socket of silent) socket.destroy();
+  await small.stop();
+});
+
 test('a flood of pings whose answers are not read is cut off', async () => {
   const socket = await service.operator();
   for (let i = 0; i < 60; i++) socket.socket.ping();

@@ -21,6 +21,7 @@ import {
 import { type CommandVerdict, type RejectedCommand, RejectionReporter } from '@farpoint/safety';
 import { type Access, mayDrive, openAccess, supervises } from '../access/access.ts';
 import type { DriveStation } from '../drive/drive-station.ts';
+import { MessageRates, type RatedMessage } from './message-rates.ts';
 
 /** Sends a session's messages to its operator. */
 export interface SessionLink {
@@ -44,6 +45,8 @@ export interface SessionHost {
   /** For a recording: what an operator measured. */
   latencyMeasured?(session: OperatorMessages, measured: LatencyMeasured): void;
   messageRefused(channel: string, error: ProtocolError): void;
+  /** A message was dropped because there were too many of its kind. */
+  messageLimited?(kind: RatedMessage): void;
   /** The driver's name by its grant; undefined if nobody drives or there are no grants. */
   driverName?(): string | undefined;
 }
@@ -77,6 +80,10 @@ export class OperatorMessages {
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #rejections = new RejectionReporter();
+  readonly #rates = new MessageRates((kind, tell) => {
+    this.#host.messageLimited?.(kind);
+    if (tell) this.send({ type: 'fault', message: `too many ${kind} messages: some were dropped` });
+  });
   #lastReport: number | null = null;
 
   constructor(id: string, operatorName: string, host: SessionHost, link: SessionLink) {
@@ -113,6 +120,7 @@ export class OperatorMessages {
 
   onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void {
     this.heardMs = this.#host.now();
+    if (this.#rates.drops(channel, data, this.heardMs)) return;
     try {
       if (channel === 'control') this.#onControl(data);
       else if (channel === 'session') this.#onSession(data);
@@ -140,6 +148,7 @@ export class OperatorMessages {
         this.#onCommand(message, now);
         break;
       case 'clockProbe': {
+        if (this.#rates.over('probe', now)) break;
         const { id, sentMs } = message;
         this.#link.sendControl(
           encodeJson(clockAnswerCodec, { type: 'clockAnswer', id, sentMs, robotMs: this.#host.now() }),
@@ -199,6 +208,7 @@ export class OperatorMessages {
     const { guard } = drive;
     switch (message.type) {
       case 'leaseRequest': {
+        if (this.#rates.over('lease', this.heardMs)) break;
         if (!mayDrive(this.access)) {
           this.#notPermitted(NOT_PERMITTED.detail);
           this.sendLease();

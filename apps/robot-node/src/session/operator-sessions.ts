@@ -13,6 +13,7 @@ import type { SendLoop } from '../transport/send-loop.ts';
 import type { SessionHost } from './operator-messages.ts';
 import { OperatorSession } from './operator-session.ts';
 import type { ResumeRequest } from './path-keeper.ts';
+import { WaitingPlaces } from './waiting-places.ts';
 
 export interface OperatorSessionsOptions {
   /** The robot's. */
@@ -56,6 +57,7 @@ export class OperatorSessions {
   readonly #options: OperatorSessionsOptions;
   readonly #events: OperatorSessionsEvents;
   readonly #access: RobotAccess | null;
+  readonly #waiting = new WaitingPlaces();
   #iceServers: readonly IceServer[] = [];
 
   constructor(options: OperatorSessionsOptions, events: OperatorSessionsEvents) {
@@ -135,7 +137,10 @@ export class OperatorSessions {
     // Refused, or ended while its grant was verified.
     if (this.operators.get(session) !== operator) return;
     const verdict = admitted ? await operator.answer(sdp) : 'unasked';
-    if (verdict === 'taken') return;
+    if (verdict === 'taken') {
+      this.#waiting.answered(session);
+      return;
+    }
     this.#options.counters.answersIgnored.add(verdict);
     this.#options.log.debug({ session, verdict }, 'answer ignored');
   }
@@ -147,6 +152,11 @@ export class OperatorSessions {
       // To reconnect to an open session, an operator must use session.resume.
       this.#options.log.warn({ session }, 'an open session was requested again');
       return;
+    }
+    const now = monotonicMs();
+    if (this.operators.size >= most) {
+      const overdue = this.operators.get(this.#waiting.overdue(now) ?? '');
+      overdue?.peer.close('not-connected', 'somebody else asked for a place before the connection was there');
     }
     if (this.operators.size >= most) {
       counters.sessionsRefused++;
@@ -170,6 +180,7 @@ export class OperatorSessions {
           log.debug({ reason, detail }, 'candidate refused');
         },
         onConnected: () => {
+          this.#waiting.settled(session);
           log.info({ operators: this.operators.size }, 'operator connected');
           this.#events.connected(operator);
         },
@@ -181,6 +192,7 @@ export class OperatorSessions {
       },
     );
     this.operators.set(session, operator);
+    this.#waiting.requested(session, now);
     counters.sessionsOpened++;
     log.info('session requested');
     try {
@@ -198,6 +210,7 @@ export class OperatorSessions {
     const { counters, signaling } = this.#options;
     const { id } = operator.messages;
     this.operators.delete(id);
+    this.#waiting.settled(id);
     this.#access?.forget(id);
     this.#events.ended(operator);
     counters.sessionsEnded.add(end);

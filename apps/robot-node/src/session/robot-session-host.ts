@@ -9,6 +9,7 @@ import type { CommandLog } from '../telemetry/command-log.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { SessionRecording } from '../telemetry/session-recording.ts';
 import type { VideoHub } from '../video/video-hub.ts';
+import type { RatedMessage } from './message-rates.ts';
 import type { OperatorMessages, SessionHost } from './operator-messages.ts';
 import type { OperatorSession } from './operator-session.ts';
 import { tellRings, tellVideos } from './welcome.ts';
@@ -105,5 +106,9 @@ export class RobotSessionHost implements SessionHost {
   messageRefused(channel: string, error: ProtocolError): void {
     this.#parts.counters.messagesRefused.add(`${channel}:${error.code}`);
     this.#parts.log.debug({ err: error, channel }, 'message refused');
+  }
+
+  messageLimited(kind: RatedMessage): void {
+    this.#parts.counters.messagesRefused.add(`${kind}:rate-limited`);
   }
 }
