@@ -58,8 +58,11 @@ export class Bystanders {
     await this.#robot.next('session.closed');
     const candidate = `candidate:${performance.now()}`;
     this.#referenceRobot.send({ type: 'candidate', robotId: this.#referenceId, candidate });
-    const heard = await this.#referenceClient.next('candidate');
-    mustHold(heard.candidate === candidate, 'a reference robot speaks with another one’s voice');
+    for (;;) {
+      const heard = await this.#referenceClient.next('candidate');
+      if (heard.candidate === candidate) break;
+      mustHold(heard.robotId !== this.#referenceId, 'a reference robot speaks with another one’s voice');
+    }
     const health = await inTime(
       fetch(`http://127.0.0.1:${this.#stack.ports.signaling}/healthz`),
       'signaling does not answer',

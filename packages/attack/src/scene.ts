@@ -16,6 +16,8 @@ export const GRANTED_ROBOT = 'sim-2';
 const SMALL = ['--rate-control', 'fixed', '--sim-size', '64', '--max-points', '600'];
 /** Memory that a program may gain by one attack, bytes: several times what garbage collection leaves. */
 const MAX_GROWTH_BYTES = 128 << 20;
+/** The same for all attacks together. */
+const MAX_TOTAL_GROWTH_BYTES = 384 << 20;
 
 /** The real programs, and people who use them while they are attacked. */
 export class Scene {
@@ -25,7 +27,7 @@ export class Scene {
   readonly folder: string;
   driver: LiveDriver;
   readonly #bystanders: Bystanders;
-  readonly #processes: ReadonlyMap<string, { process: ManagedProcess; bytes: number }>;
+  readonly #processes: ReadonlyMap<string, { process: ManagedProcess; firstBytes: number; bytes: number }>;
   #stranger: Socket;
   readonly #cleanups: (() => unknown)[] = [];
 
@@ -48,7 +50,10 @@ export class Scene {
     this.#stranger = parts.stranger;
     const processes = [stack.robot(ROBOT), stack.robot(GRANTED_ROBOT), stack.signaling, bridge.process];
     this.#processes = new Map(
-      processes.map((process) => [process.name, { process, bytes: residentBytes(process.pid) }]),
+      processes.map((process) => {
+        const bytes = residentBytes(process.pid);
+        return [process.name, { process, firstBytes: bytes, bytes }];
+      }),
     );
   }
 
@@ -150,9 +155,14 @@ export class Scene {
       await this.#bystanders.expectIntroductions();
       const health = await inTime(fetch(`${this.bridge.adminUrl}/healthz`), 'the bridge does not answer');
       mustHold(health.ok, 'the bridge is not well');
-      for (const [name, { process, bytes }] of this.#processes) {
-        const grown = residentBytes(process.pid) - bytes;
-        mustHold(grown < MAX_GROWTH_BYTES, `${name} has grown by ${Math.round(grown / 2 ** 20)} MB`);
+      for (const [name, facts] of this.#processes) {
+        const bytes = residentBytes(facts.process.pid);
+        const grown = Math.max(
+          bytes - facts.bytes - MAX_GROWTH_BYTES,
+          bytes - facts.firstBytes - MAX_TOTAL_GROWTH_BYTES,
+        );
+        mustHold(grown < 0, `${name} has grown from ${megabytes(facts.bytes)} to ${megabytes(bytes)} MB`);
+        facts.bytes = bytes;
       }
       return null;
     } catch (error) {
@@ -174,6 +184,10 @@ export class Scene {
     await this.stack.stop();
     rmSync(this.folder, { recursive: true, force: true });
   }
+}
+
+function megabytes(bytes: number): number {
+  return Math.round(bytes / 2 ** 20);
 }
 
 function residentBytes(pid: number): number {

@@ -56,6 +56,9 @@ export const bridgeAttacks = attacks('bridge', {
       'Mallory',
     );
     scene.later(() => robot.close());
-    await pause(500);
+    await robot.ready();
+    const noise = new Noise(32);
+    for (let n = 0; n < 200; n++) robot.sendFrame([noise.bytes(noise.below(1300)), new Uint8Array(0)]);
+    await pause(300);
   },
 });

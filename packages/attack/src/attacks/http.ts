@@ -1,4 +1,3 @@
-import { once } from 'node:events';
 import { connect } from 'node:net';
 import { attacks, mustHold, pause } from '../attack.ts';
 import { ROBOT, type Scene } from '../scene.ts';
@@ -12,7 +11,7 @@ async function raw(port: number, request: string): Promise<string> {
     answer += data;
   });
   socket.write(request, 'latin1');
-  await Promise.race([once(socket, 'close'), pause(1000)]);
+  await Promise.race([new Promise((resolve) => socket.once('close', resolve)), pause(1000)]);
   socket.destroy();
   return answer;
 }

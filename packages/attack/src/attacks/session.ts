@@ -68,12 +68,20 @@ export const sessionAttacks = attacks('session', {
     for (let n = 0; n < 1000; n++) client.sendSession({ type: 'leaseRequest', take: true });
     await pause(500);
   }),
-  'five thousand clock probes': withGuest(async (client) => {
-    for (let id = 0; id < 5000; id++) client.sendControl({ type: 'clockProbe', id, sentMs: 0 });
-    await pause(500);
+  'a thousand clock probes in a second': withGuest(async (client, scene) => {
+    for (let id = 0; id < 1000; id++) {
+      client.sendControl({ type: 'clockProbe', id, sentMs: 0 });
+      // The kit's own stack would be busier with more at once than the robot.
+      if (id % 50 === 49) await pause(50);
+    }
+    const limited = await scene.metric(
+      'farpoint_robot_messages_refused_total',
+      '{reason="probe:rate-limited"}',
+    );
+    mustHold(limited > 0, 'every probe was answered');
   }),
-  'five thousand commands at once': withGuest(async (client) => {
-    for (let sequence = 0; sequence < 5000; sequence++) client.control.send(command({ sequence }));
+  'two thousand commands at once': withGuest(async (client) => {
+    for (let sequence = 0; sequence < 2000; sequence++) client.control.send(command({ sequence }));
     await pause(500);
   }),
   'receiver reports that lie': withGuest((client) => {
