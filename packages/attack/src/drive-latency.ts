@@ -12,6 +12,9 @@ export interface Latency {
 /** A test whose frame was lost gets no answer. */
 const GIVE_UP_MS = 1000;
 
+/** Never used twice: answers of earlier measurements stay in the driver's log. */
+let nextId = 1000;
+
 /** Measures what the driver notices for some time, one test after another. */
 export async function measureLatency(driver: LiveDriver, seconds: number): Promise<Latency> {
   const { client } = driver.operator;
@@ -25,7 +28,8 @@ export async function measureLatency(driver: LiveDriver, seconds: number): Promi
     probes.delete(id);
   });
   const end = performance.now() + seconds * 1000;
-  for (let id = 1000; performance.now() < end; id++) {
+  while (performance.now() < end) {
+    const id = nextId++;
     const begun = performance.now();
     probes.set(id, begun);
     client.sendControl({ type: 'clockProbe', id, sentMs: begun });
