@@ -1,6 +1,6 @@
 import type { LocalStack } from '@farpoint/local-stack';
 import { PROTOCOL_VERSION } from '@farpoint/protocol';
-import { inTime, mustHold } from './attack.ts';
+import { inTime, mustHold } from './harm.ts';
 import { RawSocket } from './raw-socket.ts';
 
 const ID = 'bystander';

@@ -1,5 +1,5 @@
 import { SignaledOperator } from '@farpoint/robot-node/testing';
-import { inTime, mustHold, untilTrue } from './attack.ts';
+import { inTime, mustHold, untilTrue } from './harm.ts';
 
 /** In circles, so that there is always room. */
 const TWIST = { linear: { x: 0.1, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0.5 } };

@@ -1,6 +1,6 @@
 import { once } from 'node:events';
 import { WebSocket } from 'ws';
-import { inTime } from './attack.ts';
+import { inTime } from './harm.ts';
 
 type Json = Record<string, unknown>;
 

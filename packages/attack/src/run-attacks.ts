@@ -1,4 +1,5 @@
-import { type Attack, inTime, type Layer, NotTriedError } from './attack.ts';
+import type { Attack, Layer } from './attack.ts';
+import { inTime, NotTriedError } from './harm.ts';
 import { Scene } from './scene.ts';
 
 export type Outcome = 'held' | 'harmed' | 'not tried';

@@ -7,8 +7,8 @@ import { join } from 'node:path';
 import { makeIssuer, type TestIssuer } from '@farpoint/grants/testing';
 import { BridgeProcess, LocalStack, type ManagedProcess } from '@farpoint/local-stack';
 import { SignaledOperator, type SignaledOperatorOptions } from '@farpoint/robot-node/testing';
-import { HarmError, inTime, mustHold } from './attack.ts';
 import { Bystanders } from './bystanders.ts';
+import { HarmError, inTime, mustHold } from './harm.ts';
 import { LiveDriver } from './live-driver.ts';
 
 export const ROBOT = 'sim-1';

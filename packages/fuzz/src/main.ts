@@ -63,8 +63,8 @@ function row({ name, inputs, refused, outcomes, crashes, seconds, slowestMs }: F
 function save({ name, kept }: FuzzResult): void {
   const all = [...corpusOf(name), ...kept].slice(0, MOST_SAVED);
   if (all.length === 0) return;
-  const path = fileURLToPath(new URL(`../corpus/${name}.json`, import.meta.url));
-  writeFileSync(path, `${JSON.stringify(all.map(base64), null, 2)}\n`);
+  const path = fileURLToPath(new URL(`../corpus/${name}.txt`, import.meta.url));
+  writeFileSync(path, `${all.map(base64).join('\n')}\n`);
 }
 
 const { only, json, help, list, ...values } = readArguments();

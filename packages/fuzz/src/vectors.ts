@@ -20,10 +20,11 @@ function collect(value: unknown, into: Uint8Array[]): void {
   }
 }
 
-/** Inputs that were worth keeping: `corpus/PARSER.json`, a list of base64. */
+/** Inputs that were worth keeping: `corpus/PARSER.txt`, a line of base64 for each. */
 export function corpusOf(target: string): Uint8Array[] {
   const folder = fileURLToPath(new URL('../corpus/', import.meta.url));
-  if (!readdirSync(folder).includes(`${target}.json`)) return [];
-  const texts = JSON.parse(readFileSync(`${folder}${target}.json`, 'utf8')) as string[];
-  return texts.map((text) => Uint8Array.from(Buffer.from(text, 'base64')));
+  const name = `${target}.txt`;
+  if (!readdirSync(folder).includes(name)) return [];
+  const lines = readFileSync(folder + name, 'utf8').split('\n');
+  return lines.map((line) => Uint8Array.from(Buffer.from(line, 'base64')));
 }

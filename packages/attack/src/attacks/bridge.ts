@@ -1,6 +1,7 @@
 import { ReferenceRobot } from '@farpoint/conformance';
 import { hostileTexts, hugeTexts } from '@farpoint/signaling/testing';
-import { attacks, pause } from '../attack.ts';
+import { attacks } from '../attack.ts';
+import { pause } from '../harm.ts';
 import { Noise } from '../noise.ts';
 import { RawSocket } from '../raw-socket.ts';
 import type { Scene } from '../scene.ts';

@@ -1,6 +1,7 @@
 import { clientHello, closeAlert, dtlsRecord, fatalAlert, handshakeRecord } from '@farpoint/webrtc/testing';
 import { createSelfSignedCertificate } from 'werift';
-import { attacks, inTime, mustHold } from '../attack.ts';
+import { attacks } from '../attack.ts';
+import { inTime, mustHold } from '../harm.ts';
 import { Noise } from '../noise.ts';
 import { ROBOT, type Scene } from '../scene.ts';
 

@@ -2,7 +2,8 @@ import { spawn } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { repositoryRoot } from '@farpoint/local-stack';
-import { type Attack, attacks, inTime, mustHold } from '../attack.ts';
+import { type Attack, attacks } from '../attack.ts';
+import { inTime, mustHold } from '../harm.ts';
 import { Noise } from '../noise.ts';
 
 const ROBOT = [

@@ -1,7 +1,8 @@
 import { createHmac, randomBytes } from 'node:crypto';
 import { makeOperatorKey, makeProof, soleFingerprint } from '@farpoint/grants';
 import { type GrantedOperator, grantTo, makeIssuer } from '@farpoint/grants/testing';
-import { attacks, inTime, mustHold } from '../attack.ts';
+import { attacks } from '../attack.ts';
+import { inTime, mustHold } from '../harm.ts';
 import { GRANTED_ROBOT, type Scene } from '../scene.ts';
 
 interface Facts {

@@ -1,5 +1,6 @@
 import { connect } from 'node:net';
-import { attacks, mustHold, pause } from '../attack.ts';
+import { attacks } from '../attack.ts';
+import { mustHold, pause } from '../harm.ts';
 import { ROBOT, type Scene } from '../scene.ts';
 
 /** What a server answers to these bytes until it closes, or for a second. */

@@ -2,7 +2,8 @@ import { createSocket } from 'node:dgram';
 import { once } from 'node:events';
 import { connectivityCheck, strayResponse } from '@farpoint/webrtc/testing';
 import { Message } from 'werift';
-import { attacks, mustHold, pause } from '../attack.ts';
+import { attacks } from '../attack.ts';
+import { mustHold, pause } from '../harm.ts';
 import { Noise } from '../noise.ts';
 import { ROBOT, type Scene } from '../scene.ts';
 

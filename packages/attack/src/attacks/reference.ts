@@ -1,5 +1,6 @@
 import { hostileTexts, hugeTexts, protocolMessages } from '@farpoint/signaling/testing';
-import { attacks, mustHold, pause } from '../attack.ts';
+import { attacks } from '../attack.ts';
+import { mustHold, pause } from '../harm.ts';
 import { Noise } from '../noise.ts';
 import { RawSocket } from '../raw-socket.ts';
 import type { Scene } from '../scene.ts';

@@ -1,6 +1,7 @@
 import type { SignaledOperator } from '@farpoint/robot-node/testing';
 import { dataChunk, malformedChunks, sctpPacket } from '@farpoint/webrtc/testing';
-import { attacks, inTime, pause } from '../attack.ts';
+import { attacks } from '../attack.ts';
+import { inTime, pause } from '../harm.ts';
 import { Noise } from '../noise.ts';
 import type { Scene } from '../scene.ts';
 

@@ -1,5 +1,6 @@
 import type { SignaledOperator } from '@farpoint/robot-node/testing';
-import { attacks, inTime, mustHold, pause } from '../attack.ts';
+import { attacks } from '../attack.ts';
+import { inTime, mustHold, pause } from '../harm.ts';
 import { Noise } from '../noise.ts';
 import type { Scene } from '../scene.ts';
 

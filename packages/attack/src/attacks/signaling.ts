@@ -8,7 +8,8 @@ import {
   hugeTexts,
   protocolMessages,
 } from '@farpoint/signaling/testing';
-import { attacks, inTime, mustHold, pause, untilTrue } from '../attack.ts';
+import { attacks } from '../attack.ts';
+import { inTime, mustHold, pause, untilTrue } from '../harm.ts';
 import { Noise } from '../noise.ts';
 import { RawSocket } from '../raw-socket.ts';
 import { ROBOT, type Scene } from '../scene.ts';

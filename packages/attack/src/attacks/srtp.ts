@@ -1,6 +1,7 @@
 import { sendRtcp } from '@farpoint/webrtc';
 import { noiseRtcp, noiseRtp } from '@farpoint/webrtc/testing';
-import { attacks, mustHold, pause } from '../attack.ts';
+import { attacks } from '../attack.ts';
+import { mustHold, pause } from '../harm.ts';
 import { Noise } from '../noise.ts';
 import type { Scene } from '../scene.ts';
 
