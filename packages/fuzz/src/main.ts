@@ -13,7 +13,9 @@ const USAGE = `pnpm fuzz [--inputs 200000] [--only PARSER,…] [--seed 1] [--jso
 Changes valid inputs at random and lets each parser read them. An error of a type that the parser does not document is a
 crash; an input that takes longer than ${HANG_MS / 1000} s is a hang. --inputs counts for all parsers together; readers of whole
 files get fewer. The same seed gives the same inputs. --save adds inputs with new outcomes to packages/fuzz/corpus.
-Exit status: 1 after a crash or a hang, 2 for invalid arguments.`;
+Exit status: 1 after a crash, a hang, or if memory that is in use has grown by more than 96 MB, 2 for invalid arguments.`;
+/** What all parsers together may leave in memory, bytes: their own code and tables, and the inputs that were kept. */
+const MAX_GROWTH_BYTES = 96 << 20;
 /** What a corpus file holds at most. */
 const MOST_SAVED = 24;
 
@@ -47,6 +49,7 @@ function whole(name: string, text: string): number {
     : fail(`--${name} ${text}: must be a positive whole number`);
 }
 
+const megabytes = (bytes: number) => Math.round(bytes / 2 ** 20);
 const base64 = (bytes: Uint8Array) => Buffer.from(bytes).toString('base64');
 
 function row({ name, inputs, refused, outcomes, crashes, seconds, slowestMs }: FuzzResult): string {
@@ -83,17 +86,16 @@ if (list) {
   process.exit(0);
 }
 const order = { names, inputs: whole('inputs', values.inputs), seed: whole('seed', values.seed) };
-console.error(`${'parser'.padEnd(28)}    inputs   inputs/s     refused  ends      slowest  crashes`);
+console.error(`${'parser'.padEnd(28)}    inputs   inputs/s     refused  ends      slowest  crashes   memory`);
 const begun = performance.now();
-const { results, hang, memory } = await supervise(order, (result) => {
-  console.error(row(result));
+const { results, hang, memory } = await supervise(order, (result, bytes) => {
+  console.error(`${row(result)}  ${String(megabytes(bytes)).padStart(6)} MB`);
   for (const { error, input } of result.crashes) console.error(`    ${error}\n    ${base64(input)}`);
   if (values.save) save(result);
 });
 const seconds = (performance.now() - begun) / 1000;
 const inputs = results.reduce((sum, result) => sum + result.inputs, 0);
 const crashes = results.reduce((sum, result) => sum + result.crashes.length, 0);
-const megabytes = (bytes: number) => Math.round(bytes / 2 ** 20);
 console.error(
   `${inputs} inputs for ${results.length} parsers in ${seconds.toFixed(0)} s (${Math.round(inputs / seconds)} a second): ` +
     `${crashes} crashes, ${hang === null ? 'no hang' : `a hang of ${hang.name}`}; ` +
@@ -109,4 +111,5 @@ if (json) {
   console.log(JSON.stringify({ seconds, inputs, memory, hang: hang?.name ?? null, results: shown }));
 }
 const complete = results.length === names.length;
-process.exit(crashes === 0 && hang === null && complete ? 0 : 1);
+const grown = memory.last - memory.first > MAX_GROWTH_BYTES;
+process.exit(crashes === 0 && hang === null && complete && !grown ? 0 : 1);

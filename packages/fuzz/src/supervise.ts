@@ -20,7 +20,7 @@ export interface FuzzReport {
   results: FuzzResult[];
   /** The parser that did not return, if any; what would have come after it was not tried. */
   hang: Hang | null;
-  /** Resident memory after the first parser and after the last, bytes. */
+  /** In use after the first parser and after the last, bytes. */
   memory: { first: number; last: number };
 }
 
@@ -29,12 +29,12 @@ const LONGEST_INPUT = 65_536;
 export const HANG_MS = 10_000;
 const LOOK_MS = 1000;
 
-type FromWorker = { type: 'begun'; name: string } | { type: 'result'; result: FuzzResult; heapBytes: number };
+type FromWorker = { type: 'begun'; name: string } | { type: 'result'; result: FuzzResult; bytes: number };
 
 /** Runs the worker and watches that it goes on. */
 export async function supervise(
   order: Omit<FuzzOrder, 'current'>,
-  onResult: (result: FuzzResult) => void,
+  onResult: (result: FuzzResult, bytes: number) => void,
 ): Promise<FuzzReport> {
   const current = new SharedArrayBuffer(8 + LONGEST_INPUT);
   const workerData: FuzzOrder = { ...order, current };
@@ -47,9 +47,9 @@ export async function supervise(
       return;
     }
     report.results.push(message.result);
-    report.memory.first ||= message.heapBytes;
-    report.memory.last = message.heapBytes;
-    onResult(message.result);
+    report.memory.first ||= message.bytes;
+    report.memory.last = message.bytes;
+    onResult(message.result, message.bytes);
   });
   const [count, length] = [new Uint32Array(current, 0, 1), new Uint32Array(current, 4, 1)];
   let [seen, sinceMs] = [0, performance.now()];

@@ -1,9 +1,19 @@
 /** Fuzzes one parser after another in a thread, so that somebody notices if one of them never returns. */
+import { setFlagsFromString } from 'node:v8';
+import { runInNewContext } from 'node:vm';
 import { parentPort, workerData } from 'node:worker_threads';
 import { allTargets } from './all-targets.ts';
 import { fuzz } from './fuzz.ts';
 import type { FuzzOrder } from './supervise.ts';
 import { corpusOf } from './vectors.ts';
+
+/** What is in use once everything that nobody refers to has been freed, bytes. */
+function bytesInUse(): number {
+  setFlagsFromString('--expose-gc');
+  (runInNewContext('gc') as () => void)();
+  const { heapUsed, external } = process.memoryUsage();
+  return heapUsed + external;
+}
 
 if (parentPort !== null) {
   const { names, inputs, seed, current } = workerData as FuzzOrder;
@@ -20,6 +30,6 @@ if (parentPort !== null) {
     parentPort.postMessage({ type: 'begun', name: target.name });
     const own = Math.ceil((inputs * (target.share ?? 1)) / shares);
     const result = await fuzz(target, { inputs: own, seed, corpus: corpusOf(target.name), onInput });
-    parentPort.postMessage({ type: 'result', result, heapBytes: process.memoryUsage().rss });
+    parentPort.postMessage({ type: 'result', result, bytes: bytesInUse() });
   }
 }
