@@ -48,7 +48,7 @@ async function flood(
   seconds: number,
   perSecond: number,
 ): Promise<FloodResult> {
-  const before = await measureLatency(scene.driver, Math.min(seconds, 10));
+  const before = await measureLatency(scene.driver, Math.min(seconds, 6));
   const ended = await scene.metric('farpoint_robot_operators');
   const bytesBefore = scene.robotBytes;
   const { connection, robotAddress } = scene.driver;
