@@ -208,6 +208,11 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'mkdir -p ~/rcl && npm install --prefix ~/rcl rclnodejs': { because: 'needs a ROS installation' },
 
   // Benchmarks.
+  'pnpm attack': MEASURES,
+  'pnpm attack --list': MEASURES,
+  'pnpm attack --flood SECONDS': MEASURES,
+  'pnpm fuzz': MEASURES,
+  'pnpm fuzz --inputs 10000000 --seed 2': MEASURES,
   'pnpm bench --help': { help: true },
   'pnpm bench … --json': { help: true },
   ...Object.fromEntries(

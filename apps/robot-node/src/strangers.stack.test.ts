@@ -1,16 +1,17 @@
 /** Strangers cannot disturb a session: bytes on loopback against the real robot program while somebody drives. */
 import { createSocket, type Socket } from 'node:dgram';
-import { once } from 'node:events';
+import { on, once } from 'node:events';
 import { isIPv6 } from 'node:net';
+import { PROTOCOL_VERSION } from '@farpoint/protocol';
+import { clientHello, closeAlert, connectivityCheck } from '@farpoint/webrtc/testing';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
-import { createSelfSignedCertificate, Message } from 'werift';
+import { createSelfSignedCertificate } from 'werift';
+import { WebSocket } from 'ws';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 import { useRobot } from './testing/use-robot.ts';
 
 const ROBOT = 'sim-1';
 const ARGS = ['--rate-control', 'fixed', '--sim-size', '64', '--max-points', '600', '--max-operators', '3'];
-/** DTLS 1.2, epoch 0: a warning that closes the session, 15 bytes. */
-const PLAIN_ALERT = Buffer.from([21, 0xfe, 0xfd, 0, 0, 0, 0, 0, 0, 0, 9, 0, 2, 1, 0]);
 
 const robot = useRobot(ROBOT, ARGS);
 let driver: SignaledOperator;
@@ -63,14 +64,6 @@ async function untilMetric(name: string, labels: string, least: number): Promise
 
 const refused = (reason: string) => `{reason="${reason}"}`;
 
-/** A ClientHello that would begin another handshake. */
-function clientHello(): Buffer {
-  const body = [0xfe, 0xfd, ...new Array(32).fill(7), 0, 0, 0, 2, 0xc0, 0x2b, 1, 0, ...new Array(38).fill(0)];
-  const handshake = [1, 0, 0, body.length, 0, 0, 0, 0, 0, 0, 0, body.length, ...body];
-  const header = [22, 0xfe, 0xfd, 0, 0, 0, 0, 0, 0, 0, 1, 0, handshake.length];
-  return Buffer.from([...header, ...handshake]);
-}
-
 describe('strangers', { timeout: 30_000 }, () => {
   it('refuses a peer without its certificate’s key, and accepts the same peer with it', async () => {
     const signatureHash = { hash: 4, signature: 3 } as const;
@@ -99,7 +92,7 @@ describe('strangers', { timeout: 30_000 }, () => {
     const socket = await openStranger(host);
     const plain = await metric('datagrams_refused', refused('dtls-plaintext'));
     const foreign = await metric('datagrams_refused', refused('unknown-source'));
-    for (const datagram of [PLAIN_ALERT, clientHello()]) {
+    for (const datagram of [closeAlert, clientHello()]) {
       socket.send(datagram, port, host);
       // As from somebody who forges the operator's address.
       await connection.send(datagram);
@@ -116,12 +109,8 @@ describe('strangers', { timeout: 30_000 }, () => {
     let answers = 0;
     socket.on('message', () => answers++);
     const before = await metric('datagrams_refused', refused('stun-unauthenticated'));
-    const check = new Message(1, 0)
-      .setAttribute('USERNAME', `${connection.remoteUsername}:${connection.localUsername}`)
-      .setAttribute('PRIORITY', 0x7fffffff)
-      .setAttribute('ICE-CONTROLLING', 2n ** 64n - 1n)
-      .setAttribute('USE-CANDIDATE', null);
-    socket.send(check.bytes, port, host);
+    const check = connectivityCheck({ username: `${connection.remoteUsername}:${connection.localUsername}` });
+    socket.send(check, port, host);
     await untilMetric('datagrams_refused', refused('stun-unauthenticated'), before + 1);
     await expectDriving();
     expect(answers).toBe(0);
@@ -142,4 +131,57 @@ describe('strangers', { timeout: 30_000 }, () => {
     const frames = guest.client.completeFrames.length;
     await guest.client.until(() => guest.client.completeFrames.length > frames);
   });
+
+  it('ends the session of an operator that sends 4 MB in one message, and only that one', async () => {
+    const guest = await robot.connect();
+    const { sctp } = guest.client.connection.sctpTransport!;
+    void sctp.send(guest.client.control.id, 53, Buffer.alloc(4 << 20));
+    await guest.until((message) => message.type === 'session.closed');
+    expect(await metric('datagrams_refused', refused('message-too-large'))).toBe(1);
+    await expectDriving();
+  });
+
+  it('drops what exceeds an operator’s limits, by kind, and still takes its emergency stop', async () => {
+    const guest = await robot.connect();
+    const { client } = guest;
+    for (let id = 0; id < 200; id++) client.sendControl({ type: 'clockProbe', id, sentMs: 0 });
+    for (let n = 0; n < 300; n++) client.sendSession({ type: 'leaseRequest', take: false });
+    await untilMetric('messages_refused', refused('probe:rate-limited'), 100);
+    await untilMetric('messages_refused', refused('lease:rate-limited'), 150);
+    await untilMetric('messages_refused', refused('session:rate-limited'), 50);
+    await expectDriving();
+    client.sendSession({ type: 'estop', latch: true });
+    await driver.client.message('estop', ({ latched }) => latched);
+    driver.client.sendSession({ type: 'estop', latch: false });
+    await driver.client.message('estop', ({ latched }) => !latched);
+  });
+
+  it('admits an operator although unanswered requests have taken all places', async () => {
+    // Three places, one of them the driver's.
+    const idle = await Promise.all([0, 1].map(() => robot.stack.signalingUrl).map(openAndNeverAnswer));
+    const ended = await metric('sessions_ended', refused('not-connected'));
+    let guest: SignaledOperator | null = null;
+    // It asks again as the page does, until one of the others has had its second.
+    while (guest === null) {
+      const asker = robot.keep(await SignaledOperator.open(robot.stack.signalingUrl, ROBOT));
+      await asker.until(({ type }) => type === 'session.closed' || type === 'session.offer');
+      if (asker.heard.some(({ type }) => type === 'session.offer')) guest = asker;
+    }
+    await guest.client.ready();
+    expect(await metric('sessions_ended', refused('not-connected'))).toBe(ended + 1);
+    await expectDriving();
+    for (const socket of idle) socket.close();
+  });
 });
+
+/** An operator that requests a session and does nothing more. Resolves once the robot has made its offer. */
+async function openAndNeverAnswer(url: string): Promise<WebSocket> {
+  const socket = new WebSocket(new URL('/operator', url));
+  await once(socket, 'open');
+  socket.send(JSON.stringify({ type: 'operator.hello', protocol: PROTOCOL_VERSION, name: 'nobody' }));
+  socket.send(JSON.stringify({ type: 'session.open', robotId: ROBOT }));
+  for await (const [data] of on(socket, 'message')) {
+    if (JSON.parse(String(data)).type === 'session.offer') break;
+  }
+  return socket;
+}

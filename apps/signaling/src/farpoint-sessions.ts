@@ -15,6 +15,7 @@ import type { Peer } from './peer.ts';
 import { type ResumeClaim, ResumeClaims } from './resume-claims.ts';
 import type { RobotEntry, RobotRegistry } from './robot-registry.ts';
 import { type Session, type SessionLimits, SessionTable } from './session-table.ts';
+import { UnansweredSessions } from './unanswered-sessions.ts';
 
 /** A connected operator. */
 export interface OperatorEntry {
@@ -45,6 +46,7 @@ export class FarpointSessions {
   readonly #options: FarpointSessionsOptions;
   readonly #sessions: SessionTable<RobotEntry, OperatorEntry>;
   readonly #claims: ResumeClaims<RobotEntry, OperatorEntry>;
+  readonly #unanswered = new UnansweredSessions<HubSession>();
 
   constructor(options: FarpointSessionsOptions) {
     this.#options = options;
@@ -103,6 +105,7 @@ export class FarpointSessions {
       });
       return null;
     }
+    if (message.type === 'session.answer') this.#unanswered.remove(session);
     toRobot(session.robot.peer, message);
     return message.type;
   }
@@ -127,11 +130,13 @@ export class FarpointSessions {
       refuse('unknown-robot', `robot ${robotId} is not connected`, { fault: false });
       return;
     }
-    const session = this.#sessions.open(robot, operator);
+    const room = this.#unanswered.hasRoom(robotId, operator.peer.address);
+    const session = room ? this.#sessions.open(robot, operator) : null;
     if (session === null) {
       this.#tooMany(robotId, refuse);
       return;
     }
+    this.#unanswered.add(session);
     this.#options.observer.sessionOpened(session.handle, robot.id, operator.name);
     // The operator first, because it must know the handle before an offer can arrive.
     toOperator(operator.peer, { type: 'session.opened', session: session.handle, robotId });
@@ -230,13 +235,16 @@ export class FarpointSessions {
 
   #end(session: HubSession, reason: OperatorEndReason | RobotEndReason): void {
     this.#sessions.close(session);
+    this.#unanswered.remove(session);
     this.#options.observer.sessionClosed(session.handle, reason);
   }
 
   /** Ends all sessions of a side that has left, and tells the other sides. */
   endAll(owner: RobotEntry | OperatorEntry, reason: 'robot-left' | 'operator-left'): void {
     this.#claims.drop(owner);
-    for (const { handle, robot, operator } of this.#sessions.closeAll(owner)) {
+    for (const session of this.#sessions.closeAll(owner)) {
+      const { handle, robot, operator } = session;
+      this.#unanswered.remove(session);
       this.#options.observer.sessionClosed(handle, reason);
       if (reason === 'robot-left')
         toOperator(operator.peer, { type: 'session.closed', session: handle, reason });

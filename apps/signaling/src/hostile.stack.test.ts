@@ -2,6 +2,13 @@ import { connect } from 'node:net';
 import fc from 'fast-check';
 import { afterEach, beforeEach, expect, test } from 'vitest';
 import { TestService, type TestSocket } from './test-sockets.ts';
+import {
+  hostileFrames,
+  hostileHandshakes,
+  hostileTexts,
+  hugeTexts,
+  protocolMessages,
+} from './testing/hostile-messages.ts';
 
 let service: TestService;
 let robot: TestSocket;
@@ -58,31 +65,16 @@ async function attack(messages: readonly (string | Uint8Array)[], hello: boolean
   }
 }
 
-const valid = [
-  { type: 'robot.hello', protocol: 1, id: 'bystander', name: 'x', key: 'k' },
-  { type: 'operator.hello', protocol: 1, name: 'x' },
-  { type: 'session.open', robotId: 'bystander' },
-  { type: 'session.offer', session: 's', sdp: 'v=0' },
-  { type: 'session.answer', session: 's', sdp: 'v=0' },
-  { type: 'session.candidate', session: 's', candidate: { candidate: 'c', sdpMid: '0' } },
-  { type: 'session.close', session: 's', reason: 'silent' },
-  { type: 'session.resume', session: 's', robotId: 'bystander', resumeKey: 'k' },
-  { type: 'session.refuse', session: 's', claim: 'c', code: 'unknown-session' },
-  { type: 'register', name: 'x', sdpOffer: 'v=0' },
-  { type: 'offer', robotId: 0, sdpOffer: 'evil' },
-  { type: 'deregister', robotId: 0 },
-  { type: 'getRobots' },
-  { type: 'answer', robotId: 0, sdpAnswer: 'x' },
-];
-
 /** A message of the protocol with one value replaced or removed, or one byte of its text changed. */
 const mutated = fc.oneof(
-  fc.tuple(fc.constantFrom(...valid), fc.nat(), fc.anything({ maxDepth: 2 })).map(([message, at, value]) => {
-    const keys = Object.keys(message);
-    return JSON.stringify({ ...message, [keys[at % keys.length]!]: value }) as string;
-  }),
   fc
-    .tuple(fc.constantFrom(...valid), fc.nat(), fc.integer({ min: 32, max: 126 }))
+    .tuple(fc.constantFrom(...protocolMessages), fc.nat(), fc.anything({ maxDepth: 2 }))
+    .map(([message, at, value]) => {
+      const keys = Object.keys(message);
+      return JSON.stringify({ ...message, [keys[at % keys.length]!]: value }) as string;
+    }),
+  fc
+    .tuple(fc.constantFrom(...protocolMessages), fc.nat(), fc.integer({ min: 32, max: 126 }))
     .map(([message, at, code]) => {
       const text = JSON.stringify(message);
       const index = at % text.length;
@@ -111,14 +103,9 @@ test('damaged messages of the protocol', async () => {
 });
 
 test('inputs that have crashed such services before', async () => {
-  await attack(
-    ['null', 'undefined', '[]', '{}', '0', '""', 'true', '{"type":null}', '{"type":"__proto__"}'],
-    true,
-  );
-  await attack(['['.repeat(60_000)], true);
-  await attack([`{"type":${'{"a":'.repeat(10_000)}1${'}'.repeat(10_000)}}`], true);
+  await attack(hostileTexts, true);
+  for (const text of hugeTexts) await attack([text], true);
   await attack([new Uint8Array(60_000).fill(0xff)], false);
-  await attack(['{"type":"register","name":"\\u0000\\ud800","sdpOffer":"x"}'], false);
   await expectBystandersWell();
 });
 
@@ -133,13 +120,7 @@ test('messages above the limit are refused; far above it, the socket is closed w
 });
 
 test('text that is not UTF-8 and frames that break RFC 6455 close the socket', async () => {
-  const frames: [string, number[], number][] = [
-    ['text that is not UTF-8', [0x81, 0x82, 0, 0, 0, 0, 0xff, 0xff], 1007],
-    ['an unmasked frame', [0x81, 0x01, 0x41], 1002],
-    ['a reserved opcode', [0x83, 0x80, 0, 0, 0, 0], 1002],
-    ['reserved bits', [0xf1, 0x80, 0, 0, 0, 0], 1002],
-  ];
-  for (const [, bytes, code] of frames) {
+  for (const { bytes, code } of hostileFrames) {
     const socket = await service.operator();
     const { _socket } = socket.socket as unknown as { _socket: import('node:net').Socket };
     _socket.write(Uint8Array.from(bytes));
@@ -149,12 +130,7 @@ test('text that is not UTF-8 and frames that break RFC 6455 close the socket', a
 });
 
 test('an incomplete or wrong handshake harms nobody', async () => {
-  for (const request of [
-    'GET /robot HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\r\n',
-    'GET /robot HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: x\r\nSec-WebSocket-Version: 99\r\n\r\n',
-    'GET //[ HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\r\n',
-    'GET http://[ HTTP/1.1\r\nHost: x\r\nUpgrade: h2c\r\nConnection: Upgrade\r\n\r\n',
-  ]) {
+  for (const request of hostileHandshakes) {
     const socket = connect(service.service.ports.signaling, '127.0.0.1');
     socket.write(request);
     let answer = '';
@@ -163,6 +139,26 @@ test('an incomplete or wrong handshake harms nobody', async () => {
   }
   connect(service.service.ports.referenceRobot!, '127.0.0.1').end('GET / HT');
   await expectBystandersWell();
+});
+
+test('silent connections of one address leave room for the others', async () => {
+  const small = await TestService.start({ maxConnections: 16, maxConnectionsPerAddress: 8 });
+  const { signaling: port } = small.service.ports;
+  // More than the port takes in all: 16 and 256 in reserve.
+  const silent = Array.from({ length: 400 }, () =>
+    connect({ port, host: '127.0.0.1', localAddress: '127.0.0.9' }),
+  );
+  const closed = silent.map(
+    (socket) => new Promise((resolve) => socket.on('error', () => {}).on('close', resolve)),
+  );
+  // All but 8 and 64 in reserve are closed at once.
+  await Promise.all(closed.map((one, n) => (n < 72 ? null : one)));
+  const other = await small.robot('other');
+  await small.expectSession(other, 'other', await small.operator());
+  const metrics = await (await fetch(small.http('/metrics'))).text();
+  expect(metrics).toMatch(/rejects_total\{role="operator",reason="too-many-sockets"\} 328/);
+  for (const socket of silent) socket.destroy();
+  await small.stop();
 });
 
 test('a flood of pings whose answers are not read is cut off', async () => {

@@ -9,6 +9,7 @@ import { createServer as createTlsServer, type Server as TlsServer } from 'node:
 import type { AddressInfo } from 'node:net';
 import type { Duplex } from 'node:stream';
 import { type ServerOptions, type WebSocket, WebSocketServer } from 'ws';
+import { limitSocketsPerAddress } from './address-sockets.ts';
 
 export interface TlsFiles {
   readonly cert: Buffer;
@@ -27,6 +28,10 @@ export interface ListenerOptions {
   /** Longer messages close the connection (1009). */
   readonly maxPayload: number;
   readonly maxSockets: number;
+  /** Of TCP connections; `null` behind a proxy, from whose address all of them come. */
+  readonly maxSocketsPerAddress: number | null;
+  /** A connection was closed because its address has too many. */
+  readonly onSocketRefused: (address: string) => void;
   readonly closeTimeoutMs: number;
   readonly http: RequestListener;
   readonly upgrade: (request: IncomingMessage) => UpgradeDecision;
@@ -55,6 +60,9 @@ export class Listener {
         ? createServer(timeouts, options.http)
         : createTlsServer({ ...timeouts, ...options.tls }, options.http);
     server.maxConnections = options.maxSockets;
+    if (options.maxSocketsPerAddress !== null) {
+      limitSocketsPerAddress(server, options.maxSocketsPerAddress, options.onSocketRefused);
+    }
     // The types of ws lack `closeTimeout`.
     const webSocketOptions: ServerOptions & { closeTimeout: number } = {
       noServer: true,

@@ -13,6 +13,7 @@ export type RejectReason =
   | 'no-pong'
   | 'too-many-connections'
   | 'too-many-connections-per-address'
+  | 'too-many-sockets' // TCP connections of one address, closed before anything is read
   | 'origin'
   | 'unknown-path';
 

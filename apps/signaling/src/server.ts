@@ -51,6 +51,8 @@ export interface RunningSignaling {
 }
 
 const CANDIDATES_PER_REFERENCE_ROBOT = 128;
+/** Beside an address's WebSockets: requests for the page's files, and WebSockets that are being opened or refused. */
+const SPARE_SOCKETS = 64;
 
 /**
  * Starts the service.
@@ -196,7 +198,8 @@ class SignalingService implements RunningSignaling {
     http: RequestListener,
     decide: (request: IncomingMessage, url: URL) => UpgradeDecision,
   ): Promise<void> {
-    const { host, maxMessageBytes, maxConnections, shutdownMs } = this.#options;
+    const { host, maxMessageBytes, maxConnections, maxConnectionsPerAddress, trustProxy, shutdownMs } =
+      this.#options;
     this.#listeners.push(
       await Listener.open({
         host,
@@ -205,6 +208,8 @@ class SignalingService implements RunningSignaling {
         // A message slightly above the limit gets an error; one far above it closes the connection.
         maxPayload: 2 * maxMessageBytes,
         maxSockets: maxConnections + 256,
+        maxSocketsPerAddress: trustProxy ? null : maxConnectionsPerAddress + SPARE_SOCKETS,
+        onSocketRefused: (address) => this.#observer.rejected('operator', 'too-many-sockets', address),
         closeTimeoutMs: shutdownMs,
         http: this.#files.tls === null ? http : strictTransport(http),
         upgrade: (request) => {

@@ -37,3 +37,19 @@ describe.each([1, 2] as const)('decoderOf, ROS %i', (version) => {
     expect(() => decode(room.subarray(0, bytes.length - 2))).toThrow(/data needs 6 bytes, and 4 are left/);
   });
 });
+
+describe('found by fuzzing', () => {
+  const decode = decoderOf(2, IMAGE, null);
+  const bytes = messageBytes(2, IMAGE, image);
+
+  it.each([0x005d, 0x0093, 0x007f, 0x2200, 0x0003, 0x0010, 0xff01])('refuses encapsulation %i', (kind) => {
+    const other = Uint8Array.from(bytes);
+    new DataView(other.buffer).setUint16(0, kind);
+    expect(() => decode(other)).toThrow(/encapsulation 0x[0-9a-f]{4} is none of CDR/);
+  });
+
+  it('refuses a definition that refers to nothing, in a message of its own', () => {
+    expect(() => decoderOf(1, 'own/Type', 'uint3eader header')).toThrow(RosFault);
+    expect(() => decoderOf(1, 'own/Type', 'not a definition at all')).toThrow(/definition is unreadable/);
+  });
+});

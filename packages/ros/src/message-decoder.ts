@@ -35,10 +35,10 @@ function makeDecoder({ name, messageEncoding, schemaEncoding, schema }: MessageS
   if (image !== null) return image;
   const text = new TextDecoder().decode(schema);
   if (messageEncoding === 'cdr' && schemaEncoding === 'ros2msg') {
-    return checkedReader('cdr', parse(text, { ros2: true }));
+    return checkedReader('cdr', parsed(text, { ros2: true }));
   }
   if (messageEncoding === 'ros1' && schemaEncoding === 'ros1msg') {
-    return checkedReader('ros1', parse(text));
+    return checkedReader('ros1', parsed(text));
   }
   throw new RosFault(
     'unsupported',
@@ -50,19 +50,29 @@ function makeDecoder({ name, messageEncoding, schemaEncoding, schema }: MessageS
  * Decodes the messages of a live topic.
  *
  * @param definition for types that are not part of ROS: as stated by the publisher, or with all the parts
- * @throws {RosFault} `unsupported` if the definition is unknown
+ * @throws {RosFault} `unsupported` if the definition is unknown, `bad-message` if it is unreadable
  */
 export function decoderOf(
   version: 1 | 2,
   type: string,
   definition: string | MessageDefinition[] | null,
 ): (bytes: Uint8Array) => unknown {
-  const told = typeof definition === 'string' ? parse(definition) : definition;
+  const told = typeof definition === 'string' ? parsed(definition) : definition;
   const definitions = definitionsOf(version, type) ?? told;
   if (definitions === null) {
     throw new RosFault('unsupported', `the message type ${type} is unknown`);
   }
   return checkedReader(version === 1 ? 'ros1' : 'cdr', definitions);
+}
+
+/** @throws {RosFault} `bad-message` for a definition that nobody can read */
+function parsed(definition: string, options: { ros2?: boolean } = {}): MessageDefinition[] {
+  try {
+    return parse(definition, options);
+  } catch (cause) {
+    const [what] = cause instanceof Error ? cause.message.split('\n') : [];
+    throw new RosFault('bad-message', `the message definition is unreadable: ${what}`, { cause });
+  }
 }
 
 /** Refuses incomplete messages. */

@@ -195,3 +195,25 @@ describe('PointCloud2Decoder', () => {
     expect(decoded).toBeGreaterThan(0);
   });
 });
+
+it('refuses a field of a type that does not exist, found by fuzzing', () => {
+  const fields = ['x', 'y', 'z'].map((name, n) => ({
+    name,
+    offset: 4 * n,
+    datatype: n === 1 ? 69 : 7,
+    count: 1,
+  }));
+  const cloud = { ...cloudWith(fields), data: new Uint8Array(24) };
+  const into = new Float32Array(8);
+  expect(() => new PointCloud2Decoder().decode(cloud, 'optical', into)).toThrow(
+    /field y is of the unknown type 69/,
+  );
+});
+
+function cloudWith(fields: PointField[]): PointCloud2 {
+  return {
+    header: { stamp: { sec: 0, nanosec: 0 }, frame_id: 'camera' },
+    ...{ width: 2, height: 1, fields, is_bigendian: false, point_step: 12, row_step: 24, is_dense: true },
+    data: new Uint8Array(0),
+  } as PointCloud2;
+}

@@ -30,8 +30,11 @@ export function fieldReader(cloud: PointCloud2, field: PointField): (point: numb
   };
 }
 
-export function typeOf(field: PointField): { bytes: number; read: Reader } {
-  return TYPES[field.datatype - 1] as { bytes: number; read: Reader };
+/** @throws {RosFault} `bad-cloud` for a type that does not exist */
+export function typeOf({ name, datatype }: PointField): { bytes: number; read: Reader } {
+  const type = TYPES[datatype - 1];
+  if (type === undefined) throw new RosFault('bad-cloud', `field ${name} is of the unknown type ${datatype}`);
+  return type;
 }
 
 export function requireFit({ point_step }: PointCloud2, { name, offset }: PointField, bytes: number): void {

@@ -10,6 +10,8 @@ import { RosFault } from './fault.ts';
 
 const HEADER_BYTES = 4;
 const FIRST_OF_VERSION_2 = 6;
+/** Final types in either version of CDR and either byte order, as ROS messages are written. */
+const READABLE: ReadonlySet<number> = new Set([0, 1, 6, 7]);
 /** ROS has no recursive messages, but a definition from outside may be recursive. */
 const DEEPEST = 64;
 
@@ -111,6 +113,11 @@ class Cursor {
     if (bytes.length < HEADER_BYTES) throw ended(bytes.length, 'its header', HEADER_BYTES, bytes.length);
     this.#view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const representation = this.#view.getUint16(0);
+    // The library would take some of the others for another version of CDR than is checked here.
+    if (!READABLE.has(representation)) {
+      const kind = `0x${representation.toString(16).padStart(4, '0')}`;
+      throw new RosFault('bad-message', `encapsulation ${kind} is none of CDR`, { offset: 0 });
+    }
     this.#littleEndian = (representation & 1) === 1;
     this.#mostAligned = representation >= FIRST_OF_VERSION_2 ? 4 : 8;
   }

@@ -10,6 +10,8 @@ export type Refusal =
   | 'dtls-out-of-order' // a handshake message that is not allowed now: repeated, skipped, or a new handshake
   | 'dtls-early' // it arrived before the transport was ready, and the buffer for such packets is full
   | 'sctp-malformed' // a packet whose lengths, checksum or chunks violate RFC 9260
+  | 'sctp-overfull' // too many fragments, streams or bytes that wait for others; ends the session
+  | 'message-too-large' // longer than our description allows; ends the session
   | 'sctp-failed' // a well-formed packet that werift could not handle
   | 'message-malformed'; // an invalid data channel message (RFC 8832)
 

@@ -20,6 +20,7 @@ import {
 import { type CommandVerdict, type RejectedCommand, RejectionReporter } from '@farpoint/safety';
 import { type Access, mayDrive, openAccess, supervises } from '../access/access.ts';
 import type { DriveStation } from '../drive/drive-station.ts';
+import { MessageRates, type RatedMessage } from './message-rates.ts';
 import { OperatorWishes } from './operator-wishes.ts';
 
 /** Sends a session's messages to its operator. */
@@ -47,6 +48,8 @@ export interface SessionHost {
   /** For the audit log: a request that was refused. */
   refused?(session: OperatorMessages, what: 'lease' | 'estop-release', reason: string): void;
   messageRefused(channel: string, error: ProtocolError): void;
+  /** A message was dropped because there were too many of its kind. */
+  messageLimited?(kind: RatedMessage): void;
   /** The driver's name by its grant; undefined if nobody drives or there are no grants. */
   driverName?(): string | undefined;
 }
@@ -74,6 +77,10 @@ export class OperatorMessages {
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #rejections = new RejectionReporter();
+  readonly #rates = new MessageRates((kind, tell) => {
+    this.#host.messageLimited?.(kind);
+    if (tell) this.send({ type: 'fault', message: `too many ${kind} messages: some were dropped` });
+  });
   #lastReport: number | null = null;
 
   constructor(id: string, operatorName: string, host: SessionHost, link: SessionLink) {
@@ -110,6 +117,7 @@ export class OperatorMessages {
 
   onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void {
     this.heardMs = this.#host.now();
+    if (this.#rates.drops(channel, data, this.heardMs)) return;
     try {
       if (channel === 'control') this.#onControl(data);
       else if (channel === 'session') this.#onSession(data);
@@ -137,6 +145,7 @@ export class OperatorMessages {
         this.#onCommand(message, now);
         break;
       case 'clockProbe': {
+        if (this.#rates.over('probe', now)) break;
         const { id, sentMs } = message;
         this.#link.sendControl(
           encodeJson(clockAnswerCodec, { type: 'clockAnswer', id, sentMs, robotMs: this.#host.now() }),
@@ -196,6 +205,7 @@ export class OperatorMessages {
     const { guard } = drive;
     switch (message.type) {
       case 'leaseRequest': {
+        if (this.#rates.over('lease', this.heardMs)) break;
         if (!mayDrive(this.access)) {
           this.#host.refused?.(this, 'lease', 'not-permitted');
           this.#notPermitted(NOT_PERMITTED.detail);

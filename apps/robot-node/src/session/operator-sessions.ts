@@ -18,6 +18,7 @@ import type { SendLoop } from '../transport/send-loop.ts';
 import type { SessionHost } from './operator-messages.ts';
 import { OperatorSession } from './operator-session.ts';
 import type { ResumeRequest } from './path-keeper.ts';
+import { WaitingPlaces } from './waiting-places.ts';
 
 export interface OperatorSessionsOptions {
   /** The robot's. */
@@ -64,6 +65,7 @@ export class OperatorSessions {
   readonly #options: OperatorSessionsOptions;
   readonly #events: OperatorSessionsEvents;
   readonly #access: RobotAccess | null;
+  readonly #waiting = new WaitingPlaces();
   #iceServers: readonly IceServer[] = [];
 
   constructor(options: OperatorSessionsOptions, events: OperatorSessionsEvents) {
@@ -150,7 +152,10 @@ export class OperatorSessions {
     // Refused, or ended while its grant was verified.
     if (this.operators.get(session) !== operator) return;
     const verdict = admitted ? await operator.answer(sdp) : 'unasked';
-    if (verdict === 'taken') return;
+    if (verdict === 'taken') {
+      this.#waiting.answered(session);
+      return;
+    }
     this.#options.counters.answersIgnored.add(verdict);
     this.#options.log.debug({ session: shown(session), verdict }, 'answer ignored');
   }
@@ -162,6 +167,11 @@ export class OperatorSessions {
       // To reconnect to an open session, an operator must use session.resume.
       this.#options.log.warn({ session: shown(session) }, 'an open session was requested again');
       return;
+    }
+    const now = monotonicMs();
+    if (this.operators.size >= most) {
+      const overdue = this.operators.get(this.#waiting.overdue(now) ?? '');
+      overdue?.peer.close('not-connected', 'somebody else asked for a place before the connection was there');
     }
     if (this.operators.size >= most) {
       counters.sessionsRefused++;
@@ -190,6 +200,7 @@ export class OperatorSessions {
         },
         onConnected: () => {
           this.#options.audit.sessionBegan(operator.messages);
+          this.#waiting.settled(session);
           log.info({ operators: this.operators.size }, 'operator connected');
           this.#events.connected(operator);
         },
@@ -203,6 +214,7 @@ export class OperatorSessions {
     operator.messages.onEndSession = (request) =>
       this.#access?.endSession(operator, request, this.operators.values());
     this.operators.set(session, operator);
+    this.#waiting.requested(session, now);
     counters.sessionsOpened++;
     log.info('session requested');
     try {
@@ -223,6 +235,7 @@ export class OperatorSessions {
     const { counters, signaling, audit } = this.#options;
     const { id } = operator.messages;
     this.operators.delete(id);
+    this.#waiting.settled(id);
     this.#access?.forget(id);
     this.#events.ended(operator);
     audit.sessionEnded(operator.messages, end, detail);

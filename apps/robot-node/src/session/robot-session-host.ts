@@ -11,6 +11,7 @@ import type { CommandLog } from '../telemetry/command-log.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { SessionRecording } from '../telemetry/session-recording.ts';
 import type { VideoHub } from '../video/video-hub.ts';
+import type { RatedMessage } from './message-rates.ts';
 import type { OperatorMessages, SessionHost } from './operator-messages.ts';
 import type { OperatorSession } from './operator-session.ts';
 import { tellRings, tellVideos } from './welcome.ts';
@@ -136,5 +137,9 @@ export class RobotSessionHost implements SessionHost {
     const unreported = this.#estopUnreported === 0 ? {} : { unreported: this.#estopUnreported };
     this.#parts.log.warn({ estop: state, ...unreported }, 'emergency stop changed');
     this.#estopUnreported = 0;
+  }
+
+  messageLimited(kind: RatedMessage): void {
+    this.#parts.counters.messagesRefused.add(`${kind}:rate-limited`);
   }
 }

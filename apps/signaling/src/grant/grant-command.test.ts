@@ -69,7 +69,7 @@ it('issues a grant for a thumbprint and for a public key in a file', async () =>
   const jkt = await keyThumbprint(publicJwk);
   const trusted = await parseGrantKeys(readFileSync(keys, 'utf8'));
   for (const each of [jkt, file]) {
-    const { out, err } = await run(['issue', ...ada, '--for', each, '--days', '1.5', '--key', key]);
+    const { out, err } = await run(['issue', ...ada, `--for=${each}`, '--days', '1.5', '--key', key]);
     expect(err).toContain('Ada may drive kitchen-*, hall-1 until');
     const grant = await verifyGrant(out.trim(), { keys: trusted, robot: 'hall-1', nowS: NOW / 1000 });
     expect(grant).toMatchObject({ operatorKey: jkt, subject: 'Ada', expiresAtS: NOW / 1000 + 129_600 });

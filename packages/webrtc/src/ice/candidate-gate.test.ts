@@ -26,6 +26,19 @@ describe('CandidateGate', () => {
     expect(gate.waiting).toBe(0);
   });
 
+  it('adds each address and port once, and few ports of one address, anew for each description', () => {
+    const gate = new CandidateGate({ sameAddress: 2 });
+    gate.open(['a']);
+    const first = candidate('a');
+    const again = { ...first, candidate: first.candidate.replace('candidate:1', 'candidate:2') };
+    expect([first, again, candidate('a'), candidate('a')].map((one) => gate.take(one))).toEqual([
+      ...['add', 'repeated', 'add', 'too-many'],
+    ]);
+    expect(gate.take(candidate('a', { address: '192.0.2.2' }))).toBe('add');
+    gate.open(['b']);
+    expect(gate.take({ ...first, usernameFragment: 'b' })).toBe('add');
+  });
+
   it('reports an end of candidates as such, whenever it arrives', () => {
     const gate = new CandidateGate();
     expect(gate.take({ candidate: '' })).toBe('end');

@@ -10,6 +10,7 @@ export const candidateRefusals = [
   'not-udp', // over TCP, points would arrive late and in bursts
   'old-generation', // its description has been replaced by another
   'queue-full', // too many candidates wait for their description; the oldest is dropped
+  'repeated', // the same address and port again: each would be checked, and could be somebody else's
   'too-many', // more than any real connection needs
   'unusable', // the ICE agent refuses it
 ] as const;
@@ -25,15 +26,17 @@ export interface CandidateLimits {
   added: number;
   /** How many of those are names that need a look-up. */
   names: number;
+  /** How many may have the same address, with different ports: a NAT has one for each of the peer's interfaces. */
+  sameAddress: number;
 }
 
-const LIMITS: CandidateLimits = { waiting: 64, added: 128, names: 16 };
+const LIMITS: CandidateLimits = { waiting: 64, added: 128, names: 16, sameAddress: 16 };
 /** How many username fragments of former generations are remembered. */
 const MAX_PAST_FRAGMENTS = 32;
 
 // candidate:foundation component transport priority address port typ …
 const CANDIDATE =
-  /^(?:candidate:)?[\w+/]{1,32} \d{1,5} (?<transport>\S{1,16}) \d{1,10} (?<address>\S{1,255}) \d{1,5} typ \S+(?: .*)?$/;
+  /^(?:candidate:)?[\w+/]{1,32} \d{1,5} (?<transport>\S{1,16}) \d{1,10} (?<address>\S{1,255}) (?<port>\d{1,5}) typ \S+(?: .*)?$/;
 
 export class CandidateGate {
   readonly #limits: CandidateLimits;
@@ -43,6 +46,8 @@ export class CandidateGate {
   readonly #past = new Set<string>();
   #added = 0;
   #names = 0;
+  /** The ports of each address that were added. */
+  readonly #ports = new Map<string, Set<number>>();
 
   constructor(limits: Partial<CandidateLimits> = {}) {
     this.#limits = { ...LIMITS, ...limits };
@@ -73,6 +78,7 @@ export class CandidateGate {
     for (const fragment of this.#current) this.#past.delete(fragment);
     this.#added = 0;
     this.#names = 0;
+    this.#ports.clear();
     return this.#waiting.splice(0);
   }
 
@@ -87,9 +93,14 @@ export class CandidateGate {
     if (fragment !== undefined && !this.#current.has(fragment)) {
       return this.#past.has(fragment) ? 'old-generation' : this.#wait(candidate);
     }
-    const isName = groups.address?.toLowerCase().endsWith('.local') === true;
+    const address = groups.address?.toLowerCase() ?? '';
+    const ports = this.#ports.get(address) ?? new Set();
+    if (ports.has(Number(groups.port))) return 'repeated';
+    if (ports.size >= this.#limits.sameAddress) return 'too-many';
+    const isName = address.endsWith('.local');
     if (this.#added >= this.#limits.added || (isName && this.#names >= this.#limits.names)) return 'too-many';
     this.#added++;
+    this.#ports.set(address, ports.add(Number(groups.port)));
     if (isName) this.#names++;
     return 'add';
   }

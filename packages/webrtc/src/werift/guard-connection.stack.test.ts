@@ -1,10 +1,19 @@
 import { createSocket } from 'node:dgram';
 import { once } from 'node:events';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
-import { crc32c, createSelfSignedCertificate, Message, RTCPeerConnection } from 'werift';
+import { createSelfSignedCertificate, RTCPeerConnection } from 'werift';
 import { finishedData } from '../dtls/peer-proof.ts';
 import { parseRecords } from '../dtls/record.ts';
 import { stunKind } from '../stun/binding-request.ts';
+import { dtlsRecord } from '../testing/dtls-record.ts';
+import {
+  clientHello,
+  closeAlert,
+  connectivityCheck,
+  fatalAlert,
+  malformedChunks,
+  sctpPacket,
+} from '../testing/hostile-datagrams.ts';
 import { type LoopbackOptions, LoopbackPeers } from '../testing/loopback-peers.ts';
 import { guardConnection } from './guard-connection.ts';
 import { WeriftShapeError } from './werift-shape.ts';
@@ -50,18 +59,8 @@ async function stolenCertificate() {
 }
 
 function plainRecord(contentType: number, fragment: readonly number[], epoch = 0): Buffer {
-  const header = Buffer.from([contentType, 0xfe, 0xfd, 0, epoch, 0, 0, 0, 0, 1, 0, 0, fragment.length]);
-  return Buffer.concat([header, Buffer.from(fragment)]);
+  return dtlsRecord(contentType, epoch, 256, Uint8Array.from(fragment));
 }
-
-/** A ClientHello that begins a new handshake, 105 bytes including headers. */
-function clientHello(): Buffer {
-  const body = [0xfe, 0xfd, ...new Array(32).fill(7), 0, 0, 0, 2, 0xc0, 0x2b, 1, 0, ...new Array(38).fill(0)];
-  const header = [1, 0, 0, body.length, 0, 0, 0, 0, 0, 0, 0, body.length];
-  return plainRecord(22, [...header, ...body]);
-}
-
-const closeAlert = plainRecord(21, [1, 0]);
 
 for (const guardedAnswers of [false, true]) {
   describe(`a guarded connection that ${guardedAnswers ? 'answers' : 'offers'}`, () => {
@@ -177,12 +176,7 @@ describe('the handshake', () => {
 describe('a running session', () => {
   it('plaintext from the peer’s own address does not end it', async () => {
     const peers = await connect();
-    for (const datagram of [
-      closeAlert,
-      plainRecord(21, [2, 40]),
-      clientHello(),
-      plainRecord(23, [1, 2, 3]),
-    ]) {
+    for (const datagram of [closeAlert, fatalAlert, clientHello(), plainRecord(23, [1, 2, 3])]) {
       await peers.inject(datagram);
     }
     await peers.until(() => peers.refusals.get('dtls-plaintext') === 4);
@@ -208,26 +202,19 @@ describe('a running session', () => {
     await once(stranger, 'listening');
     const answers: Buffer[] = [];
     stranger.on('message', (datagram) => answers.push(datagram));
-    const check = new Message(1, 0)
-      .setAttribute('USERNAME', `${peers.guarded.iceTransports[0]?.connection.localUsername}:x`)
-      .setAttribute('PRIORITY', 1)
-      .setAttribute('ICE-CONTROLLING', 2n ** 64n - 1n)
-      .setAttribute('USE-CANDIDATE', null);
-    for (const datagram of [closeAlert, clientHello(), check.bytes]) stranger.send(datagram, port, host);
+    const username = `${peers.guarded.iceTransports[0]?.connection.localUsername}:x`;
+    const check = connectivityCheck({ username });
+    for (const datagram of [closeAlert, clientHello(), check]) stranger.send(datagram, port, host);
     await peers.until(() => peers.refusals.get('stun-unauthenticated') === 1);
     await peers.until(() => peers.refusals.get('unknown-source') === 2);
     await peers.exchange('still here');
     // Only the request authenticated with the session's password is answered: an answer to the others would have come
     // first.
     const { localPassword } = peers.guarded.iceTransports[0]?.connection ?? { localPassword: '' };
-    const sealed = new Message(1, 0)
-      .setAttribute('USERNAME', `${peers.guarded.iceTransports[0]?.connection.localUsername}:x`)
-      .setAttribute('PRIORITY', 1)
-      .setAttribute('ICE-CONTROLLED', 0n)
-      .addMessageIntegrity(Buffer.from(localPassword));
-    stranger.send(sealed.bytes, port, host);
+    const sealed = connectivityCheck({ username, password: localPassword, nominate: false });
+    stranger.send(sealed, port, host);
     await once(stranger, 'message');
-    expect(answers[0]?.subarray(8, 20)).toEqual(sealed.bytes.subarray(8, 20));
+    expect(answers[0]?.subarray(8, 20)).toEqual(sealed.subarray(8, 20));
     expect(stunKind(answers[0] as Buffer)).toBe('response');
   });
 
@@ -280,23 +267,11 @@ describe('a running session', () => {
     const peers = await connect();
     const transport = peers.other.dtlsTransports[0];
     const association = peers.guarded.sctpTransport?.sctp as unknown as { localVerificationTag: number };
-    const packet = (...chunks: number[]) => {
-      const bytes = Buffer.alloc(12 + chunks.length);
-      bytes.writeUInt16BE(5000, 0);
-      bytes.writeUInt16BE(5000, 2);
-      bytes.writeUInt32BE(association.localVerificationTag, 4);
-      bytes.set(chunks, 12);
-      bytes.writeUInt32LE(crc32c(bytes), 8);
-      return bytes;
-    };
+    const packet = (...chunks: readonly number[]) => sctpPacket(association.localVerificationTag, ...chunks);
     await transport?.sendData(Buffer.from([1, 2, 3]));
-    await transport?.sendData(packet(0, 0, 0, 0));
-    await transport?.sendData(packet(130, 0, 0, 8, 0, 13, 0, 0));
-    await transport?.sendData(packet(77, 0, 0, 4));
-    await peers.until(() => peers.refusals.get('sctp-malformed') === 4);
-    // Well framed, but two INIT chunks in one packet, which RFC 9260 forbids.
-    const init = [1, 0, 0, 20, ...new Array(16).fill(1)];
-    await transport?.sendData(packet(...init, ...init));
+    for (const chunks of malformedChunks.values()) await transport?.sendData(packet(...chunks));
+    // Two INIT chunks in one packet are well framed, but RFC 9260 forbids them.
+    await peers.until(() => peers.refusals.get('sctp-malformed') === malformedChunks.size);
     await transport?.sendData(packet(4, 0, 0, 8, 0, 1, 0, 4).fill(0, 8, 12));
     await peers.until(() => peers.refusals.get('sctp-failed') === 2);
     const { sctp } = peers.other.sctpTransport ?? {};
@@ -305,6 +280,24 @@ describe('a running session', () => {
     await sctp?.send(42, 99, Buffer.from('strange'));
     await peers.until(() => peers.refusals.get('message-malformed') === 3);
     await peers.exchange('still here');
+  });
+
+  it('refuses a message of 4 MB after its first 64 KiB, without assembling it', async () => {
+    const peers = await connect();
+    const { sctp } = peers.guarded.sctpTransport as unknown as { sctp: { inboundStreams: object } };
+    // The channel itself would refuse to send it.
+    void peers.other.sctpTransport?.sctp.send(peers.toGuarded.id, 53, Buffer.alloc(4 << 20));
+    await peers.until(() => peers.faults.length === 1);
+    expect(peers.faults).toMatchObject([{ name: 'ExcessError', message: 'message-too-large' }]);
+    expect(peers.refusals.get('message-too-large')).toBe(1);
+    expect(sctp.inboundStreams).toEqual({});
+    expect(peers.heard).toEqual(['hello']);
+  });
+
+  it('accepts a message of 64 KiB', async () => {
+    const peers = await connect();
+    await peers.exchange('x'.repeat(65_536));
+    expect(peers.faults).toEqual([]);
   });
 
   it('reports a listener that throws, and keeps working', async () => {

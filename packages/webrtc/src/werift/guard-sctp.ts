@@ -1,14 +1,18 @@
 import type { RTCSctpTransport } from 'werift';
 import type { Refusals } from '../refusal.ts';
 import { isSctpPacket } from '../sctp/packet-check.ts';
+import { excessOf, type Fragment } from '../sctp/receive-bound.ts';
 import { DCEP_OPEN, isUserMessage, PayloadProtocol } from '../sctp/user-message-check.ts';
-import { expectMethods } from './werift-shape.ts';
+import { expectMethods, WeriftShapeError } from './werift-shape.ts';
 
 type Receive = (streamId: number, payloadProtocol: number, data: Buffer) => Promise<void>;
 type Send = (streamId: number, payloadProtocol: number, data: Buffer, options?: unknown) => Promise<void>;
 
 interface AssociationShape {
   handleData(packet: Buffer): Promise<void>;
+  receiveDataChunk(chunk: Fragment): void;
+  inboundStreams: Record<number, { reassembly: Fragment[] } | undefined>;
+  lastReceivedTsn: number | undefined;
   send: Send;
   onReceive: { allUnsubscribe(): void; subscribe(receive: (...args: Parameters<Receive>) => void): unknown };
 }
@@ -22,11 +26,16 @@ interface TransportShape {
 /** Channel types of RFC 8832 §5.1: this bit marks the channel as unordered. */
 const UNORDERED = 0x80;
 
+/** A peer exceeded what an association may hold; nothing more is taken from it. */
+export class ExcessError extends Error {
+  override readonly name = 'ExcessError';
+}
+
 /**
  * Checks what arrives at an SCTP association before werift parses it. An error that werift still throws ends with the
  * packet; unguarded, it would be an unhandled rejection and end the process.
  *
- * @param onFault called if one of our listeners throws while handling a message
+ * @param onFault called if one of our listeners throws while handling a message, and with an {@link ExcessError}
  * @throws {WeriftShapeError}
  */
 export function guardSctp(
@@ -37,11 +46,15 @@ export function guardSctp(
   const shape = transport as unknown as TransportShape;
   const { sctp } = shape;
   expectMethods(shape, 'the SCTP transport', ['datachannelReceive']);
-  expectMethods(sctp, 'the SCTP association', ['handleData', 'send']);
+  expectMethods(sctp, 'the SCTP association', ['handleData', 'receiveDataChunk', 'send']);
   expectMethods(sctp.onReceive, 'the SCTP association', ['allUnsubscribe', 'subscribe']);
 
+  if (typeof sctp.inboundStreams !== 'object')
+    throw new WeriftShapeError('no streams in the SCTP association');
   const handleData = sctp.handleData.bind(sctp);
+  let exceeded = false;
   sctp.handleData = async (packet) => {
+    if (exceeded) return;
     if (!isSctpPacket(packet)) {
       refusals.add('sctp-malformed');
       return;
@@ -49,6 +62,20 @@ export function guardSctp(
     await handleData(packet).catch(() => refusals.add('sctp-failed'));
   };
 
+  const receiveDataChunk = sctp.receiveDataChunk.bind(sctp);
+  sctp.receiveDataChunk = (chunk) => {
+    if (exceeded) return;
+    const excess = excessOf(chunk, { streams: sctp.inboundStreams, lastTsn: sctp.lastReceivedTsn });
+    if (excess === null) {
+      receiveDataChunk(chunk);
+      return;
+    }
+    exceeded = true;
+    // Frees what was held.
+    sctp.inboundStreams = {};
+    refusals.add(excess);
+    onFault(new ExcessError(excess));
+  };
   sctp.onReceive.allUnsubscribe();
   sctp.onReceive.subscribe((streamId, payloadProtocol, data) => {
     if (!isUserMessage(payloadProtocol, data, shape.dataChannels[streamId] !== undefined)) {

@@ -1,0 +1,25 @@
+import { bridgeAttacks } from './attacks/bridge.ts';
+import { dtlsAttacks } from './attacks/dtls.ts';
+import { fileAttacks } from './attacks/files.ts';
+import { grantAttacks } from './attacks/grants.ts';
+import { httpAttacks } from './attacks/http.ts';
+import { iceAttacks } from './attacks/ice.ts';
+import { referenceAttacks } from './attacks/reference.ts';
+import { sctpAttacks } from './attacks/sctp.ts';
+import { sessionAttacks } from './attacks/session.ts';
+import { signalingAttacks } from './attacks/signaling.ts';
+import { srtpAttacks } from './attacks/srtp.ts';
+
+export const allAttacks = [
+  ...dtlsAttacks,
+  ...iceAttacks,
+  ...srtpAttacks,
+  ...sctpAttacks,
+  ...sessionAttacks,
+  ...grantAttacks,
+  ...signalingAttacks,
+  ...referenceAttacks,
+  ...httpAttacks,
+  ...bridgeAttacks,
+  ...fileAttacks,
+];

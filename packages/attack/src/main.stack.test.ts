@@ -1,0 +1,48 @@
+/** `pnpm attack` as users run it. */
+import { execFile } from 'node:child_process';
+import { fileURLToPath } from 'node:url';
+import { expect, it } from 'vitest';
+import { allAttacks } from './all-attacks.ts';
+import { LAYERS } from './attack.ts';
+
+const PROGRAM = fileURLToPath(new URL('main.ts', import.meta.url));
+
+function run(...args: string[]): Promise<{ code: number; out: string; err: string }> {
+  return new Promise((resolve) => {
+    execFile(process.execPath, [PROGRAM, ...args], (error, out, err) =>
+      resolve({ code: error === null ? 0 : Number(error.code), out, err }),
+    );
+  });
+}
+
+it('has attacks on every layer, each under a name of its own', async () => {
+  const { code, out } = await run('--list');
+  expect(code).toBe(0);
+  expect(out.trim().split('\n')).toHaveLength(allAttacks.length);
+  expect(new Set(allAttacks.map(({ layer }) => layer))).toEqual(new Set(LAYERS));
+  expect(new Set(allAttacks.map(({ layer, name }) => `${layer} ${name}`)).size).toBe(allAttacks.length);
+  expect(allAttacks.length).toBeGreaterThanOrEqual(60);
+});
+
+it('runs the chosen attacks against the real programs, and prints what came of each', async () => {
+  const { code, out, err } = await run('--only', 'plaintext', '--json');
+  expect(err).toContain('4 attacks: 4 held, 0 harmed, 0 not tried');
+  expect(JSON.parse(out)).toMatchObject([
+    { layer: 'dtls', name: 'plaintext close alert from a stranger', outcome: 'held', detail: null },
+    { outcome: 'held' },
+    { outcome: 'held' },
+    { outcome: 'held' },
+  ]);
+  expect(code).toBe(0);
+}, 60_000);
+
+it.each([
+  [['--only', 'nothing of the kind'], '--only nothing of the kind: no such attack'],
+  [['--flood', 'long'], '--flood long: must be a positive number'],
+  [['--flod', '1'], "Unknown option '--flod'"],
+])('%j: says which argument is invalid', async (args, message) => {
+  const { code, err } = await run(...args);
+  expect(code).toBe(2);
+  expect(err).toContain(message);
+  expect(err).not.toContain('    at ');
+});

@@ -1,0 +1,76 @@
+#!/usr/bin/env node
+/** `pnpm attack`: attacks the real programs on this machine and prints what came of it. */
+import { parseArgs } from 'node:util';
+import { allAttacks } from './all-attacks.ts';
+import { LAYERS } from './attack.ts';
+import { printFlood, printSummary, row } from './report.ts';
+import { runAttacks } from './run-attacks.ts';
+import { runFlood } from './run-flood.ts';
+
+const USAGE = `pnpm attack [--only TEXT] [--list] [--json]
+pnpm attack --flood SECONDS [--rate 10000] [--only TEXT] [--json]
+
+Starts signaling, two robots (one admits only who has a grant) and a bridge on this machine, lets an operator drive, and
+attacks them, one attack after another. An attack is held if afterwards the operator still drives in the same session with
+the same lease, others are introduced as before, no program has ended, and none has grown by more than 128 MB.
+
+--flood sends datagrams of each kind at a rate for this long while the operator drives, and prints command and frame latency
+before and during, lost sessions, and the robot's memory.
+
+--only takes attacks whose layer is TEXT, or whose name contains it (layers: ${LAYERS.join(', ')}).
+Exit status: 1 if an attack did harm or could not be tried, 2 for invalid arguments.`;
+
+function fail(message: string): never {
+  console.error(`${message}\n\n${USAGE}`);
+  return process.exit(2);
+}
+
+function readArguments() {
+  try {
+    return parseArgs({
+      options: {
+        only: { type: 'string' },
+        list: { type: 'boolean' },
+        json: { type: 'boolean' },
+        flood: { type: 'string' },
+        rate: { type: 'string', default: '10000' },
+        help: { type: 'boolean', short: 'h' },
+      },
+    }).values;
+  } catch (error) {
+    return fail(error instanceof Error ? error.message : String(error));
+  }
+}
+
+const { only, list, json, help, ...values } = readArguments();
+if (help) {
+  console.log(USAGE);
+  process.exit(0);
+}
+
+function positive(name: string, text: string): number {
+  const value = Number(text);
+  return Number.isFinite(value) && value > 0 ? value : fail(`--${name} ${text}: must be a positive number`);
+}
+
+if (values.flood !== undefined) {
+  const seconds = positive('flood', values.flood);
+  const results = await runFlood({ seconds, perSecond: positive('rate', values.rate), only });
+  if (results.length === 0) fail(`--only ${only}: no such datagrams`);
+  if (json) console.log(JSON.stringify(results));
+  else printFlood(results);
+  process.exit(results.some(({ harm }) => harm !== null) ? 1 : 0);
+}
+
+const chosen = allAttacks.filter(
+  ({ name, layer }) => only === undefined || layer === only || name.includes(only),
+);
+if (chosen.length === 0) fail(`--only ${only}: no such attack`);
+if (list) {
+  for (const { layer, name } of chosen) console.log(`${layer.padEnd(9)}  ${name}`);
+  process.exit(0);
+}
+const results = await runAttacks(chosen, (result) => console.error(row(result)));
+printSummary(results);
+if (json) console.log(JSON.stringify(results));
+process.exit(results.every(({ outcome }) => outcome === 'held') ? 0 : 1);

@@ -1,0 +1,3 @@
+export * from './dtls-record.ts';
+export * from './hello-at-once.ts';
+export * from './hostile-datagrams.ts';
