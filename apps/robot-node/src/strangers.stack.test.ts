@@ -144,11 +144,17 @@ describe('strangers', { timeout: 30_000 }, () => {
   it('drops what exceeds an operator’s limits, by kind, and still takes its emergency stop', async () => {
     const guest = await robot.connect();
     const { client } = guest;
-    for (let id = 0; id < 200; id++) client.sendControl({ type: 'clockProbe', id, sentMs: 0 });
-    for (let n = 0; n < 300; n++) client.sendSession({ type: 'leaseRequest', take: false });
-    await untilMetric('messages_refused', refused('probe:rate-limited'), 100);
-    await untilMetric('messages_refused', refused('lease:rate-limited'), 150);
-    await untilMetric('messages_refused', refused('session:rate-limited'), 50);
+    // Until the limits are felt: on a busy machine, one burst may take as long as it is allowed to.
+    const flood = setInterval(() => {
+      for (let id = 0; id < 20; id++) client.sendControl({ type: 'clockProbe', id, sentMs: 0 });
+      for (let n = 0; n < 20; n++) client.sendSession({ type: 'leaseRequest', take: false });
+    }, 20);
+    try {
+      for (const kind of ['probe', 'lease', 'session'])
+        await untilMetric('messages_refused', refused(`${kind}:rate-limited`), 50);
+    } finally {
+      clearInterval(flood);
+    }
     await expectDriving();
     client.sendSession({ type: 'estop', latch: true });
     await driver.client.message('estop', ({ latched }) => latched);
