@@ -1,6 +1,6 @@
 import { createSocket, type Socket } from 'node:dgram';
 import { once } from 'node:events';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { isIPv6 } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -57,6 +57,13 @@ export class Scene {
     );
   }
 
+  /** Lets the signaling service pass on a list of revoked grants, whoever signed it. */
+  revoke(list: string): void {
+    const draft = join(this.folder, 'revoked.new');
+    writeFileSync(draft, list);
+    renameSync(draft, join(this.folder, 'revoked.jws'));
+  }
+
   static async start(): Promise<Scene> {
     const folder = mkdtempSync(join(tmpdir(), 'farpoint-attack-'));
     const issuer = await makeIssuer('k1');
@@ -67,6 +74,7 @@ export class Scene {
         { id: ROBOT, name: 'Driven robot', args: [...SMALL, '--max-operators', '4'] },
         { id: GRANTED_ROBOT, name: 'Robot with grants', args: [...SMALL, '--grant-keys', keys] },
       ],
+      signalingArgs: ['--revocations', join(folder, 'revoked.jws')],
       env: { FARPOINT_LOG_LEVEL: 'warn' },
     });
     try {

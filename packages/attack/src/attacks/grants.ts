@@ -1,8 +1,14 @@
 import { createHmac, randomBytes } from 'node:crypto';
-import { makeOperatorKey, makeProof, soleFingerprint } from '@farpoint/grants';
-import { type GrantedOperator, grantTo, makeIssuer } from '@farpoint/grants/testing';
+import {
+  makeOperatorKey,
+  makeProof,
+  type RevocationsPayload,
+  signRevocations,
+  soleFingerprint,
+} from '@farpoint/grants';
+import { type GrantedOperator, grantTo, makeIssuer, type TestIssuer } from '@farpoint/grants/testing';
 import { attacks } from '../attack.ts';
-import { inTime, mustHold } from '../harm.ts';
+import { inTime, mustHold, untilTrue } from '../harm.ts';
 import { GRANTED_ROBOT, type Scene } from '../scene.ts';
 
 interface Facts {
@@ -51,6 +57,19 @@ function confused(grant: string, secret: string): string {
   const signed = `${header}.${claims}`;
   return `${signed}.${createHmac('sha256', secret).update(signed).digest('base64url')}`;
 }
+
+let sequence = 0;
+const payloadOf = (ids: readonly string[]): RevocationsPayload => ({
+  ...{ iss: 'attacker', iat: Math.floor(nowS()), seq: Math.floor(nowS()) + ++sequence, subjects: [] },
+  grants: ids.map((jti) => ({ jti, exp: Math.floor(nowS()) + 3600 })),
+});
+const listOf = ({ signingKey }: TestIssuer, ids: readonly string[]) =>
+  signRevocations(payloadOf(ids), signingKey);
+
+const listsTaken = (scene: Scene, outcome: string) =>
+  scene.metric('farpoint_robot_revocation_lists_total', `{outcome="${outcome}"}`, GRANTED_ROBOT);
+const untilRevoked = (scene: Scene, lists: number) =>
+  untilTrue(async () => (await listsTaken(scene, 'taken')) >= lists, 'the robot takes no list of its issuer');
 
 /** At a robot that admits only who has a grant. */
 export const grantAttacks = attacks('grants', {
@@ -112,6 +131,43 @@ export const grantAttacks = attacks('grants', {
     });
     await inTime(honest.client.ready(), 'the owner of the grant gets no session');
     await expectRefused(scene, async () => first);
+  },
+  'grant that was revoked': async (scene) => {
+    const granted = await grantTo(scene.issuer, nowS(), { jti: 'revoked-before' });
+    scene.revoke(await listOf(scene.issuer, ['revoked-before']));
+    await untilRevoked(scene, 1);
+    await expectRefused(scene, (facts) => proven(granted, facts));
+  },
+  'session that goes on after its grant was revoked': async (scene) => {
+    const granted = await grantTo(scene.issuer, nowS(), { jti: 'revoked-during' });
+    const operator = await scene.asker(GRANTED_ROBOT, { credentials: (facts) => proven(granted, facts) });
+    await inTime(operator.client.ready(), 'the owner of the grant gets no session');
+    scene.revoke(await listOf(scene.issuer, ['revoked-during']));
+    await inTime(
+      operator.until((message) => message.type === 'session.closed' && message.reason === 'grant-revoked'),
+      'the session goes on',
+      2000,
+    );
+  },
+  'list of revocations by another issuer, or an older one': async (scene) => {
+    const granted = await grantTo(scene.issuer, nowS(), { jti: 'innocent' });
+    const operator = await scene.asker(GRANTED_ROBOT, { credentials: (facts) => proven(granted, facts) });
+    await inTime(operator.client.ready(), 'the owner of the grant gets no session');
+    const older = { ...payloadOf(['innocent']), seq: 1 };
+    for (const [list, outcome] of [
+      [await listOf(await makeIssuer('k1'), ['innocent']), 'revocations-untrusted'],
+      [await listOf(await makeIssuer('k9'), ['innocent']), 'revocations-untrusted'],
+      [await signRevocations(older, scene.issuer.signingKey), 'revocations-older'],
+    ] as const) {
+      const before = await listsTaken(scene, outcome);
+      scene.revoke(list);
+      await untilTrue(async () => (await listsTaken(scene, outcome)) > before, 'the list was not judged');
+    }
+    const { length } = operator.client.completeFrames;
+    await inTime(
+      operator.client.until(() => operator.client.completeFrames.length > length),
+      'a session ended by a list that nobody trusts',
+    );
   },
   'texts of 4 KB for grant and proof': (scene) =>
     expectRefused(scene, async () => ({

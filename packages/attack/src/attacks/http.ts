@@ -31,6 +31,22 @@ async function atAll(scene: Scene, request: string): Promise<string[]> {
 const get = (path: string, more = '') =>
   `GET ${path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n${more}\r\n`;
 
+/** A WebSocket on the ports for peers, from a page that is not ours, is not opened. */
+async function expectNoSocket({ stack }: Scene, headers: string, what: string): Promise<void> {
+  const upgrade =
+    'Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n';
+  const { signaling, referenceRobot, referenceClient } = stack.ports;
+  for (const [port, path] of [
+    [signaling, '/operator'],
+    [signaling, '/robot'],
+    [referenceRobot, '/'],
+    [referenceClient, '/'],
+  ] as const) {
+    const answer = await raw(port, `GET ${path} HTTP/1.1\r\n${headers}${upgrade}\r\n`);
+    mustHold(answer.startsWith('HTTP/1.1 403'), `${what}: a socket at ${path} of port ${port}`);
+  }
+}
+
 /** On every HTTP port: signaling, the reference port, and what robot and bridge tell about themselves. */
 export const httpAttacks = attacks('http', {
   'paths that leave the folder': async (scene) => {
@@ -79,6 +95,18 @@ export const httpAttacks = attacks('http', {
     await atAll(scene, '\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03');
     await atAll(scene, '\x00'.repeat(10_000));
     await atAll(scene, 'SSH-2.0-x\r\n');
+  },
+  'pages of other websites': async (scene) => {
+    for (const origin of ['https://evil.example', 'http://127.0.0.1.evil.example', 'null', 'file://'])
+      await expectNoSocket(scene, `Host: localhost\r\nOrigin: ${origin}\r\n`, origin);
+  },
+  'a name of the attacker’s that points to this machine': (scene) =>
+    expectNoSocket(scene, 'Host: evil.example:3000\r\nOrigin: http://evil.example:3000\r\n', 'rebinding'),
+  'metrics through a proxy': async ({ stack }) => {
+    for (const forwarded of ['X-Forwarded-For: 203.0.113.9', 'Forwarded: for=203.0.113.9']) {
+      const answer = await raw(stack.ports.signaling, get('/metrics', `${forwarded}\r\n`));
+      mustHold(answer.startsWith('HTTP/1.1 404'), 'metrics are told to others');
+    }
   },
   'secrets in health and metrics': async (scene) => {
     for (const path of ['/healthz', '/metrics']) {
