@@ -1,6 +1,11 @@
 /** `pnpm bench connect`: how long it takes to establish a session. */
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { ReferenceOperator } from '@farpoint/conformance';
+import { makeProof, soleFingerprint } from '@farpoint/grants';
+import { grantTo, makeIssuer } from '@farpoint/grants/testing';
 import { LocalStack } from '@farpoint/local-stack';
 import { SignaledOperator } from '@farpoint/robot-node/testing';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
@@ -11,9 +16,10 @@ const USAGE = `pnpm bench connect [--count 20] [--json]
 Real signaling and robot (simulated office), each in its own process, without a network between them. An operator in this
 process connects --count times in each profile, one after the other. It starts the DTLS handshake as soon as its own
 connectivity checks succeed, which may be before the robot's do. Farpoint profile: from opening the signaling socket to the
-robot's welcome. Reference profile: from the client port of signaling to the open data channels, once the robot's offer exists.`;
+robot's welcome; with a grant: at a robot that asks for one, with the proof that goes with it. Reference profile: from the client port of signaling to the open data channels, once the robot's offer exists.`;
 
 const ROBOT = 'sim-1';
+const GRANTED = 'sim-2';
 const NAME = 'Simulated robot';
 
 export const bench: Bench = {
@@ -30,8 +36,16 @@ export const bench: Bench = {
     });
     if (values.help) return console.log(USAGE);
     const count = numberOption('count', values.count, 1);
+    const folder = mkdtempSync(join(tmpdir(), 'farpoint-bench-connect-'));
+    const keys = join(folder, 'grant-keys.json');
+    const issuer = await makeIssuer();
+    writeFileSync(keys, JSON.stringify({ keys: [issuer.publicJwk] }));
+    const args = ['--sim-size', '64'];
     const stack = await LocalStack.start({
-      robots: [{ id: ROBOT, name: NAME, reference: true, args: ['--sim-size', '64'] }],
+      robots: [
+        { id: ROBOT, name: NAME, reference: true, args },
+        { id: GRANTED, name: NAME, args: [...args, '--grant-keys', keys] },
+      ],
       env: { FARPOINT_LOG_LEVEL: 'warn' },
     });
     try {
@@ -46,6 +60,19 @@ export const bench: Bench = {
         const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT, { helloAtOnce: true });
         return () => operator.close();
       });
+      const { grant, key } = await grantTo(issuer, Date.now() / 1000);
+      const grantedMs = await times(count, async () => {
+        const operator = await SignaledOperator.connect(stack.signalingUrl, GRANTED, {
+          helloAtOnce: true,
+          credentials: async ({ session, offer, answer }) => {
+            const operatorFingerprint = soleFingerprint(answer) ?? '';
+            const robotFingerprint = soleFingerprint(offer) ?? '';
+            const facts = { robot: GRANTED, session, operatorFingerprint, robotFingerprint };
+            return { grant, proof: await makeProof(grant, facts, key, Date.now() / 1000) };
+          },
+        });
+        return () => operator.close();
+      });
       const referenceMs = await times(
         count,
         async () => {
@@ -54,17 +81,19 @@ export const bench: Bench = {
         },
         offered,
       );
-      const results = { farpointMs, referenceMs };
+      const results = { farpointMs, grantedMs, referenceMs };
       printTable(
         ['connected after, ms', 'p50', 'p95', 'p99', 'max'],
         [
           ['Farpoint’s profile', ...distributionCells(farpointMs)],
+          ['with a grant', ...distributionCells(grantedMs)],
           ['reference profile', ...distributionCells(referenceMs)],
         ],
       );
       if (values.json) printJson({ bench: 'connect', count, ...results });
     } finally {
       await stack.stop();
+      rmSync(folder, { recursive: true });
     }
   },
 };
