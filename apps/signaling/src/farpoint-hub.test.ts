@@ -14,7 +14,7 @@ const limits = {
   helloTimeoutMs: 1000,
 };
 
-function setup(options: { robots?: AccessList; operators?: AccessList } = {}) {
+function setup(options: { robots?: AccessList; operators?: AccessList; signInUrl?: string } = {}) {
   const clock = new FakeClock();
   const observer = new RecordingObserver();
   let handles = 0;
@@ -30,6 +30,7 @@ function setup(options: { robots?: AccessList; operators?: AccessList } = {}) {
     }),
     iceServers: (name) => [{ urls: 'turn:turn.example', username: name, credential: 'c' }],
     makeHandle: () => `s${++handles}`,
+    signInUrl: options.signInUrl ?? null,
   });
   const robot = (id: string, key = `key-${id}`, more: Json = {}): FakeClient => {
     const client = new FakeClient((peer) => hub.robot(peer));
@@ -69,6 +70,11 @@ describe('hello', () => {
       { type: 'operator.welcome', iceServers: [expect.objectContaining({ urls: 'turn:turn.example' })] },
       { type: 'robots', robots: [{ id: 'r1', name: 'Robot r1' }] },
     ]);
+  });
+
+  test('tells operators where they sign in', () => {
+    const signInUrl = 'https://issuer.example/sign-in';
+    expect(setup({ signInUrl }).operator().take()[0]).toMatchObject({ signIn: signInUrl });
   });
 
   test('must come first', () => {

@@ -22,6 +22,8 @@ export interface FarpointHubOptions extends HubConnectionOptions {
   /** The ICE servers that a peer with this name should use. */
   readonly iceServers: (name: string) => IceServer[];
   readonly makeHandle: () => string;
+  /** Where operators sign in for a grant. */
+  readonly signInUrl: string | null;
 }
 
 /** Introduces robots and operators over Farpoint's own protocol (see `@farpoint/protocol`, signaling/farpoint.ts). */
@@ -138,9 +140,11 @@ export class FarpointHub {
       return 'refused';
     }
     this.#operators++;
+    const { signInUrl } = this.#options;
     toOperator(peer, {
       type: 'operator.welcome',
       iceServers: this.#options.iceServers(`operator-${peer.id}`),
+      ...(signInUrl === null ? {} : { signIn: signInUrl }),
     });
     this.#feed.add(peer);
     return { name: hello.name, peer };

@@ -5,10 +5,11 @@ import {
   createMetrics,
   Health,
   type Logger,
+  peerAddress,
   type Registry,
   silentLogger,
 } from '@farpoint/service';
-import { Admission, peerAddress } from './admission.ts';
+import { Admission } from './admission.ts';
 import { systemClock } from './clock.ts';
 import { FarpointHub } from './farpoint-hub.ts';
 import { httpHandler, notFound } from './http-handler.ts';
@@ -101,6 +102,7 @@ class SignalingService implements RunningSignaling {
             ]),
       ],
       makeHandle: () => randomBytes(16).toString('base64url'),
+      signInUrl: options.signInUrl,
     });
     this.#reference = new ReferenceHub({
       ...core,
