@@ -1,6 +1,7 @@
 import { parseGrantKeys, verifyGrant } from '@farpoint/grants';
 import { makeIssuer } from '@farpoint/grants/testing';
 import { parseSignInAnswer, signInAddress } from '@farpoint/protocol';
+import fc from 'fast-check';
 import { beforeEach, describe, expect, it } from 'vitest';
 import { AddressLimiter } from './address-limiter.ts';
 import { isAllowedPage } from './allowed-pages.ts';
@@ -137,6 +138,26 @@ describe('a sign-in', () => {
     for (let i = 0; i < 3; i++) await desk.finish(back('x'), caller(), NOW);
     expect(await desk.finish(back('x'), caller(), NOW)).toMatchObject({ status: 429 });
   });
+});
+
+it('whatever is asked, a browser is sent to the provider or to one of our pages, or nowhere', async () => {
+  const text = fc.oneof(
+    fc.string(),
+    fc.webUrl(),
+    fc.constantFrom(BACK, KEY, 'https://teleop.example', '//evil.example'),
+  );
+  const query = fc.dictionary(fc.oneof(fc.string(), fc.constantFrom('key', 'return', 'state', 'code')), text);
+  await fc.assert(
+    fc.asyncProperty(query, async (members) => {
+      for (const reply of [
+        await desk.begin(new URLSearchParams(members), caller(), NOW),
+        await desk.finish(new URLSearchParams(members), caller(), NOW),
+      ]) {
+        const { origin } = 'redirect' in reply ? new URL(reply.redirect) : { origin: null };
+        expect(['https://login.example', 'https://teleop.example', null]).toContain(origin);
+      }
+    }),
+  );
 });
 
 it.each([
