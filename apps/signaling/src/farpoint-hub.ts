@@ -140,11 +140,10 @@ export class FarpointHub {
       return 'refused';
     }
     this.#operators++;
-    const { signInUrl } = this.#options;
     toOperator(peer, {
       type: 'operator.welcome',
       iceServers: this.#options.iceServers(`operator-${peer.id}`),
-      ...(signInUrl === null ? {} : { signIn: signInUrl }),
+      ...(this.#options.signInUrl === null ? {} : { signIn: this.#options.signInUrl }),
     });
     this.#feed.add(peer);
     return { name: hello.name, peer };

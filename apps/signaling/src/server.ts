@@ -5,11 +5,10 @@ import {
   createMetrics,
   Health,
   type Logger,
-  peerAddress,
   type Registry,
   silentLogger,
 } from '@farpoint/service';
-import { Admission } from './admission.ts';
+import { Admission, peerAddress } from './admission.ts';
 import { systemClock } from './clock.ts';
 import { FarpointHub } from './farpoint-hub.ts';
 import { httpHandler, notFound } from './http-handler.ts';
