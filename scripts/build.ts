@@ -1,7 +1,7 @@
-/** `pnpm build`: builds what is deployed: the signaling bundle and the static web app. */
+/** `pnpm build`: builds what is deployed: the bundles of the signaling service and the issuer, and the static web app. */
 import { run } from './lib/run.ts';
 
-for (const name of ['@farpoint/signaling', '@farpoint/webxr']) {
+for (const name of ['@farpoint/signaling', '@farpoint/issuer', '@farpoint/webxr']) {
   console.log(`building ${name}`);
   const { code, output } = await run('pnpm', ['--filter', name, 'run', 'build']);
   if (code !== 0) {

@@ -14,7 +14,9 @@ const limits = {
   helloTimeoutMs: 1000,
 };
 
-function setup(options: { robots?: AccessList; operators?: AccessList; revocations?: string[] } = {}) {
+function setup(
+  options: { robots?: AccessList; operators?: AccessList; revocations?: string[]; signInUrl?: string } = {},
+) {
   const clock = new FakeClock();
   const observer = new RecordingObserver();
   let handles = 0;
@@ -31,6 +33,7 @@ function setup(options: { robots?: AccessList; operators?: AccessList; revocatio
     iceServers: (name) => [{ urls: 'turn:turn.example', username: name, credential: 'c' }],
     revocations: () => options.revocations ?? [],
     makeHandle: () => `s${++handles}`,
+    signInUrl: options.signInUrl ?? null,
   });
   const robot = (id: string, key = `key-${id}`, more: Json = {}): FakeClient => {
     const client = new FakeClient((peer) => hub.robot(peer));
@@ -80,6 +83,11 @@ describe('hello', () => {
     o.take();
     hub.tellRevocations('g.h.i');
     expect([r.take(), o.take()]).toEqual([[{ type: 'revocations', list: 'g.h.i' }], []]);
+  });
+
+  test('tells operators where they sign in', () => {
+    const signInUrl = 'https://issuer.example/sign-in';
+    expect(setup({ signInUrl }).operator().take()[0]).toMatchObject({ signIn: signInUrl });
   });
 
   test('must come first', () => {

@@ -26,6 +26,8 @@ export interface FarpointHubOptions extends HubConnectionOptions {
   /** The lists of revoked grants that every robot gets; default none. */
   readonly revocations?: () => Iterable<string>;
   readonly makeHandle: () => string;
+  /** Where operators sign in for a grant. */
+  readonly signInUrl: string | null;
 }
 
 /** Introduces robots and operators over Farpoint's own protocol (see `@farpoint/protocol`, signaling/farpoint.ts). */
@@ -154,6 +156,7 @@ export class FarpointHub {
     toOperator(peer, {
       type: 'operator.welcome',
       iceServers: this.#options.iceServers(`operator-${peer.id}`),
+      ...(this.#options.signInUrl === null ? {} : { signIn: this.#options.signInUrl }),
     });
     this.#feed.add(peer);
     return { name: hello.name, peer };

@@ -1,4 +1,4 @@
-import { type IceServer, iceServerSchema, MAX_SIGNALING_BYTES } from '@farpoint/protocol';
+import { type IceServer, iceServerSchema, MAX_SIGNALING_BYTES, signInUrlSchema } from '@farpoint/protocol';
 import { defineOption, defineProgram, type OptionValues, schema } from '@farpoint/service';
 import * as z from 'zod';
 import manifest from '../package.json' with { type: 'json' };
@@ -140,6 +140,12 @@ export const program = defineProgram({
       default: [],
       argument: 'ORIGIN,…',
       help: 'also accept pages of these origins, e.g. https://teleop.example, or * for any; pages that this service serves and programs without an origin are always accepted',
+    }),
+    signInUrl: defineOption({
+      schema: schema.optional(signInUrlSchema),
+      default: null,
+      argument: 'URL',
+      help: 'where operators sign in for a grant: the address of farpoint-issuer, e.g. https://issuer.example/sign-in',
     }),
     trustProxy: defineOption({
       schema: schema.boolean(),

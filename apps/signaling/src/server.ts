@@ -115,6 +115,7 @@ class SignalingService implements RunningSignaling {
       ],
       revocations: () => this.#revocations.lists,
       makeHandle: () => randomBytes(16).toString('base64url'),
+      signInUrl: options.signInUrl,
     });
     this.#revocations = new RevocationFiles({
       paths: options.revocations,

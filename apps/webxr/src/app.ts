@@ -4,6 +4,7 @@ import { finalLosses, RobotClient, type TransformSupport } from '@farpoint/opera
 import { effect, untracked } from '@preact/signals-core';
 import { StoredRobots } from './access/known-robots.ts';
 import { OperatorAccess } from './access/operator-access.ts';
+import { SignIn, tabStorage } from './access/sign-in.ts';
 import { browserAccess } from './access/stored-access.ts';
 import { ReleaseHold } from './drive/release-hold.ts';
 import { PanelPlacements } from './panels/panel-placements.ts';
@@ -129,7 +130,11 @@ export class App {
       ...{ renderer, world, client: held, first: this.cloud, sensors, pointScale },
     });
     this.vr = new VrSession(renderer);
-    this.#access = new AccessUi({ access, knownRobots, client: this.client, link: this.state.link });
+    this.#access = new AccessUi({
+      ...{ access, knownRobots, client: this.client, link: this.state.link },
+      signIn: new SignIn(tabStorage(), origin),
+      tell: ({ text, tone }) => notices.tell(text, tone),
+    });
     this.#estop = new EstopUi(this.client, this.state.robot, this.#release);
     const { client, state, stage, cloud, clouds, videos, stats, vr, appearance } = this;
     const choose = (robotId: string) => this.choose(robotId);

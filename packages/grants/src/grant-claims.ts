@@ -29,9 +29,15 @@ export const dateSchema = z.int().check(z.minimum(0), z.maximum(Number.MAX_SAFE_
 /** A SHA-256 in base64url. */
 export const sha256Schema = z.string().check(z.regex(/^[A-Za-z0-9_-]{43}$/));
 
+/** Characters of an issuer or subject. */
+export const MAX_SUBJECT_LENGTH = 128;
 export const subjectSchema = z
   .string()
-  .check(z.minLength(1), z.maxLength(128), z.regex(/^[^\p{Cc}]*$/u, 'must have no control characters'));
+  .check(
+    z.minLength(1),
+    z.maxLength(MAX_SUBJECT_LENGTH),
+    z.regex(/^[^\p{Cc}]*$/u, 'must have no control characters'),
+  );
 
 /** Thumbprints of robots' keys, by robot id. */
 export const robotKeysSchema = z
@@ -62,19 +68,20 @@ export type GrantClaims = z.infer<typeof grantClaimsSchema>;
 
 /** Whether one of the patterns matches the whole id. */
 export function coversRobot(patterns: readonly string[], robot: string): boolean {
-  return patterns.some((pattern) => matches(pattern, robot));
+  return patterns.some((pattern) => matchesPattern(pattern, robot));
 }
 
-function matches(pattern: string, id: string): boolean {
+/** Whether a pattern, in which each `*` stands for any characters or none, matches a whole text. In linear time. */
+export function matchesPattern(pattern: string, text: string): boolean {
   const [first = '', ...rest] = pattern.split('*');
   const last = rest.pop();
-  if (last === undefined) return pattern === id;
-  if (!id.startsWith(first)) return false;
+  if (last === undefined) return pattern === text;
+  if (!text.startsWith(first)) return false;
   let at = first.length;
   for (const part of rest) {
-    const found = id.indexOf(part, at);
+    const found = text.indexOf(part, at);
     if (found < 0) return false;
     at = found + part.length;
   }
-  return id.length - last.length >= at && id.endsWith(last);
+  return text.length - last.length >= at && text.endsWith(last);
 }

@@ -8,6 +8,8 @@ export {
   grantClaimsSchema,
   MAX_GRANT_LENGTH,
   MAX_ROBOTS,
+  MAX_SUBJECT_LENGTH,
+  matchesPattern,
   robotKeysSchema,
   robotPatternSchema,
   sha256Schema,

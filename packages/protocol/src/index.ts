@@ -35,6 +35,7 @@ export * from './sequence.ts';
 export { operatorSessionCodec, robotSessionCodec } from './session-codecs.ts';
 export * from './session-messages.ts';
 export * from './session-requests.ts';
+export * from './sign-in.ts';
 export * from './signaling/farpoint.ts';
 export * from './signaling/reference.ts';
 export * from './signaling/robot-list.ts';

@@ -810,8 +810,47 @@ m.spoil(m_resume, ("robotId", ABSENT), ("session", ABSENT), ("session", "a b"), 
 m.spoil(m_open, ("robotId", 0), ("robotId", "../x"), ("type", "session.offer"))
 write("signaling-operator-to-service.json", m.lists())
 
+GOOD_SIGN_IN_URLS = ["https://issuer.example/sign-in", "https://issuer.example:8443/a/sign-in",
+                     "http://127.0.0.1:3010/sign-in", "http://localhost:3010/sign-in", "http://[::1]:3010/sign-in"]
+BAD_SIGN_IN_URLS = ["http://issuer.example/sign-in", "https://issuer.example/sign-in?a=1", "https://issuer.example/#a",
+                    "https://ada:secret@issuer.example/sign-in", "javascript:alert(1)", "issuer.example", "",
+                    "https://issuer.example/" + "a" * 500]
+
+# Sign-in: addresses, not messages.
+A_KEY, BACK = "k" * 43, "https://teleop.example/?robot=r1"
+BACK_IN_QUERY = "https%3A%2F%2Fteleop.example%2F%3Frobot%3Dr1"
+write("sign-in.json", {
+    "requests": [
+        {"address": "https://issuer.example/sign-in?key=%s&return=%s&state=s-1_Z" % (A_KEY, BACK_IN_QUERY),
+         "request": {"key": A_KEY, "return": BACK, "state": "s-1_Z"}},
+        {"address": "https://issuer.example/sign-in?key=%s&return=%s" % (A_KEY, BACK_IN_QUERY),
+         "request": {"key": A_KEY, "return": BACK, "state": None}},
+    ],
+    "faults": [
+        {"query": "", "fault": "bad-return", "return": None},
+        {"query": "key=%s" % A_KEY, "fault": "bad-return", "return": None},
+        {"query": "key=%s&return=http%%3A%%2F%%2Fteleop.example" % A_KEY, "fault": "bad-return", "return": None},
+        {"query": "key=%s&return=https%%3A%%2F%%2Fteleop.example%%2F%%23a" % A_KEY, "fault": "bad-return", "return": None},
+        {"query": "key=%s&return=https%%3A%%2F%%2Fteleop.example%%2F%s" % (A_KEY, "a" * 2048), "fault": "bad-return", "return": None},
+        {"query": "return=%s" % BACK_IN_QUERY, "fault": "bad-key", "return": BACK},
+        {"query": "key=short&return=%s" % BACK_IN_QUERY, "fault": "bad-key", "return": BACK},
+        {"query": "key=%s&return=%s&state=a%%20b" % (A_KEY, BACK_IN_QUERY), "fault": "bad-state", "return": BACK},
+        {"query": "key=%s&return=%s&state=%s" % (A_KEY, BACK_IN_QUERY, "s" * 65), "fault": "bad-state", "return": BACK},
+    ],
+    "answers": [
+        {"hash": "#grant=eyJ0eXAi.eyJpc3Mi.c2ln&state=s-1_Z", "answer": {"grant": "eyJ0eXAi.eyJpc3Mi.c2ln", "state": "s-1_Z"}},
+        {"hash": "#grant=farpoint-ticket.abc", "answer": {"grant": "farpoint-ticket.abc", "state": None}},
+        {"hash": "#sign-in-error=not-permitted&state=s1", "answer": {"error": "not-permitted", "state": "s1"}},
+    ],
+    "others": ["", "#", "#top", "#grants=x", "#sign-in-error=%3Cscript%3E", "#state=s1"],
+    "good addresses": GOOD_SIGN_IN_URLS,
+    "bad addresses": BAD_SIGN_IN_URLS,
+})
+
 m = Messages()
 m.good({"type": "operator.welcome", "iceServers": []})
+welcome = m.good({"type": "operator.welcome", "iceServers": [], "signIn": "https://issuer.example/sign-in"})
+m.spoil(welcome, *[("signIn", url) for url in BAD_SIGN_IN_URLS], ("signIn", 5))
 robots = m.good({"type": "robots", "robots": [{"id": "sim-1", "name": "Simulated robot"}, {"id": "r2", "name": "\u00d6rn"}]})
 m.good({"type": "robots", "robots": []}, "no robots")
 delta = m.good({"type": "robots.changed", "here": [{"id": "sim-2", "name": "Second robot"}], "gone": ["sim-1", "r2"]})

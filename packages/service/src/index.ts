@@ -9,6 +9,7 @@ export * from './option-errors.ts';
 export * as schema from './option-schemas.ts';
 export * from './option-table.ts';
 export * from './options.ts';
+export * from './peer-address.ts';
 export * from './port-holder.ts';
 export * from './program.ts';
 export { publicValues } from './public-values.ts';

@@ -39,7 +39,7 @@ export interface ProgramDefinition<Table extends OptionTable> {
 }
 
 /** The sections of all programs: any other section is a typing mistake and refused. */
-export const configSections = ['robot', 'signaling', 'bridge', 'web', 'link'] as const;
+export const configSections = ['robot', 'signaling', 'issuer', 'bridge', 'web', 'link'] as const;
 export type ConfigSection = (typeof configSections)[number];
 
 export const DEFAULT_CONFIG_PATH = 'farpoint.yaml';

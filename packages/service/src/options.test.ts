@@ -260,7 +260,7 @@ describe('mistakes name their place', () => {
     ],
     [
       { files: { 'farpoint.yaml': 'robto: {}' } },
-      'farpoint.yaml:1: robto is not a section (did you mean robot?); the sections are robot, signaling, bridge, web, link',
+      'farpoint.yaml:1: robto is not a section (did you mean robot?); the sections are robot, signaling, issuer, bridge, web, link',
     ],
     [{ files: { 'farpoint.yaml': '[1]' } }, 'farpoint.yaml:1: must be a mapping from program to options'],
     [

@@ -99,6 +99,33 @@ describe('the operator’s access', () => {
     expect(access.grants.value).toHaveLength(MOST_GRANTS);
   });
 
+  it('forgets a person’s grants that have ended when a new one comes, and no others', async () => {
+    let nowS = NOW;
+    access = new OperatorAccess(memory, () => nowS);
+    await add(await granted({ jti: 'old', exp: NOW + 10 }));
+    await add(await granted({ jti: 'other-issuer', iss: 'else', exp: NOW + 10 }));
+    await add(await granted({ jti: 'other-person', sub: 'grace', exp: NOW + 10 }));
+    await add(await granted({ jti: 'running' }));
+    nowS = NOW + 10;
+    await add(await granted({ jti: 'new' }));
+    expect(access.grants.value.map(({ id }) => id)).toEqual([
+      ...['other-issuer', 'other-person', 'running', 'new'],
+    ]);
+  });
+
+  it('takes a grant that it asked for, before robots are shown anything, and nothing else', async () => {
+    const grant = await granted();
+    const taking = access.takeAsked(grant);
+    expect(await access.credentials()).toHaveLength(1);
+    expect(await taking).toMatchObject({ claims: { name: 'Ada Lovelace' } });
+    const { grant: others, key } = await grantTo(issuer, NOW);
+    const ticket = encodeTicket({ grant: others, key: await exportOperatorKey(key) });
+    expect(await access.takeAsked(others)).toEqual({ fault: 'other-key' });
+    expect(await access.takeAsked(ticket)).toEqual({ fault: 'other-key' });
+    expect(await access.takeAsked('rubbish')).toEqual({ fault: 'no-grant' });
+    expect(access.grants.value).toHaveLength(1);
+  });
+
   it('says that nothing is kept where the browser stores nothing', async () => {
     const grant = await granted();
     memory.keeps = false;

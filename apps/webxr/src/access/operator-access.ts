@@ -40,6 +40,8 @@ export class OperatorAccess {
   readonly #nowS: () => number;
   #access: StoredAccess = NO_ACCESS;
   readonly #loaded: Promise<void>;
+  /** A grant that is being taken. Robots are shown nothing before that. */
+  #taking: Promise<unknown> = Promise.resolve();
 
   /** @param nowS seconds since 1970 */
   constructor(storage: AccessStorage, nowS: () => number) {
@@ -53,6 +55,7 @@ export class OperatorAccess {
   /** What the operator can show to robots. */
   async credentials(): Promise<readonly OperatorCredentials[]> {
     await this.#loaded;
+    await this.#taking;
     return this.#access.grants;
   }
 
@@ -85,9 +88,29 @@ export class OperatorAccess {
     credentials,
     claims,
   }: Exclude<ReadResult, { fault: GrantFault }>): Promise<boolean | GrantFault> {
-    const others = this.#access.grants.filter(({ grant }) => !isSame(claimsOfGrant(grant), claims));
+    const nowS = this.#nowS();
+    const others = this.#access.grants.filter(({ grant }) => !isReplaced(claimsOfGrant(grant), claims, nowS));
     if (others.length >= MOST_GRANTS) return 'too-many';
     return await this.#change({ ...this.#access, grants: [...others, credentials] });
+  }
+
+  /**
+   * Takes the grant that the page asked an issuer for: one for this browser's own key, and no ticket.
+   *
+   * @returns what it says, or why it is not taken
+   */
+  takeAsked(text: string): Promise<{ readonly claims: GrantClaims } | { readonly fault: GrantFault }> {
+    const taken = this.#takeAsked(text);
+    this.#taking = taken;
+    return taken;
+  }
+
+  async #takeAsked(text: string) {
+    const read = await this.read(text);
+    if ('fault' in read) return read;
+    if (read.credentials.key !== this.#access.own) return { fault: 'other-key' } as const;
+    const kept = await this.add(read);
+    return typeof kept === 'string' ? { fault: kept } : { claims: read.claims };
   }
 
   async remove(id: string): Promise<void> {
@@ -111,6 +134,8 @@ export class OperatorAccess {
   }
 }
 
-function isSame(one: GrantClaims | null, other: GrantClaims): boolean {
-  return one?.jti === other.jti && one.iss === other.iss;
+/** Whether a grant is the same as a new one, or has ended and was for the same person. */
+function isReplaced(one: GrantClaims | null, by: GrantClaims, nowS: number): boolean {
+  if (one?.iss !== by.iss) return false;
+  return one.jti === by.jti || (one.sub === by.sub && one.exp <= nowS);
 }

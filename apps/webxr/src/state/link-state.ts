@@ -13,8 +13,11 @@ export function linkState(client: RobotClient, samples: Sampler, signalingFault:
   const phase = samples.of(() => link.phase);
   const robots = samples.of(() => link.robots);
   const chosenRobotId = samples.of(() => client.chosenRobotId);
+  const signInUrl = samples.of(() => link.signInUrl);
   return {
     robots,
+    /** Where operators sign in for a grant; `null` if the signaling service names no place. */
+    signInUrl,
     chosenRobotId,
     /** A robot is chosen. The page connects to it whenever possible. */
     connected: computed(() => phase.value !== 'none'),
@@ -25,7 +28,7 @@ export function linkState(client: RobotClient, samples: Sampler, signalingFault:
     /** What keeps the page from connecting until the operator does something; `null` if nothing does. */
     obstacle: samples.of(() =>
       link.phase === 'waiting' && link.robotListed
-        ? obstacleOf(link.lastLoss, link.lossDetail, link.changedRobotKey)
+        ? obstacleOf(link.lastLoss, link.lossDetail, link.changedRobotKey, link.signInUrl)
         : null,
     ),
     /** The state of the link in one line. */

@@ -29,6 +29,7 @@ class Client {
     signaling: 'ready' as const,
     robots: [] as readonly RobotListing[],
     ...{ robotListed: true, lastLoss: null, maxOperators: null, lossDetail: null, changedRobotKey: null },
+    signInUrl: null,
     ...{ session: this.session },
     silentMs: (nowMs: number) => nowMs - this.heardAtMs,
   };

@@ -19,6 +19,16 @@ describe('obstacles', () => {
     });
   });
 
+  it('offers a sign-in where there is one, and names its host', () => {
+    expect(obstacleOf('not-granted', null, null, 'https://issuer.example:8443/sign-in')).toMatchObject({
+      ...{ signInHost: 'issuer.example:8443', text: expect.stringContaining('Sign in to get one.') },
+    });
+    expect(obstacleOf('not-granted', null, null)).toMatchObject({ signInHost: null });
+    expect(obstacleOf('robot-unproven', null, null, 'https://issuer.example/')).toMatchObject({
+      signInHost: null,
+    });
+  });
+
   it('lets the operator trust a new key only where no grant names another', () => {
     const keys = { known: key('a'), shown: key('b') };
     expect(obstacleOf('robot-key-changed', '', changed)).toMatchObject({ mayTrust: true, keys });

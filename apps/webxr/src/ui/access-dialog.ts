@@ -1,5 +1,5 @@
 /** The dialog for grants: this browser's key, the grants that it holds, and the robots that it knows. */
-import { effect, signal } from '@preact/signals-core';
+import { effect, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { StoredRobots } from '../access/known-robots.ts';
 import type { OperatorAccess, ReadResult } from '../access/operator-access.ts';
 import { grantFaultWords, grantWords } from '../status/access-words.ts';
@@ -9,6 +9,10 @@ import { elements } from './elements.ts';
 export interface AccessDialogParts {
   readonly access: OperatorAccess;
   readonly known: StoredRobots;
+  /** Where operators sign in for a grant; `null` if there is no such place. */
+  readonly signInUrl: ReadonlySignal<string | null>;
+  /** Leaves the page to sign in. */
+  signIn(): void;
   /** A grant was added: robots that refused this operator may admit it now. */
   onAdded(): void;
 }
@@ -27,12 +31,18 @@ export class AccessDialog {
   }
 
   start(): void {
-    const { access } = this.#parts;
+    const { access, signInUrl } = this.#parts;
     const { accessOpen, accessText, accessAdd, accessKey, accessCopy, accessGrants, accessRobots } = elements;
     accessOpen.addEventListener('click', () => this.open());
     accessText.addEventListener('input', () => void this.#take());
     accessAdd.addEventListener('click', () => void this.#add());
     accessCopy.addEventListener('click', () => void copy(accessKey));
+    const { accessSignIn, accessSignInRow, accessSignInHost } = elements;
+    accessSignIn.addEventListener('click', () => this.#parts.signIn());
+    effect(() => {
+      accessSignInRow.hidden = signInUrl.value === null;
+      accessSignInHost.textContent = signInUrl.value === null ? '' : new URL(signInUrl.value).host;
+    });
     effect(() => {
       accessKey.value = access.ownKey.value ?? '';
     });
@@ -60,15 +70,21 @@ export class AccessDialog {
     });
   }
 
-  /** @param text a grant or ticket that came another way; it still has to be added */
-  open(text = ''): void {
+  /**
+   * @param text a grant or ticket that came another way; it still has to be added
+   * @param words what to say first
+   */
+  open(text = '', words: Words | null = null): void {
     const { settings, access, accessText } = elements;
     settings.close('cancel');
     this.#robots.value = this.#parts.known.all();
     accessText.value = text;
     if (!access.open) access.showModal();
     if (window.isSecureContext) {
-      void this.#parts.access.makeKey().then(() => this.#take());
+      void this.#parts.access.makeKey().then(async () => {
+        await this.#take();
+        if (words !== null) this.#say(words);
+      });
     } else {
       this.#say({ text: 'Grants need https: open the page at its https address.', tone: 'bad' });
       accessText.disabled = true;

@@ -9,14 +9,17 @@ export interface ObstacleActions {
   /** Takes the robot's new key for its own from now on, and tries again. */
   trust(): void;
   openAccess(): void;
+  /** Leaves the page to sign in for a grant. */
+  signIn(): void;
 }
 
 export function showObstacle(obstacle: ReadonlySignal<Obstacle | null>, actions: ObstacleActions): void {
-  const { obstacleLeave, obstacleRetry, obstacleTrust, obstacleAccess } = elements;
+  const { obstacleLeave, obstacleRetry, obstacleTrust, obstacleAccess, obstacleSignIn } = elements;
   obstacleLeave.addEventListener('click', () => actions.leave());
   obstacleRetry.addEventListener('click', () => actions.retry());
   obstacleTrust.addEventListener('click', () => actions.trust());
   obstacleAccess.addEventListener('click', () => actions.openAccess());
+  obstacleSignIn.addEventListener('click', () => actions.signIn());
   // Samples make a new object each time. A panel that is written again is read out again.
   const changed = computed(() => JSON.stringify(obstacle.value));
   effect(() => {
@@ -31,5 +34,10 @@ export function showObstacle(obstacle: ReadonlySignal<Obstacle | null>, actions:
     elements.obstacleShown.textContent = shown.keys?.shown ?? '';
     obstacleTrust.hidden = !shown.mayTrust;
     obstacleAccess.hidden = !shown.needsGrant;
+    // One button stands out.
+    obstacleAccess.classList.toggle('quiet', shown.signInHost !== null);
+    obstacleSignIn.hidden = shown.signInHost === null;
+    elements.obstacleSignInRow.hidden = shown.signInHost === null;
+    elements.obstacleSignInHost.textContent = shown.signInHost;
   });
 }

@@ -16,6 +16,7 @@ export class BridgeLink implements RobotLink {
   sessionsOpened = 0;
   readonly lastLoss: SessionLoss | null = null;
   readonly lossDetail = null;
+  readonly signInUrl = null;
   readonly changedRobotKey = null;
   readonly maxOperators = null;
   readonly #address: BridgeAddress;

@@ -32,6 +32,8 @@ export interface RobotLink {
   readonly phase: SessionPhase;
   /** The state of the connection to the signaling service. */
   readonly signaling: SignalingState;
+  /** Where operators sign in for a grant; `null` if the signaling service has named no place. */
+  readonly signInUrl: string | null;
   /** The robots that the service lists now. */
   readonly robots: readonly RobotListing[];
   /** The wanted robot; `null` if none is wanted. */

@@ -148,6 +148,9 @@ export class WebRtcLink implements RobotLink {
   get signaling(): SignalingState {
     return this.#signaling.state;
   }
+  get signInUrl(): string | null {
+    return this.#signaling.signInUrl;
+  }
   get robots(): readonly RobotListing[] {
     return this.#robots;
   }
@@ -186,11 +189,10 @@ export class WebRtcLink implements RobotLink {
 
   sendReport(report: IntakeReport): void {
     if (report.generation !== this.#generation || this.interrupted) return;
-    const sequence = nextSequence32(this.#reportSequence);
-    this.#reportSequence = sequence;
+    this.#reportSequence = nextSequence32(this.#reportSequence);
     const { packetsReceived, packetsLost, bytesReceived } = report;
     const counts = { packetsReceived, packetsLost, bytesReceived };
-    this.#sendControl({ type: 'receiverReport', sequence, ...counts });
+    this.#sendControl({ type: 'receiverReport', sequence: this.#reportSequence, ...counts });
   }
 
   #sendControl(message: OperatorControlMessage): void {
@@ -217,18 +219,17 @@ export class WebRtcLink implements RobotLink {
         if (message.session === this.#keeper.session) void this.#peer?.candidate(message.candidate);
         return;
       case 'session.closed': {
-        const { session, reason, maxOperators = null, detail } = message;
-        if (detail !== undefined) console.warn('session ended by the robot:', reason, detail);
-        if (session === this.#keeper.session) this.lossDetail = detail ?? null;
+        const { session, reason, maxOperators = null, detail = null } = message;
+        if (detail !== null) console.warn('session ended by the robot:', reason, detail);
+        if (session === this.#keeper.session) this.lossDetail = detail;
         if (reason === 'robot-full') this.maxOperators = maxOperators;
         this.#keeper.onClosed(session, reason, nowMs);
         return;
       }
       case 'error':
         // An established session does not need the service, so it may be unknown there, or the robot away.
-        if (message.code !== 'unknown-session' && !(this.phase === 'live' && message.session !== undefined)) {
+        if (message.code !== 'unknown-session' && !(this.phase === 'live' && message.session !== undefined))
           this.#events.onRefusal(message.message);
-        }
         this.#keeper.onRefused(message.session, nowMs);
     }
   }

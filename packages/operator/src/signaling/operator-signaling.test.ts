@@ -64,6 +64,16 @@ describe('OperatorSignaling', () => {
     expect(bench.states).toEqual(['connecting', 'ready']);
   });
 
+  test('knows where operators sign in, as long as the service says so', () => {
+    const bench = new Bench().ready();
+    expect(bench.machine.signInUrl).toBeNull();
+    const signIn = 'https://issuer.example/sign-in';
+    bench.receive({ type: 'operator.welcome', iceServers: [], signIn });
+    expect(bench.machine.signInUrl).toBe(signIn);
+    bench.receive({ type: 'operator.welcome', iceServers: [] });
+    expect(bench.machine.signInUrl).toBeNull();
+  });
+
   test('sends only when welcomed', () => {
     const bench = new Bench();
     bench.machine.start();

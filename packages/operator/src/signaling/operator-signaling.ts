@@ -57,6 +57,7 @@ export class OperatorSignaling {
   #state: SignalingState = 'stopped';
   #answerDue = false;
   #iceServers: readonly IceServer[] = [];
+  #signInUrl: string | null = null;
   #robots: readonly RobotListing[] = [];
 
   constructor(
@@ -79,6 +80,11 @@ export class OperatorSignaling {
   /** The ICE servers of the service's latest welcome. */
   get iceServers(): readonly IceServer[] {
     return this.#iceServers;
+  }
+
+  /** Where operators sign in for a grant, from the service's latest welcome; `null` if it named no place. */
+  get signInUrl(): string | null {
+    return this.#signInUrl;
   }
 
   start(): void {
@@ -158,6 +164,7 @@ export class OperatorSignaling {
       case 'operator.welcome':
         this.#reconnect.reset();
         this.#iceServers = message.iceServers;
+        this.#signInUrl = message.signIn ?? null;
         this.#enter('ready');
         return;
       case 'robots':

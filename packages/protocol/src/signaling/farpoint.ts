@@ -7,6 +7,7 @@
 import * as z from 'zod/mini';
 import { displayNameSchema, handleSchema, robotIdSchema, tokenSchema } from '../identifiers.ts';
 import type { JsonCodec } from '../json.ts';
+import { signInUrlSchema } from '../sign-in.ts';
 
 export const MAX_SIGNALING_BYTES = 65_536;
 /** Characters of a list of revoked grants: it fits a message with room to spare. */
@@ -234,7 +235,12 @@ const operatorToService = z.discriminatedUnion('type', [
 export type OperatorToService = z.infer<typeof operatorToService>;
 
 const serviceToOperator = z.discriminatedUnion('type', [
-  z.strictObject({ type: z.literal('operator.welcome'), iceServers: z.array(iceServerSchema) }),
+  z.strictObject({
+    type: z.literal('operator.welcome'),
+    iceServers: z.array(iceServerSchema),
+    /** Where operators get grants by signing in. */
+    signIn: z.optional(signInUrlSchema),
+  }),
   /** Every robot that is connected now; sent after the welcome, and to an operator that has fallen far behind. */
   z.strictObject({ type: z.literal('robots'), robots: z.array(robotListing) }),
   /** What has changed since the last `robots` or `robots.changed`. */

@@ -1,0 +1,121 @@
+/** The issuer's HTTP server: `/sign-in` and `/callback`, below the path of its public address. */
+import { createServer, type IncomingMessage, type Server, type ServerResponse } from 'node:http';
+import type { AddressInfo } from 'node:net';
+import { peerAddress } from '@farpoint/service';
+import { BrowserCookie } from './browser-cookie.ts';
+import type { Reply, SignInDesk } from './sign-in-desk.ts';
+
+export interface ServerOptions {
+  readonly host: string;
+  readonly port: number;
+  /** The address by which browsers reach this server. */
+  readonly url: string;
+  readonly trustProxy: boolean;
+  /** Milliseconds since 1970. */
+  readonly now: () => number;
+  /** A fault of this program. The request gets no answer. */
+  readonly onError: (error: unknown) => void;
+}
+
+const MOST_CONNECTIONS = 1024;
+const NOTHING = { status: 404, text: 'Nothing here. Sign-ins begin on the operators’ page.' };
+
+export interface RunningServer {
+  readonly port: number;
+  close(): Promise<void>;
+}
+
+/** @throws {Error} if it cannot listen on the address, for example EADDRINUSE */
+export async function startServer(desk: SignInDesk, options: ServerOptions): Promise<RunningServer> {
+  const { host, port, url, trustProxy, now, onError } = options;
+  const base = new URL(url).pathname.replace(/\/$/, '');
+  const isHttps = url.startsWith('https:');
+  const cookie = new BrowserCookie(isHttps);
+  const headers = securityHeaders(isHttps);
+
+  async function handle(
+    request: IncomingMessage,
+  ): Promise<Reply | typeof NOTHING | { status: 405; text: string }> {
+    // The host does not matter here: addresses of ours are made from the public one.
+    const address = URL.parse(request.url ?? '', 'http://issuer');
+    const path = address?.pathname.startsWith(`${base}/`) ? address.pathname.slice(base.length) : null;
+    if (address === null || (path !== '/sign-in' && path !== '/callback')) return NOTHING;
+    if (request.method !== 'GET') return { status: 405, text: 'Only GET.' };
+    const caller = {
+      address: peerAddress(request, trustProxy),
+      browser: cookie.read(request.headers.cookie),
+    };
+    return path === '/sign-in'
+      ? await desk.begin(address.searchParams, caller, now())
+      : await desk.finish(address.searchParams, caller, now());
+  }
+
+  function answer(response: ServerResponse, reply: Awaited<ReturnType<typeof handle>>): void {
+    if ('redirect' in reply) {
+      const owned = reply.browser === undefined ? {} : { 'set-cookie': cookie.write(reply.browser) };
+      response.writeHead(303, { ...headers, ...owned, location: reply.redirect }).end();
+      return;
+    }
+    const body = `${reply.text}\n`;
+    const { status } = reply;
+    const more = {
+      ...(status === 405 ? { allow: 'GET' } : {}),
+      ...(status === 429 ? { 'retry-after': '60' } : {}),
+    };
+    const length = { 'content-type': 'text/plain; charset=utf-8', 'content-length': Buffer.byteLength(body) };
+    response.writeHead(status, { ...headers, ...more, ...length }).end(body);
+  }
+
+  const server = createServer(
+    {
+      headersTimeout: 10_000,
+      requestTimeout: 20_000,
+      keepAliveTimeout: 5000,
+      connectionsCheckingInterval: 2000,
+    },
+    (request, response) => {
+      request.resume();
+      handle(request)
+        .then((reply) => answer(response, reply))
+        .catch((error: unknown) => {
+          onError(error);
+          response.destroy();
+        });
+    },
+  );
+  server.maxConnections = MOST_CONNECTIONS;
+  await listen(server, port, host);
+  return {
+    port: (server.address() as AddressInfo).port,
+    close: () =>
+      new Promise((resolve) => {
+        server.close(() => resolve());
+        server.closeAllConnections();
+      }),
+  };
+}
+
+function listen(server: Server, port: number, host: string): Promise<void> {
+  return new Promise((resolve, reject) => {
+    server.once('error', reject);
+    server.listen(port, host, () => {
+      server.off('error', reject);
+      resolve();
+    });
+  });
+}
+
+function securityHeaders(isHttps: boolean): Readonly<Record<string, string>> {
+  return {
+    'cache-control': 'no-store',
+    'content-security-policy':
+      "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    'cross-origin-opener-policy': 'same-origin',
+    'cross-origin-resource-policy': 'same-origin',
+    // The addresses have codes in them.
+    'referrer-policy': 'no-referrer',
+    'x-content-type-options': 'nosniff',
+    'x-frame-options': 'DENY',
+    ...(isHttps ? { 'strict-transport-security': 'max-age=31536000' } : {}),
+  };
+}

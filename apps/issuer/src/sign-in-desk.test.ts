@@ -1,0 +1,200 @@
+import { parseGrantKeys, verifyGrant } from '@farpoint/grants';
+import { makeIssuer } from '@farpoint/grants/testing';
+import { parseSignInAnswer, signInAddress } from '@farpoint/protocol';
+import fc from 'fast-check';
+import { beforeEach, describe, expect, it } from 'vitest';
+import { AddressLimiter } from './address-limiter.ts';
+import { isAllowedPage } from './allowed-pages.ts';
+import { BrowserCookie } from './browser-cookie.ts';
+import { SIGN_IN_TIME_MS } from './pending-sign-ins.ts';
+import type { SignedIn } from './provider.ts';
+import { SignInRefusedError } from './refused.ts';
+import { type DeskOptions, type Reply, SignInDesk } from './sign-in-desk.ts';
+
+const issuer = await makeIssuer();
+const keys = await parseGrantKeys(JSON.stringify({ keys: [issuer.publicJwk] }));
+const KEY = 'k'.repeat(43);
+const BACK = 'https://teleop.example/?robot=r1';
+const NOW = 1_800_000_000_000;
+
+let outcomes: string[];
+let person: SignedIn;
+let fault: Error | null;
+let state: string;
+let desk: SignInDesk;
+
+/** What comes after the provider. The provider itself is in issuer.stack.test.ts. */
+const provider: DeskOptions['provider'] = {
+  begin: async (given) => {
+    if (fault !== null) throw fault;
+    state = given;
+    return `https://login.example/?state=${given}`;
+  },
+  finish: async () => {
+    if (fault !== null) throw fault;
+    return person;
+  },
+};
+
+beforeEach(() => {
+  [outcomes, fault, state] = [[], null, ''];
+  person = { issuer: 'https://login.example', sub: 'u1', claims: { name: 'Ada', groups: ['drivers'] } };
+  desk = new SignInDesk({
+    ...{ provider, signingKey: issuer.signingKey, signInsPerMinute: 3, pages: ['https://teleop.example/'] },
+    terms: { issuer: 'https://issuer.example', hours: 12, robotKeys: {} },
+    rules: [{ claim: 'groups', value: 'drivers', role: 'drive', robots: ['r*'] }],
+    onOutcome: (outcome) => outcomes.push(outcome),
+  });
+});
+
+const caller = (browser: string | null = null, address = '192.0.2.1') => ({ address, browser });
+const asked = (change: object = {}) =>
+  new URL(
+    signInAddress('https://issuer.example/sign-in', { key: KEY, return: BACK, state: 'mine', ...change }),
+  ).searchParams;
+const begun = async (from = caller()) => {
+  const reply = await desk.begin(asked(), from, NOW);
+  if (!('redirect' in reply)) throw new Error(reply.text);
+  return reply.browser ?? '';
+};
+const back = (given: string) => new URLSearchParams({ code: 'c', state: given });
+/** The provider sends the newest sign-in's browser back. */
+const finish = (browser: string, nowMs = NOW) => desk.finish(back(state), caller(browser), nowMs);
+const answerOf = (reply: Reply) =>
+  'redirect' in reply ? parseSignInAnswer(new URL(reply.redirect).hash) : null;
+
+describe('a sign-in', () => {
+  it('ends on the page with a grant for its key', async () => {
+    const reply = await finish(await begun());
+    const answer = answerOf(reply);
+    expect('redirect' in reply && reply.redirect).toMatch(/^https:\/\/teleop\.example\/\?robot=r1#grant=/);
+    expect(answer?.state).toBe('mine');
+    const grant = await verifyGrant(answer !== null && 'grant' in answer ? answer.grant : '', {
+      keys,
+      robot: 'r1',
+      nowS: NOW / 1000,
+    });
+    expect(grant).toMatchObject({
+      ...{ subject: 'https://login.example#u1', name: 'Ada', role: 'drive', operatorKey: KEY },
+      ...{ issuer: 'https://issuer.example', expiresAtS: NOW / 1000 + 43_200 },
+    });
+    expect(outcomes).toEqual(['granted']);
+  });
+
+  it('is refused in words that the page knows', async () => {
+    person = { ...person, claims: { groups: ['guests'] } };
+    expect(answerOf(await finish(await begun()))).toEqual({
+      error: 'not-permitted',
+      state: 'mine',
+    });
+    const browser = await begun();
+    expect(answerOf(await finish(browser, NOW + SIGN_IN_TIME_MS))).toMatchObject({
+      error: 'expired',
+    });
+    const again = await begun(caller(browser));
+    expect(again).toBe(browser);
+    fault = new SignInRefusedError('unproven', 'x');
+    expect(answerOf(await finish(again))).toMatchObject({ error: 'unproven' });
+    fault = new Error('a mistake of ours');
+    expect(answerOf(await desk.begin(asked(), caller(null, '192.0.2.2'), NOW))).toMatchObject({
+      error: 'issuer-failed',
+    });
+    expect(desk.pending).toBe(0);
+  });
+
+  it('is finished by nobody else, and once', async () => {
+    const browser = await begun();
+    const stranger = await begun();
+    const [theirs] = [state];
+    expect(await desk.finish(back(theirs), caller(browser), NOW)).toMatchObject({ status: 400 });
+    expect(await desk.finish(back(theirs), caller(null), NOW)).toMatchObject({ status: 400 });
+    expect(answerOf(await desk.finish(back(theirs), caller(stranger), NOW))).toHaveProperty('grant');
+    const other = caller(stranger, '192.0.2.2');
+    expect(await desk.finish(back(theirs), other, NOW)).toMatchObject({ status: 400 });
+    expect(outcomes).toEqual(['other-browser', 'other-browser', 'granted', 'unknown']);
+  });
+
+  it('does not begin for a page that is not ours, nor for a request that is none', async () => {
+    for (const page of [
+      'https://evil.example/',
+      'http://teleop.example/',
+      'javascript:alert(1)',
+      'https://teleop.example@evil.example/',
+    ])
+      expect([page, await desk.begin(asked({ return: page }), caller(), NOW)]).toEqual([
+        page,
+        expect.objectContaining({ status: 400 }),
+      ]);
+    expect(answerOf(await desk.begin(asked({ key: 'x' }), caller(), NOW))).toMatchObject({
+      error: 'bad-request',
+    });
+    expect(desk.pending).toBe(0);
+  });
+
+  it('begins only so often for one address', async () => {
+    for (let i = 0; i < 3; i++) await begun();
+    expect(answerOf(await desk.begin(asked(), caller(), NOW))).toEqual({ error: 'too-many', state: 'mine' });
+    expect(await begun(caller(null, '192.0.2.2'))).not.toBe('');
+    for (let i = 0; i < 3; i++) await desk.finish(back('x'), caller(), NOW);
+    expect(await desk.finish(back('x'), caller(), NOW)).toMatchObject({ status: 429 });
+  });
+});
+
+it('whatever is asked, a browser is sent to the provider or to one of our pages, or nowhere', async () => {
+  const text = fc.oneof(
+    fc.string(),
+    fc.webUrl(),
+    fc.constantFrom(BACK, KEY, 'https://teleop.example', '//evil.example'),
+  );
+  const query = fc.dictionary(fc.oneof(fc.string(), fc.constantFrom('key', 'return', 'state', 'code')), text);
+  await fc.assert(
+    fc.asyncProperty(query, async (members) => {
+      for (const reply of [
+        await desk.begin(new URLSearchParams(members), caller(), NOW),
+        await desk.finish(new URLSearchParams(members), caller(), NOW),
+      ]) {
+        const { origin } = 'redirect' in reply ? new URL(reply.redirect) : { origin: null };
+        expect(['https://login.example', 'https://teleop.example', null]).toContain(origin);
+      }
+    }),
+  );
+});
+
+it.each([
+  [['https://a.example/'], 'https://a.example/x?y=1', true],
+  [['https://a.example/'], 'https://b.example/', false],
+  [['https://a.example/'], 'https://a.example:8443/', false],
+  [['https://a.example'], 'https://a.example/x', true],
+  [['https://a.example/teleop/'], 'https://a.example/teleop/', true],
+  [['https://a.example/teleop/'], 'https://a.example/teleop/../open?to=b', false],
+  [['https://a.example/teleop/'], 'https://a.example/teleop', false],
+  [['https://a.example/index.html'], 'https://a.example/index.html?robot=r', true],
+  [['https://a.example/index.html'], 'https://a.example/index.html/x', false],
+  [['https://b.example/', 'http://localhost:3000/'], 'http://localhost:3000/?robot=r', true],
+  [[], 'https://a.example/', false],
+])('of the pages %j, %s: %s', (pages, address, allowed) => {
+  expect(isAllowedPage(pages, address)).toBe(allowed);
+});
+
+it('the cookie is the browser’s alone', () => {
+  const secret = 's'.repeat(43);
+  const cookie = new BrowserCookie(true);
+  expect(cookie.write(secret)).toBe(
+    `__Host-farpoint-sign-in=${secret}; Path=/; Max-Age=600; HttpOnly; SameSite=Lax; Secure`,
+  );
+  expect(cookie.read(`a=b; __Host-farpoint-sign-in=${secret}`)).toBe(secret);
+  for (const header of [undefined, '', `farpoint-sign-in=${secret}`, '__Host-farpoint-sign-in=short', ';;=;'])
+    expect(cookie.read(header)).toBeNull();
+  expect(new BrowserCookie(false).write(secret)).not.toContain('Secure');
+});
+
+it('an address is forgiven with time, and its neighbours in a /64 count with it', () => {
+  const limiter = new AddressLimiter(2);
+  const take = (address: string, nowMs: number) => limiter.take(address, nowMs);
+  expect([take('2001:db8::1', 0), take('2001:db8::2', 0), take('2001:db8::3', 0)]).toEqual([
+    true,
+    true,
+    false,
+  ]);
+  expect([take('2001:db8::3', 29_000), take('2001:db8::3', 31_000)]).toEqual([false, true]);
+});
