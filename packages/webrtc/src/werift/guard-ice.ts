@@ -3,6 +3,7 @@ import { CandidatePairState } from 'werift';
 import type { Refusals } from '../refusal.ts';
 import { isAuthenticRequest, stunKind } from '../stun/binding-request.ts';
 import { KnownSources } from '../stun/known-sources.ts';
+import { guardRelay } from './guard-relay.ts';
 import { expectMethods, WeriftShapeError } from './werift-shape.ts';
 
 type Address = readonly [host: string, port: number];
@@ -12,6 +13,8 @@ type Receive = (datagram: Buffer, address: Address) => void;
 interface ProtocolShape {
   datagramReceived?: Receive;
   handleStunMessage?: Receive;
+  /** Of a relay allocation. */
+  turn?: object;
 }
 
 interface ConnectionShape {
@@ -38,6 +41,7 @@ export function guardIce(transport: RTCDtlsTransport, refusals: Refusals): void 
   connection.ensureProtocol = (protocol) => {
     const name = typeof protocol.datagramReceived === 'function' ? 'datagramReceived' : 'handleStunMessage';
     expectMethods(protocol, 'the ICE socket', [name]);
+    if (name === 'handleStunMessage') guardRelay(protocol.turn ?? {});
     const receive = (protocol[name] as Receive).bind(protocol);
     const sources = new KnownSources();
     // An ICE lite peer answers checks and sends none.

@@ -1,0 +1,37 @@
+import { setTimeout as delay } from 'node:timers/promises';
+import { RefreshPace, soundLifetimeS } from '../ice/relay-lifetime.ts';
+import { expectMethods } from './werift-shape.ts';
+
+/** RFC 8656 §18.1. */
+const REFRESH = 0x004;
+
+interface MessageShape {
+  messageMethod: number;
+  getAttributeValue(name: 'LIFETIME'): unknown;
+  setAttribute(name: 'LIFETIME', seconds: number): unknown;
+}
+
+interface TurnShape {
+  requestWithRetry(
+    request: MessageShape,
+    server: unknown,
+    signal?: AbortSignal,
+  ): Promise<[MessageShape, unknown]>;
+}
+
+/** Bounds how often the TURN server is asked to refresh an allocation: werift believes any lifetime that it is told. */
+export function guardRelay(turn: object): void {
+  const shape = turn as TurnShape;
+  expectMethods(shape, 'the relay', ['requestWithRetry']);
+  const request = shape.requestWithRetry.bind(turn);
+  const pace = new RefreshPace(performance.now());
+  shape.requestWithRetry = async (message, server, signal) => {
+    if (message.messageMethod !== REFRESH) return await request(message, server, signal);
+    const waitMs = pace.take(performance.now());
+    // Rejects when the allocation is given up.
+    if (waitMs > 0) await delay(waitMs, undefined, signal === undefined ? {} : { signal });
+    const [answer, from] = await request(message, server, signal);
+    answer.setAttribute('LIFETIME', soundLifetimeS(answer.getAttributeValue('LIFETIME')));
+    return [answer, from];
+  };
+}
