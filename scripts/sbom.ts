@@ -1,11 +1,8 @@
 /** `pnpm run sbom`: writes the bill of materials of everything that is deployed. */
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { dirname, join, relative, resolve } from 'node:path';
+import { join, relative, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
-import { readBill, withCrates } from './lib/bill-of-materials.ts';
-import { readCargoLock } from './lib/cargo-lock.ts';
-import { root, run } from './lib/run.ts';
+import { root } from './lib/run.ts';
+import { writeBill } from './lib/write-bill.ts';
 
 const HELP = `pnpm run sbom [--output FILE]
 
@@ -24,20 +21,6 @@ const { values } = parseArgs({
 if (values.help) {
   process.stdout.write(HELP);
 } else {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-sbom-'));
-  try {
-    const draft = join(folder, 'npm.cdx.json');
-    // Without `run`, this is pnpm's own command.
-    const format = ['--sbom-format', 'cyclonedx', '--sbom-spec-version', '1.6', '--sbom-type', 'application'];
-    const { code, output } = await run('pnpm', ['sbom', '--prod', ...format, '--out', draft]);
-    if (code !== 0) throw new Error(`pnpm sbom failed:\n${output}`);
-    const crates = readCargoLock(readFileSync(join(root, 'wasm-codec', 'Cargo.lock'), 'utf8'));
-    const bill = withCrates(readBill(readFileSync(draft, 'utf8')), crates);
-    const path = resolve(values.output);
-    mkdirSync(dirname(path), { recursive: true });
-    writeFileSync(path, `${JSON.stringify(bill, null, 2)}\n`);
-    console.log(`${relative('', path)}: ${bill.components.length} components`);
-  } finally {
-    rmSync(folder, { recursive: true });
-  }
+  const path = resolve(values.output);
+  console.log(`${relative('', path)}: ${await writeBill(path)} components`);
 }

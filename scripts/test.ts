@@ -2,6 +2,7 @@
  * `pnpm test`: runs all checks, in the order in which a fault is cheapest to find. Each step says what it does and
  * how long it took. A step that cannot run says what is missing, and which command fixes that.
  */
+import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { CHROMIUM_REMEDY } from '@farpoint/local-stack';
 import * as dds from '../packages/dds/src/build.ts';
@@ -19,9 +20,10 @@ import { ensureNumpy } from './lib/ensure-numpy.ts';
 import { ensureRos1 } from './lib/ensure-ros1.ts';
 import { ensureTurnServer } from './lib/ensure-turn-server.ts';
 import { failuresOf } from './lib/failures.ts';
-import { run } from './lib/run.ts';
+import { root, run } from './lib/run.ts';
 import { addTallies, emptyTally, type Tally, tallyCargo, tallyPlaywright, tallyVitest } from './lib/tally.ts';
 import { testRust } from './lib/test-rust.ts';
+import { writeBill } from './lib/write-bill.ts';
 
 interface StepResult {
   ok: boolean;
@@ -69,8 +71,9 @@ const steps: Step[] = [
   },
   {
     name: 'supply',
-    what: 'advisories on production dependencies (pnpm audit)',
+    what: 'bill of materials (CycloneDX), and advisories on production dependencies (pnpm audit)',
     run: async () => {
+      await writeBill(join(root, '.farpoint', 'farpoint.cdx.json'));
       const outcome = await auditDependencies();
       if (outcome.made) return { ok: outcome.faults.length === 0, output: outcome.faults.join('\n') };
       return { ok: true, unreachable: `dependency audit: ${outcome.reason}` };

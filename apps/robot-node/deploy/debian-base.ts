@@ -24,7 +24,7 @@ export interface BaseImage {
 
 /** @throws {Error} if the Dockerfile uses another base image */
 export function baseImageOf(dockerfile: string): BaseImage {
-  const match = /^FROM (node:(\d+)-([a-z]+)-slim)/m.exec(dockerfile);
+  const match = /^ARG NODE_IMAGE=(node:(\d+)-([a-z]+)-slim)@/m.exec(dockerfile);
   if (match === null) throw new Error('the Dockerfile is not built upon node:…-slim');
   const [, name = '', node = '', release = ''] = match;
   return { name, node, release };

@@ -151,7 +151,9 @@ describe('the image', () => {
 
   it('uses standard images only, runs unprivileged, and has a health check', () => {
     const images = dockerfile.filter(({ name }) => name === 'FROM').map(({ text }) => text.split(' ')[0]);
-    for (const image of images) expect(image).toMatch(/^node:\d+-[a-z]+-slim$/);
+    for (const image of images) expect(image).toBe('$'.concat('{NODE_IMAGE}'));
+    const base = dockerfile.find(({ name, text }) => name === 'ARG' && text.startsWith('NODE_IMAGE='));
+    expect(base?.text).toMatch(/^NODE_IMAGE=node:\d+-[a-z]+-slim@sha256:[0-9a-f]{64}$/);
     const last = dockerfile.slice(dockerfile.findLastIndex(({ name }) => name === 'FROM'));
     expect(last.find(({ name }) => name === 'USER')?.text).toBe('node');
     expect(last.find(({ name }) => name === 'HEALTHCHECK')?.text).toContain('/healthz');

@@ -93,7 +93,9 @@ function build(): void {
   console.log('building the image');
   const start = performance.now();
   const options = ['--arch', architecture, '--isolation', 'chroot', '--format', 'docker', '--pull=never'];
-  podman.demand('build', ...options, '-f', dockerfile, '-t', IMAGE, repository);
+  // The stand-in has another digest than the image that the Dockerfile names.
+  const base = ['--build-arg', `NODE_IMAGE=${image.name}`];
+  podman.demand('build', ...options, ...base, '-f', dockerfile, '-t', IMAGE, repository);
   const seconds = ((performance.now() - start) / 1000).toFixed(0);
   const megabytes = (name: string) => Number(podman.demand('inspect', '-f', '{{.Size}}', name)) / 1e6;
   const [all, below] = [megabytes(IMAGE), megabytes(image.name)];
