@@ -1,6 +1,6 @@
 import type { LocalStack } from '@farpoint/local-stack';
 import type { DrawnProbe, PageState, PageStats } from '@farpoint/webxr/test-api';
-import { expect, type TestInfo } from '@playwright/test';
+import { expect, type Page, type TestInfo } from '@playwright/test';
 
 export interface OpenOptions {
   robot?: string;
@@ -39,6 +39,13 @@ interface BrowserKeyboard {
   down(key: Key): Promise<void>;
   up(key: Key): Promise<void>;
 }
+
+/** At which every screen should be looked at. */
+export const screenSizes = [
+  { width: 360, height: 740 },
+  { width: 1280, height: 720 },
+  { width: 3840, height: 2160 },
+] as const;
 
 const DEAD_MAN = ' ';
 const FORWARD = 'w';
@@ -178,6 +185,16 @@ export class OperatorPage {
     await this.page.keyboard.down(RELEASE_ESTOP);
     await this.expectState('estop', false);
     await this.page.keyboard.up(RELEASE_ESTOP);
+  }
+
+  /** Saves screenshots of the page as a phone, a laptop and a large screen show it. */
+  async screenshots(page: Page, testInfo: TestInfo, name: string): Promise<void> {
+    const before = page.viewportSize();
+    for (const size of screenSizes) {
+      await page.setViewportSize(size);
+      await this.screenshot(testInfo, `${name}-${size.width}`);
+    }
+    if (before !== null) await page.setViewportSize(before);
   }
 
   /** Saves a screenshot of the page with the test's output. */

@@ -157,14 +157,7 @@ test('a robot with another key is not taken for the one that this browser knows'
   unlinkSync(key);
   await stack.restartRobot(lightRobot.id);
   await expect(obstacle(page)).toContainText('This may be another robot');
-  for (const [width, height] of [
-    [360, 740],
-    [1280, 720],
-    [3840, 2160],
-  ] as const) {
-    await page.setViewportSize({ width, height });
-    await operator.screenshot(testInfo, `other-key-${width}`);
-  }
+  await operator.screenshots(page, testInfo, 'other-key');
   expect((await operator.state()).session).toBe('waiting');
   const shown = await page.locator('#obstacle-shown').textContent();
   expect(shown).toMatch(/^[\w-]{43}$/);

@@ -1,6 +1,6 @@
 import { SignOn } from '@farpoint/issuer/testing';
 import { freePorts, type LocalStack } from '@farpoint/local-stack';
-import type { Page, TestInfo } from '@playwright/test';
+import type { Page } from '@playwright/test';
 import { GrantOffice } from '../src/grant-office.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { test as base, expect, lightRobot } from '../src/stack-test.ts';
@@ -46,24 +46,6 @@ async function signInAs(page: Page, name: string): Promise<void> {
   await page.waitForFunction(() => window.farpoint !== undefined);
 }
 
-async function screenshots(
-  operator: OperatorPage,
-  page: Page,
-  testInfo: TestInfo,
-  name: string,
-): Promise<void> {
-  const before = page.viewportSize();
-  for (const [width, height] of [
-    [360, 740],
-    [1280, 720],
-    [3840, 2160],
-  ] as const) {
-    await page.setViewportSize({ width, height });
-    await operator.screenshot(testInfo, `${name}-${width}`);
-  }
-  if (before !== null) await page.setViewportSize(before);
-}
-
 test('who signs in drives, without a click more, and still after the page was loaded again', async ({
   page,
   signedOn: { stack, signOn },
@@ -71,7 +53,7 @@ test('who signs in drives, without a click more, and still after the page was lo
   const operator = await OperatorPage.open(page, stack, { robot: lightRobot.id, mode: 'points64' });
   await expect(obstacle(page)).toContainText('Sign in to get one');
   await expect(obstacle(page)).toContainText(`You sign in at ${new URL(signOn.url).host}`);
-  await screenshots(operator, page, testInfo, 'obstacle');
+  await operator.screenshots(page, testInfo, 'obstacle');
   await obstacle(page).getByRole('button', { name: 'Sign in' }).click();
   await signInAs(page, 'ada');
 
@@ -93,7 +75,7 @@ test('who signs in drives, without a click more, and still after the page was lo
   await page.getByRole('button', { name: 'Grants and robots’ keys…' }).click();
   await expect(dialog(page).getByRole('button', { name: 'Sign in' })).toBeVisible();
   await expect(dialog(page).getByText(/^Ada Lovelace may drive: sim-\*, until/)).toBeVisible();
-  await screenshots(operator, page, testInfo, 'dialog');
+  await operator.screenshots(page, testInfo, 'dialog');
 });
 
 test('who may not is told so in words, and a grant that nobody asked for is only offered', async ({
@@ -112,7 +94,7 @@ test('who may not is told so in words, and a grant that nobody asked for is only
     dialog(page).getByText('You have signed in, but nothing here is set up for you'),
   ).toBeVisible();
   expect(page.url()).not.toContain('#');
-  await screenshots(operator, page, testInfo, 'not-permitted');
+  await operator.screenshots(page, testInfo, 'not-permitted');
   expect((await operator.state()).session).toBe('waiting');
 
   // For this browser's key, and with a state that the page did not make.

@@ -6,6 +6,7 @@ import { findJanus, JANUS_REMEDY, JanusServer } from '@farpoint/local-stack';
 import type { WatchStats } from '@farpoint/webxr/watch-api';
 import type { Page } from '@playwright/test';
 import { expectOnScreenAndApart } from '../src/layout.ts';
+import { screenSizes } from '../src/operator-page.ts';
 import { expect, test } from '../src/stack-test.ts';
 import { hasVideo, testCamera } from '../src/video-robot.ts';
 
@@ -64,11 +65,7 @@ test('shows cameras and clouds in step, and says whether they are live', async (
   // Test sources capture at the same instants, to the nanosecond.
   expect(shown?.videos.spreadMs?.p50).toBeLessThan(1);
   expect(shown?.videos.undated).toBeLessThan(10);
-  for (const [width, height] of [
-    [360, 740],
-    [1280, 720],
-    [3840, 2160],
-  ] as const) {
+  for (const { width, height } of screenSizes) {
     await page.setViewportSize({ width, height });
     const panels = page.locator('#bar button, #link, #pictures figure');
     expect(await expectOnScreenAndApart(panels, { width, height })).toHaveLength(5);

@@ -1,25 +1,15 @@
 import { createSocket } from 'node:dgram';
 import { once } from 'node:events';
 import type { IceServer } from '@farpoint/protocol';
+import { useCleanups } from '@farpoint/webrtc/testing/cleanups';
 import fc from 'fast-check';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import { OperatorClient } from '../testing/operator-client.ts';
 import { OperatorPeer } from './operator-peer.ts';
 import type { PeerEnd } from './peer-events.ts';
 import type { RtpTransport } from './rtp-transport.ts';
 
-const cleanups: (() => unknown)[] = [];
-const unhandled: unknown[] = [];
-const note = (reason: unknown) => unhandled.push(reason);
-beforeEach(() => {
-  unhandled.length = 0;
-  process.on('unhandledRejection', note);
-});
-afterEach(async () => {
-  for (const cleanup of cleanups.splice(0)) await cleanup();
-  process.off('unhandledRejection', note);
-  expect(unhandled).toEqual([]);
-});
+const cleanups = useCleanups();
 
 /** Sent right after the answer. Nobody here can resolve the names. */
 const FIREFOX_CANDIDATES = [

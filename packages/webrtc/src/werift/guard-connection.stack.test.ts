@@ -1,10 +1,11 @@
 import { createSocket } from 'node:dgram';
 import { once } from 'node:events';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import { createSelfSignedCertificate, RTCPeerConnection } from 'werift';
 import { finishedData } from '../dtls/peer-proof.ts';
 import { parseRecords } from '../dtls/record.ts';
 import { stunKind } from '../stun/binding-request.ts';
+import { useCleanups } from '../testing/cleanups.ts';
 import { dtlsRecord } from '../testing/dtls-record.ts';
 import {
   clientHello,
@@ -18,18 +19,7 @@ import { type LoopbackOptions, LoopbackPeers } from '../testing/loopback-peers.t
 import { guardConnection } from './guard-connection.ts';
 import { WeriftShapeError } from './werift-shape.ts';
 
-const cleanups: (() => unknown)[] = [];
-const unhandled: unknown[] = [];
-const note = (reason: unknown) => unhandled.push(reason);
-beforeEach(() => {
-  unhandled.length = 0;
-  process.on('unhandledRejection', note);
-});
-afterEach(async () => {
-  for (const cleanup of cleanups.splice(0)) await cleanup();
-  process.off('unhandledRejection', note);
-  expect(unhandled).toEqual([]);
-});
+const cleanups = useCleanups();
 
 async function open(options: LoopbackOptions = {}): Promise<LoopbackPeers> {
   const peers = await LoopbackPeers.open(options);

@@ -1,22 +1,12 @@
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import { RTCPeerConnection } from 'werift';
+import { useCleanups } from '../testing/cleanups.ts';
 import { addresses, error, HostileTurn, lifetime, success, TURN } from '../testing/hostile-turn.ts';
 import { guardConnection } from './guard-connection.ts';
 import { guardRelay } from './guard-relay.ts';
 import { WeriftShapeError } from './werift-shape.ts';
 
-const cleanups: (() => unknown)[] = [];
-const unhandled: unknown[] = [];
-const note = (reason: unknown) => unhandled.push(reason);
-beforeEach(() => {
-  unhandled.length = 0;
-  process.on('unhandledRejection', note);
-});
-afterEach(async () => {
-  for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
-  process.off('unhandledRejection', note);
-  expect(unhandled).toEqual([]);
-});
+const cleanups = useCleanups();
 
 type Answer = (request: Buffer, method: number) => readonly Buffer[];
 
