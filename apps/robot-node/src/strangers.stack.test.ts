@@ -7,7 +7,9 @@ import { clientHello, closeAlert, connectivityCheck } from '@farpoint/webrtc/tes
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { createSelfSignedCertificate } from 'werift';
 import { WebSocket } from 'ws';
+import { metricOf } from './testing/metric-of.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
+import { steadyHand } from './testing/steady-hand.ts';
 import { useRobot } from './testing/use-robot.ts';
 
 const ROBOT = 'sim-1';
@@ -16,18 +18,18 @@ const ARGS = ['--rate-control', 'fixed', '--sim-size', '64', '--max-points', '60
 const robot = useRobot(ROBOT, ARGS);
 let driver: SignaledOperator;
 let stranger: Socket | null = null;
-let timer: NodeJS.Timeout;
+let letGo: () => void;
 
 beforeEach(async () => {
   driver = await robot.connect();
   const lease = await driver.client.takeLease();
   // In circles, so that there is always room.
   const twist = { linear: { x: 0.1, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0.5 } };
-  timer = setInterval(() => driver.client.drive(lease, 0.1, { twist }), 20);
+  letGo = steadyHand(driver.client, lease, twist);
   await driver.client.until(() => driver.client.telemetry?.drive === 'driving');
 }, 20_000);
 afterEach(() => {
-  clearInterval(timer);
+  letGo();
   stranger?.close();
   stranger = null;
 });
@@ -38,10 +40,13 @@ async function expectDriving(): Promise<void> {
   const { sequence = 0 } = client.telemetry ?? {};
   const { length } = client.completeFrames;
   await client.until(
-    () => (client.telemetry?.sequence ?? 0) > sequence + 5 && client.completeFrames.length > length,
+    () =>
+      (client.telemetry?.sequence ?? 0) > sequence + 5 &&
+      client.completeFrames.length > length &&
+      // On a busy machine, its commands may just have come late.
+      client.telemetry?.drive === 'driving' &&
+      Math.abs(client.telemetry.twist.angular.z) > 0.1,
   );
-  expect(client.telemetry).toMatchObject({ drive: 'driving' });
-  expect(Math.abs(client.telemetry?.twist.angular.z ?? 0)).toBeGreaterThan(0.1);
   expect(client.connection.connectionState).toBe('connected');
 }
 
@@ -163,7 +168,9 @@ describe('strangers', { timeout: 30_000 }, () => {
   });
 
   it('admits an operator although unanswered requests have taken all places', async () => {
-    // Three places, one of them the driver's.
+    // Three places, one of them the driver's. The operator of the test before may still be leaving.
+    const operators = () => metricOf(robot.stack.robotAdminUrl(ROBOT), 'farpoint_robot_operators');
+    while ((await operators()) > 1) await new Promise((resolve) => setTimeout(resolve, 20));
     const idle = await Promise.all([0, 1].map(() => robot.stack.signalingUrl).map(openAndNeverAnswer));
     const ended = await metric('sessions_ended', refused('not-connected'));
     let guest: SignaledOperator | null = null;
@@ -185,13 +192,9 @@ async function openAndNeverAnswer(url: string): Promise<WebSocket> {
   const socket = new WebSocket(new URL('/operator', url));
   await once(socket, 'open');
   socket.send(JSON.stringify({ type: 'operator.hello', protocol: PROTOCOL_VERSION, name: 'nobody' }));
-  const ask = () => socket.send(JSON.stringify({ type: 'session.open', robotId: ROBOT }));
-  ask();
+  socket.send(JSON.stringify({ type: 'session.open', robotId: ROBOT }));
   for await (const [data] of on(socket, 'message')) {
-    const { type } = JSON.parse(String(data)) as { type: string };
-    if (type === 'session.offer') break;
-    // The operator of the test before may still be leaving.
-    if (type === 'session.closed') ask();
+    if (JSON.parse(String(data)).type === 'session.offer') break;
   }
   return socket;
 }

@@ -1,9 +1,9 @@
 import { SignaledOperator } from '@farpoint/robot-node/testing';
+import { steadyHand } from '@farpoint/robot-node/testing/steady-hand';
 import { inTime, mustHold, untilTrue } from './harm.ts';
 
 /** In circles, so that there is always room. */
 const TWIST = { linear: { x: 0.1, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0.5 } };
-const COMMAND_MS = 20;
 
 /** Somebody who drives while others attack, and notices what happens to that. */
 export class LiveDriver {
@@ -12,15 +12,13 @@ export class LiveDriver {
   readonly session: string;
   /** Every datagram sent since the last call of {@link record}. */
   #recorded: Buffer[] | null = null;
-  readonly #timer: NodeJS.Timeout;
+  readonly #letGo: () => void;
 
   private constructor(operator: SignaledOperator, lease: string) {
     this.operator = operator;
     this.lease = lease;
     this.session = operator.session;
-    this.#timer = setInterval(() => {
-      if (operator.client.control.readyState === 'open') operator.client.drive(lease, 0.1, { twist: TWIST });
-    }, COMMAND_MS);
+    this.#letGo = steadyHand(operator.client, lease, TWIST);
     const { connection } = this;
     const send = connection.send;
     connection.send = (datagram: Buffer) => {
@@ -96,7 +94,7 @@ export class LiveDriver {
   }
 
   async close(): Promise<void> {
-    clearInterval(this.#timer);
+    this.#letGo();
     await this.operator.close();
   }
 }

@@ -215,7 +215,11 @@ export class OperatorClient {
     return lease ?? '';
   }
 
-  drive(lease: string, linear: number, more: { latencyTest?: number; twist?: Twist } = {}): void {
+  drive(
+    lease: string,
+    linear: number,
+    more: { latencyTest?: number; twist?: Twist; deadMan?: boolean } = {},
+  ): void {
     this.sendControl({
       type: 'command',
       sequence: this.#sequence++,
