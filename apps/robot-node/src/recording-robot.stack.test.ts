@@ -62,7 +62,8 @@ describe('robot process that records', { timeout: 60_000 }, () => {
     const [captured, sent] = [messagesOf('/farpoint/captured'), messagesOf('/farpoint/sent')];
     expect(captured).toBeGreaterThan(5);
     expect(sent).toBeGreaterThan(captured);
-    expect(messagesOf('/farpoint/latencies')).toBe(sent);
+    // Of the frame that is being sent when the robot ends, there may be only one of the two.
+    expect(Math.abs(messagesOf('/farpoint/latencies') - sent)).toBeLessThanOrEqual(1);
     for (const name of ['/farpoint/telemetry', '/farpoint/estimates', '/farpoint/cmd_vel', '/odom', '/tf'])
       expect(messagesOf(name), name).toBeGreaterThan(5);
 

@@ -1,5 +1,6 @@
 /** An operator for tests: a werift peer that answers the robot's offer as a browser would. */
 import {
+  type Command,
   channels,
   type Diagnostics,
   decodeJson,
@@ -17,7 +18,6 @@ import {
   type Sample,
   type Telemetry,
   type TelemetryMessage,
-  type Twist,
   telemetryCodec,
   VIDEO_CODECS,
   type VideoCodec,
@@ -215,11 +215,7 @@ export class OperatorClient {
     return lease ?? '';
   }
 
-  drive(
-    lease: string,
-    linear: number,
-    more: { latencyTest?: number; twist?: Twist; deadMan?: boolean } = {},
-  ): void {
+  drive(lease: string, linear: number, more: Partial<Command> = {}): void {
     this.sendControl({
       type: 'command',
       sequence: this.#sequence++,
