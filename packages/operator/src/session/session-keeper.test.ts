@@ -191,6 +191,28 @@ describe('SessionKeeper', () => {
     expect([bench.keeper.phase, bench.requests.length]).toEqual(['live', 4]);
   });
 
+  test('a connection that ends waits a moment for the reason, which takes the other way', () => {
+    const bench = new Bench().live();
+    bench.keeper.onPeerFailed(bench.now);
+    expect([bench.losses, bench.paths, bench.keeper.interrupted]).toEqual([[], [false], true]);
+    bench.pass(250);
+    bench.keeper.onClosed('s1', 'ended-by-supervisor', bench.now);
+    bench.pass(60_000);
+    expect([bench.losses, bench.requests.length]).toEqual([['ended-by-supervisor'], 1]);
+  });
+
+  test('without a reason, or a service that could tell it, it was the connection', () => {
+    const waited = new Bench().live();
+    waited.keeper.onPeerFailed(waited.now);
+    waited.pass(500);
+    // As soon as without the wait.
+    expect([waited.losses, waited.requests.length]).toEqual([['connection-failed'], 2]);
+    const alone = new Bench().live();
+    alone.keeper.onSignaling(false, alone.now);
+    alone.keeper.onPeerFailed(alone.now);
+    expect(alone.losses).toEqual(['connection-failed']);
+  });
+
   test('ended by a supervisor: connects again only when the operator asks for it', () => {
     const bench = new Bench().live();
     bench.keeper.onClosed('s1', 'ended-by-supervisor', bench.now);

@@ -38,6 +38,11 @@ export interface SessionActions {
 const OPEN_TIMEOUT_MS = 15_000;
 /** Silence after which the session is given up, ms: the robot has given it up by then, too. */
 const SILENCE_LIMIT_MS = 60_000;
+/**
+ * A robot that ends a session closes the connection and tells the service why. The reason may arrive later than the
+ * end, so a connection that has ended waits this long for it, ms.
+ */
+const REASON_MS = 400;
 
 export class SessionKeeper {
   readonly #actions: SessionActions;
@@ -51,6 +56,8 @@ export class SessionKeeper {
   #retryAtMs = 0;
   readonly #resume = new ResumePolicy();
   #pathUp = false;
+  /** When the connection of a live session ended. */
+  #failedAtMs: number | null = null;
 
   constructor(actions: SessionActions, random: () => number) {
     this.#actions = actions;
@@ -163,7 +170,11 @@ export class SessionKeeper {
   }
 
   onPeerFailed(nowMs: number, loss: SessionLoss = 'connection-failed'): void {
-    if (this.#phase === 'opening' || this.#phase === 'live') this.#lose(loss, nowMs);
+    if (this.#phase === 'live' && this.#signalingReady && loss === 'connection-failed') {
+      this.#failedAtMs ??= nowMs;
+      if (this.#pathUp) this.#actions.onPath(false);
+      this.#pathUp = false;
+    } else if (this.#phase === 'opening' || this.#phase === 'live') this.#lose(loss, nowMs);
   }
 
   /** Tries again now, also after a loss that would otherwise be final. */
@@ -176,7 +187,10 @@ export class SessionKeeper {
   /** Call at least twice a second. */
   tick(nowMs: number): void {
     if (this.#phase === 'opening' && nowMs >= this.#deadlineMs) this.#lose('not-connected', nowMs);
-    if (this.#phase === 'live') {
+    if (this.#failedAtMs !== null) {
+      // Without a reason, it was the connection.
+      if (nowMs >= this.#failedAtMs + REASON_MS) this.#lose('connection-failed', this.#failedAtMs);
+    } else if (this.#phase === 'live') {
       const canAsk = this.#signalingReady && this.#listed;
       const ask = this.#resume.tick(nowMs, canAsk);
       this.#notePath(nowMs);
@@ -217,6 +231,7 @@ export class SessionKeeper {
   #endSession(): void {
     if (this.#session !== null) this.#actions.closeSession(this.#session);
     this.#session = null;
+    this.#failedAtMs = null;
     this.#deadlineMs = Number.POSITIVE_INFINITY;
     this.#actions.dropPeer();
   }
