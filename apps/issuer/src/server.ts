@@ -1,7 +1,7 @@
 /** The issuer's HTTP server: `/sign-in` and `/callback`, below the path of its public address. */
-import { createServer, type IncomingMessage, type Server, type ServerResponse } from 'node:http';
+import { createServer, type IncomingMessage, type ServerResponse } from 'node:http';
 import type { AddressInfo } from 'node:net';
-import { peerAddress } from '@farpoint/service';
+import { listen, peerAddress } from '@farpoint/service';
 import { BrowserCookie } from './browser-cookie.ts';
 import type { Reply, SignInDesk } from './sign-in-desk.ts';
 
@@ -84,7 +84,7 @@ export async function startServer(desk: SignInDesk, options: ServerOptions): Pro
     },
   );
   server.maxConnections = MOST_CONNECTIONS;
-  await listen(server, port, host);
+  await listen(server, { host, port });
   return {
     port: (server.address() as AddressInfo).port,
     close: () =>
@@ -93,16 +93,6 @@ export async function startServer(desk: SignInDesk, options: ServerOptions): Pro
         server.closeAllConnections();
       }),
   };
-}
-
-function listen(server: Server, port: number, host: string): Promise<void> {
-  return new Promise((resolve, reject) => {
-    server.once('error', reject);
-    server.listen(port, host, () => {
-      server.off('error', reject);
-      resolve();
-    });
-  });
 }
 
 function securityHeaders(isHttps: boolean): Readonly<Record<string, string>> {

@@ -1,14 +1,8 @@
 /** What the service must not do without being asked: let the whole network in, or have secrets sent in the clear. */
+import { isLoopbackHost } from '@farpoint/protocol';
 import { OptionsError } from '@farpoint/service';
 import type { SignalingOptions } from './options.ts';
 import type { ServiceFiles } from './service-files.ts';
-
-const LOOPBACK = /^(127(\.\d{1,3}){3}|::1|localhost)$/;
-
-/** Whether only programs on this machine reach an address that a service listens on. */
-export function isLoopback(host: string): boolean {
-  return LOOPBACK.test(host);
-}
 
 export type ExposureOptions = Pick<
   SignalingOptions,
@@ -26,7 +20,7 @@ export function checkExposure(
 ): void {
   const { host, open, plaintextTokens, reference, referenceOpen, trustProxy } = options;
   // Behind a proxy on the same machine, loopback is not private either.
-  if (isLoopback(host) && !trustProxy) return;
+  if (isLoopbackHost(host) && !trustProxy) return;
   const where = trustProxy ? 'behind a proxy' : `at ${host}`;
   const { robots, operators, tls } = files;
   if (!open && (robots.open || operators.open)) {

@@ -1,5 +1,6 @@
 import type { IncomingMessage, RequestListener } from 'node:http';
-import type { createAdminHandler } from '@farpoint/service';
+import { isLoopbackHost } from '@farpoint/protocol';
+import { type createAdminHandler, peerAddress } from '@farpoint/service';
 import type { SignalingOptions } from './options.ts';
 import { webRoot } from './web-root.ts';
 
@@ -22,9 +23,10 @@ export function httpHandler(
 }
 
 /** A proxy on this machine passes on what others ask. */
-function isOwnMachine({ socket, headers }: IncomingMessage): boolean {
-  const isLoopback = /^(::ffff:)?127\.|^::1$/.test(socket.remoteAddress ?? '');
-  return isLoopback && headers['x-forwarded-for'] === undefined && headers.forwarded === undefined;
+function isOwnMachine(request: IncomingMessage): boolean {
+  const { headers } = request;
+  const isForwarded = headers['x-forwarded-for'] !== undefined || headers.forwarded !== undefined;
+  return !isForwarded && isLoopbackHost(peerAddress(request, false));
 }
 
 export const notFound: RequestListener = (_request, response) => {

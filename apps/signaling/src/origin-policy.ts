@@ -1,5 +1,5 @@
 /** Which pages may open a WebSocket. A browser says where the page came from; other programs say nothing. */
-import { isLoopback } from './exposure.ts';
+import { isLoopbackHost } from '@farpoint/protocol';
 
 export interface OriginPolicy {
   /** Besides the service's own; `*` allows every page. */
@@ -30,7 +30,7 @@ export function isOriginAllowed(
 }
 
 function isLoopbackName(name: string): boolean {
-  return isLoopback(name.replace(/^\[|\]$/g, '')) || name.endsWith('.localhost');
+  return isLoopbackHost(name) || name.endsWith('.localhost');
 }
 
 function nameOf(host: string | undefined): string {

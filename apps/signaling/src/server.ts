@@ -1,6 +1,7 @@
 import { randomBytes } from 'node:crypto';
 import type { IncomingMessage, RequestListener } from 'node:http';
 import { type Audit, noAudit } from '@farpoint/audit';
+import { isLoopbackHost } from '@farpoint/protocol';
 import {
   createAdminHandler,
   createMetrics,
@@ -12,7 +13,7 @@ import {
 import { Admission, peerAddress } from './admission.ts';
 import { auditObserver } from './audit-observer.ts';
 import { systemClock } from './clock.ts';
-import { checkExposure, isLoopback } from './exposure.ts';
+import { checkExposure } from './exposure.ts';
 import { FarpointHub } from './farpoint-hub.ts';
 import { httpHandler, notFound } from './http-handler.ts';
 import { turnCredentials } from './ice-servers.ts';
@@ -253,7 +254,7 @@ class SignalingService implements RunningSignaling {
     const { allowedOrigins: allowed, trustProxy, host } = this.#options;
     if (this.#closing !== null) return { status: 503, reason: 'shutting down' };
     const { origin = '', host: name } = request.headers;
-    const policy = { allowed, isLocal: isLoopback(host) && !trustProxy };
+    const policy = { allowed, isLocal: isLoopbackHost(host) && !trustProxy };
     if (!isOriginAllowed(request.headers.origin, name, policy)) {
       this.#observer.rejected(role, 'origin', origin.slice(0, 100));
       return { status: 403, reason: 'not from this origin: see --allowed-origins' };

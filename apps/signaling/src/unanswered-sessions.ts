@@ -1,8 +1,8 @@
+import { isLoopbackHost } from '@farpoint/protocol';
 import { addressKey } from './admission.ts';
 
 /** As many as a person opens by reloading a page a few times, and fewer than the places of a robot. */
 const MAX_UNANSWERED = 3;
-const LOOPBACK = /^(127\.|::1$)/;
 
 /** What is needed of a session. */
 export interface Asked {
@@ -19,7 +19,7 @@ export class UnansweredSessions<Session extends Asked> {
   readonly #bySource = new Map<string, Set<Session>>();
 
   hasRoom(robotId: string, address: string): boolean {
-    if (LOOPBACK.test(address)) return true;
+    if (isLoopbackHost(address)) return true;
     return (this.#bySource.get(sourceKey(robotId, address))?.size ?? 0) < MAX_UNANSWERED;
   }
 

@@ -17,6 +17,7 @@ export * from './identifiers.ts';
 export * from './json.ts';
 export * from './latency-barcode.ts';
 export * from './latency-barcode-reader.ts';
+export * from './loopback.ts';
 export * from './picture-assembler.ts';
 export * from './picture-chunk.ts';
 export * from './picture-file.ts';

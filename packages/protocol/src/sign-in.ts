@@ -4,20 +4,19 @@
  */
 import * as z from 'zod/mini';
 import { handleSchema } from './identifiers.ts';
+import { isLoopbackHost } from './loopback.ts';
 
 /** Characters. */
 export const MAX_SIGN_IN_URL = 512;
 /** Characters of the page's address, to which the issuer sends the browser back. */
 export const MAX_RETURN_URL = 2048;
 
-const LOOPBACK = /^(?:localhost|127(?:\.\d{1,3}){3}|\[::1\])$/;
-
 /** Whether nobody on the way can read or change what is sent there: https, or http on this machine. */
 export function isProtectedUrl(text: string): boolean {
   if (!URL.canParse(text)) return false;
   const url = new URL(text);
   if (url.username !== '' || url.password !== '') return false;
-  return url.protocol === 'https:' || (url.protocol === 'http:' && LOOPBACK.test(url.hostname));
+  return url.protocol === 'https:' || (url.protocol === 'http:' && isLoopbackHost(url.hostname));
 }
 
 /** Where operators sign in, as the signaling service tells them. */

@@ -2,6 +2,7 @@ import { createServer, type IncomingMessage, type ServerResponse } from 'node:ht
 import type { AddressInfo } from 'node:net';
 import { collectDefaultMetrics, Registry } from 'prom-client';
 import type { Health } from './health.ts';
+import { listen } from './listen.ts';
 
 export { Counter, Gauge, Histogram, Registry } from 'prom-client';
 
@@ -65,13 +66,7 @@ export async function startAdminServer(
       reply(request, response, 404, 'text/plain; charset=utf-8', 'this port serves /healthz and /metrics\n');
     }
   });
-  await new Promise<void>((resolve, reject) => {
-    server.once('error', reject);
-    server.listen(address.port, address.host, () => {
-      server.off('error', reject);
-      resolve();
-    });
-  });
+  await listen(server, address);
   return {
     port: (server.address() as AddressInfo).port,
     close: () =>

@@ -2,9 +2,10 @@
  * Remembers revoked and blocked grants across restarts of the robot, so that neither a restart nor a signaling service
  * that no longer sends a list gives anybody back what was taken.
  */
-import { mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { mkdirSync, readFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
 import { RevocationsRefusedError, readRevocations } from '@farpoint/grants';
+import { replaceFile } from '@farpoint/service';
 import { z } from 'zod';
 
 /** A grant that a supervisor has blocked at this robot. */
@@ -48,12 +49,10 @@ export class RevocationJournal {
     this.start = read(this.#path);
   }
 
-  /** Replaces the file atomically: a reader finds either the old or the new one. @throws {Error} of the system */
+  /** @throws {Error} of the system; what was written before is then still there */
   write({ lists, blocked }: RevocationState): void {
-    const draft = `${this.#path}.new`;
-    mkdirSync(join(this.#path, '..'), { recursive: true, mode: 0o750 });
-    writeFileSync(draft, `${JSON.stringify({ version: 1, lists, blocked })}\n`, { mode: 0o640, flush: true });
-    renameSync(draft, this.#path);
+    mkdirSync(dirname(this.#path), { recursive: true, mode: 0o750 });
+    replaceFile(this.#path, `${JSON.stringify({ version: 1, lists, blocked })}\n`, 0o640);
   }
 }
 

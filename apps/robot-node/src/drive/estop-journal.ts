@@ -3,9 +3,10 @@
  * start the machine (ISO 13850, 4.1.4), and a crash does not release the stop. After either, the robot starts with
  * its emergency stop latched.
  */
-import { mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { EstopSource } from '@farpoint/safety';
+import { replaceFile } from '@farpoint/service';
 import { z } from 'zod';
 
 const runSchema = z.strictObject({
@@ -81,12 +82,9 @@ export class EstopJournal {
     }
   }
 
-  /** Replaces the file atomically: a reader finds either the old or the new file. */
   #write(running: boolean): void {
     const run: Run = { version: 1, running, latchedBy: this.#latchedBy };
-    const draft = `${this.#path}.new`;
-    writeFileSync(draft, `${JSON.stringify(run)}\n`, { mode: 0o640, flush: true });
-    renameSync(draft, this.#path);
+    replaceFile(this.#path, `${JSON.stringify(run)}\n`, 0o640);
   }
 }
 

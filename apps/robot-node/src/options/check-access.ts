@@ -1,5 +1,6 @@
 /** Who is admitted, and what is sent to whom: faults that only show when options are combined. */
 import { GrantKeysError, readJwkSet } from '@farpoint/grants';
+import { isLoopbackHost } from '@farpoint/protocol';
 import { readText } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 
@@ -29,5 +30,5 @@ export function checkAccess(
 
 function isPrivate(address: string): boolean {
   const { protocol, hostname } = new URL(address);
-  return protocol === 'wss:' || /^(localhost|127\.[\d.]+|\[::1\])$/.test(hostname);
+  return protocol === 'wss:' || isLoopbackHost(hostname);
 }

@@ -1,6 +1,6 @@
 import { closeSync, openSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { GrantKeysError, type GrantPublicJwk, MAX_KEYS, readJwkSet } from '@farpoint/grants';
-import { fileFault } from '@farpoint/service';
+import { fileFault, replaceFile } from '@farpoint/service';
 import { CommandError } from './command-rim.ts';
 
 /** @throws {CommandError} */
@@ -40,10 +40,8 @@ export function readPublicKeys(flag: string, path: string): GrantPublicJwk[] {
 
 /** Replaces the file at once, so that a robot never reads half of it. @throws {CommandError} */
 export function writePublicKeys(flag: string, path: string, keys: readonly GrantPublicJwk[]): void {
-  const beside = `${path}.new`;
   try {
-    writeFileSync(beside, `${JSON.stringify({ keys }, null, 2)}\n`, { mode: 0o644 });
-    renameSync(beside, path);
+    replaceFile(path, `${JSON.stringify({ keys }, null, 2)}\n`, 0o644);
   } catch (error) {
     throw new CommandError(`${flag} cannot be written: ${fileFault(error) ?? String(error)}`, 1);
   }

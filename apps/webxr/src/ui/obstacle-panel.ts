@@ -1,5 +1,6 @@
 /** The panel that says why the page does not connect, and what the operator can do. */
-import { computed, effect, type ReadonlySignal } from '@preact/signals-core';
+import { effect, type ReadonlySignal } from '@preact/signals-core';
+import { steady } from '../state/steady.ts';
 import type { Obstacle } from '../status/access-words.ts';
 import { elements } from './elements.ts';
 
@@ -20,11 +21,10 @@ export function showObstacle(obstacle: ReadonlySignal<Obstacle | null>, actions:
   obstacleTrust.addEventListener('click', () => actions.trust());
   obstacleAccess.addEventListener('click', () => actions.openAccess());
   obstacleSignIn.addEventListener('click', () => actions.signIn());
-  // Samples make a new object each time. A panel that is written again is read out again.
-  const changed = computed(() => JSON.stringify(obstacle.value));
+  // A panel that is written again is read out again.
+  const kept = steady(obstacle);
   effect(() => {
-    void changed.value;
-    const shown = obstacle.peek();
+    const shown = kept.value;
     elements.obstacle.hidden = shown === null;
     if (shown === null) return;
     elements.obstacleTitle.textContent = shown.title;

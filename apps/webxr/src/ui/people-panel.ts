@@ -2,17 +2,18 @@
 import type { RobotClient } from '@farpoint/operator';
 import { computed, effect } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
+import { steady } from '../state/steady.ts';
 import { type ShownPerson, shownPeople } from '../status/people-words.ts';
 import { elements } from './elements.ts';
 
 export function showPeople({ robot, driving }: PageState, client: Pick<RobotClient, 'endSession'>): void {
   const { people, peopleLine, peopleList } = elements;
-  // The robot tells anew at each change; samples come in between.
-  const shown = computed(() =>
-    JSON.stringify(shownPeople(robot.operators.value, driving.role.value === 'supervise')),
+  // A button that is made anew loses the focus.
+  const shown = steady(
+    computed(() => shownPeople(robot.operators.value, driving.role.value === 'supervise')),
   );
   effect(() => {
-    const { line, persons } = JSON.parse(shown.value) as ReturnType<typeof shownPeople>;
+    const { line, persons } = shown.value;
     people.hidden = line === null;
     peopleLine.textContent = line ?? '';
     peopleList.replaceChildren(...persons.map((person) => itemOf(person, client)));
