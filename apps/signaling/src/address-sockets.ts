@@ -1,5 +1,5 @@
 import type { Server } from 'node:net';
-import { addressKey } from './admission.ts';
+import { addressKey, plainAddress } from '@farpoint/service';
 
 /**
  * Limits the open TCP connections from one address to a port, before anything is read from them. Without it, one address
@@ -14,7 +14,7 @@ export function limitSocketsPerAddress(
 ): void {
   const open = new Map<string, number>();
   server.prependListener('connection', (socket) => {
-    const address = (socket.remoteAddress ?? 'unknown').replace(/^::ffff:(?=\d+\.)/, '');
+    const address = plainAddress(socket.remoteAddress ?? 'unknown');
     const key = addressKey(address);
     const here = open.get(key) ?? 0;
     if (here >= mostPerAddress) {

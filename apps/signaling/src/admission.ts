@@ -1,8 +1,6 @@
 import { addressKey } from '@farpoint/service';
 import type { RejectReason } from './observer.ts';
 
-export { addressKey, peerAddress } from '@farpoint/service';
-
 export interface AdmissionLimits {
   readonly maxConnections: number;
   readonly maxConnectionsPerAddress: number;

@@ -7,10 +7,11 @@ import {
   createMetrics,
   Health,
   type Logger,
+  peerAddress,
   type Registry,
   silentLogger,
 } from '@farpoint/service';
-import { Admission, peerAddress } from './admission.ts';
+import { Admission } from './admission.ts';
 import { auditObserver } from './audit-observer.ts';
 import { systemClock } from './clock.ts';
 import { checkExposure } from './exposure.ts';

@@ -1,5 +1,5 @@
 import { isLoopbackHost } from '@farpoint/protocol';
-import { addressKey } from './admission.ts';
+import { addressKey } from '@farpoint/service';
 
 /** As many as a person opens by reloading a page a few times, and fewer than the places of a robot. */
 const MAX_UNANSWERED = 3;

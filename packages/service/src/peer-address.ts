@@ -19,5 +19,10 @@ export function peerAddress(request: IncomingMessage, trustProxy: boolean): stri
   const forwarded = request.headers['x-forwarded-for'];
   const last = typeof forwarded === 'string' ? forwarded.split(',').at(-1)?.trim() : undefined;
   const address = (trustProxy && last ? last : request.socket.remoteAddress) ?? 'unknown';
+  return plainAddress(address);
+}
+
+/** An address as it is written in the log: IPv4 as such, not as a part of IPv6. */
+export function plainAddress(address: string): string {
   return address.replace(/^::ffff:(?=\d+\.)/, '');
 }

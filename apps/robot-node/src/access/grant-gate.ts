@@ -9,7 +9,7 @@ import {
   refusalText,
 } from '@farpoint/grants';
 import type { Logger } from '@farpoint/service';
-import { TokenBucket } from '@farpoint/timing';
+import { LimitedLines } from '../telemetry/limited-lines.ts';
 import type { ReasonCounts } from '../telemetry/robot-counters.ts';
 import type { Access } from './access.ts';
 
@@ -48,8 +48,7 @@ export class GrantGate {
   readonly #options: GrantGateOptions;
   readonly #sessions = new Map<string, Entry>();
   /** A stranger must not be able to fill the log. */
-  readonly #reports = new TokenBucket({ perSecond: 1, burst: 10 });
-  #unreported = 0;
+  readonly #reports = new LimitedLines();
 
   constructor(options: GrantGateOptions) {
     this.#options = options;
@@ -93,14 +92,12 @@ export class GrantGate {
   #refuse(session: string, { reason, message }: GrantRefusedError): GateVerdict {
     const { refusals, log, now } = this.#options;
     refusals.add(reason);
-    if (this.#reports.take(now())) {
+    const unreported = this.#reports.take(now());
+    if (unreported !== null) {
       log.warn(
-        { session: shortHash('session', session), reason, detail: message, unreported: this.#unreported },
+        { session: shortHash('session', session), reason, detail: message, unreported },
         'operator not admitted',
       );
-      this.#unreported = 0;
-    } else {
-      this.#unreported++;
     }
     return { verdict: 'refused', reason, detail: refusalText(reason) };
   }

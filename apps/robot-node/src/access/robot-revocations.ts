@@ -8,6 +8,7 @@ import {
 } from '@farpoint/grants';
 import type { Logger } from '@farpoint/service';
 import { TokenBucket } from '@farpoint/timing';
+import { LimitedLines } from '../telemetry/limited-lines.ts';
 import type { ReasonCounts } from '../telemetry/robot-counters.ts';
 import { MAX_BLOCKED, MAX_LISTS, type RevocationJournal } from './revocation-journal.ts';
 
@@ -44,7 +45,7 @@ export class RobotRevocations {
   readonly #waiting = new Set<string>();
   /** To verify a list takes time, and the signaling service need not be trusted. */
   readonly #work = new TokenBucket({ perSecond: 10, burst: 64 });
-  readonly #reports = new TokenBucket({ perSecond: 1, burst: 10 });
+  readonly #reports = new LimitedLines();
 
   constructor(options: RobotRevocationsOptions) {
     this.#options = options;
@@ -97,7 +98,7 @@ export class RobotRevocations {
       }
       if (sent && error.reason === 'revocations-untrusted') this.#wait(text);
       outcomes.add(error.reason);
-      if (this.#reports.take(now())) {
+      if (this.#reports.take(now()) !== null) {
         log.warn(
           { from, reason: error.reason, detail: error.message },
           'a list of revoked grants is not used',

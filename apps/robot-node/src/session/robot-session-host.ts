@@ -1,13 +1,13 @@
 import type { Command, EstopState, LatencyMeasured, ProtocolError } from '@farpoint/protocol';
 import type { CommandVerdict, RejectedCommand } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
-import { TokenBucket } from '@farpoint/timing';
 import type { LeaseCause, RobotAudit } from '../audit/robot-audit.ts';
 import type { DriveStation } from '../drive/drive-station.ts';
 import type { EstopJournal } from '../drive/estop-journal.ts';
 import type { CloudSensor } from '../sensors/cloud-sensor.ts';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
 import type { CommandLog } from '../telemetry/command-log.ts';
+import { LimitedLines } from '../telemetry/limited-lines.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { SessionRecording } from '../telemetry/session-recording.ts';
 import type { VideoHub } from '../video/video-hub.ts';
@@ -35,8 +35,7 @@ export class RobotSessionHost implements SessionHost {
   readonly drive: DriveStation;
   readonly #parts: RobotSessionHostParts;
   /** Whoever drives can latch and release the emergency stop without end, but not fill the log. */
-  readonly #estopLines = new TokenBucket({ perSecond: 1, burst: 10 });
-  #estopUnreported = 0;
+  readonly #estopLines = new LimitedLines();
 
   constructor(parts: RobotSessionHostParts) {
     this.drive = parts.drive;
@@ -130,13 +129,10 @@ export class RobotSessionHost implements SessionHost {
   }
 
   #logEstop(state: EstopState): void {
-    if (!this.#estopLines.take(this.now())) {
-      this.#estopUnreported++;
-      return;
-    }
-    const unreported = this.#estopUnreported === 0 ? {} : { unreported: this.#estopUnreported };
+    const leftOut = this.#estopLines.take(this.now());
+    if (leftOut === null) return;
+    const unreported = leftOut === 0 ? {} : { unreported: leftOut };
     this.#parts.log.warn({ estop: state, ...unreported }, 'emergency stop changed');
-    this.#estopUnreported = 0;
   }
 
   messageLimited(kind: RatedMessage): void {
