@@ -158,7 +158,7 @@ describe('strangers', { timeout: 30_000 }, () => {
     await expectDriving();
     client.sendSession({ type: 'estop', latch: true });
     await driver.client.message('estop', ({ latched }) => latched);
-    driver.client.sendSession({ type: 'estop', latch: false });
+    driver.client.releaseEstop();
     await driver.client.message('estop', ({ latched }) => !latched);
   });
 

@@ -93,6 +93,8 @@ export class OperatorClient {
   #sessionChannel: RTCDataChannel | null = null;
   #probes: NodeJS.Timeout | null = null;
   #sequence = 0;
+  /** The robot has asked this operator to let go of the grip. */
+  #mustLetGo = false;
 
   constructor({
     keys,
@@ -132,7 +134,7 @@ export class OperatorClient {
     connection.onDataChannel.subscribe((channel) => {
       if (channel.label === 'session') this.#sessionChannel = channel;
       channel.onMessage.subscribe((data) => {
-        if (channel.label === 'session') this.session.push(decodeJson(robotSessionCodec, data));
+        if (channel.label === 'session') this.#onSession(decodeJson(robotSessionCodec, data));
         else if (channel.label === 'pictures') this.#onPicture(data);
         else if (channel.label === 'telemetry') this.#onTelemetry(decodeJson(telemetryCodec, data));
         this.#changed();
@@ -215,6 +217,14 @@ export class OperatorClient {
     return lease ?? '';
   }
 
+  /** Releases the emergency stop, by the number of its latest latch. */
+  releaseEstop(): void {
+    const state = this.session.findLast(({ type }) => type === 'estop');
+    const of = state?.type === 'estop' ? state.latch : undefined;
+    this.sendSession({ type: 'estop', latch: false, of });
+  }
+
+  /** Lets go once when the robot asks for it, as an operator would: on a busy machine commands come with gaps. */
   drive(lease: string, linear: number, more: { latencyTest?: number; twist?: Twist } = {}): void {
     this.sendControl({
       type: 'command',
@@ -224,7 +234,9 @@ export class OperatorClient {
       deadMan: true,
       twist: { ...zeroTwist(), linear: { x: linear, y: 0, z: 0 } },
       ...more,
+      ...(this.#mustLetGo ? { twist: zeroTwist() } : {}),
     });
+    this.#mustLetGo = false;
   }
 
   /** By the `mid` of its m-line. */
@@ -249,6 +261,11 @@ export class OperatorClient {
   async close(): Promise<void> {
     if (this.#probes !== null) clearInterval(this.#probes);
     await this.connection.close();
+  }
+
+  #onSession(message: RobotSessionMessage): void {
+    this.session.push(message);
+    if (message.type === 'rejected' && message.reason === 'let-go-first') this.#mustLetGo = true;
   }
 
   #onPicture(data: string | Buffer): void {
