@@ -1,8 +1,13 @@
 /** One operator's presses of STOP, which may arrive several times and on two channels, and its releases. */
-import { type EstopState, type FaultReason, sequenceDelta32 } from '@farpoint/protocol';
+import {
+  type EstopState,
+  type FaultReason,
+  type RobotSessionMessage,
+  sequenceDelta32,
+} from '@farpoint/protocol';
 import type { EstopReleaseRefusal } from '@farpoint/safety';
-import { mayDrive, supervises } from '../access/access.ts';
-import type { OperatorMessages, SessionHost } from './operator-messages.ts';
+import { type Access, mayDrive, supervises } from '../access/access.ts';
+import type { DriveStation } from '../drive/drive-station.ts';
 
 /**
  * A release that names no latch may have been sent before the operator heard of the present one. It counts only if the
@@ -21,23 +26,45 @@ const refusalWords: Record<Refusal, string> = {
   'others-latched': 'others have pressed STOP too, and have not released it',
 };
 
+/** The operator whose requests they are. */
+export interface EstopOperator {
+  readonly id: string;
+  readonly access: Access;
+  /** When a message last came from it, ms on the robot's clock. */
+  readonly heardMs: number;
+  send(message: RobotSessionMessage): void;
+  /** Sends it the state of the emergency stop. */
+  sendEstop(): void;
+}
+
+/** What the requests change. */
+export interface EstopPort {
+  readonly drive: DriveStation;
+  now(): number;
+  /** It was latched or released, and all operators must be told. */
+  changed(): void;
+  /** It was latched again, and all operators must be told the new number. */
+  renewed(): void;
+  refused(reason: string): void;
+}
+
 export class EstopRequests {
-  readonly #session: OperatorMessages;
-  readonly #host: SessionHost;
+  readonly #operator: EstopOperator;
+  readonly #port: EstopPort;
   /** The newest press that has latched. */
   #press: number | null = null;
   /** The latch that the operator was told of last, and when it was first told of it, ms. */
   #told: { latch: number | undefined; atMs: number } | null = null;
 
-  constructor(session: OperatorMessages, host: SessionHost) {
-    this.#session = session;
-    this.#host = host;
+  constructor(operator: EstopOperator, port: EstopPort) {
+    this.#operator = operator;
+    this.#port = port;
   }
 
   /** The state to be sent to this operator now. */
   told(): EstopState {
-    const state = this.#host.drive.guard.estopState();
-    if (this.#told?.latch !== state.latch) this.#told = { latch: state.latch, atMs: this.#host.now() };
+    const state = this.#port.drive.guard.estopState();
+    if (this.#told?.latch !== state.latch) this.#told = { latch: state.latch, atMs: this.#port.now() };
     return this.#press === null ? state : { ...state, press: this.#press };
   }
 
@@ -48,17 +75,17 @@ export class EstopRequests {
       if (this.#press !== null && sequenceDelta32(press, this.#press) <= 0) return;
       this.#press = press;
     }
-    const { drive } = this.#host;
-    const changed = drive.guard.latchEstop('operator', this.#session.id);
+    const { drive } = this.#port;
+    const changed = drive.guard.latchEstop('operator', this.#operator.id);
     drive.apply();
-    if (changed) this.#host.estopChanged(this.#session);
-    else this.#host.estopRenewed();
+    if (changed) this.#port.changed();
+    else this.#port.renewed();
   }
 
   /** @param of number of the latch that is meant */
   release(of: number | undefined): void {
-    const { drive } = this.#host;
-    const { id, access, heardMs } = this.#session;
+    const { drive } = this.#port;
+    const { id, access, heardMs } = this.#operator;
     const supervised = supervises(access);
     const isUnnamed = of === undefined && !this.#knowsPresent(heardMs);
     const mayAsk = supervised || drive.guard.leaseHolder === id;
@@ -68,24 +95,24 @@ export class EstopRequests {
     }
     const outcome = drive.guard.releaseEstop(id, heardMs, supervised, of);
     drive.apply();
-    if (outcome.released) this.#host.estopChanged(this.#session);
-    else if (outcome.reason === 'not-latched') this.#session.sendEstop();
+    if (outcome.released) this.#port.changed();
+    else if (outcome.reason === 'not-latched') this.#operator.sendEstop();
     else this.#refuse(outcome.reason);
   }
 
   #knowsPresent(nowMs: number): boolean {
-    const { latch } = this.#host.drive.guard.estopState();
+    const { latch } = this.#port.drive.guard.estopState();
     return this.#told?.latch === latch && nowMs - (this.#told?.atMs ?? nowMs) >= UNNAMED_RELEASE_AFTER_MS;
   }
 
   #refuse(reason: Refusal): void {
-    this.#host.refused?.(this.#session, 'estop-release', reason);
-    const fault = faultOf(reason, mayDrive(this.#session.access));
-    this.#session.send({
+    this.#port.refused(reason);
+    const fault = faultOf(reason, mayDrive(this.#operator.access));
+    this.#operator.send({
       ...{ type: 'fault', message: refusalWords[reason] },
       ...(fault === undefined ? {} : { reason: fault }),
     });
-    this.#session.sendEstop();
+    this.#operator.sendEstop();
   }
 }
 

@@ -94,7 +94,12 @@ export class OperatorMessages {
     this.#host = host;
     this.#link = link;
     this.heardMs = host.now();
-    this.#estop = new EstopRequests(this, host);
+    this.#estop = new EstopRequests(this, {
+      ...{ drive: host.drive, now: () => host.now() },
+      changed: () => host.estopChanged(this),
+      renewed: () => host.estopRenewed(),
+      refused: (reason) => host.refused?.(this, 'estop-release', reason),
+    });
   }
 
   /** Tells the operator the state of the drive lease; sent after the welcome and at each change. */

@@ -17,12 +17,10 @@ import {
   type Sample,
   type Telemetry,
   type TelemetryMessage,
-  type Twist,
   telemetryCodec,
   VIDEO_CODECS,
   type VideoCodec,
   type WholePicture,
-  zeroTwist,
 } from '@farpoint/protocol';
 import { ABS_CAPTURE_TIME_URI } from '@farpoint/rtp';
 import { helloAtOnce } from '@farpoint/webrtc/testing';
@@ -36,6 +34,7 @@ import {
   useTWCC,
 } from 'werift';
 import { videoCodecParameters } from '../transport/media-codecs.ts';
+import { type DriveExtras, DrivingHand, namedRelease } from './driving-hand.ts';
 import { SoundReception } from './sound-reception.ts';
 import { type ReceivedVideo, VideoReception } from './video-reception.ts';
 
@@ -92,9 +91,7 @@ export class OperatorClient {
   readonly #helloAtOnce: boolean;
   #sessionChannel: RTCDataChannel | null = null;
   #probes: NodeJS.Timeout | null = null;
-  #sequence = 0;
-  /** The robot has asked this operator to let go of the grip. */
-  #mustLetGo = false;
+  readonly #hand = new DrivingHand(this.session);
 
   constructor({
     keys,
@@ -134,7 +131,7 @@ export class OperatorClient {
     connection.onDataChannel.subscribe((channel) => {
       if (channel.label === 'session') this.#sessionChannel = channel;
       channel.onMessage.subscribe((data) => {
-        if (channel.label === 'session') this.#onSession(decodeJson(robotSessionCodec, data));
+        if (channel.label === 'session') this.session.push(decodeJson(robotSessionCodec, data));
         else if (channel.label === 'pictures') this.#onPicture(data);
         else if (channel.label === 'telemetry') this.#onTelemetry(decodeJson(telemetryCodec, data));
         this.#changed();
@@ -219,24 +216,12 @@ export class OperatorClient {
 
   /** Releases the emergency stop, by the number of its latest latch. */
   releaseEstop(): void {
-    const state = this.session.findLast(({ type }) => type === 'estop');
-    const of = state?.type === 'estop' ? state.latch : undefined;
-    this.sendSession({ type: 'estop', latch: false, of });
+    this.sendSession(namedRelease(this.session));
   }
 
-  /** Lets go once when the robot asks for it, as an operator would: on a busy machine commands come with gaps. */
-  drive(lease: string, linear: number, more: { latencyTest?: number; twist?: Twist } = {}): void {
-    this.sendControl({
-      type: 'command',
-      sequence: this.#sequence++,
-      timeMs: performance.now(),
-      lease,
-      deadMan: true,
-      twist: { ...zeroTwist(), linear: { x: linear, y: 0, z: 0 } },
-      ...more,
-      ...(this.#mustLetGo ? { twist: zeroTwist() } : {}),
-    });
-    this.#mustLetGo = false;
+  /** Lets go once when the robot has asked for it. */
+  drive(lease: string, linear: number, more: DriveExtras = {}): void {
+    this.sendControl(this.#hand.command(lease, linear, more));
   }
 
   /** By the `mid` of its m-line. */
@@ -261,11 +246,6 @@ export class OperatorClient {
   async close(): Promise<void> {
     if (this.#probes !== null) clearInterval(this.#probes);
     await this.connection.close();
-  }
-
-  #onSession(message: RobotSessionMessage): void {
-    this.session.push(message);
-    if (message.type === 'rejected' && message.reason === 'let-go-first') this.#mustLetGo = true;
   }
 
   #onPicture(data: string | Buffer): void {

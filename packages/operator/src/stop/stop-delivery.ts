@@ -35,6 +35,7 @@ interface Pending {
   sentNumbered: object | null;
 }
 
+/** Delivers STOP. {@link RobotClient} creates and calls it; an app reads {@link status}. */
 export class StopDelivery {
   readonly #link: StopLink;
   readonly #onStatus: (status: StopStatus) => void;
@@ -72,7 +73,7 @@ export class StopDelivery {
     return true;
   }
 
-  /** Sends what is due. Call it at least every {@link REPEAT_MS}. @param nowMs `performance.now()` */
+  /** Sends what is due. Call it at least every 50 ms. @param nowMs `performance.now()` */
   tick(nowMs: number): void {
     const pending = this.#pending;
     if (pending === null) return;
