@@ -83,4 +83,7 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   const unconfirmed = wristLines({ ...facts, alarm, stop, nextRobot: null });
   expect(unconfirmed).toHaveLength(6);
   expect(unconfirmed).toContainEqual(stop);
+  const confirmed = { text: 'STOP confirmed', tone: 'good' } as const;
+  expect(wristLines({ ...facts, alarm, stop: confirmed, nextRobot: null })).toContainEqual(alarm);
+  expect(wristLines({ ...facts, alarm: null, stop: confirmed, nextRobot: null })).toContainEqual(confirmed);
 });

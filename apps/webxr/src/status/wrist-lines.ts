@@ -41,9 +41,10 @@ export function wristLines({
     link,
     ...(telemetry === null ? [] : [driveStateWords(telemetry.drive, afterGap)]),
     driving,
-    // STOP, or else an alarm, takes the place of the line that matters least.
-    stop ??
-      alarm ?? {
+    // An unconfirmed STOP, an alarm or a confirmed STOP takes the place of the line that matters least.
+    (stop?.tone === 'good' ? null : stop) ??
+      alarm ??
+      stop ?? {
         text: `${thousands}k points  ${framesPerSecond.toFixed(0)}/s  ${mbps(figures)} Mbit/s`,
         tone: 'neutral',
       },
