@@ -153,6 +153,13 @@ test('shows what has become of STOP, also without a session', () => {
   client.stops.status = 'unconfirmed';
   client.say('stop', 'unconfirmed');
   expect(state.robot.stop.value).toBe('unconfirmed');
+  // Through a bridge, no robot has said so.
+  client.stops.status = 'confirmed';
+  client.say('stop', 'confirmed');
+  expect(state.robot.stop.value).toBe('none');
+  client.session.estop = { type: 'estop', latched: true, by: 'operator', latch: 1, press: 1 };
+  client.say('estop', client.session.estop);
+  expect(state.robot.stop.value).toBe('confirmed');
 });
 
 test('shows who drives, and with which device', () => {
