@@ -1,5 +1,6 @@
 import { createRequire } from 'node:module';
 import type { Page } from '@playwright/test';
+import type { OperatorPage } from './operator-page.ts';
 
 const require = createRequire(import.meta.url);
 
@@ -60,6 +61,18 @@ export class Headset {
       hand,
       at,
     ] as const);
+  }
+
+  /** The right hand, which holds the grip: it grips anew where the robot waits for that, as the keys do. */
+  gripOf(operator: OperatorPage): Pick<OperatorPage, 'gripAnew'> {
+    return {
+      gripAnew: async () => {
+        if ((await operator.state()).drive !== 'watchdog') return;
+        await this.button('right', 'squeeze', 0);
+        await operator.expectState('drive', 'idle');
+        await this.button('right', 'squeeze', 1);
+      },
+    };
   }
 
   /** @param value 0 released … 1 held */

@@ -128,9 +128,13 @@ export class OperatorPage {
   /**
    * Waits until the robot has moved at least this far from a position, metres.
    *
-   * @param driver whose keys are held
+   * @param driver whose keys or grip are held
    */
-  async expectMovedFrom(from: { x: number; y: number }, least: number, driver: OperatorPage = this) {
+  async expectMovedFrom(
+    from: { x: number; y: number },
+    least: number,
+    driver: Pick<OperatorPage, 'gripAnew'> = this,
+  ) {
     await expect
       .poll(
         async () => {
@@ -164,8 +168,8 @@ export class OperatorPage {
   }
 
   /**
-   * On a busy machine the page may pause for longer than the robot's watchdog allows. The robot then stops until the
-   * operator lets go and grips again, so that is what this does, as an operator would.
+   * On a busy machine the page may pause for longer than the robot's watchdog allows, even for an instant. The robot then
+   * stops until the operator lets go and grips again, so that is what this does, as an operator would.
    */
   async gripAnew(): Promise<void> {
     if (!this.#holding || (await this.state()).drive !== 'watchdog') return;

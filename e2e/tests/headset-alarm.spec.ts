@@ -42,7 +42,7 @@ test('in the headset: an alarm is on the wrist, and is of the past when the robo
     const start = await operator.body();
     await headset.button('right', 'squeeze', 1);
     await headset.thumbstick('right', 0, -1);
-    await operator.expectMovedFrom(start, 0.3);
+    await operator.expectMovedFrom(start, 0.3, headset.gripOf(operator));
     await expect.poll(alarms).toEqual([{ text: `${LOW} (and 1 more)`, tone: 'bad' }]);
     await headset.thumbstick('right', 0, 0);
     await headset.button('right', 'squeeze', 0);

@@ -31,7 +31,7 @@ test('in the headset: both eyes show the room, the thumbstick drives, the world 
   const drawnBefore = await operator.probe();
   await headset.button('right', 'squeeze', 1);
   await headset.thumbstick('right', 0, -1);
-  await operator.expectMovedFrom(start, 1);
+  await operator.expectMovedFrom(start, 1, headset.gripOf(operator));
   await headset.thumbstick('right', 0, 0);
   await operator.expectStanding();
   await headset.button('right', 'squeeze', 0);
@@ -52,7 +52,13 @@ test('in the headset: both eyes show the room, the thumbstick drives, the world 
   await headset.button('right', 'squeeze', 1);
   await headset.thumbstick('right', -1, 0);
   await expect
-    .poll(async () => (await operator.body()).yaw - end.yaw, { message: 'yaw' })
+    .poll(
+      async () => {
+        await headset.gripOf(operator).gripAnew();
+        return (await operator.body()).yaw - end.yaw;
+      },
+      { message: 'yaw' },
+    )
     .toBeGreaterThan(0.3);
   await headset.button('right', 'squeeze', 0);
   await operator.expectStanding();

@@ -28,7 +28,12 @@ test('a robot in a ROS 1 graph: its cloud, its readings, and driving it', async 
   await operator.screenshot(testInfo, 'ros');
 
   await operator.holdForward();
-  await expect.poll(() => nodes[1]?.heard.at(-1)?.x ?? 0).toBeGreaterThan(0.2);
+  await expect
+    .poll(async () => {
+      await operator.gripAnew();
+      return nodes[1]?.heard.at(-1)?.x ?? 0;
+    })
+    .toBeGreaterThan(0.2);
   await operator.releaseKeys();
   await expect.poll(() => nodes[1]?.heard.at(-1)?.x).toBe(0);
 });

@@ -74,6 +74,6 @@ test('in the headset: three videos beside the wrist, one enlarged by the trigger
   const start = await operator.body();
   await headset.button('right', 'squeeze', 1);
   await headset.thumbstick('right', 0, -1);
-  await operator.expectMovedFrom(start, 0.3);
+  await operator.expectMovedFrom(start, 0.3, headset.gripOf(operator));
   await headset.button('right', 'squeeze', 0);
 });

@@ -64,7 +64,12 @@ it('a drive from start to end, in a chain that verifies', { timeout: 60_000 }, a
   sue.client.sendSession({ type: 'leaseRequest', take: true });
   await ada.client.message('lease', ({ holder }) => holder === 'other');
   // As often as it likes: neither log grows without bound.
-  for (let i = 0; i < 200; i++) sue.client.sendSession({ type: 'estop', latch: i % 2 === 1 });
+  for (let i = 0; i < 200; i++) {
+    const of = 1 + i / 2;
+    sue.client.sendSession(
+      i % 2 === 1 ? { type: 'estop', latch: true } : { type: 'estop', latch: false, of },
+    );
+  }
   const stranger = robot.keep(await SignaledOperator.open(robot.stack.signalingUrl, ROBOT, {}));
   await stranger.until(({ type }) => type === 'session.closed');
   await sue.close();
@@ -78,7 +83,9 @@ it('a drive from start to end, in a chain that verifies', { timeout: 60_000 }, a
     details: { configuration: { token: 'set', simSize: 64, auditLog: file } },
   });
   const story = told.map(({ kind, subject }) => `${kind} ${subject?.name ?? ''}`);
-  const once = story.filter((line, i) => story.indexOf(line) === i && !/^estop|^entries/.test(line));
+  const once = story.filter(
+    (line, i) => story.indexOf(line) === i && !/^estop|^entries|^refused Sue/.test(line),
+  );
   expect(once).toEqual([
     ...['started ', 'session-began Ada', 'lease-given Ada', 'session-began Sue', 'session-began Wim'],
     ...[
@@ -89,7 +96,9 @@ it('a drive from start to end, in a chain that verifies', { timeout: 60_000 }, a
       'session-ended Sue',
     ],
   ]);
-  expect(told.filter(({ kind }) => kind === 'refused').map(({ details }) => details)).toEqual([
+  // Sue's are releases of a latch that her next press did not make: there were too many.
+  const refusals = told.filter(({ kind, subject }) => kind === 'refused' && subject?.name !== 'Sue');
+  expect(refusals.map(({ details }) => details)).toEqual([
     { what: 'estop-release', reason: 'not-lease-holder' },
     { what: 'lease', reason: 'not-permitted' },
     { what: 'admission', reason: 'grant-missing' },

@@ -106,7 +106,7 @@ describe('who is admitted', { timeout: 30_000 }, () => {
     await driver.client.message('estop', ({ latched }) => latched);
     client.sendSession({ type: 'estop', latch: false });
     await client.until(() => client.session.filter(({ type }) => type === 'fault').length === 2);
-    driver.client.sendSession({ type: 'estop', latch: false });
+    driver.client.releaseEstop();
     await client.message('estop', ({ latched }) => !latched);
   });
 
@@ -119,7 +119,7 @@ describe('who is admitted', { timeout: 30_000 }, () => {
       await driver.client.until(() => driver.client.telemetry?.drive === 'driving');
       driver.client.sendSession({ type: 'estop', latch: true });
       await supervisor.client.message('estop', ({ latched }) => latched);
-      supervisor.client.sendSession({ type: 'estop', latch: false });
+      supervisor.client.releaseEstop();
       await driver.client.until(() => {
         const estops = driver.client.session.filter(({ type }) => type === 'estop');
         return (

@@ -1,5 +1,5 @@
-import type { DriveLimits, IceServer, Quantity } from '@farpoint/protocol';
-import type { TakePolicy } from '@farpoint/safety';
+import type { AfterGap, DriveLimits, IceServer, Quantity } from '@farpoint/protocol';
+import type { EstopReleasePolicy, TakePolicy } from '@farpoint/safety';
 import type { RobotAuditOptions } from './audit/open-robot-audit.ts';
 import type { BaseOptions } from './base/base-messages.ts';
 import type { BroadcastOptions } from './broadcast/broadcast-options.ts';
@@ -45,6 +45,10 @@ export interface RobotOptions extends RateControlOptions {
   /** Limits beyond which a value is an alarm. */
   alarms: readonly AlarmRule[];
   takePolicy: TakePolicy;
+  /** Who may release what an operator has latched. */
+  estopRelease: EstopReleasePolicy;
+  /** What happens when commands come again after a gap that stopped the robot. */
+  afterGap: AfterGap;
   /** Where the robot remembers its emergency stop and revoked grants across restarts. */
   stateFolder: string;
   /** The reference signaling service's port for robots. Its operators are not authenticated. */

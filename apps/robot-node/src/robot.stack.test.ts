@@ -48,7 +48,7 @@ async function driveUntil(operator: SignaledOperator, lease: string, linear: num
 /** A robot that was killed starts latched. */
 async function releaseEstop({ client }: SignaledOperator): Promise<void> {
   await client.takeLease();
-  client.sendSession({ type: 'estop', latch: false });
+  client.releaseEstop();
   await client.message('estop', (message) => !message.latched);
 }
 

@@ -163,7 +163,7 @@ describe('strangers', { timeout: 30_000 }, () => {
     await expectDriving();
     client.sendSession({ type: 'estop', latch: true });
     await driver.client.message('estop', ({ latched }) => latched);
-    driver.client.sendSession({ type: 'estop', latch: false });
+    driver.client.releaseEstop();
     await driver.client.message('estop', ({ latched }) => !latched);
     // As a page does. The end of the connection alone may be lost behind the flood, and the robot would wait for a minute.
     guest.closeSession();

@@ -7,6 +7,7 @@
 
 // What the robot's events are made of.
 export type {
+  AfterGap,
   Alarm,
   Battery,
   Broadcast,
@@ -98,6 +99,7 @@ export type { PlayedSound, RobotSound, VoiceStatus } from './sound/robot-sound.t
 export type { VoiceFailure, VoiceFailureReason } from './sound/voice-failure.ts';
 export type { SensorStats } from './statistics/sensor-statistics.ts';
 export type { StreamStatistics, StreamStats } from './statistics/stream-statistics.ts';
+export type { StopDelivery, StopStatus } from './stop/stop-delivery.ts';
 export type { VideoTrack } from './video/video-track.ts';
 export { RobotWatcher, type RobotWatcherOptions } from './watch/robot-watcher.ts';
 export type { WatchEvents } from './watch/watch-events.ts';

@@ -1,8 +1,9 @@
 /**
  * The `control` channel, opened by the operator, unordered and never retransmitted: late messages are worthless.
- * Operator → robot: commands, clock probes and receiver reports. Robot → operator: clock answers.
+ * Operator → robot: commands, clock probes, receiver reports and STOP. Robot → operator: answers to probes and to STOP.
  */
 import * as z from 'zod/mini';
+import { type EstopAck, type EstopPress, estopAckSchema, estopPressSchema } from './estop-press.ts';
 import { type Twist, twistSchema } from './geometry.ts';
 import { handleSchema, uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
@@ -50,7 +51,8 @@ export interface ReceiverReport {
   bytesReceived: number;
 }
 
-export type OperatorControlMessage = Command | ClockProbe | ReceiverReport;
+export type OperatorControlMessage = Command | ClockProbe | ReceiverReport | EstopPress;
+export type RobotControlMessage = ClockAnswer | EstopAck;
 
 const timeMsSchema = z.number().check(z.minimum(0), z.maximum(Number.MAX_SAFE_INTEGER));
 const countSchema = z.int().check(z.minimum(0));
@@ -81,18 +83,32 @@ const receiverReportSchema = z.strictObject({
 
 export const operatorControlCodec: JsonCodec<OperatorControlMessage> = {
   what: 'operator control message',
-  schema: z.discriminatedUnion('type', [commandSchema, clockProbeSchema, receiverReportSchema]),
+  schema: z.discriminatedUnion('type', [
+    commandSchema,
+    clockProbeSchema,
+    receiverReportSchema,
+    estopPressSchema,
+  ]),
   maxBytes: 1024,
 };
 
+const clockAnswerSchema = z.strictObject({
+  type: z.literal('clockAnswer'),
+  id: uint32Schema,
+  sentMs: timeMsSchema,
+  robotMs: timeMsSchema,
+});
+
 export const clockAnswerCodec: JsonCodec<ClockAnswer> = {
   what: 'clock answer',
-  schema: z.strictObject({
-    type: z.literal('clockAnswer'),
-    id: uint32Schema,
-    sentMs: timeMsSchema,
-    robotMs: timeMsSchema,
-  }),
+  schema: clockAnswerSchema,
+  maxBytes: 256,
+};
+
+/** Everything that the robot sends on the channel. */
+export const robotControlCodec: JsonCodec<RobotControlMessage> = {
+  what: 'robot control message',
+  schema: z.discriminatedUnion('type', [clockAnswerSchema, estopAckSchema]),
   maxBytes: 256,
 };
 
@@ -105,7 +121,7 @@ export const commandRejections = [
   'not-permitted', // the operator's grant does not let it drive
   'not-lease-holder', // another operator drives, or nobody has requested the lease
   'dead-man-released', // motion requested without the grip
-  'let-go-first', // motion with a grip that was held while no command got through for a long time
+  'let-go-first', // motion with a grip that was held while no command got through for too long
   'estop-latched', // the emergency stop must be released first
   'rate-limited', // more commands per second than the robot reads
 ] as const;

@@ -1,7 +1,7 @@
 /** Checks that the examples in docs/protocol.md are messages of this package. */
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
-import { clockAnswerCodec, operatorControlCodec } from './control.ts';
+import { operatorControlCodec, robotControlCodec } from './control.ts';
 import { decodeJson, type JsonCodec } from './json.ts';
 import { operatorSessionCodec, robotSessionCodec } from './session-codecs.ts';
 import {
@@ -17,7 +17,7 @@ const text = readFileSync(new URL('../../../docs/protocol.md', import.meta.url),
 /** Which kinds of message the examples under a heading may be. */
 const kinds: Record<string, JsonCodec<unknown>[]> = {
   '`control`, operator → robot': [operatorControlCodec],
-  '`control`, robot → operator': [clockAnswerCodec],
+  '`control`, robot → operator': [robotControlCodec],
   '`session`, robot → operator': [robotSessionCodec],
   '`session`, operator → robot': [operatorSessionCodec],
   '`telemetry`': [telemetryCodec],

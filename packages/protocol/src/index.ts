@@ -12,6 +12,7 @@ export * from './colour664.ts';
 export * from './control.ts';
 export * from './diagnostics.ts';
 export * from './errors.ts';
+export * from './estop-press.ts';
 export * from './geometry.ts';
 export * from './identifiers.ts';
 export * from './json.ts';

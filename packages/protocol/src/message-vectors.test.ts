@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { broadcastCodec } from './broadcast.ts';
-import { clockAnswerCodec, commandRejections, operatorControlCodec } from './control.ts';
+import { clockAnswerCodec, commandRejections, operatorControlCodec, robotControlCodec } from './control.ts';
 import { ProtocolError } from './errors.ts';
 import { decodeJson, encodeJson, encodeJsonBytes, type JsonCodec, type MessageData } from './json.ts';
 import { referenceControlCodec } from './reference-control.ts';
@@ -31,6 +31,7 @@ import { driveStates, telemetryCodec } from './telemetry.ts';
 const codecs: [file: string, codec: JsonCodec<unknown>][] = [
   ['operator-control', operatorControlCodec],
   ['clock-answer', clockAnswerCodec],
+  ['robot-control', robotControlCodec],
   ['robot-session', robotSessionCodec],
   ['operator-session', operatorSessionCodec],
   ['telemetry', telemetryCodec],

@@ -11,7 +11,7 @@ import { operatorsSchema } from './present-operators.ts';
 import { quantitySchema } from './quantity.ts';
 import { roles } from './role.ts';
 import { sensorRingsSchema, sensorSchema } from './sensor-rings.ts';
-import { faultReasons, type RobotSessionMessage } from './session-messages.ts';
+import { afterGapChoices, faultReasons, type RobotSessionMessage } from './session-messages.ts';
 import type { OperatorSessionMessage } from './session-requests.ts';
 import { MICROPHONE_STATES, VOICE_STATES } from './sound-media.ts';
 import { MAX_VIDEOS, VIDEO_CODECS } from './video-media.ts';
@@ -50,6 +50,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
         maxAngular: positive,
         watchdogMs: positive,
         maxCommandsPerSecond: positive,
+        afterGap: z.optional(z.enum(afterGapChoices)),
       }),
       stream: z.strictObject({
         format: z.literal('points64'),
@@ -79,6 +80,8 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
       type: z.literal('estop'),
       latched: z.boolean(),
       by: z.optional(z.enum(['operator', 'robot'])),
+      latch: z.optional(uint32Schema),
+      press: z.optional(uint32Schema),
     }),
     z.strictObject({
       type: z.literal('latencyFrame'),
@@ -135,7 +138,12 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
   schema: z.discriminatedUnion('type', [
     z.strictObject({ type: z.literal('leaseRequest'), take: z.boolean() }),
     z.strictObject({ type: z.literal('leaseRelease') }),
-    z.strictObject({ type: z.literal('estop'), latch: z.boolean() }),
+    z.strictObject({
+      type: z.literal('estop'),
+      latch: z.boolean(),
+      press: z.optional(uint32Schema),
+      of: z.optional(uint32Schema),
+    }),
     z.strictObject({ type: z.literal('stream'), running: z.boolean() }),
     z.strictObject({
       type: z.literal('cloudFormats'),

@@ -23,6 +23,18 @@ export interface DriveLimits {
   maxCommandsPerSecond: number;
 }
 
+/** What a robot does when commands come again after a gap that stopped it. */
+export const afterGapChoices = [
+  'resume', // it moves again at once, after a gap of less than 1 s
+  'let-go', // it moves again once the operator has let go of the grip
+] as const;
+/**
+ * What a robot does when commands come again after a gap that stopped it.
+ *
+ * @useDeclaredType
+ */
+export type AfterGap = (typeof afterGapChoices)[number];
+
 /** The robot's first message in every session. */
 export interface Welcome {
   /** Tells the message from others. */
@@ -34,7 +46,10 @@ export interface Welcome {
   /** The robot's name, for people. */
   name: string;
   /** What the robot allows. */
-  limits: DriveLimits;
+  limits: DriveLimits & {
+    /** Left out by older robots, which resume. */
+    afterGap?: AfterGap | undefined;
+  };
   /** The first sensor's clouds before they are sampled. */
   stream: {
     /** The format that every operator reads. */
@@ -101,8 +116,15 @@ export interface EstopState {
   type: 'estop';
   /** Whether it is latched: the robot does not move. */
   latched: boolean;
-  /** Who latched it, if it is latched. */
+  /** Who latched it first, if it is latched. */
   by?: 'operator' | 'robot' | undefined;
+  /**
+   * Number of the latest latch, 0 before the first. A press while it is latched counts as well. Left out by robots that
+   * do not number them.
+   */
+  latch?: number | undefined;
+  /** The newest of this operator's presses that has latched it in this session. */
+  press?: number | undefined;
 }
 
 /** Announces the frame that answers a latency test. */
@@ -220,6 +242,8 @@ export const faultReasons = [
   'own-session', // it is the asker's own, which it can leave
   'rate-limited', // too many such requests
   'no-room', // no more grants can be blocked
+  'newer-latch', // the release meant an older latch of the emergency stop, or may have meant one
+  'not-latcher', // the emergency stop is released by those who latched it
 ] as const;
 /**
  * Why the robot did not do what an operator asked.

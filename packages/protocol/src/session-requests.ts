@@ -9,10 +9,17 @@ export interface LeaseRequest {
 export interface LeaseRelease {
   type: 'leaseRelease';
 }
-/** Latches or releases the emergency stop. Anyone may latch it; only the lease holder may release it. */
+/** Latches or releases the emergency stop. Anyone may latch it; the robot decides who may release it. */
 export interface EstopRequest {
   type: 'estop';
   latch: boolean;
+  /** With `latch`: the number of the press, as in {@link EstopPress}. Without it, each message is a press of its own. */
+  press?: number | undefined;
+  /**
+   * Of a release: the `latch` of the robot's {@link EstopState} that is to be released. The robot refuses to release a
+   * newer one.
+   */
+  of?: number | undefined;
 }
 /** Starts or pauses the stream of points to this operator. */
 export interface StreamRequest {

@@ -505,6 +505,8 @@ control.good({**command, "latencyTest": 4, "sequence": 2 ** 32 - 1, "timeMs": 0}
 control.good({**command, "lease": "A-Za-z0-9_-" + "x" * 53, "deadMan": False}, "command with the longest lease")
 probe = control.good({"type": "clockProbe", "id": 3, "sentMs": 1000.25})
 report = control.good({"type": "receiverReport", "sequence": 9, "packetsReceived": 60000, "packetsLost": 12, "bytesReceived": 74640000})
+press = control.good({"type": "estop", "press": 1})
+control.good({"type": "estop", "press": 2 ** 32 - 1}, "estop: the largest number")
 control.common(command, 1024)
 control.spoil(command, ("sequence", -1), ("sequence", 2 ** 32), ("sequence", 1.5), ("sequence", "17"), ("sequence", ABSENT),
               ("timeMs", -0.1), ("timeMs", None), ("timeMs", 1e300), ("lease", ""), ("lease", "x" * 65), ("lease", "a b"), ("lease", ABSENT),
@@ -515,6 +517,7 @@ control.bad("a number too large for a double", json.dumps(command).replace("0.5"
 control.bad("a key of the prototype", json.dumps(command)[:-1] + ',"__proto__":{}}', "invalid")
 control.spoil(probe, ("id", -1), ("sentMs", ABSENT), ("robotMs", 1, ""))
 control.spoil(report, ("packetsLost", -1), ("packetsReceived", 0.5), ("bytesReceived", 2 ** 53))
+control.spoil(press, ("press", -1), ("press", ABSENT), ("press", 1.5), ("press", "1"), ("latch", True, ""))
 write("operator-control.json", control.lists())
 
 answer = Messages()
@@ -522,6 +525,15 @@ base = answer.good({"type": "clockAnswer", "id": 3, "sentMs": 1000.25, "robotMs"
 answer.common(base, 256)
 answer.spoil(base, ("id", 2 ** 32), ("sentMs", -1), ("robotMs", "88123"), ("robotMs", ABSENT), ("type", "clockProbe"), ("extra", 0, ""))
 write("clock-answer.json", answer.lists())
+
+robot_control = Messages()
+robot_control.good(base)
+ack = robot_control.good({"type": "estopAck", "press": 1})
+robot_control.good({"type": "estopAck", "press": 2 ** 32 - 1}, "estopAck: the largest number")
+robot_control.common(ack, 256)
+robot_control.spoil(base, ("robotMs", ABSENT))
+robot_control.spoil(ack, ("press", ABSENT), ("press", -1), ("press", 0.5), ("type", "estop"), ("latched", True, ""))
+write("robot-control.json", robot_control.lists())
 
 robot_session = Messages()
 limits = {"maxLinear": 1, "maxAngular": 1.5, "watchdogMs": 150, "maxCommandsPerSecond": 100}
@@ -539,7 +551,7 @@ robot_session.good({"type": "operators", "operators": [{**present, "number": 2 *
 robot_session.spoil(operators, ("operators", ABSENT), ("operators", [present] * 17), ("operators.0.number", -1), ("operators.0.number", 2 ** 32),
                     ("operators.1.name", ""), ("operators.1.role", "root"), ("operators.1.drives", 1), ("operators.0.you", ABSENT),
                     ("operators.1.session", "s1", "operators.1"), ("more", 0), ("more", 0.5))
-for reason in ["unknown-operator", "own-session", "rate-limited", "no-room"]:
+for reason in ["unknown-operator", "own-session", "rate-limited", "no-room", "newer-latch", "not-latcher"]:
     robot_session.good({"type": "fault", "message": "", "reason": reason}, "fault: " + reason)
 robot_session.good({"type": "lease", "holder": "other", "driver": "Ada"}, "lease held by another, who is named")
 robot_session.good({"type": "fault", "message": "your grant lets you watch", "reason": "not-permitted"}, "fault: not permitted")
@@ -553,6 +565,12 @@ for reason in ["malformed", "stale", "repeated", "not-permitted", "not-lease-hol
 estop = robot_session.good({"type": "estop", "latched": True, "by": "operator"})
 robot_session.good({"type": "estop", "latched": True, "by": "robot"}, "estop by the robot")
 robot_session.good({"type": "estop", "latched": False}, "estop released")
+robot_session.good({"type": "estop", "latched": False, "latch": 0}, "estop that was never latched")
+pressed = robot_session.good({"type": "estop", "latched": True, "by": "operator", "latch": 7, "press": 2}, "estop with its number, and this operator's press")
+for after_gap in ["let-go", "resume"]:
+    robot_session.good(changed(welcome, "limits.afterGap", after_gap), "welcome, after a gap: " + after_gap)
+robot_session.spoil(welcome, ("limits.afterGap", "go"), ("limits.afterGap", True))
+robot_session.spoil(pressed, ("latch", -1), ("latch", 0.5), ("press", 2 ** 32), ("press", "2"))
 latency = robot_session.good({"type": "latencyFrame", "id": 4, "frameNumber": 901, "points": 30000, "commandMs": 88120.5, "captureMs": 88131})
 cloud_stream = robot_session.good({"type": "cloudStream", "format": "organised", "header": "RlBPQwEBAAA="})
 cameras = robot_session.good({"type": "cameras", "cameras": [{"name": "Front"}, {"name": "/gripper/image_raw"}]})
@@ -618,6 +636,9 @@ operator_session.good({"type": "leaseRequest", "take": True}, "leaseRequest to t
 operator_session.good({"type": "leaseRelease"})
 stop = operator_session.good({"type": "estop", "latch": True})
 operator_session.good({"type": "estop", "latch": False}, "estop release")
+operator_session.good({"type": "estop", "latch": True, "press": 2}, "estop with the number of the press")
+release = operator_session.good({"type": "estop", "latch": False, "of": 7}, "estop release of one latch")
+operator_session.spoil(release, ("of", -1), ("of", "7"), ("of", 2 ** 32), ("press", 0.5))
 stream = operator_session.good({"type": "stream", "running": False})
 formats = operator_session.good({"type": "cloudFormats", "formats": ["points64", "organised", "unorganised"]})
 operator_session.good({"type": "cloudFormats", "formats": []}, "cloudFormats: none")

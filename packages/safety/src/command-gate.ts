@@ -32,6 +32,7 @@ export interface CommandGateOptions {
   maxAgeMs?: number;
   /**
    * If no command was accepted for this long after motion, the hand must let go of the stick before driving again, ms.
+   * Default 1000.
    */
   letGoAfterMs?: number;
   /** How long the shortest transit time is remembered, ms (queueing-delay.ts). */

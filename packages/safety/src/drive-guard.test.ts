@@ -112,11 +112,11 @@ describe('emergency stop', () => {
     guard.latchEstop('operator');
     expect(isZeroTwist(guard.velocityAt(0))).toBe(true);
     expect(guard.state(0)).toBe('estop');
-    expect(guard.estopState()).toEqual({ type: 'estop', latched: true, by: 'operator' });
+    expect(guard.estopState()).toEqual({ type: 'estop', latched: true, by: 'operator', latch: 1 });
     expect(guard.releaseEstop('b', 10)).toEqual({ released: false, reason: 'not-lease-holder' });
     expect(guard.releaseEstop('a', 10)).toEqual({ released: true });
     expect(guard.releaseEstop('a', 10)).toEqual({ released: false, reason: 'not-latched' });
-    expect(guard.estopState()).toEqual({ type: 'estop', latched: false });
+    expect(guard.estopState()).toEqual({ type: 'estop', latched: false, latch: 1 });
   });
 
   test('requests from before the stop do not return with the release', () => {

@@ -15,16 +15,15 @@ import {
   type RejectedCommand,
 } from './command-gate.ts';
 import { EstopLatch, type EstopSource } from './estop.ts';
+import { type EstopReleaseOutcome, type EstopReleasePolicy, releaseEstop } from './estop-release.ts';
 import { type LeaseOptions, type LeaseOutcome, LeaseTable } from './lease.ts';
 import { Watchdog } from './watchdog.ts';
 
 export interface DriveGuardOptions extends LeaseOptions, CommandGateOptions {
   limits: DriveLimits;
+  /** Who may release what an operator has latched; default `driver`. */
+  estopRelease?: EstopReleasePolicy | undefined;
 }
-
-export type EstopReleaseOutcome =
-  | { released: true }
-  | { released: false; reason: 'not-latched' | 'not-lease-holder' };
 
 /**
  * Everything between the operators' messages and the robot's wheels. All times are the robot's monotonic clock in ms.
@@ -41,6 +40,7 @@ export class DriveGuard {
   readonly #gate: CommandGate;
   readonly #leases: LeaseTable;
   readonly #estop: EstopLatch;
+  readonly #estopRelease: EstopReleasePolicy;
   readonly #watchdog: Watchdog;
   #wish: Twist = zeroTwist();
 
@@ -49,6 +49,7 @@ export class DriveGuard {
     this.#gate = new CommandGate(this.#limits, options);
     this.#leases = new LeaseTable(options);
     this.#estop = new EstopLatch(this.#limits.watchdogMs);
+    this.#estopRelease = options.estopRelease ?? 'driver';
     this.#watchdog = new Watchdog(this.#limits.watchdogMs);
   }
 
@@ -137,6 +138,7 @@ export class DriveGuard {
   /** The operator's connection has ended. @returns whether this freed the lease */
   operatorGone(operatorId: string): boolean {
     this.#gate.forget(operatorId);
+    this.#estop.withdraw(operatorId);
     return this.releaseLease(operatorId);
   }
 
@@ -147,26 +149,39 @@ export class DriveGuard {
     return { type: 'lease', holder: this.#leases.holder === null ? 'nobody' : 'other' };
   }
 
-  /** Stops at once, whoever asks and however often. @returns false if it was already latched */
-  latchEstop(by: EstopSource): boolean {
+  /**
+   * Stops at once, whoever asks and however often. Then send every operator the `estopState`: its `latch` has changed.
+   *
+   * @param operatorId the operator who asks, if it is one
+   * @returns false if it was already latched
+   */
+  latchEstop(by: EstopSource, operatorId?: string): boolean {
     this.#halt();
-    return this.#estop.latch(by);
+    return this.#estop.latch(by, operatorId);
   }
 
   /**
-   * Only the lease holder or a supervisor can release it. Motion then needs a new command, from a hand that has let go
-   * (estop.ts).
+   * Only the lease holder or a supervisor can release it, within the policy (estop-release.ts). Motion then needs a new
+   * command, from a hand that has let go (estop.ts).
+   *
+   * @param of number of the latch that is meant; left out, it is the present one
    */
-  releaseEstop(operatorId: string, nowMs: number, supervises = false): EstopReleaseOutcome {
-    if (!supervises && this.#leases.holder !== operatorId)
-      return { released: false, reason: 'not-lease-holder' };
-    return this.#estop.release(nowMs) ? { released: true } : { released: false, reason: 'not-latched' };
+  releaseEstop(operatorId: string, nowMs: number, supervises = false, of?: number): EstopReleaseOutcome {
+    const holdsLease = this.#leases.holder === operatorId;
+    return releaseEstop(this.#estop, this.#estopRelease, { operatorId, holdsLease, supervises, of }, nowMs);
   }
 
   /** The message that tells every operator about the emergency stop. */
   estopState(): EstopState {
-    const by = this.#estop.by;
-    return by === null ? { type: 'estop', latched: false } : { type: 'estop', latched: true, by };
+    const { by, number: latch } = this.#estop;
+    return by === null
+      ? { type: 'estop', latched: false, latch }
+      : { type: 'estop', latched: true, by, latch };
+  }
+
+  /** Whose emergency stop must outlive a restart: an operator's comes before the robot's. `null` while it is released. */
+  get estopKeptFor(): EstopSource | null {
+    return this.#estop.ofOperator ? 'operator' : this.#estop.by;
   }
 
   #halt(): void {

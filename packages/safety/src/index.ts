@@ -1,6 +1,7 @@
 export * from './command-gate.ts';
 export * from './drive-guard.ts';
 export * from './estop.ts';
+export * from './estop-release.ts';
 export * from './lease.ts';
 export * from './limits.ts';
 export * from './queueing-delay.ts';

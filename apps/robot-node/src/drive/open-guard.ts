@@ -1,6 +1,6 @@
 import { randomBytes } from 'node:crypto';
-import type { DriveLimits } from '@farpoint/protocol';
-import { DriveGuard, type TakePolicy } from '@farpoint/safety';
+import type { AfterGap, DriveLimits } from '@farpoint/protocol';
+import { DriveGuard, type EstopReleasePolicy, type TakePolicy } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { RobotAudit } from '../audit/robot-audit.ts';
 import { EstopJournal } from './estop-journal.ts';
@@ -9,6 +9,8 @@ export interface GuardOptions {
   id: string;
   limits: DriveLimits;
   takePolicy: TakePolicy;
+  estopRelease: EstopReleasePolicy;
+  afterGap: AfterGap;
   /** Where the robot remembers its emergency stop across restarts. */
   stateFolder: string;
 }
@@ -18,11 +20,15 @@ export interface GuardOptions {
  * the next run.
  */
 export function openGuard(
-  { id, limits, takePolicy, stateFolder }: GuardOptions,
+  { id, limits, takePolicy, estopRelease, afterGap, stateFolder }: GuardOptions,
   log: Logger,
   audit: RobotAudit,
 ): { guard: DriveGuard; estop: EstopJournal } {
-  const guard = new DriveGuard({ limits, takePolicy, randomBytes: (count) => randomBytes(count) });
+  const guard = new DriveGuard({
+    ...{ limits, takePolicy, estopRelease, randomBytes: (count) => randomBytes(count) },
+    // Any gap that lets the watchdog stop the robot.
+    ...(afterGap === 'let-go' ? { letGoAfterMs: limits.watchdogMs } : {}),
+  });
   const estop = new EstopJournal(stateFolder, id, (error) =>
     log.error({ err: error }, 'the emergency stop cannot be stored: the robot will start latched'),
   );

@@ -5,9 +5,10 @@ import { readText } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 
 export function checkAccess(
-  { grantKeys, revocations, referenceSignaling, signaling, token, plaintextToken }: RobotOptionValues,
+  { grantKeys, revocations, referenceSignaling, signaling, ...values }: RobotOptionValues,
   refuse: (key: RobotOptionKey, detail: string) => void,
 ): void {
+  const { token, plaintextToken, estopRelease } = values;
   if (token !== null && !plaintextToken && !isPrivate(signaling))
     refuse(
       'token',
@@ -15,6 +16,8 @@ export function checkAccess(
     );
   if (grantKeys === null && revocations.length > 0)
     refuse('revocations', 'needs --grant-keys: without grants there is nothing to revoke');
+  if (grantKeys === null && estopRelease === 'supervisor')
+    refuse('estopRelease', 'needs --grant-keys for the policy supervisor: without grants nobody supervises');
   if (grantKeys === null) return;
   if (referenceSignaling !== null)
     refuse('referenceSignaling', 'cannot be combined with --grant-keys: its operators have no grants');

@@ -1,5 +1,6 @@
 /** The safety limits, and how many operators may connect. */
-import { defaultDriveLimits } from '@farpoint/safety';
+import { afterGapChoices } from '@farpoint/protocol';
+import { defaultDriveLimits, estopReleasePolicies } from '@farpoint/safety';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 
 export const limitsOptions = optionGroup('limits', {
@@ -32,6 +33,18 @@ export const limitsOptions = optionGroup('limits', {
     default: 'idle',
     argument: 'POLICY',
     help: 'when another operator may take over: never, idle (nothing has moved for 5 s), always',
+  }),
+  estopRelease: defineOption({
+    schema: schema.choice(estopReleasePolicies),
+    default: 'driver',
+    argument: 'POLICY',
+    help: 'who may release an emergency stop that an operator has latched: driver (whoever drives), latcher (that operator, while it drives), supervisor; supervisors always may',
+  }),
+  afterGap: defineOption({
+    schema: schema.choice(afterGapChoices),
+    default: 'let-go',
+    argument: 'CHOICE',
+    help: 'when commands come again after a gap that stopped the robot: let-go (it moves once the operator has let go of the grip), resume (it moves at once, if the gap was shorter than 1 s)',
   }),
   maxOperators: defineOption({
     schema: schema.integer({ min: 1, max: 32 }),

@@ -28,6 +28,15 @@ describe('robot options', () => {
     expect(options.signaling.key).not.toBe(robot().signaling.key);
   });
 
+  it('let the driver release STOP and demand an open hand after gaps, unless told otherwise', () => {
+    expect(robot()).toMatchObject({ estopRelease: 'driver', afterGap: 'let-go' });
+    expect(robot('--estop-release', 'latcher', '--after-gap', 'resume')).toMatchObject({
+      ...{ estopRelease: 'latcher', afterGap: 'resume' },
+    });
+    // Nobody could ever release it.
+    expect(() => robot('--estop-release', 'supervisor')).toThrow(/needs --grant-keys/);
+  });
+
   it('take a recorded source', () => {
     const [{ capture } = { capture: null }] = robot(
       '--source',

@@ -70,6 +70,8 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     quantities,
     alarms,
     takePolicy: values.takePolicy,
+    estopRelease: values.estopRelease,
+    afterGap: values.afterGap,
     stateFolder: folder,
     referenceSignaling: values.referenceSignaling ?? undefined,
     bitsPerSecond: BitRate.fromMbps(values.bitrateMbps),

@@ -14,7 +14,8 @@ import { SignaledOperator } from '../testing/signaled-operator.ts';
 
 const ROBOT = 'sim-1';
 const NAME = 'Simulated robot';
-const ARGS = ['--sim-size', '64', '--max-points', '650'];
+/** A loaded machine makes gaps, after which the reference system's operators do not know that they must let go. */
+const ARGS = ['--sim-size', '64', '--max-points', '650', '--after-gap', 'resume'];
 
 let stack: LocalStack;
 const cleanups: (() => Promise<void>)[] = [];

@@ -1,7 +1,10 @@
 import { TokenBucket, type TokenBucketOptions } from '@farpoint/timing';
 
-/** What an operator may send only so often. `probe` and `lease` are parts of `control` and `session`. */
-export const ratedMessages = ['control', 'session', 'bandwidth', 'probe', 'lease', 'latch'] as const;
+/**
+ * What an operator may send only so often. `probe` and `lease` are parts of `control` and `session`; `latch` is STOP on
+ * `session`, and `stop` is STOP on `control`.
+ */
+export const ratedMessages = ['control', 'session', 'bandwidth', 'probe', 'lease', 'latch', 'stop'] as const;
 export type RatedMessage = (typeof ratedMessages)[number];
 
 /**
@@ -16,8 +19,10 @@ const RATES: Record<RatedMessage, TokenBucketOptions> = {
   probe: { perSecond: 20, burst: 40 },
   lease: { perSecond: 5, burst: 10 },
   latch: { perSecond: 10, burst: 20 },
+  // A page repeats it 20 times a second until it is acknowledged.
+  stop: { perSecond: 50, burst: 50 },
 };
-/** Session messages that latch the emergency stop are shorter than this, bytes. */
+/** Messages that latch the emergency stop are no longer than this, bytes. */
 const MAX_LATCH_BYTES = 80;
 
 /**
@@ -44,16 +49,18 @@ export class MessageRates {
   }
 
   /**
-   * The same for a message that is not decoded yet. A flood of other session messages never keeps an emergency stop from
-   * being latched: messages that may be one have a limit of their own.
+   * The same for a message that is not decoded yet. A flood of other messages never keeps an emergency stop from being
+   * latched: messages that may be one have limits of their own.
    */
   drops(channel: 'control' | 'session' | 'bandwidth', data: string | Uint8Array, nowMs: number): boolean {
-    return this.over(channel === 'session' && mayLatch(data) ? 'latch' : channel, nowMs);
+    if (channel === 'session' && mayLatch(data, 'true')) return this.over('latch', nowMs);
+    if (channel === 'control' && mayLatch(data, '"press"')) return this.over('stop', nowMs);
+    return this.over(channel, nowMs);
   }
 }
 
-function mayLatch(data: string | Uint8Array): boolean {
+function mayLatch(data: string | Uint8Array, has: string): boolean {
   if (data.length > MAX_LATCH_BYTES) return false;
   const text = typeof data === 'string' ? data : String.fromCharCode(...data);
-  return text.includes('"estop"') && text.includes('true');
+  return text.includes('"estop"') && text.includes(has);
 }

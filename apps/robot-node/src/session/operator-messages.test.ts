@@ -47,6 +47,7 @@ function robot() {
     estopChanged: () => {
       for (const { session } of operators.values()) session.sendEstop();
     },
+    estopRenewed: () => host.estopChanged(),
     latencyTestRequested: (session, id, commandMs) => tests.push([session.id, id, commandMs]),
     commandAccepted: () => undefined,
     commandRejected: (rejection) => rejected.push(rejection),
@@ -131,11 +132,11 @@ describe('OperatorMessages', () => {
     alice.command(0, lease, 0.4);
     bob.send({ type: 'estop', latch: true });
     expect(speed()).toBe(0);
-    expect(alice.inbox.at(-1)).toEqual({ type: 'estop', latched: true, by: 'operator' });
+    expect(alice.inbox.at(-1)).toEqual({ type: 'estop', latched: true, by: 'operator', latch: 1 });
     bob.send({ type: 'estop', latch: false });
     expect(bob.inbox.slice(-2).map((message) => message.type)).toEqual(['fault', 'estop']);
-    alice.send({ type: 'estop', latch: false });
-    expect(bob.inbox.at(-1)).toEqual({ type: 'estop', latched: false });
+    alice.send({ type: 'estop', latch: false, of: 1 });
+    expect(bob.inbox.at(-1)).toEqual({ type: 'estop', latched: false, latch: 1 });
   });
 
   it('stops when the lease is released', () => {
@@ -238,7 +239,7 @@ describe('roles', () => {
     grant: { id: 'g', subject: 'x', keyId: 'k', issuedAtS: 0 },
   });
   const leaseRequest = (take: boolean) => JSON.stringify({ type: 'leaseRequest', take });
-  const estop = (latch: boolean) => JSON.stringify({ type: 'estop', latch });
+  const estop = (latch: boolean) => JSON.stringify({ type: 'estop', latch, ...(latch ? {} : { of: 1 }) });
 
   it('who may only watch takes no lease, sends no command that is looked at, but stops the robot', () => {
     const { alice: a, guard, rejected } = robot();

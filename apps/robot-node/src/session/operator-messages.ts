@@ -14,12 +14,14 @@ import {
   ProtocolError,
   type ReceiverReport,
   type RobotSessionMessage,
+  robotControlCodec,
   robotSessionCodec,
   sequenceDelta32,
 } from '@farpoint/protocol';
 import { type CommandVerdict, type RejectedCommand, RejectionReporter } from '@farpoint/safety';
 import { type Access, mayDrive, openAccess, supervises } from '../access/access.ts';
 import type { DriveStation } from '../drive/drive-station.ts';
+import { EstopRequests } from './estop-requests.ts';
 import { MessageRates, type RatedMessage } from './message-rates.ts';
 import { OperatorWishes } from './operator-wishes.ts';
 
@@ -35,8 +37,10 @@ export interface SessionHost {
   now(): number;
   /** The driver has changed, and all operators must be told. @param cause if it was not a request */
   leaseChanged(cause?: 'expired' | 'session-ended'): void;
-  /** @param by who changed it; undefined: the robot itself */
+  /** The emergency stop was latched or released. @param by who changed it; undefined: the robot itself */
   estopChanged(by?: OperatorMessages): void;
+  /** It was latched again: all operators must be told its new number. */
+  estopRenewed(): void;
   latencyTestRequested(session: OperatorMessages, id: number, commandMs: number): void;
   /** For the counters. */
   commandAccepted(): void;
@@ -77,6 +81,7 @@ export class OperatorMessages {
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #rejections = new RejectionReporter();
+  readonly #estop: EstopRequests;
   readonly #rates = new MessageRates((kind, tell) => {
     this.#host.messageLimited?.(kind);
     if (tell) this.send({ type: 'fault', message: `too many ${kind} messages: some were dropped` });
@@ -89,6 +94,12 @@ export class OperatorMessages {
     this.#host = host;
     this.#link = link;
     this.heardMs = host.now();
+    this.#estop = new EstopRequests(this, {
+      ...{ drive: host.drive, now: () => host.now() },
+      changed: () => host.estopChanged(this),
+      renewed: () => host.estopRenewed(),
+      refused: (reason) => host.refused?.(this, 'estop-release', reason),
+    });
   }
 
   /** Tells the operator the state of the drive lease; sent after the welcome and at each change. */
@@ -103,7 +114,7 @@ export class OperatorMessages {
   }
 
   sendEstop(): void {
-    this.send(this.#host.drive.guard.estopState());
+    this.send(this.#estop.told());
   }
 
   send(message: RobotSessionMessage): void {
@@ -158,6 +169,10 @@ export class OperatorMessages {
         if (this.#lastReport !== null && sequenceDelta32(message.sequence, this.#lastReport) <= 0) break;
         this.#lastReport = message.sequence;
         this.onReceiverReport?.(message);
+        break;
+      case 'estop':
+        this.#estop.press(message.press);
+        this.#link.sendControl(encodeJson(robotControlCodec, { type: 'estopAck', press: message.press }));
         break;
     }
   }
@@ -231,7 +246,8 @@ export class OperatorMessages {
         break;
       }
       case 'estop':
-        this.#onEstop(message.latch);
+        if (message.latch) this.#estop.press(message.press);
+        else this.#estop.release(message.of);
         break;
       case 'endSession':
         if (supervises(this.access)) this.onEndSession?.(message);
@@ -242,30 +258,6 @@ export class OperatorMessages {
         break;
       default:
         this.wishes.take(message, mayDrive(this.access));
-    }
-  }
-
-  #onEstop(latch: boolean): void {
-    const { drive } = this.#host;
-    if (latch) {
-      const changed = drive.guard.latchEstop('operator');
-      drive.apply();
-      if (changed) this.#host.estopChanged(this);
-      else this.sendEstop();
-      return;
-    }
-    const outcome = drive.guard.releaseEstop(this.id, this.heardMs, supervises(this.access));
-    drive.apply();
-    if (outcome.released) {
-      this.#host.estopChanged(this);
-    } else {
-      if (outcome.reason === 'not-lease-holder') {
-        this.#host.refused?.(this, 'estop-release', outcome.reason);
-        const message = 'only the operator who drives releases the emergency stop';
-        if (mayDrive(this.access)) this.send({ type: 'fault', message });
-        else this.#notPermitted(message);
-      }
-      this.sendEstop();
     }
   }
 

@@ -70,10 +70,15 @@ export class RobotSessionHost implements SessionHost {
   estopChanged(by?: OperatorMessages): void {
     const { estop, audit, operators } = this.#parts;
     const state = this.drive.guard.estopState();
-    estop.changed(state.by ?? null);
+    estop.changed(this.drive.guard.estopKeptFor);
     audit.estop(state, by);
     this.#logEstop(state);
     for (const { messages } of operators().values()) messages.sendEstop();
+  }
+
+  estopRenewed(): void {
+    this.#parts.estop.changed(this.drive.guard.estopKeptFor);
+    for (const { messages } of this.#parts.operators().values()) messages.sendEstop();
   }
 
   latencyTestRequested({ id: operator }: OperatorMessages, id: number, commandMs: number): void {

@@ -9,7 +9,7 @@ import type { OperatorSession } from './operator-session.ts';
 /** Of an elevation in radians: far finer than the angle between two rings of any LiDAR. */
 const ELEVATION_DIGITS = 5;
 
-export interface WelcomeFacts extends Pick<RobotOptions, 'id' | 'name' | 'limits' | 'sensors'> {
+export interface WelcomeFacts extends Pick<RobotOptions, 'id' | 'name' | 'limits' | 'afterGap' | 'sensors'> {
   quantities: readonly Quantity[];
   /** Those that are raised. */
   alarms: readonly Alarm[];
@@ -20,7 +20,7 @@ export interface WelcomeFacts extends Pick<RobotOptions, 'id' | 'name' | 'limits
 /** Sends a session's first messages: what the robot is, who drives, and which cameras and sensors there are. */
 export function welcome(
   operator: OperatorSession,
-  { id, name, limits, sensors: configured, quantities, alarms, nowS }: WelcomeFacts,
+  { id, name, limits, afterGap, sensors: configured, quantities, alarms, nowS }: WelcomeFacts,
   sensors: CloudSensors,
   videos: VideoHub,
 ): void {
@@ -35,7 +35,7 @@ export function welcome(
     protocol: PROTOCOL_VERSION,
     robotId: id,
     name,
-    limits,
+    limits: { ...limits, afterGap },
     stream: { format: 'points64', width, height, framesPerSecond },
     resumeKey: resumeKey.text,
     ...(role === null ? {} : { access: { role, name: operatorName, expiresInS } }),

@@ -22,7 +22,6 @@ import {
   VIDEO_CODECS,
   type VideoCodec,
   type WholePicture,
-  zeroTwist,
 } from '@farpoint/protocol';
 import { ABS_CAPTURE_TIME_URI } from '@farpoint/rtp';
 import { helloAtOnce } from '@farpoint/webrtc/testing';
@@ -36,6 +35,7 @@ import {
   useTWCC,
 } from 'werift';
 import { videoCodecParameters } from '../transport/media-codecs.ts';
+import { type DriveExtras, DrivingHand, namedRelease } from './driving-hand.ts';
 import { SoundReception } from './sound-reception.ts';
 import { type ReceivedVideo, VideoReception } from './video-reception.ts';
 
@@ -92,7 +92,7 @@ export class OperatorClient {
   readonly #helloAtOnce: boolean;
   #sessionChannel: RTCDataChannel | null = null;
   #probes: NodeJS.Timeout | null = null;
-  #sequence = 0;
+  readonly #hand = new DrivingHand(this.session);
 
   constructor({
     keys,
@@ -215,16 +215,14 @@ export class OperatorClient {
     return lease ?? '';
   }
 
-  drive(lease: string, linear: number, more: Partial<Command> = {}): void {
-    this.sendControl({
-      type: 'command',
-      sequence: this.#sequence++,
-      timeMs: performance.now(),
-      lease,
-      deadMan: true,
-      twist: { ...zeroTwist(), linear: { x: linear, y: 0, z: 0 } },
-      ...more,
-    });
+  /** Releases the emergency stop, by the number of its latest latch. */
+  releaseEstop(): void {
+    this.sendSession(namedRelease(this.session));
+  }
+
+  /** Lets go once when the robot has asked for it. */
+  drive(lease: string, linear: number, more: DriveExtras = {}): void {
+    this.sendControl(this.#hand.command(lease, linear, more));
   }
 
   /** By the `mid` of its m-line. */

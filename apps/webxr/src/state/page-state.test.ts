@@ -1,4 +1,4 @@
-import type { Picture, RobotClient, RobotEvents } from '@farpoint/operator';
+import type { Picture, RobotClient, RobotEvents, StopStatus } from '@farpoint/operator';
 import { ComponentReports, Readings } from '@farpoint/operator';
 import type { EstopState, LeaseState, RobotListing, Telemetry, Welcome } from '@farpoint/protocol';
 import { effect } from '@preact/signals-core';
@@ -33,6 +33,7 @@ class Client {
     ...{ session: this.session },
     silentMs: (nowMs: number) => nowMs - this.heardAtMs,
   };
+  readonly stops = { status: 'none' as StopStatus };
   readonly driver = {
     holder: 'nobody' as LeaseState['holder'],
     stream: { held: false },
@@ -144,6 +145,21 @@ test('shows the emergency stop only during a session', () => {
   expect(state.robot.estopLatched.value).toBe(false);
   client.enter('live');
   expect(state.robot.estopLatched.value).toBe(true);
+});
+
+test('shows what has become of STOP, also without a session', () => {
+  const { client, state } = new Bench();
+  expect(state.robot.stop.value).toBe('none');
+  client.stops.status = 'unconfirmed';
+  client.say('stop', 'unconfirmed');
+  expect(state.robot.stop.value).toBe('unconfirmed');
+  // Through a bridge, no robot has said so.
+  client.stops.status = 'confirmed';
+  client.say('stop', 'confirmed');
+  expect(state.robot.stop.value).toBe('none');
+  client.session.estop = { type: 'estop', latched: true, by: 'operator', latch: 1, press: 1 };
+  client.say('estop', client.session.estop);
+  expect(state.robot.stop.value).toBe('confirmed');
 });
 
 test('shows who drives, and with which device', () => {

@@ -26,7 +26,17 @@ import { Switches } from './switches.ts';
  * Events that take a sample at once, so that people see the new state. Otherwise samples are taken a few times a
  * second.
  */
-const SAMPLED = ['signaling', 'robots', 'phase', 'path', 'session', 'lease', 'estop', 'alarm'] as const;
+const SAMPLED = [
+  'signaling',
+  'robots',
+  'phase',
+  'path',
+  'session',
+  'lease',
+  'estop',
+  'stop',
+  'alarm',
+] as const;
 
 export interface PageStateParts {
   readonly client: RobotClient;

@@ -6,7 +6,7 @@ import type { Sampler } from './sampler.ts';
 
 export type RobotState = ReturnType<typeof robotState>;
 
-export function robotState({ link }: RobotClient, samples: Sampler) {
+export function robotState({ link, stops }: RobotClient, samples: Sampler) {
   return {
     /** `null` before the robot's welcome. */
     name: samples.of(() => link.session.welcome?.name ?? null),
@@ -23,6 +23,15 @@ export function robotState({ link }: RobotClient, samples: Sampler) {
     /** Who has a session; `null` if the robot does not say. */
     operators: samples.of(() => link.session.operators),
     estop: samples.of(() => link.session.estop),
+    /**
+     * What has become of this operator's STOP. Through a bridge the page itself says that it is latched, and numbers no
+     * latches: then nothing is called confirmed.
+     */
+    stop: samples.of(() =>
+      stops.status === 'confirmed' && link.session.estop.latch === undefined ? 'none' : stops.status,
+    ),
+    /** What it demands when commands come again after a gap that stopped it. */
+    afterGap: samples.of(() => link.session.welcome?.limits.afterGap ?? 'resume'),
     /** There is a session, and the robot's emergency stop is on. */
     estopLatched: samples.of(() => link.phase === 'live' && link.session.estop.latched),
   };

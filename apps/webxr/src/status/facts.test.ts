@@ -15,7 +15,7 @@ const telemetry = {
   battery: { voltage: 24.04, percentage: 0.2 },
 } as Telemetry;
 const open = { type: 'estop', latched: false } as const;
-const session = { name: 'Rover', telemetry, estop: open, readings: [], figures };
+const session = { name: 'Rover', telemetry, estop: open, afterGap: 'let-go', readings: [], figures } as const;
 const values = (facts: ReturnType<typeof sessionFacts>) =>
   Object.fromEntries(facts.map(({ name, value }) => [name, value]));
 
@@ -41,6 +41,13 @@ describe('the table of figures', () => {
     expect(values(facts).State).toBe('Emergency stop (by robot)');
   });
 
+  test('after a gap, says what the robot waits for', () => {
+    const stopped = { ...session, telemetry: { ...telemetry, drive: 'watchdog' } as Telemetry };
+    const state = (afterGap: 'resume' | 'let-go') => values(sessionFacts({ ...stopped, afterGap })).State;
+    expect(state('resume')).toBe('Stopped: no recent command');
+    expect(state('let-go')).toBe('Stopped by a gap: let go, then drive');
+  });
+
   test('a reading replaces the battery row and no other', () => {
     const reading = (label: string) => ({ topic: `/${label}`, label, text: 'read', tone: 'bad' }) as const;
     const facts = sessionFacts({ ...session, readings: [reading('Battery'), reading('Speed')] });
@@ -51,7 +58,10 @@ describe('the table of figures', () => {
 
 test('on the wrist: how to release while the stop is on, otherwise the battery and the next robot', () => {
   const words = { text: 'Live', tone: 'good' } as const;
-  const facts = { link: words, driving: words, telemetry, estopLatched: false, figures };
+  const facts = {
+    ...{ link: words, driving: words, telemetry, estopLatched: false, figures },
+    ...{ stop: null, afterGap: 'let-go' as const },
+  };
   const lines = wristLines({ ...facts, alarm: null, nextRobot: { id: 'b', name: 'B' } });
   expect(lines.map(({ text }) => text)).toEqual([
     'Live',
@@ -68,4 +78,12 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   expect(alarmed).toHaveLength(6);
   expect(alarmed).toContainEqual(alarm);
   expect(alarmed.at(-1)).toEqual(stopped.at(-1));
+  // That STOP has not arrived matters more than any alarm.
+  const stop = { text: 'STOP not yet confirmed', tone: 'warning' } as const;
+  const unconfirmed = wristLines({ ...facts, alarm, stop, nextRobot: null });
+  expect(unconfirmed).toHaveLength(6);
+  expect(unconfirmed).toContainEqual(stop);
+  const confirmed = { text: 'STOP confirmed', tone: 'good' } as const;
+  expect(wristLines({ ...facts, alarm, stop: confirmed, nextRobot: null })).toContainEqual(alarm);
+  expect(wristLines({ ...facts, alarm: null, stop: confirmed, nextRobot: null })).toContainEqual(confirmed);
 });

@@ -1,9 +1,9 @@
 /** The contents of the table of figures over the picture. */
-import type { EstopState, Telemetry } from '@farpoint/operator';
+import type { AfterGap, EstopState, Telemetry } from '@farpoint/operator';
 import { BitRate } from '@farpoint/timing';
 import type { PageStats } from './page-stats.ts';
 import type { ShownReading } from './shown-readings.ts';
-import { driveWords, type Tone } from './words.ts';
+import { driveStateWords, type Tone } from './words.ts';
 
 export interface Fact {
   name: string;
@@ -16,14 +16,16 @@ export interface SessionFacts {
   name: string | null;
   telemetry: Telemetry | null;
   estop: EstopState;
+  /** What the robot demands when commands come again after a gap that stopped it. */
+  afterGap: AfterGap;
   readings: readonly ShownReading[];
   figures: PageStats;
 }
 
-export function sessionFacts({ name, telemetry, estop, readings, figures }: SessionFacts): Fact[] {
+export function sessionFacts({ name, telemetry, estop, afterGap, readings, figures }: SessionFacts): Fact[] {
   const facts: Fact[] = [];
   if (name !== null) facts.push({ name: 'Robot', value: name });
-  if (telemetry !== null) facts.push(...telemetryFacts(telemetry, estop));
+  if (telemetry !== null) facts.push(...telemetryFacts(telemetry, estop, afterGap));
   addReadings(facts, readings);
   facts.push(...streamFacts(figures));
   if (telemetry !== null && telemetry.operators > 1) {
@@ -32,9 +34,9 @@ export function sessionFacts({ name, telemetry, estop, readings, figures }: Sess
   return facts;
 }
 
-function telemetryFacts(telemetry: Telemetry, estop: EstopState): Fact[] {
+function telemetryFacts(telemetry: Telemetry, estop: EstopState, afterGap: AfterGap): Fact[] {
   // Telemetry reports an emergency stop a moment later than the `estop` message.
-  const drive = driveWords[estop.latched ? 'estop' : telemetry.drive];
+  const drive = driveStateWords(estop.latched ? 'estop' : telemetry.drive, afterGap);
   const by = estop.latched && estop.by !== undefined ? ` (by ${estop.by})` : '';
   const { linear, angular } = telemetry.twist;
   const facts: Fact[] = [

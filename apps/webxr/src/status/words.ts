@@ -1,7 +1,13 @@
 /** All the texts with which the page describes a state, a refusal or a failure to people. */
 
-import { finalLosses, type SessionLoss, type SessionPhase, type SignalingState } from '@farpoint/operator';
-import type { CommandRejection, DriveState, LeaseState, Role } from '@farpoint/protocol';
+import {
+  finalLosses,
+  type SessionLoss,
+  type SessionPhase,
+  type SignalingState,
+  type StopStatus,
+} from '@farpoint/operator';
+import type { AfterGap, CommandRejection, DriveState, LeaseState, Role } from '@farpoint/protocol';
 import { grantEndsWords } from './access-words.ts';
 import type { Words } from './tone.ts';
 
@@ -15,6 +21,21 @@ export const driveWords: Record<DriveState, Words> = {
   blocked: { text: 'Blocked by an obstacle', tone: 'warning' },
 };
 
+/** What the robot does, and what it waits for. @param afterGap what it demands once commands come again */
+export function driveStateWords(drive: DriveState, afterGap: AfterGap): Words {
+  if (drive === 'watchdog' && afterGap === 'let-go')
+    return { text: 'Stopped by a gap: let go, then drive', tone: 'warning' };
+  return driveWords[drive];
+}
+
+/** What has become of STOP; `null` if there is nothing to say. */
+export const stopWords: Record<StopStatus, Words | null> = {
+  none: null,
+  unconfirmed: { text: 'STOP not yet confirmed', tone: 'warning' },
+  confirmed: { text: 'STOP confirmed', tone: 'good' },
+  undelivered: { text: 'STOP never arrived', tone: 'bad' },
+};
+
 export const rejectionWords: Record<CommandRejection, string> = {
   malformed: 'The robot could not read a command.',
   'out-of-range': 'The robot refused a speed above its limits.',
@@ -23,7 +44,7 @@ export const rejectionWords: Record<CommandRejection, string> = {
   'not-permitted': 'Your grant lets you watch this robot, but not drive it.',
   'not-lease-holder': 'Someone else is driving this robot. Press Take over to drive it yourself.',
   'dead-man-released': 'The robot moves only while you hold the grip.',
-  'let-go-first': 'The connection was lost while you held the grip. Let go of it, then drive.',
+  'let-go-first': 'Commands did not get through while you held the grip. Let go of it, then drive.',
   'estop-latched': 'The emergency stop is on. Release it, let go of the grip, then drive.',
   'rate-limited': 'The robot receives more commands than it accepts.',
 };

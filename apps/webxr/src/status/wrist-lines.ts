@@ -1,14 +1,18 @@
 /** The lines of text on the wrist panel. */
-import type { RobotListing, Telemetry } from '@farpoint/operator';
+import type { AfterGap, RobotListing, Telemetry } from '@farpoint/operator';
 import { lossTone, mbps, ms } from './facts.ts';
 import type { PageStats } from './page-stats.ts';
-import { driveWords, type Words } from './words.ts';
+import { driveStateWords, type Words } from './words.ts';
 
 export interface WristFacts {
   link: Words;
   driving: Words;
   telemetry: Telemetry | null;
   estopLatched: boolean;
+  /** What has become of STOP; `null` if there is nothing to say. */
+  stop: Words | null;
+  /** What the robot demands when commands come again after a gap that stopped it. */
+  afterGap: AfterGap;
   nextRobot: RobotListing | null;
   /** The worst alarm and how many others there are; `null` if none is raised. */
   alarm: Words | null;
@@ -20,6 +24,8 @@ export function wristLines({
   driving,
   telemetry,
   estopLatched,
+  stop,
+  afterGap,
   nextRobot,
   alarm,
   figures,
@@ -33,13 +39,15 @@ export function wristLines({
   ];
   return [
     link,
-    ...(telemetry === null ? [] : [driveWords[telemetry.drive]]),
+    ...(telemetry === null ? [] : [driveStateWords(telemetry.drive, afterGap)]),
     driving,
-    // An alarm takes the place of the line that matters least.
-    alarm ?? {
-      text: `${thousands}k points  ${framesPerSecond.toFixed(0)}/s  ${mbps(figures)} Mbit/s`,
-      tone: 'neutral',
-    },
+    // An unconfirmed STOP, an alarm or a confirmed STOP takes the place of the line that matters least.
+    (stop?.tone === 'good' ? null : stop) ??
+      alarm ??
+      stop ?? {
+        text: `${thousands}k points  ${framesPerSecond.toFixed(0)}/s  ${mbps(figures)} Mbit/s`,
+        tone: 'neutral',
+      },
     {
       text: `rtt ${ms(minRttMs)}  frame ${ms(frameLatencyMs?.p50)}  loss ${(lossRate * 100).toFixed(1)} %`,
       tone: lossTone(figures),

@@ -70,7 +70,7 @@ export function installTestApi(app: App): void {
     },
     disconnect: () => client.leave(),
     requestLease: (take = false) => driver.requestLease(take),
-    estop: (latch) => link.sendSession({ type: 'estop', latch }),
+    estop: (latch) => void (latch ? client.estop() : client.releaseEstop()),
     latencyTest: () => client.latencyTest(),
     latencyResults: () => client.statistics.results,
     async drive(wish, ms) {

@@ -71,6 +71,7 @@ export const elements = {
   talk: byId('talk', HTMLButtonElement),
   talkState: byId('talk-state', HTMLElement),
   latency: byId('latency', HTMLButtonElement),
+  stopState: byId('stop-state', HTMLElement),
   estop: byId('estop', HTMLButtonElement),
   estopRelease: byId('estop-release', HTMLButtonElement),
   failure: byId('failure', HTMLElement),

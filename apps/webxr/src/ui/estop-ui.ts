@@ -3,10 +3,11 @@
  * releases it.
  */
 
-import type { RobotClient } from '@farpoint/operator';
+import type { RobotClient, StopStatus } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
 import type { ReleaseControl, ReleaseHold } from '../drive/release-hold.ts';
 import type { RobotState } from '../state/robot-state.ts';
+import { stopWords } from '../status/words.ts';
 import { elements } from './elements.ts';
 
 export class EstopUi {
@@ -35,6 +36,7 @@ export class EstopUi {
     }
     // A long touch must not open a menu.
     estopRelease.addEventListener('contextmenu', (event) => event.preventDefault());
+    effect(() => showStop(this.#robot.stop.value));
     effect(() => showLatched(this.#robot.estopLatched.value));
     effect(() => showProgress(this.#hold.progress.value));
   }
@@ -62,6 +64,15 @@ function showLatched(latched: boolean): void {
   estopRelease.hidden = !latched;
   // The release control needs its place, and a robot that cannot drive has nothing to measure.
   latency.hidden = latched;
+}
+
+/** Also without a session: then it is kept until the link returns. */
+function showStop(status: StopStatus): void {
+  const words = stopWords[status];
+  const { stopState } = elements;
+  stopState.hidden = words === null;
+  stopState.textContent = words?.text ?? '';
+  stopState.dataset.tone = words?.tone ?? 'neutral';
 }
 
 function showProgress(progress: number): void {

@@ -45,6 +45,7 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
     showFacts(
       sessionFacts({
         ...{ name: name.value, telemetry: telemetry.value, estop: estop.value },
+        afterGap: robot.afterGap.value,
         readings: readings.value.filter((reading) => !isWell(reading)),
         ...{ figures: figures.value },
       }),

@@ -2,6 +2,7 @@
 import { effect, type ReadonlySignal } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
 import { alarmLine } from '../status/alarm-words.ts';
+import { stopWords } from '../status/words.ts';
 import { wristLines } from '../status/wrist-lines.ts';
 import type { WristPanel } from './wrist-panel.ts';
 
@@ -25,6 +26,7 @@ export function showOnWrist({ state, panel, active, releaseProgress }: WristStat
       wristLines({
         ...{ link: link.line.value, driving: driving.line.value, telemetry: robot.telemetry.value },
         ...{ estopLatched: robot.estop.value.latched, nextRobot: link.nextRobot.value },
+        ...{ stop: stopWords[robot.stop.value], afterGap: robot.afterGap.value },
         alarm: alarmLine(robot.alarms.value),
         figures: figures.value,
       }),

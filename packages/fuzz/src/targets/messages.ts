@@ -2,7 +2,6 @@ import { parseClientMessage } from '@farpoint/foxglove/client-message';
 import { readJwkSet, soleFingerprint } from '@farpoint/grants';
 import { readJanusMessage } from '@farpoint/janus/message';
 import {
-  clockAnswerCodec,
   decodeBandwidth,
   decodeJson,
   decodeStreamSwitch,
@@ -16,6 +15,7 @@ import {
   referenceRobotToServiceCodec,
   referenceServiceToClientCodec,
   referenceServiceToRobotCodec,
+  robotControlCodec,
   robotSessionCodec,
   robotToServiceCodec,
   serviceToOperatorCodec,
@@ -50,7 +50,7 @@ export const messageTargets: readonly FuzzTarget[] = [
   codec('operator-session', 'operator-session', operatorSessionCodec),
   codec('robot-session', 'robot-session', robotSessionCodec),
   codec('telemetry', 'telemetry', telemetryCodec),
-  codec('clock-answer', 'clock-answer', clockAnswerCodec),
+  codec('robot-control', 'robot-control', robotControlCodec),
   codec('robot-to-service', 'signaling-robot-to-service', robotToServiceCodec),
   codec('service-to-robot', 'signaling-service-to-robot', serviceToRobotCodec),
   codec('operator-to-service', 'signaling-operator-to-service', operatorToServiceCodec),

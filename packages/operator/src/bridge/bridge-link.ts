@@ -111,6 +111,8 @@ export class BridgeLink implements RobotLink {
     this.#bridge.command(command, performance.now());
   }
 
+  sendControl(): void {}
+
   sendSession(message: OperatorSessionMessage): void {
     this.#bridge.session(message);
   }

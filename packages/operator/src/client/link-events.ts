@@ -6,6 +6,7 @@ import type { RobotLinkEvents } from '../link/robot-link.ts';
 import type { PictureFeed } from '../pictures/picture-feed.ts';
 import type { RobotSound } from '../sound/robot-sound.ts';
 import type { StreamStatistics } from '../statistics/stream-statistics.ts';
+import type { StopDelivery } from '../stop/stop-delivery.ts';
 import { VideoTracks } from '../video/video-tracks.ts';
 import type { Emitter } from './emitter.ts';
 import { forwardedEvents } from './forwarded-events.ts';
@@ -16,6 +17,7 @@ export interface LinkedClient {
   readonly driver: Driver;
   readonly latency: LatencyProbe;
   readonly statistics: StreamStatistics;
+  readonly stops: StopDelivery;
   pointsAtMs: number;
 }
 
@@ -55,6 +57,7 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
       tracks.reset();
       sound.reset();
       client.statistics.reset();
+      client.stops.onSession();
       emitter.emit('session', generation);
     },
     onWelcome: (welcome) => {
@@ -67,6 +70,11 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
       client.latency.onLease();
       emitter.emit('lease', lease);
     },
+    onEstop: (estop) => {
+      client.stops.onState(estop);
+      emitter.emit('estop', estop);
+    },
+    onEstopAck: (press) => client.stops.onAck(press),
     onLatencyFrame: (frame) => client.latency.onRobotFrame(frame),
     onCloudStream: (stream) => receiver.beginStream(stream),
     onCameras: (cameras) => {

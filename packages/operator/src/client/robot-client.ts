@@ -13,6 +13,7 @@ import type { RobotLink } from '../link/robot-link.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { RobotSound } from '../sound/robot-sound.ts';
 import { StreamStatistics, type StreamStats } from '../statistics/stream-statistics.ts';
+import { StopDelivery } from '../stop/stop-delivery.ts';
 import type { RobotClientOptions } from './client-options.ts';
 import { clientParts } from './client-parts.ts';
 import { type ClientParts, linkEvents } from './link-events.ts';
@@ -30,6 +31,8 @@ export class RobotClient {
   readonly link: RobotLink;
   /** Which device drives, and who holds the lease. */
   readonly driver: Driver;
+  /** Gets STOP to the robot. */
+  readonly stops: StopDelivery;
   /** Runs latency tests. */
   readonly latency: LatencyProbe;
   /** Listening to the robot, and speaking to it. */
@@ -68,6 +71,7 @@ export class RobotClient {
       sendSession: (message) => this.link.sendSession(message),
       onOtherDrives: () => this.#emitter.emit('otherDrives', undefined),
     });
+    this.stops = new StopDelivery(this.link, (status) => this.#emitter.emit('stop', status));
     this.latency = new LatencyProbe(this.link, this.driver, (result) => {
       this.statistics.onResult(result);
       const { id, frameNumber, mtpMs, firstMs } = result;
@@ -161,23 +165,25 @@ export class RobotClient {
   }
 
   /**
-   * Latches the emergency stop. Only {@link releaseEstop}, called by the driver, releases it.
+   * Latches the emergency stop, which only {@link releaseEstop} releases. Sent until the robot confirms it, and kept for
+   * up to 60 s without a session; the `stop` event says what has become of it.
    *
-   * @returns whether it was sent, which needs a session. The `estop` event confirms it.
+   * @returns false if no robot is chosen
    */
   estop(): boolean {
-    return this.#request({ type: 'estop', latch: true });
+    return this.stops.press(performance.now());
   }
 
   /**
-   * Asks the robot to release the emergency stop. Only the driver may release it; if nobody drives, this requests the
-   * lease first. Call it only for a deliberate act, e.g. a button held for a second.
+   * Asks the robot to release the emergency stop, as it is known here: it stays latched if STOP was pressed again in the
+   * meantime. If nobody drives, this requests the lease first. Call it only for a deliberate act, e.g. a button held for
+   * a second. An own STOP that is not yet confirmed is still delivered.
    *
    * @returns whether it was sent, which needs a session. The `estop` event confirms it.
    */
   releaseEstop(): boolean {
     if (this.link.phase === 'live' && this.driver.holder === 'nobody') this.driver.requestLease(false);
-    return this.#request({ type: 'estop', latch: false });
+    return this.#request({ type: 'estop', latch: false, of: this.link.session.estop.latch });
   }
 
   /**
@@ -266,6 +272,7 @@ export class RobotClient {
   /** Called by the client's own timer, and by an app that has just read its devices. @param nowMs `performance.now()` */
   tick(nowMs: number): void {
     this.#wish.lapse(nowMs);
+    this.stops.tick(nowMs);
     this.driver.tick(nowMs);
     this.#switch.tick(presentRobot(this.link, this.driver.holder), nowMs);
     this.latency.tick(nowMs);

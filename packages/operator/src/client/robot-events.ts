@@ -24,6 +24,7 @@ import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
 import type { SignalingState } from '../signaling/signaling-state.ts';
 import type { VoiceStatus } from '../sound/robot-sound.ts';
+import type { StopStatus } from '../stop/stop-delivery.ts';
 import type { VideoTrack } from '../video/video-track.ts';
 
 /** Why the client cannot work at all. */
@@ -57,6 +58,8 @@ export interface RobotEvents {
   commandRejected: CommandRejected;
   /** The emergency stop, latched or released. */
   estop: EstopState;
+  /** What has become of {@link RobotClient.estop}. */
+  stop: StopStatus;
   /** The grip was pressed, but another operator drives. */
   otherDrives: undefined;
   /** Pose, velocity, drive state, battery; 20 times a second. */

@@ -1,5 +1,10 @@
 /** The link to the robots, either direct (webrtc-link.ts) or through a bridge (bridge/bridge-link.ts). */
-import type { Command, OperatorSessionMessage, RobotListing } from '@farpoint/protocol';
+import type {
+  Command,
+  OperatorControlMessage,
+  OperatorSessionMessage,
+  RobotListing,
+} from '@farpoint/protocol';
 import type { ChangedRobotKey } from '../access/session-admission.ts';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
 import type { RobotSession, RobotSessionEvents } from '../session/robot-session.ts';
@@ -68,6 +73,8 @@ export interface RobotLink {
   silentMs(nowMs: number): number;
   /** Sends a command, unordered and never repeated; it is lost while the path is. */
   sendCommand(command: Command): void;
+  /** Sends a message, unordered and never repeated, also while the path is lost. No effect through a bridge. */
+  sendControl(message: OperatorControlMessage): void;
   /** Sends a message, in order and reliably; without a session it is lost. */
   sendSession(message: OperatorSessionMessage): void;
   /** Asks the robot to send at most this rate, bit/s. No effect through a bridge. */

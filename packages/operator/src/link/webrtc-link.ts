@@ -172,7 +172,7 @@ export class WebRtcLink implements RobotLink {
 
   /** Skipped while the path is lost: a command would not arrive, but would keep later ones waiting. */
   sendCommand(command: Command): void {
-    if (!this.interrupted) this.#sendControl(command);
+    if (!this.interrupted) this.sendControl(command);
   }
 
   sendSession(message: OperatorSessionMessage): void {
@@ -192,10 +192,10 @@ export class WebRtcLink implements RobotLink {
     this.#reportSequence = nextSequence32(this.#reportSequence);
     const { packetsReceived, packetsLost, bytesReceived } = report;
     const counts = { packetsReceived, packetsLost, bytesReceived };
-    this.#sendControl({ type: 'receiverReport', sequence: this.#reportSequence, ...counts });
+    this.sendControl({ type: 'receiverReport', sequence: this.#reportSequence, ...counts });
   }
 
-  #sendControl(message: OperatorControlMessage): void {
+  sendControl(message: OperatorControlMessage): void {
     this.#peer?.sendControl(encodeJson(operatorControlCodec, message));
   }
 
@@ -256,7 +256,7 @@ export class WebRtcLink implements RobotLink {
           if (peer !== this.#peer) return;
           const nowMs = performance.now();
           this.#heard(nowMs);
-          // On this channel the robot sends answers to clock probes.
+          // On this channel the robot sends answers to clock probes and STOP.
           if (channel === 'control') this.#keeper.onAnswered(nowMs);
           this.#session.onMessage(channel, data, nowMs);
         },
@@ -294,7 +294,7 @@ export class WebRtcLink implements RobotLink {
     this.#keeper.tick(nowMs);
     if (this.#keeper.phase === 'live' && nowMs >= this.#probeDueMs) {
       this.#probeDueMs = nowMs + PROBE_MS;
-      this.#sendControl({ type: 'clockProbe', id: this.#session.nextProbeId(), sentMs: nowMs });
+      this.sendControl({ type: 'clockProbe', id: this.#session.nextProbeId(), sentMs: nowMs });
     }
   }
 }

@@ -15,6 +15,7 @@ function bench(): { session: RobotSession; told: string[] } {
     onOperators: tell('operators'),
     onRejected: tell('rejected'),
     onEstop: tell('estop'),
+    onEstopAck: tell('estopAck'),
     onLatencyFrame: tell('latencyFrame'),
     onCloudStream: tell('cloudStream'),
     onTelemetry: tell('telemetry'),

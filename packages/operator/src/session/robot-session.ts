@@ -6,7 +6,6 @@ import {
   ClockOffset,
   type CloudStream,
   type CommandRejected,
-  clockAnswerCodec,
   type Diagnostics,
   decodeJson,
   type EstopState,
@@ -19,6 +18,7 @@ import {
   ProtocolError,
   type Quantity,
   type Reading,
+  robotControlCodec,
   robotSessionCodec,
   type Samples,
   type SensorRings,
@@ -46,6 +46,8 @@ export interface RobotSessionEvents {
   onOperators(operators: Operators): void;
   onRejected(rejected: CommandRejected): void;
   onEstop(estop: EstopState): void;
+  /** The robot has latched its emergency stop because of this press. */
+  onEstopAck(press: number): void;
   onLatencyFrame(frame: LatencyFrame): void;
   onTelemetry(telemetry: Telemetry): void;
   /** A reading that is the newest of its topic. */
@@ -121,7 +123,7 @@ export class RobotSession {
       if (channel === 'session') this.#onSession(data, nowMs);
       else if (channel === 'telemetry') this.#onTelemetry(data, nowMs);
       else if (channel === 'pictures') this.#onPicture(data, nowMs);
-      else this.clock.add(decodeJson(clockAnswerCodec, data), nowMs);
+      else this.#onControl(data, nowMs);
     } catch (error) {
       if (!(error instanceof ProtocolError)) throw error;
       this.malformed++;
@@ -143,6 +145,12 @@ export class RobotSession {
   ageMs(stampUs: number, nowMs: number): number | null {
     const { offsetMs } = this.clock;
     return offsetMs === null ? null : ageOfStampMs(stampUs, nowMs + offsetMs);
+  }
+
+  #onControl(data: MessageData, nowMs: number): void {
+    const message = decodeJson(robotControlCodec, data);
+    if (message.type === 'clockAnswer') this.clock.add(message, nowMs);
+    else this.#events.onEstopAck(message.press);
   }
 
   #onSession(data: MessageData, nowMs: number): void {

@@ -1,0 +1,55 @@
+import type { EstopLatch } from './estop.ts';
+
+/** Who may release an emergency stop that an operator has latched. Supervisors always may. */
+export const estopReleasePolicies = [
+  'driver', // whoever drives
+  'latcher', // the operator who latched it, while it drives
+  'supervisor', // supervisors only
+] as const;
+export type EstopReleasePolicy = (typeof estopReleasePolicies)[number];
+
+/** Why the emergency stop was not released. */
+export type EstopReleaseRefusal =
+  | 'not-lease-holder' // whoever asks neither drives nor supervises
+  | 'not-latched'
+  | 'newer-latch' // the request means an older latch: it was on its way when somebody latched it again
+  | 'not-supervisor' // only supervisors release what an operator has latched
+  | 'not-latcher' // an operator who is there has latched it, and this one has not
+  | 'others-latched'; // this operator's own latch is withdrawn, but others have latched it too
+
+export type EstopReleaseOutcome = { released: true } | { released: false; reason: EstopReleaseRefusal };
+
+export interface EstopRelease {
+  operatorId: string;
+  holdsLease: boolean;
+  supervises: boolean;
+  /** Number of the latch that is meant; left out, it is the present one. */
+  of?: number | undefined;
+}
+
+/**
+ * Releases the emergency stop if the request may. What the robot itself latched is released by whoever drives. With the
+ * policy `latcher`, a latch by operators who have left, or from before the robot's restart, is too.
+ */
+export function releaseEstop(
+  estop: EstopLatch,
+  policy: EstopReleasePolicy,
+  { operatorId, holdsLease, supervises, of }: EstopRelease,
+  nowMs: number,
+): EstopReleaseOutcome {
+  if (!supervises && !holdsLease) return refused('not-lease-holder');
+  if (!estop.latched) return refused('not-latched');
+  if (of !== undefined && of !== estop.number) return refused('newer-latch');
+  if (!supervises && policy === 'supervisor' && estop.ofOperator) return refused('not-supervisor');
+  if (!supervises && policy === 'latcher' && estop.latchers.size > 0) {
+    if (!estop.latchers.has(operatorId)) return refused('not-latcher');
+    estop.withdraw(operatorId);
+    if (estop.latchers.size > 0) return refused('others-latched');
+  }
+  estop.release(nowMs);
+  return { released: true };
+}
+
+function refused(reason: EstopReleaseRefusal): EstopReleaseOutcome {
+  return { released: false, reason };
+}
