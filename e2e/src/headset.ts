@@ -1,5 +1,6 @@
 import { createRequire } from 'node:module';
 import type { Page } from '@playwright/test';
+import type { Grip } from './operator-page.ts';
 
 const require = createRequire(import.meta.url);
 
@@ -23,8 +24,12 @@ declare global {
   interface Window {
     IWER: { XRDevice: new (config: unknown) => EmulatedDevice; metaQuest3: unknown };
     emulatedHeadset: EmulatedDevice;
+    thawHeadset?: () => void;
   }
 }
+
+/** Without a GPU, two large eyes take longer to draw than a grip may go unread. */
+export const headsetViewport = { width: 480, height: 270 };
 
 export type Hand = 'left' | 'right';
 
@@ -60,6 +65,43 @@ export class Headset {
       hand,
       at,
     ] as const);
+  }
+
+  /**
+   * Stops the headset's frames, as a hung compositor does, with the hands where they are. The page's timers go on.
+   *
+   * @returns when the page was last given a frame, ms since it loaded
+   */
+  async freeze(): Promise<number> {
+    return this.#page.evaluate(
+      () =>
+        new Promise<number>((resolve) => {
+          const request = window.requestAnimationFrame;
+          const held: FrameRequestCallback[] = [];
+          window.thawHeadset = () => {
+            window.requestAnimationFrame = request;
+            for (const callback of held) request.call(window, callback);
+          };
+          // In the frame in which it is called: the page has just read its devices for the last time.
+          request.call(window, () => {
+            window.requestAnimationFrame = (callback) => held.push(callback);
+            setTimeout(() => resolve(performance.now()));
+          });
+        }),
+    );
+  }
+
+  /** The squeeze button of a hand. */
+  grip(hand: Hand): Grip {
+    return {
+      hold: () => this.button(hand, 'squeeze', 1),
+      release: () => this.button(hand, 'squeeze', 0),
+    };
+  }
+
+  /** Lets the frames go on. */
+  async thaw(): Promise<void> {
+    await this.#page.evaluate(() => window.thawHeadset?.());
   }
 
   /** @param value 0 released … 1 held */

@@ -1,6 +1,12 @@
 /** All the texts with which the page describes a state, a refusal or a failure to people. */
 
-import { finalLosses, type SessionLoss, type SessionPhase, type SignalingState } from '@farpoint/operator';
+import {
+  finalLosses,
+  type GripLoss,
+  type SessionLoss,
+  type SessionPhase,
+  type SignalingState,
+} from '@farpoint/operator';
 import type { CommandRejection, DriveState, LeaseState, Role } from '@farpoint/protocol';
 import { grantEndsWords } from './access-words.ts';
 import type { Words } from './tone.ts';
@@ -26,6 +32,13 @@ export const rejectionWords: Record<CommandRejection, string> = {
   'let-go-first': 'The connection was lost while you held the grip. Let go of it, then drive.',
   'estop-latched': 'The emergency stop is on. Release it, let go of the grip, then drive.',
   'rate-limited': 'The robot receives more commands than it accepts.',
+};
+
+export const gripLossWords: Record<GripLoss, string> = {
+  'late-reading': 'The grip was not read in time, so the robot stops. Let go of it, then drive.',
+  'hands-away': 'The page or the headset was left with the grip held. Let go of it, then drive.',
+  'path-lost': 'The connection was lost while you held the grip. Let go of it, then drive.',
+  'let-go': 'The robot was let go of. Let go of the grip, too, before you drive again.',
 };
 
 export const signalingWords: Record<SignalingState, Words> = {
@@ -68,12 +81,16 @@ export interface DrivingFacts {
   role: Role | null;
   /** The device that this operator drives with; `null` while no grip is held. */
   device: string | null;
+  /** Why a grip that is held does not drive; `null` if there is none. */
+  gripLost: GripLoss | null;
 }
 
 /** Who drives. */
-export function holderWords({ holder, driver, role, device }: DrivingFacts): Words {
+export function holderWords({ holder, driver, role, device, gripLost }: DrivingFacts): Words {
   if (holder === 'other') return { text: `${driver ?? 'Someone else'} is driving`, tone: 'warning' };
   if (role === 'watch') return { text: 'Nobody is driving. Your grant lets you watch', tone: 'neutral' };
+  if (gripLost !== null && device === null)
+    return { text: 'Let go of the grip, then drive', tone: 'warning' };
   if (holder === 'nobody') return { text: 'Nobody is driving', tone: 'neutral' };
   return { text: device === null ? 'You have control' : `You are driving (${device})`, tone: 'good' };
 }

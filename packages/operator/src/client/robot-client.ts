@@ -67,6 +67,7 @@ export class RobotClient {
       sendCommand: (command) => this.link.sendCommand(command),
       sendSession: (message) => this.link.sendSession(message),
       onOtherDrives: () => this.#emitter.emit('otherDrives', undefined),
+      onGripLost: (loss) => this.#emitter.emit('gripLost', loss),
     });
     this.latency = new LatencyProbe(this.link, this.driver, (result) => {
       this.statistics.onResult(result);
@@ -141,7 +142,8 @@ export class RobotClient {
 
   /**
    * Moves the robot. Call it again at least every 200 ms while the operator holds on: a wish that is not renewed
-   * expires, and the robot stops. The first call requests the lease if nobody drives.
+   * expires, and the robot stops. The first call requests the lease if nobody drives. A wish that outlives a session or
+   * a lost path moves nothing until it has expired once.
    */
   drive(wish: DriveWish): void {
     const nowMs = performance.now();
