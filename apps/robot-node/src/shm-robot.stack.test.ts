@@ -71,4 +71,17 @@ describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon
     await stack.robot(ROBOT).stop();
     expect(speed()).toBe(0);
   });
+
+  it('writes zero and ends in order when its terminal hangs up', { timeout: 30_000 }, async () => {
+    await operator.close();
+    await stack.restartRobot(ROBOT);
+    operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+    const lease = await operator.client.takeLease();
+    operator.client.drive(lease, 0);
+    await driveUntil(lease, 0.25, () => speed() === 0.25);
+    const robot = stack.robot(ROBOT);
+    robot.signal('SIGHUP');
+    expect(await robot.exited).toMatchObject({ code: 0 });
+    expect(speed()).toBe(0);
+  });
 });

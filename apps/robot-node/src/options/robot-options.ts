@@ -88,6 +88,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     broadcast,
     maxOperators: values.maxOperators,
     silenceMs: values.silenceS * 1000,
+    leaseSilenceMs: values.leaseSilenceS * 1000,
     connectTimeoutMs: 20_000,
     iceServers: values.iceServers,
     icePolicy: values.icePolicy,

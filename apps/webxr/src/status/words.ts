@@ -30,6 +30,7 @@ export const rejectionWords: Record<CommandRejection, string> = {
   'not-lease-holder': 'Someone else is driving this robot. Press Take over to drive it yourself.',
   'dead-man-released': 'The robot moves only while you hold the grip.',
   'let-go-first': 'The connection was lost while you held the grip. Let go of it, then drive.',
+  'no-wheels': 'The robot’s wheels take no commands. The reading “Wheels” says why.',
   'estop-latched': 'The emergency stop is on. Release it, let go of the grip, then drive.',
   'rate-limited': 'The robot receives more commands than it accepts.',
 };
