@@ -11,7 +11,8 @@ import type {
   RosDriveSetup,
 } from './ros-drive-messages.ts';
 import { SinkBeat } from './sink-beat.ts';
-import { type SinkFault, sinkFaultWords, type VelocitySink } from './velocity-sink.ts';
+import type { SinkFault, VelocitySink } from './velocity-sink.ts';
+import { wheelsReading } from './wheels-reading.ts';
 
 const THREAD = new URL('./ros-drive-worker.ts', import.meta.url);
 /** The thread beats every 10 ms. */
@@ -160,10 +161,7 @@ export class RosSink implements VelocitySink {
     }
     if (fault === this.#told) return;
     this.#told = fault;
-    const level = fault === null ? 'ok' : fault === 'starting' || fault === 'no-listener' ? 'warn' : 'error';
-    const { topic } = this.#options.entry;
-    const text = fault === null ? `${this.#listeners} listening` : sinkFaultWords[fault];
-    this.#reading = { topic, label: 'Wheels', level, values: [['', `${topic}: ${text}`]] };
+    this.#reading = wheelsReading(this.#options.entry.topic, fault, `${this.#listeners} listening`);
     this.#onReading?.(this.#reading);
   }
 

@@ -75,7 +75,7 @@ describe('the thread that publishes velocities', { timeout: 30_000 }, () => {
     expect(sink.fault).toBe('starting');
     expect(drive(0.3)).toBe('no-wheels');
     await driving();
-    expect(readings.at(-1)).toBe('ok /cmd_vel: 1 listening');
+    await until(() => readings.at(-1) === 'ok /cmd_vel: 1 listening');
     wire.postMessage('throw');
     await until(() => sink.fault === 'thread-ended');
     published.length = 0;
@@ -108,10 +108,8 @@ describe('the thread that publishes velocities', { timeout: 30_000 }, () => {
     await driving();
     wire.postMessage('leave');
     await until(() => sink.fault === 'no-listener');
-    expect([drive(0.3), readings.at(-1)]).toEqual([
-      'no-wheels',
-      'warn /cmd_vel: nobody listens to the velocities',
-    ]);
+    expect(drive(0.3)).toBe('no-wheels');
+    await until(() => readings.at(-1) === 'warn /cmd_vel: nobody listens to the velocities');
     wire.postMessage('join');
     await until(() => sink.fault === null);
     expect([drive(0.3), drive(0), drive(0.3)]).toEqual(['let-go-first', 'accepted', 'accepted']);

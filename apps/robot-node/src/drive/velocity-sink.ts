@@ -8,7 +8,7 @@ export type SinkFault =
   | 'thread-hung' // it gives no sign of life
   | 'no-listener' // nobody subscribes
   | 'write-failed' // they cannot be written
-  | 'reader-silent'; // the program that reads them has stopped doing so
+  | 'reader-silent'; // the program that reads them does not answer
 
 /** For people. */
 export const sinkFaultWords: Readonly<Record<SinkFault, string>> = {
@@ -17,7 +17,7 @@ export const sinkFaultWords: Readonly<Record<SinkFault, string>> = {
   'thread-hung': 'the thread that publishes velocities hangs',
   'no-listener': 'nobody listens to the velocities',
   'write-failed': 'velocities cannot be written',
-  'reader-silent': 'the program that reads the velocities has stopped reading',
+  'reader-silent': 'the program that reads the velocities does not answer',
 };
 
 /**

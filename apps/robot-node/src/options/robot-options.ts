@@ -250,6 +250,7 @@ function toSink(values: RobotOptionValues): SinkOptions {
     owner: values.shmOwner ?? undefined,
     mode: values.shmAccess === 'group' ? 0o660 : 0o600,
     silenceMs: values.watchdogMs,
+    readerRequired: values.shmReader === 'required',
   };
 }
 
